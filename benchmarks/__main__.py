@@ -1,0 +1,19 @@
+"""`python -m benchmarks`: one table, medians, every ratio from the same run."""
+
+from benchmarks import one_block, processes
+from benchmarks.table import Report
+
+
+def main():
+    report = Report()
+    report.section("One block: time per impact, and how many times longer the peers take", one_block.speed())
+    report.section("Error after 20 cycles against 40 digits", one_block.accuracy())
+    report.section("Two threads against one", one_block.threads())
+    report.section("Compiling the march", processes.compiling())
+    report.section("Whole processes", processes.commands())
+    report.section("A long run", processes.long_run())
+    report.close()
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,44 @@
+"""The three motions that every engine marches: two periodic ones and a chaotic one, all from rest at phase 0."""
+
+from math import cos, cosh, pi, sin, sinh
+from typing import NamedTuple
+
+
+class Case(NamedTuple):
+    """A harmonic case in normalised values (frequency and period per τ)."""
+
+    name: str
+    amplitude: float
+    period: float
+    restitution: float
+
+    @property
+    def frequency(self):
+        return 2 * pi / self.period
+
+
+class Point(NamedTuple):
+    """A state of the block at a time: what a general integrator can start from."""
+
+    time: float
+    angle: float
+    velocity: float
+
+
+CASES = (
+    Case("(1,1)  A=2 T=1 e=.925", 2.0, 1.0, 0.925),
+    Case("(1,3)  A=6.5 T=.4 e=.925", 6.5, 0.4, 0.925),
+    Case("chaos  A=10.103 T=1.721 e=.8", 10.103037, 1.721328, 0.8),
+)
+
+
+def lift_off(case, time):
+    """State at `time` of the arc that leaves rest at time 0 (to the side −1).
+
+    A general integrator cannot find the first crossing of an arc that starts on Θ = 0 with Θ' = 0, so the peers
+    start a little later, from the closed form (Yim & Lin 1991, eq. 5).
+    """
+    beta, x = case.amplitude / (1 + case.frequency**2), case.frequency * time
+    height = 1 - cosh(time) - beta * (cos(x) - cosh(time))
+    speed = -sinh(time) + beta * (case.frequency * sin(x) + sinh(time))
+    return Point(time, -height, -speed)

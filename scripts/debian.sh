@@ -1,0 +1,17 @@
+#!/usr/bin/env bash
+# debian.sh PACKAGE...: installs Debian packages by name, those that are missing; where it may not, says which in one line.
+set -euo pipefail
+
+missing=()
+for package in "$@"; do
+    dpkg-query --show --showformat='${db:Status-Status}' "$package" 2>/dev/null | grep -qx installed || missing+=("$package")
+done
+[ ${#missing[@]} -eq 0 ] && exit 0
+
+if [ "$(id -u)" -ne 0 ] || ! command -v apt-get >/dev/null; then
+    echo "missing on this machine: ${missing[*]} (names of Debian packages; there: sudo apt-get install ${missing[*]})" >&2
+    exit 1
+fi
+export DEBIAN_FRONTEND=noninteractive
+apt-get update -qq </dev/null
+apt-get install -qq --no-install-recommends "${missing[@]}" </dev/null >/dev/null

@@ -1,0 +1,86 @@
+#!/usr/bin/env bash
+# Makes .venv with the pinned versions, or brings it up to date; does nothing when nothing changed.
+# PYTHON=... names the interpreter; otherwise the newest one that has a constraint file.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+readonly STAMP=.venv/made-from
+export PIP_DISABLE_PIP_VERSION_CHECK=1
+
+# The minor version of an interpreter that can make environments; fails for one that cannot or is not there.
+version_of() {
+    "$1" -c 'import sys, venv, ensurepip; print("%d.%d" % sys.version_info[:2])' 2>/dev/null
+}
+
+pinned_versions() {
+    ls constraints | sed -n 's/^python-\(.*\)\.txt$/\1/p' | sort -V -r
+}
+
+# What .venv is made from, after its own place: the scripts in it start with that path.
+fingerprint() {
+    pwd
+    cat pyproject.toml scripts/setup.sh constraints/*.txt | cksum
+}
+
+choose_python() {
+    if [ -n "${PYTHON:-}" ]; then
+        echo "$PYTHON"
+        return
+    fi
+    local candidate
+    for candidate in $(pinned_versions | sed 's/^/python/') python3; do
+        if version_of "$candidate" >/dev/null; then
+            echo "$candidate"
+            return
+        fi
+    done
+    # Debian keeps a part of Python's own venv in a package of its own.
+    scripts/debian.sh python3 python3-venv && echo python3
+}
+
+# The file for this version, or the newest one for a Python that is newer than all of them.
+constraints_for() {
+    local newest
+    newest=$(pinned_versions | head -n 1)
+    if [ -e "constraints/python-$1.txt" ]; then
+        echo "constraints/python-$1.txt"
+    elif [ "$(printf '%s\n' "$1" "$newest" | sort -V | tail -n 1)" = "$1" ]; then
+        echo "constraints/python-$newest.txt"
+    else
+        return 1
+    fi
+}
+
+# Whether .venv was finished, in this place and with the Python asked for; else it is made again.
+is_usable() {
+    [ -x .venv/bin/python ] && [ "$(head -n 1 "$STAMP" 2>/dev/null)" = "$(pwd)" ] || return 1
+    [ -z "${PYTHON:-}" ] || [ "$(version_of "$PYTHON")" = "$(version_of .venv/bin/python)" ]
+}
+
+refuse() {
+    echo "PYTHON must be an interpreter, version 3.11 or newer, with its module venv; got $1" >&2
+    exit 1
+}
+
+wanted=$(fingerprint)
+if is_usable; then
+    [ "$(cat "$STAMP")" != "$wanted" ] || exit 0
+    python=.venv/bin/python
+else
+    python=$(choose_python)
+fi
+version=$(version_of "$python") || refuse "$python"
+constraints=$(constraints_for "$version") || refuse "$python, version $version"
+
+if is_usable; then
+    echo "Bringing .venv up to date with $constraints ..."
+    rm "$STAMP"
+else
+    echo "Setting up .venv with Python $version: a minute or more, some 300 MB the first time ..."
+    rm -f "$STAMP"
+    rm -rf .venv
+    "$python" -m venv .venv
+fi
+.venv/bin/python -m pip install --quiet --constraint "$constraints" pip setuptools
+.venv/bin/python -m pip install --quiet --constraint "$constraints" --no-build-isolation --editable '.[test,lint]'
+echo "$wanted" >"$STAMP"

@@ -1,0 +1,10 @@
+"""`rocking cite`."""
+
+from __future__ import annotations
+
+
+def cite() -> None:
+    """Print BibTeX for this package and its sources."""
+    import rocking as rk
+
+    print(rk.cite(), end="")

@@ -1,0 +1,133 @@
+"""The options that commands share, declared once, and what they mean: a system, normalised or of a block in SI, and a start."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager, suppress
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+if TYPE_CHECKING:
+    from rocking.model import Block, State, System
+
+
+class YourInput(typer.TyperException):
+    """What was typed cannot be done; the message says why in one line."""
+
+
+def number(text: str) -> float:
+    """An int or a float, as it is written."""
+    for kind in (int, float):
+        with suppress(ValueError):
+            return kind(text)
+    raise typer.BadParameter(f"must be a number; got {text!r}")
+
+
+def _number(name: str, text: str) -> Any:
+    return typer.Option(name, parser=number, metavar="NUMBER", help=text)
+
+
+def _file(name: str, text: str) -> Any:
+    return typer.Option(name, metavar="FILE", help=text)
+
+
+Number = float | None
+
+Amplitude = Annotated[Number, _number("--amplitude", "Normalised: A of the base, in units of g θcr.")]
+Period = Annotated[Number, _number("--period", "Normalised: T of the base, in τ.")]
+Frequency = Annotated[Number, _number("--frequency", "Normalised: Ω of the base, instead of --period.")]
+
+Height = Annotated[Number, _number("--height", "SI: of the block, m.")]
+Width = Annotated[Number, _number("--width", "SI: of the block, m.")]
+Acceleration = Annotated[Number, _number("--acceleration", "SI: amplitude of the base, m/s².")]
+AccelerationG = Annotated[Number, _number("--acceleration-g", "SI: the same in units of g.")]
+Displacement = Annotated[Number, _number("--displacement", "SI: or the base's displacement, m.")]
+FrequencyHz = Annotated[Number, _number("--frequency-hz", "SI: of the base, Hz.")]
+PeriodS = Annotated[Number, _number("--period-s", "SI: of the base, s, instead of --frequency-hz.")]
+
+Restitution = Annotated[Number, _number("--restitution", "e at an impact; in SI Housner's unless given.")]
+Phase = Annotated[float, _number("--phase", "φ of the base's acceleration, rad.")]
+BraceAngle = Annotated[Number, _number("--brace-angle", "Θb of side braces, in θcr; no braces unless given.")]
+BraceRestitution = Annotated[Number, _number("--brace-restitution", "r at a brace; 1 unless given.")]
+Angle = Annotated[float, _number("--angle", "Θ at the start, in θcr.")]
+Velocity = Annotated[float, _number("--velocity", "Θ' at the start, in θcr per τ.")]
+Cycles = Annotated[float, _number("--cycles", "Cycles of the base to run.")]
+
+Plot = Annotated[
+    Path | None, _file("--plot", "History and phase portrait (.png .svg .pdf), or film (.gif .mp4).")
+]
+Csv = Annotated[Path | None, _file("--csv", "Time, angle and velocity at even steps.")]
+Netcdf = Annotated[Path | None, _file("--netcdf", "The same with its description (.nc).")]
+Json = Annotated[bool, typer.Option("--json", help="Print the summary as JSON.")]
+
+NORMALISED = ("amplitude", "period", "frequency")
+SI = ("height", "width", "acceleration", "acceleration_g", "displacement", "frequency_hz", "period_s")
+BRACES = {"angle": "brace_angle", "restitution": "brace_restitution"}
+WANTED = (
+    "give --amplitude, --period (or --frequency) and --restitution, or in SI --height, --width, "
+    "--acceleration (or --acceleration-g, --displacement) and --frequency-hz (or --period-s)"
+)
+
+
+def option(name: str) -> str:
+    """How the argument `name` is typed."""
+    return "--" + name.replace("_", "-")
+
+
+@contextmanager
+def your_input(**typed: str) -> Iterator[None]:
+    """Turn a refusal inside the block into one of yours, its arguments named as they are typed.
+
+    `typed` gives the option of an argument whose own name is not it.
+    """
+    names = {
+        name: name for name in (*NORMALISED, *SI, "restitution", "phase", "angle", "velocity", "cycles")
+    } | typed
+    try:
+        yield
+    except (ValueError, TypeError, OSError) as error:
+        words = r"(?<!['\w-])(" + "|".join(names) + r")(?!['\w])"
+        raise YourInput(re.sub(words, lambda found: option(names[found[0]]), str(error))) from error
+
+
+def question(given: Mapping[str, Any]) -> tuple[System, State, Block | None]:
+    """The system and the start that the options ask for, and the block if they are in SI; refused as `YourInput`."""
+    from rocking.model import Block, Harmonic, State, System
+
+    normalised = [name for name in NORMALISED if given[name] is not None]
+    physical = [name for name in SI if given[name] is not None]
+    if normalised and physical:
+        raise YourInput(f"{option(normalised[0])} is normalised, {option(physical[0])} is SI: give one kind")
+    if not normalised and not physical:
+        raise YourInput(WANTED)
+    _require(given, ("amplitude", "restitution") if normalised else ("height", "width"))
+    braces = _braces(given)
+    with your_input():
+        start = State(given["angle"], given["velocity"])
+        if normalised:
+            forcing = Harmonic(**{name: given[name] for name in (*NORMALISED, "phase")})
+            return System(forcing, given["restitution"], braces), start, None
+        block = Block(given["height"], given["width"], given["restitution"])
+        shaking = {name: given[name] for name in (*SI[2:], "phase")}
+        return block.system(**shaking, braces=braces), start, block
+
+
+def _braces(given: Mapping[str, Any]) -> Any:
+    from rocking.model import Braces
+
+    if given["brace_angle"] is None:
+        if given["brace_restitution"] is not None:
+            raise YourInput("--brace-restitution needs --brace-angle")
+        return None
+    restitution = 1.0 if given["brace_restitution"] is None else given["brace_restitution"]
+    with your_input(**BRACES):
+        return Braces(given["brace_angle"], restitution)
+
+
+def _require(given: Mapping[str, Any], names: tuple[str, ...]) -> None:
+    missing = [option(name) for name in names if given[name] is None]
+    if missing:
+        raise YourInput(f"{' and '.join(missing)} is missing: {WANTED}")

@@ -1,0 +1,134 @@
+"""What a motion did, on one screen or as JSON."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import attrs
+
+if TYPE_CHECKING:
+    from rocking.model import Block
+    from rocking.motion import Motion
+
+Row = tuple[str, str, str]
+
+
+def show(motion: Motion, block: Block | None, files: Sequence[Path], *, as_json: bool) -> None:
+    """Print the summary on stdout, and where its files are."""
+    if as_json:
+        print(json.dumps(record(motion, block, files), indent=2, ensure_ascii=False))
+        return
+    from rich.console import Console
+    from rich.table import Table
+
+    console = Console(highlight=False, soft_wrap=True)
+    console.print(verdict(motion), style="bold")
+    table = Table.grid(padding=(0, 3))
+    for row in (*asked(motion, block), *found(motion, block)):
+        table.add_row(*row)
+    console.print(table)
+    if block is not None:
+        validity = motion.validity(block)
+        for line in str(validity).splitlines():
+            console.print(line, style="yellow" if line.startswith("warning") else None, markup=False)
+    for path in files:
+        console.print(f"wrote {path}", markup=False)
+
+
+def verdict(motion: Motion) -> str:
+    """The outcome in a sentence."""
+    overturning = motion.overturning
+    if overturning is not None:
+        return f"overturned: from τ = {overturning.time:.6g}, in cycle {overturning.cycle}, it provably never comes back"
+    if motion.outcome == "at-rest":
+        return "at rest, and stays so"
+    return f"bounded over {motion.cycles} cycles (neither rest nor overturning was proved in them)"
+
+
+def asked(motion: Motion, block: Block | None) -> Iterator[Row]:
+    """Rows that repeat the question, normalised and in SI."""
+    forcing, restitution, braces = motion.system.forcing, motion.system.restitution, motion.system.braces
+    yield "", "normalised", "" if block is None else "in SI"
+    if block is None:
+        yield "forcing", f"A = {forcing.amplitude:.6g}, T = {forcing.period:.6g}, φ = {forcing.phase:.6g}", ""
+        yield "restitution", f"e = {restitution:.6g}", ""
+    else:
+        yield "critical angle", "1", f"{block.degrees(1.0):.4g}°"
+        yield "time unit 1/α", "1", f"{block.seconds(1.0):.4g} s"
+        yield "amplitude", f"A = {forcing.amplitude:.6g}", f"{block.acceleration(forcing.amplitude):.4g} m/s²"
+        yield "period", f"T = {forcing.period:.6g}", f"{block.seconds(forcing.period):.4g} s"
+        chosen = "Housner's for this block" if block.has_housner_restitution else "as chosen"
+        yield "restitution", f"e = {restitution:.6g}", chosen
+    if braces is not None:
+        at = "" if block is None else f"{block.degrees(braces.angle):.4g}°"
+        yield "braces", f"Θb = {braces.angle:.6g}, r = {braces.restitution:.6g}", at
+    yield (
+        "start",
+        f"Θ = {motion.start.angle:.6g}, Θ' = {motion.start.velocity:.6g}",
+        _state(motion.start, block),
+    )
+
+
+def found(motion: Motion, block: Block | None) -> Iterator[Row]:
+    """Rows that answer it."""
+    time = "" if block is None else f"{block.seconds(motion.duration):.4g} s"
+    yield "run", f"{motion.cycles} cycles, τ = {motion.duration:.6g}", time
+    hits = "" if motion.system.braces is None else f", {motion.brace_hits} on the braces"
+    yield "impacts", f"{motion.impacts}{hits}", ""
+    peak = (
+        ""
+        if block is None
+        else f"{block.degrees(motion.peak):.4g}°, top {block.top_displacement(motion.peak):.4g} m"
+    )
+    yield "largest |Θ|", f"{motion.peak:.6g}", peak
+    yield (
+        "end",
+        f"Θ = {motion.final.angle:.6g}, Θ' = {motion.final.velocity:.6g}",
+        _state(motion.final, block),
+    )
+
+
+def _state(state: Any, block: Block | None) -> str:
+    if block is None:
+        return ""
+    return f"{block.degrees(state.angle):.4g}°, {block.degrees(state.velocity) * block.frequency_parameter:.4g}°/s"
+
+
+def record(motion: Motion, block: Block | None, files: Sequence[Path]) -> dict[str, Any]:
+    """The same for a program to read."""
+    forcing = motion.system.forcing
+    summary: dict[str, Any] = {
+        "outcome": str(motion.outcome),
+        "overturning": None if motion.overturning is None else attrs.asdict(motion.overturning),
+        "amplitude": forcing.amplitude,
+        "period": forcing.period,
+        "frequency": forcing.frequency,
+        "phase": forcing.phase,
+        "restitution": motion.system.restitution,
+        "braces": None if motion.system.braces is None else attrs.asdict(motion.system.braces),
+        "start": attrs.asdict(motion.start),
+        "cycles": motion.cycles,
+        "duration": motion.duration,
+        "impacts": motion.impacts,
+        "brace_hits": motion.brace_hits,
+        "peak": motion.peak,
+        "final": attrs.asdict(motion.final),
+        "files": [str(path) for path in files],
+    }
+    if block is not None:
+        summary["block"] = {
+            "height_m": block.height,
+            "width_m": block.width,
+            "critical_angle_deg": float(block.degrees(1.0)),
+            "time_unit_s": block.seconds(1.0),
+            "acceleration_m_per_s2": block.acceleration(forcing.amplitude),
+            "period_s": block.seconds(forcing.period),
+            "restitution_is_housners": block.has_housner_restitution,
+            "peak_deg": float(block.degrees(motion.peak)),
+            "peak_top_displacement_m": float(block.top_displacement(motion.peak)),
+        }
+        summary["validity"] = attrs.asdict(motion.validity(block))
+    return summary

@@ -1,0 +1,105 @@
+"""The few elementary functions of an arc, each to full relative accuracy however short the arc is.
+
+``cosh t - 1``, ``sinh t - t``, ``1 - cos x`` and ``x - sin x`` cancel for short arcs when formed from the library's functions; here short arguments go through
+their Taylor series, which loses nothing, and long ones through exponentials and a sine and cosine of an argument reduced by pi/2 in three parts.
+"""
+
+import math
+
+import numpy as np
+from llvmlite import ir
+from numba import njit, types
+from numba.extending import intrinsic
+
+COMPILED = dict(nogil=True, cache=True, error_model="numpy", fastmath={"contract", "nsz"})
+INLINED = dict(COMPILED, forceinline=True)
+
+# Coefficients by increasing power of the squared argument: 1/3!, 1/5!, ... and 1/2!, 1/4!, ...; the first dropped term is below 2**-55 of the sum at 2.
+ODD = tuple(1.0 / math.factorial(k) for k in range(3, 29, 2))
+EVEN = tuple(1.0 / math.factorial(k) for k in range(2, 28, 2))
+SHORT = 2.0
+
+# pi/2 in three parts; the first two have 33 bits, so their products with the quadrant number are exact up to 2**20 quadrants.
+HALF_PI = (1.5707963267341256, 6.077100506303966e-11, 2.0222662487959506e-21)
+TWO_OVER_PI = 2.0 / math.pi
+
+
+@intrinsic
+def fma(typingctx, a, b, c):
+    """``a*b + c`` with one rounding."""
+
+    def generate(context, builder, signature, arguments):
+        return builder.fma(*arguments)
+
+    return types.float64(types.float64, types.float64, types.float64), generate
+
+
+@njit(**INLINED)
+def series(q, c):
+    """Sum of c[k] q**k for 13 coefficients, two interleaved chains (half the latency of one)."""
+    q2 = q * q
+    even = c[12]
+    odd = c[11]
+    for k in range(10, -1, -2):
+        even = fma(even, q2, c[k])
+    for k in range(9, 0, -2):
+        odd = fma(odd, q2, c[k])
+    return fma(odd, q, even)
+
+
+@njit(**INLINED)
+def hyperbolic(t):
+    """(sinh t, cosh t - 1, sinh t - t) for t >= 0."""
+    if t < SHORT:
+        q = t * t
+        excess = q * t * series(q, ODD)
+        return t + excess, q * series(q, EVEN), excess
+    grown = 0.5 * math.exp(t)
+    shrunk = 0.25 / grown
+    sinh = grown - shrunk
+    return sinh, (grown - 1.0) + shrunk, sinh - t
+
+
+@njit(**INLINED)
+def quarter_turn(x, correction):
+    """(sin, cos, 1 - cos) of ``x + correction`` for 0 <= x up to 10**6, ``correction`` an ulp of x or so."""
+    quadrant = math.floor(x * TWO_OVER_PI + 0.5)
+    high = fma(-quadrant, HALF_PI[0], x)
+    tail = fma(-quadrant, HALF_PI[1], correction)
+    r = high + tail
+    tail = fma(-quadrant, HALF_PI[2], tail - (r - high))
+    q = r * r
+    excess = r * q * series(-q, ODD)
+    versine = q * series(-q, EVEN)
+    sine = r + (tail * (1.0 - versine) - excess)
+    versine += r * tail
+    cosine = 1.0 - versine
+    k = np.int64(quadrant) & 3
+    if k == 0:
+        return sine, cosine, versine
+    if k & 1:
+        sine, cosine = cosine, sine
+    if k & 2:
+        sine = -sine
+    if (k + 1) & 2:
+        cosine = -cosine
+    return sine, cosine, 1.0 - cosine
+
+
+@njit(**INLINED)
+def circular(rate, t):
+    """(sin x, 1 - cos x, x - sin x) of x = rate * t >= 0, the product kept to twice double precision."""
+    x = rate * t
+    if x < SHORT:
+        q = x * x
+        excess = q * x * series(-q, ODD)
+        return x - excess, q * series(-q, EVEN), excess
+    sine, _, versine = quarter_turn(x, fma(rate, t, -x))
+    return sine, versine, x - sine
+
+
+@njit(**INLINED)
+def direction(angle):
+    """(sin, cos) of an angle of either sign."""
+    sine, cosine, _ = quarter_turn(abs(angle), 0.0)
+    return (-sine if angle < 0.0 else sine), cosine

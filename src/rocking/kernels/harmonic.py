@@ -1,0 +1,86 @@
+"""Harmonic base acceleration A cos(Omega tau + phi), eq. (3) of Yim & Lin (1991): all that an arc has to know of its forcing.
+
+Another forcing is another file with these functions: what the arc starts from, the particular solution that starts from rest, and where the sign of
+a forcing term changes. On one side sigma of the base the block feels sigma A cos psi = A cos eta, with eta = psi on the positive side and psi + pi on the
+negative one; (cosine, sine) are those of eta.
+"""
+
+import math
+
+from numba import njit
+
+from .elementary import INLINED, circular, direction
+
+TURN = 2.0 * math.pi
+
+
+@njit(**INLINED)
+def begin(p, side, time):
+    """(cosine, sine, eta) at a time within the cycle."""
+    psi = p.frequency * time + p.phase
+    sine, cosine = direction(psi)
+    return side * cosine, side * sine, psi
+
+
+@njit(**INLINED)
+def respond(p, cosine, sine, t, sinh, versinh, excess):
+    """(F, F', cos eta, sin eta) a time t later: F'' - F = A cos eta with F = F' = 0 at t = 0; every part is free of cancellation."""
+    sin_x, versine, lag = circular(p.frequency, t)
+    in_phase = versinh + versine
+    displaced = p.response * (cosine * in_phase - sine * (p.frequency * excess + lag))
+    moved = p.response * (cosine * (sinh + p.frequency * sin_x) - sine * (p.frequency * in_phase))
+    return displaced, moved, cosine - (cosine * versine + sine * sin_x), sine - (sine * versine - cosine * sin_x)
+
+
+@njit(**INLINED)
+def particular(p, cosine, sine):
+    """(beta cos eta, its derivative): the bounded particular solution of u'' - u = -A cos eta."""
+    return p.response * cosine, -p.response * p.frequency * sine
+
+
+@njit(**INLINED)
+def first_cut(p, side, psi, centre, half):
+    """(time to the first eta = centre +- half at or after now, whether eta lies within half of the centre until then)."""
+    zeta = psi - centre + half
+    if side < 0:
+        zeta += math.pi
+    zeta -= TURN * math.floor(zeta / TURN)
+    inside = zeta < 2.0 * half
+    return ((2.0 * half if inside else TURN) - zeta) / p.frequency, inside
+
+
+@njit(**INLINED)
+def next_cut(p, half, inside):
+    """Time from one cut to the next, ``inside`` telling the stretch between them."""
+    return (2.0 * half if inside else TURN - 2.0 * half) / p.frequency
+
+
+@njit(**INLINED)
+def drift(p, cosine, sine, time):
+    """A bound on how far the base acceleration moves within the coming ``time``."""
+    x = p.frequency * time
+    return p.amplitude * (abs(sine) * x + 0.5 * x * x)
+
+
+@njit(**INLINED)
+def sensitivities(p, cosine, sine, t, sinh, versinh, excess):
+    """(F_A, F'_A, F_psi, F'_psi, F_Omega, F'_Omega): the response's derivatives with respect to amplitude, starting phase and frequency."""
+    sin_x, versine, lag = circular(p.frequency, t)
+    frequency, k = p.frequency, p.reciprocal
+    in_phase = k * (versinh + versine)
+    quadrature = k * (frequency * excess + lag)
+    in_phase_rate = k * (sinh + frequency * sin_x)
+    turned = -2.0 * frequency * k
+    in_phase_f = k * t * sin_x + turned * in_phase
+    quadrature_f = k * (excess + t * versine) + turned * quadrature
+    in_phase_rate_f = k * (sin_x + frequency * t * (1.0 - versine)) + turned * in_phase_rate
+    quadrature_rate_f = in_phase + frequency * in_phase_f
+    a = p.amplitude
+    return (
+        cosine * in_phase - sine * quadrature,
+        cosine * in_phase_rate - sine * frequency * in_phase,
+        -a * (sine * in_phase + cosine * quadrature),
+        -a * (sine * in_phase_rate + cosine * frequency * in_phase),
+        a * (cosine * in_phase_f - sine * quadrature_f),
+        a * (cosine * in_phase_rate_f - sine * quadrature_rate_f),
+    )

@@ -1,0 +1,251 @@
+"""A block in metres and seconds, and the way to the normalised system and back: Yim & Lin 1991, eqs. (1)-(4)."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+from attrs import field, frozen
+
+from rocking.model.errors import exactly_one, reals, refusal, within
+from rocking.model.forcing import FREQUENCIES, LARGEST_AMPLITUDE, Harmonic
+from rocking.model.system import Braces, System
+
+GRAVITY = 9.80665
+SIZES = (1e-3, 1e3)
+INERTIA_RATIOS = (1.0, 10.0)
+RECTANGLE = 4 / 3
+
+
+def _height(value: float) -> float:
+    return within("height", value, *SIZES, unit="m")
+
+
+def _width(value: float) -> float:
+    return within("width", value, *SIZES, unit="m")
+
+
+def _restitution(value: float | None) -> float | None:
+    return None if value is None else within("restitution", value, 0, 1)
+
+
+def _inertia_ratio(value: float) -> float:
+    return within("inertia_ratio", value, *INERTIA_RATIOS)
+
+
+@frozen(repr=False)
+class Block:
+    """A rigid block that stands on two corners: eqs. (1) and (2) of Yim & Lin 1991.
+
+    A method named after a physical unit takes a normalised value (`degrees(angle)`, `seconds(time)`), a method named
+    after a normalised quantity takes a physical one (`angle(degrees=5)`, `time(seconds)`). All of them take numbers or
+    arrays and keep their shape.
+
+    Parameters
+    ----------
+    height, width : float
+        H and B in metres, in [0.001, 1000].
+    restitution : float, optional
+        e of eq. (2), in [0, 1]. Housner's (1963) unless given: e = 1 − 2 sin²θcr/`inertia_ratio`, which conserves the
+        angular momentum about the corner that is hit.
+    inertia_ratio : float
+        Io/(MR²), moment of inertia about a corner; 4/3 for a uniform rectangle, in [1, 10].
+
+    Raises
+    ------
+    TypeError, ValueError
+        In one line, for a value that is no real number or lies outside its range, and where Housner's restitution is
+        negative (a squat block) and none is given.
+
+    Notes
+    -----
+    Any proportions are allowed here, the equations are those of a slender block, sin θ ≈ θ. `Motion.validity` says how
+    far a motion leaves that range.
+
+    Examples
+    --------
+    >>> block = Block(height=2.0, width=0.5)
+    >>> block
+    Block(height=2.0 m, width=0.5 m, restitution=0.911765 by Housner's formula)
+    >>> round(float(block.degrees(1.0)), 3)
+    14.036
+    >>> block.system(acceleration=3.0, period_s=0.8).forcing.amplitude > 1
+    True
+    """
+
+    height: float = field(converter=_height)
+    width: float = field(converter=_width)
+    _restitution: float | None = field(default=None, converter=_restitution)
+    inertia_ratio: float = field(default=RECTANGLE, converter=_inertia_ratio)
+
+    def __attrs_post_init__(self) -> None:
+        if self.has_housner_restitution and self.restitution < 0:
+            raise ValueError(
+                f"restitution by Housner's formula is {self.restitution:.3g} for a block as squat as "
+                f"{self.height:g} m x {self.width:g} m and must lie in [0, 1]: give restitution"
+            )
+
+    @property
+    def radius(self) -> float:
+        """R, from a corner to the centre of mass, in metres."""
+        return math.hypot(self.height, self.width) / 2
+
+    @property
+    def critical_angle(self) -> float:
+        """θcr = arctan(B/H), in radians: beyond it the block falls by its own weight."""
+        return math.atan2(self.width, self.height)
+
+    @property
+    def frequency_parameter(self) -> float:
+        """α = √(MgR/Io), in 1/s: normalised time is τ = αt."""
+        return math.sqrt(GRAVITY / (self.inertia_ratio * self.radius))
+
+    @property
+    def housner_restitution(self) -> float:
+        """1 − 2 sin²θcr/(Io/MR²), for a uniform rectangle 1 − (3/2) sin²θcr (Housner 1963)."""
+        return 1 - 2 * math.sin(self.critical_angle) ** 2 / self.inertia_ratio
+
+    @property
+    def has_housner_restitution(self) -> bool:
+        """Whether the restitution is Housner's, because none was given."""
+        return self._restitution is None
+
+    @property
+    def restitution(self) -> float:
+        """Restitution e of eq. (2): Housner's, unless one was given."""
+        return self.housner_restitution if self._restitution is None else self._restitution
+
+    def system(
+        self,
+        *,
+        acceleration: float | None = None,
+        acceleration_g: float | None = None,
+        displacement: float | None = None,
+        frequency_hz: float | None = None,
+        period_s: float | None = None,
+        phase: float = 0.0,
+        braces: Braces | None = None,
+    ) -> System:
+        """The normalised system of this block on a base that shakes harmonically: eqs. (3) and (4).
+
+        Parameters
+        ----------
+        acceleration, acceleration_g, displacement : float
+            Amplitude of the base's motion in m/s², in units of g, or in metres (a_x = ω² d); give exactly one.
+        frequency_hz, period_s : float
+            Of the base's motion, in Hz or seconds; give exactly one.
+        phase : float
+            φ of a_x cos(ωt + φ), the base's *acceleration*, in radians.
+        braces : Braces, optional
+            Normalised; `Braces(angle=block.angle(degrees=3))` for a physical angle.
+
+        Raises
+        ------
+        TypeError, ValueError
+            In one line, naming the argument and the range that this block allows in its unit.
+
+        Examples
+        --------
+        >>> Block(height=2.0, width=0.5).system(acceleration_g=0.3, frequency_hz=1.2).forcing.amplitude > 1.2
+        True
+        """
+        given = exactly_one(
+            acceleration=acceleration, acceleration_g=acceleration_g, displacement=displacement
+        )
+        frequency = self._forcing_frequency(frequency_hz, period_s)
+        size, per_unit, unit = {
+            "acceleration": (acceleration, 1.0, "m/s²"),
+            "acceleration_g": (acceleration_g, GRAVITY, "g"),
+            "displacement": (displacement, (frequency * self.frequency_parameter) ** 2, "m"),
+        }[given]
+        largest = self.acceleration(LARGEST_AMPLITUDE) / per_unit
+        amplitude = self.amplitude(within(given, size, 0, largest, unit) * per_unit)  # type: ignore[arg-type]
+        forcing = Harmonic(min(amplitude, LARGEST_AMPLITUDE), frequency=frequency, phase=phase)
+        return System(forcing, self.restitution, braces)
+
+    def _forcing_frequency(self, frequency_hz: float | None, period_s: float | None) -> float:
+        """Ω from the one of the two that is given; the range's ends survive the rounding of the conversion."""
+        exactly_one(frequency_hz=frequency_hz, period_s=period_s)
+        low, high = (self.hertz(frequency) for frequency in FREQUENCIES)
+        if frequency_hz is not None:
+            hertz = within("frequency_hz", frequency_hz, low, high, "Hz")
+        else:
+            hertz = 1 / within("period_s", period_s, 1 / high, 1 / low, "s")  # type: ignore[arg-type]
+        return min(max(self.frequency(hertz), FREQUENCIES[0]), FREQUENCIES[1])
+
+    def acceleration(self, amplitude: Any) -> Any:
+        """a_x = A g θcr in m/s², from a normalised amplitude."""
+        return reals("amplitude", amplitude) * (GRAVITY * self.critical_angle)
+
+    def amplitude(self, acceleration: Any) -> Any:
+        """A = a_x/(g θcr), from an acceleration in m/s²."""
+        return reals("acceleration", acceleration) / (GRAVITY * self.critical_angle)
+
+    def seconds(self, time: Any) -> Any:
+        """Seconds, t = τ/α, from a normalised time or period."""
+        return reals("time", time) / self.frequency_parameter
+
+    def time(self, seconds: Any) -> Any:
+        """τ = αt, from a time or period in seconds."""
+        return reals("seconds", seconds) * self.frequency_parameter
+
+    def hertz(self, frequency: Any) -> Any:
+        """Ωα/2π in Hz, from a normalised angular frequency."""
+        return reals("frequency", frequency) * (self.frequency_parameter / math.tau)
+
+    def frequency(self, hertz: Any) -> Any:
+        """Ω = ω/α, from a frequency in Hz."""
+        return reals("hertz", hertz) / (self.frequency_parameter / math.tau)
+
+    def radians(self, angle: Any) -> Any:
+        """θ = Θ θcr in radians, from a normalised angle."""
+        return reals("angle", angle) * self.critical_angle
+
+    def degrees(self, angle: Any) -> Any:
+        """θ = Θ θcr in degrees, from a normalised angle."""
+        return np.degrees(self.radians(angle))
+
+    def radians_per_second(self, velocity: Any) -> Any:
+        """dθ/dt = Θ' θcr α in rad/s, from a normalised velocity."""
+        return reals("velocity", velocity) * (self.critical_angle * self.frequency_parameter)
+
+    def velocity(self, radians_per_second: Any) -> Any:
+        """Θ', from an angular velocity in rad/s."""
+        return reals("radians_per_second", radians_per_second) / (
+            self.critical_angle * self.frequency_parameter
+        )
+
+    def top_displacement(self, angle: Any) -> Any:
+        """H sin θ in metres, from a normalised angle: how far the top's corner above the pivot moves along the base."""
+        return self.height * np.sin(self.radians(angle))
+
+    def angle(self, *, radians: Any = None, degrees: Any = None, top_displacement: Any = None) -> Any:
+        """Θ = θ/θcr, from exactly one of: radians, degrees, a displacement of the top in metres (|θ| ≤ 90°).
+
+        Raises TypeError for none or several of them, ValueError where the top's displacement exceeds the height.
+
+        Examples
+        --------
+        >>> block = Block(height=2.0, width=0.5)
+        >>> round(float(block.angle(degrees=block.degrees(0.5))), 12)
+        0.5
+        """
+        given = exactly_one(radians=radians, degrees=degrees, top_displacement=top_displacement)
+        if given == "radians":
+            return reals(given, radians) / self.critical_angle
+        if given == "degrees":
+            return np.radians(reals(given, degrees)) / self.critical_angle
+        sine = reals(given, top_displacement) / self.height
+        if np.any(np.abs(sine) > 1):
+            allowed = f"lie in [-{self.height:g}, {self.height:g}] m, the height"
+            raise ValueError(refusal(given, allowed, top_displacement))
+        return np.arcsin(sine) / self.critical_angle
+
+    def __repr__(self) -> str:
+        origin = "by Housner's formula" if self.has_housner_restitution else "as chosen"
+        inertia = "" if self.inertia_ratio == RECTANGLE else f", inertia_ratio={self.inertia_ratio:g}"
+        return (
+            f"Block(height={self.height} m, width={self.width} m, "
+            f"restitution={self.restitution:.6g} {origin}{inertia})"
+        )

@@ -1,0 +1,127 @@
+"""One-line refusals, shared by every room: the argument, its value, what is allowed, and the way out where there is one."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from numbers import Real
+from typing import Any, TypeVar
+
+import numpy as np
+
+Value = TypeVar("Value")
+
+LONGEST_SHOWN = 60
+
+
+class TooManyEvents(ValueError):
+    """The run met more events than it may keep; the message says how to ask for less."""
+
+
+def shown(value: object) -> str:
+    """Show a value in one short line, NumPy's numbers as plain ones."""
+    if isinstance(value, np.generic):
+        value = value.item()
+    text = " ".join(repr(value).split())
+    return text if len(text) <= LONGEST_SHOWN else text[: LONGEST_SHOWN - 1] + "…"
+
+
+def refusal(name: str, allowed: str, value: object, remedy: str = "") -> str:
+    """The one sentence in which every room refuses a value."""
+    return f"{name} must {allowed}; got {shown(value)}" + (f" ({remedy})" if remedy else "")
+
+
+def within(name: str, value: float, low: float, high: float, unit: str = "", if_below: str = "") -> float:
+    """Return `value` as a float that lies in [low, high]; NaN, infinities and whatever is no real number are refused.
+
+    `if_below` is the way out for a value that is too small.
+
+    Raises
+    ------
+    TypeError
+        `value` is no real number (a bool, a string, a complex number, an array, None).
+    ValueError
+        `value` lies outside the range.
+
+    Examples
+    --------
+    >>> within("restitution", 1, 0, 1)
+    1.0
+    >>> within("restitution", 1.2, 0, 1)
+    Traceback (most recent call last):
+    ValueError: restitution must lie in [0, 1]; got 1.2
+    """
+    interval = f"[{low:.6g}, {high:.6g}]" + (f" {unit}" if unit else "")
+    if isinstance(value, bool) or not isinstance(value, Real):
+        raise TypeError(refusal(name, f"be a real number in {interval}", value))
+    try:
+        number = float(value)
+    except OverflowError:
+        number = math.inf
+    if not low <= number <= high:
+        raise ValueError(refusal(name, f"lie in {interval}", value, if_below if number < low else ""))
+    return number
+
+
+def whole(name: str, value: int, low: int, high: int) -> int:
+    """Return `value` as an int in [low, high]; a float is taken where it is whole (1e6), a fraction never.
+
+    Raises TypeError and ValueError as `within` does.
+    """
+    allowed = f"be a whole number in [{low}, {high}]"
+    if isinstance(value, bool) or not isinstance(value, Real):
+        raise TypeError(refusal(name, allowed, value))
+    if not low <= value <= high or value != int(value):
+        raise ValueError(refusal(name, allowed, value))
+    return int(value)
+
+
+def reals(name: str, values: Any) -> Any:
+    """Return a real number as a float, anything array-like as an array of floats.
+
+    Raises TypeError where `values` holds something else than real numbers.
+    """
+    if isinstance(values, Real) and not isinstance(values, bool):
+        return float(values)
+    try:
+        array = np.asarray(values)
+    except ValueError:
+        array = np.asarray(None)
+    if array.dtype.kind not in "fiu":
+        raise TypeError(refusal(name, "be a real number or an array of real numbers", values))
+    return array.astype(float)
+
+
+def instance(name: str, value: Value, kind: type) -> Value:
+    """Return `value` if it is a `kind`; TypeError otherwise."""
+    if not isinstance(value, kind):
+        raise TypeError(refusal(name, f"be a {kind.__name__}", value))
+    return value
+
+
+def one_of(name: str, value: str, allowed: Sequence[str]) -> str:
+    """Return `value` if it is among the `allowed` words; TypeError or ValueError otherwise."""
+    choices = f"be one of {', '.join(map(repr, allowed))}"
+    if not isinstance(value, str):
+        raise TypeError(refusal(name, choices, value))
+    if value not in allowed:
+        raise ValueError(refusal(name, choices, value))
+    return value
+
+
+def exactly_one(**values: object) -> str:
+    """Return the name of the only one of `values` that is not None; TypeError otherwise.
+
+    Examples
+    --------
+    >>> exactly_one(period=1.0, frequency=None)
+    'period'
+    >>> exactly_one(period=None, frequency=None)
+    Traceback (most recent call last):
+    TypeError: give exactly one of period, frequency; got none
+    """
+    given = {name: value for name, value in values.items() if value is not None}
+    if len(given) != 1:
+        got = " and ".join(f"{name}={shown(value)}" for name, value in given.items()) or "none"
+        raise TypeError(f"give exactly one of {', '.join(values)}; got {got}")
+    return next(iter(given))

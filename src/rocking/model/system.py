@@ -1,0 +1,127 @@
+"""A block on its shaking base, normalised, and a state of it: Yim & Lin 1991, eqs. (2) and (4)."""
+
+from __future__ import annotations
+
+from attrs import field, frozen
+
+from rocking.model.errors import instance, refusal, within
+from rocking.model.forcing import Harmonic
+
+BRACE_ANGLES = (1e-3, 1e3)
+LARGEST_STATE = 1e3
+
+
+def _restitution(value: float) -> float:
+    return within("restitution", value, 0, 1)
+
+
+def _brace_angle(value: float) -> float:
+    return within("angle", value, *BRACE_ANGLES)
+
+
+def _angle(value: float) -> float:
+    return within("angle", value, -LARGEST_STATE, LARGEST_STATE)
+
+
+def _velocity(value: float) -> float:
+    return within("velocity", value, -LARGEST_STATE, LARGEST_STATE)
+
+
+def _forcing(value: Harmonic) -> Harmonic:
+    return instance("forcing", value, Harmonic)
+
+
+@frozen
+class Braces:
+    """A brace on either side, which the block hits at |Θ| = Θb and leaves with Θ' → −r Θ'.
+
+    Parameters
+    ----------
+    angle : float
+        Θb, in units of the critical angle, in [0.001, 1000].
+    restitution : float
+        r, in [0, 1].
+
+    Raises
+    ------
+    TypeError, ValueError
+        In one line, for a value that is no real number or lies outside its range.
+
+    Examples
+    --------
+    >>> Braces(angle=1.0)
+    Braces(angle=1.0, restitution=1.0)
+    """
+
+    angle: float = field(converter=_brace_angle)
+    restitution: float = field(default=1.0, converter=_restitution)
+
+
+def _braces(value: Braces | None) -> Braces | None:
+    return None if value is None else instance("braces", value, Braces)
+
+
+@frozen
+class System:
+    """A slender block on a shaking base: Θ'' − Θ = −A cos(Ωτ + φ) ∓ 1 (Yim & Lin 1991, eq. 4), Θ' → eΘ' at Θ = 0 (eq. 2).
+
+    Parameters
+    ----------
+    forcing : Harmonic
+        The base's acceleration, eq. (3).
+    restitution : float
+        e, velocity just after over velocity just before an impact at Θ = 0, in [0, 1].
+    braces : Braces, optional
+        Braces on either side; none by default.
+
+    Raises
+    ------
+    TypeError, ValueError
+        In one line, for a value of the wrong type or outside its range.
+
+    Examples
+    --------
+    >>> System(Harmonic(amplitude=2.0, period=1.0), restitution=0.925)
+    System(forcing=Harmonic(amplitude=2.0, period=1.0, phase=0.0), restitution=0.925, braces=None)
+    """
+
+    forcing: Harmonic = field(converter=_forcing)
+    restitution: float = field(converter=_restitution)
+    braces: Braces | None = field(default=None, converter=_braces)
+
+
+@frozen
+class State:
+    """An angle and a velocity of the block, normalised; at rest by default.
+
+    Parameters
+    ----------
+    angle : float
+        Θ = θ/θcr, in [-1000, 1000].
+    velocity : float
+        Θ' = dΘ/dτ, in [-1000, 1000].
+
+    Raises
+    ------
+    TypeError, ValueError
+        In one line, for a value that is no real number or lies outside its range.
+
+    Examples
+    --------
+    >>> State(velocity=0.15)
+    State(angle=0.0, velocity=0.15)
+    """
+
+    angle: float = field(default=0.0, converter=_angle)
+    velocity: float = field(default=0.0, converter=_velocity)
+
+
+def check_start(system: System, start: State) -> None:
+    """Refuse a start that is no state of this system: TypeError for other values, ValueError beyond a brace."""
+    instance("system", system, System)
+    instance("start", start, State)
+    if system.braces is not None and abs(start.angle) > system.braces.angle:
+        reach = system.braces.angle
+        raise ValueError(
+            refusal("angle", f"lie between the braces, in [{-reach:.6g}, {reach:.6g}]", start.angle)
+        )

@@ -1,0 +1,198 @@
+"""A motion as an xarray dataset that names its units, its parameters and the package that made it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from rocking.model import VERSION, Block
+from rocking.model.errors import instance, refusal, within
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from rocking.motion.motion import Motion
+
+STEPS_PER_PERIOD = 100
+MOST_STEPS = 100_000_000
+
+Unit = tuple[float, str]
+"""The size of the normalised unit, and the name of the unit that a quantity is given in."""
+Variables = dict[str, tuple[str, Any, dict[str, str]]]
+
+EVENTS = {
+    "time": ("time", "time of the event"),
+    "cycle": (None, "forcing cycle of the event, counted from 0"),
+    "phase": ("phase", "forcing phase of the event"),
+    "angle": ("angle", "angle at the event"),
+    "before": ("velocity", "angular velocity just before the event"),
+    "after": ("velocity", "angular velocity just after the event"),
+    "kind": (None, "impact, brace (hit), rest, lift-off, lean (on a brace) or leave (it)"),
+}
+
+
+def to_dataset(motion: Motion, step: float | None = None, block: Block | None = None) -> xr.Dataset:
+    """A motion sampled in time, with its events; of record="section" the section.
+
+    Parameters
+    ----------
+    motion : Motion
+        Recorded with record="all" or "section".
+    step : float, optional
+        Between the samples, in τ, or in seconds with a block; a hundredth of the forcing period unless given. The
+        samples start at 0 and end at the last whole step.
+    block : Block, optional
+        Gives everything in s, rad, m, and adds the displacement of the block's top; normalised without.
+
+    Returns
+    -------
+    xarray.Dataset
+        record="all": `angle`, `velocity`, `acceleration`, `base_acceleration` (and `top_displacement`) along `time`;
+        `event_time`, `event_kind`, … along `event`. record="section": `angle`, `velocity` along `cycle`. The
+        attributes `units` and `long_name` are as in the CF conventions; the system, the start and the package's
+        version are attributes of the dataset, the normalised values always among them.
+
+    Raises
+    ------
+    TypeError, ValueError
+        For a step that is no number, not positive or longer than the motion, and for a motion that kept nothing.
+
+    Examples
+    --------
+    >>> from rocking import Harmonic, System, simulate
+    >>> motion = simulate(System(Harmonic(amplitude=2.0, period=1.0), restitution=0.925), cycles=5)
+    >>> dict(motion.to_xarray().sizes)
+    {'time': 501, 'event': 9}
+    """
+    import xarray as xr
+
+    units = _units(block)
+    if motion.record == "section":
+        if step is not None:
+            raise ValueError(refusal("step", 'be left out of a motion with record="section"', step))
+        variables, coordinates = _section(motion, units)
+    else:
+        variables, coordinates = _samples(motion, _times(motion, step, units), units, block)
+        variables |= _events(motion, units)
+    return xr.Dataset(variables, coordinates, _attributes(motion, block))
+
+
+def _units(block: Block | None) -> dict[str, Unit]:
+    if block is None:
+        return dict.fromkeys(("time", "angle", "velocity", "acceleration", "base"), (1.0, "1"))
+    instance("block", block, Block)
+    turn = block.radians_per_second(1.0)
+    return {
+        "time": (block.seconds(1.0), "s"),
+        "angle": (block.radians(1.0), "rad"),
+        "velocity": (turn, "rad s-1"),
+        "acceleration": (turn * block.frequency_parameter, "rad s-2"),
+        "base": (block.acceleration(1.0), "m s-2"),
+    }
+
+
+def _times(motion: Motion, step: float | None, units: dict[str, Unit]) -> np.ndarray:
+    """Normalised times of the samples."""
+    second, unit = units["time"]
+    if step is None:
+        spacing = motion.system.forcing.period / STEPS_PER_PERIOD
+    else:
+        longest = motion.duration * second
+        spacing = within("step", step, longest / MOST_STEPS, longest, "" if unit == "1" else unit) / second
+    count = int(motion.duration / spacing * (1 + 1e-12))
+    return np.minimum(spacing * np.arange(count + 1), motion.duration)
+
+
+def _variable(along: str, values: Any, unit: Unit, long_name: str) -> tuple[str, Any, dict[str, str]]:
+    size, name = unit
+    return along, values * size, {"units": name, "long_name": long_name}
+
+
+def _samples(
+    motion: Motion, times: np.ndarray, units: dict[str, Unit], block: Block | None
+) -> tuple[Variables, Variables]:
+    angle, velocity = motion.at(times)
+    turning, base = motion.acceleration(times), motion.system.forcing.acceleration(times)
+    variables = {
+        "angle": _variable("time", angle, units["angle"], "angle of the block"),
+        "velocity": _variable("time", velocity, units["velocity"], "angular velocity of the block"),
+        "acceleration": _variable(
+            "time", turning, units["acceleration"], "angular acceleration of the block"
+        ),
+        "base_acceleration": _variable("time", base, units["base"], "horizontal acceleration of the base"),
+    }
+    if block is not None:
+        top = block.top_displacement(angle)
+        variables["top_displacement"] = _variable("time", top, (1.0, "m"), "displacement of the block's top")
+    return variables, {"time": _variable("time", times, units["time"], "time")}
+
+
+def _events(motion: Motion, units: dict[str, Unit]) -> Variables:
+    units = units | {"phase": (1.0, "rad")}
+    variables: Variables = {}
+    for name, (quantity, long_name) in EVENTS.items():
+        values = motion.events[name]
+        if quantity is None:
+            variables[f"event_{name}"] = "event", values, {"long_name": long_name}
+        else:
+            variables[f"event_{name}"] = _variable("event", values, units[quantity], long_name)
+    return variables
+
+
+def _section(motion: Motion, units: dict[str, Unit]) -> tuple[Variables, Variables]:
+    angle, velocity = motion.section().T
+    cycles = np.arange(angle.size)
+    variables = {
+        "angle": _variable("cycle", angle, units["angle"], "angle of the block, once a forcing cycle"),
+        "velocity": _variable(
+            "cycle", velocity, units["velocity"], "angular velocity of the block, once a forcing cycle"
+        ),
+    }
+    times = _variable("cycle", cycles * motion.system.forcing.period, units["time"], "time")
+    return variables, {
+        "cycle": ("cycle", cycles, {"long_name": "forcing cycles since the start"}),
+        "time": times,
+    }
+
+
+def _attributes(motion: Motion, block: Block | None) -> dict[str, Any]:
+    """What the motion is, in normalised values, and the block where there is one."""
+    forcing, braces, start = motion.system.forcing, motion.system.braces, motion.start
+    attributes = {
+        "Conventions": "CF-1.11",
+        "title": "Motion of a free-standing block on a shaking base",
+        "source": f"rocking {VERSION}",
+        "comment": (
+            "Attributes without a unit are normalised as in Yim and Lin (1991), eqs. 1-4; "
+            "the base's acceleration is amplitude cos(frequency time + phase)."
+        ),
+        "amplitude": forcing.amplitude,
+        "period": forcing.period,
+        "frequency": forcing.frequency,
+        "phase": forcing.phase,
+        "restitution": motion.system.restitution,
+        "start_angle": start.angle,
+        "start_velocity": start.velocity,
+        "cycles": motion.cycles,
+        "record": motion.record,
+        "outcome": str(motion.outcome),
+        "peak": motion.peak,
+        "impacts": motion.impacts,
+        "brace_hits": motion.brace_hits,
+    }
+    if braces is not None:
+        attributes |= {"brace_angle": braces.angle, "brace_restitution": braces.restitution}
+    if motion.overturning is not None:
+        attributes |= {
+            "overturning_time": motion.overturning.time,
+            "overturning_cycle": motion.overturning.cycle,
+        }
+    if block is not None:
+        attributes |= {
+            "block_height_m": block.height,
+            "block_width_m": block.width,
+            "block_inertia_ratio": block.inertia_ratio,
+            "block_critical_angle_rad": block.critical_angle,
+            "block_frequency_parameter_per_s": block.frequency_parameter,
+        }
+    return attributes

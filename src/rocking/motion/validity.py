@@ -1,0 +1,249 @@
+"""Whether the model applies to a motion: no sliding, a base that only pushes, a slender block (Housner 1963)."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+from attrs import evolve, frozen
+from numpy.typing import NDArray
+
+from rocking.model import Block
+
+if TYPE_CHECKING:
+    from rocking.motion.motion import Motion
+
+Array = NDArray[np.float64]
+Measure = Callable[[Array, Array], Array]
+
+ORDINARY_FRICTION = 0.5
+"""Dry stone, concrete or steel seldom offers less: a motion that needs more is warned of."""
+SLENDER_ERROR = 0.05
+"""Relative error up to which the block counts as slender: θcr = 18°, about three times as high as wide."""
+POINTS_PER_PERIOD = 32
+POINTS_AT_ONCE = 500_000
+SHORTEST_ARC = 1e-10
+"""In τ. The reaction on the shorter arcs of a chatter is that of their longer neighbours, to as many digits."""
+
+
+@frozen
+class Validity:
+    """How far a motion of a real block keeps to the model's assumptions.
+
+    Attributes
+    ----------
+    friction : float
+        Least coefficient of friction with which the block never slides; infinite where the base would have to pull.
+    friction_source : str
+        What asks for it: "motion" (largest |H|/N between events), "impact" (|J_x|/J_y) or "rest" (|a_g|/g).
+    friction_time, reaction_time : float
+        Where these occur, in τ (`block.seconds` converts).
+    reaction : float
+        Least N/(Mg) of the base's upward reaction over the motion; from 0 on the base would have to pull. Infinite for a
+        block that leans throughout.
+    angle, critical_angle : float
+        Largest |θ| and θcr, in radians.
+    moment_error, forcing_error : float
+        By how much, relatively, the slender model overrates the restoring moment (δ for sin δ) and the moment of the
+        base's acceleration (1 for cos δ) where they are worst, δ = θcr − |θ|.
+    warnings : tuple of str
+        One sentence for each assumption that fails, and for each thing that the motion alone does not determine.
+
+    Notes
+    -----
+    Not covered: while the block leans on a brace, and at the instant it hits one, the reactions depend on the height at
+    which the brace acts; both are left out, and a warning says so. A motion that overturns is judged up to its proof.
+    """
+
+    friction: float
+    friction_source: str
+    friction_time: float
+    reaction: float
+    reaction_time: float
+    angle: float
+    critical_angle: float
+    moment_error: float
+    forcing_error: float
+    warnings: tuple[str, ...] = ()
+
+    def __str__(self) -> str:
+        figures = (
+            f"least friction without sliding: {self.friction:.4g} ({self.friction_source}, τ = {self.friction_time:.6g})",
+            f"least base reaction: {self.reaction:.4g} Mg (τ = {self.reaction_time:.6g})",
+            f"largest angle: {self.angle:.4g} rad, {self.angle / self.critical_angle:.4g} of the critical angle",
+            f"slender model: restoring moment up to {self.moment_error:.2%}, base's push up to {self.forcing_error:.2%} too large",
+        )
+        return "\n".join((*figures, *(f"warning: {warning}" for warning in self.warnings)))
+
+
+class Arcs(NamedTuple):
+    """Stretches of a motion between two events, and the side (−1, 0 at rest, 1) of the block on each."""
+
+    starts: Array
+    ends: Array
+    sides: Array
+
+    def where(self, chosen: NDArray[np.bool_]) -> Arcs:
+        """The chosen ones."""
+        return Arcs(*(column[chosen] for column in self))
+
+
+class Extreme(NamedTuple):
+    """A value and where it occurs; the lower, the earlier, the less."""
+
+    value: float
+    time: float
+
+
+def validity(motion: Motion, block: Block) -> Validity:
+    """Say whether `block` can perform `motion` as the model has it; `Validity` tells what is measured.
+
+    The extremes are those of the exact motion: a grid on every arc, refined around each point that can be the extreme.
+    Raises ValueError unless the motion was recorded with record="all".
+
+    Examples
+    --------
+    >>> from rocking import Block, simulate
+    >>> block = Block(height=2.0, width=0.5)
+    >>> motion = simulate(block.system(acceleration=3.0, frequency_hz=1.2), cycles=20)
+    >>> motion.validity(block).friction > 0.25
+    True
+    """
+    moving, resting, leaning = split(motion)
+    period = motion.system.forcing.period
+
+    def upward(times: Array, sides: Array) -> Array:
+        return base_reaction(motion, block, times, sides)[1]
+
+    def hold(times: Array, sides: Array) -> Array:
+        sideways, up = base_reaction(motion, block, times, sides)
+        return np.divide(-np.abs(sideways), up, out=np.full_like(up, -math.inf), where=up > 0)
+
+    reaction = min(least(upward, moving, min(period, 1)), least(upward, resting, period))
+    pulled = Extreme(-math.inf, reaction.time)
+    slides = {
+        "motion": least(hold, moving, min(period, 1)) if reaction.value > 0 else pulled,
+        "impact": impact_friction(motion, block),
+        "rest": min(least(hold, resting, period), Extreme(0.0, 0.0)),
+    }
+    source = min(slides, key=lambda name: slides[name].value)
+    friction, angle = Extreme(abs(slides[source].value), slides[source].time), motion.peak * block.critical_angle
+    errors = slender_errors(block, angle)
+    found = Validity(friction.value, source, friction.time, *reaction, angle, block.critical_angle, *errors)
+    return evolve(found, warnings=tuple(warnings(found, motion, block, leaning)))
+
+
+def base_reaction(motion: Motion, block: Block, times: Array, sides: Array) -> tuple[Array, Array]:
+    """(H/Mg, N/Mg) from the base while the block turns about one corner or rests; positive H pushes to +x.
+
+    With δ = θcr − |θ| the centre of mass has x'' = R (cos δ θ'' ± sin δ θ'²), y'' = R (± sin δ θ'' − cos δ θ'²) relative
+    to the base (± the side), and H/M = a_g + x'', N/M = g + y''. In units of g: R α²/g = MR²/Io.
+    """
+    angle, velocity = motion.at(times)
+    lean = block.critical_angle - block.critical_angle * np.abs(angle)
+    turning = block.critical_angle / block.inertia_ratio * motion.acceleration(times)
+    centripetal = block.critical_angle**2 / block.inertia_ratio * velocity**2
+    push = block.critical_angle * motion.system.forcing.acceleration(times)
+    sideways = push + np.cos(lean) * turning + sides * np.sin(lean) * centripetal
+    return sideways, 1 + sides * np.sin(lean) * turning - np.cos(lean) * centripetal
+
+
+def impact_friction(motion: Motion, block: Block) -> Extreme:
+    """−|J_x|/J_y = −(1 − e)/((1 + e) tan θcr) of an impact, whatever its speed, and the time of the first one."""
+    impacts = motion.events["time"][motion.events["kind"] == "impact"]
+    if impacts.size == 0:
+        return Extreme(math.inf, 0.0)
+    e = motion.system.restitution
+    return Extreme(-(1 - e) / ((1 + e) * math.tan(block.critical_angle)), float(impacts[0]))
+
+
+def slender_errors(block: Block, angle: float) -> tuple[float, float]:
+    """Largest δ/sin δ − 1 and 1/cos δ − 1 for |θ| up to `angle`; infinite from δ = −90° on."""
+    worst = max(block.critical_angle, angle - block.critical_angle)
+    if worst >= math.pi / 2:
+        return math.inf, math.inf
+    return worst / math.sin(worst) - 1, 1 / math.cos(worst) - 1
+
+
+def warnings(found: Validity, motion: Motion, block: Block, leaning: Arcs) -> Iterator[str]:
+    """One sentence for each assumption that fails, and for each thing that is left out."""
+    if ORDINARY_FRICTION < found.friction < math.inf:
+        at = f"({found.friction_source}, τ = {found.friction_time:.6g})"
+        yield f"sliding: only a coefficient of friction of {found.friction:.3g} or more prevents it {at}"
+    if found.reaction <= 0:
+        yield f"base reaction: {found.reaction:.3g} Mg at τ = {found.reaction_time:.6g}, the base would have to pull the block down"
+    if max(found.moment_error, found.forcing_error) > SLENDER_ERROR:
+        yield (
+            f"outside the slender range, θcr = {found.critical_angle:.3g} rad and |θ| up to {found.angle:.3g} rad: the restoring "
+            f"moment is overrated by up to {found.moment_error:.1%}, the base's push by up to {found.forcing_error:.1%}"
+        )
+    if motion.impacts and motion.system.restitution < block.housner_restitution * (1 - 1e-12):
+        yield (
+            f"restitution {motion.system.restitution:.4g} is less than Housner's {block.housner_restitution:.4g}: the base's "
+            "impulse at an impact would have to act outside the base"
+        )
+    if motion.brace_hits:
+        yield f"brace hits: {motion.brace_hits}, whose reactions at the base depend on where the brace acts, are left out"
+    if leaning.starts.size:
+        share = np.sum(leaning.ends - leaning.starts) / motion.duration
+        yield f"leaning: the base reactions during {share:.1%} of the time depend on where the brace acts and are left out"
+
+
+def split(motion: Motion) -> tuple[Arcs, Arcs, Arcs]:
+    """The arcs of a motion on which the block moves, rests (a period of each: the base repeats itself), leans on a brace."""
+    edges = np.unique(np.concatenate(([0.0], motion.events["time"], [motion.duration])))
+    long = np.diff(edges) > SHORTEST_ARC
+    starts, ends = edges[:-1][long], edges[1:][long]
+    middles = (starts + ends) / 2
+    angle, velocity = motion.at(middles)
+    still = (velocity == 0) & (motion.acceleration(middles) == 0)
+    leans = still & (angle != 0) & (motion.system.braces is not None)
+    rests = still & (angle == 0)
+    arcs = Arcs(
+        starts, np.where(rests, np.minimum(ends, starts + motion.system.forcing.period), ends), np.sign(angle)
+    )
+    return arcs.where(~rests & ~leans), arcs.where(rests), arcs.where(leans)
+
+
+def least(measure: Measure, arcs: Arcs, scale: float) -> Extreme:
+    """Least value of a `measure` of times and sides over all `arcs`, on which it varies over times of `scale`.
+
+    The least value can lie beside a grid point that is no higher than its neighbours, and no deeper below it than they
+    are above (the measure is convex there): where that is not above the best point of the grid, the search goes on.
+    """
+    from scipy.optimize import elementwise
+
+    best = Extreme(math.inf, 0.0)
+    for times, sides, which in grids(arcs, scale):
+        values = measure(times, sides)
+        best = min(best, lowest(values, times))
+        before, here, after = values[:-2], values[1:-1], values[2:]
+        bracketed = (which[:-2] == which[2:]) & (here <= before) & (here <= after) & np.isfinite(here)
+        chosen = np.flatnonzero(bracketed)
+        chosen = chosen[2 * here[chosen] - np.maximum(before, after)[chosen] <= best.value]
+        if chosen.size:
+            bracket = (times[chosen], times[chosen + 1], times[chosen + 2])
+            refined = elementwise.find_minimum(measure, bracket, args=(sides[chosen + 1],))
+            best = min(best, lowest(refined.f_x, refined.x))
+    return best
+
+
+def lowest(values: Array, times: Array) -> Extreme:
+    """The least of some values."""
+    index = int(np.argmin(values))
+    return Extreme(float(values[index]), float(times[index]))
+
+
+def grids(arcs: Arcs, scale: float) -> Iterator[tuple[Array, Array, NDArray[np.intp]]]:
+    """Times on the arcs, both ends included (the last instant is the one before the event), sides, and which arc each is on."""
+    steps = 8 + np.ceil(POINTS_PER_PERIOD * (arcs.ends - arcs.starts) / scale)
+    steps = np.minimum(steps, POINTS_AT_ONCE).astype(int)
+    batches = np.cumsum(steps) // POINTS_AT_ONCE
+    for batch in np.unique(batches):
+        chosen, points = arcs.where(batches == batch), steps[batches == batch] + 1
+        which = np.repeat(np.arange(points.size), points)
+        step = np.arange(which.size) - (np.cumsum(points) - points)[which]
+        times = chosen.starts[which] + (chosen.ends - chosen.starts)[which] * (step / (points[which] - 1))
+        yield np.minimum(times, np.nextafter(chosen.ends, -math.inf)[which]), chosen.sides[which], which

@@ -1,0 +1,1 @@
+"""Papers reproduced with the public names alone; one folder a paper."""

@@ -1,0 +1,163 @@
+"""The block itself, rocking on its moving base."""
+
+import math
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+from matplotlib.text import Text
+from numpy.typing import NDArray
+
+from rocking.model.block import Block
+from rocking.model.errors import within
+from rocking.model.system import System
+from rocking.plot import style
+from rocking.plot.film import check_film, write_film
+from rocking.plot.quantities import quantities
+from rocking.plot.scene import Scene
+from rocking.plot.time_history import draw_history
+from rocking.plot.trace import fall, window
+
+NOMINAL = Block(height=2.0, width=0.5)
+CYCLES_SHOWN = 10
+SIZE, DOTS = (6.4, 5.6), 100
+
+
+def animation(
+    motion,
+    path: str | Path,
+    block: Block | None = None,
+    seconds: float = 10.0,
+    fps: float = 25.0,
+    cycles: tuple[float, float] | None = None,
+) -> Path:
+    """Films the block on its moving base, above its time history, as a GIF or an MP4.
+
+    Parameters
+    ----------
+    motion : Motion
+        Recorded with ``record="all"``.
+    path : str or Path
+        The film; ``.gif`` or ``.mp4``.
+    block : Block, optional
+        Gives proportions and SI units; a nominal block of 4 to 1 and normalised units if not given.
+    seconds, fps : float
+        Length of the film, 0.1 to 600 s, and its frames per second, 1 to 100; a GIF runs at exactly `fps` only if that
+        divides 100.
+    cycles : tuple of float, optional
+        First and last forcing cycle shown, counted from the start. The last ten cycles if not given; if the motion
+        overturned, on to the end of the fall.
+
+    Returns
+    -------
+    Path
+        The film, which appears under its name only once it is complete.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If a value does not lie in its range, or the motion kept no events.
+
+    Notes
+    -----
+    Small angles are exaggerated, and the base's displacement is drawn larger or smaller where otherwise it could not be
+    seen; the picture says by how much. A fall follows eq. 4 (Yim and Lin 1991), which holds for small angles, to 90°.
+
+    Examples
+    --------
+    >>> import rocking as rk, tempfile
+    >>> system = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925)
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     rk.plot.animation(rk.simulate(system, cycles=20), f"{folder}/block.gif", seconds=0.4).name
+    'block.gif'
+    """
+    path = check_film(path)
+    count = max(2, round(within("seconds", seconds, 0.1, 600.0) * within("fps", fps, 1.0, 100.0)))
+    start, stop = _window(motion, block or NOMINAL, cycles)
+    return write_film(path, _Film(motion, block, np.linspace(start, stop, count), seconds).frames(), fps)
+
+
+def _window(motion, block: Block, cycles: tuple[float, float] | None) -> tuple[float, float]:
+    if cycles is not None:
+        return window(motion, cycles)
+    shown = CYCLES_SHOWN * motion.system.forcing.period
+    if motion.overturning is None:
+        return max(0.0, motion.duration - shown), motion.duration
+    start = max(0.0, motion.overturning.time - shown)
+    flat = fall(motion, block.angle(degrees=90))
+    return start, flat + 0.08 * (flat - start)
+
+
+class _Film:
+    """The frames of a motion at the instants `times` (τ): a scene above the time history, with one dot on it."""
+
+    def __init__(self, motion, block: Block | None, times: NDArray, seconds: float) -> None:
+        body = block or NOMINAL
+        self.times, self.shown = times, quantities(block)
+        flat = body.angle(degrees=90)
+        self.angles = np.clip(motion.at(times)[0], -flat, flat)
+        self.figure = Figure(SIZE, dpi=DOTS)
+        self.figure.set_layout_engine("constrained", rect=(0.0, 0.0, 1.0, 0.9))
+        above, below = self.figure.subplots(2, 1, height_ratios=(2.6, 1))
+        factors = self._scene(above, motion.system, body)
+        draw_history(below, motion, times[0], times[-1], block)
+        if motion.overturning is not None:
+            below.set_ylim(self.shown.angle(-1.5), self.shown.angle(1.5))
+        self.cursor = below.axvline(0.0, color=style.IMPACT, linewidth=style.LINE, animated=True)
+        (self.dot,) = below.plot([], [], "o", color=style.IMPACT, markersize=7, animated=True, zorder=5)
+        self.reading = self._write(0.02, "", style.TEXT + 4, ha="left", animated=True)
+        interval = float(self.shown.time(times[1] - times[0]))
+        self.digits = max(1, math.ceil(-math.log10(interval)))
+        pace = interval * (len(times) - 1) / seconds
+        self._write(0.98, self._notes(body, *factors, pace), style.SMALL, ha="right")
+
+    def _notes(self, block: Block, angle_factor: float, base_factor: float, pace: float) -> str:
+        return (
+            f"block {block.height / block.width:.3g} : 1, angle {_said(angle_factor)}\n"
+            f"displacement of the base {_said(base_factor)}\n"
+            f"1 s of film is {pace:.3g} {self.shown.time_unit}"
+        )
+
+    def _write(self, place: float, text: str, size: float, **how) -> Text:
+        return self.figure.text(place, 0.98, text, fontsize=size, va="top", color=style.INK, **how)
+
+    def _scene(self, ax: Axes, system: System, block: Block) -> tuple[float, float]:
+        """Draws block, braces and base, so that each can be seen to move; returns the factors in angle and displacement."""
+        limit = float(np.abs(self.angles).max()) if system.braces is None else system.braces.angle
+        factor = 1.0 if limit == 0 or limit > 0.35 else _round(0.35 / limit)
+        brace = None if system.braces is None else factor * block.radians(limit)
+        forcing = system.forcing
+        stretch = block.acceleration(1.0) / (math.tau * block.hertz(forcing.frequency)) ** 2
+        largest = forcing.amplitude * stretch / block.height
+        base_factor = 1.0 if largest == 0 else _round(min(max(largest, 0.08), 0.3) / largest)
+        base = -base_factor * stretch * forcing.acceleration(self.times)
+        self.scene = Scene(ax, block, factor * block.radians(self.angles), base, brace)
+        return factor, base_factor
+
+    def frames(self) -> Iterator[NDArray]:
+        """The pictures one after the other, as RGB arrays; only what moves is drawn anew."""
+        canvas = FigureCanvasAgg(self.figure)
+        canvas.draw()
+        still = canvas.copy_from_bbox(self.figure.bbox)
+        for frame, (time, angle) in enumerate(zip(self.times, self.angles, strict=True)):
+            canvas.restore_region(still)
+            time, angle = float(self.shown.time(time)), float(self.shown.angle(angle))
+            self.dot.set_data([time], [angle])
+            self.cursor.set_xdata([time, time])
+            self.reading.set_text(self.shown.reading.format(time, self.digits, angle).replace("-", "−"))
+            for part in (*self.scene.move(frame), self.cursor, self.dot, self.reading):
+                self.figure.draw_artist(part)
+            yield np.asarray(canvas.buffer_rgba())[..., :3].copy()
+
+
+def _round(factor: float) -> float:
+    """The nearest of …, 0.5, 1, 2, 5, 10, …"""
+    decade = 10.0 ** math.floor(math.log10(factor))
+    return decade * min((1.0, 2.0, 5.0, 10.0), key=lambda step: abs(math.log(factor / (decade * step))))
+
+
+def _said(factor: float) -> str:
+    return "to scale" if factor == 1 else f"× {factor:.6g}"

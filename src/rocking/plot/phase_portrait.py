@@ -1,0 +1,87 @@
+"""Velocity against angle, with the jumps at impacts."""
+
+import numpy as np
+from matplotlib.axes import Axes
+from numpy.typing import NDArray
+
+from rocking.model.block import Block
+from rocking.plot import style
+from rocking.plot.quantities import Quantities, quantities
+from rocking.plot.trace import inside, trace, window
+
+STRIKES = {"impact": (style.IMPACT, "o"), "brace": (style.BRACE, "s")}
+
+
+def phase_portrait(
+    motion, ax: Axes | None = None, block: Block | None = None, cycles: tuple[float, float] | None = None
+) -> Axes:
+    """Draws velocity against angle; every impact is a stroke from the velocity before it (open) to the one after (full).
+
+    Parameters
+    ----------
+    motion : Motion
+        Recorded with ``record="all"``.
+    ax : matplotlib Axes, optional
+        Drawn into; a new figure, a column wide, if not given.
+    block : Block, optional
+        Gives SI axes, degrees and degrees per second; otherwise the axes are normalised.
+    cycles : tuple of float, optional
+        First and last forcing cycle shown, counted from the start. The whole motion if not given; if it overturned,
+        on past the proof until three times the critical angle.
+
+    Returns
+    -------
+    matplotlib Axes
+
+    Raises
+    ------
+    ValueError
+        If `cycles` does not lie within the motion, or the motion kept no events.
+
+    Notes
+    -----
+    Impacts on the base lie at Θ = 0 (round, eq. 2 of Yim and Lin 1991), those on a brace at ±Θb (square). At e = 1 the
+    open and the full mark of an impact coincide. Marks shrink as there are more of them.
+
+    Examples
+    --------
+    >>> import rocking as rk
+    >>> system = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925)
+    >>> ax = rk.plot.phase_portrait(rk.simulate(system, cycles=60), cycles=(50, 60))
+    >>> [line.get_label() for line in ax.lines if not line.get_label().startswith("_")]
+    ['before impact', 'after impact']
+    """
+    start, stop = window(motion, cycles)
+    time, angle, velocity = trace(motion, start, stop)
+    breaks = 1 + np.flatnonzero((np.diff(time) == 0) & (np.diff(velocity) != 0))
+    shown = quantities(block)
+    ax = style.own(ax, height=3.0)
+    ax.plot(
+        shown.angle(np.insert(angle, breaks, np.nan)),
+        shown.velocity(np.insert(velocity, breaks, np.nan)),
+        color=style.MOTION,
+        linewidth=style.line_width(len(breaks)),
+        gid="motion",
+    )
+    events = inside(motion.events, start, stop)
+    for kind, (colour, marker) in STRIKES.items():
+        _strikes(ax, shown, events[events["kind"] == kind], kind, colour, marker)
+    style.label(ax, shown.angle_label, shown.velocity_label)
+    if np.isin(events["kind"], list(STRIKES)).any():
+        style.key(ax)
+    return ax
+
+
+def _strikes(ax: Axes, shown: Quantities, hits: NDArray, kind: str, colour: str, marker: str) -> None:
+    if not len(hits):
+        return
+    angle, before, after = shown.angle(hits["angle"]), shown.velocity(hits["before"]), shown.velocity(hits["after"])
+    size = 0.8 * style.point_size(len(hits))
+    ax.vlines(angle, before, after, colors=colour, linewidth=style.LINE, gid=f"{kind} strokes")
+    mark = {"linestyle": "none", "marker": marker, "markersize": size, "color": colour, "markeredgewidth": min(0.8, size / 4)}
+    ax.plot(angle, before, markerfacecolor="white", label=f"before {_name(kind)}", gid=f"{kind} before", zorder=3, **mark)
+    ax.plot(angle, after, label=f"after {_name(kind)}", gid=f"{kind} after", zorder=3, **mark)
+
+
+def _name(kind: str) -> str:
+    return "impact" if kind == "impact" else "brace hit"

@@ -1,0 +1,81 @@
+"""Stroboscopic points."""
+
+import math
+
+import numpy as np
+from matplotlib.axes import Axes
+
+from rocking.model.block import Block
+from rocking.plot import style
+from rocking.plot.quantities import quantities
+
+RASTERISED_FROM = 2000
+
+
+def section(
+    result, ax: Axes | None = None, block: Block | None = None, phase: float | None = None, transient: int = 0
+) -> Axes:
+    """Draws the states of a motion at one phase of the forcing, cycle after cycle (Poincaré map).
+
+    Parameters
+    ----------
+    result : Motion or array of shape (n, 2)
+        A motion (recorded with ``record="section"`` or ``"all"``), or points (Θ, Θ').
+    ax : matplotlib Axes, optional
+        Drawn into; a new figure, a column wide, if not given.
+    block : Block, optional
+        Gives SI axes, degrees and degrees per second; otherwise the axes are normalised.
+    phase : float, optional
+        Forcing phase of the section, rad; by default the forcing's own, at which the motion started.
+    transient : int
+        How many points are left out at the start.
+
+    Returns
+    -------
+    matplotlib Axes
+
+    Raises
+    ------
+    ValueError
+        If no point is left to draw.
+
+    Notes
+    -----
+    Every point is drawn; marks shrink from 5 pt (10 points) to a fraction of a point (10⁶). From 2,000 points on they
+    are an image inside a vector file, so that the file stays small.
+
+    Examples
+    --------
+    >>> import rocking as rk
+    >>> system = rk.System(rk.Harmonic(amplitude=6.5, period=0.4), restitution=0.925)
+    >>> ax = rk.plot.section(rk.simulate(system, cycles=600), transient=300)
+    >>> len(ax.lines[0].get_xdata())
+    301
+    """
+    is_motion = hasattr(result, "section")
+    points = np.asarray(result.section(phase) if is_motion else result)[transient:]
+    if not len(points):
+        raise ValueError(f"transient must leave at least one point of the section; got {transient}")
+    if is_motion and phase is None:
+        phase = result.system.forcing.phase
+    shown = quantities(block)
+    ax = style.own(ax, height=2.9)
+    ax.plot(
+        shown.angle(points[:, 0]),
+        shown.velocity(points[:, 1]),
+        linestyle="none",
+        marker="o",
+        markersize=style.point_size(len(points)),
+        markeredgewidth=0,
+        color=style.MOTION,
+        rasterized=len(points) >= RASTERISED_FROM,
+        gid="section",
+    )
+    style.label(ax, shown.angle_label, shown.velocity_label)
+    if phase is not None:
+        ax.set_title(rf"$\psi = {_angle(phase)}$ (mod $2\pi$)", loc="right", fontsize=style.SMALL, color=style.INK)
+    return ax
+
+
+def _angle(phase: float) -> str:
+    return f"{phase % (2 * math.pi):.4g}"

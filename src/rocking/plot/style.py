@@ -1,0 +1,105 @@
+"""How every picture looks: sizes, colours and labels, in one place.
+
+Sizes are chosen for a journal's column (88 mm wide). The colours are those of Okabe and Ito, which colour-blind readers
+tell apart. Everything is set on the artists themselves; matplotlib's global settings and backend are never touched.
+"""
+
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+COLUMN = 3.5
+PAGE = 7.2
+TEXT = 9.0
+SMALL = 8.0
+LINE = 1.0
+THIN = 0.6
+
+MOTION = "#0072B2"
+IMPACT = "#D55E00"
+BRACE = "#009E73"
+TABLE = "#CFCFCF"
+BLOCK = "#E8C07D"
+INK = "#262626"
+GUIDE = "#9A9A9A"
+
+
+def own(ax: Axes | None, height: float = 2.4) -> Axes:
+    """The axes given, or those of a new figure, a column wide and `height` inches high, which needs no display."""
+    if ax is not None:
+        return ax
+    return Figure(figsize=(COLUMN, height), layout="constrained").add_subplot()
+
+
+def panels(rows: int = 1, columns: int = 1, height: float = 2.4, ratios: tuple[float, ...] | None = None):
+    """A new figure of `rows` × `columns` axes, each row `height` inches high: a column wide, or a page if they stand abreast.
+
+    Parameters
+    ----------
+    rows, columns : int
+        How many axes, top to bottom and left to right.
+    height : float
+        Of one row, in inches.
+    ratios : tuple of float, optional
+        Relative widths of the columns.
+
+    Returns
+    -------
+    tuple
+        The matplotlib figure and its axes in reading order, lettered (a), (b), … where there are several.
+
+    Examples
+    --------
+    >>> import rocking as rk
+    >>> figure, (left, right) = rk.plot.panels(columns=2, ratios=(2, 1))
+    >>> left.get_title(loc="left"), right.get_title(loc="left")
+    ('(a)', '(b)')
+    """
+    figure = Figure(figsize=(COLUMN if columns == 1 else PAGE, height * rows), layout="constrained")
+    axes = list(figure.subplots(rows, columns, squeeze=False, width_ratios=ratios).flat)
+    for letter, ax in zip("abcdefghijkl", axes, strict=False):
+        if len(axes) > 1:
+            title(ax, f"({letter})")
+    return figure, axes
+
+
+def title(ax: Axes, text: str) -> None:
+    """Writes `text` above the axes at the left; a panel's letter already there stays in front of it."""
+    letter = ax.get_title(loc="left")
+    ax.set_title(f"{letter} {text}" if letter else text, loc="left", fontsize=TEXT, color=INK)
+
+
+def label(ax: Axes, x: str, y: str) -> None:
+    """Labels both axes with symbol and unit, and gives ticks and frame their sizes."""
+    ax.set_xlabel(x, fontsize=TEXT, color=INK)
+    ax.set_ylabel(y, fontsize=TEXT, color=INK)
+    ax.tick_params(labelsize=SMALL, color=INK, labelcolor=INK, width=THIN)
+    for side, spine in ax.spines.items():
+        spine.set(visible=side in ("left", "bottom"), linewidth=THIN, edgecolor=INK)
+
+
+def key(ax: Axes) -> None:
+    """A legend under the label of the horizontal axis, clear of titles and of what is drawn."""
+    ax.legend(
+        loc="upper center",
+        bbox_to_anchor=(0.5, 0.0),
+        borderaxespad=3.8,  # in sizes of its text: past the ticks' numbers and the label
+        ncols=2,
+        fontsize=SMALL,
+        labelcolor=INK,
+        frameon=False,
+        handletextpad=0.2,
+        columnspacing=1.2,
+    )
+
+
+def point_size(count: int) -> float:
+    """Diameter in points of one of `count` markers: 10 are seen one by one, 10⁶ still show where they are dense.
+
+    The area falls as 1/√count, so that the ink grows with the number of points but does not flood the picture.
+    """
+    return min(5.0, max(0.25, 5.0 * (max(count, 10) / 10) ** -0.25))
+
+
+def line_width(count: int) -> float:
+    """Width in points of a line that runs `count` times through the same region: it gets thinner from 20 times on."""
+    return LINE * (max(count, 20) / 20) ** -0.25

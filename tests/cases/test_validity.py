@@ -1,0 +1,248 @@
+"""Base reactions, impulses and the slender range, against a rigid rectangle whose corners and centre are placed by geometry alone."""
+
+import math
+from itertools import pairwise
+
+import mpmath as mp
+import numpy as np
+import pytest
+
+from rocking import Block, Braces, Harmonic, State, System, simulate
+from rocking.motion.validity import base_reaction, impact_friction
+
+GRAVITY = 9.80665
+TALL = Block(height=2.0, width=0.3)
+SQUAT = Block(height=1.0, width=0.6, restitution=0.7)
+HOLLOW = Block(height=3.0, width=0.9, inertia_ratio=1.6)
+
+CASES = {
+    "(1,1), tall block": (2.0, 1.0, 0.925, TALL),
+    "(1,3), squat block": (6.5, 0.4, 0.925, SQUAT),
+    "chaotic, hollow block": (10.103037, 1.721328, 0.8, HOLLOW),
+    "slow shaking, chatter and rest": (1.3, 6.0, 0.5, TALL),
+}
+
+
+def run(amplitude, period, restitution, cycles=12, start=None, braces=None):
+    system = System(Harmonic(amplitude=amplitude, period=period), restitution=restitution, braces=braces)
+    return simulate(system, start or State(), cycles=cycles)
+
+
+def centre(block, angle, height=0):
+    """Centre of mass of the rectangle turned by `angle` (clockwise) about its right corner, or its left one for `angle` < 0.
+
+    The base corners lie at ±B/2 and height 0 before; a point (x, y) relative to the pivot turns to (x cos + y sin, y cos − x sin).
+    """
+    pivot = mp.mpf(block.width) / 2 * (1 if angle > 0 else -1)
+    x, y = -pivot, mp.mpf(block.height) / 2
+    return pivot + x * mp.cos(angle) + y * mp.sin(angle), y * mp.cos(angle) - x * mp.sin(angle)
+
+
+def flights(motion, most=8):
+    """(start, end, side, Θ, Θ') of some arcs between two impacts at Θ = 0."""
+    events = motion.events
+    inner = [
+        (before, after)
+        for before, after in pairwise(events)
+        if before["kind"] == after["kind"] == "impact" and after["time"] - before["time"] > 1e-3
+    ]
+    return [
+        (b["time"], a["time"], math.copysign(1, b["after"]), b["after"])
+        for b, a in inner[:: max(1, len(inner) // most)]
+    ]
+
+
+def reactions_from_positions(motion, block, begun, side, velocity, time):
+    """(H/Mg, N/Mg) from second differences of the centre's position, to 20 digits: eq. (5) gives only the angle."""
+    with mp.workdps(60):
+        forcing = motion.system.forcing
+        frequency, begun = mp.mpf(forcing.frequency), mp.mpf(begun)
+        rate = mp.sqrt(
+            mp.mpf(GRAVITY) / (mp.mpf(block.inertia_ratio) * mp.hypot(block.height, block.width) / 2)
+        )
+        critical = mp.atan2(block.width, block.height)
+        psi = frequency * begun + mp.mpf(forcing.phase)
+        beta = side * mp.mpf(forcing.amplitude) / (1 + frequency**2)
+
+        def place(seconds):
+            t = rate * seconds - begun
+            wave = (
+                mp.cos(psi + frequency * t) - mp.cos(psi) * mp.cosh(t) + frequency * mp.sin(psi) * mp.sinh(t)
+            )
+            height = side * velocity * mp.sinh(t) - (mp.cosh(t) - 1) + beta * wave
+            return centre(block, critical * side * height)
+
+        now, step = mp.mpf(time) / rate, mp.mpf(10) ** -15
+        earlier, here, later = place(now - step), place(now), place(now + step)
+        x, y = ((a - 2 * b + c) / step**2 for a, b, c in zip(earlier, here, later, strict=True))
+        push = (
+            GRAVITY * critical * mp.mpf(forcing.amplitude) * mp.cos(frequency * mp.mpf(time) + forcing.phase)
+        )
+        return float((push + x) / GRAVITY), float((GRAVITY + y) / GRAVITY)
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_base_reaction_is_mass_times_acceleration_of_the_centre_placed_by_geometry(case):
+    amplitude, period, restitution, block = CASES[case]
+    motion = run(amplitude, period, restitution)
+    compared = 0
+    for begun, ended, side, velocity in flights(motion):
+        times = begun + (ended - begun) * np.array([0.02, 0.3, 0.7, 0.98])
+        sideways, upward = base_reaction(motion, block, times, np.full(times.shape, side))
+        for time, *ours in zip(times, sideways, upward, strict=True):
+            exact = reactions_from_positions(motion, block, begun, side, velocity, time)
+            # a state wrong by 1e-14 and a time by half an ulp move the reaction by amplitude times frequency times that
+            np.testing.assert_allclose(
+                ours, exact, rtol=0, atol=1e-13 * max(1, amplitude * 2 * math.pi / period)
+            )
+            compared += 1
+    assert compared >= 8
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_reported_extremes_are_those_of_a_dense_scan_and_never_less(case):
+    amplitude, period, restitution, block = CASES[case]
+    motion = run(amplitude, period, restitution)
+    found = motion.validity(block)
+    friction, reaction, spacing = 0.0, math.inf, 1e-4
+    for begun, ended, side, _ in flights(motion, most=10_000):
+        times = np.linspace(begun, np.nextafter(ended, 0), 9 + int((ended - begun) / spacing))
+        sideways, upward = base_reaction(motion, block, times, np.full(times.shape, side))
+        reaction = min(reaction, upward.min())
+        friction = max(friction, np.max(np.abs(sideways) / upward)) if upward.min() > 0 else math.inf
+    assert found.reaction <= reaction
+    assert found.friction >= friction
+    sides = np.sign(motion.at(found.reaction_time + 1e-12)[0])
+    at_least = base_reaction(motion, block, np.array([found.reaction_time]), np.array([sides]))
+    assert found.reaction == pytest.approx(reaction, abs=1e-6) or at_least[1][0] == pytest.approx(
+        found.reaction, abs=1e-9
+    )
+
+
+def impulse(block, restitution, before=-1.0):
+    """Horizontal and vertical impulse on a block of unit mass at Θ = 0, and where on the base it acts.
+
+    From the momentum of the centre, whose velocity is that of its position, and the moment about it. The place is −1 at
+    the corner about which the block turned until then, 1 at the one that is hit.
+    """
+    after, step = restitution * before, mp.mpf(10) ** -20
+    with mp.workdps(50):
+        right, left = centre(block, step), centre(block, -step)
+        here = (mp.mpf(0), mp.mpf(block.height) / 2)
+        arriving = [before * (there - now) / step for there, now in zip(right, here, strict=True)]
+        leaving = [after * (now - there) / step for there, now in zip(left, here, strict=True)]
+        across, up = (b - a for a, b in zip(arriving, leaving, strict=True))
+        radius = mp.hypot(block.height, block.width) / 2
+        spin = (mp.mpf(block.inertia_ratio) - 1) * radius**2 * (after - before)
+        # clockwise moment of an impulse (across, up) at (p, −H/2) from the centre: −(H/2) across − p up
+        place = -(spin + mp.mpf(block.height) / 2 * across) / up
+        return float(across), float(up), float(-place / (mp.mpf(block.width) / 2))
+
+
+@pytest.mark.parametrize("block", [TALL, SQUAT, HOLLOW], ids=["tall", "squat", "hollow"])
+@pytest.mark.parametrize("restitution", [0.0, 0.3, 0.925, 1.0])
+def test_friction_of_an_impact_is_that_of_the_impulse_that_reverses_the_centre(block, restitution):
+    motion = run(2.0, 1.0, restitution, cycles=4)
+    across, up, _ = impulse(block, restitution)
+    assert up > 0
+    needed, when = impact_friction(motion, block)
+    assert -needed == pytest.approx(abs(across) / up, rel=1e-14, abs=1e-15)
+    assert when == motion.events["time"][motion.events["kind"] == "impact"][0]
+
+
+@pytest.mark.parametrize(
+    "block", [TALL, HOLLOW, Block(height=1.0, width=0.6)], ids=["tall", "hollow", "squat"]
+)
+def test_housner_restitution_puts_the_impulse_at_the_corner_that_is_hit_and_less_puts_it_outside(block):
+    assert impulse(block, block.housner_restitution)[2] == pytest.approx(1, abs=1e-13)
+    for change, inside in ((1e-3, True), (-1e-3, False)):
+        restitution = block.housner_restitution + change
+        assert (impulse(block, restitution)[2] < 1) is inside
+        warned = any("Housner" in warning for warning in run(2.0, 1.0, restitution).validity(block).warnings)
+        assert warned is not inside
+
+
+def test_impact_governs_a_slender_block_with_little_restitution():
+    found = run(2.0, 1.0, 0.5).validity(TALL)
+    assert found.friction_source == "impact"
+    assert found.friction == pytest.approx(0.5 / 1.5 / (0.3 / 2.0), rel=1e-14)
+    assert any("coefficient of friction" in warning for warning in found.warnings)
+
+
+def test_block_that_never_moves_needs_only_the_friction_of_rest():
+    found = run(0.7, 1.0, 0.9, cycles=3).validity(TALL)
+    assert (found.friction_source, found.friction_time) == ("rest", 0.0)
+    assert found.friction == pytest.approx(0.7 * math.atan(0.15), rel=1e-15)
+    assert (found.reaction, found.angle, found.warnings) == (1.0, 0.0, ())
+
+
+def test_friction_of_rest_is_sought_only_while_the_block_rests():
+    motion = run(1.3, 6.0, 0.0, cycles=6)
+    assert (motion.events["kind"] == "rest").any()
+    assert motion.validity(TALL).friction >= 0.999 * TALL.critical_angle
+
+
+def test_free_block_released_at_an_angle_needs_the_friction_of_its_release():
+    """At the release, A = 0: H/Mg = cos δ θ''/k and N/Mg = 1 + sin δ θ''/k with θ'' = −δ (in units of α²), k = Io/MR²."""
+    block = Block(height=2.0, width=1.9, restitution=1.0)
+    found = run(0.0, 1.0, 1.0, start=State(angle=0.9), cycles=3).validity(block)
+    lean = np.linspace(0.1, 1, 100_001) * block.critical_angle
+    speed = np.sqrt(lean**2 - (0.1 * block.critical_angle) ** 2)
+    upward = 1 - (lean * np.sin(lean) + speed**2 * np.cos(lean)) / block.inertia_ratio
+    sideways = (-lean * np.cos(lean) + speed**2 * np.sin(lean)) / block.inertia_ratio
+    assert found.reaction == pytest.approx(upward.min(), abs=1e-9)
+    assert found.friction == pytest.approx(np.max(np.abs(sideways) / upward), abs=1e-9)
+    assert found.angle == pytest.approx(0.9 * block.critical_angle, rel=1e-14)
+
+
+def test_base_that_would_have_to_pull_makes_every_friction_too_small():
+    found = run(15.0, 2.0, 0.925, braces=Braces(angle=1.0)).validity(
+        Block(height=1.0, width=0.6, restitution=0.9)
+    )
+    assert found.reaction < 0
+    assert (found.friction, found.friction_time) == (math.inf, found.reaction_time)
+    assert any("pull" in warning for warning in found.warnings)
+
+
+def test_brace_hits_and_leaning_are_left_out_and_named():
+    found = run(15.0, 2.0, 0.925, braces=Braces(angle=1.0)).validity(TALL)
+    assert any("brace hits" in warning for warning in found.warnings)
+    leaning = run(20.0, 3.0, 0.9, braces=Braces(angle=0.4, restitution=0.0), cycles=4)
+    assert (leaning.events["kind"] == "lean").any()
+    events = leaning.events
+    ended = np.append(events["time"][1:], leaning.duration)
+    share = np.sum((ended - events["time"])[events["kind"] == "lean"]) / leaning.duration
+    assert any(
+        f"leaning: the base reactions during {share:.1%}" in warning
+        for warning in leaning.validity(TALL).warnings
+    )
+
+
+@pytest.mark.parametrize(("angle", "warned"), [(0.5, False), (3.0, False), (4.0, True)])
+def test_slender_range_is_left_by_large_angles_with_the_error_named(angle, warned):
+    """θcr = 0.149: restoring moment and push are computed with sin δ ≈ δ and cos δ ≈ 1, δ = θcr − |θ|."""
+    motion = run(0.0, 1.0, 0.9, start=State(angle=angle), cycles=1, braces=Braces(angle=angle))
+    found = motion.validity(TALL)
+    lean = TALL.critical_angle - np.linspace(0, found.angle, 1001)
+    moment, push = np.max(lean / np.sin(lean) - 1), np.max(1 / np.cos(lean) - 1)
+    assert (found.moment_error, found.forcing_error) == pytest.approx((moment, push), rel=1e-9)
+    sentences = [warning for warning in found.warnings if "slender" in warning]
+    assert bool(sentences) is warned
+    assert all(f"{push:.1%}" in sentence for sentence in sentences)
+
+
+def test_overturning_motion_is_judged_up_to_its_proof():
+    motion = run(1.75, 2.0, 0.95, cycles=50)
+    found = motion.validity(TALL)
+    assert motion.overturning is not None
+    assert found.reaction_time <= motion.duration
+    assert 0 < found.friction < math.inf
+
+
+def test_report_reads_as_lines_and_an_unrecorded_motion_is_refused():
+    system = System(Harmonic(amplitude=2.0, period=1.0), restitution=0.925)
+    text = str(simulate(system, cycles=5).validity(SQUAT))
+    assert text.splitlines()[0].startswith("least friction without sliding: 0.")
+    assert "warning: outside the slender range" in text
+    with pytest.raises(ValueError, match='record="all"'):
+        simulate(system, cycles=5, record="none").validity(TALL)

@@ -1,0 +1,124 @@
+"""Any valid system, however odd, runs to the end of its budget: no hang, no crash, no NaN, and the same outcome whatever is recorded."""
+
+import math
+import random
+
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from rocking import Braces, Harmonic, Outcome, State, System, TooManyEvents, simulate
+
+LONGEST = 400.0  # τ
+SYSTEMS = 10_000
+MOST_CROWDED = 1e-3
+
+
+def check(system, start, cycles):
+    """Run it with every record and compare; returns whether it met more events than may be kept."""
+    cycles = max(1, min(cycles, int(LONGEST / system.forcing.period)))
+    try:
+        motions = [
+            simulate(system, start, cycles=cycles, record=record) for record in ("none", "section", "all")
+        ]
+    except TooManyEvents:
+        return True
+    for motion in motions:
+        consistent(motion, cycles)
+    assert len({motion.outcome for motion in motions}) == 1
+    assert len({motion.cycles for motion in motions}) == 1
+    assert motions[1].section().shape == (motions[1].cycles + 1, 2)
+    return False
+
+
+def consistent(motion, cycles):
+    """What holds of every motion."""
+    final, braces = motion.final, motion.system.braces
+    reach = math.inf if braces is None else braces.angle
+    assert math.isfinite(final.angle)
+    assert math.isfinite(final.velocity)
+    assert abs(final.angle) <= motion.peak <= reach
+    assert motion.impacts >= 0
+    assert motion.brace_hits >= 0
+    assert braces is not None or motion.brace_hits == 0
+    overturned = motion.outcome is Outcome.OVERTURNED
+    assert (motion.overturning is not None) is overturned
+    assert not (overturned and braces)
+    assert motion.cycles <= cycles
+    assert motion.cycles == cycles or overturned
+    if motion.outcome is Outcome.AT_REST:
+        assert final.velocity == 0
+        assert abs(final.angle) in (0, reach)
+
+
+def anything(rng):
+    """A valid system, start and number of cycles: all scales, and often the values at which something changes."""
+
+    def among(special, low, high):
+        return (
+            rng.choice(special)
+            if rng.random() < 0.25
+            else math.exp(rng.uniform(math.log(low), math.log(high)))
+        )
+
+    forcing = Harmonic(
+        amplitude=among((0.0, 1.0, 1 - 2**-53, 1 + 2**-52, 1.5, 1000.0), 1e-2, 1e3),
+        period=among((1.0, 0.4, 2.0, 2 * math.pi), 7e-3, 6e3),
+        phase=rng.choice((0.0, math.pi, math.pi / 2, rng.uniform(-1000, 1000))),
+    )
+    restitution = rng.choice((0.0, 1.0, 1 - 2**-53, rng.random(), rng.random(), rng.random()))
+    braces = None
+    if rng.random() < 0.5:
+        bounce = rng.choice((0.0, 1.0, 1 - 2**-53, rng.random(), rng.random()))
+        braces = Braces(among((1.0, 0.5, 2.0), 1e-3, 10), bounce)
+    reach = 2.0 if braces is None else braces.angle
+    start = State(
+        angle=rng.choice((0.0, reach, -reach, 1e-15, rng.uniform(-reach, reach))),
+        velocity=rng.choice((0.0, 1e-12, rng.uniform(-1, 1), rng.uniform(-100, 100))),
+    )
+    return System(forcing, restitution, braces), start, rng.randint(1, 200)
+
+
+def run_many(seed, systems):
+    rng, crowded = random.Random(seed), 0
+    for number in range(systems):
+        system, start, cycles = anything(rng)
+        try:
+            crowded += check(system, start, cycles)
+        except Exception as error:
+            error.add_note(f"system {number} of seed {seed}: {system}, {start}, {cycles} cycles")
+            raise
+    return crowded
+
+
+@pytest.mark.parametrize("seed", range(2))
+def test_random_systems_run_to_the_end_of_their_budget(seed):
+    assert run_many(seed, SYSTEMS) <= MOST_CROWDED * SYSTEMS
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("seed", range(2, 102))
+def test_a_million_random_systems_run_to_the_end_of_their_budget(seed):
+    assert run_many(seed, SYSTEMS) <= MOST_CROWDED * SYSTEMS
+
+
+def floats(low, high):
+    return st.floats(low, high, allow_nan=False)
+
+
+@st.composite
+def systems(draw):
+    """The whole of what the values accept."""
+    forcing = Harmonic(
+        amplitude=draw(floats(0, 1e3)), frequency=draw(floats(1e-2, 1e3)), phase=draw(floats(-1e3, 1e3))
+    )
+    braces = draw(st.none() | st.builds(Braces, floats(1e-3, 1e3), floats(0, 1)))
+    reach = 1e3 if braces is None else braces.angle
+    start = State(draw(floats(-reach, reach)), draw(floats(-1e3, 1e3)))
+    return System(forcing, draw(floats(0, 1)), braces), start, draw(st.integers(1, 200))
+
+
+@given(systems())
+@settings(max_examples=500, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+def test_systems_that_hypothesis_invents_run_to_the_end_of_their_budget(case):
+    check(*case)

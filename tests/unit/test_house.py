@@ -1,0 +1,116 @@
+"""What a machine can check of the house: sizes, docstrings, doors, pinned versions, and that nothing points outside."""
+
+import ast
+import re
+import tomllib
+from pathlib import Path
+
+import pytest
+from packaging.requirements import Requirement
+from packaging.utils import canonicalize_name
+
+ROOT = Path(__file__).parents[2]
+PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
+MODULES = sorted((ROOT / "src").rglob("*.py"))
+MADE = {"results", "build", "dist", "__pycache__"}
+TEXTS = {"", ".cff", ".json", ".md", ".py", ".sh", ".toml", ".txt"}
+CONSTRAINTS = sorted((ROOT / "constraints").iterdir())
+
+
+def own_texts(folder=ROOT):
+    for path in sorted(folder.iterdir()):
+        hidden = path.name.startswith(".") and path.name not in {".ci", ".gitignore"}
+        if hidden or path.name in MADE or path.suffix == ".egg-info":
+            continue
+        if path.is_dir():
+            yield from own_texts(path)
+        elif path.suffix in TEXTS or path.name == ".gitignore":
+            yield path
+
+
+def named(path):
+    return str(path.relative_to(ROOT))
+
+
+def room_of(module):
+    """`rocking.motion.simulate` → `motion`; None for the package itself and for others' packages."""
+    package, _, rest = module.partition(".")
+    return rest.partition(".")[0] or None if package == "rocking" else None
+
+
+def imported_modules(path):
+    here = path.relative_to(ROOT / "src").with_suffix("").parts
+    for node in ast.walk(ast.parse(path.read_text())):
+        if isinstance(node, ast.Import):
+            yield from (alias.name for alias in node.names)
+        elif isinstance(node, ast.ImportFrom):
+            above = here[: -node.level] if node.level else ()
+            yield ".".join([*above, *([node.module] if node.module else [])])
+
+
+@pytest.mark.parametrize("path", MODULES, ids=named)
+def test_module_says_what_it_is_and_stays_short(path):
+    source = path.read_text()
+    tree = ast.parse(source)
+    assert ast.get_docstring(tree)
+    assert len(source.splitlines()) <= 320
+    functions = [node for node in ast.walk(tree) if isinstance(node, ast.FunctionDef)]
+    assert [f.name for f in functions if body_length(f) > 70] == []
+
+
+def body_length(function):
+    """Lines of a function without its docstring."""
+    documented = ast.get_docstring(function) is not None
+    docstring = function.body[0].end_lineno - function.body[0].lineno + 1 if documented else 0
+    return function.end_lineno - function.lineno + 1 - docstring
+
+
+@pytest.mark.parametrize("path", MODULES, ids=named)
+def test_rooms_are_entered_by_their_front_door(path):
+    own = path.relative_to(ROOT / "src").parts[1]
+    deep = [module for module in imported_modules(path) if room_of(module) and module.count(".") > 1]
+    assert [module for module in deep if room_of(module) != own] == []
+
+
+def test_nothing_points_at_one_machine_or_is_left_to_do():
+    machine = re.compile(r"(?<![\w.~:/])/(?:home|root|Users|work|tmp)/\w|\b[A-Z]:\\")
+    undone = re.compile(r"\b(?:TO" + r"DO|FIX" + r"ME|X" + r"XX)\b")
+    found = [
+        f"{named(path)}:{number}: {line.strip()}"
+        for path in own_texts()
+        for number, line in enumerate(path.read_text().splitlines(), 1)
+        if machine.search(line) or undone.search(line)
+    ]
+    assert found == []
+
+
+def test_own_texts_reach_every_corner():
+    reached = {named(path) for path in own_texts()}
+    assert {".ci/run", "Makefile", "README.md", "scripts/setup.sh", "tests/unit/test_house.py"} <= reached
+    assert not any(path.startswith((".venv", ".git/")) for path in reached)
+
+
+@pytest.mark.parametrize("path", CONSTRAINTS, ids=named)
+def test_constraints_pin_every_dependency_by_version_alone(path):
+    lines = [line for line in path.read_text().splitlines() if not line.startswith("#")]
+    assert [line for line in lines if not re.fullmatch(r"[\w.-]+==[\w.]+", line)] == []
+    pinned = {canonicalize_name(name): version for name, version in (line.split("==") for line in lines)}
+    extras = PROJECT["optional-dependencies"].values()
+    wanted = [Requirement(text) for group in (PROJECT["dependencies"], *extras) for text in group]
+    assert [str(r) for r in wanted if pinned.get(canonicalize_name(r.name), "") not in r.specifier] == []
+
+
+def test_every_python_from_the_oldest_allowed_is_pinned():
+    oldest = int(PROJECT["requires-python"].removeprefix(">=3."))
+    minors = sorted(int(path.stem.removeprefix("python-3.")) for path in CONSTRAINTS)
+    assert minors == list(range(oldest, oldest + len(minors)))
+
+
+def test_build_machine_runs_make_test():
+    assert re.search(r"^exec make test\b", (ROOT / ".ci/run").read_text(), re.MULTILINE)
+
+
+def test_citation_gives_the_version_of_the_package():
+    from rocking import __version__
+
+    assert f"\nversion: {__version__}\n" in (ROOT / "CITATION.cff").read_text()

@@ -1,0 +1,70 @@
+"""Files are whole or not there, and what stood there before stays until the new one is whole."""
+
+import pytest
+
+from rocking.model.files import check_writable, replacing
+
+
+def names(folder):
+    return sorted(path.name for path in folder.iterdir())
+
+
+def test_file_appears_under_its_name_only_once_complete(tmp_path):
+    target = tmp_path / "table.csv"
+    with replacing(target) as temporary:
+        assert temporary.suffix == ".csv"
+        assert temporary.parent == tmp_path
+        temporary.write_text("whole")
+        assert not target.exists()
+    assert names(tmp_path) == ["table.csv"]
+    assert target.read_text() == "whole"
+
+
+@pytest.mark.parametrize("failure", [RuntimeError, KeyboardInterrupt, SystemExit])
+def test_failure_leaves_the_old_file_and_nothing_else(tmp_path, failure):
+    target = tmp_path / "table.csv"
+    target.write_text("old")
+
+    def fail():
+        with replacing(target) as temporary:
+            temporary.write_text("half")
+            raise failure
+
+    with pytest.raises(failure):
+        fail()
+    assert names(tmp_path) == ["table.csv"]
+    assert target.read_text() == "old"
+
+
+def test_link_is_followed(tmp_path):
+    (tmp_path / "real.csv").write_text("old")
+    (tmp_path / "link.csv").symlink_to("real.csv")
+    with replacing(tmp_path / "link.csv") as temporary:
+        temporary.write_text("new")
+    assert (tmp_path / "link.csv").is_symlink()
+    assert (tmp_path / "real.csv").read_text() == "new"
+
+
+def test_new_file_is_readable_by_those_whom_the_umask_allows(tmp_path):
+    (tmp_path / "plain").write_text("")
+    with replacing(tmp_path / "ours") as temporary:
+        temporary.write_text("")
+    assert (tmp_path / "ours").stat().st_mode == (tmp_path / "plain").stat().st_mode
+
+
+def test_writable_path_is_returned_and_not_created(tmp_path):
+    assert check_writable("--csv", tmp_path / "A.CSV", (".csv",)) == tmp_path / "A.CSV"
+    assert names(tmp_path) == []
+
+
+def test_unwritable_paths_are_refused_in_one_line(tmp_path):
+    (tmp_path / "folder.csv").mkdir()
+    for path, message in {
+        tmp_path / "a.txt": "--csv must end in .csv; got ",
+        tmp_path / "none" / "a.csv": "--csv must lie in an existing folder; got ",
+        tmp_path / "folder.csv": "--csv must be a file's name; got ",
+    }.items():
+        with pytest.raises((ValueError, OSError)) as caught:
+            check_writable("--csv", path, (".csv",))
+        assert str(caught.value).startswith(message + repr(str(path)))
+        assert len(str(caught.value).splitlines()) == 1

@@ -1,0 +1,175 @@
+"""Normalised values: what they accept, what they refuse and how, and what they say of themselves."""
+
+import copy
+import math
+import pickle
+from fractions import Fraction
+from functools import partial
+
+import attrs
+import numpy as np
+import pytest
+
+import rocking as rk
+from rocking.model import check_start
+
+SYSTEM = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925)
+
+MAKERS = {
+    "amplitude": (lambda x: rk.Harmonic(x, period=1.0), 0, 1e3),
+    "period": (lambda x: rk.Harmonic(1.0, period=x), 2 * math.pi * 1e-3, 2 * math.pi * 1e3),
+    "frequency": (lambda x: rk.Harmonic(1.0, frequency=x), 1e-3, 1e3),
+    "phase": (lambda x: rk.Harmonic(1.0, period=1.0, phase=x), -1e3, 1e3),
+    "restitution": (lambda x: rk.System(SYSTEM.forcing, x), 0, 1),
+    "angle": (rk.State, -1e3, 1e3),
+    "velocity": (lambda x: rk.State(velocity=x), -1e3, 1e3),
+    "brace angle": (rk.Braces, 1e-3, 1e3),
+    "brace restitution": (lambda x: rk.Braces(1.0, x), 0, 1),
+}
+
+
+def refusal(call, kind=(ValueError, TypeError)):
+    with pytest.raises(kind) as caught:
+        call()
+    message = str(caught.value)
+    assert len(message.splitlines()) == 1
+    return message
+
+
+@pytest.mark.parametrize("name", MAKERS)
+def test_ends_of_the_range_are_allowed_and_what_lies_beyond_is_not(name):
+    make, low, high = MAKERS[name]
+    make(low)
+    make(high)
+    for beyond in (math.nextafter(low, -math.inf), math.nextafter(high, math.inf)):
+        message = refusal(partial(make, beyond), ValueError)
+        assert message.startswith(name.split()[-1] + " must lie in [")
+        assert repr(beyond) in message
+
+
+@pytest.mark.parametrize("name", MAKERS)
+@pytest.mark.parametrize("value", [math.nan, math.inf, -math.inf, np.float64("nan"), 10**400, -(10**400)])
+def test_what_is_not_finite_is_a_value_error(name, value):
+    assert refusal(lambda: MAKERS[name][0](value), ValueError).startswith(name.split()[-1] + " must lie in [")
+
+
+@pytest.mark.parametrize("name", MAKERS)
+@pytest.mark.parametrize(
+    "value",
+    [
+        True,
+        np.True_,
+        "1",
+        b"1",
+        1j,
+        np.complex128(1),
+        [1.0],
+        (1.0,),
+        np.ones(1),
+        np.array(1.0),
+        np.ones((99, 99)),
+        object,
+        {},
+    ],
+)
+def test_what_is_no_real_number_is_a_type_error(name, value):
+    message = refusal(lambda: MAKERS[name][0](value), TypeError)
+    assert message.startswith(name.split()[-1] + " must be a real number in [")
+    assert len(message) < 150
+
+
+@pytest.mark.parametrize("name", sorted(set(MAKERS) - {"period", "frequency"}))
+def test_none_is_a_type_error(name):
+    assert "must be a real number" in refusal(lambda: MAKERS[name][0](None), TypeError)
+
+
+@pytest.mark.parametrize("one", [1, np.int64(1), np.float32(1), np.float64(1), Fraction(1)])
+@pytest.mark.parametrize("name", MAKERS)
+def test_every_real_number_becomes_a_float(name, one):
+    value = MAKERS[name][0](one)
+    assert value == MAKERS[name][0](1.0)
+    assert all(
+        type(part) in (float, type(None))
+        for part in attrs.astuple(value, recurse=True)
+        if not isinstance(part, tuple)
+    )
+
+
+def test_negative_amplitude_is_refused_with_the_way_out():
+    expected = (
+        "amplitude must lie in [0, 1000]; got -2.0 (a negative amplitude is a phase shift: add π to phase)"
+    )
+    assert refusal(lambda: rk.Harmonic(-2.0, period=1.0), ValueError) == expected
+
+
+@pytest.mark.parametrize(
+    ("given", "got"),
+    [({}, "none"), ({"period": 1.0, "frequency": np.float64(6)}, "period=1.0 and frequency=6.0")],
+)
+def test_exactly_one_of_period_and_frequency(given, got):
+    assert refusal(lambda: rk.Harmonic(2.0, **given)) == f"give exactly one of period, frequency; got {got}"
+
+
+def test_period_and_frequency_follow_from_each_other():
+    assert rk.Harmonic(2.0, period=0.4).frequency == pytest.approx(5 * math.pi, rel=1e-15)
+    assert rk.Harmonic(2.0, frequency=math.pi / 2).period == pytest.approx(4.0, rel=1e-15)
+
+
+def test_reprs_show_what_was_given_and_evaluate_to_the_value():
+    for value in (
+        rk.Harmonic(2.0, period=0.4, phase=1.8),
+        rk.Harmonic(2.0, frequency=3.0),
+        rk.System(rk.Harmonic(2, period=1), 0.9, rk.Braces(1, 0.5)),
+        rk.State(0.1, -0.2),
+    ):
+        assert (
+            eval(
+                repr(value),
+                vars(rk) | {name: getattr(rk, name) for name in ("Harmonic", "System", "Braces", "State")},
+            )
+            == value
+        )
+    assert repr(rk.Harmonic(2.0, frequency=3.0)) == "Harmonic(amplitude=2.0, frequency=3.0, phase=0.0)"
+
+
+def test_values_are_frozen_hashable_and_survive_copies_and_pickles():
+    with pytest.raises(AttributeError):
+        SYSTEM.restitution = 0.5
+    assert copy.deepcopy(SYSTEM) == SYSTEM == pickle.loads(pickle.dumps(SYSTEM))
+    assert hash(copy.deepcopy(SYSTEM)) == hash(SYSTEM)
+    assert attrs.evolve(SYSTEM.forcing, amplitude=3.0) == rk.Harmonic(3.0, period=1.0)
+
+
+def test_acceleration_of_the_base_is_equation_3():
+    forcing = rk.Harmonic(2.0, period=4.0, phase=math.pi / 2)
+    np.testing.assert_allclose(forcing.acceleration([0.0, 1.0, 2.0, 3.0]), [0.0, -2.0, 0.0, 2.0], atol=1e-15)
+
+
+@pytest.mark.parametrize(
+    ("call", "message"),
+    [
+        (lambda: rk.System(2.0, 0.9), "forcing must be a Harmonic; got 2.0"),
+        (lambda: rk.System(SYSTEM.forcing, 0.9, braces=1.0), "braces must be a Braces; got 1.0"),
+        (
+            lambda: check_start(SYSTEM.forcing, rk.State()),
+            "system must be a System; got Harmonic(amplitude=2.0, period=1.0, phase=0.0)",
+        ),
+        (lambda: check_start(SYSTEM, 0.5), "start must be a State; got 0.5"),
+    ],
+)
+def test_values_of_another_kind_are_type_errors(call, message):
+    assert refusal(call, TypeError) == message
+
+
+def test_start_beyond_a_brace_is_refused_and_one_at_the_brace_is_not():
+    braced = attrs.evolve(SYSTEM, braces=rk.Braces(0.5))
+    for side in (-1, 1):
+        check_start(braced, rk.State(side * 0.5, side * 2.0))
+        check_start(SYSTEM, rk.State(side * 0.6))
+        message = refusal(partial(check_start, braced, rk.State(side * 0.6)), ValueError)
+        assert message == f"angle must lie between the braces, in [-0.5, 0.5]; got {side * 0.6}"
+
+
+def test_outcomes_are_plain_strings():
+    assert [str(outcome) for outcome in rk.Outcome] == ["bounded", "at-rest", "overturned"]
+    assert rk.Outcome.AT_REST == "at-rest"

@@ -1,0 +1,77 @@
+"""The door of the package: every public name is there, and none is paid for before it is used."""
+
+import ast
+import json
+import subprocess
+import sys
+from importlib.metadata import version
+from pathlib import Path
+
+import pytest
+
+import rocking
+
+HEAVY = {"attrs", "h5netcdf", "matplotlib", "numba", "numpy", "pandas", "rich", "scipy", "typer", "xarray"}
+
+
+def loaded_after(code):
+    """Packages and rooms that a fresh interpreter has loaded after `code`."""
+    code += "\nimport json, sys; print(json.dumps(sorted(sys.modules)), file=sys.stderr)"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    return set(json.loads(done.stderr.splitlines()[-1]))
+
+
+def test_importing_the_package_loads_nothing_else():
+    loaded = loaded_after("import rocking")
+    assert not HEAVY & loaded
+    assert {name for name in loaded if name.startswith("rocking")} == {"rocking"}
+
+
+def test_a_value_loads_no_kernel_and_no_picture():
+    loaded = loaded_after("import rocking; rocking.State()")
+    assert not {"h5netcdf", "matplotlib", "numba", "pandas", "rich", "scipy", "typer", "xarray"} & loaded
+
+
+@pytest.mark.parametrize("arguments", [["--help"], ["simulate", "--help"]])
+def test_help_loads_only_what_shows_it(arguments):
+    code = f"""
+import sys
+from rocking.cli.main import main
+sys.argv = ["rocking", *{arguments}]
+try:
+    main()
+except SystemExit as exit:
+    assert exit.code == 0
+"""
+    assert HEAVY & loaded_after(code) == {"typer"}
+
+
+@pytest.mark.parametrize("name", rocking.__all__)
+def test_every_public_name_is_there(name):
+    assert getattr(rocking, name) is getattr(rocking, name)
+    assert name in dir(rocking)
+
+
+def test_type_checkers_see_the_same_names():
+    tree = ast.parse(Path(rocking.__file__).read_text(encoding="utf-8"))
+    guarded = next(node for node in tree.body if isinstance(node, ast.If))
+    seen = [alias.asname or alias.name for node in guarded.body for alias in node.names]
+    assert sorted(seen) == sorted(rocking.__all__)
+
+
+def test_unknown_name_is_an_attribute_error():
+    with pytest.raises(AttributeError, match="^module 'rocking' has no attribute 'simulatee'$"):
+        rocking.simulatee  # noqa: B018
+
+
+def test_version_is_that_of_the_installed_package():
+    assert rocking.__version__ == version("rocking")
+
+
+def test_citations_are_bibtex_with_balanced_braces():
+    text = rocking.cite()
+    assert text.count("{") == text.count("}")
+    assert text.count("\n@article{") == 4
+    assert f"version = {{{rocking.__version__}}}" in text
+    for source in ("yim-lin-1991", "spanos-koh-1984", "housner-1963", "hogan-1989"):
+        assert f"{{{source}," in text
