@@ -20,7 +20,9 @@ def _log_uniform(rng, low, high):
 def _system(rng, brace=None):
     """Amplitude 0–100, frequency .05–200, brace none or .01–2, side."""
     choice = rng.random()
-    amplitude = 0.0 if choice < 0.02 else _log_uniform(rng, 0.01, 100) if choice < 0.5 else float(rng.uniform(0, 100))
+    amplitude = (
+        0.0 if choice < 0.02 else _log_uniform(rng, 0.01, 100) if choice < 0.5 else float(rng.uniform(0, 100))
+    )
     braced = rng.random() < 0.4 if brace is None else brace
     angle = _log_uniform(rng, 0.01, 2) if braced else math.inf
     return amplitude, _log_uniform(rng, 0.05, 200), angle, int(rng.choice([-1, 1]))
@@ -33,7 +35,9 @@ def _start(rng, brace):
     if where == 1 and math.isfinite(brace):
         return brace, -speed
     if where == 2:
-        return float(rng.uniform(0, brace if math.isfinite(brace) else 2.0)), float(rng.choice([-1, 1])) * speed
+        return float(rng.uniform(0, brace if math.isfinite(brace) else 2.0)), float(
+            rng.choice([-1, 1])
+        ) * speed
     return 0.0, speed
 
 
@@ -45,7 +49,9 @@ def generic(rng):
 def slow_from_base(rng):
     """Starts at the base with speeds 1e-12 … 0.3: the arcs whose time and speed are measured."""
     amplitude, frequency, _, side = _system(rng, brace=False)
-    return Arc(amplitude, frequency, math.inf, side, 0.0, _log_uniform(rng, 1e-12, 0.3), float(rng.uniform(0, TURN)))
+    return Arc(
+        amplitude, frequency, math.inf, side, 0.0, _log_uniform(rng, 1e-12, 0.3), float(rng.uniform(0, TURN))
+    )
 
 
 def release(rng):
@@ -57,6 +63,19 @@ def release(rng):
         forcing = -1 - side * amplitude * math.cos(phase)
         if (brace + forcing < -1e-3) if braced else (forcing > 1e-3):
             return Arc(amplitude, frequency, brace, side, brace if braced else 0.0, 0.0, phase)
+
+
+def near_saddle(rng):
+    """The growing part all but vanishes: flights over up to hundreds of forcing cycles, most of them down in the end."""
+    while True:
+        amplitude, frequency, brace, side = _system(rng)
+        phase = float(rng.uniform(0, TURN))
+        ripple = side * amplitude / (1 + frequency**2)
+        angle = float(rng.choice([0.0, rng.uniform(0, min(brace, 2))]))
+        short = _log_uniform(rng, 1e-13, 0.1) * float(rng.choice([-1, 1]))
+        velocity = 1 + ripple * (math.cos(phase) - frequency * math.sin(phase)) - angle + short
+        if 0 < abs(velocity) < 1e3 and (angle > 0 or velocity > 0):
+            return Arc(amplitude, frequency, brace, side, angle, velocity, phase)
 
 
 def _nudged(rng, value):
@@ -91,7 +110,9 @@ def _tuned(rng, arc, kind, left, right):
     sinh = time.sinh()
     exact = -distance.at(time)[0] / sinh * distance.outward
     size = Distance(arc._replace(velocity=float(exact)), kind).size(time)
-    return arc._replace(velocity=float(exact + distance.outward * arb(float(rng.uniform(-32, 32))) * ROUNDING * size / sinh))
+    return arc._replace(
+        velocity=float(exact + distance.outward * arb(float(rng.uniform(-32, 32))) * ROUNDING * size / sinh)
+    )
 
 
 def _record_dips(arc, kind, times):
@@ -113,7 +134,13 @@ def _grazing(rng, kind):
     while True:
         amplitude, frequency, brace, side = _system(rng, brace=kind == "brace" or None)
         where = rng.integers(3)
-        angle = 0.0 if where == 0 else brace if where == 1 and kind == "brace" else float(rng.uniform(0, min(brace, 2)))
+        angle = (
+            0.0
+            if where == 0
+            else brace
+            if where == 1 and kind == "brace"
+            else float(rng.uniform(0, min(brace, 2)))
+        )
         arc = Arc(amplitude, frequency, brace, side, angle, 0.0, float(rng.uniform(0, TURN)))
         step = min(0.02, 0.15 / frequency)
         brackets = _record_dips(arc, kind, step * np.arange(1, min(4000, int(rng.uniform(1, 6) / step))))
@@ -153,7 +180,16 @@ def grazing_slow(rng):
 
 FAMILIES = {
     family.__name__: family
-    for family in (generic, slow_from_base, release, stretch_boundary, grazing_base, grazing_brace, grazing_slow)
+    for family in (
+        generic,
+        slow_from_base,
+        release,
+        near_saddle,
+        stretch_boundary,
+        grazing_base,
+        grazing_brace,
+        grazing_slow,
+    )
 }
 
 

@@ -13,6 +13,7 @@ from flint import arb, ctx
 ctx.prec = 320
 ROUNDING = arb(2) ** -53
 AMBIGUOUS = 8 * ROUNDING  # a dip within this share of its terms may be read either way in double precision
+MOST_PIECES = 100_000
 RELATIVE = arb(2) ** -170  # half-width of a certified time, as a share of it
 ZERO = arb(0)
 
@@ -33,7 +34,8 @@ class Event(NamedTuple):
     """A zero (or a dip too shallow to be told from one) of the distance to the base or to a brace.
 
     velocity is d|Θ|/dτ just before the event. depth is the least distance in units of 2⁻⁵³ times the sum of the
-    magnitudes of its terms, infinite where the distance changes sign for good. definite: no rounding can hide it.
+    magnitudes of its terms, infinite where the distance falls through zero far beyond it, nan where it only sinks below
+    rounding there, after dips that rounding hides. definite: no rounding can hide the event.
     """
 
     kind: str
@@ -47,7 +49,9 @@ class Distance:
     """w = p eᵗ + q e⁻ᵗ + k + d cos(ψ₀ + Ωt), eq. (5): what is left to the base (w = u) or to a brace (w = Θb − u)."""
 
     def __init__(self, arc, kind):
-        amplitude, frequency, angle, velocity = map(arb, (arc.amplitude, arc.frequency, arc.angle, arc.velocity))
+        amplitude, frequency, angle, velocity = map(
+            arb, (arc.amplitude, arc.frequency, arc.angle, arc.velocity)
+        )
         self.kind, self.frequency, self.phase = kind, frequency, arb(arc.phase)
         sine, cosine = self.phase.sin_cos()
         ripple = arc.side * amplitude / (1 + frequency**2)
@@ -57,6 +61,7 @@ class Distance:
         self.p, self.q = self.outward * (growing + shearing) / 2, self.outward * (growing - shearing) / 2
         self.k = arb(1) if kind == "base" else arb(arc.brace) - 1
         self.d = self.outward * ripple
+        self.start_slope = self.outward * velocity
         self.touching = angle == (0 if kind == "base" else arc.brace)
         self._sizes(arc, amplitude, sine, cosine)
 
@@ -86,15 +91,29 @@ class Distance:
         angle = self.frequency * time
         sine, cosine = angle.sin_cos()
         share = 1 / (1 + self.frequency**2)
-        p = abs(cosh - cosine) * share
-        q = abs(self.frequency * sinh - sine) * share
+        p = (cosh - cosine) * share
+        q = (self.frequency * sinh - sine) * share
         even = self.constant + self.with_cosh * cosh + self.with_curvature * (cosh - 1)
         return even + self.with_sinh * sinh + self.with_p * p + self.with_q * q
+
+    def rate_size(self, time):
+        """The same for w'."""
+        sinh, cosh = time.sinh_cosh()
+        sine, cosine = (self.frequency * time).sin_cos()
+        share = 1 / (1 + self.frequency**2)
+        rate = sinh + self.frequency * abs(sine)
+        swing = self.frequency * (cosh - cosine)
+        forced = self.with_p * rate + self.with_q * swing
+        return (self.with_cosh + self.with_curvature) * sinh + self.with_sinh * cosh + forced * share
 
     def size_bound(self, time):
         """An upper bound of S on [0, time]: P and Q are at most cosh t − 1."""
         sinh, cosh = time.sinh_cosh()
-        even = self.constant + self.with_cosh * cosh + (self.with_curvature + self.with_p + self.with_q) * (cosh - 1)
+        even = (
+            self.constant
+            + self.with_cosh * cosh
+            + (self.with_curvature + self.with_p + self.with_q) * (cosh - 1)
+        )
         return even + self.with_sinh * sinh
 
     def swell(self, left, right):
@@ -121,7 +140,9 @@ class Distance:
         if not self.p > AMBIGUOUS * self.growth_size:
             return False
         grow = time.exp()
-        return self.p * grow > abs(self.q) / grow + abs(self.k) + abs(self.d) + AMBIGUOUS * self.size_bound(time)
+        return self.p * grow > abs(self.q) / grow + abs(self.k) + abs(self.d) + AMBIGUOUS * self.size_bound(
+            time
+        )
 
     def knife_edge(self):
         """Whether the growing part is lost in rounding: then double precision cannot tell what comes last."""
@@ -155,11 +176,14 @@ def _pinned(function, left, right):
     return arb(newton, margin)
 
 
-CLEAR, UNDECIDED = "clear", "undecided"
+CLEAR, UNDECIDED, SHALLOW = "clear", "undecided", "shallow"
 
 
 def _inspect(distance, left, right):
-    """What [left, right] holds, w(left) > 0 (or the start itself) known: CLEAR, UNDECIDED or an Event."""
+    """What [left, right] holds, w(left) > 0 (or the start itself) known: CLEAR, UNDECIDED or an Event.
+
+    SHALLOW: w has its one zero here, but at the right end it is not yet below zero by more than rounding.
+    """
     margin = AMBIGUOUS * distance.size_bound(right)
     if distance.frequency * (right - left) > 3:
         return CLEAR if distance.swell(left, right) > margin else UNDECIDED
@@ -167,7 +191,7 @@ def _inspect(distance, left, right):
     if w > margin or first > 0:
         return CLEAR
     if second > 0:
-        if distance.at(left)[1] >= 0:
+        if (distance.start_slope if left == 0 else distance.at(left)[1]) >= 0:
             return CLEAR
         if distance.at(right)[1] > 0:
             return _dip(distance, left, right)
@@ -176,8 +200,10 @@ def _inspect(distance, left, right):
         last = distance.at(right)[0]
         if last > 0:
             return CLEAR
-        if last < -margin:
+        if last < -AMBIGUOUS * distance.size(right):
             return _event(distance, distance.zero(left, right), math.inf, True)
+        if last < 0:
+            return SHALLOW
     return UNDECIDED
 
 
@@ -198,6 +224,25 @@ def _event(distance, time, depth, definite):
     return Event(distance.kind, time, distance.outward * distance.at(time)[1], depth, definite)
 
 
+def _resurface(distance, left, step):
+    """(time, False) once w > 0 again after a dip lost in rounding; (time, True) where it sinks below rounding first."""
+    for _ in range(MOST_PIECES):
+        value = distance.at(left)[0]
+        if value > 0:
+            return left, False
+        if value < -AMBIGUOUS * distance.size(left):
+            return left, True
+        right = (left + step).mid()
+        if (
+            distance.enclose(left, right)[0] < 2 * AMBIGUOUS * distance.size_bound(right)
+            or distance.at(right)[0] > 0
+        ):
+            left = right
+        else:
+            step /= 2
+    raise ArithmeticError(f"a dip near {left.str(20)} does not end")
+
+
 def _first_step(arc):
     """Short enough that the start itself, where the distance may vanish, is left behind in one piece."""
     scale = 1 + arc.amplitude + arc.angle
@@ -207,25 +252,28 @@ def _first_step(arc):
 def _zeros(distance, arc, limit):
     """Events of one distance up to a limit, in order; the last is definite unless none is left."""
     left, step, events, grow = ZERO, _first_step(arc), [], True
-    while left < limit:
+    for _ in range(MOST_PIECES):
         right = (left + step).mid()
         found = _inspect(distance, left, right)
         if found == UNDECIDED:
-            if step < arb(2) ** -200:
-                raise ArithmeticError(f"{arc} cannot be decided near {left.str(20)}")
             step, grow = step / 2, False
+            continue
+        if found == SHALLOW:  # look from just before that zero, and further beyond it
+            left, step = (distance.zero(left, right) - step / 64).mid(), step * 5 / 4
             continue
         if found != CLEAR:
             events.append(found)
             if found.definite:
-                break
-        if distance.stays(right):
-            break
+                return events
+            right, sunk = _resurface(distance, right, step / 4)
+            if sunk:
+                return [*events, _event(distance, right, math.nan, True)]
+        if right > limit or distance.stays(right):
+            return events
         if distance.knife_edge() and right > 30:
-            events.append(Event("any", right, arb(0), 0.0, True))
-            break
+            return [*events, Event("any", right, arb(0), 0.0, True)]
         left, step, grow = right, step * 2 if grow else step, True
-    return events
+    raise ArithmeticError(f"{arc} cannot be decided near {left.str(20)}")
 
 
 def first_events(arc):
@@ -233,7 +281,9 @@ def first_events(arc):
     events = _zeros(Distance(arc, "base"), arc, arb(10) ** 6)
     if math.isfinite(arc.brace):
         limit = events[-1].time if events and events[-1].definite else arb(10) ** 6
-        events = sorted(events + _zeros(Distance(arc, "brace"), arc, limit), key=lambda event: float(event.time))
+        events = sorted(
+            events + _zeros(Distance(arc, "brace"), arc, limit), key=lambda event: float(event.time)
+        )
     last = next((index for index, event in enumerate(events) if event.definite), None)
     if last is None:
         return [*events, Event("none", arb.pos_inf(), arb.nan(), math.inf, True)]

@@ -2,7 +2,7 @@
 
 import pytest
 
-from rocking.model.files import check_writable, replacing
+from rocking.model.files import check_folder, check_writable, replacing
 
 
 def names(folder):
@@ -68,3 +68,27 @@ def test_unwritable_paths_are_refused_in_one_line(tmp_path):
             check_writable("--csv", path, (".csv",))
         assert str(caught.value).startswith(message + repr(str(path)))
         assert len(str(caught.value).splitlines()) == 1
+
+
+def test_folder_that_takes_no_files_is_refused_whatever_its_permissions_say(tmp_path, monkeypatch):
+    def refuse(**where):
+        raise OSError(30, "Read-only file system", str(where))
+
+    monkeypatch.setattr("rocking.model.files.TemporaryFile", refuse)
+    with pytest.raises(PermissionError, match=r"^--csv must be writable; got .*a\.csv', which is not$"):
+        check_writable("--csv", tmp_path / "a.csv", (".csv",))
+    with pytest.raises(OSError, match=r"^--output must be a folder that can be written; got '"):
+        check_folder("--output", tmp_path)
+
+
+def test_folder_may_exist_or_be_made_later(tmp_path):
+    for folder in (tmp_path, tmp_path / "new" / "deeper"):
+        assert check_folder("--output", folder) == folder
+    assert names(tmp_path) == []
+
+
+def test_folder_inside_a_file_is_refused(tmp_path):
+    (tmp_path / "file").write_text("")
+    for path in (tmp_path / "file", tmp_path / "file" / "folder"):
+        with pytest.raises(OSError, match=r"^--output must be a folder that can be written; got '"):
+            check_folder("--output", path)

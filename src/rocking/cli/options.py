@@ -54,10 +54,14 @@ BraceAngle = Annotated[Number, _number("--brace-angle", "Θb of side braces, in 
 BraceRestitution = Annotated[Number, _number("--brace-restitution", "r at a brace; 1 unless given.")]
 Angle = Annotated[float, _number("--angle", "Θ at the start, in θcr.")]
 Velocity = Annotated[float, _number("--velocity", "Θ' at the start, in θcr per τ.")]
-Cycles = Annotated[float, _number("--cycles", "Cycles of the base to run.")]
+Cycles = Annotated[int, _number("--cycles", "Cycles of the base to run.")]
 
 Plot = Annotated[
-    Path | None, _file("--plot", "History and phase portrait (.png .svg .pdf), or film (.gif .mp4).")
+    Path | None,
+    _file(
+        "--plot",
+        "History and phase portrait, of a long run its last 30 cycles (.png .svg .pdf), or film (.gif .mp4).",
+    ),
 ]
 Csv = Annotated[Path | None, _file("--csv", "Time, angle and velocity at even steps.")]
 Netcdf = Annotated[Path | None, _file("--netcdf", "The same with its description (.nc).")]
@@ -66,10 +70,8 @@ Json = Annotated[bool, typer.Option("--json", help="Print the summary as JSON.")
 NORMALISED = ("amplitude", "period", "frequency")
 SI = ("height", "width", "acceleration", "acceleration_g", "displacement", "frequency_hz", "period_s")
 BRACES = {"angle": "brace_angle", "restitution": "brace_restitution"}
-WANTED = (
-    "give --amplitude, --period (or --frequency) and --restitution, or in SI --height, --width, "
-    "--acceleration (or --acceleration-g, --displacement) and --frequency-hz (or --period-s)"
-)
+NORMALISED_NEEDS = "--amplitude, --period (or --frequency) and --restitution"
+SI_NEEDS = "--height, --width, --acceleration (or --acceleration-g, --displacement) and --frequency-hz (or --period-s)"
 
 
 def option(name: str) -> str:
@@ -102,8 +104,11 @@ def question(given: Mapping[str, Any]) -> tuple[System, State, Block | None]:
     if normalised and physical:
         raise YourInput(f"{option(normalised[0])} is normalised, {option(physical[0])} is SI: give one kind")
     if not normalised and not physical:
-        raise YourInput(WANTED)
-    _require(given, ("amplitude", "restitution") if normalised else ("height", "width"))
+        raise YourInput(f"give {NORMALISED_NEEDS}, or in SI {SI_NEEDS}")
+    if normalised:
+        _require(given, ("amplitude", "restitution"), NORMALISED_NEEDS)
+    else:
+        _require(given, ("height", "width"), SI_NEEDS)
     braces = _braces(given)
     with your_input():
         start = State(given["angle"], given["velocity"])
@@ -127,7 +132,7 @@ def _braces(given: Mapping[str, Any]) -> Any:
         return Braces(given["brace_angle"], restitution)
 
 
-def _require(given: Mapping[str, Any], names: tuple[str, ...]) -> None:
+def _require(given: Mapping[str, Any], names: tuple[str, ...], needs: str) -> None:
     missing = [option(name) for name in names if given[name] is None]
     if missing:
-        raise YourInput(f"{' and '.join(missing)} is missing: {WANTED}")
+        raise YourInput(f"missing {' and '.join(missing)}: give {needs}")

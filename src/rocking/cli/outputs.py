@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-from rocking.cli.options import YourInput, option
-from rocking.model.files import check_writable, replacing
+from rocking.cli.options import YourInput, option, your_input
+from rocking.model import check_writable, replacing
 
 if TYPE_CHECKING:
     from rocking.model import Block
@@ -15,49 +15,76 @@ if TYPE_CHECKING:
 
 PICTURES = (".png", ".svg", ".pdf")
 FILMS = (".gif", ".mp4")
-SUFFIXES = {"plot": PICTURES + FILMS, "csv": (".csv",), "netcdf": (".nc", ".nc4", ".netcdf")}
-CYCLES_SHOWN = 30
+SUFFIXES = {"plot": PICTURES + FILMS, "csv": (".csv",), "netcdf": (".nc",)}
+CYCLES_DRAWN = 30
+STEPS_PER_CYCLE = 100
+CYCLES_AT_ONCE = 1000
+MOST_CYCLES = 100_000
 
 
-def check(**paths: Path | None) -> dict[str, Path]:
-    """The outputs asked for; `YourInput` for one that cannot be written."""
+def check(cycles: float, **paths: Path | None) -> dict[str, Path]:
+    """The outputs asked for; `YourInput` for one that cannot be written, or for more cycles than are kept for it."""
     asked = {name: path for name, path in paths.items() if path is not None}
     for name, path in asked.items():
-        try:
+        with your_input():
             check_writable(option(name), path, SUFFIXES[name])
-        except (ValueError, OSError) as error:
-            raise YourInput(str(error)) from error
+    if asked and cycles > MOST_CYCLES:
+        wanted = ", ".join(map(option, asked))
+        raise YourInput(f"--cycles must be at most {MOST_CYCLES} with {wanted}; got {cycles}")
     return asked
 
 
 def write_plot(motion: Motion, block: Block | None, path: Path) -> None:
-    """Time history and phase portrait side by side, or the block as a film, as the suffix says.
-
-    A long motion that stays bounded is shown by its last cycles; whole, it would be a band of ink.
-    """
+    """Time history and phase portrait side by side, or the block as a film, as the suffix says."""
     from rocking import plot
 
     if path.suffix.lower() in FILMS:
         plot.animation(motion, path, block)
         return
-    long = motion.outcome == "bounded" and motion.cycles > CYCLES_SHOWN
-    cycles = (motion.cycles - CYCLES_SHOWN, motion.cycles) if long else None
+    cycles = drawn(motion)
     figure, (left, right) = plot.panels(columns=2, height=2.8, ratios=(3, 2))
     plot.time_history(motion, left, block, cycles)
     plot.phase_portrait(motion, right, block, cycles)
     plot.save(figure, path)
 
 
+def drawn(motion: Motion) -> tuple[int, int] | None:
+    """First and last cycle of a picture: the last few of a long bounded motion, which else is a band of ink; None for all."""
+    long = motion.outcome == "bounded" and motion.cycles > CYCLES_DRAWN
+    return (motion.cycles - CYCLES_DRAWN, motion.cycles) if long else None
+
+
 def write_csv(motion: Motion, block: Block | None, path: Path) -> None:
-    """Even steps, one column a quantity, its unit in the header."""
+    """A hundred rows a cycle, normalised, then in SI if there is a block; the header names the units."""
     import csv
 
-    table = motion.to_xarray(block=block).reset_coords()
-    columns = ["time", *(name for name in table.data_vars if table[name].dims == ("time",))]
     with replacing(path) as temporary, temporary.open("w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file)
-        writer.writerow(f"{name} [{table[name].attrs['units']}]" for name in columns)
-        writer.writerows(zip(*(table[name].values.tolist() for name in columns), strict=True))
+        for number, table in enumerate(tables(motion, block)):
+            if number == 0:
+                writer.writerow(table)
+            writer.writerows(zip(*(column.tolist() for column in table.values()), strict=True))
+
+
+def tables(motion: Motion, block: Block | None) -> Iterator[dict[str, Any]]:
+    """Columns by their heading, so many cycles at once that a long motion needs no more memory than a short one."""
+    import numpy as np
+
+    step = motion.system.forcing.period / STEPS_PER_CYCLE
+    for first in range(0, motion.cycles, CYCLES_AT_ONCE):
+        last = min(first + CYCLES_AT_ONCE, motion.cycles)
+        count = (last - first) * STEPS_PER_CYCLE + (last == motion.cycles)
+        time = np.minimum((first * STEPS_PER_CYCLE + np.arange(count)) * step, motion.duration)
+        angle, velocity = motion.at(time)
+        table = {"time [1/alpha]": time, "angle [theta_cr]": angle, "velocity [alpha theta_cr]": velocity}
+        if block is not None:
+            table |= {
+                "time [s]": block.seconds(time),
+                "angle [rad]": block.radians(angle),
+                "velocity [rad/s]": block.radians_per_second(velocity),
+                "top_displacement [m]": block.top_displacement(angle),
+            }
+        yield table
 
 
 def write_netcdf(motion: Motion, block: Block | None, path: Path) -> None:

@@ -7,19 +7,41 @@ from typing import Annotated
 
 import typer
 
+from rocking.cli.options import YourInput, your_input
+
+FIGURES = typer.Argument(help="Numbers in the paper, such as 2 13a; all unless given.")
+OUTPUT = typer.Option("--output", metavar="DIR", help="Folder for the PNG and SVG files.")
+
 
 def paper(
-    figures: Annotated[
-        list[str] | None, typer.Argument(help="Which, such as 2 13a; all unless given.")
-    ] = None,
-    output: Annotated[Path, typer.Option("--output", metavar="DIR", help="Where they go.")] = Path(
-        "results/yim-lin-1991"
-    ),
+    figures: Annotated[list[str] | None, FIGURES] = None,
+    output: Annotated[Path, OUTPUT] = Path("results/yim-lin-1991"),
 ) -> None:
     """Reproduce the figures of Yim and Lin (1991)."""
+    from rich.console import Console
     from rich.progress import Progress
 
-    from rocking.papers.yim_lin_1991 import reproduce
+    from rocking.model import check_folder
+    from rocking.papers import yim_lin_1991
 
-    with Progress() as bar:
-        ...
+    with your_input():
+        check_folder("--output", output)
+    bar = Progress(console=Console(stderr=True))
+
+    def advance(done: int, total: int, name: str) -> None:
+        if not bar.tasks:
+            bar.start()
+            bar.add_task("", total=total)
+        bar.update(bar.task_ids[0], completed=done, description=f"figure {name}")
+
+    try:
+        files = yim_lin_1991.reproduce(output, figures or None, advance)
+    except (ValueError, OSError) as error:
+        if bar.tasks:
+            raise  # it was drawing already: the fault is not in what was typed
+        raise YourInput(str(error)) from error
+    finally:
+        if bar.tasks:
+            bar.stop()
+    for path in files:
+        print(f"wrote {path}")

@@ -39,12 +39,14 @@ def simulate(
     """
     from rocking.cli import outputs, summary
 
-    files = outputs.check(plot=plot, csv=csv, netcdf=netcdf)
+    files = outputs.check(cycles, plot=plot, csv=csv, netcdf=netcdf)
     system, start, block = ask.question(context.params)
+    keep = files or (block and cycles <= outputs.MOST_CYCLES)
+
     from rocking.motion import simulate as run
 
     with ask.your_input():
-        motion = run(system, start, cycles=cycles, record="all" if files or block else "none")
+        motion = run(system, start, cycles=cycles, record="all" if keep else "none")
     for name, path in files.items():
         outputs.WRITERS[name](motion, block, path)
     summary.show(motion, block, list(files.values()), as_json=json)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -19,7 +20,7 @@ Row = tuple[str, str, str]
 def show(motion: Motion, block: Block | None, files: Sequence[Path], *, as_json: bool) -> None:
     """Print the summary on stdout, and where its files are."""
     if as_json:
-        print(json.dumps(record(motion, block, files), indent=2, ensure_ascii=False))
+        print(json.dumps(finite(record(motion, block, files)), indent=2, ensure_ascii=False, allow_nan=False))
         return
     from rich.console import Console
     from rich.table import Table
@@ -30,10 +31,8 @@ def show(motion: Motion, block: Block | None, files: Sequence[Path], *, as_json:
     for row in (*asked(motion, block), *found(motion, block)):
         table.add_row(*row)
     console.print(table)
-    if block is not None:
-        validity = motion.validity(block)
-        for line in str(validity).splitlines():
-            console.print(line, style="yellow" if line.startswith("warning") else None, markup=False)
+    for line in validity(motion, block):
+        console.print(line, style="yellow" if line.startswith("warning") else None, markup=False)
     for path in files:
         console.print(f"wrote {path}", markup=False)
 
@@ -51,11 +50,11 @@ def verdict(motion: Motion) -> str:
 def asked(motion: Motion, block: Block | None) -> Iterator[Row]:
     """Rows that repeat the question, normalised and in SI."""
     forcing, restitution, braces = motion.system.forcing, motion.system.restitution, motion.system.braces
-    yield "", "normalised", "" if block is None else "in SI"
     if block is None:
         yield "forcing", f"A = {forcing.amplitude:.6g}, T = {forcing.period:.6g}, φ = {forcing.phase:.6g}", ""
         yield "restitution", f"e = {restitution:.6g}", ""
     else:
+        yield "", "normalised", "in SI"
         yield "critical angle", "1", f"{block.degrees(1.0):.4g}°"
         yield "time unit 1/α", "1", f"{block.seconds(1.0):.4g} s"
         yield "amplitude", f"A = {forcing.amplitude:.6g}", f"{block.acceleration(forcing.amplitude):.4g} m/s²"
@@ -91,10 +90,26 @@ def found(motion: Motion, block: Block | None) -> Iterator[Row]:
     )
 
 
+def finite(value: Any) -> Any:
+    """The same with null for what is infinite, for which JSON has no number."""
+    if isinstance(value, dict):
+        return {name: finite(part) for name, part in value.items()}
+    return None if isinstance(value, float) and not math.isfinite(value) else value
+
+
 def _state(state: Any, block: Block | None) -> str:
     if block is None:
         return ""
     return f"{block.degrees(state.angle):.4g}°, {block.degrees(state.velocity) * block.frequency_parameter:.4g}°/s"
+
+
+def validity(motion: Motion, block: Block | None) -> list[str]:
+    """Whether the model applies to the block, in a few lines; nothing for a normalised system."""
+    if block is None:
+        return []
+    if motion.record != "all":
+        return ["warning: whether the block slides or jumps is not judged in so long a run"]
+    return str(motion.validity(block)).splitlines()
 
 
 def record(motion: Motion, block: Block | None, files: Sequence[Path]) -> dict[str, Any]:
@@ -130,5 +145,5 @@ def record(motion: Motion, block: Block | None, files: Sequence[Path]) -> dict[s
             "peak_deg": float(block.degrees(motion.peak)),
             "peak_top_displacement_m": float(block.top_displacement(motion.peak)),
         }
-        summary["validity"] = attrs.asdict(motion.validity(block))
+        summary["validity"] = attrs.asdict(motion.validity(block)) if motion.record == "all" else None
     return summary

@@ -1,7 +1,8 @@
 """The compiled physics: numbers in, numbers out.
 
-Machine code is cached on disk. The compiler's cache looks only at the file of the kernel itself and would serve stale code after an edit of a function it calls, so the
-cache lies in a folder named by a hash over all kernel sources.
+Machine code is cached on disk. The compiler's cache looks only at the file of the kernel itself and would
+serve stale code after an edit of a function it calls, so the cache lies in a folder named by a hash over
+all kernel sources.
 """
 
 import hashlib
@@ -14,7 +15,7 @@ import numba
 
 
 def _cache_folder() -> Path:
-    """A folder for this exact set of kernel sources, under ``NUMBA_CACHE_DIR`` or the user's cache; a temporary one where neither can be written."""
+    """A folder for this exact set of kernel sources, in the user's cache; a temporary one where that cannot be written."""
     digest = hashlib.sha256()
     for source in sorted(Path(__file__).parent.glob("*.py")):
         digest.update(source.name.encode() + source.read_bytes())
@@ -40,6 +41,6 @@ def _cached_in(folder: Path):
 
 
 with _cached_in(_cache_folder()):
-    from . import crossing, events, march, parameters, sample, tangent
+    from . import crossing, events, impact, march, parameters, sample, tangent
 
-__all__ = ["crossing", "events", "march", "parameters", "sample", "tangent"]
+__all__ = ["crossing", "events", "impact", "march", "parameters", "sample", "tangent"]

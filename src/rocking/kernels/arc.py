@@ -1,10 +1,11 @@
-"""One arc of rocking in closed form, eqs (4)-(5) of Yim & Lin (1991), without the cancellation that the printed form suffers on short arcs.
+"""One arc of rocking in closed form, eqs (4)-(5) of Yim & Lin (1991), free of cancellation on short arcs.
 
 On side sigma = sign(Theta) work with u = sigma Theta >= 0: u'' - u = f = -1 - A cos eta. From (u0, v0) at eta0
 
     u = u0 cosh t + v0 sinh t - (cosh t - 1) - F(t),
 
-F the response from rest to the base acceleration (``harmonic.respond``). The exponential form u = c+ e^t + c- e^-t + 1 + beta cos eta serves bounds.
+F the response from rest to the base acceleration (``harmonic.respond``). The exponential form u = c+ e^t +
+c- e^-t + 1 + beta cos eta serves bounds.
 """
 
 from typing import NamedTuple
@@ -48,6 +49,12 @@ def arc_from(p, side, start, angle, velocity):
 
 
 @njit(**INLINED)
+def arc_after(p, side, start, velocity, cosine, sine):
+    """The arc that leaves the base on ``side``, where the forcing there is known already."""
+    return Arc(side, start, 0.0, velocity, cosine, sine, p.frequency * start + p.phase)
+
+
+@njit(**INLINED)
 def earlier(arc, time):
     """The same arc as seen from ``time`` later: its start lies so much earlier."""
     return Arc(arc.side, arc.start - time, arc.angle, arc.velocity, arc.cosine, arc.sine, arc.psi)
@@ -76,5 +83,7 @@ def exponentials(p, arc):
     place, rate = particular(p, arc.cosine, arc.sine)
     mean = arc.angle - 1.0 - place
     half = arc.velocity - rate
-    error = 4.0 * ROUNDING * (abs(arc.angle) + abs(arc.velocity) + 1.0 + 2.0 * p.response * (1.0 + p.frequency))
+    error = (
+        4.0 * ROUNDING * (abs(arc.angle) + abs(arc.velocity) + 1.0 + 2.0 * p.response * (1.0 + p.frequency))
+    )
     return 0.5 * (mean + half), 0.5 * (mean - half), error

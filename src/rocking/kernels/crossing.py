@@ -1,12 +1,15 @@
 """The certified first crossing of an arc: which event comes first, and exactly when.
 
-What is watched is w = constant + of_angle u + of_velocity u': the base (w = u), a brace (w = brace_angle - u) or a turn (w = +-u'). Each obeys w'' - w = f_w with
-f_w = of_angle f + of_velocity f' - constant, and on a *stretch*, where f_w keeps its sign, y = w e^t is concave or convex in z = e^2t (y_zz = f_w e^-3t/4). So
+What is watched is w = constant + of_angle u + of_velocity u': the base (w = u), a brace (w = brace_angle -
+u) or a turn (w = +-u'). Each obeys w'' - w = f_w with f_w = of_angle f + of_velocity f' - constant, and on
+a *stretch*, where f_w keeps its sign, y = w e^t is concave or convex in z = e^2t (y_zz = f_w e^-3t/4). So
 
 * a concave stretch that starts with w >= 0 holds one zero if it ends with w < 0, else none;
-* a convex one holds one zero if it ends with w < 0; else two or none, decided by the sign of w at the bottom of the dip, if there is a dip.
+* a convex one holds one zero if it ends with w < 0; else two or none, decided by the sign of w at the
+  bottom of the dip, if there is a dip.
 
-Nothing is sampled and nothing above rounding can be missed. Stretches far above w's possible oscillation are skipped whole.
+Nothing is sampled and nothing above rounding can be missed. Stretches far above w's possible oscillation
+are skipped whole.
 """
 
 import math
@@ -19,7 +22,8 @@ from .arc import evaluate, exponentials, forcing_term
 from .elementary import COMPILED, INLINED
 from .harmonic import first_cut, next_cut
 
-# An arc is renewed from its own state after this long: e^32 is where the closed form has used up double precision.
+# An arc is renewed from its own state after this long: e^32 is where the closed form has used up double
+# precision.
 LONGEST = 32.0
 ITERATIONS = 80
 
@@ -94,10 +98,11 @@ def step_to_zero(w, dw, forcing):
     """The zero of w's Taylor series nearest to here, by reversion to fifth order."""
     f, df, ddf = forcing
     second = w + f
-    y = -w / dw
-    a = second / (2.0 * dw)
-    b = (dw + df) / (6.0 * dw)
-    c = (second + ddf) / (24.0 * dw)
+    per = 1.0 / dw
+    y = -w * per
+    a = 0.5 * second * per
+    b = (1.0 / 6.0) * (dw + df) * per
+    c = (1.0 / 24.0) * (second + ddf) * per
     return y * (1.0 + y * (-a + y * (2.0 * a * a - b + y * (5.0 * a * (b - a * a) - c))))
 
 
@@ -127,7 +132,8 @@ def refine(p, arc, watch, low, high, t):
 def dip(p, arc, watch, left, w, dw, right, w_right, dw_right):
     """A time in a convex stretch at which w <= 0, or infinity where w stays positive; w > 0 at both ends.
 
-    The bottom of y = w e^t is where w + w' = 0, whose left side times e^-t only grows: one safeguarded Newton iteration finds it, and w there decides.
+    The bottom of y = w e^t is where w + w' = 0, whose left side times e^-t only grows: one safeguarded
+    Newton iteration finds it, and w there decides.
     """
     if w + dw >= 0.0 or dw_right - w_right <= 0.0 or dw_right + w_right <= 0.0:
         return math.inf
@@ -154,22 +160,20 @@ def dip(p, arc, watch, left, w, dw, right, w_right, dw_right):
 
 
 @njit(**INLINED)
-def guess(p, arc, watch, low, high):
-    """Where to begin in (low, high): the parabola's return for a short hop off the base, else the middle."""
-    now = forcing_term(p, arc.cosine)
-    f = watch.of_angle * now - watch.constant
-    if low == 0.0 and watch.of_velocity == 0.0 and f < 0.0:
-        hop = 2.0 * abs(arc.velocity) / -(f + watch.constant + watch.of_angle * arc.angle)
-        if hop < 0.5 * high:
-            return hop
-    return 0.5 * (low + high)
+def first_guess(p, watch, now, w, dw, low, high):
+    """Where to begin in (low, high), ``now`` at low: the parabola's return for a hop that starts at w = 0, else the middle."""
+    middle = 0.5 * (low + high)
+    f, _, _ = watched_forcing(p, watch, now)
+    hop = 2.0 * dw
+    return low - hop / f if w == 0.0 and hop > 0.0 and hop < -f * (middle - low) else middle
 
 
 @njit(**COMPILED)
 def clear_until(p, arc, watch, t):
-    """How long w certainly stays positive from t on: t itself where nothing is certain, infinity where for ever.
+    """How long w certainly stays positive from t on: t where nothing is certain, infinity for ever.
 
-    w lies within ``swing`` of m + a e^t + b e^-t; the earliest time after t at which that curve, lowered by its rounding error, comes down to the swing.
+    w lies within ``swing`` of m + a e^t + b e^-t; the earliest time after t at which that curve, lowered by
+    its rounding error, comes down to the swing.
     """
     grow, shrink, error = exponentials(p, arc)
     m = watch.constant + watch.of_angle
@@ -208,14 +212,20 @@ def no_return_time(p, arc):
 
 @njit(**COMPILED)
 def first_zero(p, arc, watch, t, limit):
-    """(Found, time, instant): the first time after t, and no later than ``limit``, at which w falls through zero; w >= 0 at t.
+    """(Found, time, instant): the first time after t at which w falls through zero, if not later than
+    ``limit``.
 
-    Where w = w' = 0 at t (lift-off, leaving a brace) the first convex stretch begins there, and w rises through all of it.
+    w >= 0 at t. Where w = w' = 0 at t (lift-off, leaving a brace) the first convex stretch begins there,
+    and w rises through all of it.
     """
     now = evaluate(p, arc, t)
     w, dw = watched(p, watch, now)
     at_rest = w == 0.0 and dw == 0.0
-    cut, inside = first_cut(p, arc.side, arc.psi, watch.centre, watch.half) if watch.half < math.inf else (math.inf, True)
+    cut, inside = (
+        first_cut(p, arc.side, arc.psi, watch.centre, watch.half)
+        if watch.half < math.inf
+        else (math.inf, True)
+    )
     while cut <= t:
         inside = not inside
         cut += next_cut(p, watch.half, inside)
@@ -223,17 +233,17 @@ def first_zero(p, arc, watch, t, limit):
         right = min(cut, limit)
         then = evaluate(p, arc, right)
         w_right, dw_right = watched(p, watch, then)
-        low_end = right if w_right <= 0.0 else math.inf
+        low_end = right if w_right < 0.0 else math.inf
         convex = inside == watch.convex_inside
         if at_rest:
             low_end = math.inf
-        elif convex and w_right > 0.0:
+        elif convex and w_right >= 0.0:
             low_end = dip(p, arc, watch, t, w, dw, right, w_right, dw_right)
         if low_end < math.inf:
-            t, now = refine(p, arc, watch, t, low_end, guess(p, arc, watch, t, low_end))
+            t, now = refine(p, arc, watch, t, low_end, first_guess(p, watch, now, w, dw, t, low_end))
             return CROSSING, t, now
         at_rest = at_rest and not convex
-        t, w, dw = right, w_right, dw_right
+        t, w, dw, now = right, w_right, dw_right, then
         clear = clear_until(p, arc, watch, t)
         if clear == math.inf:
             return NEVER, t, then
@@ -248,7 +258,8 @@ def first_zero(p, arc, watch, t, limit):
             if cycles > 0.0:
                 t += cycles
                 cut += cycles
-                w, dw = watched(p, watch, evaluate(p, arc, t))
+                now = evaluate(p, arc, t)
+                w, dw = watched(p, watch, now)
 
 
 @njit(**COMPILED)

@@ -1,25 +1,27 @@
 """The few elementary functions of an arc, each to full relative accuracy however short the arc is.
 
-``cosh t - 1``, ``sinh t - t``, ``1 - cos x`` and ``x - sin x`` cancel for short arcs when formed from the library's functions; here short arguments go through
-their Taylor series, which loses nothing, and long ones through exponentials and a sine and cosine of an argument reduced by pi/2 in three parts.
+``cosh t - 1``, ``sinh t - t``, ``1 - cos x`` and ``x - sin x`` cancel for short arcs when formed from the
+library's functions; here short arguments go through their Taylor series, which loses nothing, and long ones
+through exponentials and a sine and cosine of an argument reduced by pi/2 in three parts.
 """
 
 import math
 
 import numpy as np
-from llvmlite import ir
 from numba import njit, types
 from numba.extending import intrinsic
 
 COMPILED = dict(nogil=True, cache=True, error_model="numpy", fastmath={"contract", "nsz"})
 INLINED = dict(COMPILED, forceinline=True)
 
-# Coefficients by increasing power of the squared argument: 1/3!, 1/5!, ... and 1/2!, 1/4!, ...; the first dropped term is below 2**-55 of the sum at 2.
+# Coefficients by increasing power of the squared argument: 1/3!, 1/5!, ... and 1/2!, 1/4!, ...; the first
+# dropped term is below 2**-55 of the sum at 2.
 ODD = tuple(1.0 / math.factorial(k) for k in range(3, 29, 2))
 EVEN = tuple(1.0 / math.factorial(k) for k in range(2, 28, 2))
 SHORT = 2.0
 
-# pi/2 in three parts; the first two have 33 bits, so their products with the quadrant number are exact up to 2**20 quadrants.
+# pi/2 in three parts; the first two have 33 bits, so their products with the quadrant number are exact up
+# to 2**20 quadrants.
 HALF_PI = (1.5707963267341256, 6.077100506303966e-11, 2.0222662487959506e-21)
 TWO_OVER_PI = 2.0 / math.pi
 
@@ -48,6 +50,15 @@ def series(q, c):
 
 
 @njit(**INLINED)
+def short_series(q, c):
+    """The first 8 terms, enough for |argument| <= pi/4."""
+    q2 = q * q
+    even = fma(fma(fma(c[6], q2, c[4]), q2, c[2]), q2, c[0])
+    odd = fma(fma(fma(c[7], q2, c[5]), q2, c[3]), q2, c[1])
+    return fma(odd, q, even)
+
+
+@njit(**INLINED)
 def hyperbolic(t):
     """(sinh t, cosh t - 1, sinh t - t) for t >= 0."""
     if t < SHORT:
@@ -69,8 +80,8 @@ def quarter_turn(x, correction):
     r = high + tail
     tail = fma(-quadrant, HALF_PI[2], tail - (r - high))
     q = r * r
-    excess = r * q * series(-q, ODD)
-    versine = q * series(-q, EVEN)
+    excess = r * q * short_series(-q, ODD)
+    versine = q * short_series(-q, EVEN)
     sine = r + (tail * (1.0 - versine) - excess)
     versine += r * tail
     cosine = 1.0 - versine

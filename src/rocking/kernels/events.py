@@ -1,16 +1,16 @@
-"""What happens at an event: impact (2), brace impact, the limits of accumulating impacts, lift-off and leaving a brace."""
+"""Which event comes next: impact, brace hit, lift-off, leaving a brace, or none for ever."""
 
 import math
 from enum import IntEnum
+from typing import NamedTuple
 
 from numba import njit
 
-from .arc import forcing_term
+from .arc import evaluate
+from .crossing import CROSSING, LONGEST, NEVER, base_watch, brace_watch, first_zero
 from .elementary import COMPILED, INLINED
-from .harmonic import drift, first_cut
-
-# Accumulating impacts of a recorded motion go on, one by one, down to this speed.
-SLOWEST = 1e-13
+from .harmonic import first_cut
+from .shortcut import likely_impact
 
 
 class Mode(IntEnum):
@@ -21,7 +21,8 @@ class Mode(IntEnum):
     LEAN = 2
 
 
-# Kernels compute with plain integers: an enum member would give every function a second type to be compiled for.
+# Kernels compute with plain integers: an enum member would give every function a second type to be compiled
+# for.
 FLIGHT, REST, LEAN = (int(mode) for mode in Mode)
 
 
@@ -40,57 +41,18 @@ class Event(IntEnum):
 IMPACT, BRACE, RESTS, LIFT_OFF, LEANS, LEAVE, NONE = (int(event) for event in Event)
 
 
-@njit(**COMPILED)
-def settling_time(speed, restitution, weakest, strongest, room):
-    """A bound on how long impacts go on that start at ``speed`` and are pressed back with ``weakest`` to ``strongest``; infinite where they need not end.
+class Next(NamedTuple):
+    """The coming event of an arc, a rest or a lean: after how long, what, and the instant itself."""
 
-    A hop's height stays below h = speed**2/weakest (<= weakest/2), so the press, less u, stays above ``weakest - h``; each impact returns at most ``ratio`` times the
-    speed it left with, so speeds fall geometrically by restitution*ratio, and a hop lasts at most (1 + ratio)/(weakest - h) times its speed.
-    """
-    height = speed * speed / weakest
-    if not (weakest > 0.0 and height <= 0.5 * min(weakest, room)):
-        return math.inf
-    press = weakest - height
-    ratio = math.sqrt(strongest / press)
-    fall = restitution * ratio
-    if fall >= 1.0:
-        return math.inf
-    return speed * (1.0 + ratio) / (press * (1.0 - fall))
-
-
-@njit(**COMPILED)
-def base_settling_time(p, cosine, sine, speed):
-    """A bound on the time from an impact to rest (Zeno limit at the base), infinite where rest is not certain.
-
-    On the sides of the base the block is pressed back with 1 +- A cos psi; both stay positive within the window, so it ends before lift-off.
-    """
-    swing = p.amplitude * abs(cosine)
-    if p.restitution >= 1.0 or swing >= 1.0:
-        return math.inf
-    window = 5.0 * speed / ((1.0 - swing) * (1.0 - p.restitution))
-    moved = drift(p, cosine, sine, window)
-    near = settling_time(speed, p.restitution, 1.0 - swing - moved, 1.0 - swing + moved, p.brace_angle)
-    far = settling_time(speed, p.restitution, 1.0 + swing - moved, 1.0 + swing + moved, p.brace_angle)
-    bound = max(near, far)
-    return bound if bound <= window else math.inf
-
-
-@njit(**COMPILED)
-def brace_settling_time(p, cosine, sine, speed):
-    """A bound on the time from a brace hit to leaning, infinite where leaning is not certain; the brace is pressed with brace_angle + f."""
-    press = p.brace_angle + forcing_term(p, cosine)
-    if p.brace_restitution >= 1.0 or press <= 0.0:
-        return math.inf
-    window = 5.0 * speed / (press * (1.0 - p.brace_restitution))
-    moved = drift(p, cosine, sine, window)
-    bound = settling_time(speed, p.brace_restitution, press - moved, press + moved, p.brace_angle)
-    return bound if bound <= window else math.inf
-
-
-@njit(**INLINED)
-def side_to_lift(cosine_psi):
-    """The side on which a block at rest lifts: -sign(cos psi)."""
-    return -1 if cosine_psi > 0.0 else 1
+    wait: float
+    event: int
+    side: int
+    angle: float
+    velocity: float
+    cosine: float
+    sine: float
+    sinh: float
+    versinh: float
 
 
 @njit(**COMPILED)
@@ -115,3 +77,41 @@ def wait_leaning(p, side, psi):
         return math.inf if p.brace_angle > 1.0 else 0.0
     cut, leaving = first_cut(p, side, psi, 0.0, p.brace_half)
     return 0.0 if leaving else cut
+
+
+@njit(**INLINED)
+def next_event(p, mode, arc, guess):
+    """What comes next, and when, from a guess of the coming impact; NONE after a finite wait only renews an arc grown long."""
+    if mode == FLIGHT and p.brace_angle == math.inf and arc.angle == 0.0 and arc.velocity > 0.0:
+        certain, t, now = likely_impact(p, arc, guess)
+        if certain:
+            return Next(
+                t, IMPACT, arc.side, now.angle, now.velocity, now.cosine, now.sine, now.sinh, now.versinh
+            )
+    return any_event(p, mode, arc)
+
+
+@njit(**COMPILED)
+def any_event(p, mode, arc):
+    """What comes next, and when, without a guess."""
+    if mode == REST:
+        wait, side = wait_at_rest(p, arc.psi)
+        return Next(wait, LIFT_OFF if wait < math.inf else NONE, side, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    if mode == LEAN:
+        wait = wait_leaning(p, arc.side, arc.psi)
+        return Next(
+            wait, LEAVE if wait < math.inf else NONE, arc.side, p.brace_angle, 0.0, 0.0, 0.0, 0.0, 0.0
+        )
+    event = IMPACT
+    found, t, now = first_zero(p, arc, base_watch(p), 0.0, LONGEST)
+    if found != CROSSING:
+        event, t = NONE, LONGEST
+    if p.brace_angle < math.inf:
+        hit, t_hit, now_hit = first_zero(p, arc, brace_watch(p), 0.0, t)
+        if hit == CROSSING:
+            event, t, now = BRACE, t_hit, now_hit
+    elif found == NEVER:
+        return Next(math.inf, NONE, arc.side, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    if event == NONE:
+        now = evaluate(p, arc, t)
+    return Next(t, event, arc.side, now.angle, now.velocity, now.cosine, now.sine, now.sinh, now.versinh)

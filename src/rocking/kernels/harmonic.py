@@ -1,8 +1,10 @@
-"""Harmonic base acceleration A cos(Omega tau + phi), eq. (3) of Yim & Lin (1991): all that an arc has to know of its forcing.
+"""Harmonic base acceleration A cos(Omega tau + phi), eq. (3) of Yim & Lin (1991): all an arc knows of its
+forcing.
 
-Another forcing is another file with these functions: what the arc starts from, the particular solution that starts from rest, and where the sign of
-a forcing term changes. On one side sigma of the base the block feels sigma A cos psi = A cos eta, with eta = psi on the positive side and psi + pi on the
-negative one; (cosine, sine) are those of eta.
+Another forcing is another file with these functions: what the arc starts from, the particular solution that
+starts from rest, and where the sign of a forcing term changes. On one side sigma of the base the block
+feels sigma A cos psi = A cos eta, with eta = psi on the positive side and psi + pi on the negative one;
+(cosine, sine) are those of eta.
 """
 
 import math
@@ -24,12 +26,17 @@ def begin(p, side, time):
 
 @njit(**INLINED)
 def respond(p, cosine, sine, t, sinh, versinh, excess):
-    """(F, F', cos eta, sin eta) a time t later: F'' - F = A cos eta with F = F' = 0 at t = 0; every part is free of cancellation."""
+    """(F, F', cos eta, sin eta) a time t later: F'' - F = A cos eta with F = F' = 0 at t = 0, free of cancellation."""
     sin_x, versine, lag = circular(p.frequency, t)
     in_phase = versinh + versine
     displaced = p.response * (cosine * in_phase - sine * (p.frequency * excess + lag))
     moved = p.response * (cosine * (sinh + p.frequency * sin_x) - sine * (p.frequency * in_phase))
-    return displaced, moved, cosine - (cosine * versine + sine * sin_x), sine - (sine * versine - cosine * sin_x)
+    return (
+        displaced,
+        moved,
+        cosine - (cosine * versine + sine * sin_x),
+        sine - (sine * versine - cosine * sin_x),
+    )
 
 
 @njit(**INLINED)
@@ -44,15 +51,15 @@ def first_cut(p, side, psi, centre, half):
     zeta = psi - centre + half
     if side < 0:
         zeta += math.pi
-    zeta -= TURN * math.floor(zeta / TURN)
+    zeta -= TURN * math.floor(zeta * (1.0 / TURN))
     inside = zeta < 2.0 * half
-    return ((2.0 * half if inside else TURN) - zeta) / p.frequency, inside
+    return ((2.0 * half if inside else TURN) - zeta) * p.per_frequency, inside
 
 
 @njit(**INLINED)
 def next_cut(p, half, inside):
     """Time from one cut to the next, ``inside`` telling the stretch between them."""
-    return (2.0 * half if inside else TURN - 2.0 * half) / p.frequency
+    return (2.0 * half if inside else TURN - 2.0 * half) * p.per_frequency
 
 
 @njit(**INLINED)
@@ -64,7 +71,7 @@ def drift(p, cosine, sine, time):
 
 @njit(**INLINED)
 def sensitivities(p, cosine, sine, t, sinh, versinh, excess):
-    """(F_A, F'_A, F_psi, F'_psi, F_Omega, F'_Omega): the response's derivatives with respect to amplitude, starting phase and frequency."""
+    """(F_A, F'_A, F_psi, F'_psi, F_Omega, F'_Omega): the response differentiated by amplitude, starting phase, frequency."""
     sin_x, versine, lag = circular(p.frequency, t)
     frequency, k = p.frequency, p.reciprocal
     in_phase = k * (versinh + versine)

@@ -6,10 +6,11 @@ from typing import NamedTuple
 
 
 class HarmonicParameters(NamedTuple):
-    """A block shaken by A cos(Omega tau + phi), in normalised units; ``brace_angle`` is infinite where there are no braces.
+    """A block shaken by A cos(Omega tau + phi), in normalised units.
 
-    ``base_half`` and ``brace_half`` bound the *stretches* of an arc, on which the forcing term of the base (or brace) keeps its sign: with
-    eta = psi + (pi on the negative side) they are cut where eta = +-half; infinite where the sign never changes.
+    ``brace_angle`` is infinite where there are no braces. ``base_half`` and ``brace_half`` bound the
+    *stretches* of an arc, on which the forcing term of the base (or brace) keeps its sign: with eta = psi +
+    (pi on the negative side) they are cut where eta = +-half; infinite where the sign never changes.
     """
 
     amplitude: float
@@ -19,10 +20,22 @@ class HarmonicParameters(NamedTuple):
     restitution: float
     brace_angle: float
     brace_restitution: float
+    per_frequency: float  # 1/Omega
     reciprocal: float  # 1/(1 + Omega**2)
     response: float  # beta = A/(1 + Omega**2)
     base_half: float
     brace_half: float
+    # at the cuts of the base's stretches: 1 + beta cos eta, |d/dt of it|; the stretches' lengths and
+    # e^+-length, |eta| < half ("inside") and beyond
+    cut_place: float
+    cut_rate: float
+    base_inside: float
+    base_outside: float
+    base_inside_growth: float
+    base_outside_growth: float
+    base_inside_decay: float
+    base_outside_decay: float
+    base_outside_tanh: float
 
 
 def harmonic_parameters(
@@ -36,6 +49,10 @@ def harmonic_parameters(
 ) -> HarmonicParameters:
     """The tuple of a harmonic forcing; beta and 1/(1 + Omega**2) rounded once, since every term of an arc carries them."""
     stiffness = 1 + Fraction(frequency) ** 2
+    response = float(Fraction(amplitude) / stiffness)
+    base_half = math.acos(-1.0 / amplitude) if amplitude > 1.0 else math.inf
+    inside = 2.0 * base_half / frequency
+    outside = max(2.0 * (math.pi - base_half) / frequency, 0.0)
     return HarmonicParameters(
         amplitude,
         frequency,
@@ -44,8 +61,18 @@ def harmonic_parameters(
         restitution,
         brace_angle,
         brace_restitution,
+        1.0 / frequency,
         float(1 / stiffness),
-        float(Fraction(amplitude) / stiffness),
-        math.acos(-1.0 / amplitude) if amplitude > 1.0 else math.inf,
+        response,
+        base_half,
         math.acos((brace_angle - 1.0) / amplitude) if abs(brace_angle - 1.0) < amplitude else math.inf,
+        1.0 - float(1 / stiffness),
+        response * frequency * math.sin(base_half) if amplitude > 1.0 else 0.0,
+        inside,
+        outside,
+        math.exp(min(inside, 700.0)),
+        math.exp(min(outside, 700.0)),
+        math.exp(-inside),
+        math.exp(-outside),
+        math.tanh(outside),
     )

@@ -30,9 +30,9 @@ def sample(p, rows, index, elapsed, out):
 
 @njit(**COMPILED)
 def turns(p, rows, until, out):
-    """Write (row, time into its arc, Theta) of every local extreme of the flights; returns how many there are, written or not.
+    """Write (row, time into its arc, Theta) of every local extreme of the flights.
 
-    ``until[k]`` is how long row k's arc lasts.
+    Returns how many there are, written or not; ``until[k]`` is how long row k's arc lasts.
     """
     count = 0
     for k in range(rows.shape[0]):

@@ -1,12 +1,12 @@
-"""How small differences travel: along arcs, through impacts, brace impacts, rest and leaning, with respect to the start and to every parameter.
+"""How small differences travel: along arcs, through impacts, brace impacts, rest and leaning.
 
-``columns`` holds one difference (delta Theta, delta Theta') a row: rows 0 and 1 the tangent of the start, then one row a parameter in the order of ``Row``, at a fixed
-time after the start of the march.
+Differences are with respect to the start and to every parameter: ``columns`` holds one difference (delta
+Theta, delta Theta') a row: rows 0 and 1 the tangent of the start, then one row a parameter in the order of
+``Row``, at a fixed time after the start of the march.
 """
 
-from enum import IntEnum
-
 import math
+from enum import IntEnum
 
 from numba import njit
 
@@ -30,19 +30,29 @@ class Row(IntEnum):
 
 
 @njit(**INLINED)
+def carry_map(columns, aa, ab, ba, bb):
+    """Every row by one matrix."""
+    for k in range(0, columns.shape[0], 2):
+        a, b, c, d = columns[k, 0], columns[k, 1], columns[k + 1, 0], columns[k + 1, 1]
+        columns[k, 0] = aa * a + ab * b
+        columns[k, 1] = ba * a + bb * b
+        columns[k + 1, 0] = aa * c + ab * d
+        columns[k + 1, 1] = ba * c + bb * d
+
+
+@njit(**INLINED)
 def carry_free(columns, sinh, versinh):
     """Along an arc: [[cosh t, sinh t], [sinh t, cosh t]]."""
-    for k in range(columns.shape[0]):
-        a, b = columns[k, 0], columns[k, 1]
-        columns[k, 0] = a + (a * versinh + b * sinh)
-        columns[k, 1] = b + (b * versinh + a * sinh)
+    carry_map(columns, 1.0 + versinh, sinh, sinh, 1.0 + versinh)
 
 
 @njit(**COMPILED)
 def carry_forcing(p, arc, columns, t, elapsed):
     """The forcing's own share in the parameter rows of an arc that began ``elapsed`` after the start of the march."""
     sinh, versinh, excess = hyperbolic(t)
-    place_a, rate_a, place_psi, rate_psi, place_f, rate_f = sensitivities(p, arc.cosine, arc.sine, t, sinh, versinh, excess)
+    place_a, rate_a, place_psi, rate_psi, place_f, rate_f = sensitivities(
+        p, arc.cosine, arc.sine, t, sinh, versinh, excess
+    )
     side = arc.side
     columns[Row.AMPLITUDE, 0] -= side * place_a
     columns[Row.AMPLITUDE, 1] -= side * rate_a
@@ -55,15 +65,12 @@ def carry_forcing(p, arc, columns, t, elapsed):
 @njit(**INLINED)
 def carry_hit(columns, restitution, shear):
     """Through an event: [[e, 0], [shear, e]]."""
-    for k in range(columns.shape[0]):
-        a, b = columns[k, 0], columns[k, 1]
-        columns[k, 0] = restitution * a
-        columns[k, 1] = shear * a + restitution * b
+    carry_map(columns, restitution, 0.0, shear, restitution)
 
 
 @njit(**INLINED)
 def carry_impact(p, columns, cosine, side, velocity, side_after):
-    """Through an impact at the base that comes in on ``side`` with Theta' = ``velocity`` and goes on on ``side_after``; ``cosine`` of eta on ``side``."""
+    """Through an impact that comes in on ``side`` with Theta' = ``velocity`` and leaves on ``side_after``; ``cosine`` on ``side``."""
     pull = -p.amplitude * side * cosine
     carry_hit(columns, p.restitution, ((pull - side_after) - p.restitution * (pull - side)) / velocity)
     if columns.shape[0] == SENSITIVITIES:
@@ -108,7 +115,8 @@ def orthonormalise(columns, growth):
         growth[0] = growth[1] = -math.inf
         return
     a, b = a / first, b / first
-    # In the plane the second direction is the first one turned by a right angle; its length is the projection onto it.
+    # In the plane the second direction is the first one turned by a right angle; its length is the
+    # projection onto it.
     second = a * d - b * c
     growth[0] += math.log(first)
     growth[1] += math.log(abs(second)) if second != 0.0 else -math.inf
@@ -119,7 +127,7 @@ def orthonormalise(columns, growth):
 
 @njit(**COMPILED)
 def carry_free_orthonormal(columns, growth, t):
-    """Along an arc in steps of at most 1, re-orthonormalised after each, so that the shrinking direction is never lost to rounding."""
+    """Along an arc in steps of at most 1, re-orthonormalised after each: the shrinking direction is never lost to rounding."""
     steps = math.ceil(t) if t > 1.0 else 1
     sinh, versinh, _ = hyperbolic(t / steps)
     for _ in range(steps):

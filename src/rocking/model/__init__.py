@@ -1,8 +1,23 @@
-"""Values: what a block, its base and its state are, frozen and validated; known to every room but the kernels."""
+"""Values: what a block, its base and its state are, frozen and validated; known to every room but the kernels.
 
+With them goes what every room shares: the one-line refusals, files that are whole or not there, notebook pictures.
+"""
+
+from rocking.model import pictures
 from rocking.model.block import GRAVITY, Block
 from rocking.model.citation import cite
-from rocking.model.errors import TooManyEvents
+from rocking.model.errors import (
+    TooManyEvents,
+    exactly_one,
+    instance,
+    one_of,
+    reals,
+    refusal,
+    shown,
+    whole,
+    within,
+)
+from rocking.model.files import check_folder, check_writable, replacing
 from rocking.model.forcing import Harmonic
 from rocking.model.outcome import Outcome, Overturning
 from rocking.model.system import Braces, State, System, check_start
@@ -19,6 +34,18 @@ __all__ = [
     "State",
     "System",
     "TooManyEvents",
+    "check_folder",
     "check_start",
+    "check_writable",
     "cite",
+    "exactly_one",
+    "instance",
+    "one_of",
+    "pictures",
+    "reals",
+    "refusal",
+    "replacing",
+    "shown",
+    "whole",
+    "within",
 ]

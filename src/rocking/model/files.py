@@ -7,12 +7,13 @@ import secrets
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
+from tempfile import TemporaryFile
 
 
 def check_writable(name: str, path: str | os.PathLike[str], suffixes: Sequence[str] = ()) -> Path:
     """Return `path` if a file may be written there; refuse it in one line that starts with `name` otherwise.
 
-    Nothing is created. `suffixes` are the endings allowed ("`.png`"); none: any.
+    Nothing is left there. `suffixes` are the endings allowed ("`.png`"); none: any.
 
     Raises
     ------
@@ -24,14 +25,33 @@ def check_writable(name: str, path: str | os.PathLike[str], suffixes: Sequence[s
     path = Path(path)
     if suffixes and path.suffix.lower() not in suffixes:
         raise ValueError(f"{name} must end in {', '.join(suffixes)}; got {str(path)!r}")
-    folder = path.resolve().parent
-    if not folder.is_dir():
+    if not path.resolve().parent.is_dir():
         raise FileNotFoundError(f"{name} must lie in an existing folder; got {str(path)!r}")
     if path.exists() and not path.is_file():
         raise OSError(f"{name} must be a file's name; got {str(path)!r}, which is something else")
-    if not os.access(folder, os.W_OK | os.X_OK) or (path.exists() and not os.access(path, os.W_OK)):
-        raise PermissionError(f"{name} must be writable; got {str(path)!r}, which you may not write")
+    if not _takes_files(path.resolve().parent) or (path.exists() and not os.access(path, os.W_OK)):
+        raise PermissionError(f"{name} must be writable; got {str(path)!r}, which is not")
     return path
+
+
+def check_folder(name: str, path: str | os.PathLike[str]) -> Path:
+    """Return `path` if it is a folder that takes files, or may be made in one; OSError in one line that starts with `name` if not."""
+    path = Path(path)
+    existing = path.resolve()
+    while not existing.exists():
+        existing = existing.parent
+    if not existing.is_dir() or not _takes_files(existing):
+        raise OSError(f"{name} must be a folder that can be written; got {str(path)!r}")
+    return path
+
+
+def _takes_files(folder: Path) -> bool:
+    """Whether a file can be made there, found out by making one: permissions alone do not tell."""
+    try:
+        with TemporaryFile(dir=folder):
+            return True
+    except OSError:
+        return False
 
 
 @contextmanager

@@ -8,7 +8,8 @@ from rocking.model.errors import instance, refusal, within
 from rocking.model.forcing import Harmonic
 
 BRACE_ANGLES = (1e-3, 1e3)
-LARGEST_STATE = 1e3
+LARGEST_STATE = 1e9
+LARGEST_START = 1e3
 
 
 def _restitution(value: float) -> float:
@@ -97,9 +98,9 @@ class State:
     Parameters
     ----------
     angle : float
-        Θ = θ/θcr, in [-1000, 1000].
+        Θ = θ/θcr; a start lies in [-1000, 1000].
     velocity : float
-        Θ' = dΘ/dτ, in [-1000, 1000].
+        Θ' = dΘ/dτ; that of a start lies in [-1000, 1000].
 
     Raises
     ------
@@ -117,9 +118,11 @@ class State:
 
 
 def check_start(system: System, start: State) -> None:
-    """Refuse a start that is no state of this system: TypeError for other values, ValueError beyond a brace."""
+    """Refuse a start that is no state of this system: TypeError for other values, ValueError far off or beyond a brace."""
     instance("system", system, System)
     instance("start", start, State)
+    within("angle", start.angle, -LARGEST_START, LARGEST_START)
+    within("velocity", start.velocity, -LARGEST_START, LARGEST_START)
     if system.braces is not None and abs(start.angle) > system.braces.angle:
         reach = system.braces.angle
         raise ValueError(

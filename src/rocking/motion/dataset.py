@@ -11,6 +11,7 @@ from rocking.model.errors import instance, refusal, within
 
 if TYPE_CHECKING:
     import xarray as xr
+
     from rocking.motion.motion import Motion
 
 STEPS_PER_PERIOD = 100

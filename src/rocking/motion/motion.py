@@ -11,8 +11,7 @@ from attrs import define, field
 
 from rocking.kernels import events as kernel_events
 from rocking.kernels import sample
-from rocking.model import Block, Outcome, Overturning, State, System, pictures
-from rocking.model.errors import reals, refusal, within
+from rocking.model import Block, Outcome, Overturning, State, System, pictures, reals, refusal, within
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -56,7 +55,7 @@ class Motion:
     peak : float
         Largest |Θ| of the run.
     final : State
-        Θ, Θ' at the end, just after any event there.
+        Θ, Θ' at the end, just after any event there; of an overturned block at the moment of the proof.
 
     Examples
     --------
@@ -85,9 +84,11 @@ class Motion:
 
     @cached_property
     def events(self) -> np.ndarray:
-        """Every event in order, a structured array: time (τ), cycle, phase (ψ in [0, 2π)), angle, velocities before and after, kind.
+        """Every event in order, a structured array.
 
-        The kinds are "impact", "brace", "rest", "lift-off", "lean" and "leave". Needs ``record="all"``, as `at` does.
+        Its fields are time (τ), cycle, phase (ψ in [0, 2π)), angle, the velocities before and after, and
+        kind. The kinds are "impact", "brace", "rest", "lift-off", "lean" and "leave". Needs
+        ``record="all"``, as `at` does.
         """
         rows = self._rows()
         rows = rows[rows[:, 2] != kernel_events.NONE]
@@ -107,7 +108,9 @@ class Motion:
         """Every local extreme of Θ between events, a structured array: time (τ), angle."""
         rows = self._rows()
         begins = self._absolute(rows)
-        lasts = np.append(np.diff(rows[:, 0]) * self.system.forcing.period + np.diff(rows[:, 1]), self.duration - begins[-1])
+        lasts = np.append(
+            np.diff(rows[:, 0]) * self.system.forcing.period + np.diff(rows[:, 1]), self.duration - begins[-1]
+        )
         found = np.empty((4 * len(rows) + 16, 3))
         count = sample.turns(self._numbers, rows, lasts, found)
         if count > len(found):
@@ -124,7 +127,8 @@ class Motion:
         Parameters
         ----------
         times : float or array_like
-            τ, from 0 to `duration` (after it for as long as nothing more can happen: an overturned block, one at rest).
+            τ, from 0 to `duration` (after it for as long as nothing more can happen: an overturned block,
+            one at rest).
 
         Returns
         -------
@@ -144,13 +148,14 @@ class Motion:
         return self._sampled(times)[..., 2]
 
     def section(self, phase: float | None = None) -> np.ndarray:
-        """Give the stroboscopic section: Θ, Θ' at every instant of the run with the forcing phase ψ ≡ ``phase`` (mod 2π).
+        """Give the stroboscopic section: Θ, Θ' at every instant with ψ ≡ ``phase`` (mod 2π).
 
         Parameters
         ----------
         phase : float, optional
-            The forcing's own by default: then the first of ``cycles + 1`` rows is the start. For another phase, or where no section
-            was kept, the motion is run again.
+            The forcing's own by default: then the first of ``cycles + 1`` rows is the start (a block that
+            overturns has no rows past the proof). For another phase, or where no section was kept, the
+            motion is run again.
 
         Returns
         -------
@@ -193,7 +198,9 @@ class Motion:
 
     def _rows(self) -> np.ndarray:
         if self.record != "all":
-            raise ValueError(refusal("record", "be 'all' for events, peaks and states at any time", self.record))
+            raise ValueError(
+                refusal("record", "be 'all' for events, peaks and states at any time", self.record)
+            )
         return self._event_rows
 
     def _absolute(self, rows: np.ndarray) -> np.ndarray:
@@ -203,7 +210,7 @@ class Motion:
         rows = self._rows()
         times = np.asarray(reals("times", times), dtype=float)
         last = self.duration if self.outcome is Outcome.BOUNDED else math.inf
-        if times.size and not (0.0 <= times.min() and times.max() <= last):
+        if times.size and not (times.min() >= 0.0 and times.max() <= last):
             outside = times[~((times >= 0.0) & (times <= last))].flat[0]
             raise ValueError(refusal("times", f"lie in the run, [0, {last:.6g}]", float(outside)))
         flat = times.ravel()

@@ -6,10 +6,10 @@ import math
 
 import numpy as np
 
+from rocking.kernels import events
 from rocking.kernels import march as kernel
 from rocking.kernels.parameters import HarmonicParameters, harmonic_parameters
-from rocking.model import Outcome, Overturning, State, System, TooManyEvents, check_start
-from rocking.model.errors import one_of, whole
+from rocking.model import Outcome, Overturning, State, System, TooManyEvents, check_start, one_of, whole
 from rocking.motion.motion import Motion
 
 MOST_CYCLES = 1_000_000_000
@@ -37,8 +37,9 @@ def parameters(system: System) -> HarmonicParameters:
 def simulate(system: System, start: State | None = None, cycles: int = 200, record: str = "all") -> Motion:
     """Simulate a block from a start over whole forcing cycles, with exact, certified events.
 
-    Between events the motion is the closed form (5) of Yim & Lin (1991); the first crossing of the base or of a brace is
-    proved, not sampled. A motion that certainly never comes back ends with the cycle in which that is proved.
+    Between events the motion is the closed form (5) of Yim & Lin (1991); the first crossing of the base or
+    of a brace is proved, not sampled. A motion that certainly never comes back ends with the cycle in which
+    that is proved.
 
     Parameters
     ----------
@@ -49,9 +50,9 @@ def simulate(system: System, start: State | None = None, cycles: int = 200, reco
     cycles : int
         How many forcing cycles to run, 1 to 10⁹ (10⁸ with ``record="section"``).
     record : {"all", "section", "none"}
-        What to keep: every event, so that the motion is known at any time; the state once a cycle; or only the counters,
-        the peak and the final state. With "none", impacts that certainly accumulate to rest within the run are cut short, so
-        that their number is not infinite but smaller.
+        What to keep: every event, so that the motion is known at any time; the state once a cycle; or only
+        the counters, the peak and the final state. With "none", impacts that certainly accumulate to rest
+        within the run are cut short, so that their number is not infinite but smaller.
 
     Returns
     -------
@@ -122,7 +123,7 @@ def _run(numbers, progress, cycles, section_time, record, want_peak):  # type: i
             raise TooManyEvents(_crowded(status, record))
         if status == kernel.FULL and len(events) < 1_000_000:
             events = np.empty((4 * len(events), 8))
-    if record == "section" and section_time == 0.0:
+    if record == "section" and section_time == 0.0 and status != kernel.OVERTURNED:
         section[done] = _state(progress).angle, _state(progress).velocity
         done += 1
     return status, progress, section[:done], rows
@@ -140,7 +141,7 @@ def _crowded(status: int, record: str) -> str:
 def _first_rows(progress, start: State, hit: bool) -> np.ndarray:  # type: ignore[no-untyped-def]
     """The arc that the motion begins with, after a hit on a brace where it starts with one."""
     row = np.empty((1, 8))
-    kernel.note(row, 0, 0, progress.mode, progress.arc, kernel.BRACE if hit else kernel.NONE, start.velocity)
+    kernel.note(row, 0, 0, progress.mode, progress.arc, events.BRACE if hit else events.NONE, start.velocity)
     return row
 
 

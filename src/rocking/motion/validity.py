@@ -111,7 +111,8 @@ def validity(motion: Motion, block: Block) -> Validity:
     >>> motion.validity(block).friction > 0.25
     True
     """
-    moving, resting, leaning = split(motion)
+    until = motion.duration if motion.overturning is None else motion.overturning.time
+    moving, resting, leaning = split(motion, until)
     period = motion.system.forcing.period
 
     def upward(times: Array, sides: Array) -> Array:
@@ -129,7 +130,10 @@ def validity(motion: Motion, block: Block) -> Validity:
         "rest": min(least(hold, resting, period), Extreme(0.0, 0.0)),
     }
     source = min(slides, key=lambda name: slides[name].value)
-    friction, angle = Extreme(abs(slides[source].value), slides[source].time), motion.peak * block.critical_angle
+    friction, angle = (
+        Extreme(abs(slides[source].value), slides[source].time),
+        largest_angle(motion, block, until),
+    )
     errors = slender_errors(block, angle)
     found = Validity(friction.value, source, friction.time, *reaction, angle, block.critical_angle, *errors)
     return evolve(found, warnings=tuple(warnings(found, motion, block, leaning)))
@@ -157,6 +161,13 @@ def impact_friction(motion: Motion, block: Block) -> Extreme:
         return Extreme(math.inf, 0.0)
     e = motion.system.restitution
     return Extreme(-(1 - e) / ((1 + e) * math.tan(block.critical_angle)), float(impacts[0]))
+
+
+def largest_angle(motion: Motion, block: Block, until: float) -> float:
+    """Largest |θ| up to a time: at a turn, at an event, at either end."""
+    angles = [motion.at([0.0, until])[0]]
+    angles += [table["angle"][table["time"] <= until] for table in (motion.peaks, motion.events)]
+    return float(np.max(np.abs(np.concatenate(angles)))) * block.critical_angle
 
 
 def slender_errors(block: Block, angle: float) -> tuple[float, float]:
@@ -191,9 +202,10 @@ def warnings(found: Validity, motion: Motion, block: Block, leaning: Arcs) -> It
         yield f"leaning: the base reactions during {share:.1%} of the time depend on where the brace acts and are left out"
 
 
-def split(motion: Motion) -> tuple[Arcs, Arcs, Arcs]:
-    """The arcs of a motion on which the block moves, rests (a period of each: the base repeats itself), leans on a brace."""
-    edges = np.unique(np.concatenate(([0.0], motion.events["time"], [motion.duration])))
+def split(motion: Motion, until: float) -> tuple[Arcs, Arcs, Arcs]:
+    """The arcs up to a time on which the block moves, rests (a period of each: the base repeats itself), leans on a brace."""
+    events = motion.events["time"]
+    edges = np.unique(np.concatenate(([0.0], events[events < until], [until])))
     long = np.diff(edges) > SHORTEST_ARC
     starts, ends = edges[:-1][long], edges[1:][long]
     middles = (starts + ends) / 2

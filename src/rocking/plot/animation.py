@@ -1,8 +1,11 @@
 """The block itself, rocking on its moving base."""
 
+from __future__ import annotations
+
 import math
 from collections.abc import Iterator
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -11,9 +14,7 @@ from matplotlib.figure import Figure
 from matplotlib.text import Text
 from numpy.typing import NDArray
 
-from rocking.model.block import Block
-from rocking.model.errors import within
-from rocking.model.system import System
+from rocking.model import Block, System, within
 from rocking.plot import style
 from rocking.plot.film import check_film, write_film
 from rocking.plot.quantities import quantities
@@ -21,13 +22,16 @@ from rocking.plot.scene import Scene
 from rocking.plot.time_history import draw_history
 from rocking.plot.trace import fall, window
 
+if TYPE_CHECKING:
+    from rocking.motion import Motion
+
 NOMINAL = Block(height=2.0, width=0.5)
 CYCLES_SHOWN = 10
 SIZE, DOTS = (6.4, 5.6), 100
 
 
 def animation(
-    motion,
+    motion: Motion,
     path: str | Path,
     block: Block | None = None,
     seconds: float = 10.0,
@@ -80,21 +84,21 @@ def animation(
     return write_film(path, _Film(motion, block, np.linspace(start, stop, count), seconds).frames(), fps)
 
 
-def _window(motion, block: Block, cycles: tuple[float, float] | None) -> tuple[float, float]:
+def _window(motion: Motion, block: Block, cycles: tuple[float, float] | None) -> tuple[float, float]:
     if cycles is not None:
         return window(motion, cycles)
     shown = CYCLES_SHOWN * motion.system.forcing.period
     if motion.overturning is None:
         return max(0.0, motion.duration - shown), motion.duration
     start = max(0.0, motion.overturning.time - shown)
-    flat = fall(motion, block.angle(degrees=90))
+    flat = fall(motion, motion.overturning, block.angle(degrees=90))
     return start, flat + 0.08 * (flat - start)
 
 
 class _Film:
     """The frames of a motion at the instants `times` (τ): a scene above the time history, with one dot on it."""
 
-    def __init__(self, motion, block: Block | None, times: NDArray, seconds: float) -> None:
+    def __init__(self, motion: Motion, block: Block | None, times: NDArray, seconds: float) -> None:
         body = block or NOMINAL
         self.times, self.shown = times, quantities(block)
         flat = body.angle(degrees=90)
@@ -142,9 +146,9 @@ class _Film:
         canvas = FigureCanvasAgg(self.figure)
         canvas.draw()
         still = canvas.copy_from_bbox(self.figure.bbox)
-        for frame, (time, angle) in enumerate(zip(self.times, self.angles, strict=True)):
+        shown_times, shown_angles = self.shown.time(self.times), self.shown.angle(self.angles)
+        for frame, (time, angle) in enumerate(zip(shown_times, shown_angles, strict=True)):
             canvas.restore_region(still)
-            time, angle = float(self.shown.time(time)), float(self.shown.angle(angle))
             self.dot.set_data([time], [angle])
             self.cursor.set_xdata([time, time])
             self.reading.set_text(self.shown.reading.format(time, self.digits, angle).replace("-", "−"))
@@ -154,7 +158,7 @@ class _Film:
 
 
 def _round(factor: float) -> float:
-    """The nearest of …, 0.5, 1, 2, 5, 10, …"""
+    """The nearest of 1, 2, 5 times a power of ten."""
     decade = 10.0 ** math.floor(math.log10(factor))
     return decade * min((1.0, 2.0, 5.0, 10.0), key=lambda step: abs(math.log(factor / (decade * step))))
 

@@ -6,7 +6,7 @@ from pathlib import Path
 from numpy.typing import NDArray
 from PIL import Image
 
-from rocking.model.files import check_writable, replacing
+from rocking.model import check_writable, replacing
 
 
 def check_film(path: str | Path) -> Path:
@@ -29,7 +29,11 @@ def _gif(path: Path, frames: Iterator[NDArray], fps: float) -> None:
     # One palette for all frames: nothing flickers, and what does not move costs nothing.
     palette = first.quantize(64, method=Image.Quantize.MAXCOVERAGE)
     rest = (Image.fromarray(frame).quantize(palette=palette, dither=Image.Dither.NONE) for frame in frames)
-    palette.save(path, save_all=True, append_images=rest, duration=round(100 / fps) * 10, loop=0)
+    # Opened here, because Pillow leaves a file open when it is interrupted.
+    with path.open("wb") as file:
+        palette.save(
+            file, format="GIF", save_all=True, append_images=rest, duration=10 * round(100 / fps), loop=0
+        )
 
 
 def _mp4(path: Path, frames: Iterator[NDArray], fps: float) -> None:

@@ -1,19 +1,30 @@
 """Velocity against angle, with the jumps at impacts."""
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
 import numpy as np
 from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
-from rocking.model.block import Block
+from rocking.model import Block
 from rocking.plot import style
 from rocking.plot.quantities import Quantities, quantities
 from rocking.plot.trace import inside, trace, window
 
+if TYPE_CHECKING:
+    from rocking.motion import Motion
+
 STRIKES = {"impact": (style.IMPACT, "o"), "brace": (style.BRACE, "s")}
+NAMES = {"impact": "impact", "brace": "brace hit"}
 
 
 def phase_portrait(
-    motion, ax: Axes | None = None, block: Block | None = None, cycles: tuple[float, float] | None = None
+    motion: Motion,
+    ax: Axes | None = None,
+    block: Block | None = None,
+    cycles: tuple[float, float] | None = None,
 ) -> Axes:
     """Draws velocity against angle; every impact is a stroke from the velocity before it (open) to the one after (full).
 
@@ -54,20 +65,21 @@ def phase_portrait(
     start, stop = window(motion, cycles)
     time, angle, velocity = trace(motion, start, stop)
     breaks = 1 + np.flatnonzero((np.diff(time) == 0) & (np.diff(velocity) != 0))
+    events = inside(motion.events, start, stop)
+    events = events[np.isin(events["kind"], list(STRIKES))]
     shown = quantities(block)
     ax = style.own(ax, height=3.0)
     ax.plot(
         shown.angle(np.insert(angle, breaks, np.nan)),
         shown.velocity(np.insert(velocity, breaks, np.nan)),
         color=style.MOTION,
-        linewidth=style.line_width(len(breaks)),
+        linewidth=style.line_width(len(events)),
         gid="motion",
     )
-    events = inside(motion.events, start, stop)
     for kind, (colour, marker) in STRIKES.items():
         _strikes(ax, shown, events[events["kind"] == kind], kind, colour, marker)
     style.label(ax, shown.angle_label, shown.velocity_label)
-    if np.isin(events["kind"], list(STRIKES)).any():
+    if len(events):
         style.key(ax)
     return ax
 
@@ -75,13 +87,24 @@ def phase_portrait(
 def _strikes(ax: Axes, shown: Quantities, hits: NDArray, kind: str, colour: str, marker: str) -> None:
     if not len(hits):
         return
-    angle, before, after = shown.angle(hits["angle"]), shown.velocity(hits["before"]), shown.velocity(hits["after"])
+    angle, before, after = (
+        shown.angle(hits["angle"]),
+        shown.velocity(hits["before"]),
+        shown.velocity(hits["after"]),
+    )
     size = 0.8 * style.point_size(len(hits))
     ax.vlines(angle, before, after, colors=colour, linewidth=style.LINE, gid=f"{kind} strokes")
-    mark = {"linestyle": "none", "marker": marker, "markersize": size, "color": colour, "markeredgewidth": min(0.8, size / 4)}
-    ax.plot(angle, before, markerfacecolor="white", label=f"before {_name(kind)}", gid=f"{kind} before", zorder=3, **mark)
-    ax.plot(angle, after, label=f"after {_name(kind)}", gid=f"{kind} after", zorder=3, **mark)
-
-
-def _name(kind: str) -> str:
-    return "impact" if kind == "impact" else "brace hit"
+    for when, velocity, face in (("before", before, "white"), ("after", after, colour)):
+        ax.plot(
+            angle,
+            velocity,
+            linestyle="none",
+            marker=marker,
+            markersize=size,
+            markeredgewidth=min(0.8, size / 4),
+            markeredgecolor=colour,
+            markerfacecolor=face,
+            label=f"{when} {NAMES[kind]}",
+            gid=f"{kind} {when}",
+            zorder=3,
+        )

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 from attrs import frozen
 
-from rocking.model.block import Block
+from rocking.model import Block
 
 
 @frozen

@@ -5,10 +5,14 @@ from pathlib import Path
 from matplotlib import rc_context
 from matplotlib.figure import Figure
 
-from rocking.model.files import check_writable, replacing
+from rocking.model import check_writable, replacing
 
 # Without these matplotlib writes the date and its own version into the file.
-METADATA = {".png": {"Software": None}, ".svg": {"Date": None, "Creator": None}, ".pdf": {"CreationDate": None, "Producer": None, "Creator": None}}
+METADATA = {
+    ".png": {"Software": None},
+    ".svg": {"Date": None, "Creator": None},
+    ".pdf": {"CreationDate": None, "Producer": None, "Creator": None},
+}
 
 
 def save(figure: Figure, path: str | Path, dpi: float = 200.0) -> Path:

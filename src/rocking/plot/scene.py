@@ -11,7 +11,7 @@ from matplotlib.patches import Polygon, Rectangle
 from matplotlib.transforms import Affine2D
 from numpy.typing import NDArray
 
-from rocking.model.block import Block
+from rocking.model import Block
 from rocking.plot import style
 from rocking.plot.geometry import corners
 
@@ -31,7 +31,9 @@ class Scene:
         The angle (rad) at which braces stop the block, as it shall be drawn.
     """
 
-    def __init__(self, ax: Axes, block: Block, angles: NDArray, base: NDArray, brace: float | None = None) -> None:
+    def __init__(
+        self, ax: Axes, block: Block, angles: NDArray, base: NDArray, brace: float | None = None
+    ) -> None:
         self.base = base
         self.outlines = np.array([corners(block.height, block.width, angle) for angle in angles])
         deep, post = 0.1 * block.height, 0.03 * block.height
@@ -40,8 +42,13 @@ class Scene:
         left, right = np.maximum(reach, (contact or 0.0) + post) + 0.15 * block.height
         far = float(np.abs(base).max())
         self.shift = Affine2D()
-        self.body = Polygon(self.outlines[0], facecolor=style.BLOCK, edgecolor=style.INK, linewidth=style.LINE)
-        self.parts: list[Artist] = [Rectangle((-left, -deep), left + right, deep, facecolor=style.TABLE), self.body]
+        self.body = Polygon(
+            self.outlines[0], facecolor=style.BLOCK, edgecolor=style.INK, linewidth=style.LINE
+        )
+        self.parts: list[Artist] = [
+            Rectangle((-left, -deep), left + right, deep, facecolor=style.TABLE),
+            self.body,
+        ]
         if contact is not None:
             for side in (-contact - post, contact):
                 self.parts.append(Rectangle((side, 0), post, 1.04 * block.height, facecolor=style.BRACE))

@@ -7,7 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.patches import Arc, Polygon, Rectangle
 from numpy.typing import NDArray
 
-from rocking.model.block import Block
+from rocking.model import Block
 from rocking.plot import style
 from rocking.plot.geometry import corners
 
@@ -46,7 +46,9 @@ def schematic(ax: Axes | None = None, block: Block | None = None, lean: float = 
     angle = lean * critical
     tilted = corners(height, width, angle)
     _base(ax, height, width)
-    ax.add_patch(Polygon(tilted, facecolor=style.BLOCK, edgecolor=style.INK, linewidth=style.LINE, gid="block"))
+    ax.add_patch(
+        Polygon(tilted, facecolor=style.BLOCK, edgecolor=style.INK, linewidth=style.LINE, gid="block")
+    )
     _sides(ax, tilted, height)
     _centre(ax, tilted, height)
     _angles(ax, tilted, height, critical, angle)
@@ -72,7 +74,10 @@ def _sides(ax: Axes, tilted: NDArray, height: float) -> None:
     """Dimension lines: H beside the block's left side, B above its top."""
     foot_left, foot_right, top_right, top_left = tilted
     gap = 0.08 * height
-    for first, last, opposite, name in ((foot_left, top_left, foot_right, "$H$"), (top_left, top_right, foot_left, "$B$")):
+    for first, last, opposite, name in (
+        (foot_left, top_left, foot_right, "$H$"),
+        (top_left, top_right, foot_left, "$B$"),
+    ):
         outward = (first - opposite) / np.linalg.norm(first - opposite)
         _arrow(ax, first + gap * outward, last + gap * outward, style.INK, "<|-|>")
         _write(ax, name, (first + last) / 2 + 1.9 * gap * outward)
@@ -91,22 +96,42 @@ def _centre(ax: Axes, tilted: NDArray, height: float) -> None:
 def _angles(ax: Axes, tilted: NDArray, height: float, critical: float, angle: float) -> None:
     """θ between the vertical and the leaning side; θcr between that side and the line to the centre of mass."""
     pivot = tilted[1]
-    ax.plot([pivot[0]] * 2, [0.52 * height, 1.1 * height], color=style.INK, linestyle="dotted", linewidth=style.LINE)
+    ax.plot(
+        [pivot[0]] * 2,
+        [0.52 * height, 1.1 * height],
+        color=style.INK,
+        linestyle="dotted",
+        linewidth=style.LINE,
+    )
     side = 90.0 - math.degrees(angle)
     for radius, last, name, colour in (
         (0.72 * height, 90.0, r"$\theta$", style.IMPACT),
         (0.36 * height, side + math.degrees(critical), r"$\theta_\mathrm{cr}$", style.MOTION),
     ):
-        ax.add_patch(Arc(tuple(pivot), 2 * radius, 2 * radius, theta1=side, theta2=last, color=colour, linewidth=style.LINE))
+        ax.add_patch(
+            Arc(
+                tuple(pivot),
+                2 * radius,
+                2 * radius,
+                theta1=side,
+                theta2=last,
+                color=colour,
+                linewidth=style.LINE,
+            )
+        )
         middle = math.radians((side + last) / 2)
-        _write(ax, name, pivot + (radius + 0.08 * height) * np.array([math.cos(middle), math.sin(middle)]), colour)
+        _write(
+            ax,
+            name,
+            pivot + (radius + 0.08 * height) * np.array([math.cos(middle), math.sin(middle)]),
+            colour,
+        )
 
 
 def _arrow(ax: Axes, tail, head, colour: str, shape: str) -> None:
-    ax.annotate(
-        "", head, tail, arrowprops={"arrowstyle": shape, "color": colour, "linewidth": style.LINE, "shrinkA": 0, "shrinkB": 0, "mutation_scale": 8}
-    )  # fmt: skip
+    how = {"arrowstyle": shape, "color": colour, "linewidth": style.LINE, "shrinkA": 0, "shrinkB": 0}
+    ax.annotate("", head, tail, arrowprops=how | {"mutation_scale": 8})
 
 
 def _write(ax: Axes, text: str, place, colour: str = style.INK) -> None:
-    ax.text(*place, text, color=colour, fontsize=style.TEXT + 1, ha="center", va="center")
+    ax.text(place[0], place[1], text, color=colour, fontsize=style.TEXT + 1, ha="center", va="center")

@@ -5,7 +5,7 @@ import math
 import numpy as np
 from matplotlib.axes import Axes
 
-from rocking.model.block import Block
+from rocking.model import Block
 from rocking.plot import style
 from rocking.plot.quantities import quantities
 
@@ -73,7 +73,9 @@ def section(
     )
     style.label(ax, shown.angle_label, shown.velocity_label)
     if phase is not None:
-        ax.set_title(rf"$\psi = {_angle(phase)}$ (mod $2\pi$)", loc="right", fontsize=style.SMALL, color=style.INK)
+        ax.set_title(
+            rf"$\psi = {_angle(phase)}$ (mod $2\pi$)", loc="right", fontsize=style.SMALL, color=style.INK
+        )
     return ax
 
 

@@ -6,6 +6,7 @@ tell apart. Everything is set on the artists themselves; matplotlib's global set
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
 
 COLUMN = 3.5
 PAGE = 7.2
@@ -69,7 +70,8 @@ def title(ax: Axes, text: str) -> None:
 
 
 def label(ax: Axes, x: str, y: str) -> None:
-    """Labels both axes with symbol and unit, and gives ticks and frame their sizes."""
+    """Labels both axes with symbol and unit, and gives ticks and frame their sizes; few ticks, so that numbers fit."""
+    ax.xaxis.set_major_locator(MaxNLocator(5, steps=[1, 2, 2.5, 5, 10]))
     ax.set_xlabel(x, fontsize=TEXT, color=INK)
     ax.set_ylabel(y, fontsize=TEXT, color=INK)
     ax.tick_params(labelsize=SMALL, color=INK, labelcolor=INK, width=THIN)
@@ -102,4 +104,4 @@ def point_size(count: int) -> float:
 
 def line_width(count: int) -> float:
     """Width in points of a line that runs `count` times through the same region: it gets thinner from 20 times on."""
-    return LINE * (max(count, 20) / 20) ** -0.25
+    return LINE * (max(count, 20) / 20) ** -0.35

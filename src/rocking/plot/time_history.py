@@ -1,19 +1,28 @@
 """The angle against time."""
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
 import numpy as np
 from matplotlib.axes import Axes
 
-from rocking.model.block import Block
-from rocking.model.system import System
+from rocking.model import Block, System
 from rocking.plot import style
 from rocking.plot.quantities import Quantities, quantities
 from rocking.plot.trace import trace, window
 
+if TYPE_CHECKING:
+    from rocking.motion import Motion
+
 
 def time_history(
-    motion, ax: Axes | None = None, block: Block | None = None, cycles: tuple[float, float] | None = None
+    motion: Motion,
+    ax: Axes | None = None,
+    block: Block | None = None,
+    cycles: tuple[float, float] | None = None,
 ) -> Axes:
-    """Draws the angle of a motion against time; its corners at impacts and its extremes are exact.
+    r"""Draws the angle of a motion against time; its corners at impacts and its extremes are exact.
 
     Parameters
     ----------
@@ -46,13 +55,13 @@ def time_history(
     >>> system = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925)
     >>> ax = rk.plot.time_history(rk.simulate(system, cycles=60), cycles=(50, 60))
     >>> print(ax.get_xlabel())
-    time $\\tau = \\alpha t$ (–)
+    time $\tau = \alpha t$ (–)
     """
     start, stop = window(motion, cycles)
     return draw_history(style.own(ax), motion, start, stop, block)
 
 
-def draw_history(ax: Axes, motion, start: float, stop: float, block: Block | None) -> Axes:
+def draw_history(ax: Axes, motion: Motion, start: float, stop: float, block: Block | None) -> Axes:
     """Draws the angle from time `start` to `stop`, in τ."""
     time, angle, _ = trace(motion, start, stop)
     shown = quantities(block)
@@ -72,4 +81,6 @@ def _guides(ax: Axes, system: System, shown: Quantities, largest: float) -> None
         level, colour, dashes, name = system.braces.angle, style.BRACE, "dashed", "braces"
     if largest > 0.5 * level:
         for side in (-1.0, 1.0):
-            ax.axhline(shown.angle(side * level), color=colour, linestyle=dashes, linewidth=style.LINE, gid=name)
+            ax.axhline(
+                shown.angle(side * level), color=colour, linestyle=dashes, linewidth=style.LINE, gid=name
+            )

@@ -1,43 +1,60 @@
 """Instants at which a motion is sampled for a picture, chosen so that corners, jumps and extremes are exact."""
 
+from __future__ import annotations
+
 import math
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import brentq
+
+from rocking.model import refusal, within
+
+if TYPE_CHECKING:
+    from rocking.model import Overturning
+    from rocking.motion import Motion
 
 SAMPLES_PER_TIME = 64
 MOST_SAMPLES = 60_000
 FALLEN = 3.0
 
 
-def window(motion, cycles: tuple[float, float] | None) -> tuple[float, float]:
+def window(motion: Motion, cycles: tuple[float, float] | None) -> tuple[float, float]:
     """First and last instant shown, in τ, for `cycles` = (first, last) counted from the start; None is the whole motion.
 
     The whole of an overturned motion goes on past the proof that it never returns, until |Θ| = 3.
     """
     if cycles is None:
-        return 0.0, motion.duration if motion.overturning is None else fall(motion, FALLEN)
-    first, last = cycles
-    if not 0 <= first < last <= motion.cycles:
-        raise ValueError(f"cycles must be (first, last) with 0 <= first < last <= {motion.cycles}; got {cycles!r}")
+        return 0.0, motion.duration if motion.overturning is None else fall(
+            motion, motion.overturning, FALLEN
+        )
+    try:
+        first, last = cycles
+    except (TypeError, ValueError):
+        raise TypeError(refusal("cycles", "be a pair (first, last)", cycles)) from None
+    first = within("cycles", first, 0, motion.cycles)
+    if within("cycles", last, 0, motion.cycles) <= first:
+        raise ValueError(refusal("cycles", "be a pair (first, last) with first < last", cycles))
     period = motion.system.forcing.period
     return first * period, last * period
 
 
-def fall(motion, angle: float) -> float:
-    """Time τ at which an overturned motion reaches |Θ| = `angle`, at the earliest the time of the proof."""
+def fall(motion: Motion, overturning: Overturning, angle: float) -> float:
+    """Time τ at which a motion that is past return reaches |Θ| = `angle`; the end of the run if it began beyond."""
+    from scipy.optimize import brentq
 
     def beyond(time: float) -> float:
         return abs(float(motion.at(time)[0])) - angle
 
-    before = after = motion.overturning.time
+    before = after = overturning.time
+    if beyond(after) >= 0:
+        return after if after > 0 else motion.duration
     while beyond(after) < 0:
         before, after = after, after + 0.25
-    return after if before == after else brentq(beyond, before, after, xtol=1e-12)
+    return brentq(beyond, before, after, xtol=1e-12)
 
 
-def trace(motion, start: float, stop: float) -> tuple[NDArray, NDArray, NDArray]:
+def trace(motion: Motion, start: float, stop: float) -> tuple[NDArray, NDArray, NDArray]:
     """Times, angles and velocities from `start` to `stop`: a grid, every extreme, and every event twice, before and after.
 
     The grid is fine against both the forcing's period and the block's own unit of time; over a long window it thins out

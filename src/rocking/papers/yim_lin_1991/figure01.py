@@ -11,4 +11,6 @@ import rocking as rk
 
 def draw() -> Figure:
     """Draws figure 1."""
-    return rk.plot.schematic().figure
+    figure, (ax,) = rk.plot.panels(height=3.6)
+    rk.plot.schematic(ax)
+    return figure

@@ -11,7 +11,7 @@ from rocking.papers.yim_lin_1991.cases import PERIODIC
 
 def draw() -> Figure:
     """Draws figure 3."""
-    figure, axes = rk.plot.panels(columns=3, height=3.2)
+    figure, axes = rk.plot.panels(rows=3, height=3.0)
     for ax, case in zip(axes, PERIODIC, strict=True):
         rk.plot.phase_portrait(case.motion(), ax, cycles=case.shown)
         rk.plot.title(ax, case.title)

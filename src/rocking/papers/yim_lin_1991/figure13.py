@@ -8,16 +8,15 @@ its section nor the number of its points.
 from matplotlib.figure import Figure
 
 import rocking as rk
+from rocking.papers.yim_lin_1991.cases import BRACED
 
 TRANSIENT, POINTS = 1_000, 100_000
 
 
 def draw() -> Figure:
     """Draws figure 13a."""
-    braces = rk.Braces(angle=1.0, restitution=1.0)
-    system = rk.System(rk.Harmonic(15.0, period=2.0), restitution=0.925, braces=braces)
-    motion = rk.simulate(system, cycles=TRANSIENT + POINTS - 1, record="section")
+    motion = rk.simulate(BRACED, cycles=TRANSIENT + POINTS - 1, record="section")
     figure, (ax,) = rk.plot.panels(height=3.2)
     rk.plot.section(motion, ax, transient=TRANSIENT)
-    rk.plot.title(ax, "(a) $A = 15$, $T = 2$, $e = 0.925$,\n" r"$\Theta_b = 1$, $r = 1$")
+    rk.plot.title(ax, "(a) $A = 15$, $T = 2$, $e = 0.925$\nbraces at 1, $r = 1$")
     return figure

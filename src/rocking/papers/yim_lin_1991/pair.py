@@ -6,7 +6,9 @@ import rocking as rk
 from rocking.papers.yim_lin_1991.cases import Case, cycles
 
 
-def draw_pair(case: Case, history: tuple[int, int] | None = None, portrait: tuple[int, int] | None = None) -> Figure:
+def draw_pair(
+    case: Case, history: tuple[int, int] | None = None, portrait: tuple[int, int] | None = None
+) -> Figure:
     """Draws a case over the cycles given for (a) the time history and (b) the phase diagram; None is the whole motion."""
     motion = case.motion()
     figure, (left, right) = rk.plot.panels(columns=2, height=3.0, ratios=(3, 2))

@@ -7,6 +7,7 @@ from pathlib import Path
 import matplotlib.style
 
 import rocking as rk
+from rocking.model import check_folder
 
 FIGURES = {"1": "01", "2": "02", "3": "03", "4": "04", "5": "05", "6": "06", "13a": "13"}
 
@@ -47,7 +48,7 @@ def reproduce(
     ['figure-01.png', 'figure-01.svg']
     """
     wanted = _known(FIGURES if figures is None else figures)
-    folder = Path(folder)
+    folder = check_folder("folder", folder)
     folder.mkdir(parents=True, exist_ok=True)
     written: list[Path] = []
     for done, name in enumerate(wanted):
@@ -56,7 +57,9 @@ def reproduce(
         # The reader's own style must not decide what the bytes are.
         with matplotlib.style.context("default"):
             figure = import_module(f"rocking.papers.yim_lin_1991.figure{FIGURES[name]}").draw()
-            written += [rk.plot.save(figure, folder / f"figure-{name:>02}{suffix}") for suffix in (".png", ".svg")]
+            written += [
+                rk.plot.save(figure, folder / f"figure-{name:>02}{suffix}") for suffix in (".png", ".svg")
+            ]
     if progress is not None:
         progress(len(wanted), len(wanted), wanted[-1] if wanted else "")
     return written

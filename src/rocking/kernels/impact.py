@@ -1,0 +1,90 @@
+"""What an event does: impact, eq. (2) of Yim & Lin (1991), brace impact, rest, leaning, lift-off, leaving."""
+
+import math
+
+from numba import njit
+
+from .arc import arc_after, arc_from
+from .elementary import COMPILED, INLINED
+from .events import BRACE, FLIGHT, IMPACT, LEAN, LEAVE, LIFT_OFF, REST, wait_leaning
+from .settling import base_settling_time, brace_settling_time
+from .tangent import carry_brace, carry_impact, forget, forget_leaning
+
+# Accumulating impacts of a recorded motion go on, one by one, down to this speed.
+SLOWEST = 1e-13
+# Faster than this no accumulation is looked for.
+SLOW = 0.1
+
+
+@njit(**INLINED)
+def side_to_lift(cosine_psi):
+    """The side on which a block at rest lifts: -sign(cos psi)."""
+    return -1 if cosine_psi > 0.0 else 1
+
+
+@njit(**INLINED)
+def after_impact(p, arc, time, coming, quiet, columns):
+    """(mode, arc) after an impact at the base.
+
+    ``quiet`` is the time in which nothing is asked for, so that accumulating impacts may be cut short.
+    """
+    speed = p.restitution * max(-coming.velocity, 0.0)
+    cosine_psi = arc.side * coming.cosine
+    swing = p.amplitude * abs(cosine_psi)
+    side = -arc.side
+    mode = FLIGHT
+    if speed == 0.0:
+        if swing <= 1.0:
+            mode = REST
+        else:
+            side = side_to_lift(cosine_psi)
+    if columns.shape[0] > 0 and coming.velocity < 0.0:
+        carry_impact(p, columns, coming.cosine, arc.side, arc.side * coming.velocity, side)
+    turned = side * arc.side
+    after = arc_after(p, side, time, speed, turned * coming.cosine, turned * coming.sine)
+    if mode == FLIGHT and speed < SLOW and swing < 1.0 and p.restitution < 1.0:
+        settled = base_settling_time(p, after.cosine, after.sine, speed)
+        if settled <= quiet or (settled < math.inf and speed < SLOWEST):
+            mode = REST
+    if mode == REST:
+        after = arc_from(p, side, time, 0.0, 0.0)
+        forget(columns)
+    return mode, after
+
+
+@njit(**COMPILED)
+def after_brace(p, arc, time, coming, quiet, columns):
+    """(mode, arc) after a hit on a brace."""
+    before = max(coming.velocity, 0.0)
+    speed = p.brace_restitution * before
+    if columns.shape[0] > 0 and before > 0.0:
+        carry_brace(p, columns, coming.cosine, arc.side, arc.side * before)
+    after = arc_from(p, arc.side, time, p.brace_angle, -speed)
+    mode = FLIGHT
+    if speed == 0.0:
+        if wait_leaning(p, arc.side, after.psi) > 0.0:
+            mode = LEAN
+    elif speed < SLOW and p.brace_restitution < 1.0:
+        settled = brace_settling_time(p, after.cosine, after.sine, speed)
+        if settled <= quiet or (settled < math.inf and speed < SLOWEST):
+            mode = LEAN
+    if mode == LEAN:
+        after = arc_from(p, arc.side, time, p.brace_angle, 0.0)
+        forget_leaning(columns, arc.side)
+    return mode, after
+
+
+@njit(**INLINED)
+def after_event(p, arc, time, coming, quiet, columns):
+    """(mode, arc) after the coming event."""
+    if coming.event == IMPACT:
+        return after_impact(p, arc, time, coming, quiet, columns)
+    if coming.event == BRACE:
+        return after_brace(p, arc, time, coming, quiet, columns)
+    if coming.event == LIFT_OFF:
+        forget(columns)
+        return FLIGHT, arc_from(p, coming.side, time, 0.0, 0.0)
+    if coming.event == LEAVE:
+        forget_leaning(columns, arc.side)
+        return FLIGHT, arc_from(p, arc.side, time, p.brace_angle, 0.0)
+    return FLIGHT, arc_from(p, arc.side, time, coming.angle, coming.velocity)

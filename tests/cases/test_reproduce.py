@@ -1,0 +1,143 @@
+"""The paper's figures: all there, not blank, the same bytes every time, and what they show is what they say."""
+
+import io
+
+import matplotlib as mpl
+import numpy as np
+import pytest
+from matplotlib.figure import Figure
+from PIL import Image
+
+import rocking as rk
+from rocking.papers.yim_lin_1991 import cases, reproduce
+
+NAMES = ["01", "02", "03", "04", "05", "06", "13a"]
+
+
+@pytest.fixture(scope="module")
+def figures(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("figures") / "made" / "here"
+    calls = []
+    return reproduce(folder, progress=lambda *call: calls.append(call)), calls
+
+
+def test_every_figure_is_written_as_png_and_svg(figures):
+    paths, _ = figures
+    assert [path.name for path in paths] == [
+        f"figure-{name}{kind}" for name in NAMES for kind in (".png", ".svg")
+    ]
+    assert sorted(paths[0].parent.iterdir()) == sorted(paths)
+
+
+def test_progress_counts_the_figures(figures):
+    _, calls = figures
+    names = ["1", "2", "3", "4", "5", "6", "13a"]
+    assert calls == [(done, 7, name) for done, name in enumerate(names)] + [(7, 7, "13a")]
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_no_picture_is_blank_and_all_are_200_dots_per_inch(figures, name):
+    (path,) = (path for path in figures[0] if path.name == f"figure-{name}.png")
+    with Image.open(path) as image:
+        assert image.width in (700, 1440)
+        assert image.info["dpi"] == pytest.approx((200, 200), rel=1e-3)
+        assert np.asarray(image.convert("L")).std() > 10
+
+
+def test_second_run_gives_the_same_bytes_under_any_settings(figures, tmp_path):
+    with mpl.rc_context(
+        {"axes.facecolor": "black", "font.size": 20, "lines.linestyle": "--", "svg.fonttype": "none"}
+    ):
+        again = reproduce(tmp_path)
+    assert [path.read_bytes() for path in again] == [path.read_bytes() for path in figures[0]]
+
+
+def test_figures_are_chosen_by_number(tmp_path):
+    paths = reproduce(tmp_path, figures=[4, "1"])
+    assert [path.name for path in paths] == [
+        "figure-04.png",
+        "figure-04.svg",
+        "figure-01.png",
+        "figure-01.svg",
+    ]
+
+
+def test_unknown_figure_is_refused_before_anything_is_written(tmp_path):
+    with pytest.raises(ValueError, match="^figures must be among 1, 2, 3, 4, 5, 6, 13a; got '7'$"):
+        reproduce(tmp_path / "new", figures=[1, 7])
+    assert not list(tmp_path.iterdir())
+
+
+def test_folder_that_is_a_file_is_refused_in_one_line(tmp_path):
+    (tmp_path / "taken").touch()
+    with pytest.raises(OSError, match="^folder must be a folder that can be written; got '.*taken'$"):
+        reproduce(tmp_path / "taken")
+
+
+def test_interrupted_run_leaves_only_whole_files(tmp_path, monkeypatch):
+    write = Figure.savefig
+
+    def interrupted(self, target, **how):
+        if how["format"] == "svg":
+            target.write_bytes(b"half a picture")
+            raise KeyboardInterrupt
+        write(self, target, **how)
+
+    monkeypatch.setattr(Figure, "savefig", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        reproduce(tmp_path)
+    assert [path.name for path in tmp_path.iterdir()] == ["figure-01.png"]
+    Image.open(io.BytesIO((tmp_path / "figure-01.png").read_bytes())).verify()
+
+
+@pytest.mark.parametrize(
+    ("case", "period", "impacts", "symmetric"),
+    list(zip(cases.PERIODIC, (1, 3, 10), (2, 2, 4), (True, True, False), strict=True)),
+    ids=lambda value: getattr(value, "name", None),
+)
+def test_periodic_motions_repeat_within_the_cycles_shown(case, period, impacts, symmetric):
+    motion = case.motion()
+    first, last = case.shown
+    assert (last - first) % period == 0
+    section = motion.section()[first : last + 1]
+    # a difference of 1e-9 is a millionth of the thickness of a line
+    assert np.abs(section[period:] - section[:-period]).max() < 1e-9
+    shorter = [n for n in range(1, period) if np.abs(section[n:] - section[:-n]).max() < 1e-3]
+    assert shorter == []
+    time = motion.events["time"] / case.system.forcing.period
+    assert ((time > last - period) & (time <= last)).sum() == impacts
+    times = np.linspace(last - 2 * period, last - period, 101) * case.system.forcing.period
+    half_later = motion.at(times + period / 2 * case.system.forcing.period)[0]
+    assert (np.abs(motion.at(times)[0] + half_later).max() < 1e-9) == symmetric
+
+
+def test_overturning_of_figure_4_comes_in_the_sixth_cycle_after_four_impacts():
+    motion = cases.OVERTURNING.motion()
+    assert motion.outcome is rk.Outcome.OVERTURNED
+    assert 5 <= motion.overturning.time / 2.0 < 6
+    assert motion.impacts == 4
+
+
+def test_undamped_motions_of_figures_5_and_6_stay_bounded():
+    assert {case.motion().outcome for case in (cases.QUASI_PERIODIC, cases.CHAOTIC)} == {rk.Outcome.BOUNDED}
+
+
+def test_neighbours_part_in_figure_6_and_not_in_figure_5():
+    def spread(case):
+        motion = case.motion()
+        near = rk.simulate(case.system, rk.State(velocity=1e-9), cycles=motion.cycles)
+        return np.abs(motion.section()[-1] - near.section()[-1]).max() / 1e-9
+
+    assert spread(cases.CHAOTIC) > 1e3 > spread(cases.QUASI_PERIODIC)
+
+
+def test_braced_attractor_has_the_known_rates_of_impacts_and_brace_hits():
+    motion = rk.simulate(cases.BRACED, cycles=100_000, record="none")
+    # means over 10^5 cycles of counts that spread by about 1 a cycle are good to some 0.005
+    assert motion.impacts / motion.cycles == pytest.approx(2.82, abs=0.015)
+    assert motion.brace_hits / motion.cycles == pytest.approx(2.75, abs=0.015)
+
+
+def test_time_never_goes_back_between_the_braces():
+    events = rk.simulate(cases.BRACED, cycles=50_000).events
+    assert (np.diff(events["time"]) > 0).all()

@@ -1,0 +1,337 @@
+"""The command as a stranger types it: what it prints, what it writes, how it refuses and how it ends."""
+
+import csv
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+
+import numpy as np
+import pytest
+
+import rocking as rk
+from rocking.cli.main import run
+
+NORMALISED = "--amplitude 2 --period 1 --restitution 0.925"
+SI = "--height 2 --width 0.5 --acceleration 2.9 --frequency-hz 1.8"
+COMMAND = [sys.executable, "-c", "from rocking.cli.main import main; main()"]
+
+
+@pytest.fixture
+def rocking(monkeypatch, tmp_path, capsys):
+    """Types a command line in an empty folder: (exit code, what it says of it, stdout)."""
+    monkeypatch.chdir(tmp_path)
+
+    def type_line(line):
+        monkeypatch.setattr(sys, "argv", ["rocking", *line.split()])
+        code, message = run()
+        return code, message, capsys.readouterr().out
+
+    return type_line
+
+
+def test_summary_tells_outcome_counts_and_final_state(rocking):
+    code, message, out = rocking(f"simulate {NORMALISED} --cycles 50")
+    motion = rk.simulate(rk.System(rk.Harmonic(2.0, period=1.0), 0.925), cycles=50)
+    assert (code, message) == (0, "")
+    assert out.startswith("bounded over 50 cycles")
+    for shown in (
+        f"impacts {motion.impacts}",
+        f"Θ = {motion.final.angle:.6g}, Θ' = {motion.final.velocity:.6g}",
+    ):
+        assert shown in " ".join(out.split())
+
+
+def test_frequency_says_the_same_as_period(rocking):
+    by_period = rocking(f"simulate {NORMALISED} --json --cycles 5")[2]
+    by_frequency = rocking(
+        f"simulate --amplitude 2 --frequency {2 * np.pi} --restitution 0.925 --json --cycles 5"
+    )[2]
+    assert by_period == by_frequency
+
+
+def test_summary_in_si_shows_both_units_housners_restitution_and_validity(rocking):
+    code, _, out = rocking(f"simulate {SI} --cycles 50")
+    assert code == 0
+    text = " ".join(out.split())
+    assert "amplitude A = 1.20712 2.9 m/s²" in text
+    assert "period T = 1.48401 0.5556 s" in text
+    assert "restitution e = 0.911765 Housner's for this block" in text
+    assert "least friction without sliding" in text
+    assert "restitution e = 0.5 as chosen" in " ".join(rocking(f"simulate {SI} --restitution 0.5")[2].split())
+
+
+def test_warning_of_the_validity_report_is_shown(rocking):
+    out = rocking("simulate --height 1 --width 0.9 --acceleration 12 --period-s 0.3 --cycles 5")[2]
+    assert any(line.startswith("warning: ") for line in out.splitlines())
+
+
+@pytest.mark.parametrize(
+    ("same", "as_acceleration"),
+    [
+        ("--acceleration-g 0.3 --period-s 0.8", 0.3 * 9.80665),
+        ("--displacement 0.05 --frequency-hz 1.25", 0.05 * (2 * np.pi * 1.25) ** 2),
+    ],
+)
+def test_base_motion_may_be_given_in_other_units(rocking, same, as_acceleration):
+    other = json.loads(rocking(f"simulate --height 2 --width 0.5 {same} --cycles 3 --json")[2])
+    line = f"simulate --height 2 --width 0.5 --acceleration {as_acceleration!r} --frequency-hz 1.25 --cycles 3 --json"
+    assert other["amplitude"] == pytest.approx(json.loads(rocking(line)[2])["amplitude"], rel=1e-14)
+    assert other["period"] == pytest.approx(rk.Block(2, 0.5).time(0.8), rel=1e-14)
+
+
+def test_overturning_is_told_with_its_time(rocking):
+    motion = rk.simulate(rk.System(rk.Harmonic(1.75, period=2.0), 0.95))
+    code, _, out = rocking("simulate --amplitude 1.75 --period 2 --restitution 0.95")
+    assert code == 0
+    assert out.startswith(f"overturned: from τ = {motion.overturning.time:.6g}, in cycle 6")
+
+
+def test_rest_is_told(rocking):
+    assert rocking("simulate --amplitude 0.5 --period 1 --restitution 0.9")[2].startswith("at rest")
+
+
+def test_json_agrees_with_the_motion_and_is_strict(rocking):
+    line = "--phase 1.8 --velocity 0.15 --cycles 20 --brace-angle 1 --brace-restitution 0.5"
+    code, _, out = rocking(f"simulate --amplitude 5.5 --period 0.5 --restitution 0.925 {line} --json")
+    system = rk.System(rk.Harmonic(5.5, period=0.5, phase=1.8), 0.925, rk.Braces(1.0, 0.5))
+    motion = rk.simulate(system, rk.State(velocity=0.15), cycles=20)
+    told = json.loads(out, parse_constant=pytest.fail)
+    assert code == 0
+    assert (told["outcome"], told["impacts"], told["cycles"]) == ("bounded", motion.impacts, 20)
+    assert told["final"] == pytest.approx(
+        {"angle": motion.final.angle, "velocity": motion.final.velocity}, rel=1e-12
+    )
+    assert told["braces"] == {"angle": 1.0, "restitution": 0.5}
+
+
+def test_json_in_si_has_null_where_no_friction_suffices(rocking):
+    # A block that is thrown so fast that the base would have to pull at it.
+    _, _, out = rocking(f"simulate {SI} --velocity 30 --cycles 2 --json")
+    assert json.loads(out, parse_constant=pytest.fail)["validity"]["friction"] is None
+
+
+def test_csv_holds_the_motion_at_a_hundred_steps_a_cycle(rocking, tmp_path):
+    assert rocking(f"simulate {SI} --cycles 7 --csv motion.csv")[0] == 0
+    with (tmp_path / "motion.csv").open(encoding="utf-8") as file:
+        heading, *rows = csv.reader(file)
+    table = dict(zip(heading, np.array(rows, float).T, strict=True))
+    block = rk.Block(2.0, 0.5)
+    system = block.system(acceleration=2.9, frequency_hz=1.8)
+    motion = rk.simulate(system, cycles=7)
+    times = np.arange(701) * system.forcing.period / 100
+    angle, velocity = motion.at(np.minimum(times, motion.duration))
+    expected = {
+        "time [1/alpha]": times,
+        "angle [theta_cr]": angle,
+        "velocity [alpha theta_cr]": velocity,
+        "time [s]": np.arange(701) / 180,
+        "angle [rad]": angle * np.arctan(0.25),
+        "velocity [rad/s]": velocity * np.arctan(0.25) * block.frequency_parameter,
+        "top_displacement [m]": 2.0 * np.sin(angle * np.arctan(0.25)),
+    }
+    assert list(table) == list(expected)
+    for name, values in expected.items():
+        np.testing.assert_allclose(table[name], values, rtol=1e-12, atol=1e-13)
+
+
+def test_csv_of_a_normalised_system_has_three_columns(rocking, tmp_path):
+    assert rocking(f"simulate {NORMALISED} --cycles 1001 --csv motion.csv")[0] == 0
+    table = np.loadtxt(tmp_path / "motion.csv", delimiter=",", skiprows=1)
+    assert table.shape == (100_101, 3)
+    # The steps stay even where the table goes on in a new batch of cycles: 1e-2, but for the rounding of 1001.
+    np.testing.assert_allclose(np.diff(table[:, 0]), 0.01, rtol=0, atol=3e-13)
+
+
+def test_netcdf_is_the_dataset_of_the_motion(rocking, tmp_path):
+    import xarray as xr
+
+    assert rocking(f"simulate {NORMALISED} --cycles 7 --netcdf motion.nc")[0] == 0
+    motion = rk.simulate(rk.System(rk.Harmonic(2.0, period=1.0), 0.925), cycles=7)
+    with xr.open_dataset(tmp_path / "motion.nc", engine="h5netcdf") as written:
+        xr.testing.assert_allclose(written.load(), motion.to_xarray(), rtol=1e-15)
+
+
+@pytest.mark.parametrize(
+    ("name", "start"),
+    [
+        ("a.png", b"\x89PNG"),
+        ("a.svg", b"<?xml"),
+        ("a.pdf", b"%PDF"),
+        ("a.PNG", b"\x89PNG"),
+        ("a.gif", b"GIF8"),
+        ("a.mp4", b"\x00\x00\x00"),
+    ],
+)
+def test_suffix_chooses_the_kind_of_picture_and_nothing_else_is_left(rocking, tmp_path, name, start):
+    code, _, out = rocking(f"simulate {NORMALISED} --cycles 3 --plot {name}")
+    assert code == 0
+    assert out.endswith(f"wrote {name}\n")
+    assert (tmp_path / name).read_bytes().startswith(start)
+    assert [path.name for path in tmp_path.iterdir()] == [name]
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "--amplitude 1.75 --period 2 --restitution 0.95",
+        "--amplitude 0.5 --period 1 --restitution 0.9",
+        "--amplitude 0.5 --period 1 --restitution 0.9 --angle 0.5",
+        "--amplitude 15 --period 2 --restitution 0.925 --brace-angle 1",
+        SI,
+    ],
+)
+def test_every_outcome_can_be_drawn(rocking, line):
+    assert rocking(f"simulate {line} --plot motion.png")[:2] == (0, "")
+
+
+REFUSED = {
+    "": "give --amplitude, --period (or --frequency) and --restitution, or in SI --height, --width, "
+    "--acceleration (or --acceleration-g, --displacement) and --frequency-hz (or --period-s)",
+    "--amplitude 2 --height 1": "--amplitude is normalised, --height is SI: give one kind",
+    "--amplitude 2 --period 1": "missing --restitution: give --amplitude, --period (or --frequency) and --restitution",
+    "--period 1": "missing --amplitude and --restitution: give --amplitude, --period (or --frequency) and --restitution",
+    "--amplitude 2 --restitution 0.9": "give exactly one of --period, --frequency; got none",
+    f"{NORMALISED} --frequency 6": "give exactly one of --period, --frequency; got --period=1.0 and --frequency=6.0",
+    "--height 2 --acceleration 3": "missing --width: give --height, --width, --acceleration "
+    "(or --acceleration-g, --displacement) and --frequency-hz (or --period-s)",
+    "--height 2 --width 0.5 --period-s 1": "give exactly one of --acceleration, --acceleration-g, --displacement; got none",
+    "--height 2 --width 0.5 --acceleration 3": "give exactly one of --frequency-hz, --period-s; got none",
+    f"{SI} --period-s 1": "give exactly one of --frequency-hz, --period-s; got --frequency-hz=1.8 and --period-s=1",
+    f"{SI} --acceleration 1e9": "--acceleration must lie in [0, 2402.42] m/s²; got 1000000000.0",
+    f"{SI} --width 3": "--restitution by Housner's formula is -0.0385 for a block as squat as 2 m x 3 m and must lie in "
+    "[0, 1]: give --restitution",
+    f"{SI} --height 0": "--height must lie in [0.001, 1000] m; got 0",
+    f"{NORMALISED} --period 0": "--period must lie in [0.00628319, 6283.19]; got 0",
+    f"{NORMALISED} --period -1": "--period must lie in [0.00628319, 6283.19]; got -1",
+    f"{NORMALISED} --period nan": "--period must lie in [0.00628319, 6283.19]; got nan",
+    f"{NORMALISED} --amplitude -2": "--amplitude must lie in [0, 1000]; got -2 "
+    "(a negative --amplitude is a --phase shift: add π to --phase)",
+    f"{NORMALISED} --amplitude inf": "--amplitude must lie in [0, 1000]; got inf",
+    f"{NORMALISED} --amplitude two": "Invalid value for '--amplitude': must be a number; got 'two'",
+    f"{NORMALISED} --restitution 1.2": "--restitution must lie in [0, 1]; got 1.2",
+    f"{NORMALISED} --phase 1e4": "--phase must lie in [-1000, 1000]; got 10000.0",
+    f"{NORMALISED} --brace-angle 0": "--brace-angle must lie in [0.001, 1000]; got 0",
+    f"{NORMALISED} --brace-angle 1 --brace-restitution 2": "--brace-restitution must lie in [0, 1]; got 2",
+    f"{NORMALISED} --brace-restitution 1": "--brace-restitution needs --brace-angle",
+    f"{NORMALISED} --brace-angle 0.5 --angle 0.6": "--angle must lie between the braces, in [-0.5, 0.5]; got 0.6",
+    f"{NORMALISED} --velocity -inf": "--velocity must lie in [-1000, 1000]; got -inf",
+    f"{NORMALISED} --cycles 0": "--cycles must be a whole number in [1, 1000000000]; got 0",
+    f"{NORMALISED} --cycles 2.5": "--cycles must be a whole number in [1, 1000000000]; got 2.5",
+    f"{NORMALISED} --cycles nan": "--cycles must be a whole number in [1, 1000000000]; got nan",
+    f"{NORMALISED} --cycles 1e6 --csv a.csv": "--cycles must be at most 100000 with --csv; got 1000000.0",
+    f"{NORMALISED} --plot a.jpeg": "--plot must end in .png, .svg, .pdf, .gif, .mp4; got 'a.jpeg'",
+    f"{NORMALISED} --csv nowhere/a.csv": "--csv must lie in an existing folder; got 'nowhere/a.csv'",
+    f"{NORMALISED} --netcdf .": "--netcdf must end in .nc; got '.'",
+}
+
+
+@pytest.mark.parametrize("line", REFUSED)
+def test_input_that_cannot_be_run_is_refused_in_one_line(rocking, tmp_path, line):
+    assert rocking(f"simulate {line}") == (2, REFUSED[line], "")
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize(
+    "line", ["nonsense", "simulate --nonsense", "simulate extra", "simulate --amplitude", "--nonsense"]
+)
+def test_unknown_words_are_refused_in_one_line(rocking, line):
+    code, message, out = rocking(line)
+    assert (code, out) == (2, "")
+    assert 0 < len(message) < 120
+
+
+def test_command_alone_shows_its_help_and_is_an_error(rocking):
+    code, _, out = rocking("")
+    assert code == 2
+    for command in ("simulate", "paper", "cite"):
+        assert f"\n  {command} " in out
+
+
+def test_cite_and_version(rocking):
+    assert rocking("cite") == (0, "", rk.cite())
+    assert rocking("--version") == (0, "", f"rocking {rk.__version__}\n")
+
+
+def test_paper_writes_the_figures_asked_for(rocking, tmp_path):
+    code, _, out = rocking("paper 1 --output results/new")
+    assert code == 0
+    assert sorted(path.name for path in (tmp_path / "results/new").iterdir()) == [
+        "figure-01.png",
+        "figure-01.svg",
+    ]
+    assert "wrote results/new/figure-01.svg" in out
+
+
+@pytest.mark.parametrize(
+    ("line", "message"),
+    [
+        ("paper 99", "figures must be among "),
+        ("paper 1 --output taken/here", "--output must be a folder that can be written; "),
+    ],
+)
+def test_paper_refuses_unknown_figures_and_impossible_folders(rocking, tmp_path, line, message):
+    (tmp_path / "taken").write_text("")
+    code, said, _ = rocking(line)
+    assert code == 2
+    assert said.startswith(message)
+    assert (tmp_path / "taken").read_text() == ""
+    assert not (tmp_path / "results").exists()
+
+
+@pytest.mark.parametrize("error", [RuntimeError("so\nsad"), ValueError("bad"), MemoryError()])
+def test_failure_of_our_own_is_one_line_and_exit_code_1(rocking, tmp_path, monkeypatch, error):
+    def fail(*_, **__):
+        raise error
+
+    monkeypatch.setattr("rocking.cli.outputs.tables", fail)
+    code, message, _ = rocking(f"simulate {NORMALISED} --csv a.csv")
+    assert code == 1
+    assert (
+        message
+        == f"failed, and should not have: {type(error).__name__}: {' '.join(str(error).split())}".strip()
+    )
+    assert not list(tmp_path.iterdir())
+
+
+def test_piped_output_has_no_colours_and_errors_go_to_stderr(tmp_path):
+    done = subprocess.run(
+        [*COMMAND, "simulate", *SI.split()], capture_output=True, text=True, cwd=tmp_path, check=True
+    )
+    assert "\x1b" not in done.stdout
+    assert done.stderr == ""
+    done = subprocess.run(
+        [*COMMAND, "simulate", "--amplitude", "2"], capture_output=True, text=True, check=False
+    )
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr.startswith("rocking: missing --restitution")
+    assert len(done.stderr.splitlines()) == 1
+
+
+def test_terminal_without_greek_letters_is_served(tmp_path):
+    environment = os.environ | {"PYTHONIOENCODING": "ascii"}
+    done = subprocess.run(
+        [*COMMAND, "simulate", *SI.split()], capture_output=True, env=environment, check=True
+    )
+    assert b"m/s?" in done.stdout
+
+
+def test_reader_that_leaves_early_is_no_error_message():
+    with subprocess.Popen([*COMMAND, "cite"], stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+        process.stdout.close()
+        assert process.stderr.read() == b""
+
+
+def test_interrupted_run_says_so_and_leaves_no_file(tmp_path):
+    line = f"simulate {NORMALISED} --cycles 100000 --csv motion.csv"
+    process = subprocess.Popen(
+        [*COMMAND, *line.split()], cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE
+    )
+    while process.poll() is None and not list(tmp_path.iterdir()):
+        time.sleep(0.01)
+    process.send_signal(signal.SIGINT)
+    out, err = process.communicate()
+    assert (process.returncode, out, err) == (130, b"", b"rocking: interrupted\n")
+    assert not list(tmp_path.iterdir())

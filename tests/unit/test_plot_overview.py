@@ -1,0 +1,39 @@
+"""A notebook shows a motion as a picture over its line, however it was recorded."""
+
+import base64
+import io
+import re
+
+import numpy as np
+import pytest
+from PIL import Image
+
+import rocking as rk
+
+SYSTEM = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925)
+FALLING = rk.System(rk.Harmonic(amplitude=1.75, period=2.0), restitution=0.95)
+
+
+@pytest.mark.parametrize("record", ["all", "section", "none"])
+@pytest.mark.parametrize("system", [SYSTEM, FALLING])
+def test_notebook_shows_a_picture_that_is_not_blank(system, record):
+    html = rk.simulate(system, cycles=60, record=record)._repr_html_()
+    (encoded,) = re.findall(r'src="data:image/png;base64,([^"]+)"', html)
+    image = Image.open(io.BytesIO(base64.b64decode(encoded)))
+    assert image.format == "PNG"
+    assert np.asarray(image.convert("L")).std() > 10
+
+
+def test_long_bounded_motion_is_shown_by_its_last_cycles():
+    history, _ = rk.plot.overview(rk.simulate(SYSTEM, cycles=200)).axes
+    assert history.get_xlim() == (170.0, 200.0)
+
+
+def test_overturning_is_shown_from_the_start():
+    history, _ = rk.plot.overview(rk.simulate(FALLING, cycles=200)).axes
+    assert history.get_xlim()[0] == 0.0
+
+
+def test_block_gives_si_axes():
+    figure = rk.plot.overview(rk.simulate(SYSTEM, cycles=20), rk.Block(height=2.0, width=0.5))
+    assert [ax.get_xlabel()[-4:] for ax in figure.axes] == [" (s)", " (°)"]

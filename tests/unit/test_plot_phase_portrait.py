@@ -1,0 +1,108 @@
+"""The phase portrait shows the jumps as strokes, the arcs as curves, and nothing else."""
+
+import math
+
+import numpy as np
+import pytest
+
+import rocking as rk
+
+SYSTEM = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925)
+BRACED = rk.System(
+    rk.Harmonic(amplitude=15.0, period=2.0), restitution=0.925, braces=rk.Braces(angle=1.0, restitution=0.8)
+)
+
+
+def named(ax, name):
+    (line,) = (line for line in ax.lines if line.get_gid() == name)
+    return np.column_stack([line.get_xdata(), line.get_ydata()])
+
+
+def strokes(ax, kind):
+    (collection,) = (c for c in ax.collections if c.get_gid() == f"{kind} strokes")
+    return np.array(collection.get_segments())
+
+
+def test_strokes_at_the_base_take_the_velocity_from_before_to_e_times_it():
+    motion = rk.simulate(SYSTEM, cycles=40)
+    ax = rk.plot.phase_portrait(motion)
+    drawn = strokes(ax, "impact")
+    assert len(drawn) == motion.impacts
+    assert not drawn[:, :, 0].any()
+    np.testing.assert_allclose(drawn[:, 1, 1], 0.925 * drawn[:, 0, 1], rtol=1e-14)
+
+
+def test_strokes_at_the_braces_turn_the_velocity_back_by_r():
+    motion = rk.simulate(BRACED, cycles=40)
+    drawn = strokes(rk.plot.phase_portrait(motion), "brace")
+    assert len(drawn) == motion.brace_hits > 20
+    assert set(np.abs(drawn[:, :, 0]).ravel()) == {1.0}
+    np.testing.assert_allclose(drawn[:, 1, 1], -0.8 * drawn[:, 0, 1], rtol=1e-14)
+
+
+@pytest.mark.parametrize("kind", ["impact", "brace"])
+def test_marks_sit_at_both_ends_of_the_strokes(kind):
+    ax = rk.plot.phase_portrait(rk.simulate(BRACED, cycles=40))
+    ends = strokes(ax, kind)
+    np.testing.assert_array_equal(named(ax, f"{kind} before"), ends[:, 0])
+    np.testing.assert_array_equal(named(ax, f"{kind} after"), ends[:, 1])
+
+
+def test_curve_never_crosses_a_jump():
+    motion = rk.simulate(BRACED, cycles=40)
+    points = named(rk.plot.phase_portrait(motion), "motion")
+    steps = np.abs(np.diff(points[:, 1]))
+    jumps = np.abs(motion.events["after"] - motion.events["before"])
+    # |Θ''| ≤ 1 + A + |Θ| = 17, and two neighbours are at most 1/64 apart
+    assert np.nanmax(steps) <= 17 / 64
+    assert jumps.max() > 10 * np.nanmax(steps)
+    assert np.isnan(points[:, 0]).sum() == np.count_nonzero(jumps)
+
+
+def test_curve_ends_and_begins_at_the_marks():
+    motion = rk.simulate(SYSTEM, cycles=20)
+    ax = rk.plot.phase_portrait(motion)
+    points = named(ax, "motion")
+    gaps = np.flatnonzero(np.isnan(points[:, 0]))
+    np.testing.assert_array_equal(points[gaps - 1], named(ax, "impact before"))
+    np.testing.assert_array_equal(points[gaps + 1], named(ax, "impact after"))
+
+
+def test_without_loss_before_and_after_coincide_and_the_curve_is_whole():
+    lossless = rk.System(rk.Harmonic(amplitude=4.0, period=0.4), restitution=1.0)
+    ax = rk.plot.phase_portrait(rk.simulate(lossless, cycles=60))
+    np.testing.assert_array_equal(named(ax, "impact before"), named(ax, "impact after"))
+    assert not np.isnan(named(ax, "motion")).any()
+
+
+def test_window_leaves_out_the_impacts_outside_it():
+    motion = rk.simulate(SYSTEM, cycles=40)
+    inside = (motion.events["time"] >= 30) & (motion.events["time"] <= 40)
+    drawn = strokes(rk.plot.phase_portrait(motion, cycles=(30, 40)), "impact")
+    np.testing.assert_array_equal(drawn[:, 0, 1], motion.events["before"][inside])
+
+
+def test_block_gives_degrees_and_degrees_per_second():
+    block = rk.Block(height=2.0, width=0.5)
+    ax = rk.plot.phase_portrait(rk.simulate(SYSTEM, cycles=20), block=block)
+    normalised = rk.plot.phase_portrait(rk.simulate(SYSTEM, cycles=20))
+    degrees = math.degrees(math.atan(0.25))
+    frequency_parameter = math.sqrt(3 * 9.80665 / (4 * math.hypot(1.0, 0.25)))
+    expected = named(normalised, "motion") * (degrees, degrees * frequency_parameter)
+    np.testing.assert_allclose(named(ax, "motion"), expected, rtol=1e-13)
+    assert ax.get_xlabel().endswith("(°)")
+    assert ax.get_ylabel().endswith("(°/s)")
+
+
+def test_key_names_the_kinds_of_impact_that_occur():
+    def names(system):
+        legend = rk.plot.phase_portrait(rk.simulate(system, cycles=20)).get_legend()
+        return [text.get_text() for text in legend.get_texts()]
+
+    assert names(SYSTEM) == ["before impact", "after impact"]
+    assert names(BRACED) == ["before impact", "after impact", "before brace hit", "after brace hit"]
+
+
+def test_block_at_rest_needs_no_key():
+    still = rk.System(rk.Harmonic(amplitude=0.5, period=1.0), restitution=0.9)
+    assert rk.plot.phase_portrait(rk.simulate(still, cycles=5)).get_legend() is None

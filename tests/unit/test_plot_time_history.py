@@ -1,0 +1,130 @@
+"""The time history passes where the motion passes, corners and extremes included."""
+
+import math
+
+import numpy as np
+import pytest
+
+import rocking as rk
+
+SYSTEM = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925)
+BRACED = rk.System(rk.Harmonic(amplitude=15.0, period=2.0), restitution=0.925, braces=rk.Braces(angle=1.0))
+FALLING = rk.System(rk.Harmonic(amplitude=1.75, period=2.0), restitution=0.95)
+CHATTERING = rk.System(rk.Harmonic(amplitude=1.3, period=3.0), restitution=0.4)
+
+
+def curve(ax):
+    (line,) = (line for line in ax.lines if line.get_gid() == "motion")
+    return np.asarray(line.get_xdata()), np.asarray(line.get_ydata())
+
+
+@pytest.mark.parametrize("system", [SYSTEM, BRACED, CHATTERING])
+def test_curve_holds_every_event_and_every_extreme(system):
+    motion = rk.simulate(system, cycles=30)
+    time, angle = curve(rk.plot.time_history(motion))
+    drawn = set(zip(time, angle, strict=True))
+    assert len(motion.events) > 50
+    assert {(event["time"], event["angle"]) for event in motion.events} <= drawn
+    assert {turn["time"] for turn in motion.peaks} <= set(time)
+    assert np.abs(angle).max() == pytest.approx(motion.peak, rel=1e-13)
+
+
+def test_curve_lies_on_the_motion_and_never_goes_back_in_time():
+    motion = rk.simulate(SYSTEM, cycles=30)
+    time, angle = curve(rk.plot.time_history(motion))
+    np.testing.assert_allclose(angle, motion.at(time)[0], rtol=0, atol=1e-15)
+    assert (np.diff(time) >= 0).all()
+    assert time[0] == 0
+    assert time[-1] == motion.duration
+
+
+def test_chord_between_neighbours_is_thinner_than_a_line():
+    motion = rk.simulate(BRACED, cycles=10)
+    time, angle = curve(rk.plot.time_history(motion))
+    between = (time[1:] + time[:-1]) / 2
+    sagitta = np.abs(motion.at(between)[0] - (angle[1:] + angle[:-1]) / 2)
+    # 2 in high, a line of 1 pt covers 1/144 of it
+    assert sagitta.max() < np.ptp(angle) / 144 / 4
+
+
+def test_window_is_counted_in_forcing_cycles():
+    motion = rk.simulate(BRACED, cycles=30)
+    ax = rk.plot.time_history(motion, cycles=(10, 12.5))
+    time, _ = curve(ax)
+    assert (time[0], time[-1]) == (20.0, 25.0) == tuple(ax.get_xlim())
+
+
+def test_block_gives_seconds_and_degrees():
+    block = rk.Block(height=2.0, width=0.5)
+    motion = rk.simulate(SYSTEM, cycles=20)
+    ax = rk.plot.time_history(motion, block=block)
+    time, angle = curve(ax)
+    frequency_parameter = math.sqrt(3 * 9.80665 / (4 * math.hypot(1.0, 0.25)))
+    assert time[-1] == pytest.approx(motion.duration / frequency_parameter, rel=1e-14)
+    assert np.abs(angle).max() == pytest.approx(math.degrees(math.atan(0.25)) * motion.peak, rel=1e-13)
+    assert ax.get_xlabel().endswith("(s)")
+    assert ax.get_ylabel().endswith("(°)")
+
+
+def test_axes_are_labelled_with_symbols_and_units():
+    ax = rk.plot.time_history(rk.simulate(SYSTEM, cycles=5))
+    assert ax.get_xlabel() == r"time $\tau = \alpha t$ (–)"
+    assert ax.get_ylabel() == r"angle $\Theta = \theta/\theta_\mathrm{cr}$ (–)"
+
+
+def test_axes_given_are_drawn_into_and_returned():
+    _, (left, right) = rk.plot.panels(columns=2)
+    assert rk.plot.time_history(rk.simulate(SYSTEM, cycles=5), ax=right) is right
+    assert not left.lines
+
+
+def test_overturning_is_followed_to_three_critical_angles():
+    motion = rk.simulate(FALLING, cycles=50)
+    time, angle = curve(rk.plot.time_history(motion))
+    assert abs(angle[-1]) == pytest.approx(3.0, abs=1e-10)
+    assert np.abs(angle[:-1]).max() < 3.0
+    assert time[-1] > motion.overturning.time
+
+
+def test_block_that_starts_past_three_critical_angles_is_shown_to_the_end_of_its_run():
+    motion = rk.simulate(FALLING, rk.State(angle=3.5), cycles=50)
+    time, _ = curve(rk.plot.time_history(motion))
+    assert (time[0], time[-1]) == (0.0, motion.duration)
+
+
+def test_block_at_rest_is_a_line_at_zero():
+    still = rk.System(rk.Harmonic(amplitude=0.5, period=1.0), restitution=0.9)
+    _, angle = curve(rk.plot.time_history(rk.simulate(still, cycles=5)))
+    assert not angle.any()
+
+
+@pytest.mark.parametrize(
+    ("system", "drawn"),
+    [(SYSTEM, set()), (FALLING, {("critical angle", 1.0)}), (BRACED, {("braces", 1.0)})],
+)
+def test_critical_angle_and_braces_are_drawn_where_the_motion_comes_near(system, drawn):
+    ax = rk.plot.time_history(rk.simulate(system, cycles=30))
+    guides = {(line.get_gid(), abs(line.get_ydata()[0])) for line in ax.lines}
+    assert {guide for guide in guides if guide[0] in ("critical angle", "braces")} == drawn
+
+
+@pytest.mark.parametrize(
+    ("cycles", "error", "message"),
+    [
+        ((5, 31), ValueError, r"^cycles must lie in \[0, 30\]; got 31$"),
+        ((-1, 3), ValueError, r"^cycles must lie in \[0, 30\]; got -1$"),
+        ((5, 5), ValueError, r"^cycles must be a pair \(first, last\) with first < last; got \(5, 5\)$"),
+        ((math.nan, 5), ValueError, r"^cycles must lie in \[0, 30\]; got nan$"),
+        (10, TypeError, r"^cycles must be a pair \(first, last\); got 10$"),
+        (("a", 2), TypeError, "^cycles must be a real number"),
+    ],
+)
+def test_window_outside_the_motion_is_refused_in_one_line(cycles, error, message):
+    motion = rk.simulate(SYSTEM, cycles=30)
+    with pytest.raises(error, match=message):
+        rk.plot.time_history(motion, cycles=cycles)
+
+
+def test_motion_without_events_is_refused_with_the_way_out():
+    with pytest.raises(ValueError, match="record must be 'all'"):
+        rk.plot.time_history(rk.simulate(SYSTEM, cycles=5, record="section"))
