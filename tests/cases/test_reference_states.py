@@ -19,10 +19,12 @@ KINDS = {
 }
 
 
-def _cases():
-    for name in ("states.json", "states_own.json"):
-        for number, case in enumerate(json.loads((DATA / name).read_text())):
-            yield pytest.param(case, id=f"{name.removesuffix('.json')}-{number}-{case.get('kind', '')}")
+TABLES = {name: json.loads((DATA / name).read_text()) for name in ("states.json", "states_own.json")}
+CASES = [
+    pytest.param(case, id=f"{name}-{number}-{case.get('kind', '')}")
+    for name, table in TABLES.items()
+    for number, case in enumerate(table)
+]
 
 
 def simulate(case, record):
@@ -35,7 +37,7 @@ def simulate(case, record):
 
 
 @pytest.mark.parametrize("record", ["none", "section", "all"])
-@pytest.mark.parametrize("case", _cases())
+@pytest.mark.parametrize("case", CASES)
 def test_final_state_to_1e12_times_the_growth_of_errors(case, record):
     final = simulate(case, record).final
     error = np.abs([final.angle - float(case["Theta"]), final.velocity - float(case["dTheta"])])
@@ -43,7 +45,7 @@ def test_final_state_to_1e12_times_the_growth_of_errors(case, record):
     assert error.max() <= allowed, f"off by {error} where {allowed:.2g} is allowed"
 
 
-@pytest.mark.parametrize("case", _cases())
+@pytest.mark.parametrize("case", CASES)
 def test_events_are_as_many_as_in_the_brute_force_run(case):
     """Counts that are infinite (chatter) are left out; what happens at the very start is no event of the motion."""
     motion = simulate(case, "all")
@@ -52,7 +54,7 @@ def test_events_are_as_many_as_in_the_brute_force_run(case):
     assert found == {name: case[name] for name in found}
 
 
-@pytest.mark.parametrize("case", _cases())
+@pytest.mark.parametrize("case", CASES)
 def test_counters_agree_between_records(case):
     """`impacts` and `brace_hits` do not depend on what is kept, but for chatter, which is cut short where nothing is kept."""
     kept, bare = simulate(case, "all"), simulate(case, "none")
@@ -63,7 +65,7 @@ def test_counters_agree_between_records(case):
 
 
 def test_the_tables_cover_every_kind_of_event_and_limit():
-    cases = [case.values[0] for case in _cases()]
+    cases = [case for table in TABLES.values() for case in table]
     assert len(cases) >= 73
     for name in KINDS:
         assert sum(bool(case.get(name)) for case in cases) >= 10, name

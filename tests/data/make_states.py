@@ -126,7 +126,8 @@ def drawn(kind, count, seed, braced, most_growth, restitution):
             float(rng.choice([0.2, 0.5, 0.8, 0.95, 1.0])) if braced else None,
         )  # fmt: skip
         result = simulate(numbers)
-        if not result.overturned and most_growth / 1e6 <= result.growth <= most_growth:
+        lost = brace is None and simulate(numbers | {"N": numbers["N"] + 12}).overturned
+        if not lost and most_growth / 1e6 <= result.growth <= most_growth:
             count -= 1
             yield numbers
 

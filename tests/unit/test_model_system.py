@@ -21,8 +21,8 @@ MAKERS = {
     "frequency": (lambda x: rk.Harmonic(1.0, frequency=x), 1e-3, 1e3),
     "phase": (lambda x: rk.Harmonic(1.0, period=1.0, phase=x), -1e3, 1e3),
     "restitution": (lambda x: rk.System(SYSTEM.forcing, x), 0, 1),
-    "angle": (rk.State, -1e3, 1e3),
-    "velocity": (lambda x: rk.State(velocity=x), -1e3, 1e3),
+    "angle": (rk.State, -1e9, 1e9),
+    "velocity": (lambda x: rk.State(velocity=x), -1e9, 1e9),
     "brace angle": (rk.Braces, 1e-3, 1e3),
     "brace restitution": (lambda x: rk.Braces(1.0, x), 0, 1),
 }
@@ -45,6 +45,13 @@ def test_ends_of_the_range_are_allowed_and_what_lies_beyond_is_not(name):
         message = refusal(partial(make, beyond), ValueError)
         assert message.startswith(name.split()[-1] + " must lie in [")
         assert repr(beyond) in message
+
+
+@pytest.mark.parametrize("name", ["angle", "velocity"])
+def test_start_lies_within_a_thousand_though_a_state_reached_may_not(name):
+    rk.simulate(SYSTEM, rk.State(**{name: 1e3}), cycles=1)
+    message = refusal(partial(rk.simulate, SYSTEM, rk.State(**{name: 1001}), cycles=1), ValueError)
+    assert message == f"{name} must lie in [-1000, 1000]; got 1001.0"
 
 
 @pytest.mark.parametrize("name", MAKERS)

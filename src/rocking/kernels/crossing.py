@@ -212,8 +212,7 @@ def no_return_time(p, arc):
 
 @njit(**COMPILED)
 def first_zero(p, arc, watch, t, limit):
-    """(Found, time, instant): the first time after t at which w falls through zero, if not later than
-    ``limit``.
+    """(Found, time, instant): the first time after t, by ``limit``, at which w falls through zero.
 
     w >= 0 at t. Where w = w' = 0 at t (lift-off, leaving a brace) the first convex stretch begins there,
     and w rises through all of it.

@@ -1,10 +1,9 @@
-"""Harmonic base acceleration A cos(Omega tau + phi), eq. (3) of Yim & Lin (1991): all an arc knows of its
-forcing.
+"""Harmonic base acceleration A cos(Omega tau + phi), eq. (3) of Yim & Lin (1991).
 
-Another forcing is another file with these functions: what the arc starts from, the particular solution that
-starts from rest, and where the sign of a forcing term changes. On one side sigma of the base the block
-feels sigma A cos psi = A cos eta, with eta = psi on the positive side and psi + pi on the negative one;
-(cosine, sine) are those of eta.
+This is all that an arc knows of its forcing; another forcing is another file with these functions: what the
+arc starts from, the particular solution that starts from rest, and where the sign of a forcing term
+changes. On one side sigma of the base the block feels sigma A cos psi = A cos eta, with eta = psi on the
+positive side and psi + pi on the negative one; (cosine, sine) are those of eta.
 """
 
 import math

@@ -135,8 +135,7 @@ def note(events, count, cycle, mode, arc, event, before):
 
 @njit(**COMPILED)
 def finish(p, reached, coming, columns, growth, want_peak):
-    """(status, progress) at the start of a cycle that is not marched: differences, peak and arc brought
-    there.
+    """(status, progress) at the end of a march: differences, peak and arc are brought there.
 
     An overturned block is left at the moment of the proof: later its angle may be beyond all numbers.
     """

@@ -1,5 +1,4 @@
-"""The first impact of an arc from a good guess, proved like ``crossing.first_zero`` and several times
-cheaper.
+"""The first impact of an arc from a good guess, proved at a fraction of the cost.
 
 A steady motion repeats its arcs, so the last arc on this side tells where the next zero of u is; one
 evaluation there and a Taylor series reach it. It is the *first* zero if no stretch before it holds one, and

@@ -6,8 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from rocking.model import VERSION, Block
-from rocking.model.errors import instance, refusal, within
+from rocking.model import VERSION, Block, instance, refusal, within
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -8,7 +8,7 @@ import numpy as np
 
 from rocking.kernels import events
 from rocking.kernels import march as kernel
-from rocking.kernels.parameters import HarmonicParameters, harmonic_parameters
+from rocking.kernels import parameters as numbers
 from rocking.model import Outcome, Overturning, State, System, TooManyEvents, check_start, one_of, whole
 from rocking.motion.motion import Motion
 
@@ -20,10 +20,10 @@ BREATH = 100_000
 NOTHING = np.empty((0, 2))
 
 
-def parameters(system: System) -> HarmonicParameters:
+def parameters(system: System) -> numbers.HarmonicParameters:
     """Return a system as the kernels read it."""
     forcing, braces = system.forcing, system.braces
-    return harmonic_parameters(
+    return numbers.harmonic_parameters(
         forcing.amplitude,
         forcing.frequency,
         forcing.period,
@@ -76,10 +76,10 @@ def simulate(system: System, start: State | None = None, cycles: int = 200, reco
     check_start(system, start)
     record = one_of("record", record, ("all", "section", "none"))
     cycles = whole("cycles", cycles, 1, MOST_SECTION_CYCLES if record == "section" else MOST_CYCLES)
-    numbers = parameters(system)
-    progress, hit = kernel.begin_march(numbers, start.angle, start.velocity)
+    p = parameters(system)
+    progress, hit = kernel.begin_march(p, start.angle, start.velocity)
     first = _first_rows(progress, start, hit)
-    status, progress, section, rows = _run(numbers, progress, cycles, 0.0, record, want_peak=True)
+    status, progress, section, rows = _run(p, progress, cycles, 0.0, record, want_peak=True)
     return Motion(
         system=system,
         start=start,
@@ -100,12 +100,12 @@ def section_of(motion: Motion, phase: float) -> np.ndarray:
     """Run a motion again for its section at another forcing phase."""
     forcing = motion.system.forcing
     time = math.fmod(phase - forcing.phase, 2.0 * math.pi) / forcing.frequency
-    numbers = parameters(motion.system)
-    progress, _ = kernel.begin_march(numbers, motion.start.angle, motion.start.velocity)
-    return _run(numbers, progress, motion.cycles, time % forcing.period, "section", want_peak=False)[2]
+    p = parameters(motion.system)
+    progress, _ = kernel.begin_march(p, motion.start.angle, motion.start.velocity)
+    return _run(p, progress, motion.cycles, time % forcing.period, "section", want_peak=False)[2]
 
 
-def _run(numbers, progress, cycles, section_time, record, want_peak):  # type: ignore[no-untyped-def]
+def _run(p, progress, cycles, section_time, record, want_peak):  # type: ignore[no-untyped-def]
     """March to the end, in breaths: (status, progress, section, event rows)."""
     section = np.empty((cycles + 1 if record == "section" else 0, 2))
     events = np.empty((4096 if record == "all" else 0, 8))
@@ -114,7 +114,7 @@ def _run(numbers, progress, cycles, section_time, record, want_peak):  # type: i
     while status == kernel.FULL or (status in (kernel.DONE, kernel.STILL) and progress.cycle < cycles):
         until = min(cycles, progress.cycle + BREATH)
         status, progress, taken, written = kernel.march(
-            numbers, progress, until, section_time, section[done:], events, NOTHING, NOTHING[:, 0], want_peak
+            p, progress, until, section_time, section[done:], events, NOTHING, NOTHING[:, 0], want_peak
         )
         done += taken
         recorded += written
