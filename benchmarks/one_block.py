@@ -1,16 +1,20 @@
 """One block in the compiled kernel, against the peers, against 40 digits, and two at once."""
 
 from concurrent.futures import ThreadPoolExecutor
+from os import getloadavg
 from statistics import median
 
 import mpmath as mp
 import numpy as np
 
 from benchmarks.cases import CASES, Point, lift_off
-from benchmarks.clock import seconds
+from benchmarks.clock import nanoseconds_per_impact, seconds
 from benchmarks.peers import Heyoka, scipy_march
 from benchmarks.reference import DIGITS, state_at
 from benchmarks.table import Figure
+from rocking import Harmonic, State, System, simulate
+from rocking.kernels import march as kernel
+from rocking.kernels.parameters import harmonic_parameters
 
 CYCLES_OF_THE_KERNEL = 20_000
 CYCLES_OF_A_THREAD = 200_000
@@ -26,27 +30,29 @@ OVER_HEYOKA = {False: (45, 70, 25), True: (100, 120, 50)}
 
 def march(case, cycles):
     """One block from rest with its tangent, the kernel alone; returns (impacts, final point), as the peers do."""
-    raise NotImplementedError
-
-
-def per_impact(repeats, march, *arguments):
-    """Nanoseconds of a march per impact that it met."""
-    time, (impacts, _) = seconds(repeats, march, *arguments)
-    return 1e9 * time / impacts
+    p = harmonic_parameters(case.amplitude, case.frequency, case.period, 0.0, case.restitution)
+    progress, _ = kernel.begin_march(p, 0.0, 0.0)
+    section, events, growth = np.empty((0, 2)), np.empty((0, 8)), np.empty(0)
+    while progress.cycle < cycles:
+        # The tangent begins anew every so often: it neither overflows nor fades into subnormal numbers.
+        tangent, until = np.eye(2), min(cycles, progress.cycle + 1000)
+        _, progress, _, _ = kernel.march(p, progress, until, 0.0, section, events, tangent, growth, False)
+    arc = progress.arc
+    return progress.impacts, Point(cycles * case.period, arc.side * arc.angle, arc.side * arc.velocity)
 
 
 def speed():
     """Nanoseconds per impact, and how many times longer the peers take on the same motion in the same run."""
     for index, case in enumerate(CASES):
-        ours = per_impact(7, march, case, CYCLES_OF_THE_KERNEL)
+        ours = nanoseconds_per_impact(7, march, case, CYCLES_OF_THE_KERNEL)
         yield Figure(case.name, ours, "ns", NANOSECONDS[index], note="per impact, tangent in")
         start = lift_off(case, case.period / 20)
-        theirs = per_impact(3, scipy_march, case, start, CYCLES_OF_SCIPY * case.period)
+        theirs = nanoseconds_per_impact(3, scipy_march, case, start, CYCLES_OF_SCIPY * case.period)
         yield ratio("SciPy DOP853, rtol 1e-12", theirs, ours, OVER_SCIPY[index])
         for variations in (False, True):
             for lean in (False, True):
                 peer = Heyoka(case, variations, lean)
-                theirs = per_impact(5, peer.march, start, CYCLES_OF_HEYOKA * case.period)
+                theirs = nanoseconds_per_impact(5, peer.march, start, CYCLES_OF_HEYOKA * case.period)
                 what = "heyoka" + " + variations" * variations + ", leanest callback" * lean
                 yield ratio(what, theirs, ours, None if lean else OVER_HEYOKA[variations][index])
 
@@ -60,8 +66,6 @@ def accuracy():
 
     Each is judged on the very numbers it takes: ours a period, heyoka a frequency, both as the doubles they are.
     """
-    from rocking import Harmonic, State, System, simulate
-
     for case in CASES:
         system = System(Harmonic(amplitude=case.amplitude, period=case.period), restitution=case.restitution)
         peer, random = Heyoka(case, lean=True), np.random.default_rng(1991)
@@ -87,12 +91,13 @@ def error(point, exact):
 
 
 def threads():
-    """Twice the work on two threads, against once the work on one."""
+    """Twice the work on two threads, against once the work on one: both cores must be free for it."""
+    load = f"load average before: {getloadavg()[0]:.1f}"
     with ThreadPoolExecutor(2) as pool:
         for case in CASES:
             alone, _ = seconds(5, march, case, CYCLES_OF_A_THREAD)
             both, _ = seconds(5, twice, pool, case)
-            yield Figure(case.name, 2 * alone / both, "×", 1.9, least=True)
+            yield Figure(case.name, 2 * alone / both, "×", 1.9, least=True, note=load)
 
 
 def twice(pool, case):

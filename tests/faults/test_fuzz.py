@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from rocking import Braces, Harmonic, Outcome, State, System, TooManyEvents, simulate
 
-LONGEST = 400.0  # τ
+LONGEST = 100.0  # τ
 SYSTEMS = 10_000
 MOST_CROWDED = 1e-3
 
@@ -27,7 +27,8 @@ def check(system, start, cycles):
         consistent(motion, cycles)
     assert len({motion.outcome for motion in motions}) == 1
     assert len({motion.cycles for motion in motions}) == 1
-    assert motions[1].section().shape == (motions[1].cycles + 1, 2)
+    kept = motions[1].cycles + (motions[1].outcome is not Outcome.OVERTURNED)
+    assert motions[1].section().shape == (kept, 2)
     return False
 
 
@@ -37,7 +38,8 @@ def consistent(motion, cycles):
     reach = math.inf if braces is None else braces.angle
     assert math.isfinite(final.angle)
     assert math.isfinite(final.velocity)
-    assert abs(final.angle) <= motion.peak <= reach
+    assert abs(final.angle) <= min(reach, motion.peak)
+    assert motion.peak <= reach * (1+2e-15)
     assert motion.impacts >= 0
     assert motion.brace_hits >= 0
     assert braces is not None or motion.brace_hits == 0
@@ -62,8 +64,10 @@ def anything(rng):
         )
 
     forcing = Harmonic(
-        amplitude=among((0.0, 1.0, 1 - 2**-53, 1 + 2**-52, 1.5, 1000.0), 1e-2, 1e3),
-        period=among((1.0, 0.4, 2.0, 2 * math.pi), 7e-3, 6e3),
+        amplitude=among(
+            (0.0, 1.0, 1 - 2**-53, 1 + 2**-52, 1.5, 1000.0), 0.1, 1e3 if rng.random() < 0.2 else 20
+        ),
+        period=among((1.0, 0.4, 2.0, 2 * math.pi), 7e-3, 6e3 if rng.random() < 0.02 else 30),
         phase=rng.choice((0.0, math.pi, math.pi / 2, rng.uniform(-1000, 1000))),
     )
     restitution = rng.choice((0.0, 1.0, 1 - 2**-53, rng.random(), rng.random(), rng.random()))

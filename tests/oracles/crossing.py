@@ -135,6 +135,10 @@ class Distance:
             second + offset * third + rest,
         )
 
+    def depth(self, time):
+        """w in units of the rounding of its terms."""
+        return self.at(time)[0] / (self.size(time) * ROUNDING)
+
     def stays(self, time):
         """Proof that w > 0 from a time on, by more than rounding: the growing part wins for good."""
         if not self.p > AMBIGUOUS * self.growth_size:
@@ -210,18 +214,33 @@ def _inspect(distance, left, right):
 def _dip(distance, left, right):
     """A dip of w: clear of zero, through it, or too shallow to tell."""
     lowest = distance.lowest(left, right)
-    depth = distance.at(lowest)[0]
-    size = distance.size(lowest)
-    if depth > AMBIGUOUS * size:
+    depth = distance.depth(lowest)
+    if depth > 8:
         return CLEAR
-    shallow = float((depth / (size * ROUNDING)).mid())
-    if depth < -AMBIGUOUS * size:
-        return _event(distance, distance.zero(left, lowest.mid()), shallow, True)
-    return _event(distance, lowest, shallow, False)
+    if depth < -8:
+        return _event(distance, distance.zero(left, lowest.mid()), depth, True)
+    return _event(distance, lowest, depth, False)
 
 
 def _event(distance, time, depth, definite):
-    return Event(distance.kind, time, distance.outward * distance.at(time)[1], depth, definite)
+    return Event(distance.kind, time, distance.outward * distance.at(time)[1], float(depth), definite)
+
+
+def _fall(distance, zero, left, step):
+    """(Event, time): a zero known, w falling at left: followed down until it lies beyond rounding, or to the bottom of its dip."""
+    while True:
+        right = (left + step).mid()
+        _, first, second = distance.enclose(left, right)
+        if first < 0:
+            if distance.at(right)[0] < -AMBIGUOUS * distance.size(right):
+                return _event(distance, zero, math.inf, True), right
+            left = right
+        elif second > 0 and distance.at(left)[1] < 0 and distance.at(right)[1] > 0:
+            lowest = distance.lowest(left, right)
+            depth = distance.depth(lowest)
+            return _event(distance, zero if depth < -8 else lowest, depth, bool(depth < -8)), right
+        else:
+            step /= 2
 
 
 def _resurface(distance, left, step):
@@ -258,9 +277,8 @@ def _zeros(distance, arc, limit):
         if found == UNDECIDED:
             step, grow = step / 2, False
             continue
-        if found == SHALLOW:  # look from just before that zero, and further beyond it
-            left, step = (distance.zero(left, right) - step / 64).mid(), step * 5 / 4
-            continue
+        if found == SHALLOW:
+            found, right = _fall(distance, distance.zero(left, right), right, step)
         if found != CLEAR:
             events.append(found)
             if found.definite:

@@ -73,12 +73,12 @@ def test_no_first_crossing_is_missed_or_misread_in_a_million_arcs(family, chunk)
     assert not wrong, _report(wrong)
 
 
-def _ratios(arc, guess):
-    """Relative errors of time and speed over what their own condition allows, and over what the arc's allows."""
+def _ratios(arc, off):
+    """Relative errors of time and speed over what their own condition allows, and over what the arc's allows; guessed so far off."""
     event, *more = first_events(arc)
     if more or event.kind != "base" or not math.isinf(event.depth):
         return None
-    _, time, velocity = first_event(arc, guess)
+    _, time, velocity = first_event(arc, off and off * float(event.time))
     errors = (
         float(abs((time - event.time) / event.time)),
         float(abs((velocity - event.velocity) / event.velocity)),
@@ -89,9 +89,9 @@ def _ratios(arc, guess):
     )
 
 
-@pytest.mark.parametrize("guess", [None, 1.0], ids=["without a guess", "with a guess"])
+@pytest.mark.parametrize("off", [None, 1.01], ids=["without a guess", "with a guess"])
 @pytest.mark.parametrize("chunk", range(2))
-def test_impact_time_and_speed_to_five_parts_in_1e15_times_their_condition(chunk, guess):
+def test_impact_time_and_speed_to_five_parts_in_1e15_times_their_condition(chunk, off):
     """Speeds 1e-12 … 0.3 from the base; time and speed each against its own condition number."""
     found = [
         (ratios[0], arc)

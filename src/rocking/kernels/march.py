@@ -58,6 +58,10 @@ class Progress(NamedTuple):
     brace_hits: int
     peak: float
     no_return: float  # time within the cycle at which overturning was proved; infinite before
+    last_wait: (
+        float  # how long the last two arcs took: what comes next is guessed from the last on the same side
+    )
+    wait_before: float
 
 
 @njit(**COMPILED)
@@ -76,7 +80,7 @@ def begin_march(p, angle, velocity):
         arc = arc_from(p, lifting, 0.0, 0.0, 0.0)
     elif u == p.brace_angle and v == 0.0 and wait_leaning(p, side, arc.psi) > 0.0:
         mode = LEAN
-    return Progress(mode, 0, arc, True, 0, 1 if hit else 0, u, math.inf), hit
+    return Progress(mode, 0, arc, True, 0, 1 if hit else 0, u, math.inf, 1.0, 1.0), hit
 
 
 @njit(**COMPILED)
@@ -139,7 +143,7 @@ def finish(p, reached, coming, columns, growth, want_peak):
 
     An overturned block is left at the moment of the proof: later its angle may be beyond all numbers.
     """
-    mode, cycle, arc, _, impacts, brace_hits, peak, no_return = reached
+    mode, cycle, arc, _, impacts, brace_hits, peak, no_return, last_wait, wait_before = reached
     end = min(no_return, 0.0)
     t = end - arc.start
     if mode == FLIGHT:
@@ -153,7 +157,9 @@ def finish(p, reached, coming, columns, growth, want_peak):
     status = DONE
     if coming.wait == math.inf:
         status = OVERTURNED if mode == FLIGHT else STILL
-    return status, Progress(mode, cycle, arc, True, impacts, brace_hits, peak, no_return)
+    return status, Progress(
+        mode, cycle, arc, True, impacts, brace_hits, peak, no_return, last_wait, wait_before
+    )
 
 
 @njit(**COMPILED)
@@ -171,13 +177,11 @@ def march(p, progress, cycles, section_time, section, events, columns, growth, w
     5. At the end the arc is renewed: the progress begins at the start of cycle ``cycles``. A proof of
        overturning ends the march with its cycle.
     """
-    mode, cycle, arc, pending, impacts, brace_hits, peak, no_return = progress
+    mode, cycle, arc, pending, impacts, brace_hits, peak, no_return, last_wait, wait_before = progress
     hasty = section.shape[0] == 0 and events.shape[0] == 0
     written, rows, crowd = 0, 0, 0
-    last_wait, wait_before = 1.0, 1.0
     while True:
         coming = next_event(p, mode, arc, wait_before)
-        wait_before, last_wait = last_wait, coming.wait
         at = arc.start + coming.wait
         if coming.wait == math.inf and mode == FLIGHT and no_return == math.inf:
             no_return = arc.start + no_return_time(p, arc)
@@ -189,9 +193,12 @@ def march(p, progress, cycles, section_time, section, events, columns, growth, w
                     rows += 1
                 continue
             cycle, crowd, pending = cycle + 1, 0, True
-            arc, at, no_return = earlier(arc, p.period), at - p.period, no_return - p.period
+            arc, no_return = earlier(arc, p.period), no_return - p.period
+            at = arc.start + coming.wait
             if cycle >= cycles or no_return <= 0.0:
-                reached = Progress(mode, cycle, arc, True, impacts, brace_hits, peak, no_return)
+                reached = Progress(
+                    mode, cycle, arc, True, impacts, brace_hits, peak, no_return, last_wait, wait_before
+                )
                 status, reached = finish(p, reached, coming, columns, growth, want_peak)
                 return status, reached, rows, written
         crowd += 1
@@ -199,7 +206,9 @@ def march(p, progress, cycles, section_time, section, events, columns, growth, w
             status = CROWDED if crowd > MOST_EVENTS else FULL
             return (
                 status,
-                Progress(mode, cycle, arc, pending, impacts, brace_hits, peak, no_return),
+                Progress(
+                    mode, cycle, arc, pending, impacts, brace_hits, peak, no_return, last_wait, wait_before
+                ),
                 rows,
                 written,
             )
@@ -216,6 +225,7 @@ def march(p, progress, cycles, section_time, section, events, columns, growth, w
             columns,
             growth,
         )
+        wait_before, last_wait = last_wait, coming.wait
         impacts += coming.event == IMPACT
         brace_hits += coming.event == BRACE
         before = arc.side * coming.velocity

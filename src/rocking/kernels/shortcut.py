@@ -15,11 +15,13 @@ from .crossing import step_to_zero
 from .elementary import INLINED
 from .harmonic import first_cut
 
-TRIES = 4
+TRIES = 6
 MOST_STRETCHES = 64
 # The fifth-order step and the Taylor series that follow it are exact to rounding for steps below this, in
 # units of 1/max(1, Omega) and of u'/u''.
 SMALL = 3e-4
+# Beyond this bend the series is not trusted with a step, and a parabola takes it.
+NEAR = 0.35
 MARGIN = 1e-11
 
 
@@ -105,16 +107,23 @@ def likely_impact(p, arc, guess):
     scale = SMALL / max(1.0, p.frequency)
     for _ in range(TRIES):
         now = evaluate(p, arc, t)
-        if not now.velocity < 0.0:
-            return False, t, now
+        u, v = now.angle, now.velocity
         f = forcing_term(p, now.cosine)
-        df = p.amplitude * p.frequency * now.sine
-        step = step_to_zero(
-            now.angle, now.velocity, (f, df, p.amplitude * p.frequency * p.frequency * now.cosine)
-        )
+        fall = u + f
+        bend = abs(u * fall)
+        if v < 0.0 and bend < NEAR * v * v:
+            df = p.amplitude * p.frequency * now.sine
+            step = step_to_zero(u, v, (f, df, p.amplitude * p.frequency * p.frequency * now.cosine))
+            if abs(step) < scale and bend < SMALL * v * v:
+                t += step
+                return t > 0.0 and unbroken_until(p, arc, t), t, advance(p, now, step)
+        elif fall < 0.0 and v * v - 2.0 * u * fall > 0.0:
+            step = (v + math.sqrt(v * v - 2.0 * u * fall)) / -fall  # where the parabola comes down
+        elif v < 0.0:
+            step = -u / v
+        else:
+            step = t  # pushed up: wait
         t += step
         if not t > 0.0:
-            return False, t, now
-        if abs(step) < scale and abs(now.angle * (now.angle + f)) < SMALL * now.velocity * now.velocity:
-            return unbroken_until(p, arc, t), t, advance(p, now, step)
+            break
     return False, t, now

@@ -1,0 +1,150 @@
+"""The compiled part keeps its promises: fresh machine code after every edit, no allocation per event, the state renewed without a trace."""
+
+import math
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import mpmath
+import numba
+import numpy as np
+import pytest
+from rocking.kernels import elementary, events, parameters
+from rocking.kernels import march as kernel
+
+SOURCES = Path(kernel.__file__).parents[2]
+NOTHING = np.empty((0, 2))
+NO_EVENTS = np.empty((0, 8))
+PRINT_IMPACT_SPEED = (
+    "from rocking.kernels import march, parameters; import numpy as np; nothing = np.empty((0, 2));"
+    "p = parameters.harmonic_parameters(2.0, 6.28, 1.0, 0.0, 0.925); s, _ = march.begin_march(p, 0.1, 0.0);"
+    "print(march.march(p, s, 3, 0.0, nothing, np.empty((0, 8)), nothing, nothing[:, 0], False)[1].arc.velocity)"
+)
+
+
+def march(p, cycles, angle=0.0, velocity=0.0):
+    progress, _ = kernel.begin_march(p, angle, velocity)
+    return kernel.march(p, progress, cycles, 0.0, NOTHING, NO_EVENTS, NOTHING, NOTHING[:, 0], False)
+
+
+def test_an_edit_in_a_called_function_is_seen_at_the_next_start(tmp_path):
+    shutil.copytree(SOURCES, tmp_path / "src", ignore=shutil.ignore_patterns("__pycache__", "*.egg-info"))
+    environment = {
+        **os.environ,
+        "PYTHONPATH": str(tmp_path / "src"),
+        "NUMBA_CACHE_DIR": str(tmp_path / "cache"),
+    }
+
+    def run():
+        command = [sys.executable, "-c", PRINT_IMPACT_SPEED]
+        return float(
+            subprocess.run(command, env=environment, capture_output=True, text=True, check=True).stdout
+        )
+
+    before = run()
+    callee = tmp_path / "src/rocking/kernels/impact.py"
+    text = callee.read_text()
+    edited = text.replace("speed = p.restitution * max", "speed = 0.5 * p.restitution * max")
+    assert edited != text
+    callee.write_text(edited)
+    assert abs(run() - before) > 1e-3
+
+
+def test_other_compiled_code_of_the_process_keeps_its_own_cache_folder():
+    assert "rocking" not in str(numba.config.CACHE_DIR)
+
+
+COUNT_ALLOCATIONS = """
+import numpy as np
+from numba.core.runtime import rtsys
+from rocking.kernels import march, parameters
+
+nothing = np.empty((0, 2))
+for numbers in ((2.0, 6.283185307179586, 1.0, 0.0, 0.925), (15.0, 3.141592653589793, 2.0, 0.0, 0.925, 1.0, 0.9)):
+    p = parameters.harmonic_parameters(*numbers)
+    counts = []
+    for cycles in (10, 10, 10_000):
+        progress, _ = march.begin_march(p, 0.0, 0.0)
+        before = rtsys.get_allocation_stats().alloc
+        _, progress, _, _ = march.march(p, progress, cycles, 0.0, nothing, np.empty((0, 8)), nothing, nothing[:, 0], True)
+        counts.append(rtsys.get_allocation_stats().alloc - before)
+        assert progress.impacts > cycles
+    print(counts[1], counts[2])
+"""
+
+
+def test_marching_allocates_nothing_per_event():
+    environment = {**os.environ, "NUMBA_NRT_STATS": "1", "PYTHONPATH": str(SOURCES)}
+    done = subprocess.run(
+        [sys.executable, "-c", COUNT_ALLOCATIONS], env=environment, capture_output=True, text=True, check=True
+    )
+    counts = [line.split() for line in done.stdout.splitlines()]
+    assert len(counts) == 2
+    assert all(few == many for few, many in counts)
+
+
+def test_marching_in_pieces_is_marching_in_one_go():
+    # a regular motion: what an arc renewed at the end of a piece changes is rounding
+    p = parameters.harmonic_parameters(6.5, 5.0 * math.pi, 0.4, 0.0, 0.925)
+    whole = march(p, 300)[1]
+    pieces, _ = kernel.begin_march(p, 0.0, 0.0)
+    for until in range(7, 300, 7):
+        pieces = kernel.march(p, pieces, until, 0.0, NOTHING, NO_EVENTS, NOTHING, NOTHING[:, 0], False)[1]
+    pieces = kernel.march(p, pieces, 300, 0.0, NOTHING, NO_EVENTS, NOTHING, NOTHING[:, 0], False)[1]
+    assert (pieces.cycle, pieces.impacts) == (whole.cycle, whole.impacts)
+    assert abs(pieces.arc.angle - whole.arc.angle) < 1e-14
+    assert abs(pieces.arc.velocity - whole.arc.velocity) < 1e-14
+
+
+def test_a_full_buffer_of_events_loses_none():
+    p = parameters.harmonic_parameters(15.0, math.pi, 2.0, 0.0, 0.925, 1.0, 1.0)
+
+    def times(room):
+        progress, _ = kernel.begin_march(p, 0.0, 0.0)
+        found, status = [], kernel.FULL
+        while status == kernel.FULL:
+            rows = np.empty((room, 8))
+            status, progress, _, written = kernel.march(
+                p, progress, 40, 0.0, NOTHING, rows, NOTHING, NOTHING[:, 0], False
+            )
+            found.append(rows[:written])
+        return np.concatenate(found)
+
+    np.testing.assert_array_equal(times(3), times(10_000))
+
+
+def test_ten_million_cycles_lose_no_phase():
+    # The stable (1,1) orbit is the same after 10**7 cycles as after 10**4, impact by impact.
+    p = parameters.harmonic_parameters(2.0, 2.0 * math.pi, 1.0, 0.0, 0.925)
+    early, late = march(p, 10_000)[1], march(p, 10_000_000)[1]
+    assert late.impacts - early.impacts == 2 * (10_000_000 - 10_000)
+    assert abs(late.arc.angle - early.arc.angle) < 1e-14
+    assert abs(late.arc.velocity - early.arc.velocity) < 1e-14
+
+
+@pytest.mark.parametrize("name", ["hyperbolic", "circular"])
+def test_elementary_functions_keep_their_relative_accuracy_from_the_shortest_arc_on(name):
+    random = np.random.default_rng(7)
+    worst = np.zeros(3)
+    with mpmath.workdps(80):
+        for _ in range(4000):
+            t, rate = 10.0 ** random.uniform(-12, 1.5), 10.0 ** random.uniform(-1.3, 2.3)
+            if name == "hyperbolic":
+                found, z = elementary.hyperbolic(t), mpmath.mpf(t)
+                exact = (mpmath.sinh(z), mpmath.cosh(z) - 1, mpmath.sinh(z) - z)
+            else:
+                found, z = elementary.circular(rate, t), mpmath.mpf(rate) * mpmath.mpf(t)
+                exact = (mpmath.sin(z), 1 - mpmath.cos(z), z - mpmath.sin(z))
+            # of 1 - cos x far from 0 what counts is its error against 1
+            scales = exact if name == "hyperbolic" or z < 1 else (exact[0], max(exact[1], 1), exact[2])
+            worst = np.maximum(
+                worst, [abs(float((f - e) / s)) for f, e, s in zip(found, exact, scales, strict=True)]
+            )
+    assert np.all(worst <= 8 * 2.0**-53)
+
+
+def test_modes_and_events_are_told_by_name():
+    assert [mode.name for mode in events.Mode] == ["FLIGHT", "REST", "LEAN"]
+    assert events.Event(events.LIFT_OFF).name == "LIFT_OFF"
