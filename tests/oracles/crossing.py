@@ -309,16 +309,15 @@ def first_events(arc):
 
 
 def condition(arc, event):
-    """Relative condition numbers (of time, of speed) of an event: each the largest of the three with respect to v₀, ψ₀, Ω."""
+    """Relative condition numbers of an impact: two lists, of its time and of its speed, with respect to v₀, ψ₀, Ω and A."""
     distance = Distance(arc, "base")
-    frequency, time = distance.frequency, event.time
-    ripple, ratio = distance.d, -2 * distance.frequency / (1 + distance.frequency**2)
+    frequency, ripple, time = distance.frequency, distance.d, event.time
     sinh, cosh = time.sinh_cosh()
     sine0, cosine0 = distance.phase.sin_cos()
     sine, cosine = (distance.phase + frequency * time).sin_cos()
-    acceleration = distance.at(time)[2]
-    slope = ripple * ratio
-    sheared = slope * frequency + ripple
+    swing = ripple * (cosine - cosine0 * cosh + frequency * sine0 * sinh)
+    swing_rate = ripple * (frequency * sine0 * cosh - cosine0 * sinh - frequency * sine)
+    fading = -2 * frequency / (1 + frequency**2)
     partials = (
         (arc.velocity, sinh, cosh),
         (
@@ -328,13 +327,15 @@ def condition(arc, event):
         ),
         (
             arc.frequency,
-            slope * (cosine - cosine0 * cosh) + sheared * sine0 * sinh - ripple * time * sine,
-            sheared * (sine0 * cosh - sine) - slope * cosine0 * sinh - ripple * frequency * time * cosine,
+            fading * swing + ripple * (sine0 * sinh - time * sine),
+            fading * swing_rate + ripple * (sine0 * cosh - sine - frequency * time * cosine),
         ),
+        (1.0, swing, swing_rate),
     )
+    acceleration = distance.at(time)[2]
     of_time, of_speed = [], []
     for value, angle, velocity in partials:
         shift = -angle / event.velocity
         of_time.append(abs(value * float(shift / time)))
         of_speed.append(abs(value * float((velocity + acceleration * shift) / event.velocity)))
-    return max(of_time), max(of_speed)
+    return of_time, of_speed

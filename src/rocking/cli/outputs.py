@@ -16,7 +16,6 @@ if TYPE_CHECKING:
 PICTURES = (".png", ".svg", ".pdf")
 FILMS = (".gif", ".mp4")
 SUFFIXES = {"plot": PICTURES + FILMS, "csv": (".csv",), "netcdf": (".nc",)}
-CYCLES_DRAWN = 30
 STEPS_PER_CYCLE = 100
 CYCLES_AT_ONCE = 1000
 MOST_CYCLES = 100_000
@@ -35,23 +34,13 @@ def check(cycles: float, **paths: Path | None) -> dict[str, Path]:
 
 
 def write_plot(motion: Motion, block: Block | None, path: Path) -> None:
-    """Time history and phase portrait side by side, or the block as a film, as the suffix says."""
+    """The motion at a glance, or the block as a film, as the suffix says."""
     from rocking import plot
 
     if path.suffix.lower() in FILMS:
         plot.animation(motion, path, block)
         return
-    cycles = drawn(motion)
-    figure, (left, right) = plot.panels(columns=2, height=2.8, ratios=(3, 2))
-    plot.time_history(motion, left, block, cycles)
-    plot.phase_portrait(motion, right, block, cycles)
-    plot.save(figure, path)
-
-
-def drawn(motion: Motion) -> tuple[int, int] | None:
-    """First and last cycle of a picture: the last few of a long bounded motion, which else is a band of ink; None for all."""
-    long = motion.outcome == "bounded" and motion.cycles > CYCLES_DRAWN
-    return (motion.cycles - CYCLES_DRAWN, motion.cycles) if long else None
+    plot.save(plot.overview(motion, block), path)
 
 
 def write_csv(motion: Motion, block: Block | None, path: Path) -> None:

@@ -82,9 +82,10 @@ def found(motion: Motion, block: Block | None) -> Iterator[Row]:
         if block is None
         else f"{block.degrees(motion.peak):.4g}°, top {block.top_displacement(motion.peak):.4g} m"
     )
-    yield "largest |Θ|", f"{motion.peak:.6g}", peak
+    proved = motion.overturning is not None
+    yield "largest |Θ| until the proof" if proved else "largest |Θ|", f"{motion.peak:.6g}", peak
     yield (
-        "end",
+        "state at the proof" if proved else "end",
         f"Θ = {motion.final.angle:.6g}, Θ' = {motion.final.velocity:.6g}",
         _state(motion.final, block),
     )

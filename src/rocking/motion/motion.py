@@ -53,7 +53,7 @@ class Motion:
     impacts, brace_hits : int
         Impacts at Θ = 0 and hits on the braces.
     peak : float
-        Largest |Θ| of the run.
+        Largest |Θ| of the run; of a block that overturns, until the proof.
     final : State
         Θ, Θ' at the end, just after any event there; of an overturned block at the moment of the proof.
 
