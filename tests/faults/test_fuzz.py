@@ -3,6 +3,7 @@
 import math
 import random
 
+import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
@@ -11,7 +12,7 @@ from rocking import Braces, Harmonic, Outcome, State, System, TooManyEvents, sim
 
 LONGEST = 100.0  # τ
 SYSTEMS = 10_000
-MOST_CROWDED = 1e-3
+MOST_CROWDED = 1  # of so many
 
 
 def check(system, start, cycles):
@@ -29,7 +30,24 @@ def check(system, start, cycles):
     assert len({motion.cycles for motion in motions}) == 1
     kept = motions[1].cycles + (motions[1].outcome is not Outcome.OVERTURNED)
     assert motions[1].section().shape == (kept, 2)
+    assert motions[1].final == motions[2].final
+    recorded(motions[2])
     return False
+
+
+def recorded(motion):
+    """What holds of every motion that kept its events."""
+    events, braces = motion.events, motion.system.braces
+    kinds = events["kind"].tolist()
+    assert (kinds.count("impact"), kinds.count("brace")) == (motion.impacts, motion.brace_hits)
+    assert np.all(np.diff(events["time"]) >= 0)
+    assert events.size == 0 or 0 <= events["time"][0] <= events["time"][-1] <= motion.duration
+    until = motion.duration if motion.overturning is None else motion.overturning.time
+    angle, velocity = motion.at(np.linspace(0, until, 50))
+    assert np.all(np.isfinite(angle))
+    assert np.all(np.isfinite(velocity))
+    # half an ulp of an absolute time moves a fast block a little beyond its peak, never beyond a brace
+    assert np.max(np.abs(angle)) <= (motion.peak * (1 + 1e-9) if braces is None else braces.angle)
 
 
 def consistent(motion, cycles):
@@ -41,7 +59,7 @@ def consistent(motion, cycles):
     assert abs(final.angle) <= motion.peak <= reach
     assert motion.impacts >= 0
     assert motion.brace_hits >= 0
-    assert braces is not None or motion.brace_hits == 0
+    assert motion.brace_hits == 0 or motion.peak == reach
     overturned = motion.outcome is Outcome.OVERTURNED
     assert (motion.overturning is not None) is overturned
     assert not (overturned and braces)
@@ -99,13 +117,13 @@ def run_many(seed, systems):
 
 @pytest.mark.parametrize("seed", range(2))
 def test_random_systems_run_to_the_end_of_their_budget(seed):
-    assert run_many(seed, SYSTEMS) <= MOST_CROWDED * SYSTEMS
+    assert run_many(seed, SYSTEMS) <= MOST_CROWDED
 
 
 @pytest.mark.long
 @pytest.mark.parametrize("seed", range(2, 102))
 def test_a_million_random_systems_run_to_the_end_of_their_budget(seed):
-    assert run_many(seed, SYSTEMS) <= MOST_CROWDED * SYSTEMS
+    assert run_many(seed, SYSTEMS) <= MOST_CROWDED
 
 
 def floats(low, high):
@@ -125,6 +143,6 @@ def systems(draw):
 
 
 @given(systems())
-@settings(max_examples=500, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@settings(max_examples=2000, deadline=None, suppress_health_check=[HealthCheck.too_slow])
 def test_systems_that_hypothesis_invents_run_to_the_end_of_their_budget(case):
     check(*case)

@@ -8,7 +8,7 @@ import math
 import numpy as np
 from flint import arb
 
-from oracles.crossing import ROUNDING, Arc, Distance, _pinned
+from oracles.distance import ROUNDING, Arc, Distance, pinned
 
 TURN = 2 * math.pi
 
@@ -106,7 +106,7 @@ def _tuned(rng, arc, kind, left, right):
         sinh, cosh = time.sinh_cosh()
         return w * cosh - first * sinh, (w - second) * sinh
 
-    time = _pinned(touching, arb(left), arb(right)).mid()
+    time = pinned(touching, arb(left), arb(right)).mid()
     sinh = time.sinh()
     exact = -distance.at(time)[0] / sinh * distance.outward
     size = Distance(arc._replace(velocity=float(exact)), kind).size(time)

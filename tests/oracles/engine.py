@@ -10,7 +10,7 @@ KINDS = {events.IMPACT: "base", events.BRACE: "brace"}
 
 
 def first_event(arc, guess=None):
-    """(kind, time, d|Θ|/dτ) of an `oracles.crossing.Arc`: kind "base", "brace" or "none"; from a guess of the time or without one."""
+    """(kind, time, d|Θ|/dτ) of an `oracles.distance.Arc`: kind "base", "brace" or "none"; from a guess of the time or without one."""
     system = harmonic_parameters(
         arc.amplitude, arc.frequency, 2 * math.pi / arc.frequency, arc.phase, 1.0, arc.brace, 1.0
     )

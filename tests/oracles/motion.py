@@ -9,6 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 from flint import arb, ctx
 
+from oracles.scan import next_event
+
 STILL = arb(10) ** -24  # speed at which chatter counts as finished
 
 
@@ -78,59 +80,6 @@ class Block:
     def count(self, kind):
         if self.now > 0:
             self.counts[kind] += 1
-
-
-def _root(function, left, right):
-    """Bracketed zero: bisection and secant in turn (Illinois), to the last digit."""
-    low, high = function(left), function(right)
-    sign = low > 0
-    tiny = right * arb(2) ** (30 - ctx.prec)
-    for _ in range(2000):
-        trial = ((left * high - right * low) / (high - low)).mid()
-        if not (left < trial < right):
-            trial = ((left + right) / 2).mid()
-        value = function(trial).mid()
-        if value == 0 or right - left < tiny:
-            return trial
-        if (value > 0) == sign:
-            moved, left, low, high = trial - left, trial, value, high / 2
-        else:
-            moved, right, high, low = right - trial, trial, value, low / 2
-        if abs(moved) < tiny and abs(value) < tiny:
-            return trial
-    raise ArithmeticError("no convergence")
-
-
-def _zero_between(height, slope, left, right):
-    """Where a height, positive at left, first reaches zero up to right; None if it does not, dips looked into."""
-    if height(right) < 0:
-        if slope(left) > 0:  # it rises first, so the zero lies beyond a top
-            left = _root(slope, left, right)
-        return _root(height, left, right)
-    if slope(left) < 0 and slope(right) > 0:
-        lowest = _root(slope, left, right)
-        if height(lowest) < 0:
-            return _root(height, left, lowest)
-    return None
-
-
-def _search(block, motion, side, growing):
-    """(time, kind) of the next event of an arc, or (None, None) where the run ends or the block overturns first."""
-    left, step, rest = arb(0), block.step_start(), block.end - block.now
-    gaps = {"impact": (lambda t: side * motion(t)[0], lambda t: side * motion(t)[1])}
-    if block.brace is not None:
-        gaps["brace"] = (lambda t: block.brace - side * motion(t)[0], lambda t: -side * motion(t)[1])
-    while left < rest:
-        right = min(left + step, rest).mid()
-        found = [(_zero_between(*gap, left, right), kind) for kind, gap in gaps.items()]
-        found = [hit for hit in found if hit[0] is not None]
-        if found:
-            return min(found, key=lambda hit: float(hit[0]))
-        if block.brace is None and growing > 0 and growing * right.exp() > 10 + 10 * block.ripple:
-            block.overturned = True
-            return None, None
-        left, step = right, min(step * block.rate, block.coarsest)
-    return None, None
 
 
 def _advance(block, motion, time):
@@ -234,7 +183,7 @@ def _march(block):
             mode = _lean(block, side)
         else:
             motion, growing = block.arc(side)
-            time, kind = _search(block, motion, side, growing)
+            time, kind = next_event(block, motion, side, growing)
             if time is None:
                 if not block.overturned:
                     _advance(block, motion, block.end - block.now)
@@ -252,7 +201,7 @@ def _growth(tangents):
 
 
 def first_crossing(arc, digits=100):
-    """(kind, time) of the first event of an `oracles.crossing.Arc`; kind "base", "brace" or "none"."""
+    """(kind, time) of the first event of an `oracles.distance.Arc`; kind "base", "brace" or "none"."""
     before = ctx.dps
     ctx.dps = digits
     try:
@@ -269,7 +218,7 @@ def first_crossing(arc, digits=100):
         block.drive(arb(arc.frequency))
         block.end = arb(200)
         motion, growing = block.arc(arc.side)
-        time, kind = _search(block, motion, arc.side, growing)
+        time, kind = next_event(block, motion, arc.side, growing)
         return {"impact": "base", "brace": "brace", None: "none"}[kind], time
     finally:
         ctx.dps = before

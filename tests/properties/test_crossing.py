@@ -7,7 +7,8 @@ import pytest
 from flint import arb
 
 from oracles.arcs import FAMILIES, TURN, arcs
-from oracles.crossing import ROUNDING, Arc, Distance, condition, first_events
+from oracles.crossing import condition, first_events
+from oracles.distance import ROUNDING, Arc, Distance
 from oracles.engine import first_event
 
 CHUNK = 900
@@ -93,14 +94,19 @@ def _share(conditions, misses, inputs):
 @pytest.mark.parametrize("chunk", range(2))
 def test_impact_time_and_speed_to_five_parts_in_1e15_times_their_condition(chunk, off):
     """Speeds 1e-12 … 0.3 from the base; the condition number is with respect to (v₀, ψ₀, Ω)."""
-    found = [(*result, arc) for arc in arcs("slow_from_base", 1500, 50 + chunk) if (result := _misses(arc, off))]
+    found = [
+        (*result, arc) for arc in arcs("slow_from_base", 1500, 50 + chunk) if (result := _misses(arc, off))
+    ]
     shares = [(_share(conditions, misses, 3), arc) for conditions, misses, arc in found]
     alone = [
-        max(miss / max(1.0, *numbers[:3]) for numbers, miss in zip(conditions, misses, strict=True)) / ACCURACY
+        max(miss / max(1.0, *numbers[:3]) for numbers, miss in zip(conditions, misses, strict=True))
+        / ACCURACY
         for conditions, misses, _ in found
     ]
     worst, arc = max(shares)
-    report = f"worst share of the tolerance: {worst:.3f} ({arc}); time and speed each by its own: {max(alone):.3f}"
+    report = (
+        f"worst share of the tolerance: {worst:.3f} ({arc}); time and speed each by its own: {max(alone):.3f}"
+    )
     print(report)
     assert len(found) > 1000
     assert worst <= 1, report

@@ -6,7 +6,8 @@ import pytest
 from flint import arb
 
 from oracles.arcs import FAMILIES, arcs
-from oracles.crossing import Arc, first_events
+from oracles.crossing import first_events
+from oracles.distance import Arc
 from oracles.motion import first_crossing
 
 

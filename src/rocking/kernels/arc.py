@@ -2,10 +2,9 @@
 
 On side sigma = sign(Theta) work with u = sigma Theta >= 0: u'' - u = f = -1 - A cos eta. From (u0, v0) at eta0
 
-    u = u0 cosh t + v0 sinh t - (cosh t - 1) - F(t),
+    u = u0 + v0 sinh t + (u0 - steady) (cosh t - 1) + G(t),
 
-F the response from rest to the base acceleration (``harmonic.respond``). The exponential form u = c+ e^t +
-c- e^-t + 1 + beta cos eta serves bounds.
+G the response from rest to all but a steady part of the press 1 + A cos eta (``harmonic.respond``). The exponential form u = c+ e^t + c- e^-t + 1 + beta cos eta serves bounds.
 """
 
 from typing import NamedTuple
@@ -28,12 +27,14 @@ class Arc(NamedTuple):
     cosine: float
     sine: float
     psi: float
+    press: float  # 1 + A cos eta: how hard the block is pressed back at u = 0
 
 
 class Instant(NamedTuple):
     """What an arc is at one instant: u, u', the forcing there, and the hyperbolic functions of the time since its start."""
 
     angle: float
+    risen: float  # u - u0, to relative accuracy
     velocity: float
     cosine: float
     sine: float
@@ -44,31 +45,40 @@ class Instant(NamedTuple):
 @njit(**INLINED)
 def arc_from(p, side, start, angle, velocity):
     """The arc that leaves (u, u') = (angle, velocity) on ``side`` at time ``start`` within the cycle."""
-    cosine, sine, psi = begin(p, side, start)
-    return Arc(side, start, angle, velocity, cosine, sine, psi)
+    cosine, sine, psi, press = begin(p, side, start)
+    return Arc(side, start, angle, velocity, cosine, sine, psi, press)
 
 
 @njit(**INLINED)
 def arc_after(p, side, start, velocity, cosine, sine):
     """The arc that leaves the base on ``side``, where the forcing there is known already."""
-    return Arc(side, start, 0.0, velocity, cosine, sine, p.frequency * start + p.phase)
+    press = 1.0 + p.amplitude * cosine
+    return Arc(side, start, 0.0, velocity, cosine, sine, p.frequency * start + p.phase, press)
 
 
 @njit(**INLINED)
 def earlier(arc, time):
     """The same arc as seen from ``time`` later: its start lies so much earlier."""
-    return Arc(arc.side, arc.start - time, arc.angle, arc.velocity, arc.cosine, arc.sine, arc.psi)
+    return Arc(arc.side, arc.start - time, arc.angle, arc.velocity, arc.cosine, arc.sine, arc.psi, arc.press)
 
 
 @njit(**INLINED)
 def evaluate(p, arc, t):
     """The arc a time t >= 0 after its start: eq. (5)."""
-    sinh, versinh, excess = hyperbolic(t)
-    displaced, moved, cosine, sine = respond(p, arc.cosine, arc.sine, t, sinh, versinh, excess)
-    below = arc.angle - 1.0
-    angle = arc.angle + (below * versinh + arc.velocity * sinh - displaced)
-    velocity = arc.velocity + (below * sinh + arc.velocity * versinh - moved)
-    return Instant(angle, velocity, cosine, sine, sinh, versinh)
+    sinh, versinh, excess, higher = hyperbolic(t)
+    steady, displaced, moved, cosine, sine = respond(
+        p, arc.cosine, arc.sine, arc.press, t, sinh, versinh, excess, higher
+    )
+    pull = arc.angle - steady
+    risen = arc.velocity * sinh + pull * versinh + displaced
+    velocity = arc.velocity + (arc.velocity * versinh + pull * sinh + moved)
+    return Instant(arc.angle + risen, risen, velocity, cosine, sine, sinh, versinh)
+
+
+@njit(**INLINED)
+def within_reach(p, angle):
+    """An angle as the base and the braces allow it: near an event rounding may put it beyond."""
+    return min(max(angle, 0.0), p.brace_angle)
 
 
 @njit(**INLINED)

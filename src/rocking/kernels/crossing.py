@@ -70,11 +70,12 @@ def turn_watch(p, sign):
 
 
 @njit(**INLINED)
-def watched(p, watch, now):
-    """(w, w') at an instant."""
+def watched(p, arc, watch, now):
+    """(w, w') at an instant; w from its change since the start, so that it is accurate near a brace too."""
     acceleration = now.angle + forcing_term(p, now.cosine)
+    at_start = watch.constant + watch.of_angle * arc.angle
     return (
-        watch.constant + watch.of_angle * now.angle + watch.of_velocity * now.velocity,
+        at_start + (watch.of_angle * now.risen + watch.of_velocity * now.velocity),
         watch.of_angle * now.velocity + watch.of_velocity * acceleration,
     )
 
@@ -111,7 +112,7 @@ def refine(p, arc, watch, low, high, t):
     """(time, instant) of the one zero in [low, high], w > 0 just after low and w <= 0 at high, from the guess t."""
     now = evaluate(p, arc, t)
     for _ in range(ITERATIONS):
-        w, dw = watched(p, watch, now)
+        w, dw = watched(p, arc, watch, now)
         if w > 0.0:
             low = t
         else:
@@ -141,7 +142,7 @@ def dip(p, arc, watch, left, w, dw, right, w_right, dw_right):
     t = left - (w + dw) * (right - left) / ((dw_right + w_right) - (w + dw))
     for _ in range(ITERATIONS):
         now = evaluate(p, arc, t)
-        w, dw = watched(p, watch, now)
+        w, dw = watched(p, arc, watch, now)
         if w <= 0.0:
             return t
         slope = w + dw
@@ -218,7 +219,7 @@ def first_zero(p, arc, watch, t, limit):
     and w rises through all of it.
     """
     now = evaluate(p, arc, t)
-    w, dw = watched(p, watch, now)
+    w, dw = watched(p, arc, watch, now)
     at_rest = w == 0.0 and dw == 0.0
     cut, inside = (
         first_cut(p, arc.side, arc.psi, watch.centre, watch.half)
@@ -231,7 +232,7 @@ def first_zero(p, arc, watch, t, limit):
     while True:
         right = min(cut, limit)
         then = evaluate(p, arc, right)
-        w_right, dw_right = watched(p, watch, then)
+        w_right, dw_right = watched(p, arc, watch, then)
         low_end = right if w_right < 0.0 else math.inf
         convex = inside == watch.convex_inside
         if at_rest:
@@ -258,7 +259,7 @@ def first_zero(p, arc, watch, t, limit):
                 t += cycles
                 cut += cycles
                 now = evaluate(p, arc, t)
-                w, dw = watched(p, watch, now)
+                w, dw = watched(p, arc, watch, now)
 
 
 @njit(**COMPILED)

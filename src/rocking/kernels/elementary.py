@@ -14,10 +14,10 @@ from numba.extending import intrinsic
 COMPILED = dict(nogil=True, cache=True, error_model="numpy", fastmath={"contract", "nsz"})
 INLINED = dict(COMPILED, forceinline=True)
 
-# Coefficients by increasing power of the squared argument: 1/3!, 1/5!, ... and 1/2!, 1/4!, ...; the first
+# Coefficients by increasing power of the squared argument: 1/3!, 1/5!, ... and 1/4!, 1/6!, ...; the first
 # dropped term is below 2**-55 of the sum at 2.
-ODD = tuple(1.0 / math.factorial(k) for k in range(3, 29, 2))
-EVEN = tuple(1.0 / math.factorial(k) for k in range(2, 28, 2))
+ODD = tuple(1.0 / math.factorial(k) for k in range(3, 27, 2))
+EVEN = tuple(1.0 / math.factorial(k) for k in range(4, 28, 2))
 SHORT = 2.0
 
 # pi/2 in three parts; the first two have 33 bits, so their products with the quadrant number are exact up
@@ -38,14 +38,13 @@ def fma(typingctx, a, b, c):
 
 @njit(**INLINED)
 def series(q, c):
-    """Sum of c[k] q**k for 13 coefficients, two interleaved chains (half the latency of one)."""
+    """Sum of c[k] q**k for 12 coefficients, two interleaved chains (half the latency of one)."""
     q2 = q * q
-    even = c[12]
+    even = c[10]
     odd = c[11]
-    for k in range(10, -1, -2):
+    for k in range(8, -1, -2):
         even = fma(even, q2, c[k])
-    for k in range(9, 0, -2):
-        odd = fma(odd, q2, c[k])
+        odd = fma(odd, q2, c[k + 1])
     return fma(odd, q, even)
 
 
@@ -60,20 +59,25 @@ def short_series(q, c):
 
 @njit(**INLINED)
 def hyperbolic(t):
-    """(sinh t, cosh t - 1, sinh t - t) for t >= 0."""
+    """(sinh t, cosh t - 1, sinh t - t, cosh t - 1 - t**2/2) for t >= 0."""
+    q = t * t
     if t < SHORT:
-        q = t * t
         excess = q * t * series(q, ODD)
-        return t + excess, q * series(q, EVEN), excess
+        higher = q * q * series(q, EVEN)
+        return t + excess, fma(0.5, q, higher), excess, higher
     grown = 0.5 * math.exp(t)
     shrunk = 0.25 / grown
     sinh = grown - shrunk
-    return sinh, (grown - 1.0) + shrunk, sinh - t
+    versinh = (grown - 1.0) + shrunk
+    return sinh, versinh, sinh - t, fma(-0.5, q, versinh)
 
 
 @njit(**INLINED)
 def quarter_turn(x, correction):
-    """(sin, cos, 1 - cos) of ``x + correction`` for 0 <= x up to 10**6, ``correction`` an ulp of x or so."""
+    """(sin, cos, 1 - |cos|, quadrant) of ``x + correction``, 0 <= x up to 10**6, ``correction`` an ulp of x or so.
+
+    1 - |cos| keeps its relative accuracy in the even quadrants, those about the multiples of pi.
+    """
     quadrant = math.floor(x * TWO_OVER_PI + 0.5)
     high = fma(-quadrant, HALF_PI[0], x)
     tail = fma(-quadrant, HALF_PI[1], correction)
@@ -81,36 +85,41 @@ def quarter_turn(x, correction):
     tail = fma(-quadrant, HALF_PI[2], tail - (r - high))
     q = r * r
     excess = r * q * short_series(-q, ODD)
-    versine = q * short_series(-q, EVEN)
+    versine = q * fma(-q, short_series(-q, EVEN), 0.5)
     sine = r + (tail * (1.0 - versine) - excess)
     versine += r * tail
     cosine = 1.0 - versine
     k = np.int64(quadrant) & 3
-    if k == 0:
-        return sine, cosine, versine
     if k & 1:
         sine, cosine = cosine, sine
+        versine = 1.0 - abs(cosine)
     if k & 2:
         sine = -sine
     if (k + 1) & 2:
         cosine = -cosine
-    return sine, cosine, 1.0 - cosine
+    return sine, cosine, versine, k
 
 
 @njit(**INLINED)
 def circular(rate, t):
-    """(sin x, 1 - cos x, x - sin x) of x = rate * t >= 0, the product kept to twice double precision."""
+    """(sin x, 1 - cos x, x - sin x, for short x also x**2/2 - 1 + cos x) of x = rate * t >= 0.
+
+    The product is kept to twice double precision.
+    """
     x = rate * t
     if x < SHORT:
         q = x * x
-        excess = q * x * series(-q, ODD)
-        return x - excess, q * series(-q, EVEN), excess
-    sine, _, versine = quarter_turn(x, fma(rate, t, -x))
-    return sine, versine, x - sine
+        lag = q * x * series(-q, ODD)
+        higher = q * q * series(-q, EVEN)
+        return x - lag, fma(0.5, q, -higher), lag, higher
+    sine, cosine, versine, k = quarter_turn(x, fma(rate, t, -x))
+    if k != 0:
+        versine = 1.0 - cosine
+    return sine, versine, x - sine, 0.0
 
 
 @njit(**INLINED)
 def direction(angle):
-    """(sin, cos) of an angle of either sign."""
-    sine, cosine, _ = quarter_turn(abs(angle), 0.0)
-    return (-sine if angle < 0.0 else sine), cosine
+    """(sin, cos, 1 - |cos|, whether that is accurate however small) of an angle of either sign."""
+    sine, cosine, versine, k = quarter_turn(abs(angle), 0.0)
+    return (-sine if angle < 0.0 else sine), cosine, versine, k & 1 == 0

@@ -10,27 +10,44 @@ import math
 
 from numba import njit
 
-from .elementary import INLINED, circular, direction
+from .elementary import INLINED, SHORT, circular, direction, fma
 
 TURN = 2.0 * math.pi
 
 
 @njit(**INLINED)
 def begin(p, side, time):
-    """(cosine, sine, eta) at a time within the cycle."""
+    """(cosine, sine, psi, 1 + A cosine) at a time within the cycle; the last exact however close to 0."""
     psi = p.frequency * time + p.phase
-    sine, cosine = direction(psi)
-    return side * cosine, side * sine, psi
+    sine, cosine, versine, exact = direction(psi)
+    cosine *= side
+    press = fma(p.amplitude, cosine, 1.0)
+    if exact:
+        most = math.copysign(p.amplitude, cosine)
+        press = fma(-most, versine, 1.0 + most)
+    return cosine, side * sine, psi, press
 
 
 @njit(**INLINED)
-def respond(p, cosine, sine, t, sinh, versinh, excess):
-    """(F, F', cos eta, sin eta) a time t later: F'' - F = A cos eta with F = F' = 0 at t = 0, free of cancellation."""
-    sin_x, versine, lag = circular(p.frequency, t)
+def respond(p, cosine, sine, press, t, sinh, versinh, excess, higher):
+    """(steady, G, G', cos eta, sin eta) a time t later: the press is split into a steady one and a rest, which moves u by G.
+
+    G'' - G = steady - (1 + A cos eta), G = G' = 0 at t = 0. Within a third of a turn ``steady`` is the press at
+    the start, later 1: either way G is made of two sums of positive functions, and no larger parts cancel.
+    """
+    sin_x, versine, lag, deficit = circular(p.frequency, t)
     in_phase = versinh + versine
-    displaced = p.response * (cosine * in_phase - sine * (p.frequency * excess + lag))
-    moved = p.response * (cosine * (sinh + p.frequency * sin_x) - sine * (p.frequency * in_phase))
+    lateness = p.frequency * excess + lag
+    if p.frequency * t < SHORT:
+        steady = press
+        place = -(p.frequency * p.frequency * higher + deficit)
+        rate = -p.frequency * lateness
+    else:
+        steady, place, rate = 1.0, in_phase, sinh + p.frequency * sin_x
+    displaced = p.response * (sine * lateness - cosine * place)
+    moved = p.response * (p.frequency * sine * in_phase - cosine * rate)
     return (
+        steady,
         displaced,
         moved,
         cosine - (cosine * versine + sine * sin_x),
@@ -71,7 +88,7 @@ def drift(p, cosine, sine, time):
 @njit(**INLINED)
 def sensitivities(p, cosine, sine, t, sinh, versinh, excess):
     """(F_A, F'_A, F_psi, F'_psi, F_Omega, F'_Omega): the response differentiated by amplitude, starting phase, frequency."""
-    sin_x, versine, lag = circular(p.frequency, t)
+    sin_x, versine, lag, _ = circular(p.frequency, t)
     frequency, k = p.frequency, p.reciprocal
     in_phase = k * (versinh + versine)
     quadrature = k * (frequency * excess + lag)

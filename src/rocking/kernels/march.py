@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 from numba import njit
 
-from .arc import Arc, arc_from, earlier, evaluate
+from .arc import Arc, arc_from, earlier, evaluate, within_reach
 from .crossing import CROSSING, first_turn_sign, first_zero, no_return_time, turn_watch
 from .elementary import COMPILED, INLINED
 from .events import (
@@ -91,21 +91,21 @@ def state_at(p, mode, arc, t):
     if mode == LEAN:
         return arc.side * p.brace_angle, 0.0
     now = evaluate(p, arc, t)
-    return arc.side * max(now.angle, 0.0), arc.side * now.velocity
+    return arc.side * within_reach(p, now.angle), arc.side * now.velocity
 
 
 @njit(**COMPILED)
 def arc_peak(p, arc, until, peak):
     """The largest of ``peak`` and |Theta| on the arc up to ``until``."""
     now = evaluate(p, arc, until)
-    peak = max(peak, arc.angle, now.angle)
+    peak = max(peak, within_reach(p, now.angle))
     t = 0.0
     sign = first_turn_sign(p, arc)
     while True:
         found, t, now = first_zero(p, arc, turn_watch(p, sign), t, until)
         if found != CROSSING:
             return peak
-        peak = max(peak, now.angle)
+        peak = max(peak, within_reach(p, now.angle))
         sign = -sign
 
 
@@ -151,7 +151,7 @@ def finish(p, reached, coming, columns, growth, want_peak):
         carry(p, mode, arc, t, now.sinh, now.versinh, cycle * p.period + arc.start, columns, growth)
         if want_peak:
             peak = arc_peak(p, arc, t, peak)
-        arc = arc_from(p, arc.side, end, max(now.angle, 0.0), now.velocity)
+        arc = arc_from(p, arc.side, end, within_reach(p, now.angle), now.velocity)
     else:
         arc = arc_from(p, arc.side, end, arc.angle, 0.0)
     status = DONE

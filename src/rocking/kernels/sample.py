@@ -2,7 +2,7 @@
 
 from numba import njit
 
-from .arc import arc_from, evaluate, forcing_term
+from .arc import arc_from, evaluate, forcing_term, within_reach
 from .crossing import CROSSING, first_turn_sign, first_zero, turn_watch
 from .elementary import COMPILED
 from .events import FLIGHT
@@ -23,7 +23,7 @@ def sample(p, rows, index, elapsed, out):
         out[k, 0], out[k, 1], out[k, 2] = side * row[5], 0.0, 0.0
         if row[3] == FLIGHT:
             now = evaluate(p, arc_of(p, row), elapsed[k])
-            out[k, 0] = side * max(now.angle, 0.0)
+            out[k, 0] = side * within_reach(p, now.angle)
             out[k, 1] = side * now.velocity
             out[k, 2] = side * (now.angle + forcing_term(p, now.cosine))
 

@@ -47,7 +47,7 @@ def advance(p, now, step):
     v = step * step * (0.5 + step * step * (1.0 / 24.0))
     sinh = now.sinh + (now.sinh * v + h + now.versinh * h)
     versinh = now.versinh + (now.versinh * v + v + now.sinh * h)
-    return Instant(0.0, velocity, cosine, sine, sinh, versinh)
+    return Instant(0.0, 0.0, velocity, cosine, sine, sinh, versinh)
 
 
 @njit(**INLINED)

@@ -49,7 +49,7 @@ def carry_free(columns, sinh, versinh):
 @njit(**COMPILED)
 def carry_forcing(p, arc, columns, t, elapsed):
     """The forcing's own share in the parameter rows of an arc that began ``elapsed`` after the start of the march."""
-    sinh, versinh, excess = hyperbolic(t)
+    sinh, versinh, excess, _ = hyperbolic(t)
     place_a, rate_a, place_psi, rate_psi, place_f, rate_f = sensitivities(
         p, arc.cosine, arc.sine, t, sinh, versinh, excess
     )
@@ -129,7 +129,7 @@ def orthonormalise(columns, growth):
 def carry_free_orthonormal(columns, growth, t):
     """Along an arc in steps of at most 1, re-orthonormalised after each: the shrinking direction is never lost to rounding."""
     steps = math.ceil(t) if t > 1.0 else 1
-    sinh, versinh, _ = hyperbolic(t / steps)
+    sinh, versinh, _, _ = hyperbolic(t / steps)
     for _ in range(steps):
         carry_free(columns, sinh, versinh)
         orthonormalise(columns, growth)
