@@ -144,7 +144,7 @@ def test_elementary_functions_keep_their_relative_accuracy_from_the_shortest_arc
                 found, z = elementary.circular(rate, t), mpmath.mpf(rate) * mpmath.mpf(t)
                 exact = (mpmath.sin(z), 1 - mpmath.cos(z), z - mpmath.sin(z), z * z / 2 - 1 + mpmath.cos(z))
                 if rate * t >= elementary.SHORT:  # the last is for short arguments only
-                    found, exact = found[:3] + (1.0,), exact[:3] + (1.0,)
+                    found, exact = (*found[:3], 1.0), (*exact[:3], 1.0)
             # of 1 - cos x far from 0 what counts is its error against 1
             scales = exact if name == "hyperbolic" or z < 1 else (exact[0], max(exact[1], 1), *exact[2:])
             worst = np.maximum(

@@ -4,7 +4,8 @@ On side sigma = sign(Theta) work with u = sigma Theta >= 0: u'' - u = f = -1 - A
 
     u = u0 + v0 sinh t + (u0 - steady) (cosh t - 1) + G(t),
 
-G the response from rest to all but a steady part of the press 1 + A cos eta (``harmonic.respond``). The exponential form u = c+ e^t + c- e^-t + 1 + beta cos eta serves bounds.
+G the response from rest to all but a steady part of the press 1 + A cos eta (``harmonic.respond``). The
+exponential form u = c+ e^t + c- e^-t + 1 + beta cos eta serves bounds.
 """
 
 from typing import NamedTuple
