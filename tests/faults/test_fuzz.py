@@ -43,11 +43,16 @@ def recorded(motion):
     assert np.all(np.diff(events["time"]) >= 0)
     assert events.size == 0 or 0 <= events["time"][0] <= events["time"][-1] <= motion.duration
     until = motion.duration if motion.overturning is None else motion.overturning.time
-    angle, velocity = motion.at(np.linspace(0, until, 50))
+    times = np.linspace(0, until, 50)
+    angle, velocity = motion.at(times)
     assert np.all(np.isfinite(angle))
     assert np.all(np.isfinite(velocity))
     # half an ulp of an absolute time moves a fast block a little beyond its peak, never beyond a brace
     assert np.max(np.abs(angle)) <= (motion.peak * (1 + 1e-9) if braces is None else braces.angle)
+    # a missed hit would show in the turns of the closed form, a missed impact in an angle held at 0
+    assert braces is None or np.all(np.abs(motion.peaks["angle"]) <= braces.angle * (1 + 1e-12))
+    inside = (times > 0) & (times < until)
+    assert not np.any((angle == 0)[inside] & (velocity != 0)[inside])
 
 
 def consistent(motion, cycles):

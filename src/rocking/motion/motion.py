@@ -12,6 +12,7 @@ from attrs import define, field
 from rocking.kernels import events as kernel_events
 from rocking.kernels import sample
 from rocking.model import Block, Outcome, Overturning, State, System, pictures, reals, refusal, within
+from rocking.motion.run import parameters, section_of
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -162,8 +163,6 @@ class Motion:
         ndarray, shape (n, 2)
             Just after any event at that instant.
         """
-        from rocking.motion.simulate import section_of
-
         if phase is None:
             if self.record == "section":
                 return self._section_rows
@@ -192,8 +191,6 @@ class Motion:
 
     @cached_property
     def _numbers(self) -> Any:
-        from rocking.motion.simulate import parameters
-
         return parameters(self.system)
 
     def _rows(self) -> np.ndarray:

@@ -2,36 +2,18 @@
 
 from __future__ import annotations
 
-import math
+from typing import Any
 
 import numpy as np
 
 from rocking.kernels import events
 from rocking.kernels import march as kernel
-from rocking.kernels import parameters as numbers
-from rocking.model import Outcome, Overturning, State, System, TooManyEvents, check_start, one_of, whole
+from rocking.model import Outcome, Overturning, State, System, check_start, one_of, whole
 from rocking.motion.motion import Motion
+from rocking.motion.run import parameters, run, state_of
 
 MOST_CYCLES = 1_000_000_000
 MOST_SECTION_CYCLES = 100_000_000
-MOST_RECORDED = 10_000_000
-# The compiled march cannot be interrupted; it comes up for air after this many cycles.
-BREATH = 100_000
-NOTHING = np.empty((0, 2))
-
-
-def parameters(system: System) -> numbers.HarmonicParameters:
-    """Return a system as the kernels read it."""
-    forcing, braces = system.forcing, system.braces
-    return numbers.harmonic_parameters(
-        forcing.amplitude,
-        forcing.frequency,
-        forcing.period,
-        forcing.phase,
-        system.restitution,
-        math.inf if braces is None else braces.angle,
-        1.0 if braces is None else braces.restitution,
-    )
 
 
 def simulate(system: System, start: State | None = None, cycles: int = 200, record: str = "all") -> Motion:
@@ -79,13 +61,13 @@ def simulate(system: System, start: State | None = None, cycles: int = 200, reco
     p = parameters(system)
     progress, hit = kernel.begin_march(p, start.angle, start.velocity)
     first = _first_rows(progress, start, hit)
-    status, progress, section, rows = _run(p, progress, cycles, 0.0, record, want_peak=True)
+    status, progress, section, rows = run(p, progress, cycles, 0.0, record, want_peak=True)
     return Motion(
         system=system,
         start=start,
         record=record,
         cycles=progress.cycle,
-        final=_state(progress),
+        final=State(*state_of(progress)),
         outcome=_outcome(status),
         overturning=_overturning(status, progress, system),
         impacts=progress.impacts,
@@ -96,65 +78,18 @@ def simulate(system: System, start: State | None = None, cycles: int = 200, reco
     )
 
 
-def section_of(motion: Motion, phase: float) -> np.ndarray:
-    """Run a motion again for its section at another forcing phase."""
-    forcing = motion.system.forcing
-    time = math.fmod(phase - forcing.phase, 2.0 * math.pi) / forcing.frequency
-    p = parameters(motion.system)
-    progress, _ = kernel.begin_march(p, motion.start.angle, motion.start.velocity)
-    return _run(p, progress, motion.cycles, time % forcing.period, "section", want_peak=False)[2]
-
-
-def _run(p, progress, cycles, section_time, record, want_peak):  # type: ignore[no-untyped-def]
-    """March to the end, in breaths: (status, progress, section, event rows)."""
-    section = np.empty((cycles + 1 if record == "section" else 0, 2))
-    events = np.empty((4096 if record == "all" else 0, 8))
-    rows: list[np.ndarray] = []
-    status, recorded, done = kernel.FULL, 0, 0
-    while status == kernel.FULL or (status in (kernel.DONE, kernel.STILL) and progress.cycle < cycles):
-        until = min(cycles, progress.cycle + BREATH)
-        status, progress, taken, written = kernel.march(
-            p, progress, until, section_time, section[done:], events, NOTHING, NOTHING[:, 0], want_peak
-        )
-        done += taken
-        recorded += written
-        rows.append(events[:written].copy())
-        if status == kernel.CROWDED or recorded > MOST_RECORDED:
-            raise TooManyEvents(_crowded(status, record))
-        if status == kernel.FULL and len(events) < 1_000_000:
-            events = np.empty((4 * len(events), 8))
-    if record == "section" and section_time == 0.0 and status != kernel.OVERTURNED:
-        section[done] = _state(progress).angle, _state(progress).velocity
-        done += 1
-    return status, progress, section[:done], rows
-
-
-def _crowded(status: int, record: str) -> str:
-    if status == kernel.CROWDED:
-        return (
-            f"more than {kernel.MOST_EVENTS:,} events in one forcing cycle: the block chatters almost without loss "
-            "(start it faster, or take a smaller restitution)"
-        )
-    return f'more than {MOST_RECORDED:,} events to keep (run fewer cycles, or record="section" or "none")'
-
-
-def _first_rows(progress, start: State, hit: bool) -> np.ndarray:  # type: ignore[no-untyped-def]
+def _first_rows(progress: Any, start: State, hit: bool) -> np.ndarray:
     """The arc that the motion begins with, after a hit on a brace where it starts with one."""
     row = np.empty((1, 8))
     kernel.note(row, 0, 0, progress.mode, progress.arc, events.BRACE if hit else events.NONE, start.velocity)
     return row
 
 
-def _state(progress) -> State:  # type: ignore[no-untyped-def]
-    arc = progress.arc
-    return State(angle=arc.side * arc.angle + 0.0, velocity=arc.side * arc.velocity + 0.0)
-
-
 def _outcome(status: int) -> Outcome:
     return {kernel.OVERTURNED: Outcome.OVERTURNED, kernel.STILL: Outcome.AT_REST}.get(status, Outcome.BOUNDED)
 
 
-def _overturning(status: int, progress, system: System) -> Overturning | None:  # type: ignore[no-untyped-def]
+def _overturning(status: int, progress: Any, system: System) -> Overturning | None:
     if status != kernel.OVERTURNED:
         return None
     time = progress.cycle * system.forcing.period + progress.no_return
