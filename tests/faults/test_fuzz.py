@@ -131,6 +131,52 @@ def test_a_million_random_systems_run_to_the_end_of_their_budget(seed):
     assert run_many(seed, SYSTEMS) <= MOST_CROWDED
 
 
+ONCE_WRONG = {
+    "refined to a point that is no zero: hits on a near brace missed": (
+        System(
+            Harmonic(7.012986018443849, period=11.487736571066439),
+            1 - 2**-53,
+            Braces(0.004996837684420229, 1 - 2**-53),
+        ),
+        State(0.004996837684420229, 8.052351532995957),
+        8,
+    ),
+    "never ended": (
+        System(
+            Harmonic(104.67052829553408, period=2.0, phase=math.pi / 2), 0.0, Braces(1.0, 0.19997511995888284)
+        ),
+        State(1.0, 1e-12),
+        10,
+    ),
+    "hops of 1e-41 on a brace that hardly presses": (
+        System(
+            Harmonic(1 + 2**-52, period=0.43887157713475716, phase=995.970020943008),
+            0.357,
+            Braces(2.0, 0.06107105923018641),
+        ),
+        State(1.0758155659963502, 1e-12),
+        79,
+    ),
+    "last event an ulp after the end": (
+        System(
+            Harmonic(0.9779369924388278, period=15.884521986337699, phase=math.pi / 2), 1.0, Braces(1.0, 0.0)
+        ),
+        State(-1.0, 0.06490340229447211),
+        6,
+    ),
+    "ended in different cycles, recorded or not": (
+        System(Harmonic(1 + 2**-52, period=2.0), 1.0),
+        State(1e-15),
+        53,
+    ),
+}
+
+
+@pytest.mark.parametrize("found", ONCE_WRONG)
+def test_systems_that_once_went_wrong_run_to_the_end_of_their_budget(found):
+    assert not check(*ONCE_WRONG[found])
+
+
 def floats(low, high):
     return st.floats(low, high, allow_nan=False)
 

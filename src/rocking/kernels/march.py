@@ -149,9 +149,10 @@ def finish(p, reached, coming, columns, growth, want_peak):
     if mode == FLIGHT:
         now = evaluate(p, arc, t)
         carry(p, mode, arc, t, now.sinh, now.versinh, cycle * p.period + arc.start, columns, growth)
+        angle = within_reach(p, now.angle)
         if want_peak:
-            peak = arc_peak(p, arc, t, peak)
-        arc = arc_from(p, arc.side, end, within_reach(p, now.angle), now.velocity)
+            peak = max(arc_peak(p, arc, t, peak), angle)
+        arc = arc_from(p, arc.side, end, angle, now.velocity)
     else:
         arc = arc_from(p, arc.side, end, arc.angle, 0.0)
     status = DONE
@@ -213,7 +214,7 @@ def march(p, progress, cycles, section_time, section, events, columns, growth, w
                 written,
             )
         if want_peak and mode == FLIGHT:
-            peak = arc_peak(p, arc, coming.wait, peak)
+            peak = p.brace_angle if coming.event == BRACE else arc_peak(p, arc, coming.wait, peak)
         carry(
             p,
             mode,

@@ -60,9 +60,13 @@ class Motion:
 
     Examples
     --------
-    >>> system = System(Harmonic(amplitude=2.0, period=1.0), restitution=0.925)
-    >>> print(simulate(system, cycles=50))
-    bounded over 50 cycles: 99 impacts, peak |Θ| 0.2169
+    >>> import rocking as rk
+    >>> system = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925)
+    >>> motion = rk.simulate(system, cycles=50)
+    >>> print(motion)
+    bounded over 50 cycles: 99 impacts, peak |Θ| 0.1875
+    >>> motion.events["kind"][:2].tolist(), motion.section().shape
+    (['impact', 'impact'], (51, 2))
     """
 
     system: System
@@ -201,7 +205,8 @@ class Motion:
         return self._event_rows
 
     def _absolute(self, rows: np.ndarray) -> np.ndarray:
-        return rows[:, 0] * self.system.forcing.period + rows[:, 1]
+        # rounding must not put the last event after the end
+        return np.minimum(rows[:, 0] * self.system.forcing.period + rows[:, 1], self.duration)
 
     def _sampled(self, times: Any) -> np.ndarray:
         rows = self._rows()

@@ -49,8 +49,9 @@ def simulate(system: System, start: State | None = None, cycles: int = 200, reco
 
     Examples
     --------
-    >>> system = System(Harmonic(amplitude=2.0, period=1.0), restitution=0.925)
-    >>> motion = simulate(system, cycles=100)
+    >>> import rocking as rk
+    >>> system = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925)
+    >>> motion = rk.simulate(system, cycles=100)
     >>> motion.impacts, str(motion.outcome)
     (199, 'bounded')
     """
