@@ -42,15 +42,19 @@ def recorded(motion):
     assert (kinds.count("impact"), kinds.count("brace")) == (motion.impacts, motion.brace_hits)
     assert np.all(np.diff(events["time"]) >= 0)
     assert events.size == 0 or 0 <= events["time"][0] <= events["time"][-1] <= motion.duration
+    just_before, _ = motion.at(np.nextafter(events["time"], 0))
+    assert np.all(
+        np.abs(just_before - events["angle"]) <= 1e-12 * (1 + events["time"]) * (1 + np.abs(events["before"]))
+    )
     until = motion.duration if motion.overturning is None else motion.overturning.time
     times = np.linspace(0, until, 50)
     angle, velocity = motion.at(times)
     assert np.all(np.isfinite(angle))
     assert np.all(np.isfinite(velocity))
-    # half an ulp of an absolute time moves a fast block a little beyond its peak, never beyond a brace
+    # Half an ulp of an absolute time moves a fast block a little beyond its peak, never beyond a brace.
     assert np.max(np.abs(angle)) <= (motion.peak * (1 + 1e-9) if braces is None else braces.angle)
-    # a missed hit would show in the turns of the closed form, a missed impact in an angle held at 0
     assert braces is None or np.all(np.abs(motion.peaks["angle"]) <= braces.angle * (1 + 1e-12))
+    # A missed impact would show as an angle held at 0 by a block that moves.
     inside = (times > 0) & (times < until)
     assert not np.any((angle == 0)[inside] & (velocity != 0)[inside])
 

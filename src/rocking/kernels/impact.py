@@ -12,6 +12,8 @@ from .tangent import carry_brace, carry_impact, forget, forget_leaning
 
 # Accumulating impacts of a recorded motion go on, one by one, down to this speed.
 SLOWEST = 1e-13
+# Below this a speed is none: where the press all but vanishes, accumulation cannot be proved to end.
+NEGLIGIBLE = 1e-30
 # Faster than this no accumulation is looked for.
 SLOW = 0.1
 
@@ -29,6 +31,8 @@ def after_impact(p, arc, time, coming, quiet, columns):
     ``quiet`` is the time in which nothing is asked for, so that accumulating impacts may be cut short.
     """
     speed = p.restitution * max(-coming.velocity, 0.0)
+    if speed < NEGLIGIBLE:
+        speed = 0.0
     cosine_psi = arc.side * coming.cosine
     swing = p.amplitude * abs(cosine_psi)
     side = -arc.side
@@ -57,6 +61,8 @@ def after_brace(p, arc, time, coming, quiet, columns):
     """(mode, arc) after a hit on a brace."""
     before = max(coming.velocity, 0.0)
     speed = p.brace_restitution * before
+    if speed < NEGLIGIBLE:
+        speed = 0.0
     if columns.shape[0] > 0 and before > 0.0:
         carry_brace(p, columns, coming.cosine, arc.side, arc.side * before)
     after = arc_from(p, arc.side, time, p.brace_angle, -speed)
