@@ -4,6 +4,8 @@ import math
 from fractions import Fraction
 from typing import NamedTuple
 
+TURN = Fraction("6.28318530717958647692528676655900576839433879875021")
+
 
 class HarmonicParameters(NamedTuple):
     """A block shaken by A cos(Omega tau + phi), in normalised units.
@@ -57,7 +59,7 @@ def harmonic_parameters(
         amplitude,
         frequency,
         period,
-        phase,
+        within_a_turn(phase),
         restitution,
         brace_angle,
         brace_restitution,
@@ -76,3 +78,8 @@ def harmonic_parameters(
         math.exp(-outside),
         math.tanh(outside),
     )
+
+
+def within_a_turn(phase: float) -> float:
+    """A phase of several turns without them, rounded once: what is added to it later must not cost its last digits."""
+    return phase if abs(phase) <= TURN else float(Fraction(phase) - round(Fraction(phase) / TURN) * TURN)
