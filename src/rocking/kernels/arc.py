@@ -13,7 +13,7 @@ from typing import NamedTuple
 from numba import njit
 
 from .elementary import INLINED, hyperbolic
-from .harmonic import begin, particular, respond
+from .harmonic import begin, forcing_term, particular, respond
 
 ROUNDING = 2.0**-53
 
@@ -53,7 +53,7 @@ def arc_from(p, side, start, angle, velocity):
 @njit(**INLINED)
 def arc_after(p, side, start, velocity, cosine, sine):
     """The arc that leaves the base on ``side``, where the forcing there is known already."""
-    press = 1.0 + p.amplitude * cosine
+    press = -forcing_term(p, cosine)
     return Arc(side, start, 0.0, velocity, cosine, sine, p.frequency * start + p.phase, press)
 
 
@@ -80,12 +80,6 @@ def evaluate(p, arc, t):
 def within_reach(p, angle):
     """An angle as the base and the braces allow it: near an event rounding may put it beyond."""
     return min(max(angle, 0.0), p.brace_angle)
-
-
-@njit(**INLINED)
-def forcing_term(p, cosine):
-    """f = u'' - u on one side of the base: eq. (4)."""
-    return -1.0 - p.amplitude * cosine
 
 
 @njit(**INLINED)

@@ -18,9 +18,9 @@ from typing import NamedTuple
 
 from numba import njit
 
-from .arc import evaluate, exponentials, forcing_term
+from .arc import evaluate, exponentials
 from .elementary import COMPILED, INLINED
-from .harmonic import first_cut, next_cut
+from .harmonic import first_cut, forcing_rates, forcing_term, next_cut
 
 # An arc is renewed from its own state after this long: e^32 is where the closed form has used up double
 # precision.
@@ -84,8 +84,7 @@ def watched(p, arc, watch, now):
 def watched_forcing(p, watch, now):
     """(f_w, f_w', f_w'') at an instant."""
     f = forcing_term(p, now.cosine)
-    df = p.amplitude * p.frequency * now.sine
-    ddf = p.amplitude * p.frequency * p.frequency * now.cosine
+    df, ddf = forcing_rates(p, now.cosine, now.sine)
     dddf = -p.frequency * p.frequency * df
     return (
         watch.of_angle * f + watch.of_velocity * df - watch.constant,

@@ -29,6 +29,18 @@ def begin(p, side, time):
 
 
 @njit(**INLINED)
+def forcing_term(p, cosine):
+    """f = u'' - u = -1 - A cos eta on one side of the base: eq. (4)."""
+    return -1.0 - p.amplitude * cosine
+
+
+@njit(**INLINED)
+def forcing_rates(p, cosine, sine):
+    """(f', f'') of ``forcing_term``; each higher derivative is -Omega**2 times the last but one."""
+    return p.amplitude * p.frequency * sine, p.amplitude * p.frequency * p.frequency * cosine
+
+
+@njit(**INLINED)
 def respond(p, cosine, sine, press, t, sinh, versinh, excess, higher):
     """(steady, G, G', cos eta, sin eta) a time t later: the press is split into a steady one and a rest, which moves u by G.
 

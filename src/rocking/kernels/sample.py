@@ -2,10 +2,11 @@
 
 from numba import njit
 
-from .arc import arc_from, evaluate, forcing_term, within_reach
+from .arc import arc_from, evaluate, within_reach
 from .crossing import CROSSING, first_turn_sign, first_zero, turn_watch
 from .elementary import COMPILED
 from .events import FLIGHT
+from .harmonic import forcing_term
 
 
 @njit(**COMPILED)

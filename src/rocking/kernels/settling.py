@@ -4,9 +4,8 @@ import math
 
 from numba import njit
 
-from .arc import forcing_term
 from .elementary import COMPILED
-from .harmonic import drift
+from .harmonic import drift, forcing_term
 
 
 @njit(**COMPILED)

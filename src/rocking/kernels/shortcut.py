@@ -10,10 +10,10 @@ import math
 
 from numba import njit
 
-from .arc import Instant, evaluate, exponentials, forcing_term
+from .arc import Instant, evaluate, exponentials
 from .crossing import step_to_zero
 from .elementary import INLINED
-from .harmonic import first_cut
+from .harmonic import first_cut, forcing_rates, forcing_term
 
 TRIES = 6
 MOST_STRETCHES = 64
@@ -29,8 +29,7 @@ MARGIN = 1e-11
 def advance(p, now, step):
     """An instant carried on by a small step: Taylor series with all its derivatives from u'' = u + f."""
     f = forcing_term(p, now.cosine)
-    df = p.amplitude * p.frequency * now.sine
-    ddf = p.amplitude * p.frequency * p.frequency * now.cosine
+    df, ddf = forcing_rates(p, now.cosine, now.sine)
     second = now.angle + f
     third = now.velocity + df
     fourth = second + ddf
@@ -112,8 +111,8 @@ def likely_impact(p, arc, guess):
         fall = u + f
         bend = abs(u * fall)
         if v < 0.0 and bend < NEAR * v * v:
-            df = p.amplitude * p.frequency * now.sine
-            step = step_to_zero(u, v, (f, df, p.amplitude * p.frequency * p.frequency * now.cosine))
+            df, ddf = forcing_rates(p, now.cosine, now.sine)
+            step = step_to_zero(u, v, (f, df, ddf))
             if abs(step) < scale and bend < SMALL * v * v:
                 t += step
                 return t > 0.0 and unbroken_until(p, arc, t), t, advance(p, now, step)

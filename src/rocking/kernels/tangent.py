@@ -10,9 +10,8 @@ from enum import IntEnum
 
 from numba import njit
 
-from .arc import forcing_term
 from .elementary import COMPILED, INLINED, hyperbolic
-from .harmonic import sensitivities
+from .harmonic import forcing_term, sensitivities
 
 TANGENT = 2
 SENSITIVITIES = 8
