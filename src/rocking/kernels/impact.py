@@ -8,7 +8,6 @@ from .arc import arc_after, arc_from
 from .elementary import COMPILED, INLINED
 from .events import BRACE, FLIGHT, IMPACT, LEAN, LEAVE, LIFT_OFF, REST, wait_leaning
 from .settling import base_settling_time, brace_settling_time
-from .tangent import carry_brace, carry_impact, forget, forget_leaning
 
 # Accumulating impacts of a recorded motion go on, one by one, down to this speed.
 SLOWEST = 1e-13
@@ -25,7 +24,7 @@ def side_to_lift(cosine_psi):
 
 
 @njit(**INLINED)
-def after_impact(p, arc, time, coming, quiet, columns):
+def after_impact(p, arc, time, coming, quiet):
     """(mode, arc) after an impact at the base.
 
     ``quiet`` is the time in which nothing is asked for, so that accumulating impacts may be cut short.
@@ -42,8 +41,6 @@ def after_impact(p, arc, time, coming, quiet, columns):
             mode = REST
         else:
             side = side_to_lift(cosine_psi)
-    if columns.shape[0] > 0 and coming.velocity < 0.0:
-        carry_impact(p, columns, coming.cosine, arc.side, arc.side * coming.velocity, side)
     turned = side * arc.side
     after = arc_after(p, side, time, speed, turned * coming.cosine, turned * coming.sine)
     if mode == FLIGHT and speed < SLOW and swing < 1.0 and p.restitution < 1.0:
@@ -52,19 +49,15 @@ def after_impact(p, arc, time, coming, quiet, columns):
             mode = REST
     if mode == REST:
         after = arc_from(p, side, time, 0.0, 0.0)
-        forget(columns)
     return mode, after
 
 
 @njit(**COMPILED)
-def after_brace(p, arc, time, coming, quiet, columns):
+def after_brace(p, arc, time, coming, quiet):
     """(mode, arc) after a hit on a brace."""
-    before = max(coming.velocity, 0.0)
-    speed = p.brace_restitution * before
+    speed = p.brace_restitution * max(coming.velocity, 0.0)
     if speed < NEGLIGIBLE:
         speed = 0.0
-    if columns.shape[0] > 0 and before > 0.0:
-        carry_brace(p, columns, coming.cosine, arc.side, arc.side * before)
     after = arc_from(p, arc.side, time, p.brace_angle, -speed)
     mode = FLIGHT
     if speed == 0.0:
@@ -76,21 +69,18 @@ def after_brace(p, arc, time, coming, quiet, columns):
             mode = LEAN
     if mode == LEAN:
         after = arc_from(p, arc.side, time, p.brace_angle, 0.0)
-        forget_leaning(columns, arc.side)
     return mode, after
 
 
 @njit(**INLINED)
-def after_event(p, arc, time, coming, quiet, columns):
+def after_event(p, arc, time, coming, quiet):
     """(mode, arc) after the coming event."""
     if coming.event == IMPACT:
-        return after_impact(p, arc, time, coming, quiet, columns)
+        return after_impact(p, arc, time, coming, quiet)
     if coming.event == BRACE:
-        return after_brace(p, arc, time, coming, quiet, columns)
+        return after_brace(p, arc, time, coming, quiet)
     if coming.event == LIFT_OFF:
-        forget(columns)
         return FLIGHT, arc_from(p, coming.side, time, 0.0, 0.0)
     if coming.event == LEAVE:
-        forget_leaning(columns, arc.side)
         return FLIGHT, arc_from(p, arc.side, time, p.brace_angle, 0.0)
     return FLIGHT, arc_from(p, arc.side, time, coming.angle, coming.velocity)

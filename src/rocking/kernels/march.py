@@ -12,7 +12,7 @@ from numba import njit
 
 from .arc import Arc, arc_from, earlier, evaluate, within_reach
 from .crossing import CROSSING, first_turn_sign, first_zero, no_return_time, turn_watch
-from .elementary import COMPILED, INLINED
+from .elementary import COMPILED
 from .events import (
     BRACE,
     FLIGHT,
@@ -26,7 +26,17 @@ from .events import (
     wait_leaning,
 )
 from .impact import after_event
-from .tangent import SENSITIVITIES, carry_forcing, carry_free, carry_free_orthonormal, orthonormalise
+from .tangent import (
+    TANGENT,
+    Tangent,
+    along,
+    carry_arc,
+    carry_event,
+    event_map,
+    read_tangent,
+    through,
+    write_tangent,
+)
 
 MOST_EVENTS = 10_000_000
 # From impact to impact the forcing is turned on with the arc; after this many (a power of two, less one) it
@@ -109,19 +119,6 @@ def arc_peak(p, arc, until, peak):
         sign = -sign
 
 
-@njit(**INLINED)
-def carry(p, mode, arc, t, sinh, versinh, elapsed, columns, growth):
-    """The differences along an arc of length t; at rest and leaning they stay."""
-    if columns.shape[0] == 0 or mode != FLIGHT:
-        return
-    if growth.shape[0] > 0:
-        carry_free_orthonormal(columns, growth, t)
-        return
-    carry_free(columns, sinh, versinh)
-    if columns.shape[0] == SENSITIVITIES:
-        carry_forcing(p, arc, columns, t, elapsed)
-
-
 @njit(**COMPILED)
 def note(events, count, cycle, mode, arc, event, before):
     """Write one event, with the arc that follows it and the velocity before it."""
@@ -148,7 +145,8 @@ def finish(p, reached, coming, columns, growth, want_peak):
     t = end - arc.start
     if mode == FLIGHT:
         now = evaluate(p, arc, t)
-        carry(p, mode, arc, t, now.sinh, now.versinh, cycle * p.period + arc.start, columns, growth)
+        if columns.shape[0] > 0:
+            carry_arc(p, arc, columns, growth, t, cycle * p.period + arc.start)
         angle = within_reach(p, now.angle)
         if want_peak:
             peak = max(arc_peak(p, arc, t, peak), angle)
@@ -180,7 +178,10 @@ def march(p, progress, cycles, section_time, section, events, columns, growth, w
     """
     mode, cycle, arc, pending, impacts, brace_hits, peak, no_return, last_wait, wait_before = progress
     hasty = section.shape[0] == 0 and events.shape[0] == 0
-    written, rows, crowd = 0, 0, 0
+    # The tangent alone travels in registers.
+    light = columns.shape[0] == TANGENT and growth.shape[0] == 0
+    tangent = read_tangent(columns) if light else Tangent(0.0, 0.0, 0.0, 0.0)
+    written, rows, crowd, ended = 0, 0, 0, False
     while True:
         coming = next_event(p, mode, arc, wait_before)
         at = arc.start + coming.wait
@@ -196,47 +197,42 @@ def march(p, progress, cycles, section_time, section, events, columns, growth, w
             cycle, crowd, pending = cycle + 1, 0, True
             arc, no_return = earlier(arc, p.period), no_return - p.period
             at = arc.start + coming.wait
-            if cycle >= cycles or no_return <= 0.0:
-                reached = Progress(
-                    mode, cycle, arc, True, impacts, brace_hits, peak, no_return, last_wait, wait_before
-                )
-                status, reached = finish(p, reached, coming, columns, growth, want_peak)
-                return status, reached, rows, written
+            ended = cycle >= cycles or no_return <= 0.0
+            if ended:
+                break
+        full = events.shape[0] > 0 and written + 2 > events.shape[0]
+        if ended or full or crowd >= MOST_EVENTS:
+            break
         crowd += 1
-        if crowd > MOST_EVENTS or (events.shape[0] > 0 and written + 2 > events.shape[0]):
-            status = CROWDED if crowd > MOST_EVENTS else FULL
-            return (
-                status,
-                Progress(
-                    mode, cycle, arc, pending, impacts, brace_hits, peak, no_return, last_wait, wait_before
-                ),
-                rows,
-                written,
-            )
         if want_peak and mode == FLIGHT:
             peak = p.brace_angle if coming.event == BRACE else arc_peak(p, arc, coming.wait, peak)
-        carry(
-            p,
-            mode,
-            arc,
-            coming.wait,
-            coming.sinh,
-            coming.versinh,
-            cycle * p.period + arc.start,
-            columns,
-            growth,
-        )
         wait_before, last_wait = last_wait, coming.wait
         impacts += coming.event == IMPACT
         brace_hits += coming.event == BRACE
-        before = arc.side * coming.velocity
         quiet = (cycles - cycle) * p.period - at if hasty else 0.0
-        mode, arc = after_event(p, arc, at, coming, quiet, columns)
-        if growth.shape[0] > 0:
-            orthonormalise(columns, growth)
+        mode_after, after = after_event(p, arc, at, coming, quiet)
+        if light:
+            if mode == FLIGHT:
+                tangent = along(tangent, coming.sinh, coming.versinh)
+            tangent = through(tangent, event_map(p, arc, coming, mode_after, after.side))
+        elif columns.shape[0] > 0:
+            if mode == FLIGHT:
+                carry_arc(p, arc, columns, growth, coming.wait, cycle * p.period + arc.start)
+            carry_event(p, arc, coming, mode_after, after.side, columns, growth)
+        before = arc.side * coming.velocity
+        mode, arc = mode_after, after
         if impacts & RESYNCHRONISE == 0:
             arc = arc_from(p, arc.side, arc.start, arc.angle, arc.velocity)
         if events.shape[0] > 0:
             written = note(events, written, cycle, mode, arc, coming.event, before)
             if mode != FLIGHT:
                 written = note(events, written, cycle, mode, arc, RESTS if mode == REST else LEANS, 0.0)
+    if light:
+        write_tangent(columns, tangent)
+    reached = Progress(
+        mode, cycle, arc, pending, impacts, brace_hits, peak, no_return, last_wait, wait_before
+    )
+    if not ended:
+        return FULL if full else CROWDED, reached, rows, written
+    status, reached = finish(p, reached, coming, columns, growth, want_peak)
+    return status, reached, rows, written

@@ -1,16 +1,18 @@
 """How small differences travel: along arcs, through impacts, brace impacts, rest and leaning.
 
-Differences are with respect to the start and to every parameter: ``columns`` holds one difference (delta
-Theta, delta Theta') a row: rows 0 and 1 the tangent of the start, then one row a parameter in the order of
-``Row``, at a fixed time after the start of the march.
+``Tangent`` holds the differences with respect to the start alone, in registers. ``columns`` holds those with
+respect to the start (rows 0, 1) and to the parameters (in the order of ``Row``, at a fixed time after the start
+of the march), one (delta Theta, delta Theta') a row.
 """
 
 import math
 from enum import IntEnum
+from typing import NamedTuple
 
 from numba import njit
 
 from .elementary import COMPILED, INLINED, hyperbolic
+from .events import BRACE, FLIGHT, IMPACT, LEAVE, LIFT_OFF, NONE
 from .harmonic import forcing_term, sensitivities
 
 TANGENT = 2
@@ -28,21 +30,113 @@ class Row(IntEnum):
     BRACE_RESTITUTION = 7
 
 
+class Tangent(NamedTuple):
+    """Two differences, (a, b) and (c, d)."""
+
+    a: float
+    b: float
+    c: float
+    d: float
+
+
+@njit(**COMPILED)
+def read_tangent(columns):
+    """The first two rows."""
+    return Tangent(columns[0, 0], columns[0, 1], columns[1, 0], columns[1, 1])
+
+
+@njit(**COMPILED)
+def write_tangent(columns, tangent):
+    """Back into the first two rows."""
+    columns[0, 0], columns[0, 1] = tangent.a, tangent.b
+    columns[1, 0], columns[1, 1] = tangent.c, tangent.d
+
+
 @njit(**INLINED)
-def carry_map(columns, aa, ab, ba, bb):
+def mapped(tangent, aa, ab, ba, bb):
+    """Both differences by one matrix."""
+    a, b, c, d = tangent
+    return Tangent(aa * a + ab * b, ba * a + bb * b, aa * c + ab * d, ba * c + bb * d)
+
+
+@njit(**INLINED)
+def along(tangent, sinh, versinh):
+    """Along an arc: [[cosh t, sinh t], [sinh t, cosh t]]."""
+    return mapped(tangent, 1.0 + versinh, sinh, sinh, 1.0 + versinh)
+
+
+@njit(**INLINED)
+def through(tangent, event):
+    """Through an event: [[factor, 0], [shear, factor]], as ``event_map`` gives them."""
+    factor, shear = event
+    return mapped(tangent, factor, 0.0, shear, factor)
+
+
+@njit(**INLINED)
+def event_map(p, arc, coming, mode_after, side_after):
+    """(factor, shear) of an event: e and (Theta''+ - e Theta''-)/Theta'- of an impact, e replaced by -r at a brace.
+
+    Rest, leaning, lift-off and leaving forget: (0, 0).
+    """
+    if mode_after != FLIGHT or coming.event == LIFT_OFF or coming.event == LEAVE:
+        return 0.0, 0.0
+    if coming.event == NONE:
+        return 1.0, 0.0
+    velocity = arc.side * coming.velocity
+    if coming.event == IMPACT:
+        factor = p.restitution
+        pull = arc.side * (1.0 + forcing_term(p, coming.cosine))
+        before, after = pull - arc.side, pull - side_after
+    else:
+        factor = -p.brace_restitution
+        before = after = arc.side * (p.brace_angle + forcing_term(p, coming.cosine))
+    return factor, (after - factor * before) / velocity if velocity != 0.0 else 0.0
+
+
+@njit(**INLINED)
+def map_rows(columns, aa, ab, ba, bb):
     """Every row by one matrix."""
-    for k in range(0, columns.shape[0], 2):
-        a, b, c, d = columns[k, 0], columns[k, 1], columns[k + 1, 0], columns[k + 1, 1]
+    for k in range(columns.shape[0]):
+        a, b = columns[k, 0], columns[k, 1]
         columns[k, 0] = aa * a + ab * b
         columns[k, 1] = ba * a + bb * b
-        columns[k + 1, 0] = aa * c + ab * d
-        columns[k + 1, 1] = ba * c + bb * d
 
 
-@njit(**INLINED)
-def carry_free(columns, sinh, versinh):
-    """Along an arc: [[cosh t, sinh t], [sinh t, cosh t]]."""
-    carry_map(columns, 1.0 + versinh, sinh, sinh, 1.0 + versinh)
+@njit(**COMPILED)
+def carry_arc(p, arc, columns, growth, t, elapsed):
+    """All rows along an arc of length t that began ``elapsed`` after the start of the march.
+
+    With ``growth`` in steps of at most 1, re-orthonormalised after each: the shrinking direction is never lost to
+    rounding.
+    """
+    steps = math.ceil(t) if growth.shape[0] > 0 and t > 1.0 else 1
+    sinh, versinh, _, _ = hyperbolic(t / steps)
+    for _ in range(steps):
+        map_rows(columns, 1.0 + versinh, sinh, sinh, 1.0 + versinh)
+        if growth.shape[0] > 0:
+            orthonormalise(columns, growth)
+    if columns.shape[0] == SENSITIVITIES:
+        carry_forcing(p, arc, columns, t, elapsed)
+
+
+@njit(**COMPILED)
+def carry_event(p, arc, coming, mode_after, side_after, columns, growth):
+    """All rows through an event, with what the restitutions and the place of the brace add."""
+    factor, shear = event_map(p, arc, coming, mode_after, side_after)
+    side, velocity = arc.side, arc.side * coming.velocity
+    extra = columns.shape[0] == SENSITIVITIES
+    if extra and coming.event == BRACE:
+        columns[Row.BRACE_ANGLE, 0] -= side
+    map_rows(columns, factor, 0.0, shear, factor)
+    if extra and coming.event == IMPACT and mode_after == FLIGHT:
+        columns[Row.RESTITUTION, 1] += velocity
+    if extra and coming.event == BRACE:
+        columns[Row.BRACE_ANGLE, 0] += side
+        columns[Row.BRACE_RESTITUTION, 1] -= velocity if mode_after == FLIGHT else 0.0
+    if extra and coming.event == LEAVE:
+        columns[Row.BRACE_ANGLE, 0] = side
+    if growth.shape[0] > 0:
+        orthonormalise(columns, growth)
 
 
 @njit(**COMPILED)
@@ -59,49 +153,6 @@ def carry_forcing(p, arc, columns, t, elapsed):
     columns[Row.PHASE, 1] -= side * rate_psi
     columns[Row.FREQUENCY, 0] -= side * (place_f + elapsed * place_psi)
     columns[Row.FREQUENCY, 1] -= side * (rate_f + elapsed * rate_psi)
-
-
-@njit(**INLINED)
-def carry_hit(columns, restitution, shear):
-    """Through an event: [[e, 0], [shear, e]]."""
-    carry_map(columns, restitution, 0.0, shear, restitution)
-
-
-@njit(**INLINED)
-def carry_impact(p, columns, cosine, side, velocity, side_after):
-    """Through an impact that comes in on ``side`` with Theta' = ``velocity`` and leaves on ``side_after``; ``cosine`` on ``side``."""
-    pull = -p.amplitude * side * cosine
-    carry_hit(columns, p.restitution, ((pull - side_after) - p.restitution * (pull - side)) / velocity)
-    if columns.shape[0] == SENSITIVITIES:
-        columns[Row.RESTITUTION, 1] += velocity
-
-
-@njit(**INLINED)
-def carry_brace(p, columns, cosine, side, velocity):
-    """Through a hit on the brace of ``side`` with Theta' = ``velocity``: the impact's matrix with e replaced by -r."""
-    r = p.brace_restitution
-    acceleration = side * (p.brace_angle + forcing_term(p, cosine))
-    moving = columns.shape[0] == SENSITIVITIES
-    if moving:
-        columns[Row.BRACE_ANGLE, 0] -= side
-    carry_hit(columns, -r, (1.0 + r) * acceleration / velocity)
-    if moving:
-        columns[Row.BRACE_ANGLE, 0] += side
-        columns[Row.BRACE_RESTITUTION, 1] -= velocity
-
-
-@njit(**INLINED)
-def forget(columns):
-    """Rest forgets everything."""
-    columns[:, :] = 0.0
-
-
-@njit(**INLINED)
-def forget_leaning(columns, side):
-    """Leaning forgets all but where the brace stands."""
-    columns[:, :] = 0.0
-    if columns.shape[0] == SENSITIVITIES:
-        columns[Row.BRACE_ANGLE, 0] = side
 
 
 @njit(**COMPILED)
@@ -122,13 +173,3 @@ def orthonormalise(columns, growth):
     turn = 1.0 if second >= 0.0 else -1.0
     columns[0, 0], columns[0, 1] = a, b
     columns[1, 0], columns[1, 1] = -turn * b, turn * a
-
-
-@njit(**COMPILED)
-def carry_free_orthonormal(columns, growth, t):
-    """Along an arc in steps of at most 1, re-orthonormalised after each: the shrinking direction is never lost to rounding."""
-    steps = math.ceil(t) if t > 1.0 else 1
-    sinh, versinh, _, _ = hyperbolic(t / steps)
-    for _ in range(steps):
-        carry_free(columns, sinh, versinh)
-        orthonormalise(columns, growth)
