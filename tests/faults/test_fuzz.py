@@ -27,12 +27,14 @@ def check(system, start, cycles):
         return True
     for motion in motions:
         consistent(motion, cycles)
-    assert len({motion.outcome for motion in motions}) == 1
-    assert len({motion.cycles for motion in motions}) == 1
-    kept = motions[1].cycles + (motions[1].outcome is not Outcome.OVERTURNED)
-    assert motions[1].section().shape == (kept, 2)
-    assert motions[1].final == motions[2].final
-    recorded(motions[2])
+    hurried, section, whole = motions
+    assert (section.outcome, section.cycles, section.final) == (whole.outcome, whole.cycles, whole.final)
+    assert section.section().shape == (section.cycles + (section.outcome is not Outcome.OVERTURNED), 2)
+    assert (hurried.outcome is Outcome.AT_REST) == (whole.outcome is Outcome.AT_REST)
+    if not np.isin(whole.events["kind"], ("rest", "lean")).any():
+        # A rest or lean reached early is left an ulp earlier or later, which chaos may make another outcome.
+        assert (hurried.outcome, hurried.cycles, hurried.final) == (whole.outcome, whole.cycles, whole.final)
+    recorded(whole)
     return False
 
 
@@ -181,6 +183,13 @@ ONCE_WRONG = {
         ),
         State(1.0758155659963502, 1e-12),
         79,
+    ),
+    "left a brace and leant again without end": (
+        System(
+            Harmonic(1 + 2**-52, period=8.219785917724646, phase=960.7752464531534), 0.0, Braces(2.0, 0.0)
+        ),
+        State(2.0),
+        12,
     ),
     "last event an ulp after the end": (
         System(

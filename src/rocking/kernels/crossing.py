@@ -25,7 +25,9 @@ from .harmonic import first_cut, forcing_rates, forcing_term, next_cut
 # An arc is renewed from its own state after this long: e^32 is where the closed form has used up double
 # precision.
 LONGEST = 32.0
-ITERATIONS = 80
+ITERATIONS = 200
+# A zero not reached in so many steps is halved in on as well.
+MOST_STEPS = 10
 
 
 class Found(IntEnum):
@@ -94,8 +96,8 @@ def watched_forcing(p, watch, now):
 
 
 @njit(**INLINED)
-def step_to_zero(w, dw, forcing):
-    """The zero of w's Taylor series nearest to here, by reversion to fifth order."""
+def reversion(w, dw, forcing):
+    """(y, correction): y * correction leads to the nearest zero of w's Taylor series, to fifth order; y is Newton's step."""
     f, df, ddf = forcing
     second = w + f
     per = 1.0 / dw
@@ -103,22 +105,29 @@ def step_to_zero(w, dw, forcing):
     a = 0.5 * second * per
     b = (1.0 / 6.0) * (dw + df) * per
     c = (1.0 / 24.0) * (second + ddf) * per
-    return y * (1.0 + y * (-a + y * (2.0 * a * a - b + y * (5.0 * a * (b - a * a) - c))))
+    return y, 1.0 + y * (-a + y * (2.0 * a * a - b + y * (5.0 * a * (b - a * a) - c)))
+
+
+@njit(**INLINED)
+def step_to_zero(w, dw, forcing):
+    """A step towards the zero; a correction near 0 would stop where there is none, so that far away only Newton's is taken."""
+    y, correction = reversion(w, dw, forcing)
+    return y * correction if 0.5 < correction < 2.0 else y
 
 
 @njit(**COMPILED)
 def refine(p, arc, watch, low, high, t):
     """(time, instant) of the one zero in [low, high], w > 0 just after low and w <= 0 at high, from the guess t."""
     now = evaluate(p, arc, t)
-    for _ in range(ITERATIONS):
+    for k in range(ITERATIONS):
         w, dw = watched(p, arc, watch, now)
         if w > 0.0:
             low = t
         else:
             high = t
-        step = step_to_zero(w, dw, watched_forcing(p, watch, now))
-        ahead = t + step
-        if not (dw < 0.0 and low <= ahead <= high):
+        ahead = t + step_to_zero(w, dw, watched_forcing(p, watch, now))
+        stuck = k > MOST_STEPS and k % 2 == 0
+        if stuck or not (dw < 0.0 and low <= ahead <= high):
             ahead = 0.5 * (low + high)
         converged = abs(ahead - t) <= 4.0 * 2.0**-53 * ahead
         t = ahead

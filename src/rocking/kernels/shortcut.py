@@ -11,7 +11,7 @@ import math
 from numba import njit
 
 from .arc import Instant, evaluate, exponentials
-from .crossing import step_to_zero
+from .crossing import reversion, step_to_zero
 from .elementary import INLINED
 from .harmonic import first_cut, forcing_rates, forcing_term
 
@@ -110,12 +110,14 @@ def likely_impact(p, arc, guess):
         f = forcing_term(p, now.cosine)
         fall = u + f
         bend = abs(u * fall)
+        rates = forcing_rates(p, now.cosine, now.sine)
+        if abs(u) < -scale * v and bend < SMALL * v * v:
+            y, correction = reversion(u, v, (f, *rates))
+            step = y * correction
+            t += step
+            return t > 0.0 and unbroken_until(p, arc, t), t, advance(p, now, step)
         if v < 0.0 and bend < NEAR * v * v:
-            df, ddf = forcing_rates(p, now.cosine, now.sine)
-            step = step_to_zero(u, v, (f, df, ddf))
-            if abs(step) < scale and bend < SMALL * v * v:
-                t += step
-                return t > 0.0 and unbroken_until(p, arc, t), t, advance(p, now, step)
+            step = step_to_zero(u, v, (f, *rates))
         elif fall < 0.0 and v * v - 2.0 * u * fall > 0.0:
             step = (v + math.sqrt(v * v - 2.0 * u * fall)) / -fall  # where the parabola comes down
         elif v < 0.0:
