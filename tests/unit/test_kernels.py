@@ -27,7 +27,11 @@ PRINT_IMPACT_SPEED = (
 
 def march(p, cycles, angle=0.0, velocity=0.0):
     progress, _ = kernel.begin_march(p, angle, velocity)
-    return kernel.march(p, progress, cycles, 0.0, NOTHING, NO_EVENTS, NOTHING, NOTHING[:, 0], False)
+    status = kernel.PAUSED
+    while status == kernel.PAUSED:
+        found = kernel.march(p, progress, cycles, 0.0, NOTHING, NO_EVENTS, NOTHING, NOTHING[:, 0], False)
+        status, progress, _, _ = found
+    return found
 
 
 def test_an_edit_in_a_called_function_is_seen_at_the_next_start(tmp_path):
@@ -104,8 +108,8 @@ def test_a_full_buffer_of_events_loses_none():
 
     def times(room):
         progress, _ = kernel.begin_march(p, 0.0, 0.0)
-        found, status = [], kernel.FULL
-        while status == kernel.FULL:
+        found, status = [], kernel.PAUSED
+        while status == kernel.PAUSED:
             rows = np.empty((room, 8))
             status, progress, _, written = kernel.march(
                 p, progress, 40, 0.0, NOTHING, rows, NOTHING, NOTHING[:, 0], False

@@ -12,7 +12,7 @@ from numba import njit
 
 from .arc import Arc, arc_from, earlier, evaluate, within_reach
 from .crossing import CROSSING, first_turn_sign, first_zero, no_return_time, turn_watch
-from .elementary import COMPILED
+from .elementary import COMPILED, INLINED
 from .events import (
     BRACE,
     FLIGHT,
@@ -39,6 +39,8 @@ from .tangent import (
 )
 
 MOST_EVENTS = 10_000_000
+# Compiled code cannot be interrupted: it comes up for air after this many events.
+BREATH = 2_000_000
 # From impact to impact the forcing is turned on with the arc; after this many (a power of two, less one) it
 # is taken from the clock anew.
 RESYNCHRONISE = 15
@@ -50,11 +52,11 @@ class Status(IntEnum):
     DONE = 0
     OVERTURNED = 1
     STILL = 2  # at rest, or leaning, for ever
-    FULL = 3  # the event buffer is full: make room and go on
+    PAUSED = 3  # the event buffer is full, or it is time to look up: go on
     CROWDED = 4  # more than MOST_EVENTS events in one cycle
 
 
-DONE, OVERTURNED, STILL, FULL, CROWDED = (int(status) for status in Status)
+DONE, OVERTURNED, STILL, PAUSED, CROWDED = (int(status) for status in Status)
 
 
 class Progress(NamedTuple):
@@ -64,6 +66,7 @@ class Progress(NamedTuple):
     cycle: int
     arc: Arc
     pending: bool  # this cycle's section is still to come
+    crowd: int  # events in this cycle
     impacts: int
     brace_hits: int
     peak: float
@@ -74,8 +77,36 @@ class Progress(NamedTuple):
     wait_before: float
 
 
+@njit(**INLINED)
+def plain(progress):
+    """A progress as nested tuples: what a kernel hands to Python.
+
+    A named tuple is made by calling its class, and an interrupt (Ctrl-C) that strikes there, on the way out of compiled code,
+    ends the whole process.
+    """
+    arc = progress.arc
+    return (
+        progress.mode,
+        progress.cycle,
+        (arc.side, arc.start, arc.angle, arc.velocity, arc.cosine, arc.sine, arc.psi, arc.press),
+        progress.pending,
+        progress.crowd,
+        progress.impacts,
+        progress.brace_hits,
+        progress.peak,
+        progress.no_return,
+        progress.last_wait,
+        progress.wait_before,
+    )
+
+
+def named(fields):
+    """The progress that ``plain`` took apart."""
+    return Progress(*fields[:2], Arc(*fields[2]), *fields[3:])
+
+
 @njit(**COMPILED)
-def begin_march(p, angle, velocity):
+def begin_plain(p, angle, velocity):
     """The block just after any event at the start, and whether a brace was hit there."""
     side = 1 if angle > 0.0 or (angle == 0.0 and velocity > 0.0) else -1
     hit = abs(angle) == p.brace_angle and side * velocity > 0.0
@@ -90,7 +121,7 @@ def begin_march(p, angle, velocity):
         arc = arc_from(p, lifting, 0.0, 0.0, 0.0)
     elif u == p.brace_angle and v == 0.0 and wait_leaning(p, side, arc.psi) > 0.0:
         mode = LEAN
-    return Progress(mode, 0, arc, True, 0, 1 if hit else 0, u, math.inf, 1.0, 1.0), hit
+    return plain(Progress(mode, 0, arc, True, 0, 0, 1 if hit else 0, u, math.inf, 1.0, 1.0)), hit
 
 
 @njit(**COMPILED)
@@ -140,7 +171,7 @@ def finish(p, reached, coming, columns, growth, want_peak):
 
     An overturned block is left at the moment of the proof: later its angle may be beyond all numbers.
     """
-    mode, cycle, arc, _, impacts, brace_hits, peak, no_return, last_wait, wait_before = reached
+    mode, cycle, arc, _, _, impacts, brace_hits, peak, no_return, last_wait, wait_before = reached
     end = min(no_return, 0.0)
     t = end - arc.start
     if mode == FLIGHT:
@@ -157,18 +188,18 @@ def finish(p, reached, coming, columns, growth, want_peak):
     if coming.wait == math.inf:
         status = OVERTURNED if mode == FLIGHT else STILL
     return status, Progress(
-        mode, cycle, arc, True, impacts, brace_hits, peak, no_return, last_wait, wait_before
+        mode, cycle, arc, True, 0, impacts, brace_hits, peak, no_return, last_wait, wait_before
     )
 
 
 @njit(**COMPILED)
-def march(p, progress, cycles, section_time, section, events, columns, growth, want_peak):
-    """March to the end of cycle ``cycles``: (status, progress, section rows written, event rows written).
+def march_plain(p, progress, cycles, section_time, section, events, columns, growth, want_peak):
+    """March to the end of cycle ``cycles``: (status, ``plain`` progress, section rows written, event rows written).
 
     1. ``section`` (n, 2) takes the state at ``section_time`` within each cycle, just after any event there,
        in order and as long as no overturning is proved; (0, 2) records nothing.
-    2. ``events`` (n, 8) takes one row an event (``note``); when it is full the march returns FULL and goes on
-       where it was when called again.
+    2. ``events`` (n, 8) takes one row an event (``note``). When it is full, or after BREATH events, the march
+       returns PAUSED; called again it goes on where it was.
     3. ``columns`` (2, 2) or (8, 2) carries differences (``tangent``); with ``growth`` (2,) they are
        re-orthonormalised at every event.
     4. Without section and events, accumulating impacts that certainly end in rest before the march does are
@@ -176,12 +207,12 @@ def march(p, progress, cycles, section_time, section, events, columns, growth, w
     5. At the end the arc is renewed: the progress begins at the start of cycle ``cycles``. A proof of
        overturning ends the march with its cycle.
     """
-    mode, cycle, arc, pending, impacts, brace_hits, peak, no_return, last_wait, wait_before = progress
+    mode, cycle, arc, pending, crowd, impacts, brace_hits, peak, no_return, last_wait, wait_before = progress
     hasty = section.shape[0] == 0 and events.shape[0] == 0
     # The tangent alone travels in registers.
     light = columns.shape[0] == TANGENT and growth.shape[0] == 0
     tangent = read_tangent(columns) if light else Tangent(0.0, 0.0, 0.0, 0.0)
-    written, rows, crowd, ended = 0, 0, 0, False
+    written, rows, breath, ended = 0, 0, 0, False
     while True:
         coming = next_event(p, mode, arc, wait_before)
         at = arc.start + coming.wait
@@ -200,10 +231,11 @@ def march(p, progress, cycles, section_time, section, events, columns, growth, w
             ended = cycle >= cycles or no_return <= 0.0
             if ended:
                 break
-        full = events.shape[0] > 0 and written + 2 > events.shape[0]
-        if ended or full or crowd >= MOST_EVENTS:
+        paused = breath >= BREATH or (events.shape[0] > 0 and written + 2 > events.shape[0])
+        if ended or paused or crowd >= MOST_EVENTS:
             break
         crowd += 1
+        breath += 1
         if want_peak and mode == FLIGHT:
             peak = p.brace_angle if coming.event == BRACE else arc_peak(p, arc, coming.wait, peak)
         wait_before, last_wait = last_wait, coming.wait
@@ -230,9 +262,23 @@ def march(p, progress, cycles, section_time, section, events, columns, growth, w
     if light:
         write_tangent(columns, tangent)
     reached = Progress(
-        mode, cycle, arc, pending, impacts, brace_hits, peak, no_return, last_wait, wait_before
+        mode, cycle, arc, pending, crowd, impacts, brace_hits, peak, no_return, last_wait, wait_before
     )
     if not ended:
-        return FULL if full else CROWDED, reached, rows, written
+        return PAUSED if paused else CROWDED, plain(reached), rows, written
     status, reached = finish(p, reached, coming, columns, growth, want_peak)
-    return status, reached, rows, written
+    return status, plain(reached), rows, written
+
+
+def begin_march(p, angle, velocity):
+    """``begin_plain`` for Python: (progress, whether a brace was hit)."""
+    fields, hit = begin_plain(p, angle, velocity)
+    return named(fields), hit
+
+
+def march(p, progress, cycles, section_time, section, events, columns, growth, want_peak):
+    """``march_plain`` for Python: (status, progress, section rows written, event rows written)."""
+    status, fields, rows, written = march_plain(
+        p, progress, cycles, section_time, section, events, columns, growth, want_peak
+    )
+    return status, named(fields), rows, written

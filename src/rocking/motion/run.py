@@ -15,8 +15,6 @@ if TYPE_CHECKING:
     from rocking.motion.motion import Motion
 
 MOST_RECORDED = 10_000_000
-# The compiled march cannot be interrupted; it comes up for air after this many cycles.
-BREATH = 100_000
 NOTHING = np.empty((0, 2))
 
 
@@ -41,18 +39,17 @@ def run(
     section = np.empty((cycles + 1 if record == "section" else 0, 2))
     events = np.empty((4096 if record == "all" else 0, 8))
     rows: list[np.ndarray] = []
-    status, recorded, done = kernel.FULL, 0, 0
-    while status == kernel.FULL or (status in (kernel.DONE, kernel.STILL) and progress.cycle < cycles):
-        until = min(cycles, progress.cycle + BREATH)
+    status, recorded, done = kernel.PAUSED, 0, 0
+    while status == kernel.PAUSED:
         status, progress, taken, written = kernel.march(
-            p, progress, until, section_time, section[done:], events, NOTHING, NOTHING[:, 0], want_peak
+            p, progress, cycles, section_time, section[done:], events, NOTHING, NOTHING[:, 0], want_peak
         )
         done += taken
         recorded += written
         rows.append(events[:written].copy())
         if status == kernel.CROWDED or recorded > MOST_RECORDED:
             raise TooManyEvents(_crowded(status))
-        if status == kernel.FULL and len(events) < 1_000_000:
+        if status == kernel.PAUSED and 0 < len(events) < 1_000_000:
             events = np.empty((4 * len(events), 8))
     if record == "section" and section_time == 0.0 and status != kernel.OVERTURNED:
         section[done] = state_of(progress)
