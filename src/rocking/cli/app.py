@@ -8,13 +8,14 @@ import typer
 
 from rocking.cli.cite import cite
 from rocking.cli.paper import paper
-from rocking.cli.simulate import simulate
+from rocking.cli.simulate import EXAMPLES, simulate
 
 VERSION = typer.Option("--version", help="Show the version and stop.")
 
 # Rich help would take longer to load than all the rest of `rocking --help`.
 app = typer.Typer(pretty_exceptions_enable=False, add_completion=False, rich_markup_mode=None)
-for command in (simulate, paper, cite):
+app.command(epilog=EXAMPLES)(simulate)
+for command in (paper, cite):
     app.command()(command)
 
 

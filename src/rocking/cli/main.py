@@ -54,6 +54,3 @@ def run() -> tuple[int, str]:
         return 1, " ".join(f"failed, and should not have: {type(error).__name__}: {error}".split())
     return code or 0, ""
 
-
-if __name__ == "__main__":
-    main()

@@ -44,7 +44,7 @@ Height = Annotated[Number, _number("--height", "SI: of the block, m.")]
 Width = Annotated[Number, _number("--width", "SI: of the block, m.")]
 Acceleration = Annotated[Number, _number("--acceleration", "SI: amplitude of the base, m/s².")]
 AccelerationG = Annotated[Number, _number("--acceleration-g", "SI: the same in units of g.")]
-Displacement = Annotated[Number, _number("--displacement", "SI: or the base's displacement, m.")]
+Displacement = Annotated[Number, _number("--displacement", "SI: or of the base's displacement, m.")]
 FrequencyHz = Annotated[Number, _number("--frequency-hz", "SI: of the base, Hz.")]
 PeriodS = Annotated[Number, _number("--period-s", "SI: of the base, s, instead of --frequency-hz.")]
 
@@ -69,6 +69,7 @@ Json = Annotated[bool, typer.Option("--json", help="Print the summary as JSON.")
 
 NORMALISED = ("amplitude", "period", "frequency")
 SI = ("height", "width", "acceleration", "acceleration_g", "displacement", "frequency_hz", "period_s")
+ARGUMENTS = {name: name for name in (*NORMALISED, *SI, "restitution", "phase", "angle", "velocity", "cycles")}
 BRACES = {"angle": "brace_angle", "restitution": "brace_restitution"}
 NORMALISED_NEEDS = "--amplitude, --period (or --frequency) and --restitution"
 SI_NEEDS = "--height, --width, --acceleration (or --acceleration-g, --displacement) and --frequency-hz (or --period-s)"
@@ -80,24 +81,21 @@ def option(name: str) -> str:
 
 
 @contextmanager
-def your_input(**typed: str) -> Iterator[None]:
-    """Turn a refusal inside the block into one of yours, its arguments named as they are typed.
-
-    `typed` gives the option of an argument whose own name is not it.
-    """
-    names = {
-        name: name for name in (*NORMALISED, *SI, "restitution", "phase", "angle", "velocity", "cycles")
-    } | typed
+def your_input(typed: Mapping[str, str] | None = None) -> Iterator[None]:
+    """Turn a refusal inside the block into one of yours, the arguments in it named by the options in which they are `typed`."""
     try:
         yield
     except (ValueError, TypeError, OSError) as error:
-        words = r"(?<!['\w-])(" + "|".join(names) + r")(?!['\w])"
-        raise YourInput(re.sub(words, lambda found: option(names[found[0]]), str(error))) from error
+        message = str(error)
+        if typed:
+            words = r"(?<!['\w-])(" + "|".join(typed) + r")(?!['\w])"
+            message = re.sub(words, lambda found: option(typed[found[0]]), message)
+        raise YourInput(message) from error
 
 
 def question(given: Mapping[str, Any]) -> tuple[System, State, Block | None]:
     """The system and the start that the options ask for, and the block if they are in SI; refused as `YourInput`."""
-    from rocking.model import Block, Harmonic, State, System
+    from rocking.model import LARGEST_START, Block, Harmonic, State, System, within
 
     normalised = [name for name in NORMALISED if given[name] is not None]
     physical = [name for name in SI if given[name] is not None]
@@ -110,8 +108,9 @@ def question(given: Mapping[str, Any]) -> tuple[System, State, Block | None]:
     else:
         _require(given, ("height", "width"), SI_NEEDS)
     braces = _braces(given)
-    with your_input():
-        start = State(given["angle"], given["velocity"])
+    with your_input(ARGUMENTS):
+        state = (within(name, given[name], -LARGEST_START, LARGEST_START) for name in ("angle", "velocity"))
+        start = State(*state)
         if normalised:
             forcing = Harmonic(**{name: given[name] for name in (*NORMALISED, "phase")})
             return System(forcing, given["restitution"], braces), start, None
@@ -128,7 +127,7 @@ def _braces(given: Mapping[str, Any]) -> Any:
             raise YourInput("--brace-restitution needs --brace-angle")
         return None
     restitution = 1.0 if given["brace_restitution"] is None else given["brace_restitution"]
-    with your_input(**BRACES):
+    with your_input(BRACES):
         return Braces(given["brace_angle"], restitution)
 
 

@@ -18,7 +18,8 @@ FILMS = (".gif", ".mp4")
 SUFFIXES = {"plot": PICTURES + FILMS, "csv": (".csv",), "netcdf": (".nc",)}
 STEPS_PER_CYCLE = 100
 CYCLES_AT_ONCE = 1000
-MOST_CYCLES = 100_000
+MOST_CYCLES_KEPT = 100_000
+"""Of a longer run only the counters, the peak and the end are kept."""
 
 
 def check(cycles: float, **paths: Path | None) -> dict[str, Path]:
@@ -27,9 +28,9 @@ def check(cycles: float, **paths: Path | None) -> dict[str, Path]:
     for name, path in asked.items():
         with your_input():
             check_writable(option(name), path, SUFFIXES[name])
-    if asked and cycles > MOST_CYCLES:
+    if asked and cycles > MOST_CYCLES_KEPT:
         wanted = ", ".join(map(option, asked))
-        raise YourInput(f"--cycles must be at most {MOST_CYCLES} with {wanted}; got {cycles}")
+        raise YourInput(f"--cycles must be at most {MOST_CYCLES_KEPT} with {wanted}; got {cycles}")
     return asked
 
 

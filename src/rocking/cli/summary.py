@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING, Any
 
 import attrs
 
+from rocking.cli.outputs import MOST_CYCLES_KEPT
+
 if TYPE_CHECKING:
     from rocking.model import Block
     from rocking.motion import Motion
@@ -23,28 +25,44 @@ def show(motion: Motion, block: Block | None, files: Sequence[Path], *, as_json:
         print(json.dumps(finite(record(motion, block, files)), indent=2, ensure_ascii=False, allow_nan=False))
         return
     from rich.console import Console
-    from rich.table import Table
 
-    console = Console(highlight=False, soft_wrap=True)
+    console = Console(highlight=False, markup=False, emoji=False, soft_wrap=True)
     console.print(verdict(motion), style="bold")
-    table = Table.grid(padding=(0, 3))
-    for row in (*asked(motion, block), *found(motion, block)):
-        table.add_row(*row)
-    console.print(table)
+    for line in aligned([*asked(motion, block), *found(motion, block)]):
+        console.print(line)
     for line in validity(motion, block):
-        console.print(line, style="yellow" if line.startswith("warning") else None, markup=False)
+        console.print(line, style="yellow" if line.startswith("warning") else None)
     for path in files:
-        console.print(f"wrote {path}", markup=False)
+        console.print(f"wrote {path}")
+
+
+def aligned(rows: Sequence[Row]) -> Iterator[str]:
+    """The rows as lines of a table, as long as they need be: no terminal is so narrow that a number may be cut."""
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    for row in rows:
+        yield "   ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip()
 
 
 def verdict(motion: Motion) -> str:
     """The outcome in a sentence."""
     overturning = motion.overturning
     if overturning is not None:
-        return f"overturned: from τ = {overturning.time:.6g}, in cycle {overturning.cycle}, it provably never comes back"
+        cycle = ordinal(overturning.cycle + 1)
+        return f"overturned: no return is proved at τ = {overturning.time:.6g}, in the {cycle} cycle"
     if motion.outcome == "at-rest":
         return "at rest, and stays so"
-    return f"bounded over {motion.cycles} cycles (neither rest nor overturning was proved in them)"
+    return f"bounded over {length(motion)} (neither rest nor overturning was proved)"
+
+
+def ordinal(number: int) -> str:
+    """1st, 2nd, 3rd, 4th, …."""
+    ending = "th" if number % 100 in (11, 12, 13) else {1: "st", 2: "nd", 3: "rd"}.get(number % 10, "th")
+    return f"{number}{ending}"
+
+
+def length(motion: Motion) -> str:
+    """How many cycles were run."""
+    return f"{motion.cycles} cycle{'' if motion.cycles == 1 else 's'}"
 
 
 def asked(motion: Motion, block: Block | None) -> Iterator[Row]:
@@ -74,9 +92,11 @@ def asked(motion: Motion, block: Block | None) -> Iterator[Row]:
 def found(motion: Motion, block: Block | None) -> Iterator[Row]:
     """Rows that answer it."""
     time = "" if block is None else f"{block.seconds(motion.duration):.4g} s"
-    yield "run", f"{motion.cycles} cycles, τ = {motion.duration:.6g}", time
-    hits = "" if motion.system.braces is None else f", {motion.brace_hits} on the braces"
-    yield "impacts", f"{motion.impacts}{hits}", ""
+    yield "run", f"{length(motion)}, τ = {motion.duration:.6g}", time
+    cut = "" if motion.record == "all" else ", accumulating ones cut short at rest"
+    yield "impacts", f"{motion.impacts}{cut}", ""
+    if motion.system.braces is not None:
+        yield "brace hits", f"{motion.brace_hits}{cut}", ""
     peak = (
         ""
         if block is None
@@ -109,7 +129,8 @@ def validity(motion: Motion, block: Block | None) -> list[str]:
     if block is None:
         return []
     if motion.record != "all":
-        return ["warning: whether the block slides or jumps is not judged in so long a run"]
+        many = f"{MOST_CYCLES_KEPT:,} cycles" if motion.cycles > MOST_CYCLES_KEPT else "events than are kept"
+        return [f"warning: whether the block slides or jumps is not judged in a run of more than {many}"]
     return str(motion.validity(block)).splitlines()
 
 
@@ -130,6 +151,7 @@ def record(motion: Motion, block: Block | None, files: Sequence[Path]) -> dict[s
         "duration": motion.duration,
         "impacts": motion.impacts,
         "brace_hits": motion.brace_hits,
+        "impacts_cut_short": motion.record != "all",
         "peak": motion.peak,
         "final": attrs.asdict(motion.final),
         "files": [str(path) for path in files],

@@ -14,26 +14,33 @@ from pathlib import Path
 import numba
 
 
-def _cache_folder() -> Path:
-    """A folder for this exact set of kernel sources, in the user's cache; a temporary one where that cannot be written."""
+def _cache_folder() -> Path | None:
+    """A folder for this exact set of kernel sources: ``NUMBA_CACHE_DIR``, the user's cache, or his own temporary one.
+
+    None where none of them can be written: then the kernels are compiled at every start.
+    """
     digest = hashlib.sha256()
     for source in sorted(Path(__file__).parent.glob("*.py")):
         digest.update(source.name.encode() + source.read_bytes())
-    home = os.environ.get("NUMBA_CACHE_DIR") or os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache"
-    folder = Path(home) / "rocking" / f"kernels-{digest.hexdigest()[:16]}"
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        with tempfile.TemporaryFile(dir=folder):
-            return folder
-    except OSError:
-        return Path(tempfile.mkdtemp(prefix="rocking-kernels-"))
+    chosen = os.environ.get("NUMBA_CACHE_DIR")
+    usual = os.environ.get("XDG_CACHE_HOME") or Path("~/.cache").expanduser()
+    user = os.getuid() if hasattr(os, "getuid") else "user"
+    for home in (chosen, usual, Path(tempfile.gettempdir()) / f"cache-{user}"):
+        folder = Path(home or os.devnull) / "rocking" / f"kernels-{digest.hexdigest()[:16]}"
+        try:
+            folder.mkdir(parents=True, exist_ok=True, mode=0o700)
+            with tempfile.TemporaryFile(dir=folder):
+                return folder
+        except OSError:
+            continue
+    return None
 
 
 @contextmanager
-def _cached_in(folder: Path):
+def _cached_in(folder: Path | None):
     """The compiler's cache folder is a setting of the whole process: ours only while our own kernels are defined."""
     before = numba.config.CACHE_DIR
-    numba.config.CACHE_DIR = str(folder)
+    numba.config.CACHE_DIR = str(folder or "")
     try:
         yield
     finally:

@@ -30,7 +30,7 @@ def after_impact(p, arc, time, coming, quiet):
     ``quiet`` is the time in which nothing is asked for, so that accumulating impacts may be cut short.
     """
     speed = p.restitution * max(-coming.velocity, 0.0)
-    if speed < NEGLIGIBLE:
+    if speed < NEGLIGIBLE and p.restitution < 1.0:
         speed = 0.0
     cosine_psi = arc.side * coming.cosine
     swing = p.amplitude * abs(cosine_psi)
@@ -56,7 +56,7 @@ def after_impact(p, arc, time, coming, quiet):
 def after_brace(p, arc, time, coming, quiet):
     """(mode, arc) after a hit on a brace."""
     speed = p.brace_restitution * max(coming.velocity, 0.0)
-    if speed < NEGLIGIBLE:
+    if speed < NEGLIGIBLE and p.brace_restitution < 1.0:
         speed = 0.0
     after = arc_from(p, arc.side, time, p.brace_angle, -speed)
     mode = FLIGHT

@@ -1,5 +1,7 @@
 """What a recorded motion was at any time, and where it turned: read from the arcs that its events began."""
 
+import math
+
 from numba import njit
 
 from .arc import arc_from, evaluate, within_reach
@@ -27,6 +29,8 @@ def sample(p, rows, index, elapsed, out):
             out[k, 0] = side * within_reach(p, now.angle)
             out[k, 1] = side * now.velocity
             out[k, 2] = side * (now.angle + forcing_term(p, now.cosine))
+            if not math.isfinite(now.angle):  # overturned long ago, beyond all numbers
+                out[k, :] = side * math.inf
 
 
 @njit(**COMPILED)

@@ -165,8 +165,9 @@ def orthonormalise(columns, growth):
         growth[0] = growth[1] = -math.inf
         return
     a, b = a / first, b / first
-    # In the plane the second direction is the first one turned by a right angle; its length is the
-    # projection onto it.
+    # What is left of the second row without its part along the first is its projection onto the normal
+    # (-b, a): in the plane that is the whole of Gram-Schmidt, and it loses least to rounding after a strong
+    # shear, where subtracting the part along the first row would cancel.
     second = a * d - b * c
     growth[0] += math.log(first)
     growth[1] += math.log(abs(second)) if second != 0.0 else -math.inf

@@ -20,11 +20,12 @@ from rocking.model.errors import (
 from rocking.model.files import check_folder, check_writable, replacing
 from rocking.model.forcing import Harmonic
 from rocking.model.outcome import Outcome, Overturning
-from rocking.model.system import Braces, State, System, check_start
+from rocking.model.system import LARGEST_START, Braces, State, System, check_start
 from rocking.model.version import VERSION
 
 __all__ = [
     "GRAVITY",
+    "LARGEST_START",
     "VERSION",
     "Block",
     "Braces",

@@ -52,15 +52,29 @@ def within(name: str, value: float, low: float, high: float, unit: str = "", if_
     ValueError: restitution must lie in [0, 1]; got 1.2
     """
     interval = f"[{low:.6g}, {high:.6g}]" + (f" {unit}" if unit else "")
-    if isinstance(value, bool) or not isinstance(value, Real):
-        raise TypeError(refusal(name, f"be a real number in {interval}", value))
-    try:
-        number = float(value)
-    except OverflowError:
-        number = math.inf
+    number = _real(name, value, f"be a real number in {interval}")
     if not low <= number <= high:
         raise ValueError(refusal(name, f"lie in {interval}", value, if_below if number < low else ""))
     return number
+
+
+def finite(name: str, value: float, largest: float) -> float:
+    """Return `value` as a float of size up to `largest`, which no sensible value comes near; errors as `within` has them."""
+    allowed = f"be a finite real number of size up to {largest:g}"
+    number = _real(name, value, allowed)
+    if not abs(number) <= largest:
+        raise ValueError(refusal(name, allowed, value))
+    return number
+
+
+def _real(name: str, value: float, allowed: str) -> float:
+    """A real number as a float, infinite beyond the range of floats; TypeError for anything else."""
+    if isinstance(value, bool) or not isinstance(value, Real):
+        raise TypeError(refusal(name, allowed, value))
+    try:
+        return float(value)
+    except OverflowError:
+        return math.inf if value > 0 else -math.inf
 
 
 def whole(name: str, value: int, low: int, high: int) -> int:

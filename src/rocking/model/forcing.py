@@ -16,7 +16,7 @@ LARGEST_PHASE = 1e3
 
 
 def _amplitude(value: float) -> float:
-    way_out = "a negative amplitude is a phase shift: add π to phase"
+    way_out = "for the opposite direction add π to phase"
     return within("amplitude", value, 0, LARGEST_AMPLITUDE, if_below=way_out)
 
 

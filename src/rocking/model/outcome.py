@@ -12,6 +12,13 @@ class Outcome(StrEnum):
 
     `BOUNDED` says only that neither of the others was proved in these cycles. `AT_REST` includes leaning on a brace
     for ever.
+
+    Examples
+    --------
+    >>> import rocking as rk
+    >>> motion = rk.simulate(rk.System(rk.Harmonic(amplitude=0.5, period=1.0), restitution=0.9))
+    >>> motion.outcome is rk.Outcome.AT_REST, motion.outcome == "at-rest", str(motion.outcome)
+    (True, True, 'at-rest')
     """
 
     BOUNDED = "bounded"
@@ -28,9 +35,16 @@ class Overturning:
     time : float
         Normalised time τ of the proof.
     cycle : int
-        The forcing cycle in which it fell, the first being 1.
+        The forcing cycle of the proof, counted from 0, as everywhere.
     impacts : int
         Impacts before it.
+
+    Examples
+    --------
+    >>> import rocking as rk
+    >>> system = rk.System(rk.Harmonic(amplitude=1.75, period=2.0), restitution=0.95)
+    >>> rk.simulate(system).overturning
+    Overturning(time=10.309, cycle=5, impacts=4)
     """
 
     time: float

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from attrs import field, frozen
 
-from rocking.model.errors import instance, refusal, within
+from rocking.model.errors import finite, instance, refusal, within
 from rocking.model.forcing import Harmonic
 
 BRACE_ANGLES = (1e-3, 1e3)
@@ -21,11 +21,11 @@ def _brace_angle(value: float) -> float:
 
 
 def _angle(value: float) -> float:
-    return within("angle", value, -LARGEST_STATE, LARGEST_STATE)
+    return finite("angle", value, LARGEST_STATE)
 
 
 def _velocity(value: float) -> float:
-    return within("velocity", value, -LARGEST_STATE, LARGEST_STATE)
+    return finite("velocity", value, LARGEST_STATE)
 
 
 def _forcing(value: Harmonic) -> Harmonic:
@@ -98,9 +98,9 @@ class State:
     Parameters
     ----------
     angle : float
-        Θ = θ/θcr; a start lies in [-1000, 1000].
+        Θ = θ/θcr, of size up to 1e9; that of a start lies in [-1000, 1000].
     velocity : float
-        Θ' = dΘ/dτ; that of a start lies in [-1000, 1000].
+        Θ' = dΘ/dτ, likewise; that of a start lies in [-1000, 1000].
 
     Raises
     ------

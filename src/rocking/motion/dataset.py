@@ -164,7 +164,8 @@ def _attributes(motion: Motion, block: Block | None) -> dict[str, Any]:
         "source": f"rocking {VERSION}",
         "comment": (
             "Attributes without a unit are normalised as in Yim and Lin (1991), eqs. 1-4; "
-            "the base's acceleration is amplitude cos(frequency time + phase)."
+            "the base's acceleration is amplitude cos(frequency time + phase). "
+            "Cycles are counted from 0, by event_cycle and overturning_cycle alike."
         ),
         "amplitude": forcing.amplitude,
         "period": forcing.period,

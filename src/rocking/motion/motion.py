@@ -7,7 +7,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from attrs import define, field
+from attrs import field, frozen
 
 from rocking.kernels import events as kernel_events
 from rocking.kernels import sample
@@ -35,7 +35,13 @@ KINDS = np.array(["impact", "brace", "rest", "lift-off", "lean", "leave"])
 LARGEST_PHASE = 1000.0
 
 
-@define(eq=False, slots=False)
+def _read_only(array: np.ndarray) -> np.ndarray:
+    """An array of the motion's own, which nobody may change."""
+    array.flags.writeable = False
+    return array
+
+
+@frozen(eq=False, slots=False)
 class Motion:
     """What one simulated block did; made by `simulate`.
 
@@ -64,7 +70,7 @@ class Motion:
     >>> system = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925)
     >>> motion = rk.simulate(system, cycles=50)
     >>> print(motion)
-    bounded over 50 cycles: 99 impacts, peak |Θ| 0.1875
+    bounded over 50 cycles; 99 impacts, peak |Θ| 0.1875
     >>> motion.events["kind"][:2].tolist(), motion.section().shape
     (['impact', 'impact'], (51, 2))
     """
@@ -79,8 +85,8 @@ class Motion:
     impacts: int
     brace_hits: int
     peak: float
-    _section_rows: np.ndarray = field(repr=False)
-    _event_rows: np.ndarray = field(repr=False)
+    _section_rows: np.ndarray = field(repr=False, converter=_read_only)
+    _event_rows: np.ndarray = field(repr=False, converter=_read_only)
 
     @property
     def duration(self) -> float:
@@ -91,7 +97,7 @@ class Motion:
     def events(self) -> np.ndarray:
         """Every event in order, a structured array.
 
-        Its fields are time (τ), cycle, phase (ψ in [0, 2π)), angle, the velocities before and after, and
+        Its fields are time (τ), cycle (from 0), phase (ψ in [0, 2π)), angle, the velocities before and after, and
         kind. The kinds are "impact", "brace", "rest", "lift-off", "lean" and "leave". Needs
         ``record="all"``, as `at` does.
         """
@@ -106,7 +112,7 @@ class Motion:
         events["before"] = rows[:, 7] + 0.0
         events["after"] = rows[:, 4] * rows[:, 6] + 0.0
         events["kind"] = KINDS[rows[:, 2].astype(int)]
-        return events
+        return _read_only(events)
 
     @cached_property
     def peaks(self) -> np.ndarray:
@@ -124,7 +130,7 @@ class Motion:
         peaks = np.empty(count, TURN)
         peaks["time"] = begins[found[:count, 0].astype(int)] + found[:count, 1]
         peaks["angle"] = found[:count, 2]
-        return peaks
+        return _read_only(peaks)
 
     def at(self, times: Any) -> tuple[Any, Any]:
         """Give Θ and Θ' at any times, exactly: the closed form (5) of Yim & Lin (1991) from the event before.
@@ -132,8 +138,8 @@ class Motion:
         Parameters
         ----------
         times : float or array_like
-            τ, from 0 to `duration` (after it for as long as nothing more can happen: an overturned block,
-            one at rest).
+            τ, from 0 to `duration`; later too where nothing more can happen, at rest or overturned (whose
+            angle becomes infinite where it is beyond all numbers).
 
         Returns
         -------
@@ -144,13 +150,29 @@ class Motion:
         ------
         ValueError
             Outside the run, or where the motion was not recorded with ``record="all"``.
+
+        Examples
+        --------
+        >>> import rocking as rk
+        >>> free = rk.System(rk.Harmonic(amplitude=0.0, period=1.0), restitution=0.9)
+        >>> angle, velocity = rk.simulate(free, rk.State(angle=0.5), cycles=1).at([0.0, 1.0])
+        >>> angle.round(6).tolist()  # 1 − ½ cosh τ
+        [0.5, 0.22846]
         """
         values = self._sampled(times)
-        return values[..., 0], values[..., 1]
+        return values[..., 0][()], values[..., 1][()]
 
     def acceleration(self, times: Any) -> Any:
-        """Give Θ'' at any times, as `at` gives Θ and Θ'; 0 at rest and leaning."""
-        return self._sampled(times)[..., 2]
+        """Give Θ'' at any times, as `at` gives Θ and Θ', eq. (4) of Yim & Lin (1991); 0 at rest and leaning.
+
+        Examples
+        --------
+        >>> import rocking as rk
+        >>> free = rk.System(rk.Harmonic(amplitude=0.0, period=1.0), restitution=0.9)
+        >>> float(rk.simulate(free, rk.State(angle=0.5), cycles=1).acceleration(0.0))
+        -0.5
+        """
+        return self._sampled(times)[..., 2][()]
 
     def section(self, phase: float | None = None) -> np.ndarray:
         """Give the stroboscopic section: Θ, Θ' at every instant with ψ ≡ ``phase`` (mod 2π).
@@ -166,6 +188,19 @@ class Motion:
         -------
         ndarray, shape (n, 2)
             Just after any event at that instant.
+
+        Raises
+        ------
+        TypeError, ValueError
+            For a phase that is no number in [-1000, 1000].
+
+        Examples
+        --------
+        >>> import rocking as rk
+        >>> system = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925)
+        >>> motion = rk.simulate(system, cycles=300, record="section")
+        >>> motion.section().shape, bool(abs(motion.section()[-1] - motion.section()[-2]).max() < 1e-12)
+        ((301, 2), True)
         """
         if phase is None:
             if self.record == "section":
@@ -174,21 +209,43 @@ class Motion:
         return section_of(self, within("phase", phase, -LARGEST_PHASE, LARGEST_PHASE))
 
     def to_xarray(self, step: float | None = None, block: Block | None = None) -> xr.Dataset:
-        """Sample the motion as a dataset with units; in SI with a block. See `rocking.motion.dataset.to_dataset`."""
+        """Sample the motion as a dataset with units; in SI with a block. See `rocking.motion.dataset.to_dataset`.
+
+        Examples
+        --------
+        >>> import rocking as rk
+        >>> system = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925)
+        >>> rk.simulate(system, cycles=2).to_xarray(step=0.5).sizes["time"]
+        5
+        """
         from rocking.motion.dataset import to_dataset
 
         return to_dataset(self, step, block)
 
     def validity(self, block: Block) -> Validity:
-        """Say where the model applies to a block: friction, base reaction, slender range. See `rocking.motion.validity`."""
+        """Say where the model applies to a block: friction, base reaction, slender range. See `rocking.motion.validity`.
+
+        Examples
+        --------
+        >>> import rocking as rk
+        >>> block = rk.Block(height=2.0, width=0.5)
+        >>> motion = rk.simulate(block.system(acceleration=4.0, frequency_hz=1.2), cycles=10)
+        >>> motion.validity(block).friction > 0.2
+        True
+        """
         from rocking.motion.validity import validity
 
         return validity(self, block)
 
     def __str__(self) -> str:
-        hits = f", {self.brace_hits} brace hits" if self.system.braces is not None else ""
-        when = "" if self.overturning is None else f" (no return proved in cycle {self.overturning.cycle})"
-        return f"{self.outcome}{when} over {self.cycles} cycles: {self.impacts} impacts{hits}, peak |Θ| {self.peak:.4g}"
+        counts = [f"{self.impacts} impact{'s' * (self.impacts != 1)}"]
+        if self.system.braces is not None:
+            counts.append(f"{self.brace_hits} brace hit{'s' * (self.brace_hits != 1)}")
+        if self.overturning is None:
+            how = f"{self.outcome} over {self.cycles} cycle{'s' * (self.cycles != 1)}"
+        else:
+            how = f"overturned: proved at τ = {self.overturning.time:.6g} never to return"
+        return f"{how}; {', '.join(counts)}, peak |Θ| {self.peak:.4g}"
 
     def _repr_html_(self) -> str | None:
         return pictures.html(self)

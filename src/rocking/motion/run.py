@@ -54,7 +54,7 @@ def run(
     if record == "section" and section_time == 0.0 and status != kernel.OVERTURNED:
         section[done] = state_of(progress)
         done += 1
-    return status, progress, section[:done], rows
+    return status, progress, section[:done] + 0.0, rows  # no negative zeros
 
 
 def _crowded(status: int) -> str:

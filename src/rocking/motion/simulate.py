@@ -80,10 +80,13 @@ def simulate(system: System, start: State | None = None, cycles: int = 200, reco
 
 
 def _first_rows(progress: Any, start: State, hit: bool) -> np.ndarray:
-    """The arc that the motion begins with, after a hit on a brace where it starts with one."""
-    row = np.empty((1, 8))
-    kernel.note(row, 0, 0, progress.mode, progress.arc, events.BRACE if hit else events.NONE, start.velocity)
-    return row
+    """What the motion begins with: its first arc, after a hit on a brace (and leaning there) where it starts with one."""
+    rows = np.empty((2, 8))
+    arc = progress.arc
+    count = kernel.note(rows, 0, 0, progress.mode, arc, events.BRACE if hit else events.NONE, start.velocity)
+    if hit and progress.mode == events.LEAN:
+        count = kernel.note(rows, count, 0, progress.mode, arc, events.LEANS, 0.0)
+    return rows[:count]
 
 
 def _outcome(status: int) -> Outcome:
@@ -94,4 +97,4 @@ def _overturning(status: int, progress: Any, system: System) -> Overturning | No
     if status != kernel.OVERTURNED:
         return None
     time = progress.cycle * system.forcing.period + progress.no_return
-    return Overturning(time=time, cycle=int(time // system.forcing.period) + 1, impacts=progress.impacts)
+    return Overturning(time=time, cycle=int(time // system.forcing.period), impacts=progress.impacts)

@@ -10,7 +10,7 @@ import numpy as np
 from attrs import evolve, frozen
 from numpy.typing import NDArray
 
-from rocking.model import Block
+from rocking.model import Block, instance
 
 if TYPE_CHECKING:
     from rocking.motion.motion import Motion
@@ -34,34 +34,52 @@ class Validity:
 
     Attributes
     ----------
-    friction : float
-        Least coefficient of friction with which the block never slides; infinite where the base would have to pull.
-    friction_source : str
+    until : float
+        Up to when the motion is judged, in τ: its end, or the proof that it never returns.
+    overturned : bool
+        Whether there is such a proof.
+    friction : float or None
+        Least coefficient of friction with which the block never slides; infinite where the base would have to pull, None
+        where there is nothing to judge: a block that leans throughout, or is past return from the start.
+    friction_source : str or None
         What asks for it: "motion" (largest |H|/N between events), "impact" (|J_x|/J_y) or "rest" (|a_g|/g).
-    friction_time, reaction_time : float
+    friction_time, reaction_time : float or None
         Where these occur, in τ (`block.seconds` converts).
-    reaction : float
-        Least N/(Mg) of the base's upward reaction over the motion; from 0 on the base would have to pull. Infinite for a
-        block that leans throughout.
+    reaction : float or None
+        Least N/(Mg) of the base's upward reaction over the motion; from 0 on the base would have to pull. None where there
+        is nothing to judge.
     angle, critical_angle : float
         Largest |θ| and θcr, in radians.
     moment_error, forcing_error : float
         By how much, relatively, the slender model overrates the restoring moment (δ for sin δ) and the moment of the
-        base's acceleration (1 for cos δ) where they are worst, δ = θcr − |θ|.
+        base's acceleration (1 for cos δ) where they are worst, δ = θcr − |θ|; infinite from δ = −90° on.
     warnings : tuple of str
         One sentence for each assumption that fails, and for each thing that the motion alone does not determine.
 
     Notes
     -----
     Not covered: while the block leans on a brace, and at the instant it hits one, the reactions depend on the height at
-    which the brace acts; both are left out, and a warning says so. A motion that overturns is judged up to its proof.
+    which the brace acts; both are left out, and a warning says so.
+
+    Examples
+    --------
+    >>> from rocking import Block, simulate
+    >>> block = Block(height=2.0, width=0.5)
+    >>> print(simulate(block.system(acceleration=3.0, frequency_hz=1.2)).validity(block))
+    judged up to τ = 15.5003, where no return is proved
+    least friction without sliding: 0.2869 (motion, τ = 12.242)
+    least base reaction: 0.8831 Mg (τ = 15.5003)
+    largest angle: 0.1708 rad, 0.6973 of the critical angle
+    slender model: restoring moment up to 1.01%, base's push up to 3.08% too large
     """
 
-    friction: float
-    friction_source: str
-    friction_time: float
-    reaction: float
-    reaction_time: float
+    until: float
+    overturned: bool
+    friction: float | None
+    friction_source: str | None
+    friction_time: float | None
+    reaction: float | None
+    reaction_time: float | None
     angle: float
     critical_angle: float
     moment_error: float
@@ -69,13 +87,22 @@ class Validity:
     warnings: tuple[str, ...] = ()
 
     def __str__(self) -> str:
-        figures = (
-            f"least friction without sliding: {self.friction:.4g} ({self.friction_source}, τ = {self.friction_time:.6g})",
-            f"least base reaction: {self.reaction:.4g} Mg (τ = {self.reaction_time:.6g})",
+        friction = reaction = "not judged"
+        if self.friction is not None:
+            friction = f"{self.friction:.4g} ({self.friction_source}, τ = {self.friction_time:.6g})"
+        if self.reaction is not None:
+            reaction = f"{self.reaction:.4g} Mg (τ = {self.reaction_time:.6g})"
+        slender = "no measure of it so far from balance"
+        if self.forcing_error < math.inf:
+            slender = f"restoring moment up to {self.moment_error:.2%}, base's push up to {self.forcing_error:.2%} too large"
+        lines = [f"judged up to τ = {self.until:.6g}, where no return is proved"] if self.overturned else []
+        lines += [
+            f"least friction without sliding: {friction}",
+            f"least base reaction: {reaction}",
             f"largest angle: {self.angle:.4g} rad, {self.angle / self.critical_angle:.4g} of the critical angle",
-            f"slender model: restoring moment up to {self.moment_error:.2%}, base's push up to {self.forcing_error:.2%} too large",
-        )
-        return "\n".join((*figures, *(f"warning: {warning}" for warning in self.warnings)))
+            f"slender model: {slender}",
+        ]
+        return "\n".join((*lines, *(f"warning: {warning}" for warning in self.warnings)))
 
 
 class Arcs(NamedTuple):
@@ -97,11 +124,14 @@ class Extreme(NamedTuple):
     time: float
 
 
+NOTHING = Extreme(math.inf, 0.0)
+
+
 def validity(motion: Motion, block: Block) -> Validity:
     """Say whether `block` can perform `motion` as the model has it; `Validity` tells what is measured.
 
     The extremes are those of the exact motion: a grid on every arc, refined around each point that can be the extreme.
-    Raises ValueError unless the motion was recorded with record="all".
+    Raises TypeError for another `block`, ValueError unless the motion was recorded with record="all".
 
     Examples
     --------
@@ -111,6 +141,7 @@ def validity(motion: Motion, block: Block) -> Validity:
     >>> motion.validity(block).friction > 0.25
     True
     """
+    instance("block", block, Block)
     until = motion.duration if motion.overturning is None else motion.overturning.time
     moving, resting, leaning = split(motion, until)
     period = motion.system.forcing.period
@@ -127,15 +158,16 @@ def validity(motion: Motion, block: Block) -> Validity:
     slides = {
         "motion": least(hold, moving, min(period, 1)) if reaction.value > 0 else pulled,
         "impact": impact_friction(motion, block),
-        "rest": min(least(hold, resting, period), Extreme(0.0, 0.0)),
+        "rest": least(hold, resting, period),
     }
     source = min(slides, key=lambda name: slides[name].value)
-    friction, angle = (
-        Extreme(abs(slides[source].value), slides[source].time),
-        largest_angle(motion, block, until),
-    )
+    held = (None, None, None)
+    if slides[source] != NOTHING:
+        held = (abs(slides[source].value), source, slides[source].time)
+    pushed = (None, None) if reaction == NOTHING else tuple(reaction)
+    angle = largest_angle(motion, block, until)
     errors = slender_errors(block, angle)
-    found = Validity(friction.value, source, friction.time, *reaction, angle, block.critical_angle, *errors)
+    found = Validity(until, motion.overturning is not None, *held, *pushed, angle, block.critical_angle, *errors)
     return evolve(found, warnings=tuple(warnings(found, motion, block, leaning)))
 
 
@@ -158,7 +190,7 @@ def impact_friction(motion: Motion, block: Block) -> Extreme:
     """−|J_x|/J_y = −(1 − e)/((1 + e) tan θcr) of an impact, whatever its speed, and the time of the first one."""
     impacts = motion.events["time"][motion.events["kind"] == "impact"]
     if impacts.size == 0:
-        return Extreme(math.inf, 0.0)
+        return NOTHING
     e = motion.system.restitution
     return Extreme(-(1 - e) / ((1 + e) * math.tan(block.critical_angle)), float(impacts[0]))
 
@@ -180,16 +212,18 @@ def slender_errors(block: Block, angle: float) -> tuple[float, float]:
 
 def warnings(found: Validity, motion: Motion, block: Block, leaning: Arcs) -> Iterator[str]:
     """One sentence for each assumption that fails, and for each thing that is left out."""
-    if ORDINARY_FRICTION < found.friction < math.inf:
+    if found.overturned and found.reaction is None:
+        yield "not judged: whether the block slides or jumps, for it is past return from the start"
+    if found.friction is not None and ORDINARY_FRICTION < found.friction < math.inf:
         at = f"({found.friction_source}, τ = {found.friction_time:.6g})"
         yield f"sliding: only a coefficient of friction of {found.friction:.3g} or more prevents it {at}"
-    if found.reaction <= 0:
+    if found.reaction is not None and found.reaction <= 0:
         yield f"base reaction: {found.reaction:.3g} Mg at τ = {found.reaction_time:.6g}, the base would have to pull the block down"
     if max(found.moment_error, found.forcing_error) > SLENDER_ERROR:
-        yield (
-            f"outside the slender range, θcr = {found.critical_angle:.3g} rad and |θ| up to {found.angle:.3g} rad: the restoring "
-            f"moment is overrated by up to {found.moment_error:.1%}, the base's push by up to {found.forcing_error:.1%}"
-        )
+        how = f"the restoring moment is overrated by up to {found.moment_error:.1%}, the base's push by up to {found.forcing_error:.1%}"
+        if found.forcing_error == math.inf:
+            how = "beyond a right angle from balance its moments have nothing in common with the block's"
+        yield f"outside the slender range, θcr = {found.critical_angle:.3g} rad and |θ| up to {found.angle:.3g} rad: {how}"
     if motion.impacts and motion.system.restitution < block.housner_restitution * (1 - 1e-12):
         yield (
             f"restitution {motion.system.restitution:.4g} is less than Housner's {block.housner_restitution:.4g}: the base's "
@@ -227,7 +261,7 @@ def least(measure: Measure, arcs: Arcs, scale: float) -> Extreme:
     """
     from scipy.optimize import elementwise
 
-    best = Extreme(math.inf, 0.0)
+    best = NOTHING
     for times, sides, which in grids(arcs, scale):
         values = measure(times, sides)
         best = min(best, lowest(values, times))
