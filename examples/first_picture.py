@@ -1,15 +1,12 @@
 """The picture at the head of the README: a block, its motion, its phase portrait, and chaos between braces.
 
-Run it as ``python examples/first_picture.py [FILE]``; it writes ``docs/images/first-picture.png`` unless told otherwise.
+Run it as ``python examples/first_picture.py [FILE]``; it writes ``first-picture.png`` into the current folder unless told
+otherwise.
 """
 
 import sys
-from pathlib import Path
 
 import rocking as rk
-
-HERE = Path(__file__).parent
-PLACE = HERE.parent / "docs" / "images" / "first-picture.png"
 
 
 def draw():
@@ -34,4 +31,4 @@ def draw():
 
 
 if __name__ == "__main__":
-    print(rk.plot.save(draw(), sys.argv[1] if len(sys.argv) > 1 else PLACE))
+    print(rk.plot.save(draw(), sys.argv[1] if len(sys.argv) > 1 else "first-picture.png"))

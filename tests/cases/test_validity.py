@@ -242,8 +242,35 @@ def test_overturning_motion_is_judged_up_to_its_proof():
     motion = run(1.75, 2.0, 0.95, cycles=50)
     found = motion.validity(TALL)
     assert motion.overturning is not None
-    assert found.reaction_time <= motion.duration
+    assert max(found.reaction_time, found.friction_time) <= found.until == motion.overturning.time
     assert 0 < found.friction < math.inf
+    assert str(found).startswith(f"judged up to τ = {found.until:.6g}, where no return is proved\n")
+
+
+@pytest.mark.parametrize(
+    ("braces", "why"),
+    [(None, "past return from the start"), (Braces(angle=1.2), "during 100.0% of the time")],
+    ids=["falls", "leans"],
+)
+def test_block_past_balance_on_a_still_base_is_not_judged_says_so_and_warns(braces, why):
+    found = run(0.0, 1.0, 0.9, start=State(angle=1.2), braces=braces).validity(TALL)
+    assert found.friction is found.friction_source is found.friction_time is None
+    assert found.reaction is found.reaction_time is None
+    assert "least friction without sliding: not judged\nleast base reaction: not judged\n" in str(found)
+    assert any(why in warning for warning in found.warnings)
+
+
+def test_slender_range_far_beyond_a_right_angle_is_named_without_a_number():
+    found = run(0.0, 1.0, 0.9, start=State(angle=900.0)).validity(TALL)
+    assert found.moment_error == found.forcing_error == math.inf
+    assert "inf" not in str(found)
+    assert any("right angle" in warning for warning in found.warnings)
+
+
+@pytest.mark.parametrize("other", [1, System(Harmonic(1.0, period=1.0), restitution=0.9)])
+def test_what_is_no_block_is_refused(other):
+    with pytest.raises(TypeError, match="^block must be a Block; got "):
+        run(2.0, 1.0, 0.9, cycles=1).validity(other)
 
 
 def test_report_reads_as_lines_and_an_unrecorded_motion_is_refused():

@@ -13,10 +13,11 @@ import pytest
 
 import rocking as rk
 from rocking.cli.main import run
+from rocking.cli.summary import ordinal
 
 NORMALISED = "--amplitude 2 --period 1 --restitution 0.925"
 SI = "--height 2 --width 0.5 --acceleration 2.9 --frequency-hz 1.8"
-COMMAND = [sys.executable, "-c", "from rocking.cli.main import main; main()"]
+COMMAND = [sys.executable, "-m", "rocking"]
 
 
 @pytest.fixture
@@ -86,7 +87,93 @@ def test_overturning_is_told_with_its_time(rocking):
     motion = rk.simulate(rk.System(rk.Harmonic(1.75, period=2.0), 0.95))
     code, _, out = rocking("simulate --amplitude 1.75 --period 2 --restitution 0.95")
     assert code == 0
-    assert out.startswith(f"overturned: from τ = {motion.overturning.time:.6g}, in cycle 6")
+    assert out.startswith(
+        f"overturned: no return is proved at τ = {motion.overturning.time:.6g}, in the 6th cycle\n"
+    )
+
+
+@pytest.mark.parametrize("number", [*range(1, 25), 101, 111, 112, 113, 122, 1003])
+def test_ordinals_are_those_of_english(number):
+    ends = {1: "st", 2: "nd", 3: "rd"} if number // 10 % 10 != 1 else {}
+    assert ordinal(number) == f"{number}{ends.get(number % 10, 'th')}"
+
+
+def test_one_cycle_and_the_hits_on_the_braces_are_told_apart_from_the_impacts(rocking):
+    out = rocking("simulate --amplitude 15 --period 2 --restitution 0.925 --brace-angle 1 --cycles 1")[2]
+    motion = rk.simulate(rk.System(rk.Harmonic(15, period=2), 0.925, rk.Braces(1)), cycles=1)
+    text = " ".join(out.split())
+    assert "bounded over 1 cycle (" in text
+    assert "run 1 cycle, τ = 2 " in text
+    assert f"impacts {motion.impacts} brace hits {motion.brace_hits} largest" in text
+
+
+CHATTER = "--amplitude 0 --period 1 --restitution 0.9 --angle 0.5"
+
+
+def counted(rocking, line):
+    return json.loads(rocking(f"simulate {line} --json")[2])
+
+
+@pytest.mark.parametrize("line", [CHATTER, f"{SI} --restitution 0.5"])
+def test_what_is_told_does_not_depend_on_the_files_asked_for(rocking, line):
+    bare = counted(rocking, line)
+    written = counted(rocking, f"{line} --csv a.csv")
+    assert bare == written | {"files": []}
+    assert not bare["impacts_cut_short"]
+
+
+def test_longest_run_that_is_kept_counts_every_impact_and_a_longer_one_says_that_it_does_not(rocking):
+    every = len(rk.simulate(rk.System(rk.Harmonic(0.0, period=1.0), 0.9), rk.State(0.5), cycles=200).events)
+    kept = counted(rocking, f"{CHATTER} --cycles 100000")
+    assert (kept["impacts"] + 1, kept["impacts_cut_short"]) == (every, False)  # and that it comes to rest
+    longer = counted(rocking, f"{CHATTER} --cycles 100001")
+    assert longer["impacts"] < kept["impacts"]
+    assert longer["impacts_cut_short"]
+    assert "cut short at rest)" in rocking(f"simulate {CHATTER} --cycles 100001")[2]
+    assert "cut short" not in rocking(f"simulate {CHATTER}")[2]
+
+
+def test_more_events_than_are_kept_are_counted_and_refused_only_to_a_file(rocking, monkeypatch):
+    monkeypatch.setattr("rocking.motion.run.MOST_RECORDED", 30)
+    code, message, out = rocking(f"simulate {SI} --cycles 50")
+    assert (code, message) == (0, "")
+    assert "warning: whether the block slides or jumps is not judged: more events than are kept" in out
+    assert rocking(f"simulate {SI} --cycles 50 --csv a.csv --plot a.png")[:2] == (
+        2,
+        "too many events for --plot, --csv: run fewer cycles, or leave --plot, --csv out",
+    )
+
+
+def test_run_too_long_to_judge_names_the_limit_and_one_that_overturns_early_is_judged(rocking):
+    line = "simulate --height 2 --width 0.5 --frequency-hz 1.2 --cycles 1000000 --acceleration"
+    said = "warning: whether the block slides or jumps is not judged: more than 100,000 cycles"
+    assert said in rocking(f"{line} 0.1")[2]
+    early = rocking(f"{line} 3")[2]
+    assert early == rocking(f"{line} 3".replace("1000000", "200"))[2]
+    assert "judged up to τ = 15.5003, where no return is proved\n" in early
+
+
+@pytest.mark.parametrize("columns", ["20", "80", "200"])
+def test_no_number_is_cut_or_split_however_narrow_the_terminal(rocking, monkeypatch, columns):
+    line = f"simulate {SI} --cycles 50 --brace-angle 0.123456 --brace-restitution 0.654321"
+    monkeypatch.setenv("COLUMNS", columns)
+    told = rocking(line)[2]
+    monkeypatch.setenv("COLUMNS", "1000")
+    assert told == rocking(line)[2]
+    assert "…" not in told
+    assert any(text.startswith("end ") and text.endswith("°/s") for text in told.splitlines())
+
+
+def test_help_shows_each_example_on_a_line_of_its_own_and_it_runs(rocking, tmp_path):
+    code, _, out = rocking("simulate --help")
+    examples = [line.strip() for line in out.splitlines() if line.startswith("  rocking simulate ")]
+    assert code == 0
+    assert len(examples) == 2
+    assert "\\" not in out
+    assert "\b" not in out
+    for example in examples:
+        assert rocking(example.removeprefix("rocking "))[0] == 0
+    assert [path.name for path in tmp_path.iterdir()] == ["motion.png"]
 
 
 def test_rest_is_told(rocking):
@@ -111,6 +198,16 @@ def test_json_in_si_has_null_where_no_friction_suffices(rocking):
     # A block that is thrown so fast that the base would have to pull at it.
     _, _, out = rocking(f"simulate {SI} --velocity 30 --cycles 2 --json")
     assert json.loads(out, parse_constant=pytest.fail)["validity"]["friction"] is None
+
+
+def test_json_in_si_has_null_where_nothing_is_judged(rocking):
+    line = "simulate --height 2 --width 0.5 --acceleration 0 --period-s 1 --angle 1.2 --json"
+    judged = json.loads(rocking(line)[2])["validity"]
+    assert [judged[name] for name in ("friction", "friction_source", "friction_time", "reaction")] == [
+        None
+    ] * 4
+    assert (judged["until"], judged["overturned"]) == (0.0, True)
+    assert len(judged["warnings"]) == 1
 
 
 def test_csv_holds_the_motion_at_a_hundred_steps_a_cycle(rocking, tmp_path):
@@ -208,7 +305,7 @@ REFUSED = {
     f"{NORMALISED} --period -1": "--period must lie in [0.00628319, 6283.19]; got -1",
     f"{NORMALISED} --period nan": "--period must lie in [0.00628319, 6283.19]; got nan",
     f"{NORMALISED} --amplitude -2": "--amplitude must lie in [0, 1000]; got -2 "
-    "(a negative --amplitude is a --phase shift: add π to --phase)",
+    "(for the opposite direction add π to --phase)",
     f"{NORMALISED} --amplitude inf": "--amplitude must lie in [0, 1000]; got inf",
     f"{NORMALISED} --amplitude two": "Invalid value for '--amplitude': must be a number; got 'two'",
     f"{NORMALISED} --restitution 1.2": "--restitution must lie in [0, 1]; got 1.2",
@@ -217,14 +314,16 @@ REFUSED = {
     f"{NORMALISED} --brace-angle 1 --brace-restitution 2": "--brace-restitution must lie in [0, 1]; got 2",
     f"{NORMALISED} --brace-restitution 1": "--brace-restitution needs --brace-angle",
     f"{NORMALISED} --brace-angle 0.5 --angle 0.6": "--angle must lie between the braces, in [-0.5, 0.5]; got 0.6",
-    f"{NORMALISED} --velocity -inf": "--velocity must lie in [-1e+09, 1e+09]; got -inf",
-    f"{NORMALISED} --velocity 1001": "--velocity must lie in [-1000, 1000]; got 1001.0",
+    f"{NORMALISED} --velocity -inf": "--velocity must lie in [-1000, 1000]; got -inf",
+    f"{NORMALISED} --angle nan": "--angle must lie in [-1000, 1000]; got nan",
+    f"{NORMALISED} --velocity 1001": "--velocity must lie in [-1000, 1000]; got 1001",
     f"{NORMALISED} --cycles 0": "--cycles must be a whole number in [1, 1000000000]; got 0",
     f"{NORMALISED} --cycles 2.5": "--cycles must be a whole number in [1, 1000000000]; got 2.5",
     f"{NORMALISED} --cycles nan": "--cycles must be a whole number in [1, 1000000000]; got nan",
     f"{NORMALISED} --cycles 1e6 --csv a.csv": "--cycles must be at most 100000 with --csv; got 1000000.0",
     f"{NORMALISED} --plot a.jpeg": "--plot must end in .png, .svg, .pdf, .gif, .mp4; got 'a.jpeg'",
     f"{NORMALISED} --csv nowhere/a.csv": "--csv must lie in an existing folder; got 'nowhere/a.csv'",
+    f"{NORMALISED} --csv period/phase.csv": "--csv must lie in an existing folder; got 'period/phase.csv'",
     f"{NORMALISED} --netcdf .": "--netcdf must end in .nc; got '.'",
 }
 

@@ -118,6 +118,10 @@ def test_overturned_motion_says_when():
     dataset = motion.to_xarray()
     assert dataset.attrs["outcome"] == "overturned"
     assert dataset.attrs["overturning_time"] == motion.overturning.time
+    # counted as the events are: this cycle began at most a period before
+    assert 0 <= motion.overturning.time - 2.0 * dataset.attrs["overturning_cycle"] < 2.0
+    assert dataset["event_cycle"].max() <= dataset.attrs["overturning_cycle"]
+    assert "counted from 0" in dataset.attrs["comment"]
     assert dataset["time"][-1] <= motion.duration
 
 

@@ -36,6 +36,13 @@ def refusal(call, kind=(ValueError, TypeError)):
     return message
 
 
+def allowed(name, words):
+    """How a refusal begins; a state that is reached knows no range but that of sensible numbers."""
+    if name in ("angle", "velocity"):
+        words = "be a finite real number of size up to 1e+09; got "
+    return f"{name.split()[-1]} must {words}"
+
+
 @pytest.mark.parametrize("name", MAKERS)
 def test_ends_of_the_range_are_allowed_and_what_lies_beyond_is_not(name):
     make, low, high = MAKERS[name]
@@ -43,8 +50,8 @@ def test_ends_of_the_range_are_allowed_and_what_lies_beyond_is_not(name):
     make(high)
     for beyond in (math.nextafter(low, -math.inf), math.nextafter(high, math.inf)):
         message = refusal(partial(make, beyond), ValueError)
-        assert message.startswith(name.split()[-1] + " must lie in [")
-        assert repr(beyond) in message
+        assert message.startswith(allowed(name, "lie in ["))
+        assert message.endswith(f"; got {beyond!r}") or name == "amplitude"
 
 
 @pytest.mark.parametrize("name", ["angle", "velocity"])
@@ -57,7 +64,7 @@ def test_start_lies_within_a_thousand_though_a_state_reached_may_not(name):
 @pytest.mark.parametrize("name", MAKERS)
 @pytest.mark.parametrize("value", [math.nan, math.inf, -math.inf, np.float64("nan"), 10**400, -(10**400)])
 def test_what_is_not_finite_is_a_value_error(name, value):
-    assert refusal(lambda: MAKERS[name][0](value), ValueError).startswith(name.split()[-1] + " must lie in [")
+    assert refusal(lambda: MAKERS[name][0](value), ValueError).startswith(allowed(name, "lie in ["))
 
 
 @pytest.mark.parametrize("name", MAKERS)
@@ -81,13 +88,13 @@ def test_what_is_not_finite_is_a_value_error(name, value):
 )
 def test_what_is_no_real_number_is_a_type_error(name, value):
     message = refusal(lambda: MAKERS[name][0](value), TypeError)
-    assert message.startswith(name.split()[-1] + " must be a real number in [")
+    assert message.startswith(allowed(name, "be a real number in ["))
     assert len(message) < 150
 
 
 @pytest.mark.parametrize("name", sorted(set(MAKERS) - {"period", "frequency"}))
 def test_none_is_a_type_error(name):
-    assert "must be a real number" in refusal(lambda: MAKERS[name][0](None), TypeError)
+    assert allowed(name, "be a real number in [") in refusal(lambda: MAKERS[name][0](None), TypeError)
 
 
 @pytest.mark.parametrize("one", [1, np.int64(1), np.float32(1), np.float64(1), Fraction(1)])
@@ -103,9 +110,7 @@ def test_every_real_number_becomes_a_float(name, one):
 
 
 def test_negative_amplitude_is_refused_with_the_way_out():
-    expected = (
-        "amplitude must lie in [0, 1000]; got -2.0 (a negative amplitude is a phase shift: add π to phase)"
-    )
+    expected = "amplitude must lie in [0, 1000]; got -2.0 (for the opposite direction add π to phase)"
     assert refusal(lambda: rk.Harmonic(-2.0, period=1.0), ValueError) == expected
 
 

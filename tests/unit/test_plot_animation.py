@@ -16,6 +16,8 @@ from rocking.plot.scene import Scene
 SYSTEM = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925)
 BRACED = rk.System(rk.Harmonic(amplitude=15.0, period=2.0), restitution=0.925, braces=rk.Braces(angle=1.0))
 FALLING = rk.System(rk.Harmonic(amplitude=1.75, period=2.0), restitution=0.95)
+FREE = rk.System(rk.Harmonic(amplitude=0.0, period=1.0), restitution=0.9)
+FAST = rk.System(rk.Harmonic(amplitude=1000.0, period=0.0063), restitution=0.9)
 SCENE_ROWS = slice(60, 350)
 
 
@@ -138,6 +140,77 @@ def test_block_that_starts_beyond_the_fall_lies_flat_at_once(tmp_path):
     assert np.ptp(x) > 3 * np.ptp(y)
 
 
+@pytest.mark.parametrize("angle", [1.2, 5.0, 7.0])
+def test_dot_lies_on_the_curve_of_a_block_that_starts_beyond_return(angle):
+    from rocking.plot.animation import NOMINAL, _Film, _window
+
+    motion = rk.simulate(
+        rk.System(rk.Harmonic(amplitude=1.0, period=1.0), restitution=0.9), rk.State(angle=angle), cycles=50
+    )
+    film = _Film(motion, None, np.linspace(*_window(motion, NOMINAL, None), 10), 1.0)
+    below = film.figure.axes[1]
+    (curve,) = (line for line in below.lines if line.get_gid() == "motion")
+    drawn = [(*film.dot.get_xdata(), *film.dot.get_ydata()) for _ in film.frames()]
+    for time, height in drawn:
+        assert height == pytest.approx(np.interp(time, *curve.get_data()), abs=1e-3)
+    assert 0 < drawn[0][1] < below.get_ylim()[1]
+
+
+@pytest.mark.parametrize(
+    ("motion", "window"),
+    [
+        (rk.simulate(FREE, rk.State(angle=0.5), cycles=200), (0.0, 21.296805)),
+        (rk.simulate(FREE, rk.State(angle=0.5), cycles=10), (0.0, 10.0)),
+        (rk.simulate(FREE, cycles=200), (170.0, 200.0)),
+        (rk.simulate(SYSTEM, cycles=30), (20.0, 30.0)),
+        (rk.simulate(FAST, cycles=200), (1.197, 1.26)),
+    ],
+    ids=["decay", "before rest", "still", "shaken", "fast"],
+)
+def test_film_shows_the_end_of_the_motion_unless_told_otherwise(motion, window):
+    from rocking.plot.animation import NOMINAL, _window
+
+    assert _window(motion, NOMINAL, None) == pytest.approx(window)
+
+
+@pytest.mark.parametrize(
+    ("system", "start"),
+    [(FREE, 0.0), (FREE, 0.5), (rk.System(rk.Harmonic(1.0, period=1.0), 0.9), 5.0), (BRACED, 0.0)],
+)
+def test_colours_are_exact_and_the_same_in_every_frame(tmp_path, system, start):
+    motion = rk.simulate(system, rk.State(angle=start), cycles=10)
+    frames = gif_frames(rk.plot.animation(motion, tmp_path / "a.gif", seconds=2, fps=10))
+    assert len(frames) == 20
+    for frame in frames:
+        whites = (frame == 255).all(axis=2)
+        nearly = (frame > 245).all(axis=2) & ~whites
+        assert whites.mean() > 0.6
+        assert not nearly.any()
+        for red, green, blue in [(0xE8, 0xC0, 0x7D), (0xCF, 0xCF, 0xCF)]:
+            assert (frame == (red, green, blue)).all(axis=2).sum() > 2000
+
+
+@pytest.mark.parametrize(
+    ("system", "start", "block", "reading"),
+    [
+        (FAST, 0.0, None, "Θ = −0.00190"),
+        (FREE, 0.5, None, "Θ = −0.098"),
+        (FREE, 0.0, None, "Θ = +0.00"),
+        (FREE, 1e-8, None, "Θ = −4.33e−09"),
+        (BRACED, 0.0, rk.Block(height=2.0, width=0.5), "°"),
+    ],
+)
+def test_reading_has_three_figures_of_the_largest_angle(system, start, block, reading):
+    from rocking.plot.animation import NOMINAL, _Film, _window
+
+    motion = rk.simulate(system, rk.State(angle=start), cycles=200)
+    window = _window(motion, NOMINAL, None)
+    film = _Film(motion, block, np.linspace(*window, 5), 1.0)
+    said = [film.reading.get_text() for _ in film.frames()]
+    assert any(reading in text for text in said)
+    assert not any(text.rstrip("°").endswith(("−0.00", "−0.000")) for text in said)
+
+
 @pytest.mark.parametrize("side", [-1, 1])
 def test_block_touches_the_brace_with_its_upper_corner(side):
     block = rk.Block(height=2.0, width=0.5)
@@ -183,4 +256,20 @@ def test_interrupted_film_leaves_what_was_there(tmp_path, monkeypatch, suffix):
 def test_wrong_wishes_are_refused_in_one_line(tmp_path, name, how, message):
     with pytest.raises(ValueError, match=message):
         rk.plot.animation(rk.simulate(SYSTEM, cycles=5), tmp_path / name, **how)
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize(
+    ("motion", "name", "block", "message"),
+    [
+        (3, "a.gif", None, "^motion must be a Motion; got 3$"),
+        (None, 3, None, r"^path must be the name of a file that ends in \.gif, \.mp4; got 3$"),
+        (None, "a.gif", 3, "^block must be a Block; got 3$"),
+        (None, "a.gif", 0, "^block must be a Block; got 0$"),
+    ],
+)
+def test_argument_of_another_kind_is_refused_in_one_line(tmp_path, monkeypatch, motion, name, block, message):
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(TypeError, match=message):
+        rk.plot.animation(motion or rk.simulate(SYSTEM, cycles=5), name, block)
     assert not list(tmp_path.iterdir())

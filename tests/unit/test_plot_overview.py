@@ -12,6 +12,7 @@ import rocking as rk
 
 SYSTEM = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925)
 FALLING = rk.System(rk.Harmonic(amplitude=1.75, period=2.0), restitution=0.95)
+FREE = rk.System(rk.Harmonic(amplitude=0.0, period=1.0), restitution=0.9)
 
 
 @pytest.mark.parametrize("record", ["all", "section", "none"])
@@ -37,3 +38,31 @@ def test_overturning_is_shown_from_the_start():
 def test_block_gives_si_axes():
     figure = rk.plot.overview(rk.simulate(SYSTEM, cycles=20), rk.Block(height=2.0, width=0.5))
     assert [ax.get_xlabel()[-4:] for ax in figure.axes] == [" (s)", " (°)"]
+
+
+@pytest.mark.parametrize("cycles", [200, 10_000])
+def test_decay_is_shown_until_shortly_after_its_last_impact(cycles):
+    motion = rk.simulate(FREE, rk.State(angle=0.5), cycles=cycles)
+    last = motion.events["time"][-1]
+    history, _ = rk.plot.overview(motion).axes
+    assert history.get_xlim() == pytest.approx((0.0, 1.15 * last))
+
+
+def test_rest_under_a_shaken_base_is_shown_for_a_cycle_at_least():
+    shaken = rk.System(rk.Harmonic(amplitude=0.3, period=6.0), restitution=0.5)
+    motion = rk.simulate(shaken, rk.State(angle=0.1), cycles=50)
+    last = motion.events["time"][-1]
+    assert motion.outcome == "at-rest"
+    history, _ = rk.plot.overview(motion).axes
+    assert history.get_xlim() == pytest.approx((0.0, last + 6.0))
+
+
+def test_block_that_never_rocks_is_shown_whole():
+    history, portrait = rk.plot.overview(rk.simulate(FREE, cycles=5)).axes
+    assert history.get_xlim() == (0.0, 5.0)
+    assert portrait.lines
+
+
+def test_other_than_a_motion_is_refused_in_one_line():
+    with pytest.raises(TypeError, match="^motion must be a Motion; got 3$"):
+        rk.plot.overview(3)

@@ -103,6 +103,26 @@ def test_key_names_the_kinds_of_impact_that_occur():
     assert names(BRACED) == ["before impact", "after impact", "before brace hit", "after brace hit"]
 
 
-def test_block_at_rest_needs_no_key():
-    still = rk.System(rk.Harmonic(amplitude=0.5, period=1.0), restitution=0.9)
-    assert rk.plot.phase_portrait(rk.simulate(still, cycles=5)).get_legend() is None
+def test_marks_of_the_key_can_be_read_however_many_impacts_there_are():
+    def sizes(cycles):
+        ax = rk.plot.phase_portrait(rk.simulate(SYSTEM, cycles=cycles))
+        (mark,) = (line for line in ax.lines if line.get_gid() == "impact before")
+        return mark.get_markersize(), {handle.get_markersize() for handle in ax.get_legend().legend_handles}
+
+    (many, key), (few, other) = sizes(5000), sizes(5)
+    assert many < 0.25 * few
+    assert key == other == {4.0}
+
+
+@pytest.mark.parametrize(("start", "braces"), [(0.0, None), (2.0, rk.Braces(angle=2.0, restitution=0.0))])
+def test_block_that_never_moves_is_a_dot_without_a_key(start, braces):
+    still = rk.System(rk.Harmonic(amplitude=0.5, period=1.0), restitution=0.9, braces=braces)
+    ax = rk.plot.phase_portrait(rk.simulate(still, rk.State(angle=start), cycles=5))
+    assert {tuple(point) for point in named(ax, "motion")} == {(start, 0.0)}
+    assert [line.get_marker() for line in ax.lines] == ["o"]
+    assert ax.get_legend() is None
+
+
+def test_block_that_moves_is_a_line_without_dots():
+    ax = rk.plot.phase_portrait(rk.simulate(SYSTEM, cycles=5))
+    assert ax.lines[0].get_marker() == "none"

@@ -10,6 +10,7 @@ import rocking as rk
 SYSTEM = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925)
 BRACED = rk.System(rk.Harmonic(amplitude=15.0, period=2.0), restitution=0.925, braces=rk.Braces(angle=1.0))
 FALLING = rk.System(rk.Harmonic(amplitude=1.75, period=2.0), restitution=0.95)
+FREE = rk.System(rk.Harmonic(amplitude=0.0, period=1.0), restitution=0.9)
 CHATTERING = rk.System(rk.Harmonic(amplitude=1.3, period=3.0), restitution=0.4)
 
 
@@ -45,6 +46,33 @@ def test_chord_between_neighbours_is_thinner_than_a_line():
     sagitta = np.abs(motion.at(between)[0] - (angle[1:] + angle[:-1]) / 2)
     # 2 in high, a line of 1 pt covers 1/144 of it
     assert sagitta.max() < np.ptp(angle) / 144 / 4
+
+
+@pytest.mark.parametrize(
+    ("cycles", "window"), [(200, None), (10_000, None), (200, (10, 20)), (200, (18.4, 18.6))]
+)
+def test_arcs_of_a_decay_are_smooth_wherever_the_window_ends(cycles, window):
+    motion = rk.simulate(FREE, rk.State(angle=0.5), cycles=cycles)
+    time, angle = curve(rk.plot.time_history(motion, cycles=window))
+    between = (time[1:] + time[:-1]) / 2
+    sagitta = np.abs(motion.at(between)[0] - (angle[1:] + angle[:-1]) / 2)
+    assert sagitta.max() < np.ptp(angle) / 144 / 4
+
+
+def test_rest_and_leaning_take_no_instants_from_the_grid():
+    motion = rk.simulate(FREE, rk.State(angle=0.5), cycles=10_000)
+    time, _ = curve(rk.plot.time_history(motion))
+    assert np.count_nonzero(time > motion.events["time"][-1]) == 1
+
+
+def test_long_motion_keeps_its_shape_and_its_file_stays_small(tmp_path):
+    fast = rk.System(rk.Harmonic(amplitude=1000.0, period=0.0063), restitution=0.9)
+    motion = rk.simulate(fast, cycles=10_000)
+    for draw in (rk.plot.time_history, rk.plot.phase_portrait):
+        ax = draw(motion)
+        (line,) = (line for line in ax.lines if line.get_gid() == "motion")
+        assert 400_000 < len(line.get_xdata()) < 600_000
+        assert rk.plot.save(ax, tmp_path / "a.svg").stat().st_size < 500_000
 
 
 def test_window_is_counted_in_forcing_cycles():
@@ -128,3 +156,17 @@ def test_window_outside_the_motion_is_refused_in_one_line(cycles, error, message
 def test_motion_without_events_is_refused_with_the_way_out():
     with pytest.raises(ValueError, match="record must be 'all'"):
         rk.plot.time_history(rk.simulate(SYSTEM, cycles=5, record="section"))
+
+
+@pytest.mark.parametrize(
+    ("how", "message"),
+    [
+        ({"motion": 3}, "^motion must be a Motion; got 3$"),
+        ({"block": 3}, "^block must be a Block; got 3$"),
+        ({"ax": 3}, "^ax must be an? Axes; got 3$"),
+    ],
+)
+@pytest.mark.parametrize("draw", [rk.plot.time_history, rk.plot.phase_portrait])
+def test_argument_of_another_kind_is_refused_in_one_line(draw, how, message):
+    with pytest.raises(TypeError, match=message):
+        draw(**({"motion": rk.simulate(SYSTEM, cycles=5)} | how))

@@ -53,4 +53,3 @@ def run() -> tuple[int, str]:
             return 2, " ".join(error.format_message().split())
         return 1, " ".join(f"failed, and should not have: {type(error).__name__}: {error}".split())
     return code or 0, ""
-

@@ -73,5 +73,7 @@ def run(system: System, start: State, cycles: int, wanted: tuple[str, ...]) -> M
     except TooManyEvents as error:
         if wanted:
             names = ", ".join(map(ask.option, wanted))
-            raise ask.YourInput(f"too many events for {names}: run fewer cycles, or leave {names} out") from error
+            raise ask.YourInput(
+                f"too many events for {names}: run fewer cycles, or leave {names} out"
+            ) from error
         return march(system, start, cycles=cycles, record="none")

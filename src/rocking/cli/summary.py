@@ -93,10 +93,9 @@ def found(motion: Motion, block: Block | None) -> Iterator[Row]:
     """Rows that answer it."""
     time = "" if block is None else f"{block.seconds(motion.duration):.4g} s"
     yield "run", f"{length(motion)}, τ = {motion.duration:.6g}", time
-    cut = "" if motion.record == "all" else ", accumulating ones cut short at rest"
-    yield "impacts", f"{motion.impacts}{cut}", ""
+    yield "impacts", f"{motion.impacts}{_cut(motion, 'rest')}", ""
     if motion.system.braces is not None:
-        yield "brace hits", f"{motion.brace_hits}{cut}", ""
+        yield "brace hits", f"{motion.brace_hits}{_cut(motion, 'leaning')}", ""
     peak = (
         ""
         if block is None
@@ -118,6 +117,11 @@ def finite(value: Any) -> Any:
     return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
+def _cut(motion: Motion, end: str) -> str:
+    """What a count leaves out."""
+    return "" if motion.record == "all" else f" (any that accumulate are cut short at {end})"
+
+
 def _state(state: Any, block: Block | None) -> str:
     if block is None:
         return ""
@@ -129,8 +133,9 @@ def validity(motion: Motion, block: Block | None) -> list[str]:
     if block is None:
         return []
     if motion.record != "all":
-        many = f"{MOST_CYCLES_KEPT:,} cycles" if motion.cycles > MOST_CYCLES_KEPT else "events than are kept"
-        return [f"warning: whether the block slides or jumps is not judged in a run of more than {many}"]
+        long = motion.cycles > MOST_CYCLES_KEPT
+        why = f"more than {MOST_CYCLES_KEPT:,} cycles" if long else "more events than are kept"
+        return [f"warning: whether the block slides or jumps is not judged: {why}"]
     return str(motion.validity(block)).splitlines()
 
 

@@ -9,7 +9,7 @@ from numba import njit
 from .arc import evaluate
 from .crossing import CROSSING, LONGEST, NEVER, base_watch, brace_watch, first_zero
 from .elementary import COMPILED, INLINED
-from .harmonic import first_cut
+from .harmonic import first_cut, next_cut
 from .shortcut import likely_impact
 
 
@@ -55,28 +55,52 @@ class Next(NamedTuple):
     versinh: float
 
 
+@njit(**INLINED)
+def until_window(p, side, psi, half, inside):
+    """Time until eta next enters |eta| < half (``inside``) or leaves it: 0 in the first half of that window.
+
+    Who is still held in the second half of a window, by rounding at its very end, waits for the next.
+    """
+    cut, now_inside = first_cut(p, side, psi, 0.0, half)
+    if now_inside != inside:
+        return cut
+    return 0.0 if cut > 0.5 * next_cut(p, half, inside) else cut + next_cut(p, half, not inside)
+
+
 @njit(**COMPILED)
 def wait_at_rest(p, psi):
-    """(time until |A cos psi| exceeds 1, side of the lift-off); infinite for A <= 1."""
+    """(time until |A cos psi| rises through 1, side of the lift-off); infinite for A <= 1."""
     if p.base_half == math.inf:
         return math.inf, 1
-    wait, side = math.inf, 1
-    for candidate in (1, -1):
-        cut, pressed = first_cut(p, candidate, psi, 0.0, p.base_half)
-        if not pressed:
-            return 0.0, candidate
-        if cut < wait:
-            wait, side = cut, candidate
-    return wait, side
+    right = until_window(p, 1, psi, p.base_half, False)
+    left = until_window(p, -1, psi, p.base_half, False)
+    return (right, 1) if right < left else (left, -1)
 
 
 @njit(**COMPILED)
 def wait_leaning(p, side, psi):
-    """Time until the brace is no longer pressed, brace_angle + f <= 0; infinite where it always is."""
+    """Time until the brace is no longer pressed, brace_angle + f falling through 0; infinite where it always is."""
     if p.brace_half == math.inf:
-        return math.inf if p.brace_angle > 1.0 else 0.0
-    cut, leaving = first_cut(p, side, psi, 0.0, p.brace_half)
-    return 0.0 if leaving else cut
+        return math.inf
+    return until_window(p, side, psi, p.brace_half, True)
+
+
+@njit(**COMPILED)
+def side_to_lift(p, psi):
+    """The side to which a block standing still at the base lifts now: where f > 0; 0 where it stays."""
+    if p.base_half < math.inf:
+        for side in (1, -1):
+            if not first_cut(p, side, psi, 0.0, p.base_half)[1]:
+                return side
+    return 0
+
+
+@njit(**COMPILED)
+def stays_leaning(p, side, psi):
+    """Whether a block standing still at the brace is pressed against it: brace_angle + f > 0."""
+    if p.brace_half == math.inf:
+        return p.brace_angle > 1.0
+    return not first_cut(p, side, psi, 0.0, p.brace_half)[1]
 
 
 @njit(**INLINED)

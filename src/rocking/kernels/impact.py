@@ -6,7 +6,7 @@ from numba import njit
 
 from .arc import arc_after, arc_from
 from .elementary import COMPILED, INLINED
-from .events import BRACE, FLIGHT, IMPACT, LEAN, LEAVE, LIFT_OFF, REST, wait_leaning
+from .events import BRACE, FLIGHT, IMPACT, LEAN, LEAVE, LIFT_OFF, REST, side_to_lift, stays_leaning
 from .settling import base_settling_time, brace_settling_time
 
 # Accumulating impacts of a recorded motion go on, one by one, down to this speed.
@@ -18,32 +18,23 @@ SLOW = 0.1
 
 
 @njit(**INLINED)
-def side_to_lift(cosine_psi):
-    """The side on which a block at rest lifts: -sign(cos psi)."""
-    return -1 if cosine_psi > 0.0 else 1
-
-
-@njit(**INLINED)
 def after_impact(p, arc, time, coming, quiet):
     """(mode, arc) after an impact at the base.
 
-    ``quiet`` is the time in which nothing is asked for, so that accumulating impacts may be cut short.
+    ``quiet`` is the time in which nothing is asked for, so that accumulating impacts may be cut short. A block
+    that comes back before the clock has moved has not left: so at a brace too.
     """
     speed = p.restitution * max(-coming.velocity, 0.0)
     if speed < NEGLIGIBLE and p.restitution < 1.0:
         speed = 0.0
-    cosine_psi = arc.side * coming.cosine
-    swing = p.amplitude * abs(cosine_psi)
-    side = -arc.side
-    mode = FLIGHT
+    side, mode = -arc.side, FLIGHT
     if speed == 0.0:
-        if swing <= 1.0:
-            mode = REST
-        else:
-            side = side_to_lift(cosine_psi)
+        side = side_to_lift(p, p.frequency * time + p.phase)
+        if side == 0 or time == arc.start:
+            side, mode = arc.side, REST
     turned = side * arc.side
     after = arc_after(p, side, time, speed, turned * coming.cosine, turned * coming.sine)
-    if mode == FLIGHT and speed < SLOW and swing < 1.0 and p.restitution < 1.0:
+    if mode == FLIGHT and 0.0 < speed < SLOW and p.restitution < 1.0:
         settled = base_settling_time(p, after.cosine, after.sine, speed)
         if settled <= quiet or (settled < math.inf and speed < SLOWEST):
             mode = REST
@@ -61,7 +52,7 @@ def after_brace(p, arc, time, coming, quiet):
     after = arc_from(p, arc.side, time, p.brace_angle, -speed)
     mode = FLIGHT
     if speed == 0.0:
-        if wait_leaning(p, arc.side, after.psi) > 0.0:
+        if stays_leaning(p, arc.side, after.psi) or time == arc.start:
             mode = LEAN
     elif speed < SLOW and p.brace_restitution < 1.0:
         settled = brace_settling_time(p, after.cosine, after.sine, speed)

@@ -22,8 +22,8 @@ from .events import (
     REST,
     RESTS,
     next_event,
-    wait_at_rest,
-    wait_leaning,
+    side_to_lift,
+    stays_leaning,
 )
 from .impact import after_event
 from .tangent import (
@@ -116,10 +116,10 @@ def begin_plain(p, angle, velocity):
     mode = FLIGHT
     arc = arc_from(p, side, 0.0, u, v)
     if u == 0.0 and v == 0.0:
-        wait, lifting = wait_at_rest(p, arc.psi)
-        mode = REST if wait > 0.0 else FLIGHT
-        arc = arc_from(p, lifting, 0.0, 0.0, 0.0)
-    elif u == p.brace_angle and v == 0.0 and wait_leaning(p, side, arc.psi) > 0.0:
+        lifting = side_to_lift(p, arc.psi)
+        mode = REST if lifting == 0 else FLIGHT
+        arc = arc_from(p, side if lifting == 0 else lifting, 0.0, 0.0, 0.0)
+    elif u == p.brace_angle and v == 0.0 and stays_leaning(p, side, arc.psi):
         mode = LEAN
     return plain(Progress(mode, 0, arc, True, 0, 0, 1 if hit else 0, u, math.inf, 1.0, 1.0)), hit
 

@@ -68,12 +68,12 @@ class Block:
     >>> block = Block(height=2.0, width=0.5)
     >>> block
     Block(height=2.0 m, width=0.5 m, restitution=0.911765 by Housner's formula)
-    >>> round(float(block.degrees(1.0)), 3)
-    14.036
-    >>> block.seconds([1.0, 2.0]).round(3).tolist(), float(block.time(seconds=block.seconds(2.0)))
-    ([0.374, 0.749], 2.0)
-    >>> block.angle(top_displacement=0.1), block.top_displacement(0.2), block.acceleration(1.0)
-    (0.204, 0.098, 2.40)
+    >>> block.degrees([0.5, 1.0]).round(3).tolist()
+    [7.018, 14.036]
+    >>> float(block.angle(degrees=7.018)), block.time(seconds=1.0), block.seconds(2.671)
+    (0.50, 2.671, 1.00)
+    >>> float(block.top_displacement(0.5)), block.acceleration(1.0), block.amplitude(acceleration=2.4)
+    (0.244, 2.402, 1.00)
     >>> block.system(acceleration=3.0, period_s=0.8).forcing.amplitude > 1
     True
     """

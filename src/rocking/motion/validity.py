@@ -67,8 +67,8 @@ class Validity:
     >>> block = Block(height=2.0, width=0.5)
     >>> print(simulate(block.system(acceleration=3.0, frequency_hz=1.2)).validity(block))
     judged up to τ = 15.5003, where no return is proved
-    least friction without sliding: 0.2869 (motion, τ = 12.242)
-    least base reaction: 0.8831 Mg (τ = 15.5003)
+    least friction without sliding: 0.2587 (motion, τ = 0)
+    least base reaction: 0.8576 Mg (τ = 12.4227)
     largest angle: 0.1708 rad, 0.6973 of the critical angle
     slender model: restoring moment up to 1.01%, base's push up to 3.08% too large
     """
@@ -92,7 +92,7 @@ class Validity:
             friction = f"{self.friction:.4g} ({self.friction_source}, τ = {self.friction_time:.6g})"
         if self.reaction is not None:
             reaction = f"{self.reaction:.4g} Mg (τ = {self.reaction_time:.6g})"
-        slender = "no measure of it so far from balance"
+        slender = "does not apply over a right angle from balance"
         if self.forcing_error < math.inf:
             slender = f"restoring moment up to {self.moment_error:.2%}, base's push up to {self.forcing_error:.2%} too large"
         lines = [f"judged up to τ = {self.until:.6g}, where no return is proved"] if self.overturned else []
@@ -161,13 +161,22 @@ def validity(motion: Motion, block: Block) -> Validity:
         "rest": least(hold, resting, period),
     }
     source = min(slides, key=lambda name: slides[name].value)
-    held = (None, None, None)
-    if slides[source] != NOTHING:
-        held = (abs(slides[source].value), source, slides[source].time)
-    pushed = (None, None) if reaction == NOTHING else tuple(reaction)
+    friction = slides[source]
     angle = largest_angle(motion, block, until)
-    errors = slender_errors(block, angle)
-    found = Validity(until, motion.overturning is not None, *held, *pushed, angle, block.critical_angle, *errors)
+    moment_error, forcing_error = slender_errors(block, angle)
+    found = Validity(
+        until=until,
+        overturned=motion.overturning is not None,
+        friction=None if friction == NOTHING else abs(friction.value),
+        friction_source=None if friction == NOTHING else source,
+        friction_time=None if friction == NOTHING else friction.time,
+        reaction=None if reaction == NOTHING else reaction.value,
+        reaction_time=None if reaction == NOTHING else reaction.time,
+        angle=angle,
+        critical_angle=block.critical_angle,
+        moment_error=moment_error,
+        forcing_error=forcing_error,
+    )
     return evolve(found, warnings=tuple(warnings(found, motion, block, leaning)))
 
 
@@ -222,7 +231,7 @@ def warnings(found: Validity, motion: Motion, block: Block, leaning: Arcs) -> It
     if max(found.moment_error, found.forcing_error) > SLENDER_ERROR:
         how = f"the restoring moment is overrated by up to {found.moment_error:.1%}, the base's push by up to {found.forcing_error:.1%}"
         if found.forcing_error == math.inf:
-            how = "beyond a right angle from balance its moments have nothing in common with the block's"
+            how = "over a right angle from balance its moments do not apply"
         yield f"outside the slender range, θcr = {found.critical_angle:.3g} rad and |θ| up to {found.angle:.3g} rad: {how}"
     if motion.impacts and motion.system.restitution < block.housner_restitution * (1 - 1e-12):
         yield (

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -14,19 +13,17 @@ from matplotlib.figure import Figure
 from matplotlib.text import Text
 from numpy.typing import NDArray
 
-from rocking.model import Block, System, within
+from rocking.model import Block, Outcome, System, instance, within
+from rocking.motion import Motion
 from rocking.plot import style
 from rocking.plot.film import check_film, write_film
 from rocking.plot.quantities import quantities
 from rocking.plot.scene import Scene
 from rocking.plot.time_history import draw_history
-from rocking.plot.trace import fall, window
-
-if TYPE_CHECKING:
-    from rocking.motion import Motion
+from rocking.plot.trace import fall, settled, window
 
 NOMINAL = Block(height=2.0, width=0.5)
-CYCLES_SHOWN = 10
+CYCLES_SHOWN, DECAY_SHOWN = 10, 30
 SIZE, DOTS = (6.4, 5.6), 100
 
 
@@ -52,8 +49,9 @@ def animation(
         Length of the film, 0.1 to 600 s, and its frames per second, 1 to 100; a GIF runs at exactly `fps` only if that
         divides 100.
     cycles : tuple of float, optional
-        First and last forcing cycle shown, counted from the start. The last ten cycles if not given; if the motion
-        overturned, on to the end of the fall.
+        First and last forcing cycle shown, counted from the start. The last ten cycles if not given (units of τ if the
+        base stands still); if the motion overturned, on to the end of the fall; if it came to rest, the last thirty
+        until shortly after.
 
     Returns
     -------
@@ -63,7 +61,7 @@ def animation(
     Raises
     ------
     TypeError, ValueError
-        If a value does not lie in its range, or the motion kept no events.
+        If a value does not lie in its range, the motion kept no events, or an argument is of another kind.
 
     Notes
     -----
@@ -78,19 +76,24 @@ def animation(
     ...     rk.plot.animation(rk.simulate(system, cycles=20), f"{folder}/block.gif", seconds=0.4).name
     'block.gif'
     """
+    instance("motion", motion, Motion)
+    body = NOMINAL if block is None else instance("block", block, Block)
     path = check_film(path)
     count = max(2, round(within("seconds", seconds, 0.1, 600.0) * within("fps", fps, 1.0, 100.0)))
-    start, stop = _window(motion, block or NOMINAL, cycles)
+    start, stop = _window(motion, body, cycles)
     return write_film(path, _Film(motion, block, np.linspace(start, stop, count), seconds).frames(), fps)
 
 
 def _window(motion: Motion, block: Block, cycles: tuple[float, float] | None) -> tuple[float, float]:
     if cycles is not None:
         return window(motion, cycles)
-    shown = CYCLES_SHOWN * motion.system.forcing.period
+    unit = motion.system.forcing.period if motion.system.forcing.amplitude else 1.0
+    if motion.outcome is Outcome.AT_REST:
+        stop = settled(motion)
+        return max(0.0, stop - DECAY_SHOWN * unit), stop
     if motion.overturning is None:
-        return max(0.0, motion.duration - shown), motion.duration
-    start = max(0.0, motion.overturning.time - shown)
+        return max(0.0, motion.duration - CYCLES_SHOWN * unit), motion.duration
+    start = max(0.0, motion.overturning.time - CYCLES_SHOWN * unit)
     flat = fall(motion, motion.overturning, block.angle(degrees=90))
     return start, flat + 0.08 * (flat - start)
 
@@ -109,12 +112,16 @@ class _Film:
         factors = self._scene(above, motion.system, body)
         draw_history(below, motion, times[0], times[-1], block)
         if motion.overturning is not None:
-            below.set_ylim(self.shown.angle(-1.5), self.shown.angle(1.5))
+            (curve,) = (line for line in below.lines if line.get_gid() == "motion")
+            curve.set_ydata(np.clip(curve.get_ydata(), self.shown.angle(-flat), self.shown.angle(flat)))
+            most = 1.5 * min(max(motion.peak, 1.0), flat)
+            below.set_ylim(self.shown.angle(-most), self.shown.angle(most))
         self.cursor = below.axvline(0.0, color=style.IMPACT, linewidth=style.LINE, animated=True)
         (self.dot,) = below.plot([], [], "o", color=style.IMPACT, markersize=7, animated=True, zorder=5)
         self.reading = self._write(0.02, "", style.TEXT + 4, ha="left", animated=True)
         interval = float(self.shown.time(times[1] - times[0]))
         self.digits = max(1, math.ceil(-math.log10(interval)))
+        self.number = _number(float(self.shown.angle(np.abs(self.angles).max())))
         pace = interval * (len(times) - 1) / seconds
         self._write(0.98, self._notes(body, *factors, pace), style.SMALL, ha="right")
 
@@ -151,10 +158,18 @@ class _Film:
             canvas.restore_region(still)
             self.dot.set_data([time], [angle])
             self.cursor.set_xdata([time, time])
-            self.reading.set_text(self.shown.reading.format(time, self.digits, angle).replace("-", "−"))
+            reading = self.shown.reading.format(time, self.digits, angle, self.number)
+            self.reading.set_text(reading.replace("-", "−"))
             for part in (*self.scene.move(frame), self.cursor, self.dot, self.reading):
                 self.figure.draw_artist(part)
             yield np.asarray(canvas.buffer_rgba())[..., :3].copy()
+
+
+def _number(largest: float) -> str:
+    """How angles up to `largest` are written: to three figures, and never a zero with a minus."""
+    if 0 < largest < 1e-6:
+        return "+.2e"
+    return f"+z.{max(2, 2 - math.floor(math.log10(largest))) if largest else 2}f"
 
 
 def _round(factor: float) -> float:

@@ -1,17 +1,33 @@
 """Frames into a GIF or an MP4: whole or not at all."""
 
 from collections.abc import Iterator
+from itertools import combinations
 from pathlib import Path
 
+import numpy as np
+from matplotlib.colors import to_rgb
 from numpy.typing import NDArray
 from PIL import Image
 
-from rocking.model import check_writable, replacing
+from rocking.model import replacing
+from rocking.plot import style
+from rocking.plot.save import check_path
+
+COLOURS = (
+    "white",
+    style.INK,
+    style.TABLE,
+    style.BLOCK,
+    style.IMPACT,
+    style.BRACE,
+    style.MOTION,
+    style.GUIDE,
+)
 
 
 def check_film(path: str | Path) -> Path:
     """Refuses, in one line and before any work, a path that cannot become a film."""
-    return check_writable("path", path, suffixes=tuple(WRITERS))
+    return check_path(path, tuple(WRITERS))
 
 
 def write_film(path: Path, frames: Iterator[NDArray], fps: float) -> Path:
@@ -25,15 +41,30 @@ def write_film(path: Path, frames: Iterator[NDArray], fps: float) -> Path:
 
 
 def _gif(path: Path, frames: Iterator[NDArray], fps: float) -> None:
-    first = Image.fromarray(next(frames))
     # One palette for all frames: nothing flickers, and what does not move costs nothing.
-    palette = first.quantize(64, method=Image.Quantize.MAXCOVERAGE)
-    rest = (Image.fromarray(frame).quantize(palette=palette, dither=Image.Dither.NONE) for frame in frames)
+    palette = _palette()
+    images = (Image.fromarray(frame).quantize(palette=palette, dither=Image.Dither.NONE) for frame in frames)
     # Opened here, because Pillow leaves a file open when it is interrupted.
     with path.open("wb") as file:
-        palette.save(
-            file, format="GIF", save_all=True, append_images=rest, duration=10 * round(100 / fps), loop=0
+        next(images).save(
+            file, format="GIF", save_all=True, append_images=images, duration=10 * round(100 / fps), loop=0
         )
+
+
+def _palette() -> Image.Image:
+    """The colours of a film, each exact, and the blends of any two of them, as at the edge of one before the other.
+
+    Pillow looks for the nearest only after it has rounded red, green and blue down to multiples of 4, so is off by up
+    to 3 in each. Blends that are more than twice as far from every colour leave the colours exact.
+    """
+    colours = [np.round(255 * np.array(to_rgb(colour))) for colour in COLOURS]
+    exact = np.array(colours)
+    for one, other in combinations(exact, 2):
+        blends = (np.round(one + share * (other - one)) for share in np.linspace(0, 1, 9)[1:-1])
+        colours += [blend for blend in blends if np.linalg.norm(exact - blend, axis=1).min() > 11]
+    palette = Image.new("P", (1, 1))
+    palette.putpalette(np.array(colours, dtype=np.uint8).tobytes())
+    return palette
 
 
 def _mp4(path: Path, frames: Iterator[NDArray], fps: float) -> None:

@@ -3,18 +3,16 @@
 from __future__ import annotations
 
 import io
-from typing import TYPE_CHECKING
 
 from matplotlib.figure import Figure
 
-from rocking.model import Block
+from rocking.model import Block, Outcome, instance
+from rocking.motion import Motion
 from rocking.plot import style
 from rocking.plot.phase_portrait import phase_portrait
 from rocking.plot.section import section
 from rocking.plot.time_history import time_history
-
-if TYPE_CHECKING:
-    from rocking.motion import Motion
+from rocking.plot.trace import settled
 
 CYCLES_SHOWN = 30
 
@@ -22,7 +20,8 @@ CYCLES_SHOWN = 30
 def overview(motion: Motion, block: Block | None = None) -> Figure:
     """Draws what was kept of a motion: time history beside phase portrait; or the section; or only the final state.
 
-    A bounded motion is shown by its last 30 cycles: whole, a long one would be a band of ink.
+    A bounded motion is shown by its last 30 cycles: whole, a long one would be a band of ink. One that comes to rest is
+    shown until shortly after its last impact.
 
     Parameters
     ----------
@@ -42,6 +41,7 @@ def overview(motion: Motion, block: Block | None = None) -> Figure:
     >>> len(rk.plot.overview(rk.simulate(system, cycles=200)).axes)
     2
     """
+    instance("motion", motion, Motion)
     if motion.record != "all":
         figure, (ax,) = style.panels(height=3.0)
         kept = (
@@ -49,12 +49,19 @@ def overview(motion: Motion, block: Block | None = None) -> Figure:
         )
         section(kept, ax, block, phase=motion.system.forcing.phase)
         return figure
-    long = motion.outcome == "bounded" and motion.cycles > CYCLES_SHOWN
-    cycles = (motion.cycles - CYCLES_SHOWN, motion.cycles) if long else None
+    cycles = _cycles(motion)
     figure, (left, right) = style.panels(columns=2, height=3.0, ratios=(3, 2))
     time_history(motion, left, block, cycles)
     phase_portrait(motion, right, block, cycles)
     return figure
+
+
+def _cycles(motion: Motion) -> tuple[float, float] | None:
+    if motion.outcome is Outcome.AT_REST:
+        return 0.0, min(settled(motion) / motion.system.forcing.period, motion.cycles)
+    if motion.outcome is Outcome.BOUNDED and motion.cycles > CYCLES_SHOWN:
+        return motion.cycles - CYCLES_SHOWN, motion.cycles
+    return None
 
 
 def png(motion: Motion) -> bytes:

@@ -2,19 +2,15 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
 from rocking.model import Block
+from rocking.motion import Motion
 from rocking.plot import style
 from rocking.plot.quantities import Quantities, quantities
 from rocking.plot.trace import inside, trace, window
-
-if TYPE_CHECKING:
-    from rocking.motion import Motion
 
 STRIKES = {"impact": (style.IMPACT, "o"), "brace": (style.BRACE, "s")}
 NAMES = {"impact": "impact", "brace": "brace hit"}
@@ -46,13 +42,13 @@ def phase_portrait(
 
     Raises
     ------
-    ValueError
-        If `cycles` does not lie within the motion, or the motion kept no events.
+    TypeError, ValueError
+        If `cycles` does not lie within the motion, the motion kept no events, or an argument is of another kind.
 
     Notes
     -----
     Impacts on the base lie at Θ = 0 (round, eq. 2 of Yim and Lin 1991), those on a brace at ±Θb (square). At e = 1 the
-    open and the full mark of an impact coincide. Marks shrink as there are more of them.
+    open and the full mark of an impact coincide. Marks shrink as there are more of them. A block that never moves is a dot.
 
     Examples
     --------
@@ -69,11 +65,15 @@ def phase_portrait(
     events = events[np.isin(events["kind"], list(STRIKES))]
     shown = quantities(block)
     ax = style.own(ax, height=3.0)
+    never_moves = not np.ptp(angle) and not np.ptp(velocity)
     ax.plot(
         shown.angle(np.insert(angle, breaks, np.nan)),
         shown.velocity(np.insert(velocity, breaks, np.nan)),
         color=style.MOTION,
         linewidth=style.line_width(len(events)),
+        marker="o" if never_moves else "none",
+        markersize=style.MARK,
+        rasterized=len(time) > style.MOST_CORNERS,
         gid="motion",
     )
     for kind, (colour, marker) in STRIKES.items():
@@ -92,8 +92,10 @@ def _strikes(ax: Axes, shown: Quantities, hits: NDArray, kind: str, colour: str,
         shown.velocity(hits["before"]),
         shown.velocity(hits["after"]),
     )
-    size = 0.8 * style.point_size(len(hits))
-    ax.vlines(angle, before, after, colors=colour, linewidth=style.LINE, gid=f"{kind} strokes")
+    size, dense = 0.8 * style.point_size(len(hits)), len(hits) > style.MOST_MARKS
+    ax.vlines(
+        angle, before, after, colors=colour, linewidth=style.LINE, rasterized=dense, gid=f"{kind} strokes"
+    )
     for when, velocity, face in (("before", before, "white"), ("after", after, colour)):
         ax.plot(
             angle,
@@ -104,6 +106,7 @@ def _strikes(ax: Axes, shown: Quantities, hits: NDArray, kind: str, colour: str,
             markeredgewidth=min(0.8, size / 4),
             markeredgecolor=colour,
             markerfacecolor=face,
+            rasterized=dense,
             label=f"{when} {NAMES[kind]}",
             gid=f"{kind} {when}",
             zorder=3,

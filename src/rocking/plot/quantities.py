@@ -6,14 +6,14 @@ from typing import Any
 import numpy as np
 from attrs import frozen
 
-from rocking.model import Block
+from rocking.model import Block, instance
 
 
 @frozen
 class Quantities:
     """Turns normalised time, angle and velocity into what a picture shows, with the labels of axes.
 
-    `reading` is a template for a line of text: a time, its digits after the point, an angle.
+    `reading` is a template for a line of text: a time, its digits after the point, an angle and how it is written.
     """
 
     time: Callable[[Any], Any]
@@ -38,7 +38,7 @@ NORMALISED = Quantities(
     angle_label=r"angle $\Theta = \theta/\theta_\mathrm{cr}$ (–)",
     velocity_label=r"velocity $\Theta' = \mathrm{d}\Theta/\mathrm{d}\tau$ (–)",
     time_unit="τ",
-    reading="τ = {:.{}f}    Θ = {:+.3f}",
+    reading="τ = {:.{}f}    Θ = {:{}}",
 )
 
 
@@ -46,6 +46,7 @@ def quantities(block: Block | None) -> Quantities:
     """Normalised quantities, or, for a `block`, seconds, degrees and degrees per second."""
     if block is None:
         return NORMALISED
+    instance("block", block, Block)
     return Quantities(
         time=block.seconds,
         angle=block.degrees,
@@ -54,5 +55,5 @@ def quantities(block: Block | None) -> Quantities:
         angle_label=r"angle $\theta$ (°)",
         velocity_label=r"velocity $\dot\theta$ (°/s)",
         time_unit="s",
-        reading="t = {:.{}f} s    θ = {:+.2f}°",
+        reading="t = {:.{}f} s    θ = {:{}}°",
     )

@@ -1,11 +1,14 @@
 """Figures into files: whole or not at all, and the same bytes every time."""
 
+import os
+from collections.abc import Sequence
 from pathlib import Path
 
 from matplotlib import rc_context
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from rocking.model import check_writable, replacing
+from rocking.model import check_writable, refusal, replacing, within
 
 # Without these matplotlib writes the date and its own version into the file.
 METADATA = {
@@ -15,17 +18,17 @@ METADATA = {
 }
 
 
-def save(figure: Figure, path: str | Path, dpi: float = 200.0) -> Path:
+def save(figure: Figure | Axes, path: str | Path, dpi: float = 200.0) -> Path:
     """Writes a figure as PNG, SVG or PDF; the same figure gives the same bytes.
 
     Parameters
     ----------
-    figure : matplotlib Figure
-        ``ax.figure`` of anything drawn here.
+    figure : matplotlib Figure or Axes
+        Of axes, the whole figure they are part of.
     path : str or Path
         Its suffix chooses the format: .png, .svg or .pdf.
     dpi : float
-        Dots per inch of a PNG, and of rasterised points inside SVG and PDF.
+        Dots per inch of a PNG, and of rasterised points inside SVG and PDF; 10 to 2400.
 
     Returns
     -------
@@ -34,19 +37,30 @@ def save(figure: Figure, path: str | Path, dpi: float = 200.0) -> Path:
 
     Raises
     ------
-    ValueError
-        If the suffix is none of these.
+    TypeError, ValueError, OSError
+        If there is nothing to draw, `path` cannot be written or ends otherwise, or `dpi` does not lie in its range.
 
     Examples
     --------
     >>> import rocking as rk, tempfile
     >>> with tempfile.TemporaryDirectory() as folder:
-    ...     rk.plot.save(rk.plot.schematic().figure, f"{folder}/block.svg").name
+    ...     rk.plot.save(rk.plot.schematic(), f"{folder}/block.svg").name
     'block.svg'
     """
-    path = check_writable("path", path, suffixes=tuple(METADATA))
+    drawn = figure.figure if isinstance(figure, Axes) else figure
+    if not isinstance(drawn, Figure):
+        raise TypeError(refusal("figure", "be a matplotlib Figure or Axes", figure))
+    dpi = within("dpi", dpi, 10.0, 2400.0)
+    path = check_path(path, tuple(METADATA))
     suffix = path.suffix.lower()
     # Names inside an SVG are hashed with a salt, by default a random one.
     with replacing(path) as partial, rc_context({"svg.hashsalt": "rocking"}):
-        figure.savefig(partial, format=suffix[1:], dpi=dpi, metadata=METADATA[suffix])
+        drawn.savefig(partial, format=suffix[1:], dpi=dpi, metadata=METADATA[suffix])
     return path
+
+
+def check_path(path: str | Path, suffixes: Sequence[str]) -> Path:
+    """The `path`, unless it cannot become a file with one of these endings; refused in one line and before any work."""
+    if not isinstance(path, str | os.PathLike):
+        raise TypeError(refusal("path", f"be the name of a file that ends in {', '.join(suffixes)}", path))
+    return check_writable("path", path, suffixes)

@@ -7,9 +7,11 @@ from matplotlib.axes import Axes
 from matplotlib.patches import Arc, Polygon, Rectangle
 from numpy.typing import NDArray
 
-from rocking.model import Block
+from rocking.model import Block, instance, within
 from rocking.plot import style
 from rocking.plot.geometry import corners
+
+STOUT = Block(height=2.0, width=1.0)
 
 
 def schematic(ax: Axes | None = None, block: Block | None = None, lean: float = 0.5) -> Axes:
@@ -41,9 +43,10 @@ def schematic(ax: Axes | None = None, block: Block | None = None, lean: float = 
     1.0
     """
     ax = style.own(ax, height=3.6)
-    height, width = (2.0, 1.0) if block is None else (block.height, block.width)
+    block = STOUT if block is None else instance("block", block, Block)
+    height, width = block.height, block.width
     critical = math.atan2(width, height)
-    angle = lean * critical
+    angle = within("lean", lean, -1.0, 1.0) * critical
     tilted = corners(height, width, angle)
     _base(ax, height, width)
     ax.add_patch(

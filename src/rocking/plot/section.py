@@ -4,16 +4,22 @@ import math
 
 import numpy as np
 from matplotlib.axes import Axes
+from numpy.typing import NDArray
 
-from rocking.model import Block
+from rocking.model import Block, reals, refusal, whole, within
+from rocking.motion import Motion
 from rocking.plot import style
 from rocking.plot.quantities import quantities
 
-RASTERISED_FROM = 2000
+LARGEST_PHASE = 1000.0
 
 
 def section(
-    result, ax: Axes | None = None, block: Block | None = None, phase: float | None = None, transient: int = 0
+    result: Motion | NDArray,
+    ax: Axes | None = None,
+    block: Block | None = None,
+    phase: float | None = None,
+    transient: int = 0,
 ) -> Axes:
     """Draws the states of a motion at one phase of the forcing, cycle after cycle (Poincaré map).
 
@@ -28,7 +34,7 @@ def section(
     phase : float, optional
         Forcing phase of the section, rad; by default the forcing's own, at which the motion started.
     transient : int
-        How many points are left out at the start.
+        How many points are left out at the start; at least one must stay.
 
     Returns
     -------
@@ -36,13 +42,13 @@ def section(
 
     Raises
     ------
-    ValueError
-        If no point is left to draw.
+    TypeError, ValueError
+        If `result` holds no points, `transient` leaves none, or an argument is of another kind.
 
     Notes
     -----
-    Every point is drawn; marks shrink from 5 pt (10 points) to a fraction of a point (10⁶). From 2,000 points on they
-    are an image inside a vector file, so that the file stays small.
+    Every point is drawn; marks shrink from 5 pt (10 points) to a fraction of a point (10⁶). More than 2,000 are an
+    image inside a vector file, so that the file stays small.
 
     Examples
     --------
@@ -52,11 +58,11 @@ def section(
     >>> len(ax.lines[0].get_xdata())
     301
     """
-    is_motion = hasattr(result, "section")
-    points = np.asarray(result.section(phase) if is_motion else result)[transient:]
-    if not len(points):
-        raise ValueError(f"transient must leave at least one point of the section; got {transient}")
-    if is_motion and phase is None:
+    if phase is not None:
+        phase = within("phase", phase, -LARGEST_PHASE, LARGEST_PHASE)
+    points = result.section(phase) if isinstance(result, Motion) else _points(result)
+    points = points[whole("transient", transient, 0, len(points) - 1) :]
+    if isinstance(result, Motion) and phase is None:
         phase = result.system.forcing.phase
     shown = quantities(block)
     ax = style.own(ax, height=2.9)
@@ -68,7 +74,7 @@ def section(
         markersize=style.point_size(len(points)),
         markeredgewidth=0,
         color=style.MOTION,
-        rasterized=len(points) >= RASTERISED_FROM,
+        rasterized=len(points) > style.MOST_MARKS,
         gid="section",
     )
     style.label(ax, shown.angle_label, shown.velocity_label)
@@ -77,6 +83,17 @@ def section(
             rf"$\psi = {_angle(phase)}$ (mod $2\pi$)", loc="right", fontsize=style.SMALL, color=style.INK
         )
     return ax
+
+
+def _points(result) -> NDArray:
+    allowed = "be a Motion or points of shape (n, 2), one at least"
+    try:
+        points = np.asarray(reals("result", result))
+    except TypeError:
+        raise TypeError(refusal("result", allowed, result)) from None
+    if points.ndim != 2 or points.shape[1] != 2 or not len(points):
+        raise ValueError(refusal("result", allowed, result))
+    return points
 
 
 def _angle(phase: float) -> str:

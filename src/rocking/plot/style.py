@@ -8,12 +8,18 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
+from rocking.model import instance
+
 COLUMN = 3.5
 PAGE = 7.2
 TEXT = 9.0
 SMALL = 8.0
 LINE = 1.0
 THIN = 0.6
+MARK = 4.0
+# More than these become an image inside a vector file, which would grow without end.
+MOST_MARKS = 2_000
+MOST_CORNERS = 50_000
 
 MOTION = "#0072B2"
 IMPACT = "#D55E00"
@@ -27,7 +33,7 @@ GUIDE = "#9A9A9A"
 def own(ax: Axes | None, height: float = 2.4) -> Axes:
     """The axes given, or those of a new figure, a column wide and `height` inches high, which needs no display."""
     if ax is not None:
-        return ax
+        return instance("ax", ax, Axes)
     return Figure(figsize=(COLUMN, height), layout="constrained").add_subplot()
 
 
@@ -75,13 +81,15 @@ def label(ax: Axes, x: str, y: str) -> None:
     ax.set_xlabel(x, fontsize=TEXT, color=INK)
     ax.set_ylabel(y, fontsize=TEXT, color=INK)
     ax.tick_params(labelsize=SMALL, color=INK, labelcolor=INK, width=THIN)
+    for axis in (ax.xaxis, ax.yaxis):
+        axis.get_offset_text().set(fontsize=SMALL, color=INK)
     for side, spine in ax.spines.items():
         spine.set(visible=side in ("left", "bottom"), linewidth=THIN, edgecolor=INK)
 
 
 def key(ax: Axes) -> None:
-    """A legend under the label of the horizontal axis, clear of titles and of what is drawn."""
-    ax.legend(
+    """A legend under the label of the horizontal axis, clear of titles and of what is drawn; its marks never shrink."""
+    legend = ax.legend(
         loc="upper center",
         bbox_to_anchor=(0.5, 0.0),
         borderaxespad=3.8,  # in sizes of its text: past the ticks' numbers and the label
@@ -92,6 +100,8 @@ def key(ax: Axes) -> None:
         handletextpad=0.2,
         columnspacing=1.2,
     )
+    for mark in legend.legend_handles:
+        mark.set(markersize=MARK, markeredgewidth=0.8)
 
 
 def point_size(count: int) -> float:

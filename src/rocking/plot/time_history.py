@@ -2,18 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 from matplotlib.axes import Axes
 
 from rocking.model import Block, System
+from rocking.motion import Motion
 from rocking.plot import style
 from rocking.plot.quantities import Quantities, quantities
 from rocking.plot.trace import trace, window
-
-if TYPE_CHECKING:
-    from rocking.motion import Motion
 
 
 def time_history(
@@ -42,8 +38,8 @@ def time_history(
 
     Raises
     ------
-    ValueError
-        If `cycles` does not lie within the motion, or the motion kept no events.
+    TypeError, ValueError
+        If `cycles` does not lie within the motion, the motion kept no events, or an argument is of another kind.
 
     Notes
     -----
@@ -66,7 +62,14 @@ def draw_history(ax: Axes, motion: Motion, start: float, stop: float, block: Blo
     time, angle, _ = trace(motion, start, stop)
     shown = quantities(block)
     _guides(ax, motion.system, shown, float(np.abs(angle).max()))
-    ax.plot(shown.time(time), shown.angle(angle), color=style.MOTION, linewidth=style.LINE, gid="motion")
+    ax.plot(
+        shown.time(time),
+        shown.angle(angle),
+        color=style.MOTION,
+        linewidth=style.LINE,
+        rasterized=len(time) > style.MOST_CORNERS,
+        gid="motion",
+    )
     ax.set_xlim(shown.time(start), shown.time(stop))
     style.label(ax, shown.time_label, shown.angle_label)
     return ax

@@ -2,21 +2,17 @@
 
 from __future__ import annotations
 
-import math
-from typing import TYPE_CHECKING
-
 import numpy as np
 from numpy.typing import NDArray
 
-from rocking.model import refusal, within
-
-if TYPE_CHECKING:
-    from rocking.model import Overturning
-    from rocking.motion import Motion
+from rocking.model import Overturning, instance, refusal, within
+from rocking.motion import Motion
 
 SAMPLES_PER_TIME = 64
-MOST_SAMPLES = 60_000
+SAMPLES_PER_PICTURE = 1000
+MOST_SAMPLES = 500_000
 FALLEN = 3.0
+STILLNESS_SHOWN = 0.15
 
 
 def window(motion: Motion, cycles: tuple[float, float] | None) -> tuple[float, float]:
@@ -24,6 +20,7 @@ def window(motion: Motion, cycles: tuple[float, float] | None) -> tuple[float, f
 
     The whole of an overturned motion goes on past the proof that it never returns, until |Θ| = 3.
     """
+    instance("motion", motion, Motion)
     if cycles is None:
         return 0.0, motion.duration if motion.overturning is None else fall(
             motion, motion.overturning, FALLEN
@@ -37,6 +34,16 @@ def window(motion: Motion, cycles: tuple[float, float] | None) -> tuple[float, f
         raise ValueError(refusal("cycles", "be a pair (first, last) with first < last", cycles))
     period = motion.system.forcing.period
     return first * period, last * period
+
+
+def settled(motion: Motion) -> float:
+    """Time τ shortly after the last event of a motion that came to rest: long enough to see that it stays there."""
+    forcing, events = motion.system.forcing, motion.events
+    last = float(events["time"][-1]) if len(events) else 0.0
+    if last == 0:
+        return motion.duration
+    still = max(STILLNESS_SHOWN * last, forcing.period if forcing.amplitude else 0.0)
+    return min(last + still, motion.duration)
 
 
 def fall(motion: Motion, overturning: Overturning, angle: float) -> float:
@@ -57,13 +64,11 @@ def fall(motion: Motion, overturning: Overturning, angle: float) -> float:
 def trace(motion: Motion, start: float, stop: float) -> tuple[NDArray, NDArray, NDArray]:
     """Times, angles and velocities from `start` to `stop`: a grid, every extreme, and every event twice, before and after.
 
-    The grid is fine against both the forcing's period and the block's own unit of time; over a long window it thins out
-    (to 60,000 instants), the events and the extremes never do.
+    The grid is fine against the forcing's period, the block's own unit of time and the picture, and has no instant where
+    the block stands still; over a long motion it thins out (to 500,000 instants), the events and the extremes never do.
     """
-    step = max(min(motion.system.forcing.period, 1.0) / SAMPLES_PER_TIME, (stop - start) / MOST_SAMPLES)
-    grid = np.linspace(start, stop, math.ceil((stop - start) / step) + 1)
     peaks, events = inside(motion.peaks, start, stop), inside(motion.events, start, stop)
-    smooth = np.union1d(grid, peaks["time"])
+    smooth = np.union1d(_grid(motion, start, stop, events["time"]), peaks["time"])
     angle, velocity = motion.at(smooth)
     arrivals = events[events["time"] > start]
     time = np.concatenate([arrivals["time"], smooth, events["time"]])
@@ -72,6 +77,21 @@ def trace(motion: Motion, start: float, stop: float) -> tuple[NDArray, NDArray, 
     angles = np.concatenate([arrivals["angle"], angle, events["angle"]])
     velocities = np.concatenate([arrivals["before"], velocity, events["after"]])
     return time[order], angles[order], velocities[order]
+
+
+def _grid(motion: Motion, start: float, stop: float, events: NDArray) -> NDArray:
+    """The ends, and equal steps inside every arc between two events on which the block moves."""
+    ends = np.unique(np.concatenate([[start], events, [stop]]))
+    lengths, middles = np.diff(ends), (ends[1:] + ends[:-1]) / 2
+    moves = (motion.at(middles)[1] != 0) | (motion.acceleration(middles) != 0)
+    finest = min(
+        min(motion.system.forcing.period, 1.0) / SAMPLES_PER_TIME, (stop - start) / SAMPLES_PER_PICTURE
+    )
+    step = max(finest, float(lengths[moves].sum()) / MOST_SAMPLES)
+    steps = np.where(moves, np.ceil(lengths / step), 1).astype(int)
+    arc = np.repeat(np.arange(len(steps)), steps - 1)
+    number = 1 + np.arange(len(arc)) - np.repeat(np.cumsum(steps - 1) - (steps - 1), steps - 1)
+    return np.concatenate([[start, stop], ends[arc] + number / steps[arc] * lengths[arc]])
 
 
 def inside(records: NDArray, start: float, stop: float) -> NDArray:
