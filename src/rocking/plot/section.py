@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 from matplotlib.axes import Axes
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from rocking.model import Block, reals, refusal, whole, within
 from rocking.motion import Motion
@@ -15,7 +15,7 @@ LARGEST_PHASE = 1000.0
 
 
 def section(
-    result: Motion | NDArray,
+    result: Motion | ArrayLike,
     ax: Axes | None = None,
     block: Block | None = None,
     phase: float | None = None,

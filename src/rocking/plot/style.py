@@ -100,7 +100,7 @@ def key(ax: Axes) -> None:
         handletextpad=0.2,
         columnspacing=1.2,
     )
-    for mark in legend.legend_handles:
+    for mark in legend.get_lines():
         mark.set(markersize=MARK, markeredgewidth=0.8)
 
 
