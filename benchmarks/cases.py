@@ -11,6 +11,7 @@ class Case(NamedTuple):
     amplitude: float
     period: float
     restitution: float
+    tangent_cycles: int  # in so many a tangent grows or fades by no more than e^650, a number still
 
     @property
     def frequency(self):
@@ -26,9 +27,9 @@ class Point(NamedTuple):
 
 
 CASES = (
-    Case("(1,1)  A=2 T=1 e=.925", 2.0, 1.0, 0.925),
-    Case("(1,3)  A=6.5 T=.4 e=.925", 6.5, 0.4, 0.925),
-    Case("chaos  A=10.103 T=1.721 e=.8", 10.103037, 1.721328, 0.8),
+    Case("(1,1)  A=2 T=1 e=.925", 2.0, 1.0, 0.925, 4_000),
+    Case("(1,3)  A=6.5 T=.4 e=.925", 6.5, 0.4, 0.925, 12_000),
+    Case("chaos  A=10.103 T=1.721 e=.8", 10.103037, 1.721328, 0.8, 5_000),
 )
 
 

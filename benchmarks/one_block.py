@@ -16,7 +16,7 @@ from rocking import Harmonic, State, System, simulate
 from rocking.kernels import march as kernel
 from rocking.kernels.parameters import harmonic_parameters
 
-CYCLES_OF_THE_KERNEL = 20_000
+CYCLES_OF_THE_KERNEL = 60_000
 CYCLES_OF_A_THREAD = 200_000
 CYCLES_OF_HEYOKA = 2_000
 CYCLES_OF_SCIPY = 30
@@ -35,7 +35,7 @@ def march(case, cycles):
     section, events, growth = np.empty((0, 2)), np.empty((0, 8)), np.empty(0)
     while progress.cycle < cycles:
         # The tangent begins anew every so often: it neither overflows nor fades into subnormal numbers.
-        tangent, until = np.eye(2), min(cycles, progress.cycle + 1000)
+        tangent, until = np.eye(2), min(cycles, progress.cycle + case.tangent_cycles)
         _, progress, _, _ = kernel.march(p, progress, until, 0.0, section, events, tangent, growth, False)
     arc = progress.arc
     return progress.impacts, Point(cycles * case.period, arc.side * arc.angle, arc.side * arc.velocity)

@@ -100,31 +100,43 @@ def unbroken_until(p, arc, t):
 
 
 @njit(**INLINED)
+def close(p, now):
+    """Whether the zero of u is so near that one step of the series reaches it."""
+    u, v = now.angle, now.velocity
+    bend = abs(u * (u + forcing_term(p, now.cosine)))
+    return abs(u) * max(1.0, p.frequency) < -SMALL * v and bend < SMALL * v * v
+
+
+@njit(**INLINED)
+def stride(p, now, t):
+    """A step towards the zero of u from further off, at time t."""
+    u, v = now.angle, now.velocity
+    f = forcing_term(p, now.cosine)
+    fall = u + f
+    if v < 0.0 and abs(u * fall) < NEAR * v * v:
+        return step_to_zero(u, v, (f, *forcing_rates(p, now.cosine, now.sine)))
+    under = v * v - 2.0 * u * fall
+    if fall < 0.0 and under > 0.0:
+        return (v + math.sqrt(under)) / -fall  # where the parabola comes down
+    return -u / v if v < 0.0 else t  # pushed up: wait
+
+
+@njit(**INLINED)
 def likely_impact(p, arc, guess):
     """(certain, time, instant) of the first impact of an arc off the base, from a guess of its time."""
     t = guess
-    scale = SMALL / max(1.0, p.frequency)
-    for _ in range(TRIES):
+    now = evaluate(p, arc, t)
+    tries = 0
+    while not close(p, now):
+        t += stride(p, now, t)
+        tries += 1
+        if not t > 0.0 or tries > TRIES:
+            return False, t, now
         now = evaluate(p, arc, t)
-        u, v = now.angle, now.velocity
-        f = forcing_term(p, now.cosine)
-        fall = u + f
-        bend = abs(u * fall)
-        rates = forcing_rates(p, now.cosine, now.sine)
-        if abs(u) < -scale * v and bend < SMALL * v * v:
-            y, correction = reversion(u, v, (f, *rates))
-            step = y * correction
-            t += step
-            return t > 0.0 and unbroken_until(p, arc, t), t, advance(p, now, step)
-        if v < 0.0 and bend < NEAR * v * v:
-            step = step_to_zero(u, v, (f, *rates))
-        elif fall < 0.0 and v * v - 2.0 * u * fall > 0.0:
-            step = (v + math.sqrt(v * v - 2.0 * u * fall)) / -fall  # where the parabola comes down
-        elif v < 0.0:
-            step = -u / v
-        else:
-            step = t  # pushed up: wait
-        t += step
-        if not t > 0.0:
-            break
+    forcing = (forcing_term(p, now.cosine), *forcing_rates(p, now.cosine, now.sine))
+    y, correction = reversion(now.angle, now.velocity, forcing)
+    step = y * correction
+    t += step
+    if t > 0.0 and unbroken_until(p, arc, t):
+        return True, t, advance(p, now, step)
     return False, t, now

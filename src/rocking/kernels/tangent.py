@@ -12,7 +12,7 @@ from typing import NamedTuple
 from numba import njit
 
 from .elementary import COMPILED, INLINED, hyperbolic
-from .events import BRACE, FLIGHT, IMPACT, LEAVE, LIFT_OFF, NONE
+from .events import BRACE, FLIGHT, IMPACT, LEAVE, NONE
 from .harmonic import forcing_term, sensitivities
 
 TANGENT = 2
@@ -78,19 +78,23 @@ def event_map(p, arc, coming, mode_after, side_after):
 
     Rest, leaning, lift-off and leaving forget: (0, 0).
     """
-    if mode_after != FLIGHT or coming.event == LIFT_OFF or coming.event == LEAVE:
+    if mode_after != FLIGHT:
         return 0.0, 0.0
-    if coming.event == NONE:
-        return 1.0, 0.0
-    velocity = arc.side * coming.velocity
     if coming.event == IMPACT:
-        factor = p.restitution
         pull = arc.side * (1.0 + forcing_term(p, coming.cosine))
-        before, after = pull - arc.side, pull - side_after
-    else:
-        factor = -p.brace_restitution
-        before = after = arc.side * (p.brace_angle + forcing_term(p, coming.cosine))
-    return factor, (after - factor * before) / velocity if velocity != 0.0 else 0.0
+        gained = (pull - side_after) - p.restitution * (pull - arc.side)
+        return p.restitution, shear_of(gained, arc.side * coming.velocity)
+    if coming.event == BRACE:
+        r = p.brace_restitution
+        gained = (1.0 + r) * (p.brace_angle + forcing_term(p, coming.cosine))
+        return -r, shear_of(gained, coming.velocity)
+    return (1.0 if coming.event == NONE else 0.0), 0.0
+
+
+@njit(**INLINED)
+def shear_of(gained, velocity):
+    """What an event adds to delta Theta' for each delta Theta: it comes so much later; none where it only touches."""
+    return gained / velocity if velocity != 0.0 else 0.0
 
 
 @njit(**INLINED)
