@@ -26,17 +26,7 @@ from .events import (
     stays_leaning,
 )
 from .impact import after_event
-from .tangent import (
-    TANGENT,
-    Tangent,
-    along,
-    carry_arc,
-    carry_event,
-    event_map,
-    read_tangent,
-    through,
-    write_tangent,
-)
+from .tangent import TANGENT, Tangent, carried, carry_arc, carry_rows, read_tangent, write_tangent
 
 MOST_EVENTS = 10_000_000
 # Compiled code cannot be interrupted: it comes up for air after this many events.
@@ -166,6 +156,15 @@ def note(events, count, cycle, mode, arc, event, before):
 
 
 @njit(**COMPILED)
+def note_event(events, count, cycle, mode, arc, event, before):
+    """Write an event; rest or leaning that begins with it is an event of its own at the same instant."""
+    count = note(events, count, cycle, mode, arc, event, before)
+    if mode == FLIGHT:
+        return count
+    return note(events, count, cycle, mode, arc, RESTS if mode == REST else LEANS, 0.0)
+
+
+@njit(**COMPILED)
 def finish(p, reached, coming, columns, growth, want_peak):
     """(status, progress) at the end of a march: differences, peak and arc are brought there.
 
@@ -244,21 +243,16 @@ def march_plain(p, progress, cycles, section_time, section, events, columns, gro
         quiet = (cycles - cycle) * p.period - at if hasty else 0.0
         mode_after, after = after_event(p, arc, at, coming, quiet)
         if light:
-            if mode == FLIGHT:
-                tangent = along(tangent, coming.sinh, coming.versinh)
-            tangent = through(tangent, event_map(p, arc, coming, mode_after, after.side))
+            tangent = carried(p, tangent, mode, arc, coming, mode_after, after.side)
         elif columns.shape[0] > 0:
-            if mode == FLIGHT:
-                carry_arc(p, arc, columns, growth, coming.wait, cycle * p.period + arc.start)
-            carry_event(p, arc, coming, mode_after, after.side, columns, growth)
+            elapsed = cycle * p.period + arc.start
+            carry_rows(p, columns, growth, mode, arc, coming, mode_after, after.side, elapsed)
         before = arc.side * coming.velocity
         mode, arc = mode_after, after
         if impacts & RESYNCHRONISE == 0:
             arc = arc_from(p, arc.side, arc.start, arc.angle, arc.velocity)
         if events.shape[0] > 0:
-            written = note(events, written, cycle, mode, arc, coming.event, before)
-            if mode != FLIGHT:
-                written = note(events, written, cycle, mode, arc, RESTS if mode == REST else LEANS, 0.0)
+            written = note_event(events, written, cycle, mode, arc, coming.event, before)
     if light:
         write_tangent(columns, tangent)
     reached = Progress(

@@ -98,6 +98,14 @@ def shear_of(gained, velocity):
 
 
 @njit(**INLINED)
+def carried(p, tangent, mode, arc, coming, mode_after, side_after):
+    """The tangent along an arc (at rest and leaning it stays) and through the event that ends it."""
+    if mode == FLIGHT:
+        tangent = along(tangent, coming.sinh, coming.versinh)
+    return through(tangent, event_map(p, arc, coming, mode_after, side_after))
+
+
+@njit(**INLINED)
 def map_rows(columns, aa, ab, ba, bb):
     """Every row by one matrix."""
     for k in range(columns.shape[0]):
@@ -124,8 +132,10 @@ def carry_arc(p, arc, columns, growth, t, elapsed):
 
 
 @njit(**COMPILED)
-def carry_event(p, arc, coming, mode_after, side_after, columns, growth):
-    """All rows through an event, with what the restitutions and the place of the brace add."""
+def carry_rows(p, columns, growth, mode, arc, coming, mode_after, side_after, elapsed):
+    """All rows along an arc and through its event, with what the restitutions and the place of the brace add."""
+    if mode == FLIGHT:
+        carry_arc(p, arc, columns, growth, coming.wait, elapsed)
     factor, shear = event_map(p, arc, coming, mode_after, side_after)
     side, velocity = arc.side, arc.side * coming.velocity
     extra = columns.shape[0] == SENSITIVITIES

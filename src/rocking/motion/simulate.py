@@ -82,10 +82,10 @@ def simulate(system: System, start: State | None = None, cycles: int = 200, reco
 def _first_rows(progress: Any, start: State, hit: bool) -> np.ndarray:
     """What the motion begins with: its first arc, after a hit on a brace (and leaning there) where it starts with one."""
     rows = np.empty((2, 8))
-    arc = progress.arc
-    count = kernel.note(rows, 0, 0, progress.mode, arc, events.BRACE if hit else events.NONE, start.velocity)
-    if hit and progress.mode == events.LEAN:
-        count = kernel.note(rows, count, 0, progress.mode, arc, events.LEANS, 0.0)
+    if hit:
+        count = kernel.note_event(rows, 0, 0, progress.mode, progress.arc, events.BRACE, start.velocity)
+    else:
+        count = kernel.note(rows, 0, 0, progress.mode, progress.arc, events.NONE, start.velocity)
     return rows[:count]
 
 
