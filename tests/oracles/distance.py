@@ -122,9 +122,9 @@ class Distance:
         if not self.p > AMBIGUOUS * self.growth_size:
             return False
         grow = time.exp()
-        return self.p * grow > abs(self.q) / grow + abs(self.k) + abs(self.d) + AMBIGUOUS * self.size_bound(
-            time
-        )
+        wave = self.with_p * 2 + self.with_q * (1 + self.frequency * time)
+        terms = self.growth_size * grow + self.constant + self.with_cosh + wave / (1 + self.frequency**2)
+        return self.p * grow > abs(self.q) / grow + abs(self.k) + abs(self.d) + AMBIGUOUS * terms
 
     def knife_edge(self):
         """Whether the growing part is lost in rounding: then double precision cannot tell what comes last."""

@@ -2,10 +2,10 @@
 
 On side sigma = sign(Theta) work with u = sigma Theta >= 0: u'' - u = f = -1 - A cos eta. From (u0, v0) at eta0
 
-    u = u0 + v0 sinh t + (u0 - steady) (cosh t - 1) + G(t),
+    u = u0 + v0 sinh t + steady (cosh t - 1) + G(t),
 
-G the response from rest to all but a steady part of the press 1 + A cos eta (``harmonic.respond``). The
-exponential form u = c+ e^t + c- e^-t + 1 + beta cos eta serves bounds.
+``steady`` a steady part of u0 - 1 - A cos eta, G the response from rest to the remainder (``harmonic.respond``).
+The exponential form u = c+ e^t + c- e^-t + 1 + beta cos eta serves bounds.
 """
 
 from typing import NamedTuple
@@ -28,7 +28,7 @@ class Arc(NamedTuple):
     cosine: float
     sine: float
     psi: float
-    press: float  # 1 + A cos eta: how hard the block is pressed back at u = 0
+    pull: float  # u''
 
 
 class Instant(NamedTuple):
@@ -46,21 +46,21 @@ class Instant(NamedTuple):
 @njit(**INLINED)
 def arc_from(p, side, start, angle, velocity):
     """The arc that leaves (u, u') = (angle, velocity) on ``side`` at time ``start`` within the cycle."""
-    cosine, sine, psi, press = begin(p, side, start)
-    return Arc(side, start, angle, velocity, cosine, sine, psi, press)
+    cosine, sine, psi, pull = begin(p, side, start, angle)
+    return Arc(side, start, angle, velocity, cosine, sine, psi, pull)
 
 
 @njit(**INLINED)
 def arc_after(p, side, start, velocity, cosine, sine):
     """The arc that leaves the base on ``side``, where the forcing there is known already."""
-    press = -forcing_term(p, cosine)
-    return Arc(side, start, 0.0, velocity, cosine, sine, p.frequency * start + p.phase, press)
+    pull = forcing_term(p, cosine)
+    return Arc(side, start, 0.0, velocity, cosine, sine, p.frequency * start + p.phase, pull)
 
 
 @njit(**INLINED)
 def earlier(arc, time):
     """The same arc as seen from ``time`` later: its start lies so much earlier."""
-    return Arc(arc.side, arc.start - time, arc.angle, arc.velocity, arc.cosine, arc.sine, arc.psi, arc.press)
+    return Arc(arc.side, arc.start - time, arc.angle, arc.velocity, arc.cosine, arc.sine, arc.psi, arc.pull)
 
 
 @njit(**INLINED)
@@ -68,11 +68,10 @@ def evaluate(p, arc, t):
     """The arc a time t >= 0 after its start: eq. (5)."""
     sinh, versinh, excess, higher = hyperbolic(t)
     steady, displaced, moved, cosine, sine = respond(
-        p, arc.cosine, arc.sine, arc.press, t, sinh, versinh, excess, higher
+        p, arc.cosine, arc.sine, arc.angle - 1.0, arc.pull, t, sinh, versinh, excess, higher
     )
-    pull = arc.angle - steady
-    risen = arc.velocity * sinh + pull * versinh + displaced
-    velocity = arc.velocity + (arc.velocity * versinh + pull * sinh + moved)
+    risen = arc.velocity * sinh + steady * versinh + displaced
+    velocity = arc.velocity + (arc.velocity * versinh + steady * sinh + moved)
     return Instant(arc.angle + risen, risen, velocity, cosine, sine, sinh, versinh)
 
 

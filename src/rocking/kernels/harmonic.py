@@ -16,16 +16,17 @@ TURN = 2.0 * math.pi
 
 
 @njit(**INLINED)
-def begin(p, side, time):
-    """(cosine, sine, psi, 1 + A cosine) at a time within the cycle; the last exact however close to 0."""
+def begin(p, side, time, angle):
+    """(cosine, sine, psi, pull) at a time within the cycle; pull = u - 1 - A cosine = u'', exact however close to 0."""
     psi = p.frequency * time + p.phase
     sine, cosine, versine, exact = direction(psi)
     cosine *= side
-    press = fma(p.amplitude, cosine, 1.0)
+    above = angle - 1.0
+    pull = fma(-p.amplitude, cosine, above)
     if exact:
         most = math.copysign(p.amplitude, cosine)
-        press = fma(-most, versine, 1.0 + most)
-    return cosine, side * sine, psi, press
+        pull = fma(most, versine, above - most)
+    return cosine, side * sine, psi, pull
 
 
 @njit(**INLINED)
@@ -41,21 +42,22 @@ def forcing_rates(p, cosine, sine):
 
 
 @njit(**INLINED)
-def respond(p, cosine, sine, press, t, sinh, versinh, excess, higher):
-    """(steady, G, G', cos eta, sin eta) a time t later: the press is split into a steady one and a rest, which moves u by G.
+def respond(p, cosine, sine, above, pull, t, sinh, versinh, excess, higher):
+    """(steady, G, G', cos eta, sin eta) a time t later: u'' - u is split into a steady part and a rest, which moves u by G.
 
-    G'' - G = steady - (1 + A cos eta), G = G' = 0 at t = 0. Within a third of a turn ``steady`` is the press at
-    the start, later 1: either way G is made of two sums of positive functions, and no larger parts cancel.
+    G'' - G = u0 - 1 - A cos eta - steady, G = G' = 0 at t = 0. Within a third of a turn ``steady`` is the ``pull`` at
+    the start, later u0 - 1 (``above``): either way G is made of sums of positive functions, and no larger parts
+    cancel.
     """
     sin_x, versine, lag, deficit = circular(p.frequency, t)
     in_phase = versinh + versine
     lateness = p.frequency * excess + lag
     if p.frequency * t < SHORT:
-        steady = press
+        steady = pull
         place = -(p.frequency * p.frequency * higher + deficit)
         rate = -p.frequency * lateness
     else:
-        steady, place, rate = 1.0, in_phase, sinh + p.frequency * sin_x
+        steady, place, rate = above, in_phase, sinh + p.frequency * sin_x
     displaced = p.response * (sine * lateness - cosine * place)
     moved = p.response * (p.frequency * sine * in_phase - cosine * rate)
     return (

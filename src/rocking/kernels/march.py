@@ -78,7 +78,7 @@ def plain(progress):
     return (
         progress.mode,
         progress.cycle,
-        (arc.side, arc.start, arc.angle, arc.velocity, arc.cosine, arc.sine, arc.psi, arc.press),
+        (arc.side, arc.start, arc.angle, arc.velocity, arc.cosine, arc.sine, arc.psi, arc.pull),
         progress.pending,
         progress.crowd,
         progress.impacts,
