@@ -153,6 +153,16 @@ def exponents(case, cycles):
     return growth / time, 2.0 * loss / time, progress
 
 
+FIGURE_13A = dict(
+    amplitude=15.0,
+    frequency=math.pi,
+    phase=0.0,
+    restitution=0.925,
+    brace_angle=1.0,
+    brace_restitution=1.0,
+    angle=0.0,
+    velocity=0.0,
+)
 SUM_RULE = {
     "figure 2a": (dict(BASE, angle=0.0, velocity=0.0, phase=0.0), 2000),
     "figure 2b": (
@@ -176,32 +186,8 @@ SUM_RULE = {
         ),
         3000,
     ),
-    "figure 13a": (
-        dict(
-            amplitude=15.0,
-            frequency=math.pi,
-            phase=0.0,
-            restitution=0.925,
-            brace_angle=1.0,
-            brace_restitution=1.0,
-            angle=0.0,
-            velocity=0.0,
-        ),
-        3000,
-    ),
-    "lossy braces": (
-        dict(
-            amplitude=15.0,
-            frequency=math.pi,
-            phase=0.0,
-            restitution=0.925,
-            brace_angle=1.0,
-            brace_restitution=0.7,
-            angle=0.0,
-            velocity=0.0,
-        ),
-        3000,
-    ),
+    "figure 13a": (FIGURE_13A, 3000),
+    "lossy braces": ({**FIGURE_13A, "brace_restitution": 0.7}, 3000),
 }
 
 
