@@ -3,7 +3,7 @@
 import math
 
 from rocking.kernels import events
-from rocking.kernels.arc import arc_from
+from rocking.kernels.arc import arc_from, recall
 from rocking.kernels.parameters import harmonic_parameters
 
 KINDS = {events.IMPACT: "base", events.BRACE: "brace"}
@@ -20,7 +20,7 @@ def first_event(arc, guess=None):
         if guess is None:
             coming = events.any_event(system, events.FLIGHT, flight)
         else:
-            coming = events.next_event(system, events.FLIGHT, flight, guess)
+            coming, _ = events.next_event(system, events.FLIGHT, flight, recall(system, guess))
         if coming.event in KINDS:
             return KINDS[coming.event], elapsed + coming.wait, coming.velocity
         if coming.wait == math.inf:

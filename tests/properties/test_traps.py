@@ -7,6 +7,9 @@ import pytest
 
 import rocking as rk
 from oracles.motion import simulate as brute_force
+from rocking.kernels import events
+from rocking.kernels.arc import arc_from
+from rocking.kernels.parameters import harmonic_parameters
 
 
 def _case(A, T, e, N, phi=0.0, start=(0.0, 0.0), brace=None, r=None):
@@ -73,6 +76,35 @@ def test_lift_off_is_exact_not_a_nudge_of_the_clock(phase, start):
     exact = brute_force(case)
     assert (exact.counts["lift-off"] > 0) == (start == "after a wait")
     assert _error(_motion(case), exact) <= 1e-15 * max(1.0, exact.growth)
+
+
+@pytest.mark.parametrize("amplitude", [2.5, 5.0, 20.0])
+@pytest.mark.parametrize("ulps", range(-4, 5))
+def test_rest_at_the_very_end_of_a_push_is_rest(amplitude, ulps):
+    """From rest as f turns negative, to the last digits: a cut rounded to no time at all once let the block fall through the base."""
+    end = -math.acos(-1.0 / amplitude)
+    phase = end + ulps * math.ulp(end)
+    motion = _motion(_case(amplitude, 1.0, 0.5, 1, phi=phase))
+    later = _motion(_case(amplitude, 1.0, 0.5, 1, phi=end + 1e-9))
+    assert abs(motion.final.angle - later.final.angle) < 1e-7
+    assert abs(motion.final.velocity - later.final.velocity) < 1e-7
+
+
+def test_who_comes_back_to_a_brace_before_the_clock_has_moved_waits_for_the_next_release():
+    """It left at the very end of a release: leaving again at once, it would hit and leave for ever at one instant."""
+    amplitude, period, phase, start = (
+        0.5000000004857583,
+        2.8376377022183688,
+        -5.648354866652905,
+        2.550952904326416,
+    )
+    p = harmonic_parameters(amplitude, 2.0 * math.pi / period, period, phase, 0.5, 1.5, 0.0)
+    arc = arc_from(p, 1, start, 1.5, 0.0)
+    assert not events.stays_leaning(p, 1, arc.psi)
+    coming = events.any_event(p, events.FLIGHT, arc)
+    assert coming.event == events.BRACE
+    assert start + coming.wait == start
+    assert events.any_event(p, events.LEAN, arc).wait > 0.99 * period
 
 
 @pytest.mark.parametrize("amplitude", [0.0, 0.5, 0.9, 1.0])

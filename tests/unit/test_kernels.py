@@ -1,7 +1,9 @@
 """The compiled part keeps its promises: fresh machine code after every edit, no allocation per event, the state renewed without a trace."""
 
+import importlib
 import math
 import os
+import pkgutil
 import shutil
 import subprocess
 import sys
@@ -11,7 +13,10 @@ import mpmath
 import numba
 import numpy as np
 import pytest
+from numba.core.caching import FunctionCache
+from numba.core.dispatcher import Dispatcher
 
+from rocking import kernels
 from rocking.kernels import elementary, events, parameters
 from rocking.kernels import march as kernel
 
@@ -55,6 +60,17 @@ def test_an_edit_in_a_called_function_is_seen_at_the_next_start(tmp_path):
     assert edited != text
     callee.write_text(edited)
     assert abs(run() - before) > 1e-3
+
+
+def test_nothing_compiled_calls_what_is_kept_on_disk():
+    """Else its speed and its last digits would depend on what this machine compiled first."""
+    rooms = pkgutil.iter_modules(kernels.__path__, "rocking.kernels.")
+    found = [value for room in rooms for value in vars(importlib.import_module(room.name)).values()]
+    compiled = {kernel.py_func: kernel for kernel in found if isinstance(kernel, Dispatcher)}
+    kept = [kernel for kernel in compiled.values() if isinstance(kernel._cache, FunctionCache)]
+    called = {id(python.__globals__.get(name)) for python in compiled for name in python.__code__.co_names}
+    assert len(kept) >= 5
+    assert [kernel.py_func.__name__ for kernel in kept if id(kernel) in called] == []
 
 
 def test_other_compiled_code_of_the_process_keeps_its_own_cache_folder():

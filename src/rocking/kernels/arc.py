@@ -12,8 +12,8 @@ from typing import NamedTuple
 
 from numba import njit
 
-from .elementary import INLINED, hyperbolic
-from .harmonic import begin, forcing_term, particular, respond
+from .elementary import COMPILED, INLINED, INNER, hyperbolic
+from .harmonic import Swing, begin, forcing_term, particular, respond, swing
 
 ROUNDING = 2.0**-53
 
@@ -43,6 +43,15 @@ class Instant(NamedTuple):
     versinh: float  # cosh t - 1
 
 
+class Lapse(NamedTuple):
+    """A time, and what carries an arc on by it: the same for every arc, so that a motion which repeats itself needs it but once."""
+
+    time: float
+    sinh: float
+    versinh: float
+    swing: Swing
+
+
 @njit(**INLINED)
 def arc_from(p, side, start, angle, velocity):
     """The arc that leaves (u, u') = (angle, velocity) on ``side`` at time ``start`` within the cycle."""
@@ -50,38 +59,57 @@ def arc_from(p, side, start, angle, velocity):
     return Arc(side, start, angle, velocity, cosine, sine, psi, pull)
 
 
-@njit(**INLINED)
+@njit(**INNER)
 def arc_after(p, side, start, velocity, cosine, sine):
     """The arc that leaves the base on ``side``, where the forcing there is known already."""
     pull = forcing_term(p, cosine)
     return Arc(side, start, 0.0, velocity, cosine, sine, p.frequency * start + p.phase, pull)
 
 
-@njit(**INLINED)
+@njit(**INNER)
 def earlier(arc, time):
     """The same arc as seen from ``time`` later: its start lies so much earlier."""
     return Arc(arc.side, arc.start - time, arc.angle, arc.velocity, arc.cosine, arc.sine, arc.psi, arc.pull)
 
 
-@njit(**INLINED)
-def evaluate(p, arc, t):
-    """The arc a time t >= 0 after its start: eq. (5)."""
+@njit(**INNER)
+def lapse_of(p, t):
+    """The lapse of a time t >= 0."""
     sinh, versinh, excess, higher = hyperbolic(t)
+    return Lapse(t, sinh, versinh, swing(p, t, sinh, versinh, excess, higher))
+
+
+@njit(**COMPILED)
+def recall(p, t):
+    """``lapse_of`` where it is rarely needed."""
+    return lapse_of(p, t)
+
+
+@njit(**INNER)
+def evaluate(p, arc, t):
+    """The arc a time t >= 0 after its start."""
+    return after(p, arc, lapse_of(p, t))
+
+
+@njit(**INNER)
+def after(p, arc, lapse):
+    """The arc a lapse after its start: eq. (5)."""
+    _, sinh, versinh, swing = lapse
     steady, displaced, moved, cosine, sine = respond(
-        p, arc.cosine, arc.sine, arc.angle - 1.0, arc.pull, t, sinh, versinh, excess, higher
+        p, arc.cosine, arc.sine, arc.angle - 1.0, arc.pull, swing
     )
     risen = arc.velocity * sinh + steady * versinh + displaced
     velocity = arc.velocity + (arc.velocity * versinh + steady * sinh + moved)
     return Instant(arc.angle + risen, risen, velocity, cosine, sine, sinh, versinh)
 
 
-@njit(**INLINED)
+@njit(**INNER)
 def within_reach(p, angle):
     """An angle as the base and the braces allow it: near an event rounding may put it beyond."""
     return min(max(angle, 0.0), p.brace_angle)
 
 
-@njit(**INLINED)
+@njit(**INNER)
 def exponentials(p, arc):
     """(c+, c-, a bound on the rounding error of either): u = c+ e^t + c- e^-t + 1 + beta cos eta."""
     place, rate = particular(p, arc.cosine, arc.sine)

@@ -19,7 +19,7 @@ from typing import NamedTuple
 from numba import njit
 
 from .arc import evaluate, exponentials
-from .elementary import COMPILED, INLINED
+from .elementary import COMPILED, INLINED, WITHIN
 from .harmonic import first_cut, forcing_rates, forcing_term, next_cut
 
 # An arc is renewed from its own state after this long: e^32 is where the closed form has used up double
@@ -62,13 +62,6 @@ def base_watch(p):
 def brace_watch(p):
     """The brace: w = brace_angle - u, f_w = 1 - brace_angle + A cos eta."""
     return Watch(p.brace_angle, -1.0, 0.0, 0.0, p.brace_half, p.brace_half < math.inf or p.brace_angle < 1.0)
-
-
-@njit(**INLINED)
-def turn_watch(p, sign):
-    """A turn of the motion: w = sign u', f_w = sign A Omega sin eta."""
-    half = 0.5 * math.pi if p.amplitude > 0.0 else math.inf
-    return Watch(0.0, 0.0, sign, sign * 0.5 * math.pi, half, p.amplitude > 0.0)
 
 
 @njit(**INLINED)
@@ -115,7 +108,7 @@ def step_to_zero(w, dw, forcing):
     return y * correction if 0.5 < correction < 2.0 else y
 
 
-@njit(**COMPILED)
+@njit(**WITHIN)
 def refine(p, arc, watch, low, high, t):
     """(time, instant) of the one zero in [low, high], w > 0 just after low and w <= 0 at high, from the guess t."""
     now = evaluate(p, arc, t)
@@ -137,7 +130,7 @@ def refine(p, arc, watch, low, high, t):
     return t, now
 
 
-@njit(**COMPILED)
+@njit(**WITHIN)
 def dip(p, arc, watch, left, w, dw, right, w_right, dw_right):
     """A time in a convex stretch at which w <= 0, or infinity where w stays positive; w > 0 at both ends.
 
@@ -177,7 +170,7 @@ def first_guess(p, watch, now, w, dw, low, high):
     return low - hop / f if w == 0.0 and hop > 0.0 and hop < -f * (middle - low) else middle
 
 
-@njit(**COMPILED)
+@njit(**WITHIN)
 def clear_until(p, arc, watch, t):
     """How long w certainly stays positive from t on: t where nothing is certain, infinity for ever.
 
@@ -208,7 +201,7 @@ def clear_until(p, arc, watch, t):
     return max(t, math.log(nearest) * (1.0 - 1e-12)) if nearest < math.inf else math.inf
 
 
-@njit(**COMPILED)
+@njit(**WITHIN)
 def no_return_time(p, arc):
     """When an arc that never comes back first proves it: c+ e^t - |c-| e^-t + 1 - beta > 0 from then on."""
     grow, shrink, _ = exponentials(p, arc)
@@ -268,11 +261,3 @@ def first_zero(p, arc, watch, t, limit):
                 cut += cycles
                 now = evaluate(p, arc, t)
                 w, dw = watched(p, arc, watch, now)
-
-
-@njit(**COMPILED)
-def first_turn_sign(p, arc):
-    """The sign of u' just after an arc's start; positive where all of u', u'' vanish (lift-off)."""
-    if arc.velocity != 0.0:
-        return math.copysign(1.0, arc.velocity)
-    return -1.0 if arc.angle + forcing_term(p, arc.cosine) < 0.0 else 1.0

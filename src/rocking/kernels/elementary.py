@@ -11,8 +11,19 @@ import numpy as np
 from numba import njit, types
 from numba.extending import intrinsic
 
-COMPILED = dict(nogil=True, cache=True, error_model="numpy", fastmath={"contract", "nsz"})
+COMPILED = dict(nogil=True, error_model="numpy", fastmath={"contract", "nsz"}, no_cfunc_wrapper=True)
+# What Python calls is kept on disk, whole, with all that it calls; and nothing else is: a part that lies compiled on
+# disk can no longer be written into its callers, which would then be slower and round otherwise, depending on what this
+# machine compiled first. So nothing compiled calls a function of this kind.
+ENTRY = dict(COMPILED, cache=True)
+# What only kernels call needs no way in from Python, which takes as long to compile as the function itself. Called from
+# Python it would end the process.
+WITHIN = dict(COMPILED, no_cpython_wrapper=True)
 INLINED = dict(COMPILED, forceinline=True)
+INNER = dict(WITHIN, forceinline=True)
+# The compiler optimises what a function calls once more with every caller. Where a short function is all there is
+# between a caller and the march, it is written into the caller first.
+WRITTEN_IN = dict(WITHIN, inline="always")
 
 # Coefficients by increasing power of the squared argument: 1/3!, 1/5!, ... and 1/4!, 1/6!, ...; the first
 # dropped term is below 2**-55 of the sum at 2.

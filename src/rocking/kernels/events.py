@@ -6,9 +6,9 @@ from typing import NamedTuple
 
 from numba import njit
 
-from .arc import evaluate
+from .arc import evaluate, recall
 from .crossing import CROSSING, LONGEST, NEVER, base_watch, brace_watch, first_zero
-from .elementary import COMPILED, INLINED
+from .elementary import COMPILED, INLINED, WITHIN
 from .harmonic import first_cut, next_cut
 from .shortcut import likely_impact
 
@@ -59,7 +59,8 @@ class Next(NamedTuple):
 def until_window(p, side, psi, half, inside):
     """Time until eta next enters |eta| < half (``inside``) or leaves it: 0 in the first half of that window.
 
-    Who is still held in the second half of a window, by rounding at its very end, waits for the next.
+    Who is still held in the second half of a window, having come back at its very end before the clock moved, waits
+    for the next.
     """
     cut, now_inside = first_cut(p, side, psi, 0.0, half)
     if now_inside != inside:
@@ -67,7 +68,7 @@ def until_window(p, side, psi, half, inside):
     return 0.0 if cut > 0.5 * next_cut(p, half, inside) else cut + next_cut(p, half, not inside)
 
 
-@njit(**COMPILED)
+@njit(**WITHIN)
 def wait_at_rest(p, psi):
     """(time until |A cos psi| rises through 1, side of the lift-off); infinite for A <= 1."""
     if p.base_half == math.inf:
@@ -77,7 +78,7 @@ def wait_at_rest(p, psi):
     return (right, 1) if right < left else (left, -1)
 
 
-@njit(**COMPILED)
+@njit(**WITHIN)
 def wait_leaning(p, side, psi):
     """Time until the brace is no longer pressed, brace_angle + f falling through 0; infinite where it always is."""
     if p.brace_half == math.inf:
@@ -85,7 +86,7 @@ def wait_leaning(p, side, psi):
     return until_window(p, side, psi, p.brace_half, True)
 
 
-@njit(**COMPILED)
+@njit(**WITHIN)
 def side_to_lift(p, psi):
     """The side to which a block standing still at the base lifts now: where f > 0; 0 where it stays."""
     if p.base_half < math.inf:
@@ -105,14 +106,20 @@ def stays_leaning(p, side, psi):
 
 @njit(**INLINED)
 def next_event(p, mode, arc, guess):
-    """What comes next, and when, from a guess of the coming impact; NONE after a finite wait only renews an arc grown long."""
-    if mode == FLIGHT and p.brace_angle == math.inf and arc.angle == 0.0 and arc.velocity > 0.0:
-        certain, t, now = likely_impact(p, arc, guess)
-        if certain:
-            return Next(
-                t, IMPACT, arc.side, now.angle, now.velocity, now.cosine, now.sine, now.sinh, now.versinh
-            )
-    return any_event(p, mode, arc)
+    """(what comes next and when, the lapse to guess from next time), from the lapse until the coming impact as it is guessed.
+
+    NONE after a finite wait only renews an arc grown long.
+    """
+    if mode == FLIGHT and p.brace_angle == math.inf and arc.velocity > 0.0:
+        if guess.time > 0.0:
+            certain, t, now, lapse = likely_impact(p, arc, guess)
+            if certain:
+                return Next(
+                    t, IMPACT, arc.side, now.angle, now.velocity, now.cosine, now.sine, now.sinh, now.versinh
+                ), lapse
+        coming = any_event(p, mode, arc)
+        return coming, recall(p, min(coming.wait, LONGEST))
+    return any_event(p, mode, arc), guess
 
 
 @njit(**COMPILED)

@@ -7,15 +7,28 @@ positive side and psi + pi on the negative one; (cosine, sine) are those of eta.
 """
 
 import math
+from typing import NamedTuple
 
 from numba import njit
 
-from .elementary import INLINED, SHORT, circular, direction, fma
+from .elementary import INNER, SHORT, circular, direction, fma
 
 TURN = 2.0 * math.pi
 
 
-@njit(**INLINED)
+class Swing(NamedTuple):
+    """What the forcing does to any arc within a time, for unit amplitude and each of cos eta, sin eta at its start."""
+
+    near: bool  # within a third of a turn
+    sin_x: float
+    versine: float
+    in_phase: float
+    lateness: float
+    place: float
+    rate: float
+
+
+@njit(**INNER)
 def begin(p, side, time, angle):
     """(cosine, sine, psi, pull) at a time within the cycle; pull = u - 1 - A cosine = u'', exact however close to 0."""
     psi = p.frequency * time + p.phase
@@ -29,39 +42,45 @@ def begin(p, side, time, angle):
     return cosine, side * sine, psi, pull
 
 
-@njit(**INLINED)
+@njit(**INNER)
 def forcing_term(p, cosine):
     """f = u'' - u = -1 - A cos eta on one side of the base: eq. (4)."""
     return -1.0 - p.amplitude * cosine
 
 
-@njit(**INLINED)
+@njit(**INNER)
 def forcing_rates(p, cosine, sine):
     """(f', f'') of ``forcing_term``; each higher derivative is -Omega**2 times the last but one."""
     return p.amplitude * p.frequency * sine, p.amplitude * p.frequency * p.frequency * cosine
 
 
-@njit(**INLINED)
-def respond(p, cosine, sine, above, pull, t, sinh, versinh, excess, higher):
-    """(steady, G, G', cos eta, sin eta) a time t later: u'' - u is split into a steady part and a rest, which moves u by G.
+@njit(**INNER)
+def swing(p, t, sinh, versinh, excess, higher):
+    """The swing of a time t."""
+    sin_x, versine, lag, deficit = circular(p.frequency, t)
+    in_phase = versinh + versine
+    lateness = p.frequency * excess + lag
+    near = p.frequency * t < SHORT
+    place, rate = in_phase, sinh + p.frequency * sin_x
+    if near:
+        place = -(p.frequency * p.frequency * higher + deficit)
+        rate = -p.frequency * lateness
+    return Swing(near, sin_x, versine, in_phase, lateness, place, rate)
+
+
+@njit(**INNER)
+def respond(p, cosine, sine, above, pull, swing):
+    """(steady, G, G', cos eta, sin eta) a time later: u'' - u is split into a steady part and a rest, which moves u by G.
 
     G'' - G = u0 - 1 - A cos eta - steady, G = G' = 0 at t = 0. Within a third of a turn ``steady`` is the ``pull`` at
     the start, later u0 - 1 (``above``): either way G is made of sums of positive functions, and no larger parts
     cancel.
     """
-    sin_x, versine, lag, deficit = circular(p.frequency, t)
-    in_phase = versinh + versine
-    lateness = p.frequency * excess + lag
-    if p.frequency * t < SHORT:
-        steady = pull
-        place = -(p.frequency * p.frequency * higher + deficit)
-        rate = -p.frequency * lateness
-    else:
-        steady, place, rate = above, in_phase, sinh + p.frequency * sin_x
+    near, sin_x, versine, in_phase, lateness, place, rate = swing
     displaced = p.response * (sine * lateness - cosine * place)
     moved = p.response * (p.frequency * sine * in_phase - cosine * rate)
     return (
-        steady,
+        pull if near else above,
         displaced,
         moved,
         cosine - (cosine * versine + sine * sin_x),
@@ -69,37 +88,39 @@ def respond(p, cosine, sine, above, pull, t, sinh, versinh, excess, higher):
     )
 
 
-@njit(**INLINED)
+@njit(**INNER)
 def particular(p, cosine, sine):
     """(beta cos eta, its derivative): the bounded particular solution of u'' - u = -A cos eta."""
     return p.response * cosine, -p.response * p.frequency * sine
 
 
-@njit(**INLINED)
+@njit(**INNER)
 def first_cut(p, side, psi, centre, half):
     """(time to the first eta = centre +- half at or after now, whether eta lies within half of the centre until then)."""
     zeta = psi - centre + half
     if side < 0:
         zeta += math.pi
     zeta -= TURN * math.floor(zeta * (1.0 / TURN))
+    if zeta >= TURN:
+        zeta = 0.0  # just before the first cut, rounded onto it: what follows it has begun
     inside = zeta < 2.0 * half
     return ((2.0 * half if inside else TURN) - zeta) * p.per_frequency, inside
 
 
-@njit(**INLINED)
+@njit(**INNER)
 def next_cut(p, half, inside):
     """Time from one cut to the next, ``inside`` telling the stretch between them."""
     return (2.0 * half if inside else TURN - 2.0 * half) * p.per_frequency
 
 
-@njit(**INLINED)
+@njit(**INNER)
 def drift(p, cosine, sine, time):
     """A bound on how far the base acceleration moves within the coming ``time``."""
     x = p.frequency * time
     return p.amplitude * (abs(sine) * x + 0.5 * x * x)
 
 
-@njit(**INLINED)
+@njit(**INNER)
 def sensitivities(p, cosine, sine, t, sinh, versinh, excess):
     """(F_A, F'_A, F_psi, F'_psi, F_Omega, F'_Omega): the response differentiated by amplitude, starting phase, frequency."""
     sin_x, versine, lag, _ = circular(p.frequency, t)

@@ -5,7 +5,7 @@ import math
 from numba import njit
 
 from .arc import arc_after, arc_from
-from .elementary import COMPILED, INLINED
+from .elementary import INLINED, WITHIN
 from .events import BRACE, FLIGHT, IMPACT, LEAN, LEAVE, LIFT_OFF, REST, side_to_lift, stays_leaning
 from .settling import base_settling_time, brace_settling_time
 
@@ -43,7 +43,7 @@ def after_impact(p, arc, time, coming, quiet):
     return mode, after
 
 
-@njit(**COMPILED)
+@njit(**WITHIN)
 def after_brace(p, arc, time, coming, quiet):
     """(mode, arc) after a hit on a brace."""
     speed = p.brace_restitution * max(coming.velocity, 0.0)

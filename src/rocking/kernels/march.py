@@ -10,27 +10,29 @@ from typing import NamedTuple
 
 from numba import njit
 
-from .arc import Arc, arc_from, earlier, evaluate, within_reach
-from .crossing import CROSSING, first_turn_sign, first_zero, no_return_time, turn_watch
-from .elementary import COMPILED, INLINED
+from .arc import Arc, arc_from, earlier, evaluate, recall, within_reach
+from .crossing import LONGEST, no_return_time
+from .elementary import ENTRY, INLINED, WITHIN
 from .events import (
     BRACE,
     FLIGHT,
     IMPACT,
     LEAN,
-    LEANS,
     REST,
-    RESTS,
     next_event,
     side_to_lift,
     stays_leaning,
 )
 from .impact import after_event
-from .tangent import TANGENT, Tangent, carried, carry_arc, carry_rows, read_tangent, write_tangent
+from .notes import note_event, note_state
+from .tangent import TANGENT, Tangent, carried, carry_arc, carry_rows, log_strain, read_tangent, write_tangent
+from .turning import arc_peak, peak_with
 
 MOST_EVENTS = 10_000_000
 # Compiled code cannot be interrupted: it comes up for air after this many events.
 BREATH = 2_000_000
+# Guesses of the first two waits where there are none.
+UNKNOWN = (0.0, 1.0)
 # From impact to impact the forcing is turned on with the arc; after this many (a power of two, less one) it
 # is taken from the clock anew.
 RESYNCHRONISE = 15
@@ -44,9 +46,10 @@ class Status(IntEnum):
     STILL = 2  # at rest, or leaning, for ever
     PAUSED = 3  # the event buffer is full, or it is time to look up: go on
     CROWDED = 4  # more than MOST_EVENTS events in one cycle
+    RELEASED = 5  # the block has just lifted off or left a brace, and that was waited for: go on
 
 
-DONE, OVERTURNED, STILL, PAUSED, CROWDED = (int(status) for status in Status)
+DONE, OVERTURNED, STILL, PAUSED, CROWDED, RELEASED = (int(status) for status in Status)
 
 
 class Progress(NamedTuple):
@@ -61,10 +64,11 @@ class Progress(NamedTuple):
     brace_hits: int
     peak: float
     no_return: float  # time within the cycle at which overturning was proved; infinite before
-    last_wait: (
-        float  # how long the last two arcs took: what comes next is guessed from the last on the same side
-    )
+    # about how long the last arc took, and how long the one under way will take from where it is entered, which is
+    # most often what the last on its side took; 0 where that is not known
+    last_wait: float
     wait_before: float
+    strain: float  # logarithm of what differences had grown to when the block last came to rest or leaned
 
 
 @njit(**INLINED)
@@ -87,6 +91,7 @@ def plain(progress):
         progress.no_return,
         progress.last_wait,
         progress.wait_before,
+        progress.strain,
     )
 
 
@@ -95,9 +100,13 @@ def named(fields):
     return Progress(*fields[:2], Arc(*fields[2]), *fields[3:])
 
 
-@njit(**COMPILED)
-def begin_plain(p, angle, velocity):
-    """The block just after any event at the start, and whether a brace was hit there."""
+@njit(**WITHIN)
+def begin(p, angle, velocity, waits):
+    """The block just after any event at the start, and whether a brace was hit there.
+
+    ``waits`` guesses the time to the first event and that from there to the next.
+    """
+    wait_before, last_wait = waits
     side = 1 if angle > 0.0 or (angle == 0.0 and velocity > 0.0) else -1
     hit = abs(angle) == p.brace_angle and side * velocity > 0.0
     u, v = abs(angle), side * velocity
@@ -111,66 +120,25 @@ def begin_plain(p, angle, velocity):
         arc = arc_from(p, side if lifting == 0 else lifting, 0.0, 0.0, 0.0)
     elif u == p.brace_angle and v == 0.0 and stays_leaning(p, side, arc.psi):
         mode = LEAN
-    return plain(Progress(mode, 0, arc, True, 0, 0, 1 if hit else 0, u, math.inf, 1.0, 1.0)), hit
+    return Progress(
+        mode, 0, arc, True, 0, 0, 1 if hit else 0, u, math.inf, last_wait, wait_before, -math.inf
+    ), hit
 
 
-@njit(**COMPILED)
-def state_at(p, mode, arc, t):
-    """(Theta, Theta') a time t into an arc, a rest or a lean."""
-    if mode == REST:
-        return 0.0, 0.0
-    if mode == LEAN:
-        return arc.side * p.brace_angle, 0.0
-    now = evaluate(p, arc, t)
-    return arc.side * within_reach(p, now.angle), arc.side * now.velocity
+@njit(**ENTRY)
+def begin_plain(p, angle, velocity):
+    """``begin`` as Python may have it."""
+    progress, hit = begin(p, angle, velocity, UNKNOWN)
+    return plain(progress), hit
 
 
-@njit(**COMPILED)
-def arc_peak(p, arc, until, peak):
-    """The largest of ``peak`` and |Theta| on the arc up to ``until``."""
-    now = evaluate(p, arc, until)
-    peak = max(peak, within_reach(p, now.angle))
-    t = 0.0
-    sign = first_turn_sign(p, arc)
-    while True:
-        found, t, now = first_zero(p, arc, turn_watch(p, sign), t, until)
-        if found != CROSSING:
-            return peak
-        peak = max(peak, within_reach(p, now.angle))
-        sign = -sign
-
-
-@njit(**COMPILED)
-def note(events, count, cycle, mode, arc, event, before):
-    """Write one event, with the arc that follows it and the velocity before it."""
-    row = events[count]
-    row[0] = cycle
-    row[1] = arc.start
-    row[2] = event
-    row[3] = mode
-    row[4] = arc.side
-    row[5] = arc.angle
-    row[6] = arc.velocity
-    row[7] = before
-    return count + 1
-
-
-@njit(**COMPILED)
-def note_event(events, count, cycle, mode, arc, event, before):
-    """Write an event; rest or leaning that begins with it is an event of its own at the same instant."""
-    count = note(events, count, cycle, mode, arc, event, before)
-    if mode == FLIGHT:
-        return count
-    return note(events, count, cycle, mode, arc, RESTS if mode == REST else LEANS, 0.0)
-
-
-@njit(**COMPILED)
+@njit(**WITHIN)
 def finish(p, reached, coming, columns, growth, want_peak):
     """(status, progress) at the end of a march: differences, peak and arc are brought there.
 
     An overturned block is left at the moment of the proof: later its angle may be beyond all numbers.
     """
-    mode, cycle, arc, _, _, impacts, brace_hits, peak, no_return, last_wait, wait_before = reached
+    mode, cycle, arc, _, _, impacts, brace_hits, peak, no_return, last_wait, wait_before, strain = reached
     end = min(no_return, 0.0)
     t = end - arc.start
     if mode == FLIGHT:
@@ -187,33 +155,39 @@ def finish(p, reached, coming, columns, growth, want_peak):
     if coming.wait == math.inf:
         status = OVERTURNED if mode == FLIGHT else STILL
     return status, Progress(
-        mode, cycle, arc, True, 0, impacts, brace_hits, peak, no_return, last_wait, wait_before
+        mode, cycle, arc, True, 0, impacts, brace_hits, peak, no_return, last_wait, wait_before, strain
     )
 
 
-@njit(**COMPILED)
-def march_plain(p, progress, cycles, section_time, section, events, columns, growth, want_peak):
-    """March to the end of cycle ``cycles``: (status, ``plain`` progress, section rows written, event rows written).
+@njit(**WITHIN)
+def march_on(p, progress, cycles, section_time, section, events, columns, growth, want_peak, want_release):
+    """March to the end of cycle ``cycles``: (status, progress, section rows written, event rows written).
 
     1. ``section`` (n, 2) takes the state at ``section_time`` within each cycle, just after any event there,
-       in order and as long as no overturning is proved; (0, 2) records nothing.
-    2. ``events`` (n, 8) takes one row an event (``note``). When it is full, or after BREATH events, the march
-       returns PAUSED; called again it goes on where it was.
+       in order and as long as no overturning is proved; (n, 4) the impacts and brace hits so far too; no rows
+       record nothing.
+    2. ``events`` (n, 8) takes one row an event (``notes.note``). When it is full, or after BREATH events, the march
+       returns PAUSED; with ``want_release`` RELEASED after a lift-off or leaving a brace. Called again it goes
+       on where it was.
     3. ``columns`` (2, 2) or (8, 2) carries differences (``tangent``); with ``growth`` (2,) they are
        re-orthonormalised at every event.
     4. Without section and events, accumulating impacts that certainly end in rest before the march does are
-       cut short.
-    5. At the end the arc is renewed: the progress begins at the start of cycle ``cycles``. A proof of
-       overturning ends the march with its cycle.
+       cut short; with ``want_release`` always, whatever the section then misses.
+    5. At the end the arc is renewed: the progress begins at the start of cycle ``cycles``; with
+       ``want_release`` the arc under way goes on, and counts when it ends. A proof of overturning ends the
+       march with its cycle.
     """
-    mode, cycle, arc, pending, crowd, impacts, brace_hits, peak, no_return, last_wait, wait_before = progress
-    hasty = section.shape[0] == 0 and events.shape[0] == 0
+    mode, cycle, arc, pending, crowd, impacts, brace_hits, peak, no_return, last_wait, wait_before, strain = (
+        progress
+    )
+    hasty = section.shape[0] == 0 and events.shape[0] == 0 and not want_release
     # The tangent alone travels in registers.
     light = columns.shape[0] == TANGENT and growth.shape[0] == 0
     tangent = read_tangent(columns) if light else Tangent(0.0, 0.0, 0.0, 0.0)
-    written, rows, breath, ended = 0, 0, 0, False
+    written, rows, breath, ended, paused, released = 0, 0, 0, False, False, False
+    last_lapse, lapse_before = recall(p, last_wait), recall(p, wait_before)
     while True:
-        coming = next_event(p, mode, arc, wait_before)
+        coming, lapse = next_event(p, mode, arc, lapse_before)
         at = arc.start + coming.wait
         if coming.wait == math.inf and mode == FLIGHT and no_return == math.inf:
             no_return = arc.start + no_return_time(p, arc)
@@ -221,7 +195,7 @@ def march_plain(p, progress, cycles, section_time, section, events, columns, gro
             if pending:
                 pending = False
                 if rows < section.shape[0] and section_time <= no_return:
-                    section[rows, 0], section[rows, 1] = state_at(p, mode, arc, section_time - arc.start)
+                    note_state(p, section[rows], mode, arc, section_time - arc.start, impacts, brace_hits)
                     rows += 1
                 continue
             cycle, crowd, pending = cycle + 1, 0, True
@@ -236,31 +210,49 @@ def march_plain(p, progress, cycles, section_time, section, events, columns, gro
         crowd += 1
         breath += 1
         if want_peak and mode == FLIGHT:
-            peak = p.brace_angle if coming.event == BRACE else arc_peak(p, arc, coming.wait, peak)
-        wait_before, last_wait = last_wait, coming.wait
+            peak = peak_with(p, arc, coming, peak)
+        # What is left of an arc entered on its way says nothing about whole ones.
+        lapse_before, last_lapse = last_lapse, lapse if arc.angle == 0.0 else last_lapse
         impacts += coming.event == IMPACT
         brace_hits += coming.event == BRACE
-        quiet = (cycles - cycle) * p.period - at if hasty else 0.0
+        quiet = (cycles - cycle) * p.period - at if hasty else LONGEST if want_release else 0.0
         mode_after, after = after_event(p, arc, at, coming, quiet)
+        if mode_after != FLIGHT:
+            strain = log_strain(tangent) if light else (growth[0] if growth.shape[0] > 0 else math.inf)
+        released = want_release and mode != FLIGHT and mode_after == FLIGHT
         if light:
             tangent = carried(p, tangent, mode, arc, coming, mode_after, after.side)
         elif columns.shape[0] > 0:
             elapsed = cycle * p.period + arc.start
             carry_rows(p, columns, growth, mode, arc, coming, mode_after, after.side, elapsed)
-        before = arc.side * coming.velocity
-        mode, arc = mode_after, after
+        mode, arc, before = mode_after, after, arc.side * coming.velocity
         if impacts & RESYNCHRONISE == 0:
             arc = arc_from(p, arc.side, arc.start, arc.angle, arc.velocity)
         if events.shape[0] > 0:
             written = note_event(events, written, cycle, mode, arc, coming.event, before)
+        if released:
+            break
     if light:
         write_tangent(columns, tangent)
+    left = lapse.time if want_release else min(at, LONGEST)
+    last_wait, wait_before = last_lapse.time, left if ended else lapse_before.time
     reached = Progress(
-        mode, cycle, arc, pending, crowd, impacts, brace_hits, peak, no_return, last_wait, wait_before
+        mode, cycle, arc, pending, crowd, impacts, brace_hits, peak, no_return, last_wait, wait_before, strain
     )
     if not ended:
-        return PAUSED if paused else CROWDED, plain(reached), rows, written
+        return RELEASED if released else PAUSED if paused else CROWDED, reached, rows, written
+    if want_release and coming.wait < math.inf:
+        return DONE, reached, rows, written
     status, reached = finish(p, reached, coming, columns, growth, want_peak)
+    return status, reached, rows, written
+
+
+@njit(**ENTRY)
+def march_plain(p, progress, cycles, section_time, section, events, columns, growth, want_peak):
+    """``march_on`` to the end of cycle ``cycles`` as Python may have it."""
+    status, reached, rows, written = march_on(
+        p, progress, cycles, section_time, section, events, columns, growth, want_peak, False
+    )
     return status, plain(reached), rows, written
 
 

@@ -4,6 +4,10 @@ import math
 from fractions import Fraction
 from typing import NamedTuple
 
+from numba import njit
+
+from .elementary import ENTRY, WITHIN, fma
+
 TURN = Fraction("6.28318530717958647692528676655900576839433879875021")
 
 
@@ -27,17 +31,73 @@ class HarmonicParameters(NamedTuple):
     response: float  # beta = A/(1 + Omega**2)
     base_half: float
     brace_half: float
-    # at the cuts of the base's stretches: 1 + beta cos eta, |d/dt of it|; the stretches' lengths and
-    # e^+-length, |eta| < half ("inside") and beyond
+    # at the cuts of the base's stretches: 1 + beta cos eta, |d/dt of it|; the stretches' lengths, |eta| < half
+    # ("inside") and beyond; e^+-length of the outer one and of a whole turn
     cut_place: float
     cut_rate: float
     base_inside: float
     base_outside: float
-    base_inside_growth: float
     base_outside_growth: float
-    base_inside_decay: float
     base_outside_decay: float
+    turn_growth: float
+    turn_decay: float
     base_outside_tanh: float
+
+
+@njit(**WITHIN)
+def stiffness(frequency):
+    """1 + Omega**2 in two parts, the second what the first leaves out by rounding."""
+    square = frequency * frequency
+    total = 1.0 + square
+    large, small = max(square, 1.0), min(square, 1.0)
+    return total, (small - (total - large)) + fma(frequency, frequency, -square)
+
+
+@njit(**WITHIN)
+def share(numerator, whole, rest):
+    """numerator/(whole + rest), rounded once but for a rare last place."""
+    quotient = numerator / whole
+    return quotient + (fma(-quotient, whole, numerator) - quotient * rest) / whole
+
+
+@njit(**WITHIN)
+def make(amplitude, frequency, period, phase, restitution, brace_angle, brace_restitution):
+    """The parameters of a system; beta and 1/(1 + Omega**2) rounded once, since every term of an arc carries them."""
+    whole, rest = stiffness(frequency)
+    response, reciprocal = share(amplitude, whole, rest), share(1.0, whole, rest)
+    base_half = math.acos(-1.0 / amplitude) if amplitude > 1.0 else math.inf
+    inside = 2.0 * base_half / frequency
+    outside = max(2.0 * (math.pi - base_half) / frequency, 0.0)
+    return HarmonicParameters(
+        amplitude,
+        frequency,
+        period,
+        phase,
+        restitution,
+        brace_angle,
+        brace_restitution,
+        1.0 / frequency,
+        reciprocal,
+        response,
+        base_half,
+        math.acos((brace_angle - 1.0) / amplitude) if abs(brace_angle - 1.0) < amplitude else math.inf,
+        1.0 - reciprocal,
+        response * frequency * math.sin(base_half) if amplitude > 1.0 else 0.0,
+        inside,
+        outside,
+        math.exp(min(outside, 700.0)),
+        math.exp(-outside),
+        math.exp(min(inside + outside, 700.0)),
+        math.exp(-inside - outside),
+        math.tanh(outside),
+    )
+
+
+@njit(**ENTRY)
+def make_plain(amplitude, frequency, period, phase, restitution, brace_angle, brace_restitution):
+    """``make`` for Python: a plain tuple."""
+    p = make(amplitude, frequency, period, phase, restitution, brace_angle, brace_restitution)
+    return tuple(p)
 
 
 def harmonic_parameters(
@@ -49,37 +109,19 @@ def harmonic_parameters(
     brace_angle: float = math.inf,
     brace_restitution: float = 1.0,
 ) -> HarmonicParameters:
-    """The tuple of a harmonic forcing; beta and 1/(1 + Omega**2) rounded once, since every term of an arc carries them."""
-    stiffness = 1 + Fraction(frequency) ** 2
-    response = float(Fraction(amplitude) / stiffness)
-    base_half = math.acos(-1.0 / amplitude) if amplitude > 1.0 else math.inf
-    inside = 2.0 * base_half / frequency
-    outside = max(2.0 * (math.pi - base_half) / frequency, 0.0)
-    return HarmonicParameters(
-        amplitude,
-        frequency,
-        period,
-        within_a_turn(phase),
-        restitution,
-        brace_angle,
-        brace_restitution,
-        1.0 / frequency,
-        float(1 / stiffness),
-        response,
-        base_half,
-        math.acos((brace_angle - 1.0) / amplitude) if abs(brace_angle - 1.0) < amplitude else math.inf,
-        1.0 - float(1 / stiffness),
-        response * frequency * math.sin(base_half) if amplitude > 1.0 else 0.0,
-        inside,
-        outside,
-        math.exp(min(inside, 700.0)),
-        math.exp(min(outside, 700.0)),
-        math.exp(-inside),
-        math.exp(-outside),
-        math.tanh(outside),
-    )
+    """The tuple of a harmonic forcing."""
+    values = amplitude, frequency, period, within_a_turn(phase), restitution, brace_angle, brace_restitution
+    return HarmonicParameters(*make_plain(*map(float, values)))
 
 
 def within_a_turn(phase: float) -> float:
     """A phase of several turns without them, rounded once: what is added to it later must not cost its last digits."""
     return phase if abs(phase) <= TURN else float(Fraction(phase) - round(Fraction(phase) / TURN) * TURN)
+
+
+@njit(**WITHIN)
+def later(p, time):
+    """The same system with its clock set to 0 a time (within a period) later."""
+    phase = p.phase + p.frequency * time
+    phase -= 2.0 * math.pi * round(phase / (2.0 * math.pi))
+    return HarmonicParameters(*p[:3], phase, *p[4:])

@@ -5,19 +5,20 @@ import math
 from numba import njit
 
 from .arc import arc_from, evaluate, within_reach
-from .crossing import CROSSING, first_turn_sign, first_zero, turn_watch
-from .elementary import COMPILED
+from .crossing import CROSSING
+from .elementary import ENTRY, WITHIN
 from .events import FLIGHT
 from .harmonic import forcing_term
+from .turning import first_turn_sign, next_turn
 
 
-@njit(**COMPILED)
+@njit(**WITHIN)
 def arc_of(p, row):
-    """The arc that an event row (``march.note``) began."""
+    """The arc that an event row (``notes.note``) began."""
     return arc_from(p, int(row[4]), row[1], row[5], row[6])
 
 
-@njit(**COMPILED)
+@njit(**ENTRY)
 def sample(p, rows, index, elapsed, out):
     """Write (Theta, Theta', Theta'') into ``out`` (n, 3), a time ``elapsed[k]`` into the arc, rest or lean of row ``index[k]``."""
     for k in range(index.shape[0]):
@@ -33,7 +34,7 @@ def sample(p, rows, index, elapsed, out):
                 out[k, :] = side * math.inf
 
 
-@njit(**COMPILED)
+@njit(**ENTRY)
 def turns(p, rows, until, out):
     """Write (row, time into its arc, Theta) of every local extreme of the flights.
 
@@ -47,7 +48,7 @@ def turns(p, rows, until, out):
         sign = first_turn_sign(p, arc)
         t = 0.0
         while True:
-            found, t, now = first_zero(p, arc, turn_watch(p, sign), t, until[k])
+            found, t, now = next_turn(p, arc, sign, t, until[k])
             if found != CROSSING:
                 break
             if count < out.shape[0]:

@@ -4,11 +4,11 @@ import math
 
 from numba import njit
 
-from .elementary import COMPILED
+from .elementary import COMPILED, WITHIN
 from .harmonic import drift, forcing_term
 
 
-@njit(**COMPILED)
+@njit(**WITHIN)
 def settling_time(speed, restitution, weakest, strongest, room):
     """A bound on how long impacts go on, from one that leaves at ``speed``.
 

@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 from numba import njit
 
-from .elementary import COMPILED, INLINED, hyperbolic
+from .elementary import INLINED, WITHIN, hyperbolic
 from .events import BRACE, FLIGHT, IMPACT, LEAVE, NONE
 from .harmonic import forcing_term, sensitivities
 
@@ -39,17 +39,23 @@ class Tangent(NamedTuple):
     d: float
 
 
-@njit(**COMPILED)
+@njit(**WITHIN)
 def read_tangent(columns):
     """The first two rows."""
     return Tangent(columns[0, 0], columns[0, 1], columns[1, 0], columns[1, 1])
 
 
-@njit(**COMPILED)
+@njit(**WITHIN)
 def write_tangent(columns, tangent):
     """Back into the first two rows."""
     columns[0, 0], columns[0, 1] = tangent.a, tangent.b
     columns[1, 0], columns[1, 1] = tangent.c, tangent.d
+
+
+@njit(**WITHIN)
+def log_strain(tangent):
+    """Logarithm of what a difference in velocity has grown to; a release fixes the angle."""
+    return math.log(max(abs(tangent.c), abs(tangent.d)))
 
 
 @njit(**INLINED)
@@ -114,7 +120,7 @@ def map_rows(columns, aa, ab, ba, bb):
         columns[k, 1] = ba * a + bb * b
 
 
-@njit(**COMPILED)
+@njit(**WITHIN)
 def carry_arc(p, arc, columns, growth, t, elapsed):
     """All rows along an arc of length t that began ``elapsed`` after the start of the march.
 
@@ -131,7 +137,7 @@ def carry_arc(p, arc, columns, growth, t, elapsed):
         carry_forcing(p, arc, columns, t, elapsed)
 
 
-@njit(**COMPILED)
+@njit(**WITHIN)
 def carry_rows(p, columns, growth, mode, arc, coming, mode_after, side_after, elapsed):
     """All rows along an arc and through its event, with what the restitutions and the place of the brace add."""
     if mode == FLIGHT:
@@ -153,7 +159,7 @@ def carry_rows(p, columns, growth, mode, arc, coming, mode_after, side_after, el
         orthonormalise(columns, growth)
 
 
-@njit(**COMPILED)
+@njit(**WITHIN)
 def carry_forcing(p, arc, columns, t, elapsed):
     """The forcing's own share in the parameter rows of an arc that began ``elapsed`` after the start of the march."""
     sinh, versinh, excess, _ = hyperbolic(t)
@@ -169,7 +175,7 @@ def carry_forcing(p, arc, columns, t, elapsed):
     columns[Row.FREQUENCY, 1] -= side * (rate_f + elapsed * rate_psi)
 
 
-@njit(**COMPILED)
+@njit(**WITHIN)
 def orthonormalise(columns, growth):
     """Gram-Schmidt on the two tangent rows; the logarithms of what it takes out are added to ``growth``."""
     a, b = columns[0, 0], columns[0, 1]

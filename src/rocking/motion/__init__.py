@@ -1,7 +1,8 @@
 """Simulating one block, and what it did."""
 
 from rocking.motion.motion import Motion
-from rocking.motion.simulate import simulate
+from rocking.motion.run import begin, march_on
+from rocking.motion.simulate import kept_events, simulate
 from rocking.motion.validity import Validity, validity
 
-__all__ = ["Motion", "Validity", "simulate", "validity"]
+__all__ = ["Motion", "Validity", "begin", "kept_events", "march_on", "simulate", "validity"]

@@ -11,7 +11,19 @@ from attrs import field, frozen
 
 from rocking.kernels import events as kernel_events
 from rocking.kernels import sample
-from rocking.model import Block, Outcome, Overturning, State, System, pictures, reals, refusal, within
+from rocking.model import (
+    Block,
+    Outcome,
+    Overturning,
+    State,
+    System,
+    counted,
+    pictures,
+    read_only,
+    reals,
+    refusal,
+    within,
+)
 from rocking.motion.run import parameters, section_of
 
 if TYPE_CHECKING:
@@ -35,10 +47,24 @@ KINDS = np.array(["impact", "brace", "rest", "lift-off", "lean", "leave"])
 LARGEST_PHASE = 1000.0
 
 
-def _read_only(array: np.ndarray) -> np.ndarray:
-    """An array of the motion's own, which nobody may change."""
-    array.flags.writeable = False
-    return array
+def events_of(system: System, rows: np.ndarray, duration: float) -> np.ndarray:
+    """Event rows of the kernel as `Motion.events` gives them."""
+    rows = rows[rows[:, 2] != kernel_events.NONE]
+    forcing = system.forcing
+    events = np.empty(len(rows), EVENT)
+    events["cycle"] = rows[:, 0]
+    events["time"] = _absolute(rows, forcing.period, duration)
+    events["phase"] = np.mod(forcing.frequency * rows[:, 1] + forcing.phase, 2.0 * math.pi)
+    events["angle"] = rows[:, 4] * rows[:, 5] + 0.0
+    events["before"] = rows[:, 7] + 0.0
+    events["after"] = rows[:, 4] * rows[:, 6] + 0.0
+    events["kind"] = KINDS[rows[:, 2].astype(int)]
+    return events
+
+
+def _absolute(rows: np.ndarray, period: float, duration: float) -> np.ndarray:
+    # rounding must not put the last event after the end
+    return np.minimum(rows[:, 0] * period + rows[:, 1], duration)
 
 
 @frozen(eq=False, slots=False)
@@ -85,8 +111,8 @@ class Motion:
     impacts: int
     brace_hits: int
     peak: float
-    _section_rows: np.ndarray = field(repr=False, converter=_read_only)
-    _event_rows: np.ndarray = field(repr=False, converter=_read_only)
+    _section_rows: np.ndarray = field(repr=False, converter=read_only)
+    _event_rows: np.ndarray = field(repr=False, converter=read_only)
 
     @property
     def duration(self) -> float:
@@ -101,24 +127,13 @@ class Motion:
         kind. The kinds are "impact", "brace", "rest", "lift-off", "lean" and "leave". Needs
         ``record="all"``, as `at` does.
         """
-        rows = self._rows()
-        rows = rows[rows[:, 2] != kernel_events.NONE]
-        forcing = self.system.forcing
-        events = np.empty(len(rows), EVENT)
-        events["cycle"] = rows[:, 0]
-        events["time"] = self._absolute(rows)
-        events["phase"] = np.mod(forcing.frequency * rows[:, 1] + forcing.phase, 2.0 * math.pi)
-        events["angle"] = rows[:, 4] * rows[:, 5] + 0.0
-        events["before"] = rows[:, 7] + 0.0
-        events["after"] = rows[:, 4] * rows[:, 6] + 0.0
-        events["kind"] = KINDS[rows[:, 2].astype(int)]
-        return _read_only(events)
+        return read_only(events_of(self.system, self._rows(), self.duration))
 
     @cached_property
     def peaks(self) -> np.ndarray:
         """Every local extreme of Θ between events, a structured array: time (τ), angle."""
         rows = self._rows()
-        begins = self._absolute(rows)
+        begins = _absolute(rows, self.system.forcing.period, self.duration)
         lasts = np.append(
             np.diff(rows[:, 0]) * self.system.forcing.period + np.diff(rows[:, 1]), self.duration - begins[-1]
         )
@@ -130,7 +145,7 @@ class Motion:
         peaks = np.empty(count, TURN)
         peaks["time"] = begins[found[:count, 0].astype(int)] + found[:count, 1]
         peaks["angle"] = found[:count, 2]
-        return _read_only(peaks)
+        return read_only(peaks)
 
     def at(self, times: Any) -> tuple[Any, Any]:
         """Give Θ and Θ' at any times, exactly: the closed form (5) of Yim & Lin (1991) from the event before.
@@ -238,11 +253,11 @@ class Motion:
         return validity(self, block)
 
     def __str__(self) -> str:
-        counts = [f"{self.impacts} impact{'s' * (self.impacts != 1)}"]
+        counts = [counted(self.impacts, "impact")]
         if self.system.braces is not None:
-            counts.append(f"{self.brace_hits} brace hit{'s' * (self.brace_hits != 1)}")
+            counts.append(counted(self.brace_hits, "brace hit"))
         if self.overturning is None:
-            how = f"{self.outcome} over {self.cycles} cycle{'s' * (self.cycles != 1)}"
+            how = f"{self.outcome} over {counted(self.cycles, 'cycle')}"
         else:
             how = f"overturned: proved at τ = {self.overturning.time:.6g} never to return"
         return f"{how}; {', '.join(counts)}, peak |Θ| {self.peak:.4g}"
@@ -261,10 +276,6 @@ class Motion:
             )
         return self._event_rows
 
-    def _absolute(self, rows: np.ndarray) -> np.ndarray:
-        # rounding must not put the last event after the end
-        return np.minimum(rows[:, 0] * self.system.forcing.period + rows[:, 1], self.duration)
-
     def _sampled(self, times: Any) -> np.ndarray:
         rows = self._rows()
         times = np.asarray(reals("times", times), dtype=float)
@@ -274,7 +285,7 @@ class Motion:
             raise ValueError(refusal("times", f"lie in the run, [0, {last:.6g}]", float(outside)))
         flat = times.ravel()
         period = self.system.forcing.period
-        begins = self._absolute(rows)
+        begins = _absolute(rows, self.system.forcing.period, self.duration)
         index = np.searchsorted(begins, flat, side="right") - 1
         cycle = np.floor(flat / period)
         elapsed = (cycle - rows[index, 0]) * period + ((flat - cycle * period) - rows[index, 1])

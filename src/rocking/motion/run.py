@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from rocking.kernels import march as kernel
 from rocking.kernels import parameters as numbers
-from rocking.model import System, TooManyEvents
+from rocking.model import Outcome, State, System, TooManyEvents
 
 if TYPE_CHECKING:
     from rocking.motion.motion import Motion
@@ -32,21 +33,50 @@ def parameters(system: System) -> numbers.HarmonicParameters:
     )
 
 
+def begin(system: System, start: State) -> tuple[numbers.HarmonicParameters, Any]:
+    """Give the system as the kernels read it and the block at its start, for `march_on`."""
+    p = parameters(system)
+    return p, kernel.begin_march(p, start.angle, start.velocity)[0]
+
+
+def march_on(
+    p: Any, progress: Any, cycles: int, columns: np.ndarray, growth: np.ndarray
+) -> tuple[Outcome, Any]:
+    """March to the end of cycle ``cycles`` with differences: (outcome, progress).
+
+    ``columns`` (2, 2) holds two orthonormal differences (δΘ, δΘ') as rows, kept so on the way; ``growth`` (2,) takes
+    the logarithms of what that takes out. Where the block rests or leans the rows become zero and both logarithms −∞.
+    """
+    status, progress, _, _ = run(
+        p, progress, cycles, 0.0, "none", want_peak=False, columns=columns, growth=growth
+    )
+    return outcome_of(status), progress
+
+
 def run(
-    p: Any, progress: Any, cycles: int, section_time: float, record: str, *, want_peak: bool
+    p: Any,
+    progress: Any,
+    cycles: int,
+    section_time: float,
+    record: str,
+    *,
+    want_peak: bool,
+    keep: Callable[[np.ndarray], np.ndarray] = np.copy,
+    columns: np.ndarray = NOTHING,
+    growth: np.ndarray = NOTHING[:, 0],
 ) -> tuple[Any, ...]:
-    """March to the end, in breaths: (status, progress, section, event rows)."""
+    """March to the end, in breaths: (status, progress, section, what `keep` made of the event rows of each breath)."""
     section = np.empty((cycles + 1 if record == "section" else 0, 2))
     events = np.empty((4096 if record == "all" else 0, 8))
-    rows: list[np.ndarray] = []
+    kept: list[np.ndarray] = []
     status, recorded, done = kernel.PAUSED, 0, 0
     while status == kernel.PAUSED:
         status, progress, taken, written = kernel.march(
-            p, progress, cycles, section_time, section[done:], events, NOTHING, NOTHING[:, 0], want_peak
+            p, progress, cycles, section_time, section[done:], events, columns, growth, want_peak
         )
         done += taken
-        recorded += written
-        rows.append(events[:written].copy())
+        kept.append(keep(events[:written]))
+        recorded += len(kept[-1])
         if status == kernel.CROWDED or recorded > MOST_RECORDED:
             raise TooManyEvents(_crowded(status))
         if status == kernel.PAUSED and 0 < len(events) < 1_000_000:
@@ -54,7 +84,7 @@ def run(
     if record == "section" and section_time == 0.0 and status != kernel.OVERTURNED:
         section[done] = state_of(progress)
         done += 1
-    return status, progress, section[:done] + 0.0, rows  # no negative zeros
+    return status, progress, section[:done] + 0.0, kept  # no negative zeros
 
 
 def _crowded(status: int) -> str:
@@ -70,8 +100,7 @@ def section_of(motion: Motion, phase: float) -> np.ndarray:
     """Run a motion again for its section at another forcing phase."""
     forcing = motion.system.forcing
     time = math.fmod(phase - forcing.phase, 2.0 * math.pi) / forcing.frequency
-    p = parameters(motion.system)
-    progress, _ = kernel.begin_march(p, motion.start.angle, motion.start.velocity)
+    p, progress = begin(motion.system, motion.start)
     return run(p, progress, motion.cycles, time % forcing.period, "section", want_peak=False)[2]
 
 
@@ -79,3 +108,8 @@ def state_of(progress: Any) -> tuple[float, float]:
     """Θ and Θ' of a block under way."""
     arc = progress.arc
     return arc.side * arc.angle + 0.0, arc.side * arc.velocity + 0.0
+
+
+def outcome_of(status: int) -> Outcome:
+    """What the way a march ended says about the motion."""
+    return {kernel.OVERTURNED: Outcome.OVERTURNED, kernel.STILL: Outcome.AT_REST}.get(status, Outcome.BOUNDED)

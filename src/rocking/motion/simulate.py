@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 
-from rocking.kernels import events
 from rocking.kernels import march as kernel
-from rocking.model import Outcome, Overturning, State, System, check_start, one_of, whole
-from rocking.motion.motion import Motion
-from rocking.motion.run import parameters, run, state_of
+from rocking.kernels import notes
+from rocking.model import Overturning, State, System, check_start, one_of, whole
+from rocking.motion.motion import Motion, events_of
+from rocking.motion.run import begin, outcome_of, parameters, run, state_of
 
 MOST_CYCLES = 1_000_000_000
 MOST_SECTION_CYCLES = 100_000_000
@@ -69,7 +70,7 @@ def simulate(system: System, start: State | None = None, cycles: int = 200, reco
         record=record,
         cycles=progress.cycle,
         final=State(*state_of(progress)),
-        outcome=_outcome(status),
+        outcome=outcome_of(status),
         overturning=_overturning(status, progress, system),
         impacts=progress.impacts,
         brace_hits=progress.brace_hits,
@@ -79,18 +80,28 @@ def simulate(system: System, start: State | None = None, cycles: int = 200, reco
     )
 
 
+def kept_events(
+    system: System, start: State | None, cycles: int, keep: Callable[[np.ndarray], np.ndarray]
+) -> np.ndarray:
+    """March as `simulate` does, holding of the events after the start no more than `keep` makes of each breath's.
+
+    `keep` is given events as `Motion.events` has them and returns an array; the arrays come back as one. Raises as
+    `simulate` does.
+    """
+    start = State() if start is None else start
+    check_start(system, start)
+    cycles = whole("cycles", cycles, 1, MOST_CYCLES)
+    duration = cycles * system.forcing.period
+
+    def of_rows(rows: np.ndarray) -> np.ndarray:
+        return keep(events_of(system, rows, duration))
+
+    return np.concatenate(run(*begin(system, start), cycles, 0.0, "all", want_peak=False, keep=of_rows)[3])
+
+
 def _first_rows(progress: Any, start: State, hit: bool) -> np.ndarray:
-    """What the motion begins with: its first arc, after a hit on a brace (and leaning there) where it starts with one."""
     rows = np.empty((2, 8))
-    if hit:
-        count = kernel.note_event(rows, 0, 0, progress.mode, progress.arc, events.BRACE, start.velocity)
-    else:
-        count = kernel.note(rows, 0, 0, progress.mode, progress.arc, events.NONE, start.velocity)
-    return rows[:count]
-
-
-def _outcome(status: int) -> Outcome:
-    return {kernel.OVERTURNED: Outcome.OVERTURNED, kernel.STILL: Outcome.AT_REST}.get(status, Outcome.BOUNDED)
+    return rows[: notes.note_start(rows, progress, hit, start.velocity)]
 
 
 def _overturning(status: int, progress: Any, system: System) -> Overturning | None:
