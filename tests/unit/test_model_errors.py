@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from rocking.model.errors import one_of, reals, shown, whole
+from rocking.model.errors import TooShort, one_of, reals, shown, whole
 
 
 @pytest.mark.parametrize("value", [5, 5.0, np.int64(5), np.float64(5)])
@@ -57,3 +57,9 @@ def test_values_are_shown_in_one_short_line():
     assert shown(np.float64(1.5)) == "1.5"
     assert len(shown(np.ones((50, 50)))) == 60
     assert "\n" not in shown(np.ones((50, 50)))
+
+
+def test_a_run_too_short_always_carries_its_estimate():
+    assert TooShort("too short", 0.5).estimate == 0.5
+    with pytest.raises(TypeError, match="estimate"):
+        TooShort("too short")  # what supports no estimate at all is a plain ValueError

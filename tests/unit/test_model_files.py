@@ -2,7 +2,7 @@
 
 import pytest
 
-from rocking.model.files import check_folder, check_writable, replacing
+from rocking.model.files import check_folder, check_writable, replacing, replacing_folder
 
 
 def names(folder):
@@ -92,3 +92,42 @@ def test_folder_inside_a_file_is_refused(tmp_path):
     for path in (tmp_path / "file", tmp_path / "file" / "folder"):
         with pytest.raises(OSError, match=r"^--output must be a folder that can be written; got '"):
             check_folder("--output", path)
+
+
+def write_folder(target, text):
+    with replacing_folder("folder", target, "mark") as temporary:
+        (temporary / "mark").write_text(text)
+        assert not (target / "mark").exists() or (target / "mark").read_text() != text
+
+
+def test_folder_appears_only_once_complete_and_replaces_the_one_before(tmp_path):
+    target = tmp_path / "made" / "here"
+    for text in ("first", "second"):
+        write_folder(target, text)
+        assert (target / "mark").read_text() == text
+        assert names(target.parent) == ["here"]
+
+
+@pytest.mark.parametrize("failure", [RuntimeError, KeyboardInterrupt])
+def test_failure_leaves_the_old_folder_and_nothing_else(tmp_path, failure):
+    write_folder(tmp_path / "kept", "old")
+
+    def fail():
+        with replacing_folder("folder", tmp_path / "kept", "mark") as temporary:
+            (temporary / "half").touch()
+            raise failure
+
+    with pytest.raises(failure):
+        fail()
+    assert names(tmp_path) == ["kept"]
+    assert names(tmp_path / "kept") == ["mark"]
+
+
+def test_folder_that_was_not_written_here_is_refused_and_an_empty_one_taken(tmp_path):
+    (tmp_path / "empty").mkdir()
+    write_folder(tmp_path / "empty", "new")
+    (tmp_path / "other").mkdir()
+    (tmp_path / "other" / "notes").touch()
+    with pytest.raises(OSError, match="folder must be new, empty, or hold an earlier mark; got '.*other'"):
+        write_folder(tmp_path / "other", "new")
+    assert names(tmp_path / "other") == ["notes"]

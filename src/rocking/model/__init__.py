@@ -4,10 +4,14 @@ With them goes what every room shares: the one-line refusals, files that are who
 """
 
 from rocking.model import pictures
+from rocking.model.arrays import read_only
+from rocking.model.basins import Attractor, BasinMap, UncertaintyExponent
 from rocking.model.block import GRAVITY, Block
 from rocking.model.citation import cite
 from rocking.model.errors import (
+    NoOrbit,
     TooManyEvents,
+    TooShort,
     exactly_one,
     instance,
     one_of,
@@ -17,36 +21,69 @@ from rocking.model.errors import (
     whole,
     within,
 )
-from rocking.model.files import check_folder, check_writable, replacing
-from rocking.model.forcing import Harmonic
+from rocking.model.files import check_folder, check_replaceable, check_writable, replacing, replacing_folder
+from rocking.model.forcing import FREQUENCIES, LARGEST_AMPLITUDE, LARGEST_PHASE, Harmonic
+from rocking.model.mode import Mode
 from rocking.model.outcome import Outcome, Overturning
-from rocking.model.system import LARGEST_START, Braces, State, System, check_start
+from rocking.model.share import LEVEL, Share, wilson
+from rocking.model.surveys import ChaosShare, OverturningCurve, Repeatability, RepeatabilityMap, SafeBasin
+from rocking.model.system import BRACE_ANGLES, LARGEST_START, Braces, State, System, check_start
+from rocking.model.verdict import Evidence, Kind, Orbit, Verdict
 from rocking.model.version import VERSION
+from rocking.model.words import counted, percent, plus_minus
 
 __all__ = [
+    "BRACE_ANGLES",
+    "FREQUENCIES",
     "GRAVITY",
+    "LARGEST_AMPLITUDE",
+    "LARGEST_PHASE",
     "LARGEST_START",
+    "LEVEL",
     "VERSION",
+    "Attractor",
+    "BasinMap",
     "Block",
     "Braces",
+    "ChaosShare",
+    "Evidence",
     "Harmonic",
+    "Kind",
+    "Mode",
+    "NoOrbit",
+    "Orbit",
     "Outcome",
     "Overturning",
+    "OverturningCurve",
+    "Repeatability",
+    "RepeatabilityMap",
+    "SafeBasin",
+    "Share",
     "State",
     "System",
     "TooManyEvents",
+    "TooShort",
+    "UncertaintyExponent",
+    "Verdict",
     "check_folder",
+    "check_replaceable",
     "check_start",
     "check_writable",
     "cite",
+    "counted",
     "exactly_one",
     "instance",
     "one_of",
+    "percent",
     "pictures",
+    "plus_minus",
+    "read_only",
     "reals",
     "refusal",
     "replacing",
+    "replacing_folder",
     "shown",
     "whole",
+    "wilson",
     "within",
 ]

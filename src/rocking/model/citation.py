@@ -15,7 +15,6 @@ SOURCES = """@article{yim-lin-1991,
   journal = {Journal of Engineering Mechanics},
   publisher = {ASCE},
   volume = {117}, number = {9}, pages = {2079--2100}, year = {1991},
-  doi = {10.1061/(ASCE)0733-9399(1991)117:9(2079)},
   note = {the model, eqs. (1)-(5), and the responses reproduced},
 }
 
@@ -26,7 +25,7 @@ SOURCES = """@article{yim-lin-1991,
   publisher = {ASCE},
   volume = {110}, number = {11}, pages = {1627--1642}, year = {1984},
   doi = {10.1061/(ASCE)0733-9399(1984)110:11(1627)},
-  note = {the exact solution of the slender block between impacts},
+  note = {the exact solution of the slender block between impacts, symmetric modes and their stability},
 }
 
 @article{housner-1963,
@@ -42,8 +41,51 @@ SOURCES = """@article{yim-lin-1991,
   title = {On the dynamics of rigid-block motion under harmonic forcing},
   journal = {Proceedings of the Royal Society of London A},
   volume = {425}, number = {1869}, pages = {441--476}, year = {1989},
-  doi = {10.1098/rspa.1989.0114},
   note = {the impact map and the dynamics under harmonic forcing},
+}
+
+@book{guckenheimer-holmes-1983,
+  author = {Guckenheimer, John and Holmes, Philip},
+  title = {Nonlinear oscillations, dynamical systems, and bifurcations of vector fields},
+  publisher = {Springer}, address = {New York}, year = {1983},
+  note = {Melnikov's method},
+}
+
+@article{benettin-1980,
+  author = {Benettin, Giancarlo and Galgani, Luigi and Giorgilli, Antonio and Strelcyn, Jean-Marie},
+  title = {Lyapunov characteristic exponents for smooth dynamical systems and for {Hamiltonian} systems;
+    a method for computing all of them. {Part} 1: theory},
+  journal = {Meccanica},
+  volume = {15}, pages = {9--20}, year = {1980},
+  doi = {10.1007/BF02128236},
+  note = {Lyapunov exponents from differences made orthonormal again and again},
+}
+
+@article{grassberger-procaccia-1983,
+  author = {Grassberger, Peter and Procaccia, Itamar},
+  title = {Measuring the strangeness of strange attractors},
+  journal = {Physica D},
+  volume = {9}, pages = {189--208}, year = {1983},
+  doi = {10.1016/0167-2789(83)90298-1},
+  note = {the correlation dimension},
+}
+
+@article{theiler-1986,
+  author = {Theiler, James},
+  title = {Spurious dimension from correlation algorithms applied to limited time-series data},
+  journal = {Physical Review A},
+  volume = {34}, pages = {2427--2432}, year = {1986},
+  doi = {10.1103/PhysRevA.34.2427},
+  note = {pairs close in time are left out},
+}
+
+@article{das-2017,
+  author = {Das, Suddhasattwa and Saiki, Yoshitaka and Sander, Evelyn and Yorke, James A.},
+  title = {Quantitative quasiperiodicity},
+  journal = {Nonlinearity},
+  volume = {30}, pages = {4111--4140}, year = {2017},
+  doi = {10.1088/1361-6544/aa84c2},
+  note = {weighted Birkhoff averages},
 }
 """
 

@@ -18,6 +18,24 @@ class TooManyEvents(ValueError):
     """The run met more events than it may keep; the message says how to ask for less."""
 
 
+class TooShort(ValueError):
+    """What was given is too short for a number with its error; `estimate` carries what it does support."""
+
+    def __init__(self, message: str, estimate: Any) -> None:
+        super().__init__(message)
+        self.estimate = estimate
+
+
+class NoOrbit(ValueError):
+    """No periodic orbit was found; `state` is what was reached, at the forcing phase `phase`, `residual` its miss a period later."""
+
+    def __init__(self, message: str, phase: float, state: Any, residual: float) -> None:
+        super().__init__(message)
+        self.phase = phase
+        self.state = state
+        self.residual = residual
+
+
 def shown(value: object) -> str:
     """Show a value in one short line, NumPy's numbers as plain ones."""
     if isinstance(value, np.generic):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import secrets
+import shutil
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
@@ -77,3 +78,47 @@ def replacing(path: str | os.PathLike[str]) -> Iterator[Path]:
         temporary.replace(target)
     finally:
         temporary.unlink(missing_ok=True)
+
+
+def check_replaceable(name: str, path: str | os.PathLike[str], mark: str) -> Path:
+    """Return `path` if `replacing_folder` may write it; OSError in one line that starts with `name` if not."""
+    path = check_folder(name, path)
+    if path.exists() and any(path.iterdir()) and not (path / mark).is_file():
+        raise FileExistsError(
+            f"{name} must be new, empty, or hold an earlier {mark}; got {str(path)!r}, which holds something else"
+        )
+    return path
+
+
+@contextmanager
+def replacing_folder(name: str, path: str | os.PathLike[str], mark: str) -> Iterator[Path]:
+    """Yield a new folder beside `path` and rename it to `path` if the block succeeds; what stood there goes only then.
+
+    Only a folder that is empty, or that holds a file called `mark` (one written before), is replaced.
+
+    Raises
+    ------
+    OSError
+        In one line that starts with `name`: something else is there, or the folder cannot be written.
+
+    Examples
+    --------
+    >>> from tempfile import TemporaryDirectory
+    >>> with TemporaryDirectory() as folder:
+    ...     with replacing_folder("folder", Path(folder) / "map", "index.html") as partial:
+    ...         _ = (partial / "index.html").write_text("a page")
+    ...     [file.name for file in Path(folder).rglob("*")]
+    ['map', 'index.html']
+    """
+    target = check_replaceable(name, path, mark).resolve()
+    target.parent.mkdir(parents=True, exist_ok=True)
+    temporary, before = (target.with_name(f".{target.name}-{secrets.token_hex(4)}") for _ in range(2))
+    try:
+        temporary.mkdir()
+        yield temporary
+        if target.exists():
+            target.rename(before)
+        temporary.rename(target)
+    finally:
+        for left in (temporary, before):
+            shutil.rmtree(left, ignore_errors=True)

@@ -9,12 +9,12 @@ from typing import Any
 
 Draw = Callable[[Any], bytes]
 
-_draws: dict[type, Draw] = {}
+_draws: dict[type | str, Draw] = {}
 _fills: list[Callable[[], object]] = []
 
 
-def hang(kind: type, draw: Draw) -> None:
-    """Let results of this `kind` be shown by `draw`, which returns the bytes of a PNG."""
+def hang(kind: type | str, draw: Draw) -> None:
+    """Let results of this `kind`, their type or the name that they are shown by, be shown by `draw`, which returns the bytes of a PNG."""
     _draws[kind] = draw
 
 
@@ -23,13 +23,16 @@ def fill_at_first_use(fill: Callable[[], object]) -> None:
     _fills[:] = [fill]
 
 
-def html(result: object) -> str | None:
-    """A result's picture over its one line, for `_repr_html_`; None where no picture hangs, then the line is shown."""
+def html(result: object, kind: str | None = None, line: str | None = None) -> str | None:
+    """A result's picture over its one line, for `_repr_html_`; None where no picture hangs, then the line is shown.
+
+    Results of a type that is not ours have a `kind` and a `line` of their own.
+    """
     while _fills:
         _fills.pop()()
-    draw = _draws.get(type(result))
+    draw = _draws.get(kind or type(result))
     if draw is None:
         return None
     picture = b64encode(draw(result)).decode()
-    line = markup.escape(str(result))
+    line = markup.escape(line or str(result))
     return f'<figure><img alt="{line}" src="data:image/png;base64,{picture}"><figcaption>{line}</figcaption></figure>'

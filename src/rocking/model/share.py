@@ -1,0 +1,96 @@
+"""Shares of a whole, known from counts, with their intervals."""
+
+from __future__ import annotations
+
+from statistics import NormalDist
+from typing import Any
+
+import numpy as np
+from attrs import field, frozen
+
+LEVEL = 0.95
+"""How often an interval covers what it is of, about."""
+
+
+def wilson(count: Any, of: Any, level: float = LEVEL) -> tuple[Any, Any]:
+    """The interval of a share of which `count` in `of` independent trials were seen; arrays broadcast.
+
+    Parameters
+    ----------
+    count, of : int or array
+        Successes and trials; (0, 1) without any trial.
+    level : float
+        How often the interval covers the share, on average over shares.
+
+    Returns
+    -------
+    tuple
+        (low, high): (p + z²/2n ± z √(p(1 − p)/n + z²/4n²))/(1 + z²/n), the shares that a test of this level does not
+        reject.
+
+    References
+    ----------
+    Wilson, J. Am. Stat. Assoc. 22, 209–212 (1927).
+
+    Examples
+    --------
+    >>> low, high = wilson(0, 100)
+    >>> low, round(high, 4)
+    (0.0, 0.037)
+    """
+    z = NormalDist().inv_cdf(0.5 + 0.5 * level)
+    seen, trials = np.asarray(count, float), np.asarray(of, float)
+    whole = trials + z * z
+    middle = (seen + 0.5 * z * z) / whole
+    half = z / whole * np.sqrt(seen * (trials - seen) / np.maximum(trials, 1.0) + 0.25 * z * z)
+    # where all or none were seen the formula's end is exact but for its rounding
+    low = np.where(seen == 0.0, 0.0, np.maximum(middle - half, 0.0))
+    high = np.where(seen == trials, 1.0, np.minimum(middle + half, 1.0))
+    return (low.item(), high.item()) if low.ndim == 0 else (low, high)
+
+
+@frozen
+class Share:
+    """A share known from a count, with its interval.
+
+    Attributes
+    ----------
+    count, of : int
+        How many of how many.
+
+    Examples
+    --------
+    >>> print(Share(567, 3000))
+    18.9 % (17.5–20.3 %)
+    """
+
+    count: int = field(converter=int)
+    of: int = field(converter=int)
+
+    @property
+    def value(self) -> float:
+        """count/of; NaN of none."""
+        return self.count / self.of if self.of else float("nan")
+
+    @property
+    def low(self) -> float:
+        """Lower end of its 95 % interval, Wilson's."""
+        return wilson(self.count, self.of)[0]
+
+    @property
+    def high(self) -> float:
+        """Upper end of it."""
+        return wilson(self.count, self.of)[1]
+
+    def __float__(self) -> float:
+        return self.value
+
+    def __str__(self) -> str:
+        low, high = (_percent(end) for end in wilson(self.count, self.of))
+        return f"{_percent(self.value)} % ({low}–{high} %)"
+
+
+def _percent(share: float) -> str:
+    """To a tenth of a percent, and finer where a share is smaller than that."""
+    value = 100.0 * share
+    return f"{value:.2g}" if 0.0 < value < 0.1 else f"{value:.1f}"

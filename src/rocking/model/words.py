@@ -1,0 +1,54 @@
+"""How counts, measured numbers and shares read, wherever they are told."""
+
+from __future__ import annotations
+
+import math
+
+# Beyond it a double has no more digits to tell.
+MOST_DECIMALS = 15
+
+
+def counted(number: int, thing: str) -> str:
+    """1 impact, 2 impacts, 1,000 impacts.
+
+    Examples
+    --------
+    >>> counted(1, "impact"), counted(1000, "brace hit")
+    ('1 impact', '1,000 brace hits')
+    """
+    return f"{number:,} {thing}{'s' * (number != 1)}"
+
+
+def plus_minus(value: float, error: float) -> str:
+    """A number with its error, to the second digit of the error.
+
+    Examples
+    --------
+    >>> plus_minus(0.53412, 0.00351), plus_minus(0.25, math.inf), plus_minus(-0.0779, 0.0)
+    ('0.5341 ± 0.0035', '0.25 (error unknown)', '-0.0779')
+    """
+    if not math.isfinite(value):
+        return "−∞" if value < 0.0 else str(value)
+    if math.isinf(error):
+        return f"{value:.3g} (error unknown)"
+    if error < 10.0**-MOST_DECIMALS:
+        return f"{value:.{MOST_DECIMALS}g}"
+    places = min(max(1 - math.floor(math.log10(error)), 0), MOST_DECIMALS)
+    return f"{value:.{places}f} ± {error:.{places}f}"
+
+
+def percent(share: float) -> str:
+    """A share to three digits or a tenth of a percent; never 0 % or 100 % of what is neither none nor all.
+
+    Examples
+    --------
+    >>> [percent(share) for share in (0, 0.00001, 0.00123, 0.4705, 0.99999, 1)]
+    ['0 %', '< 0.01 %', '0.12 %', '47.0 %', '> 99.9 %', '100 %']
+    """
+    if share in (0.0, 1.0):
+        return f"{100.0 * share:.0f} %"
+    if share < 0.0001:
+        return "< 0.01 %"
+    if share > 0.999:
+        return "> 99.9 %"
+    return f"{100.0 * share:.2f} %" if share < 0.01 else f"{100.0 * share:.1f} %"
