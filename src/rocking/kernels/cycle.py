@@ -1,0 +1,181 @@
+"""Whether a motion has reached a periodic orbit: the closest return, Newton's method from it, and the Floquet stop."""
+
+import math
+from typing import NamedTuple
+
+from numba import njit
+
+from .elementary import WITHIN, WRITTEN_IN
+from .march import UNKNOWN
+from .orbit import Found, Image, adapted_norm, find_fixed_point, image_after, length, multipliers
+from .parameters import later
+from .returns import apart, approached, closest_return
+from .tangent import Tangent
+
+# Where Newton's method starts, in this order; and once more with the least period of what it found.
+KNOWN, APPROACHED, CLOSEST, NO_MORE = range(4)
+REFINED = -1
+UNBOUNDED = 1 << 62
+# From returns further apart Newton's method seldom finds what the motion approaches.
+CLOSE = 0.01
+# A section must not lie on an event: sides, impacts and derivatives are ambiguous there. In cycles.
+CLEARANCE = 1e-6
+# How far a return may be from what the multipliers say, as a share of what is left of the distance.
+NONLINEAR = 0.2
+RETURNS = 3
+# States of an orbit as near as this are one.
+SAME = 1e-9
+# A motion as near as this to a neutral orbit is on it.
+NEUTRAL = 1e-10
+# Distances below this are rounding.
+ROUNDING = 1e-12
+
+NOT_YET, REACHED, ON_EVENT = range(3)
+
+
+class Cycle(NamedTuple):
+    """A periodic orbit that a motion was compared with."""
+
+    answer: int  # NOT_YET, REACHED, or ON_EVENT: the section must move
+    period: int
+    symmetric: bool
+    found: Found
+    peak: float
+    distance: float  # from the orbit, a period before the last return
+    work: int
+
+
+@njit(**WITHIN)
+def loses(p, impacts, brace_hits):
+    """Whether so many events lose energy."""
+    return (p.restitution < 1.0 and impacts > 0) or (p.brace_restitution < 1.0 and brace_hits > 0)
+
+
+@njit(**WITHIN)
+def on_event(p, section, row):
+    """Whether an impact or a brace hit lies within CLEARANCE of a row of the section."""
+    near = CLEARANCE * p.period
+    angle = abs(section[row, 0])
+    reach = near * abs(section[row, 1]) + near * near * (1.0 + p.amplitude)
+    return angle <= reach or abs(angle - p.brace_angle) <= reach
+
+
+@njit(**WRITTEN_IN)
+def find_cycle(p, section_time, desk, count, most_lag, most_work, known, since, neutral):
+    """Compare a motion with the periodic orbit that its last ``count`` states approach.
+
+    First with the ``known`` one, found ``since`` cycles ago, and with no other while the motion comes nearer to
+    it; then with the limit of the returns; then, if they have none, with what is nearest to a close return. A
+    ``neutral`` orbit attracts nothing: the motion must be on it.
+    """
+    section, nothing, columns, scratch = desk.section, desk.nothing, desk.trial, desk.scratch
+    clocked, row, work, candidate, seen = later(p, section_time), count - 1, 0, KNOWN, no_cycle(0)
+    angle, velocity, lag, found, enough = 0.0, 0.0, 0, known.found, UNBOUNDED
+    while candidate < NO_MORE:
+        trying, candidate = candidate, (NO_MORE if candidate == REFINED else candidate + 1)
+        if trying == KNOWN:
+            lag, row = known.period, count - 1 - since % max(known.period, 1)
+            lag = lag if row >= lag else 0
+        elif trying == APPROACHED:
+            row = count - 1
+            lag, angle, velocity = approached(section, count, most_lag)
+        elif trying == CLOSEST:
+            lag, away = closest_return(section, count, most_lag)
+            lag = lag if away <= CLOSE else 0
+            angle, velocity = section[row, 0], section[row, 1]
+            # Only far from an orbit is Newton's method dear.
+            enough = most_work - work
+        if lag == 0 or enough <= 0:
+            continue
+        if trying != KNOWN:
+            found = find_fixed_point(clocked, angle, velocity, lag, enough, nothing, columns)
+            work += found.work
+            if not found.converged:
+                continue
+        answer, away = compare(p, section, row, lag, found)
+        if answer != REACHED and not (neutral and away <= NEUTRAL):
+            if trying == KNOWN and answer == NOT_YET and away < known.distance:
+                return Cycle(NOT_YET, lag, False, found, math.nan, away, work)
+            if trying != KNOWN or answer == ON_EVENT:
+                seen = Cycle(answer, lag, False, found, math.nan, away, work)
+            if answer == ON_EVENT or trying == APPROACHED:
+                break
+            continue
+        whole = image_after(
+            clocked,
+            found.angle,
+            found.velocity,
+            lag,
+            0.5 * p.period,
+            scratch,
+            nothing,
+            nothing.columns,
+            True,
+            found.image.waits,
+        )
+        work += whole.impacts + whole.brace_hits
+        same = max(SAME, 100.0 * found.error)
+        period = least_period(scratch, lag, same)
+        if period == lag:
+            symmetric = period % 2 == 1 and is_mirrored(scratch, (period - 1) // 2, found, same)
+            return Cycle(REACHED, period, symmetric, found, whole.peak, away, work)
+        angle, velocity, lag, enough, candidate = found.angle, found.velocity, period, UNBOUNDED, REFINED
+    return Cycle(seen.answer, seen.period, False, seen.found, math.nan, seen.distance, work)
+
+
+@njit(**WITHIN)
+def no_cycle(work):
+    """No orbit; its multipliers are those of a motion that forgets everything."""
+    nowhere = Image(False, math.nan, math.nan, Tangent(0.0, 0.0, 0.0, 0.0), -1, -1, math.nan, UNKNOWN)
+    nothing = Found(False, math.nan, math.nan, nowhere, math.nan, math.nan, 0)
+    return Cycle(NOT_YET, 0, False, nothing, math.nan, math.nan, work)
+
+
+@njit(**WITHIN)
+def is_mirrored(section, row, found, same):
+    """Whether a row is the mirror image of the fixed point."""
+    return math.hypot(section[row, 0] + found.angle, section[row, 1] + found.velocity) <= same
+
+
+@njit(**WITHIN)
+def least_period(rows, lag, same):
+    """The smallest divisor of ``lag`` after which the rows of the orbit repeat themselves."""
+    for period in range(1, lag):
+        if lag % period == 0 and apart(rows, period, 0) <= same:
+            return period
+    return lag
+
+
+@njit(**WITHIN)
+def compare(p, section, row, period, found):
+    """(answer, distance from the orbit a period before the row): the Floquet stop.
+
+    The orbit must be stable, and each of the last RETURNS returns what its multipliers say, up to a share of
+    what is left, with the orbit's own impacts: one alone may do so by chance, and the map has kinks that only the
+    next ones meet. An orbit that rests or leans in between is not judged here: its section need not resolve when. One
+    that loses nothing attracts nothing: both its multipliers are inside the unit circle by rounding alone.
+    """
+    angle, velocity, image = found.angle, found.velocity, found.image
+    tangent = image.tangent
+    real, imaginary, _, _ = multipliers(tangent)
+    radius = math.hypot(real, imaginary)
+    distance = math.hypot(section[row - period, 0] - angle, section[row - period, 1] - velocity)
+    attracts = radius < 1.0 and loses(p, image.impacts, image.brace_hits)
+    if not attracts or radius == 0.0 or row < RETURNS * period:
+        return NOT_YET, distance
+    for k in range(period):
+        if on_event(p, section, row - k):
+            return ON_EVENT, distance
+    norm = adapted_norm(tangent, 0.5 * (1.0 + radius))
+    for k in range(RETURNS):
+        after = row - k * period
+        before = after - period
+        x, y = section[before, 0] - angle, section[before, 1] - velocity
+        to_x = section[after, 0] - angle - (tangent.a * x + tangent.c * y)
+        to_y = section[after, 1] - velocity - (tangent.b * x + tangent.d * y)
+        impacts, brace_hits = section[after, 2] - section[before, 2], section[after, 3] - section[before, 3]
+        near = length(norm, to_x, to_y) <= NONLINEAR * (1.0 - radius) * length(norm, x, y)
+        near = near or math.hypot(x, y) <= ROUNDING
+        if not near or impacts != image.impacts or brace_hits != image.brace_hits:
+            return NOT_YET, distance
+    return REACHED, distance

@@ -1,0 +1,49 @@
+"""Working memory of the cascade: made once, for one system after another."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+# Cycles between looks at a motion that loses nothing.
+LEG = 64
+# Over so many equal parts of the second half of the budget the exponent is measured.
+BATCHES = 64
+
+
+class Nothing(NamedTuple):
+    """Arrays without rows, for what is not recorded: made once, since to make one costs as much as half an impact."""
+
+    section: np.ndarray  # (0, 4)
+    events: np.ndarray  # (0, 8)
+    columns: np.ndarray  # (0, 2)
+    growth: np.ndarray  # (0,)
+
+
+class Desk(NamedTuple):
+    """Working memory, for one system after another."""
+
+    section: np.ndarray  # (n, 4), the last n cycles
+    scratch: np.ndarray  # (n, 4), a trial orbit's
+    events: np.ndarray  # (n, 8)
+    flights: np.ndarray  # (2, n)
+    batches: np.ndarray
+    columns: np.ndarray  # (2, 2)
+    trial: np.ndarray  # (2, 2)
+    growth: np.ndarray  # (2,)
+    nothing: Nothing
+
+
+def desk(max_cycles, max_period):
+    """Working memory for runs of up to ``max_cycles`` and orbits of up to ``max_period``."""
+    rows = max(4 * max_period, LEG) + 1
+    return Desk(
+        np.empty((rows, 4)),
+        np.empty((rows, 4)),
+        np.empty((512, 8)),
+        np.empty((2, min(max(4 * max_cycles, 1024), 1 << 18))),
+        np.empty(BATCHES),
+        np.empty((2, 2)),
+        np.empty((2, 2)),
+        np.empty(2),
+        Nothing(np.empty((0, 4)), np.empty((0, 8)), np.empty((0, 2)), np.empty(0)),
+    )

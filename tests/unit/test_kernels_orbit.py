@@ -1,0 +1,181 @@
+"""Periodic orbits in the kernels: what returns point to, Newton's method, multipliers and the norm in which they shrink."""
+
+import math
+
+import numpy as np
+import pytest
+from numba import njit
+
+from rocking.kernels import desk, orbit, returns
+from rocking.kernels.parameters import harmonic_parameters
+from rocking.kernels.tangent import Tangent
+
+RANDOM = np.random.default_rng(1991)
+
+
+# Kernels have no way in from Python but through a compiled function.
+@njit
+def closest_return(section, most_lag):
+    return returns.closest_return(section, len(section), most_lag)
+
+
+@njit
+def approached(section, most_lag):
+    return returns.approached(section, len(section), most_lag)
+
+
+@njit
+def multipliers(a, b, c, d):
+    return orbit.multipliers(Tangent(a, b, c, d))
+
+
+@njit
+def adapted_norm(a, b, c, d, radius):
+    return orbit.adapted_norm(Tangent(a, b, c, d), radius)
+
+
+@njit(error_model="numpy")
+def find_fixed_point(p, angle, velocity, cycles, memory):
+    found = orbit.find_fixed_point(p, angle, velocity, cycles, 1 << 40, memory.nothing, memory.trial)
+    image = found.image
+    return (
+        found.converged, found.angle, found.velocity, found.residual, found.error, found.work, image.tangent, image.impacts,
+    )  # fmt: skip
+
+
+def linear_returns(matrix, orbit_rows, off, count):
+    """Rows that come to the points of an orbit in turn, what is missing multiplied by a matrix each time around."""
+    lag = len(orbit_rows)
+    rows = np.zeros((count, 4))
+    for k in range(count):
+        rows[k, :2] = orbit_rows[k % lag] + np.linalg.matrix_power(matrix, k // lag) @ off
+    return rows
+
+
+def spiral(radius, turn):
+    return radius * np.array([[math.cos(turn), -math.sin(turn)], [math.sin(turn), math.cos(turn)]])
+
+
+SKEW = np.array([[1.0, 2.0], [0.3, 1.0]])
+THREE = np.array([[0.1, 0.2], [0.3, -0.1], [-0.2, 0.05]])
+
+
+def test_closest_return_is_that_of_the_last_row():
+    rows = RANDOM.random((40, 4))
+    apart = np.hypot(*(rows[-1, :2] - rows[:-1, :2]).T)[::-1]
+    for most in (5, 20, 100):
+        lag, distance = closest_return(rows, most)
+        assert lag == 1 + np.argmin(apart[:most])
+        assert distance == pytest.approx(apart[:most].min(), rel=1e-15)
+    assert closest_return(rows[:1], 5) == (0, math.inf)
+    assert closest_return(rows[[0, 1, 2, 2]], 5) == (1, 0.0)
+
+
+@pytest.mark.parametrize(
+    "matrix",
+    [spiral(0.8, 1.1), np.linalg.inv(SKEW) @ np.diag([0.9, -0.5]) @ SKEW, np.array([[0.7, 1.0], [0.0, 0.7]])],
+    ids=["spiral", "real", "defective"],
+)
+@pytest.mark.parametrize("points", [THREE[:1], THREE], ids=["period 1", "period 3"])
+def test_linear_returns_foretell_the_orbit_they_come_to_by_its_least_lag(matrix, points):
+    rows = linear_returns(matrix, points, np.array([0.02, -0.01]), 24 * len(points))
+    off = np.hypot(*(rows[-1, :2] - points[(len(rows) - 1) % len(points)]))
+    lag, angle, velocity = approached(rows, 8)
+    assert lag == len(points)
+    limit = points[(len(rows) - 1) % len(points)]
+    assert math.hypot(angle - limit[0], velocity - limit[1]) < 1e-6 * off + 1e-14
+
+
+def test_returns_along_one_direction_are_a_geometric_series():
+    """Far from a fold one multiplier is spent long before the other; a matrix cannot be had from aligned differences."""
+    along = np.array([0.6, 0.8])
+    rows = np.zeros((12, 4))
+    rows[:, :2] = [THREE[0] + 0.1 * 0.9**k * along for k in range(12)]
+    assert approached(rows, 4) == pytest.approx((1, *THREE[0]), abs=1e-13)
+
+
+def test_what_only_turns_about_a_longer_orbit_approaches_nothing():
+    rows = linear_returns(spiral(0.999, 2 * math.pi / 7 + 0.01), THREE[:1], np.array([0.02, 0.0]), 40)
+    assert approached(rows, 6)[0] == 0
+
+
+def test_an_orbit_reached_is_its_own_limit():
+    exact = linear_returns(np.zeros((2, 2)), THREE, np.zeros(2), 30)
+    assert approached(exact, 8) == (3, *exact[-1, :2])
+
+
+@pytest.mark.parametrize("scale", [1e-8, 1.0, 1e8])
+def test_multipliers_are_the_eigenvalues_the_larger_first(scale):
+    for _ in range(200):
+        matrix = scale * RANDOM.normal(size=(2, 2))
+        (a, c), (b, d) = matrix  # the tangent's columns are (a, b) and (c, d)
+        real, imaginary, other, other_imaginary = multipliers(a, b, c, d)
+        known = sorted(np.linalg.eigvals(matrix), key=lambda value: (-abs(value), -value.imag))
+        assert complex(real, imaginary) == pytest.approx(known[0], rel=1e-9, abs=1e-13 * scale)
+        assert complex(other, other_imaginary) == pytest.approx(known[1], rel=1e-9, abs=1e-13 * scale)
+
+
+def test_multipliers_far_apart_keep_the_digits_of_the_small_one():
+    assert multipliers(0.5, 1.0, 0.0, 1e-14) == pytest.approx((0.5, 0.0, 1e-14, 0.0), rel=1e-12, abs=0)
+    assert multipliers(0.0, 0.0, 0.0, 0.0) == (0.0, 0.0, 0.0, 0.0)
+    assert multipliers(2.0, 0.0, 1.0, 2.0) == (2.0, 0.0, 2.0, 0.0)
+
+
+def test_in_the_adapted_norm_every_vector_shrinks_at_least_as_fast_as_asked():
+    cases = [RANDOM.normal(size=(2, 2)) for _ in range(100)]
+    cases += [np.array([[1.0, 1e3], [0.0, 1.0]]), np.array([[1.0, 1e3], [0.0, 1.0 - 1e-9]]), spiral(1.0, 3.0)]
+    for case in cases:
+        matrix = case * 0.9 / np.abs(np.linalg.eigvals(case)).max()
+        (a, c), (b, d) = matrix
+        q11, q12, q22 = adapted_norm(a, b, c, d, 0.95)
+        norm = np.array([[q11, q12], [q12, q22]])
+        for x in (RANDOM.normal(size=2) for _ in range(20)):
+            image = matrix @ x
+            assert image @ norm @ image <= 0.95**2 * (x @ norm @ x) * (1 + 1e-9)
+
+
+def mode_1_1(amplitude, period, e):
+    """(parameters, state, half-cycle trace) of the stable symmetric mode (1, 1), a quarter cycle after an impact, eqs. (5), (8)-(10)."""
+    omega = 2 * math.pi / period
+    h, beta = math.pi / omega, amplitude / (1 + omega**2)
+    t, sinh, cosh = math.tanh(h / 2), math.sinh(h), math.cosh(h)
+    less, more = (1 - e) / (2 * e), (1 + e) / (2 * e)
+    square, half = (omega * t * less) ** 2 + more**2, t * more
+    speed = (half + math.sqrt(half**2 - square * (t**2 - (omega * beta) ** 2))) / square
+    phase = math.atan2((t - speed * more) / omega, -t * speed * less)
+    trace = -2 * e * cosh + e * (1 + e) * sinh / speed - sinh * t * (1 - e) ** 2 * (1 + omega**2) / 2
+    s, now = period / 4, phase + math.pi / 2
+    angle = (
+        speed * math.sinh(s) - math.cosh(s) + 1
+        + beta * (math.cos(now) - math.cos(phase) * math.cosh(s) + omega * math.sin(phase) * math.sinh(s))
+    )  # fmt: skip
+    velocity = (
+        speed * math.cosh(s) - math.sinh(s)
+        + beta * (-omega * math.sin(now) - math.cos(phase) * math.sinh(s) + omega * math.sin(phase) * math.cosh(s))
+    )  # fmt: skip
+    return harmonic_parameters(amplitude, omega, period, now, e), (angle, velocity), trace
+
+
+@pytest.mark.parametrize(
+    ("amplitude", "period", "e"), [(2.0, 1.0, 0.925), (10.0, 1.0, 0.8), (5.0, 2.0, 0.9), (2.0, 1.0, 1.0)]
+)
+def test_newtons_method_finds_the_mode_of_the_closed_form_with_its_multipliers(amplitude, period, e):
+    p, (angle, velocity), trace = mode_1_1(amplitude, period, e)
+    converged, *state, residual, error, work, tangent, impacts = find_fixed_point(
+        p, angle + 3e-3, velocity - 2e-3, 1, desk.desk(100, 8)
+    )
+    a, b, c, d = tangent
+    assert converged
+    assert impacts == 2
+    assert work % 2 == 0
+    assert 0 < work <= 20
+    # two half cycles, each negated: eigenvalues squared
+    assert a + d == pytest.approx(trace**2 - 2 * e**2, abs=1e-9 * max(1, abs(a), abs(c)))
+    assert a * d - b * c == pytest.approx(e**4, abs=1e-10 * max(1, abs(a), abs(c)) ** 2)
+    assert residual <= 1e-12 * max(1, abs(a), abs(b), abs(c), abs(d))
+    assert math.dist(state, (angle, velocity)) < 1e-11 + 10 * error
+
+
+def test_newtons_method_gives_up_where_the_block_overturns():
+    p = harmonic_parameters(1.75, math.pi, 2.0, 0.0, 0.95)
+    assert not find_fixed_point(p, 0.9, 0.5, 3, desk.desk(100, 8))[0]
