@@ -1,0 +1,24 @@
+"""What a response is: its section, spectrum, exponents, dimension and frequencies, and a verdict with its evidence."""
+
+from rocking.response.birkhoff import RotationNumber, rotation_number
+from rocking.response.classify import classify
+from rocking.response.density import Peak, SpectralDensity
+from rocking.response.dimension import CorrelationDimension, correlation_dimension
+from rocking.response.exponents import LyapunovSpectrum
+from rocking.response.lyapunov import lyapunov
+from rocking.response.section import impact_section
+from rocking.response.spectrum import spectral_density
+
+__all__ = [
+    "CorrelationDimension",
+    "LyapunovSpectrum",
+    "Peak",
+    "RotationNumber",
+    "SpectralDensity",
+    "classify",
+    "correlation_dimension",
+    "impact_section",
+    "lyapunov",
+    "rotation_number",
+    "spectral_density",
+]

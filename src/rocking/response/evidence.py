@@ -1,0 +1,228 @@
+"""Why a response is called what it is called: one sentence for every ground on which the compiled cascade decides."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from decimal import ROUND_UP, Context, Decimal
+
+from attrs import field, frozen
+
+from rocking.kernels import cycle, lossless, orbit, release, verdict
+from rocking.kernels import judgement as kernel
+from rocking.model import Evidence, System, counted, plus_minus
+from rocking.motion import Motion
+
+MOST_GROWTH = f"{math.exp(release.LARGEST_STRAIN):.0e}".replace("e+0", "e")
+
+OTHERWISE = "but so sensitive until then that another rounding ends otherwise"
+
+
+@frozen
+class Case:
+    """A judged response: what was asked, what the cascade answered, and the motion to its end where that is proved."""
+
+    system: System
+    max_cycles: int
+    max_period: int
+    judgement: kernel.Judgement
+    motion: Motion | None
+
+
+@frozen
+class Shown:
+    """What was shown, how well, and a way out where it did not suffice."""
+
+    level: str
+    what: str
+    remark: str
+    tolerances: dict[str, float] = field(factory=dict)
+
+
+def evidence_of(case: Case) -> Evidence:
+    """The evidence in one sentence."""
+    shown = SHOWN[kernel.Ground(case.judgement.ground)](case)
+    return Evidence(shown.level, f"{shown.what} ({shown.remark})", shown.tolerances, case.judgement.cycles)
+
+
+def _no_return(case: Case) -> Shown:
+    overturning = None if case.motion is None else case.motion.overturning
+    undone = "the growing part of the motion can no longer be undone"
+    if overturning is None:
+        return Shown("exact", f"no return: after {spent(case)} {undone}", f"exact; {OTHERWISE}")
+    when = f"after {counted(overturning.impacts, 'impact')}" if overturning.impacts else "without an impact"
+    return Shown("exact", f"no return: {when}, at τ = {overturning.time:.6g}, {undone}", "exact")
+
+
+def _still_for_ever(case: Case) -> Shown:
+    if case.motion is None:
+        return Shown("exact", f"rests or leans for ever after {spent(case)}", f"exact; {OTHERWISE}")
+    amplitude, angle, braces = case.system.forcing.amplitude, case.motion.final.angle, case.system.braces
+    if angle != 0.0 and braces is not None:
+        # f = −1 − σA cos ψ stays above −Θb
+        what = f"leans on the brace at Θ = {angle:.6g} for ever: A = {amplitude:.6g} ≤ Θb − 1 = {braces.angle - 1.0:.6g} never pulls it off"
+    else:
+        what = f"rests for ever: A = {amplitude:.6g} ≤ 1 never lifts it off"
+    moved = case.motion.impacts + case.motion.brace_hits > 0
+    return Shown("exact", what, f"exact, within {spent(case)}" if moved else "exact")
+
+
+def _reset(case: Case) -> Shown:
+    judged = case.judgement
+    which = "release from a brace" if judged.angle else "lift-off from rest"
+    apart = counted(judged.period, "half cycle") if judged.symmetric else counted(judged.period, "cycle")
+    what = (
+        f"{_periodic(judged)}: every {which} is the same state{' but for its side' * judged.symmetric}, two of them are "
+        f"{apart} of the forcing apart, and differences grew less than {MOST_GROWTH}-fold between them"
+    )
+    return Shown("verified", what, f"verified, after {spent(case)}", {"growth": float(MOST_GROWTH)})
+
+
+def _orbit(case: Case) -> Shown:
+    judged = case.judgement
+    if judged.distance <= cycle.ROUNDING:
+        reached = f"the motion lies on the orbit to within {cycle.ROUNDING:.0e}"
+    else:
+        reached = f"the motion, {judged.distance:.2g} away a period before, approaches the orbit as they say"
+    what = (
+        f"{_periodic(judged)}: Newton's method met |P(x) − x| ≤ {at_most(judged.residual)}, both multipliers are inside the "
+        f"unit circle (largest {_below_one(math.hypot(judged.real, judged.imaginary))}) and {reached}"
+    )
+    tolerances = {"residual": orbit.RESIDUAL, "approach": cycle.NONLINEAR, "distance": cycle.ROUNDING}
+    return Shown("verified", what, f"verified, after {spent(case)}", tolerances)
+
+
+def _neutral_orbit(case: Case) -> Shown:
+    what = (
+        f"{_periodic(case.judgement)}: the motion comes back to within {verdict.UNMOVED:.0e} of where it was, its averages over "
+        f"both halves of the run agree to {lossless.ENOUGH_DIGITS:.0f} digits or more, and nothing is lost, so that neighbours "
+        "stay neighbours and need not approach"
+    )
+    tolerances = {"residual": orbit.RESIDUAL, "distance": verdict.UNMOVED, "digits": lossless.ENOUGH_DIGITS}
+    return Shown("verified", what, f"verified, after {spent(case)}", tolerances)
+
+
+def _torus(case: Case) -> Shown:
+    what = (
+        f"nothing is lost; the averages over both halves of the run agree as on a torus, to {lossless.ENOUGH_DIGITS:.0f} digits or "
+        f"more for the flight times and {math.floor(case.judgement.digits)} for the squared speeds; neighbours part no faster than "
+        f"linearly; and it does not return to within {verdict.UNMOVED:.0e} in {case.max_period} cycles"
+    )
+    tolerances = {
+        "flight digits": lossless.ENOUGH_DIGITS,
+        "speed digits": lossless.CHAOTIC_DIGITS,
+        "log shear": lossless.SHEAR,
+    }
+    return Shown("verified", what, f"verified, after {spent(case)}", tolerances)
+
+
+def _exponent(case: Case) -> Shown:
+    judged = case.judgement
+    what = (
+        f"largest exponent {plus_minus(judged.exponent, judged.error)} per τ, {judged.exponent / judged.error:.0f} standard "
+        f"errors above zero, watched for {spent(case)}"
+    )
+    remark = "statistical: a longer run may find an end to it"
+    return Shown("statistical", what, remark, {"standard errors": kernel.CLEARLY})
+
+
+def _unresolved_reset(case: Case) -> Shown:
+    what = (
+        f"it comes to rest or leans and is released again, but between two releases differences grow more than "
+        f"{MOST_GROWTH}-fold: after how many cycles it repeats itself is not known in double precision"
+    )
+    return Shown("none", what, "no longer run can tell; a slightly different system may")
+
+
+def _unwatched(case: Case) -> Shown:
+    needed = kernel.CHAOS_NEEDS if case.system.braces is None else kernel.CHAOS_NEEDS_WITH_BRACES
+    return Shown(
+        "none",
+        f"{_no_orbit(case)}, too few to call it chaotic",
+        f"raise max_cycles to {needed:,} or more",
+    )
+
+
+def _indistinct(case: Case) -> Shown:
+    judged = case.judgement
+    longer = f"raise max_cycles above {case.max_cycles:,}"
+    if not 0.0 < judged.error < math.inf:
+        return Shown(
+            "none", f"{_no_orbit(case)}, and its largest exponent has no error that could be trusted", longer
+        )
+    found = (
+        f"{_no_orbit(case)}, and its largest exponent, {plus_minus(judged.exponent, judged.error)} per τ, is"
+    )
+    if judged.exponent < -kernel.CLEARLY * judged.error:
+        longer = f"raise max_period above {case.max_period}, or max_cycles above {case.max_cycles:,}"
+        return Shown("none", f"{found} negative", longer)
+    return Shown("none", f"{found} less than {kernel.CLEARLY:.0f} standard errors above zero", longer)
+
+
+def _between(case: Case) -> Shown:
+    what = (
+        f"nothing is lost, and the averages over both halves of {spent(case)} agree to {case.judgement.digits:.1f} digits: better "
+        f"than on chaotic motion (below {lossless.CHAOTIC_DIGITS:.0f}), but not all is as on a torus"
+    )
+    return Shown("none", what, f"raise max_cycles above {case.max_cycles:,}")
+
+
+def _crowded(case: Case) -> Shown:
+    what = (
+        f"more impacts than are followed, over {verdict.MOST_EVENTS_A_CYCLE} a cycle: it chatters almost without loss; given up "
+        f"after {spent(case)}"
+    )
+    return Shown("none", what, "start it faster, or take a smaller restitution")
+
+
+def _standing(case: Case) -> Shown:
+    what = (
+        f"it comes back to within {verdict.UNMOVED:.0e} of where it was in {spent(case)}, and differences grow by "
+        f"{case.judgement.exponent:.4g} per τ: it stands on an unstable orbit"
+    )
+    return Shown("none", what, "start it a little beside")
+
+
+SHOWN: dict[kernel.Ground, Callable[[Case], Shown]] = {
+    kernel.Ground.NO_RETURN: _no_return,
+    kernel.Ground.STILL_FOR_EVER: _still_for_ever,
+    kernel.Ground.RESET: _reset,
+    kernel.Ground.ORBIT: _orbit,
+    kernel.Ground.NEUTRAL_ORBIT: _neutral_orbit,
+    kernel.Ground.TORUS: _torus,
+    kernel.Ground.EXPONENT: _exponent,
+    kernel.Ground.UNRESOLVED_RESET: _unresolved_reset,
+    kernel.Ground.UNWATCHED: _unwatched,
+    kernel.Ground.INDISTINCT: _indistinct,
+    kernel.Ground.BETWEEN: _between,
+    kernel.Ground.CROWDED: _crowded,
+    kernel.Ground.STANDING: _standing,
+}
+
+
+def spent(case: Case) -> str:
+    """How many cycles were followed."""
+    return counted(case.judgement.cycles, "cycle")
+
+
+def at_most(size: float) -> str:
+    """A size rounded up to one digit."""
+    return f"{Context(prec=1, rounding=ROUND_UP).create_decimal(Decimal(size)):.0e}" if size else "0"
+
+
+def _below_one(size: float) -> str:
+    """A size below 1 to three digits, or to as many as tell it from 1."""
+    return next(text for digits in (3, 6, 9, 17) if (text := f"{size:.{digits}g}") != "1" or digits == 17)
+
+
+def _periodic(judged: kernel.Judgement) -> str:
+    parts = [f"period {judged.period}", "symmetric" if judged.symmetric else "unsymmetric"]
+    if judged.impacts >= 0:
+        parts.append(counted(judged.impacts, "impact"))
+    if judged.brace_hits > 0:
+        parts.append(counted(judged.brace_hits, "brace hit"))
+    return ", ".join(parts)
+
+
+def _no_orbit(case: Case) -> str:
+    return f"no orbit of period up to {case.max_period} was reached in {spent(case)}"

@@ -1,0 +1,87 @@
+"""Pairs of points within radii, counted with k-d trees."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+Places = NDArray[np.intp]
+
+STEPS_PER_OCTAVE = 4
+# Beyond the spread of the points themselves pairs only saturate.
+LARGEST_RADIUS = 0.5
+BLOCKS = 16
+# Fewer close pairs in a block than this, and its logarithm is noise.
+FEWEST_PAIRS = 64
+REFERENCES = 2_000
+# Pairs listed one by one, which takes some 100 bytes each.
+MOST_PAIRS = 3e6
+
+
+def pairs_within(scaled: Array, theiler: int, same: float) -> tuple[Array, Array, Array]:
+    """Radii (n,) above ``same``; pairs within each, and all pairs, (blocks, n), of reference points in blocks in time.
+
+    Pairs that follow each other by no more than ``theiler`` are left out.
+    """
+    from scipy.spatial import cKDTree
+
+    tree = cKDTree(scaled)
+    nearest = np.sort(tree.query(scaled, k=2)[0][:, 1])
+    smallest = max(float(nearest[FEWEST_PAIRS]), same)
+    octaves = max(math.log2(LARGEST_RADIUS / smallest), 0.0)
+    radii = LARGEST_RADIUS * 2.0 ** (-np.arange(int(octaves * STEPS_PER_OCTAVE), -1, -1) / STEPS_PER_OCTAVE)
+    # A few reference points serve the large radii; the small ones take all.
+    few = np.sort(np.random.default_rng(0).permutation(len(scaled))[:REFERENCES])
+    counts, pairs = _counted(tree, few, theiler, radii)
+    near = int(np.searchsorted(0.5 * counts.sum(axis=0) * len(scaled) / len(few), MOST_PAIRS))
+    if near and len(few) < len(scaled):
+        counts[:, :near], pairs[:, :near] = _listed(tree, theiler, radii[:near])
+    scarce = np.flatnonzero(counts.min(axis=0) < FEWEST_PAIRS)
+    first = int(scarce[-1]) + 1 if scarce.size else 0
+    return radii[first:], counts[:, first:], pairs[:, first:]
+
+
+def _counted(tree: Any, chosen: Places, theiler: int, radii: Array) -> tuple[Array, Array]:
+    """Pairs of some reference points with all points, counted a tree at a time."""
+    from scipy.spatial import cKDTree
+
+    counts = []
+    for block in np.array_split(chosen, BLOCKS):
+        close = np.zeros(len(radii))
+        for lag in range(-theiler, theiler + 1):
+            here = block[(block + lag >= 0) & (block + lag < tree.n)]
+            close += _within(tree.data[here + lag] - tree.data[here], radii)
+        counts.append(cKDTree(tree.data[block]).count_neighbors(tree, radii) - close)
+    return np.array(counts), np.repeat(_admitted(chosen, tree.n, theiler), len(radii), axis=1)
+
+
+def _listed(tree: Any, theiler: int, radii: Array) -> tuple[Array, Array]:
+    """Pairs of all points, listed one by one."""
+    listed = tree.query_pairs(radii[-1], output_type="ndarray")
+    listed = listed[np.abs(listed[:, 1] - listed[:, 0]) > theiler]
+    distances = np.sqrt(((tree.data[listed[:, 0]] - tree.data[listed[:, 1]]) ** 2).sum(axis=1))
+    bins = np.searchsorted(radii, distances)
+    everyone = np.arange(tree.n)
+    sizes = [len(block) for block in np.array_split(everyone, BLOCKS)]
+    block_of = np.repeat(np.arange(BLOCKS), sizes)
+    cells = sum(
+        np.bincount(block_of[listed[:, end]] * len(radii) + bins, minlength=BLOCKS * len(radii))
+        for end in (0, 1)
+    )
+    counts = np.cumsum(np.reshape(cells, (BLOCKS, len(radii))), axis=1).astype(float)
+    return counts, np.repeat(_admitted(everyone, tree.n, theiler), len(radii), axis=1)
+
+
+def _within(differences: Array, radii: Array) -> NDArray[np.intp]:
+    distances = np.sort(np.sqrt((differences**2).sum(axis=1)))
+    return np.searchsorted(distances, radii, side="right")
+
+
+def _admitted(chosen: Places, points: int, theiler: int) -> Array:
+    """How many points lie outside the Theiler window of the chosen ones, (blocks, 1)."""
+    outside = np.maximum(chosen - theiler, 0) + np.maximum(points - 1 - chosen - theiler, 0)
+    return np.array([[float(block.sum())] for block in np.array_split(outside, BLOCKS)])

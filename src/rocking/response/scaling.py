@@ -1,0 +1,115 @@
+"""Where a count of pairs scales with the radius, with which exponent, and how sure that is."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from attrs import frozen
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+DECADE = math.log(10.0)
+SHORTEST = 0.5 * DECADE
+# How wide the interval may be: the longest region within the first of these that leaves a decade is taken.
+WIDTHS = (0.08, 0.12, 0.2, 0.4)
+# Overlapping halves of a region whose slopes are compared.
+HALVES = 5
+# A pair counts twice, once from either end, in blocks that seem independent.
+TWICE = math.sqrt(2.0)
+
+
+@frozen
+class Scaling:
+    """A scaling region (first and last radius), its slope and interval, and what was seen at every radius.
+
+    ``found`` says whether it spans a decade within the widest interval allowed.
+    """
+
+    region: tuple[int, int]
+    found: bool
+    slope: float
+    interval: tuple[float, float]
+    sums: Array
+    slopes: Array
+    slope_errors: Array
+
+
+def scaling_region(radii: Array, counts: Array, pairs: Array) -> Scaling | None:
+    """The longest range of radii over which ln C has one slope; None for less than half a decade of radii.
+
+    Parameters
+    ----------
+    radii : ndarray, shape (n,)
+        In geometric progression.
+    counts, pairs : ndarray, shape (blocks, n)
+        Pairs within each radius, and all pairs, for reference points in blocks.
+    """
+    if len(radii) < 3 or math.log(radii[-1] / radii[0]) < SHORTEST:
+        return None
+    x = np.log(radii)
+    y = np.log(counts.sum(axis=0) / pairs.sum(axis=0))
+    # without one block each (jackknife)
+    others = np.log((counts.sum(axis=0) - counts) / (pairs.sum(axis=0) - pairs))
+    fits = _Fits(x, np.vstack([y, others]))
+    first, last, found = _longest(fits)
+    low, high = fits.interval(first, last)
+    local = [fits.slope(k, k + 1) for k in range(len(x) - 1)]
+    return Scaling(
+        region=(first, last),
+        found=found,
+        slope=fits.slope(first, last)[0],
+        interval=(max(low, 0.0), high),
+        sums=np.exp(y),
+        slopes=np.array([pair[0] for pair in local]),
+        slope_errors=np.array([pair[1] for pair in local]),
+    )
+
+
+class _Fits:
+    """Straight lines through any range of the points, in constant time each."""
+
+    def __init__(self, x: Array, rows: Array) -> None:
+        self.x = x - x.mean()
+        self.sums = [
+            np.concatenate([np.zeros((len(rows), 1)), np.cumsum(terms, axis=1)], axis=1)
+            for terms in (rows, rows * self.x)
+        ]
+        self.moments = [np.concatenate([[0.0], np.cumsum(self.x**power)]) for power in (1, 2)]
+
+    def slope(self, first: int, last: int) -> tuple[float, float]:
+        """Slope over first … last, both included, and its standard error from the rows without one block each."""
+        count = last - first + 1
+        sy, sxy = (terms[:, last + 1] - terms[:, first] for terms in self.sums)
+        sx, sxx = (moment[last + 1] - moment[first] for moment in self.moments)
+        slopes = (count * sxy - sx * sy) / (count * sxx - sx * sx)
+        blocks = len(slopes) - 1
+        spread = math.sqrt((blocks - 1) / blocks * ((slopes[1:] - slopes[1:].mean()) ** 2).sum())
+        return float(slopes[0]), TWICE * spread
+
+    def interval(self, first: int, last: int) -> tuple[float, float]:
+        """Slopes of the whole range and of its halves, first to last; as much again beyond them as they differ, and two errors."""
+        slope, error = self.slope(first, last)
+        half = (last - first) // 2
+        starts = first + np.round(np.linspace(0, last - first - half, HALVES)).astype(int)
+        slopes = [slope, *(self.slope(start, start + half)[0] for start in starts.tolist())]
+        margin = max(slopes) - min(slopes) + 2.0 * error
+        return min(slopes) - margin, max(slopes) + margin
+
+
+def _longest(fits: _Fits) -> tuple[int, int, bool]:
+    """The longest region of a decade or more within the first width that leaves one (True), else the narrowest (False)."""
+    x = fits.x
+    regions = []
+    for first in range(len(x)):
+        for last in range(int(np.searchsorted(x, x[first] + SHORTEST - 1e-9)), len(x)):
+            low, high = fits.interval(first, last)
+            regions.append((first, last, float(x[last] - x[first]), high - low))
+    for widest in WIDTHS:
+        fair = [region for region in regions if region[3] <= widest and region[2] >= DECADE - 1e-9]
+        if fair:
+            best = max(fair, key=lambda region: (round(region[2], 6), -region[3]))
+            return best[0], best[1], True
+    best = min(regions, key=lambda region: region[3])
+    return best[0], best[1], False
