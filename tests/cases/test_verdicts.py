@@ -1,0 +1,96 @@
+"""Verdicts against labels established without their means: long brute-force recurrence, many digits, averages, exponents.
+
+`data/verdicts.json` is written by `data/make_verdicts.py`; `data/labels.json` was labelled elsewhere by the same routes. A
+verdict may be undetermined, rarely; it is never wrong.
+"""
+
+import json
+from collections import Counter
+from functools import cache
+from pathlib import Path
+
+import pytest
+
+import rocking as rk
+
+DATA = Path(__file__).resolve().parents[1] / "data"
+TABLES = {name: json.loads((DATA / f"{name}.json").read_text()) for name in ("verdicts", "labels")}
+CASES = [
+    pytest.param(name, number, id=f"{name}-{number}-{case['kind']}-{case.get('family', '')}")
+    for name, table in TABLES.items()
+    for number, case in enumerate(table)
+]
+FACTORS = (1.0, 1.0 - 1e-10, 1.0 + 1e-10)
+LEVELS = {"rest": "exact", "overturned": "exact", "quasi-periodic": "verified", "chaotic": "statistical"}
+
+
+@cache
+def verdict(name, number, factor=1.0):
+    """The verdict on a case of a table, its amplitude times a factor, within the cycles that the case allows."""
+    case = TABLES[name][number]
+    braces = None if case["brace"] is None else rk.Braces(angle=case["brace"], restitution=case["r"])
+    forcing = rk.Harmonic(amplitude=case["A"] * factor, period=case["T"], phase=case["phi"])
+    start = rk.State(case["Theta0"], case["dTheta0"])
+    budget = case.get("max_cycles", 100_000)
+    return rk.classify(rk.System(forcing, case["e"], braces), start, max_cycles=budget)
+
+
+def differing(found, case):
+    """What a verdict says otherwise than the table, as {name: (said, true)}.
+
+    A block that rests or leans within the period may hit nothing a countable number of times: None is right there too.
+    """
+    if found.kind != case["kind"]:
+        return {"kind": (str(found.kind), case["kind"])}
+    names = {"period", "impacts_per_period", "brace_hits_per_period", "symmetric"} & case.keys()
+    pairs = {name: (getattr(found, name), case[name]) for name in sorted(names)}
+    uncounted = ("impacts_per_period", "brace_hits_per_period") if case.get("chatter") else ()
+    return {
+        name: (said, true)
+        for name, (said, true) in pairs.items()
+        if said != true and not (said is None and name in uncounted)
+    }
+
+
+@pytest.mark.parametrize("name, number", CASES)
+def test_verdict_is_right_here_and_at_amplitudes_a_hair_beside(name, number):
+    case = TABLES[name][number]
+    for factor in FACTORS:
+        found = verdict(name, number, factor)
+        if found.kind != "undetermined":
+            assert differing(found, case) == {}, f"at A x {factor!r}: {found}"
+
+
+@pytest.mark.parametrize("name, number", CASES)
+def test_evidence_is_of_the_level_that_the_kind_allows(name, number):
+    found = verdict(name, number)
+    assert found.evidence.level == LEVELS.get(found.kind, found.evidence.level)
+    if found.kind == "undetermined":
+        assert found.evidence.level == "none"
+    if found.kind == "periodic":
+        assert found.evidence.level in ("verified", "exact")
+    assert found.cycles <= TABLES[name][number].get("max_cycles", 100_000)
+
+
+def test_less_than_one_in_a_hundred_is_undetermined():
+    undetermined = [case.id for case in CASES if verdict(*case.values).kind == "undetermined"]
+    assert len(undetermined) < 0.01 * len(CASES), undetermined
+
+
+def test_the_table_covers_every_kind_and_what_is_hard_about_it():
+    table = TABLES["verdicts"]
+    kinds = Counter(case["kind"] for case in table)
+    periodic = [case for case in table if case["kind"] == "periodic"]
+    assert len(table) >= 220
+    assert kinds["periodic"] >= 120
+    assert kinds["overturned"] >= 25
+    assert min(kinds["rest"], kinds["quasi-periodic"]) >= 15
+    assert kinds["chaotic"] >= 20
+    assert sum(case["period"] > 2 for case in periodic) >= 25
+    assert sum(case["brace"] is not None for case in periodic) >= 15
+    assert sum(case["chatter"] and case["brace"] is None for case in periodic) >= 20
+    assert sum(case["kind"] == "overturned" and case["A"] < 1 for case in table) >= 5
+    assert sum(case["kind"] == "chaotic" and case["brace"] is None and case["e"] < 1 for case in table) >= 8
+    assert {1, 2, 4} <= {case["period"] for case in periodic if not case["symmetric"]}
+    assert max(case["period"] for case in periodic) >= 27
+    assert all(case["robust"] for case in table)
