@@ -1,0 +1,60 @@
+"""What is known without running anything: modes, Melnikov's function, the exact tangency, free rocking; arrays in, arrays out."""
+
+from rocking.theory.free import free_impact_speed, free_peaks, free_quarter_period, free_time_to_rest
+from rocking.theory.heteroclinic import (
+    heteroclinic_amplitude,
+    manifold_gap,
+    saddle_orbit,
+    stable_manifold_velocity,
+    unstable_manifold_velocity,
+)
+from rocking.theory.melnikov import (
+    damping,
+    energy,
+    heteroclinic_orbit,
+    impact_loss,
+    melnikov_amplitude,
+    melnikov_function,
+    melnikov_integral,
+)
+from rocking.theory.modes import (
+    existence_amplitude,
+    slower_mode_amplitude,
+    symmetric_modes,
+    symmetry_breaking_amplitude,
+)
+from rocking.theory.physical import (
+    physical_acceleration,
+    physical_critical_energy,
+    physical_damping,
+    physical_energy,
+    physical_heteroclinic_orbit,
+)
+
+__all__ = [
+    "damping",
+    "energy",
+    "existence_amplitude",
+    "free_impact_speed",
+    "free_peaks",
+    "free_quarter_period",
+    "free_time_to_rest",
+    "heteroclinic_amplitude",
+    "heteroclinic_orbit",
+    "impact_loss",
+    "manifold_gap",
+    "melnikov_amplitude",
+    "melnikov_function",
+    "melnikov_integral",
+    "physical_acceleration",
+    "physical_critical_energy",
+    "physical_damping",
+    "physical_energy",
+    "physical_heteroclinic_orbit",
+    "saddle_orbit",
+    "slower_mode_amplitude",
+    "stable_manifold_velocity",
+    "symmetric_modes",
+    "symmetry_breaking_amplitude",
+    "unstable_manifold_velocity",
+]

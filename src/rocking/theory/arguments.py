@@ -1,0 +1,63 @@
+"""What the closed forms take: numbers or arrays that broadcast, refused in one line where any of them leaves its range."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from rocking.model import FREQUENCIES, LARGEST_AMPLITUDE, one_of, reals, refusal
+
+PERIODS = (math.tau / FREQUENCIES[1], math.tau / FREQUENCIES[0])
+MOST_CYCLES = 9_999
+ORBITS = {"upper": 1.0, "lower": -1.0}
+
+
+def between(name: str, values: Any, low: float, high: float) -> Any:
+    """The values as floats that lie in [low, high]; the first that does not is named."""
+    array = np.asarray(reals(name, values))
+    outside = ~((array >= low) & (array <= high))
+    if outside.any():
+        first = array[outside].flat[0] if array.ndim else values
+        raise ValueError(refusal(name, f"lie in [{low:.6g}, {high:.6g}]", first))
+    return array
+
+
+def amplitudes(values: Any) -> Any:
+    """A."""
+    return between("amplitude", values, 0.0, LARGEST_AMPLITUDE)
+
+
+def frequencies(period: Any) -> Any:
+    """Ω = 2π/T of periods T."""
+    return math.tau / between("period", period, *PERIODS)
+
+
+def restitutions(values: Any) -> Any:
+    """e."""
+    return between("restitution", values, 0.0, 1.0)
+
+
+def odd(values: Any) -> Any:
+    """The forcing cycles n of symmetric modes, which are odd."""
+    array = np.asarray(reals("n", values))
+    wrong = ~((array >= 1) & (array <= MOST_CYCLES) & (array % 2 == 1))
+    if wrong.any():
+        first = array[wrong].flat[0] if array.ndim else values
+        allowed = f"be an odd whole number in [1, {MOST_CYCLES}]"
+        remedy = (
+            "no mode of even n is symmetric: half a response later the forcing is as before, not reversed"
+        )
+        raise ValueError(refusal("n", allowed, first, remedy if first % 2 == 0 else ""))
+    return array
+
+
+def side_of(orbit: str) -> float:
+    """The sign of the velocity on one of the two heteroclinic orbits."""
+    return ORBITS[one_of("orbit", orbit, tuple(ORBITS))]
+
+
+def plain(values: Any) -> Any:
+    """A number where no argument was an array."""
+    return values.item() if np.ndim(values) == 0 else values

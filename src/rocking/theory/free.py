@@ -1,0 +1,134 @@
+"""Free rocking, A = 0, in closed form: Housner (1963)."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from rocking.model import within
+from rocking.theory.arguments import between, plain, restitutions
+
+# Terms below this are summed by their power series.
+SMALL = 1e-3
+
+
+def free_impact_speed(angle: Any) -> Any:
+    """Speed √(1 − (1 − Θ₀)²) with which a block released at Θ₀ strikes the base.
+
+    Parameters
+    ----------
+    angle : float or array
+        Θ₀, in [0, 1]: from more than 1 it falls.
+
+    Raises
+    ------
+    TypeError, ValueError
+        In one line.
+
+    Examples
+    --------
+    >>> free_impact_speed([0.0, 0.4, 1.0]).tolist()
+    [0.0, 0.8, 1.0]
+    """
+    angle = between("angle", angle, 0.0, 1.0)
+    return plain(np.sqrt(angle * (2.0 - angle)))
+
+
+def free_quarter_period(angle: Any) -> Any:
+    """Time arccosh(1/(1 − Θ₀)) that a block released at Θ₀ takes to the base.
+
+    It is artanh of the impact's speed, the form that keeps its accuracy at small angles.
+
+    Parameters
+    ----------
+    angle : float or array
+        Θ₀, in [0, 1]; infinite at 1, where the block stands on its corner.
+
+    Raises
+    ------
+    TypeError, ValueError
+        In one line.
+
+    Examples
+    --------
+    >>> round(free_quarter_period(0.5), 12) == round(math.acosh(2.0), 12)
+    True
+    """
+    speed = np.asarray(free_impact_speed(angle))
+    left = 1.0 - np.asarray(angle, float)
+    with np.errstate(divide="ignore"):
+        # ½ ln((1 + v)/(1 − v)) with (1 − v)(1 + v) = (1 − Θ₀)²
+        return plain(np.where(speed < 0.5, np.arctanh(np.minimum(speed, 0.5)), np.log((1.0 + speed) / left)))
+
+
+def free_peaks(angle: Any, restitution: Any, impacts: Any) -> Any:
+    """|Θ| of the turn after so many impacts of a block released at Θ₀: 1 − (1 − Θ_k)² = e^2k (1 − (1 − Θ₀)²).
+
+    Parameters
+    ----------
+    angle, restitution : float or array
+        Θ₀ and e, both in [0, 1].
+    impacts : int or array
+        k ≥ 0; all of them broadcast.
+
+    Raises
+    ------
+    TypeError, ValueError
+        In one line.
+
+    Examples
+    --------
+    >>> free_peaks(0.4, 0.75, [0, 1]).round(12).tolist()
+    [0.4, 0.2]
+    """
+    speed = np.asarray(free_impact_speed(angle))
+    count = between("impacts", impacts, 0, 1e9)
+    energy = (speed * restitutions(restitution) ** count) ** 2
+    return plain(energy / (1.0 + np.sqrt(1.0 - energy)))
+
+
+def free_time_to_rest(angle: float, restitution: float) -> float:
+    """Time in which the impacts of a block released at Θ₀ accumulate and it comes to rest: finite for e < 1.
+
+    Parameters
+    ----------
+    angle : float
+        Θ₀, in [0, 1].
+    restitution : float
+        e, in [0, 1]. The effort grows like 1/(1 − e) up to 1 − e = 1e-6; above that, and below 1, it is refused.
+
+    Returns
+    -------
+    float
+        q₀ + 2(q₁ + q₂ + …) with the quarter periods q_k = artanh(e^k v); infinite at e = 1 (unless Θ₀ = 0) and at Θ₀ = 1.
+
+    Raises
+    ------
+    TypeError, ValueError
+        In one line.
+
+    Examples
+    --------
+    >>> round(free_time_to_rest(0.5, 0.8), 6)
+    8.837445
+    """
+    angle = within("angle", angle, 0.0, 1.0)
+    e = within("restitution", restitution, 0.0, 1.0)
+    if e < 1.0:
+        within("restitution", e, 0.0, 1.0 - 1e-6)
+    if angle == 0.0:
+        return 0.0
+    if e == 1.0 or angle == 1.0:
+        return math.inf
+    first = float(free_quarter_period(angle))
+    speed = float(free_impact_speed(angle))
+    if e == 0.0:
+        return first
+    terms = max(math.ceil(math.log(SMALL / speed) / math.log(e)), 0)
+    flights = 2.0 * float(np.sum(np.arctanh(speed * e ** np.arange(1, terms + 1))))
+    # artanh x = x + x³/3 + x⁵/5 + …, each a geometric series over the impacts that are left
+    rest = speed * e ** (terms + 1)
+    tail = sum(rest**k / (k * -math.expm1(k * math.log(e))) for k in (1, 3, 5))
+    return first + flights + 2.0 * tail

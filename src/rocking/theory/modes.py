@@ -1,0 +1,246 @@
+"""Symmetric (1, n) modes in closed form: Spanos & Koh (1984), eqs (8)-(10) of Yim & Lin (1991).
+
+With h = nπ/Ω, half a response, t = tanh(h/2), k∓ = (1 ∓ e)/2e and a = Ω²t²k₋² + k₊², the speed V after an impact and the phase φ
+there obey
+
+    β cos φ = −t V k₋,   βΩ sin φ = t − V k₊,   so that   aV² − 2t k₊ V + t² − Ω²β² = 0.
+
+Written with the distance of V from V_E = t k₊/a, where both roots meet, nothing cancels and nothing overflows:
+(V − V_E)² = (Ω/a)² (√a β − t²k₋)(√a β + t²k₋), and the trace of the half-cycle map is 1 + e² + e(1+e) sinh h (1/V − 1/V_E).
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from rocking.kernels import parameters as numbers
+from rocking.kernels import symmetric
+from rocking.model import LARGEST_AMPLITUDE, Mode, refusal, whole, within
+from rocking.theory.arguments import MOST_CYCLES, PERIODS, frequencies, odd, plain, restitutions
+
+# Beyond it sinh is infinite.
+LARGEST_ARGUMENT = 700.0
+
+
+def existence_amplitude(period: Any, restitution: Any, n: Any) -> Any:
+    """A_E, from which on symmetric (1, n) modes exist: the fold at which two of them are born.
+
+    Parameters
+    ----------
+    period : float or array
+        T of the forcing, in [0.00628, 6283].
+    restitution : float or array
+        e in [0, 1].
+    n : int or array
+        Forcing cycles in a response: odd, 1 to 9,999. The arguments broadcast.
+
+    Returns
+    -------
+    float or ndarray
+        A_E; 0 at e = 1 (every amplitude above 0 has modes); NaN at e = 0, where there are none.
+
+    Raises
+    ------
+    TypeError, ValueError
+        In one line, for an argument of another kind or outside its range.
+
+    Notes
+    -----
+    A_E = (1+Ω²) t² (1−e)/√((1+e)² + Ω²t²(1−e)²), t = tanh(nπ/2Ω), from eq. (8) of Yim & Lin (1991). A mode that exists need not be
+    stable (`symmetry_breaking_amplitude`) nor admissible (`symmetric_modes` tells).
+
+    Examples
+    --------
+    >>> round(existence_amplitude(1.0, 0.8, 1), 6)
+    0.26593
+    >>> existence_amplitude([1.0, 2.0], [[0.8], [0.9]], 3).shape
+    (2, 2)
+    """
+    omega, e, half = frequencies(period), restitutions(restitution), 0.5 * odd(n)
+    t = np.tanh(half * math.pi / omega)
+    lost = np.where(e > 0.0, 1.0 - e, np.nan)
+    swept = t * lost
+    return plain((1.0 + omega * omega) * t * swept / np.hypot(1.0 + e, omega * swept))
+
+
+def symmetry_breaking_amplitude(period: Any, restitution: Any, n: Any) -> Any:
+    """A_SB, up to which the faster symmetric (1, n) mode is stable: there two unsymmetric ones branch off.
+
+    This is the "upper bound" of figures 11 and 12 of Yim & Lin (1991), where the trace of eq. (10) is −(1 + e²).
+
+    Parameters
+    ----------
+    period, restitution, n : float or array
+        T, e and n as in `existence_amplitude`.
+
+    Returns
+    -------
+    float or ndarray
+        A_SB; NaN at e = 0. It may exceed the amplitude at which the mode ceases to be admissible.
+
+    Raises
+    ------
+    TypeError, ValueError
+        In one line, for an argument of another kind or outside its range.
+
+    Notes
+    -----
+    V_SB = e(1+e)S/(2eC − (1+e²) + St(1−e)²(1+Ω²)/2) with S, C = sinh, cosh of nπ/Ω, and A_SB from it by eq. (8). At e = 1 it is
+    (1+Ω²)(1/t − t)/Ω.
+
+    Examples
+    --------
+    >>> round(symmetry_breaking_amplitude(1.0, 0.8, 1), 9)
+    19.070505363
+    """
+    omega, e, h = frequencies(period), restitutions(restitution), math.pi * odd(n)
+    h = h / omega
+    e = np.where(e > 0.0, e, np.nan)
+    square, lost = 1.0 + omega * omega, (1.0 - e) ** 2
+    t, cosech = np.tanh(0.5 * h), -2.0 * np.exp(-h) / np.expm1(-2.0 * h)
+    kept, swept = (1.0 + e) ** 2, omega * omega * t * t * lost
+    # in units of 1/4e²: a = (kept + swept), t²k₋ = 2e t²(1 − e)
+    fastest = e * (1.0 + e) / (t * (2.0 * e + 0.5 * lost * square) - lost * cosech)
+    fold = 2.0 * e * t * (1.0 + e) / (kept + swept)
+    beyond = fastest * fold * 2.0 * (1.0 + e * e) * cosech / (e * (1.0 + e))
+    scale = np.sqrt(kept + swept)
+    return plain(square * np.hypot(t * t * (1.0 - e) / scale, scale * beyond / (2.0 * e * omega)))
+
+
+def slower_mode_amplitude(period: Any, n: Any) -> Any:
+    """Amplitude t(1+Ω²)/Ω at which the speed of the slower symmetric (1, n) mode has fallen to 0: below it there are two, above it one.
+
+    Parameters
+    ----------
+    period, n : float or array
+        T and n as in `existence_amplitude`; whatever the restitution.
+
+    Raises
+    ------
+    TypeError, ValueError
+        In one line, for an argument of another kind or outside its range.
+
+    Examples
+    --------
+    >>> round(slower_mode_amplitude(1.0, 1), 6)
+    1.577849
+    """
+    omega, half = frequencies(period), 0.5 * odd(n)
+    return plain(np.tanh(half * math.pi / omega) * (1.0 + omega * omega) / omega)
+
+
+def symmetric_modes(amplitude: float, period: float, restitution: float, n: int) -> list[Mode]:
+    """All symmetric (1, n) modes of a system: two, one or none, the faster first (eqs 8-10 of Yim & Lin 1991).
+
+    Parameters
+    ----------
+    amplitude, period : float
+        A in [0, 1000] and T in [0.00628, 6283] of the forcing.
+    restitution : float
+        e in (0, 1].
+    n : int
+        Forcing cycles in a response: odd, 1 to 9,999.
+
+    Returns
+    -------
+    list of Mode
+        Empty below `existence_amplitude`; two up to `slower_mode_amplitude`, above that one. At A = 0 none: without forcing a
+        phase means nothing.
+
+    Raises
+    ------
+    TypeError, ValueError
+        In one line, for an argument of another kind or outside its range, for an even n and for e = 0.
+
+    Notes
+    -----
+    Stability follows from the closed form. The slower mode has a trace above 1 + e² and is never stable. Whether a mode is
+    *admissible*, Θ > 0 for the whole half cycle, is proved by the search for the first crossing that `simulate` uses.
+
+    Examples
+    --------
+    >>> import rocking as rk
+    >>> for mode in rk.theory.symmetric_modes(6.5, 0.4, 0.925, 3):
+    ...     print(mode)
+    (1,3) mode: V = 0.658253, φ = -1.87161, stable, admissible
+    >>> rk.theory.symmetric_modes(0.2, 1.0, 0.8, 1)
+    []
+    """
+    amplitude = within("amplitude", amplitude, 0.0, LARGEST_AMPLITUDE)
+    omega = math.tau / within("period", period, *PERIODS)
+    e = within("restitution", restitution, 0.0, 1.0)
+    if e == 0.0:
+        remedy = "an impact that stops the block leaves no mode"
+        raise ValueError(refusal("restitution", "lie in (0, 1] for symmetric modes", restitution, remedy))
+    odd(whole("n", n, 1, MOST_CYCLES))
+    h = n * math.pi / omega
+    t, beta = math.tanh(0.5 * h), amplitude / (1.0 + omega * omega)
+    less, more = (1.0 - e) / (2.0 * e), (1.0 + e) / (2.0 * e)
+    a = (omega * t * less) ** 2 + more * more
+    root_a = math.sqrt(a)
+    square = (root_a * beta - t * t * less) * (root_a * beta + t * t * less)
+    if amplitude == 0.0 or square < 0.0:
+        return []
+    root = math.sqrt(square)
+    fold = t * more / a
+    fast = fold + omega * root / a
+    slow = (t - omega * beta) * (t + omega * beta) / (a * fast)
+    modes = []
+    for speed, sign in ((fast, 1.0), (slow, -1.0))[: 2 if root > 0.0 and slow > 0.0 else 1]:
+        # (t − V k₊)/Ω without the cancellation where e is near 1
+        sine = (omega * t**3 * less * less - sign * root * more) / a
+        phase = math.atan2(sine, -t * speed * less)
+        apart = -sign * omega * root / (a * speed * fold)
+        steep = math.sinh(h) if h < LARGEST_ARGUMENT else math.inf
+        trace = 1.0 + e * e + (e * (1.0 + e) * steep * apart if apart != 0.0 else 0.0)
+        modes.append(_mode(amplitude, period, e, n, speed, phase, trace))
+    return modes
+
+
+def _mode(
+    amplitude: float, period: float, e: float, n: int, speed: float, phase: float, trace: float
+) -> Mode:
+    """One root with what follows from it."""
+    omega = math.tau / period
+    length, swing = n * math.pi / omega, amplitude * math.cos(phase) / (1.0 + omega * omega)
+    shrunk = math.exp(-length)
+    common, other = -1.0 / (1.0 + shrunk), swing / math.expm1(-length)
+    p = numbers.harmonic_parameters(amplitude, omega, period, phase, e)
+    up, peak = symmetric.half_cycle(p, speed, common + other, common - other, length)
+    half = _multipliers(trace, e)
+    return Mode(
+        amplitude=amplitude,
+        period=float(period),
+        restitution=e,
+        n=int(n),
+        velocity=speed,
+        phase=phase,
+        trace=trace,
+        half_multipliers=half,
+        multipliers=_squares(half),
+        stable=abs(trace) < 1.0 + e * e,
+        admissible=bool(up),
+        peak=peak if up else None,
+    )
+
+
+def _multipliers(trace: float, e: float) -> tuple[complex, complex]:
+    """Both eigenvalues of a matrix with this trace and determinant e², the larger first."""
+    square = (0.5 * trace - e) * (0.5 * trace + e)
+    if square < 0.0:
+        root = math.sqrt(-square)
+        return complex(0.5 * trace, root), complex(0.5 * trace, -root)
+    large = 0.5 * trace + math.copysign(math.sqrt(square), trace)
+    return complex(large), complex(e * e / large)
+
+
+def _squares(pair: tuple[complex, complex]) -> tuple[complex, complex]:
+    """Over the whole response: of two conjugate ones again the one above the real axis first."""
+    if pair[0].imag == 0.0:
+        return complex(pair[0].real * pair[0].real), complex(pair[1].real * pair[1].real)
+    square = pair[0] * pair[0]
+    above = complex(square.real, abs(square.imag))
+    return above, above.conjugate()
