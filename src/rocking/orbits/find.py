@@ -1,0 +1,125 @@
+"""Periodic orbits found: one near a guess."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from rocking.kernels import desk as memory
+from rocking.kernels import search as kernel
+from rocking.model import NoOrbit, Orbit, Outcome, State, System, check_start, refusal, whole
+from rocking.motion import begin, simulate
+from rocking.orbits.chains import chain_of, clocked, orbit_of, quiet_phase, solved
+
+MOST_PERIOD = 1000
+# States of an orbit as near as this are one.
+SAME = 1e-8
+
+
+def find_orbit(system: System, guess: State, period: int) -> Orbit:
+    """Find a periodic orbit, stable or not, near a guess: Newton's method with the exact Jacobian on the map over `period` cycles.
+
+    The section is moved to the forcing phase farthest from all events of the guess's motion; what is found is solved once
+    more as a closed chain of arcs, to rounding.
+
+    Parameters
+    ----------
+    system : System
+        The block, its forcing and its braces.
+    guess : State
+        Θ and Θ' at τ = 0, at the forcing's own phase.
+    period : int
+        Forcing cycles, 1 to 1000.
+
+    Returns
+    -------
+    Orbit
+        With its least period, a divisor of `period`.
+
+    Raises
+    ------
+    TypeError, ValueError
+        In one line, for arguments of the wrong type or outside their range and for a guess that overturns.
+    NoOrbit
+        A ValueError, where Newton's method ends without an orbit; it carries the `state` reached and its `residual`.
+
+    Notes
+    -----
+    Not guaranteed: that it is the orbit nearest to the guess.
+
+    Examples
+    --------
+    >>> import rocking as rk
+    >>> system = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925)
+    >>> orbit = rk.find_orbit(system, rk.State(angle=0.18, velocity=-0.1), 1)
+    >>> print(orbit)
+    symmetric orbit of period 1 with 2 impacts
+    >>> round(abs(orbit.multipliers[0]), 6)  # e², for they are complex
+    0.855625
+    """
+    check_start(system, guess)
+    period = whole("period", period, 1, MOST_PERIOD)
+    motion = simulate(system, guess, cycles=period + 1)
+    if motion.outcome is Outcome.OVERTURNED:
+        raise ValueError(
+            refusal("guess", f"not overturn within {period + 1} cycles", guess, "start nearer to the orbit")
+        )
+    frequency, own = system.forcing.frequency, system.forcing.phase
+    phase = quiet_phase(own + frequency * motion.events["time"]) if len(motion.events) else own
+    wait = ((phase - own) % math.tau) / frequency
+    angle, velocity = (float(value) for value in motion.at(wait))
+    there = clocked(system, phase)
+    out = hunted(there, period, False, np.array([[angle, velocity]]))[0]
+    reached = State(float(out[1]), float(out[2]))
+    if not out[0]:
+        raise NoOrbit(
+            f"no orbit of period {period} was found from {guess}: Newton's method ends at {reached}, "
+            f"{out[3]:.3g} off a period later (start nearer, or try another period)",
+            phase,
+            reached,
+            float(out[3]),
+        )
+    return orbit_from(there, reached, period)
+
+
+def hunted(system: System, period: int, mirrored: bool, starts: np.ndarray) -> np.ndarray:
+    """What Newton's method made of every start, (found, Θ, Θ', residual): on the map over a period, or half of one and mirrored."""
+    p, _ = begin(system, State())
+    out = np.empty((len(starts), 4))
+    cycles, turned = (0.5 * period, -1.0) if mirrored else (float(period), 1.0)
+    desk = memory.desk(1, 1)
+    kernel.hunt(p, cycles, turned, starts, desk.nothing, desk.trial, out)
+    return out
+
+
+def orbit_from(system: System, state: State, period: int) -> Orbit:
+    """The orbit through a state that repeats itself after `period` cycles: its least period, symmetry and events."""
+    motion = simulate(system, state, cycles=period)
+    rows = motion.section()
+    apart = np.hypot(*(rows[1:] - rows[0]).T)
+    least = next(n for n in range(1, period + 1) if period % n == 0 and (apart[n - 1] <= SAME or n == period))
+    half = motion.at(0.5 * least * system.forcing.period)
+    symmetric = least % 2 == 1 and math.hypot(half[0] + state.angle, half[1] + state.velocity) <= SAME
+    events = motion.events[motion.events["time"] <= least * system.forcing.period]
+    rests = bool(np.isin(events["kind"], ("rest", "lean", "lift-off", "leave")).any())
+    impacts, brace_hits = (int((events["kind"] == kind).sum()) for kind in ("impact", "brace"))
+    grown = math.exp(least * system.forcing.period)
+    orbit = Orbit(
+        system=system,
+        state=state,
+        phase=system.forcing.phase % math.tau,
+        period=least,
+        symmetric=bool(symmetric),
+        impacts=None if rests else impacts,
+        brace_hits=None if rests else brace_hits,
+        multipliers=(0j, 0j) if rests else (complex(grown), complex(1.0 / grown)),
+        residual=float(apart[least - 1]),
+    )
+    if rests or impacts + brace_hits == 0:
+        return orbit
+    chain = chain_of(orbit)
+    found = solved(chain, "amplitude", system.forcing.amplitude, chain.phases)
+    if not found.found:
+        return orbit
+    return orbit_of(chain, "amplitude", found.phases, found.trace, found.determinant)

@@ -1,0 +1,272 @@
+"""Peak rotation over the forcing's period: the branches of the (1, n) orbits, stable or not, and what a start from rest does."""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from attrs import field, frozen
+from numpy.typing import ArrayLike, NDArray
+
+from rocking.model import (
+    LARGEST_AMPLITUDE,
+    Harmonic,
+    Kind,
+    Mode,
+    Orbit,
+    System,
+    exactly_one,
+    pictures,
+    reals,
+    refusal,
+    whole,
+    within,
+)
+from rocking.orbits.branches import Branch
+from rocking.orbits.chains import IMPACT, Chain, chain_of, orbit_of, solved
+from rocking.orbits.continuation import checked_range, continue_orbit, switch_branch
+from rocking.orbits.record import frequency_response_dataset
+from rocking.response import classify
+from rocking.theory import symmetric_modes
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+MOST_VALUES = 100_000
+MOST_CYCLES_IN_MODE = 99
+# Phases as near as this are one; so are the values of two special points.
+SAME = 1e-6
+
+REST = np.dtype([("kind", "U14"), ("period", np.int64), ("peak", float), ("steady_peak", float)])
+
+
+@frozen(eq=False)
+class FrequencyResponse:
+    """Peak rotation over the period or the frequency of the forcing; made by `frequency_response`.
+
+    Attributes
+    ----------
+    amplitude, restitution : float
+        A and e.
+    modes : tuple of int
+        The n of the (1, n) orbits followed: one rocking cycle in n forcing cycles.
+    parameter : str
+        "period" or "frequency".
+    values : ndarray, shape (m,)
+        Its values at which a start from rest was judged, ascending; the branches run from the first to the last.
+    branches : tuple of Branch
+        Of each n in turn the symmetric branches, each followed by the unsymmetric ones born from it; `points["peak"]` is the
+        largest |Θ|. Of two branches that are mirror images of each other, and so have the same peaks, one.
+    rest : structured array, shape (m,)
+        What a start from rest does: "kind" (see `Kind`), "period" in forcing cycles (0 where it has none), "peak", the largest
+        |Θ| from the start on, "steady_peak", that of the periodic response reached (NaN where there is none).
+    """
+
+    amplitude: float
+    restitution: float
+    modes: tuple[int, ...]
+    parameter: str
+    values: NDArray[np.float64] = field(repr=False)
+    branches: tuple[Branch, ...] = field(repr=False)
+    rest: NDArray[np.void] = field(repr=False)
+
+    def of(self, n: int) -> tuple[Branch, ...]:
+        """The branches of the (1, n) orbits."""
+        return tuple(branch for branch in self.branches if branch.period == n)
+
+    def to_xarray(self) -> xr.Dataset:
+        """The start from rest along the parameter, and all branches, one after the other, along `point`."""
+        return frequency_response_dataset(self)
+
+    def __str__(self) -> str:
+        found = "; ".join(_told(n, self.of(n)) for n in self.modes)
+        kinds = Counter(str(kind) for kind in self.rest["kind"])
+        rest = ", ".join(f"{number:,} {kind}" for kind, number in kinds.most_common())
+        return (
+            f"frequency response at amplitude {self.amplitude:.6g}, restitution {self.restitution:.6g}, {self.parameter} "
+            f"{self.values[0]:.6g} to {self.values[-1]:.6g}: {found}; from rest {rest}"
+        )
+
+    def _repr_html_(self) -> str | None:
+        return pictures.html(self)
+
+
+def _told(n: int, branches: Sequence[Branch]) -> str:
+    if not branches:
+        return f"(1,{n}) none found"
+    symmetric = sum(branch.symmetric for branch in branches)
+    peak = max(float(np.nanmax(branch.points["peak"])) for branch in branches)
+    return f"(1,{n}) {symmetric} symmetric, {len(branches) - symmetric} unsymmetric, peak up to {peak:.4g}"
+
+
+def frequency_response(
+    period: ArrayLike | None = None,
+    amplitude: float = 1.0,
+    restitution: float = 0.925,
+    modes: Sequence[int] = (1, 3),
+    frequency: ArrayLike | None = None,
+    step: float = 0.01,
+    max_cycles: int = 10_000,
+) -> FrequencyResponse:
+    """Follow the (1, n) orbits over the forcing's period at one amplitude, and judge a start from rest at each of its values.
+
+    Seeds are the symmetric modes of eqs (8)-(10) at the values given; their branches are followed both ways, through folds, and
+    the unsymmetric branches that are born where a symmetry breaks.
+
+    Parameters
+    ----------
+    period, frequency : array
+        Values of T or of Ω: exactly one of the two, at least two values.
+    amplitude : float
+        A in (0, 1000].
+    restitution : float
+        e in [0.001, 1).
+    modes : sequence of int
+        The n to follow: odd, up to 99.
+    step : float
+        As in `continue_orbit`.
+    max_cycles : int
+        Forcing cycles to follow a start from rest at most, as in `classify`; chaos needs 10⁴ to be called so.
+
+    Returns
+    -------
+    FrequencyResponse
+
+    Raises
+    ------
+    TypeError, ValueError
+        In one line, for an argument of another kind or outside its range, and for an even n.
+
+    Notes
+    -----
+    Not guaranteed: that a branch is found which lies wholly between two neighbouring values. Unsymmetric branches that are not
+    connected with a symmetric one, and what is born at period doublings, are left out: `find_orbits` and `switch_branch` lead
+    to them.
+
+    Examples
+    --------
+    >>> import numpy as np, rocking as rk
+    >>> found = rk.frequency_response(period=np.linspace(0.5, 2.5, 9), amplitude=2.0, restitution=0.925)
+    >>> print(found)
+    frequency response at amplitude 2, ...: (1,1) 1 symmetric, 0 unsymmetric, ...; (1,3) 2 symmetric, 1 unsymmetric, ...
+    """
+    parameter = exactly_one(period=period, frequency=frequency)
+    values = _values(parameter, period if frequency is None else frequency)
+    amplitude = within("amplitude", amplitude, 0.0, LARGEST_AMPLITUDE)
+    if amplitude == 0.0:
+        raise ValueError(refusal("amplitude", "be above 0: an unshaken block has no (1, n) orbit", amplitude))
+    restitution = _lossy(restitution)
+    followed = tuple(dict.fromkeys(_odd(n) for n in _sequence(modes)))
+    systems = [System(Harmonic(amplitude, **{parameter: value}), restitution) for value in values.tolist()]
+    branches = [
+        branch for n in followed for branch in _branches(systems, n, parameter, values[[0, -1]], step)
+    ]
+    return FrequencyResponse(
+        amplitude=amplitude,
+        restitution=restitution,
+        modes=followed,
+        parameter=parameter,
+        values=values,
+        branches=tuple(branches),
+        rest=_from_rest(systems, max_cycles),
+    )
+
+
+def _values(name: str, values: Any) -> NDArray[np.float64]:
+    ordered = np.unique(reals(name, values))
+    if not 2 <= len(ordered) <= MOST_VALUES or not np.isfinite(ordered).all():
+        raise ValueError(refusal(name, f"be 2 to {MOST_VALUES:,} different finite numbers", values))
+    checked_range(name, (float(ordered[0]), float(ordered[-1])))
+    return ordered
+
+
+def _lossy(restitution: float) -> float:
+    restitution = within("restitution", restitution, 1e-3, 1.0)
+    if restitution == 1.0:
+        remedy = "without losses no response is ever reached: theory.symmetric_modes has the modes"
+        raise ValueError(refusal("restitution", "lie in [0.001, 1)", restitution, remedy))
+    return restitution
+
+
+def _sequence(modes: Any) -> tuple[int, ...]:
+    if isinstance(modes, str) or not np.iterable(modes) or not tuple(modes):
+        raise TypeError(refusal("modes", "be a sequence of odd numbers, such as (1, 3)", modes))
+    return tuple(modes)
+
+
+def _odd(n: int) -> int:
+    n = whole("modes", n, 1, MOST_CYCLES_IN_MODE)
+    if n % 2 == 0:
+        raise ValueError(
+            refusal("modes", "be odd: no symmetric orbit repeats after an even number of cycles", n)
+        )
+    return n
+
+
+def _branches(
+    systems: Sequence[System], n: int, parameter: str, ends: np.ndarray, step: float
+) -> list[Branch]:
+    """All branches of the (1, n) orbits: the symmetric ones, after each the unsymmetric ones born from it."""
+    bounds = float(ends[0]), float(ends[1])
+    symmetric: list[Branch] = []
+    for system in systems:
+        value = getattr(system.forcing, parameter)
+        known = [phase for branch in symmetric for phase in _phases(branch, value)]
+        modes = symmetric_modes(system.forcing.amplitude, system.forcing.period, system.restitution, n)
+        for mode in modes:
+            if any(abs(math.remainder(mode.phase - phase, math.tau)) <= SAME for phase in known):
+                continue
+            orbit = _orbit_of_mode(mode, system, parameter) if mode.admissible else None
+            if orbit is not None:
+                symmetric.append(continue_orbit(orbit, parameter, bounds, step))
+                known += _phases(symmetric[-1], value)
+    return [one for branch in symmetric for one in (branch, *_born(branch, bounds, step))]
+
+
+def _phases(branch: Branch, value: float) -> list[float]:
+    """Forcing phases at which the symmetric orbits of a branch rise to the positive side: different modes differ in them."""
+    values = branch.points["parameter"]
+    chains = [chain_of(orbit) for orbit in branch.at(value)] if values.min() <= value <= values.max() else []
+    return [float(chain.phases[0]) + (0.0 if chain.side > 0 else math.pi) for chain in chains]
+
+
+def _born(branch: Branch, bounds: tuple[float, float], step: float) -> list[Branch]:
+    """One of each two unsymmetric branches; those that run from one special point to another only once."""
+    born: list[Branch] = []
+    for special in branch.special:
+        met = [
+            abs(other.parameter - special.parameter) <= SAME
+            for one in born
+            for other in one.special
+            if other.kind == special.kind
+        ]
+        if special.kind == "symmetry-breaking" and not any(met):
+            born.append(switch_branch(special, bounds, step)[0])
+    return [one for one in born if len(one) > 1]
+
+
+def _orbit_of_mode(mode: Mode, system: System, parameter: str) -> Orbit | None:
+    """A symmetric mode as an orbit: half a period of one impact, at the phase of the closed form."""
+    chain = Chain(system, mode.n, True, np.array([IMPACT]), 1, np.array([mode.phase]))
+    there = solved(chain, parameter, getattr(system.forcing, parameter), chain.phases)
+    if not there.found:
+        return None
+    return orbit_of(chain, parameter, there.phases, there.trace, there.determinant)
+
+
+def _from_rest(systems: Sequence[System], max_cycles: int) -> NDArray[np.void]:
+    with ThreadPoolExecutor() as pool:
+        verdicts = list(pool.map(lambda system: classify(system, max_cycles=max_cycles), systems))
+    rest = np.empty(len(systems), REST)
+    rest["kind"] = [Kind(verdict.kind).value for verdict in verdicts]
+    rest["period"] = [verdict.period or 0 for verdict in verdicts]
+    rest["peak"] = [verdict.peak for verdict in verdicts]
+    rest["steady_peak"] = [
+        math.nan if verdict.steady_peak is None else verdict.steady_peak for verdict in verdicts
+    ]
+    rest.flags.writeable = False
+    return rest

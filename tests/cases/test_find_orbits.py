@@ -1,0 +1,152 @@
+"""Orbits found: against what random starts reach, closed forms, a harder search and extended precision."""
+
+import math
+
+import mpmath
+import numpy as np
+import pytest
+
+import rocking as rk
+from oracles.modes import symmetric_modes
+
+SYSTEM = rk.System(rk.Harmonic(amplitude=5.5, period=0.5), restitution=0.925)
+
+
+@pytest.fixture(scope="module")
+def orbits():
+    return rk.find_orbits(SYSTEM, 7)
+
+
+def impacts_of(orbit):
+    """(phase of the forcing mod 2π, speed just after) of every impact in a period."""
+    forcing = rk.Harmonic(
+        amplitude=orbit.system.forcing.amplitude, period=orbit.system.forcing.period, phase=orbit.phase
+    )
+    there = rk.System(forcing, orbit.system.restitution)
+    events = rk.simulate(there, orbit.state, cycles=orbit.period).events
+    return (orbit.phase + forcing.frequency * events["time"]) % (2 * math.pi), events["after"]
+
+
+def section_of(orbit, phase=1.0):
+    """All its states at one phase of the forcing."""
+    forcing = rk.Harmonic(
+        amplitude=orbit.system.forcing.amplitude, period=orbit.system.forcing.period, phase=orbit.phase
+    )
+    motion = rk.simulate(rk.System(forcing, orbit.system.restitution), orbit.state, cycles=orbit.period + 1)
+    first = (phase - orbit.phase) % (2 * math.pi) / forcing.frequency
+    return np.column_stack(motion.at(first + forcing.period * np.arange(orbit.period)))
+
+
+def distances(orbits, orbit):
+    """How far, at nearest, each of the orbits of its period lies from an orbit."""
+    here = section_of(orbit)
+    return [
+        np.hypot(*(section_of(other)[:, None] - here[0]).T).min()
+        for other in orbits
+        if other.period == orbit.period
+    ]
+
+
+def test_every_attractor_that_random_starts_reach_is_in_the_list(orbits):
+    random, reached = np.random.default_rng(1991), {}
+    for _ in range(10_000):
+        verdict = rk.classify(SYSTEM, rk.State(random.uniform(-1.2, 1.2), random.uniform(-1.5, 1.5)))
+        if verdict.kind == "periodic" and verdict.period <= 7:
+            key = verdict.period, verdict.impacts_per_period, verdict.symmetric
+            reached.setdefault(key, []).append(verdict.orbit)
+    assert len(reached) >= 4
+    for found in reached.values():
+        for orbit in found[:: max(len(found) // 5, 1)]:
+            assert min(distances(orbits, orbit)) <= 1e-8
+
+
+@pytest.mark.parametrize("n", [1, 3, 5, 7])
+def test_every_admissible_symmetric_mode_is_in_the_list(orbits, n):
+    expected = [mode for mode in symmetric_modes(5.5, 0.5, 0.925, n) if is_admissible(mode, n)]
+    found = [orbit for orbit in orbits if orbit.symmetric and orbit.period == n and orbit.impacts == 2]
+    speeds = sorted(abs(impacts_of(orbit)[1][0]) for orbit in found)
+    assert speeds == pytest.approx(sorted(mode.velocity for mode in expected), abs=1e-10)
+    if n in (5, 7):  # the lower ones, unstable
+        assert speeds[0] == pytest.approx({5: 0.11621, 7: 0.26891}[n], abs=5e-6)
+
+
+def is_admissible(mode, n):
+    """Whether the block stays on its side for half a period: by dense samples of eq. (5)."""
+    frequency = 2 * math.pi / 0.5
+    beta = 5.5 / (1 + frequency**2)
+    t = np.linspace(0, n * 0.25, 100_001)[1:-1]
+    swing = np.cos(mode.phase + frequency * t) - math.cos(mode.phase) * np.cosh(t)
+    swing += frequency * math.sin(mode.phase) * np.sinh(t)
+    return bool((mode.velocity * np.sinh(t) - (np.cosh(t) - 1) + beta * swing > 0).all())
+
+
+def test_other_starts_and_twice_the_effort_find_nothing_new(orbits):
+    again = rk.find_orbits(SYSTEM, 7, effort=2.0, seed=20_000)
+    assert orbits.settled
+    assert again.settled
+    assert len(again) == len(orbits)
+    for orbit in again:
+        assert min(distances(orbits, orbit)) <= 1e-8
+
+
+def test_the_saddles_that_never_meet_the_base_are_in_the_list(orbits):
+    beta = 5.5 / (1 + (4 * math.pi) ** 2)
+    saddles = [orbit for orbit in orbits if orbit.impacts == 0]
+    centres = sorted(orbit.state.angle - beta * math.cos(orbit.phase) for orbit in saddles)
+    assert centres == pytest.approx([-1.0, 1.0], abs=1e-12)
+    assert all(orbit.multipliers[0] == pytest.approx(math.exp(0.5), abs=1e-12) for orbit in saddles)
+
+
+def precise_map(orbit, angle, velocity):
+    """The state a period later, in 40 digits, from the orbit's own sequence of impacts: eq. (5) and nothing else."""
+    forcing, restitution = orbit.system.forcing, mpmath.mpf(orbit.system.restitution)
+    period, amplitude = mpmath.mpf(forcing.period), mpmath.mpf(forcing.amplitude)
+    frequency = 2 * mpmath.pi / period
+    beta, psi = amplitude / (1 + frequency**2), mpmath.mpf(orbit.phase)
+    events = rk.simulate(
+        rk.System(
+            rk.Harmonic(amplitude=forcing.amplitude, period=forcing.period, phase=orbit.phase),
+            orbit.system.restitution,
+        ),
+        orbit.state,
+        cycles=orbit.period,
+    ).events
+    now = mpmath.mpf(0)
+    side = mpmath.sign(angle)
+    for time in [*events["time"], None]:
+        start, u, v, place = psi + frequency * now, side * angle, side * velocity, side
+
+        def at(t, start=start, u=u, v=v, place=place):
+            swing, spin = place * beta * mpmath.cos(start), place * beta * frequency * mpmath.sin(start)
+            later = start + frequency * t
+            cosh, sinh = mpmath.cosh(t), mpmath.sinh(t)
+            where = (u - 1 - swing) * cosh + (v + spin) * sinh + 1 + place * beta * mpmath.cos(later)
+            rate = (u - 1 - swing) * sinh + (v + spin) * cosh - place * beta * frequency * mpmath.sin(later)
+            return where, rate
+
+        if time is None:
+            where, rate = at(orbit.period * period - now)
+            return side * where, side * rate
+        wait = mpmath.findroot(lambda t, at=at: at(t)[0], mpmath.mpf(float(time)) - now)
+        angle, velocity = mpmath.mpf(0), side * at(wait)[1] * restitution
+        now += wait
+        side = -side
+    raise AssertionError
+
+
+@pytest.mark.parametrize("index", range(9))
+def test_multipliers_match_differences_in_forty_digits(orbits, index):
+    orbit = orbits[index]
+    with mpmath.workdps(40):
+        step = mpmath.mpf(10) ** -12
+        columns = []
+        for a, v in ((step, 0), (0, step)):
+            more = precise_map(orbit, orbit.state.angle + a, orbit.state.velocity + v)
+            less = precise_map(orbit, orbit.state.angle - a, orbit.state.velocity - v)
+            columns.append([(x - y) / (2 * step) for x, y in zip(more, less, strict=True)])
+        trace = columns[0][0] + columns[1][1]
+        determinant = columns[0][0] * columns[1][1] - columns[0][1] * columns[1][0]
+    one, other = orbit.multipliers
+    scale = max(1.0, abs(one))
+    assert float(trace) == pytest.approx((one + other).real, abs=1e-10 * scale)
+    assert float(determinant) == pytest.approx((one * other).real, abs=1e-10 * scale)

@@ -1,0 +1,88 @@
+"""What cannot be found or followed is refused in one line, or ends with its reason."""
+
+import pytest
+
+import rocking as rk
+
+SYSTEM = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925)
+
+
+@pytest.fixture(scope="module")
+def orbit():
+    return rk.find_orbit(SYSTEM, rk.State(0.18, -0.1), 1)
+
+
+def test_a_guess_that_overturns_is_refused():
+    with pytest.raises(ValueError, match=r"^guess must not overturn within 2 cycles; got State"):
+        rk.find_orbit(SYSTEM, rk.State(3.0, 3.0), 1)
+
+
+@pytest.mark.parametrize("period", [0, -1, 1.5, 1001])
+def test_a_period_is_a_whole_number(period):
+    with pytest.raises(ValueError, match=r"^period must be a whole number in \[1, 1000\]; got"):
+        rk.find_orbit(SYSTEM, rk.State(0.1), period)
+    with pytest.raises(ValueError, match=r"^max_period must be a whole number in \[1, 64\]; got"):
+        rk.find_orbits(SYSTEM, period)
+
+
+def test_where_newton_ends_without_an_orbit_it_says_where():
+    system = rk.System(rk.Harmonic(amplitude=0.5, period=1.0), restitution=0.5)
+    with pytest.raises(rk.NoOrbit, match=r"^no orbit of period 1 was found from State") as caught:
+        rk.find_orbit(system, rk.State(0.5), 1)
+    assert caught.value.residual > 0.0
+
+
+def test_an_unknown_parameter_is_refused(orbit):
+    with pytest.raises(ValueError, match=r"^parameter must be one of 'amplitude', 'frequency', 'period', "):
+        rk.continue_orbit(orbit, "phase", (0, 1))
+
+
+def test_an_empty_range_is_refused(orbit):
+    with pytest.raises(
+        ValueError, match=r"^bounds must be \(lowest, highest\), the one below the other; got"
+    ):
+        rk.continue_orbit(orbit, "amplitude", (3, 1))
+
+
+def test_a_range_without_the_orbit_is_refused(orbit):
+    with pytest.raises(ValueError, match=r"^amplitude must lie in \[3, 4\] to be followed there; got 2.0"):
+        rk.continue_orbit(orbit, "amplitude", (3, 4))
+
+
+def test_a_range_beyond_what_a_system_may_have_is_refused(orbit):
+    with pytest.raises(ValueError, match=r"^bounds of restitution must lie in \[0.001, 1\]; got 1.2"):
+        rk.continue_orbit(orbit, "restitution", (0.5, 1.2))
+
+
+def test_braces_are_needed_to_follow_them(orbit):
+    with pytest.raises(ValueError, match=r"^brace_angle needs a system with braces; got one without"):
+        rk.continue_orbit(orbit, "brace_angle", (0.5, 1))
+
+
+def test_an_orbit_that_rests_is_not_followed():
+    system = rk.System(rk.Harmonic(amplitude=1.2, period=4.0), restitution=0.2)
+    resting = rk.classify(system).orbit
+    assert resting.impacts is None
+    with pytest.raises(ValueError, match=r"^orbit must have impacts that can be counted"):
+        rk.continue_orbit(resting, "amplitude", (1, 2))
+
+
+def test_a_saddle_without_impacts_is_not_followed():
+    saddle = next(orbit for orbit in rk.find_orbits(SYSTEM, 1) if orbit.impacts == 0)
+    with pytest.raises(ValueError, match=r"^orbit must have an impact or a brace hit"):
+        rk.continue_orbit(saddle, "amplitude", (1, 3))
+
+
+def test_few_points_end_a_branch_with_that_reason(orbit):
+    branch = rk.continue_orbit(orbit, "amplitude", (1.5, 3), max_points=3)
+    assert branch.ends == ("as many points as allowed", "as many points as allowed")
+
+
+def test_nothing_is_born_at_a_fold(orbit):
+    branch = rk.continue_orbit(orbit, "amplitude", (0.01, 3))
+    fold = next(point for point in branch.special if point.kind == "fold")
+    with pytest.raises(ValueError, match=r"^special must be of kind symmetry-breaking or period-doubling"):
+        rk.switch_branch(fold, (0.01, 3))
+    with pytest.raises(ValueError, match=r"^second must be another parameter than period"):
+        rk.bifurcation_curve(fold, "period", "frequency", ((1, 2), (3, 7)))
+    assert str(branch).startswith("branch of symmetric orbits of period 1, amplitude ")
