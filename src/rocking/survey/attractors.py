@@ -1,0 +1,159 @@
+"""What starts lead to: the attractors told apart by their orbits, not only by their periods."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from rocking.kernels import attractor as kernel
+from rocking.kernels import judgement, many
+from rocking.model import Attractor, Harmonic, State, System
+from rocking.motion import simulate
+from rocking.response import classify
+from rocking.survey.axes import Points
+from rocking.survey.responses import VARIABLES, judged
+from rocking.survey.tiles import Arrays, Measure, Variable
+
+SAME = 1e-6
+"""Orbits that come as near as this to each other on the section count as one."""
+KEPT = ("kind", "evidence", "response_period", "impacts_per_period", "brace_hits_per_period", "symmetric")
+ANCHORS = tuple(
+    Variable(
+        f"orbit_{what}",
+        "float64",
+        math.inf,
+        {
+            "long_name": f"{what} of the state that stands for the attractor in units of {unit}",
+            "units": "1",
+            "comment": f"at {kernel.SECTION:.6g} of a forcing cycle; NaN: neither periodic nor at rest",
+        },
+    )
+    for what, unit in (("angle", "theta_cr"), ("velocity", "alpha theta_cr"))
+)
+CLASS = ("kind", "response_period", "impacts_per_period", "brace_hits_per_period", "symmetric")
+"""What differs between two attractors, if anything but their states does."""
+
+
+def destination(max_cycles: int, max_period: int, title: str) -> Measure:
+    """What the cascade of `classify` says at each start, and a state that stands for where it leads."""
+    by_name = {each.name: each for each in VARIABLES}
+    variables = (*(by_name[name] for name in KEPT), *ANCHORS, by_name["transient"], by_name["cycles"])
+    options = {"max_cycles": max_cycles, "max_period": max_period}
+    return Measure(title, judge, compile_both, variables, options, many.METHOD, shares="kind")
+
+
+def compile_both() -> None:
+    """Compile the cascade, and what follows orbits."""
+    many.compile_many()
+    still = np.array([[0.0, 1.0, math.tau, 0.0, 0.0, math.inf, 1.0]])
+    kernel.anchors_of(still, np.zeros((1, 2)), many.no_answers(1))
+
+
+def judge(points: Points, options: Mapping[str, int], stop: np.ndarray) -> Arrays | None:
+    """The cascade's answers, with the state that stands for each orbit."""
+    told = many.judge_many(*points, options["max_cycles"], options["max_period"], stop)
+    if told is None:
+        return None
+    anchors = kernel.anchors_of(*points, told)
+    answers = judged(told)
+    return {name: answers[name] for name in (*KEPT, "transient", "cycles")} | {
+        each.name: anchors[:, column] for column, each in enumerate(ANCHORS)
+    }
+
+
+def told_apart(system: System, answers: Mapping[str, Any]) -> tuple[np.ndarray, np.ndarray]:
+    """(labels (n,), first (m,)): which attractor each of n starts leads to, the largest share first, and a start of each.
+
+    Orbits of one class (kind, period, impacts, symmetry) are one where the states that stand for them are, or where one's
+    state is any of the other's.
+    """
+    flat = {name: np.asarray(answers[name]).ravel() for name in (*CLASS, "orbit_angle", "orbit_velocity")}
+    columns = [flat[name].astype(float) for name in CLASS]
+    anchors = np.column_stack([flat["orbit_angle"], flat["orbit_velocity"]])
+    unanchored = np.isnan(anchors).any(axis=1)
+    # + 0.0: no negative zeros, which differ in their bytes
+    rounded = np.where(unanchored[:, None], 0.0, np.round(anchors / SAME)) + 0.0
+    keys = np.column_stack([*columns, unanchored, rounded])
+    distinct, first, groups = np.unique(keys, axis=0, return_index=True, return_inverse=True)
+    joined = _joined(system, distinct, anchors[first])[groups.ravel()]
+    _, first, labels, counts = np.unique(joined, return_index=True, return_inverse=True, return_counts=True)
+    order = np.argsort(-counts, kind="stable")
+    ranks = np.empty_like(order)
+    ranks[order] = np.arange(order.size)
+    return ranks[labels.ravel()], first[order]
+
+
+def _joined(system: System, distinct: np.ndarray, anchors: np.ndarray) -> np.ndarray:
+    """A number for each distinct row, the same for rows of one attractor."""
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import connected_components
+    from scipy.spatial import cKDTree
+
+    classes = np.unique(distinct[:, : len(CLASS) + 1], axis=0, return_inverse=True)[1].ravel()
+    pairs = [np.empty((0, 2), int)]
+    for number in range(classes.max() + 1):
+        members = np.flatnonzero(classes == number)
+        if members.size < 2 or np.isnan(anchors[members]).any():
+            continue
+        near = cKDTree(anchors[members]).query_pairs(SAME, output_type="ndarray")
+        pairs.append(members[near])
+        period = int(distinct[members[0], 1])
+        # a class of thousands is no list of attractors, but near a torus
+        if period > 1 and members.size <= 1000:
+            pairs.append(_shared(system, members, anchors, period))
+    links = np.concatenate(pairs)
+    graph = coo_array((np.ones(len(links)), (links[:, 0], links[:, 1])), shape=(len(distinct),) * 2)
+    return connected_components(graph, directed=False)[1]
+
+
+def _shared(system: System, members: np.ndarray, anchors: np.ndarray, period: int) -> np.ndarray:
+    """Pairs of orbits of one period of which one's state is any of the other's."""
+    from scipy.spatial import cKDTree
+
+    states = np.concatenate([section_of(system, anchors[each], period) for each in members])
+    owners = np.repeat(members, period)
+    near = cKDTree(states).query_ball_point(anchors[members], SAME)
+    return np.array(
+        [(one, owners[k]) for one, found in zip(members, near, strict=True) for k in found]
+    ).reshape(-1, 2)
+
+
+def section_of(system: System, anchor: np.ndarray, period: int) -> np.ndarray:
+    """The states (n, 2) of an orbit on the section, from the one that stands for it."""
+    forcing = system.forcing
+    phase = forcing.phase + math.tau * kernel.SECTION
+    clocked = System(
+        Harmonic(forcing.amplitude, period=forcing.period, phase=phase), system.restitution, system.braces
+    )
+    motion = simulate(clocked, State(*anchor), cycles=period, record="section")
+    return np.asarray(motion.section()[:period])
+
+
+def named(
+    system: System, starts: np.ndarray, first: np.ndarray, max_cycles: int, max_period: int
+) -> tuple[Attractor, ...]:
+    """The attractors to which these of the starts lead, each with a name of its own."""
+    verdicts = [classify(system, State(*starts[k]), max_cycles, max_period) for k in first]
+    plain = [_name(each) for each in verdicts]
+    names, seen = [], dict.fromkeys(plain, 0)
+    for name in plain:
+        letter = f" ({_letters(seen[name])})" if plain.count(name) > 1 else ""
+        seen[name] += 1
+        names.append(name + letter)
+    return tuple(Attractor(name, verdict) for name, verdict in zip(names, verdicts, strict=True))
+
+
+def _name(verdict: Any) -> str:
+    if verdict.orbit is None:
+        leans = verdict.kind == judgement.Kind.REST.name.lower() and verdict.steady_peak
+        return "leaning" if leans else str(verdict.kind)
+    return f"period {verdict.period}, {'symmetric' if verdict.symmetric else 'unsymmetric'}"
+
+
+def _letters(number: int) -> str:
+    """a, b, …, z, aa, ab, …."""
+    before, last = divmod(number, 26)
+    return (_letters(before - 1) if before else "") + "abcdefghijklmnopqrstuvwxyz"[last]

@@ -1,0 +1,193 @@
+"""What is asked: which quantities vary, over which values, and what the others are."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from numbers import Real
+from typing import Any, NamedTuple
+
+import numpy as np
+from attrs import field, frozen
+
+from rocking.kernels import parameters as numbers
+from rocking.model import (
+    BRACE_ANGLES,
+    FREQUENCIES,
+    LARGEST_AMPLITUDE,
+    LARGEST_PHASE,
+    LARGEST_START,
+    exactly_one,
+    reals,
+    refusal,
+    shown,
+    within,
+)
+
+Values = Mapping[str, np.ndarray]
+
+PERIODS = math.tau / FREQUENCIES[1], math.tau / FREQUENCIES[0]
+RANGES = {
+    "amplitude": (0.0, LARGEST_AMPLITUDE),
+    "velocity": (-LARGEST_START, LARGEST_START),
+    "restitution": (0.0, 1.0),
+    "brace_angle": BRACE_ANGLES,
+    "brace_restitution": (0.0, 1.0),
+    "phase": (-LARGEST_PHASE, LARGEST_PHASE),
+    "angle": (-LARGEST_START, LARGEST_START),
+    "frequency": FREQUENCIES,
+    "period": PERIODS,
+}
+"""What may vary, with its limits. Of two axes the first in this order is a picture's upward one."""
+SYMBOLS = {
+    "amplitude": ("A", "amplitude of the base's acceleration in units of g theta_cr"),
+    "velocity": ("Θ'", "angular velocity at the start in units of alpha theta_cr"),
+    "restitution": ("e", "coefficient of restitution"),
+    "brace_angle": ("Θb", "angle of the braces in units of theta_cr"),
+    "brace_restitution": ("r", "coefficient of restitution of the braces"),
+    "phase": ("φ", "phase of the base's acceleration"),
+    "angle": ("Θ", "angle at the start in units of theta_cr"),
+    "frequency": ("Ω", "frequency of the base in radians per normalised time"),
+    "period": ("T", "period of the base in normalised time"),
+}
+
+
+SYSTEM = ("amplitude", "frequency", "period", "phase", "restitution", "brace_angle", "brace_restitution")
+START = ("angle", "velocity")
+
+
+class Points(NamedTuple):
+    """Points as the kernels read them."""
+
+    systems: np.ndarray  # (n, 7), SYSTEM, as `kernels.parameters.make` takes it
+    starts: np.ndarray  # (n, 2), START
+
+
+@frozen(eq=False)
+class Question:
+    """A survey's axes, by name in the order of its dimensions, and the values of all that does not vary.
+
+    Without braces there is neither `brace_angle` nor `brace_restitution`; of `period` and `frequency` there is one.
+    """
+
+    axes: dict[str, np.ndarray]
+    fixed: dict[str, float] = field(factory=dict)
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """Points along each axis."""
+        return tuple(values.size for values in self.axes.values())
+
+    @property
+    def points(self) -> int:
+        """Points in all."""
+        return math.prod(self.shape)
+
+
+def question(asked: Mapping[str, Any], count: int, what: str) -> Question:
+    """Check what is asked: `count` of the quantities are arrays, their axes, and the others numbers (None: not given).
+
+    Raises
+    ------
+    TypeError, ValueError
+        In one line that starts with the argument's name; `what` says what needs that many axes.
+    """
+    exactly_one(period=asked.get("period"), frequency=asked.get("frequency"))
+    given = {name: asked[name] for name in RANGES if asked.get(name) is not None}
+    missing = [name for name in ("amplitude", "restitution") if name not in given]
+    if missing:
+        raise TypeError(f"{what} needs {' and '.join(missing)}; got none")
+    braced = "brace_angle" in given
+    if not braced and _is_axis(given.get("brace_restitution", 1.0)):
+        raise TypeError(refusal("brace_restitution", "come with brace_angle", given["brace_restitution"]))
+    if not braced:
+        given.pop("brace_restitution", None)
+    axes = {name: axis(name, value) for name, value in given.items() if _is_axis(value)}
+    if len(axes) != count:
+        got = " and ".join(axes) or "none"
+        raise TypeError(f"{what} needs {_counted(count)} to vary, given as arrays; got {got}")
+    fixed = {name: within(name, value, *RANGES[name]) for name, value in given.items() if name not in axes}
+    asked_for = Question(axes, fixed)
+    _check_braces(asked_for)
+    return asked_for
+
+
+def axis(name: str, values: Any) -> np.ndarray:
+    """Check an axis: finite numbers in range, ascending, two or more; TypeError or ValueError in one line otherwise."""
+    low, high = RANGES[name]
+    allowed = f"hold two numbers or more in [{low:.6g}, {high:.6g}], ascending"
+    try:
+        array = np.asarray(reals(name, values))
+    except TypeError:
+        raise TypeError(refusal(name, allowed, values)) from None
+    if array.ndim != 1 or array.size < 2:
+        found = "an empty array" if array.size == 0 else f"an array of shape {array.shape}"
+        way_out = " (give a plain number for what does not vary)" if array.size == 1 else ""
+        raise ValueError(f"{name} must {allowed}; got {found}{way_out}")
+    inside = (array >= low) & (array <= high)
+    if not inside.all():
+        where = int(np.argmin(inside))
+        raise ValueError(f"{name} must {allowed}; got {shown(array[where])} at index {where}")
+    rising = np.diff(array) > 0
+    if not rising.all():
+        where = int(np.argmin(rising))
+        raise ValueError(
+            f"{name} must {allowed}; got {shown(array[where])} before {shown(array[where + 1])} at index {where + 1}"
+        )
+    return array + 0.0  # no negative zeros
+
+
+def check_quantity(name: str, value: Any) -> float | np.ndarray:
+    """Check a number, or an axis, for one of the quantities."""
+    return axis(name, value) if _is_axis(value) else within(name, value, *RANGES[name])
+
+
+def _is_axis(value: Any) -> bool:
+    return not isinstance(value, Real | str) and np.ndim(value) > 0
+
+
+def _counted(count: int) -> str:
+    words = {1: "one quantity", 2: "two quantities"}
+    return words.get(count, f"{count} quantities")
+
+
+def _check_braces(asked: Question) -> None:
+    """Refuse starts beyond the braces."""
+    if "brace_angle" not in asked.axes and "brace_angle" not in asked.fixed:
+        return
+    reach = min(_values(asked, "brace_angle"))
+    far = max(_values(asked, "angle"), key=abs)
+    if abs(far) > reach:
+        allowed = f"lie between the braces, in [{-reach:.6g}, {reach:.6g}]"
+        raise ValueError(refusal("angle", allowed, far))
+
+
+def _values(asked: Question, name: str) -> list[float]:
+    return asked.axes[name].tolist() if name in asked.axes else [asked.fixed.get(name, 0.0)]
+
+
+def points(values: Values, fixed: Mapping[str, float]) -> Points:
+    """Systems and starts of n points, `values` (n,) each, as exactly as `System` and `State` make them."""
+    count = next(iter(values.values())).size
+    usual = {"phase": 0.0, "brace_angle": math.inf, "brace_restitution": 1.0, "angle": 0.0, "velocity": 0.0}
+    given = {name: np.full(count, value) for name, value in (usual | dict(fixed)).items()} | dict(values)
+    if "frequency" in given:
+        given["period"] = math.tau / given["frequency"]
+    else:
+        given["frequency"] = math.tau / given["period"]
+    given["phase"] = _within_a_turn(given["phase"])
+    return Points(
+        np.stack([given[name] for name in SYSTEM], axis=1), np.stack([given[name] for name in START], axis=1)
+    )
+
+
+def _within_a_turn(phases: np.ndarray) -> np.ndarray:
+    if np.abs(phases).max(initial=0.0) <= math.pi:
+        return phases
+    distinct, places = np.unique(phases, return_inverse=True)
+    return np.array([numbers.within_a_turn(phase) for phase in distinct.tolist()])[places]
+
+
+def described(asked: Question, names: Sequence[str] = tuple(RANGES)) -> dict[str, float]:
+    """What does not vary, by name, in the order in which it is told."""
+    return {name: asked.fixed[name] for name in names if name in asked.fixed}

@@ -1,0 +1,72 @@
+"""How uncertain starts are: the share that a small error leads elsewhere, and the exponent with which it falls."""
+
+from __future__ import annotations
+
+from statistics import NormalDist
+
+import numpy as np
+
+from rocking.model import LEVEL, Share, UncertaintyExponent
+
+FINEST, COARSEST = 13, 6
+"""Distances are the mean width of the starts times 2⁻ᵏ for k between these."""
+FEWEST = 10
+"""Uncertain starts at several distances together; fewer tell no exponent."""
+MOST_STEPS = 50
+
+
+def distances(widths: tuple[float, float]) -> np.ndarray:
+    """The errors ε that are tried, the largest first."""
+    return np.sqrt(widths[0] * widths[1]) * 0.5 ** np.arange(COARSEST, FINEST + 1)
+
+
+def trios(
+    low: tuple[float, float], high: tuple[float, float], runs: int, random: np.random.Generator
+) -> np.ndarray:
+    """Starts (distances, n, 3, 2): random ones anew at each distance, and two beside each, in opposite directions."""
+    reach = distances((high[0] - low[0], high[1] - low[1]))
+    each = max(runs // (3 * reach.size), 1)
+    middle = random.uniform(low, high, (reach.size, each, 2))
+    turned = random.uniform(0.0, np.pi, (reach.size, each))
+    beside = reach[:, None, None] * np.stack([np.cos(turned), np.sin(turned)], axis=-1)
+    return np.stack([middle, middle - beside, middle + beside], axis=2)
+
+
+def exponent(reach: np.ndarray, labels: np.ndarray) -> UncertaintyExponent | None:
+    """The uncertainty exponent from the labels (distances, n, 3) of trios; None where next to none is uncertain.
+
+    The counts are binomial with log f = a + α log ε: the likelihood is maximised by Fisher's scoring, and the interval is
+    that of its information, widened by the root of the misfit where the counts scatter more than binomial ones do.
+    """
+    elsewhere = (labels[..., 1:] != labels[..., :1]).any(axis=-1)
+    counts, each = elsewhere.sum(axis=1), elsewhere.shape[1]
+    told = counts < each
+    if counts[told].sum() < FEWEST or np.count_nonzero(counts[told]) < 3:
+        return None
+    logs = np.log(reach[told])
+    design = np.column_stack([np.ones(logs.size), logs - logs.mean()])
+    fitted, information = _scored(design, counts[told].astype(float), float(each))
+    shares = np.minimum(np.exp(design @ fitted), 1.0 - 1e-9)
+    squares = (counts[told] - each * shares) ** 2 / (each * shares * (1.0 - shares))
+    misfit = float(squares.sum() / max(logs.size - 2, 1))
+    error = float(np.sqrt(np.linalg.inv(information)[1, 1] * max(misfit, 1.0)))
+    half = NormalDist().inv_cdf(0.5 + 0.5 * LEVEL) * error
+    value = float(fitted[1])
+    uncertain = tuple(Share(count, each) for count in counts)
+    return UncertaintyExponent(value, value - half, value + half, tuple(reach.tolist()), uncertain, misfit)
+
+
+def _scored(design: np.ndarray, counts: np.ndarray, each: float) -> tuple[np.ndarray, np.ndarray]:
+    """(parameters, information) of a binomial model with a logarithmic link."""
+    weights = counts + 0.5
+    start = np.log(weights / (each + 1.0))
+    fitted = np.linalg.lstsq(design * np.sqrt(weights)[:, None], start * np.sqrt(weights), rcond=None)[0]
+    for _ in range(MOST_STEPS):
+        shares = np.clip(np.exp(design @ fitted), 1e-12, 1.0 - 1e-6)
+        weights = each * shares / (1.0 - shares)
+        information = design.T @ (design * weights[:, None])
+        step = np.linalg.solve(information, design.T @ ((counts - each * shares) / (1.0 - shares)))
+        fitted = fitted + step
+        if np.abs(step).max() < 1e-10:
+            break
+    return fitted, information

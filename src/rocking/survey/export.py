@@ -1,0 +1,89 @@
+"""What was found, taken out: counts, tables and netCDF, a part at a time, so that a survey of any size passes through."""
+
+from __future__ import annotations
+
+import math
+import os
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from rocking.model import check_writable, replacing
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+AT_ONCE = 1 << 20
+"""Points in memory at a time, about."""
+
+
+def parts(found: xr.Dataset) -> Iterator[xr.Dataset]:
+    """The dataset in parts along its first axis, each in memory."""
+    first = next(iter(found.data_vars.values())).dims[0]
+    count = found.sizes[first]
+    step = max(AT_ONCE * count // math.prod(found.sizes.values()), 1)
+    for begin in range(0, count, step):
+        yield found.isel({first: slice(begin, begin + step)}).load()
+
+
+def counts(found: xr.Dataset, name: str) -> dict[str, int]:
+    """How many points have each of a variable's flags, by its meaning."""
+    meanings = flags(found, name)
+    total = np.zeros(256, np.int64)
+    for part in parts(found[[name]]):
+        total += np.bincount(part[name].values.ravel(), minlength=256)
+    return {meaning: int(total[value]) for value, meaning in meanings.items()}
+
+
+def flags(found: xr.Dataset, name: str) -> dict[int, str]:
+    """What the values of a variable mean."""
+    told = found[name].attrs
+    return dict(zip(np.asarray(told["flag_values"]).tolist(), told["flag_meanings"].split(), strict=True))
+
+
+def tables(found: xr.Dataset) -> Iterator[dict[str, np.ndarray]]:
+    """Columns by name, of a part at a time: the axes, then all variables, flags as words."""
+    words = {
+        name: np.array([flags(found, name).get(value, "") for value in range(256)])
+        for name in map(str, found.data_vars)
+        if "flag_values" in found[name].attrs
+    }
+    for part in parts(found):
+        dimensions = next(iter(part.data_vars.values())).dims
+        grids = np.meshgrid(*(part[name].values for name in dimensions), indexing="ij")
+        table = {str(name): grid.ravel() for name, grid in zip(dimensions, grids, strict=True)}
+        for name in map(str, part.data_vars):
+            values = part[name].values.ravel()
+            table[name] = words[name][values] if name in words else values
+        yield table
+
+
+def to_netcdf(found: xr.Dataset, path: str | os.PathLike[str]) -> None:
+    """Write a dataset to a netCDF file, whole or not at all; it need not fit in memory."""
+    import h5netcdf
+
+    target = check_writable("path", path, (".nc",))
+    with replacing(target) as temporary, h5netcdf.File(temporary, "w") as file:
+        file.dimensions = {str(name): size for name, size in found.sizes.items()}
+        file.attrs.update(_plain(found.attrs))
+        for name, variable in found.variables.items():
+            made = file.create_variable(str(name), variable.dims, variable.dtype, fillvalue=None)
+            made.attrs.update(_plain(variable.attrs, variable.dtype))
+            if name in found.coords:
+                made[:] = variable.values
+        begin = 0
+        for part in parts(found):
+            first = next(iter(part.data_vars.values())).dims[0]
+            end = begin + part.sizes[first]
+            for name in part.data_vars:
+                file[str(name)][begin:end] = part[name].values
+            begin = end
+
+
+def _plain(told: dict[Any, Any], dtype: Any = None) -> dict[str, Any]:
+    """Attributes as netCDF has them: flags are of the type of their variable."""
+    return {
+        str(name): np.asarray(value, dtype) if isinstance(value, list | np.ndarray) else value
+        for name, value in told.items()
+    }

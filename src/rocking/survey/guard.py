@@ -1,0 +1,88 @@
+"""What keeps a store whole: one run at a time, errors that say how to go on, nothing left of a killed one."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from rocking.model import check_folder, refusal
+
+ROOT = "zarr.json"
+
+
+class StoreError(OSError):
+    """A store that cannot be written, that another run writes, or that is damaged; the message says what to do."""
+
+
+def check_store(path: str | os.PathLike[str]) -> Path:
+    """Refuse what is neither a survey's store nor a folder that may become one."""
+    if not isinstance(path, str | os.PathLike):
+        raise TypeError(refusal("store", "be the path of a folder", path))
+    folder = Path(path)
+    if folder.exists() and not folder.is_dir():
+        raise StoreError(f"store must be a folder's name; got {str(path)!r}, which is a file")
+    check_folder("store", folder)
+    held = {each.name for each in folder.iterdir()} if folder.exists() else set()
+    if held and ROOT not in held:
+        raise StoreError(something_else(folder, f"a folder with {min(held)!r} in it"))
+    return folder
+
+
+def something_else(folder: Path, what: str) -> str:
+    """How a folder that is no survey's store is refused."""
+    return f"store must be a new folder or a survey's store; got {str(folder)!r}, which is {what}"
+
+
+@contextmanager
+def alone(folder: Path) -> Iterator[None]:
+    """Refuse a second run on one store. The system ends the lock with the process, however that ends."""
+    try:
+        import fcntl
+    except ImportError:  # elsewhere than on Unix nothing keeps a second run away
+        yield
+        return
+    handle = os.open(folder, os.O_RDONLY)
+    try:
+        try:
+            fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            raise StoreError(
+                f"store {str(folder)!r} is being written by another run; wait for its end, or stop it"
+            ) from None
+        yield
+    finally:
+        os.close(handle)
+
+
+@contextmanager
+def writing(folder: Path) -> Iterator[None]:
+    """Say of a write that failed which store it was, and how to go on."""
+    try:
+        yield
+    except StoreError:
+        raise
+    except OSError as error:
+        why = error.strerror or str(error)
+        raise StoreError(
+            f"store {str(folder)!r} cannot be written: {why}; what is there stays good: make room, then ask the same again"
+        ) from error
+
+
+@contextmanager
+def reading(folder: Path) -> Iterator[None]:
+    """Say of descriptions that cannot be read which store they are of."""
+    try:
+        yield
+    except Exception as error:
+        raise StoreError(
+            f"store {str(folder)!r} is damaged: one of its files {ROOT} cannot be read ({error}); "
+            "put it back from a copy, or give another folder"
+        ) from error
+
+
+def clear_partial(folder: Path) -> None:
+    """Remove what a killed run was writing."""
+    for left in folder.rglob("*.partial"):
+        left.unlink(missing_ok=True)

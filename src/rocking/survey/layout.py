@@ -1,0 +1,131 @@
+"""What a store holds, and whether what is asked is the same, goes further, or lies closer."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from attrs import frozen
+
+from rocking.model import VERSION, shown
+from rocking.survey.axes import Question, described
+from rocking.survey.plan import Level, even_edges, levels, tile_edges
+from rocking.survey.tiles import Measure
+
+SAME = 1e-9
+"""Axis values closer than this share of their distance from the next are the same: an axis made longer rounds otherwise."""
+
+
+@frozen(eq=False)
+class Layout:
+    """The grids of a store: the finest one's axes, along which axes each but the first halves the one before, their tiles."""
+
+    axes: dict[str, np.ndarray]
+    halved: list[tuple[bool, ...]]
+    tiles: list[tuple[int, ...]]
+
+    def levels(self) -> list[Level]:
+        """Its grids, the coarsest first."""
+        grids = [self.axes]
+        for halved in reversed(self.halved):
+            grids.insert(0, _thinned(grids[0], halved))
+        parts = zip(grids, [None, *self.halved], self.tiles, strict=True)
+        return [Level(number, *part) for number, part in enumerate(parts)]
+
+
+def new_layout(asked: Question) -> Layout:
+    """The layout of a store that begins."""
+    grids = levels(asked)
+    halved = [each.halved for each in grids if each.halved is not None]
+    return Layout(asked.axes, halved, [each.tile for each in grids])
+
+
+def described_layout(layout: Layout) -> dict[str, Any]:
+    """A layout as JSON has it."""
+    return {
+        "axes": {name: values.tolist() for name, values in layout.axes.items()},
+        "halved": [list(each) for each in layout.halved],
+        "tiles": [list(each) for each in layout.tiles],
+    }
+
+
+def fingerprint(asked: Question, measure: Measure) -> dict[str, Any]:
+    """What must be the same for a store to be gone on with, and who made it."""
+    import llvmlite.binding as llvm
+
+    return {
+        "survey": measure.title,
+        "over": list(asked.axes),
+        "fixed": described(asked),
+        "options": dict(measure.options),
+        "variables": [each.name for each in measure.variables],
+        "method": measure.method,
+        "made_by": {"version": VERSION, "processor": llvm.get_host_cpu_name()},
+    }
+
+
+def check_same(path: str, stored: Mapping[str, Any], mine: Mapping[str, Any]) -> None:
+    """Refuse a store that was made otherwise; ValueError that says what differs."""
+    ours, theirs = _flat(mine), _flat(stored)
+    differences = [
+        f"{name} is {_told(theirs.get(name))} there and {_told(ours.get(name))} here"
+        for name in dict.fromkeys((*theirs, *ours))
+        if theirs.get(name) != ours.get(name)
+    ]
+    if differences:
+        raise ValueError(
+            f"store {path!r} holds another survey: {'; '.join(differences)} (give another folder, or ask for the same)"
+        )
+
+
+def joined(path: str, stored: Mapping[str, Any], asked: Question) -> Layout:
+    """What a store holds together with what is asked: the same axes, longer ones, or ones of half the spacing (or a quarter, …).
+
+    Raises ValueError for axes that leave out or move what is there.
+    """
+    finest = {name: np.array(values) for name, values in stored["axes"].items()}
+    pairs = [_join(path, name, values, asked.axes[name]) for name, values in finest.items()]
+    axes = {name: values for name, (values, _) in zip(finest, pairs, strict=True)}
+    halvings = [times for _, times in pairs]
+    more = [tuple(number < times for times in halvings) for number in range(max(halvings))]
+    tiles = [tuple(each) for each in stored["tiles"]]
+    edges = tile_edges([values.size for values in axes.values()])
+    layout = Layout(axes, [*map(tuple, stored["halved"]), *more], tiles + [edges] * len(more))
+    for number in range(len(tiles), len(layout.tiles)):
+        layout.tiles[number] = even_edges(layout.levels()[number].axes, edges)
+    return layout
+
+
+def _join(path: str, name: str, there: np.ndarray, here: np.ndarray) -> tuple[np.ndarray, int]:
+    """The values asked for, exactly as stored where they are the same; how often the spacing is halved."""
+    for times in range(32):
+        step = 2**times
+        reach = step * (there.size - 1) + 1
+        if reach > here.size:
+            break
+        nearest = np.diff(there).min() / step
+        if np.abs(here[:reach:step] - there).max() <= SAME * nearest:
+            exact = here.copy()
+            exact[:reach:step] = there
+            return exact, times
+    raise ValueError(
+        f"store {path!r} holds {there.size} values of {name} from {there[0]:.6g} to {there[-1]:.6g}, and {here.size} from "
+        f"{here[0]:.6g} to {here[-1]:.6g} leave some of them out: ask for these, for more beyond the last, or for half the "
+        "spacing (one less than twice as many)"
+    )
+
+
+def _thinned(axes: dict[str, np.ndarray], halved: tuple[bool, ...]) -> dict[str, np.ndarray]:
+    pairs = zip(axes.items(), halved, strict=True)
+    return {name: values[::2] if half else values for (name, values), half in pairs}
+
+
+def _flat(told: Mapping[str, Any]) -> dict[str, Any]:
+    """What is compared, by the name that it is told by."""
+    alone = {name: told.get(name) for name in ("survey", "over", "variables", "method")}
+    return alone | dict(told.get("fixed", {})) | dict(told.get("options", {}))
+
+
+def _told(value: Any) -> str:
+    return "not given" if value is None else shown(value)

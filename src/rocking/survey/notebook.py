@@ -1,0 +1,52 @@
+"""Maps show themselves in a notebook, though they are xarray's datasets: the notebook is told how."""
+
+from __future__ import annotations
+
+import sys
+from typing import TYPE_CHECKING
+
+from rocking.model import percent, pictures
+from rocking.survey.export import counts
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+KIND = "map"
+
+
+def register() -> None:
+    """Where a notebook runs, have it show maps with their picture; all other datasets stay as they are."""
+    notebook = sys.modules.get("IPython")
+    shell = notebook.get_ipython() if notebook is not None else None
+    if shell is not None:
+        shell.display_formatter.formatters["text/html"].for_type_by_name(
+            "xarray.core.dataset", "Dataset", html
+        )
+
+
+def html(found: xr.Dataset) -> str:
+    """A map's picture and line, and what xarray shows of every dataset."""
+    shown = found._repr_html_()
+    if (
+        getattr(found, "kind", None) is None
+        or found["kind"].ndim != 2
+        or "flag_meanings" not in found["kind"].attrs
+    ):
+        return shown
+    return (pictures.html(found, KIND, line(found)) or "") + shown
+
+
+def line(found: xr.Dataset) -> str:
+    """A map in one line: its size, and the shares of its kinds.
+
+    Examples
+    --------
+    >>> import numpy as np, rocking as rk
+    >>> line(rk.parametric_map(amplitude=[0.5, 2.0], period=np.linspace(0.8, 1.2, 5), restitution=0.9))
+    'map of 2 × 5 points: rest 50.0 %, periodic 50.0 %'
+    """
+    size = " × ".join(f"{count:,}" for count in found["kind"].shape)
+    there = {kind: count for kind, count in counts(found, "kind").items() if count}
+    total = sum(there.values())
+    shares = ", ".join(f"{kind} {percent(count / total)}" for kind, count in there.items())
+    return f"map of {size} points: {shares or 'none computed yet'}"

@@ -1,0 +1,120 @@
+"""What every map finds at a point: the response, the evidence for it, and the numbers that go with it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+
+import numpy as np
+
+from rocking.kernels import judgement as kernel
+from rocking.kernels import many
+from rocking.survey.axes import Points
+from rocking.survey.tiles import Arrays, Measure, Variable
+
+
+def meanings(enum: type[kernel.Kind] | type[kernel.Ground]) -> dict[str, object]:
+    """The CF attributes of a variable whose values are those of an enum."""
+    words = (each.name.lower().replace("_", "-") for each in enum)
+    return {"flag_values": np.array(list(enum), np.uint8), "flag_meanings": " ".join(words)}
+
+
+SYMMETRY = {
+    "flag_values": np.arange(3, dtype=np.uint8),
+    "flag_meanings": "unsymmetric symmetric not-periodic",
+}
+NOT_PERIODIC = 2
+
+VARIABLES = (
+    Variable("kind", "uint8", 255, {"long_name": "kind of response", **meanings(kernel.Kind)}),
+    Variable("evidence", "uint8", 255, {"long_name": "ground of the label", **meanings(kernel.Ground)}),
+    Variable(
+        "response_period",
+        "int32",
+        -1,
+        {"long_name": "period of the response in forcing cycles", "comment": "0: not periodic"},
+    ),
+    Variable(
+        "impacts_per_period",
+        "int32",
+        -2,
+        {
+            "long_name": "impacts in a period of the response",
+            "comment": "-1: not periodic, or they accumulate",
+        },
+    ),
+    Variable(
+        "brace_hits_per_period",
+        "int32",
+        -2,
+        {
+            "long_name": "brace hits in a period of the response",
+            "comment": "-1: not periodic, or they accumulate",
+        },
+    ),
+    Variable("symmetric", "uint8", 255, {"long_name": "symmetry of the response", **SYMMETRY}),
+    Variable(
+        "exponent",
+        "float64",
+        math.inf,
+        {
+            "long_name": "largest Lyapunov exponent per normalised time",
+            "units": "1",
+            "comment": "-inf: superstable; NaN: none, or not weighed",
+        },
+    ),
+    Variable(
+        "exponent_error",
+        "float64",
+        math.inf,
+        {
+            "long_name": "standard error of the exponent",
+            "units": "1",
+            "comment": "0: from the multipliers; NaN: none",
+        },
+    ),
+    Variable(
+        "peak",
+        "float64",
+        -1.0,
+        {"long_name": "largest angle from the start in units of theta_cr", "units": "1"},
+    ),
+    Variable(
+        "transient",
+        "int32",
+        -2,
+        {"long_name": "forcing cycles before the response was reached, at most", "comment": "-1: not known"},
+    ),
+    Variable("cycles", "int32", -1, {"long_name": "forcing cycles followed"}),
+)
+
+
+def response(max_cycles: int, max_period: int, title: str) -> Measure:
+    """What the cascade of `classify` says at each point."""
+    options = {"max_cycles": max_cycles, "max_period": max_period}
+    return Measure(title, judge, many.compile_many, VARIABLES, options, many.METHOD, shares="kind")
+
+
+def judge(points: Points, options: Mapping[str, int], stop: np.ndarray) -> Arrays | None:
+    """The cascade's answers, told as `classify` tells them."""
+    told = many.judge_many(*points, options["max_cycles"], options["max_period"], stop)
+    return None if told is None else judged(told)
+
+
+def judged(told: many.Answers) -> Arrays:
+    """The cascade's answers by the names of the variables."""
+    unweighed = (told.kind == kernel.UNDETERMINED) & (told.ground != kernel.INDISTINCT)
+    overturns, periodic = told.kind == kernel.OVERTURNS, told.kind == kernel.PERIODIC
+    return {
+        "kind": told.kind,
+        "evidence": told.ground,
+        "response_period": told.period,
+        "impacts_per_period": told.impacts,
+        "brace_hits_per_period": told.brace_hits,
+        "symmetric": np.where(periodic, told.symmetric, NOT_PERIODIC).astype(np.uint8),
+        "exponent": np.where(unweighed, math.nan, told.exponent),
+        "exponent_error": np.where(unweighed, math.nan, told.error),
+        "peak": told.peak,
+        "transient": np.where(overturns, np.maximum(told.cycles - 1, 0), told.transient).astype(np.int32),
+        "cycles": told.cycles,
+    }

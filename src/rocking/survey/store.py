@@ -1,0 +1,245 @@
+"""Results of a survey in a folder, in Zarr's third format: written while it runs, gone on with after any interruption."""
+
+from __future__ import annotations
+
+import math
+import os
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from rocking.survey.axes import Question
+from rocking.survey.dataset import attributes, coordinate
+from rocking.survey.guard import (
+    ROOT,
+    StoreError,
+    alone,
+    check_store,
+    clear_partial,
+    reading,
+    something_else,
+    writing,
+)
+from rocking.survey.layout import Layout, check_same, described_layout, fingerprint, joined, new_layout
+from rocking.survey.plan import Level, Slices, Tile
+from rocking.survey.tiles import Arrays, Measure, Variable
+
+if TYPE_CHECKING:
+    import xarray as xr
+    import zarr
+
+NAME = "rocking_survey"
+"""The attribute of the root group that tells a survey's store from other folders."""
+MOST_NAMED = 5
+MOST_HELD = 1 << 20
+"""Points of a level that is held in memory, some 50 MB, while the next one is computed."""
+
+
+class Store:
+    """A store that is open for this run alone; made by `opened`.
+
+    Only the last step of a tile marks it done: its chunk of the last variable. So whatever is marked is whole, and
+    whatever is not is computed again. Every file is written under another name and renamed.
+    """
+
+    def __init__(self, path: Path, asked: Question, measure: Measure, *, repair: bool) -> None:
+        self.path, self.measure = path, measure
+        with writing(path):
+            clear_partial(path)
+            self.layout, self.root = self._agreed(asked)
+            self.asked = Question(self.layout.axes, asked.fixed)
+            self.levels: list[Level] = self.layout.levels()
+            self.arrays = [self._in_line(level) for level in self.levels]
+        self.done = 0
+        self.begun: set[tuple[int, tuple[int, ...]]] = set()  # tiles of which something sound is there
+        self.held: tuple[int, Arrays] = (-1, {})
+        self.check(repair=repair)
+
+    def known(self, tile: Tile) -> np.ndarray:
+        """Which points of a tile are there."""
+        if (tile.level.number, tile.index) not in self.begun:
+            return np.zeros(tile.shape, bool)
+        marker = self.measure.marker
+        return self._read(tile.level, marker.name, tile.region) != marker.fill
+
+    def read(self, tile: Tile, names: tuple[str, ...] = ()) -> Arrays:
+        """What is there of a tile, of all variables unless some are named."""
+        wanted = names or tuple(self.arrays[tile.level.number])
+        return {name: self._read(tile.level, name, tile.region) for name in wanted}
+
+    def coarser(self, tile: Tile) -> Arrays:
+        """Of the level before, the points that a tile shares; a small level is read once, and whole."""
+        level, shared = self.levels[tile.level.number - 1], tile.shared()
+        assert shared is not None
+        if math.prod(level.shape) > MOST_HELD:
+            return {name: self._read(level, name, shared[1]) for name in self.arrays[level.number]}
+        if self.held[0] != level.number:
+            everything = tuple(slice(None) for _ in level.shape)
+            whole = {name: self._read(level, name, everything) for name in self.arrays[level.number]}
+            self.held = level.number, whole
+        return {name: values[shared[1]] for name, values in self.held[1].items()}
+
+    def write(self, tile: Tile, answers: Arrays) -> None:
+        """Keep a tile; its last variable, which marks it done, last."""
+        with writing(self.path):
+            for name, array in self.arrays[tile.level.number].items():
+                array[tile.region] = answers[name]
+
+    def dataset(self) -> xr.Dataset:
+        """The finest level, read when it is used."""
+        found = open_level(self.path, self.levels[-1].number)
+        return found[[each.name for each in self.measure.variables]]
+
+    def check(self, *, repair: bool) -> None:
+        """Read all that is marked done: damage is refused by name, or with `repair` computed again."""
+        found: list[str] = []
+        for tile in (tile for level in self.levels for tile in level.tiles()):
+            known, damaged = self._inspected(tile)
+            found += [str(self._chunk(tile, name)) for name in damaged]
+            if known.any() and not damaged:
+                self.begun.add((tile.level.number, tile.index))
+                self.done += int(tile.own(known).sum())
+        if found and not repair:
+            more = f" and {len(found) - MOST_NAMED} more" if len(found) > MOST_NAMED else ""
+            raise StoreError(
+                f"store {str(self.path)!r} is damaged at {', '.join(found[:MOST_NAMED])}{more}; repair=True computes these tiles again"
+            )
+
+    def _inspected(self, tile: Tile) -> tuple[np.ndarray, list[str]]:
+        """Which points of a tile are there; the variables that cannot be read, or miss what the marker says is there."""
+        marker, known, damaged = self.measure.marker, np.zeros(tile.shape, bool), []
+        for variable in reversed(self.measure.variables):
+            try:
+                there = self._read(tile.level, variable.name, tile.region) != variable.fill
+            except Exception:  # noqa: BLE001 (a broken chunk is met in many ways)
+                damaged.append(variable.name)
+                continue
+            if variable is marker:
+                known = there
+                if not known.any():
+                    break
+            elif not there[known].all():
+                damaged.append(variable.name)
+        return known, damaged
+
+    def _chunk(self, tile: Tile, name: str) -> Path:
+        """The file of a tile's variable."""
+        return self.path / tile.level.name / name / "c" / "/".join(map(str, tile.index))
+
+    def _read(self, level: Level, name: str, region: Slices) -> np.ndarray:
+        return np.asarray(self.arrays[level.number][name][region])
+
+    def _agreed(self, asked: Question) -> tuple[Layout, zarr.Group]:
+        """What the store holds together with what is asked, as its root says; refused if they do not go together."""
+        import zarr
+        from zarr.storage import LocalStore
+
+        mine = fingerprint(asked, self.measure)
+        if not (self.path / ROOT).exists():
+            layout = new_layout(asked)
+            told = {NAME: mine | described_layout(layout)}
+            return layout, zarr.create_group(LocalStore(self.path), zarr_format=3, attributes=told)
+        with reading(self.path):
+            root = zarr.open_group(LocalStore(self.path), mode="r+", zarr_format=3, use_consolidated=False)
+        stored: Any = root.attrs.get(NAME)
+        if stored is None:
+            raise StoreError(something_else(self.path, "a Zarr store of something else"))
+        check_same(str(self.path), stored, mine)
+        layout = joined(str(self.path), stored, asked)
+        if stored | described_layout(layout) != stored:
+            root.attrs[NAME] = stored | described_layout(layout)
+        return layout, root
+
+    def _in_line(self, level: Level) -> dict[str, zarr.Array]:
+        """The arrays of a level, made or made larger where need be."""
+        with reading(self.path):
+            group = self.root.require_group(level.name)
+        told = _plain(attributes(self.asked, self.measure))
+        if group.attrs.asdict() != told:
+            group.attrs.put(told)
+        with reading(self.path):
+            members: dict[str, Any] = dict(group.arrays())
+        for name, values in level.axes.items():
+            stored = members.get(name)
+            if stored is None or stored.shape != values.shape or not np.array_equal(stored[:], values):
+                _make_coordinate(group, name, values)
+        return {
+            each.name: self._array(group, members.get(each.name), each, level)
+            for each in self.measure.variables
+        }
+
+    def _array(self, group: zarr.Group, array: Any, variable: Variable, level: Level) -> zarr.Array:
+        if array is None:
+            return _make_array(group, variable, level)
+        if array.shape != level.shape:
+            array.resize(level.shape)
+        return array
+
+
+@contextmanager
+def opened(
+    path: str | os.PathLike[str], asked: Question, measure: Measure, *, repair: bool
+) -> Iterator[Store]:
+    """A store for this run alone, made if it is not there.
+
+    Raises
+    ------
+    ValueError
+        It holds another survey; the message says what differs.
+    OSError
+        It is no folder, holds something else, is written by another run, cannot be written, or is damaged.
+    """
+    folder = check_store(path)
+    with writing(folder):
+        folder.mkdir(parents=True, exist_ok=True)
+    with alone(folder):
+        yield Store(folder, asked, measure, repair=repair)
+
+
+def open_level(path: Path, number: int) -> xr.Dataset:
+    """A level of a store, read when it is used."""
+    import xarray as xr
+
+    return xr.open_zarr(path, group=f"level-{number}", chunks=None, consolidated=False)
+
+
+def _make_array(group: zarr.Group, variable: Variable, level: Level) -> zarr.Array:
+    from zarr.codecs import Crc32cCodec
+
+    return group.create_array(
+        variable.name,
+        shape=level.shape,
+        chunks=level.tile,
+        dtype=variable.dtype,
+        compressors=[Crc32cCodec()],
+        filters=None,
+        fill_value=variable.fill,
+        dimension_names=list(level.axes),
+        attributes=_plain(variable.attributes),
+    )
+
+
+def _make_coordinate(group: zarr.Group, name: str, values: np.ndarray) -> None:
+    from zarr.codecs import Crc32cCodec
+
+    made = group.create_array(
+        name,
+        shape=values.shape,
+        chunks=values.shape,
+        dtype="float64",
+        compressors=[Crc32cCodec()],
+        filters=None,
+        fill_value=np.nan,
+        dimension_names=[name],
+        attributes=_plain(coordinate(name)),
+        overwrite=True,
+    )
+    made[:] = values
+
+
+def _plain(told: dict[str, Any]) -> dict[str, Any]:
+    """The same with lists for arrays, as JSON has them."""
+    return {name: value.tolist() if isinstance(value, np.ndarray) else value for name, value in told.items()}

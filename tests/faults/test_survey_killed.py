@@ -1,0 +1,179 @@
+"""Surveys that are killed, interrupted, run twice at once or out of disk lose nothing that was kept."""
+
+import signal
+import subprocess
+import sys
+import time
+
+import numpy as np
+import pytest
+import xarray as xr
+
+import rocking as rk
+
+SIZE = 150
+ASKED = {
+    "amplitude": np.linspace(0.0, 16.0, SIZE),
+    "period": np.linspace(0.2, 3.0, SIZE),
+    "restitution": 1.0,
+    "max_cycles": 100,
+}
+# Kernels are loaded before any thread begins: then every run may be a fork of this process.
+BEGIN = f"""
+import os, random, resource, signal, sys, time
+import numpy as np
+import rocking as rk
+from rocking.kernels import many
+import xarray, zarr
+
+many.compile_many()
+asked = dict(amplitude=np.linspace(0.0, 16.0, {SIZE}), period=np.linspace(0.2, 3.0, {SIZE}), restitution=1.0, max_cycles=100)
+folder = sys.argv[1]
+"""
+KILLED = (
+    BEGIN
+    + """
+moment, killed = random.Random(1991), 0
+while killed < 10:
+    child = os.fork()
+    if child == 0:
+        rk.parametric_map(**asked, store=folder)
+        os._exit(0)
+    time.sleep(moment.uniform(0.03, 0.25))
+    os.kill(child, signal.SIGKILL)
+    _, status = os.waitpid(child, 0)
+    killed += 1
+    print(os.WIFSIGNALED(status), flush=True)
+"""
+)
+FULL = (
+    BEGIN
+    + """
+resource.setrlimit(resource.RLIMIT_FSIZE, (15_000, 15_000))
+asked["period"] = np.linspace(0.2, 3.0, 300)
+try:
+    rk.parametric_map(**asked, store=folder)
+except OSError as error:
+    print(error)
+"""
+)
+RUN = (
+    BEGIN
+    + """
+print("running", flush=True)
+rk.parametric_map(**(asked | dict(max_cycles=20_000)), store=folder)
+"""
+)
+
+
+def files(folder):
+    return {path.relative_to(folder): path.read_bytes() for path in folder.rglob("*") if path.is_file()}
+
+
+def ran(script, folder):
+    return subprocess.run(
+        [sys.executable, "-c", script, folder], capture_output=True, text=True, timeout=200, check=False
+    )
+
+
+@pytest.fixture(scope="module")
+def whole(tmp_path_factory):
+    """The store of a run that nothing disturbed."""
+    folder = tmp_path_factory.mktemp("whole") / "map.zarr"
+    rk.parametric_map(**ASKED, store=folder)
+    return folder
+
+
+def test_map_killed_ten_times_is_that_of_an_undisturbed_run_byte_for_byte(tmp_path, whole):
+    folder = tmp_path / "map.zarr"
+    done = ran(KILLED, folder)
+    assert (done.stderr, done.returncode) == ("", 0)
+    # a run that was quicker than its death would show nothing
+    assert done.stdout.split().count("True") >= 5
+    rk.parametric_map(**ASKED, store=folder)
+    assert files(folder) == files(whole)
+
+
+def test_full_disk_is_said_and_what_was_written_stays_good(tmp_path):
+    folder, asked = tmp_path / "map.zarr", ASKED | {"period": np.linspace(0.2, 3.0, 300)}
+    done = ran(FULL, folder)
+    assert done.stdout == (
+        f"store {str(folder)!r} cannot be written: File too large; "
+        "what is there stays good: make room, then ask the same again\n"
+    )
+    # a tile of the first level takes less than that limit, one of the second more
+    written = xr.open_zarr(folder, group="level-0", chunks=None, consolidated=False).load()
+    resumed = rk.parametric_map(**asked, store=folder).load()
+    assert written.equals(resumed.isel(amplitude=slice(None, None, 4), period=slice(None, None, 8)))
+    assert resumed.equals(rk.parametric_map(**asked))
+
+
+@pytest.fixture
+def running(tmp_path):
+    """A long run on a store, some of which is done."""
+    folder = tmp_path / "map.zarr"
+    with subprocess.Popen(
+        [sys.executable, "-c", RUN, folder], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    ) as process:
+        assert process.stdout.readline() == "running\n"
+        while not (folder / "level-0" / "cycles" / "c" / "0" / "0").exists():
+            assert process.poll() is None
+            time.sleep(0.02)
+        yield folder, process
+        process.kill()
+
+
+def test_second_run_on_a_store_is_refused_until_the_first_is_gone(running):
+    folder, process = running
+    with pytest.raises(OSError, match="is being written by another run; wait for its end, or stop it$"):
+        rk.parametric_map(**ASKED, store=folder)
+    assert process.poll() is None
+    process.kill()
+    process.wait()
+    with pytest.raises(ValueError, match="max_cycles is 20000 there and 100 here"):
+        rk.parametric_map(**ASKED, store=folder)
+
+
+def test_interrupted_run_ends_soon_and_says_how_to_go_on(running):
+    folder, process = running
+    process.send_signal(signal.SIGINT)
+    _, error = process.communicate(timeout=20)
+    assert error.splitlines()[-2:] == [
+        "KeyboardInterrupt",
+        f"The survey was interrupted; what is done is in {str(folder)!r}, and the same call goes on with it.",
+    ]
+    assert process.returncode == -signal.SIGINT
+    kept = xr.open_zarr(folder, group="level-0", chunks=None, consolidated=False)
+    assert (kept.cycles >= 0).all()
+
+
+def test_interrupted_command_says_how_to_go_on_and_goes_on(tmp_path):
+    line = [
+        "map",
+        "--amplitude",
+        "0:16:150",
+        "--period",
+        "0.2:3:150",
+        "--restitution",
+        "1",
+        "--store",
+        "map.zarr",
+        "--max-cycles",
+    ]
+    command = [sys.executable, "-m", "rocking", *line]
+    with subprocess.Popen([*command, "20000"], cwd=tmp_path, stderr=subprocess.PIPE, text=True) as process:
+        while not (tmp_path / "map.zarr" / "level-0" / "cycles" / "c" / "0" / "0").exists():
+            assert process.poll() is None
+            time.sleep(0.02)
+        process.send_signal(signal.SIGINT)
+        _, error = process.communicate(timeout=20)
+    assert (process.returncode, error.splitlines()) == (
+        130,
+        [
+            "rocking: The survey was interrupted; what is done is in 'map.zarr', and the same call goes on with it.",
+            "rocking: interrupted",
+        ],
+    )
+    done = subprocess.run([*command, "100"], cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert done.returncode == 2
+    assert "--max-cycles is 20000 there and 100 here" in done.stderr

@@ -1,0 +1,177 @@
+"""Basins: each start leads where its own motion ends, and attractors are told apart by their orbits."""
+
+import math
+import re
+from concurrent.futures import ThreadPoolExecutor
+
+import numpy as np
+import pytest
+
+import rocking as rk
+
+# a symmetric orbit and a pair of mirror images, told by marching from many starts
+PAIR = rk.System(rk.Harmonic(amplitude=8.0, period=1.721328), 0.8, rk.Braces(1.0, 0.8))
+MANY = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), 0.925)
+RESTING = rk.System(rk.Harmonic(amplitude=0.378, period=2.0), 0.925)
+LEANING = rk.System(rk.Harmonic(amplitude=0.5, period=1.0), 0.5, rk.Braces(3.0, 0.3))
+LATE = 600
+
+
+def grid(system, reach=0.97, count=9, **options):
+    starts = np.linspace(-reach, reach, count)
+    return rk.basin_map(system, angle=starts, velocity=starts, boundary_runs=0, **options)
+
+
+def late_states(system, start, phase):
+    """States of the motion itself at that phase, after its transient."""
+    return rk.simulate(system, start, cycles=LATE, record="section").section(phase)[-64:]
+
+
+@pytest.mark.parametrize("system", [PAIR, MANY], ids=["pair", "many"])
+def test_every_start_ends_on_the_orbit_of_its_attractor_and_on_no_other(system):
+    found = grid(system)
+    data = found.dataset
+    for index in np.ndindex(data.attractor.shape):
+        velocity, angle = data.velocity.values[index[0]], data.angle.values[index[1]]
+        mine = int(data.attractor.transpose("velocity", "angle").values[index])
+        start = rk.State(float(angle), float(velocity))
+        if found.attractors[mine].kind == "overturned":
+            assert rk.simulate(system, start, cycles=LATE, record="none").outcome == "overturned"
+            continue
+        for number, each in enumerate(found.attractors):
+            if each.orbit is None:
+                continue
+            states = late_states(system, start, each.orbit.phase)
+            away = np.hypot(
+                states[:, 0] - each.orbit.state.angle, states[:, 1] - each.orbit.state.velocity
+            ).min()
+            # the slowest of these orbits has multipliers of size .9 a cycle: e^-60 of the transient is left
+            assert (away < 1e-8) == (number == mine), (start, each.name)
+
+
+def test_two_mirror_images_are_two_attractors():
+    found = grid(PAIR, count=15)
+    a, b = (each.orbit for each in found.attractors if each.name.startswith("period 1, unsymmetric ("))
+    forcing = PAIR.forcing
+    half_later = rk.System(
+        rk.Harmonic(forcing.amplitude, period=forcing.period, phase=a.phase + math.pi), 0.8, PAIR.braces
+    )
+    # the mirror image of a motion is a motion half a forcing cycle later
+    mirror = rk.simulate(half_later, rk.State(-a.state.angle, -a.state.velocity), cycles=40)
+    states = mirror.section(b.phase)[-5:]
+    assert np.abs(states - [b.state.angle, b.state.velocity]).max() < 1e-9
+    same = rk.System(rk.Harmonic(forcing.amplitude, period=forcing.period, phase=a.phase), 0.8, PAIR.braces)
+    own = rk.simulate(same, a.state, cycles=40).section(b.phase)[-5:]
+    assert np.abs(own - [b.state.angle, b.state.velocity]).max() > 0.1
+
+
+def test_a_mirrored_base_has_mirrored_basins():
+    one = grid(MANY, count=25)
+    turned = rk.System(rk.Harmonic(amplitude=2.0, period=1.0, phase=math.pi), 0.925)
+    other = grid(turned, count=25)
+    kinds, mirrored = (each.dataset.response_period.values for each in (one, other))
+    # but where the motion rounds otherwise: at a boundary
+    assert np.mean(kinds == mirrored[::-1, ::-1]) > 0.99
+
+
+def test_rest_is_one_attractor_and_leaning_on_either_brace_is_another():
+    assert "rest" in {each.name for each in grid(RESTING, count=25).attractors}
+    names = {each.name: each for each in grid(LEANING, 2.5, 15).attractors}
+    assert {"rest", "leaning (a)", "leaning (b)"} <= names.keys()
+    ends = [rk.simulate(LEANING, names[f"leaning ({c})"].verdict.start, cycles=200).final.angle for c in "ab"]
+    assert sorted(ends) == [-3.0, 3.0]
+
+
+def test_fractions_count_the_starts_and_flags_name_the_attractors():
+    found = grid(MANY, count=21)
+    places = found.dataset.attractor
+    assert [share.count for share in found.fractions] == np.bincount(places.values.ravel()).tolist()
+    assert sum(share.count for share in found.fractions) == 441 == found.fractions[0].of
+    assert places.attrs["flag_meanings"].split()[0] == found.attractors[0].name.replace(", ", "-")
+    fallen = np.count_nonzero(found.dataset.kind.values == 4)
+    assert found.safe.count == 441 - fallen
+    assert str(found).startswith("441 starts: ")
+
+
+def test_random_starts_are_those_of_the_seed_whoever_computes():
+    how = {"angle": (-1, 1), "velocity": (-0.5, 0.5), "samples": 3000, "boundary_runs": 2000}
+    one = rk.basin_map(MANY, **how, seed=4)
+    with ThreadPoolExecutor(3) as pool:
+        other = rk.basin_map(MANY, **how, seed=4, executor=pool)
+    assert one.dataset.identical(other.dataset)
+    assert one.uncertainty_exponent == other.uncertainty_exponent
+    assert not one.dataset.identical(rk.basin_map(MANY, **how, seed=5).dataset)
+    drawn = one.dataset
+    assert abs(drawn.angle.values).max() <= 1
+    assert abs(drawn.velocity.values).max() <= 0.5
+
+
+def test_a_basin_map_in_a_store_is_the_same(tmp_path):
+    starts = np.linspace(-1, 1, 40)
+    how = {"angle": starts, "velocity": starts, "boundary_runs": 0}
+    kept, plain = rk.basin_map(MANY, **how, store=tmp_path / "basins.zarr"), rk.basin_map(MANY, **how)
+    assert kept.fractions == plain.fractions
+    assert (kept.dataset.attractor.values == plain.dataset.attractor.values).all()
+
+
+@pytest.mark.parametrize(
+    "options, message",
+    [
+        ({"angle": [0.0, 1.0], "velocity": 0.5}, "a basin map needs two quantities to vary"),
+        ({"angle": [1.0, 0.0], "velocity": [0.0, 1.0]}, "angle must hold two numbers or more"),
+        ({"angle": 1.0, "velocity": (0, 1), "samples": 5}, "angle must be a pair (low, high)"),
+        ({"angle": (1, 0), "velocity": (0, 1), "samples": 5}, "angle must be a pair (low, high)"),
+        (
+            {"angle": (0, 1), "velocity": (0, 1), "samples": 0},
+            "samples must be a whole number in [1, 10000000]",
+        ),
+        ({"angle": (0, 1), "velocity": (0, 1), "samples": 5, "seed": -1}, "seed must be a whole number"),
+        (
+            {"angle": (0, 1), "velocity": (0, 1), "samples": 5, "store": "a"},
+            "store must come without samples",
+        ),
+        ({"angle": (0, 1), "velocity": (0, 1), "boundary_runs": 0.5}, "boundary_runs must be a whole number"),
+    ],
+)
+def test_bad_input_is_refused_in_one_line(options, message):
+    with pytest.raises((TypeError, ValueError), match=re.escape(message)) as told:
+        rk.basin_map(MANY, **options)
+    assert "\n" not in str(told.value)
+
+
+def test_starts_beyond_the_braces_are_refused():
+    with pytest.raises(ValueError, match="angle must lie between the braces, in \\[-1, 1\\]; got 2"):
+        rk.basin_map(PAIR, angle=(0, 2), velocity=(0, 1), samples=5)
+
+
+def test_the_safe_area_is_what_the_motions_themselves_say():
+    random = np.random.default_rng(7)
+    starts = random.uniform((-1, -1), (1, 1), (60, 2))
+    found = rk.safe_basin(amplitude=[3.3, 5.5], period=1.0, restitution=0.8, samples=60, seed=7)
+    for amplitude, share in zip((3.3, 5.5), found.shares, strict=True):
+        system = rk.System(rk.Harmonic(amplitude=amplitude, period=1.0), 0.8)
+        outcomes = [
+            rk.simulate(system, rk.State(*each), cycles=500, record="none").outcome for each in starts
+        ]
+        assert share.count == sum(each != "overturned" for each in outcomes)
+
+
+def test_the_safe_area_need_not_fall_above_the_tangency():
+    tangency = rk.theory.heteroclinic_amplitude(1.0, 0.8)
+    found = rk.safe_basin(
+        amplitude=tangency * np.array([0.9, 1.0, 1.5, 2.0, 3.0]), period=1.0, restitution=0.8, max_cycles=1000
+    )
+    # areas known to two digits, from a grid
+    for share, known in zip(found.shares, (0.70, 0.69, 0.65, 0.63, 0.68), strict=True):
+        assert share.low - 0.005 <= known <= share.high + 0.005
+    assert found.shares[4].low > found.shares[3].high
+    assert found.heteroclinic_amplitude == tangency
+    assert found.melnikov_amplitude == rk.theory.melnikov_amplitude(1.0, 0.8)
+    assert found.dataset.attrs["heteroclinic_amplitude"] == tangency
+
+
+def test_a_safe_basin_needs_amplitudes():
+    with pytest.raises(TypeError, match="amplitude must be an array of amplitudes"):
+        rk.safe_basin(amplitude=1.0, period=[1.0, 2.0], restitution=0.8)
+    with pytest.raises(TypeError, match="a safe basin needs one quantity to vary"):
+        rk.safe_basin(amplitude=1.0, period=1.0, restitution=0.8)

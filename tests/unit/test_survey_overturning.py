@@ -1,0 +1,100 @@
+"""Overturning curves: what a plain scan of motions says, refined, and no claim beyond it."""
+
+import math
+import re
+
+import numpy as np
+import pytest
+
+import rocking as rk
+
+CYCLES = 300
+
+
+def overturns(amplitude, period, restitution, phase):
+    system = rk.System(
+        rk.Harmonic(amplitude=float(amplitude), period=float(period), phase=float(phase)), restitution
+    )
+    return rk.simulate(system, cycles=CYCLES, record="none").outcome == "overturned"
+
+
+def test_a_curve_is_a_plain_scan_with_its_first_hits_refined():
+    periods, amplitudes, phases = [1.2, 1.7], np.linspace(1.5, 6.0, 31), [0.0, math.pi / 3, 2 * math.pi / 3]
+    found = rk.overturning_amplitude(
+        period=periods, restitution=0.925, amplitude=amplitudes, phases=3, max_cycles=CYCLES
+    ).dataset
+    for k, period in enumerate(periods):
+        fell = np.array([[overturns(a, period, 0.925, phase) for a in amplitudes] for phase in phases])
+        first = int(fell.any(axis=0).argmax())
+        assert found.overturning_share.values[k] == pytest.approx(fell.mean(axis=0), abs=0)
+        assert found.changes.values[k].tolist() == (fell[:, 1:] != fell[:, :-1]).sum(axis=1).tolist()
+        assert found.survived_up_to.values[k] == amplitudes[first - 1]
+        assert found.resolution.values[k] == pytest.approx(0.15, abs=1e-12)
+        assert found.surviving_above.values[k] == pytest.approx(1 - fell[:, first:].mean(), abs=1e-12)
+        lowest, phase = found.lowest.values[k], found.lowest_phase.values[k]
+        assert amplitudes[first - 1] < lowest <= amplitudes[first]
+        assert overturns(lowest, period, 0.925, phase)
+        assert not overturns(lowest * (1 - 1e-10), period, 0.925, phase)
+
+
+def test_overturning_is_not_monotone_in_the_amplitude():
+    found = rk.overturning_amplitude(
+        period=1.0, restitution=0.925, amplitude=np.linspace(0, 16, 1601), phases=1
+    ).dataset
+    assert found.changes.values.tolist() == [86]
+    assert 0.5 < found.surviving_above < 1.0
+
+
+def test_the_other_half_of_the_phases_says_the_same():
+    amplitudes = np.linspace(1.5, 6.0, 40)
+    for phase in (0.3, 2.0):
+        one, other = (
+            [overturns(a, 1.3, 0.9, phase + turned) for a in amplitudes] for turned in (0.0, math.pi)
+        )
+        assert one == other
+
+
+def test_where_nothing_overturns_there_is_no_amplitude():
+    found = rk.overturning_amplitude(period=[0.1, 0.2], restitution=0.5, amplitude=[0.5, 1.5, 2.0], phases=2)
+    data = found.dataset
+    assert np.isnan(data.lowest.values).all()
+    assert data.survived_up_to.values.tolist() == [2.0, 2.0]
+    assert np.isnan(data.surviving_above.values).all()
+    assert str(found).startswith("nothing overturns from rest at 3 amplitudes")
+
+
+def test_where_the_first_amplitude_overturns_nothing_is_claimed_below_it():
+    data = rk.overturning_amplitude(period=5.0, restitution=0.9, amplitude=[3.0, 4.0], phases=2).dataset
+    assert float(data.lowest) == 3.0
+    assert math.isnan(data.survived_up_to)
+
+
+def test_a_curve_over_restitution_and_period_is_that_of_each():
+    how = {"amplitude": np.linspace(1.5, 6.0, 16), "phases": 2}
+    both = rk.overturning_amplitude(period=[1.2, 1.7], restitution=[0.8, 0.9], **how).dataset
+    alone = rk.overturning_amplitude(period=1.7, restitution=[0.8, 0.9], **how).dataset
+    assert both.lowest.dims == ("restitution", "period")
+    assert both.lowest.values[:, 1].tolist() == alone.lowest.values.tolist()
+    assert both.heteroclinic_amplitude.values[1, 0] == rk.theory.heteroclinic_amplitude(1.2, 0.9)
+
+
+@pytest.mark.parametrize(
+    "options, message",
+    [
+        (
+            {"period": 1.0, "restitution": 0.9, "amplitude": 2.0},
+            "amplitude must be an array of amplitudes to scan",
+        ),
+        (
+            {"period": 1.0, "restitution": 0.9, "phases": 0},
+            "phases must be a whole number in [1, 100000]; got 0",
+        ),
+        ({"restitution": 0.9}, "give exactly one of period, frequency; got none"),
+        ({"period": 1.0, "restitution": 1.9}, "restitution must lie in [0, 1]; got 1.9"),
+        ({"period": [2.0, 1.0], "restitution": 0.9}, "period must hold two numbers or more"),
+    ],
+)
+def test_bad_input_is_refused_in_one_line(options, message):
+    with pytest.raises((TypeError, ValueError), match=re.escape(message)) as told:
+        rk.overturning_amplitude(**options)
+    assert "\n" not in str(told.value)

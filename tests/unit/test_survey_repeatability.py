@@ -1,0 +1,133 @@
+"""Chaos among random systems, and what comes of inputs that are off: each run is what `classify` says of it."""
+
+import re
+from collections import Counter
+
+import numpy as np
+import pytest
+
+import rocking as rk
+from rocking.survey.repeatability import spread
+
+EDGE = rk.System(rk.Harmonic(amplitude=1.75, period=2.0), 0.95)
+
+
+def disturbed(system, start, units, off):
+    """The system and the start off by those shares of themselves, each a few roundings from how a survey has it."""
+    a, t, _, angle, velocity = 1.0 + off * np.asarray(units)
+    forcing = rk.Harmonic(
+        amplitude=system.forcing.amplitude * a, period=system.forcing.period * t, phase=system.forcing.phase
+    )
+    high = min(system.restitution * (1 + off), 1.0)
+    low = system.restitution * (1 - off)
+    restitution = low + (high - low) * 0.5 * (1 + units[2])
+    return rk.System(forcing, restitution, system.braces), rk.State(
+        start.angle * angle, start.velocity * velocity
+    )
+
+
+def test_each_run_is_what_classify_says_of_the_disturbed_system():
+    start = rk.State(0.05, -0.1)
+    found = rk.repeatability(EDGE, start, relative=0.02, samples=80, seed=6)
+    drawn = np.random.default_rng(6).uniform(-1, 1, (80, 5))
+    kinds = Counter(rk.classify(*disturbed(EDGE, start, units, 0.02), 1000).kind for units in drawn)
+    assert {kind: share.count for kind, share in found.kinds.items()} == dict(kinds)
+    assert len(kinds) > 1
+    assert sum(share.count for share in found.responses.values()) == 80
+
+
+def test_inputs_that_are_not_off_have_one_outcome():
+    found = rk.repeatability(EDGE, relative=0.0, samples=20)
+    assert found.certain
+    assert list(found.kinds) == [rk.classify(EDGE).kind]
+    assert found.repeats.value == 1.0
+
+
+def test_restitution_is_never_above_one():
+    system = rk.System(rk.Harmonic(amplitude=4.0, period=0.4), 1.0)
+    found = rk.repeatability(system, samples=30, relative=0.2, max_cycles=200)
+    assert found.repeats.of == 30
+
+
+def test_the_paper_s_overturning_case_cannot_be_repeated_to_a_percent():
+    found = rk.repeatability(EDGE, samples=1000)
+    assert set(found.kinds) == {"overturned", "periodic"}
+    # more than one experiment in ten ends otherwise
+    assert found.kinds["periodic"].low > 0.1
+
+
+def test_a_map_of_repeatability_counts_the_runs_at_each_point():
+    axes = {"amplitude": np.linspace(3.0, 7.0, 4), "period": np.linspace(0.8, 2.0, 3)}
+    found = rk.repeatability_map(**axes, restitution=0.925, relative=0.03, samples=6, max_cycles=500)
+    uncertain = 0
+    for index in np.ndindex(4, 3):
+        forcing = rk.Harmonic(amplitude=axes["amplitude"][index[0]], period=axes["period"][index[1]])
+        runs = [
+            rk.classify(*disturbed(rk.System(forcing, 0.925), rk.State(), units, 0.03), 500).kind
+            for units in spread(6)
+        ]
+        counts = Counter(runs)
+        assert found.dataset.agreeing.values[index] == pytest.approx(max(counts.values()) / 6, abs=1e-7)
+        assert found.dataset.overturned.values[index] == pytest.approx(counts["overturned"] / 6, abs=1e-7)
+        uncertain += len(counts) > 1
+    assert found.uncertain.count == uncertain > 0
+    assert found.overturning_uncertain.count <= uncertain
+
+
+def test_samples_at_a_point_are_spread_evenly():
+    points = spread(512)
+    assert np.abs(points).max() <= 1.0
+    # in each of 8 parts of each input there are 64 of them, give or take the discrepancy of the sequence
+    counts = np.array([np.histogram(column, 8, (-1, 1))[0] for column in points.T])
+    assert np.abs(counts - 64).max() <= 6
+    # no more alike than three standard errors of random numbers
+    assert np.abs(np.corrcoef(points.T) - np.eye(5)).max() < 3 / np.sqrt(512)
+
+
+def test_shares_of_chaos_are_counts_of_what_classify_says():
+    found = rk.chaos_share(restitution=0.3, samples=25, seed=2, max_cycles=10_000)
+    random = np.random.default_rng(2)
+    periods, amplitudes = random.uniform(0.2, 3.0, 25), random.uniform(0.0, 16.0, 25)
+    kinds = Counter(
+        rk.classify(rk.System(rk.Harmonic(amplitude=a, period=t), 0.3), max_cycles=10_000).kind
+        for a, t in zip(amplitudes, periods, strict=True)
+    )
+    assert found.shares[0].count == kinds["chaotic"] > 0
+    told = dict(
+        zip(found.dataset.response.values.tolist(), found.dataset.share.values[0].tolist(), strict=True)
+    )
+    assert told == pytest.approx({kind: kinds.get(kind, 0) / 25 for kind in rk.Kind}, abs=1e-12)
+
+
+# of 3,000 random (T, A) each were still chaotic at 2·10⁴ cycles or more, by another program
+@pytest.mark.long
+@pytest.mark.parametrize("restitution, known", [(0.2, 567), (0.5, 135), (0.8, 0)])
+def test_the_share_of_chaos_agrees_with_what_is_known_within_both_intervals(restitution, known):
+    share = rk.chaos_share(restitution=restitution, samples=3000).shares[0]
+    other = rk.Share(known, 3000)
+    assert share.low <= other.high
+    assert other.low <= share.high
+
+
+@pytest.mark.parametrize(
+    "options, message",
+    [
+        ({"restitution": 1.5}, "restitution must lie in [0, 1]; got 1.5"),
+        ({"restitution": [0.5, 0.2]}, "restitution must hold two numbers or more"),
+        ({"restitution": 0.5, "period": 1.0}, "period must be a pair (low, high)"),
+        ({"restitution": 0.5, "amplitude": (3, 1)}, "amplitude must be a pair (low, high)"),
+        ({"restitution": 0.5, "samples": 1.5}, "samples must be a whole number"),
+    ],
+)
+def test_bad_input_for_chaos_is_refused_in_one_line(options, message):
+    with pytest.raises((TypeError, ValueError), match=re.escape(message)):
+        rk.chaos_share(**options)
+
+
+def test_bad_input_for_repeatability_is_refused_in_one_line():
+    with pytest.raises(ValueError, match=re.escape("relative must lie in [0, 0.5]; got 2")):
+        rk.repeatability(EDGE, relative=2)
+    with pytest.raises(TypeError, match="system must be a System; got 3"):
+        rk.repeatability(3)
+    with pytest.raises(ValueError, match=re.escape("samples must be a whole number in [2, 1000]; got 1")):
+        rk.repeatability_map(amplitude=[1, 2], period=[1, 2], restitution=0.9, samples=1)

@@ -1,0 +1,106 @@
+"""Shares with their intervals, and exponents of boundaries: against counts, geometry and the equations they solve."""
+
+import numpy as np
+import pytest
+
+import rocking as rk
+from rocking.model import Share, wilson
+from rocking.survey.boundary import exponent
+
+Z = 1.959963984540054
+REPEATS = 2_000
+CANTOR = 1.0 - np.log(2.0) / np.log(3.0)
+
+
+@pytest.mark.parametrize("count, of", [(0, 7), (1, 9), (5, 10), (567, 3000), (3000, 3000), (1, 100_000)])
+def test_ends_of_an_interval_are_the_shares_that_a_test_just_does_not_reject(count, of):
+    # (count/of − p)² = z² p (1 − p)/of, a quadratic in p
+    share = count / of
+    roots = np.sort(np.roots([1.0 + Z * Z / of, -(2.0 * share + Z * Z / of), share * share]).real)
+    assert wilson(count, of) == pytest.approx(tuple(roots), abs=1e-12)
+
+
+def test_an_interval_of_none_or_all_reaches_the_end_exactly():
+    assert wilson(0, 50)[0] == 0.0
+    assert wilson(50, 50)[1] == 1.0
+    assert wilson(0, 0) == (0.0, 1.0)
+    assert str(Share(1, 3000)) == "0.033 % (0.0059–0.2 %)"
+
+
+@pytest.mark.parametrize("share, of", [(0.189, 3000), (0.045, 3000), (0.64, 400), (0.5, 100)])
+def test_intervals_cover_what_they_are_of(share, of):
+    low, high = wilson(np.random.default_rng(1).binomial(of, share, REPEATS), of)
+    assert np.mean((low <= share) & (share <= high)) == pytest.approx(0.95, abs=0.02)
+
+
+def test_intervals_of_basin_fractions_cover():
+    each = 60
+    system = rk.System(rk.Harmonic(amplitude=5.53, period=1.0), restitution=0.8)
+    found = rk.basin_map(
+        system,
+        angle=(-1, 1),
+        velocity=(-1, 1),
+        samples=each * REPEATS,
+        seed=3,
+        max_cycles=500,
+        boundary_runs=0,
+    )
+    fell = (found.dataset.kind.values == 4).reshape(REPEATS, each)
+    low, high = wilson(fell.sum(axis=1), each)
+    # the share of all of them is 45 times as well known as those of the parts
+    assert np.mean((low <= fell.mean()) & (fell.mean() <= high)) == pytest.approx(0.95, abs=0.02)
+
+
+def fake_trios(label, random, each=4000):
+    reach = 0.03 * 0.5 ** np.arange(8)
+    middle = random.uniform(0.0, 1.0, (8, each))
+    step = reach[:, None] * np.cos(random.uniform(0.0, np.pi, (8, each)))
+    return reach, label(np.stack([middle, middle - step, middle + step], axis=2))
+
+
+def cantor(points):
+    """On which level the gap of the middle-thirds set lies that a number is in: even or odd."""
+    level, left, x = np.zeros(points.shape, int), np.ones(points.shape, bool), points % 1.0
+    for depth in range(1, 25):
+        x = 3.0 * x
+        gap = left & (x >= 1.0) & (x < 2.0)
+        level[gap], left = depth, left & ~gap
+        x = np.where(x >= 2.0, x - 2.0, x)
+    return level % 2
+
+
+def test_a_smooth_boundary_has_exponent_one_and_its_interval_covers():
+    random, covered = np.random.default_rng(2), 0
+    for _ in range(300):
+        found = exponent(*fake_trios(lambda x: x > 0.4, random))
+        covered += found.smooth
+    assert 0.93 <= covered / 300 <= 1.0
+
+
+def test_a_cantor_boundary_has_the_exponent_of_its_dimension():
+    found = exponent(*fake_trios(cantor, np.random.default_rng(3), 20_000))
+    # its share oscillates about the power law, by a few percent of the slope over eight octaves
+    assert found.value == pytest.approx(CANTOR, abs=0.03)
+    assert not found.smooth
+
+
+def test_where_nothing_is_uncertain_there_is_no_exponent():
+    assert exponent(*fake_trios(lambda x: x > 2.0, np.random.default_rng(4))) is None
+
+
+@pytest.mark.parametrize("period, restitution", [(1.0, 0.8), (2.0, 0.925)])
+def test_the_boundary_of_overturning_is_smooth_up_to_the_tangency_and_fractal_above(period, restitution):
+    tangency = rk.theory.heteroclinic_amplitude(period, restitution)
+    starts = np.linspace(-1, 1, 9)
+    found = [
+        rk.basin_map(
+            rk.System(rk.Harmonic(amplitude=times * tangency, period=period), restitution),
+            angle=starts,
+            velocity=starts,
+            max_cycles=1000,
+        ).uncertainty_exponent
+        for times in (0.9, 1.0, 1.5)
+    ]
+    assert found[0].smooth
+    assert found[1].smooth
+    assert found[2].high < 0.7

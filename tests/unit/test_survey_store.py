@@ -1,0 +1,283 @@
+"""Stores: what is in them is the same as without, is never computed twice, and goes with nothing else."""
+
+import math
+import re
+import shutil
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray as xr
+import zarr
+
+import rocking as rk
+from rocking.survey import run, store
+
+SIZE = 130
+ASKED = {
+    "amplitude": np.linspace(0.0, 16.0, SIZE),
+    "period": np.linspace(0.2, 3.0, SIZE),
+    "restitution": 0.9,
+    "max_cycles": 40,
+}
+
+
+@pytest.fixture(scope="module")
+def plain():
+    """The map in memory."""
+    return rk.parametric_map(**ASKED)
+
+
+@pytest.fixture(scope="module")
+def made(tmp_path_factory):
+    """The map in a store, which nobody may change."""
+    folder = tmp_path_factory.mktemp("made") / "map.zarr"
+    rk.parametric_map(**ASKED, store=folder)
+    return folder
+
+
+@pytest.fixture
+def copied(made, tmp_path):
+    """The same, to be changed."""
+    return shutil.copytree(made, tmp_path / "map.zarr")
+
+
+@pytest.fixture
+def computed(monkeypatch):
+    """Points computed from here on."""
+    count = []
+    compute = run.compute
+    monkeypatch.setattr(
+        run, "compute", lambda batch, stop: count.append(batch.wanted.size) or compute(batch, stop)
+    )
+    return lambda: sum(count)
+
+
+def level(folder, number):
+    return xr.open_zarr(folder, group=f"level-{number}", chunks=None, consolidated=False)
+
+
+def files(folder):
+    return {path.relative_to(folder): path.read_bytes() for path in folder.rglob("*") if path.is_file()}
+
+
+def test_map_from_a_store_is_the_map_in_memory(plain, made):
+    kept = rk.parametric_map(**ASKED, store=made)
+    assert kept.load().equals(plain)
+    assert {name: kept.attrs[name] for name in plain.attrs} == plain.attrs
+
+
+def test_every_level_is_a_plain_grid_that_opens_in_xarray(plain, made):
+    for number, step in ((2, 1), (1, 2), (0, 4)):
+        coarse = level(made, number).load()
+        assert coarse.equals(plain.isel(amplitude=slice(None, None, step), period=slice(None, None, step)))
+        assert coarse.kind.attrs["flag_meanings"].split() == [str(kind) for kind in rk.Kind]
+        assert coarse.kind.dtype == np.uint8
+    assert not (made / "level-3").exists()
+
+
+def test_store_is_zarr_3_with_checksums_and_one_chunk_a_tile(made):
+    array = zarr.open_array(made / "level-2" / "peak", mode="r")
+    assert array.metadata.zarr_format == 3
+    assert [type(codec).__name__ for codec in array.compressors] == ["Crc32cCodec"]
+    assert len(list((made / "level-2" / "peak" / "c").rglob("*/*"))) == 16
+    assert array.metadata.dimension_names == ("amplitude", "period")
+
+
+def test_what_is_computed_is_never_the_value_of_what_is_not(made):
+    for number in range(3):
+        for name, array in zarr.open_group(made / f"level-{number}", mode="r").arrays():
+            assert not (array[:] == array.fill_value).any(), name
+
+
+def test_nothing_is_computed_twice(made, computed):
+    before = files(made)
+    rk.parametric_map(**ASKED, store=made)
+    assert computed() == 0
+    assert files(made) == before
+
+
+def test_every_point_is_computed_once(tmp_path, computed):
+    rk.parametric_map(**ASKED, store=tmp_path / "map.zarr")
+    assert computed() == SIZE**2
+
+
+def test_block_that_never_moves_leaves_a_store_that_is_done(tmp_path, computed):
+    asked = ASKED | {"amplitude": np.linspace(0.0, 0.9, 20), "store": tmp_path / "map.zarr"}
+    assert (rk.parametric_map(**asked).kind == 0).all()
+    rk.parametric_map(**asked)
+    assert computed() == 20 * SIZE
+
+
+def test_longer_axes_extend_it(copied, computed):
+    longer = {name: np.append(ASKED[name], ASKED[name][-1] + step * np.arange(1, 31)) for name, step in
+              (("amplitude", 16.0 / (SIZE - 1)), ("period", 2.8 / (SIZE - 1)))}  # fmt: skip
+    extended = rk.parametric_map(**(ASKED | longer), store=copied).load()
+    assert computed() == (SIZE + 30) ** 2 - SIZE**2
+    assert extended.equals(rk.parametric_map(**(ASKED | longer)))
+    again = rk.parametric_map(**(ASKED | longer), store=copied)
+    assert computed() == 2 * (SIZE + 30) ** 2 - SIZE**2
+    assert again.load().equals(extended)
+
+
+def test_axis_made_longer_that_rounds_otherwise_keeps_the_values_there(copied, computed):
+    spacing = ASKED["period"][1] - ASKED["period"][0]
+    longer = np.linspace(0.2, 3.0 + 4 * spacing, SIZE + 4)
+    assert (longer[:SIZE] != ASKED["period"]).any()
+    extended = rk.parametric_map(**(ASKED | {"period": longer}), store=copied)
+    assert computed() == 4 * SIZE
+    assert np.array_equal(extended.period[:SIZE], ASKED["period"])
+
+
+def test_half_the_spacing_refines_it(copied, computed, plain):
+    closer = {
+        "amplitude": np.linspace(0.0, 16.0, 2 * SIZE - 1),
+        "period": np.linspace(0.2, 3.0, 2 * SIZE - 1),
+    }
+    refined = rk.parametric_map(**(ASKED | closer), store=copied).load()
+    assert computed() == (2 * SIZE - 1) ** 2 - SIZE**2
+    assert refined.isel(amplitude=slice(None, None, 2), period=slice(None, None, 2)).equals(plain)
+    assert level(copied, 3).load().equals(rk.parametric_map(**(ASKED | closer)))
+    assert level(copied, 2).load().equals(plain)
+
+
+def test_one_axis_alone_is_refined_and_extended_at_once(copied, computed):
+    changed = {"amplitude": np.linspace(0.0, 32.0, 4 * (SIZE - 1) + 1)}
+    found = rk.parametric_map(**(ASKED | changed), store=copied).load()
+    assert computed() == 4 * (SIZE - 1) * SIZE + SIZE - SIZE**2
+    assert found.equals(rk.parametric_map(**(ASKED | changed)))
+
+
+def test_extension_killed_between_its_steps_is_taken_up(copied, monkeypatch):
+    longer = ASKED | {"period": np.append(ASKED["period"], [3.1, 3.2])}
+    with monkeypatch.context() as patch:
+        patch.setattr(store, "_make_coordinate", lambda *_: 1 / 0)
+        with pytest.raises(ZeroDivisionError):
+            rk.parametric_map(**longer, store=copied)
+    assert rk.parametric_map(**longer, store=copied).load().equals(rk.parametric_map(**longer))
+
+
+STRANGERS = {
+    "another restitution": ({"restitution": 0.8}, "restitution is 0.9 there and 0.8 here"),
+    "more cycles, another start": (
+        {"max_cycles": 50, "angle": 0.1},
+        "angle is 0.0 there and 0.1 here; max_cycles is 40 there and 50 here",
+    ),
+    "braces": ({"brace_angle": 1.0}, "brace_angle is not given there and 1.0 here; brace_restitution is not"),
+    "other axes": (
+        {"period": None, "frequency": np.linspace(1.0, 2.0, 9)},
+        "over is ['amplitude', 'period'] there and ['amplitude', 'frequency'] here",
+    ),
+}
+
+
+@pytest.mark.parametrize("what", STRANGERS)
+def test_store_of_another_survey_is_refused_with_what_differs(made, what):
+    changed, differences = STRANGERS[what]
+    before = files(made)
+    with pytest.raises(ValueError, match=f"holds another survey: {re.escape(differences)}"):
+        rk.parametric_map(**(ASKED | changed), store=made)
+    assert files(made) == before
+
+
+def test_store_of_another_method_is_refused(made, monkeypatch):
+    monkeypatch.setattr("rocking.kernels.many.METHOD", 2)
+    with pytest.raises(ValueError, match="holds another survey: method is 1 there and 2 here"):
+        rk.parametric_map(**ASKED, store=made)
+
+
+@pytest.mark.parametrize(
+    "axis", [np.linspace(0.0, 16.0, SIZE - 1), np.linspace(0.1, 16.0, SIZE), np.linspace(-0.0, 15.9, SIZE)]
+)
+def test_axes_that_leave_out_what_is_there_are_refused(made, axis):
+    with pytest.raises(
+        ValueError, match="holds 130 values of amplitude from 0 to 16, and .* leave some of them out"
+    ):
+        rk.parametric_map(**(ASKED | {"amplitude": axis}), store=made)
+
+
+def refused(folder, message):
+    with pytest.raises(OSError, match=f"^{re.escape(message)}$"):
+        rk.parametric_map(**ASKED, store=folder)
+
+
+def test_store_that_is_a_file_is_refused(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    Path("map.zarr").write_text("mine")
+    refused("map.zarr", "store must be a folder's name; got 'map.zarr', which is a file")
+    refused("map.zarr/in", "store must be a folder that can be written; got 'map.zarr/in'")
+    assert Path("map.zarr").read_text() == "mine"
+
+
+def test_folder_that_holds_something_else_is_refused(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    Path("map.zarr").mkdir()
+    Path("map.zarr/notes.txt").write_text("mine")
+    refused(
+        "map.zarr",
+        "store must be a new folder or a survey's store; got 'map.zarr', which is a folder with 'notes.txt' in it",
+    )
+    assert [path.name for path in Path("map.zarr").iterdir()] == ["notes.txt"]
+
+
+def test_zarr_store_of_somebody_else_is_refused(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    xr.Dataset({"rain": ("day", [1.0, 2.0])}).to_zarr("map.zarr", zarr_format=3, consolidated=False)
+    before = files(Path("map.zarr"))
+    refused(
+        "map.zarr",
+        "store must be a new folder or a survey's store; got 'map.zarr', which is a Zarr store of something else",
+    )
+    assert files(Path("map.zarr")) == before
+
+
+def test_more_points_than_memory_holds_need_a_store():
+    many = {"amplitude": np.linspace(0.0, 16.0, 1_000_000), "period": np.linspace(0.2, 3.0, 1_000_000)}
+    with pytest.raises(
+        ValueError, match=r"1,000,000,000,000 points take .* GB, too much .* \(give store, a folder"
+    ):
+        rk.parametric_map(**(ASKED | many))
+
+
+DAMAGE = {
+    "a bit": lambda data: data[:100] + bytes([data[100] ^ 1]) + data[101:],
+    "cut short": lambda data: data[: len(data) // 2],
+    "empty": lambda data: b"",
+    "longer": lambda data: data + b"more",
+    "missing": None,
+}
+
+
+@pytest.mark.parametrize("name", ["exponent", "cycles"])
+@pytest.mark.parametrize("what", DAMAGE)
+def test_damage_is_found_named_and_mended_on_request(copied, what, name, computed, plain):
+    whole = files(copied)
+    chunk = copied / "level-2" / name / "c" / "1" / "2"
+    if what == "missing":
+        chunk.unlink()
+    else:
+        chunk.write_bytes(DAMAGE[what](chunk.read_bytes()))
+    if (what, name) != ("missing", "cycles"):  # that is a tile which was never done
+        with pytest.raises(OSError, match=f"is damaged at {re.escape(str(chunk))}; repair=True computes"):
+            rk.parametric_map(**ASKED, store=copied)
+    assert rk.parametric_map(**ASKED, store=copied, repair=True).load().equals(plain)
+    tile = math.prod(zarr.open_array(copied / "level-2" / "kind", mode="r").chunks)
+    assert computed() <= tile - (tile**0.5 // 2) ** 2
+    assert files(copied) == whole
+
+
+@pytest.mark.parametrize("name", ["zarr.json", "level-1/kind/zarr.json"])
+def test_damaged_description_is_refused(copied, name):
+    (copied / name).write_text("{")
+    with pytest.raises(OSError, match="is damaged: one of its files zarr.json cannot be read"):
+        rk.parametric_map(**ASKED, store=copied)
+
+
+def test_damage_in_a_coarse_level_is_mended_there(copied, plain):
+    whole = files(copied)
+    for chunk in ("level-0/peak/c/0/0", "level-1/kind/c/0/1"):
+        (copied / chunk).write_bytes(b"")
+    with pytest.raises(OSError, match="level-0/peak/c/0/0, .*level-1/kind/c/0/1; repair"):
+        rk.parametric_map(**ASKED, store=copied)
+    rk.parametric_map(**ASKED, store=copied, repair=True)
+    assert files(copied) == whole
