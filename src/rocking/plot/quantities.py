@@ -17,11 +17,19 @@ class Quantities:
     """
 
     time: Callable[[Any], Any]
+    amplitude: Callable[[Any], Any]
     angle: Callable[[Any], Any]
     velocity: Callable[[Any], Any]
+    frequency: Callable[[Any], Any]
+    density: Callable[[Any], Any]
     time_label: str
+    amplitude_label: str
+    period_label: str
     angle_label: str
     velocity_label: str
+    speed_label: str
+    frequency_label: str
+    density_label: str
     time_unit: str
     reading: str
 
@@ -32,11 +40,19 @@ def _same(values: Any) -> Any:
 
 NORMALISED = Quantities(
     time=_same,
+    amplitude=_same,
     angle=_same,
     velocity=_same,
+    frequency=_same,
+    density=_same,
     time_label=r"time $\tau = \alpha t$ (–)",
+    amplitude_label=r"amplitude $A = a_x/(g\,\theta_\mathrm{cr})$ (–)",
+    period_label=r"period $T = 2\pi/\Omega$ of the base (–)",
     angle_label=r"angle $\Theta = \theta/\theta_\mathrm{cr}$ (–)",
     velocity_label=r"velocity $\Theta' = \mathrm{d}\Theta/\mathrm{d}\tau$ (–)",
+    speed_label=r"speed after impact $|\Theta'|$ (–)",
+    frequency_label=r"frequency (cycles per $\tau$)",
+    density_label=r"density $S_\Theta$ ($\Theta^2$ per cycle/$\tau$)",
     time_unit="τ",
     reading="τ = {:.{}f}    Θ = {:{}}",
 )
@@ -49,11 +65,56 @@ def quantities(block: Block | None) -> Quantities:
     instance("block", block, Block)
     return Quantities(
         time=block.seconds,
+        amplitude=block.acceleration,
         angle=block.degrees,
         velocity=lambda velocity: np.degrees(block.radians_per_second(velocity)),
+        frequency=lambda frequency: frequency / block.seconds(1.0),
+        density=lambda density: density * block.degrees(1.0) ** 2 * block.seconds(1.0),
         time_label=r"time $t$ (s)",
+        amplitude_label=r"amplitude $a_x$ of the base (m/s²)",
+        period_label=r"period of the base (s)",
         angle_label=r"angle $\theta$ (°)",
         velocity_label=r"velocity $\dot\theta$ (°/s)",
+        speed_label=r"speed after impact $|\dot\theta|$ (°/s)",
+        frequency_label="frequency (Hz)",
+        density_label=r"density $S_\theta$ (°²/Hz)",
         time_unit="s",
         reading="t = {:.{}f} s    θ = {:{}}°",
     )
+
+
+PARAMETERS = {
+    "amplitude": r"amplitude $A$ (–)",
+    "period": r"period $T$ ($\tau$)",
+    "frequency": r"frequency $\Omega$ (rad per $\tau$)",
+    "phase": r"phase $\phi$ (rad)",
+    "restitution": r"restitution $e$ (–)",
+    "brace_angle": r"brace angle $\Theta_\mathrm{b}$ (–)",
+    "brace_restitution": r"restitution at the braces $r$ (–)",
+    "angle": r"angle at the start $\Theta_0$ (–)",
+    "velocity": r"velocity at the start $\Theta'_0$ (–)",
+}
+SI_PARAMETERS = {
+    "amplitude": r"amplitude $a_x$ (m/s²)",
+    "period": r"period (s)",
+    "frequency": r"frequency (Hz)",
+    "brace_angle": r"brace angle $\theta_\mathrm{b}$ (°)",
+    "angle": r"angle at the start $\theta_0$ (°)",
+    "velocity": r"velocity at the start $\dot\theta_0$ (°/s)",
+}
+
+
+def parameter(name: str, block: Block | None) -> tuple[Callable[[Any], Any], str]:
+    """How values of a parameter of a system or a start are shown, and under which label."""
+    if block is None or name not in SI_PARAMETERS:
+        return np.asarray, PARAMETERS[name]
+    shown = quantities(block)
+    turns: dict[str, Callable[[Any], Any]] = {
+        "amplitude": shown.amplitude,
+        "period": shown.time,
+        "frequency": block.hertz,
+        "brace_angle": shown.angle,
+        "angle": shown.angle,
+        "velocity": shown.velocity,
+    }
+    return turns[name], SI_PARAMETERS[name]

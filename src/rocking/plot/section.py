@@ -47,8 +47,8 @@ def section(
 
     Notes
     -----
-    Every point is drawn; marks shrink from 5 pt (10 points) to a fraction of a point (10⁶). More than 2,000 are an
-    image inside a vector file, so that the file stays small.
+    Every point is drawn; marks shrink from 5 pt (10 points) to a fraction of a point (10⁶), points met again not counted.
+    More than 2,000 are an image inside a vector file, so that the file stays small.
 
     Examples
     --------
@@ -71,7 +71,7 @@ def section(
         shown.velocity(points[:, 1]),
         linestyle="none",
         marker="o",
-        markersize=style.point_size(len(points)),
+        markersize=style.point_size(style.places(*points.T)),
         markeredgewidth=0,
         color=style.MOTION,
         rasterized=len(points) > style.MOST_MARKS,

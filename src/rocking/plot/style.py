@@ -4,9 +4,12 @@ Sizes are chosen for a journal's column (88 mm wide). The colours are those of O
 tell apart. Everything is set on the artists themselves; matplotlib's global settings and backend are never touched.
 """
 
+import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.axis import Axis
 from matplotlib.figure import Figure
-from matplotlib.ticker import MaxNLocator
+from matplotlib.ticker import LogLocator, MaxNLocator, NullLocator
+from numpy.typing import NDArray
 
 from rocking.model import instance
 
@@ -19,6 +22,8 @@ THIN = 0.6
 MARK = 4.0
 # More than these become an image inside a vector file, which would grow without end.
 MOST_MARKS = 2_000
+CELLS = 4096
+ROUNDING = 1e-9
 MOST_CORNERS = 50_000
 
 MOTION = "#0072B2"
@@ -87,6 +92,14 @@ def label(ax: Axes, x: str, y: str) -> None:
         spine.set(visible=side in ("left", "bottom"), linewidth=THIN, edgecolor=INK)
 
 
+def logarithmic(axis: Axis) -> None:
+    """Ticks of a logarithmic axis, already labelled: at powers of ten, five or so, and at 2 and 5 between a few; no others."""
+    low, high = axis.get_view_interval()
+    between = (1.0, 2.0, 5.0) if high < 100.0 * low else (1.0,)
+    axis.set_major_locator(LogLocator(subs=between, numticks=6))
+    axis.set_minor_locator(NullLocator())
+
+
 def key(ax: Axes) -> None:
     """A legend under the label of the horizontal axis, clear of titles and of what is drawn; its marks never shrink."""
     legend = ax.legend(
@@ -104,12 +117,37 @@ def key(ax: Axes) -> None:
         mark.set(markersize=MARK, markeredgewidth=0.8)
 
 
+def patches(ax: Axes, handles: list, columns: int = 2) -> None:
+    """A legend of coloured patches under the label of the horizontal axis."""
+    ax.legend(
+        handles=handles,
+        loc="upper center",
+        bbox_to_anchor=(0.5, 0.0),
+        borderaxespad=3.8,
+        ncols=columns,
+        fontsize=SMALL,
+        labelcolor=INK,
+        frameon=False,
+    )
+
+
 def point_size(count: int) -> float:
     """Diameter in points of one of `count` markers: 10 are seen one by one, 10⁶ still show where they are dense.
 
     The area falls as 1/√count, so that the ink grows with the number of points but does not flood the picture.
     """
     return min(5.0, max(0.25, 5.0 * (max(count, 10) / 10) ** -0.25))
+
+
+def places(x: NDArray[np.float64], y: NDArray[np.float64]) -> int:
+    """How many of the points are seen apart: of those in one of 4096 × 4096 cells one counts, however often it is met."""
+    cells = np.zeros(len(x))
+    for values in (x, y):
+        # a spread of rounding is none
+        span = max(float(np.ptp(values)), ROUNDING * float(np.abs(values).max()))
+        if span > 0.0:
+            cells = cells * (CELLS + 1) + np.rint((values - values.min()) * (CELLS / span))
+    return len(np.unique(cells))
 
 
 def line_width(count: int) -> float:

@@ -1,0 +1,130 @@
+"""Basins: a colour an attractor."""
+
+from __future__ import annotations
+
+import colorsys
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.colors import BoundaryNorm, ListedColormap, to_rgb
+from matplotlib.patches import Patch
+
+from rocking.model import Attractor, BasinMap, Kind, instance
+from rocking.plot import style
+from rocking.plot.kinds import COLOURS
+from rocking.plot.parametric_map import MOST_DRAWN
+from rocking.plot.quantities import PARAMETERS
+
+# For the orbits, the largest basin first: those of Okabe and Ito that no other kind has, then paler ones.
+ORBITS = (style.MOTION, "#56B4E9", "#E69F00", "#CC79A7", "#8C6D31", "#B5A0D8", "#7FC8A9", "#F2B8A0")
+PALER = 0.5
+NAMED = 8
+"""Attractors in the legend; what is left is drawn too."""
+LONGEST = 12
+"""Letters of a name of which two fit side by side."""
+
+HATCH = "////"
+
+
+def basins(found: BasinMap, ax: Axes | None = None) -> Axes:
+    """Draws where each start leads: a colour an attractor, with its share; overturning is dark, undetermined hatched.
+
+    Parameters
+    ----------
+    found : BasinMap
+        From `basin_map`, over a grid or of random starts.
+    ax : matplotlib Axes, optional
+        Drawn into; a new figure, a column wide, if not given.
+
+    Returns
+    -------
+    matplotlib Axes
+
+    Raises
+    ------
+    TypeError
+        If `found` is no basin map, or `ax` no axes.
+
+    Notes
+    -----
+    Of the attractors the eight with the largest shares are in the legend. Along an axis of more than 2,000 starts not every
+    one is drawn.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import rocking as rk
+    >>> system = rk.System(rk.Harmonic(amplitude=5.5, period=1.0), restitution=0.8)
+    >>> starts = np.linspace(-1, 1, 30)
+    >>> ax = rk.plot.basins(rk.basin_map(system, angle=starts, velocity=starts, boundary_runs=0))
+    >>> len(ax.get_legend().get_patches())
+    2
+    """
+    instance("found", found, BasinMap)
+    ax = style.own(ax, height=4.0)
+    hues = colours(found.attractors)
+    places = found.dataset.attractor
+    map_ = ListedColormap(hues)
+    norm = BoundaryNorm(np.arange(len(hues) + 1) - 0.5, len(hues))
+    if places.ndim == 2:
+        steps = {name: slice(None, None, -(-size // MOST_DRAWN)) for name, size in places.sizes.items()}
+        drawn = places.isel(steps).transpose("velocity", "angle")
+        across, up = drawn.angle.values, drawn.velocity.values
+        ax.pcolormesh(
+            across, up, drawn.values, cmap=map_, norm=norm, shading="nearest", rasterized=True, gid="basins"
+        )
+        for number, each in enumerate(found.attractors):
+            if each.kind is Kind.UNDETERMINED:
+                where = (drawn.values == number).astype(float)
+                ax.contourf(across, up, where, [0.5, 1.5], colors="none", hatches=[HATCH])
+    else:
+        ax.scatter(
+            places.angle.values,
+            places.velocity.values,
+            c=places.values,
+            cmap=map_,
+            norm=norm,
+            s=style.point_size(places.size) ** 2,
+            linewidths=0,
+            rasterized=places.size > style.MOST_MARKS,
+            gid="basins",
+        )
+    style.label(ax, PARAMETERS["angle"], PARAMETERS["velocity"])
+    _legend(ax, found, hues)
+    return ax
+
+
+def colours(attractors: tuple[Attractor, ...]) -> list[str | tuple[float, float, float]]:
+    """A colour for each: that of its kind, and of its own for each orbit."""
+    hues: list[str | tuple[float, float, float]] = []
+    orbits = rests = 0
+    for each in attractors:
+        if each.kind is Kind.PERIODIC:
+            hues.append(_paler(ORBITS[orbits % len(ORBITS)], orbits // len(ORBITS)))
+            orbits += 1
+        elif each.kind is Kind.REST:
+            hues.append(_paler(COLOURS[Kind.REST], rests))
+            rests += 1
+        else:
+            hues.append(COLOURS[each.kind])
+    return hues
+
+
+def _paler(colour: str, times: int) -> tuple[float, float, float]:
+    hue, light, saturation = colorsys.rgb_to_hls(*to_rgb(colour))
+    return colorsys.hls_to_rgb(hue, 1.0 - (1.0 - light) * PALER**times, saturation)
+
+
+def _legend(ax: Axes, found: BasinMap, hues: list) -> None:
+    named = list(zip(found.attractors, found.fractions, hues, strict=True))[:NAMED]
+    handles = [
+        Patch(
+            facecolor=hue,
+            hatch=HATCH if each.kind is Kind.UNDETERMINED else None,
+            edgecolor=style.INK,
+            linewidth=style.THIN,
+            label=f"{each.name} {100 * share.value:.2g} %",
+        )
+        for each, share, hue in named
+    ]
+    style.patches(ax, handles, 1 if max(len(each.name) for each, _, _ in named) > LONGEST else 2)

@@ -1,0 +1,81 @@
+"""Curves on which orbits change, in the plane of two parameters."""
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+
+from rocking.model import Block, refusal
+from rocking.orbits import BifurcationCurve
+from rocking.plot import style
+from rocking.plot.quantities import parameter
+
+LOOKS: dict[str, tuple[str, Any]] = {
+    "fold": (style.MOTION, "-"),
+    "symmetry-breaking": (style.IMPACT, (0, (5, 2))),
+    "period-doubling": (style.BRACE, (0, (6, 2, 1, 2))),
+    "grazing": (style.INK, (0, (1, 1.5))),
+}
+
+
+def bifurcation_curve(
+    result: BifurcationCurve | Sequence[BifurcationCurve], ax: Axes | None = None, block: Block | None = None
+) -> Axes:
+    """Draws one or several curves in the plane of their two parameters, a colour and a dash for each kind of change.
+
+    Parameters
+    ----------
+    result : BifurcationCurve or sequence of BifurcationCurve
+        From `rocking.bifurcation_curve`, all through the same two parameters.
+    ax : matplotlib Axes, optional
+        Drawn into; a new figure, a column wide, if not given.
+    block : Block, optional
+        Gives SI axes; otherwise they are normalised.
+
+    Returns
+    -------
+    matplotlib Axes
+
+    Raises
+    ------
+    TypeError, ValueError
+        In one line: if `result` is no curve, or its curves lie in different planes.
+
+    Examples
+    --------
+    >>> import rocking as rk
+    >>> system = rk.System(rk.Harmonic(amplitude=15.0, period=1.0), restitution=0.9)
+    >>> branch = rk.continue_orbit(rk.classify(system).orbit, "amplitude", (10, 30))
+    >>> curve = rk.bifurcation_curve(branch.special[0], "period", "amplitude", ((1, 2), (1, 30)))
+    >>> rk.plot.bifurcation_curve(curve).get_ylabel()
+    'amplitude $A$ (–)'
+    """
+    each = [result] if isinstance(result, BifurcationCurve) else list(result) if np.iterable(result) else []
+    if not each or not all(isinstance(one, BifurcationCurve) for one in each):
+        raise TypeError(refusal("result", "be a BifurcationCurve or a sequence of them", result))
+    plane = each[0].names
+    for one in each:
+        if one.names != plane:
+            raise ValueError(
+                refusal("result", f"hold curves of one plane, {plane[0]} and {plane[1]}", one.names)
+            )
+    (across, x_label), (upright, y_label) = (parameter(name, block) for name in plane)
+    ax = style.own(ax, height=2.9)
+    labelled = set()
+    for one in each:
+        colour, dashes = LOOKS[one.kind]
+        name = f"{one.kind.replace('-', ' ')}, period {one.period}"
+        ax.plot(
+            across(one.points[:, 0]),
+            upright(one.points[:, 1]),
+            color=colour,
+            linestyle=dashes,
+            linewidth=style.LINE,
+            label="_" if name in labelled else name,
+            gid=one.kind,
+        )
+        labelled.add(name)
+    style.label(ax, x_label, y_label)
+    style.key(ax)
+    return ax

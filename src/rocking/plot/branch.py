@@ -1,0 +1,136 @@
+"""Branches of periodic orbits over the parameter that was followed, with the points where something changes."""
+
+import io
+from collections.abc import Sequence
+
+import numpy as np
+from matplotlib.axes import Axes
+
+from rocking.model import Block, one_of, refusal, within
+from rocking.orbits import Branch
+from rocking.plot import curves, style
+from rocking.plot.quantities import parameter, quantities
+
+# By kind: marker, filled or not, name.
+MARKERS = {
+    "fold": ("o", False, "fold"),
+    "symmetry-breaking": ("s", True, "symmetry breaking"),
+    "period-doubling": ("^", True, "period doubling"),
+    "grazing": ("x", False, "grazing"),
+}
+COLOURS = {True: style.MOTION, False: style.IMPACT}
+LARGEST_PHASE = 1e3
+
+
+def branch(
+    result: Branch | Sequence[Branch],
+    ax: Axes | None = None,
+    quantity: str = "peak",
+    phase: float = 0.0,
+    block: Block | None = None,
+) -> Axes:
+    """Draws one or several branches: stable orbits solid, unstable dashed, special points with a marker a kind.
+
+    Parameters
+    ----------
+    result : Branch or sequence of Branch
+        From `continue_orbit` and `switch_branch`, over one parameter.
+    ax : matplotlib Axes, optional
+        Drawn into; a new figure, a column wide, if not given.
+    quantity : {"peak", "angle", "velocity"}
+        What is drawn: the largest |Θ|, or Θ or Θ' at the section, a line a cycle of the period.
+    phase : float
+        Forcing phase ψ of the section, rad.
+    block : Block, optional
+        Gives SI axes; otherwise they are normalised.
+
+    Returns
+    -------
+    matplotlib Axes
+
+    Raises
+    ------
+    TypeError, ValueError
+        In one line: if `result` is no branch, or its branches run over different parameters.
+
+    Examples
+    --------
+    >>> import rocking as rk
+    >>> system = rk.System(rk.Harmonic(amplitude=15.0, period=1.0), restitution=0.9)
+    >>> symmetric = rk.continue_orbit(rk.classify(system).orbit, "amplitude", (10, 30))
+    >>> pair = rk.switch_branch(symmetric.special[0], (10, 30))
+    >>> ax = rk.plot.branch([symmetric, *pair], quantity="angle")
+    >>> [text.get_text() for text in ax.get_legend().get_texts()][:3]
+    ['symmetric, stable', 'symmetric, unstable', 'unsymmetric, stable']
+    """
+    branches = _branches(result)
+    quantity = one_of("quantity", quantity, curves.QUANTITIES)
+    phase = within("phase", phase, -LARGEST_PHASE, LARGEST_PHASE)
+    shown = quantities(block)
+    across, x_label = parameter(branches[0].name, block)
+    upright = shown.velocity if quantity == "velocity" else shown.angle
+    ax = style.own(ax, height=3.0)
+    labelled: set[str] = set()
+    for one in sorted(branches, key=lambda one: not one.symmetric):
+        line = curves.line(one, quantity, phase).shown(across, upright)
+        for is_stable in (True, False):
+            name = f"{'' if one.symmetric else 'un'}symmetric, {'' if is_stable else 'un'}stable"
+            drawn = curves.part(
+                ax,
+                line,
+                is_stable,
+                color=COLOURS[one.symmetric],
+                linewidth=style.LINE,
+                gid=name,
+            )
+            if drawn and name not in labelled:
+                drawn[0].set_label(name)
+                labelled.add(name)
+    _marks(ax, branches, lambda orbit: upright(curves.heights_of(orbit, quantity, phase)), across)
+    style.label(ax, x_label, curves.height_label(quantity, shown))
+    style.key(ax)
+    return ax
+
+
+def _branches(result: Branch | Sequence[Branch]) -> list[Branch]:
+    branches = [result] if isinstance(result, Branch) else list(result) if np.iterable(result) else []
+    if not branches or not all(isinstance(one, Branch) for one in branches):
+        raise TypeError(refusal("result", "be a Branch or a sequence of them", result))
+    for one in branches:
+        if one.name != branches[0].name:
+            raise ValueError(
+                refusal("result", f"hold branches over one parameter, {branches[0].name}", one.name)
+            )
+    return branches
+
+
+def _marks(ax: Axes, branches: Sequence[Branch], heights, across) -> None:
+    """A marker on every special point, at each of its states on the section."""
+    for kind, (marker, filled, name) in MARKERS.items():
+        found = [special for one in branches for special in one.special if special.kind == kind]
+        if not found:
+            continue
+        points = [
+            (across(special.parameter), height) for special in found for height in heights(special.orbit)
+        ]
+        ax.plot(
+            *np.array(points, float).T,
+            linestyle="none",
+            marker=marker,
+            markersize=style.MARK,
+            markerfacecolor=style.INK if filled else "white",
+            markeredgecolor=style.INK,
+            markeredgewidth=0.8,
+            label=name,
+            gid=kind,
+            zorder=3,
+        )
+
+
+def png(followed: Branch) -> bytes:
+    """The picture as the bytes of a PNG, for a notebook."""
+    stream = io.BytesIO()
+    figure, (ax,) = style.panels(height=3.0)
+    branch(followed, ax)
+    figure.savefig(stream, format="png", dpi=110)
+    return stream.getvalue()

@@ -1,0 +1,89 @@
+"""What pictures over a parameter share: its axis, and branches of orbits as lines, stable solid, unstable dashed."""
+
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+import numpy as np
+from attrs import evolve
+from matplotlib.axes import Axes
+from matplotlib.lines import Line2D
+
+from rocking.model import Orbit
+from rocking.motion import simulate
+from rocking.orbits import Branch
+from rocking.plot.quantities import Quantities
+
+COLUMNS = {"angle": 0, "velocity": 1}
+QUANTITIES = (*COLUMNS, "peak")
+BORN = "born"
+DASHED: Any = (0, (4, 2))
+
+
+def height_label(quantity: str, shown: Quantities) -> str:
+    """The label of the upright axis for what is drawn of an orbit."""
+    if quantity == "peak":
+        unit = shown.angle_label.rpartition(" ")[2]
+        symbol = shown.angle_label.partition("$")[2].split(" = ")[0].rstrip("$ ").split("$")[0]
+        return f"largest $|{symbol}|$ {unit}"
+    return shown.velocity_label if quantity == "velocity" else shown.angle_label
+
+
+class Line(NamedTuple):
+    """A branch as it is drawn: a row an orbit, and one more wherever something changes: ``between`` what is stable and what not."""
+
+    values: np.ndarray
+    stable: np.ndarray
+    heights: np.ndarray
+    between: np.ndarray
+
+    def shown(self, across: Callable[[Any], Any], upright: Callable[[Any], Any]) -> "Line":
+        """The same in the units of the axes."""
+        return self._replace(values=across(self.values), heights=upright(self.heights))
+
+
+def line(branch: Branch, quantity: str, phase: float) -> Line:
+    """A branch as a line a cycle of its period, or one of its peaks."""
+    points = branch.points
+    values, stable = points["parameter"], points["stable"]
+    heights = (
+        points["peak"][:, None] if quantity == "peak" else branch.section(phase)[:, :, COLUMNS[quantity]]
+    )
+    inner = [one for one in branch.special if one.kind != "grazing" and 0 < one.index < len(values)]
+    places = np.array([one.index for one in inner], int)
+    added = np.array([one.parameter for one in inner], float)
+    start, span = values[places - 1], values[places] - values[places - 1]
+    share = np.divide(added - start, span, out=np.full(len(inner), 0.5), where=span != 0.0)
+    share[(share < 0.0) | (share > 1.0)] = 0.5  # a fold lies beyond both of its neighbours
+    tips = heights[places - 1] + share[:, None] * (heights[places] - heights[places - 1])
+    between = np.zeros(len(values), bool)
+    between[0] = BORN in branch.ends[0]  # at a multiplier of 1
+    return Line(
+        np.insert(values, places, added),
+        np.insert(stable, places, False),
+        np.insert(heights, places, tips, axis=0),
+        np.insert(between, places, True),
+    )
+
+
+def heights_of(orbit: Orbit, quantity: str, phase: float) -> np.ndarray:
+    """The same of one orbit."""
+    forcing = evolve(orbit.system.forcing, phase=orbit.phase)
+    motion = simulate(evolve(orbit.system, forcing=forcing), orbit.state, cycles=orbit.period)
+    if quantity == "peak":
+        return np.array([motion.peak])
+    wait = (phase - orbit.phase) % (2.0 * np.pi) / forcing.frequency
+    return motion.at(wait + forcing.period * np.arange(orbit.period))[COLUMNS[quantity]]
+
+
+def part(ax: Axes, drawn: Line, is_stable: bool, **look: Any) -> list[Line2D]:
+    """The stable or the unstable parts of a branch, a line a column; both reach to where one becomes the other."""
+    here = (drawn.stable == is_stable) & ~drawn.between
+    near = np.zeros(len(here), bool)
+    near[1:] |= here[:-1]
+    near[:-1] |= here[1:]
+    # where the change itself is not among the special points, the unstable part fills the gap
+    own = here | (near & (drawn.between | (not is_stable)))
+    if not here.any():
+        return []
+    heights = np.where(own[:, None], drawn.heights, np.nan)
+    return ax.plot(drawn.values, heights, linestyle="-" if is_stable else DASHED, **look)

@@ -1,0 +1,129 @@
+"""Peak rotation over the forcing's period: branches of (1, n) orbits, and what a start from rest does."""
+
+import io
+
+import numpy as np
+from matplotlib.axes import Axes
+
+from rocking.model import Block, Kind, instance
+from rocking.orbits import FrequencyResponse
+from rocking.plot import curves, style
+from rocking.plot.kinds import COLOURS
+from rocking.plot.quantities import parameter, quantities
+
+# One for each n, in turn: the colours of Okabe and Ito that no kind of response has.
+LINES = ("#E69F00", "#CC79A7", "#56B4E9", style.GUIDE)
+# Of the axes' height: the bar that says where the block overturns, and the room below the lines for it.
+BAR, ROOM = 0.02, 0.06
+THICK = 2.0
+
+
+def frequency_response(result: FrequencyResponse, ax: Axes | None = None, block: Block | None = None) -> Axes:
+    """Draws the largest |Θ| over period or frequency: stable orbits solid, unstable dashed; rings: reached from rest.
+
+    Parameters
+    ----------
+    result : FrequencyResponse
+        From `rocking.frequency_response`.
+    ax : matplotlib Axes, optional
+        Drawn into; a new figure, a column wide, if not given.
+    block : Block, optional
+        Gives SI axes; otherwise they are normalised.
+
+    Returns
+    -------
+    matplotlib Axes
+
+    Raises
+    ------
+    TypeError
+        If `result` is none.
+
+    Notes
+    -----
+    Of what is reached from rest the largest |Θ| of the response itself is drawn where it is periodic or at rest, else that of the
+    motion from its start. A bar below lies where a start from rest overturns.
+
+    Examples
+    --------
+    >>> import numpy as np, rocking as rk
+    >>> found = rk.frequency_response(period=np.linspace(0.5, 2.5, 9), amplitude=2.0, restitution=0.925)
+    >>> [text.get_text() for text in rk.plot.frequency_response(found).get_legend().get_texts()]
+    ['(1,1), stable', '(1,3), stable', '(1,3), unstable', 'from rest: periodic', 'from rest: overturned']
+    """
+    instance("result", result, FrequencyResponse)
+    shown = quantities(block)
+    across, x_label = parameter(result.parameter, block)
+    ax = style.own(ax, height=3.0)
+    for n, colour in zip(result.modes, _colours(len(result.modes)), strict=True):
+        for is_stable in (True, False):
+            name, labelled = f"(1,{n}), {'' if is_stable else 'un'}stable", False
+            for branch in result.of(n):
+                drawn = curves.part(
+                    ax,
+                    curves.line(branch, "peak", 0.0).shown(across, shown.angle),
+                    is_stable,
+                    color=colour,
+                    linewidth=style.LINE,
+                    gid=name,
+                )
+                if drawn and not labelled:
+                    drawn[0].set_label(name)
+                    labelled = True
+    _from_rest(ax, result, across, shown.angle)
+    style.label(ax, x_label, curves.height_label("peak", shown))
+    low, high = ax.get_ylim()
+    ax.set_ylim(min(low, 0.0) - ROOM * (high - low), high)
+    style.key(ax)
+    return ax
+
+
+def _colours(count: int) -> list[str]:
+    return [LINES[i % len(LINES)] for i in range(count)]
+
+
+def _from_rest(ax: Axes, result: FrequencyResponse, across, upright) -> None:
+    """A ring for each response that is reached, in the colour of its kind, and bars where there is none."""
+    rest, values = result.rest, result.values
+    heights = np.where(np.isnan(rest["steady_peak"]), rest["peak"], rest["steady_peak"])
+    for kind, colour in COLOURS.items():
+        here = rest["kind"] == kind.value
+        if kind is Kind.OVERTURNED or not here.any():
+            continue
+        ax.plot(
+            across(values[here]),
+            upright(heights[here]),
+            linestyle="none",
+            marker="o",
+            markersize=0.75 * style.MARK,
+            markerfacecolor="none",
+            markeredgecolor=colour if kind is not Kind.REST else style.GUIDE,
+            markeredgewidth=0.6,
+            label=f"from rest: {kind.value}",
+            gid=f"rest {kind.value}",
+            zorder=2.5,
+        )
+    fell = rest["kind"] == Kind.OVERTURNED.value
+    if fell.any():
+        middles = 0.5 * (values[1:] + values[:-1])
+        edges = np.concatenate([values[:1], middles, values[-1:]])
+        ends = np.column_stack([edges[:-1][fell], edges[1:][fell], np.full(int(fell.sum()), np.nan)]).ravel()
+        ax.plot(
+            across(ends),
+            np.full(len(ends), BAR),
+            transform=ax.get_xaxis_transform(),
+            color=COLOURS[Kind.OVERTURNED],
+            linewidth=THICK,
+            solid_capstyle="butt",
+            label="from rest: overturned",
+            gid="overturned",
+        )
+
+
+def png(response: FrequencyResponse) -> bytes:
+    """The picture as the bytes of a PNG, for a notebook."""
+    stream = io.BytesIO()
+    figure, (ax,) = style.panels(height=3.0)
+    frequency_response(response, ax)
+    figure.savefig(stream, format="png", dpi=110)
+    return stream.getvalue()

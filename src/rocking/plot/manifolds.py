@@ -1,0 +1,100 @@
+"""Stable and unstable manifolds of the saddles on a section."""
+
+import io
+
+import numpy as np
+from matplotlib.axes import Axes
+
+from rocking.model import Block, instance
+from rocking.orbits import SaddleManifolds
+from rocking.plot import style
+from rocking.plot.quantities import quantities
+
+UNSTABLE, STABLE = style.IMPACT, style.MOTION
+WIDER = 1.15
+
+
+def manifolds(result: SaddleManifolds, ax: Axes | None = None, block: Block | None = None) -> Axes:
+    """Draws the manifolds of the two saddles, stable and unstable in two colours, the saddles marked.
+
+    Parameters
+    ----------
+    result : SaddleManifolds
+        From `rocking.saddle_manifolds`.
+    ax : matplotlib Axes, optional
+        Drawn into; a new figure, a column wide, if not given.
+    block : Block, optional
+        Gives SI axes, degrees and degrees per second; otherwise the axes are normalised.
+
+    Returns
+    -------
+    matplotlib Axes
+
+    Raises
+    ------
+    TypeError
+        If `result` is none, or an argument is of another kind.
+
+    Notes
+    -----
+    The frame holds the saddles and what lies between them; curves go on beyond it. Lines are solid for the saddle near
+    Θ = 1 and dashed for that near Θ = −1.
+
+    Examples
+    --------
+    >>> import rocking as rk
+    >>> system = rk.System(rk.Harmonic(amplitude=4.0, period=1.0), restitution=0.8)
+    >>> ax = rk.plot.manifolds(rk.saddle_manifolds(system, cycles=3))
+    >>> [line.get_gid() for line in ax.lines]
+    ['stable +1', 'stable -1', 'unstable +1', 'unstable -1', 'saddles']
+    """
+    instance("result", result, SaddleManifolds)
+    shown = quantities(block)
+    ax = style.own(ax, height=2.9)
+    for name, colour, pair in (("stable", STABLE, result.stable), ("unstable", UNSTABLE, result.unstable)):
+        for one in pair:
+            ax.plot(
+                shown.angle(one.points[:, 0]),
+                shown.velocity(one.points[:, 1]),
+                color=colour,
+                linewidth=style.THIN,
+                linestyle="-" if one.side > 0 else (0, (4, 1.2)),
+                rasterized=len(one.points) > style.MOST_CORNERS,
+                label=f"{name}, Θ ≈ {one.side:+d}".replace("-", "−"),
+                gid=f"{name} {one.side:+d}",
+            )
+    ax.plot(
+        shown.angle(result.saddles[:, 0]),
+        shown.velocity(result.saddles[:, 1]),
+        linestyle="none",
+        marker="x",
+        markersize=style.MARK,
+        markeredgewidth=1.2,
+        color=style.INK,
+        label="saddles",
+        gid="saddles",
+        zorder=3,
+    )
+    style.label(ax, shown.angle_label, shown.velocity_label)
+    _frame(ax, result, shown)
+    at = rf"$\psi = {result.phase % (2.0 * np.pi):.4g}$ (mod $2\pi$)"
+    ax.set_title(at, loc="right", fontsize=style.SMALL, color=style.INK)
+    style.key(ax)
+    return ax
+
+
+def _frame(ax: Axes, result: SaddleManifolds, shown) -> None:
+    """A little more than the saddles, and the speeds at which their straight lines meet Θ = 0."""
+    sizes = np.abs(result.saddles)
+    wide, fast = WIDER * sizes[:, 0].max(), WIDER * sizes.sum(axis=1).max()
+    ax.set_xlim(*(float(shown.angle(side * wide)) for side in (-1, 1)))
+    ax.set_ylim(*(float(shown.velocity(side * fast)) for side in (-1, 1)))
+
+
+def png(grown: SaddleManifolds) -> bytes:
+    """The picture as the bytes of a PNG, for a notebook."""
+    stream = io.BytesIO()
+    figure, (ax,) = style.panels(height=3.0)
+    manifolds(grown, ax)
+    figure.savefig(stream, format="png", dpi=110)
+    return stream.getvalue()

@@ -1,0 +1,162 @@
+"""Melnikov's functions, and the orbits along which they are taken."""
+
+import math
+
+import numpy as np
+from matplotlib.axes import Axes
+
+from rocking.model import Block
+from rocking.plot import style
+from rocking.plot.quantities import quantities
+from rocking.theory import (
+    energy,
+    heteroclinic_amplitude,
+    heteroclinic_orbit,
+    manifold_gap,
+    melnikov_amplitude,
+    melnikov_function,
+)
+
+POINTS = 401
+# The heteroclinic orbits are shown until they are this near their ends.
+LONGEST = 6.0
+INNER = (0.2, 0.4, 0.6, 0.8)
+
+
+def melnikov(amplitude: float, period: float, restitution: float, ax: Axes | None = None) -> Axes:
+    """Draws M⁺ and M⁻ over a period of the forcing, beside the exact gap of the manifolds that M⁺ approximates.
+
+    Parameters
+    ----------
+    amplitude, period, restitution : float
+        A, T and e.
+    ax : matplotlib Axes, optional
+        Drawn into; a new figure, a column wide, if not given.
+
+    Returns
+    -------
+    matplotlib Axes
+
+    Raises
+    ------
+    TypeError, ValueError
+        In one line, for an argument of another kind or outside its range.
+
+    Notes
+    -----
+    Where M⁺ (M⁻ on the other side) is above zero, the unstable manifold passes beyond the stable one, to first order. The exact gap
+    is e V_u − V_s at the impact. The title gives the thresholds A_M of the one and A* of the other.
+
+    Examples
+    --------
+    >>> import rocking as rk
+    >>> ax = rk.plot.melnikov(4.0, 1.0, 0.8)
+    >>> [line.get_label() for line in ax.lines][:3]
+    ['$M^+$', '$M^-$', 'exact gap']
+    """
+    turns = np.linspace(0.0, 1.0, POINTS)
+    times = turns * period
+    upper = melnikov_function(times, amplitude, period, restitution)
+    lower = melnikov_function(times, amplitude, period, restitution, "lower")
+    gap = manifold_gap(math.tau * turns, amplitude, period, restitution)
+    ax = style.own(ax, height=2.9)
+    for values, label, colour, dashes in (
+        (upper, "$M^+$", style.MOTION, "-"),
+        (lower, "$M^-$", style.IMPACT, (0, (5, 2))),
+        (gap, "exact gap", style.INK, (0, (1, 1.5))),
+    ):
+        ax.plot(turns, values, color=colour, linestyle=dashes, linewidth=style.LINE, label=label)
+    ax.axhline(0.0, color=style.GUIDE, linewidth=style.THIN, zorder=0, gid="zero")
+    style.label(ax, r"time $\tau_0/T$ of the forcing (–)", r"energy gained $M(\tau_0)$ (–)")
+    first, exact = melnikov_amplitude(period, restitution), heteroclinic_amplitude(period, restitution)
+    ax.set_title(
+        rf"$A = {amplitude:.4g}$: $A_M = {first:.4g}$, $A^* = {exact:.4g}$",
+        loc="right",
+        fontsize=style.SMALL,
+        color=style.INK,
+    )
+    style.key(ax)
+    return ax
+
+
+def heteroclinic(ax: Axes | None = None, block: Block | None = None) -> Axes:
+    """Draws the heteroclinic orbits of the free, undamped block, and some of the closed orbits inside them.
+
+    Parameters
+    ----------
+    ax : matplotlib Axes, optional
+        Drawn into; a new figure, a column wide, if not given.
+    block : Block, optional
+        Gives SI axes; otherwise they are normalised.
+
+    Returns
+    -------
+    matplotlib Axes
+
+    Examples
+    --------
+    >>> import rocking as rk
+    >>> ax = rk.plot.heteroclinic()
+    >>> ax.lines[0].get_label()
+    'heteroclinic orbits'
+    """
+    shown = quantities(block)
+    ax = style.own(ax, height=2.9)
+    times = np.linspace(-LONGEST, LONGEST, POINTS)
+    for orbit, label in (("upper", "heteroclinic orbits"), ("lower", None)):
+        angle, velocity = heteroclinic_orbit(times, orbit)
+        ax.plot(
+            shown.angle(angle),
+            shown.velocity(velocity),
+            color=style.MOTION,
+            linewidth=1.4 * style.LINE,
+            label=label,
+        )
+        for time in (-0.9, 0.5):
+            _arrow(ax, shown, orbit, time)
+    for turn in INNER:
+        _closed(ax, shown, turn, "orbits inside" if turn == INNER[0] else None)
+    for angle, filled, label in (
+        (1.0, False, "unstable"),
+        (-1.0, False, None),
+        (0.0, True, "stable equilibrium"),
+    ):
+        ax.plot(
+            shown.angle(angle),
+            0.0,
+            linestyle="none",
+            marker="o",
+            markersize=style.MARK,
+            color=style.INK,
+            markerfacecolor=style.INK if filled else "white",
+            label=label,
+        )
+    style.label(ax, shown.angle_label, shown.velocity_label)
+    style.key(ax)
+    return ax
+
+
+def _arrow(ax: Axes, shown, orbit: str, time: float) -> None:
+    """Which way an orbit is run through."""
+    (tail, head) = (heteroclinic_orbit(time + step, orbit) for step in (-0.02, 0.02))
+    ax.annotate(
+        "",
+        xy=(shown.angle(head[0]), shown.velocity(head[1])),
+        xytext=(shown.angle(tail[0]), shown.velocity(tail[1])),
+        arrowprops={"arrowstyle": "-|>", "color": style.MOTION, "shrinkA": 0, "shrinkB": 0},
+    )
+
+
+def _closed(ax: Axes, shown, turn: float, label: str | None) -> None:
+    """The orbit that turns at ±`turn`, from its energy."""
+    angle = turn * np.sin(np.linspace(0.0, math.tau, POINTS))
+    left = np.maximum(2.0 * (energy(turn, 0.0) - energy(angle, 0.0)), 0.0)
+    velocity = np.sqrt(left) * np.sign(np.cos(np.linspace(0.0, math.tau, POINTS)))
+    ax.plot(
+        shown.angle(angle),
+        shown.velocity(velocity),
+        color=style.GUIDE,
+        linewidth=style.THIN,
+        label=label,
+        zorder=1,
+    )

@@ -1,0 +1,159 @@
+"""Symmetric modes over the amplitude."""
+
+import math
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.lines import Line2D
+
+from rocking.model import LARGEST_AMPLITUDE, Block, Mode, one_of, within
+from rocking.plot import style
+from rocking.plot.quantities import quantities
+from rocking.theory import (
+    existence_amplitude,
+    slower_mode_amplitude,
+    symmetric_modes,
+    symmetry_breaking_amplitude,
+)
+
+POINTS = 400
+# The curves begin and end this near to where modes do, which rounding may leave without any.
+NEAR = 1e-9
+# The picture goes on this much beyond where symmetry breaks.
+BEYOND = 1.25
+DASHES: dict[str, Any] = {"stable": "-", "unstable": (0, (5, 2)), "inadmissible": (0, (1, 1.5))}
+
+
+def modes(
+    period: float,
+    restitution: float,
+    n: int = 1,
+    ax: Axes | None = None,
+    quantity: str = "velocity",
+    amplitude: float | None = None,
+    block: Block | None = None,
+) -> Axes:
+    """Draws speed or phase of the symmetric (1, n) modes over the amplitude: stable solid, unstable dashed, inadmissible dotted.
+
+    Parameters
+    ----------
+    period, restitution : float
+        T and e in (0, 1].
+    n : int
+        Forcing cycles in a response; odd.
+    ax : matplotlib Axes, optional
+        Drawn into; a new figure, a column wide, if not given.
+    quantity : str
+        "velocity", V after the impact, or "phase", φ of the forcing there, in [0, 2π).
+    amplitude : float, optional
+        A, drawn as a line with a ring on each mode there; the picture reaches at least that far.
+    block : Block, optional
+        Gives SI axes; otherwise they are normalised.
+
+    Returns
+    -------
+    matplotlib Axes
+
+    Raises
+    ------
+    TypeError, ValueError
+        In one line, for an argument of another kind or outside its range.
+
+    Notes
+    -----
+    Modes begin at A_E and the faster one loses its stability at A_SB, 1.25 times which is shown, up to A = 1000. On the other side of an
+    impact everything is mirrored: −V, φ + π.
+
+    Examples
+    --------
+    >>> import rocking as rk
+    >>> ax = rk.plot.modes(1.0, 0.925, amplitude=2.0)
+    >>> ax.get_title(loc="right")
+    '(1,1) modes, $T = 1$, $e = 0.925$'
+    """
+    one_of("quantity", quantity, ("velocity", "phase"))
+    marked = 0.0 if amplitude is None else within("amplitude", amplitude, 0.0, LARGEST_AMPLITUDE)
+    here = symmetric_modes(marked, period, restitution, n)
+    begins = existence_amplitude(period, restitution, n)
+    breaks = symmetry_breaking_amplitude(period, restitution, n)
+    most = min(max(BEYOND * breaks, 1.1 * marked, 1.1 * begins), LARGEST_AMPLITUDE)
+    least = begins * (1.0 + NEAR) + NEAR
+    ends = (most, min(slower_mode_amplitude(period, n) * (1.0 - NEAR), most))
+    shown = quantities(block)
+    ax = style.own(ax, height=2.9)
+    across = shown.amplitude
+
+    def up(mode: Mode) -> float:
+        return shown.velocity(mode.velocity) if quantity == "velocity" else mode.phase % math.tau
+
+    for root, colour in ((0, style.MOTION), (1, style.IMPACT)):
+        # close together near the fold, where both roots leave it like a square root
+        places = least + max(ends[root] - least, 0.0) * np.linspace(0.0, 1.0, POINTS) ** 2
+        found = (symmetric_modes(float(place), period, restitution, n) for place in places)
+        points = [
+            (across(mode.amplitude), up(mode), _kind(mode))
+            for mode in (each[root] for each in found if len(each) > root)
+        ]
+        _draw(ax, points, colour, ("faster", "slower")[root])
+    if amplitude is not None:
+        ax.axvline(across(marked), color=style.GUIDE, linewidth=style.THIN, zorder=0, gid="amplitude")
+        ax.plot(
+            [across(mode.amplitude) for mode in here],
+            [up(mode) for mode in here],
+            linestyle="none",
+            marker="o",
+            markersize=style.MARK,
+            markerfacecolor="none",
+            color=style.INK,
+            gid="marked",
+        )
+    label = shown.speed_label if quantity == "velocity" else r"phase $\varphi$ of the forcing there (rad)"
+    style.label(ax, shown.amplitude_label, label)
+    ax.set_xlim(left=0.0)
+    forced = f"$T = {period:.6g}$" if block is None else f"{block.seconds(period):.4g} s"
+    ax.set_title(
+        rf"(1,{n}) modes, {forced}, $e = {restitution:.4g}$",
+        loc="right",
+        fontsize=style.SMALL,
+        color=style.INK,
+    )
+    _explain(ax)
+    return ax
+
+
+def _kind(mode: Mode) -> str:
+    if not mode.admissible:
+        return "inadmissible"
+    return "stable" if mode.stable else "unstable"
+
+
+def _draw(ax: Axes, points: list, colour: str, root: str) -> None:
+    """One root as one line a kind; each reaches to the next point, so that no gap is left where the kind changes."""
+    if not points:
+        return
+    x, y, kinds = (np.array(column) for column in zip(*points, strict=True))
+    for kind, dashes in DASHES.items():
+        own = kinds == kind
+        drawn = own | np.concatenate(([False], own[:-1]))
+        if own.any():
+            ax.plot(
+                x,
+                np.where(drawn, y, np.nan),
+                color=colour,
+                linestyle=dashes,
+                linewidth=1.4 * style.LINE,
+                gid=f"{root} {kind}",
+            )
+
+
+def _explain(ax: Axes) -> None:
+    """A key to what is there."""
+    there = {line.get_gid() for line in ax.lines}
+    for kind, dashes in DASHES.items():
+        if any(str(gid).endswith(" " + kind) for gid in there):
+            ax.add_line(Line2D([], [], color=style.INK, linestyle=dashes, label=kind))
+    for root, colour in (("faster", style.MOTION), ("slower", style.IMPACT)):
+        if any(str(gid).startswith(root) for gid in there):
+            ax.add_line(Line2D([], [], color=colour, label=root))
+    style.key(ax)

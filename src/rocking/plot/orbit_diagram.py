@@ -1,0 +1,192 @@
+"""Stroboscopic points over a parameter, with the branches of periodic orbits that run through them."""
+
+import io
+from collections.abc import Sequence
+
+import numpy as np
+from matplotlib.axes import Axes
+
+from rocking.model import Block, instance, one_of, refusal
+from rocking.orbits import Branch, OrbitDiagram
+from rocking.plot import curves, style
+from rocking.plot.quantities import parameter, quantities
+
+WAYS = {
+    "up": ("swept up", style.MOTION),
+    "down": ("swept down", style.IMPACT),
+    "rest": ("each from its start", style.MOTION),
+}
+# Of the axes' height: the room below the points for bars that say where the block overturned, and from bar to bar.
+ROOM, BAR = 0.07, 0.025
+THICK = 2.0
+ASIDE = 0.03
+# A stable branch is seen on both sides of the points on it.
+OUTLINE = 1.8
+# Of what is drawn from its lowest to its highest point.
+FINEST = 1e-4
+# What is swept down lies below what is swept up, and looks out from under it.
+HALO = 1.6
+# Of the usual size of a mark: here points stand close in lines.
+MARK = 0.6
+
+
+def orbit_diagram(
+    result: OrbitDiagram,
+    ax: Axes | None = None,
+    branches: Sequence[Branch] = (),
+    quantity: str = "angle",
+    block: Block | None = None,
+) -> Axes:
+    """Draws a section's points over the parameter varied; bars below show where the block overturned.
+
+    Parameters
+    ----------
+    result : OrbitDiagram
+        From `rocking.orbit_diagram`.
+    ax : matplotlib Axes, optional
+        Drawn into; a new figure, a column wide, if not given.
+    branches : sequence of Branch
+        Of periodic orbits over the same parameter, from `rocking.continue_orbit`: stable solid, unstable dashed.
+    quantity : {"angle", "velocity", "peak"}
+        What is drawn: Θ or Θ' at the section, or the largest |Θ| in between.
+    block : Block, optional
+        Gives SI axes; otherwise they are normalised.
+
+    Returns
+    -------
+    matplotlib Axes
+
+    Raises
+    ------
+    TypeError, ValueError
+        If `result` or a branch is none, a branch runs over another parameter, or an argument is of another kind.
+
+    Notes
+    -----
+    Points of one value nearer than 1/10,000 of the picture's height are one. Marks shrink, and more than 2,000 are an image
+    inside a vector file, as in `section`.
+
+    Examples
+    --------
+    >>> import numpy as np, rocking as rk
+    >>> system = rk.System(rk.Harmonic(amplitude=10.0, period=1.721328), restitution=0.8)
+    >>> ax = rk.plot.orbit_diagram(rk.orbit_diagram(system, "amplitude", np.linspace(10.4, 10.8, 40), sweep="up"))
+    >>> ax.get_xlabel(), len(ax.lines[0].get_xdata())
+    ('amplitude $A$ (–)', 297)
+    """
+    instance("result", result, OrbitDiagram)
+    quantity = one_of("quantity", quantity, curves.QUANTITIES)
+    followed = [_checked(result, branch) for branch in branches]
+    shown = quantities(block)
+    across, x_label = parameter(result.parameter, block)
+    upright = shown.velocity if quantity == "velocity" else shown.angle
+    lines = [curves.line(one, quantity, result.section_phase).shown(across, upright) for one in followed]
+    ax = style.own(ax, height=3.0)
+    for row, way in enumerate(result.sweeps):
+        _points(ax, result, row, way, quantity, across, upright)
+    for is_stable in (True, False):
+        _branches(ax, lines, is_stable)
+    style.label(ax, x_label, curves.height_label(quantity, shown))
+    _bars(ax, result, across)
+    ends = across(result.values[[0, -1]])
+    if ends[1] > ends[0]:  # where all overturned there are no points; branches may lead farther
+        margin = ASIDE * (ends[1] - ends[0])
+        ax.set_xlim(ends[0] - margin, ends[1] + margin)
+    style.key(ax)
+    return ax
+
+
+def _points(ax: Axes, result: OrbitDiagram, row: int, way: str, quantity: str, across, upright) -> None:
+    name, colour = WAYS[way]
+    heights = (
+        result.peak[row][:, None]
+        if quantity == "peak"
+        else result.points[row, :, :, curves.COLUMNS[quantity]]
+    )
+    values, heights = _distinct(result.values, heights)
+    count = len(values)
+    ax.plot(
+        across(values),
+        upright(heights),
+        linestyle="none",
+        marker="o",
+        markersize=MARK * style.point_size(count) * (HALO if way == "down" else 1.0),
+        markeredgewidth=0,
+        color=colour,
+        rasterized=count > style.MOST_MARKS,
+        label=name,
+        gid=way,
+        zorder=2.0 - 0.1 * row,
+    )
+
+
+def _distinct(values: np.ndarray, heights: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Every point once: a periodic motion comes back to the same ones, to less than can be drawn."""
+    heights = np.sort(heights, axis=1)
+    span = np.nanmax(heights, initial=-np.inf) - np.nanmin(heights, initial=np.inf)
+    place = np.round(heights / (FINEST * span)) if span > 0.0 else heights
+    new = np.isfinite(heights)
+    new[:, 1:] &= place[:, 1:] != place[:, :-1]
+    return np.repeat(values, new.sum(axis=1)), heights[new]
+
+
+def _checked(result: OrbitDiagram, branch: Branch) -> Branch:
+    if not isinstance(branch, Branch):
+        raise TypeError(refusal("branches", "be a sequence of branches from continue_orbit", branch))
+    if branch.name != result.parameter:
+        raise ValueError(
+            refusal("branches", f"run over {result.parameter}, as the diagram does", branch.name)
+        )
+    return branch
+
+
+def _branches(ax: Axes, lines: Sequence[curves.Line], is_stable: bool) -> None:
+    """The stable or the unstable parts of branches."""
+    word, labelled = ("stable" if is_stable else "unstable"), False
+    for line in lines:
+        drawn = curves.part(
+            ax,
+            line,
+            is_stable,
+            color=style.INK,
+            linewidth=OUTLINE if is_stable else style.THIN,
+            gid=f"{word} branch",
+            zorder=1.8,
+        )
+        if drawn and not labelled:
+            drawn[0].set_label(f"{word} orbits")
+            labelled = True
+
+
+def _bars(ax: Axes, result: OrbitDiagram, across) -> None:
+    """A bar a sweep, below the points, along the values at which the block overturned."""
+    low, high = ax.get_ylim()
+    ax.set_ylim(low - ROOM * (high - low), high)
+    values = result.values
+    middles = 0.5 * (values[1:] + values[:-1])
+    edges = np.concatenate([values[:1], middles, values[-1:]])
+    for row, way in enumerate(result.sweeps):
+        fell = np.concatenate([[False], result.overturned[row], [False]])
+        begins, ends = np.flatnonzero(~fell[:-1] & fell[1:]), np.flatnonzero(fell[:-1] & ~fell[1:])
+        if not len(begins):
+            continue
+        ends_of_bars = np.column_stack([edges[begins], edges[ends], np.full(len(begins), np.nan)]).ravel()
+        ax.plot(
+            across(ends_of_bars),
+            np.full(len(ends_of_bars), BAR * (row + 0.6)),
+            transform=ax.get_xaxis_transform(),
+            color=WAYS[way][1] if len(result.sweeps) > 1 else style.INK,
+            linewidth=THICK,
+            solid_capstyle="projecting",
+            label="overturned" + (f", {way}" if len(result.sweeps) > 1 else ""),
+            gid=f"overturned {way}",
+        )
+
+
+def png(diagram: OrbitDiagram) -> bytes:
+    """The picture as the bytes of a PNG, for a notebook."""
+    stream = io.BytesIO()
+    figure, (ax,) = style.panels(height=3.0)
+    orbit_diagram(diagram, ax)
+    figure.savefig(stream, format="png", dpi=110)
+    return stream.getvalue()

@@ -1,0 +1,117 @@
+"""What comes of inputs that are off by a little: the shares of outcomes, and where in a map the outcome is certain."""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.colors import BoundaryNorm, ListedColormap
+from matplotlib.patches import Patch
+
+from rocking.model import Kind, Repeatability, RepeatabilityMap, instance
+from rocking.plot import style
+from rocking.plot.kinds import COLOURS
+from rocking.plot.quantities import PARAMETERS
+
+SHOWN = 12
+UNCERTAIN = "#CC79A7"
+
+
+def repeatability(found: Repeatability, ax: Axes | None = None) -> Axes:
+    """Draws the share of each outcome with its 95 % interval, the largest above; up to twelve.
+
+    Parameters
+    ----------
+    found : Repeatability
+        From `rocking.repeatability`.
+    ax : matplotlib Axes, optional
+        Drawn into; a new figure, a column wide, if not given.
+
+    Returns
+    -------
+    matplotlib Axes
+
+    Raises
+    ------
+    TypeError
+        If `found` is another result, or `ax` no axes.
+
+    Examples
+    --------
+    >>> import rocking as rk
+    >>> system = rk.System(rk.Harmonic(amplitude=1.75, period=2.0), restitution=0.95)
+    >>> len(rk.plot.repeatability(rk.repeatability(system, samples=100)).patches)
+    2
+    """
+    instance("found", found, Repeatability)
+    ax = style.own(ax)
+    pairs = list(found.responses.items())[:SHOWN]
+    up = np.arange(len(pairs))
+    values = np.array([share.value for _, share in pairs])
+    ends = np.array([[share.value - share.low, share.high - share.value] for _, share in pairs]).T
+    hues = [COLOURS[Kind(name)] if name in set(Kind) else COLOURS[Kind.PERIODIC] for name, _ in pairs]
+    error = {"elinewidth": style.LINE, "capsize": 2.5, "ecolor": style.GUIDE}
+    ax.barh(up, 100 * values, xerr=100 * ends, color=hues, height=0.7, error_kw=error, gid="shares")
+    style.label(ax, f"share of {found.repeats.of:,} runs [%]", "")
+    ax.set_yticks(up, [name for name, _ in pairs])
+    ax.invert_yaxis()
+    ax.set_xlim(0.0, 100.0)
+    off = f"inputs off by up to {100 * found.relative:.3g} %"
+    ax.set_title(off, loc="right", fontsize=style.SMALL, color=style.INK)
+    return ax
+
+
+def repeatability_map(found: RepeatabilityMap, ax: Axes | None = None) -> Axes:
+    """Draws where all runs agree, a colour a kind, and where not, in a colour of its own.
+
+    Parameters
+    ----------
+    found : RepeatabilityMap
+        From `rocking.repeatability_map`.
+    ax : matplotlib Axes, optional
+        Drawn into; a new figure, a column wide, if not given.
+
+    Returns
+    -------
+    matplotlib Axes
+
+    Raises
+    ------
+    TypeError
+        If `found` is another result, or `ax` no axes.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import rocking as rk
+    >>> found = rk.repeatability_map(
+    ...     amplitude=np.linspace(1, 13, 4), period=np.linspace(0.5, 2, 4), restitution=0.925, samples=4
+    ... )
+    >>> rk.plot.repeatability_map(found).get_xlabel().startswith("period $T$")
+    True
+    """
+    instance("found", found, RepeatabilityMap)
+    ax = style.own(ax, height=3.6)
+    data, count = found.dataset, len(Kind)
+    up, across = (data[name].values for name in data.kind.dims)
+    values = np.where(data.agreeing.values < 1.0, count, data.kind.values)
+    hues = [*(COLOURS[kind] for kind in Kind), UNCERTAIN]
+    ax.pcolormesh(
+        across,
+        up,
+        values,
+        cmap=ListedColormap(hues),
+        norm=BoundaryNorm(np.arange(count + 2) - 0.5, count + 1),
+        shading="nearest",
+        rasterized=True,
+        gid="map",
+    )
+    style.label(ax, *(PARAMETERS[str(name)] for name in reversed(data.kind.dims)))
+    names = [*(str(kind) for kind in Kind), "not certain"]
+    shares = 100 * np.bincount(values.ravel(), minlength=count + 1) / values.size
+    handles = [
+        Patch(facecolor=hue, edgecolor=style.INK, linewidth=style.THIN, label=f"{name} {share:.2g} %")
+        for hue, name, share in zip(hues, names, shares, strict=True)
+        if share
+    ]
+    style.patches(ax, handles)
+    return ax

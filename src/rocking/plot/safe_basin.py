@@ -1,0 +1,68 @@
+"""The safe area over the amplitude, beside the thresholds A* and A_M."""
+
+from __future__ import annotations
+
+from matplotlib.axes import Axes
+
+from rocking.model import SafeBasin, instance
+from rocking.plot import style
+from rocking.plot.quantities import PARAMETERS
+
+
+def safe_basin(found: SafeBasin, ax: Axes | None = None) -> Axes:
+    """Draws the share of starts that do not overturn, with its 95 % interval, over the amplitude.
+
+    Parameters
+    ----------
+    found : SafeBasin
+        From `rocking.safe_basin`.
+    ax : matplotlib Axes, optional
+        Drawn into; a new figure, a column wide, if not given.
+
+    Returns
+    -------
+    matplotlib Axes
+
+    Raises
+    ------
+    TypeError
+        If `found` is another result, or `ax` no axes.
+
+    Examples
+    --------
+    >>> import rocking as rk
+    >>> found = rk.safe_basin(amplitude=[3.3, 3.7, 5.5], period=1.0, restitution=0.8, samples=200)
+    >>> rk.plot.safe_basin(found).get_ylabel()
+    'safe starts [%]'
+    """
+    instance("found", found, SafeBasin)
+    ax = style.own(ax, height=2.9)
+    data = found.dataset
+    across = data.amplitude.values
+    ax.fill_between(
+        across, 100 * data.safe_low, 100 * data.safe_high, color=style.MOTION, alpha=0.3, linewidth=0
+    )
+    ax.plot(
+        across,
+        100 * data.safe,
+        color=style.MOTION,
+        linewidth=style.LINE,
+        marker="o",
+        markersize=style.point_size(across.size),
+        label="safe, with its 95 % interval",
+        gid="safe",
+    )
+    ax.axvline(
+        found.heteroclinic_amplitude, color=style.IMPACT, linewidth=style.LINE, label="exact tangency $A^*$"
+    )
+    ax.axvline(
+        found.melnikov_amplitude,
+        color=style.INK,
+        linewidth=style.LINE,
+        linestyle=(0, (5, 2)),
+        label="Melnikov's $A_M$",
+    )
+    style.label(ax, PARAMETERS["amplitude"], "safe starts [%]")
+    ax.set_ylim(bottom=0.0)
+    style.key(ax)
+    return ax

@@ -1,0 +1,162 @@
+"""Pictures of branches, of curves of special points and of frequency responses."""
+
+import math
+
+import numpy as np
+import pytest
+
+import rocking as rk
+
+BLOCK = rk.Block(2.0, 0.5)
+
+
+def drawn(ax, gid):
+    return [line.get_xydata() for line in ax.lines if line.get_gid() == gid]
+
+
+def legend(ax):
+    return [text.get_text() for text in ax.get_legend().get_texts()]
+
+
+@pytest.fixture(scope="module")
+def family():
+    """A symmetric branch with its fold, grazing and symmetry breaking, the pair born there, and the doubled one."""
+    system = rk.System(rk.Harmonic(amplitude=7.0, period=1.721328), restitution=0.8)
+    symmetric = rk.continue_orbit(rk.classify(system).orbit, "amplitude", (0.1, 11.5))
+    (breaking,) = (point for point in symmetric.special if point.kind == "symmetry-breaking")
+    pair = rk.switch_branch(breaking, (7.0, 11.5))
+    (doubling, *_) = (point for point in pair[0].special if point.kind == "period-doubling")
+    return [symmetric, *pair, *rk.switch_branch(doubling, (10.0, 11.5))]
+
+
+@pytest.fixture(scope="module")
+def response():
+    return rk.frequency_response(period=np.linspace(0.2, 3.0, 29), amplitude=6.0, restitution=0.8)
+
+
+def test_every_special_point_has_its_marker_on_the_line(family):
+    ax = rk.plot.branch(family)
+    for kind in ("fold", "symmetry-breaking", "period-doubling", "grazing"):
+        expected = [special for one in family for special in one.special if special.kind == kind]
+        (marks,) = drawn(ax, kind)
+        assert marks[:, 0].tolist() == [special.parameter for special in expected]
+        lines = np.concatenate([line.get_xydata() for line in ax.lines if line.get_linestyle() != "None"])
+        for mark in marks:  # as near as the branch's points lie to each other
+            assert np.nanmin(np.hypot(*(lines - mark).T)) < 0.02
+    names = ["fold", "symmetry breaking", "period doubling", "grazing"]
+    assert legend(ax)[-4:] == names
+
+
+def test_stable_parts_are_solid_unstable_dashed_and_no_point_is_left_out(family):
+    ax = rk.plot.branch(family, quantity="angle", phase=1.0)
+    for symmetry, branches in (("symmetric", family[:1]), ("unsymmetric", family[1:])):
+        for word, is_stable in (("stable", True), ("unstable", False)):
+            lines = [line for line in ax.lines if line.get_gid() == f"{symmetry}, {word}"]
+            assert {line.get_linestyle() for line in lines} == {"-" if is_stable else "--"}
+            shown = np.concatenate([line.get_xydata() for line in lines])
+            shown = {tuple(point) for point in shown[np.isfinite(shown[:, 1])]}
+            for one in branches:
+                own = one.points["stable"] == is_stable
+                own[0] &= one.symmetric  # where it is born it is neither
+                for cycle in range(one.period):
+                    heights = one.section(1.0)[own, cycle, 0]
+                    assert set(zip(one.points["parameter"][own], heights, strict=True)) <= shown
+
+
+def test_a_fold_is_where_its_line_turns():
+    system = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.8)
+    branch = rk.continue_orbit(rk.classify(system).orbit, "amplitude", (0.1, 3.0))
+    ax = rk.plot.branch(branch)
+    (fold,) = (special.parameter for special in branch.special if special.kind == "fold")
+    for word in ("stable", "unstable"):
+        (line,) = drawn(ax, f"symmetric, {word}")
+        assert line[np.isfinite(line[:, 1]), 0].min() == fold < branch.points["parameter"].min()
+
+
+def test_blocks_give_si_axes(family, response):
+    ax = rk.plot.branch(family[0], block=BLOCK)
+    assert (ax.get_xlabel(), ax.get_ylabel()) == (r"amplitude $a_x$ (m/s²)", r"largest $|\theta|$ (°)")
+    most = np.nanmax(drawn(ax, "symmetric, unstable")[0], axis=0)
+    assert most[0] == pytest.approx(BLOCK.acceleration(11.5))
+    assert most[1] == pytest.approx(BLOCK.degrees(family[0].points["peak"].max()))
+    ax = rk.plot.frequency_response(response, block=BLOCK)
+    assert ax.get_xlabel() == "period (s)"
+    assert np.nanmax(drawn(ax, "(1,1), unstable")[0][:, 0]) == pytest.approx(BLOCK.seconds(3.0))
+
+
+def test_curves_have_a_look_a_kind():
+    system = rk.System(rk.Harmonic(amplitude=15.0, period=1.0), restitution=0.9)
+    branch = rk.continue_orbit(rk.classify(system).orbit, "amplitude", (0.01, 30.0))
+    ranges = ((1.0, 2.0), (0.01, 40.0))
+    curves = [rk.bifurcation_curve(point, "period", "amplitude", ranges) for point in branch.special]
+    ax = rk.plot.bifurcation_curve(curves)
+    assert sorted(line.get_gid() for line in ax.lines) == sorted(point.kind for point in branch.special)
+    assert len({(line.get_color(), line.get_linestyle()) for line in ax.lines}) == len(curves) == 3
+    for curve, line in zip(curves, ax.lines, strict=True):
+        np.testing.assert_array_equal(line.get_xydata(), curve.points)
+    assert (ax.get_xlabel(), ax.get_ylabel()) == (r"period $T$ ($\tau$)", r"amplitude $A$ (–)")
+    across = rk.plot.bifurcation_curve(curves[0], block=BLOCK)
+    np.testing.assert_allclose(across.lines[0].get_ydata(), BLOCK.acceleration(curves[0].points[:, 1]))
+
+
+def test_what_a_start_from_rest_does_is_marked_at_every_value(response):
+    ax = rk.plot.frequency_response(response)
+    rest, values = response.rest, response.values
+    marked = []
+    for kind in set(rest["kind"]) - {"overturned"}:
+        (points,) = drawn(ax, f"rest {kind}")
+        heights = np.where(np.isnan(rest["steady_peak"]), rest["peak"], rest["steady_peak"])
+        np.testing.assert_array_equal(points, np.column_stack([values, heights])[rest["kind"] == kind])
+        marked += points[:, 0].tolist()
+    (bars,) = drawn(ax, "overturned")
+    ends = bars[:, 0].reshape(-1, 3)[:, :2]
+    covered = [bool(((ends[:, 0] <= value) & (value <= ends[:, 1])).any()) for value in values]
+    assert covered == (rest["kind"] == "overturned").tolist()
+    assert any(covered)
+    assert len(marked) + sum(covered) == len(values)
+
+
+def test_every_mode_has_a_colour_and_every_branch_a_line(response):
+    ax = rk.plot.frequency_response(response)
+    colours = []
+    for n in (1, 3):
+        lines = [line for line in ax.lines if str(line.get_gid()).startswith(f"(1,{n})")]
+        assert len({line.get_color() for line in lines}) == 1
+        colours.append(lines[0].get_color())
+        shown = np.concatenate([line.get_xydata() for line in lines])
+        for branch in response.of(n):
+            assert set(branch.points["peak"]) <= set(shown[:, 1])
+    assert colours[0] != colours[1]
+
+
+def test_where_there_is_nothing_to_follow_it_shows_what_a_start_from_rest_does():
+    ax = rk.plot.frequency_response(rk.frequency_response(period=[0.5, 1.0], amplitude=0.05, restitution=0.5))
+    assert legend(ax) == ["from rest: rest"]
+
+
+def test_notebooks_show_a_picture_over_the_line(family, response):
+    for result, begins in ((family[1], "branch of unsymmetric orbits"), (response, "frequency response at")):
+        assert result._repr_html_().startswith(f'<figure><img alt="{begins}')
+
+
+def test_refusals_are_one_line(family):
+    other = rk.continue_orbit(family[0].orbit(200), "period", (1.7, 1.8))
+    for call, error, message in (
+        (lambda: rk.plot.branch(3), TypeError, "result must be a Branch or a sequence of them; got 3"),
+        (lambda: rk.plot.branch([]), TypeError, r"result must be a Branch or a sequence of them; got \[\]"),
+        (
+            lambda: rk.plot.branch([family[0], other]),
+            ValueError,
+            "result must hold branches over one parameter, amplitude; got 'period'",
+        ),
+        (lambda: rk.plot.branch(family, quantity="speed"), ValueError, "quantity must be one of 'angle', "),
+        (lambda: rk.plot.branch(family, phase=math.nan), ValueError, "phase must lie in"),
+        (
+            lambda: rk.plot.bifurcation_curve(family),
+            TypeError,
+            "result must be a BifurcationCurve or a sequence",
+        ),
+        (lambda: rk.plot.frequency_response(3), TypeError, "result must be a FrequencyResponse; got 3"),
+    ):
+        with pytest.raises(error, match=f"^{message}"):
+            call()

@@ -1,0 +1,78 @@
+"""The picture of an exponent as it settles shows the running estimates, their errors and the final value."""
+
+import math
+
+import numpy as np
+import pytest
+
+import rocking as rk
+
+BRACED = rk.System(rk.Harmonic(15.0, period=2.0), 0.925, rk.Braces(1.0, 1.0))
+
+
+@pytest.fixture(scope="module")
+def spectrum():
+    return rk.lyapunov(BRACED, cycles=3_000)
+
+
+def artist(ax, gid):
+    (found,) = (child for child in ax.get_children() if child.get_gid() == gid)
+    return found
+
+
+@pytest.mark.parametrize("exponent", [1, 2])
+def test_line_is_the_history_on_a_logarithmic_axis(spectrum, exponent):
+    ax = rk.plot.convergence(spectrum, exponent=exponent)
+    line = artist(ax, "running")
+    np.testing.assert_array_equal(line.get_xdata(), spectrum.history["cycles"])
+    np.testing.assert_array_equal(line.get_ydata(), spectrum.history["values"][:, exponent - 1])
+    assert artist(ax, "final").get_ydata()[0] == spectrum.values[exponent - 1]
+    assert ax.get_xscale() == "log"
+    assert ax.get_ylabel() == rf"exponent $\lambda_{exponent}$ per $\tau$"
+
+
+def test_band_is_the_error_where_there_is_one(spectrum):
+    (path,) = artist(rk.plot.convergence(spectrum), "error").get_paths()
+    known = spectrum.history[np.isfinite(spectrum.history["errors"][:, 0])]
+    corners = path.vertices[np.isfinite(path.vertices).all(axis=1)]
+    assert corners[:, 0].min() == known["cycles"][0] > 300
+    last = corners[corners[:, 0] == 3_000][:, 1]
+    value, error = spectrum.values[0], spectrum.errors[0]
+    assert (last.min(), last.max()) == pytest.approx((value - error, value + error), rel=1e-12)
+
+
+def test_title_gives_the_value_to_the_second_digit_of_its_error(spectrum):
+    value, error = spectrum.values[0], spectrum.errors[0]
+    assert 0.01 < error < 0.1
+    assert rk.plot.convergence(spectrum).get_title(loc="right") == rf"$\lambda_1$ = {value:.3f} ± {error:.3f}"
+
+
+def test_zero_is_drawn_where_it_comes_into_view(spectrum):
+    far = {child.get_gid() for child in rk.plot.convergence(spectrum).get_children()}
+    assert "zero" not in far
+    quasi_periodic = rk.lyapunov(rk.System(rk.Harmonic(4.0, period=0.4), 1.0), cycles=3_000)
+    artist(rk.plot.convergence(quasi_periodic), "zero")
+
+
+def test_estimate_without_an_error_is_drawn_and_says_so():
+    with pytest.raises(rk.TooShort) as caught:
+        rk.lyapunov(BRACED, cycles=20)
+    ax = rk.plot.convergence(caught.value.estimate)
+    assert "error unknown" in ax.get_title(loc="right")
+    ax.figure.canvas.draw()
+
+
+def test_axes_given_is_drawn_into(spectrum):
+    _, (_, right) = rk.plot.panels(columns=2)
+    assert rk.plot.convergence(spectrum, right) is right
+
+
+def test_what_cannot_be_drawn_is_refused_in_one_line(spectrum):
+    still = rk.lyapunov(rk.System(rk.Harmonic(0.5, period=1.0), 0.9), cycles=100)
+    with pytest.raises(ValueError, match="^exponent must be finite to be drawn; got -inf$"):
+        rk.plot.convergence(still)
+    with pytest.raises(TypeError, match="^spectrum must be a LyapunovSpectrum; got 3$"):
+        rk.plot.convergence(3)
+    for bad in (0, 3, math.nan):
+        with pytest.raises(ValueError, match=r"^exponent must be a whole number in \[1, 2\]; got .*$"):
+            rk.plot.convergence(spectrum, exponent=bad)

@@ -1,0 +1,114 @@
+"""Pictures of surveys show what was found: a colour an attractor, thresholds where theory has them, intervals."""
+
+import base64
+import re
+
+import numpy as np
+import pytest
+from matplotlib.colors import to_rgb
+
+import rocking as rk
+from rocking.plot.basins import colours
+
+SYSTEM = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), 0.925)
+STARTS = np.linspace(-1, 1, 31)
+
+
+@pytest.fixture(scope="module")
+def basins():
+    return rk.basin_map(SYSTEM, angle=STARTS, velocity=STARTS, boundary_runs=0)
+
+
+@pytest.fixture(scope="module")
+def curve():
+    return rk.overturning_amplitude(
+        period=[1.2, 1.7, 2.2], restitution=0.925, amplitude=np.linspace(1, 6, 21), phases=2
+    )
+
+
+def drawn(ax, gid):
+    return next(each for each in (*ax.collections, *ax.lines, *ax.patches) if each.get_gid() == gid)
+
+
+def test_each_start_has_the_colour_of_its_attractor(basins):
+    mesh = drawn(rk.plot.basins(basins), "basins")
+    mesh.update_scalarmappable()
+    shown = mesh.get_facecolors()[:, :3].reshape(31, 31, 3)
+    hues = np.array([to_rgb(hue) for hue in colours(basins.attractors)])
+    assert np.abs(shown - hues[basins.dataset.attractor.transpose("velocity", "angle").values]).max() < 1e-6
+
+
+def test_colours_of_attractors_differ_however_many_there_are(basins):
+    periodic = next(each for each in basins.attractors if each.kind == "periodic")
+    hues = np.array([to_rgb(hue) for hue in colours((periodic,) * 16)])
+    apart = np.abs(hues[:, None] - hues[None]).max(axis=2) + np.eye(16)
+    assert apart.min() > 0.05
+
+
+def test_a_legend_tells_names_and_shares(basins):
+    texts = [text.get_text() for text in rk.plot.basins(basins).get_legend().get_texts()]
+    pairs = zip(basins.attractors, basins.fractions, strict=True)
+    assert texts == [f"{each.name} {100 * share.value:.2g} %" for each, share in pairs]
+
+
+def test_random_starts_are_points():
+    found = rk.basin_map(SYSTEM, angle=(-1, 1), velocity=(-1, 1), samples=50, boundary_runs=0)
+    assert len(drawn(rk.plot.basins(found), "basins").get_offsets()) == 50
+
+
+def test_a_safe_area_is_drawn_beside_its_thresholds():
+    found = rk.safe_basin(amplitude=[3.0, 4.0, 5.0], period=1.0, restitution=0.8, samples=200)
+    ax = rk.plot.safe_basin(found)
+    assert drawn(ax, "safe").get_ydata() == pytest.approx(100 * found.dataset.safe.values)
+    upright = sorted(line.get_xdata()[0] for line in ax.lines if line.get_gid() != "safe")
+    assert upright == sorted([found.heteroclinic_amplitude, found.melnikov_amplitude])
+
+
+def test_an_overturning_curve_lies_over_the_shares(curve):
+    ax = rk.plot.overturning(curve)
+    assert drawn(ax, "lowest").get_ydata() == pytest.approx(curve.dataset.lowest.values, nan_ok=True)
+    assert np.asarray(drawn(ax, "share").get_array()).ravel() == pytest.approx(
+        100 * curve.dataset.overturning_share.values.T.ravel()
+    )
+
+
+def test_two_axes_are_too_many_for_an_overturning_curve():
+    found = rk.overturning_amplitude(
+        period=[1.2, 2.2], restitution=[0.8, 0.9], amplitude=[1.0, 3.0], phases=1
+    )
+    with pytest.raises(ValueError, match="found must vary over one quantity to be drawn"):
+        rk.plot.overturning(found)
+
+
+def test_intervals_of_chaos_are_drawn():
+    found = rk.chaos_share(restitution=[0.2, 0.5], samples=30)
+    ((low, high),) = [
+        [segment[:, 1] for segment in bars.get_segments()] for bars in rk.plot.chaos_share(found).collections
+    ]
+    assert [*low, *high] == pytest.approx(
+        100 * np.column_stack([found.dataset.chaotic_low, found.dataset.chaotic_high]).ravel()
+    )
+
+
+def test_points_that_are_not_certain_have_a_colour_of_their_own():
+    found = rk.repeatability_map(
+        amplitude=np.linspace(3, 7, 12), period=np.linspace(0.8, 2.0, 12), restitution=0.925, samples=8
+    )
+    values = drawn(rk.plot.repeatability_map(found), "map").get_array()
+    assert np.count_nonzero(np.asarray(values) == len(rk.Kind)) == found.uncertain.count > 0
+
+
+@pytest.mark.parametrize(
+    "draw", ["basins", "safe_basin", "overturning", "chaos_share", "repeatability", "repeatability_map"]
+)
+def test_another_result_is_refused(draw):
+    with pytest.raises(TypeError, match="found must be a"):
+        getattr(rk.plot, draw)(SYSTEM)
+
+
+def test_results_show_themselves_in_a_notebook(basins, curve):
+    for each in (basins, curve, rk.repeatability(SYSTEM, samples=10)):
+        html = each._repr_html_()
+        picture = re.search(r"base64,([^\"]+)", html)[1]
+        assert base64.b64decode(picture).startswith(b"\x89PNG")
+        assert str(each).split("%")[0] in html
