@@ -1,6 +1,9 @@
 """The paper's figures: all there, not blank, the same bytes every time, and what they show is what they say."""
 
+import csv
 import io
+import math
+import re
 
 import matplotlib as mpl
 import numpy as np
@@ -9,9 +12,20 @@ from matplotlib.figure import Figure
 from PIL import Image
 
 import rocking as rk
-from rocking.papers.yim_lin_1991 import cases, reproduce
+from rocking.papers.yim_lin_1991 import cases, figure10, figure11, figure13b, reproduce
 
-NAMES = ["01", "02", "03", "04", "05", "06", "13a"]
+NAMES = ["01", "02", "03", "04", "05", "06", "07", "08", "09", "10", "11", "12", "13a", "13b"]
+TABLES = ["table-exponents.csv", "table-exponents.md"]
+
+
+@pytest.fixture(scope="module", autouse=True)
+def small_maps():
+    """Maps of few points, followed for less: what they show is held elsewhere, here that they are drawn."""
+    with pytest.MonkeyPatch.context() as patch:
+        for figure in (figure10, figure11, figure13b):
+            patch.setattr(figure, "COUNT", 20)
+        patch.setattr(figure13b, "CYCLES", 1_000)
+        yield
 
 
 @pytest.fixture(scope="module")
@@ -25,14 +39,36 @@ def test_every_figure_is_written_as_png_and_svg(figures):
     paths, _ = figures
     assert [path.name for path in paths] == [
         f"figure-{name}{kind}" for name in NAMES for kind in (".png", ".svg")
-    ]
+    ] + TABLES
     assert sorted(paths[0].parent.iterdir()) == sorted(paths)
 
 
 def test_progress_counts_the_figures(figures):
     _, calls = figures
-    names = ["1", "2", "3", "4", "5", "6", "13a"]
-    assert calls == [(done, 7, name) for done, name in enumerate(names)] + [(7, 7, "13a")]
+    names = ["1", "2", "3", "4", "5", "6", "7", "8", "9", "10", "11", "12", "13a", "13b", "exponents"]
+    total = len(names)
+    assert calls == [(done, total, name) for done, name in enumerate(names)] + [(total, total, names[-1])]
+
+
+def test_table_sets_the_papers_numbers_beside_ours(figures):
+    """What is typed in is the paper's; what is computed is what tests/cases/test_exponents.py holds."""
+    paths = figures[0][-2:]
+    with paths[0].open(encoding="utf-8", newline="") as file:
+        rows = list(csv.DictReader(file))
+    assert [row["paper exponent"] for row in rows] == ["0", "0", "0.14", "not given"]
+    assert [row["paper dimension"] for row in rows] == ["0", "2.0", "2.3", "not given"]
+    assert float(rows[0]["exponent per cycle"].split()[0]) == pytest.approx(2 / 3 * math.log(0.925), abs=1e-4)
+    sea, spread = (float(word) for word in re.findall(r"[\d.]+", rows[2]["exponent per cycle"]))
+    assert (sea, spread) == (pytest.approx(0.15, abs=0.015), pytest.approx(0.036, abs=0.01))
+    intervals = [
+        [float(word) for word in re.findall(r"[\d.]+", row["section dimension"])] for row in rows[1:]
+    ]
+    for (low, high), known in zip(intervals, (1.0, 2.0, 1.55), strict=True):
+        assert low <= known <= high
+    assert rows[0]["section dimension"] == "0 (3 points)"
+    # at the radii that a run of that length resolves, single runs give 2.3 or 2.4
+    assert re.search(r"2\.[234] in the flow", rows[2]["why"])
+    assert paths[1].read_text(encoding="utf-8").count("\n") == 6
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -63,8 +99,11 @@ def test_figures_are_chosen_by_number(tmp_path):
 
 
 def test_unknown_figure_is_refused_before_anything_is_written(tmp_path):
-    with pytest.raises(ValueError, match="^figures must be among 1, 2, 3, 4, 5, 6, 13a; got '7'$"):
-        reproduce(tmp_path / "new", figures=[1, 7])
+    with pytest.raises(
+        ValueError,
+        match="^figures must be among 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13a, 13b, exponents; got '14'$",
+    ):
+        reproduce(tmp_path / "new", figures=[1, 14])
     assert not list(tmp_path.iterdir())
 
 

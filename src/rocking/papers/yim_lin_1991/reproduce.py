@@ -1,4 +1,4 @@
-"""The paper's figures into a folder."""
+"""The paper's figures and numbers into a folder."""
 
 from collections.abc import Callable, Iterable
 from importlib import import_module
@@ -9,7 +9,23 @@ import matplotlib.style
 import rocking as rk
 from rocking.model import check_folder
 
-FIGURES = {"1": "01", "2": "02", "3": "03", "4": "04", "5": "05", "6": "06", "13a": "13"}
+FIGURES = {
+    "1": "01",
+    "2": "02",
+    "3": "03",
+    "4": "04",
+    "5": "05",
+    "6": "06",
+    "7": "07",
+    "8": "08",
+    "9": "09",
+    "10": "10",
+    "11": "11",
+    "12": "12",
+    "13a": "13",
+    "13b": "13b",
+}
+TABLES = {"exponents": "table_exponents"}
 
 
 def reproduce(
@@ -17,14 +33,14 @@ def reproduce(
     figures: Iterable[str | int] | None = None,
     progress: Callable[[int, int, str], object] | None = None,
 ) -> list[Path]:
-    """Writes figures of Yim and Lin (1991) as PNG (200 dpi) and SVG; the same bytes every time.
+    """Writes figures of Yim and Lin (1991) as PNG (200 dpi) and SVG, tables as CSV and Markdown; the same bytes every time.
 
     Parameters
     ----------
     folder : str or Path
         Where they go; made if it does not exist.
     figures : iterable of str or int, optional
-        Which, by their numbers in the paper: 1 to 6 and "13a"; all of them if not given.
+        Which, by their numbers in the paper: 1 to 12, "13a" and "13b"; or "exponents", a table. All of them if not given.
     progress : callable, optional
         Called as ``progress(done, total, name)`` before each figure and once at the end.
 
@@ -47,13 +63,16 @@ def reproduce(
     ...     [path.name for path in reproduce(folder, figures=[1])]
     ['figure-01.png', 'figure-01.svg']
     """
-    wanted = _known(FIGURES if figures is None else figures)
+    wanted = _known((*FIGURES, *TABLES) if figures is None else figures)
     folder = check_folder("folder", folder)
     folder.mkdir(parents=True, exist_ok=True)
     written: list[Path] = []
     for done, name in enumerate(wanted):
         if progress is not None:
             progress(done, len(wanted), name)
+        if name in TABLES:
+            written += import_module(f"rocking.papers.yim_lin_1991.{TABLES[name]}").write(folder)
+            continue
         # The reader's own style must not decide what the bytes are.
         with matplotlib.style.context("default"):
             figure = import_module(f"rocking.papers.yim_lin_1991.figure{FIGURES[name]}").draw()
@@ -68,6 +87,6 @@ def reproduce(
 def _known(figures: Iterable[str | int]) -> list[str]:
     names = [str(figure) for figure in figures]
     for name in names:
-        if name not in FIGURES:
-            raise ValueError(f"figures must be among {', '.join(FIGURES)}; got {name!r}")
+        if name not in FIGURES and name not in TABLES:
+            raise ValueError(f"figures must be among {', '.join((*FIGURES, *TABLES))}; got {name!r}")
     return names

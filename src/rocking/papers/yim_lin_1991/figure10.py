@@ -1,0 +1,19 @@
+"""Figure 10: what the response from rest is over period and amplitude, e = 1: quasi-periodic, chaotic, none, overturning.
+
+The paper's axes are not known; ours are T 0.2 to 3 and A 0 to 16, as in all our maps, each point followed for at most 10⁴ cycles.
+
+Where ours differs: the paper takes what it shows for the absence of stable periodic response. The quasi-periodic motions are the
+islands around periodic ones that are neutrally stable, as in figure 5. Four fifths of this map overturn, and chaos is a few
+percent. Some points stay undetermined: their motions stick to the islands' edges for longer than they were followed.
+"""
+
+from matplotlib.figure import Figure
+
+from rocking.papers.yim_lin_1991.maps import draw_map
+
+COUNT = 160
+
+
+def draw() -> Figure:
+    """Draws figure 10."""
+    return draw_map("10", COUNT, "$e = 1$", restitution=1.0)

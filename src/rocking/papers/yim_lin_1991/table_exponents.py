@@ -1,0 +1,188 @@
+"""Lyapunov exponents and fractal dimensions: the paper's numbers beside ours, with errors, and the convention that separates them.
+
+The paper's are in its sections "Response identification" and "Response of undamped systems": exponents 0, 0 and 0.14,
+dimensions 0, 2.0 and 2.3 of the periodic, the quasi-periodic and the chaotic response of figures 7 and 8. Their units,
+lengths of run and spaces are not given, nor any number for the braced response of figure 13a.
+
+Where ours differs: an exponent of a damped periodic response is negative; zero is the one along the flow, which every
+motion has. Dimensions are those of the section; the flow's is one more. Without damping nothing is attracted: the
+chaotic sea fills an area, and its exponent falls with the length of the run.
+"""
+
+import csv
+import io
+from pathlib import Path
+
+import numpy as np
+from attrs import asdict, fields, frozen
+
+import rocking as rk
+from rocking.model import plus_minus, replacing
+from rocking.papers.yim_lin_1991.cases import BRACED, CHAOTIC, PERIODIC, QUASI_PERIODIC
+
+# Runs of the length of 1991, from phases that no experiment tells apart.
+SEA_STARTS, SEA_CYCLES, SEA_PHASES = 100, 2_000, 1e-7
+# Radii, in standard deviations, that a section of some thousand points reaches down to.
+COARSE = 0.1
+
+
+@frozen
+class Row:
+    """A line of the table, as text: the paper's numbers, ours, and why they differ."""
+
+    response: str
+    parameters: str
+    paper_exponent: str
+    exponent_per_cycle: str
+    exponent_per_tau: str
+    paper_dimension: str
+    section_dimension: str
+    flow_dimension: str
+    why: str
+
+
+@frozen
+class Dimension:
+    """What was found of a section, and whether it scales."""
+
+    found: rk.CorrelationDimension
+    scales: bool
+
+
+def rows() -> list[Row]:
+    """The table, computed."""
+    return [_periodic(), _quasi_periodic(), _sea(), _braced()]
+
+
+def write(folder: Path) -> list[Path]:
+    """Writes the table as CSV and as Markdown."""
+    table = [list(asdict(row).values()) for row in rows()]
+    header = [field.name.replace("_", " ") for field in fields(Row)]
+    stream = io.StringIO()
+    csv.writer(stream, lineterminator="\n").writerows([header, *table])
+    lines = [header, ["---"] * len(header), *table]
+    markdown = "".join(f"| {' | '.join(line)} |\n" for line in lines)
+    written = []
+    for suffix, text in ((".csv", stream.getvalue()), (".md", markdown)):
+        path = folder / f"table-exponents{suffix}"
+        with replacing(path) as temporary:
+            temporary.write_text(text, encoding="utf-8")
+        written.append(path)
+    return written
+
+
+def _periodic() -> Row:
+    case = PERIODIC[1]
+    spectrum = rk.lyapunov(case.system, cycles=100_000)
+    return _row(
+        f"{case.name}, figures 7a and 8a",
+        case.system,
+        ("0", "0"),
+        _pair(spectrum.per_cycle),
+        _pair((spectrum.values, spectrum.errors)),
+        _dimension(case.system, 2_000, transient=2_000),
+        "ln e for every impact, both exponents; 0 is the exponent along the flow. Points have dimension 0, in the section",
+    )
+
+
+def _quasi_periodic() -> Row:
+    system = QUASI_PERIODIC.system
+    spectrum = rk.lyapunov(system, cycles=400_000)
+    return _row(
+        "quasi-periodic, figures 7b and 8b",
+        system,
+        ("0", "2.0"),
+        _pair(spectrum.per_cycle),
+        _pair((spectrum.values, spectrum.errors)),
+        _dimension(system, 20_000),
+        "0 as the logarithm of the length over the length. Curves have dimension 1 in the section, 2 is the torus in the flow",
+    )
+
+
+def _sea() -> Row:
+    """Many short runs: the sea is sticky, one long run is no sample of it."""
+    system, period = CHAOTIC.system, CHAOTIC.system.forcing.period
+    values = np.array(
+        [_estimate(_from_phase(system, phase)) for phase in np.linspace(0.0, SEA_PHASES, SEA_STARTS)]
+    )
+    mean, spread = values.mean(), values.std(ddof=1)
+    dimension = _dimension(system, 50_000)
+    coarse = dimension.found.slopes[dimension.found.radii[:-1] >= COARSE].mean()
+    return _row(
+        "chaotic, figures 7c and 8c",
+        system,
+        ("0.14", "2.3"),
+        f"{mean * period:.2f}, single runs ± {spread * period:.2f}",
+        f"{mean:.2f}, single runs ± {spread:.2f}",
+        dimension,
+        f"nats per cycle, over {SEA_CYCLES} cycles from {SEA_STARTS} phases within {SEA_PHASES:g}; falls with the length. "
+        f"No attractor: the sea fills an area, 2 in the section and 3 in the flow; over radii above {COARSE} standard deviations, "
+        f"all that few points resolve, the slope is {coarse:.1f} in the section and {coarse + 1:.1f} in the flow",
+    )
+
+
+def _braced() -> Row:
+    spectrum = rk.lyapunov(BRACED, cycles=200_000, transient=1_000)
+    dimension, error = spectrum.kaplan_yorke
+    return _row(
+        "chaotic between braces, figure 13a",
+        BRACED,
+        ("not given", "not given"),
+        _pair(spectrum.per_cycle),
+        _pair((spectrum.values, spectrum.errors)),
+        _dimension(BRACED, 50_000, transient=1_000),
+        f"a strange attractor: impacts contract area. Kaplan–Yorke in the section: {dimension:.3f} ± {error:.3f}",
+    )
+
+
+def _row(
+    response: str,
+    system: rk.System,
+    paper: tuple[str, str],
+    per_cycle: str,
+    per_tau: str,
+    dimension: Dimension,
+    why: str,
+) -> Row:
+    forcing = system.forcing
+    braces = f", Θb = {system.braces.angle:g}, r = {system.braces.restitution:g}" if system.braces else ""
+    (low, high), isolated = dimension.found.interval, dimension.found.isolated
+    remark = "" if dimension.scales else ", no one slope over a decade of radii"
+    return Row(
+        response=response,
+        parameters=f"A = {forcing.amplitude:g}, T = {forcing.period:g}, e = {system.restitution:g}{braces}",
+        paper_exponent=paper[0],
+        exponent_per_cycle=per_cycle,
+        exponent_per_tau=per_tau,
+        paper_dimension=paper[1],
+        section_dimension=f"{low:.2f} to {high:.2f}{remark}"
+        if isolated is None
+        else f"0 ({isolated} points)",
+        flow_dimension=f"{low + 1:.2f} to {high + 1:.2f}{remark}" if isolated is None else "1",
+        why=why,
+    )
+
+
+def _pair(exponents: tuple[np.ndarray, np.ndarray]) -> str:
+    return " and ".join(plus_minus(value, error) for value, error in zip(*exponents, strict=True))
+
+
+def _estimate(system: rk.System) -> float:
+    """λ₁ per τ, whether or not a single run supports an error."""
+    try:
+        return float(rk.lyapunov(system, cycles=SEA_CYCLES, transient=0).values[0])
+    except rk.TooShort as short:
+        return float(short.estimate.values[0])
+
+
+def _from_phase(system: rk.System, phase: float) -> rk.System:
+    forcing = system.forcing
+    return rk.System(rk.Harmonic(forcing.amplitude, period=forcing.period, phase=phase), system.restitution)
+
+
+def _dimension(system: rk.System, points: int, transient: int = 0) -> Dimension:
+    motion = rk.simulate(system, cycles=transient + points - 1, record="section")
+    try:
+        return Dimension(rk.correlation_dimension(motion.section()[transient:]), scales=True)
+    except rk.TooShort as short:
+        return Dimension(short.estimate, scales=False)
