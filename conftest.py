@@ -27,6 +27,7 @@ def run_commands(example):
         subprocess.run([scripts / name, *options], check=True, capture_output=True)
 
 
+@pytest.hookimpl(tryfirst=True)  # before the workers' items are grouped by their marks
 def pytest_collection_modifyitems(items):
     """The blocks of one page build on each other: one worker runs them all."""
     for item in items:

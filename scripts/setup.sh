@@ -82,5 +82,5 @@ else
     "$python" -m venv .venv
 fi
 .venv/bin/python -m pip install --quiet --constraint "$constraints" pip setuptools
-.venv/bin/python -m pip install --quiet --constraint "$constraints" --no-build-isolation --editable '.[test,lint]'
+.venv/bin/python -m pip install --quiet --constraint "$constraints" --no-build-isolation --editable '.[distributed,test,lint]'
 echo "$wanted" >"$STAMP"

@@ -12,25 +12,11 @@ import numpy as np
 import pytest
 
 import rocking as rk
-from rocking.cli.main import run
 from rocking.cli.summary import ordinal
 
 NORMALISED = "--amplitude 2 --period 1 --restitution 0.925"
 SI = "--height 2 --width 0.5 --acceleration 2.9 --frequency-hz 1.8"
 COMMAND = [sys.executable, "-m", "rocking"]
-
-
-@pytest.fixture
-def rocking(monkeypatch, tmp_path, capsys):
-    """Types a command line in an empty folder: (exit code, what it says of it, stdout)."""
-    monkeypatch.chdir(tmp_path)
-
-    def type_line(line):
-        monkeypatch.setattr(sys, "argv", ["rocking", *line.split()])
-        code, message = run()
-        return code, message, capsys.readouterr().out
-
-    return type_line
 
 
 def test_summary_tells_outcome_counts_and_final_state(rocking):
@@ -346,7 +332,7 @@ def test_unknown_words_are_refused_in_one_line(rocking, line):
 def test_command_alone_shows_its_help_and_is_an_error(rocking):
     code, _, out = rocking("")
     assert code == 2
-    for command in ("simulate", "paper", "cite"):
+    for command in ("simulate", "classify", "paper", "cite"):
         assert f"\n  {command} " in out
 
 

@@ -11,7 +11,21 @@ import pytest
 
 import rocking
 
-HEAVY = {"attrs", "h5netcdf", "matplotlib", "numba", "numpy", "pandas", "rich", "scipy", "typer", "xarray"}
+HEAVY = {
+    "attrs",
+    "cattrs",
+    "distributed",
+    "h5netcdf",
+    "matplotlib",
+    "numba",
+    "numpy",
+    "pandas",
+    "rich",
+    "scipy",
+    "typer",
+    "xarray",
+    "zarr",
+}
 
 
 def loaded_after(code):
@@ -32,7 +46,10 @@ def test_a_value_loads_no_kernel_and_no_picture():
     assert not {"h5netcdf", "matplotlib", "numba", "pandas", "rich", "scipy", "typer", "xarray"} & loaded
 
 
-@pytest.mark.parametrize("arguments", [["--help"], ["simulate", "--help"]])
+@pytest.mark.parametrize(
+    "arguments",
+    [["--help"], *([name, "--help"] for name in ("simulate", "classify", "modes", "orbit-diagram", "map"))],
+)
 def test_help_loads_only_what_shows_it(arguments):
     code = f"""
 import sys
@@ -50,6 +67,11 @@ except SystemExit as exit:
 def test_every_public_name_is_there(name):
     assert getattr(rocking, name) is getattr(rocking, name)
     assert name in dir(rocking)
+
+
+@pytest.mark.parametrize("name", rocking.theory.__all__)
+def test_every_name_of_the_theory_is_there_and_says_what_it_is(name):
+    assert getattr(rocking.theory, name).__doc__
 
 
 def test_type_checkers_see_the_same_names():
@@ -71,7 +93,16 @@ def test_version_is_that_of_the_installed_package():
 def test_citations_are_bibtex_with_balanced_braces():
     text = rocking.cite()
     assert text.count("{") == text.count("}")
-    assert text.count("\n@article{") == 4
+    assert text.count("\n@article{") == 8
     assert f"version = {{{rocking.__version__}}}" in text
-    for source in ("yim-lin-1991", "spanos-koh-1984", "housner-1963", "hogan-1989"):
+    for source in (
+        "yim-lin-1991",
+        "spanos-koh-1984",
+        "housner-1963",
+        "hogan-1989",
+        "benettin-1980",
+        "grassberger-procaccia-1983",
+        "theiler-1986",
+        "das-2017",
+    ):
         assert f"{{{source}," in text

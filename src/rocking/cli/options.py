@@ -65,11 +65,28 @@ Plot = Annotated[
 ]
 Csv = Annotated[Path | None, _file("--csv", "Time, angle and velocity at even steps.")]
 Netcdf = Annotated[Path | None, _file("--netcdf", "The same with its description (.nc).")]
+VerdictPlot = Annotated[
+    Path | None,
+    _file("--plot", "Last cycles, phase portrait and section, with the verdict (.png .svg .pdf)."),
+]
+MaxCycles = Annotated[int, _number("--max-cycles", "Cycles of the base to follow at most.")]
+MaxPeriod = Annotated[int, _number("--max-period", "Longest period looked for, in cycles of the base.")]
+ModeCycles = Annotated[
+    int, typer.Option("-n", parser=number, metavar="NUMBER", help="Forcing cycles in a response: 1, 3, 5, ….")
+]
+ModesPlot = Annotated[
+    Path | None, _file("--plot", "Speed and phase of the modes over the amplitude (.png .svg .pdf).")
+]
 Json = Annotated[bool, typer.Option("--json", help="Print the summary as JSON.")]
 
 NORMALISED = ("amplitude", "period", "frequency")
 SI = ("height", "width", "acceleration", "acceleration_g", "displacement", "frequency_hz", "period_s")
-ARGUMENTS = {name: name for name in (*NORMALISED, *SI, "restitution", "phase", "angle", "velocity", "cycles")}
+LENGTHS = ("cycles", "max_cycles", "max_period")
+ARGUMENTS = {name: name for name in (*NORMALISED, *SI, "restitution", "phase", "angle", "velocity", *LENGTHS)}
+UNASKED = {"phase": 0.0, "angle": 0.0, "velocity": 0.0, "brace_angle": None, "brace_restitution": None}
+"""What a command that asks for a system without its start leaves out."""
+AT_REST = {"angle": 0.0, "velocity": 0.0}
+"""The start of a command that asks for many."""
 BRACES = {"angle": "brace_angle", "restitution": "brace_restitution"}
 NORMALISED_NEEDS = "--amplitude, --period (or --frequency) and --restitution"
 SI_NEEDS = "--height, --width, --acceleration (or --acceleration-g, --displacement) and --frequency-hz (or --period-s)"
@@ -86,11 +103,15 @@ def your_input(typed: Mapping[str, str] | None = None) -> Iterator[None]:
     try:
         yield
     except (ValueError, TypeError, OSError) as error:
-        message = str(error)
-        if typed:
-            words = r"(?<!['\w-])(" + "|".join(typed) + r")(?!['\w])"
-            message = re.sub(words, lambda found: option(typed[found[0]]), message)
-        raise YourInput(message) from error
+        raise YourInput(as_typed(str(error), typed or {})) from error
+
+
+def as_typed(text: str, typed: Mapping[str, str]) -> str:
+    """The same with arguments named by the options in which they are `typed`."""
+    if not typed:
+        return text
+    words = r"(?<!['\w-])(" + "|".join(typed) + r")(?!['\w])"
+    return re.sub(words, lambda found: option(typed[found[0]]), text)
 
 
 def question(given: Mapping[str, Any]) -> tuple[System, State, Block | None]:

@@ -10,7 +10,7 @@ from rocking.cli.options import YourInput, option, your_input
 from rocking.model import check_writable, replacing
 
 if TYPE_CHECKING:
-    from rocking.model import Block
+    from rocking.model import Block, System, Verdict
     from rocking.motion import Motion
 
 PICTURES = (".png", ".svg", ".pdf")
@@ -32,6 +32,31 @@ def check(cycles: float, **paths: Path | None) -> dict[str, Path]:
         wanted = ", ".join(map(option, asked))
         raise YourInput(f"--cycles must be at most {MOST_CYCLES_KEPT} with {wanted}; got {cycles}")
     return asked
+
+
+def check_picture(path: Path | None) -> None:
+    """`YourInput` for a picture that cannot be written."""
+    if path is not None:
+        with your_input():
+            check_writable("--plot", path, PICTURES)
+
+
+def write_verdict(verdict: Verdict, block: Block | None, path: Path) -> None:
+    """The response and what it is."""
+    from rocking import plot
+
+    plot.save(plot.verdict(verdict, block), path)
+
+
+def write_modes(system: System, n: int, block: Block | None, path: Path) -> None:
+    """The modes over the amplitude."""
+    from rocking import plot
+
+    forcing = system.forcing
+    figure, axes = plot.panels(rows=2, height=2.9)
+    for ax, quantity in zip(axes, ("velocity", "phase"), strict=True):
+        plot.modes(forcing.period, system.restitution, n, ax, quantity, forcing.amplitude, block)
+    plot.save(figure, path)
 
 
 def write_plot(motion: Motion, block: Block | None, path: Path) -> None:

@@ -9,15 +9,15 @@ import typer
 
 from rocking.cli.options import YourInput, your_input
 
-FIGURES = typer.Argument(help="Numbers in the paper, such as 2 13a; all unless given.")
-OUTPUT = typer.Option("--output", metavar="DIR", help="Folder for the PNG and SVG files.")
+FIGURES = typer.Argument(help="Numbers in the paper, such as 2 13a, or exponents, a table; all unless given.")
+OUTPUT = typer.Option("--output", metavar="DIR", help="Folder for the files.")
 
 
 def paper(
     figures: Annotated[list[str] | None, FIGURES] = None,
     output: Annotated[Path, OUTPUT] = Path("results/yim-lin-1991"),
 ) -> None:
-    """Reproduce the figures of Yim and Lin (1991)."""
+    """Reproduce the figures and numbers of Yim and Lin (1991)."""
     from rich.console import Console
     from rich.progress import Progress
 
@@ -32,7 +32,9 @@ def paper(
         if not bar.tasks:
             bar.start()
             bar.add_task("", total=total)
-        bar.update(bar.task_ids[0], completed=done, description=f"figure {name}")
+        bar.update(
+            bar.task_ids[0], completed=done, description=name if name == "exponents" else f"figure {name}"
+        )
 
     try:
         files = yim_lin_1991.reproduce(output, figures or None, advance)

@@ -13,7 +13,7 @@ import attrs
 from rocking.cli.outputs import MOST_CYCLES_KEPT
 
 if TYPE_CHECKING:
-    from rocking.model import Block
+    from rocking.model import Block, System, Verdict
     from rocking.motion import Motion
 
 Row = tuple[str, str, str]
@@ -65,9 +65,19 @@ def length(motion: Motion) -> str:
     return f"{motion.cycles} cycle{'' if motion.cycles == 1 else 's'}"
 
 
-def asked(motion: Motion, block: Block | None) -> Iterator[Row]:
+def asked(result: Motion | Verdict, block: Block | None) -> Iterator[Row]:
     """Rows that repeat the question, normalised and in SI."""
-    forcing, restitution, braces = motion.system.forcing, motion.system.restitution, motion.system.braces
+    yield from asked_of(result.system, block)
+    yield (
+        "start",
+        f"Θ = {result.start.angle:.6g}, Θ' = {result.start.velocity:.6g}",
+        _state(result.start, block),
+    )
+
+
+def asked_of(system: System, block: Block | None) -> Iterator[Row]:
+    """The rows of the system alone."""
+    forcing, restitution, braces = system.forcing, system.restitution, system.braces
     if block is None:
         yield "forcing", f"A = {forcing.amplitude:.6g}, T = {forcing.period:.6g}, φ = {forcing.phase:.6g}", ""
         yield "restitution", f"e = {restitution:.6g}", ""
@@ -82,11 +92,6 @@ def asked(motion: Motion, block: Block | None) -> Iterator[Row]:
     if braces is not None:
         at = "" if block is None else f"{block.degrees(braces.angle):.4g}°"
         yield "braces", f"Θb = {braces.angle:.6g}, r = {braces.restitution:.6g}", at
-    yield (
-        "start",
-        f"Θ = {motion.start.angle:.6g}, Θ' = {motion.start.velocity:.6g}",
-        _state(motion.start, block),
-    )
 
 
 def found(motion: Motion, block: Block | None) -> Iterator[Row]:
@@ -96,13 +101,12 @@ def found(motion: Motion, block: Block | None) -> Iterator[Row]:
     yield "impacts", f"{motion.impacts}{_cut(motion, 'rest')}", ""
     if motion.system.braces is not None:
         yield "brace hits", f"{motion.brace_hits}{_cut(motion, 'leaning')}", ""
-    peak = (
-        ""
-        if block is None
-        else f"{block.degrees(motion.peak):.4g}°, top {block.top_displacement(motion.peak):.4g} m"
-    )
     proved = motion.overturning is not None
-    yield "largest |Θ| until the proof" if proved else "largest |Θ|", f"{motion.peak:.6g}", peak
+    yield (
+        "largest |Θ| until the proof" if proved else "largest |Θ|",
+        f"{motion.peak:.6g}",
+        reach(motion.peak, block),
+    )
     yield (
         "state at the proof" if proved else "end",
         f"Θ = {motion.final.angle:.6g}, Θ' = {motion.final.velocity:.6g}",
@@ -110,10 +114,17 @@ def found(motion: Motion, block: Block | None) -> Iterator[Row]:
     )
 
 
+def reach(angle: float, block: Block | None) -> str:
+    """An angle of a block in degrees, and how far its top is out."""
+    return "" if block is None else f"{block.degrees(angle):.4g}°, top {block.top_displacement(angle):.4g} m"
+
+
 def finite(value: Any) -> Any:
     """The same with null for what is infinite, for which JSON has no number."""
     if isinstance(value, dict):
         return {name: finite(part) for name, part in value.items()}
+    if isinstance(value, list):
+        return [finite(part) for part in value]
     return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
@@ -141,17 +152,10 @@ def validity(motion: Motion, block: Block | None) -> list[str]:
 
 def record(motion: Motion, block: Block | None, files: Sequence[Path]) -> dict[str, Any]:
     """The same for a program to read."""
-    forcing = motion.system.forcing
     summary: dict[str, Any] = {
         "outcome": str(motion.outcome),
         "overturning": None if motion.overturning is None else attrs.asdict(motion.overturning),
-        "amplitude": forcing.amplitude,
-        "period": forcing.period,
-        "frequency": forcing.frequency,
-        "phase": forcing.phase,
-        "restitution": motion.system.restitution,
-        "braces": None if motion.system.braces is None else attrs.asdict(motion.system.braces),
-        "start": attrs.asdict(motion.start),
+        **question(motion),
         "cycles": motion.cycles,
         "duration": motion.duration,
         "impacts": motion.impacts,
@@ -162,16 +166,46 @@ def record(motion: Motion, block: Block | None, files: Sequence[Path]) -> dict[s
         "files": [str(path) for path in files],
     }
     if block is not None:
-        summary["block"] = {
-            "height_m": block.height,
-            "width_m": block.width,
-            "critical_angle_deg": float(block.degrees(1.0)),
-            "time_unit_s": block.seconds(1.0),
-            "acceleration_m_per_s2": block.acceleration(forcing.amplitude),
-            "period_s": block.seconds(forcing.period),
-            "restitution_is_housners": block.has_housner_restitution,
-            "peak_deg": float(block.degrees(motion.peak)),
-            "peak_top_displacement_m": float(block.top_displacement(motion.peak)),
-        }
+        summary["block"] = physical(motion, block)
         summary["validity"] = attrs.asdict(motion.validity(block)) if motion.record == "all" else None
     return summary
+
+
+def question(result: Motion | Verdict) -> dict[str, Any]:
+    """The system and the start, for a program."""
+    return question_of(result.system) | {"start": attrs.asdict(result.start)}
+
+
+def question_of(system: System) -> dict[str, Any]:
+    """The system alone."""
+    forcing, braces = system.forcing, system.braces
+    return {
+        "amplitude": forcing.amplitude,
+        "period": forcing.period,
+        "frequency": forcing.frequency,
+        "phase": forcing.phase,
+        "restitution": system.restitution,
+        "braces": None if braces is None else attrs.asdict(braces),
+    }
+
+
+def physical(result: Motion | Verdict, block: Block) -> dict[str, Any]:
+    """The block, its base and its largest angle in SI, for a program."""
+    return physical_of(result.system, block) | {
+        "peak_deg": float(block.degrees(result.peak)),
+        "peak_top_displacement_m": float(block.top_displacement(result.peak)),
+    }
+
+
+def physical_of(system: System, block: Block) -> dict[str, Any]:
+    """The block and its base alone."""
+    forcing = system.forcing
+    return {
+        "height_m": block.height,
+        "width_m": block.width,
+        "critical_angle_deg": float(block.degrees(1.0)),
+        "time_unit_s": block.seconds(1.0),
+        "acceleration_m_per_s2": block.acceleration(forcing.amplitude),
+        "period_s": block.seconds(forcing.period),
+        "restitution_is_housners": block.has_housner_restitution,
+    }

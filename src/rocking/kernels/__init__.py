@@ -48,6 +48,54 @@ def _cached_in(folder: Path | None):
 
 
 with _cached_in(_cache_folder()):
-    from . import crossing, events, impact, march, parameters, sample, tangent
+    from . import (
+        averages,
+        chain,
+        crossing,
+        curve,
+        desk,
+        events,
+        follow,
+        impact,
+        judgement,
+        manifold,
+        many,
+        march,
+        notes,
+        parameters,
+        points,
+        rounds,
+        sample,
+        search,
+        steps,
+        sweep,
+        symmetric,
+        tangent,
+        verdict,
+    )
 
-__all__ = ["crossing", "events", "impact", "march", "parameters", "sample", "tangent"]
+__all__ = [
+    "averages",
+    "chain",
+    "crossing",
+    "curve",
+    "desk",
+    "events",
+    "follow",
+    "impact",
+    "judgement",
+    "manifold",
+    "many",
+    "march",
+    "notes",
+    "parameters",
+    "points",
+    "rounds",
+    "sample",
+    "search",
+    "steps",
+    "sweep",
+    "symmetric",
+    "tangent",
+    "verdict",
+]

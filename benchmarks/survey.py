@@ -1,0 +1,135 @@
+"""Maps of a million points: what they cost with one worker and two, in memory and in a store, against marching every point."""
+
+import math
+import os
+import subprocess
+import sys
+import tempfile
+import time
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+import numpy as np
+from numba import njit
+
+import rocking as rk
+from benchmarks.table import Figure
+from rocking.kernels import march, parameters
+
+POINTS = 1000
+PERIODS, AMPLITUDES = (0.2, 3.0), (0.0, 16.0)
+MARCHED = 1000
+"""Cycles of a map that marches every point and asks nothing."""
+RUNS = 3
+PEAK = """
+import pathlib, resource, sys
+import numpy as np, rocking
+count, store = int(sys.argv[1]), sys.argv[2]
+rocking.parametric_map(
+    amplitude=np.linspace(0, 16, count), period=np.linspace(0.2, 3, count), restitution=0.925, store=store, max_cycles=20
+)
+# what getrusage tells on Linux begins with the memory of the process that started this one
+status = pathlib.Path("/proc/self/status")
+most = [line.split()[1] for line in status.read_text().splitlines() if line.startswith("VmHWM")] if status.exists() else []
+print(int(most[0] if most else resource.getrusage(resource.RUSAGE_SELF).ru_maxrss) / 1024)
+"""
+
+
+def asked(points, restitution=0.925):
+    return {
+        "amplitude": np.linspace(*AMPLITUDES, points),
+        "period": np.linspace(*PERIODS, points),
+        "restitution": restitution,
+    }
+
+
+def taken(**arguments):
+    """(seconds, processor seconds of all threads, the map)."""
+    begun, worked = time.perf_counter(), time.process_time()
+    found = rk.parametric_map(**arguments)
+    return time.perf_counter() - begun, time.process_time() - worked, found
+
+
+def maps():
+    """The goals of a million points, and how the cost grows."""
+    rk.parametric_map(**asked(20))
+    wall, work, found = taken(**asked(POINTS))
+    yield Figure("10⁶ points, e = .925, ≤ 10,000 cycles", wall, "s", 3, note=f"{work:.3g} s of processors")
+    unresolved = found.evidence.values == 7
+    undetermined = (found.kind.values == 5) & ~unresolved
+    yield Figure("  undetermined, resets left out", float(undetermined.sum()), "points", 0)
+    yield Figure("  resets of unresolved period", 100.0 * unresolved.mean(), "%", 0.02)
+    _, quarter, _ = taken(**asked(POINTS // 2))
+    yield Figure("  a point's cost, against a quarter of the points", work / quarter / 4.0, "×", 1.1)
+    yield Figure("  marching 1,000 cycles at every point takes", marched() / work, "times", 10, least=True)
+    wall, work, found = taken(**asked(POINTS, 1.0))
+    yield Figure("10⁶ points, e = 1, ≤ 10,000 cycles", wall, "s", 20, note=f"{work:.3g} s of processors")
+    open_share = 100.0 * np.isin(found.kind.values, (3, 5)).mean()
+    yield Figure("  still chaotic or undetermined", open_share, "%", 3.5)
+    braced = asked(POINTS) | {"brace_angle": 1.0, "max_cycles": 1000}
+    wall, work, _ = taken(**braced)
+    yield Figure("10⁶ points with braces, ≤ 1,000 cycles", wall, "s", 60, note=f"{work:.3g} s of processors")
+
+
+def engines():
+    """Workers and stores, on the map of figure 11."""
+    rk.parametric_map(**asked(20))
+    one, two = [], []
+    for _ in range(RUNS):
+        for times, workers in ((one, 1), (two, 2)):
+            with ThreadPoolExecutor(workers) as pool:
+                times.append(taken(**asked(POINTS), executor=pool)[0])
+    yield Figure(
+        "one worker, against two", sorted(one)[1] / sorted(two)[1], "×", 1.9, least=True, note=busy()
+    )
+    plain, stored = [], []
+    with tempfile.TemporaryDirectory() as folder:
+        rk.parametric_map(**asked(20), store=f"{folder}/warm.zarr")
+        for run in range(RUNS):
+            plain.append(taken(**asked(POINTS))[1])
+            stored.append(taken(**asked(POINTS), store=f"{folder}/{run}.zarr")[1])
+        share = 100.0 * (sorted(stored)[1] / sorted(plain)[1] - 1.0)
+        yield Figure("storing, of the processors' time", share, "%", 10)
+        size = sum(path.stat().st_size for path in Path(folder, "0.zarr").rglob("*"))
+        yield Figure("  on disk", size / 1e6, "MB")
+        for count in (1000, 4000):
+            done = subprocess.run(
+                [sys.executable, "-c", PEAK, str(count), f"{folder}/peak-{count}.zarr"],
+                capture_output=True,
+                text=True,
+                check=True,
+            )
+            yield Figure(
+                f"memory at most, {count:,} × {count:,} points stored", float(done.stdout), "MiB", 954
+            )
+
+
+def busy():
+    """How much else the machine has to do."""
+    return f"load {os.getloadavg()[0]:.1f} on {os.cpu_count()} cores" if hasattr(os, "getloadavg") else ""
+
+
+@njit(nogil=True)
+def march_all(amplitudes, periods, cycles, table, row):
+    """Every point from rest to the end of its cycles, unless it overturns or rests for ever before; impacts met."""
+    impacts = 0
+    for k in range(amplitudes.shape[0]):
+        p = parameters.make(amplitudes[k], 2.0 * math.pi / periods[k], periods[k], 0.0, 0.925, math.inf, 1.0)
+        progress, status = march.begin(p, 0.0, 0.0, march.UNKNOWN)[0], march.PAUSED
+        while status == march.PAUSED:
+            status, progress, _, _ = march.march_on(
+                p, progress, cycles, 0.0, table, table, table, row, False, False
+            )
+        impacts += progress.impacts
+    return impacts
+
+
+def marched():
+    """Processor seconds of the map of a million points if every one were marched, from one in a hundred."""
+    grid = np.meshgrid(np.linspace(*AMPLITUDES, POINTS // 10), np.linspace(*PERIODS, POINTS // 10))
+    amplitudes, periods = (axis.ravel() for axis in grid)
+    nothing = np.empty((0, 2)), np.empty(0)
+    march_all(amplitudes[:1], periods[:1], 1, *nothing)
+    begun = time.thread_time()
+    march_all(amplitudes, periods, MARCHED, *nothing)
+    return 100.0 * (time.thread_time() - begun)

@@ -1,0 +1,155 @@
+"""An orbit diagram as a command runs it, shows it and writes it."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import attrs
+
+from rocking.cli.axes import Study
+from rocking.cli.options import option, your_input
+from rocking.cli.summary import aligned, finite, reach
+from rocking.model import check_writable, replacing
+
+if TYPE_CHECKING:
+    from rocking.model import Block
+    from rocking.orbits import OrbitDiagram
+
+SUFFIXES = {"plot": (".png", ".svg", ".pdf"), "csv": (".csv",), "netcdf": (".nc",)}
+ARGUMENTS = {
+    name: name for name in ("sweep", "transient", "section_phase", "brace_angle", "brace_restitution")
+}
+# Below about a second a bar would only flicker.
+LONG = 2_000_000
+
+
+def check(**paths: Path | None) -> dict[str, Path]:
+    """The outputs asked for; `YourInput` for one that cannot be written."""
+    asked = {name: path for name, path in paths.items() if path is not None}
+    for name, path in asked.items():
+        with your_input():
+            check_writable(option(name), path, SUFFIXES[name])
+    return asked
+
+
+def run(study: Study, sweep: str, transient: int, cycles: int, section_phase: float | None) -> OrbitDiagram:
+    """The diagram, with a bar on stderr while a long one is made."""
+    from rich.console import Console
+    from rich.progress import Progress
+
+    from rocking.orbits import orbit_diagram
+
+    total = len(study.values) * (2 if sweep == "both" else 1)
+    console = Console(stderr=True)
+    short = not console.is_terminal or total * (transient + cycles) < LONG
+    with Progress(console=console, transient=True, disable=short) as bar:
+        task = bar.add_task(option(study.parameter), total=total)
+        return orbit_diagram(
+            study.system,
+            study.parameter,
+            study.values,
+            study.start,
+            sweep,
+            transient,
+            cycles,
+            section_phase,
+            progress=lambda done: bar.advance(task, done),
+        )
+
+
+def show(diagram: OrbitDiagram, study: Study, files: Sequence[Path], *, as_json: bool) -> None:
+    """Print what was found on stdout, and where its files are."""
+    if as_json:
+        print(
+            json.dumps(
+                finite(record(diagram, study.block, files)), indent=2, ensure_ascii=False, allow_nan=False
+            )
+        )
+        return
+    from rich.console import Console
+
+    console = Console(highlight=False, markup=False, emoji=False, soft_wrap=True)
+    console.print(str(diagram), style="bold")
+    fixed = ", ".join(f"{name} {value:.6g}" for name, value in diagram.fixed.items())
+    rows = [("varied", study.typed, ""), ("fixed", fixed, "")]
+    for way, fell, peaks in zip(diagram.sweeps, diagram.overturned, diagram.peak, strict=True):
+        known = peaks[~fell]
+        if known.size:
+            rows.append((f"largest |Θ|, {way}", f"{known.max():.6g}", reach(float(known.max()), study.block)))
+    for line in aligned(rows):
+        console.print(line)
+    for path in files:
+        console.print(f"wrote {path}")
+
+
+def record(diagram: OrbitDiagram, block: Block | None, files: Sequence[Path]) -> dict[str, Any]:
+    """The same for a program to read."""
+    told: dict[str, Any] = {
+        "parameter": diagram.parameter,
+        "first": float(diagram.values[0]),
+        "last": float(diagram.values[-1]),
+        "count": len(diagram.values),
+        **diagram.fixed,
+        "start": attrs.asdict(diagram.start),
+        "section_phase": diagram.section_phase,
+        "transient": diagram.transient,
+        "cycles": diagram.cycles,
+        "sweeps": [
+            {
+                "way": way,
+                "overturned": int(fell.sum()),
+                "overturned_at": diagram.values[fell].tolist(),
+                "peak": float(peaks[~fell].max()) if not fell.all() else None,
+            }
+            for way, fell, peaks in zip(diagram.sweeps, diagram.overturned, diagram.peak, strict=True)
+        ],
+        "files": [str(path) for path in files],
+    }
+    if block is not None:
+        told["block"] = {
+            "height_m": block.height,
+            "width_m": block.width,
+            "critical_angle_deg": float(block.degrees(1.0)),
+            "time_unit_s": block.seconds(1.0),
+        }
+    return told
+
+
+def write_plot(diagram: OrbitDiagram, block: Block | None, path: Path) -> None:
+    """The points."""
+    from rocking import plot
+
+    plot.save(plot.orbit_diagram(diagram, block=block), path)
+
+
+def write_csv(diagram: OrbitDiagram, block: Block | None, path: Path) -> None:
+    """A row a point, normalised; where the block overturned one row without numbers."""
+    import csv
+
+    with replacing(path) as temporary, temporary.open("w", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file)
+        writer.writerow(
+            ["sweep", diagram.parameter, "cycle", "angle [theta_cr]", "velocity [alpha theta_cr]"]
+        )
+        for way, fell, points in zip(diagram.sweeps, diagram.overturned, diagram.points, strict=True):
+            for value, gone, rows in zip(diagram.values.tolist(), fell, points, strict=True):
+                if gone:
+                    writer.writerow([way, value, "overturned", "", ""])
+                else:
+                    writer.writerows([way, value, k, *row] for k, row in enumerate(rows.tolist()))
+
+
+def write_netcdf(diagram: OrbitDiagram, block: Block | None, path: Path) -> None:
+    """The diagram's dataset."""
+    with replacing(path) as temporary:
+        diagram.to_xarray().to_netcdf(temporary, engine="h5netcdf")
+
+
+WRITERS: dict[str, Callable[[OrbitDiagram, Block | None, Path], None]] = {
+    "plot": write_plot,
+    "csv": write_csv,
+    "netcdf": write_netcdf,
+}

@@ -1,0 +1,81 @@
+"""Study files: the options of a command in TOML, all errors of a file told at once."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from rocking.cli.axes import FORM, MOST, USUAL_COUNT, Axis, number_or_axis
+from rocking.cli.options import YourInput
+
+Study = Annotated[
+    Path | None,
+    typer.Option("--study", metavar="FILE", help="All this in a TOML file; what is typed here wins."),
+]
+Check = Callable[[Any], Any]
+
+
+def quantity(name: str, given: Any) -> Any:
+    """A number, an `Axis`, or a list of values: from a number, a text as it is typed, a table of start, stop and count, a list."""
+    from rocking.model import reals, whole
+
+    if isinstance(given, str):
+        try:
+            return number_or_axis(given)
+        except typer.BadParameter as error:
+            raise ValueError(f"{name} {error.message}") from None
+    if not isinstance(given, Mapping):
+        return reals(name, given)
+    if not {"start", "stop"} <= given.keys() <= {"start", "stop", "count"}:
+        raise ValueError(
+            f"{name} must be a number, {FORM}, or hold start, stop and perhaps count; got {', '.join(given) or 'nothing'}"
+        )
+    start, stop = (float(reals(f"{part} of {name}", given[part])) for part in ("start", "stop"))
+    return Axis(start, stop, whole(f"count of {name}", given.get("count", USUAL_COUNT), 2, MOST))
+
+
+def read(path: Path, checks: Mapping[str, Check]) -> dict[str, Any]:
+    """What a study file says, each entry as its check returns it; `YourInput` with all errors of the file at once.
+
+    Its keys are the names of options, with dashes or underscores.
+    """
+    import tomllib
+
+    import attrs
+    import cattrs
+    from cattrs.gen import make_dict_structure_fn, override
+
+    try:
+        said = tomllib.loads(path.read_text(encoding="utf-8"))
+    except (OSError, ValueError) as error:
+        why = error.strerror if isinstance(error, OSError) else error
+        raise YourInput(f"--study must name a TOML file; got {str(path)!r}: {why}") from error
+    entries = attrs.make_class("Study", {name: attrs.field(default=None) for name in checks})
+    hooks: Any = {name: override(struct_hook=_hook(check)) for name, check in checks.items()}
+    converter = cattrs.Converter(forbid_extra_keys=True)
+    structure: Any = make_dict_structure_fn(entries, converter, _cattrs_forbid_extra_keys=True, **hooks)
+    try:
+        found = structure({key.replace("-", "_"): entry for key, entry in said.items()}, entries)
+    except cattrs.ClassValidationError as errors:
+        raise YourInput(f"study {str(path)!r}: " + "; ".join(_told(errors, checks))) from None
+    return {name: entry for name, entry in attrs.asdict(found).items() if entry is not None}
+
+
+def _hook(check: Check) -> Callable[[Any, Any], Any]:
+    return lambda entry, _: check(entry)
+
+
+def _told(errors: Any, checks: Mapping[str, Check]) -> list[str]:
+    """One sentence an error."""
+    told = []
+    for error in errors.exceptions:
+        for name in sorted(getattr(error, "extra_fields", ())):
+            close = difflib.get_close_matches(name, checks, 1)
+            told.append(f"unknown {name!r}" + (f" (do you mean {close[0]!r}?)" if close else ""))
+        if not hasattr(error, "extra_fields"):
+            told.append(str(error))
+    return told

@@ -1,0 +1,181 @@
+"""`rocking classify` as a stranger types it: what it says, what a program reads, how it refuses and how it ends."""
+
+import json
+import signal
+import subprocess
+import sys
+import time
+
+import pytest
+
+import rocking as rk
+
+PERIODIC = "--amplitude 5.5 --period 0.5 --restitution 0.925 --phase 1.8 --velocity 0.15"
+TENTH = rk.System(rk.Harmonic(5.5, period=0.5, phase=1.8), 0.925), rk.State(velocity=0.15)
+RESET = "--amplitude 1.0111 --period 4.7531 --restitution 0.925"
+FALLING = "--amplitude 1.75 --period 2 --restitution 0.95"
+CHAOTIC = "--amplitude 10.103037 --period 1.721328 --restitution 0.8"
+SI = "--height 2 --width 0.5 --acceleration 4 --frequency-hz 1.2"
+
+
+def told(rocking, line):
+    code, message, out = rocking(f"classify {line} --json")
+    assert (code, message) == (0, "")
+    return json.loads(out, parse_constant=pytest.fail)
+
+
+def test_verdict_comes_first_then_the_question_and_the_answer(rocking):
+    code, message, out = rocking(f"classify {PERIODIC}")
+    verdict = rk.classify(*TENTH)
+    first, *table = out.splitlines()
+    assert (code, message, first) == (0, "", str(verdict))
+    text = [" ".join(line.split()) for line in table]
+    assert text == [
+        "forcing A = 5.5, T = 0.5, φ = 1.8",
+        "restitution e = 0.925",
+        "start Θ = 0, Θ' = 0.15",
+        "period 10 cycles, τ = 5",
+        "impacts per period 4",
+        f"multipliers {verdict.multipliers[0].real:.6g} ± {verdict.multipliers[0].imag:.6g}i",
+        f"largest exponent {verdict.exponent:.6g} per τ",
+        f"largest |Θ| {verdict.peak:.6g}",
+        f"after the transient {verdict.steady_peak:.6g}",
+        f"transient at most {verdict.transient} cycles",
+        f"followed {verdict.cycles} cycles, {verdict.impacts} events computed",
+    ]
+
+
+def test_summary_in_si_shows_degrees_the_top_and_seconds(rocking):
+    block = rk.Block(2.0, 0.5)
+    verdict = rk.classify(block.system(acceleration=4.0, frequency_hz=1.2))
+    out = " ".join(rocking(f"classify {SI}")[2].split())
+    degrees, top = block.degrees(verdict.peak), block.top_displacement(verdict.peak)
+    assert f"largest |Θ| {verdict.peak:.6g} {degrees:.4g}°, top {top:.4g} m" in out
+    assert f"{verdict.exponent:.6g} per τ {verdict.exponent * block.frequency_parameter:.4g} per s" in out
+    assert "period 1 cycle, τ = 2.22601 0.8333 s" in out
+    assert "e = 0.911765 Housner's for this block" in out
+
+
+def test_json_agrees_with_the_verdict(rocking):
+    verdict, read = rk.classify(*TENTH), told(rocking, PERIODIC)
+    same = (
+        "kind",
+        "impacts_per_period",
+        "brace_hits_per_period",
+        "symmetric",
+        "exponent",
+        "exponent_error",
+        "superstable",
+        "peak",
+        "steady_peak",
+        "transient",
+        "cycles",
+    )
+    assert {name: read[name] for name in same} == {name: getattr(verdict, name) for name in same}
+    assert (read["response_period"], read["events_computed"]) == (verdict.period, verdict.impacts)
+    assert read["multipliers"] == [[value.real, value.imag] for value in verdict.multipliers]
+    assert read["orbit"]["angle"] == verdict.orbit.state.angle
+    assert read["evidence"]["shown"] == str(verdict.evidence)
+    assert (read["amplitude"], read["period"], read["start"]["velocity"]) == (5.5, 0.5, 0.15)
+
+
+def test_json_of_a_response_that_forgets_has_null_and_says_superstable(rocking):
+    read = told(rocking, RESET)
+    assert (read["exponent"], read["superstable"]) == (None, True)
+    assert (read["impacts_per_period"], read["multipliers"]) == (None, [[0.0, 0.0], [0.0, 0.0]])
+    assert "largest exponent −∞" in " ".join(rocking(f"classify {RESET}")[2].split())
+
+
+def test_json_of_an_overturned_block_has_neither_orbit_nor_exponent(rocking):
+    read = told(rocking, FALLING)
+    names = ("response_period", "multipliers", "exponent", "exponent_error", "orbit", "symmetric")
+    assert [read[name] for name in names] == [None] * len(names)
+    assert read["superstable"] is False
+    assert "largest |Θ| until the proof" in rocking(f"classify {FALLING}")[2]
+
+
+def test_json_in_si_has_the_block(rocking):
+    block = rk.Block(2.0, 0.5)
+    read = told(rocking, SI)
+    assert read["block"]["peak_deg"] == pytest.approx(block.degrees(read["peak"]), rel=1e-15)
+    assert read["block"]["peak_top_displacement_m"] == pytest.approx(block.top_displacement(read["peak"]))
+
+
+def test_way_out_is_named_as_it_is_typed(rocking):
+    out = rocking(f"classify {CHAOTIC} --max-cycles 500")[2]
+    assert out.startswith("undetermined: no orbit of period up to 64 was reached in 500 cycles")
+    assert "(raise --max-cycles to 10,000 or more)" in out
+    assert "max_cycles" not in out
+
+
+def test_period_looked_for_can_be_bounded(rocking):
+    assert told(rocking, f"{PERIODIC} --max-period 9 --max-cycles 1000")["kind"] == "undetermined"
+    assert told(rocking, f"{PERIODIC} --max-period 10 --max-cycles 1000")["kind"] == "periodic"
+
+
+@pytest.mark.parametrize("line", [PERIODIC, RESET, FALLING, CHAOTIC, SI, f"{CHAOTIC} --max-cycles 9"])
+def test_every_kind_can_be_drawn_and_nothing_else_is_left(rocking, tmp_path, line):
+    code, _, out = rocking(f"classify {line} --plot a.png")
+    assert (code, out.splitlines()[-1]) == (0, "wrote a.png")
+    assert [path.name for path in tmp_path.iterdir()] == ["a.png"]
+    assert told(rocking, f"{line} --plot a.svg")["files"] == ["a.svg"]
+
+
+def test_help_shows_examples_that_run(rocking):
+    code, _, out = rocking("classify --help")
+    examples = [line.strip() for line in out.splitlines() if line.startswith("  rocking classify ")]
+    assert (code, len(examples)) == (0, 2)
+    for example in examples:
+        assert rocking(example.removeprefix("rocking "))[0] == 0
+
+
+NORMALISED = "--amplitude 2 --period 1 --restitution 0.925"
+REFUSED = {
+    "--amplitude 2": "missing --restitution: give --amplitude, --period (or --frequency) and --restitution",
+    f"{NORMALISED} --max-cycles 0": "--max-cycles must be a whole number in [1, 100000000]; got 0",
+    f"{NORMALISED} --max-cycles 1e9": "--max-cycles must be a whole number in [1, 100000000]; got 1000000000.0",
+    f"{NORMALISED} --max-cycles inf": "--max-cycles must be a whole number in [1, 100000000]; got inf",
+    f"{NORMALISED} --max-period 2.5": "--max-period must be a whole number in [1, 10000]; got 2.5",
+    f"{NORMALISED} --max-period many": "Invalid value for '--max-period': must be a number; got 'many'",
+    f"{NORMALISED} --angle nan": "--angle must lie in [-1000, 1000]; got nan",
+    f"{NORMALISED} --brace-angle 0.5 --angle 0.6": "--angle must lie between the braces, in [-0.5, 0.5]; got 0.6",
+    f"{NORMALISED} --plot a.gif": "--plot must end in .png, .svg, .pdf; got 'a.gif'",
+    f"{NORMALISED} --plot nowhere/a.png": "--plot must lie in an existing folder; got 'nowhere/a.png'",
+}
+
+
+@pytest.mark.parametrize("line", REFUSED)
+def test_what_cannot_be_judged_is_refused_in_one_line(rocking, tmp_path, line):
+    assert rocking(f"classify {line}") == (2, REFUSED[line], "")
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("word", ["extra", "--nonsense", "--cycles 5", "--csv a.csv"])
+def test_unknown_words_are_refused_in_one_line(rocking, word):
+    code, message, out = rocking(f"classify {NORMALISED} {word}")
+    assert (code, out) == (2, "")
+    assert 0 < len(message) < 120
+
+
+def test_failure_of_our_own_is_one_line_and_exit_code_1(rocking, monkeypatch):
+    def fail(*_):
+        raise MemoryError
+
+    monkeypatch.setattr("rocking.kernels.verdict.judge_plain", fail)
+    code, message, out = rocking(f"classify {NORMALISED}")
+    assert (code, message.strip(), out) == (1, "failed, and should not have: MemoryError:", "")
+
+
+def test_interrupted_verdict_says_so_and_leaves_no_file(tmp_path):
+    line = f"classify {CHAOTIC} --max-cycles 1e8 --plot a.png"
+    with subprocess.Popen(
+        [sys.executable, "-m", "rocking", *line.split()],
+        cwd=tmp_path,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+    ) as process:
+        time.sleep(2.0)
+        process.send_signal(signal.SIGINT)
+        out, err = process.communicate(timeout=20)
+    assert (process.returncode, out, err) == (130, b"", b"rocking: interrupted\n")
+    assert not list(tmp_path.iterdir())

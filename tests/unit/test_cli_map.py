@@ -1,0 +1,213 @@
+"""`rocking map`: options and study files say the same, and what is wrong is said in one line."""
+
+import csv
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray as xr
+
+import rocking as rk
+
+LINE = "map --amplitude 0:16:20 --period 0.2:3:18 --restitution 0.9 --max-cycles 100"
+ASKED = {
+    "amplitude": np.linspace(0.0, 16.0, 20),
+    "period": np.linspace(0.2, 3.0, 18),
+    "restitution": 0.9,
+    "max_cycles": 100,
+}
+
+
+@pytest.fixture(scope="module")
+def found():
+    return rk.parametric_map(**ASKED)
+
+
+def shares(found):
+    return {str(kind): int((found.kind == number).sum()) for number, kind in enumerate(rk.Kind)}
+
+
+def test_summary_tells_axes_and_counts(rocking, found):
+    code, message, out = rocking(LINE)
+    assert (code, message) == (0, "")
+    title, *lines = [" ".join(line.split()) for line in out.splitlines()]
+    assert title == "parametric map, 20 × 18 points"
+    assert lines[:3] == ["amplitude 0 to 16", "period 0.2 to 3", "restitution 0.9"]
+    for kind, count in shares(found).items():
+        assert any(line.startswith(f"{kind} ") and line.endswith(f" {count} points") for line in lines) == (
+            count > 0
+        )
+
+
+def test_json_agrees_with_the_map(rocking, found):
+    read = json.loads(rocking(f"{LINE} --json")[2])
+    assert read["kinds"] == shares(found)
+    assert read["axes"]["period"] == {"start": 0.2, "stop": 3.0, "count": 18}
+    assert (read["restitution"], read["max_cycles"], read["max_period"], read["points"]) == (
+        0.9,
+        100,
+        64,
+        360,
+    )
+
+
+def test_netcdf_holds_the_map(rocking, found):
+    assert rocking(f"{LINE} --netcdf map.nc")[2].endswith("wrote map.nc\n")
+    with xr.open_dataset("map.nc", engine="h5netcdf") as read:
+        assert read.load().equals(found)
+        assert read.attrs["restitution"] == 0.9
+        assert read.kind.attrs["flag_values"].dtype == np.uint8
+
+
+def test_csv_has_a_row_a_point(rocking, found):
+    rocking(f"{LINE} --csv map.csv")
+    with Path("map.csv").open(newline="", encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    assert len(rows) == 360
+    row, at = rows[5 * 18 + 7], found.isel(amplitude=5, period=7)
+    assert (float(row["amplitude"]), float(row["period"])) == (at.amplitude, at.period)
+    assert row["kind"] == list(rk.Kind)[int(at.kind)]
+    assert float(row["peak"]) == at.peak
+
+
+def test_store_is_gone_on_with_and_picture_drawn(rocking, found, tmp_path):
+    for _ in range(2):
+        out = rocking(f"{LINE} --store map.zarr --plot map.png")[2]
+        assert out.endswith("wrote map.zarr\nwrote map.png\n")
+    assert {path.name for path in tmp_path.iterdir()} == {"map.zarr", "map.png"}
+    assert xr.open_zarr("map.zarr", group="level-0", chunks=None, consolidated=False).load().equals(found)
+
+
+STUDY = """
+amplitude = "0:16:20"
+period = { start = 0.2, stop = 3, count = 18 }
+restitution = 0.9
+max-cycles = 100
+"""
+
+
+def test_study_file_says_the_same(rocking):
+    Path("study.toml").write_text(STUDY + 'netcdf = "map.nc"\n')
+    assert json.loads(rocking("map --study study.toml --json")[2]) == json.loads(
+        rocking(f"{LINE} --netcdf map.nc --json")[2]
+    )
+
+
+def test_what_is_typed_wins_over_the_study_file(rocking):
+    Path("study.toml").write_text(STUDY)
+    read = json.loads(rocking("map --study study.toml --restitution 0.8 --period 1:2:3 --json")[2])
+    assert (read["restitution"], read["axes"]["period"]["count"], read["max_cycles"]) == (0.8, 3, 100)
+
+
+def test_axes_in_si_are_those_of_the_block(rocking):
+    block = rk.Block(2.0, 0.5)
+    line = "map --height 2 --width 0.5 --acceleration 1:8:4 --frequency-hz 0.5:3:5 --max-cycles 50 --netcdf map.nc"
+    assert rocking(line)[:2] == (0, "")
+    with xr.open_dataset("map.nc", engine="h5netcdf") as found:
+        for i, acceleration in enumerate(np.linspace(1, 8, 4)):
+            for j, hertz in enumerate(np.linspace(0.5, 3, 5)):
+                system = block.system(acceleration=acceleration, frequency_hz=hertz)
+                assert found.amplitude[i] == pytest.approx(system.forcing.amplitude, rel=1e-15)
+                assert found.frequency[j] == pytest.approx(system.forcing.frequency, rel=1e-15)
+                assert list(rk.Kind)[int(found.kind[i, j])] is rk.classify(system, max_cycles=50).kind
+        assert found.attrs["restitution"] == block.restitution
+
+
+def test_axis_may_be_a_list_in_a_study_file(rocking):
+    Path("study.toml").write_text(
+        "amplitude = [1, 2, 4.0]\nperiod = [1, 2]\nrestitution = 0.9\nmax_cycles = 20\n"
+    )
+    assert json.loads(rocking("map --study study.toml --json")[2])["points"] == 6
+
+
+def test_all_errors_of_a_study_file_are_told_at_once(rocking):
+    Path("study.toml").write_text(
+        'amplitud = "0:16:20"\nperiod = "-1:2:5"\nrestitution = 1.2\nmax-cycles = 0\nplot = 3\nphase = "1:2:3:4"\nangle = {start = 1}\n'
+    )
+    code, message, out = rocking("map --study study.toml")
+    assert (code, out) == (2, "")
+    for part in (
+        "unknown 'amplitud' (do you mean 'amplitude'?)",
+        "period must lie in [0.00628319, 6283.19]; got -1.0",
+        "restitution must lie in [0, 1]; got 1.2",
+        "max_cycles must be a whole number in [1, 100000000]; got 0",
+        "plot must be a path; got 3",
+        "phase must be a number or START:STOP:COUNT, two different numbers and a whole one from 2 to 1,000,000; got '1:2:3:4'",
+        "angle must be a number, START:STOP:COUNT, or hold start, stop and perhaps count; got start",
+    ):
+        assert part in message
+    assert message.startswith("study 'study.toml': ")
+    assert message.count("; ") == 6 + 6
+
+
+REFUSED = {
+    "map --amplitude 0:16:20 --restitution 0.9": "give exactly one of --period, --frequency; got none",
+    "map --amplitude 0:16:20 --period 1 --restitution 0.9": (
+        "a parametric map needs two quantities to vary, given as arrays; got --amplitude"
+    ),
+    f"{LINE} --phase one": "Invalid value for '--phase': must be a number; got 'one'",
+    f"{LINE} --phase 1:2:2.5": (
+        "Invalid value for '--phase': must be a number or START:STOP:COUNT, two different numbers and a whole one from 2 to "
+        "1,000,000; got '1:2:2.5'"
+    ),
+    f"{LINE} --max-cycles many": "Invalid value for '--max-cycles': must be a number; got 'many'",
+    f"{LINE} --period 3:0.2:18": (
+        "--period must hold two numbers or more in [0.00628319, 6283.19], ascending; got 3.0 before 2.835294117647059 at index 1"
+    ),
+    "map --height 2 --width 0.5 --displacement 0.1 --frequency-hz 1:2:9": (
+        "--displacement with an axis of the frequency varies two things: give --acceleration instead"
+    ),
+    f"{LINE} --plot map.gif": "--plot must end in .png, .svg, .pdf; got 'map.gif'",
+    f"{LINE} --tiles {Path(__file__).parent}": (
+        f"--tiles must be new, empty, or hold an earlier index.html; got {str(Path(__file__).parent)!r}, which holds something else"
+    ),
+    f"{LINE} --csv nowhere/map.csv": "--csv must lie in an existing folder; got 'nowhere/map.csv'",
+    f"{LINE} --study nowhere.toml": "--study must name a TOML file; got 'nowhere.toml': No such file or directory",
+}
+
+
+@pytest.mark.parametrize("line", REFUSED)
+def test_what_cannot_be_mapped_is_refused_in_one_line(rocking, tmp_path, line):
+    assert rocking(line) == (2, REFUSED[line], "")
+    assert not list(tmp_path.iterdir())
+
+
+def test_store_of_another_map_is_refused_by_the_names_of_options(rocking):
+    rocking(f"{LINE} --store map.zarr")
+    code, message, _ = rocking(f"{LINE} --store map.zarr --restitution 0.8 --max-cycles 50")
+    assert (code, message) == (
+        2,
+        (
+            "--store 'map.zarr' holds another survey: --restitution is 0.9 there and 0.8 here; --max-cycles is 100 there "
+            "and 50 here (give another folder, or ask for the same)"
+        ),
+    )
+
+
+def test_study_that_is_no_toml_is_refused(rocking):
+    Path("study.toml").write_text("amplitude 1")
+    code, message, _ = rocking("map --study study.toml")
+    assert code == 2
+    assert message.startswith("--study must name a TOML file; got 'study.toml': Expected '=' after a key")
+
+
+def test_help_shows_examples_that_run(rocking):
+    code, _, out = rocking("map --help")
+    examples = [line.strip() for line in out.splitlines() if line.startswith("  rocking map ")]
+    assert (code, len(examples)) == (0, 2)
+    for example in examples:
+        assert rocking(example.removeprefix("rocking ") + " --max-cycles 20")[0] == 0
+
+
+def test_tiles_are_those_of_the_map_in_its_units(rocking, found, tmp_path):
+    out = rocking(f"{LINE} --tiles look")[2]
+    assert out.endswith("wrote look\n")
+    rk.plot.tiles(found, "expected")
+    for path in Path("expected").rglob("*.*"):
+        assert path.read_bytes() == (tmp_path / "look" / path.relative_to("expected")).read_bytes()
+    rocking(
+        "map --height 2 --width 0.5 --acceleration 1:8:4 --frequency-hz 0.5:3:5 --max-cycles 20 --tiles si --plot si.svg"
+    )
+    assert '"name": "frequency (Hz)"' in Path("si/index.html").read_text(encoding="utf-8")
+    assert Path("si.svg").is_file()

@@ -1,0 +1,226 @@
+"""`rocking orbit-diagram` as a stranger types it: one axis among the options, what it says, writes and refuses."""
+
+import csv
+import json
+import signal
+import subprocess
+import sys
+import time
+
+import numpy as np
+import pytest
+
+import rocking as rk
+
+LINE = "--amplitude 10.4:11.5:12 --period 1.721328 --restitution 0.8 --transient 50 --cycles 4"
+SYSTEM = rk.System(rk.Harmonic(amplitude=10.4, period=1.721328), restitution=0.8)
+DIAGRAM = rk.orbit_diagram(SYSTEM, "amplitude", np.linspace(10.4, 11.5, 12), transient=50, cycles=4)
+SI = "--height 2 --width 0.5 --sweep rest --transient 20 --cycles 2 --json"
+
+
+def told(rocking, line):
+    code, message, out = rocking(f"orbit-diagram {line}")
+    assert (code, message) == (0, "")
+    return json.loads(out, parse_constant=pytest.fail)
+
+
+def test_answer_comes_first_then_what_was_varied_and_what_not(rocking):
+    code, message, out = rocking(f"orbit-diagram {LINE}")
+    assert (code, message) == (0, "")
+    text = [" ".join(line.split()) for line in out.splitlines()]
+    assert text == [
+        str(DIAGRAM),
+        "varied --amplitude 10.4 to 11.5",
+        "fixed period 1.72133, phase 0, restitution 0.8",
+        f"largest |Θ|, up {np.nanmax(DIAGRAM.peak[0]):.6g}",
+        f"largest |Θ|, down {np.nanmax(DIAGRAM.peak[1]):.6g}",
+    ]
+
+
+def test_json_agrees_with_the_diagram(rocking):
+    read = told(rocking, f"{LINE} --json")
+    assert (read["parameter"], read["first"], read["last"], read["count"]) == ("amplitude", 10.4, 11.5, 12)
+    assert (read["period"], read["restitution"]) == (1.721328, 0.8)
+    assert "amplitude" not in read
+    for row, sweep in enumerate(read["sweeps"]):
+        assert sweep["way"] == DIAGRAM.sweeps[row]
+        assert sweep["overturned_at"] == DIAGRAM.values[DIAGRAM.overturned[row]].tolist()
+        assert sweep["overturned"] == DIAGRAM.overturned[row].sum() > 0
+        assert sweep["peak"] == np.nanmax(DIAGRAM.peak[row])
+
+
+def test_files_hold_every_point(rocking, tmp_path):
+    import xarray as xr
+
+    code, _, out = rocking(f"orbit-diagram {LINE} --plot a.png --csv a.csv --netcdf a.nc")
+    assert (code, out.splitlines()[-3:]) == (0, ["wrote a.png", "wrote a.csv", "wrote a.nc"])
+    with (tmp_path / "a.csv").open() as file:
+        head, *rows = csv.reader(file)
+    assert head == ["sweep", "amplitude", "cycle", "angle [theta_cr]", "velocity [alpha theta_cr]"]
+    gone = [row for row in rows if row[2] == "overturned"]
+    assert len(gone) == DIAGRAM.overturned.sum()
+    kept = np.array([row[3:] for row in rows if row[2] != "overturned"], float)
+    np.testing.assert_array_equal(kept, DIAGRAM.points[~DIAGRAM.overturned].reshape(-1, 2))
+    with xr.open_dataset(tmp_path / "a.nc") as read:
+        np.testing.assert_array_equal(read["angle"], DIAGRAM.points[..., 0])
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["a.csv", "a.nc", "a.png"]
+
+
+@pytest.mark.parametrize(
+    "line, parameter",
+    [
+        ("--amplitude 5 --period 0.4:0.6:3 --restitution 0.925", "period"),
+        ("--amplitude 5 --frequency 12:14:3 --restitution 0.925", "frequency"),
+        ("--amplitude 5 --period 0.5 --restitution 0.9:1:3", "restitution"),
+        ("--amplitude 5 --period 0.5 --restitution 0.9 --phase -1:1:3", "phase"),
+        ("--amplitude 5 --period 0.5 --restitution 0.9 --brace-angle 1:2:3", "brace_angle"),
+        (
+            "--amplitude 5 --period 0.5 --restitution 0.9 --brace-angle 1 --brace-restitution 0:1:3",
+            "brace_restitution",
+        ),
+    ],
+)
+def test_every_parameter_can_be_the_axis(rocking, line, parameter):
+    read = told(rocking, f"{line} --transient 10 --cycles 2 --json")
+    assert (read["parameter"], read["count"]) == (parameter, 3)
+
+
+@pytest.mark.parametrize(
+    "line, parameter, ends",
+    [
+        ("--acceleration 2:4:3 --frequency-hz 1.2", "amplitude", dict(acceleration=(2.0, 4.0))),
+        ("--acceleration-g 0.2:0.4:3 --frequency-hz 1.2", "amplitude", dict(acceleration_g=(0.2, 0.4))),
+        ("--displacement 0.03:0.05:3 --frequency-hz 1.2", "amplitude", dict(displacement=(0.03, 0.05))),
+        ("--acceleration 3 --frequency-hz 1:2:3", "frequency", dict(frequency_hz=(1.0, 2.0))),
+        ("--acceleration 3 --period-s 0.5:1:3", "period", dict(period_s=(0.5, 1.0))),
+    ],
+)
+def test_axes_in_si_vary_what_they_are_proportional_to(rocking, line, parameter, ends):
+    read = told(rocking, f"{SI} {line}")
+    ((name, (first, last)),) = ends.items()
+    fixed = {"frequency_hz": 1.2} if parameter == "amplitude" else {"acceleration": 3.0}
+    block = rk.Block(2.0, 0.5)
+    forcings = [block.system(**fixed, **{name: value}).forcing for value in (first, last)]
+    assert read["parameter"] == parameter
+    assert [read["first"], read["last"]] == pytest.approx([getattr(f, parameter) for f in forcings])
+    assert read["block"]["height_m"] == 2.0
+
+
+def test_axis_may_run_down_and_leave_its_count_out(rocking):
+    read = told(rocking, "--amplitude 3:2 --period 1 --restitution 0.9 --transient 1 --cycles 1 --json")
+    assert (read["first"], read["last"], read["count"]) == (2.0, 3.0, 200)
+
+
+def test_start_and_section_are_passed_on(rocking):
+    line = f"{LINE} --angle 0.1 --velocity -0.2 --section-phase 1.5 --sweep down --json"
+    read = told(rocking, line)
+    assert read["start"] == {"angle": 0.1, "velocity": -0.2}
+    assert read["section_phase"] == 1.5
+    assert [sweep["way"] for sweep in read["sweeps"]] == ["down"]
+
+
+def test_all_overturned_has_no_peak(rocking):
+    read = told(rocking, "--amplitude 40:50:3 --period 1.7 --restitution 0.8 --sweep rest --json")
+    assert read["sweeps"][0]["peak"] is None
+
+
+NORMALISED = "--period 1 --restitution 0.9"
+
+
+@pytest.mark.parametrize(
+    "line, message",
+    [
+        (f"--amplitude 2 {NORMALISED}", "give exactly one option as an axis, START:STOP:COUNT; got none"),
+        (
+            "--amplitude 1:2 --period 1:2 --restitution 0.9",
+            "give exactly one option as an axis, START:STOP:COUNT; got --amplitude and --period",
+        ),
+        (
+            f"--amplitude 1:2:1 {NORMALISED}",
+            "Invalid value for '--amplitude': must be a number or START:STOP:",
+        ),
+        (
+            f"--amplitude 1:1:9 {NORMALISED}",
+            "Invalid value for '--amplitude': must be a number or START:STOP:",
+        ),
+        (
+            f"--amplitude 1:2:3:4 {NORMALISED}",
+            "Invalid value for '--amplitude': must be a number or START:STOP:",
+        ),
+        (f"--amplitude 1:x {NORMALISED}", "Invalid value for '--amplitude': must be a number or START:STOP:"),
+        (f"--amplitude 1:nan {NORMALISED}", "--amplitude must"),
+        (f"--amplitude x {NORMALISED}", "Invalid value for '--amplitude': must be a number"),
+        (f"--amplitude -1:2 {NORMALISED}", "--amplitude must lie in [0, 1000]; got -1.0"),
+        ("--amplitude 2 --period 1 --restitution 0.5:1.5", "--restitution must lie in [0, 1]; got 1.5"),
+        (
+            f"--amplitude 1:2 {NORMALISED} --sweep round",
+            "--sweep must be one of 'up', 'down', 'both', 'rest'",
+        ),
+        (f"--amplitude 1:2 {NORMALISED} --cycles 0", "--cycles must be a whole number in [1, "),
+        (
+            f"--amplitude 1:2 {NORMALISED} --transient -1",
+            "--transient must be a whole number in [0, 1000000]",
+        ),
+        (f"--amplitude 1:2 {NORMALISED} --section-phase 1e9", "--section-phase must lie in"),
+        (f"--amplitude 1:2 {NORMALISED} --plot a.gif", "--plot must end in .png, .svg, .pdf; got 'a.gif'"),
+        (f"--amplitude 1:2 {NORMALISED} --csv a/b.csv", "--csv must lie in an existing folder"),
+        (f"--amplitude 2 {NORMALISED} --brace-restitution 0:1", "--brace-restitution needs --brace-angle"),
+        (
+            "--height 2 --width 0.5 --displacement 0.1 --frequency-hz 1:2",
+            "--displacement with --frequency-hz varies two things: give --acceleration instead",
+        ),
+        ("--amplitude 1:2 --period 1", "missing --restitution: give --amplitude"),
+        ("--height 1:2 --width 0.5", "Invalid value for '--height': must be a number; got '1:2'"),
+    ],
+)
+def test_refusals_are_one_line_and_leave_nothing(rocking, tmp_path, line, message):
+    code, said, out = rocking(f"orbit-diagram {line}")
+    assert code == 2
+    assert said.startswith(message)
+    assert "\n" not in said + out
+    assert not list(tmp_path.iterdir())
+
+
+def test_help_shows_examples_that_run(rocking):
+    code, _, out = rocking("orbit-diagram --help")
+    examples = [line.strip() for line in out.splitlines() if line.startswith("  rocking orbit-diagram ")]
+    assert (code, len(examples)) == (0, 2)
+    for example in examples:
+        assert rocking(example.removeprefix("rocking "))[0] == 0
+
+
+def test_failure_of_our_own_is_one_line_and_exit_code_1(rocking, monkeypatch):
+    def fail(*_):
+        raise MemoryError
+
+    monkeypatch.setattr("rocking.kernels.sweep.sweep", fail)
+    code, message, out = rocking(f"orbit-diagram {LINE}")
+    assert (code, message.strip(), out) == (1, "failed, and should not have: MemoryError:", "")
+
+
+def test_long_run_in_a_terminal_shows_a_bar_that_leaves_nothing_behind(rocking, monkeypatch, capsys):
+    monkeypatch.setenv("FORCE_COLOR", "1")
+    monkeypatch.setattr("rocking.cli.diagrams.LONG", 0)
+    monkeypatch.setattr("sys.argv", ["rocking", "orbit-diagram", *LINE.split()])
+    from rocking.cli.main import run
+
+    assert run() == (0, "")
+    out, err = capsys.readouterr()
+    assert "--amplitude" in err
+    assert "%" in err
+    assert "%" not in out
+
+
+def test_interrupted_diagram_says_so_and_leaves_no_file(tmp_path):
+    line = f"orbit-diagram --amplitude 7:10:1000 {NORMALISED} --transient 1e6 --plot a.png"
+    with subprocess.Popen(
+        [sys.executable, "-m", "rocking", *line.split()],
+        cwd=tmp_path,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+    ) as process:
+        time.sleep(3.0)
+        process.send_signal(signal.SIGINT)
+        out, err = process.communicate(timeout=20)
+    assert (process.returncode, out, err) == (130, b"", b"rocking: interrupted\n")
+    assert not list(tmp_path.iterdir())
