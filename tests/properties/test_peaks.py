@@ -10,10 +10,9 @@ CYCLES = 12
 
 
 def system_at(random):
-    """Amplitudes and periods of the maps, all restitutions, half of the starts moving."""
-    forcing = rk.Harmonic(
-        random.uniform(0.2, 16.0), period=random.uniform(0.15, 4.0), phase=random.uniform(0, 6.28)
-    )
+    """Amplitudes and periods of the maps, all restitutions, half of the starts moving, half at a crest of the forcing."""
+    phase = random.choice([0.0, random.uniform(0, 6.28)])
+    forcing = rk.Harmonic(random.uniform(0.2, 16.0), period=random.uniform(0.15, 4.0), phase=phase)
     start = (
         rk.State(random.uniform(-0.9, 0.9), random.uniform(-1.0, 1.0))
         if random.random() < 0.5

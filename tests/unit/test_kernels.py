@@ -73,6 +73,31 @@ def test_nothing_compiled_calls_what_is_kept_on_disk():
     assert [kernel.py_func.__name__ for kernel in kept if id(kernel) in called] == []
 
 
+CHAOS = """
+import rocking as rk
+braced = rk.System(rk.Harmonic(15.0, period=2.0), 0.925, rk.Braces(1.0))
+print(rk.simulate(braced, cycles=30_000, record="none").final)
+"""
+MODE = "import rocking as rk; assert rk.theory.symmetric_modes(2.0, 1.0, 0.9, 1)[0].admissible"
+
+
+def test_a_chaotic_run_is_the_same_whatever_was_compiled_when(tmp_path):
+    """It multiplies a last digit to the first."""
+    found = set()
+    for folder, code in (
+        ("one", CHAOS),
+        ("one", CHAOS),
+        ("two", MODE),
+        ("two", MODE + CHAOS),
+        ("two", CHAOS),
+    ):
+        environment = {**os.environ, "NUMBA_CACHE_DIR": str(tmp_path / folder)}
+        command = [sys.executable, "-c", code]
+        told = subprocess.run(command, env=environment, capture_output=True, text=True, check=True).stdout
+        found |= {told} - {""}
+    assert len(found) == 1
+
+
 def test_other_compiled_code_of_the_process_keeps_its_own_cache_folder():
     assert "rocking" not in str(numba.config.CACHE_DIR)
 
@@ -176,3 +201,15 @@ def test_elementary_functions_keep_their_relative_accuracy_from_the_shortest_arc
 def test_modes_and_events_are_told_by_name():
     assert [mode.name for mode in events.Mode] == ["FLIGHT", "REST", "LEAN"]
     assert events.Event(events.LIFT_OFF).name == "LIFT_OFF"
+
+
+def test_compiling_is_told_once(caplog):
+    def compile_one():
+        numba.njit(lambda x: x + 1)(1.0)
+
+    compile_one()  # whoever still listened has heard it
+    kernels._tell_of_compiling()
+    with caplog.at_level("INFO", "rocking"):
+        compile_one()
+        compile_one()
+    assert [record.name for record in caplog.records] == ["rocking"]

@@ -3,11 +3,12 @@
 import math
 
 import numpy as np
+import pytest
 
 from rocking.kernels import events as ev
 from rocking.kernels import march as kernel
 from rocking.kernels import parameters
-from rocking.kernels.settling import base_settling_time
+from rocking.kernels.settling import base_settling_time, brace_settling_time
 
 NOTHING = np.empty((0, 2))
 
@@ -40,3 +41,13 @@ def test_certified_rest_comes_and_comes_in_time():
         checked += 1
     assert checked > 500
     assert tightest > 0.5  # a bound, but no idle one
+
+
+@pytest.mark.parametrize("restitution", [0.1, 0.5, 0.9])
+@pytest.mark.parametrize("share", [1e-3, 0.03, 0.1])
+def test_bound_without_forcing_is_not_below_the_time_of_all_flights(restitution, share):
+    """Against a press d a flight that begins with v lasts 2 artanh v/d: d is 1 at the base, 1/2 at a brace at 1.5."""
+    p = parameters.harmonic_parameters(0.0, 1.0, 2.0 * math.pi, 0.0, restitution, 1.5, restitution)
+    flights = math.fsum(2.0 * math.atanh(share * restitution**k) for k in range(400))
+    assert flights <= base_settling_time(p, 1.0, 0.0, share) <= 1.1 * flights
+    assert flights <= brace_settling_time(p, 1.0, 0.0, 0.5 * share) <= 1.1 * flights

@@ -2,16 +2,18 @@
 
 Machine code is cached on disk. The compiler's cache looks only at the file of the kernel itself and would
 serve stale code after an edit of a function it calls, so the cache lies in a folder named by a hash over
-all kernel sources.
+all kernel sources. That a kernel is compiled, which takes most of a minute, is told once to the log ``rocking``.
 """
 
 import hashlib
+import logging
 import os
 import tempfile
 from contextlib import contextmanager
 from pathlib import Path
 
 import numba
+from numba.core import event
 
 
 def _cache_folder() -> Path | None:
@@ -47,9 +49,28 @@ def _cached_in(folder: Path | None):
         numba.config.CACHE_DIR = before
 
 
+class _Compiling(event.Listener):
+    """Hears the compiler start, tells it, and hears no more."""
+
+    def on_start(self, _: event.Event) -> None:
+        event.unregister("numba:compile", self)
+        logging.getLogger("rocking").info("compiling, once for this machine: most of a minute")
+
+    def on_end(self, _: event.Event) -> None:
+        """Nothing: one start is enough."""
+
+
+def _tell_of_compiling() -> None:
+    """What comes from the cache is not compiled, and not told."""
+    event.register("numba:compile", _Compiling())
+
+
+_tell_of_compiling()
 with _cached_in(_cache_folder()):
     from . import (
+        answers,
         averages,
+        branchless,
         chain,
         crossing,
         curve,
@@ -58,6 +79,12 @@ with _cached_in(_cache_folder()):
         follow,
         impact,
         judgement,
+        lane_block,
+        lane_impact,
+        lane_march,
+        lane_walk,
+        lane_zero,
+        lanes,
         manifold,
         many,
         march,
@@ -71,11 +98,15 @@ with _cached_in(_cache_folder()):
         sweep,
         symmetric,
         tangent,
+        together,
         verdict,
+        walk,
     )
 
 __all__ = [
+    "answers",
     "averages",
+    "branchless",
     "chain",
     "crossing",
     "curve",
@@ -84,6 +115,12 @@ __all__ = [
     "follow",
     "impact",
     "judgement",
+    "lane_block",
+    "lane_impact",
+    "lane_march",
+    "lane_walk",
+    "lane_zero",
+    "lanes",
     "manifold",
     "many",
     "march",
@@ -97,5 +134,7 @@ __all__ = [
     "sweep",
     "symmetric",
     "tangent",
+    "together",
     "verdict",
+    "walk",
 ]

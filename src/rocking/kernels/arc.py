@@ -52,6 +52,10 @@ class Lapse(NamedTuple):
     swing: Swing
 
 
+# No time.
+NONE_YET = Lapse(0.0, 0.0, 0.0, Swing(True, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0))
+
+
 @njit(**INLINED)
 def arc_from(p, side, start, angle, velocity):
     """The arc that leaves (u, u') = (angle, velocity) on ``side`` at time ``start`` within the cycle."""
@@ -82,7 +86,7 @@ def lapse_of(p, t):
 @njit(**COMPILED)
 def recall(p, t):
     """``lapse_of`` where it is rarely needed."""
-    return lapse_of(p, t)
+    return lapse_of(p, t) if t > 0.0 else NONE_YET
 
 
 @njit(**INNER)

@@ -6,7 +6,7 @@ import numpy as np
 from numba import njit
 
 from .desk import desk
-from .elementary import ENTRY, WITHIN
+from .elementary import MAKING_ENTRY, WITHIN
 from .judgement import PERIODIC, REST
 from .march import DONE, PAUSED, STILL, UNKNOWN, begin, march_on
 from .parameters import later, make
@@ -64,7 +64,7 @@ def foremost(states, first):
     return best
 
 
-@njit(**ENTRY)
+@njit(**MAKING_ENTRY)
 def anchor_each(systems, starts, kind, period, cycles, orbit, nothing, anchors):
     """Write for each of n points the state (angle, velocity) that stands for what it ends up on; NaN where nothing does.
 

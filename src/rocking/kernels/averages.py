@@ -4,7 +4,7 @@ import math
 
 from numba import njit
 
-from .elementary import COMPILED, ENTRY
+from .elementary import COMPILED, ENTRY, INLINED, MAKING, WITHIN
 
 
 @njit(**COMPILED)
@@ -17,18 +17,45 @@ def weighted_mean(values):
     total, weights = 0.0, 0.0
     step = 1.0 / (values.shape[0] + 1)
     for k in range(values.shape[0]):
-        x = (k + 1) * step
-        weight = math.exp(-1.0 / (x * (1.0 - x)))
+        weight = bump((k + 1) * step)
         total += weight * values[k]
         weights += weight
     return total / weights
+
+
+@njit(**INLINED)
+def bump(x):
+    """The weight at x from 0 to 1."""
+    return math.exp(-1.0 / (x * (1.0 - x)))
 
 
 @njit(**COMPILED)
 def digits_of_agreement(values):
     """To how many decimal digits the weighted means of both halves of ``values`` agree, relative to their size."""
     half = values.shape[0] // 2
-    first, second = weighted_mean(values[:half]), weighted_mean(values[half : 2 * half])
+    return digits_alike(weighted_mean(values[:half]), weighted_mean(values[half : 2 * half]))
+
+
+@njit(**WITHIN)
+def digits_of_both(values):
+    """``digits_of_agreement`` of each of two rows, for which the weights are worked out but once."""
+    half = values.shape[1] // 2
+    first, second, third, fourth = 0.0, 0.0, 0.0, 0.0
+    step = 1.0 / (half + 1)
+    for k in range((half + 1) // 2):
+        # The weights are the same from either end.
+        weight, opposite = bump((k + 1) * step), half - 1 - k
+        weight *= 0.5 if opposite == k else 1.0
+        first += weight * (values[0, k] + values[0, opposite])
+        second += weight * (values[0, half + k] + values[0, half + opposite])
+        third += weight * (values[1, k] + values[1, opposite])
+        fourth += weight * (values[1, half + k] + values[1, half + opposite])
+    return digits_alike(first, second), digits_alike(third, fourth)
+
+
+@njit(**WITHIN)
+def digits_alike(first, second):
+    """To how many decimal digits two numbers agree, relative to their size."""
     scale = max(abs(first), abs(second))
     if first == second or scale == 0.0:
         return 16.0
@@ -46,7 +73,7 @@ def error_of_sum(departures, width):
     return math.sqrt(spread * groups / (groups - 1))
 
 
-@njit(**COMPILED)
+@njit(**MAKING)
 def batch_error(batches):
     """(mean, standard error) of a correlated series from batch means: the largest error of all, half and a quarter as many.
 

@@ -18,7 +18,7 @@ from typing import NamedTuple
 
 from numba import njit
 
-from .arc import evaluate, exponentials
+from .arc import after, evaluate, exponentials, recall
 from .elementary import COMPILED, INLINED, WITHIN
 from .harmonic import first_cut, forcing_rates, forcing_term, next_cut
 
@@ -219,7 +219,7 @@ def first_zero(p, arc, watch, t, limit):
     w >= 0 at t. Where w = w' = 0 at t (lift-off, leaving a brace) the first convex stretch begins there,
     and w rises through all of it.
     """
-    now = evaluate(p, arc, t)
+    now = after(p, arc, recall(p, t))
     w, dw = watched(p, arc, watch, now)
     at_rest = w == 0.0 and dw == 0.0
     cut, inside = (

@@ -10,7 +10,7 @@ import numpy as np
 from numba import njit
 
 from .chain import Chain, assemble, monodromy, with_value
-from .elementary import ENTRY, WITHIN
+from .elementary import MAKING, MAKING_ENTRY, WITHIN
 from .points import (
     CLOSED,
     CONVERGED,
@@ -110,7 +110,7 @@ def correct_both(p, chain, condition, y, direction, bounds, touches, spare, spen
     return -1, touches
 
 
-@njit(**WITHIN)
+@njit(**MAKING)
 def next_point(
     p, chain, condition, y, direction, turned, length, longest, bounds, touches, spare, spent, desk
 ):
@@ -135,7 +135,7 @@ def next_point(
             return LOST, length, corrections, moved
 
 
-@njit(**WITHIN)
+@njit(**MAKING)
 def land(p, chain, condition, y, over, limits, bounds, touches, spare, spent, desk):
     """Whether the curve's point at the end of a range was found: between ``y`` and ``desk.trial``, in whose place it is left."""
     index = chain.kinds.shape[0] + over // 2
@@ -151,7 +151,7 @@ def land(p, chain, condition, y, over, limits, bounds, touches, spare, spent, de
     return corrections >= 0
 
 
-@njit(**ENTRY)
+@njit(**MAKING_ENTRY)
 def follow_curve(
     p, kinds, side, turn, condition, touches, y, direction, limits, longest, out, desk, spare, spent
 ):  # fmt: skip

@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 from numba import njit
 
-from .elementary import WITHIN, WRITTEN_IN
+from .elementary import WITHIN, WRITTEN_IN, size
 from .march import UNKNOWN
 from .orbit import Found, Image, adapted_norm, find_fixed_point, image_after, length, multipliers
 from .parameters import later
@@ -134,7 +134,7 @@ def no_cycle(work):
 @njit(**WITHIN)
 def is_mirrored(section, row, found, same):
     """Whether a row is the mirror image of the fixed point."""
-    return math.hypot(section[row, 0] + found.angle, section[row, 1] + found.velocity) <= same
+    return size(section[row, 0] + found.angle, section[row, 1] + found.velocity) <= same
 
 
 @njit(**WITHIN)
@@ -159,7 +159,7 @@ def compare(p, section, row, period, found):
     tangent = image.tangent
     real, imaginary, _, _ = multipliers(tangent)
     radius = math.hypot(real, imaginary)
-    distance = math.hypot(section[row - period, 0] - angle, section[row - period, 1] - velocity)
+    distance = size(section[row - period, 0] - angle, section[row - period, 1] - velocity)
     attracts = radius < 1.0 and loses(p, image.impacts, image.brace_hits)
     if not attracts or radius == 0.0 or row < RETURNS * period:
         return NOT_YET, distance
@@ -175,7 +175,7 @@ def compare(p, section, row, period, found):
         to_y = section[after, 1] - velocity - (tangent.b * x + tangent.d * y)
         impacts, brace_hits = section[after, 2] - section[before, 2], section[after, 3] - section[before, 3]
         near = length(norm, to_x, to_y) <= NONLINEAR * (1.0 - radius) * length(norm, x, y)
-        near = near or math.hypot(x, y) <= ROUNDING
+        near = near or size(x, y) <= ROUNDING
         if not near or impacts != image.impacts or brace_hits != image.brace_hits:
             return NOT_YET, distance
     return REACHED, distance

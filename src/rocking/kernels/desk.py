@@ -3,9 +3,15 @@
 from typing import NamedTuple
 
 import numpy as np
+from numba import njit
+
+from .elementary import WITHIN
+from .lanes import LANES, ROWS, TRAIL
 
 # Cycles between looks at a motion that loses nothing.
-LEG = 64
+LEG = 128
+# The last states are moved to the front once in so many looks.
+SPARE = 3
 # Over so many equal parts of the second half of the budget the exponent is measured.
 BATCHES = 64
 
@@ -22,14 +28,14 @@ class Nothing(NamedTuple):
 class Desk(NamedTuple):
     """Working memory, for one system after another."""
 
-    section: np.ndarray  # (n, 4), the last n cycles
-    scratch: np.ndarray  # (n, 4), a trial orbit's
+    section: np.ndarray  # (n, 8), the last cycles: ``note_state``, then ``lossless.sketch``
+    scratch: np.ndarray  # (n, 4), a trial orbit's; as many of the last cycles are looked at
     events: np.ndarray  # (n, 8)
     flights: np.ndarray  # (2, n)
     batches: np.ndarray
     columns: np.ndarray  # (2, 2)
     trial: np.ndarray  # (2, 2)
-    growth: np.ndarray  # (2,)
+    growth: np.ndarray  # (1,)
     nothing: Nothing
 
 
@@ -37,13 +43,68 @@ def desk(max_cycles, max_period):
     """Working memory for runs of up to ``max_cycles`` and orbits of up to ``max_period``."""
     rows = max(4 * max_period, LEG) + 1
     return Desk(
-        np.empty((rows, 4)),
+        np.empty((rows + SPARE * LEG, 8)),
         np.empty((rows, 4)),
         np.empty((512, 8)),
         np.empty((2, min(max(4 * max_cycles, 1024), 1 << 18))),
         np.empty(BATCHES),
         np.empty((2, 2)),
         np.empty((2, 2)),
-        np.empty(2),
+        np.empty(1),
         Nothing(np.empty((0, 4)), np.empty((0, 8)), np.empty((0, 2)), np.empty(0)),
+    )
+
+
+class Bench(NamedTuple):
+    """Working memory: for each lane what its desk must keep from leg to leg."""
+
+    state: np.ndarray
+    trail: np.ndarray  # (lanes, n, 8), the arcs since they were last read, as ``notes.note`` has them
+    section: np.ndarray
+    scratch: np.ndarray
+    events: np.ndarray
+    flights: np.ndarray
+    batches: np.ndarray
+    columns: np.ndarray
+    trial: np.ndarray
+    growth: np.ndarray
+    nothing: Nothing
+
+
+def bench(max_cycles, max_period):
+    """Working memory as ``desk`` makes it; the state begins where a vector of the machine may."""
+    one, room = desk(max_cycles, max_period), np.zeros(ROWS * LANES + 8)
+    first = -(room.ctypes.data // 8) % 8
+    section, flights, batches, columns, growth = (
+        np.zeros((LANES, *part.shape))
+        for part in (one.section, one.flights, one.batches, one.columns, one.growth)
+    )
+    return Bench(
+        room[first : first + ROWS * LANES],
+        np.zeros((LANES, TRAIL, 8)),
+        section,
+        one.scratch,
+        one.events,
+        flights,
+        batches,
+        columns,
+        one.trial,
+        growth,
+        one.nothing,
+    )
+
+
+@njit(**WITHIN)
+def place(bench, lane):
+    """The desk of a lane."""
+    return Desk(
+        bench.section[lane],
+        bench.scratch,
+        bench.events,
+        bench.flights[lane],
+        bench.batches[lane],
+        bench.columns[lane],
+        bench.trial,
+        bench.growth[lane],
+        bench.nothing,
     )

@@ -10,7 +10,9 @@ from .arc import evaluate, recall
 from .crossing import CROSSING, LONGEST, NEVER, base_watch, brace_watch, first_zero
 from .elementary import COMPILED, INLINED, WITHIN
 from .harmonic import first_cut, next_cut
-from .shortcut import likely_impact
+from .shortcut import likely_event, likely_impact
+from .walk import NEVER as NEVER_MORE
+from .walk import ZERO
 
 
 class Mode(IntEnum):
@@ -106,20 +108,27 @@ def stays_leaning(p, side, psi):
 
 @njit(**INLINED)
 def next_event(p, mode, arc, guess):
-    """(what comes next and when, the lapse to guess from next time), from the lapse until the coming impact as it is guessed.
+    """(what comes next and when, the lapse to guess from next time), from the lapse until the coming event as it is guessed.
 
     NONE after a finite wait only renews an arc grown long.
     """
-    if mode == FLIGHT and p.brace_angle == math.inf and arc.velocity > 0.0:
-        if guess.time > 0.0:
-            certain, t, now, lapse = likely_impact(p, arc, guess)
-            if certain:
-                return Next(
-                    t, IMPACT, arc.side, now.angle, now.velocity, now.cosine, now.sine, now.sinh, now.versinh
-                ), lapse
-        coming = any_event(p, mode, arc)
-        return coming, recall(p, min(coming.wait, LONGEST))
-    return any_event(p, mode, arc), guess
+    if mode == FLIGHT and p.base_half < math.inf and arc.velocity != 0.0:
+        at_brace = False
+        if p.brace_angle == math.inf:
+            answer, t, now, lapse = likely_impact(p, arc, guess)
+        else:
+            answer, at_brace, t, now, lapse = likely_event(p, arc, guess)
+        if answer == NEVER_MORE:
+            return Next(math.inf, NONE, arc.side, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0), guess
+        if answer == ZERO:
+            event, angle = (BRACE, p.brace_angle) if at_brace else (IMPACT, 0.0)
+            return Next(
+                t, event, arc.side, angle, now.velocity, now.cosine, now.sine, now.sinh, now.versinh
+            ), lapse
+    coming = any_event(p, mode, arc)
+    if mode != FLIGHT:
+        return coming, guess
+    return coming, recall(p, min(coming.wait, LONGEST))
 
 
 @njit(**COMPILED)

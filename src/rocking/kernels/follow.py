@@ -6,7 +6,7 @@ import numpy as np
 from numba import njit
 
 from .chain import Chain
-from .elementary import ENTRY, WITHIN
+from .elementary import MAKING, MAKING_ENTRY, WITHIN
 from .points import (
     CLOSE,
     CLOSED,
@@ -73,7 +73,7 @@ def keep_point(desk, k, row, point, peak, out, facts):
     facts[row, 3] = desk.links[0, 0]
 
 
-@njit(**WITHIN)
+@njit(**MAKING)
 def next_step(p, which, chain, y, direction, turned, length, longest, limits, bounds, before, desk):
     """The next point, left in ``desk.trial``, and the direction there, ``turned``: with shorter steps where the branch bends.
 
@@ -113,7 +113,7 @@ def next_step(p, which, chain, y, direction, turned, length, longest, limits, bo
     return Step(end, within, point, peak)
 
 
-@njit(**WITHIN)
+@njit(**MAKING)
 def note_specials(
     p, which, chain, mirrored, y, direction, step, before, bounds, count, found, specials, changes, desk
 ):
@@ -137,7 +137,7 @@ def note_specials(
     return found, math.nan
 
 
-@njit(**ENTRY)
+@njit(**MAKING_ENTRY)
 def follow(
     p, which, kinds, side, turn, mirrored, y, direction, limits, longest, out, facts, specials, changes, desk
 ):  # fmt: skip

@@ -32,6 +32,8 @@ class Kind(IntEnum):
 
 
 REST, PERIODIC, QUASI_PERIODIC, CHAOTIC, OVERTURNS, UNDETERMINED = (int(kind) for kind in Kind)
+# The kind of a motion that nothing decides yet.
+OPEN = -1
 
 
 class Ground(IntEnum):
@@ -119,6 +121,12 @@ def judged(kind, ground, watch, work, exponent, error, transient, cycle, section
         cycle.distance,
         digits,
     )
+
+
+@njit(**WITHIN)
+def undecided(watch):
+    """No judgement yet."""
+    return judged(OPEN, UNWATCHED, watch, 0, math.nan, math.nan, -1, no_cycle(0), 0.0, math.nan)
 
 
 @njit(**WITHIN)

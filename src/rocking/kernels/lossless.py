@@ -5,10 +5,12 @@ from typing import NamedTuple
 
 from numba import njit
 
-from .averages import digits_of_agreement
+from .arc import arc_from
+from .averages import digits_of_agreement, digits_of_both
 from .elementary import WITHIN, WRITTEN_IN
-from .events import BRACE, IMPACT, NONE
-from .march import PAUSED, march_on
+from .events import BRACE, FLIGHT, IMPACT, NONE
+from .march import PAUSED, RELEASED, march_on
+from .notes import state_at
 
 FEWEST_FLIGHTS = 192
 FEWEST_CYCLES = 128
@@ -41,40 +43,81 @@ def collect(p, flights, rows, events, values):
     """Add recorded events: ``values`` (2, n) takes how long each flight lasted, and the square of the speed it ended with."""
     event, cycle, time, first_cycle, count = flights
     for k in range(rows):
-        row = events[k]
-        if row[2] != IMPACT and (row[2] != BRACE or event == IMPACT):
+        now, met = int(events[k, 0]), int(events[k, 2])
+        if met != IMPACT and (met != BRACE or event == IMPACT):
             continue
-        if row[2] != event:
-            event, count, first_cycle = int(row[2]), 0, int(row[0])
+        if met != event:
+            event, count, first_cycle = met, 0, now
         elif count < values.shape[1]:
-            values[0, count] = (row[0] - cycle) * p.period + (row[1] - time)
-            values[1, count] = row[6] * row[6]
+            values[0, count] = (now - cycle) * p.period + (events[k, 1] - time)
+            values[1, count] = events[k, 6] * events[k, 6]
             count += 1
-        cycle, time = int(row[0]), row[1]
+        cycle, time = now, events[k, 1]
     return Flights(event, cycle, time, first_cycle, count)
 
 
+@njit(**WITHIN)
+def sketch(p, before, events, written, after, section_time, section, count):
+    """How many rows ``section`` (n, 8) has when the instants from ``before`` to ``after`` are added to its ``count``.
+
+    Of each is noted the arc on which it lies, (side, angle, velocity) at its start and how long ago that was: few of
+    the states themselves are ever asked for (``work_out``).
+    """
+    mode, arc = before.mode, before.arc
+    side, start, angle, velocity, begun = float(arc.side), arc.start, arc.angle, arc.velocity, before.cycle
+    impacts, brace_hits, due = before.impacts, before.brace_hits, before.cycle + (not before.pending)
+    for k in range(written + 1):
+        if k < written:
+            cycle, time = int(events[k, 0]), events[k, 1]
+            until = cycle + (section_time < time)
+        else:
+            cycle, time, until = after.cycle, 0.0, after.cycle + (not after.pending)
+        while due < until:
+            section[count, 0] = math.nan if mode == FLIGHT else side * angle
+            section[count, 1], section[count, 2], section[count, 3] = 0.0, impacts, brace_hits
+            section[count, 4], section[count, 5], section[count, 6] = side, angle, velocity
+            section[count, 7] = (due - begun) * p.period + (section_time - start)
+            count, due = count + 1, due + 1
+        if k < written:
+            impacts += events[k, 2] == IMPACT
+            brace_hits += events[k, 2] == BRACE
+            begun, start, mode = cycle, time, int(events[k, 3])
+            side, angle, velocity = events[k, 4], events[k, 5], events[k, 6]
+    return count
+
+
+@njit(**WITHIN)
+def work_out(p, section, first, count, section_time):
+    """The states of all rows from ``first`` on that were only sketched."""
+    for k in range(max(first, 0), count):
+        if math.isnan(section[k, 0]):
+            elapsed = section[k, 7]
+            arc = arc_from(p, int(section[k, 4]), section_time - elapsed, section[k, 5], section[k, 6])
+            section[k, 0], section[k, 1] = state_at(p, FLIGHT, arc, elapsed)
+
+
 @njit(**WRITTEN_IN)
-def follow_flights(p, progress, flights, target, most_events, section_time, section, desk):
-    """(status, progress, flights) at the end of cycle ``target``."""
-    rows = 0
+def follow_flights(p, progress, flights, target, most_events, section_time, count, desk):
+    """(status, progress, flights, rows of the section) at the end of cycle ``target``."""
     while True:
-        status, progress, taken, written = march_on(
+        before = progress
+        status, progress, _, written = march_on(
             p,
-            progress,
+            before,
             target,
             section_time,
-            section[rows:],
+            desk.nothing.section,
             desk.events,
             desk.columns,
             desk.growth,
             True,
-            False,
+            True,
         )
-        rows += taken
         flights = collect(p, flights, written, desk.events, desk.flights)
-        if status != PAUSED or progress.impacts + progress.brace_hits > most_events:
-            return status, progress, flights
+        count = sketch(p, before, desk.events, written, progress, section_time, desk.section, count)
+        on = status in (PAUSED, RELEASED)
+        if not on or progress.impacts + progress.brace_hits > most_events:
+            return status, progress, flights, count
 
 
 @njit(**WITHIN)
@@ -84,13 +127,23 @@ def agreement(flights, values, growth):
     The flight times must agree to ENOUGH_DIGITS. Inside an island they are locked to the forcing, and their
     average converges even in a thin chaotic layer. So the average of the squared speeds must converge too, to
     CHAOTIC_DIGITS and ever more, and differences must have grown (``growth``, a logarithm) no more than like the
-    length. The digits are the speeds', 0 where there is too little to tell.
+    length. The digits are the speeds', 0 where there is too little to tell or differences have grown by more.
     """
     count, cycles = flights.count, flights.cycle - flights.first_cycle
-    if count < FEWEST_FLIGHTS or cycles < FEWEST_CYCLES:
+    if too_few(flights) or growth > math.log(max(count, cycles)) + SHEAR:
         return 0.0, False
-    digits = digits_of_agreement(values[1, :count])
-    times = digits_of_agreement(values[0, :count])
+    times, digits = digits_of_both(values[:, :count])
     needed = min(max(CHAOTIC_DIGITS + math.log2(count / LONG), CHAOTIC_DIGITS), ENOUGH_DIGITS)
-    slow = growth <= math.log(max(count, cycles)) + SHEAR
-    return digits, digits >= needed and times >= ENOUGH_DIGITS and slow
+    return digits, digits >= needed and times >= ENOUGH_DIGITS
+
+
+@njit(**WITHIN)
+def too_few(flights):
+    """Whether there are too few flights to tell."""
+    return flights.count < FEWEST_FLIGHTS or flights.cycle - flights.first_cycle < FEWEST_CYCLES
+
+
+@njit(**WITHIN)
+def digits_of_speeds(flights, values):
+    """The digits of ``agreement``, however much differences have grown."""
+    return 0.0 if too_few(flights) else digits_of_agreement(values[1, : flights.count])

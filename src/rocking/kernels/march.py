@@ -25,8 +25,19 @@ from .events import (
 )
 from .impact import after_event
 from .notes import note_event, note_state
-from .tangent import TANGENT, Tangent, carried, carry_arc, carry_rows, log_strain, read_tangent, write_tangent
-from .turning import arc_peak, peak_with
+from .tangent import (
+    TANGENT,
+    Tangent,
+    carried,
+    carry_arc,
+    carry_rows,
+    log_strain,
+    normalised,
+    out_of_scale,
+    read_tangent,
+    write_tangent,
+)
+from .turning import largest_on, peak_with
 
 MOST_EVENTS = 10_000_000
 # Compiled code cannot be interrupted: it comes up for air after this many events.
@@ -145,9 +156,11 @@ def finish(p, reached, coming, columns, growth, want_peak):
         now = evaluate(p, arc, t)
         if columns.shape[0] > 0:
             carry_arc(p, arc, columns, growth, t, cycle * p.period + arc.start)
+        if growth.shape[0] == 1:
+            write_tangent(columns, normalised(read_tangent(columns), growth))
         angle = within_reach(p, now.angle)
         if want_peak:
-            peak = max(arc_peak(p, arc, t, peak), angle)
+            peak = max(largest_on(p, arc, t, peak), angle)
         arc = arc_from(p, arc.side, end, angle, now.velocity)
     else:
         arc = arc_from(p, arc.side, end, arc.angle, 0.0)
@@ -170,7 +183,7 @@ def march_on(p, progress, cycles, section_time, section, events, columns, growth
        returns PAUSED; with ``want_release`` RELEASED after a lift-off or leaving a brace. Called again it goes
        on where it was.
     3. ``columns`` (2, 2) or (8, 2) carries differences (``tangent``); with ``growth`` (2,) they are
-       re-orthonormalised at every event.
+       re-orthonormalised at every event, with ``growth`` (1,) the first is normalised where need be and at the end.
     4. Without section and events, accumulating impacts that certainly end in rest before the march does are
        cut short; with ``want_release`` always, whatever the section then misses.
     5. At the end the arc is renewed: the progress begins at the start of cycle ``cycles``; with
@@ -181,8 +194,7 @@ def march_on(p, progress, cycles, section_time, section, events, columns, growth
         progress
     )
     hasty = section.shape[0] == 0 and events.shape[0] == 0 and not want_release
-    # The tangent alone travels in registers.
-    light = columns.shape[0] == TANGENT and growth.shape[0] == 0
+    light, measured = columns.shape[0] == TANGENT and growth.shape[0] < TANGENT, growth.shape[0] == 1
     tangent = read_tangent(columns) if light else Tangent(0.0, 0.0, 0.0, 0.0)
     written, rows, breath, ended, paused, released = 0, 0, 0, False, False, False
     last_lapse, lapse_before = recall(p, last_wait), recall(p, wait_before)
@@ -212,16 +224,18 @@ def march_on(p, progress, cycles, section_time, section, events, columns, growth
         if want_peak and mode == FLIGHT:
             peak = peak_with(p, arc, coming, peak)
         # What is left of an arc entered on its way says nothing about whole ones.
-        lapse_before, last_lapse = last_lapse, lapse if arc.angle == 0.0 else last_lapse
+        lapse_before, last_lapse = last_lapse, lapse if arc.angle in (0.0, p.brace_angle) else last_lapse
         impacts += coming.event == IMPACT
         brace_hits += coming.event == BRACE
         quiet = (cycles - cycle) * p.period - at if hasty else LONGEST if want_release else 0.0
         mode_after, after = after_event(p, arc, at, coming, quiet)
         if mode_after != FLIGHT:
-            strain = log_strain(tangent) if light else (growth[0] if growth.shape[0] > 0 else math.inf)
+            tangent = normalised(tangent, growth) if measured else tangent
+            strain = growth[0] if growth.shape[0] > 0 else (log_strain(tangent) if light else math.inf)
         released = want_release and mode != FLIGHT and mode_after == FLIGHT
         if light:
             tangent = carried(p, tangent, mode, arc, coming, mode_after, after.side)
+            tangent = normalised(tangent, growth) if measured and out_of_scale(tangent) else tangent
         elif columns.shape[0] > 0:
             elapsed = cycle * p.period + arc.start
             carry_rows(p, columns, growth, mode, arc, coming, mode_after, after.side, elapsed)
@@ -233,7 +247,7 @@ def march_on(p, progress, cycles, section_time, section, events, columns, growth
         if released:
             break
     if light:
-        write_tangent(columns, tangent)
+        write_tangent(columns, normalised(tangent, growth) if measured else tangent)
     left = lapse.time if want_release else min(at, LONGEST)
     last_wait, wait_before = last_lapse.time, left if ended else lapse_before.time
     reached = Progress(

@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 from numba import njit
 
-from .elementary import WITHIN, WRITTEN_IN
+from .elementary import WITHIN, WRITTEN_IN, size
 from .march import DONE, UNKNOWN, begin, march_on
 from .tangent import Tangent, read_tangent
 
@@ -85,7 +85,7 @@ def find_fixed_point(p, angle, velocity, cycles, most_work, nothing, columns):
         determinant = (1.0 - a) * (1.0 - d) - b * c
         to_angle = ((1.0 - d) * miss + c * miss_rate) / determinant
         to_velocity = (b * miss + (1.0 - a) * miss_rate) / determinant
-        error = math.hypot(to_angle, to_velocity)
+        error = size(to_angle, to_velocity)
         lost = not image.certain or failures > MOST_FAILURES or work > most_work or not error < math.inf
         if converged or lost or steps > MOST_STEPS:
             break

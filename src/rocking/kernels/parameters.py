@@ -42,6 +42,14 @@ class HarmonicParameters(NamedTuple):
     turn_growth: float
     turn_decay: float
     base_outside_tanh: float
+    # the same of the brace, where the inner stretch is the convex one; NaN where it has no cuts
+    brace_place: float
+    brace_rate: float
+    brace_inside: float
+    brace_outside: float
+    brace_inside_growth: float
+    brace_inside_decay: float
+    brace_inside_tanh: float
 
 
 @njit(**WITHIN)
@@ -68,6 +76,13 @@ def make(amplitude, frequency, period, phase, restitution, brace_angle, brace_re
     base_half = math.acos(-1.0 / amplitude) if amplitude > 1.0 else math.inf
     inside = 2.0 * base_half / frequency
     outside = max(2.0 * (math.pi - base_half) / frequency, 0.0)
+    brace_half = (
+        math.acos((brace_angle - 1.0) / amplitude) if abs(brace_angle - 1.0) < amplitude else math.inf
+    )
+    brace_inside, brace_growth, brace_decay = math.nan, math.nan, math.nan
+    if brace_half < math.inf:
+        brace_inside = 2.0 * brace_half / frequency
+        brace_growth, brace_decay = math.exp(min(brace_inside, 700.0)), math.exp(-brace_inside)
     return HarmonicParameters(
         amplitude,
         frequency,
@@ -80,16 +95,23 @@ def make(amplitude, frequency, period, phase, restitution, brace_angle, brace_re
         reciprocal,
         response,
         base_half,
-        math.acos((brace_angle - 1.0) / amplitude) if abs(brace_angle - 1.0) < amplitude else math.inf,
+        brace_half,
         1.0 - reciprocal,
         response * frequency * math.sin(base_half) if amplitude > 1.0 else 0.0,
         inside,
         outside,
         math.exp(min(outside, 700.0)),
         math.exp(-outside),
-        math.exp(min(inside + outside, 700.0)),
-        math.exp(-inside - outside),
+        math.exp(min(period, 700.0)),
+        math.exp(-period),
         math.tanh(outside),
+        (brace_angle - 1.0) * (1.0 - reciprocal),
+        response * frequency * math.sin(brace_half),
+        brace_inside,
+        period - brace_inside,
+        brace_growth,
+        brace_decay,
+        math.tanh(brace_inside),
     )
 
 

@@ -8,7 +8,7 @@ from numba import njit
 from .elementary import WITHIN, WRITTEN_IN
 from .events import FLIGHT
 from .march import PAUSED, RELEASED, Progress, march_on
-from .tangent import orthonormalise
+from .tangent import normalised, read_tangent, write_tangent
 
 # Differences that grow by less between two releases leave the later one certain in double precision.
 LARGEST_STRAIN = math.log(1e8)
@@ -113,7 +113,7 @@ def follow(p, watch, target, most_events, section_time, section, nothing, column
     """(status, watch) at the end of cycle ``target``, or at the release that decides; RELEASED only then.
 
     ``section`` must have a row for every cycle to come, or none. ``columns`` (2, 2) carries differences
-    since the last release; with ``growth`` (2,) from the start.
+    since the last release; with ``growth`` (1,) from the start.
     """
     rows = 0
     tracked = columns if watch.base.seen or watch.brace.seen or growth.shape[0] > 0 else nothing.columns
@@ -155,6 +155,6 @@ def begin_measuring(watch, columns, growth):
     """From here on growth is measured; what differences have grown to since the last release stays in it."""
     if watch.progress.mode == FLIGHT and (watch.base.seen or watch.brace.seen):
         growth[:] = 0.0
-        orthonormalise(columns, growth)
+        write_tangent(columns, normalised(read_tangent(columns), growth))
     else:
         begin_tangent(columns, growth)

@@ -4,7 +4,7 @@ import math
 
 from numba import njit
 
-from .elementary import WITHIN
+from .elementary import WITHIN, size
 from .orbit import multipliers
 from .tangent import Tangent
 
@@ -21,8 +21,7 @@ ALIGNED = 1e-5
 @njit(**WITHIN)
 def apart(section, first, second):
     """Distance of two rows."""
-    x, y = section[first, 0] - section[second, 0], section[first, 1] - section[second, 1]
-    return math.sqrt(x * x + y * y)
+    return size(section[first, 0] - section[second, 0], section[first, 1] - section[second, 1])
 
 
 @njit(**WITHIN)
@@ -73,8 +72,8 @@ def limit(section, row, lag):
         a, c = (x0 * y2 - x1 * y1) / area, (x1 * x1 - x0 * x2) / area
         b, d = (y0 * y2 - y1 * y1) / area, (y1 * x1 - y0 * x2) / area
     real, imaginary, _, _ = multipliers(Tangent(a, b, c, d))
-    off = math.hypot(x2 - (a * x3 + c * y3), y2 - (b * x3 + d * y3))
-    linear = off * off <= LINEAR * LINEAR * long2 and math.hypot(real, imaginary) <= NEARER
+    off = size(x2 - (a * x3 + c * y3), y2 - (b * x3 + d * y3))
+    linear = off * off <= LINEAR * LINEAR * long2 and size(real, imaginary) <= NEARER
     # (I - M)^-1 M d0
     determinant = (1.0 - a) * (1.0 - d) - b * c
     x, y = a * x0 + c * y0, b * x0 + d * y0

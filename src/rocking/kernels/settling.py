@@ -33,17 +33,15 @@ def settling_time(speed, restitution, weakest, strongest, room):
 def base_settling_time(p, cosine, sine, speed):
     """A bound on the time from an impact to rest (Zeno limit at the base), infinite where not certain.
 
-    On the sides of the base the block is pressed back with 1 +- A cos psi; both stay positive within the
-    window, so it ends before lift-off.
+    On the sides of the base the block is pressed back with 1 +- A cos psi. The weaker of the two bounds both, and
+    stays positive within the window, so it ends before lift-off.
     """
     swing = p.amplitude * abs(cosine)
     if p.restitution >= 1.0 or swing >= 1.0:
         return math.inf
     window = 5.0 * speed / ((1.0 - swing) * (1.0 - p.restitution))
     moved = drift(p, cosine, sine, window)
-    near = settling_time(speed, p.restitution, 1.0 - swing - moved, 1.0 - swing + moved, p.brace_angle)
-    far = settling_time(speed, p.restitution, 1.0 + swing - moved, 1.0 + swing + moved, p.brace_angle)
-    bound = max(near, far)
+    bound = settling_time(speed, p.restitution, 1.0 - swing - moved, 1.0 - swing + moved, p.brace_angle)
     return bound if bound <= window else math.inf
 
 

@@ -1,37 +1,47 @@
-"""The first impact of an arc from a good guess, proved at a fraction of the cost.
+"""The first event of a flight, proved at a fraction of the cost of ``crossing``.
 
-A steady motion repeats its arcs, so the last arc on this side tells where the next zero of u is, and what
-carries an arc on by that time is still at hand (``Lapse``): from there a Taylor series reaches the zero. Where it
-lies further off the series guesses, and one new evaluation follows. It is the *first* zero if no stretch
-before it holds one: most often their order alone proves that, else u at their ends, which needs no elementary
-function, since cos eta is known there and e^t grows from end to end by given factors. Whatever is not certain by a
-wide margin is left to ``crossing``.
+A steady motion repeats its arcs, so an earlier arc tells where the next zero is, and what carries an arc on by that
+time is still at hand (``Lapse``): from there a Taylor series reaches the zero. Where it lies further off the series
+guesses, and one new evaluation follows. It is the *first* zero if no stretch before it holds one: most often their order
+alone proves that, else ``walk``. Where the guess is no good, the walk brackets the zero and tells where to begin.
+Whatever is not certain by a wide margin is left to ``crossing``.
 """
 
 import math
 
 from numba import njit
 
-from .arc import Instant, after, exponentials, lapse_of
-from .crossing import reversion, step_to_zero
+from .arc import Instant, after, lapse_of
+from .crossing import LONGEST, reversion, step_to_zero
 from .elementary import INNER
-from .harmonic import first_cut, forcing_rates, forcing_term
+from .harmonic import forcing_rates, forcing_term
+from .walk import (
+    CLEAR,
+    UNSURE,
+    ZERO,
+    Knot,
+    base_level,
+    brace_level,
+    knot,
+    stays_clear,
+    walk,
+)
 
 TRIES = 6
-MOST_STRETCHES = 64
-# The fifth-order step and the Taylor series that follow it are exact to rounding for steps below this, in
-# units of 1/max(1, Omega) and of u'/u''.
-SMALL = 3e-4
+# The step by the reverted series and the Taylor series that follow it are exact to rounding for steps below this, in
+# units of 1/max(1, Omega), of w'/w'' and of the root of w'/w'''.
+SMALL = 2e-4
 # A longer step is polished where it is shorter than REACH, in units of 1/max(1, Omega), in so many rounds; from a
 # bend below this one more round would not show.
-REACH, ROUNDS, BEND = 1.5, 3, 0.1
+REACH, ROUNDS, BEND = 1.5, 3, 0.25
+# From so near, and such a bend, it needs no polish.
+NEAR = 0.5
 I2, I3, I4, I5, I6, I7, I8 = (1.0 / math.factorial(k) for k in range(2, 9))
-MARGIN = 1e-11
 
 
 @njit(**INNER)
 def advance(p, now, step):
-    """An instant carried on by a small step: Taylor series with all its derivatives from u'' = u + f."""
+    """An instant carried on by a small step: Taylor series with all its derivatives from u'' = u + f; the angle is the caller's."""
     f = forcing_term(p, now.cosine)
     df, ddf = forcing_rates(p, now.cosine, now.sine)
     second = now.angle + f
@@ -54,88 +64,45 @@ def advance(p, now, step):
 
 
 @njit(**INNER)
-def may_dip(p, u, du, u_right, du_right):
-    """Whether u, positive at both ends of a stretch with f > 0, may reach zero within.
-
-    The free motions (u'' = u) through either end lie below u there; u stays clear of zero if they would reach
-    it only after passing each other.
-    """
-    if u + du >= 0.0 or du_right <= u_right:
-        return False
-    crossed = u * du_right - u_right * du
-    return crossed < p.base_outside_tanh * (u * u_right - du * du_right) * (1.0 + MARGIN)
-
-
-@njit(**INNER)
-def unbroken_until(p, arc, t):
-    """Whether u certainly stays positive on (0, t) of an arc that rises from u >= 0, given that u(t) = 0 and u'(t) < 0.
-
-    A concave stretch between ends with u >= 0 holds no zero, nor does a convex one in which the arc begins,
-    rising, or ends, falling. That leaves the convex stretches which an arc passes from end to end.
-    """
-    if p.base_half == math.inf:
-        return True
-    cut, concave = first_cut(p, arc.side, arc.psi, 0.0, p.base_half)
-    left = cut if concave else cut + p.base_inside
-    if t <= left + p.base_outside:
-        return concave or t > cut
-    grow, shrink, _ = exponentials(p, arc)
-    z = math.exp(left)
-    per_z = 1.0 / z
-    passed = left + p.base_outside
-    for _ in range(MOST_STRETCHES):
-        growing, shrinking = grow * z, shrink * per_z
-        u, du = growing + shrinking + p.cut_place, growing - shrinking - p.cut_rate
-        error = MARGIN * (abs(growing) + abs(shrinking) + 1.0)
-        growing, shrinking = growing * p.base_outside_growth, shrinking * p.base_outside_decay
-        u_right, du_right = growing + shrinking + p.cut_place, growing - shrinking + p.cut_rate
-        error += MARGIN * (abs(growing) + abs(shrinking))
-        if not (u > error and u_right > error) or may_dip(p, u, du, u_right, du_right):
-            return False
-        passed += p.period
-        if t <= passed:
-            return True
-        z *= p.turn_growth
-        per_z *= p.turn_decay
-    return False
-
-
-@njit(**INNER)
 def close(p, now):
-    """Whether the zero of u is so near that one step of the series reaches it."""
-    u, v = now.angle, now.velocity
-    bend = abs(u * (u + forcing_term(p, now.cosine)))
-    return abs(u) * max(1.0, p.frequency) < -SMALL * v and bend < SMALL * v * v
+    """Whether the zero of w is so near that one step of the series reaches it."""
+    w, v = abs(now.w), -now.dw
+    bend, twist = w * abs(now.w + now.f), w * w * abs(now.dw + now.df)
+    return (
+        w * max(1.0, p.frequency) < SMALL * v and bend < SMALL * v * v and twist < SMALL * SMALL * v * v * v
+    )
 
 
 @njit(**INNER)
-def stride(p, now, t):
-    """A step towards the zero of u from further off, at time t: to where the parabola comes down."""
-    u, v = now.angle, now.velocity
-    fall = u + forcing_term(p, now.cosine)
-    under = v * v - 2.0 * u * fall
+def stride(now):
+    """A step towards the zero of w from further off: to where the parabola comes down, infinity where it does not."""
+    fall = now.w + now.f
+    under = now.dw * now.dw - 2.0 * now.w * fall
     if fall < 0.0 and under > 0.0:
-        return (v + math.sqrt(under)) / -fall
-    return -u / v if v < 0.0 else t  # pushed up: wait
+        return (now.dw + math.sqrt(under)) / -fall
+    return -now.w / now.dw if now.dw < 0.0 else math.inf
 
 
 @njit(**INNER)
-def polished(p, now, rough):
-    """A rough step to the zero of u, corrected by where the Taylor series about ``now`` has it: no new elementary functions.
+def turned(p, steady, now):
+    """f'' at a knot; f = -steady and a part that turns with the forcing."""
+    return -p.frequency * p.frequency * (now.f + steady)
 
-    c_k are the derivatives of u there, w_k those at the end of the step. Only a guess: the series stops where it is
+
+@njit(**INNER)
+def polished(p, steady, now, rough):
+    """A rough step to the zero of w, corrected by where the Taylor series about ``now`` has it: no new elementary functions.
+
+    c_k are the derivatives of w there, w_k those at the end of the step. Only a guess: the series stops where it is
     good to some five digits within REACH.
     """
-    if max(1.0, p.frequency) * abs(rough) > REACH:
-        return rough
-    f = forcing_term(p, now.cosine)
-    df, ddf = forcing_rates(p, now.cosine, now.sine)
-    turned = -p.frequency * p.frequency
-    c0, c1 = now.angle, now.velocity
-    c2, c3 = c0 + f, c1 + df
-    c4, c5 = c2 + ddf, c3 + turned * df
-    c6, c7 = c4 + turned * ddf, c5 + turned * turned * df
-    c8 = c6 + turned * turned * ddf
+    square = -p.frequency * p.frequency
+    df, ddf = now.df, turned(p, steady, now)
+    c0, c1 = now.w, now.dw
+    c2, c3 = c0 + now.f, c1 + df
+    c4, c5 = c2 + ddf, c3 + square * df
+    c6, c7 = c4 + square * ddf, c5 + square * square * df
+    c8 = c6 + square * square * ddf
     s = rough
     for _ in range(ROUNDS):
         w4 = c4 + s * (c5 + s * (I2 * c6))
@@ -153,22 +120,98 @@ def polished(p, now, rough):
 
 
 @njit(**INNER)
-def likely_impact(p, arc, guess):
-    """(certain, time, instant, lapse close by) of the first impact of an arc that rises, from the lapse that is guessed."""
-    lapse = guess
+def leap(p, steady, here):
+    """(whether the series about a knot tells where w has its zero, the step there)."""
+    if abs(here.w * (here.w + here.f)) < BEND * here.dw * here.dw and here.dw < 0.0:
+        step = step_to_zero(here.w, here.dw, (here.f, here.df, turned(p, steady, here)))
+        if max(1.0, p.frequency) * abs(step) < NEAR:
+            return True, step
+    step = stride(here)
+    if max(1.0, p.frequency) * abs(step) <= REACH:
+        return True, polished(p, steady, here, step)
+    return False, step
+
+
+@njit(**INNER)
+def seek(p, arc, constant, s, lapse, low, high):
+    """(reached, time, instant, lapse close by) of a zero of w = constant + s u between two times, from a lapse not far from it."""
     now = after(p, arc, lapse)
-    tries = 0
-    while not close(p, now):
-        t = lapse.time + polished(p, now, stride(p, now, lapse.time))
-        tries += 1
-        if not t > 0.0 or tries > TRIES:
-            return False, t, now, lapse
+    for _ in range(TRIES):
+        here = knot(p, arc, constant, s, lapse.time, now)
+        if close(p, here):
+            y, correction = reversion(here.w, here.dw, (here.f, here.df, turned(p, constant + s, here)))
+            step = y * correction
+            t = lapse.time + step
+            return low < t < high, t, advance(p, now, step), lapse
+        told, step = leap(p, constant + s, here)
+        t = lapse.time + step
+        if not (told and low < t < high):
+            break
         lapse = lapse_of(p, t)
         now = after(p, arc, lapse)
-    forcing = (forcing_term(p, now.cosine), *forcing_rates(p, now.cosine, now.sine))
-    y, correction = reversion(now.angle, now.velocity, forcing)
-    step = y * correction
-    t = lapse.time + step
-    if t > 0.0 and unbroken_until(p, arc, t):
-        return True, t, advance(p, now, step), lapse
-    return False, t, now, lapse
+    return False, lapse.time, now, lapse
+
+
+@njit(**INNER)
+def seek_in(p, arc, constant, s, bracket):
+    """``seek`` in a bracket: from where the series about its nearer end has the zero, or from the middle where both are far."""
+    low, high = bracket.low, bracket.high
+    told, step = leap(p, constant + s, low)
+    t = low.time + step
+    if not (told and low.time < t < high.time):
+        told, step = leap(p, constant + s, high)
+        t = high.time + step
+        if not (told and low.time < t < high.time):
+            t = 0.5 * (low.time + high.time)
+    return seek(p, arc, constant, s, lapse_of(p, t), low.time, min(high.time, LONGEST))
+
+
+@njit(**INNER)
+def likely_impact(p, arc, guess):
+    """(answer, time, instant, lapse close by) of the first event of a flight without braces: ZERO, NEVER, or UNSURE.
+
+    From the lapse that is guessed, if it leads to an impact that is certainly the first; else from a walk.
+    """
+    if guess.time > 0.0:
+        reached, t, now, lapse = seek(p, arc, 0.0, 1.0, guess, 0.0, LONGEST)
+        if reached and stays_clear(p, arc, base_level(p), Knot(t, 0.0, now.velocity, 0.0, 0.0)):
+            return ZERO, t, now, lapse
+    bracket = walk(p, arc, base_level(p), Knot(math.inf, 0.0, 0.0, 0.0, 0.0))
+    reached, t, now, lapse = seek_in(p, arc, 0.0, 1.0, bracket)
+    return (bracket.answer if bracket.answer != ZERO or reached else UNSURE), t, now, lapse
+
+
+@njit(**INNER)
+def bracketed(p, arc, reached, event):
+    """(answer, whether at a brace, walk): the bracket of a flight's first event, or CLEAR where the one ``reached`` is the first.
+
+    ``event`` is that in terms of the base, u and u'. Where a brace is met the base is far, and the other way round: a zero in
+    the bracket of the one comes before that of the other.
+    """
+    never = Knot(math.inf, 0.0, 0.0, 0.0, 0.0)
+    base = walk(p, arc, base_level(p), event if reached else never)
+    if base.answer == UNSURE:
+        return UNSURE, False, base
+    until = base.high if base.answer == ZERO else event
+    end = Knot(until.time, p.brace_angle - until.w, -until.dw, 0.0, 0.0)
+    brace = walk(p, arc, brace_level(p), end if reached or base.answer == ZERO else never)
+    if brace.answer == ZERO or brace.answer == UNSURE:
+        return brace.answer, True, brace
+    if base.answer == ZERO:
+        return ZERO, False, base
+    return CLEAR if reached else UNSURE, False, base
+
+
+@njit(**INNER)
+def likely_event(p, arc, guess):
+    """(answer, whether at a brace, time, instant, lapse close by) of the first event of a flight between braces."""
+    now = after(p, arc, guess)
+    at_brace = now.velocity > 0.0
+    constant, s = (p.brace_angle, -1.0) if at_brace else (0.0, 1.0)
+    reached, t, now, lapse = seek(p, arc, constant, s, guess, 0.0, LONGEST)
+    answer, other, bracket = bracketed(p, arc, reached, Knot(t, constant, now.velocity, 0.0, 0.0))
+    if reached and answer != ZERO:
+        return UNSURE if answer == UNSURE else ZERO, at_brace, t, now, lapse
+    constant, s = (p.brace_angle, -1.0) if other else (0.0, 1.0)
+    reached, t, now, lapse = seek_in(p, arc, constant, s, bracket)
+    return ZERO if answer == ZERO and reached else UNSURE, other, t, now, lapse

@@ -17,6 +17,8 @@ from .harmonic import forcing_term, sensitivities
 
 TANGENT = 2
 SENSITIVITIES = 8
+# How large and how small differences may grow before they are brought back to size 1: far from any end of the numbers.
+LARGE, SMALL = 1e100, 1e-100
 
 
 class Row(IntEnum):
@@ -56,6 +58,23 @@ def write_tangent(columns, tangent):
 def log_strain(tangent):
     """Logarithm of what a difference in velocity has grown to; a release fixes the angle."""
     return math.log(max(abs(tangent.c), abs(tangent.d)))
+
+
+@njit(**INLINED)
+def out_of_scale(tangent):
+    """Whether the first difference must be brought back to size 1; one that is forgotten stays forgotten."""
+    size = max(abs(tangent.a), abs(tangent.b))
+    return size > LARGE or 0.0 < size < SMALL
+
+
+@njit(**WITHIN)
+def normalised(tangent, growth):
+    """The tangent with its first difference at size 1; the logarithm of what that takes out is added to ``growth`` (1,)."""
+    size = math.hypot(tangent.a, tangent.b)
+    growth[0] += math.log(size)
+    if size == 0.0:
+        return tangent
+    return Tangent(tangent.a / size, tangent.b / size, tangent.c / size, tangent.d / size)
 
 
 @njit(**INLINED)
@@ -124,14 +143,14 @@ def map_rows(columns, aa, ab, ba, bb):
 def carry_arc(p, arc, columns, growth, t, elapsed):
     """All rows along an arc of length t that began ``elapsed`` after the start of the march.
 
-    With ``growth`` in steps of at most 1, re-orthonormalised after each: the shrinking direction is never lost to
+    With two ``growth`` in steps of at most 1, re-orthonormalised after each: the shrinking direction is never lost to
     rounding.
     """
-    steps = math.ceil(t) if growth.shape[0] > 0 and t > 1.0 else 1
+    steps = math.ceil(t) if growth.shape[0] == TANGENT and t > 1.0 else 1
     sinh, versinh, _, _ = hyperbolic(t / steps)
     for _ in range(steps):
         map_rows(columns, 1.0 + versinh, sinh, sinh, 1.0 + versinh)
-        if growth.shape[0] > 0:
+        if growth.shape[0] == TANGENT:
             orthonormalise(columns, growth)
     if columns.shape[0] == SENSITIVITIES:
         carry_forcing(p, arc, columns, t, elapsed)
@@ -155,7 +174,7 @@ def carry_rows(p, columns, growth, mode, arc, coming, mode_after, side_after, el
         columns[Row.BRACE_RESTITUTION, 1] -= velocity if mode_after == FLIGHT else 0.0
     if extra and coming.event == LEAVE:
         columns[Row.BRACE_ANGLE, 0] = side
-    if growth.shape[0] > 0:
+    if growth.shape[0] == TANGENT:
         orthonormalise(columns, growth)
 
 

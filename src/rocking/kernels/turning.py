@@ -77,15 +77,17 @@ def arc_peak(p, arc, until, peak):
         sign = -sign
 
 
-@njit(**WITHIN)
+@njit(**INNER)
 def crest(p, arc, until, peak):
     """(certain, the largest of ``peak`` and the angles on the arc up to ``until``), where it is certain without a search.
 
     Where c+ and c- are negative, u = 1 - m cosh(t - middle) + beta cos eta, m = 2 sqrt(c+ c-), is largest between the middle
-    and the nearest eta = 0 (mod 2 pi), both of which the arc must reach: by whole turns and by mirroring at either of the two any
+    and the nearest eta = 0 (mod 2 pi): by whole turns and by mirroring at either of the two any
     other time is brought between them, and u higher. There m sinh s - beta Omega sin(d - Omega s), s the time from
     the middle and d the phase to go, is convex, not above 0 at first and not below it at last: the crest is the only turn.
+    It is the arc's too if the arc reaches it.
     As 1 - cos y >= 2 (y/pi)**2, it is lower than 1 - m + beta by what the best compromise between the two costs at least.
+    An arc that begins in the middle (a lift-off) has one of two equal crests before it.
     """
     grow, shrink, error = exponentials(p, arc)
     if not (max(grow, shrink) < 0.0 and p.frequency * error < -KNOWN * max(grow, shrink)):
@@ -98,12 +100,17 @@ def crest(p, arc, until, peak):
     stiff = bowl * p.frequency * p.frequency
     if 1.0 - m + p.response - 0.5 * ahead * ahead * bowl * m / (m + stiff) <= peak:
         return True, peak
+    if 0.5 * TURN - abs(ahead) < TIED:
+        if middle * p.frequency > KNOWN:
+            return False, peak
+        ahead = abs(ahead)
     other = middle + ahead * p.per_frequency
-    low, high = min(middle, other), max(middle, other)
-    if not (low > 0.0 and high < until) or 0.5 * TURN - abs(ahead) < TIED:
+    low, high = max(min(middle, other), 0.0), min(max(middle, other), until)
+    if low >= high:
         return False, peak
     pull = p.response * p.frequency * p.frequency
-    t, near = middle + ahead * p.per_frequency * (pull / (pull + m)), NEAR / max(1.0, p.frequency)
+    t = min(max(middle + ahead * p.per_frequency * (pull / (pull + m)), low), high)
+    near = NEAR / max(1.0, p.frequency)
     for _ in range(TRIES):
         now = evaluate(p, arc, t)
         f = forcing_term(p, now.cosine)
@@ -113,13 +120,22 @@ def crest(p, arc, until, peak):
             break
         step = step_to_zero(now.velocity, second, (df, ddf, -p.frequency * p.frequency * df))
         if abs(step) < near:
-            inside = low - near <= t + step <= high + near
+            inside = 0.0 < t + step < until
             rise = now.velocity + step * (
                 0.5 * second + step * ((1.0 / 6.0) * third + step * ((1.0 / 24.0) * (second + ddf)))
             )
             return inside, max(peak, within_reach(p, now.angle + step * rise))
-        t = min(max(t + step, low), high)
+        before, t = t, min(max(t + step, low), high)
+        if t == before:
+            break
     return False, peak
+
+
+@njit(**WITHIN)
+def largest_on(p, arc, until, peak):
+    """``arc_peak``, without a search where that is certain."""
+    certain, largest = crest(p, arc, until, peak)
+    return largest if certain else arc_peak(p, arc, until, peak)
 
 
 @njit(**INNER)
@@ -127,10 +143,6 @@ def peak_with(p, arc, coming, peak):
     """The largest of ``peak`` and the angles of an arc up to the event that ends it."""
     if coming.event == BRACE:
         return p.brace_angle
-    if coming.event == IMPACT:
-        if not may_exceed(p, arc, coming, peak):
-            return peak
-        certain, largest = crest(p, arc, coming.wait, peak)
-        if certain:
-            return largest
-    return arc_peak(p, arc, coming.wait, peak)
+    if coming.event == IMPACT and not may_exceed(p, arc, coming, peak):
+        return peak
+    return largest_on(p, arc, coming.wait, peak)

@@ -8,18 +8,27 @@ periodic orbit that the motion has reached (``cycle``); where nothing is lost, a
 import math
 from typing import NamedTuple
 
+import numpy as np
 from numba import njit
 
-from .cycle import ON_EVENT, REACHED, find_cycle, loses, no_cycle
+from .cycle import ON_EVENT, REACHED, Cycle, find_cycle, loses, no_cycle
 from .desk import BATCHES, LEG
-from .elementary import COMPILED, ENTRY, WITHIN, WRITTEN_IN
-from .judgement import NEUTRAL_ORBIT, ORBIT, ended, periodic, torus, unsettled
-from .lossless import FEWEST_FLIGHTS, Flights, agreement, follow_flights, no_flights
+from .elementary import ENTRY, WITHIN, WRITTEN_IN
+from .judgement import NEUTRAL_ORBIT, OPEN, ORBIT, ended, periodic, torus, undecided, unsettled
+from .lossless import (
+    FEWEST_FLIGHTS,
+    Flights,
+    agreement,
+    digits_of_speeds,
+    follow_flights,
+    no_flights,
+    work_out,
+)
 from .march import DONE, UNKNOWN, begin
 from .release import Watch, begin_measuring, begin_tangent, follow, released_since, unvisited, watched
 from .returns import closest_return
 
-FIRST_CHECKPOINT = 6
+FIRST_CHECKPOINT = 10
 FIRST_CHECKPOINTS = 4  # cycles between the first ones
 GROW_FROM = 14
 CHECKPOINTS_GROW = 1.25
@@ -44,31 +53,72 @@ class Run(NamedTuple):
     measuring: bool
 
 
+class Case(NamedTuple):
+    """A motion and what is known of it when it is looked at, between two legs."""
+
+    run: Run
+    impacts: int
+    brace_hits: int
+    checkpoint: int
+    batch_end: int
+    measured: int  # batches
+    grown: float  # before the present batch
+    lossy: int  # the last look at which something had been lost
+    enough: int  # flights, to compare their averages
+    digits: float
+    converged: bool
+    known: Cycle
+    known_at: int
+    work: int
+
+
 @njit(**WITHIN)
-def room(section, count, coming):
-    """How many of the last rows stay when ``coming`` more are to follow: they are moved to the front."""
-    kept = max(min(count, section.shape[0] - coming), 0)
+def opened(p, angle, velocity, max_cycles):
+    """The case of a motion from (angle, velocity)."""
+    watch = watched(begin(p, angle, velocity, UNKNOWN)[0])
+    run = Run(watch, no_flights(), FIRST_SECTION * p.period, 0, False, False)
+    batch = max_cycles // (2 * BATCHES)
+    batch_end = (max_cycles - BATCHES * batch) if batch > 0 else max_cycles + 1
+    hits = watch.progress.brace_hits
+    return Case(
+        run, 0, hits, FIRST_CHECKPOINT, batch_end, 0, 0.0, 0, FEWEST_FLIGHTS, 0.0, False, no_cycle(0), 0, 0
+    )
+
+
+@njit(**WITHIN)
+def next_look(case, max_cycles):
+    """The end of the leg to come."""
+    return min(case.checkpoint, case.batch_end, max_cycles)
+
+
+@njit(**WITHIN)
+def room(section, count, coming, looked_at):
+    """How many rows stay when ``coming`` more are to follow: where they do not fit the last ones are moved to the front."""
+    if coming <= looked_at and count + coming <= section.shape[0]:
+        return count
+    kept = max(min(count, looked_at - coming), 0)
     if kept < count:
         for k in range(kept):
-            for column in range(4):
+            for column in range(section.shape[1]):
                 section[k, column] = section[count - kept + k, column]
     return kept
 
 
 @njit(**WRITTEN_IN)
-def leg(p, run, target, most, desk):
+def leg(p, run, max_cycles, target, desk):
     """(status, run): a motion followed to ``target`` with its last states."""
+    most = MOST_EVENTS_A_CYCLE * max_cycles + FREE_EVENTS
     watch, flights, section_time, count, lossless, measuring = run
-    cycle, rows = watch.progress.cycle, desk.section.shape[0]
-    count = room(desk.section, count, target - cycle)
+    cycle, rows = watch.progress.cycle, desk.scratch.shape[0]
+    count = room(desk.section, count, target - cycle, rows)
     if lossless:
-        status, progress, flights = follow_flights(
-            p, watch.progress, flights, target, most, section_time, desk.section[count:], desk
+        status, progress, flights, count = follow_flights(
+            p, watch.progress, flights, target, most, section_time, count, desk
         )
         watch = Watch(progress, watch.base, watch.brace, 0, 0.0, watch.peak)
-        return status, Run(watch, flights, section_time, count + target - cycle, lossless, measuring)
+        return status, Run(watch, flights, section_time, count, lossless, measuring)
     growth = desk.growth if measuring else desk.nothing.growth
-    total, status = min(count + target - cycle, rows), DONE
+    total, status = count + min(target - cycle, rows), np.int64(DONE)
     while status == DONE and cycle < target:
         # Of a long leg only the last states are kept.
         until = target if target - cycle <= rows else target - rows
@@ -87,78 +137,93 @@ def unmoved(section, count, max_period):
 
 @njit(**WITHIN)
 def next_checkpoint(cycle):
-    """When to look for a periodic orbit again: after 6, 10, 14 cycles, then ever later."""
+    """When to look for a periodic orbit again: after 10, 14 cycles, then ever later."""
     return cycle + FIRST_CHECKPOINTS if cycle < GROW_FROM else int(cycle * CHECKPOINTS_GROW)
 
 
-@njit(**COMPILED)
-def judge(p, angle, velocity, max_cycles, max_period, desk):
-    """The ``Judgement`` of a motion from (angle, velocity), followed for ``max_cycles`` forcing cycles at most.
+@njit(**WRITTEN_IN)
+def look(p, case, status, run, max_cycles, max_period, desk):
+    """(judgement, case) after a leg that ended so: kind OPEN where nothing decides yet.
 
-    In legs that end at checkpoints, where a periodic orbit is looked for, and, over the second half of the
-    budget, at the ends of equal batches, over which the exponent is measured.
+    Legs end at checkpoints, where a periodic orbit is looked for, and, over the second half of the budget, at
+    the ends of equal batches, over which the exponent is measured.
     """
-    watch, flights, section_time = (
-        watched(begin(p, angle, velocity, UNKNOWN)[0]),
-        no_flights(),
-        FIRST_SECTION * p.period,
-    )
-    most = MOST_EVENTS_A_CYCLE * max_cycles + FREE_EVENTS
-    batch = max_cycles // (2 * BATCHES)
-    measured, batch_end = 0, (max_cycles - BATCHES * batch) if batch > 0 else max_cycles + 1
-    checkpoint, count, work, lossy, enough = FIRST_CHECKPOINT, 0, 0, 0, FEWEST_FLIGHTS
-    digits, converged, grown, known, known_at = 0.0, False, 0.0, no_cycle(0), 0
-    lossless, measuring = False, False
+    _, impacts, brace_hits, checkpoint, batch_end, measured, grown, lossy, enough, digits, converged = case[
+        :11
+    ]
+    known, known_at, work = case[11:]
+    watch, flights, section_time, count, lossless, measuring = run
+    if status != DONE:
+        return ended(status, watch, work), case
+    target, done = next_look(case, max_cycles), watch.progress
+    if loses(p, done.impacts - impacts, done.brace_hits - brace_hits):
+        watch = unvisited(watch) if lossless else watch
+        lossy, lossless, flights = target, False, no_flights()
+    if target == batch_end:
+        batch = max_cycles // (2 * BATCHES)
+        if measuring:
+            # A release forgets all differences.
+            forgets = released_since(watch, target - batch)
+            grown = -math.inf if forgets else desk.growth[0] - grown
+            desk.batches[measured] = grown / (batch * p.period)
+            measured += 1
+        elif not lossless:
+            begin_measuring(watch, desk.columns, desk.growth)
+        grown, measuring, batch_end = desk.growth[0], True, batch_end + batch
+    if lossless and flights.count >= enough:
+        digits, converged = agreement(flights, desk.flights, desk.growth[0])
+        enough = flights.count * 5 // 4
+    due, over = target in (checkpoint, max_cycles), target == max_cycles
+    if converged or over:
+        work_out(p, desk.section, count - 1 - max_period, count, section_time)
+    still = converged and unmoved(desk.section, count, max_period)
+    if converged and not still:
+        return torus(watch, work, section_time, digits), case
+    if still or (due and not lossless):
+        events = done.impacts + done.brace_hits
+        most_work = events if still else FREE_WORK + events // 2 - work
+        work_out(p, desk.section, 0, count, section_time)
+        cycle = find_cycle(
+            p, section_time, desk, count, max_period, most_work, known, target - known_at, still
+        )
+        work += cycle.work
+        if cycle.answer == REACHED:
+            ground = NEUTRAL_ORBIT if still else ORBIT
+            return periodic(p, ground, watch, work, cycle, section_time), case
+        if cycle.period > 0:
+            known, known_at = cycle, (target if cycle.work > 0 else known_at)
+        if cycle.answer == ON_EVENT:
+            section_time, count = (section_time + NEXT_SECTION * p.period) % p.period, 0
+            known = no_cycle(0)
+    if due and not lossless and target >= GROW_FROM and 2 * lossy <= target:
+        lossless, grown = True, 0.0
+        begin_tangent(desk.columns, desk.growth)
+    if over:
+        stands = unmoved(desk.section, count, max_period)
+        digits = digits_of_speeds(flights, desk.flights)
+        told = unsettled(p, watch, work, max_cycles, measured, lossless, digits, desk.batches, stands)
+        return told, case
+    if lossless:
+        checkpoint = target + LEG
+    elif target == checkpoint:
+        checkpoint = next_checkpoint(target)
+    run = Run(watch, flights, section_time, count, lossless, measuring)
+    case = Case(
+        run, done.impacts, done.brace_hits, checkpoint, batch_end, measured, grown, lossy, enough, digits,
+        converged, known, known_at, work
+    )  # fmt: skip
+    return undecided(watch), case
+
+
+@njit(**WRITTEN_IN)
+def judge(p, angle, velocity, max_cycles, max_period, desk):
+    """The ``Judgement`` of a motion from (angle, velocity), followed for ``max_cycles`` forcing cycles at most."""
+    case = opened(p, angle, velocity, max_cycles)
     while True:
-        before, target = watch.progress, min(checkpoint, batch_end, max_cycles)
-        run = Run(watch, flights, section_time, count, lossless, measuring)
-        status, run = leg(p, run, target, most, desk)
-        watch, flights, count = run.watch, run.flights, run.count
-        if status != DONE:
-            return ended(status, watch, work)
-        after = watch.progress
-        if loses(p, after.impacts - before.impacts, after.brace_hits - before.brace_hits):
-            watch = unvisited(watch) if lossless else watch
-            lossy, lossless, flights = target, False, no_flights()
-        if target == batch_end:
-            if measuring:
-                # A release forgets all differences.
-                forgets = released_since(watch, target - batch)
-                grown = -math.inf if forgets else desk.growth[0] - grown
-                desk.batches[measured] = grown / (batch * p.period)
-                measured += 1
-            elif not lossless:
-                begin_measuring(watch, desk.columns, desk.growth)
-            grown, measuring, batch_end = desk.growth[0], True, batch_end + batch
-        if lossless and flights.count >= enough:
-            digits, converged = agreement(flights, desk.flights, desk.growth[0])
-            enough = flights.count * 5 // 4
-        still = converged and unmoved(desk.section, count, max_period)
-        if converged and not still:
-            return torus(watch, work, section_time, digits)
-        due = target in (checkpoint, max_cycles)
-        if still or (due and not lossless):
-            done = watch.progress.impacts + watch.progress.brace_hits
-            most_work = done if still else FREE_WORK + done // 2 - work
-            cycle = find_cycle(
-                p, section_time, desk, count, max_period, most_work, known, target - known_at, still
-            )
-            work += cycle.work
-            if cycle.answer == REACHED:
-                return periodic(p, NEUTRAL_ORBIT if still else ORBIT, watch, work, cycle, section_time)
-            if cycle.period > 0:
-                known, known_at = cycle, (target if cycle.work > 0 else known_at)
-            if cycle.answer == ON_EVENT:
-                section_time, count = (section_time + NEXT_SECTION * p.period) % p.period, 0
-                known = no_cycle(0)
-        if due and not lossless and target >= GROW_FROM and 2 * lossy <= target:
-            lossless, grown = True, 0.0
-            begin_tangent(desk.columns, desk.growth)
-        if target == max_cycles:
-            stands = unmoved(desk.section, count, max_period)
-            return unsettled(p, watch, work, max_cycles, measured, lossless, digits, desk.batches, stands)
-        if target == checkpoint:
-            checkpoint = target + LEG if lossless else next_checkpoint(target)
+        status, run = leg(p, case.run, max_cycles, next_look(case, max_cycles), desk)
+        told, case = look(p, case, status, run, max_cycles, max_period, desk)
+        if told[0] != OPEN:
+            return told
 
 
 @njit(**ENTRY)

@@ -1,0 +1,185 @@
+"""The impact that ends each lane's arc, eq. (2), the arc that begins with it, and whether anything about it is not plain."""
+
+import math
+
+from numba import njit
+
+from .branchless import EXACT_INNER, both_exponentials, choose, logarithm
+from .elementary import fma
+from .lanes import (
+    ACROSS,
+    ALONE,
+    ALONG,
+    AMPLITUDE,
+    ARRIVED,
+    BEGUN,
+    CERTAINTY,
+    CONTENT,
+    COSINE,
+    COUNTED,
+    CREST,
+    CUT_LEFT,
+    CUT_RIGHT,
+    CYCLE,
+    DOUBLINGS,
+    END,
+    FREQUENCY,
+    GROWING,
+    IMPACTS,
+    INSIDE,
+    LANES,
+    LEG_END,
+    LOW,
+    NEXT_COSINE,
+    NEXT_SINE,
+    NEXT_SINH,
+    NEXT_VERSINH,
+    PEAK,
+    PEAK_SEEN,
+    PER_PERIOD,
+    PER_Z,
+    PERIOD,
+    READING,
+    RESPONSE,
+    RESTITUTION,
+    SHRINKING,
+    SIDE,
+    SINE,
+    SLOWEST,
+    SPEED,
+    STAGE,
+    START,
+    TARGET,
+    TRAIL,
+    UNSURE,
+    VELOCITY,
+    WAIT,
+    WALK,
+    WANTS,
+    Z,
+    of,
+    put,
+)  # fmt: skip
+
+# Differences are brought back to size 1 from here.
+LARGE = 2.0**64
+# c+ and c- below this tell a crest and its time well enough.
+TOLD = -1e-5
+BEFORE = 1e-9
+
+
+@njit(**EXACT_INNER)
+def attend(s):
+    """What each lane wants before its impact."""
+    for i in range(LANES):
+        stage, start, wait, cycle = of(s, i, STAGE), of(s, i, START), of(s, i, WAIT), of(s, i, CYCLE)
+        target, period, peak, crest = of(s, i, TARGET), of(s, i, PERIOD), of(s, i, PEAK), of(s, i, CREST)
+        speed, restitution = of(s, i, SPEED), of(s, i, RESTITUTION)
+        kept = of(s, i, IMPACTS) - of(s, i, COUNTED)
+        wants = choose(crest <= peak, CONTENT, PEAK_SEEN)
+        wants = choose(kept > TRAIL - 3.0, READING, wants)
+        wants = choose(restitution * speed < SLOWEST, ALONE, wants)
+        wants = choose(start + wait > (target - cycle) * period, LEG_END, wants)
+        put(s, i, WANTS, choose(stage == ARRIVED, wants, choose(stage == UNSURE, CERTAINTY, CONTENT)))
+
+
+@njit(**EXACT_INNER)
+def strike(s):
+    """Impacts: where a lane has arrived, eq. (2) and the next arc."""
+    for i in range(LANES):
+        stage, across, along, doublings = (
+            of(s, i, STAGE),
+            of(s, i, ACROSS),
+            of(s, i, ALONG),
+            of(s, i, DOUBLINGS),
+        )
+        sinh, cosh, speed = of(s, i, NEXT_SINH), 1.0 + of(s, i, NEXT_VERSINH), of(s, i, SPEED)
+        amplitude, restitution, next_cosine = (
+            of(s, i, AMPLITUDE),
+            of(s, i, RESTITUTION),
+            of(s, i, NEXT_COSINE),
+        )
+        impacts = of(s, i, IMPACTS)
+        # as ``tangent.event_map``
+        shear = fma((1.0 - restitution) * amplitude, next_cosine, -(1.0 + restitution)) / speed
+        a, b = fma(cosh, across, sinh * along), fma(sinh, across, cosh * along)
+        a, b = restitution * a, fma(shear, a, restitution * b)
+        size = abs(a) + abs(b)
+        large, little = size > LARGE, size < 1.0 / LARGE
+        scale = choose(large, 1.0 / LARGE, choose(little, LARGE, 1.0))
+        times = choose(large, 64.0, choose(little, -64.0, 0.0))
+        arrived = stage == ARRIVED
+        put(s, i, ACROSS, choose(arrived, a * scale, across))
+        put(s, i, ALONG, choose(arrived, b * scale, along))
+        put(s, i, DOUBLINGS, choose(arrived, doublings + times, doublings))
+        put(s, i, IMPACTS, choose(arrived, impacts + 1.0, impacts))
+    for i in range(LANES):
+        stage, start, cycle, side = of(s, i, STAGE), of(s, i, START), of(s, i, CYCLE), of(s, i, SIDE)
+        velocity, cosine, sine, wait = of(s, i, VELOCITY), of(s, i, COSINE), of(s, i, SINE), of(s, i, WAIT)
+        speed, next_cosine, next_sine = of(s, i, SPEED), of(s, i, NEXT_COSINE), of(s, i, NEXT_SINE)
+        period, per_period, restitution = of(s, i, PERIOD), of(s, i, PER_PERIOD), of(s, i, RESTITUTION)
+        arrived = stage == ARRIVED
+        turns = math.floor((start + wait) * per_period)
+        put(s, i, START, choose(arrived, fma(-turns, period, start) + wait, start))
+        put(s, i, CYCLE, choose(arrived, cycle + turns, cycle))
+        put(s, i, SIDE, choose(arrived, -side, side))
+        put(s, i, VELOCITY, choose(arrived, restitution * speed, velocity))
+        put(s, i, COSINE, choose(arrived, -next_cosine, cosine))
+        put(s, i, SINE, choose(arrived, -next_sine, sine))
+
+
+@njit(**EXACT_INNER)
+def begin(s):
+    """The arc that begins where a lane has arrived, or its block has just come: its c+ and c-, and where the walk along it starts.
+
+    Where c+ and c- are negative u lies within beta of 1 - m cosh(t - middle), m = 2 sqrt(c+ c-): above 0 from ``early`` to
+    ``late``, which need not be walked, and below 1 - m + beta, or less where no crest of the forcing is near the middle
+    (``turning.crest``).
+    """
+    for i in range(LANES):
+        stage, start, side, velocity = of(s, i, STAGE), of(s, i, START), of(s, i, SIDE), of(s, i, VELOCITY)
+        cosine, sine, frequency, response = (
+            of(s, i, COSINE),
+            of(s, i, SINE),
+            of(s, i, FREQUENCY),
+            of(s, i, RESPONSE),
+        )
+        period, per_period, inside = of(s, i, PERIOD), of(s, i, PER_PERIOD), of(s, i, INSIDE)
+        right, left, low, end, crest = (
+            of(s, i, CUT_RIGHT),
+            of(s, i, CUT_LEFT),
+            of(s, i, LOW),
+            of(s, i, END),
+            of(s, i, CREST),
+        )
+        growing, shrinking, z, per_z = of(s, i, GROWING), of(s, i, SHRINKING), of(s, i, Z), of(s, i, PER_Z)
+        mean, half = fma(-response, cosine, -1.0), fma(response * frequency, sine, velocity)
+        grow, shrink = 0.5 * (mean + half), 0.5 * (mean - half)
+        to_cut = choose(side > 0.0, right, left) - start
+        cut = fma(-math.floor(to_cut * per_period), period, to_cut)
+
+        told = max(grow, shrink) < TOLD
+        m = 2.0 * math.sqrt(grow * shrink)
+        middle = 0.5 * logarithm(shrink / grow)
+        away = fma(-0.5, inside, cut) - middle
+        away = fma(-math.floor(fma(away, per_period, 0.5)), period, away)
+        # 1 - cos y >= y**2 (1/2 - a**2/24), and >= 2 (y/pi)**2, for y up to a = frequency * away
+        square = frequency * frequency
+        bowl = 2.0 * response * square * max(2.0 / math.pi**2, fma(-square * away, away / 24.0, 0.5))
+        bound = fma(-0.5 * away * away * bowl, m / (m + bowl), 1.0 - m + response)
+        ratio = (1.0 - response) / m
+        width = logarithm(ratio + math.sqrt(fma(ratio, ratio, -1.0)))
+        early, late = middle - width + BEFORE, middle + width - BEFORE
+        leaps = told & (ratio > 1.0) & (cut > early) & (cut < late)
+        turns = choose(leaps, math.floor((late - cut) * per_period), 0.0)
+        cut = fma(turns, period, cut)
+        new_z, new_per_z = both_exponentials(cut)
+        begins = (stage == ARRIVED) | (stage == BEGUN)
+        put(s, i, GROWING, choose(begins, grow, growing))
+        put(s, i, SHRINKING, choose(begins, shrink, shrinking))
+        put(s, i, CREST, choose(begins, choose(told, bound, math.inf), crest))
+        put(s, i, LOW, choose(begins, max(cut - inside, 0.0), low))
+        put(s, i, END, choose(begins, cut, end))
+        put(s, i, Z, choose(begins, new_z, z))
+        put(s, i, PER_Z, choose(begins, new_per_z, per_z))
+        put(s, i, STAGE, choose(begins, WALK, stage))

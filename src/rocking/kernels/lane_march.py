@@ -1,0 +1,27 @@
+"""A pass over all lanes: what is next for each."""
+
+from numba import njit
+
+from . import lane_impact, lane_walk, lane_zero
+from .branchless import EXACT
+
+# Turns of the forcing that one pass walks along.
+STRIDES = 2
+
+
+@njit(**EXACT)
+def strike(s):
+    """The impacts of all lanes that have arrived, and the arcs that begin."""
+    lane_impact.strike(s)
+    lane_impact.begin(s)
+
+
+@njit(**EXACT)
+def advance(s):
+    """All lanes onward, to their impacts if those are near enough; and what they want there."""
+    for _ in range(STRIDES):
+        lane_walk.walk(s)
+    lane_zero.guess(s)
+    lane_zero.look(s)
+    lane_zero.step(s)
+    lane_impact.attend(s)

@@ -1,0 +1,269 @@
+"""To the first zero of each lane's arc, once the stretch that holds it is known: a guess, and steps of fifth order."""
+
+import math
+
+from numba import njit
+
+from .branchless import EXACT_INNER, choose, circular, hyperbolic
+from .elementary import SHORT, fma
+from .lanes import (
+    AMPLITUDE,
+    ARRIVED,
+    BOTTOM,
+    CLEARED,
+    CONCAVE,
+    COSINE,
+    COSINE_IN,
+    COSINE_OUT,
+    DECAY_IN,
+    DECAY_OUT,
+    DEFICIT,
+    EXCESS,
+    FREQUENCY,
+    GROW_IN,
+    GROW_OUT,
+    GROWING,
+    GUESS,
+    HIGH,
+    HIGHER,
+    INSIDE,
+    LAG,
+    LANES,
+    LOW,
+    MIDDLE,
+    MIDDLE_PER_Z,
+    MIDDLE_Z,
+    NEXT_COSINE,
+    NEXT_SINE,
+    NEXT_SINH,
+    NEXT_VERSINH,
+    OUTSIDE,
+    REFINE,
+    RESPONSE,
+    SHRINKING,
+    SIN_X,
+    SINE,
+    SINE_IN,
+    SINE_OUT,
+    SINH,
+    SPEED,
+    STAGE,
+    TIME,
+    TRIES,
+    UNSURE,
+    VELOCITY,
+    VERSINE,
+    VERSINH,
+    WAIT,
+    WALK,
+    of,
+    put,
+)  # fmt: skip
+from .shortcut import I2, I3, I4, I5, I6, I7, I8
+from .walk import MARGIN
+
+MOST_TRIES = 12
+# As near as this the step of fifth order leaves less than rounding, and so do the series that follow it.
+NEAR = 1e-3
+
+
+@njit(**EXACT_INNER)
+def correction(y, second, third, fourth, per):
+    """``crossing.reversion``: what a Newton step y must be multiplied by, given the higher derivatives and 1/u'."""
+    a, b, c = I2 * second * per, I3 * third * per, I4 * fourth * per
+    return fma(y, fma(y, fma(y, fma(5.0 * a, fma(-a, a, b), -c), fma(2.0 * a, a, -b)), -a), 1.0)
+
+
+@njit(**EXACT_INNER)
+def derivatives(u, v, cosine, sine, amplitude, frequency):
+    """u and its first eight derivatives at an instant, from u'' = u + f."""
+    turned = -frequency * frequency
+    f, df, ddf = fma(-amplitude, cosine, -1.0), amplitude * frequency * sine, -turned * amplitude * cosine
+    c2, c3 = u + f, v + df
+    c4, c5 = c2 + ddf, fma(turned, df, c3)
+    c6, c7 = fma(turned, ddf, c4), fma(turned * turned, df, c5)
+    return u, v, c2, c3, c4, c5, c6, c7, fma(turned * turned, ddf, c6)
+
+
+@njit(**EXACT_INNER)
+def taylor(c, x):
+    """(w, w', w'') a time x later, by their Taylor series."""
+    c0, c1, c2, c3, c4, c5, c6, c7, c8 = c
+    w2 = fma(x, fma(x, fma(x, fma(x, fma(x, fma(x, I6 * c8, I5 * c7), I4 * c6), I3 * c5), I2 * c4), c3), c2)
+    w1 = fma(x, fma(x, fma(x, fma(x, I7 * c8, I6 * c7), I5 * c6), I4 * c5), I3 * c4)
+    w1 = fma(x, fma(x, fma(x, w1, I2 * c3), c2), c1)
+    w0 = fma(x, fma(x, fma(x, fma(x, I8 * c8, I7 * c7), I6 * c6), I5 * c5), I4 * c4)
+    return fma(x, fma(x, fma(x, fma(x, w0, I3 * c3), I2 * c2), c1), c0), w1, w2
+
+
+@njit(**EXACT_INNER)
+def halved(factor):
+    """A factor between 1/2 and 2; 1 where it is not."""
+    return choose((factor > 0.5) & (factor < 2.0), factor, 1.0)
+
+
+@njit(**EXACT_INNER)
+def guess(s):
+    """Where the zero lies in its stretch, to some six digits: two steps on a Taylor series about the middle of the right half of it."""
+    for i in range(LANES):
+        stage, concave, middle = of(s, i, STAGE), of(s, i, CONCAVE), of(s, i, MIDDLE)
+        low, high, time = of(s, i, LOW), of(s, i, HIGH), of(s, i, TIME)
+        z, per_z, grow, shrink = (
+            of(s, i, MIDDLE_Z),
+            of(s, i, MIDDLE_PER_Z),
+            of(s, i, GROWING),
+            of(s, i, SHRINKING),
+        )
+        amplitude, frequency, response = of(s, i, AMPLITUDE), of(s, i, FREQUENCY), of(s, i, RESPONSE)
+        inside, cosine_in, sine_in = of(s, i, INSIDE), of(s, i, COSINE_IN), of(s, i, SINE_IN)
+        outside, cosine_out, sine_out = of(s, i, OUTSIDE), of(s, i, COSINE_OUT), of(s, i, SINE_OUT)
+        grow_in, decay_in = of(s, i, GROW_IN), of(s, i, DECAY_IN)
+        grow_out, decay_out = of(s, i, GROW_OUT), of(s, i, DECAY_OUT)
+        velocity, cosine_0, sine_0 = of(s, i, VELOCITY), of(s, i, COSINE), of(s, i, SINE)
+        within = concave > 0.0
+        late = (fma(concave, response, fma(grow, z, shrink * per_z)) > -1.0) | (middle <= low)
+        quarter = 0.25 * choose(within, inside, outside)
+        more, less = choose(within, grow_in, grow_out), choose(within, decay_in, decay_out)
+        growing, shrinking = grow * z * choose(late, more, less), shrink * per_z * choose(late, less, more)
+        cosine, sine = choose(within, cosine_in, cosine_out), choose(within, sine_in, sine_out)
+        sine = choose(late, sine, -sine)
+        u = growing + shrinking + fma(response, cosine, 1.0)
+        v = fma(-response * frequency, sine, growing - shrinking)
+        about = middle + choose(late, quarter, -quarter)
+        # half of a quarter further, on the zero's side
+        x = choose(u > 0.0, 0.5, -0.5) * quarter
+        # A short hop comes down about where the parabola from its start does.
+        fall = fma(amplitude, cosine_0, 1.0)
+        hop = 2.0 * velocity / fall
+        hops = (low == 0.0) & (fall > 0.0) & (hop * frequency < 1.0) & (hop < 0.5 * high)
+        about, x = choose(hops, 0.0, about), choose(hops, hop, x)
+        u, v = choose(hops, 0.0, u), choose(hops, velocity, v)
+        cosine, sine = choose(hops, cosine_0, cosine), choose(hops, sine_0, sine)
+        c = derivatives(u, v, cosine, sine, amplitude, frequency)
+        for _ in range(2):
+            w, dw, ddw = taylor(c, x)
+            y = -w / dw
+            bend = 0.5 * y * ddw / dw
+            x += y * halved(fma(bend, fma(2.0, bend, -1.0), 1.0))
+        found = about + x
+        found = choose((dw < 0.0) & (found > low) & (found < high), found, 0.5 * (low + high))
+        guessing = stage == GUESS
+        put(s, i, TIME, choose(guessing, found, time))
+        put(s, i, STAGE, choose(guessing, REFINE, stage))
+
+
+@njit(**EXACT_INNER)
+def look(s):
+    """The elementary functions at the time that each lane looks at."""
+    for i in range(LANES):
+        sinh, versinh, excess, higher = hyperbolic(of(s, i, TIME))
+        put(s, i, SINH, sinh)
+        put(s, i, VERSINH, versinh)
+        put(s, i, EXCESS, excess)
+        put(s, i, HIGHER, higher)
+    for i in range(LANES):
+        sin_x, versine, lag, deficit = circular(of(s, i, FREQUENCY), of(s, i, TIME))
+        put(s, i, SIN_X, sin_x)
+        put(s, i, VERSINE, versine)
+        put(s, i, LAG, lag)
+        put(s, i, DEFICIT, deficit)
+
+
+@njit(**EXACT_INNER)
+def instant(system, start, t, functions):
+    """(u, u', cos eta, sin eta) of an arc from the base at a time t, eq. (5) as in ``harmonic.respond`` and ``arc.after``."""
+    amplitude, frequency, response = system
+    velocity, cosine, sine = start
+    sinh, versinh, excess, higher, sin_x, versine, lag, deficit = functions
+    near = frequency * t < SHORT
+    in_phase, lateness = versinh + versine, fma(frequency, excess, lag)
+    place = choose(near, -fma(frequency * frequency, higher, deficit), in_phase)
+    rate = choose(near, -frequency * lateness, fma(frequency, sin_x, sinh))
+    steady = choose(near, fma(-amplitude, cosine, -1.0), -1.0)
+    displaced = response * fma(sine, lateness, -cosine * place)
+    moved = response * fma(frequency * sine, in_phase, -cosine * rate)
+    return (
+        fma(velocity, sinh, fma(steady, versinh, displaced)),
+        velocity + fma(velocity, versinh, fma(steady, sinh, moved)),
+        cosine - fma(cosine, versine, sine * sin_x),
+        sine - fma(sine, versine, -cosine * sin_x),
+    )
+
+
+@njit(**EXACT_INNER)
+def onward(x, frequency, cosine, sine, sinh, versinh):
+    """(cos eta, sin eta, sinh, cosh - 1) a small time x later, as in ``shortcut.advance``."""
+    angle = frequency * x
+    sin_x = angle * fma(-angle * angle, fma(-angle * angle, I5, I3), 1.0)
+    versine = angle * angle * fma(-angle * angle, I4, I2)
+    sinh_x, versinh_x = x * fma(x * x, I3, 1.0), x * x * fma(x * x, I4, I2)
+    return (
+        cosine - fma(cosine, versine, sine * sin_x),
+        sine - fma(sine, versine, -cosine * sin_x),
+        sinh + fma(sinh, versinh_x, fma(versinh, sinh_x, sinh_x)),
+        versinh + fma(versinh, versinh_x, fma(sinh, sinh_x, versinh_x)),
+    )
+
+
+@njit(**EXACT_INNER)
+def above_tangent(u, fall, t, low, high):
+    """Whether u is certainly positive on [low, high], in a convex stretch, by its value at t and fall = u + u' there.
+
+    y = u e^t, convex in e^2t, lies above its tangent; (e^2d - 1)/2d <= 1 + 8d up to d = 2.
+    """
+    left = high - t
+    down = choose(left < 2.0, -fall * left * fma(8.0, left, 1.0), math.inf)
+    return u - choose(fall > 0.0, fall * (t - low), down) > MARGIN
+
+
+@njit(**EXACT_INNER)
+def step(s):
+    """From the time looked at to the zero, or nearer to it; or to the bottom of a dip, which shows that there is none."""
+    for i in range(LANES):
+        stage, t, low, high = of(s, i, STAGE), of(s, i, TIME), of(s, i, LOW), of(s, i, HIGH)
+        tries, wait, speed, cleared = of(s, i, TRIES), of(s, i, WAIT), of(s, i, SPEED), of(s, i, CLEARED)
+        sinh, versinh, excess, higher = of(s, i, SINH), of(s, i, VERSINH), of(s, i, EXCESS), of(s, i, HIGHER)
+        sin_x, versine, lag, deficit = of(s, i, SIN_X), of(s, i, VERSINE), of(s, i, LAG), of(s, i, DEFICIT)
+        amplitude, frequency, response = of(s, i, AMPLITUDE), of(s, i, FREQUENCY), of(s, i, RESPONSE)
+        start = of(s, i, VELOCITY), of(s, i, COSINE), of(s, i, SINE)
+        next_cosine, next_sine = of(s, i, NEXT_COSINE), of(s, i, NEXT_SINE)
+        next_sinh, next_versinh = of(s, i, NEXT_SINH), of(s, i, NEXT_VERSINH)
+        functions = sinh, versinh, excess, higher, sin_x, versine, lag, deficit
+        u, v, cosine, sine = instant((amplitude, frequency, response), start, t, functions)
+        square = frequency * frequency
+        f, df, ddf = fma(-amplitude, cosine, -1.0), amplitude * frequency * sine, square * amplitude * cosine
+        second, third = u + f, v + df
+        fourth, fifth = second + ddf, fma(-square, df, third)
+        per = 1.0 / v
+        y = -u * per
+        factor = correction(y, second, third, fourth, per)
+
+        # near enough, as ``shortcut.close``: the rest of the way by Taylor series
+        close = (abs(u) * max(1.0, frequency) < -NEAR * v) & (abs(u * second) < NEAR * v * v)
+        arrived, x = (stage == REFINE) & close, y * factor
+        slope = fma(x, fma(x, fma(x, fma(x, I4 * fifth, I3 * fourth), I2 * third), second), v)
+        cosine, sine, sinh, versinh = onward(x, frequency, cosine, sine, sinh, versinh)
+        put(s, i, WAIT, choose(arrived, t + x, wait))
+        put(s, i, SPEED, choose(arrived, -slope, speed))
+        put(s, i, NEXT_COSINE, choose(arrived, cosine, next_cosine))
+        put(s, i, NEXT_SINE, choose(arrived, sine, next_sine))
+        put(s, i, NEXT_SINH, choose(arrived, sinh, next_sinh))
+        put(s, i, NEXT_VERSINH, choose(arrived, versinh, next_versinh))
+
+        # the bottom of a dip, where u + u' = 0, as ``crossing.dip``
+        diving, fall = stage == BOTTOM, u + v
+        held, through = diving | (stage == REFINE), diving & (u < 0.0)
+        above = diving & above_tangent(u, fall, t, low, high)
+        beyond = choose(diving, through | (fall > 0.0), u <= 0.0)
+        low, high = choose(held & (beyond == False), t, low), choose(held & beyond, t, high)  # noqa: E712
+        ahead = t + choose(diving, -fall / (fall + f), y * halved(factor))
+        # A step that would leave what holds the zero, or the bottom, goes to its middle.
+        inside = (ahead >= low) & (ahead <= high) & (diving | (v < 0.0))
+        put(s, i, TIME, choose(held, choose(inside, ahead, 0.5 * (low + high)), t))
+        put(s, i, LOW, low)
+        put(s, i, HIGH, high)
+        put(s, i, TRIES, choose(held, tries + 1.0, tries))
+        put(s, i, CLEARED, choose(above, 1.0, cleared))
+        tired = choose(held & (tries > MOST_TRIES), UNSURE, stage)
+        on = choose(above, WALK, choose(through, REFINE, tired))
+        put(s, i, STAGE, choose(arrived, ARRIVED, on))

@@ -1,0 +1,97 @@
+"""Many blocks in lockstep: the march of blocks that fly from impact to impact, without a branch.
+
+A lane holds one block: row r of lane i lies at ``state[r * LANES + i]``, so that one instruction moves several blocks.
+In a pass every lane does what is next for it. It walks along the stretches of its arc to the one in which the first
+zero of u lies (``lane_walk``), guesses it there, evaluates the arc and steps to it (``lane_zero``), and the impact
+begins the next arc (``lane_impact``). Whatever is rare, or not certain by a wide margin, is left to the functions
+for one block: the lane wants attention.
+"""
+
+import math
+
+from numba import njit
+
+from .branchless import EXACT_INNER
+
+LANES = 16
+
+(
+    # the system
+    AMPLITUDE, FREQUENCY, RESPONSE, RESTITUTION, PERIOD, PER_PERIOD,
+    # when, within the cycle, a convex stretch begins on either side
+    CUT_RIGHT, CUT_LEFT,
+    # 1 + beta cos eta and the size of its rate at the cuts; lengths of the concave and the convex stretches; e^+-length
+    # of a whole turn, the hyperbolic tangent of half of a convex one
+    CUT_PLACE, CUT_RATE, INSIDE, OUTSIDE, TURN_GROWTH, TURN_DECAY, OUT_TANH_HALF,
+    # of a concave and of a convex stretch a quarter from their middle: cos eta, the size of sin eta, e^+-quarter
+    COSINE_IN, SINE_IN, GROW_IN, DECAY_IN, COSINE_OUT, SINE_OUT, GROW_OUT, DECAY_OUT,
+    # the arc: where it starts, and c+ and c-
+    STAGE, CYCLE, START, SIDE, VELOCITY, COSINE, SINE, GROWING, SHRINKING,
+    # no zero lies before LOW; at END, e^END = Z, the next convex stretch begins; whether that holds no zero; u stays
+    # below CREST
+    LOW, END, Z, PER_Z, CLEARED, CREST,
+    # the stretch of the zero: 1 where it is concave, -1 where convex; its middle and e^+- that; its end
+    CONCAVE, MIDDLE, MIDDLE_Z, MIDDLE_PER_Z, HIGH,
+    # the time looked at, how often one has been, and what the elementary functions are there
+    TIME, TRIES, SINH, VERSINH, EXCESS, HIGHER, SIN_X, VERSINE, LAG, DEFICIT,
+    # the impact to come
+    WAIT, SPEED, NEXT_COSINE, NEXT_SINE, NEXT_SINH, NEXT_VERSINH, WANTS,
+    # the end of the leg, what was counted before it began, and what was met since
+    TARGET, COUNTED, IMPACTS, PEAK,
+    # a difference in (Theta, Theta'), to be doubled so often
+    ACROSS, ALONG, DOUBLINGS,
+    ROWS,
+) = range(68)  # fmt: skip
+
+# What is next for a lane: nothing; to begin an arc; to walk; to guess the zero in its stretch; to look for the bottom of a dip; to
+# step to the zero; the impact, once it was attended to; what none of these can do.
+IDLE, BEGUN, WALK, GUESS, BOTTOM, REFINE, ARRIVED, UNSURE = (float(stage) for stage in range(8))
+# What a lane wants: nothing; that its peak be looked at; that its trail be read; a block; that its leg be ended; that its block
+# be marched alone; that the coming event be found.
+CONTENT, PEAK_SEEN, READING, BLOCK, LEG_END, ALONE, CERTAINTY = (float(want) for want in range(7))
+# An impact slower than this is marched alone.
+SLOWEST = 1e-6
+# Arcs since the trail was last read.
+TRAIL = 384
+
+
+@njit(**EXACT_INNER)
+def of(s, i, row):
+    """A number of lane i."""
+    return s[row * LANES + i]
+
+
+@njit(**EXACT_INNER)
+def put(s, i, row, value):
+    """Set a number of lane i."""
+    s[row * LANES + i] = value
+
+
+@njit(**EXACT_INNER)
+def set_system(s, i, p):
+    """What lane i must know of its system."""
+    put(s, i, AMPLITUDE, p.amplitude)
+    put(s, i, FREQUENCY, p.frequency)
+    put(s, i, RESPONSE, p.response)
+    put(s, i, RESTITUTION, p.restitution)
+    put(s, i, PERIOD, p.period)
+    put(s, i, PER_PERIOD, 1.0 / p.period)
+    cut = p.base_half - p.phase
+    for row, eta in ((CUT_RIGHT, cut), (CUT_LEFT, cut - math.pi)):
+        put(s, i, row, (eta - 2.0 * math.pi * math.floor(eta / (2.0 * math.pi))) * p.per_frequency)
+    put(s, i, CUT_PLACE, p.cut_place)
+    put(s, i, CUT_RATE, p.cut_rate)
+    put(s, i, INSIDE, p.base_inside)
+    put(s, i, OUTSIDE, p.base_outside)
+    put(s, i, TURN_GROWTH, p.turn_growth)
+    put(s, i, TURN_DECAY, p.turn_decay)
+    put(s, i, OUT_TANH_HALF, math.tanh(0.5 * p.base_outside))
+    cosine, sine = math.cos(0.5 * p.base_half), math.sin(0.5 * p.base_half)
+    put(s, i, COSINE_IN, cosine)
+    put(s, i, SINE_IN, sine)
+    put(s, i, GROW_IN, math.exp(0.25 * p.base_inside))
+    put(s, i, DECAY_IN, math.exp(-0.25 * p.base_inside))
+    put(s, i, COSINE_OUT, -sine)
+    put(s, i, SINE_OUT, -cosine)
+    put(s, i, GROW_OUT, math.exp(0.25 * p.base_outside))
+    put(s, i, DECAY_OUT, math.exp(-0.25 * p.base_outside))

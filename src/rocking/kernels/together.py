@@ -1,0 +1,143 @@
+"""The cascade of ``verdict`` for many systems at once: each alone until plain marching is all that is left, then in a lane.
+
+Legs and looks are the same; a lane only marches. What is said of a block never hangs on its neighbours.
+"""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+
+from .answers import Answers, answer, asked
+from .desk import place
+from .elementary import MAKING_ENTRY, WITHIN
+from .events import FLIGHT
+from .judgement import OPEN, undecided
+from .lane_block import find, note, over, read, seat, see_peak
+from .lane_march import advance, strike
+from .lanes import (
+    ALONE,
+    ARRIVED,
+    BLOCK,
+    CERTAINTY,
+    CONTENT,
+    CREST,
+    IDLE,
+    LANES,
+    LEG_END,
+    PEAK,
+    PEAK_SEEN,
+    SLOWEST,
+    STAGE,
+    TARGET,
+    WANTS,
+    of,
+    put,
+)  # fmt: skip
+from .march import DONE
+from .parameters import HarmonicParameters
+from .verdict import Case, leg, look, next_look, opened
+
+# Of a quicker forcing an arc has too many stretches to be walked along in step with others.
+SHORTEST = 0.1
+
+
+class Guest(NamedTuple):
+    """Who is in a lane: which point, -1 if none."""
+
+    point: int
+    p: HarmonicParameters
+    case: Case
+
+
+class Asking(NamedTuple):
+    """What is asked, of whom, and where the answers go."""
+
+    systems: np.ndarray
+    starts: np.ndarray
+    max_cycles: int
+    max_period: int
+    answers: Answers
+
+
+@njit(**WITHIN)
+def fits(p, case):
+    """Whether plain marching is all that is left: nothing is lost, and no brace is there."""
+    progress, arc = case.run.watch.progress, case.run.watch.progress.arc
+    system = p.restitution == 1.0 and p.brace_angle == math.inf and p.amplitude > 1.0 and p.period >= SHORTEST
+    flies = progress.mode == FLIGHT and progress.no_return == math.inf
+    return system and case.run.lossless and flies and arc.angle == 0.0 and arc.velocity >= SLOWEST
+
+
+@njit(**WITHIN)
+def with_run(case, run):
+    """The case with its motion further on."""
+    return Case(run, *case[1:])
+
+
+@njit(**WITHIN)
+def onward(s, i, wants, guest, queue, asking, bench):
+    """(who is in a lane, how many were let in) after a leg, or part of one: its block again, or the next that comes to plain marching."""
+    point, p, case = guest
+    desk, trail = place(bench, i), bench.trail[i]
+    systems, starts, max_cycles, max_period, answers = asking
+    told, settled, marched = undecided(case.run.watch), wants == BLOCK, wants == LEG_END
+    stays, due = wants < BLOCK or marched, marched or wants == ALONE
+    status, run = np.int64(DONE), case.run
+    if not settled:
+        status, run = read(s, i, wants, p, run, desk, trail)
+        case = with_run(case, run)
+    while due or settled or not fits(p, case):
+        if settled:
+            if point >= 0:
+                answer(answers, point, told)
+            if queue == systems.shape[0]:
+                put(s, i, STAGE, IDLE)
+                return Guest(-1, p, case), queue
+            point, queue = queue, queue + 1
+            p = asked(systems[point])
+            case = opened(p, starts[point, 0], starts[point, 1], max_cycles)
+        if not marched:
+            stays = False
+            status, run = leg(p, case.run, max_cycles, next_look(case, max_cycles), desk)
+        told, case = look(p, case, status, run, max_cycles, max_period, desk)
+        due, marched, settled = False, False, told[0] != OPEN
+    if stays:
+        put(s, i, TARGET, next_look(case, max_cycles))
+    else:
+        seat(s, i, p, case.run.watch.progress, desk.columns, next_look(case, max_cycles))
+    return Guest(point, p, case), queue
+
+
+@njit(**MAKING_ENTRY)
+def judge_together(systems, starts, max_cycles, max_period, bench, answers, stop):
+    """Whether all points were judged, and ``stop[0]`` not set on the way; arguments as for ``many.judge_each``."""
+    s, p, queue, blocks = bench.state, asked(systems[0]), np.int64(0), LANES
+    asking = Asking(systems, starts, max_cycles, max_period, answers)
+    guests = [Guest(-1, p, opened(p, 0.0, 0.0, max_cycles))] * LANES
+    for i in range(LANES):
+        put(s, i, STAGE, IDLE)
+        put(s, i, WANTS, BLOCK)
+    while stop[0] == 0:
+        for i in range(LANES):
+            wants = of(s, i, WANTS)
+            if wants == CONTENT:
+                continue
+            if wants == CERTAINTY:
+                wants = find(s, i, guests[i].p)
+            if wants != PEAK_SEEN:
+                guest = guests[i]
+                while wants != CONTENT:
+                    guest, queue = onward(s, i, wants, guest, queue, asking, bench)
+                    blocks -= guest.point < 0
+                    wants = LEG_END if of(s, i, STAGE) == ARRIVED and over(s, i) else CONTENT
+                guests[i] = guest
+            if of(s, i, STAGE) == ARRIVED and of(s, i, CREST) > of(s, i, PEAK):
+                see_peak(s, i, guests[i].p)
+        if blocks == 0:
+            break
+        strike(s)
+        note(s, guests, bench.trail)
+        advance(s)
+    return blocks == 0

@@ -1,0 +1,124 @@
+"""Blocks marched in lanes and nothing else: every lane to the end of so many cycles, what is not certain by the functions for one block."""
+
+import math
+
+import numpy as np
+from numba import njit
+
+from rocking.kernels.arc import arc_from, earlier
+from rocking.kernels.elementary import COMPILED
+from rocking.kernels.events import FLIGHT
+from rocking.kernels.lane_block import arc_of, find, over, seat
+from rocking.kernels.lane_march import advance, strike
+from rocking.kernels.lanes import (
+    ARRIVED,
+    CERTAINTY,
+    CYCLE,
+    IDLE,
+    IMPACTS,
+    LANES,
+    NEXT_COSINE,
+    NEXT_SINE,
+    NEXT_SINH,
+    NEXT_VERSINH,
+    ROWS,
+    SIDE,
+    SPEED,
+    STAGE,
+    START,
+    TARGET,
+    UNSURE,
+    VELOCITY,
+    WAIT,
+    WANTS,
+    of,
+    put,
+)  # fmt: skip
+from rocking.kernels.march import Progress
+from rocking.kernels.notes import state_at
+
+EYE = np.eye(2)
+FIRST = (WAIT, SPEED, NEXT_COSINE, NEXT_SINE, NEXT_SINH, NEXT_VERSINH)
+
+
+@njit(**COMPILED)
+def sit_down(s, i, p, side, start, velocity, columns, cycles):
+    """A block in lane i that leaves the base."""
+    arc = arc_from(p, side, start, 0.0, velocity)
+    progress = Progress(FLIGHT, 0, arc, True, 0, 0, 0, 0.0, math.inf, 1.0, 0.0, -math.inf)
+    seat(s, i, p, progress, columns, cycles)
+
+
+@njit(**COMPILED)
+def pass_on(s, passes):
+    """So many passes without any attention."""
+    for _ in range(passes):
+        advance(s)
+
+
+@njit(**COMPILED)
+def to_the_end(s, p, events):
+    """March all lanes, of one system, to their targets; ``events`` (lanes, n, 4) takes (cycle, time, side, velocity) after each impact."""
+    moving = LANES
+    strike(s)
+    while moving > 0:
+        advance(s)
+        moving = 0
+        for i in range(LANES):
+            wants = of(s, i, WANTS)
+            if wants == CERTAINTY:
+                find(s, i, p)
+            if of(s, i, STAGE) == ARRIVED and over(s, i):
+                put(s, i, STAGE, IDLE)
+            moving += of(s, i, STAGE) != IDLE
+        strike(s)
+        for i in range(LANES):
+            k = int(of(s, i, IMPACTS)) - 1
+            if k >= 0:
+                events[i, k, 0], events[i, k, 1] = of(s, i, CYCLE), of(s, i, START)
+                events[i, k, 2], events[i, k, 3] = of(s, i, SIDE), of(s, i, VELOCITY)
+
+
+@njit(**COMPILED)
+def states(s, p, out):
+    """Where the blocks are at their targets."""
+    for i in range(LANES):
+        cycles = of(s, i, TARGET) - of(s, i, CYCLE)
+        arc = earlier(arc_of(s, i, p), cycles * p.period)
+        out[i, 0], out[i, 1] = state_at(p, FLIGHT, arc, -arc.start)
+
+
+def empty():
+    """Lanes without blocks."""
+    return np.zeros(ROWS * LANES)
+
+
+def first_impacts(systems, starts):
+    """((wait, speed, cos, sin, sinh, cosh - 1) of each first impact as the lanes find it, whether they are certain of it).
+
+    ``starts`` are (side, start, velocity).
+    """
+    found, certain = np.empty((len(systems), len(FIRST))), np.zeros(len(systems), bool)
+    for first in range(0, len(systems), LANES):
+        s, here = empty(), range(first, min(first + LANES, len(systems)))
+        for i, k in enumerate(here):
+            sit_down(s, i, systems[k], *starts[k], EYE, 10**9)
+        strike_and_pass(s)
+        rows = s.reshape(ROWS, LANES)
+        for i, k in enumerate(here):
+            found[k], certain[k] = rows[list(FIRST), i], rows[STAGE, i] == ARRIVED
+    return found, certain
+
+
+@njit(**COMPILED)
+def strike_and_pass(s):
+    """From the start of an arc as far as lanes go without attention."""
+    strike(s)
+    while True:
+        advance(s)
+        under_way = 0
+        for i in range(LANES):
+            stage = of(s, i, STAGE)
+            under_way += stage != ARRIVED and stage != UNSURE and stage != IDLE
+        if under_way == 0:
+            break

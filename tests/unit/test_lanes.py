@@ -1,0 +1,125 @@
+"""Lanes: many blocks in lockstep do what each does alone."""
+
+import math
+
+import mpmath as mp
+import numpy as np
+import pytest
+from numba import njit
+
+from oracles import lanes as oracle
+from rocking.kernels import branchless, events, lanes
+from rocking.kernels.arc import arc_from
+from rocking.kernels.elementary import COMPILED
+from rocking.kernels.parameters import harmonic_parameters
+
+ULP = 2.0**-52
+
+
+@njit(**COMPILED)
+def elementary(rate, t):
+    return branchless.both_exponentials(t), branchless.hyperbolic(t), branchless.circular(rate, t)
+
+
+@njit(**COMPILED)
+def logarithm(x):
+    return branchless.logarithm(x)
+
+
+@njit(**COMPILED)
+def alone(p, side, start, velocity):
+    """The first event of an arc from the base, as the functions for one block find it."""
+    return events.any_event(p, events.FLIGHT, arc_from(p, side, start, 0.0, velocity))
+
+
+def test_elementary_functions_have_full_relative_accuracy_however_short_the_arc():
+    random = np.random.default_rng(1)
+    for _ in range(2000):
+        t, rate = 10.0 ** random.uniform(-7, 1.5), 10.0 ** random.uniform(-1, 1.5)
+        (grown, shrunk), (sinh, versinh, excess, higher), (sin, versine, lag, deficit) = elementary(rate, t)
+        with mp.workdps(60):
+            T, x = mp.mpf(t), mp.mpf(rate) * mp.mpf(t)
+            pairs = [
+                (grown, mp.exp(T)),
+                (shrunk, mp.exp(-T)),
+                (sinh, mp.sinh(T)),
+                (versinh, mp.cosh(T) - 1),
+                (excess, mp.sinh(T) - T),
+            ]
+            if t < 1.99:
+                pairs.append((higher, mp.cosh(T) - 1 - T * T / 2))
+            if x < 1.99:
+                pairs += [(sin, mp.sin(x)), (versine, 1 - mp.cos(x)), (lag, x - mp.sin(x))]
+                pairs.append((deficit, x * x / 2 - 1 + mp.cos(x)))
+            for ours, exact in pairs:
+                assert abs(ours - exact) <= 4 * ULP * abs(exact), (rate, t)
+            for ours, exact in ((sin, mp.sin(x)), (versine, 1 - mp.cos(x)), (lag, x - mp.sin(x))):
+                assert abs(ours - exact) <= 4 * ULP * max(1, abs(exact)), (rate, t)
+
+
+def test_logarithm_is_good_to_ten_digits():
+    for x in np.exp(np.random.default_rng(2).uniform(-60, 60, 2000)):
+        assert abs(logarithm(x) - math.log(x)) <= 1e-10
+
+
+def drawn(count, seed):
+    """Systems and starts from the base, slow ones among them."""
+    random = np.random.default_rng(seed)
+    systems, starts = [], []
+    for _ in range(count):
+        period, amplitude = random.uniform(0.15, 3.0), 1.0 + 10.0 ** random.uniform(-2, 1.2)
+        restitution, phase = random.uniform(0.1, 1.0), random.uniform(-3.0, 3.0)
+        systems.append(harmonic_parameters(amplitude, math.tau / period, period, phase, restitution))
+        slow = 10.0 ** random.uniform(-5, 0.5)
+        starts.append((int(random.choice([-1, 1])), random.uniform(0, period), slow))
+    return systems, starts
+
+
+def test_first_impacts_are_those_of_one_block():
+    """Of random arcs, those included that dip towards the base without reaching it: never a later zero, never another.
+
+    Time and speed agree to rounding, 16 ulp of what they are made of; a rounding of u moves them by its ratio to the speed.
+    """
+    systems, starts = drawn(4096, 3)
+    found, certain = oracle.first_impacts(systems, starts)
+    compared = 0
+    for p, start, ours, sure in zip(systems, starts, found, certain, strict=True):
+        if not sure:
+            continue
+        one = alone(p, *start)
+        assert one.event == events.IMPACT, (p, start)
+        compared += 1
+        grown = math.cosh(one.wait)
+        scale = 16 * ULP * grown * (start[2] + (1.0 + p.amplitude) * min(one.wait, 1.0) + p.response)
+        bend = abs(1.0 + p.amplitude) / -one.velocity
+        assert abs(ours[0] - one.wait) <= 16 * ULP * one.wait + scale / -one.velocity, (p, start)
+        assert abs(ours[1] + one.velocity) <= scale * (1.0 + bend), (p, start)
+        there = one.cosine, one.sine, one.sinh, one.versinh
+        assert ours[2:] == pytest.approx(there, rel=1e-8, abs=1e-8), (p, start)
+    assert compared >= 0.4 * len(systems)
+
+
+def test_lanes_leave_little_to_the_functions_for_one_block():
+    """What comes down at all comes down in its lane, but for a few in a hundred."""
+    systems, starts = drawn(2048, 4)
+    _, certain = oracle.first_impacts(systems, starts)
+    comes_down = [alone(p, *start).event == events.IMPACT for p, start in zip(systems, starts, strict=True)]
+    assert certain[comes_down].mean() > 0.95
+
+
+@pytest.mark.parametrize("restitution", [0.8, 0.95, 1.0])
+def test_what_a_lane_does_hangs_on_no_other(restitution):
+    """Every bit of it, wherever the block sits and whoever sits beside it."""
+    p = harmonic_parameters(4.0, math.tau / 0.4, 0.4, 0.3, restitution)
+    random = np.random.default_rng(5)
+    blocks = [(1, float(random.uniform(0, 0.4)), float(random.uniform(0.2, 0.6))) for _ in range(lanes.LANES)]
+
+    def marched(order):
+        s, noted = oracle.empty(), np.zeros((lanes.LANES, 400, 4))
+        for i, k in enumerate(order):
+            oracle.sit_down(s, i, p, *blocks[k], oracle.EYE, 20)
+        oracle.to_the_end(s, p, noted)
+        return noted[np.argsort(order)]
+
+    order = random.permutation(lanes.LANES)
+    assert np.array_equal(marched(np.arange(lanes.LANES)), marched(order))
