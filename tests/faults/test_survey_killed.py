@@ -26,7 +26,7 @@ import rocking as rk
 from rocking.kernels import many
 import xarray, zarr
 
-many.compile_many()
+many.compile_many(False)
 asked = dict(amplitude=np.linspace(0.0, 16.0, {SIZE}), period=np.linspace(0.2, 3.0, {SIZE}), restitution=1.0, max_cycles=100)
 folder = sys.argv[1]
 """

@@ -97,7 +97,7 @@ def test_json_of_an_overturned_block_has_neither_orbit_nor_exponent(rocking):
 def test_json_in_si_has_the_block(rocking):
     block = rk.Block(2.0, 0.5)
     read = told(rocking, SI)
-    assert read["block"]["peak_deg"] == pytest.approx(block.degrees(read["peak"]), rel=1e-15)
+    assert read["block"]["peak_deg"] == pytest.approx(block.degrees(read["peak"]), rel=1e-15, abs=0)
     assert read["block"]["peak_top_displacement_m"] == pytest.approx(block.top_displacement(read["peak"]))
 
 
@@ -121,14 +121,6 @@ def test_every_kind_can_be_drawn_and_nothing_else_is_left(rocking, tmp_path, lin
     assert told(rocking, f"{line} --plot a.svg")["files"] == ["a.svg"]
 
 
-def test_help_shows_examples_that_run(rocking):
-    code, _, out = rocking("classify --help")
-    examples = [line.strip() for line in out.splitlines() if line.startswith("  rocking classify ")]
-    assert (code, len(examples)) == (0, 2)
-    for example in examples:
-        assert rocking(example.removeprefix("rocking "))[0] == 0
-
-
 NORMALISED = "--amplitude 2 --period 1 --restitution 0.925"
 REFUSED = {
     "--amplitude 2": "missing --restitution: give --amplitude, --period (or --frequency) and --restitution",
@@ -136,7 +128,7 @@ REFUSED = {
     f"{NORMALISED} --max-cycles 1e9": "--max-cycles must be a whole number in [1, 100000000]; got 1000000000.0",
     f"{NORMALISED} --max-cycles inf": "--max-cycles must be a whole number in [1, 100000000]; got inf",
     f"{NORMALISED} --max-period 2.5": "--max-period must be a whole number in [1, 10000]; got 2.5",
-    f"{NORMALISED} --max-period many": "Invalid value for '--max-period': must be a number; got 'many'",
+    f"{NORMALISED} --max-period many": "Invalid value for '--max-period': must be a number alone, such as 0.6; got 'many'",
     f"{NORMALISED} --angle nan": "--angle must lie in [-1000, 1000]; got nan",
     f"{NORMALISED} --brace-angle 0.5 --angle 0.6": "--angle must lie between the braces, in [-0.5, 0.5]; got 0.6",
     f"{NORMALISED} --plot a.gif": "--plot must end in .png, .svg, .pdf; got 'a.gif'",

@@ -1,6 +1,7 @@
 """`rocking basins` and `rocking overturning` as a stranger types them."""
 
 import json
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -12,11 +13,11 @@ CURVE = "overturning --period 1.2:2.2:3 --restitution 0.925 --amplitude 1:6:21 -
 
 
 def test_basins_lists_the_attractors_with_their_shares(rocking, tmp_path):
-    code, message, out = rocking(f"{BASINS} --boundary-runs 20000 --plot a.png --netcdf a.nc")
+    code, message, out = rocking(f"{BASINS} --boundary-runs 4000 --plot a.png --netcdf a.nc")
     assert (code, message) == (0, "")
     starts = np.linspace(-1, 1, 21)
     system = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), 0.925)
-    found = rk.basin_map(system, angle=starts, velocity=starts, boundary_runs=20000)
+    found = rk.basin_map(system, angle=starts, velocity=starts, boundary_runs=4000)
     lines = [" ".join(line.split()) for line in out.splitlines()]
     assert lines[0] == f"basins, 441 starts: {len(found.attractors)} responses to be told apart"
     for each, share in zip(found.attractors, found.fractions, strict=True):
@@ -53,7 +54,98 @@ def test_overturning_lists_the_lowest_amplitudes(rocking, tmp_path):
     shown = rocking(CURVE)[2].splitlines()
     assert shown[0].startswith("lowest overturning amplitude from rest")
     assert shown[1].split()[0] == "period"
-    assert len(shown) == 5
+    columns = ("period", "lowest", "resolution", "survived_up_to")
+    for row, line in zip(told["curve"], shown[2:], strict=True):
+        assert [float(word) for word in line.split()[:4]] == pytest.approx(
+            [row[name] for name in columns], rel=1e-5
+        )
+
+
+BASINS_STUDY = """
+height = 2
+width = 0.5
+acceleration = 4
+frequency-hz = 1.2
+angle = "-1:1:7"
+velocity = [-0.5, 0, 0.5]
+boundary-runs = 0
+netcdf = "a.nc"
+"""
+
+
+def test_basins_reads_a_study_file(rocking):
+    Path("study.toml").write_text(BASINS_STUDY)
+    line = (
+        "basins --height 2 --width 0.5 --acceleration 4 --frequency-hz 1.2 --angle=-1:1:7 --velocity=-0.5:0.5:3 "
+        "--boundary-runs 0 --netcdf a.nc --json"
+    )
+    assert rocking("basins --study study.toml --json") == rocking(line)
+
+
+def test_basins_draws_random_starts_between_the_ends_of_a_study_files_axes(rocking):
+    Path("study.toml").write_text(BASINS_STUDY.replace("[-0.5, 0, 0.5]", "[-0.5, 0.5]") + "samples = 50\n")
+    told = json.loads(rocking("basins --study study.toml --seed 3 --json")[2])
+    system = rk.Block(2, 0.5).system(acceleration=4, frequency_hz=1.2)
+    found = rk.basin_map(system, angle=(-1, 1), velocity=(-0.5, 0.5), samples=50, seed=3, boundary_runs=0)
+    assert [each["name"] for each in told["attractors"]] == [each.name for each in found.attractors]
+    assert told["starts"] == 50
+
+
+def test_basins_of_a_braced_block_begin_between_its_braces(rocking):
+    line = "basins --amplitude 2 --period 1 --restitution 0.9 --brace-angle 0.5 --boundary-runs 0 --velocity=-1:1:3"
+    told = json.loads(rocking(f"{line} --json")[2])
+    assert told["starts"] == 200 * 3
+    assert rocking(f"{line} --angle=-0.5:0.5:200 --json") == rocking(f"{line} --json")
+
+
+def test_what_a_study_file_says_twice_is_refused(rocking):
+    Path("study.toml").write_text("max-cycles = 5\nmax_cycles = 6\n")
+    told = "study 'study.toml': 'max-cycles' is said twice, once with underscores"
+    assert rocking("basins --study study.toml")[:2] == (2, told)
+
+
+def test_overturning_reads_a_study_file(rocking):
+    Path("study.toml").write_text(
+        'period = "1.2:2.2:3"\nrestitution = 0.9\namplitude = { start = 1, stop = 6, count = 21 }\nphases = 2\n'
+    )
+    assert rocking("overturning --study study.toml --restitution 0.925") == rocking(CURVE)
+
+
+@pytest.mark.parametrize(
+    "command, wrong, told",
+    [
+        (
+            "basins",
+            "amplitude = '1:2:3'\nrestitution = 1.2\nsamples = 0\nplot = 3\ntiles = 'a'\nseeds = 1\n",
+            [
+                "amplitude must be a number; got '1:2:3'",
+                "restitution must lie in [0, 1]; got 1.2",
+                "samples must be a whole number in [1, 10000000]; got 0",
+                "plot must be a path; got 3",
+                "unknown 'seeds' (do you mean 'seed'?)",
+                "unknown 'tiles' (keys are the names of options)",
+            ],
+        ),
+        (
+            "overturning",
+            "restitution = [0.9, 0.8]\nperiod = '1:2:1'\nphases = 0\nangle = 0.1\n",
+            [
+                "period must be a number or START:STOP:COUNT, two different numbers and a whole one from 2",
+                "restitution must hold two numbers or more in [0, 1], ascending; got 0.9 before 0.8 at index 1",
+                "phases must be a whole number in [1, 100000]; got 0",
+                "unknown 'angle' (keys are the names of options)",
+            ],
+        ),
+    ],
+)
+def test_all_errors_of_a_study_file_are_told_at_once(rocking, command, wrong, told):
+    Path("study.toml").write_text(wrong)
+    code, message, out = rocking(f"{command} --study study.toml")
+    assert (code, out) == (2, "")
+    assert message.startswith("study 'study.toml': ")
+    for each in told:
+        assert each in message
+    assert message.count("; ") >= len(told) - 1
 
 
 @pytest.mark.parametrize(

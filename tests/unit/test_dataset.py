@@ -93,6 +93,13 @@ def test_events_are_those_of_the_motion(motion, normalised):
         np.testing.assert_array_equal(normalised[f"event_{name}"], motion.events[name])
 
 
+def test_phase_of_an_event_is_that_of_the_base_at_its_time(motion):
+    forcing, events = motion.system.forcing, motion.events
+    pushed = forcing.amplitude * np.cos(events["phase"])
+    assert len(events) > 10
+    np.testing.assert_allclose(pushed, forcing.acceleration(events["time"]), atol=1e-10)
+
+
 def test_attributes_say_what_the_motion_is(normalised, physical):
     given = {
         "source": f"rocking {__version__}",

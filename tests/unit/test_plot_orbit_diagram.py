@@ -182,7 +182,7 @@ def test_notebook_shows_a_picture_over_the_line():
 @pytest.mark.parametrize(
     "change, error, message",
     [
-        (dict(result=3), TypeError, "result must be a OrbitDiagram; got 3"),
+        (dict(result=3), TypeError, "result must be an OrbitDiagram; got 3"),
         (dict(quantity="speed"), ValueError, "quantity must be one of 'angle', 'velocity', 'peak'"),
         (dict(branches=[3]), TypeError, "branches must be a sequence of branches from continue_orbit; got 3"),
         (dict(block=2.0), TypeError, "block must be a Block; got 2.0"),

@@ -11,6 +11,7 @@ from PIL import Image
 
 import rocking as rk
 from rocking.plot.kinds import LOOKS, NONE, looks
+from rocking.plot.tiles import Pyramid
 
 UP, ACROSS = 700, 300
 EDGE = 256
@@ -134,6 +135,21 @@ def test_map_of_any_size_fits_its_coarsest_level_in_one_tile(tmp_path, rows, col
     assert (image_of(page, deepest)[..., 3] == colours[..., 3]).all()
     assert image_of(page, 0).shape[:2] == colours[:: 2**deepest, :: 2**deepest].shape[:2]
     assert max(image_of(page, 0).shape) <= EDGE
+
+
+def test_images_do_not_depend_on_how_many_rows_come_at_a_time(tmp_path):
+    codes = np.random.default_rng(2).integers(0, NONE + 1, (600, 4)).astype(np.uint8)
+    images = []
+    for at_once in (600, 7):
+        pyramid = Pyramid(tmp_path / str(at_once), *codes.shape)
+        for first in range(0, 600, at_once):
+            pyramid.add(codes[first : first + at_once])
+        pyramid.finish()
+        images.append(
+            {path.relative_to(pyramid.folder): path.read_bytes() for path in pyramid.folder.rglob("*.png")}
+        )
+    assert len(images[0]) > 3
+    assert images[0] == images[1]
 
 
 def test_folder_of_an_earlier_export_is_replaced_as_a_whole(tmp_path):

@@ -65,6 +65,36 @@ def test_two_mirror_images_are_two_attractors():
     assert np.abs(own - [b.state.angle, b.state.velocity]).max() > 0.1
 
 
+# just before a cascade of doublings ends: chaos around either of two mirror images
+CHAOTIC_PAIR = rk.System(rk.Harmonic(amplitude=10.74, period=1.721328), 0.8)
+
+
+def test_two_chaotic_attractors_that_are_mirror_images_are_two():
+    found = grid(CHAOTIC_PAIR, 0.9, 16, max_cycles=10_000)
+    pair = [each for each in found.attractors if each.kind == "chaotic"]
+    assert sorted(each.name for each in pair) == ["chaotic (a)", "chaotic (b)"]
+    labels = {each.name: number for number, each in enumerate(found.attractors)}
+    means, mirrored = [], []
+    for each in pair:
+        mine = found.dataset.attractor.values == labels[each.name]
+        means.append(found.dataset.mean_angle.values[mine])
+        motion = rk.simulate(CHAOTIC_PAIR, each.verdict.start, cycles=20_000)
+        mirrored.append(-motion.section(math.pi)[10_000:, 0].mean())
+    assert min(map(len, means)) >= 3
+    # means of 5,000 cycles scatter by some 1e-4
+    assert max(map(np.ptp, means)) < 0.005
+    assert np.mean(means[0]) == pytest.approx(mirrored[1], abs=0.005)
+    assert np.mean(means[1]) == pytest.approx(mirrored[0], abs=0.005)
+    assert abs(mirrored[0] - mirrored[1]) > 1.0
+
+
+def test_one_chaotic_attractor_is_one_from_wherever_it_is_reached():
+    """Between braces there is one, which is its own mirror image."""
+    braced = rk.System(rk.Harmonic(amplitude=15.0, period=2.0), 0.925, rk.Braces(1.0))
+    found = grid(braced, 0.9, 3, max_cycles=100_000)
+    assert [each.name for each in found.attractors] == ["chaotic"]
+
+
 def test_a_mirrored_base_has_mirrored_basins():
     one = grid(MANY, count=25)
     turned = rk.System(rk.Harmonic(amplitude=2.0, period=1.0, phase=math.pi), 0.925)
@@ -91,6 +121,15 @@ def test_fractions_count_the_starts_and_flags_name_the_attractors():
     fallen = np.count_nonzero(found.dataset.kind.values == 4)
     assert found.safe.count == 441 - fallen
     assert str(found).startswith("441 starts: ")
+
+
+def test_what_is_undetermined_may_lead_to_any_of_the_others():
+    found = grid(CHAOTIC_PAIR, 0.9, 9, max_cycles=100)
+    shares = {each.name: share for each, share in zip(found.attractors, found.fractions, strict=True)}
+    undetermined = shares.pop("undetermined")
+    assert 0 < undetermined.count < 81
+    assert undetermined.unknown == 0
+    assert {share.unknown for share in shares.values()} == {undetermined.count}
 
 
 def test_random_starts_are_those_of_the_seed_whoever_computes():
@@ -171,7 +210,7 @@ def test_the_safe_area_need_not_fall_above_the_tangency():
 
 
 def test_a_safe_basin_needs_amplitudes():
-    with pytest.raises(TypeError, match="amplitude must be an array of amplitudes"):
+    with pytest.raises(TypeError, match="amplitude must be an axis of amplitudes"):
         rk.safe_basin(amplitude=1.0, period=[1.0, 2.0], restitution=0.8)
     with pytest.raises(TypeError, match="a safe basin needs one quantity to vary"):
         rk.safe_basin(amplitude=1.0, period=1.0, restitution=0.8)

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import rocking as rk
+from rocking.kernels import many
 
 WHERE = {"amplitude": np.linspace(0.5, 12.0, 5), "period": np.linspace(0.3, 2.5, 4)}
 KINDS = dict(enumerate(rk.Kind))
@@ -35,11 +36,15 @@ def check_against_classify(found, axes, fixed, max_cycles=200, max_period=64):
         assert at["impacts_per_period"] == told(verdict.impacts_per_period, -1)
         assert at["brace_hits_per_period"] == told(verdict.brace_hits_per_period, -1)
         assert at["symmetric"] == (2 if verdict.symmetric is None else verdict.symmetric)
+        # A map marches what loses nothing in lanes, where other roundings are made.
+        tolerance = 1e-9 if verdict.system.restitution == 1.0 else 0.0
         for name in ("exponent", "exponent_error"):
             assert at[name] == pytest.approx(
-                told(getattr(verdict, name), math.nan), abs=0, rel=0, nan_ok=True
+                told(getattr(verdict, name), math.nan), abs=tolerance, rel=tolerance, nan_ok=True
             )
-        assert at["peak"] == verdict.peak
+        # In chaos a rounding soon changes the peak too.
+        if tolerance == 0.0 or verdict.kind != "undetermined":
+            assert at["peak"] == pytest.approx(verdict.peak, abs=0, rel=tolerance)
         assert at["cycles"] == verdict.cycles
         if verdict.kind != "rest":  # which tells how long it took to come to rest from the motion itself
             assert at["transient"] == told(verdict.transient, -1)
@@ -89,7 +94,7 @@ def test_dataset_names_its_axes_flags_parameters_and_maker():
     assert found.kind.attrs["flag_meanings"].split() == [str(kind) for kind in rk.Kind]
     assert list(found.kind.attrs["flag_values"]) == list(range(6))
     assert found.attrs["source"] == f"rocking {rk.__version__}"
-    named = {"restitution": 0.9, "phase": 0.5, "max_cycles": 50, "max_period": 8, "method": 1}
+    named = {"restitution": 0.9, "phase": 0.5, "max_cycles": 50, "max_period": 8, "method": many.METHOD}
     assert named.items() <= found.attrs.items()
 
 
@@ -130,13 +135,19 @@ REFUSED = {
         {"amplitude": ["a", "b"]},
         "amplitude must hold two numbers or more in [0, 1000], ascending; got ['a', 'b']",
     ),
+    "a text": ({"amplitude": "1:2"}, "amplitude must be a real number in [0, 1000]; got '1:2'"),
+    "nothing to write to": ({"store": ""}, "store must be the path of a folder; got ''"),
+    "rebound without braces": (
+        {"brace_restitution": 0.5},
+        "brace_restitution must come with brace_angle; got 0.5",
+    ),
     "three axes": (
         {"restitution": [0.8, 0.9]},
-        "a parametric map needs two quantities to vary, given as arrays; got amplitude and restitution and period",
+        "a parametric map needs two quantities to vary, given as axes; got amplitude and restitution and period",
     ),
     "one axis": (
         {"amplitude": 1.0},
-        "a parametric map needs two quantities to vary, given as arrays; got period",
+        "a parametric map needs two quantities to vary, given as axes; got period",
     ),
     "fixed out of range": ({"restitution": 1.2}, "restitution must lie in [0, 1]; got 1.2"),
     "nothing given": ({"restitution": None}, "a parametric map needs restitution; got none"),
@@ -154,7 +165,7 @@ REFUSED = {
     ),
     "cycles": ({"max_cycles": 0}, "max_cycles must be a whole number in [1, 100000000]; got 0"),
     "store": ({"store": 5}, "store must be the path of a folder; got 5"),
-    "executor": ({"executor": 2}, "executor must be a Executor; got 2"),
+    "executor": ({"executor": 2}, "executor must be an Executor; got 2"),
     "periods": ({"max_period": 2.5}, "max_period must be a whole number in [1, 10000]; got 2.5"),
 }
 

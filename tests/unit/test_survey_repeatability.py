@@ -7,7 +7,10 @@ import numpy as np
 import pytest
 
 import rocking as rk
-from rocking.survey.repeatability import spread
+from rocking.survey.axes import SYSTEM
+from rocking.survey.basins import points_of
+from rocking.survey.disturbed import disturbed as inputs_off
+from rocking.survey.disturbed import spread
 
 EDGE = rk.System(rk.Harmonic(amplitude=1.75, period=2.0), 0.95)
 
@@ -36,6 +39,49 @@ def test_each_run_is_what_classify_says_of_the_disturbed_system():
     assert sum(share.count for share in found.responses.values()) == 80
 
 
+def test_what_is_undetermined_is_no_outcome_and_widens_all_others():
+    """Between braces, followed for less than it takes to call anything chaotic."""
+    system = rk.System(rk.Harmonic(amplitude=9.0, period=2.0), 0.925, rk.Braces(1.0))
+    found = rk.repeatability(system, relative=0.2, samples=60, max_cycles=300)
+    open_ = found.kinds[rk.Kind.UNDETERMINED]
+    assert 0 < open_.count < 60
+    assert list(found.kinds)[-1] is rk.Kind.UNDETERMINED
+    assert list(found.responses)[-1] == "undetermined"
+    assert not found.certain
+    assert found.repeats == found.kinds[rk.Kind.PERIODIC]
+    for share in list(found.responses.values())[:-1]:
+        assert share.unknown == open_.count
+        assert share.high == rk.Share(share.count + open_.count, 60).high
+        assert share.low == rk.Share(share.count, 60).low
+    nothing = rk.repeatability(system, relative=0.0, samples=5, max_cycles=2)
+    assert not nothing.certain
+    assert nothing.repeats == rk.Share(0, 5, 5)
+
+
+def test_a_map_of_repeatability_takes_the_undetermined_for_no_outcome():
+    axes = {"amplitude": np.linspace(6.0, 12.0, 4), "period": np.linspace(1.5, 2.5, 4)}
+    asked = {"restitution": 0.925, "brace_angle": 1.0, "relative": 0.1, "samples": 5, "max_cycles": 200}
+    found = rk.repeatability_map(**axes, **asked)
+    divided = unknown = 0
+    for index in np.ndindex(4, 4):
+        forcing = rk.Harmonic(amplitude=axes["amplitude"][index[0]], period=axes["period"][index[1]])
+        meant = rk.System(forcing, 0.925, rk.Braces(1.0))
+        counts = Counter(
+            rk.classify(*disturbed(meant, rk.State(), units, 0.1), 200).kind for units in spread(5)
+        )
+        open_ = counts.pop(rk.Kind.UNDETERMINED, 0)
+        at = {name: float(found.dataset[name].values[index]) for name in ("agreeing", "undetermined")}
+        assert at["agreeing"] == pytest.approx(max(counts.values(), default=0) / 5, abs=1e-7)
+        assert at["undetermined"] == pytest.approx(open_ / 5, abs=1e-7)
+        divided += len(counts) > 1
+        unknown += len(counts) < 2 and open_ > 0
+    assert (found.uncertain.count, found.uncertain.unknown) == (divided, unknown)
+    assert unknown > 0
+    assert found.uncertain.high == rk.Share(divided + unknown, 16).high
+    # nothing overturns between braces, whatever else it does
+    assert found.overturning_uncertain == rk.Share(0, 16)
+
+
 def test_inputs_that_are_not_off_have_one_outcome():
     found = rk.repeatability(EDGE, relative=0.0, samples=20)
     assert found.certain
@@ -43,10 +89,15 @@ def test_inputs_that_are_not_off_have_one_outcome():
     assert found.repeats.value == 1.0
 
 
-def test_restitution_is_never_above_one():
+def test_restitution_is_drawn_evenly_up_to_one_and_never_above():
     system = rk.System(rk.Harmonic(amplitude=4.0, period=0.4), 1.0)
-    found = rk.repeatability(system, samples=30, relative=0.2, max_cycles=200)
-    assert found.repeats.of == 30
+    units = np.random.default_rng(8).uniform(-1, 1, (4000, 5))
+    tried = inputs_off(points_of(system, np.zeros((4000, 2))), units, 0.2).systems[
+        :, SYSTEM.index("restitution")
+    ]
+    assert 0.8 <= tried.min() < 0.801
+    assert 0.999 < tried.max() <= 1.0
+    assert tried.mean() == pytest.approx(0.9, abs=4 * 0.2 / (12 * 4000) ** 0.5)
 
 
 def test_the_paper_s_overturning_case_cannot_be_repeated_to_a_percent():

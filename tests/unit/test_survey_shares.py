@@ -5,7 +5,7 @@ import pytest
 
 import rocking as rk
 from rocking.model import Share, wilson
-from rocking.survey.boundary import exponent
+from rocking.survey.boundary import distances, exponent, trios
 
 Z = 1.959963984540054
 REPEATS = 2_000
@@ -49,6 +49,14 @@ def test_intervals_of_basin_fractions_cover():
     low, high = wilson(fell.sum(axis=1), each)
     # the share of all of them is 45 times as well known as those of the parts
     assert np.mean((low <= fell.mean()) & (fell.mean() <= high)) == pytest.approx(0.95, abs=0.02)
+
+
+def test_two_starts_lie_beside_each_in_opposite_directions_at_the_distances_tried():
+    tried = trios((-1.0, -2.0), (1.0, 2.0), 2_400, np.random.default_rng(5))
+    middle, one, other = np.moveaxis(tried, 2, 0)
+    np.testing.assert_allclose(one + other, 2.0 * middle, rtol=0, atol=1e-15)
+    away = np.hypot(*np.moveaxis(one - middle, -1, 0))
+    np.testing.assert_allclose(away, np.broadcast_to(distances((2.0, 4.0))[:, None], away.shape), rtol=1e-12)
 
 
 def fake_trios(label, random, each=4000):

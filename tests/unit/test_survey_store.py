@@ -11,6 +11,7 @@ import xarray as xr
 import zarr
 
 import rocking as rk
+from rocking.kernels.many import METHOD
 from rocking.survey import run, store
 
 SIZE = 130
@@ -97,6 +98,13 @@ def test_nothing_is_computed_twice(made, computed):
     assert files(made) == before
 
 
+def test_what_others_leave_in_its_folders_is_none_of_its_business(copied, computed):
+    for folder in [each for each in copied.glob("level-*/cycles/**") if each.is_dir()]:
+        (folder / ".listing").touch()
+    rk.parametric_map(**ASKED, store=copied)
+    assert computed() == 0
+
+
 def test_every_point_is_computed_once(tmp_path, computed):
     rk.parametric_map(**ASKED, store=tmp_path / "map.zarr")
     assert computed() == SIZE**2
@@ -181,8 +189,10 @@ def test_store_of_another_survey_is_refused_with_what_differs(made, what):
 
 
 def test_store_of_another_method_is_refused(made, monkeypatch):
-    monkeypatch.setattr("rocking.kernels.many.METHOD", 2)
-    with pytest.raises(ValueError, match="holds another survey: method is 1 there and 2 here"):
+    monkeypatch.setattr("rocking.kernels.many.METHOD", METHOD + 1)
+    with pytest.raises(
+        ValueError, match=f"holds another survey: method is {METHOD} there and {METHOD + 1} here"
+    ):
         rk.parametric_map(**ASKED, store=made)
 
 
@@ -215,7 +225,7 @@ def test_folder_that_holds_something_else_is_refused(tmp_path, monkeypatch):
     Path("map.zarr/notes.txt").write_text("mine")
     refused(
         "map.zarr",
-        "store must be a new folder or a survey's store; got 'map.zarr', which is a folder with 'notes.txt' in it",
+        "store must be a new folder, or one of a survey; got 'map.zarr', which is a folder with 'notes.txt' in it",
     )
     assert [path.name for path in Path("map.zarr").iterdir()] == ["notes.txt"]
 
@@ -226,7 +236,7 @@ def test_zarr_store_of_somebody_else_is_refused(tmp_path, monkeypatch):
     before = files(Path("map.zarr"))
     refused(
         "map.zarr",
-        "store must be a new folder or a survey's store; got 'map.zarr', which is a Zarr store of something else",
+        "store must be a new folder, or one of a survey; got 'map.zarr', which is a Zarr store of something else",
     )
     assert files(Path("map.zarr")) == before
 

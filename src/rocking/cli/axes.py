@@ -30,7 +30,9 @@ class Axis(NamedTuple):
 
 def number_or_axis(text: str) -> float | Axis:
     """A number, or an axis START:STOP:COUNT, the count optional."""
-    if ":" not in str(text):  # a default is no text
+    if not isinstance(text, str):  # a default
+        return text
+    with suppress(typer.BadParameter):
         return number(text)
     with suppress(ValueError):
         start, stop, count = (text if text.count(":") == 2 else f"{text}:{USUAL_COUNT}").split(":")

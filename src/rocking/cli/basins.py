@@ -9,18 +9,20 @@ import typer
 
 from rocking.cli import options as ask
 from rocking.cli.axes import number_or_axis
-from rocking.cli.map import Repair, Store
+from rocking.cli.studies import Study
 
 # The control character keeps the lines that follow as they are.
 EXAMPLES = """\b
 rocking basins --amplitude 5.5 --period 1 --restitution 0.8 --angle=-1:1:300 --velocity=-1:1:300 --plot basins.png
 rocking basins --amplitude 5.5 --period 1 --restitution 0.8 --samples 10000 --json"""
 
-USUAL = "-1:1:200"
 Angle = Annotated[
     Any,
     typer.Option(
-        "--angle", parser=number_or_axis, metavar="AXIS", help="Θ at the start, in θcr: START:STOP:COUNT."
+        "--angle",
+        parser=number_or_axis,
+        metavar="AXIS",
+        help="Θ at the start, in θcr: START:STOP:COUNT; -1:1:200 unless given.",
     ),
 ]
 Velocity = Annotated[
@@ -36,23 +38,23 @@ Samples = Annotated[
     ),
 ]
 Seed = Annotated[
-    int, typer.Option("--seed", parser=ask.number, metavar="NUMBER", help="Of all that is drawn at random.")
+    ask.Number,
+    typer.Option(
+        "--seed", parser=ask.number, metavar="NUMBER", help="Of all that is drawn at random; 0 unless given."
+    ),
 ]
 BoundaryRuns = Annotated[
-    int,
+    ask.Number,
     typer.Option(
         "--boundary-runs",
         parser=ask.number,
         metavar="NUMBER",
-        help="Runs for the exponents of the boundaries; 0: none.",
+        help="Runs for the exponents of the boundaries; 100,000 unless given, 0: none.",
     ),
 ]
 Plot = Annotated[
     Path | None,
     typer.Option(metavar="FILE", help="The basins, a colour an attractor, with shares (.png .svg .pdf)."),
-]
-Netcdf = Annotated[
-    Path | None, typer.Option(metavar="FILE", help="Where each start leads, with its description (.nc).")
 ]
 
 
@@ -69,43 +71,31 @@ def basins(
     frequency_hz: ask.FrequencyHz = None,
     period_s: ask.PeriodS = None,
     restitution: ask.Restitution = None,
-    phase: ask.Phase = 0.0,
+    phase: ask.Phase = None,
     brace_angle: ask.BraceAngle = None,
     brace_restitution: ask.BraceRestitution = None,
-    angle: Angle = USUAL,
-    velocity: Velocity = USUAL,
+    angle: Angle = None,
+    velocity: Velocity = None,
     samples: Samples = None,
-    seed: Seed = 0,
-    max_cycles: ask.MaxCycles = 10_000,
-    max_period: ask.MaxPeriod = 64,
-    boundary_runs: BoundaryRuns = 100_000,
-    store: Store = None,
-    repair: Repair = False,
+    seed: Seed = None,
+    max_cycles: ask.SurveyCycles = None,
+    max_period: ask.SurveyPeriod = None,
+    boundary_runs: BoundaryRuns = None,
+    study: Study = None,
+    store: ask.Store = None,
+    repair: ask.Repair = False,
     plot: Plot = None,
-    netcdf: Netcdf = None,
+    netcdf: ask.SurveyNetcdf = None,
     json: ask.Json = False,
 ) -> None:
-    """Tell which start leads where, and how sharp the boundaries are."""
-    import sys
+    """Tell which start leads where.
 
-    from rocking.cli import surveys
-    from rocking.survey import basin_map
+    And how sharp the boundaries between them are.
+    """
+    from rocking.cli import attractors, surveys
 
-    files = surveys.check_files({"plot": plot, "netcdf": netcdf})
-    system, _, block = ask.question(context.params | ask.AT_REST)
-    with ask.your_input(surveys.ARGUMENTS):
-        found = basin_map(
-            system,
-            angle=surveys.starts(angle, samples),
-            velocity=surveys.starts(velocity, samples),
-            samples=samples,  # type: ignore[arg-type]
-            seed=seed,
-            max_cycles=max_cycles,
-            max_period=max_period,
-            boundary_runs=boundary_runs,
-            store=store,
-            repair=repair,
-            progress=sys.stderr.isatty(),
-        )
-    surveys.write(found, found.dataset, "basins", files)
-    surveys.show_basins(found, block, [each for each in (store, *files.values()) if each], as_json=json)
+    asked = attractors.question(context.params, study)
+    files = surveys.files_of(asked)
+    found, block = attractors.compute(asked)
+    surveys.write(found, "basins", files)
+    attractors.show(found, block, surveys.written(asked, files), as_json=json)

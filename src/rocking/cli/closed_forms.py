@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 from collections.abc import Iterator
 from pathlib import Path
@@ -10,7 +9,8 @@ from typing import TYPE_CHECKING, Any
 
 from attrs import frozen
 
-from rocking.cli.summary import aligned, asked_of, finite, physical_of, reach
+from rocking.cli.screen import aligned, print_json, print_table
+from rocking.cli.summary import asked_of, physical_of, reach
 from rocking.model import counted
 
 if TYPE_CHECKING:
@@ -71,21 +71,11 @@ def find(system: System, n: int) -> Answer:
 def show(answer: Answer, block: Block | None, file: Path | None, *, as_json: bool) -> None:
     """Print the modes on stdout, and where their picture is."""
     if as_json:
-        told = finite(record(answer, block, file))
-        print(json.dumps(told, indent=2, ensure_ascii=False, allow_nan=False))
+        print_json(record(answer, block, file))
         return
-    from rich.console import Console
-
-    console = Console(highlight=False, markup=False, emoji=False, soft_wrap=True)
-    console.print(str(answer), style="bold")
-    for line in aligned([*asked_of(answer.system, block), *bounds(answer, block)]):
-        console.print(line)
-    if answer.modes:
-        console.print()
-        for line in aligned(list(zip(*table(answer.modes, block), strict=True))):
-            console.print(line)
-    if file is not None:
-        console.print(f"wrote {file}")
+    rows = [*asked_of(answer.system, block), *bounds(answer, block)]
+    columns = ["", *aligned(list(zip(*table(answer.modes, block), strict=True)))] if answer.modes else []
+    print_table(str(answer), rows, [] if file is None else [file], columns)
 
 
 def bounds(answer: Answer, block: Block | None) -> Iterator[tuple[str, str, str]]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -10,29 +9,21 @@ from typing import TYPE_CHECKING, Any
 import attrs
 
 from rocking.cli.axes import Study
-from rocking.cli.options import option, your_input
-from rocking.cli.summary import aligned, finite, reach
-from rocking.model import check_writable, replacing
+from rocking.cli.files import write_dataset
+from rocking.cli.options import option
+from rocking.cli.screen import print_json, print_table
+from rocking.cli.summary import reach
+from rocking.model import replacing
 
 if TYPE_CHECKING:
     from rocking.model import Block
     from rocking.orbits import OrbitDiagram
 
-SUFFIXES = {"plot": (".png", ".svg", ".pdf"), "csv": (".csv",), "netcdf": (".nc",)}
 ARGUMENTS = {
     name: name for name in ("sweep", "transient", "section_phase", "brace_angle", "brace_restitution")
 }
 # Below about a second a bar would only flicker.
 LONG = 2_000_000
-
-
-def check(**paths: Path | None) -> dict[str, Path]:
-    """The outputs asked for; `YourInput` for one that cannot be written."""
-    asked = {name: path for name, path in paths.items() if path is not None}
-    for name, path in asked.items():
-        with your_input():
-            check_writable(option(name), path, SUFFIXES[name])
-    return asked
 
 
 def run(study: Study, sweep: str, transient: int, cycles: int, section_phase: float | None) -> OrbitDiagram:
@@ -63,26 +54,15 @@ def run(study: Study, sweep: str, transient: int, cycles: int, section_phase: fl
 def show(diagram: OrbitDiagram, study: Study, files: Sequence[Path], *, as_json: bool) -> None:
     """Print what was found on stdout, and where its files are."""
     if as_json:
-        print(
-            json.dumps(
-                finite(record(diagram, study.block, files)), indent=2, ensure_ascii=False, allow_nan=False
-            )
-        )
+        print_json(record(diagram, study.block, files))
         return
-    from rich.console import Console
-
-    console = Console(highlight=False, markup=False, emoji=False, soft_wrap=True)
-    console.print(str(diagram), style="bold")
     fixed = ", ".join(f"{name} {value:.6g}" for name, value in diagram.fixed.items())
     rows = [("varied", study.typed, ""), ("fixed", fixed, "")]
     for way, fell, peaks in zip(diagram.sweeps, diagram.overturned, diagram.peak, strict=True):
         known = peaks[~fell]
         if known.size:
             rows.append((f"largest |Θ|, {way}", f"{known.max():.6g}", reach(float(known.max()), study.block)))
-    for line in aligned(rows):
-        console.print(line)
-    for path in files:
-        console.print(f"wrote {path}")
+    print_table(str(diagram), rows, files)
 
 
 def record(diagram: OrbitDiagram, block: Block | None, files: Sequence[Path]) -> dict[str, Any]:
@@ -144,8 +124,7 @@ def write_csv(diagram: OrbitDiagram, block: Block | None, path: Path) -> None:
 
 def write_netcdf(diagram: OrbitDiagram, block: Block | None, path: Path) -> None:
     """The diagram's dataset."""
-    with replacing(path) as temporary:
-        diagram.to_xarray().to_netcdf(temporary, engine="h5netcdf")
+    write_dataset(diagram.to_xarray(), path)
 
 
 WRITERS: dict[str, Callable[[OrbitDiagram, Block | None, Path], None]] = {

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 from collections.abc import Iterator
 from pathlib import Path
@@ -11,7 +10,8 @@ from typing import TYPE_CHECKING, Any
 import attrs
 
 from rocking.cli.options import as_typed
-from rocking.cli.summary import Row, aligned, asked, finite, physical, question, reach
+from rocking.cli.screen import Row, print_json, print_table
+from rocking.cli.summary import asked, physical, question, reach
 from rocking.model import counted, plus_minus
 
 if TYPE_CHECKING:
@@ -24,17 +24,10 @@ BUDGET = {"max_cycles": "max_cycles", "max_period": "max_period"}
 def show(verdict: Verdict, block: Block | None, file: Path | None, *, as_json: bool) -> None:
     """Print the verdict on stdout, and where its picture is."""
     if as_json:
-        told = finite(record(verdict, block, file))
-        print(json.dumps(told, indent=2, ensure_ascii=False, allow_nan=False))
+        print_json(record(verdict, block, file))
         return
-    from rich.console import Console
-
-    console = Console(highlight=False, markup=False, emoji=False, soft_wrap=True)
-    console.print(as_typed(str(verdict), BUDGET), style="bold")
-    for line in aligned([*asked(verdict, block), *found(verdict, block)]):
-        console.print(line)
-    if file is not None:
-        console.print(f"wrote {file}")
+    rows = [*asked(verdict, block), *found(verdict, block)]
+    print_table(as_typed(str(verdict), BUDGET), rows, [] if file is None else [file])
 
 
 def found(verdict: Verdict, block: Block | None) -> Iterator[Row]:

@@ -2,12 +2,21 @@
 
 from __future__ import annotations
 
+import logging
 import os
 import signal
 import sys
 from typing import NoReturn
 
 INTERRUPTED = 130
+
+
+class Terminal(logging.Handler):
+    """What is logged, as a line on stderr; over a bar, if one is there now."""
+
+    def emit(self, record: logging.LogRecord) -> None:
+        """Print it."""
+        print("rocking:", record.getMessage(), file=sys.stderr)
 
 
 def main() -> NoReturn:
@@ -24,6 +33,10 @@ def main() -> NoReturn:
     for stream in (sys.stdout, sys.stderr):
         # A terminal without Greek letters shows question marks.
         stream.reconfigure(errors="replace")  # type: ignore[union-attr]
+    if sys.stderr.isatty():
+        log = logging.getLogger("rocking")
+        log.addHandler(Terminal(logging.INFO))
+        log.setLevel(logging.INFO)
     code, message = run()
     if interrupts or code == INTERRUPTED:
         code, message = INTERRUPTED, "interrupted"

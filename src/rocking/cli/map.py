@@ -25,33 +25,6 @@ Number = float | None
 Phase = Annotated[Number, _quantity("--phase", "φ of the base's acceleration, rad; 0 unless given.")]
 Angle = Annotated[Number, _quantity("--angle", "Θ at the start, in θcr; 0 unless given.")]
 Velocity = Annotated[Number, _quantity("--velocity", "Θ' at the start, in θcr per τ; 0 unless given.")]
-MaxCycles = Annotated[
-    Number,
-    typer.Option(
-        "--max-cycles",
-        parser=ask.number,
-        metavar="NUMBER",
-        help="Cycles of the base to follow at most; 10,000 unless given.",
-    ),
-]
-MaxPeriod = Annotated[
-    Number,
-    typer.Option(
-        "--max-period",
-        parser=ask.number,
-        metavar="NUMBER",
-        help="Longest period looked for, in cycles of the base; 64 unless given.",
-    ),
-]
-Store = Annotated[
-    Path | None,
-    typer.Option(
-        "--store", metavar="DIR", help="Zarr store, written while it runs; the same command goes on with it."
-    ),
-]
-Repair = Annotated[
-    bool, typer.Option("--repair", help="Compute tiles of the store again that are found damaged.")
-]
 Plot = Annotated[
     Path | None,
     typer.Option("--plot", metavar="FILE", help="The map in colours, with shares (.png .svg .pdf)."),
@@ -62,8 +35,17 @@ Tiles = Annotated[
         "--tiles", metavar="DIR", help="Image tiles, and a page that pans and zooms them without a server."
     ),
 ]
-Netcdf = Annotated[
-    Path | None, typer.Option("--netcdf", metavar="FILE", help="The map with its description (.nc).")
+Curves = Annotated[
+    str | None,
+    typer.Option(
+        "--curves", metavar="NAMES", help="Theory over the picture: melnikov,symmetry-breaking-1, …."
+    ),
+]
+Symbols = Annotated[
+    str | None,
+    typer.Option(
+        "--symbols", metavar="SET", help="Marks for cells in it: kinds, or those of figure 10, 11 or 13b."
+    ),
 ]
 Csv = Annotated[Path | None, typer.Option("--csv", metavar="FILE", help="A row a point (.csv).")]
 
@@ -86,23 +68,29 @@ def map_(
     brace_restitution: axes.BraceRestitution = None,
     angle: Angle = None,
     velocity: Velocity = None,
-    max_cycles: MaxCycles = None,
-    max_period: MaxPeriod = None,
+    max_cycles: ask.SurveyCycles = None,
+    max_period: ask.SurveyPeriod = None,
     study: Study = None,
-    store: Store = None,
-    repair: Repair = False,
+    store: ask.Store = None,
+    repair: ask.Repair = False,
     plot: Plot = None,
+    curves: Curves = None,
+    symbols: Symbols = None,
     tiles: Tiles = None,
-    netcdf: Netcdf = None,
+    netcdf: ask.SurveyNetcdf = None,
     csv: Csv = None,
     json: ask.Json = False,
 ) -> None:
-    """Tell what the response is at every point of a grid: two options are axes, START:STOP:COUNT."""
-    from rocking.cli import maps
+    """Tell what the response is at every point of a grid.
+
+    Two options are its axes, START:STOP:COUNT.
+    """
+    from rocking.cli import map_summary, maps
 
     question = maps.question(context.params, study)
-    files = maps.check_files(question)
+    files = maps.files_of(question)
     found = maps.compute(question)
     for name, path in files.items():
-        maps.WRITERS[name](found, path, question.block)
-    maps.show(found, question, list(files.values()), as_json=json)
+        maps.WRITERS[name](found, path, question)
+    written = [path for path in (question.store, *files.values()) if path is not None]
+    map_summary.show(found, question.block, written, as_json=json)

@@ -29,7 +29,10 @@ def modes(
     plot: ask.ModesPlot = None,
     json: ask.Json = False,
 ) -> None:
-    """Give the symmetric (1, n) modes in closed form: speed, phase, stability, and whether they exist."""
+    """Give the symmetric (1, n) modes in closed form.
+
+    With their speed, phase and stability, and whether they exist.
+    """
     from rocking.cli import closed_forms, outputs
 
     outputs.check_picture(plot)

@@ -23,7 +23,7 @@ def number(text: str) -> float:
     for kind in (int, float):
         with suppress(ValueError):
             return kind(text)
-    raise typer.BadParameter(f"must be a number; got {text!r}")
+    raise typer.BadParameter(f"must be a number alone, such as 0.6; got {text!r}")
 
 
 def _number(name: str, text: str) -> Any:
@@ -49,7 +49,7 @@ FrequencyHz = Annotated[Number, _number("--frequency-hz", "SI: of the base, Hz."
 PeriodS = Annotated[Number, _number("--period-s", "SI: of the base, s, instead of --frequency-hz.")]
 
 Restitution = Annotated[Number, _number("--restitution", "e at an impact; in SI Housner's unless given.")]
-Phase = Annotated[float, _number("--phase", "φ of the base's acceleration, rad.")]
+Phase = Annotated[Number, _number("--phase", "φ of the base's acceleration, rad.")]
 BraceAngle = Annotated[Number, _number("--brace-angle", "Θb of side braces, in θcr; no braces unless given.")]
 BraceRestitution = Annotated[Number, _number("--brace-restitution", "r at a brace; 1 unless given.")]
 Angle = Annotated[float, _number("--angle", "Θ at the start, in θcr.")]
@@ -77,10 +77,28 @@ ModeCycles = Annotated[
 ModesPlot = Annotated[
     Path | None, _file("--plot", "Speed and phase of the modes over the amplitude (.png .svg .pdf).")
 ]
+Store = Annotated[
+    Path | None,
+    typer.Option(
+        "--store", metavar="DIR", help="Zarr store, written while it runs; the same command goes on with it."
+    ),
+]
+Repair = Annotated[
+    bool, typer.Option("--repair", help="Compute tiles of the store again that are found damaged.")
+]
+SurveyCycles = Annotated[
+    Number, _number("--max-cycles", "Cycles of the base to follow at most; 10,000 unless given.")
+]
+SurveyPeriod = Annotated[
+    Number,
+    _number("--max-period", "Longest period looked for, in cycles of the base; 64 unless given."),
+]
+SurveyNetcdf = Annotated[Path | None, _file("--netcdf", "All that was found, with its description (.nc).")]
 Json = Annotated[bool, typer.Option("--json", help="Print the summary as JSON.")]
 
 NORMALISED = ("amplitude", "period", "frequency")
 SI = ("height", "width", "acceleration", "acceleration_g", "displacement", "frequency_hz", "period_s")
+IN_SI = {"amplitude": "acceleration", "period": "period_s", "frequency": "frequency_hz"}
 LENGTHS = ("cycles", "max_cycles", "max_period")
 ARGUMENTS = {name: name for name in (*NORMALISED, *SI, "restitution", "phase", "angle", "velocity", *LENGTHS)}
 UNASKED = {"phase": 0.0, "angle": 0.0, "velocity": 0.0, "brace_angle": None, "brace_restitution": None}
@@ -121,7 +139,10 @@ def question(given: Mapping[str, Any]) -> tuple[System, State, Block | None]:
     normalised = [name for name in NORMALISED if given[name] is not None]
     physical = [name for name in SI if given[name] is not None]
     if normalised and physical:
-        raise YourInput(f"{option(normalised[0])} is normalised, {option(physical[0])} is SI: give one kind")
+        name = normalised[0]
+        raise YourInput(
+            f"{option(name)} is normalised, {option(physical[0])} is SI: give one kind (in SI it is {option(IN_SI[name])})"
+        )
     if not normalised and not physical:
         raise YourInput(f"give {NORMALISED_NEEDS}, or in SI {SI_NEEDS}")
     if normalised:

@@ -72,10 +72,14 @@ def orbit_diagram(
     netcdf: ask.Netcdf = None,
     json: ask.Json = False,
 ) -> None:
-    """Vary one option, given as START:STOP:COUNT, and show what responses are left after a transient."""
-    from rocking.cli import diagrams
+    """Vary one option and show which responses are left.
 
-    files = diagrams.check(plot=plot, csv=csv, netcdf=netcdf)
+    It is given as START:STOP:COUNT; a transient is left out.
+    """
+    from rocking.cli import diagrams
+    from rocking.cli.files import check_files
+
+    files = check_files({"plot": plot, "csv": csv, "netcdf": netcdf})
     study = axes.study(context.params)
     with ask.your_input(ask.ARGUMENTS | diagrams.ARGUMENTS):
         diagram = diagrams.run(study, sweep, transient, cycles, section_phase)

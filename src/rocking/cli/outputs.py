@@ -6,16 +6,15 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from rocking.cli.options import YourInput, option, your_input
-from rocking.model import check_writable, replacing
+from rocking.cli.files import PICTURES, SUFFIXES, check_files, write_dataset
+from rocking.cli.options import YourInput, option
+from rocking.model import replacing
 
 if TYPE_CHECKING:
     from rocking.model import Block, System, Verdict
     from rocking.motion import Motion
 
-PICTURES = (".png", ".svg", ".pdf")
 FILMS = (".gif", ".mp4")
-SUFFIXES = {"plot": PICTURES + FILMS, "csv": (".csv",), "netcdf": (".nc",)}
 STEPS_PER_CYCLE = 100
 CYCLES_AT_ONCE = 1000
 MOST_CYCLES_KEPT = 100_000
@@ -24,10 +23,7 @@ MOST_CYCLES_KEPT = 100_000
 
 def check(cycles: float, **paths: Path | None) -> dict[str, Path]:
     """The outputs asked for; `YourInput` for one that cannot be written, or for more cycles than are kept for it."""
-    asked = {name: path for name, path in paths.items() if path is not None}
-    for name, path in asked.items():
-        with your_input():
-            check_writable(option(name), path, SUFFIXES[name])
+    asked = check_files(paths, SUFFIXES | {"plot": PICTURES + FILMS})
     if asked and cycles > MOST_CYCLES_KEPT:
         wanted = ", ".join(map(option, asked))
         raise YourInput(f"--cycles must be at most {MOST_CYCLES_KEPT} with {wanted}; got {cycles}")
@@ -36,9 +32,7 @@ def check(cycles: float, **paths: Path | None) -> dict[str, Path]:
 
 def check_picture(path: Path | None) -> None:
     """`YourInput` for a picture that cannot be written."""
-    if path is not None:
-        with your_input():
-            check_writable("--plot", path, PICTURES)
+    check_files({"plot": path})
 
 
 def write_verdict(verdict: Verdict, block: Block | None, path: Path) -> None:
@@ -104,8 +98,7 @@ def tables(motion: Motion, block: Block | None) -> Iterator[dict[str, Any]]:
 
 def write_netcdf(motion: Motion, block: Block | None, path: Path) -> None:
     """The motion's dataset, with its units and parameters."""
-    with replacing(path) as temporary:
-        motion.to_xarray(block=block).to_netcdf(temporary, engine="h5netcdf")
+    write_dataset(motion.to_xarray(block=block), path)
 
 
 WRITERS: dict[str, Callable[[Motion, Block | None, Path], None]] = {

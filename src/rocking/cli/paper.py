@@ -9,7 +9,14 @@ import typer
 
 from rocking.cli.options import YourInput, your_input
 
-FIGURES = typer.Argument(help="Numbers in the paper, such as 2 13a, or exponents, a table; all unless given.")
+EXAMPLES = """\b
+rocking paper 1 4 --output figures"""
+
+FIGURES = typer.Argument(
+    metavar="FIGURE",
+    help="Numbers in the paper, such as 2 13a; exponents or claims, tables; chaos, cascade, crisis, threshold, coexistence or zoom, "
+    "beyond it. All, and one page of them, unless given.",
+)
 OUTPUT = typer.Option("--output", metavar="DIR", help="Folder for the files.")
 
 
@@ -32,9 +39,7 @@ def paper(
         if not bar.tasks:
             bar.start()
             bar.add_task("", total=total)
-        bar.update(
-            bar.task_ids[0], completed=done, description=name if name == "exponents" else f"figure {name}"
-        )
+        bar.update(bar.task_ids[0], completed=done, description=name)
 
     try:
         files = yim_lin_1991.reproduce(output, figures or None, advance)

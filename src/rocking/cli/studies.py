@@ -38,6 +38,14 @@ def quantity(name: str, given: Any) -> Any:
     return Axis(start, stop, whole(f"count of {name}", given.get("count", USUAL_COUNT), 2, MOST))
 
 
+def asked(typed: Mapping[str, Any], file: Path | None, checks: Mapping[str, Check]) -> dict[str, Any]:
+    """What options and a study file ask for; what is typed wins."""
+    given = {} if file is None else read(file, checks)
+    return given | {
+        name: typed[name] for name in checks if typed[name] is not None and typed[name] is not False
+    }
+
+
 def read(path: Path, checks: Mapping[str, Check]) -> dict[str, Any]:
     """What a study file says, each entry as its check returns it; `YourInput` with all errors of the file at once.
 
@@ -54,6 +62,7 @@ def read(path: Path, checks: Mapping[str, Check]) -> dict[str, Any]:
     except (OSError, ValueError) as error:
         why = error.strerror if isinstance(error, OSError) else error
         raise YourInput(f"--study must name a TOML file; got {str(path)!r}: {why}") from error
+    _check_once(path, said)
     entries = attrs.make_class("Study", {name: attrs.field(default=None) for name in checks})
     hooks: Any = {name: override(struct_hook=_hook(check)) for name, check in checks.items()}
     converter = cattrs.Converter(forbid_extra_keys=True)
@@ -63,6 +72,13 @@ def read(path: Path, checks: Mapping[str, Check]) -> dict[str, Any]:
     except cattrs.ClassValidationError as errors:
         raise YourInput(f"study {str(path)!r}: " + "; ".join(_told(errors, checks))) from None
     return {name: entry for name, entry in attrs.asdict(found).items() if entry is not None}
+
+
+def _check_once(path: Path, said: Mapping[str, Any]) -> None:
+    """Refuse what is said twice, once with dashes and once with underscores."""
+    twice = [key for key in said if "-" in key and key.replace("-", "_") in said]
+    if twice:
+        raise YourInput(f"study {str(path)!r}: {twice[0]!r} is said twice, once with underscores")
 
 
 def _hook(check: Check) -> Callable[[Any, Any], Any]:
@@ -75,7 +91,8 @@ def _told(errors: Any, checks: Mapping[str, Check]) -> list[str]:
     for error in errors.exceptions:
         for name in sorted(getattr(error, "extra_fields", ())):
             close = difflib.get_close_matches(name, checks, 1)
-            told.append(f"unknown {name!r}" + (f" (do you mean {close[0]!r}?)" if close else ""))
+            meant = f"do you mean {close[0]!r}?" if close else "keys are the names of options"
+            told.append(f"unknown {name!r} ({meant})")
         if not hasattr(error, "extra_fields"):
             told.append(str(error))
     return told

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 from collections.abc import Iterator, Sequence
 from pathlib import Path
@@ -11,36 +10,21 @@ from typing import TYPE_CHECKING, Any
 import attrs
 
 from rocking.cli.outputs import MOST_CYCLES_KEPT
+from rocking.cli.screen import Row, print_json, print_table
 
 if TYPE_CHECKING:
     from rocking.model import Block, System, Verdict
     from rocking.motion import Motion
 
-Row = tuple[str, str, str]
-
 
 def show(motion: Motion, block: Block | None, files: Sequence[Path], *, as_json: bool) -> None:
     """Print the summary on stdout, and where its files are."""
     if as_json:
-        print(json.dumps(finite(record(motion, block, files)), indent=2, ensure_ascii=False, allow_nan=False))
+        print_json(record(motion, block, files))
         return
-    from rich.console import Console
-
-    console = Console(highlight=False, markup=False, emoji=False, soft_wrap=True)
-    console.print(verdict(motion), style="bold")
-    for line in aligned([*asked(motion, block), *found(motion, block)]):
-        console.print(line)
-    for line in validity(motion, block):
-        console.print(line, style="yellow" if line.startswith("warning") else None)
-    for path in files:
-        console.print(f"wrote {path}")
-
-
-def aligned(rows: Sequence[Row]) -> Iterator[str]:
-    """The rows as lines of a table, as long as they need be: no terminal is so narrow that a number may be cut."""
-    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
-    for row in rows:
-        yield "   ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip()
+    print_table(
+        verdict(motion), [*asked(motion, block), *found(motion, block)], files, validity(motion, block)
+    )
 
 
 def verdict(motion: Motion) -> str:
@@ -87,6 +71,7 @@ def asked_of(system: System, block: Block | None) -> Iterator[Row]:
         yield "time unit 1/α", "1", f"{block.seconds(1.0):.4g} s"
         yield "amplitude", f"A = {forcing.amplitude:.6g}", f"{block.acceleration(forcing.amplitude):.4g} m/s²"
         yield "period", f"T = {forcing.period:.6g}", f"{block.seconds(forcing.period):.4g} s"
+        yield "phase", f"φ = {forcing.phase:.6g}", f"{math.degrees(forcing.phase):.4g}°"
         chosen = "Housner's for this block" if block.has_housner_restitution else "as chosen"
         yield "restitution", f"e = {restitution:.6g}", chosen
     if braces is not None:
@@ -117,15 +102,6 @@ def found(motion: Motion, block: Block | None) -> Iterator[Row]:
 def reach(angle: float, block: Block | None) -> str:
     """An angle of a block in degrees, and how far its top is out."""
     return "" if block is None else f"{block.degrees(angle):.4g}°, top {block.top_displacement(angle):.4g} m"
-
-
-def finite(value: Any) -> Any:
-    """The same with null for what is infinite, for which JSON has no number."""
-    if isinstance(value, dict):
-        return {name: finite(part) for name, part in value.items()}
-    if isinstance(value, list):
-        return [finite(part) for part in value]
-    return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
 def _cut(motion: Motion, end: str) -> str:

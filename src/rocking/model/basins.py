@@ -91,7 +91,7 @@ class BasinMap:
     dataset : xarray.Dataset
         Over the starts: `attractor` (a place in `attractors`), `kind`, `evidence`, `response_period`,
         `impacts_per_period`, `brace_hits_per_period`, `symmetric`, `orbit_angle`, `orbit_velocity` (the state that stands
-        for the orbit), `transient`, `cycles`.
+        for the orbit), `mean_angle`, `mean_angle_error` (on the section, of what is chaotic), `transient`, `cycles`.
     attractors : tuple of Attractor
         What the starts lead to, the largest share first.
     fractions : tuple of Share

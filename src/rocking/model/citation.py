@@ -87,6 +87,24 @@ SOURCES = """@article{yim-lin-1991,
   doi = {10.1088/1361-6544/aa84c2},
   note = {weighted Birkhoff averages},
 }
+
+@article{mcdonald-1985,
+  author = {McDonald, Steven W. and Grebogi, Celso and Ott, Edward and Yorke, James A.},
+  title = {Fractal basin boundaries},
+  journal = {Physica D},
+  volume = {17}, pages = {125--153}, year = {1985},
+  doi = {10.1016/0167-2789(85)90001-6},
+  note = {the uncertainty exponent of a basin's boundary},
+}
+
+@article{wilson-1927,
+  author = {Wilson, Edwin B.},
+  title = {Probable inference, the law of succession, and statistical inference},
+  journal = {Journal of the American Statistical Association},
+  volume = {22}, number = {158}, pages = {209--212}, year = {1927},
+  doi = {10.1080/01621459.1927.10502953},
+  note = {the interval of a share},
+}
 """
 
 

@@ -127,7 +127,8 @@ def reals(name: str, values: Any) -> Any:
 def instance(name: str, value: Value, kind: type) -> Value:
     """Return `value` if it is a `kind`; TypeError otherwise."""
     if not isinstance(value, kind):
-        raise TypeError(refusal(name, f"be a {kind.__name__}", value))
+        article = "an" if kind.__name__[0] in "AEIO" else "a"
+        raise TypeError(refusal(name, f"be {article} {kind.__name__}", value))
     return value
 
 

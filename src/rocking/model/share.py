@@ -57,15 +57,20 @@ class Share:
     ----------
     count, of : int
         How many of how many.
+    unknown : int
+        Of how many others it is not known whether they belong to it; the interval covers that all do and that none does.
 
     Examples
     --------
     >>> print(Share(567, 3000))
     18.9 % (17.5–20.3 %)
+    >>> print(Share(567, 3000, unknown=300))
+    18.9 % (17.5–30.5 %)
     """
 
     count: int = field(converter=int)
     of: int = field(converter=int)
+    unknown: int = field(default=0, converter=int)
 
     @property
     def value(self) -> float:
@@ -79,15 +84,14 @@ class Share:
 
     @property
     def high(self) -> float:
-        """Upper end of it."""
-        return wilson(self.count, self.of)[1]
+        """Upper end of it, if all that is unknown belongs to it."""
+        return wilson(self.count + self.unknown, self.of)[1]
 
     def __float__(self) -> float:
         return self.value
 
     def __str__(self) -> str:
-        low, high = (_percent(end) for end in wilson(self.count, self.of))
-        return f"{_percent(self.value)} % ({low}–{high} %)"
+        return f"{_percent(self.value)} % ({_percent(self.low)}–{_percent(self.high)} %)"
 
 
 def _percent(share: float) -> str:

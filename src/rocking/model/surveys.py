@@ -123,7 +123,8 @@ class Repeatability:
     relative : float
         By how much of itself each input was off at most.
     kinds : dict of Kind to Share
-        The share of the runs that ended in each kind of response, the largest first.
+        The share of the runs that ended in each kind of response, the largest first; undetermined, which is no outcome but
+        widens the intervals of all others, last.
     responses : dict of str to Share
         The same with period, symmetry and impacts of periodic responses told apart.
     """
@@ -136,13 +137,14 @@ class Repeatability:
 
     @property
     def certain(self) -> bool:
-        """Whether all runs ended in one kind of response."""
-        return len(self.kinds) == 1
+        """Whether all runs ended in one kind of response; not where one is undetermined."""
+        return len(self.kinds) == 1 and Kind.UNDETERMINED not in self.kinds
 
     @property
     def repeats(self) -> Share:
-        """The share of the most frequent kind."""
-        return next(iter(self.kinds.values()))
+        """The share of the most frequent kind; of none, where all are undetermined."""
+        first, share = next(iter(self.kinds.items()))
+        return Share(0, share.of, share.of) if first is Kind.UNDETERMINED else share
 
     def __str__(self) -> str:
         told = ", ".join(f"{name} {share}" for name, share in self.responses.items())
@@ -159,12 +161,12 @@ class RepeatabilityMap:
     Attributes
     ----------
     dataset : xarray.Dataset
-        Over both axes `kind`, the most frequent one of the runs at a point; `agreeing`, its share of them; `overturned`, the
-        share that overturn.
+        Over both axes `kind`, the most frequent one of the runs at a point (undetermined only where all are); `agreeing`,
+        its share of them; `overturned` and `undetermined`, the shares that overturn and of which nothing is known.
     uncertain : Share
-        The points at which not all runs ended in one kind of response.
+        The points at which not all runs ended in one kind of response; unknown where all that are known did.
     overturning_uncertain : Share
-        The points at which some runs overturn and some do not.
+        The points at which some runs overturn and some do not; unknown likewise.
     """
 
     dataset: xr.Dataset = field(repr=False)

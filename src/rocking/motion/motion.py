@@ -221,7 +221,8 @@ class Motion:
             if self.record == "section":
                 return self._section_rows
             phase = self.system.forcing.phase
-        return section_of(self, within("phase", phase, -LARGEST_PHASE, LARGEST_PHASE))
+        at = within("phase", phase, -LARGEST_PHASE, LARGEST_PHASE)
+        return section_of(self.system, self.start, self.cycles, at)
 
     def to_xarray(self, step: float | None = None, block: Block | None = None) -> xr.Dataset:
         """Sample the motion as a dataset with units; in SI with a block. See `rocking.motion.dataset.to_dataset`.

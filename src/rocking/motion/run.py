@@ -4,16 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from rocking.kernels import march as kernel
 from rocking.kernels import parameters as numbers
 from rocking.model import Outcome, State, System, TooManyEvents
-
-if TYPE_CHECKING:
-    from rocking.motion.motion import Motion
 
 MOST_RECORDED = 10_000_000
 NOTHING = np.empty((0, 2))
@@ -96,12 +93,12 @@ def _crowded(status: int) -> str:
     return f'more than {MOST_RECORDED:,} events to keep (run fewer cycles, or record="section" or "none")'
 
 
-def section_of(motion: Motion, phase: float) -> np.ndarray:
+def section_of(system: System, start: State, cycles: int, phase: float) -> np.ndarray:
     """Run a motion again for its section at another forcing phase."""
-    forcing = motion.system.forcing
+    forcing = system.forcing
     time = math.fmod(phase - forcing.phase, 2.0 * math.pi) / forcing.frequency
-    p, progress = begin(motion.system, motion.start)
-    return run(p, progress, motion.cycles, time % forcing.period, "section", want_peak=False)[2]
+    p, progress = begin(system, start)
+    return run(p, progress, cycles, time % forcing.period, "section", want_peak=False)[2]
 
 
 def state_of(progress: Any) -> tuple[float, float]:

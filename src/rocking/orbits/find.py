@@ -98,7 +98,8 @@ def orbit_from(system: System, state: State, period: int) -> Orbit:
     motion = simulate(system, state, cycles=period)
     rows = motion.section()
     apart = np.hypot(*(rows[1:] - rows[0]).T)
-    least = next(n for n in range(1, period + 1) if period % n == 0 and (apart[n - 1] <= SAME or n == period))
+    # the least time of return divides every other
+    least = next(n for n in range(1, period + 1) if apart[n - 1] <= SAME or n == period)
     half = motion.at(0.5 * least * system.forcing.period)
     symmetric = least % 2 == 1 and math.hypot(half[0] + state.angle, half[1] + state.velocity) <= SAME
     events = motion.events[motion.events["time"] <= least * system.forcing.period]

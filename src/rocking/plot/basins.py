@@ -2,22 +2,21 @@
 
 from __future__ import annotations
 
-import colorsys
+from collections import Counter
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.colors import BoundaryNorm, ListedColormap, to_rgb
+from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.patches import Patch
 
 from rocking.model import Attractor, BasinMap, Kind, instance
 from rocking.plot import style
-from rocking.plot.kinds import COLOURS
+from rocking.plot.kinds import COLOURS, paler
 from rocking.plot.parametric_map import MOST_DRAWN
 from rocking.plot.quantities import PARAMETERS
 
 # For the orbits, the largest basin first: those of Okabe and Ito that no other kind has, then paler ones.
 ORBITS = (style.MOTION, "#56B4E9", "#E69F00", "#CC79A7", "#8C6D31", "#B5A0D8", "#7FC8A9", "#F2B8A0")
-PALER = 0.5
 NAMED = 8
 """Attractors in the legend; what is left is drawn too."""
 LONGEST = 12
@@ -95,24 +94,17 @@ def basins(found: BasinMap, ax: Axes | None = None) -> Axes:
 
 
 def colours(attractors: tuple[Attractor, ...]) -> list[str | tuple[float, float, float]]:
-    """A colour for each: that of its kind, and of its own for each orbit."""
+    """A colour for each: of its own for each orbit, that of its kind for others, paler for each one more of a kind."""
     hues: list[str | tuple[float, float, float]] = []
-    orbits = rests = 0
+    met: Counter[Kind] = Counter()
     for each in attractors:
+        count = met[each.kind]
         if each.kind is Kind.PERIODIC:
-            hues.append(_paler(ORBITS[orbits % len(ORBITS)], orbits // len(ORBITS)))
-            orbits += 1
-        elif each.kind is Kind.REST:
-            hues.append(_paler(COLOURS[Kind.REST], rests))
-            rests += 1
+            hues.append(paler(ORBITS[count % len(ORBITS)], count // len(ORBITS)))
         else:
-            hues.append(COLOURS[each.kind])
+            hues.append(paler(COLOURS[each.kind], count))
+        met[each.kind] += 1
     return hues
-
-
-def _paler(colour: str, times: int) -> tuple[float, float, float]:
-    hue, light, saturation = colorsys.rgb_to_hls(*to_rgb(colour))
-    return colorsys.hls_to_rgb(hue, 1.0 - (1.0 - light) * PALER**times, saturation)
 
 
 def _legend(ax: Axes, found: BasinMap, hues: list) -> None:

@@ -6,8 +6,11 @@ which are never symmetric, light green; what is not symmetric though its period 
 
 from __future__ import annotations
 
+import colorsys
+
 import numpy as np
 from attrs import frozen
+from matplotlib.colors import to_rgb
 
 from rocking.model import Kind
 from rocking.plot import style
@@ -21,6 +24,7 @@ COLOURS = {
     Kind.OVERTURNED: style.INK,
     Kind.UNDETERMINED: "#F0E442",
 }
+PALER = 0.5
 THREE, ODD, EVEN = "#4170FF", "#A7C1FF", "#98ED8F"
 
 
@@ -54,6 +58,12 @@ NONE = 255
 """The number of a point that is not yet computed."""
 PERIODIC = list(Kind).index(Kind.PERIODIC)
 _OF_KIND = np.array([0, 1, 8, 9, 10, 11], np.uint8)  # in the order of `Kind`
+
+
+def paler(colour: str, times: int) -> tuple[float, float, float]:
+    """Another shade of a colour, for one more of its kind."""
+    hue, light, saturation = colorsys.rgb_to_hls(*to_rgb(colour))
+    return colorsys.hls_to_rgb(hue, 1.0 - (1.0 - light) * PALER**times, saturation)
 
 
 @frozen

@@ -90,18 +90,9 @@ def _line(
     given = dict(told) | {across: places}
     period = math.tau / given["frequency"] if "frequency" in given else given["period"]
     period, restitution = np.broadcast_arrays(period, given["restitution"])
-    amplitudes = np.asarray(curve.amplitude(period, restitution))
-    seen = (amplitudes >= heights[0]) & (amplitudes <= heights[-1])
-    # as far as one point beyond what is seen, so that the line meets the frame
-    seen[1:] |= seen[:-1].copy()
-    seen[:-1] |= seen[1:].copy()
-    sure = _admissible(curve, amplitudes, period, restitution, seen)
-    lines = []
-    for part, dashes in ((seen & sure, curve.dashes), (seen & ~sure, DOTTED)):
-        drawn = part.copy()
-        drawn[1:] |= part[:-1] & seen[1:]
-        line = np.where(drawn, amplitudes, np.nan)
-        lines += ax.plot(
+    lines = lines_of(curve, period, restitution, heights[0], heights[-1])
+    for line, dashes in zip(lines, (curve.dashes, DOTTED), strict=True):
+        ax.plot(
             turns[across](places),
             turns["amplitude"](line),
             color=style.INK,
@@ -113,6 +104,25 @@ def _line(
             scaley=False,
         )
     return Line2D([], [], color=style.INK, linestyle=curve.dashes, linewidth=style.LINE, label=curve.name)
+
+
+def lines_of(
+    curve: Curve, period: np.ndarray, restitution: np.ndarray, low: float, high: float
+) -> tuple[np.ndarray, np.ndarray]:
+    """The amplitudes (n,) between `low` and `high`, NaN elsewhere: where the mode is admissible, and where it is not."""
+    amplitudes = np.asarray(curve.amplitude(period, restitution))
+    seen = (amplitudes >= low) & (amplitudes <= high)
+    # as far as one point beyond what is seen, so that the line meets the frame
+    seen[1:] |= seen[:-1].copy()
+    seen[:-1] |= seen[1:].copy()
+    sure = _admissible(curve, amplitudes, period, restitution, seen)
+
+    def line(part: np.ndarray) -> np.ndarray:
+        drawn = part.copy()
+        drawn[1:] |= part[:-1] & seen[1:]
+        return np.where(drawn, amplitudes, np.nan)
+
+    return line(seen & sure), line(seen & ~sure)
 
 
 def _admissible(curve: Curve, amplitudes, period, restitution, seen) -> np.ndarray:

@@ -71,8 +71,8 @@ def orbit_diagram(
     >>> import numpy as np, rocking as rk
     >>> system = rk.System(rk.Harmonic(amplitude=10.0, period=1.721328), restitution=0.8)
     >>> ax = rk.plot.orbit_diagram(rk.orbit_diagram(system, "amplitude", np.linspace(10.4, 10.8, 40), sweep="up"))
-    >>> ax.get_xlabel(), len(ax.lines[0].get_xdata())
-    ('amplitude $A$ (–)', 297)
+    >>> ax.get_xlabel(), len(ax.lines[0].get_xdata()) > 250
+    ('amplitude $A$ (–)', True)
     """
     instance("result", result, OrbitDiagram)
     quantity = one_of("quantity", quantity, curves.QUANTITIES)

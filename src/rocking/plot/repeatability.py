@@ -61,7 +61,7 @@ def repeatability(found: Repeatability, ax: Axes | None = None) -> Axes:
 
 
 def repeatability_map(found: RepeatabilityMap, ax: Axes | None = None) -> Axes:
-    """Draws where all runs agree, a colour a kind, and where not, in a colour of its own.
+    """Draws where all runs agree, a colour a kind, and where not, in a colour of its own; undetermined where nobody knows.
 
     Parameters
     ----------
@@ -93,7 +93,10 @@ def repeatability_map(found: RepeatabilityMap, ax: Axes | None = None) -> Axes:
     ax = style.own(ax, height=3.6)
     data, count = found.dataset, len(Kind)
     up, across = (data[name].values for name in data.kind.dims)
-    values = np.where(data.agreeing.values < 1.0, count, data.kind.values)
+    seen, unknown = data.agreeing.values, data.undetermined.values
+    values = np.where(unknown > 0.0, list(Kind).index(Kind.UNDETERMINED), data.kind.values)
+    # half a run: shares are rounded
+    values = np.where(seen + unknown < 1.0 - 0.5 / data.attrs["samples"], count, values)
     hues = [*(COLOURS[kind] for kind in Kind), UNCERTAIN]
     ax.pcolormesh(
         across,

@@ -18,6 +18,8 @@ REGULAR_DIGITS = 9
 MOST_DIGITS = 15
 LONGEST_LOCK = 500
 # An island this small, against speeds and phases of order one, turns by rounding: it counts as its centre.
+# More digits than this an average over some ten thousand flights, each rounded, does not have, however well its halves agree.
+CERTAIN_DIGITS = 14
 POINT = 1e-6
 # Seen from inside, a curve of many points leaves no such gap.
 WIDEST_GAP = 1.5
@@ -34,7 +36,8 @@ def average(values: Array) -> tuple[float, int]:
 def fraction_of(value: float, digits: int) -> Fraction | None:
     """The fraction that a number is to all its digits, or None."""
     near = Fraction(value).limit_denominator(LONGEST_LOCK)
-    return near if abs(value - near) <= 10.0 ** (1 - digits) * max(abs(value), 1.0 / LONGEST_LOCK) else None
+    off = 10.0 ** (1 - min(digits, CERTAIN_DIGITS)) * max(abs(value), 1.0 / LONGEST_LOCK)
+    return near if abs(value - near) <= off else None
 
 
 def deviations(phases: Array, speeds: Array) -> Array | None:

@@ -46,7 +46,7 @@ def ask(
 
 def _carry_out(results: Results, executor: Executor | None, progress: bool, interrupted: str) -> None:
     # Before other threads begin: a process that ends while one of them compiles may crash.
-    results.measure.compile()
+    results.measure.compile(results.asked.lossless)
     try:
         if not progress:
             run(results, executor)

@@ -8,12 +8,13 @@ from typing import Any
 
 import numpy as np
 
+from rocking.kernels import answers, judgement, many
 from rocking.kernels import attractor as kernel
-from rocking.kernels import judgement, many
 from rocking.model import Attractor, Harmonic, State, System
 from rocking.motion import simulate
 from rocking.response import classify
-from rocking.survey.axes import Points
+from rocking.survey.axes import SYSTEM, Points, points
+from rocking.survey.chaotic import averages, grouped
 from rocking.survey.responses import VARIABLES, judged
 from rocking.survey.tiles import Arrays, Measure, Variable
 
@@ -33,6 +34,24 @@ ANCHORS = tuple(
     )
     for what, unit in (("angle", "theta_cr"), ("velocity", "alpha theta_cr"))
 )
+AVERAGES = (
+    Variable(
+        "mean_angle",
+        "float64",
+        math.inf,
+        {
+            "long_name": "mean angle on the section in units of theta_cr",
+            "units": "1",
+            "comment": "NaN: not chaotic, or lossless",
+        },
+    ),
+    Variable(
+        "mean_angle_error",
+        "float64",
+        math.inf,
+        {"long_name": "standard error of the mean angle", "units": "1", "comment": "NaN: none"},
+    ),
+)
 CLASS = ("kind", "response_period", "impacts_per_period", "brace_hits_per_period", "symmetric")
 """What differs between two attractors, if anything but their states does."""
 
@@ -40,16 +59,39 @@ CLASS = ("kind", "response_period", "impacts_per_period", "brace_hits_per_period
 def destination(max_cycles: int, max_period: int, title: str) -> Measure:
     """What the cascade of `classify` says at each start, and a state that stands for where it leads."""
     by_name = {each.name: each for each in VARIABLES}
-    variables = (*(by_name[name] for name in KEPT), *ANCHORS, by_name["transient"], by_name["cycles"])
+    variables = (
+        *(by_name[name] for name in KEPT),
+        *ANCHORS,
+        *AVERAGES,
+        by_name["transient"],
+        by_name["cycles"],
+    )
     options = {"max_cycles": max_cycles, "max_period": max_period}
     return Measure(title, judge, compile_both, variables, options, many.METHOD, shares="kind")
 
 
-def compile_both() -> None:
+def compile_both(lossless: bool) -> None:
     """Compile the cascade, and what follows orbits."""
-    many.compile_many()
+    many.compile_many(lossless)
     still = np.array([[0.0, 1.0, math.tau, 0.0, 0.0, math.inf, 1.0]])
-    kernel.anchors_of(still, np.zeros((1, 2)), many.no_answers(1))
+    kernel.anchors_of(still, np.zeros((1, 2)), answers.no_answers(1))
+    simulate(System(Harmonic(0.0, period=1.0), 0.0), cycles=1, record="section")
+
+
+def lead(
+    values: Mapping[str, np.ndarray],
+    fixed: Mapping[str, float],
+    max_cycles: int,
+    max_period: int,
+    stop: np.ndarray,
+) -> Arrays | None:
+    """What `respond` says, with the state that stands for each orbit: `orbit_angle` and `orbit_velocity`."""
+    asked = points(values, fixed)
+    told = many.judge_many(*asked, max_cycles, max_period, stop)
+    if told is None:
+        return None
+    angles, velocities = kernel.anchors_of(*asked, told).T
+    return judged(told) | {"orbit_angle": angles, "orbit_velocity": velocities}
 
 
 def judge(points: Points, options: Mapping[str, int], stop: np.ndarray) -> Arrays | None:
@@ -58,9 +100,15 @@ def judge(points: Points, options: Mapping[str, int], stop: np.ndarray) -> Array
     if told is None:
         return None
     anchors = kernel.anchors_of(*points, told)
+    # without losses there is no attractor, and a mean takes for ever to settle
+    lossy = points.systems[:, SYSTEM.index("restitution")] < 1.0
+    means = averages(points, (told.kind == judgement.CHAOTIC) & lossy, options["max_cycles"], stop)
+    if stop[0]:
+        return None
     answers = judged(told)
+    columns = zip((*ANCHORS, *AVERAGES), (*anchors.T, *means.T), strict=True)
     return {name: answers[name] for name in (*KEPT, "transient", "cycles")} | {
-        each.name: anchors[:, column] for column, each in enumerate(ANCHORS)
+        each.name: np.ascontiguousarray(column) for each, column in columns
     }
 
 
@@ -68,15 +116,17 @@ def told_apart(system: System, answers: Mapping[str, Any]) -> tuple[np.ndarray, 
     """(labels (n,), first (m,)): which attractor each of n starts leads to, the largest share first, and a start of each.
 
     Orbits of one class (kind, period, impacts, symmetry) are one where the states that stand for them are, or where one's
-    state is any of the other's.
+    state is any of the other's. Chaotic responses are one where their means are, to within their errors.
     """
-    flat = {name: np.asarray(answers[name]).ravel() for name in (*CLASS, "orbit_angle", "orbit_velocity")}
+    named_by = (*CLASS, *(each.name for each in (*ANCHORS, *AVERAGES)))
+    flat = {name: np.asarray(answers[name]).ravel() for name in named_by}
     columns = [flat[name].astype(float) for name in CLASS]
     anchors = np.column_stack([flat["orbit_angle"], flat["orbit_velocity"]])
     unanchored = np.isnan(anchors).any(axis=1)
     # + 0.0: no negative zeros, which differ in their bytes
     rounded = np.where(unanchored[:, None], 0.0, np.round(anchors / SAME)) + 0.0
-    keys = np.column_stack([*columns, unanchored, rounded])
+    means = grouped(flat["mean_angle"], flat["mean_angle_error"])
+    keys = np.column_stack([*columns, unanchored, means, rounded])
     distinct, first, groups = np.unique(keys, axis=0, return_index=True, return_inverse=True)
     joined = _joined(system, distinct, anchors[first])[groups.ravel()]
     _, first, labels, counts = np.unique(joined, return_index=True, return_inverse=True, return_counts=True)

@@ -83,6 +83,13 @@ class Question:
         """Points in all."""
         return math.prod(self.shape)
 
+    @property
+    def lossless(self) -> bool:
+        """Whether some points lose nothing at impacts."""
+        return 1.0 in (
+            self.axes["restitution"] if "restitution" in self.axes else [self.fixed["restitution"]]
+        )
+
 
 def question(asked: Mapping[str, Any], count: int, what: str) -> Question:
     """Check what is asked: `count` of the quantities are arrays, their axes, and the others numbers (None: not given).
@@ -98,15 +105,14 @@ def question(asked: Mapping[str, Any], count: int, what: str) -> Question:
     if missing:
         raise TypeError(f"{what} needs {' and '.join(missing)}; got none")
     braced = "brace_angle" in given
-    if not braced and _is_axis(given.get("brace_restitution", 1.0)):
-        raise TypeError(refusal("brace_restitution", "come with brace_angle", given["brace_restitution"]))
-    if not braced:
-        given.pop("brace_restitution", None)
+    rebound = 1.0 if braced else given.pop("brace_restitution", 1.0)
+    if _is_axis(rebound) or rebound != 1.0:
+        raise TypeError(refusal("brace_restitution", "come with brace_angle", rebound))
     axes = {name: axis(name, value) for name, value in given.items() if _is_axis(value)}
+    fixed = {name: within(name, value, *RANGES[name]) for name, value in given.items() if name not in axes}
     if len(axes) != count:
         got = " and ".join(axes) or "none"
-        raise TypeError(f"{what} needs {_counted(count)} to vary, given as arrays; got {got}")
-    fixed = {name: within(name, value, *RANGES[name]) for name, value in given.items() if name not in axes}
+        raise TypeError(f"{what} needs {_counted(count)} to vary, given as axes; got {got}")
     asked_for = Question(axes, fixed)
     _check_braces(asked_for)
     return asked_for

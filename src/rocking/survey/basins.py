@@ -11,7 +11,9 @@ import numpy as np
 from rocking.kernels import judgement as kernel
 from rocking.model import (
     LARGEST_START,
+    Attractor,
     BasinMap,
+    Kind,
     Share,
     System,
     UncertaintyExponent,
@@ -81,12 +83,15 @@ def basin_map(
 
     Notes
     -----
-    The intervals of the fractions are Wilson's at 95 %. They hold for random starts. For a grid they are those of as many
+    The intervals of the fractions are Wilson's at 95 %, and cover that all that is undetermined leads there. They hold for
+    random starts. For a grid they are those of as many
     random starts: its error is about the share of the cells that a boundary cuts, over the root of how many they are,
     and so most often smaller; but nothing that happens between its points is known.
 
-    Not guaranteed: what `classify` does not guarantee. Orbits nearer to each other than 10⁻⁶ count as one, and so do all
-    chaotic and all quasi-periodic responses. An exponent is of the distances tried, 2⁻⁶ to 2⁻¹³ of the width of the
+    Not guaranteed: what `classify` does not guarantee. Orbits nearer to each other than 10⁻⁶ count as one. So do all
+    quasi-periodic responses, all chaotic ones without losses, and all others whose mean angle on the section differs by less
+    than ten standard errors: two chaotic attractors that are each other's mirror image are told apart by it, but two that
+    lie the same on average are not. An exponent is of the distances tried, 2⁻⁶ to 2⁻¹³ of the width of the
     starts; a boundary may be smooth on a finer scale.
 
     References
@@ -118,7 +123,7 @@ def basin_map(
         starts = grid_starts(asked)
     else:
         if store is not None:
-            raise TypeError(refusal("store", "come without samples: it holds a grid", store))
+            raise TypeError(refusal("store", "come without samples: it holds a grid", str(store)))
         ends = {name: span(name, v) for name, v in (("velocity", velocity), ("angle", angle))}
         check_reach(system, ends["angle"])
         count = whole("samples", samples, 1, MOST_SAMPLES)
@@ -127,9 +132,19 @@ def basin_map(
     labels, first = told_apart(system, {str(name): found[name].values for name in found.data_vars})
     attractors = named(system, starts, first, max_cycles, max_period)
     _attach(found, labels, [each.name for each in attractors])
-    fractions = tuple(Share(count, labels.size) for count in np.bincount(labels))
+    fractions = _fractions(np.bincount(labels), attractors)
     exponents = _exponents(system, ends, runs, random, measure, executor) if runs else (None, None)
     return BasinMap(system, found, attractors, fractions, *exponents)
+
+
+def _fractions(counts: np.ndarray, attractors: tuple[Attractor, ...]) -> tuple[Share, ...]:
+    """The share of each attractor; what is undetermined may belong to any."""
+    undetermined = [each.kind is Kind.UNDETERMINED for each in attractors]
+    unknown = int(counts[undetermined].sum())
+    return tuple(
+        Share(count, counts.sum(), 0 if not_known else unknown)
+        for count, not_known in zip(counts, undetermined, strict=True)
+    )
 
 
 def asked_of(system: System) -> dict[str, float | None]:

@@ -62,7 +62,10 @@ def chaos_share(
 
     Notes
     -----
-    The intervals are Wilson's at 95 %. Not guaranteed: that chaos lasts; a longer run may find an end to it.
+    The intervals are Wilson's at 95 %, and cover that all that is undetermined is chaotic. Not guaranteed: that chaos
+    lasts; a longer run may find an end to it.
+
+    There is no store: a thousand responses take seconds, and a seed gives them again.
 
     Examples
     --------
@@ -107,7 +110,7 @@ def _summed_up(
     import xarray as xr
 
     of = int(counts[0].sum())
-    shares = tuple(Share(each, of) for each in counts[:, kernel.CHAOTIC])
+    shares = tuple(Share(each[kernel.CHAOTIC], of, each[kernel.UNDETERMINED]) for each in counts)
     variables: dict[str, Any] = dict(
         interval_variables("chaotic", shares, "restitution", "share of chaotic responses")
     )

@@ -18,7 +18,7 @@ class StoreError(OSError):
 
 def check_store(path: str | os.PathLike[str]) -> Path:
     """Refuse what is neither a survey's store nor a folder that may become one."""
-    if not isinstance(path, str | os.PathLike):
+    if not isinstance(path, str | os.PathLike) or not os.fspath(path):
         raise TypeError(refusal("store", "be the path of a folder", path))
     folder = Path(path)
     if folder.exists() and not folder.is_dir():
@@ -32,7 +32,7 @@ def check_store(path: str | os.PathLike[str]) -> Path:
 
 def something_else(folder: Path, what: str) -> str:
     """How a folder that is no survey's store is refused."""
-    return f"store must be a new folder or a survey's store; got {str(folder)!r}, which is {what}"
+    return f"store must be a new folder, or one of a survey; got {str(folder)!r}, which is {what}"
 
 
 @contextmanager

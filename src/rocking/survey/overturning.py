@@ -1,35 +1,27 @@
-"""How hard the base must shake to overturn a block from rest: a scan over amplitudes and phases, its first hits refined."""
+"""How hard the base must shake to overturn a block from rest, over periods and restitutions."""
 
 from __future__ import annotations
 
 import os
 from concurrent.futures import Executor
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
-from attrs import frozen
 
 from rocking.kernels import judgement as kernel
 from rocking.model import OverturningCurve, refusal, whole
 from rocking.survey.ask import ask
-from rocking.survey.axes import Question, points, question
+from rocking.survey.axes import question
 from rocking.survey.dataset import attributes, coordinate
 from rocking.survey.maps import MOST_CYCLES, MOST_PERIOD
 from rocking.survey.outcomes import outcome
-from rocking.survey.samples import sampled
-from rocking.survey.tiles import Measure
+from rocking.survey.scan import Scan, refined
 from rocking.theory import heteroclinic_amplitude
-
-if TYPE_CHECKING:
-    import xarray as xr
 
 MOST_PHASES = 100_000
 TITLE = "Overturning of a free-standing block from rest on a shaking base"
 SCANNED = tuple(np.linspace(1.0, 16.0, 301).tolist())
 """Amplitudes scanned unless others are given; up to 1 nothing moves from rest."""
-HALVINGS = 40
-SETTLED = 1e-12
-"""Relative width at which bisection ends."""
 
 
 def overturning_amplitude(
@@ -96,7 +88,7 @@ def overturning_amplitude(
     """
     count = whole("phases", phases, 1, MOST_PHASES)
     if np.ndim(amplitude) != 1:
-        raise TypeError(refusal("amplitude", "be an array of amplitudes to scan, ascending", amplitude))
+        raise TypeError(refusal("amplitude", "be an axis of amplitudes to scan, ascending", amplitude))
     measure = outcome(
         whole("max_cycles", max_cycles, 1, MOST_CYCLES),
         whole("max_period", max_period, 1, MOST_PERIOD),
@@ -117,39 +109,7 @@ def overturning_amplitude(
     over = [name for name in ("restitution", "frequency", "period") if name in asked.axes]
     kinds = kinds.transpose(*over, "phase", "amplitude").load()
     scan = Scan(asked, measure, tuple(over), kinds)
-    return _summed_up(scan, *_refined(scan, executor))
-
-
-@frozen(eq=False)
-class Scan:
-    """What was found at each amplitude and phase (the last two dimensions) of each cell (those before, `over`)."""
-
-    asked: Question
-    measure: Measure
-    over: tuple[str, ...]
-    kinds: xr.DataArray
-
-    @property
-    def amplitudes(self) -> np.ndarray:
-        """A, ascending."""
-        return self.kinds.amplitude.values
-
-    @property
-    def phases(self) -> np.ndarray:
-        """φ."""
-        return self.kinds.phase.values
-
-    @property
-    def cells(self) -> np.ndarray:
-        """Whether the block overturned: (cells, phases, amplitudes)."""
-        fell: np.ndarray = np.asarray(self.kinds.values == kernel.OVERTURNS)
-        return fell.reshape(-1, *fell.shape[-2:])
-
-    @property
-    def first(self) -> np.ndarray:
-        """The place of the first amplitude of each cell that overturns it at any phase; one past the last if none does."""
-        hit: np.ndarray = np.any(self.cells, axis=1)
-        return np.where(hit.any(axis=1), hit.argmax(axis=1), self.amplitudes.size)
+    return _summed_up(scan, *refined(scan, executor))
 
 
 def _summed_up(scan: Scan, lowest: np.ndarray, phase: np.ndarray) -> OverturningCurve:
@@ -225,30 +185,3 @@ def _thresholds(scan: Scan) -> np.ndarray:
     at: dict[str, Any] = scan.asked.fixed | dict(zip(scan.over, grids, strict=True))
     period = at["period"] if "period" in at else 2.0 * np.pi / at["frequency"]
     return np.asarray(heteroclinic_amplitude(period, at["restitution"]))
-
-
-def _refined(scan: Scan, executor: Executor | None) -> tuple[np.ndarray, np.ndarray]:
-    """(lowest amplitude, its phase) of each cell: the first hit, at each phase that has one, bisected back to a survivor."""
-    amplitudes, turned, cells, first = scan.amplitudes, scan.phases, scan.cells, scan.first
-    there = np.take_along_axis(cells, first[:, None, None].clip(max=amplitudes.size - 1), axis=2)[..., 0]
-    rows, columns = np.nonzero(there & (first < amplitudes.size)[:, None])
-    high = amplitudes[first[rows]]
-    low = np.where(first[rows] > 0, amplitudes[first[rows] - 1], high)
-    places = np.unravel_index(rows, scan.kinds.shape[:-2]) if scan.over else ()
-    values = {name: scan.kinds[name].values[k] for name, k in zip(scan.over, places, strict=True)}
-    values["phase"] = turned[columns]
-    for _ in range(HALVINGS):
-        wide = np.flatnonzero(high - low > SETTLED * high)
-        if wide.size == 0:
-            break
-        middle = 0.5 * (low[wide] + high[wide])
-        tried = points(
-            {name: v[wide] for name, v in values.items()} | {"amplitude": middle}, scan.asked.fixed
-        )
-        fell = sampled(tried, scan.measure, executor)["kind"] == kernel.OVERTURNS
-        high[wide[fell]], low[wide[~fell]] = middle[fell], middle[~fell]
-    lowest, phase = np.full(first.size, np.nan), np.full(first.size, np.nan)
-    # the last written is the lowest
-    order = np.argsort(-high, kind="stable")
-    lowest[rows[order]], phase[rows[order]] = high[order], turned[columns[order]]
-    return lowest, phase

@@ -57,9 +57,12 @@ class Level:
 
     def tiles(self) -> Iterator[Tile]:
         """Its tiles, row by row."""
-        for index in np.ndindex(*self.tile_counts):
-            spans = zip(index, self.tile, self.shape, strict=True)
-            yield Tile(self, index, tuple(slice(i * edge, min((i + 1) * edge, n)) for i, edge, n in spans))
+        yield from map(self.at, np.ndindex(*self.tile_counts))
+
+    def at(self, index: tuple[int, ...]) -> Tile:
+        """One of its tiles."""
+        spans = zip(index, self.tile, self.shape, strict=True)
+        return Tile(self, index, tuple(slice(i * edge, min((i + 1) * edge, n)) for i, edge, n in spans))
 
 
 @frozen(eq=False)

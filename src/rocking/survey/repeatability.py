@@ -1,44 +1,24 @@
-"""Whether an experiment can be repeated: what comes of inputs that are off by a little, at a point and over a map."""
+"""Whether an experiment can be repeated: what comes of inputs that are off by a little."""
 
 from __future__ import annotations
 
-import os
 from collections import Counter
 from collections.abc import Mapping
 from concurrent.futures import Executor
-from typing import Any
+from typing import TypeVar
 
 import numpy as np
 
 from rocking.kernels import judgement as kernel
-from rocking.kernels import many
-from rocking.model import (
-    FREQUENCIES,
-    LARGEST_AMPLITUDE,
-    Repeatability,
-    RepeatabilityMap,
-    Share,
-    State,
-    System,
-    check_start,
-    whole,
-    within,
-)
-from rocking.survey.ask import ask
-from rocking.survey.axes import SYSTEM, Points, question
+from rocking.model import Kind, Repeatability, Share, State, System, check_start, whole, within
 from rocking.survey.basins import points_of
+from rocking.survey.disturbed import INPUTS, LARGEST_RELATIVE, TITLE, disturbed
 from rocking.survey.maps import MOST_CYCLES, MOST_PERIOD
-from rocking.survey.outcomes import KIND, KINDS
+from rocking.survey.outcomes import KINDS
 from rocking.survey.responses import response
 from rocking.survey.samples import MOST_SAMPLES, MOST_SEED, sampled
-from rocking.survey.tiles import Arrays, Measure, Variable
 
-TITLE = "Repeatability of the response of a free-standing block on a shaking base"
-LARGEST_RELATIVE = 0.5
-MILLIONTH = 1e-6
-INPUTS = 5
-"""A, T, e, Θ and Θ' at the start."""
-MOST_AT_A_POINT = 1_000
+Name = TypeVar("Name", bound=str)
 
 
 def repeatability(
@@ -86,7 +66,10 @@ def repeatability(
 
     Notes
     -----
-    The intervals are Wilson's at 95 %. Two unsymmetric responses that are each other's mirror image count as one.
+    The intervals are Wilson's at 95 %. What is undetermined after `max_cycles` is no outcome: it may be any, and so widens
+    the intervals of all. Two unsymmetric responses that are each other's mirror image count as one.
+
+    There is no store: a thousand runs take seconds, and a seed gives them again.
 
     Examples
     --------
@@ -108,6 +91,7 @@ def repeatability(
     meant = points_of(system, np.tile([start.angle, start.velocity], (count, 1)))
     answers = sampled(disturbed(meant, random.uniform(-1.0, 1.0, (count, INPUTS)), off), measure, executor)
     kinds = Counter(KINDS[k] for k in answers["kind"].tolist())
+    unknown = kinds[Kind.UNDETERMINED]
     columns = (
         answers[name].tolist() for name in ("kind", "response_period", "symmetric", "impacts_per_period")
     )
@@ -116,158 +100,16 @@ def repeatability(
         system,
         start,
         off,
-        {kind: Share(number, count) for kind, number in kinds.most_common()},
-        {name: Share(number, count) for name, number in responses.most_common()},
+        _shares(kinds, unknown, count),
+        _shares(responses, unknown, count),
     )
 
 
-def repeatability_map(
-    *,
-    amplitude: Any,
-    period: Any = None,
-    frequency: Any = None,
-    restitution: Any,
-    phase: Any = 0.0,
-    angle: Any = 0.0,
-    velocity: Any = 0.0,
-    brace_angle: Any = None,
-    brace_restitution: Any = 1.0,
-    relative: float = 0.01,
-    samples: int = 16,
-    max_cycles: int = 10_000,
-    max_period: int = 64,
-    store: str | os.PathLike[str] | None = None,
-    executor: Executor | None = None,
-    progress: bool = False,
-    repair: bool = False,
-) -> RepeatabilityMap:
-    """Tell at every point of a grid whether the outcome is certain when the inputs are off by a little, and at which share not.
-
-    Parameters
-    ----------
-    amplitude, period, frequency, restitution, phase, angle, velocity, brace_angle, brace_restitution : float or array (n,)
-        As in `parametric_map`: two of them are arrays, the axes.
-    relative : float
-        By which share of itself A, T, e and the start may be off, in [0, 0.5], to a millionth.
-    samples : int
-        Experiments at each point, 2 to 1000: evenly spread over what the inputs may be, the same at every point.
-    max_cycles, max_period, store, executor, progress, repair
-        As in `parametric_map`.
-
-    Returns
-    -------
-    RepeatabilityMap
-        `.dataset`, and the shares `.uncertain` and `.overturning_uncertain` of the points; `print` shows one line.
-
-    Raises
-    ------
-    TypeError, ValueError, OSError
-        In one line, as in `parametric_map`.
-
-    Notes
-    -----
-    Not guaranteed: that a point at which all experiments agree is certain; an outcome with a share p is missed by
-    (1 − p)ⁿ of n experiments. The intervals of the shares are those of as many random points.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> import rocking as rk
-    >>> found = rk.repeatability_map(
-    ...     amplitude=np.linspace(1, 13, 4), period=np.linspace(0.5, 2, 4), restitution=0.925, samples=4
-    ... )
-    >>> found.uncertain.of, found.dataset.agreeing.dims
-    (16, ('amplitude', 'period'))
-    """
-    given = {
-        "amplitude": amplitude,
-        "period": period,
-        "frequency": frequency,
-        "restitution": restitution,
-        "phase": phase,
-        "angle": angle,
-        "velocity": velocity,
-        "brace_angle": brace_angle,
-        "brace_restitution": brace_restitution,
-    }
-    asked = question(given, 2, "a map of repeatability")
-    off = round(within("relative", relative, 0, LARGEST_RELATIVE) / MILLIONTH)
-    options = {
-        "max_cycles": whole("max_cycles", max_cycles, 1, MOST_CYCLES),
-        "max_period": whole("max_period", max_period, 1, MOST_PERIOD),
-        "samples": whole("samples", samples, 2, MOST_AT_A_POINT),
-        "relative_millionths": off,
-    }
-    measure = Measure(TITLE, judge, many.compile_many, VARIABLES, options, many.METHOD, shares="kind")
-    found = ask(asked, measure, store, executor, progress=progress, repair=repair).load()
-    found.attrs["relative"] = off * MILLIONTH
-    uncertain = np.count_nonzero(found.agreeing.values < 1.0)
-    fallen = found.overturned.values
-    divided = np.count_nonzero((fallen > 0.0) & (fallen < 1.0))
-    return RepeatabilityMap(found, Share(uncertain, asked.points), Share(divided, asked.points))
-
-
-VARIABLES = (
-    Variable(
-        "kind", KIND.dtype, KIND.fill, KIND.attributes | {"long_name": "most frequent kind of response"}
-    ),
-    Variable("overturned", "float32", -1.0, {"long_name": "share of the runs that overturn", "units": "1"}),
-    Variable(
-        "agreeing",
-        "float32",
-        -1.0,
-        {"long_name": "share of the runs of the most frequent kind", "units": "1"},
-    ),
-)
-
-
-def judge(at: Points, options: Mapping[str, int], stop: np.ndarray) -> Arrays | None:
-    """How many of the experiments at each point end in each kind of response."""
-    counts = np.zeros((len(at.systems), len(KINDS)), np.int64)
-    for units in spread(options["samples"]):
-        tried = disturbed(
-            at, np.tile(units, (len(at.systems), 1)), options["relative_millionths"] * MILLIONTH
-        )
-        told = many.judge_many(*tried, options["max_cycles"], options["max_period"], stop)
-        if told is None:
-            return None
-        counts[np.arange(len(counts)), told.kind] += 1
-    shares = (counts / options["samples"]).astype(np.float32)
-    return {
-        "kind": counts.argmax(axis=1).astype(np.uint8),
-        "overturned": shares[:, kernel.OVERTURNS],
-        "agreeing": shares.max(axis=1),
-    }
-
-
-def spread(count: int) -> np.ndarray:
-    """Points (count, INPUTS) spread evenly over [-1, 1]: multiples of powers of the root of g⁶ = g + 1, modulo one."""
-    root = 1.0
-    for _ in range(60):
-        root = (1.0 + root) ** (1.0 / (INPUTS + 1))
-    steps = root ** -np.arange(1.0, INPUTS + 1)
-    return 2.0 * ((0.5 + np.arange(count)[:, None] * steps) % 1.0) - 1.0
-
-
-def disturbed(meant: Points, units: np.ndarray, off: float) -> Points:
-    """Points (n) with A, T, e, Θ and Θ' off by that share of themselves times `units` (n, INPUTS), which lie in [-1, 1]."""
-    factors = 1.0 + off * units
-    systems, starts = meant.systems.copy(), meant.starts.copy()
-    place = {name: k for k, name in enumerate(SYSTEM)}
-    amplitude, period, restitution = (
-        systems[:, place[name]] for name in ("amplitude", "period", "restitution")
-    )
-    np.minimum(amplitude * factors[:, 0], LARGEST_AMPLITUDE, out=amplitude)
-    shortest, longest = (np.float64(2.0 * np.pi) / each for each in FREQUENCIES[::-1])
-    np.clip(period * factors[:, 1], shortest, longest, out=period)
-    systems[:, place["frequency"]] = 2.0 * np.pi / period
-    # drawn evenly from what is possible
-    low, high = restitution * (1.0 - off), np.minimum(restitution * (1.0 + off), 1.0)
-    restitution[:] = 0.5 * (low + high) + 0.5 * (high - low) * units[:, 2]
-    reach = systems[:, place["brace_angle"]]
-    starts[:, 0] = np.clip(starts[:, 0] * factors[:, 3], -reach, reach)
-    starts[:, 1] *= factors[:, 4]
-    return Points(systems, starts)
+def _shares(counts: Mapping[Name, int], unknown: int, of: int) -> dict[Name, Share]:
+    """Shares by name, the largest first; the undetermined, which may belong to any of the others, last."""
+    known = sorted((each for each in counts if each != Kind.UNDETERMINED), key=lambda each: -counts[each])
+    shares = {name: Share(counts[name], of, unknown) for name in known}
+    return shares | {name: Share(unknown, of) for name in counts if name == Kind.UNDETERMINED and unknown}
 
 
 def _told(kind: int, period: int, symmetric: int, impacts: int) -> str:

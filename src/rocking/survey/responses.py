@@ -7,9 +7,9 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from rocking.kernels import answers, many
 from rocking.kernels import judgement as kernel
-from rocking.kernels import many
-from rocking.survey.axes import Points
+from rocking.survey.axes import Points, points
 from rocking.survey.tiles import Arrays, Measure, Variable
 
 
@@ -101,7 +101,21 @@ def judge(points: Points, options: Mapping[str, int], stop: np.ndarray) -> Array
     return None if told is None else judged(told)
 
 
-def judged(told: many.Answers) -> Arrays:
+def respond(
+    values: Mapping[str, np.ndarray],
+    fixed: Mapping[str, float],
+    max_cycles: int,
+    max_period: int,
+    stop: np.ndarray,
+) -> Arrays | None:
+    """What a map says at n points: `values` (n,) and the `fixed` ones by the names of the quantities, all in range.
+
+    None where another thread set `stop` (1,) on the way. A survey has checked, and compiled, before it comes to this.
+    """
+    return judge(points(values, fixed), {"max_cycles": max_cycles, "max_period": max_period}, stop)
+
+
+def judged(told: answers.Answers) -> Arrays:
     """The cascade's answers by the names of the variables."""
     unweighed = (told.kind == kernel.UNDETERMINED) & (told.ground != kernel.INDISTINCT)
     overturns, periodic = told.kind == kernel.OVERTURNS, told.kind == kernel.PERIODIC

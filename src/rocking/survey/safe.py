@@ -71,7 +71,8 @@ def safe_basin(
     Notes
     -----
     The intervals are Wilson's at 95 %. Since the starts are the same, shares at two amplitudes differ by less than their
-    intervals suggest. Not guaranteed: that what stayed undetermined or chaotic never overturns; both count as safe.
+    intervals suggest. There is no store: a seed gives the same starts again, and `basin_map` keeps a grid of them.
+    Not guaranteed: that what stayed undetermined or chaotic never overturns; both count as safe.
 
     Examples
     --------
@@ -96,7 +97,7 @@ def safe_basin(
     }
     asked = question(given, 1, "a safe basin")
     if "amplitude" not in asked.axes:
-        raise TypeError(refusal("amplitude", "be an array of amplitudes, ascending", amplitude))
+        raise TypeError(refusal("amplitude", "be an axis of amplitudes, ascending", amplitude))
     reach = (
         RANGES["angle"] if brace_angle is None else (-asked.fixed["brace_angle"], asked.fixed["brace_angle"])
     )

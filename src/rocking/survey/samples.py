@@ -20,7 +20,7 @@ MOST_SEED = 2**32 - 1
 
 def sampled(points: Points, measure: Measure, executor: Executor | None = None) -> Arrays:
     """The answers of a measure at points, in their order."""
-    measure.compile()
+    measure.compile(bool((points.systems[:, 4] == 1.0).any()))
     total = len(points.systems)
     with engine(executor) as (pool, stop):
         futures = []

@@ -96,7 +96,7 @@ class Store:
     def check(self, *, repair: bool) -> None:
         """Read all that is marked done: damage is refused by name, or with `repair` computed again."""
         found: list[str] = []
-        for tile in (tile for level in self.levels for tile in level.tiles()):
+        for tile in (tile for level in self.levels for tile in self._marked(level)):
             known, damaged = self._inspected(tile)
             found += [str(self._chunk(tile, name)) for name in damaged]
             if known.any() and not damaged:
@@ -107,6 +107,13 @@ class Store:
             raise StoreError(
                 f"store {str(self.path)!r} is damaged at {', '.join(found[:MOST_NAMED])}{more}; repair=True computes these tiles again"
             )
+
+    def _marked(self, level: Level) -> list[Tile]:
+        """The tiles of a level whose marker is there: of many that are not, nobody asks one by one."""
+        folder = self._chunks(level, self.measure.marker.name)
+        found = (path.relative_to(folder).parts for path in folder.glob("/".join("*" * len(level.shape))))
+        numbered = (tuple(map(int, parts)) for parts in found if all(map(str.isdecimal, parts)))
+        return [level.at(index) for index in sorted(numbered)]
 
     def _inspected(self, tile: Tile) -> tuple[np.ndarray, list[str]]:
         """Which points of a tile are there; the variables that cannot be read, or miss what the marker says is there."""
@@ -127,7 +134,11 @@ class Store:
 
     def _chunk(self, tile: Tile, name: str) -> Path:
         """The file of a tile's variable."""
-        return self.path / tile.level.name / name / "c" / "/".join(map(str, tile.index))
+        return self._chunks(tile.level, name) / "/".join(map(str, tile.index))
+
+    def _chunks(self, level: Level, name: str) -> Path:
+        """The folder of a variable's files."""
+        return self.path / level.name / name / "c"
 
     def _read(self, level: Level, name: str, region: Slices) -> np.ndarray:
         return np.asarray(self.arrays[level.number][name][region])

@@ -1,0 +1,33 @@
+"""What commands write: refused before anything is run, written whole or not at all."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from rocking.cli.options import option, your_input
+from rocking.model import check_writable, replacing
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+PICTURES = (".png", ".svg", ".pdf")
+SUFFIXES = {"plot": PICTURES, "csv": (".csv",), "netcdf": (".nc",)}
+
+
+def check_files(
+    paths: Mapping[str, Path | None], suffixes: Mapping[str, tuple[str, ...]] = SUFFIXES
+) -> dict[str, Path]:
+    """The files asked for, by the names of their options; `YourInput` for one that cannot be written."""
+    asked = {name: path for name, path in paths.items() if path is not None}
+    for name, path in asked.items():
+        with your_input():
+            check_writable(option(name), path, suffixes[name])
+    return asked
+
+
+def write_dataset(data: xr.Dataset, path: Path) -> None:
+    """A dataset that is in memory, as netCDF."""
+    with replacing(path) as temporary:
+        data.to_netcdf(temporary, engine="h5netcdf")

@@ -1,0 +1,87 @@
+"""What a map shows, in a few lines or as JSON."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from rocking.cli.maps import COUNTS
+from rocking.cli.quantities import TOLD
+from rocking.cli.screen import Row, print_json, print_table
+from rocking.model import counted
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from rocking.model import Block
+
+OPEN = ("unresolved-reset", "unwatched", "indistinct", "between", "crowded")
+"""Why a response is undetermined."""
+SHAKING = {"amplitude": ("acceleration", "m/s²"), "period": ("seconds", "s"), "frequency": ("hertz", "Hz")}
+"""What a block makes of each, and in which unit."""
+
+
+def show(found: xr.Dataset, block: Block | None, files: list[Path], *, as_json: bool) -> None:
+    """Print what was found on stdout, and where its files are."""
+    from rocking.survey import counts
+
+    kinds, grounds = counts(found, "kind"), counts(found, "evidence")
+    if as_json:
+        print_json(record(found, kinds, grounds, files))
+        return
+    size = " × ".join(f"{found.sizes[name]:,}" for name in found.kind.dims)
+    print_table(f"parametric map, {size} points", [*_asked(found, block), *_found(kinds, grounds)], files)
+
+
+def _asked(found: xr.Dataset, block: Block | None) -> Iterator[Row]:
+    for name in map(str, found.kind.dims):
+        first, last = found[name].values[[0, -1]]
+        yield name, f"{first:.6g} to {last:.6g}", _in_si(name, (first, last), block)
+    for name in (*TOLD, "max_cycles"):
+        if name in found.attrs:
+            value = found.attrs[name]
+            yield name.replace("_", " "), f"{value:.6g}", _in_si(name, (value,), block)
+
+
+def _in_si(name: str, values: tuple[float, ...], block: Block | None) -> str:
+    """What shakes a block, as it was asked."""
+    if block is None or name not in SHAKING:
+        return ""
+    physical, unit = SHAKING[name]
+    return " to ".join(f"{getattr(block, physical)(value):.4g}" for value in values) + f" {unit}"
+
+
+def _found(kinds: dict[str, int], grounds: dict[str, int]) -> Iterator[Row]:
+    from rocking.survey import percent
+
+    total = sum(kinds.values())
+    for kind, count in kinds.items():
+        if count:
+            yield kind, percent(count / total), counted(count, "point")
+    for ground in OPEN:
+        if grounds[ground]:
+            yield f"  {ground}", percent(grounds[ground] / total), counted(grounds[ground], "point")
+
+
+def record(
+    found: xr.Dataset, kinds: dict[str, int], grounds: dict[str, int], files: list[Path]
+) -> dict[str, Any]:
+    """The same for a program to read."""
+    axes = {
+        str(name): {
+            "start": float(found[name][0]),
+            "stop": float(found[name][-1]),
+            "count": found.sizes[name],
+        }
+        for name in found.kind.dims
+    }
+    fixed = {name: found.attrs[name] for name in (*TOLD, *COUNTS) if name in found.attrs}
+    return {
+        "axes": axes,
+        **fixed,
+        "points": sum(kinds.values()),
+        "kinds": kinds,
+        "evidence": grounds,
+        "files": [str(path) for path in files],
+    }

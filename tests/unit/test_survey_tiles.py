@@ -1,0 +1,53 @@
+"""Tiles: what is said of a point depends on nobody beside it, and the work is that of the points."""
+
+import math
+
+import numpy as np
+import pytest
+
+from rocking.survey import tiles
+from rocking.survey.axes import Question
+from rocking.survey.plan import levels
+from rocking.survey.responses import response
+from rocking.survey.tiles import Batch, batches, compute
+
+MEASURE = response(200, 64, "A map")
+AXES = {"amplitude": np.linspace(0.0, 16.0, 24), "period": np.linspace(0.2, 3.0, 24)}
+NO_STOP = np.zeros(1, np.int64)
+
+
+def answered(wanted, fixed):
+    return compute(Batch(AXES, fixed, np.asarray(wanted, np.int32), MEASURE.judge, MEASURE.options), NO_STOP)
+
+
+@pytest.mark.parametrize(
+    "fixed", [{"restitution": 0.9}, {"restitution": 1.0}, {"restitution": 0.9, "brace_angle": 1.0}]
+)
+def test_what_is_said_of_a_point_depends_on_nobody_beside_it(fixed):
+    """The same bytes whichever points are judged together, in whatever order, or each alone."""
+    whole = answered(range(24**2), fixed)
+    order = np.random.default_rng(2).permutation(24**2)
+    for wanted in (order, order[:100], order[-1:], *order[:20, None]):
+        part = answered(wanted, fixed)
+        for name, values in part.items():
+            assert values.tobytes() == whole[name][wanted].tobytes(), name
+
+
+@pytest.mark.parametrize("points", [50, 100, 199])
+def test_the_work_of_a_survey_is_its_points_each_once(points, monkeypatch):
+    monkeypatch.setattr(tiles, "BATCH", 500)
+    axes = {"amplitude": np.linspace(0.0, 16.0, points), "period": np.linspace(0.2, 3.0, points)}
+    asked = Question(axes, {"restitution": 0.9})
+    met, pieces, needed = np.zeros((points, points), int), 0, 0
+    for level in levels(asked):
+        step = (points - 1) // (level.shape[0] - 1)
+        for tile in level.tiles():
+            wanted = np.flatnonzero(tile.own(np.ones(tile.shape, bool)))
+            needed += math.ceil(wanted.size / 500)
+            for batch in batches(tile, asked.fixed, wanted, MEASURE):
+                pieces += 1
+                assert batch.wanted.size <= 500
+                rows, columns = np.unravel_index(batch.wanted, tile.shape)
+                met[(rows + tile.region[0].start) * step, (columns + tile.region[1].start) * step] += 1
+    assert (met == 1).all()
+    assert pieces == needed
