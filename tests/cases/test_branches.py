@@ -4,6 +4,7 @@ import math
 import runpy
 from pathlib import Path
 
+import attrs
 import numpy as np
 import pytest
 from scipy.optimize import brentq, minimize_scalar
@@ -170,6 +171,17 @@ def test_curves_of_symmetry_breaking_and_fold_are_the_closed_forms(n, period):
         assert max(abs(a - expected(t, restitution, n)) for t, a in curve.points) <= 1e-8
 
 
+def test_stability_changes_just_at_the_index_of_a_special_point():
+    """On the way down from where the branch was begun a fold, on the way up the breaking of symmetry."""
+    breaking = symmetry_breaking_amplitude(1.0, 0.9, 1)
+    orbit = mode_orbit(0.7 * breaking, 1.0, 0.9, 1)
+    branch = rk.continue_orbit(orbit, "amplitude", (1e-3 * breaking, 2.0 * breaking))
+    changes = 1 + np.flatnonzero(np.diff(branch.points["stable"]))
+    found = [point for point in branch.special if point.kind != "grazing"]
+    assert sorted(point.kind for point in found) == ["fold", "symmetry-breaking"]
+    assert [point.index for point in found] == changes.tolist()
+
+
 def test_the_symmetric_mode_followed_in_restitution_is_the_closed_form():
     branch = rk.continue_orbit(mode_orbit(2.0, 1.0, 0.925, 1), "restitution", (0.5, 1.0))
     assert branch.points["parameter"].max() == 1.0
@@ -205,7 +217,7 @@ def test_the_first_point_of_a_branch_is_the_special_point_it_is_born_at():
     first = rk.switch_branch(breaking, (5.0, 9.0))[0].points[0]
     (mode, *_) = symmetric_modes(breaking.parameter, 1.721328, 0.8, 1)
     assert first["velocity"] == pytest.approx(mode.velocity, rel=1e-10)
-    assert first["peak"] == pytest.approx(peak_of(breaking.orbit), rel=1e-12)
+    assert first["peak"] == pytest.approx(peak_of(breaking.orbit), rel=1e-12, abs=0)
     assert first["multipliers"][0] == pytest.approx(1.0, abs=1e-9)
 
 
@@ -284,6 +296,28 @@ def doubling_of(symmetric):
     branch = rk.continue_orbit(symmetric, "amplitude", (3.0, 20.0))
     breaking = special(branch, "symmetry-breaking")[0]
     return special(rk.switch_branch(breaking, (3.0, 20.0))[0], "period-doubling")[0]
+
+
+def begun_before(orbit, kind):
+    """The same orbit, begun between an event of that kind and the one before it."""
+    forcing, braces = orbit.system.forcing, orbit.system.braces
+    clocked = rk.Harmonic(forcing.amplitude, period=forcing.period, phase=orbit.phase)
+    motion = rk.simulate(rk.System(clocked, orbit.system.restitution, braces), orbit.state, cycles=2)
+    events = motion.events
+    k = 1 + int(np.flatnonzero(events["kind"][1:] == kind)[0])
+    wait = 0.5 * (events["time"][k - 1] + events["time"][k])
+    state = rk.State(*(float(value) for value in motion.at(wait)))
+    return attrs.evolve(orbit, state=state, phase=(orbit.phase + forcing.frequency * wait) % math.tau)
+
+
+def test_a_curve_of_grazing_is_the_same_wherever_its_orbit_is_begun():
+    orbit = rk.classify(system_of(2.0, 1.0, 0.925, rk.Braces(0.15, 0.9))).orbit
+    curves = []
+    for first in ("impact", "brace"):
+        branch = rk.continue_orbit(begun_before(orbit, first), "brace_angle", (0.05, 2.0))
+        point = special(branch, "grazing")[0]
+        curves.append(rk.bifurcation_curve(point, "amplitude", "brace_angle", ((1.5, 2.5), (0.01, 2.0))))
+    np.testing.assert_allclose(curves[0].points, curves[1].points, rtol=0, atol=1e-8)
 
 
 def test_a_curve_of_grazing_with_a_brace_is_the_peak_without_it():

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import rocking as rk
-from rocking.papers.yim_lin_1991 import figure10, figure11, figure13b, maps
+from rocking.papers.yim_lin_1991 import figure11, surveys
 
 KINDS = {kind: number for number, kind in enumerate(rk.Kind)}
 
@@ -12,7 +12,8 @@ KINDS = {kind: number for number, kind in enumerate(rk.Kind)}
 def a_map(count, **asked):
     # values between those of the figures' grids
     period, amplitude = (
-        low + (np.arange(count) + 0.5) / count * (high - low) for low, high in (maps.PERIODS, maps.AMPLITUDES)
+        low + (np.arange(count) + 0.5) / count * (high - low)
+        for low, high in (surveys.PERIODS, surveys.AMPLITUDES)
     )
     return rk.parametric_map(period=period, amplitude=amplitude, **asked)
 
@@ -74,7 +75,22 @@ def test_braced_map_followed_for_less_has_nothing_chaotic_and_what_is_open_is_un
     assert share(found, "overturned") == 0
 
 
-def test_figures_ask_for_what_their_captions_say():
-    assert figure13b.CYCLES == 100_000
+@pytest.mark.parametrize(
+    "figure, fixed",
+    [
+        (surveys.undamped, {"restitution": 1.0}),
+        (surveys.damped, {"restitution": 0.925}),
+        (surveys.braced, {"restitution": 0.925, "brace_angle": 1.0, "max_cycles": 100_000}),
+    ],
+)
+def test_figures_ask_for_what_their_captions_say(monkeypatch, figure, fixed):
+    monkeypatch.setattr(rk, "parametric_map", lambda **asked: asked)
+    asked = figure.__wrapped__()
+    period, amplitude = asked.pop("period"), asked.pop("amplitude")
+    assert asked == fixed
+    assert min(period.size, amplitude.size) >= 40
+    assert (period[0], period[-1], amplitude[0], amplitude[-1]) == (*surveys.PERIODS, *surveys.AMPLITUDES)
+
+
+def test_figure_11_is_drawn_with_its_three_curves():
     assert figure11.CURVES == ("symmetry-breaking-1", "symmetry-breaking-3", "melnikov")
-    assert min(figure.COUNT for figure in (figure10, figure11, figure13b)) >= 40

@@ -12,47 +12,40 @@ from matplotlib.figure import Figure
 from PIL import Image
 
 import rocking as rk
-from rocking.papers.yim_lin_1991 import cases, figure10, figure11, figure13b, reproduce
+from rocking.papers.yim_lin_1991 import cases, report, reproduce
+from rocking.papers.yim_lin_1991.claim import Standing
+from rocking.papers.yim_lin_1991.claims import CHAPTERS
 
 NAMES = ["01", "02", "03", "04", "05", "06", "07", "08", "09", "10", "11", "12", "13a", "13b"]
-TABLES = ["table-exponents.csv", "table-exponents.md"]
+TABLES = [f"table-{name}{kind}" for name in ("exponents", "claims") for kind in (".csv", ".md")]
+BEYOND = ["chaos", "cascade", "crisis", "threshold", "coexistence", "zoom"]
+PAGE = ["index.html", *(["index.pdf"] if report.can_print() else [])]
 
 
-@pytest.fixture(scope="module", autouse=True)
-def small_maps():
-    """Maps of few points, followed for less: what they show is held elsewhere, here that they are drawn."""
-    with pytest.MonkeyPatch.context() as patch:
-        for figure in (figure10, figure11, figure13b):
-            patch.setattr(figure, "COUNT", 20)
-        patch.setattr(figure13b, "CYCLES", 1_000)
-        yield
+@pytest.fixture
+def folder(reproduced):
+    return reproduced.folder
 
 
-@pytest.fixture(scope="module")
-def figures(tmp_path_factory):
-    folder = tmp_path_factory.mktemp("figures") / "made" / "here"
-    calls = []
-    return reproduce(folder, progress=lambda *call: calls.append(call)), calls
+def test_every_figure_table_and_page_is_written(reproduced):
+    folder, paths, _ = reproduced
+    drawn = [*(f"figure-{name}" for name in NAMES), *(f"beyond-{name}" for name in BEYOND)]
+    expected = [f"{name}{kind}" for name in drawn for kind in (".png", ".svg")] + TABLES + PAGE
+    assert sorted(path.name for path in paths) == sorted(expected)
+    assert sorted(folder.iterdir()) == sorted(paths)
 
 
-def test_every_figure_is_written_as_png_and_svg(figures):
-    paths, _ = figures
-    assert [path.name for path in paths] == [
-        f"figure-{name}{kind}" for name in NAMES for kind in (".png", ".svg")
-    ] + TABLES
-    assert sorted(paths[0].parent.iterdir()) == sorted(paths)
+def test_progress_counts_figures_and_claims(reproduced):
+    done, totals, names = zip(*reproduced.calls, strict=True)
+    assert list(done) == [*range(len(done) - 1), totals[0]]
+    assert set(totals) == {len(done) - 1}
+    assert names[:3] == ("figure 1", "figure 2", "figure 3")
+    assert names[-1] == names[-2] == "page"
 
 
-def test_progress_counts_the_figures(figures):
-    _, calls = figures
-    names = ["1", "2", "3", "4", "5", "6", "7", "8", "9", "10", "11", "12", "13a", "13b", "exponents"]
-    total = len(names)
-    assert calls == [(done, total, name) for done, name in enumerate(names)] + [(total, total, names[-1])]
-
-
-def test_table_sets_the_papers_numbers_beside_ours(figures):
+def test_table_sets_the_papers_numbers_beside_ours(reproduced):
     """What is typed in is the paper's; what is computed is what tests/cases/test_exponents.py holds."""
-    paths = figures[0][-2:]
+    paths = [path for path in reproduced.paths if path.name.startswith("table-exponents")]
     with paths[0].open(encoding="utf-8", newline="") as file:
         rows = list(csv.DictReader(file))
     assert [row["paper exponent"] for row in rows] == ["0", "0", "0.14", "not given"]
@@ -71,21 +64,40 @@ def test_table_sets_the_papers_numbers_beside_ours(figures):
     assert paths[1].read_text(encoding="utf-8").count("\n") == 6
 
 
+def test_table_of_claims_holds_every_one_and_each_stands_as_its_judge_expects(folder):
+    with (folder / "table-claims.csv").open(encoding="utf-8", newline="") as file:
+        rows = list(csv.DictReader(file))
+    claims = [each for chapter in CHAPTERS for each in chapter]
+    # of what holds nothing is said in its place, and what does not hold is shown to be otherwise
+    expected = [each.otherwise if each.because else Standing.REPRODUCED for each in claims]
+    assert [(row["place"], row["verdict"]) for row in rows] == [
+        (each.place, standing) for each, standing in zip(claims, expected, strict=True)
+    ]
+    assert set(expected) == {Standing.REPRODUCED, Standing.DIFFERS, Standing.SLIPS}
+    assert all(bool(row["because"]) == (row["verdict"] != Standing.REPRODUCED) for row in rows)
+
+
+def test_page_holds_every_picture_and_claim_and_asks_for_nothing(folder):
+    page = (folder / "index.html").read_text(encoding="utf-8")
+    assert page.count('<img src="data:image/') == page.count("<img") == len(NAMES) + len(BEYOND)
+    assert page.count("<tr>") - page.count("<thead>") == sum(map(len, CHAPTERS))
+    assert not re.search(r"""(src|href)=(?!["']?(data:|#))|@import|url\(|<script""", page)
+
+
 @pytest.mark.parametrize("name", NAMES)
-def test_no_picture_is_blank_and_all_are_200_dots_per_inch(figures, name):
-    (path,) = (path for path in figures[0] if path.name == f"figure-{name}.png")
-    with Image.open(path) as image:
+def test_no_picture_is_blank_and_all_are_200_dots_per_inch(folder, name):
+    with Image.open(folder / f"figure-{name}.png") as image:
         assert image.width in (700, 1440)
         assert image.info["dpi"] == pytest.approx((200, 200), rel=1e-3)
         assert np.asarray(image.convert("L")).std() > 10
 
 
-def test_second_run_gives_the_same_bytes_under_any_settings(figures, tmp_path):
+def test_second_run_gives_the_same_bytes_under_any_settings(folder, tmp_path):
     with mpl.rc_context(
         {"axes.facecolor": "black", "font.size": 20, "lines.linestyle": "--", "svg.fonttype": "none"}
     ):
-        again = reproduce(tmp_path)
-    assert [path.read_bytes() for path in again] == [path.read_bytes() for path in figures[0]]
+        again = reproduce(tmp_path, figures=[1, 2, 4, 7, 9, 12, "13a", "threshold", "crisis"])
+    assert all(path.read_bytes() == (folder / path.name).read_bytes() for path in again)
 
 
 def test_figures_are_chosen_by_number(tmp_path):
@@ -101,7 +113,8 @@ def test_figures_are_chosen_by_number(tmp_path):
 def test_unknown_figure_is_refused_before_anything_is_written(tmp_path):
     with pytest.raises(
         ValueError,
-        match="^figures must be among 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13a, 13b, exponents; got '14'$",
+        match="^figures must be among 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13a, 13b, exponents, claims, "
+        "chaos, cascade, crisis, threshold, coexistence, zoom; got '14'$",
     ):
         reproduce(tmp_path / "new", figures=[1, 14])
     assert not list(tmp_path.iterdir())
@@ -168,13 +181,6 @@ def test_neighbours_part_in_figure_6_and_not_in_figure_5():
         return np.abs(motion.section()[-1] - near.section()[-1]).max() / 1e-9
 
     assert spread(cases.CHAOTIC) > 1e3 > spread(cases.QUASI_PERIODIC)
-
-
-def test_braced_attractor_has_the_known_rates_of_impacts_and_brace_hits():
-    motion = rk.simulate(cases.BRACED, cycles=400_000, record="none")
-    # the means of six runs of 2·10⁵ cycles spread by .004: five times that, less what the twofold length gains
-    assert motion.impacts / motion.cycles == pytest.approx(2.82, abs=0.015)
-    assert motion.brace_hits / motion.cycles == pytest.approx(2.75, abs=0.015)
 
 
 def test_time_never_goes_back_between_the_braces():

@@ -9,11 +9,10 @@ percent. Some points stay undetermined: their motions stick to the islands' edge
 
 from matplotlib.figure import Figure
 
+from rocking.papers.yim_lin_1991 import surveys
 from rocking.papers.yim_lin_1991.maps import draw_map
-
-COUNT = 160
 
 
 def draw() -> Figure:
     """Draws figure 10."""
-    return draw_map("10", COUNT, "$e = 1$", restitution=1.0)
+    return draw_map(surveys.undamped(), "10", "$e = 1$")

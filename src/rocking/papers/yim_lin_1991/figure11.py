@@ -11,12 +11,12 @@ unsymmetric. And A_M is no bound on chaos: above it lies most of the map, and ne
 
 from matplotlib.figure import Figure
 
+from rocking.papers.yim_lin_1991 import surveys
 from rocking.papers.yim_lin_1991.maps import draw_map
 
-COUNT = 400
 CURVES = ("symmetry-breaking-1", "symmetry-breaking-3", "melnikov")
 
 
 def draw() -> Figure:
     """Draws figure 11."""
-    return draw_map("11", COUNT, "$e = 0.925$", CURVES, restitution=0.925)
+    return draw_map(surveys.damped(), "11", "$e = 0.925$", CURVES)

@@ -5,18 +5,17 @@ The paper's axes are not known; ours are T 0.2 to 3 and A 0 to 16, as in all our
 on their way to a periodic one.
 
 Where ours differs: nothing in the paper's legend stands for what is unsymmetric though its period is odd, which is much of the
-map; here it has the symbol of its period. "For those responses with frequent side-brace impacts, chaotic response dominates" does
-not hold: chaotic points are few even there.
+map; here it has the symbol of its period. Chaos does not dominate where the block hits its braces often: chaotic points are few
+even there.
 """
 
 from matplotlib.figure import Figure
 
+from rocking.papers.yim_lin_1991 import surveys
 from rocking.papers.yim_lin_1991.maps import draw_map
-
-COUNT, CYCLES = 50, 100_000
 
 
 def draw() -> Figure:
     """Draws figure 13b."""
     title = r"braces at 1, $r = 1$, $e = 0.925$"
-    return draw_map("13b", COUNT, title, restitution=0.925, brace_angle=1.0, max_cycles=CYCLES)
+    return draw_map(surveys.braced(), "13b", title)

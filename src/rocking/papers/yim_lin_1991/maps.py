@@ -3,24 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
 
-import numpy as np
+import xarray as xr
 from matplotlib.figure import Figure
 
 import rocking as rk
 
-PERIODS, AMPLITUDES = (0.2, 3.0), (0.0, 16.0)
 
-
-def draw_map(symbols: str, count: int, title: str, curves: Sequence[str] = (), **asked: Any) -> Figure:
-    """Draws a map of count × count points from rest, T 0.2 to 3 and A 0 to 16."""
-    found = rk.parametric_map(
-        period=np.linspace(*PERIODS, count), amplitude=np.linspace(*AMPLITUDES, count), **asked
-    )
+def draw_map(found: xr.Dataset, symbols: str, title: str, curves: Sequence[str] = ()) -> Figure:
+    """Draws a map over period and amplitude twice."""
     figure, (left, right) = rk.plot.panels(columns=2, height=4.4)
     rk.plot.parametric_map(found, left, curves=curves)
     rk.plot.parametric_map(found, right, curves=curves, symbols=symbols)
-    rk.plot.title(left, f"{title}, {count} × {count} points")
+    rk.plot.title(left, f"{title}, {found.period.size} × {found.amplitude.size} points")
     rk.plot.title(right, "the same in the paper's symbols")
     return figure

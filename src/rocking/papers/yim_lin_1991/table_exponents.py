@@ -9,16 +9,16 @@ motion has. Dimensions are those of the section; the flow's is one more. Without
 chaotic sea fills an area, and its exponent falls with the length of the run.
 """
 
-import csv
-import io
+from functools import cache
 from pathlib import Path
 
 import numpy as np
 from attrs import asdict, fields, frozen
 
 import rocking as rk
-from rocking.model import plus_minus, replacing
+from rocking.model import plus_minus
 from rocking.papers.yim_lin_1991.cases import BRACED, CHAOTIC, PERIODIC, QUASI_PERIODIC
+from rocking.papers.yim_lin_1991.tables import write_table
 
 # Runs of the length of 1991, from phases that no experiment tells apart.
 SEA_STARTS, SEA_CYCLES, SEA_PHASES = 100, 2_000, 1e-7
@@ -57,18 +57,7 @@ def rows() -> list[Row]:
 def write(folder: Path) -> list[Path]:
     """Writes the table as CSV and as Markdown."""
     table = [list(asdict(row).values()) for row in rows()]
-    header = [field.name.replace("_", " ") for field in fields(Row)]
-    stream = io.StringIO()
-    csv.writer(stream, lineterminator="\n").writerows([header, *table])
-    lines = [header, ["---"] * len(header), *table]
-    markdown = "".join(f"| {' | '.join(line)} |\n" for line in lines)
-    written = []
-    for suffix, text in ((".csv", stream.getvalue()), (".md", markdown)):
-        path = folder / f"table-exponents{suffix}"
-        with replacing(path) as temporary:
-            temporary.write_text(text, encoding="utf-8")
-        written.append(path)
-    return written
+    return write_table(folder, "exponents", [field.name.replace("_", " ") for field in fields(Row)], table)
 
 
 def _periodic() -> Row:
@@ -99,21 +88,27 @@ def _quasi_periodic() -> Row:
     )
 
 
+@cache
+def sea() -> tuple[float, float]:
+    """Mean and standard deviation of λ₁ of the chaotic sea, in nats per cycle, over runs of the length of 1991."""
+    system = CHAOTIC.system
+    values = [_estimate(_from_phase(system, phase)) for phase in np.linspace(0.0, SEA_PHASES, SEA_STARTS)]
+    per_cycle = np.array(values) * system.forcing.period
+    return float(per_cycle.mean()), float(per_cycle.std(ddof=1))
+
+
 def _sea() -> Row:
     """Many short runs: the sea is sticky, one long run is no sample of it."""
     system, period = CHAOTIC.system, CHAOTIC.system.forcing.period
-    values = np.array(
-        [_estimate(_from_phase(system, phase)) for phase in np.linspace(0.0, SEA_PHASES, SEA_STARTS)]
-    )
-    mean, spread = values.mean(), values.std(ddof=1)
+    mean, spread = sea()
     dimension = _dimension(system, 50_000)
     coarse = dimension.found.slopes[dimension.found.radii[:-1] >= COARSE].mean()
     return _row(
         "chaotic, figures 7c and 8c",
         system,
         ("0.14", "2.3"),
-        f"{mean * period:.2f}, single runs ± {spread * period:.2f}",
         f"{mean:.2f}, single runs ± {spread:.2f}",
+        f"{mean / period:.2f}, single runs ± {spread / period:.2f}",
         dimension,
         f"nats per cycle, over {SEA_CYCLES} cycles from {SEA_STARTS} phases within {SEA_PHASES:g}; falls with the length. "
         f"No attractor: the sea fills an area, 2 in the section and 3 in the flow; over radii above {COARSE} standard deviations, "

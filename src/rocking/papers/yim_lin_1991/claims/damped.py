@@ -1,0 +1,247 @@
+"""Claims on the damped block, e < 1: (20) to (22), figure 11 and what is said of it."""
+
+from __future__ import annotations
+
+import numpy as np
+
+import rocking as rk
+from rocking.papers.yim_lin_1991 import surveys
+from rocking.papers.yim_lin_1991.claim import Chapter, Finding, small
+
+CHAPTER = Chapter("Response of damped systems")
+
+
+def _grid() -> tuple[np.ndarray, ...]:
+    """Of the map of figure 11: kind, period, symmetric, period and amplitude of the base at each point, flat."""
+    found = surveys.damped().transpose("amplitude", "period")
+    amplitude, period = np.meshgrid(found.amplitude.values, found.period.values, indexing="ij")
+    names = ("kind", "response_period", "symmetric")
+    return tuple(array.ravel() for array in (*(found[name].values for name in names), period, amplitude))
+
+
+@CHAPTER.claim(
+    "Eq. (20a)",
+    slips="both signs are the other way: the base pushes with −, and F is a force already negative",
+)
+def equation_20a() -> Finding:
+    # the force's part changes sign with half a period, the damping's part is what is left of e = 0.8 without force
+    """Melnikov's integral with the force entering as + εα² cos ω(t + t₀) and damping as −F."""
+    closed = float(rk.theory.melnikov_function(0.1, 4.0, 1.0, 0.8))
+    force = float(rk.theory.melnikov_function(0.1, 4.0, 1.0, 1.0))
+    loss = rk.theory.melnikov_integral(0.1, 0.0, 1.0, 0.8)
+    meant, printed = abs(force + loss - closed), abs(-force - loss - closed)
+    return Finding(
+        printed < 1e-5,
+        f"off from (20b) by {printed:.3g} as printed, by {small(meant)} with both signs turned",
+        meant < 2e-6,
+    )
+
+
+@CHAPTER.claim("Eq. (20b)")
+def equation_20b() -> Finding:
+    """M⁺ = −2A cos Ωτ₀/(1 + Ω²) − (1 − e²)/2, normalised."""
+    off = max(
+        abs(
+            rk.theory.melnikov_integral(time, 3.0, 1.0, e)
+            + 6.0 * np.cos(2.0 * np.pi * time) / (1.0 + 4.0 * np.pi**2)
+            + 0.5 * (1.0 - e * e)
+        )
+        for time in (0.0, 0.2, 0.7)
+        for e in (0.2, 0.8, 0.95)
+    )
+    return Finding(bool(off < 2e-6), f"the integral meets it to {small(off)} at nine phases and restitutions")
+
+
+@CHAPTER.claim("Eq. (21)", slips="the right side needs a minus; it makes no difference to (22)")
+def equation_21() -> Finding:
+    """Zeros where cos Ωτ₀ = (1 − e²)(1 + Ω²)/4A."""
+    amplitude, period, e = 4.0, 1.0, 0.8
+    omega = 2.0 * np.pi / period
+    side = (1.0 - e * e) * (1.0 + omega**2) / (4.0 * amplitude)
+    printed, meant = (
+        abs(float(rk.theory.melnikov_function(np.arccos(cosine) / omega, amplitude, period, e)))
+        for cosine in (side, -side)
+    )
+    return Finding(
+        printed < 1e-12,
+        f"|M⁺| = {printed:.3g} there as printed, {small(meant)} with the minus",
+        meant < 1e-12,
+    )
+
+
+@CHAPTER.claim("Eq. (22)")
+def equation_22() -> Finding:
+    """Zeros exist where (1 − e²)(1 + Ω²)/4A ≤ 1."""
+    rng = np.random.default_rng(22)
+    agreed = 0
+    for _ in range(1_000):
+        amplitude, period, e = rng.uniform(0.0, 16.0), rng.uniform(0.2, 3.0), rng.uniform(0.0, 1.0)
+        omega = 2.0 * np.pi / period
+        values = rk.theory.melnikov_function(np.linspace(0.0, period, 721), amplitude, period, e)
+        agreed += bool(values.max() >= 0.0) == ((1.0 - e * e) * (1.0 + omega**2) <= 4.0 * amplitude)
+    return Finding(
+        agreed == 1_000,
+        f"sign changes of M⁺ over a period agree with it in {agreed:,} of 1,000 random systems",
+    )
+
+
+@CHAPTER.claim("Fig. 11")
+def figure_11() -> Finding:
+    """From rest at e = 0.925: harmonic, one-third subharmonic, none and overturning."""
+    kind, order, *_ = _grid()
+    parts = {
+        "none": kind == 0,
+        "overturned": kind == 4,
+        "period 1": (kind == 1) & (order == 1),
+        "period 3": (kind == 1) & (order == 3),
+    }
+    rest = 1.0 - sum(float(part.mean()) for part in parts.values())
+    text = ", ".join(f"{name} {100 * part.mean():.1f} %" for name, part in parts.items())
+    return Finding(
+        rest < 0.05 and all(part.any() for part in parts.values()), f"{text}, all others {100 * rest:.2f} %"
+    )
+
+
+@CHAPTER.claim("Numerical results")
+def commonest() -> Finding:
+    """The most common response is the (1,1) mode, the second the (1,3) mode."""
+    kind, order, symmetric, *_ = _grid()
+    chosen = (kind == 1) & (symmetric == 1)
+    orders, counts = np.unique(order[chosen], return_counts=True)
+    ranking = orders[np.argsort(-counts)]
+    text = ", ".join(
+        f"period {n}: {100 * c / len(kind):.2f} %"
+        for c, n in sorted(zip(counts, orders, strict=True), reverse=True)[:4]
+    )
+    return Finding(list(ranking[:2]) == [1, 3], f"symmetric responses, share of the map: {text}")
+
+
+@CHAPTER.claim("Numerical results")
+def even_orders() -> Finding:
+    """Several unsymmetric modes of even order are found."""
+    kind, order, symmetric, *_ = _grid()
+    even = np.unique(order[(kind == 1) & (order % 2 == 0) & (symmetric == 0)])
+    return Finding(len(even) > 1, f"orders {', '.join(map(str, even))}, from rest")
+
+
+@CHAPTER.claim(
+    "Numerical results",
+    differs="they branch off the symmetric ones where these lose stability and can be continued from there",
+)
+def unsymmetric() -> Finding:
+    """Unsymmetric modes cannot be predicted by stability analysis, only simulated, and show no pattern."""
+    mode = rk.theory.symmetric_modes(6.0, 1.721328, 0.8, 1)[0]
+    orbit = rk.find_orbit(mode.system, mode.start, period=1)
+    branch = rk.continue_orbit(orbit, "amplitude", (5.0, 9.0))
+    breaking = next(point for point in branch.special if point.kind == "symmetry-breaking")
+    closed = float(rk.theory.symmetry_breaking_amplitude(1.721328, 0.8, 1))
+    pair = rk.switch_branch(breaking, (7.0, 10.4))
+    predicted = all(not off.symmetric and bool(off.points["stable"].any()) for off in pair)
+    simulated = rk.classify(rk.System(rk.Harmonic(9.0, period=1.721328), 0.8))
+    continued = predicted and abs(breaking.parameter - closed) < 1e-6 and simulated.symmetric is False
+    return Finding(
+        not continued,
+        f"T = 1.721, e = 0.8: from the point {breaking.parameter:.6f} where symmetry breaks (closed form {closed:.6f}) {len(pair)} "
+        f"stable unsymmetric branches; simulated at A = 9: period {simulated.period}, symmetric {simulated.symmetric}",
+        shown=continued,
+    )
+
+
+@CHAPTER.claim("Numerical results")
+def boundary() -> Finding:
+    """The stability boundary is reasonably accurate."""
+    kind, order, symmetric, period, amplitude = _grid()
+    shares = []
+    for n in (1, 3):
+        chosen = (kind == 1) & (order == n) & (symmetric == 1)
+        within = amplitude[chosen] <= rk.theory.symmetry_breaking_amplitude(period[chosen], 0.925, n) + 1e-9
+        above = amplitude[chosen] >= rk.theory.existence_amplitude(period[chosen], 0.925, n) - 1e-9
+        shares.append(rk.Share(int((within & above).sum()), int(chosen.sum())))
+    return Finding(
+        all(share.value > 0.95 for share in shares),
+        f"{shares[0]} of the symmetric responses of period 1 lie where the (1,1) mode is stable, {shares[1]} of those of period 3 "
+        "where the (1,3) mode is",
+    )
+
+
+@CHAPTER.claim("Numerical results")
+def odd_orders() -> Finding:
+    """Symmetric modes of odd order dominate."""
+    kind, order, symmetric, *_ = _grid()
+    periodic = kind == 1
+    share = rk.Share(int((periodic & (symmetric == 1) & (order % 2 == 1)).sum()), int(periodic.sum()))
+    return Finding(share.low > 0.5, f"{share} of the periodic responses")
+
+
+@CHAPTER.claim("Numerical results")
+def unstable_not_overturned() -> Finding:
+    """Where the analysis finds the modes unstable the block need not overturn."""
+    kind, _, _, period, amplitude = _grid()
+    beyond = np.ones_like(kind, bool)
+    for n in (1, 3):
+        beyond &= amplitude > rk.theory.symmetry_breaking_amplitude(period, 0.925, n)
+    share = rk.Share(int((kind[beyond] == 1).sum()), int(beyond.sum()))
+    return Finding(share.count > 0, f"beyond both stability curves {share} respond periodically")
+
+
+@CHAPTER.claim("Fig. 11", differs="a finer map than the paper's meets a chaotic one here and there")
+def between_curves() -> Finding:
+    """Between the curves, from rest, only periodic and overturning responses are found."""
+    kind, _, _, period, amplitude = _grid()
+    between = (amplitude >= rk.theory.melnikov_amplitude(period, 0.925)) & (
+        amplitude <= rk.theory.symmetry_breaking_amplitude(period, 0.925, 1)
+    )
+    counts = {
+        name: int((kind[between] == code).sum()) for name, code in (("quasi-periodic", 2), ("chaotic", 3))
+    }
+    return Finding(
+        not any(counts.values()),
+        f"of {int(between.sum()):,} points there {counts['chaotic']} are chaotic, {counts['quasi-periodic']} quasi-periodic",
+        shown=counts["quasi-periodic"] == 0 and rk.Share(counts["chaotic"], int(between.sum())).high < 1e-3,
+    )
+
+
+@CHAPTER.claim(
+    "Numerical results; conclusion 4",
+    slips="every impact contracts areas by e², so that no closed curve can stay: what looks so is a long transient",
+)
+def damped_quasi_periodic() -> Finding:
+    """Other starts and parameters give damped quasi-periodic responses."""
+    counted, runs = 0, 0
+    for e in (0.2, 0.5, 0.8, 0.925, 0.97, 0.99):
+        found = surveys.starts(4.0, 0.4, e)
+        counted += surveys.count(found, rk.Kind.QUASI_PERIODIC)
+        runs += found.kind.size
+    contracting = max(
+        float(rk.lyapunov(rk.System(rk.Harmonic(4.0, period=0.4), e), cycles=5_000).values.sum())
+        for e in (0.97, 0.99)
+    )
+    return Finding(
+        counted > 0,
+        f"{counted} of {runs:,} starts at A = 4, T = 0.4, e from 0.2 to 0.99; at e = 0.97 and 0.99 areas shrink by e^{contracting:.2f} "
+        "per τ or faster",
+        shown=counted == 0 and contracting < 0.0,
+    )
+
+
+@CHAPTER.claim("Numerical results")
+def damped_chaos() -> Finding:
+    """Other starts and parameters give damped chaotic responses."""
+    found = rk.classify(rk.System(rk.Harmonic(10.103037, period=1.721328), 0.8))
+    return Finding(
+        found.kind is rk.Kind.CHAOTIC, f"A = 10.103037, T = 1.721328, e = 0.8 from rest: {found.evidence}"
+    )
+
+
+@CHAPTER.claim(
+    "After (22)",
+    slips="it is necessary at best, as the paper says itself later: crossing manifolds make a fractal boundary, no chaotic attractor",
+)
+def sufficient() -> Finding:
+    """(22) tells where chaotic responses exist."""
+    kind, _, _, period, amplitude = _grid()
+    above = amplitude >= rk.theory.melnikov_amplitude(period, 0.925)
+    share = rk.Share(int((kind[above] == 3).sum()), int(above.sum()))
+    return Finding(
+        share.value > 0.5, f"e = 0.925: {share} of the map above A_M is chaotic", shown=share.high < 0.01
+    )

@@ -1,0 +1,265 @@
+"""Claims on the heteroclinic orbits and Melnikov's function, (11) to (18), and figure 9."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+import rocking as rk
+from rocking.papers.yim_lin_1991 import surveys
+from rocking.papers.yim_lin_1991.claim import Chapter, Finding, small
+
+CHAPTER = Chapter("Condition for the existence of chaotic response")
+FREE = rk.System(rk.Harmonic(amplitude=0.0, period=1.0), restitution=1.0)
+BLOCK = rk.Block(height=2.0, width=0.5, restitution=0.8)
+
+
+@CHAPTER.claim("Eqs. (11a), (11b)")
+def equation_11() -> Finding:
+    """A system of first order: the undisturbed one with a Hamiltonian, and a small rest."""
+    rng = np.random.default_rng(11)
+    angle, velocity = rng.uniform(-2.0, 2.0, 100), rng.uniform(-2.0, 2.0, 100)
+    step = 1e-6
+    by_velocity = (rk.theory.energy(angle, velocity + step) - rk.theory.energy(angle, velocity - step)) / (
+        2 * step
+    )
+    by_angle = (rk.theory.energy(angle + step, velocity) - rk.theory.energy(angle - step, velocity)) / (
+        2 * step
+    )
+    off = max(np.abs(by_velocity - velocity).max(), np.abs(-by_angle - (angle - np.sign(angle))).max())
+    return Finding(bool(off < 1e-8), f"∂H/∂Θ' = Θ' and −∂H/∂Θ = Θ ∓ 1 at 100 random states, to {small(off)}")
+
+
+@CHAPTER.claim("Conditions 1, 2")
+def conditions() -> Finding:
+    """Two saddles joined by two orbits, the inside filled with periodic ones of ever longer period."""
+    measured, closed = [], []
+    for gap in (0.5, 1e-1, 1e-2, 1e-4, 1e-6):
+        # the first quarter: what follows starts from a speed that rounding has touched
+        measured.append(
+            4.0 * float(rk.simulate(FREE, rk.State(angle=1.0 - gap), cycles=20).events["time"][0])
+        )
+        closed.append(4.0 * float(rk.theory.free_quarter_period(1.0 - gap)))
+    off = max(abs(a - b) for a, b in zip(measured, closed, strict=True))
+    rising = measured == sorted(measured)
+    return Finding(
+        rising and off < 1e-8,
+        f"period {', '.join(f'{period:.2f}' for period in measured)} from 0.5 to 10⁻⁶ below it; 4 arccosh(1/(1 − Θ₀)) to {small(off)}",
+    )
+
+
+@CHAPTER.claim("Eq. (12)")
+def equation_12() -> Finding:
+    """Base acceleration and damping enter as disturbances of the free block."""
+    rng = np.random.default_rng(12)
+    radians, base = rng.uniform(-0.2, 0.2, 100), rng.uniform(-3.0, 3.0, 100)
+    pull = rk.theory.physical_acceleration(BLOCK, radians, base)
+    tau_per_second = BLOCK.frequency_parameter
+    angle = radians / BLOCK.critical_angle
+    amplitude = np.array([BLOCK.amplitude(acceleration=abs(a)) for a in base]) * np.sign(base)
+    normal = (angle - np.sign(angle) - amplitude) * BLOCK.critical_angle * tau_per_second**2
+    off = np.abs(pull - normal).max() / np.abs(pull).max()
+    return Finding(
+        bool(off < 1e-13), f"(12) in SI and (4) normalised agree at 100 random states, to {small(off)}"
+    )
+
+
+@CHAPTER.claim(
+    "Eqs. (13), (14b)",
+    slips="the force must oppose the velocity: as printed it feeds the block on the lower orbit, where dθ < 0",
+)
+def equation_13() -> Finding:
+    """Damping F = −½ Io θ'²(1 − e²) δ(θ/θcr)/θcr, whose integral is the energy lost at an impact."""
+    e, width = 0.8, 1e-3
+    work = []
+    for direction in (1.0, -1.0):
+        angle = np.linspace(-width, width, 200_001)
+        # as printed F is the same whichever way the block moves; dΘ has the direction's sign
+        printed = np.trapezoid(rk.theory.damping(angle, 1.0, e, width), angle) * direction
+        opposed = np.trapezoid(rk.theory.damping(angle, direction, e, width), angle) * direction
+        work.append((float(printed), float(opposed)))
+    loss = -float(rk.theory.impact_loss(1.0, e))
+    return Finding(
+        all(abs(printed - loss) < 1e-6 for printed, _ in work),
+        f"an impact at Θ' = ±1, e = 0.8 takes {-loss:.3f}; the printed force gives {work[0][0]:.3f} upwards, {work[1][0]:+.3f} downwards",
+        shown=all(abs(opposed - loss) < 1e-6 for _, opposed in work),
+    )
+
+
+@CHAPTER.claim("Eq. (14a)")
+def equation_14a() -> Finding:
+    """The rate of the angle is the velocity."""
+    motion = rk.simulate(FREE, rk.State(angle=0.7), cycles=20)
+    times, step = np.linspace(0.1, 19.0, 2_001), 1e-5
+    rate = (motion.at(times + step)[0] - motion.at(times - step)[0]) / (2.0 * step)
+    off = np.abs(rate - motion.at(times)[1]).max()
+    return Finding(
+        bool(off < 1e-4), f"differences of Θ and Θ' apart by {small(off)}, a step across an impact included"
+    )
+
+
+@CHAPTER.claim("Eq. (15)")
+def equation_15() -> Finding:
+    """A Hamiltonian, constant without forcing and losses."""
+    motion = rk.simulate(FREE, rk.State(angle=0.7, velocity=0.1), cycles=200)
+    energies = rk.theory.energy(*motion.at(np.linspace(0.0, 200.0, 5_001)))
+    spread = float(np.ptp(energies))
+    return Finding(
+        spread < 1e-11, f"H varies by {small(spread)} over 200 units of τ and {motion.impacts} impacts"
+    )
+
+
+@CHAPTER.claim("After (15)")
+def more_energy() -> Finding:
+    """With more than the critical energy the response is unbounded."""
+    rng = np.random.default_rng(15)
+    starts = [
+        rk.State(angle=a, velocity=v)
+        for a, v in zip(rng.uniform(-1, 1, 400), rng.uniform(-2, 2, 400), strict=True)
+    ]
+    high = [start for start in starts if rk.theory.energy(start.angle, start.velocity) > 0.5]
+    over = sum(rk.simulate(FREE, start, cycles=200).outcome is rk.Outcome.OVERTURNED for start in high)
+    return Finding(over == len(high), f"{over} of {len(high)} random starts with |Θ| < 1 and H > ½ overturn")
+
+
+@CHAPTER.claim(
+    "After (15)",
+    slips="only for |Θ| < 1: let go beyond the critical angle a block has less energy, and falls",
+)
+def less_energy() -> Finding:
+    """With less than the critical energy the response is bounded."""
+    rng = np.random.default_rng(16)
+    inside: list[bool] = []
+    outside: list[bool] = []
+    for angle, velocity in zip(rng.uniform(-1.9, 1.9, 800), rng.uniform(-0.9, 0.9, 800), strict=True):
+        if rk.theory.energy(angle, velocity) < 0.5:
+            fell = rk.simulate(FREE, rk.State(angle, velocity), cycles=100).outcome is rk.Outcome.OVERTURNED
+            (inside if abs(angle) < 1.0 else outside).append(fell)
+    return Finding(
+        not any(inside + outside),
+        f"with H < ½: {sum(inside)} of {len(inside)} starts with |Θ| < 1 overturn, {sum(outside)} of {len(outside)} beyond it; "
+        f"Θ = 1.5 at rest has H = {rk.theory.energy(1.5, 0.0):g}",
+        shown=not any(inside) and all(outside),
+    )
+
+
+@CHAPTER.claim("Fig. 9")
+def figure_9() -> Finding:
+    """The orbits that join (−1, 0) and (1, 0), around the centre (0, 0)."""
+    times = np.linspace(0.0, 8.0, 801)
+    angle, velocity = rk.simulate(FREE, rk.State(velocity=1.0), cycles=8).at(times)
+    closed = rk.theory.heteroclinic_orbit(times)
+    # what rounding of the start has grown to
+    off = float(np.max(np.hypot(angle - closed[0], velocity - closed[1]) * np.exp(-times)))
+    return Finding(
+        off < 1e-14,
+        f"the block that leaves the base with Θ' = 1 stays on it for τ ≤ 8, to {small(off)} times e^τ",
+    )
+
+
+@CHAPTER.claim("Eq. (16a)")
+def equation_16a() -> Finding:
+    """The upper orbit with θ > 0, p = αt − ln θcr."""
+    seconds = np.linspace(0.0, 2.0, 101)
+    p = BLOCK.frequency_parameter * seconds - math.log(BLOCK.critical_angle)
+    angle, velocity = rk.theory.physical_heteroclinic_orbit(BLOCK, seconds)
+    off = max(
+        np.abs(BLOCK.critical_angle - np.exp(-p) - angle).max(),
+        np.abs(BLOCK.frequency_parameter * np.exp(-p) - velocity).max(),
+    )
+    return Finding(bool(off < 1e-14), f"to {small(off)} rad and rad/s over 2 s")
+
+
+@CHAPTER.claim(
+    "Eq. (16b)",
+    slips="p must be αt + ln θcr here: with the printed one the orbit does not pass θ = 0 at t = 0",
+)
+def equation_16b() -> Finding:
+    """The upper orbit with θ < 0, with the same p = αt − ln θcr."""
+    seconds = np.linspace(-2.0, 0.0, 101)
+    angle, _ = rk.theory.physical_heteroclinic_orbit(BLOCK, seconds)
+    off = {}
+    for sign in (-1.0, 1.0):
+        p = BLOCK.frequency_parameter * seconds + sign * math.log(BLOCK.critical_angle)
+        off[sign] = float(np.abs(np.exp(p) - BLOCK.critical_angle - angle).max())
+    return Finding(
+        off[-1.0] < 1e-12,
+        f"off by {off[-1.0]:.2g} rad as printed, by {small(off[1.0])} with the other sign",
+        off[1.0] < 1e-14,
+    )
+
+
+@CHAPTER.claim(
+    "Eqs. (17a), (17b)", slips="V must be v/(αθcr): with the printed one the velocity keeps a factor α"
+)
+def equation_17() -> Finding:
+    """Normalised (1 − e^−τ, e^−τ) and (e^τ − 1, e^τ), with V = v/θcr."""
+    alpha, critical = BLOCK.frequency_parameter, BLOCK.critical_angle
+    seconds = np.linspace(-2.0, 2.0, 401)
+    _, physical = rk.theory.physical_heteroclinic_orbit(BLOCK, seconds)
+    normal = np.exp(-np.abs(alpha * seconds))
+    printed = float(np.abs(physical / critical - normal).max())
+    meant = float(np.abs(physical / (alpha * critical) - normal).max())
+    return Finding(
+        printed < 1e-12, f"off by {printed:.3g} as printed, by {small(meant)} with α", shown=meant < 1e-13
+    )
+
+
+@CHAPTER.claim("Eqs. (18a) to (18c)")
+def equation_18() -> Finding:
+    """Melnikov's function is an integral along the orbit."""
+    off = max(
+        abs(
+            rk.theory.melnikov_integral(time, 4.0, 1.0, 0.8, orbit)
+            - float(rk.theory.melnikov_function(time, 4.0, 1.0, 0.8, orbit))
+        )
+        for time in (0.0, 0.1, 0.37, 0.8)
+        for orbit in ("upper", "lower")
+    )
+    return Finding(off < 2e-6, f"numerical integration and closed form apart by {small(off)}, eight times")
+
+
+@CHAPTER.claim(
+    "After (18)",
+    slips="M⁻ is M⁺ shifted by half a forcing period; it has zeros where M⁺ has, so that one suffices all the same",
+)
+def lower_orbit() -> Finding:
+    """M⁺ and M⁻ are identical, so that one of them suffices."""
+    times = np.linspace(0.0, 1.0, 401)
+    upper = rk.theory.melnikov_function(times, 4.0, 1.0, 0.8)
+    integrals = np.array([rk.theory.melnikov_integral(t, 4.0, 1.0, 0.8, "lower") for t in times[::40]])
+    shifted = rk.theory.melnikov_function(times[::40] + 0.5, 4.0, 1.0, 0.8)
+    off, apart = np.abs(integrals - shifted).max(), np.abs(integrals - upper[::40]).max()
+    return Finding(
+        bool(apart < 1e-6),
+        f"|M⁻ − M⁺| up to {apart:.3g}; |M⁻(τ₀) − M⁺(τ₀ + T/2)| ≤ {small(off)}",
+        shown=bool(off < 2e-6),
+    )
+
+
+@CHAPTER.claim(
+    "After (18)",
+    slips="strongly damped blocks move chaotically below A_M and even below A*, where the manifolds do not cross: "
+    "period doubling within the bounded motions needs no crossing",
+)
+def no_zeros() -> Finding:
+    """Without zeros there is no chaotic response."""
+    rng = np.random.default_rng(22)
+    below, chaotic, untouched, most = 0, 0, 0, 16.0
+    for e in (0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8):
+        periods = rng.uniform(*surveys.PERIODS, 100)
+        ceilings = np.minimum(rk.theory.melnikov_amplitude(periods, e), most)
+        tangencies = rk.theory.heteroclinic_amplitude(periods, e)
+        amplitudes = rng.uniform(0.0, ceilings)
+        for amplitude, period, tangency in zip(amplitudes, periods, tangencies, strict=True):
+            found = rk.classify(rk.System(rk.Harmonic(amplitude, period=period), e), max_cycles=10_000)
+            below += 1
+            if found.kind is rk.Kind.CHAOTIC:
+                chaotic += 1
+                untouched += bool(amplitude < tangency)
+    return Finding(
+        chaotic == 0,
+        f"{chaotic} chaotic of {below} responses from rest at random A < A_M, e from 0.2 to 0.8; {untouched} of them at A < A*",
+        shown=untouched > 0,
+    )

@@ -1,0 +1,124 @@
+"""The surveys that the statistical statements of the paper are held against, each made once a run.
+
+Period 0.2 to 3, amplitude 0 to 16, from rest with φ = 0, as in all our maps.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+import rocking as rk
+from rocking.papers.yim_lin_1991.cases import CHAOTIC, QUASI_PERIODIC
+
+PERIODS, AMPLITUDES = (0.2, 3.0), (0.0, 16.0)
+RESTITUTIONS = (0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.925, 0.95, 0.97, 0.99, 1.0)
+SAMPLES = 400
+REPEATED = 32
+BRACED_RESTITUTIONS, BRACED_SAMPLES = (0.2, 0.4, 0.6, 0.8, 0.925), 250
+SEA = 8
+SYSTEMS = 900
+
+
+def axes(count: int) -> dict[str, Any]:
+    """Evenly spaced axes of a map."""
+    return {"period": np.linspace(*PERIODS, count), "amplitude": np.linspace(*AMPLITUDES, count)}
+
+
+@cache
+def undamped() -> xr.Dataset:
+    """The map of figure 10, e = 1."""
+    return rk.parametric_map(**axes(160), restitution=1.0)
+
+
+@cache
+def damped() -> xr.Dataset:
+    """The map of figure 11, e = 0.925."""
+    return rk.parametric_map(**axes(400), restitution=0.925)
+
+
+@cache
+def braced() -> xr.Dataset:
+    """The map of figure 13b, e = 0.925 between perfectly elastic braces at the critical angle.
+
+    10⁵ cycles: before that a motion between braces is not called chaotic, most of those that look so for a thousand
+    cycles are on their way to a periodic one.
+    """
+    return rk.parametric_map(**axes(50), restitution=0.925, brace_angle=1.0, max_cycles=100_000)
+
+
+@cache
+def chaos() -> rk.ChaosShare:
+    """The share of chaos among random periods and amplitudes, over e."""
+    return rk.chaos_share(restitution=np.array(RESTITUTIONS), samples=SAMPLES)
+
+
+@cache
+def braced_chaos() -> rk.ChaosShare:
+    """The same between perfectly elastic braces at the critical angle."""
+    return rk.chaos_share(
+        restitution=np.array(BRACED_RESTITUTIONS), samples=BRACED_SAMPLES, brace_angle=1.0, max_cycles=100_000
+    )
+
+
+@cache
+def starts(amplitude: float, period: float, restitution: float) -> xr.Dataset:
+    """Over starts with |Θ| ≤ 1 and |Θ'| ≤ 1."""
+    axis = np.linspace(-1.0, 1.0, 30)
+    return rk.parametric_map(
+        angle=axis, velocity=axis, amplitude=amplitude, period=period, restitution=restitution
+    )
+
+
+@cache
+def repeatable(restitution: float, brace_angle: float | None = None) -> rk.RepeatabilityMap:
+    """Over a map, whether an experiment with inputs off by 1 % ends the same."""
+    return rk.repeatability_map(
+        **axes(REPEATED), restitution=restitution, brace_angle=brace_angle, samples=8, max_cycles=10_000
+    )
+
+
+@cache
+def responses_uncertain(brace_angle: float | None = None) -> rk.Share:
+    """Of random systems with e = 0.925, those of which inputs off by 1 % give responses that differ, periods told apart."""
+    rng = np.random.default_rng(13)
+    braces = None if brace_angle is None else rk.Braces(brace_angle, 1.0)
+    differ = 0
+    for _ in range(SYSTEMS):
+        system = rk.System(
+            rk.Harmonic(rng.uniform(*AMPLITUDES), period=rng.uniform(*PERIODS)), 0.925, braces=braces
+        )
+        found = rk.repeatability(system, samples=16, max_cycles=10_000)
+        differ += len(set(found.responses) - {rk.Kind.UNDETERMINED.value}) > 1
+    return rk.Share(differ, SYSTEMS)
+
+
+@cache
+def sea_verdicts() -> tuple[rk.Verdict, ...]:
+    """Figure 6 from phases that no experiment tells apart."""
+    forcing = CHAOTIC.system.forcing
+    return tuple(
+        rk.classify(rk.System(rk.Harmonic(forcing.amplitude, period=forcing.period, phase=phase), 1.0))
+        for phase in np.linspace(0.0, 1e-7, SEA)
+    )
+
+
+@cache
+def torus_spectrum() -> rk.SpectralDensity:
+    """That of figure 8b."""
+    return rk.spectral_density(rk.simulate(QUASI_PERIODIC.system, cycles=8_192))
+
+
+@cache
+def torus_turns() -> rk.RotationNumber:
+    """How the quasi-periodic response turns."""
+    return rk.rotation_number(QUASI_PERIODIC.system, cycles=20_000)
+
+
+def count(found: xr.Dataset, kind: rk.Kind) -> int:
+    """Points of one kind."""
+    codes = dict(zip(found.kind.flag_meanings.split(), found.kind.flag_values, strict=True))
+    return int((found.kind == codes[kind.value]).sum())

@@ -1,0 +1,25 @@
+"""Tables as files."""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Sequence
+from pathlib import Path
+
+from rocking.model import replacing
+
+
+def write_table(folder: Path, name: str, header: Sequence[str], rows: Sequence[Sequence[str]]) -> list[Path]:
+    """Writes a table as CSV and as Markdown."""
+    stream = io.StringIO()
+    csv.writer(stream, lineterminator="\n").writerows([header, *rows])
+    lines = [header, ["---"] * len(header), *([text.replace("|", r"\|") for text in row] for row in rows)]
+    markdown = "".join(f"| {' | '.join(line)} |\n" for line in lines)
+    written = []
+    for suffix, text in ((".csv", stream.getvalue()), (".md", markdown)):
+        path = folder / f"table-{name}{suffix}"
+        with replacing(path) as temporary:
+            temporary.write_text(text, encoding="utf-8")
+        written.append(path)
+    return written
