@@ -1,0 +1,134 @@
+"""The page's server: on this machine alone, a document a visitor."""
+
+from __future__ import annotations
+
+import gc
+import json
+import socket
+from importlib.resources import files
+
+import numpy as np
+from bokeh.application import Application
+from bokeh.application.handlers.function import FunctionHandler
+from bokeh.document import Document
+from bokeh.server.server import Server
+
+from rocking.explorer import gallery, pictures, planes
+from rocking.explorer.refine import COARSEST, Plane, Refinement
+from rocking.explorer.state import DEFAULT
+from rocking.explorer.visit import Visit
+from rocking.explorer.work import Workers
+from rocking.model import VERSION
+from rocking.plot import kinds
+
+HOST = "127.0.0.1"
+NAMES = ("localhost", HOST)
+"""Where a page may come from that asks for a visit: this machine; a tunnel has the same port at its other end."""
+UNUSED = 5_000
+"""Milliseconds after which a visit is dropped that nobody looks at; looked for every two seconds."""
+GROUNDS = (
+    "no return is proved", "rest for ever is proved", "released as before", "a stable orbit is reached", "a neutral orbit",
+    "averages agree as on a torus", "exponent clearly positive", "released, period unresolved", "too few cycles to tell",
+    "exponent not clear", "between torus and chaos", "too many events", "stands on an unstable orbit",
+)  # fmt: skip
+"""Evidence in a map, in a few words each, in the order of the kernels' grounds."""
+LEVELS = [
+    "exact",
+    "exact",
+    "verified",
+    "verified",
+    "verified",
+    "verified",
+    "statistical",
+    "none",
+    "none",
+    "none",
+    "none",
+    "none",
+    "none",
+]
+FIELDS = (
+    ("amplitude", "A", "amplitude of the base, in g θcr"),
+    ("period", "T", "period of the base, in 1/α"),
+    ("restitution", "e", "restitution at an impact"),
+    ("phase", "φ", "phase of the base, rad"),
+    ("angle", "Θ₀", "angle at the start, in θcr"),
+    ("velocity", "Θ′₀", "velocity at the start, in α θcr"),
+    ("brace_angle", "Θb", "angle of the braces; empty: none"),
+    ("brace_restitution", "r", "restitution at a brace"),
+    ("first", "from", "first cycle drawn"),
+    ("cycles", "cycles", "cycles drawn"),
+)
+
+
+def serve(port: int = 0) -> Server:
+    """A server that is ready to be started (`run_until_shutdown`), on this machine's own address; port 0: any that is free."""
+    port = _free(port)
+    warm_up()
+    gc.freeze()  # whenever a visit is dropped all garbage is looked for: not among what stays for ever
+    workers = Workers()
+
+    def open_visit(document: Document) -> None:
+        document.title = "rocking explorer"
+        document.template = _text("page.html")  # type: ignore[assignment]  # its hint forgets the text that its setter takes
+        document.template_variables.update(_page())
+        Visit(document, workers)
+
+    return Server(
+        {"/": Application(FunctionHandler(open_visit))},
+        address=HOST,
+        port=port,
+        allow_websocket_origin=[f"{name}:{port}" for name in NAMES],
+        unused_session_lifetime_milliseconds=UNUSED,
+        check_unused_sessions_milliseconds=2_000,
+        session_token_expiration=3_600,
+        keep_alive_milliseconds=0,
+    )
+
+
+def _free(port: int) -> int:
+    """The same port, or one for 0; OSError where it cannot be listened at."""
+    with socket.create_server((HOST, port)) as free:
+        return free.getsockname()[1]
+
+
+def warm_up() -> None:
+    """Compile, or load, what every visit needs, before any thread does: a process that ends while one compiles may crash."""
+    pictures.response(DEFAULT)
+    pictures.spectrum(DEFAULT)
+    pictures.diagram(DEFAULT, np.zeros(1, np.int64))
+    pictures.Section(DEFAULT).grow(2)
+    plane = Plane(
+        ("period", DEFAULT.periods),
+        ("amplitude", DEFAULT.amplitudes),
+        DEFAULT.fixed,
+        COARSEST + 1,
+        apart=True,
+    )
+    Refinement(plane, Workers(), np.zeros(1, np.int64)).coarse()
+
+
+def _text(name: str) -> str:
+    return files("rocking.explorer").joinpath(name).read_text(encoding="utf-8")
+
+
+def _page() -> dict[str, object]:
+    """What the page is filled with: the same for everybody."""
+    given = {
+        "looks": [look.name for look in kinds.LOOKS],
+        "colours": [look.colour for look in kinds.LOOKS],
+        "grounds": GROUNDS,
+        "levels": LEVELS,
+    }
+    groups: dict[str, list[gallery.Case]] = {}
+    for case in gallery.CASES:
+        groups.setdefault(case.group, []).append(case)
+    return {
+        "style": _text("page.css"),
+        "script": _text("page.js"),
+        "given": json.dumps(given, ensure_ascii=False).replace("<", "\\u003c"),
+        "fields": FIELDS,
+        "curves": planes.NAMES,
+        "groups": groups,
+        "version": VERSION,
+    }

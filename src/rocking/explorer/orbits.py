@@ -1,0 +1,37 @@
+"""Which orbit of its look each point of a picture comes to, so that mirror images do not look like one."""
+
+from __future__ import annotations
+
+import numpy as np
+
+SAME = 1e-5
+"""States that stand for orbits and come as near as this are one orbit's."""
+MOST = 16
+"""Orbits of one look that are told apart: more are no list of attractors."""
+
+
+class Orbits:
+    """The orbits met so far, numbered from 0 within each look in the order in which they were met."""
+
+    def __init__(self) -> None:
+        self.met: dict[int, list[np.ndarray]] = {}
+
+    def numbers(self, looks: np.ndarray, states: np.ndarray) -> np.ndarray:
+        """The numbers (n,) of the orbits that these states (n, 2) stand for; 0 too where there is none, or are too many."""
+        found = np.zeros(len(looks), np.uint8)
+        there = np.isfinite(states).all(axis=1)
+        for look in np.unique(looks[there]).tolist():
+            self._number(
+                found, np.flatnonzero(there & (looks == look)), states, self.met.setdefault(look, [])
+            )
+        return found
+
+    def _number(self, found: np.ndarray, left: np.ndarray, states: np.ndarray, met: list[np.ndarray]) -> None:
+        for number in range(MOST):
+            if not left.size:
+                return
+            if number == len(met):
+                met.append(states[left[0]].copy())
+            near = np.abs(states[left] - met[number]).max(axis=1) <= SAME
+            found[left[near]] = number
+            left = left[~near]

@@ -1,0 +1,431 @@
+"use strict";
+const given = JSON.parse(document.getElementById("given").textContent);
+const find = id => document.getElementById(id);
+const all = selector => [...document.querySelectorAll(selector)];
+let link, shown, models = {}, playing = !matchMedia("(prefers-reduced-motion: reduce)").matches, asked = 0;
+const still = new Set(); // planes that we move ourselves just now
+
+// ---- what we ask for, and what we are told
+
+function ask(what, fields, push = true) {
+  link.asked = JSON.stringify({ n: ++asked, what, fields, push: push ? "yes" : "no" });
+}
+
+function listen(name, act) {
+  const heard = () => { if (link[name]) act(JSON.parse(link[name])); };
+  link.properties[name].change.connect(heard);
+  heard();
+}
+
+function begin(doc) {
+  const model = name => doc.get_model_by_name(name);
+  link = model("link");
+  for (const name of ["map", "basin", "history", "portrait", "section", "spectrum", "diagram"]) models[name] = model(name);
+  listen("shown", show);
+  listen("verdict", judge);
+  listen("legend", legend);
+  listen("progress", progress);
+  listen("basin", ({ apart }) => { find("shades").textContent = apart ? "paler: another orbit" : ""; });
+  listen("refused", refuse);
+  for (const name of ["map", "basin"]) {
+    for (const range of [models[name].x_range, models[name].y_range]) {
+      range.properties.start.change.connect(() => moved(name));
+      range.properties.end.change.connect(() => moved(name));
+    }
+  }
+  history.replaceState({ n: depth() }, "");
+  theme(document.documentElement.dataset.theme);
+  ask("open", { address: location.search }, false);
+  document.body.dataset.ready = "yes";
+}
+
+const waiting = setInterval(() => {
+  const doc = window.Bokeh?.documents[0];
+  if (!doc || !doc.is_idle || !doc.get_model_by_name("link")) return;
+  clearInterval(waiting);
+  begin(doc);
+}, 15);
+
+// ---- the view and its address
+
+const depth = () => history.state?.n ?? 0;
+
+function show(told) {
+  const before = shown;
+  shown = told;
+  for (const [name, text] of Object.entries(told.fields)) {
+    const input = document.querySelector(`#fields [name="${name}"]`);
+    if (!input) continue;
+    input.title = text.length > 6 ? text : "";
+    if (document.activeElement !== input || !input.dataset.typing) input.value = text;
+  }
+  const on = new Set(told.fields.curves.split(","));
+  for (const box of all("#curves input")) box.checked = on.has(box.name);
+  if (told.push && before && told.address !== before.address) {
+    history.pushState({ n: depth() + 1 }, "", "?" + told.address);
+    sessionStorage.setItem("deepest", depth());
+  } else {
+    history.replaceState({ n: depth() }, "", "?" + told.address);
+  }
+  stack();
+  for (const name of ["map", "basin"]) steady(name);
+  find("depth").textContent = told.planes.map.deepest ? "as deep as double precision goes" : "";
+  find("vary").value = told.fields.vary;
+  const [low, high, value] = told.slider;
+  if (document.activeElement !== find("slider") || !sliding) find("slider").value = 1000 * (value - low) / (high - low);
+  find("python").textContent = told.python;
+  find("commands").textContent = told.commands;
+  find("link-text").textContent = location.href;
+  if (told.moved) find("verdict").classList.add("stale");
+  if (told.fields.height) { find("m-height").value = told.fields.height; find("m-width").value = told.fields.width; }
+}
+
+function stack() {
+  find("undo").disabled = depth() === 0;
+  find("redo").disabled = depth() >= Number(sessionStorage.getItem("deepest") ?? 0);
+}
+
+window.addEventListener("popstate", () => { if (link) ask("open", { address: location.search }, false); });
+find("undo").onclick = () => history.back();
+find("redo").onclick = () => history.forward();
+
+// ---- planes: zoomed and moved here, computed there
+
+const timers = {};
+
+function steady(name) {
+  still.add(name);
+  const [left, right, bottom, top] = shown.planes[name].ranges, { x_range, y_range } = models[name];
+  x_range.setv({ start: left, end: right });
+  y_range.setv({ start: bottom, end: top });
+  still.delete(name);
+}
+
+const ends = name => [models[name].x_range.start, models[name].x_range.end, models[name].y_range.start, models[name].y_range.end];
+const spans = { map: ["periods", "amplitudes"], basin: ["angles", "velocities"] };
+
+function moved(name) {
+  if (!shown || still.has(name)) return;
+  clearTimeout(timers[name]);
+  timers[name] = setTimeout(() => settle(name), 130);
+}
+
+function settle(name) {
+  const now = ends(name), { ranges, base } = shown.planes[name];
+  if (now.every((end, place) => end === ranges[place])) return;
+  ask("fields", {
+    [spans[name][0]]: `${base[0] + now[0]}:${base[0] + now[1]}`,
+    [spans[name][1]]: `${base[1] + now[2]}:${base[1] + now[3]}`,
+  });
+}
+
+function zoom(name, by, right = 0, up = 0) {
+  for (const [range, shift] of [[models[name].x_range, right], [models[name].y_range, up]]) {
+    const width = range.end - range.start, next = Math.max(width / by, range.min_interval);
+    let low = range.start + (width - next) / 2 + shift * width, high = low + next;
+    const [least, most] = range.bounds;
+    if (low < least) { low = least; high = Math.min(least + next, most); }
+    if (high > most) { high = most; low = Math.max(most - next, least); }
+    range.setv({ start: low, end: high });
+  }
+}
+
+const whole = { map: { periods: "0.2:3", amplitudes: "0:16" }, basin: { angles: "-1.2:1.2", velocities: "-1.2:1.2" } };
+for (const button of all("[data-zoom]")) button.onclick = () => zoom(button.dataset.zoom, Number(button.dataset.by));
+for (const button of all("[data-whole]")) button.onclick = () => ask("fields", whole[button.dataset.whole]);
+for (const name of ["map", "basin"]) {
+  const keys = {
+    "+": () => zoom(name, 2), "=": () => zoom(name, 2), "-": () => zoom(name, 0.5), "0": () => ask("fields", whole[name]),
+    ArrowLeft: () => zoom(name, 1, -0.1), ArrowRight: () => zoom(name, 1, 0.1), ArrowDown: () => zoom(name, 1, 0, -0.1), ArrowUp: () => zoom(name, 1, 0, 0.1),
+  };
+  find(name).addEventListener("keydown", event => {
+    if (keys[event.key] && !event.ctrlKey && !event.altKey && !event.metaKey) { event.preventDefault(); keys[event.key](); }
+  });
+  find(name).addEventListener("pointermove", event => point(name, event));
+}
+
+// ---- what the map says at a point
+
+function point(name, event) {
+  if (name !== "map" || !shown) return;
+  const view = Bokeh.index.find_one(models.map);
+  const box = view?.el.getBoundingClientRect(), inner = view?.frame?.bbox;
+  if (!inner) return;
+  const across = (event.clientX - box.left - inner.left) / inner.width, up = 1 - (event.clientY - box.top - inner.top) / inner.height;
+  const source = answers(), side = source && Math.round(Math.sqrt(source.look?.length ?? 0));
+  if (!side || across < 0 || across > 1 || up < 0 || up > 1) return;
+  const { x_range, y_range } = models.map, [left, right, bottom, top] = shown.planes.map.ranges;
+  const x = x_range.start + across * (x_range.end - x_range.start), y = y_range.start + up * (y_range.end - y_range.start);
+  const column = Math.round((x - left) / (right - left) * (side - 1)), row = Math.round((y - bottom) / (top - bottom) * (side - 1));
+  if (column < 0 || row < 0 || column >= side || row >= side) return;
+  const at = row * side + column, look = source.look[at], period = source.response_period[at], impacts = source.impacts_per_period[at];
+  const ground = source.evidence[at], exponent = source.exponent[at], [baseX, baseY] = shown.planes.map.base;
+  const parts = [given.looks[look] ?? "no start"];
+  if (period > 0) parts.push(`repeats after ${period} cycle${period > 1 ? "s" : ""}` + (impacts >= 0 ? `, ${impacts} impacts` : ""));
+  const level = given.levels[ground] === "none" ? "" : ` (${given.levels[ground]})`;
+  parts.push(given.grounds[ground] + level);
+  if (exponent === -Infinity) parts.push("λ₁ = −∞"); else if (Number.isFinite(exponent)) parts.push(`λ₁ = ${exponent.toPrecision(3).replace("-", "−")}`);
+  const readout = find("readout");
+  const digits = span => Math.min(17, Math.max(4, 3 - Math.floor(Math.log10(span))));
+  readout.replaceChildren(`T = ${(baseX + x).toPrecision(digits((right - left) / Math.abs(baseX + x)))}, A = ${(baseY + y).toPrecision(digits((top - bottom) / Math.max(Math.abs(baseY + y), 1e-9)))}: `);
+  const strong = document.createElement("b");
+  strong.textContent = parts.shift();
+  readout.append(strong, "; " + parts.join("; "));
+}
+
+let holder;
+function answers() {
+  holder ??= models.map.renderers[0].document.get_model_by_name("answers");
+  return holder && Object.fromEntries(holder.data instanceof Map ? holder.data : Object.entries(holder.data));
+}
+
+// ---- words
+
+function judge(told) {
+  find("verdict").classList.remove("stale");
+  find("kind").textContent = told.kind;
+  find("verdict").querySelector("i").style.background = told.colour;
+  find("facts").replaceChildren(...told.facts.map(([name, value]) => {
+    const row = document.createElement("div"), term = document.createElement("dt"), definition = document.createElement("dd");
+    term.textContent = name;
+    definition.textContent = value;
+    row.append(term, definition);
+    return row;
+  }));
+  find("evidence").textContent = told.evidence;
+  find("spectrum").dataset.why = told.spectrum;
+  scene();
+}
+
+function legend({ legend }) {
+  find("legend").replaceChildren(...legend.map(each => {
+    const row = document.createElement("li"), swatch = document.createElement("i"), share = document.createElement("small");
+    const stripes = each.hatch ? `repeating-linear-gradient(${each.hatch === "white" ? 45 : 135}deg, ${each.hatch} 0 2px, transparent 2px 5px), ` : "";
+    swatch.style.background = stripes + each.colour;
+    share.textContent = each.share;
+    row.append(swatch, each.name, share);
+    row.classList.toggle("none", !each.share);
+    return row;
+  }));
+  find("map").setAttribute("aria-label", "Map of responses over period and amplitude: " + legend.filter(each => each.share).map(each => `${each.name} ${each.share}`).join(", ")
+    + ". Arrow keys move it, plus and minus zoom, 0 shows all; type A and T to select a system.");
+}
+
+function progress(told) {
+  const bar = document.querySelector("#bar i");
+  find("progress").textContent = told.done ? "" : `computing: ${told.text}`;
+  bar.style.opacity = told.done ? 0 : 1;
+  bar.style.width = `${100 * told.share}%`;
+  document.body.dataset.map = told.done ? "done" : String(told.side);
+}
+
+function refuse({ fields }) {
+  for (const input of all("input[aria-invalid]")) input.removeAttribute("aria-invalid");
+  const rest = [];
+  for (const [name, sentence] of Object.entries(fields)) {
+    const id = find("units").open && find("m-" + name) ? "m-" + name : name;
+    const input = find(id), line = find(id + "-refused");
+    if (!line) { rest.push(sentence); continue; }
+    line.textContent = sentence;
+    input.setAttribute("aria-invalid", "true");
+  }
+  say(rest.join("; "));
+}
+
+let fading;
+function say(text) {
+  const notice = find("notice");
+  notice.textContent = text;
+  notice.hidden = !text;
+  clearTimeout(fading);
+  if (text) fading = setTimeout(() => { notice.hidden = true; }, 8000);
+}
+
+// ---- controls
+
+for (const input of all("#fields input")) {
+  input.addEventListener("input", () => { input.dataset.typing = "yes"; });
+  input.addEventListener("change", () => { delete input.dataset.typing; ask("fields", { [input.name]: input.value }); });
+  input.addEventListener("keydown", event => {
+    if (event.key === "Escape") { delete input.dataset.typing; input.value = shown.fields[input.name]; refuse({ fields: {} }); }
+  });
+}
+find("fields").addEventListener("submit", event => event.preventDefault());
+for (const box of all("#curves input")) box.onchange = () => ask("fields", { curves: all("#curves input:checked").map(each => each.name).join(",") });
+find("vary").onchange = event => ask("fields", { vary: event.target.value });
+
+let sliding = 0, pending = false;
+const slid = push => {
+  const [low, high] = shown.slider, value = low + (high - low) * find("slider").value / 1000;
+  // as few digits as tell one step from the next
+  const short = Number(value.toFixed(Math.max(Math.ceil(-Math.log10((high - low) / 1000)), 0)));
+  ask("fields", { [shown.fields.vary]: String(Math.min(Math.max(short, low), high)) }, push);
+};
+find("slider").addEventListener("input", () => {
+  if (pending) return;
+  sliding = 1;
+  pending = true;
+  setTimeout(() => { pending = false; slid(false); }, 60);
+});
+find("slider").addEventListener("change", () => { sliding = 0; slid(true); });
+
+for (const button of all("[data-opens]")) button.onclick = () => find(button.dataset.opens).showModal();
+for (const button of all("[data-case]")) button.onclick = () => { find("gallery").close(); ask("case", { name: button.dataset.case }); };
+find("metres").addEventListener("submit", event => {
+  event.preventDefault();
+  ask("metres", Object.fromEntries(new FormData(event.target)));
+});
+find("no-metres").onclick = () => { ask("fields", { height: "", width: "" }); find("units").close(); };
+for (const button of all("[data-copy]")) button.onclick = async () => {
+  const text = { link: location.href, python: shown.python, commands: shown.commands }[button.dataset.copy];
+  try { await navigator.clipboard.writeText(text); button.textContent = "Copied"; } catch { button.textContent = "Select and copy"; }
+  setTimeout(() => { button.textContent = "Copy"; }, 1500);
+};
+
+// ---- files
+
+function save(name, blob, suffix) {
+  const anchor = document.createElement("a");
+  anchor.href = URL.createObjectURL(blob);
+  anchor.download = `rocking-${name}.${suffix}`;
+  anchor.click();
+  setTimeout(() => URL.revokeObjectURL(anchor.href), 5000);
+}
+
+function table(name) {
+  const columns = {}, quote = value => (typeof value === "string" ? `"${value.replaceAll('"', '""')}"` : value);
+  if (name === "map") {
+    const source = answers(), side = Math.round(Math.sqrt(source.look.length)), [left, right, bottom, top] = shown.planes.map.ranges, [baseX, baseY] = shown.planes.map.base;
+    const at = (low, high, place) => low + (high - low) * place / (side - 1);
+    columns.period = Array.from(source.look, (_, n) => baseX + at(left, right, n % side));
+    columns.amplitude = Array.from(source.look, (_, n) => baseY + at(bottom, top, Math.floor(n / side)));
+    columns.response = Array.from(source.look, look => given.looks[look] ?? "");
+    columns.response_period = source.response_period;
+    columns.evidence = Array.from(source.evidence, ground => given.grounds[ground]);
+    columns.exponent = source.exponent;
+  } else {
+    for (const renderer of models[name].renderers) {
+      const data = renderer.data_source.data, entries = data instanceof Map ? [...data] : Object.entries(data);
+      if (name === "basin" && !entries.some(([key]) => key === "image")) continue;
+      for (const [key, values] of entries) if (!(key in columns) && values.length && typeof values[0] !== "object") columns[key] = values;
+      if (Object.keys(columns).length) break;
+    }
+  }
+  const names = Object.keys(columns), lines = [names.join(",")];
+  for (let n = 0; n < (columns[names[0]]?.length ?? 0); n++) lines.push(names.map(key => quote(columns[key][n])).join(","));
+  return lines.join("\n") + "\n";
+}
+
+for (const button of all("[data-save]")) button.onclick = async () => {
+  const name = find("which").value, kind = button.dataset.save;
+  if (kind === "csv") return save(name, new Blob([table(name)], { type: "text/csv" }), kind);
+  const view = Bokeh.index.find_one(models[name]);
+  save(name, await view.export(kind, true).to_blob(), kind);
+};
+
+// ---- dark and light
+
+function theme(name) {
+  document.documentElement.dataset.theme = name;
+  for (const model of Object.values(models)) {
+    const view = Bokeh.index.find_one(model);
+    view?.request_repaint?.();
+  }
+  const style = getComputedStyle(document.documentElement), colour = name => ({ value: style.getPropertyValue(name) });
+  for (const name of ["line", "accent"]) inks[name] = style.getPropertyValue(`--${name}`);
+  for (const { name, glyph } of Object.values(models).flatMap(model => model.renderers)) {
+    if (name === "words") glyph.setv({ text_color: colour("--soft") }, { sync: false });
+    if (name === "line") glyph.setv({ line_color: colour("--motion") }, { sync: false });
+    if (name === "dots") glyph.setv({ fill_color: colour("--motion") }, { sync: false });
+  }
+  frame();
+}
+find("theme").onclick = () => {
+  const next = document.documentElement.dataset.theme === "dark" ? "light" : "dark";
+  localStorage.setItem("theme", next);
+  theme(next);
+};
+
+// ---- the block
+
+let film = null, clock = 0, last = 0;
+const inks = {}; // read once a theme: a frame that reads a style has all of them computed anew
+const DEPTH = 7; // seconds that a forcing cycle may take at most is one; the film of few cycles runs slower
+
+function scene() {
+  const data = models.history.renderers[0].data_source.data, column = key => data instanceof Map ? data.get(key) : data[key];
+  const time = column("time"), angle = column("angle"), fields = shown.fields;
+  const height = Number(fields.height) || 4, width = Number(fields.width) || 1;
+  const amplitude = Number(fields.amplitude), period = Number(fields.period), frequency = 2 * Math.PI / period;
+  const critical = Math.atan2(width, height), radius = Math.hypot(height, width) / 2;
+  let peak = 0;
+  for (const value of angle) peak = Math.max(peak, Math.abs(value));
+  // a_x/ω² in the block's own units: A g θcr/(Ω α)², α² = 3g/4R
+  const base = amplitude * critical * (4 * radius / 3) / frequency ** 2;
+  film = { time, angle, height, width, critical, frequency, period, base, phase: Number(fields.phase),
+    angles: Math.min(Math.max(0.35 / (peak * critical || 1), 1), 12), moves: Math.min(Math.max(0.06 * height / (base || 1), 1), 60) };
+  clock = time[0] ?? 0;
+  const told = [];
+  if (film.angles > 1.05) told.push(`angles × ${film.angles.toPrecision(2)}`);
+  if (film.moves > 1.05 && base) told.push(`base × ${film.moves.toPrecision(2)}`);
+  find("scene-told").textContent = told.join(", ") || "drawn to scale";
+  frame();
+}
+
+function now() {
+  const { time, angle } = film;
+  let low = 0, high = time.length - 1;
+  while (high - low > 1) { const middle = (low + high) >> 1; if (time[middle] <= clock) low = middle; else high = middle; }
+  const step = time[high] - time[low], share = step > 0 ? Math.min(Math.max((clock - time[low]) / step, 0), 1) : 0;
+  return angle[low] + share * (angle[high] - angle[low]);
+}
+
+function frame() {
+  const canvas = find("block"), ink = canvas.getContext("2d"), sharp = devicePixelRatio || 1, wide = canvas.clientWidth, high = canvas.clientHeight;
+  if (!wide) return;
+  if (canvas.width !== Math.round(wide * sharp)) canvas.width = Math.round(wide * sharp);
+  if (canvas.height !== Math.round(high * sharp)) canvas.height = Math.round(high * sharp);
+  ink.setTransform(sharp, 0, 0, sharp, 0, 0);
+  ink.clearRect(0, 0, wide, high);
+  if (!film?.time.length) return;
+  const scale = Math.min((high - 30) / film.height, wide / (2.6 * film.height)), floor = high - 16;
+  const displaced = -film.base * film.moves * Math.cos(film.frequency * clock + film.phase) * scale;
+  const turn = Math.max(Math.min(now() * film.critical * film.angles, Math.PI / 2), -Math.PI / 2), half = film.width * scale / 2, tall = film.height * scale;
+  ink.strokeStyle = inks.line;
+  ink.lineWidth = 1;
+  for (let at = wide / 2 % 14; at < wide; at += 14) { ink.beginPath(); ink.moveTo(at, floor + 9); ink.lineTo(at - 5, floor + 14); ink.stroke(); }
+  ink.beginPath(); ink.moveTo(0, floor + 9); ink.lineTo(wide, floor + 9); ink.stroke();
+  ink.save();
+  ink.translate(wide / 2 + displaced, floor);
+  ink.fillStyle = inks.line;
+  const table = Math.max(tall * 0.7, half * 3);
+  ink.fillRect(-table, 0, 2 * table, 9);
+  ink.fillStyle = inks.accent;
+  ink.beginPath(); ink.moveTo(-4, 9); ink.lineTo(4, 9); ink.lineTo(0, 2); ink.fill();
+  ink.translate(turn > 0 ? half : -half, 0);
+  ink.rotate(turn);
+  ink.translate(turn > 0 ? -half : half, 0);
+  ink.fillStyle = "#E8C07D";
+  ink.strokeStyle = "#262626";
+  ink.fillRect(-half, -tall, 2 * half, tall);
+  ink.strokeRect(-half, -tall, 2 * half, tall);
+  ink.restore();
+}
+
+function tick(at) {
+  const passed = Math.min((at - last) / 1000, 0.1);
+  last = at;
+  if (playing && film?.time.length && !document.hidden) {
+    const end = film.time[film.time.length - 1];
+    clock += passed * Math.max(film.period / 1.2, (end - film.time[0]) / 40);
+    if (clock > end) clock = film.time[0];
+    frame();
+  }
+  requestAnimationFrame(tick);
+}
+requestAnimationFrame(tick);
+const told = () => { find("play").textContent = playing ? "❚❚" : "▶"; };
+find("play").onclick = () => { playing = !playing; told(); };
+told();
+new ResizeObserver(frame).observe(find("block"));
+theme(localStorage.getItem("theme") ?? (matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light"));

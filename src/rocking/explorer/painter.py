@@ -1,0 +1,236 @@
+"""The figures of one visitor, and how they are filled: at once with what a click asks for, then finer and finer."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Callable
+from functools import partial
+
+import numpy as np
+from bokeh.document import Document
+
+from rocking.explorer import figures, pictures, planes, told
+from rocking.explorer.fields import PERIODS
+from rocking.explorer.link import Link
+from rocking.explorer.refine import FIRST, Picture, Plane, Refinement
+from rocking.explorer.state import POINTS, Shown, Span
+from rocking.explorer.work import Jobs, Workers
+from rocking.model import LARGEST_AMPLITUDE, LARGEST_START, Kind, Verdict
+
+BASIN_POINTS = 257
+FIRST_HITS = 3e3
+"""Impacts and brace hits that a point of a first picture may take."""
+GROWTH = (1_000, 2_000, 7_000, 20_000, 30_000, 40_000)
+"""Cycles that a section grows by, one step after another: 10⁵ in all."""
+BREATH = 0.2
+"""Seconds between two steps of it, so that it is seen to grow."""
+MAP_LIMITS = Span(*PERIODS), Span(0.0, LARGEST_AMPLITUDE)
+BASIN_LIMITS = Span(-LARGEST_START, LARGEST_START), Span(-LARGEST_START, LARGEST_START)
+BASIN_LABELS = "angle at the start Θ₀", "velocity at the start Θ′₀"
+VARIED = {"amplitude": "amplitude A", "period": "period T"}
+
+
+def _first(shown: Shown) -> int:
+    """Cycles a point of a first picture: all its points take no more than a click may wait for, if they are like this one."""
+    return pictures.affordable(shown, FIRST, FIRST_HITS)
+
+
+class Painter:
+    """All figures of a document, and the jobs that fill them. What is no longer shown is not drawn."""
+
+    def __init__(self, document: Document, link: Link, workers: Workers) -> None:
+        self.document, self.link, self.workers = document, link, workers
+        self.jobs = Jobs()
+        self.map, self.basin = figures.plane_of_systems(), figures.plane_of_starts()
+        self.history, self.portrait, self.section = figures.history(), figures.portrait(), figures.section()
+        self.spectrum, self.diagram = figures.spectrum(), figures.diagram()
+        self.corner = self.basin_corner = planes.Corner(0.0, 0.0)
+
+    def attach(self) -> None:
+        """Put the figures into the document; it hears only of events that were listened to before."""
+        drawings = (
+            self.map,
+            self.basin,
+            self.history,
+            self.portrait,
+            self.section,
+            self.spectrum,
+            self.diagram,
+        )
+        with self.document.models.freeze():  # else it goes through all of them once a root
+            for root in (*(each.figure for each in drawings), self.map.sources["answers"], self.link):
+                self.document.add_root(root)
+
+    # what stands still
+
+    def place_map(self, shown: Shown) -> None:
+        """Move the map to where it is looked at."""
+        self.corner = planes.corner_of(shown.periods, shown.amplitudes)
+        planes.place(self.map, self.corner, shown.periods, shown.amplitudes, MAP_LIMITS)
+        planes.label(self.map, self.corner, ("period T", "amplitude A"))
+        planes.metres(self.map, self.corner, shown, shown.block)
+
+    def place_basin(self, shown: Shown) -> None:
+        """Move the basin to where it is looked at."""
+        self.basin_corner = planes.corner_of(shown.angles, shown.velocities)
+        planes.place(self.basin, self.basin_corner, shown.angles, shown.velocities, BASIN_LIMITS)
+        planes.label(self.basin, self.basin_corner, BASIN_LABELS)
+
+    def mark(self, shown: Shown) -> None:
+        """Ring what is selected, and draw the curves asked for."""
+        corner, basin_corner = self.corner, self.basin_corner
+        self.map.show(
+            point={"x": [shown.period - corner.across], "y": [shown.amplitude - corner.up]},
+            curves=planes.curves(shown, corner),
+        )
+        self.basin.show(
+            point={"x": [shown.angle - basin_corner.across], "y": [shown.velocity - basin_corner.up]}
+        )
+        self.diagram.here.location = getattr(shown, shown.vary)
+
+    async def _draw(self, change: Callable[[], None]) -> None:
+        """Change the document in its own time, with its lock held."""
+        done = asyncio.get_running_loop().create_future()
+
+        def act() -> None:
+            if self._alone():
+                self.jobs.end_all()
+            if done.cancelled():
+                return
+            try:
+                change()
+            except Exception as error:  # noqa: BLE001 (it is raised where it is waited for)
+                done.set_exception(error)
+            else:
+                done.set_result(None)
+
+        self.document.add_next_tick_callback(act)
+        await done
+
+    def _alone(self) -> bool:
+        """Whether the visitor's connection is closed: the session lives on for a while, in case he comes back."""
+        session = getattr(self.document.session_context, "session", None)
+        return session is not None and session.connection_count == 0
+
+    # the map
+
+    async def refine_map(self, shown: Shown, stop: np.ndarray) -> None:
+        """The map, from coarse to fine."""
+        plane = Plane(
+            ("period", shown.periods),
+            ("amplitude", shown.amplitudes),
+            shown.fixed,
+            POINTS,
+            first=await self.workers.soon(partial(_first, shown)),
+        )
+        refinement = Refinement(plane, self.workers, stop)
+        picture = await self.workers.soon(refinement.coarse)
+        await self._draw(partial(self._draw_map, shown, picture))
+        async for finer in refinement.finer():
+            await self._draw(partial(self._draw_map, shown, finer))
+
+    def _draw_map(self, shown: Shown, picture: Picture) -> None:
+        self.map.show(image=planes.image(picture, self.corner, shown.periods, shown.amplitudes))
+        if picture.settled == picture.of:
+            self.map.show(answers=planes.answers(picture))
+        self.link.tell("legend", {"legend": told.legend(picture.counts())})
+        self.link.tell("progress", told.progress(picture))
+
+    # one system
+
+    async def respond(self, shown: Shown, stop: np.ndarray) -> None:
+        """All pictures of one system at once; then what refines."""
+        section = pictures.Section(shown)
+        found, spectrum, _, (basin, picture) = await asyncio.gather(
+            self.workers.soon(partial(pictures.response, shown)),
+            self.workers.soon(partial(pictures.spectrum, shown)),
+            self.workers.soon(partial(section.grow, GROWTH[0])),
+            self.workers.soon(partial(self._first_basin, shown, stop)),
+        )
+        period = found.verdict.period
+        drawn = await self.workers.soon(partial(section.drawn, period))
+
+        def change() -> None:
+            self.history.show(found.spans["history"], history=found.history)
+            self.portrait.show(found.spans["portrait"], portrait=found.portrait, hits=found.hits)
+            self.spectrum.show(spectrum.ranges, spectrum=spectrum.line, names=spectrum.names)
+            self._draw_section(drawn, section)
+            self._draw_basin(shown, picture)
+            self._tell_verdict(shown, found.verdict, spectrum.why)
+
+        await self._draw(change)
+        self.jobs.start("section", partial(self._grow, section, period))
+        self.jobs.start("basin", partial(self._finish_basin, shown, basin))
+        if found.verdict.kind is Kind.UNDETERMINED and not pictures.crowded(shown):
+            self.jobs.start("judge", partial(self._judge_longer, shown, spectrum.why))
+
+    def _tell_verdict(self, shown: Shown, verdict: Verdict, why: str) -> None:
+        words = told.verdict(verdict, shown.block)
+        self.link.tell("verdict", words | {"spectrum": why})
+
+    def _draw_section(self, drawn: pictures.Drawn, grown: pictures.Section) -> None:
+        self.section.show(drawn.ranges, section=drawn.points, dense=drawn.dense, orbit=drawn.orbit)
+        ended = f", then {grown.ended.replace('-', ' ')}" if grown.ended else ""
+        self.section.figure.below[0].axis_label = f"angle Θ ({len(grown.points):,} cycles{ended})"
+
+    async def _grow(self, section: pictures.Section, period: int | None, stop: np.ndarray) -> None:
+        for cycles in GROWTH[1:]:
+            if section.ended or stop[0]:
+                return
+            await asyncio.sleep(BREATH)
+            await self.workers.later(partial(section.grow, cycles))
+            drawn = await self.workers.later(partial(section.drawn, period))
+            await self._draw(partial(self._draw_section, drawn, section))
+
+    async def _judge_longer(self, shown: Shown, why: str, stop: np.ndarray) -> None:
+        found = await self.workers.later(partial(pictures.judge_longer, shown))
+        await self._draw(partial(self._tell_verdict, shown, found, why))
+
+    # the basin
+
+    def _first_basin(self, shown: Shown, stop: np.ndarray) -> tuple[Refinement, Picture]:
+        """The basin, to be refined, with its first picture."""
+        fixed = shown.fixed | {"amplitude": shown.amplitude, "period": shown.period}
+        del fixed["angle"], fixed["velocity"]
+        reach = np.inf if shown.brace_angle is None else shown.brace_angle
+        if pictures.crowded(shown):
+            reach = -1.0  # no start can be afforded
+        plane = Plane(
+            ("angle", shown.angles),
+            ("velocity", shown.velocities),
+            fixed,
+            BASIN_POINTS,
+            reach,
+            _first(shown),
+            apart=shown.restitution < 1.0,  # else nothing attracts
+        )
+        basin = Refinement(plane, self.workers, stop)
+        return basin, basin.coarse()
+
+    async def refine_basin(self, shown: Shown, stop: np.ndarray) -> None:
+        """The basin alone, from coarse to fine."""
+        basin, picture = await self.workers.soon(partial(self._first_basin, shown, stop))
+        await self._draw(partial(self._draw_basin, shown, picture))
+        await self._finish_basin(shown, basin, stop)
+
+    async def _finish_basin(self, shown: Shown, basin: Refinement, stop: np.ndarray) -> None:
+        basin.stop = stop
+        async for picture in basin.finer():
+            await self._draw(partial(self._draw_basin, shown, picture))
+
+    def _draw_basin(self, shown: Shown, picture: Picture) -> None:
+        self.basin.show(image=planes.image(picture, self.basin_corner, shown.angles, shown.velocities))
+        self.link.tell("basin", {"apart": bool(picture.fields["orbit"].any())})
+
+    # the diagram
+
+    async def draw_diagram(self, shown: Shown, stop: np.ndarray) -> None:
+        """The orbit diagram along the map's axis; what a click asks for comes first."""
+        await self.jobs.over("response")
+        columns, ranges = await self.workers.later(partial(pictures.diagram, shown, stop))
+
+        def change() -> None:
+            self.diagram.figure.below[0].axis_label = VARIED[shown.vary]
+            self.diagram.show(ranges, diagram=columns)
+
+        await self._draw(change)

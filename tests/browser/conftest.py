@@ -1,0 +1,143 @@
+"""A real browser and the page's server, each in a process of its own; pictures of what was seen go into `results`."""
+
+import re
+import subprocess
+import sys
+from pathlib import Path
+from typing import NamedTuple
+from urllib.parse import urlsplit
+
+import pytest
+
+from docs.extensions import seen
+
+SEEN = Path(__file__).parents[2] / "results" / "browser"
+PATIENCE = 60_000
+"""Milliseconds to wait for what takes one, on a machine with much else to do."""
+
+
+@pytest.hookimpl(tryfirst=True)  # before the workers' items are grouped by their marks
+def pytest_collection_modifyitems(items):
+    """One server and one browser for all: one worker runs them. What looks at the report goes where that is made."""
+    for item in items:
+        if item.path.parent == Path(__file__).parent and "reproduced" not in item.fixturenames:
+            item.add_marker(pytest.mark.xdist_group("browser"))
+
+
+class Running(NamedTuple):
+    """The explorer in a process of its own."""
+
+    address: str
+    process: subprocess.Popen
+
+
+@pytest.fixture(scope="session")
+def running():
+    """An explorer that must come to its end without a complaint."""
+    command = [sys.executable, "-m", "rocking", "explore", "--port", "0", "--no-browser"]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
+        try:
+            line = process.stdout.readline()
+            yield Running(re.search(r"http://localhost:\d+/", line)[0], process)
+        finally:
+            process.terminate()
+            errors = process.communicate()[1]
+    assert "Traceback" not in errors
+
+
+@pytest.fixture(scope="session")
+def server(running):
+    """Address of a running explorer."""
+    return running.address
+
+
+@pytest.fixture(scope="session")
+def browser():
+    if not seen.CHROMIUM.exists():
+        pytest.skip(f"there is no {seen.CHROMIUM}: scripts/debian.sh chromium")
+    with seen.chromium() as browser:
+        yield browser
+
+
+class Visitor:
+    """A page with what it complained of and which hosts it asked."""
+
+    def __init__(self, context, address):
+        self.address, self.complaints, self.hosts = address, [], set()
+        self.page = context.new_page()
+        self.page.set_default_timeout(PATIENCE)
+        self.page.on("console", self._heard)
+        self.page.on("pageerror", lambda error: self.complaints.append(str(error)))
+        self.page.on("request", lambda request: self.hosts.add(urlsplit(request.url).hostname))
+        self.page.on("websocket", lambda socket: self.hosts.add(urlsplit(socket.url).hostname))
+
+    def _heard(self, message):
+        if message.type in ("error", "warning"):
+            self.complaints.append(message.text)
+
+    def open(self, query=""):
+        self.page.goto(self.address + query)
+        self.page.wait_for_selector("body[data-ready]")
+        self.judged()
+
+    def judged(self):
+        """Wait for the verdict on what is shown."""
+        self.page.wait_for_selector("#verdict:not(.stale)")
+
+    def finished(self):
+        """Wait for the map to be whole."""
+        self.page.wait_for_function("document.body.dataset.map === 'done'")
+
+    def text(self, name):
+        return self.page.inner_text(f"#{name}")
+
+    def data(self, name):
+        """A fingerprint of what the figure `name` draws."""
+        return self.page.evaluate(
+            """name => { const figure = Bokeh.documents[0].get_model_by_name(name);
+                 const told = value => ArrayBuffer.isView(value) ? Array.from(value) : Array.isArray(value) ? value.map(told) : value;
+                 return JSON.stringify(figure.renderers.map(each => {
+                     const data = each.data_source.data;
+                     return [...(data instanceof Map ? data : Object.entries(data))].map(([key, values]) => [key, told(values)]); })); }""",
+            name,
+        )
+
+    def place(self, name, across, up):
+        """Where on the page a place in a figure is, told by shares of its frame."""
+        left, top, width, height = self.page.evaluate(
+            """name => { const view = Bokeh.index.find_one(Bokeh.documents[0].get_model_by_name(name));
+                 const box = view.el.getBoundingClientRect(), inner = view.frame.bbox;
+                 return [box.left + inner.left, box.top + inner.top, inner.width, inner.height]; }""",
+            name,
+        )
+        return left + across * width, top + (1 - up) * height
+
+    def click(self, name, across, up):
+        self.page.mouse.click(*self.place(name, across, up))
+
+    def wheel(self, name, across, up, turns):
+        self.page.mouse.move(*self.place(name, across, up))
+        self.page.mouse.wheel(0, turns)
+
+    def see(self, name):
+        """Keep a picture of the page."""
+        SEEN.mkdir(parents=True, exist_ok=True)
+        self.page.screenshot(path=SEEN / f"{name}.png")
+
+    def is_content(self):
+        assert self.complaints == []
+        assert self.hosts <= {"localhost", ""}
+
+
+@pytest.fixture
+def visit(browser, server):
+    """Open the page as a visitor of one's own: width, height and scheme as given."""
+    contexts = []
+
+    def come(width=1280, height=800, scheme="light"):
+        contexts.append(browser.new_context(viewport={"width": width, "height": height}, color_scheme=scheme))
+        return Visitor(contexts[-1], server)
+
+    yield come
+    for context in contexts:
+        context.close()

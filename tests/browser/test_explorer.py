@@ -1,0 +1,357 @@
+"""What a visitor sees in a real browser."""
+
+import json
+import re
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+from rocking.papers.yim_lin_1991.cases import PERIODIC
+from rocking.plot.kinds import LOOKS
+
+PICTURES = ("history", "portrait", "section", "spectrum", "basin")
+# amplitude, period, restitution: THEORY's cases
+KNOWN = {
+    "(1,1)": ((2.0, 1.0, 0.925), "periodic", "1 cycle, symmetric", "2 impacts"),
+    "(1,3)": ((6.5, 0.4, 0.925), "periodic", "3 cycles, symmetric", "2 impacts"),
+    "overturning": ((1.75, 2.0, 0.95), "overturned", None, None),
+}
+
+
+@pytest.mark.parametrize("width, height, scheme", [(1280, 800, "light"), (390, 844, "dark")])
+def test_page_opens_without_complaint_and_asks_no_other_host(visit, width, height, scheme):
+    visitor = visit(width, height, scheme)
+    visitor.open()
+    visitor.finished()
+    assert visitor.text("kind") == "periodic"
+    assert visitor.page.evaluate("document.documentElement.scrollWidth") <= width
+    visitor.see(f"open-{width}-{scheme}")
+    visitor.is_content()
+
+
+def test_click_changes_every_picture(visit):
+    visitor = visit()
+    visitor.open()
+    before = {name: visitor.data(name) for name in PICTURES}
+    visitor.click("map", 0.2, 0.9)
+    visitor.page.wait_for_function("document.getElementById('undo').disabled === false")
+    visitor.judged()
+    assert [name for name in PICTURES if visitor.data(name) == before[name]] == []
+    typed = [visitor.page.input_value(f"#{name}") for name in ("amplitude", "period")]
+    assert max(map(len, typed)) <= 5, "a click selects what the field has room to show"
+    assert f"amplitude={typed[0]}&period={typed[1]}&" in visitor.page.url
+    visitor.see("clicked")
+    visitor.is_content()
+
+
+@pytest.mark.parametrize("case", KNOWN)
+def test_numbers_typed_give_the_known_verdict(visit, case):
+    (amplitude, period, restitution), kind, symmetry, impacts = KNOWN[case]
+    visitor = visit()
+    visitor.open("?version=1&amplitude=3&period=0.7&restitution=0.9")
+    for name, value in (("amplitude", amplitude), ("period", period), ("restitution", restitution)):
+        visitor.page.fill(f"#{name}", str(value))
+        visitor.page.press(f"#{name}", "Enter")
+    visitor.page.wait_for_function(
+        f"location.search === '?version=1&amplitude={amplitude:g}&period={period:g}&restitution={restitution:g}'"
+    )
+    visitor.judged()
+    assert visitor.text("kind") == kind
+    for words in filter(None, (symmetry, impacts)):
+        assert words in visitor.text("facts")
+    visitor.is_content()
+
+
+def picture_of(visitor):
+    """The map's colours, upward first, and its stretches."""
+    columns = dict(json.loads(visitor.data("map"))[0])
+    image = np.array(columns["image"][0]).reshape(513, 513)
+    return image, [columns[name][0] for name in ("x", "y", "w", "h")]
+
+
+def test_zooming_to_the_overturning_boundary_shows_new_detail(visit):
+    visitor = visit()
+    visitor.open("?version=1&amplitude=4&period=1.3&restitution=0.925")
+    visitor.finished()
+    before, (x, y, wide, high) = picture_of(visitor)
+    for _ in range(3):
+        view = visitor.page.url
+        visitor.wheel("map", 0.4, 0.25, -240)
+        visitor.page.wait_for_function("view => location.href !== view", arg=view)
+        visitor.finished()
+    after, (left, bottom, width, height) = picture_of(visitor)
+    assert width < wide / 2
+    assert height < high / 2
+    # what the picture before showed there, magnified
+    columns = ((left + width * (np.arange(513) + 0.5) / 513 - x) / wide * 513).astype(int)
+    rows = ((bottom + height * (np.arange(513) + 0.5) / 513 - y) / high * 513).astype(int)
+    magnified = before[np.ix_(rows, columns)]
+    overturned = 10
+    assert 0.01 < np.mean((after == overturned) != (magnified == overturned)) < 0.5
+    assert 0.05 < np.mean(after == overturned) < 0.95
+    visitor.see("zoomed")
+    visitor.is_content()
+
+
+def test_map_stops_and_says_so_where_double_precision_ends(visit):
+    visitor = visit()
+    low, high = 1.3, 1.3 + 1e-12
+    visitor.open(
+        f"?version=1&amplitude=4&period=1.3&restitution=0.925&periods={low!r}:{high!r}&amplitudes=4:{4 + 4e-12!r}"
+    )
+    visitor.finished()
+    for _ in range(4):
+        visitor.page.focus("#map")
+        visitor.page.keyboard.press("+")
+        visitor.page.wait_for_timeout(400)
+    visitor.finished()
+    assert visitor.text("depth") == "as deep as double precision goes"
+    low, high = map(float, re.search(r"periods=([^&:]*):([^&]*)", visitor.page.url).groups())
+    assert 0 < high - low < 1e-12
+    assert np.unique(np.linspace(low, high, 513)).size == 513
+    visitor.see("deepest")
+    visitor.is_content()
+
+
+def test_case_of_the_paper_shows_its_figure(visit):
+    case = PERIODIC[1]
+    visitor = visit()
+    visitor.open()
+    visitor.page.click("text=Gallery")
+    visitor.see("gallery")
+    visitor.page.click("[data-case=figure-2b]")
+    visitor.page.wait_for_function("location.search.includes('first=600')")
+    visitor.judged()
+    assert "3 cycles, symmetric" in visitor.text("facts")
+    columns = dict(json.loads(visitor.data("history"))[0])
+    times = np.array(columns["time"])
+    first, last = case.shown
+    period = case.system.forcing.period
+    assert times[[0, -1]] == pytest.approx([first * period, last * period])
+    angles, _ = case.motion().at(times[::50])
+    assert np.array(columns["angle"])[::50] == pytest.approx(angles, abs=1e-9)
+    visitor.see("figure-2b")
+    visitor.is_content()
+
+
+def test_shared_link_gives_the_same_view_and_back_the_one_before(visit):
+    one, other = visit(), visit()
+    one.open()
+    one.page.fill("#amplitude", "6.5")
+    one.page.press("#amplitude", "Enter")
+    one.page.wait_for_function("location.search.includes('amplitude=6.5')")
+    one.page.click("text=Melnikov")
+    one.page.wait_for_function("location.search.includes('curves=melnikov')")
+    one.judged()
+    one.finished()
+    other.open(one.page.url.removeprefix(one.address))
+    other.finished()
+    assert other.text("evidence") == one.text("evidence")
+    for name in ("map", "history", "portrait"):
+        assert other.data(name) == one.data(name)
+    one.page.go_back()
+    one.page.wait_for_function("!location.search.includes('curves')")
+    one.page.go_back()
+    one.page.wait_for_function("location.search.includes('amplitude=2&')")
+    one.page.wait_for_function("document.getElementById('amplitude').value === '2'")
+    one.page.click("#redo")
+    one.page.wait_for_function("location.search.includes('amplitude=6.5')")
+    one.judged()
+    one.is_content()
+    other.is_content()
+
+
+@pytest.mark.parametrize(
+    "name, typed",
+    [("amplitude", "-1"), ("period", "soon"), ("restitution", "1.2"), ("cycles", "1e9"), ("angle", "nan")],
+)
+def test_bad_number_is_refused_at_its_field_and_changes_nothing(visit, name, typed):
+    visitor = visit()
+    visitor.open()
+    before = visitor.page.url, visitor.data("history")
+    visitor.page.fill(f"#{name}", typed)
+    visitor.page.press(f"#{name}", "Enter")
+    visitor.page.wait_for_selector(f"#{name}[aria-invalid=true]")
+    assert re.match(
+        rf"{name} must be a (whole )?number in \[.*\]; got '{typed}'", visitor.text(f"{name}-refused")
+    )
+    visitor.see(f"refused-{name}")
+    assert (visitor.page.url, visitor.data("history")) == before
+    visitor.is_content()
+
+
+def test_bad_address_opens_with_a_word_on_what_is_wrong(visit):
+    visitor = visit()
+    visitor.open("?version=1&amplitude=12&period=-3&restitution=0.9")
+    assert "period must be a number in" in visitor.text("period-refused")
+    assert visitor.page.input_value("#amplitude") == "12"
+    visitor.is_content()
+
+
+def test_mirror_images_in_the_basin_have_shades_and_a_word_for_them(visit):
+    visitor = visit()
+    visitor.open("?version=1&amplitude=14&period=1.35&restitution=0.925")
+    visitor.page.wait_for_function("document.getElementById('shades').textContent === 'paler: another orbit'")
+    image = np.array(dict(json.loads(visitor.data("basin"))[0])["image"][0])
+    unsymmetric = 2
+    assert {unsymmetric, unsymmetric + len(LOOKS)} <= set(image.ravel().tolist())
+    visitor.see("twins")
+    visitor.click("map", 0.2, 0.9)
+    visitor.page.wait_for_function("document.getElementById('shades').textContent === ''")
+    visitor.is_content()
+
+
+def test_two_visitors_do_not_disturb_each_other(visit):
+    one, other = visit(), visit()
+    one.open("?version=1&amplitude=6.5&period=0.4&restitution=0.925")
+    other.open("?version=1&amplitude=1.75&period=2&restitution=0.95")
+    one.click("map", 0.3, 0.5)
+    other.click("map", 0.7, 0.9)
+    for visitor in (one, other):
+        visitor.page.wait_for_function("document.getElementById('undo').disabled === false")
+        visitor.judged()
+        visitor.finished()
+    assert "restitution=0.925" in one.page.url
+    assert "restitution=0.95" in other.page.url
+    assert (one.text("kind"), other.text("kind")) == ("periodic", "overturned")
+    one.is_content()
+    other.is_content()
+
+
+def test_block_in_metres_stands_on_the_map_with_axes_in_si(visit):
+    visitor = visit()
+    visitor.open()
+    visitor.page.click("text=Real units")
+    for name, text in (("height", "2"), ("width", "0.5"), ("acceleration", "0.4"), ("frequency_hz", "1.2")):
+        visitor.page.fill(f"#m-{name}", text)
+    visitor.page.select_option("#metres [name=unit]", "g")
+    visitor.page.click("text=Show this block")
+    visitor.page.wait_for_function("location.search.includes('height=2')")
+    visitor.page.keyboard.press("Escape")
+    visitor.judged()
+    visitor.finished()
+    amplitude = float(visitor.page.input_value("#amplitude"))
+    assert amplitude == pytest.approx(0.4 / np.arctan2(0.5, 2.0))
+    assert float(visitor.page.input_value("#restitution")) == pytest.approx(1 - 1.5 * 0.25 / 4.25)
+    assert (
+        visitor.page.evaluate("Bokeh.documents[0].get_model_by_name('map').above[0].axis_label")
+        == "period (s)"
+    )
+    visitor.see("metres")
+    visitor.is_content()
+
+
+def test_what_is_taken_along_gives_the_same(visit, tmp_path):
+    visitor = visit()
+    visitor.open("?version=1&amplitude=6.5&period=0.4&restitution=0.925")
+    visitor.finished()
+    visitor.page.click("text=Take it with you")
+    visitor.see("take")
+    evidence = visitor.text("evidence")
+    saved = {}
+    for kind in ("png", "svg", "csv"):
+        visitor.page.select_option("#which", "history" if kind == "csv" else "map")
+        with visitor.page.expect_download() as download:
+            visitor.page.click(f"[data-save={kind}]")
+        saved[kind] = tmp_path / download.value.suggested_filename
+        download.value.save_as(saved[kind])
+    assert saved["png"].read_bytes()[:8] == b"\x89PNG\r\n\x1a\n"
+    assert "<svg" in saved["svg"].read_text()
+    time, angle = np.genfromtxt(saved["csv"], delimiter=",", names=True, usecols=(0, 1)).view((float, 2)).T
+    assert time[-1] == pytest.approx(30 * 0.4)
+    assert np.abs(angle).max() < 1
+    (tmp_path / "lines.py").write_text(visitor.text("python"))
+    told = subprocess.run(
+        [sys.executable, tmp_path / "lines.py"], capture_output=True, text=True, check=True, timeout=120
+    )
+    assert told.stdout == f"periodic: {evidence}\n"
+    command = visitor.text("commands").splitlines()[0]
+    done = subprocess.run(
+        [sys.executable, "-m", *command.split()], capture_output=True, text=True, check=True, timeout=120
+    )
+    assert evidence in " ".join(done.stdout.split())
+    visitor.is_content()
+
+
+def test_pointing_at_the_map_tells_kind_period_evidence_and_exponent(visit):
+    visitor = visit()
+    visitor.open()
+    visitor.finished()
+    visitor.page.mouse.move(*visitor.place("map", 0.05, 0.35))
+    told = visitor.text("readout")
+    assert re.search(
+        r"T = 0\.3\d*, A = 5\.\d*: period 3; repeats after 3 cycles, 2 impacts; .*\(verified\); λ₁ = −0\.\d",
+        told,
+    )
+    visitor.is_content()
+
+
+def test_section_grows_to_a_hundred_thousand_points(visit):
+    visitor = visit()
+    visitor.open("?version=1&amplitude=10.103037&period=1.721328&restitution=0.8")
+    label = "Bokeh.documents[0].get_model_by_name('section').below[0].axis_label"
+    steps = [int(visitor.page.evaluate(label).partition("(")[2].partition(" ")[0].replace(",", ""))]
+    visitor.page.wait_for_function(f"{label}.includes('100,000 cycles')")
+    assert steps[0] < 100_000
+    visitor.see("chaotic")
+    visitor.is_content()
+
+
+STOPS = """() => {
+  const stops = [...document.querySelectorAll("header button, main button, main input, main select, #map, #basin")];
+  stops.forEach((each, n) => { each.disabled = false; each.dataset.stop = n; });
+  document.activeElement.blur();
+  return stops.length;
+}"""
+NAMELESS = """() => {
+  const named = each => each.getAttribute("aria-label") || each.textContent.trim() || each.closest("label")?.textContent.trim();
+  const pictures = [...document.querySelectorAll(".plot, canvas#block")].filter(each => each.getAttribute("role") !== "img");
+  return [...document.querySelectorAll("button, input, select, [role=img]")].filter(each => !named(each)).concat(pictures)
+    .map(each => each.outerHTML);
+}"""
+
+
+def test_every_control_is_reached_by_the_keyboard_and_has_a_name(visit):
+    visitor = visit()
+    visitor.open()
+    visitor.finished()
+    wanted, reached = visitor.page.evaluate(STOPS), set()
+    for _ in range(wanted + 20):
+        visitor.page.keyboard.press("Tab")
+        reached.add(visitor.page.evaluate("document.activeElement?.dataset?.stop"))
+    assert {str(stop) for stop in range(wanted)} <= reached
+    assert visitor.page.evaluate(NAMELESS) == []
+
+
+CONTRAST = """() => {
+  const channel = value => { value /= 255; return value <= 0.03928 ? value / 12.92 : ((value + 0.055) / 1.055) ** 2.4; };
+  const parse = text => text.match(/[\\d.]+/g).map(Number);
+  const light = ([r, g, b]) => 0.2126 * channel(r) + 0.7152 * channel(g) + 0.0722 * channel(b);
+  const behind = node => {
+    for (; node; node = node.parentElement) {
+      const colour = parse(getComputedStyle(node).backgroundColor);
+      if (colour.length < 4 || colour[3] > 0) return colour;
+    }
+    return [255, 255, 255];
+  };
+  const written = node => [...node.childNodes].some(each => each.nodeType === 3 && each.textContent.trim());
+  const poor = [];
+  for (const dialog of document.querySelectorAll("dialog")) dialog.show();
+  for (const node of document.querySelectorAll("header *, main *, dialog *")) {
+    if (node.closest(":disabled") || !written(node)) continue;
+    const [one, other] = [light(parse(getComputedStyle(node).color)), light(behind(node))];
+    const ratio = (Math.max(one, other) + 0.05) / (Math.min(one, other) + 0.05);
+    if (ratio < 4.5) poor.push([node.tagName, node.textContent.trim().slice(0, 30), ratio]);
+  }
+  return poor;
+}"""
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_text_stands_out_from_its_ground(visit, scheme):
+    visitor = visit(1280, 800, scheme)
+    visitor.open()
+    visitor.finished()
+    assert visitor.page.evaluate(CONTRAST) == []

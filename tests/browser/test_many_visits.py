@@ -1,0 +1,159 @@
+"""Visits that are opened and dropped leave nothing behind, and no message of a stranger ends the server."""
+
+import asyncio
+import json
+import random
+import re
+from concurrent.futures import ThreadPoolExecutor
+
+import psutil
+import pytest
+from tornado.httpclient import AsyncHTTPClient, HTTPClientError
+from tornado.websocket import websocket_connect
+
+from rocking.survey import cores
+
+FORGOTTEN = 8.0
+"""Seconds after which the server has dropped a visit that nobody looks at, and looked for such."""
+ALLOWED = 30e6
+"""Bytes that the memory may have grown by, however many visits: one alone takes some 10⁷."""
+
+
+def run(coroutine):
+    """In a thread of its own: where a browser was, this one has a loop already."""
+    with ThreadPoolExecutor(1) as pool:
+        return pool.submit(asyncio.run, coroutine).result()
+
+
+async def opened(address):
+    """A page that was loaded and has its connection: (connection, number of its `link`)."""
+    page = await AsyncHTTPClient().fetch(address)
+    token = re.search(rb'"token":"([^"]+)"', page.body)[1].decode()
+    connection = await websocket_connect(
+        address.replace("http", "ws") + "ws", subprotocols=["bokeh", token], max_message_size=2**28
+    )
+    await frames(connection, 3)  # the greeting
+    await send(connection, "PULL-DOC-REQ", {})
+    link = None
+    while link is None:
+        frame = await connection.read_message()
+        if isinstance(frame, str):
+            link = re.search(r'"name":"rocking.explorer.link.Link","id":"(p\d+)"', frame)
+    return connection, link[1]
+
+
+async def frames(connection, count):
+    for _ in range(count):
+        await connection.read_message()
+
+
+async def send(connection, kind, content):
+    header = {"msgid": str(random.random()), "msgtype": kind}
+    for part in (header, {}, content):
+        await connection.write_message(json.dumps(part))
+
+
+async def ask(connection, link, text):
+    change = {"kind": "ModelChanged", "model": {"id": link}, "attr": "asked", "new": text}
+    await send(connection, "PATCH-DOC", {"events": [change]})
+
+
+async def drop_many(address, count):
+    """Open so many visits, each of which asks for a map of its own, and drop them at once."""
+    for number in range(count):
+        connection, link = await opened(address)
+        view = f"version=1&amplitude={2 + number % 9}&period=1&restitution=1"
+        await ask(connection, link, json.dumps({"what": "open", "fields": {"address": view}}))
+        connection.close()
+    await asyncio.sleep(FORGOTTEN)
+
+
+@pytest.mark.parametrize("visits", [20, pytest.param(200, marks=pytest.mark.long)])
+def test_visits_opened_and_dropped_leave_nothing_behind(running, visits):
+    server = psutil.Process(running.process.pid)
+    threads = server.num_threads() + 2 * cores() + 1  # both pools, and one that a diagram has for a moment
+    run(drop_many(running.address, 10))
+    assert comes_to_rest(server)
+    memory = server.memory_info().rss
+    run(drop_many(running.address, visits))
+    assert server.num_threads() <= threads
+    assert server.memory_info().rss < memory + ALLOWED
+    assert comes_to_rest(server), "the server goes on computing for nobody"
+
+
+def comes_to_rest(server):
+    """Whether the server ends what it was at, within a minute or two: it may have to compile on a new machine."""
+    for _ in range(120):
+        before = server.cpu_times().user
+        run(asyncio.sleep(1.0))
+        if server.cpu_times().user - before < 0.1:
+            return True
+    return False
+
+
+STRANGE = [
+    "", "{", "[]", "7", "null", "[" * 3000, "x" * 5000, "\\ud800",
+    *(json.dumps(each) for each in (
+        {"what": "open"}, {"what": 3, "fields": {}}, {"what": "fields", "fields": []}, {"what": "fields", "fields": {"amplitude": 3}},
+        {"what": "fields", "fields": {"__class__": "3", "system": "x"}}, {"what": "case", "fields": {"name": "nothing"}},
+        {"what": "case", "fields": {}}, {"what": "metres", "fields": {}}, {"what": "metres", "fields": {"height": "1e400", "unit": "g"}},
+        {"what": "open", "fields": {"address": "?version=99"}}, {"what": "open", "fields": {"address": "a=1&" * 600}},
+        {"what": "fields", "fields": {"periods": "3:1"}}, {"what": "fields", "fields": {"periods": "1:1.0000000000000002"}},
+        {"what": "fields", "fields": {"amplitudes": "-1:1e9"}}, {"what": "fields", "fields": {"cycles": "9" * 4000}},
+        {"what": "fields", "fields": {"curves": "a,b"}}, {"what": "fields", "fields": {"vary": "__dict__"}},
+        {"what": "fields", "fields": {"brace_angle": "0.5", "angle": "0.9"}},
+    )),
+]  # fmt: skip
+
+
+def test_messages_of_a_stranger_are_refused_and_the_server_goes_on(running):
+    async def talk():
+        connection, link = await opened(running.address)
+        for text in STRANGE:
+            await ask(connection, link, text)
+        noise = random.Random(5)
+        for _ in range(100):
+            text = "".join(
+                chr(noise.choice([noise.randrange(32, 127), noise.randrange(0x2000)]))
+                for _ in range(noise.randrange(60))
+            )
+            await ask(
+                connection,
+                link,
+                json.dumps(
+                    {"what": "fields", "fields": {noise.choice(["amplitude", "periods", "curves"]): text}}
+                ),
+            )
+        await ask(
+            connection,
+            link,
+            json.dumps(
+                {
+                    "what": "open",
+                    "fields": {"address": "version=1&amplitude=6.5&period=0.4&restitution=0.925"},
+                }
+            ),
+        )
+        while "3 cycles, symmetric" not in str(await connection.read_message()):
+            pass
+        connection.close()
+
+    run(asyncio.wait_for(talk(), 100))
+    assert running.process.poll() is None
+
+
+def test_another_origin_gets_no_connection_and_no_other_address_an_answer(running):
+    async def intrude():
+        page = await AsyncHTTPClient().fetch(running.address)
+        token = re.search(rb'"token":"([^"]+)"', page.body)[1].decode()
+        from tornado.httpclient import HTTPRequest
+
+        request = HTTPRequest(
+            running.address.replace("http", "ws") + "ws", headers={"Origin": "http://example.org"}
+        )
+        with pytest.raises(HTTPClientError, match="403"):
+            await websocket_connect(request, subprotocols=["bokeh", token])
+
+    run(intrude())
+    sockets = psutil.Process(running.process.pid).net_connections("tcp")
+    assert {each.laddr.ip for each in sockets if each.status == psutil.CONN_LISTEN} == {"127.0.0.1"}

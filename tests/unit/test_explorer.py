@@ -1,0 +1,431 @@
+"""What the page shows is a value: to an address and back; nothing typed breaks it; its pictures are the map's."""
+
+import asyncio
+import json
+import math
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import suppress
+from functools import partial
+
+import numpy as np
+import pytest
+from bokeh.document import Document
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import rocking as rk
+from rocking.explorer import figures, gallery, pictures, planes, told
+from rocking.explorer.app import GROUNDS, LEVELS
+from rocking.explorer.fields import READ, Refused, address, changed, from_address, in_metres, written
+from rocking.explorer.link import message
+from rocking.explorer.orbits import Orbits
+from rocking.explorer.refine import UNDETERMINED, WHITE, Picture, Plane, Refinement
+from rocking.explorer.state import DEFAULT, POINTS, Shown, Span, closest, nearby
+from rocking.explorer.visit import Visit
+from rocking.explorer.work import Jobs, Workers
+from rocking.plot.kinds import LOOKS, NONE, looks
+
+numbers = st.floats(allow_nan=False, allow_infinity=False)
+
+
+def inside(low, high):
+    return st.floats(low, high).map(lambda value: value + 0.0)
+
+
+def spans(low, high):
+    pairs = st.tuples(inside(low, high), inside(low, high)).map(sorted).map(lambda ends: Span(*ends))
+    return pairs.filter(lambda span: span.width > closest(span))
+
+
+SHOWN = st.builds(
+    Shown,
+    amplitude=inside(0, 1000),
+    period=inside(0.01, 6000),
+    restitution=inside(0, 1),
+    phase=inside(-1000, 1000),
+    velocity=inside(-1000, 1000),
+    brace_angle=st.none() | inside(1e-3, 1e3),
+    amplitudes=spans(0, 1000),
+    periods=spans(0.01, 6000),
+    angles=spans(-1000, 1000),
+    vary=st.sampled_from(["amplitude", "period"]),
+    first=st.integers(0, 100_000),
+    curves=st.sampled_from([(), ("melnikov",), ("existence-3", "heteroclinic")]),
+    height=st.none() | inside(1e-3, 1e3),
+)
+
+
+@given(SHOWN)
+def test_address_gives_back_every_digit(shown):
+    again, refused = from_address("?" + address(shown))
+    assert refused == {}
+    # what is as at the beginning is left out, and a zero has one sign
+    assert again == shown
+
+
+@settings(deadline=None)
+@given(st.dictionaries(st.sampled_from([*READ, "version", "x"]), st.text(max_size=30)))
+def test_any_address_shows_something_that_can_be_shown(typed):
+    from urllib.parse import urlencode
+
+    shown, refused = from_address("?" + urlencode(typed))
+    assert rk.simulate(shown.system, shown.start, cycles=1, record="none").cycles <= 1
+    assert all(text for text in refused.values())
+    assert from_address(address(shown)) == (shown, {})
+
+
+@given(st.text(max_size=300))
+def test_any_text_is_an_address(text):
+    assert isinstance(from_address(text)[0], Shown)
+
+
+PART = st.none() | numbers | st.text(max_size=5) | st.lists(st.text(max_size=5))
+JSON = st.dictionaries(
+    st.sampled_from(["what", "fields", "x"]), PART | st.dictionaries(st.text(max_size=5), PART)
+).map(json.dumps)
+
+
+@settings(deadline=None)
+@given(st.text(max_size=100) | JSON)
+def test_any_message_is_heard_or_refused(text):
+    with suppress(Refused):
+        message(text)
+
+
+@pytest.mark.parametrize(
+    "typed, field, sentence",
+    [
+        ({"amplitude": "x"}, "amplitude", "amplitude must be a number in [0, 1000]; got 'x'"),
+        ({"restitution": "1.2"}, "restitution", "restitution must be a number in [0, 1]; got '1.2'"),
+        ({"period": "nan"}, "period", "period must be a number in [0.00628319, 6283.19]; got 'nan'"),
+        ({"cycles": "1.5"}, "cycles", "cycles must be a whole number in [1, 200]; got '1.5'"),
+        ({"cycles": "²"}, "cycles", "cycles must be a whole number in [1, 200]; got '²'"),
+        ({"vary": "phase"}, "vary", "vary must be one of amplitude, period; got 'phase'"),
+        ({"brace_angle": "0.5", "angle": "0.9"}, "angle", "angle must lie between the braces, in [-0.5, 0.5]; got 0.9"),
+        ({"periods": "2:1"}, "periods", "periods must be LOW:HIGH, LOW below HIGH, no closer than doubles can tell; got '2:1'"),
+    ],
+)  # fmt: skip
+def test_field_is_refused_in_one_sentence(typed, field, sentence):
+    with pytest.raises(Refused) as refusal:
+        changed(DEFAULT, typed)
+    assert refusal.value.fields == {field: sentence}
+
+
+def test_block_in_metres_is_the_packages():
+    shown = in_metres(
+        DEFAULT, {"height": "2", "width": "0.5", "acceleration": "3", "unit": "m/s²", "frequency_hz": "1.2"}
+    )
+    block = rk.Block(2.0, 0.5)
+    system = block.system(acceleration=3.0, frequency_hz=1.2)
+    assert (shown.amplitude, shown.period) == (system.forcing.amplitude, system.forcing.period)
+    assert (shown.restitution, shown.block.critical_angle) == (block.restitution, block.critical_angle)
+    assert shown.amplitudes.low <= shown.amplitude <= shown.amplitudes.high
+    with pytest.raises(Refused, match="restitution by Housner's formula is"):
+        in_metres(DEFAULT, {"height": "1", "width": "9", "acceleration": "3", "frequency_hz": "1"})
+
+
+@pytest.mark.parametrize(
+    "middle, width", [(1.3, 1e-3), (1.3, 1e-9), (1.3, 4e-12), (15.9, 1e-10), (1e3, 1e-8), (0.0, 1e-12)]
+)
+def test_deep_views_are_drawn_as_differences_without_loss(middle, width):
+    span = Span(middle, middle + width)
+    base = planes.base_of(span)
+    low, high = span.low - base, span.high - base
+    # what the browser adds again are the ends themselves
+    assert (base + low, base + high) == (span.low, span.high)
+    assert max(abs(low), abs(high)) * 2**-52 < (high - low) / (POINTS - 1) / 100
+    assert len(written(base)) <= 20
+
+
+def test_points_of_a_picture_are_the_middles_of_its_cells():
+    across, up = Span(0.2, 3.0), Span(0.0, 16.0)
+    picture = Picture(
+        {"orbit": np.zeros((5, 5), int)}, np.zeros((5, 5), int), points=5, settled=0, of=0, done=True
+    )
+    drawn = planes.image(picture, planes.Corner(0.0, 0.0), across, up)
+    for begin, length, span in (("x", "w", across), ("y", "h", up)):
+        middles = drawn[begin][0] + (np.arange(5) + 0.5) * drawn[length][0] / 5
+        np.testing.assert_allclose(middles, np.linspace(span.low, span.high, 5), atol=1e-14)
+
+
+def test_narrowest_view_still_has_a_double_for_every_point():
+    for middle in (0.2, 1.0, 3.0, 16.0, 999.0):
+        span = Span(middle, middle + closest(Span(middle, middle)))
+        steps = np.diff(np.linspace(span.low, span.high, POINTS))
+        assert steps.min() >= 4 * math.ulp(middle)
+
+
+def alone(coroutine):
+    """In a thread of its own: where a browser was, this one has a loop already."""
+    with ThreadPoolExecutor(1) as pool:
+        return pool.submit(asyncio.run, coroutine).result()
+
+
+def refined(plane):
+    async def run():
+        workers = Workers()
+        refinement = Refinement(plane, workers, np.zeros(1, np.int64))
+        pictures = [refinement.coarse()]
+        pictures += [picture async for picture in refinement.finer()]
+        workers.close()
+        return pictures
+
+    return alone(run())
+
+
+def test_refined_map_is_the_packages_map():
+    plane = Plane(("period", Span(0.2, 3.0)), ("amplitude", Span(0.0, 16.0)), {"restitution": 0.925}, 33)
+    pictures = refined(plane)
+    found = rk.parametric_map(
+        period=np.linspace(0.2, 3, 33), amplitude=np.linspace(0, 16, 33), restitution=0.925
+    )
+    names = "kind", "response_period", "symmetric"
+    assert (pictures[-1].look == looks(*(found[name].values for name in names))).all()
+    assert [len(picture.look) for picture in pictures if picture.settled == picture.of][:3] == [5, 9, 17]
+    assert pictures[-1].done
+    assert pictures[-1].colours().shape == (33, 33)
+
+
+def test_coarse_map_calls_undetermined_what_it_cannot_know():
+    """Chaos needs 10,000 cycles: what has fewer says that it does not know."""
+    plane = Plane(("period", Span(1.1, 1.2)), ("amplitude", Span(6.95, 7.05)), {"restitution": 0.3}, 9)
+    chaotic = [look.name for look in LOOKS].index("chaotic")
+    first, *_, last = refined(plane)
+    assert (first.fields["kind"] == UNDETERMINED).any()
+    assert not (first.look == chaotic).any()
+    assert (last.look == chaotic).any()
+
+
+def test_starts_beyond_the_braces_are_no_starts():
+    fixed = {"amplitude": 2.0, "period": 1.0, "restitution": 0.9, "brace_angle": 0.5}
+    plane = Plane(("angle", Span(-1.0, 1.0)), ("velocity", Span(-1.0, 1.0)), fixed, 17, reach=0.5)
+    last = refined(plane)[-1]
+    outside = np.abs(np.linspace(-1, 1, 17)) > 0.5
+    assert (last.look[:, outside] == NONE).all()
+    assert not (last.look[:, ~outside] == NONE).any()
+
+
+def test_mirror_images_have_shades_of_their_own():
+    fixed = {"amplitude": 14.0, "period": 1.35, "restitution": 0.925}
+    plane = Plane(("angle", Span(-0.5, 0.5)), ("velocity", Span(-0.5, 0.5)), fixed, 17, apart=True)
+    *_, last = refined(plane)
+    starts = np.linspace(-0.5, 0.5, 17)
+    system = rk.System(rk.Harmonic(14.0, period=1.35), 0.925)
+    found = rk.basin_map(system, angle=starts, velocity=starts, boundary_runs=0)
+    attractor = found.dataset.attractor.transpose("velocity", "angle").values
+    twins = last.look == [look.name for look in LOOKS].index("1, unsymmetric")
+    pairs = set(zip(attractor[twins].tolist(), last.fields["orbit"][twins].tolist(), strict=True))
+    assert len(pairs) == len(set(attractor[twins].tolist())) == 2
+    assert {number for _, number in pairs} == {0, 1}
+    shades = [
+        set(last.colours()[twins & (last.fields["orbit"] == number)].tolist()) - {WHITE} for number in (0, 1)
+    ]
+    assert [len(shade) for shade in shades] == [1, 1]
+    assert len({figures.PALETTE[number] for shade in shades for number in shade}) == 2
+
+
+def test_orbits_keep_their_numbers_and_too_many_have_none():
+    orbits = Orbits()
+    looks, states = np.array([3, 1, 3, 3]), np.array([[0.5, 1.0], [0.5, 1.0], [-0.5, 2.0], [np.nan, np.nan]])
+    assert orbits.numbers(looks, states).tolist() == [0, 0, 1, 0]
+    assert orbits.numbers(looks[::-1], states[::-1] + 1e-7).tolist() == [0, 1, 0, 0]
+    many = np.column_stack([np.arange(40.0), np.zeros(40)])
+    assert orbits.numbers(np.full(40, 7), many).tolist() == [*range(16), *[0] * 24]
+
+
+def test_start_far_beyond_return_is_drawn_as_far_as_doubles_hold():
+    typed = {
+        "amplitude": "0.0004",
+        "period": "2420",
+        "restitution": "0",
+        "phase": "-1000",
+        "angle": "-1000",
+        "cycles": "1",
+    }
+    shown = changed(DEFAULT, typed)
+    drawn = pictures.response(shown)
+    assert np.isfinite([*drawn.spans["history"], *drawn.spans["portrait"]]).all()
+    assert drawn.history["angle"][0] == -1000.0
+
+
+def test_motion_that_becomes_faster_than_any_start_is_drawn():
+    """Beyond return a block gains speed until a brace sends it back."""
+    typed = {
+        "amplitude": "0",
+        "period": "0.00628318530717959",
+        "velocity": "1000",
+        "brace_angle": "1000",
+        "first": "100",
+    }
+    shown = changed(DEFAULT, typed)
+    assert len(pictures.response(shown).history["time"]) > 2
+    section = pictures.Section(shown)
+    section.grow(100)
+    assert section.ended == "too fast"
+
+
+def test_motion_of_too_many_events_has_no_pictures(monkeypatch):
+    monkeypatch.setattr(pictures, "SOON_HITS", 5.0)
+    shown = changed(DEFAULT, {"amplitude": "2.0078125", "restitution": "0.98", "brace_angle": "0.01"})
+    assert pictures.crowded(shown)
+    assert pictures.spectrum(shown).why == pictures.NO_SPECTRUM
+    assert (
+        len(pictures.response(shown).history["time"])
+        == len(pictures.diagram(shown, np.zeros(1, np.int64))[0]["angle"])
+        == 0
+    )
+
+
+def test_map_that_is_no_longer_wanted_ends():
+    async def run():
+        workers, stop = Workers(), np.zeros(1, np.int64)
+        plane = Plane(
+            ("period", Span(0.2, 3.0)), ("amplitude", Span(1.0, 16.0)), {"restitution": 1.0}, POINTS
+        )
+        refinement = Refinement(plane, workers, stop)
+        refinement.coarse()
+        stop[0] = 1
+        with pytest.raises(asyncio.CancelledError):
+            async for _ in refinement.finer():
+                pass
+        workers.close()
+
+    alone(run())
+
+
+def test_what_is_under_way_for_one_system_ends_when_another_is_chosen():
+    """Else the verdict on the system before could come last."""
+
+    async def run():
+        stops, workers = {}, Workers()
+        visit = Visit(Document(), workers)
+        visit.hear(json.dumps({"what": "open", "fields": {}}))
+
+        async def endless(name, stop):
+            stops[name] = stop
+            await asyncio.Event().wait()
+
+        for name in ("response", "section", "basin", "judge", "diagram"):
+            visit.painter.jobs.start(name, partial(endless, name))
+        await asyncio.sleep(0)
+        visit.hear(json.dumps({"what": "fields", "fields": {"period": "1.5"}}))
+        ended = {name: int(stop[0]) for name, stop in stops.items()}
+        visit.painter.jobs.end_all()
+        workers.close()
+        return ended
+
+    assert alone(run()) == {"response": 1, "section": 1, "basin": 1, "judge": 1, "diagram": 1}
+
+
+def test_job_waits_for_another_however_that_ends():
+    async def run():
+        jobs, told = Jobs(), []
+
+        async def first(stop):
+            try:
+                await asyncio.sleep(0.05)
+            finally:
+                told.append("first")
+
+        async def second(stop):
+            await jobs.over("first")
+            told.append("second")
+
+        for early in (False, True):
+            jobs.start("first", first)
+            jobs.start("second", second)
+            await asyncio.sleep(0.01)
+            if early:
+                jobs.end("first")
+            await jobs.over("second")
+        return told
+
+    assert alone(run()) == ["first", "second"] * 2
+
+
+def test_diagram_that_is_no_longer_wanted_ends_midway(monkeypatch):
+    stop, done = np.zeros(1, np.int64), []
+
+    def piece(system, parameter, values, *rest):
+        stop[0] = 1
+        done.append(len(values))
+        return rk.orbit_diagram(system, parameter, values, *rest)
+
+    monkeypatch.setattr(pictures, "orbit_diagram", piece)
+    monkeypatch.setattr(pictures, "PIECE_HITS", 5e3)
+    with pytest.raises(asyncio.CancelledError):
+        pictures.diagram(DEFAULT, stop)
+    assert len(done) == 1
+    assert done[0] < pictures.VALUES
+
+
+def test_diagram_costs_what_its_dearest_values_cost(monkeypatch):
+    """The one selected may be cheap."""
+    asked = []
+    monkeypatch.setattr(
+        pictures, "orbit_diagram", lambda *given: asked.append(given) or rk.orbit_diagram(*given)
+    )
+    monkeypatch.setattr(pictures, "SOON_HITS", 5.0)
+    shown = changed(DEFAULT, {"amplitude": "0", "restitution": "0.98", "brace_angle": "0.01"})
+    assert not pictures.crowded(shown)
+    assert len(pictures.diagram(shown, np.zeros(1, np.int64))[0]["angle"]) == len(asked) == 0
+
+
+def test_pieces_of_a_diagram_are_the_whole(monkeypatch):
+    stop = np.zeros(1, np.int64)
+    whole = pictures.diagram(DEFAULT, stop)[0]
+    monkeypatch.setattr(pictures, "PIECE_HITS", 5e3)
+    pieces = pictures.diagram(DEFAULT, stop)[0]
+    assert all((whole[name] == pieces[name]).all() for name in ("value", "angle"))
+
+
+@given(st.floats(-1000, 1000), st.integers(-11, 3), st.floats(0, 1))
+def test_click_selects_a_short_number_nearer_than_the_next_point(low, power, share):
+    span = Span(low, low + 10.0**power)
+    at = low + share * span.width
+    chosen = nearby(at, span)
+    assert abs(chosen - at) <= 0.5001 * span.width / (POINTS - 1) + math.ulp(at)
+    assert span.low <= chosen <= span.high
+    assert chosen in (span.low, span.high) or len(written(chosen).lstrip("-")) <= 8 + max(0, -power)
+
+
+def test_curve_of_a_mode_is_dotted_on_the_page_where_the_mode_is_not_admissible():
+    shown = changed(DEFAULT, {"curves": "symmetry-breaking-3,melnikov"})
+    drawn = planes.curves(shown, planes.Corner(0.0, 0.0))
+    assert drawn["dash"] == [planes.DASHES["symmetry-breaking-3"], planes.DOTTED, planes.DASHES["melnikov"]]
+    for periods, heights, holds in zip(drawn["xs"][:2], drawn["ys"][:2], (True, False), strict=True):
+        inner = np.flatnonzero(np.isfinite(heights))[1:-1]
+        modes = [rk.theory.symmetric_modes(heights[k] * (1 + 1e-12), periods[k], 0.925, 3)[0] for k in inner]
+        assert {mode.admissible for mode in modes} == {holds}
+
+
+KINDS = {
+    "figure-2a": ("periodic", 1), "figure-2b": ("periodic", 3), "figure-2c": ("periodic", 10), "figure-4": ("overturned", None),
+    "figure-5": ("quasi-periodic", None), "figure-6": ("chaotic", None), "figure-11": ("periodic", 1), "figure-13a": ("chaotic", None),
+    "coexisting": ("periodic", 3), "fractal": ("periodic", 1), "cascade": ("chaotic", None), "chaos-more-loss": ("chaotic", None),
+    "crisis": ("chaotic", None),
+}  # fmt: skip
+
+
+CASES = pytest.mark.parametrize("case", gallery.CASES, ids=lambda case: case.name)
+
+
+@CASES
+def test_case_of_the_gallery_is_what_it_says(case):
+    verdict = rk.classify(case.shown.system, case.shown.start)
+    assert (verdict.kind, verdict.period) == KINDS[case.name]
+
+
+@CASES
+def test_case_of_the_gallery_has_an_address_and_lines_of_python(case):
+    assert from_address(address(case.shown)) == (case.shown, {})
+    compile(told.python(case.shown), case.name, "exec")
+
+
+def test_every_ground_of_the_cascade_has_its_words_and_its_level():
+    """What a map keeps of the evidence is a number; the page tells it as `classify` does."""
+    found = rk.parametric_map(amplitude=[0.5, 2.0], period=[1.0, 2.0], restitution=0.925)
+    assert len(GROUNDS) == len(LEVELS) == len(found.evidence.attrs["flag_meanings"].split())
+    for amplitude, period in ((0.5, 1.0), (2.0, 1.0), (2.0, 2.0)):
+        verdict = rk.classify(rk.System(rk.Harmonic(amplitude, period=period), 0.925))
+        assert LEVELS[int(found.evidence.sel(amplitude=amplitude, period=period))] == verdict.evidence.level
