@@ -1,22 +1,34 @@
-"""What every test has: pictures without a screen, and the README's code run as it stands."""
+"""What every test has: pictures without a screen; and the code of the README and of the pages, run as it stands."""
 
 import os
 import shlex
+import signal
 import subprocess
 import sysconfig
 from pathlib import Path
 
 import pytest
 from sybil import Sybil
-from sybil.parsers.markdown import CodeBlockParser, PythonCodeBlockParser
+from sybil.parsers.myst import CodeBlockParser, PythonCodeBlockParser
 
 os.environ["MPLBACKEND"] = "Agg"
 
+# Whoever starts the tests in the background has them ignore Ctrl-C, and what they start would too.
+signal.signal(signal.SIGINT, signal.default_int_handler)
+
+# What makes the pages needs the parts that only `make docs` installs, and is tried by making them.
+collect_ignore = ["docs/extensions"]
+
+
+FOLDERS = {}
+
 
 @pytest.fixture
-def empty_folder(tmp_path, monkeypatch):
-    """The reader's own folder: what an example writes goes there."""
-    monkeypatch.chdir(tmp_path)
+def readers_folder(request, tmp_path_factory, monkeypatch):
+    """The reader's own folder, one a page: what an example writes goes there, where the next one finds it."""
+    if request.path not in FOLDERS:
+        FOLDERS[request.path] = tmp_path_factory.mktemp(request.path.stem)
+    monkeypatch.chdir(FOLDERS[request.path])
 
 
 def run_commands(example):
@@ -37,6 +49,6 @@ def pytest_collection_modifyitems(items):
 
 pytest_collect_file = Sybil(
     parsers=[PythonCodeBlockParser(), CodeBlockParser(language="sh", evaluator=run_commands)],
-    patterns=["README.md"],
-    fixtures=["empty_folder"],
+    patterns=["README.md", "docs/*.md"],
+    fixtures=["readers_folder"],
 ).pytest()

@@ -1,6 +1,6 @@
 """`python -m benchmarks`: one table, medians, every ratio from the same run."""
 
-from benchmarks import closed_forms, one_block, orbits, processes, survey, verdicts
+from benchmarks import closed_forms, explorer, lanes, one_block, orbits, processes, survey, verdicts
 from benchmarks.table import Report
 
 
@@ -13,11 +13,13 @@ def main():
     report.section("Whole processes", processes.commands())
     report.section("A long run", processes.long_run())
     report.section("What a response is, over the paper's map", verdicts.maps())
+    report.section("Lanes", lanes.against_one())
     report.section("Maps", survey.maps())
     report.section("Maps: workers, stores, memory", survey.engines())
     report.section("Periodic orbits", orbits.following())
     report.section("Dimension", verdicts.dimension())
     report.section("The theory", closed_forms.amplitudes())
+    report.section("The page, in a browser", explorer.page())
     report.close()
 
 

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Makes .venv with the pinned versions, or brings it up to date; does nothing when nothing changed.
-# PYTHON=... names the interpreter; otherwise the newest one that has a constraint file.
+# setup.sh [EXTRA...]: makes .venv with the pinned versions, or brings it up to date; does nothing when nothing changed.
+# An EXTRA, such as docs, is added where it is asked for. PYTHON=... names the interpreter; otherwise the newest one that has a
+# constraint file.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -62,9 +63,28 @@ refuse() {
     exit 1
 }
 
+# install CONSTRAINTS WHAT: this package with extras, everything as pinned.
+install() {
+    .venv/bin/python -m pip install --quiet --constraint "$1" --no-build-isolation --editable "$2"
+}
+
+# Adds those extras that were not yet added to this .venv as it is now.
+add() {
+    local extra
+    for extra in "$@"; do
+        [ "$(cat "$STAMP-$extra" 2>/dev/null)" != "$wanted" ] || continue
+        echo "Adding what the extra $extra needs ..."
+        install "$(constraints_for "$(version_of .venv/bin/python)")" ".[$extra]"
+        echo "$wanted" >"$STAMP-$extra"
+    done
+}
+
 wanted=$(fingerprint)
 if is_usable; then
-    [ "$(cat "$STAMP")" != "$wanted" ] || exit 0
+    if [ "$(cat "$STAMP")" = "$wanted" ]; then
+        add "$@"
+        exit 0
+    fi
     python=.venv/bin/python
 else
     python=$(choose_python)
@@ -82,5 +102,6 @@ else
     "$python" -m venv .venv
 fi
 .venv/bin/python -m pip install --quiet --constraint "$constraints" pip setuptools
-.venv/bin/python -m pip install --quiet --constraint "$constraints" --no-build-isolation --editable '.[distributed,test,lint]'
+install "$constraints" '.[distributed,explorer,report,test,lint]'
 echo "$wanted" >"$STAMP"
+add "$@"

@@ -93,7 +93,7 @@ def test_version_is_that_of_the_installed_package():
 def test_citations_are_bibtex_with_balanced_braces():
     text = rocking.cite()
     assert text.count("{") == text.count("}")
-    assert text.count("\n@article{") == 8
+    assert text.count("\n@article{") == 10
     assert f"version = {{{rocking.__version__}}}" in text
     for source in (
         "yim-lin-1991",
@@ -104,5 +104,7 @@ def test_citations_are_bibtex_with_balanced_braces():
         "grassberger-procaccia-1983",
         "theiler-1986",
         "das-2017",
+        "mcdonald-1985",
+        "wilson-1927",
     ):
         assert f"{{{source}," in text

@@ -1,0 +1,92 @@
+"""The page in a real browser: from a click to all pictures, from a new map asked for to its first picture and its last."""
+
+import re
+import subprocess
+import sys
+from pathlib import Path
+from statistics import median
+
+from benchmarks.table import Figure
+
+CHROMIUM = "/usr/bin/chromium"
+FLAGS = [
+    "--headless",
+    "--no-sandbox",
+    "--disable-gpu",
+    "--disable-quic",
+    "--no-first-run",
+    "--disable-background-networking",
+]
+CLICKS = [(across / 7, up / 5) for across in range(1, 7) for up in range(1, 5)]
+RESTITUTIONS = 0.92, 0.91, 0.9
+PATIENCE = 60_000
+APART = 500
+"""Milliseconds between two clicks: sooner they are a double click."""
+WATCH = """() => {
+  window.seen = {};
+  const painted = name => requestAnimationFrame(() => requestAnimationFrame(() => { seen[name] ??= performance.now(); }));
+  document.addEventListener("pointerdown", () => { window.seen = { begun: performance.now() }; }, true);
+  link.properties.verdict.change.connect(() => painted("pictures"));
+  link.properties.legend.change.connect(() => painted("first"));
+  link.properties.progress.change.connect(() => { if (JSON.parse(link.progress).done) painted("last"); });
+}"""
+PLACE = """() => {
+  const view = Bokeh.index.find_one(models.map), box = view.el.getBoundingClientRect(), inner = view.frame.bbox;
+  return [box.left + inner.left, box.top + inner.top, inner.width, inner.height];
+}"""
+
+
+def page():
+    """Figures of the page; none where there is no browser."""
+    if not Path(CHROMIUM).exists():
+        return
+    from playwright.sync_api import sync_playwright
+
+    command = [sys.executable, "-m", "rocking", "explore", "--port", "0", "--no-browser"]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True) as server:
+        try:
+            address = re.search(r"http://localhost:\d+/", server.stdout.readline())[0]
+            with sync_playwright() as playwright:
+                browser = playwright.chromium.launch(executable_path=CHROMIUM, args=FLAGS)
+                yield from _figures(browser, address)
+                browser.close()
+        finally:
+            server.terminate()
+
+
+def _figures(browser, address):
+    page = browser.new_page(viewport={"width": 1280, "height": 800})
+    page.set_default_timeout(PATIENCE)
+    page.goto(address)
+    page.wait_for_function("document.body.dataset.map === 'done'")
+    page.evaluate(WATCH)
+    left, top, width, height = page.evaluate(PLACE)
+
+    def click(across, up):
+        page.wait_for_timeout(APART)
+        page.mouse.click(left + across * width, top + (1 - up) * height)
+        return waited(page, "pictures")
+
+    def asked(restitution):
+        page.evaluate(
+            "e => { window.seen = { begun: performance.now() }; ask('fields', { restitution: e }); }",
+            str(restitution),
+        )
+        return waited(page, "last"), waited(page, "first")
+
+    click(0.5, 0.5)
+    times = [click(*place) for place in CLICKS]
+    yield Figure("a click, to all pictures", median(times), "ms", 150, note=f"slowest {max(times):.0f} ms")
+    asked(0.93)
+    last, first = zip(*map(asked, RESTITUTIONS), strict=True)
+    yield Figure("a new map, to its first picture", median(first) / 1e3, "s", 0.3)
+    yield Figure("  to 513 × 513 points, e < 1", median(last) / 1e3, "s", 1.0)
+    last, first = asked(1.0)
+    yield Figure("  e = 1, to its first picture", first / 1e3, "s", 0.3)
+    yield Figure("  e = 1, to 513 × 513 points", last / 1e3, "s", 6.0)
+
+
+def waited(page, name):
+    """Milliseconds from what was asked for to when it was painted."""
+    page.wait_for_function("name => name in window.seen", arg=name)
+    return page.evaluate("name => window.seen[name] - window.seen.begun", name)

@@ -1,0 +1,70 @@
+"""Many blocks in lockstep against one after another, on the map of what loses nothing."""
+
+import math
+import time
+
+import numpy as np
+
+from benchmarks.table import Figure
+from rocking.kernels import many
+from rocking.kernels.answers import no_answers
+from rocking.kernels.desk import desk
+
+POINTS = 100
+PERIODS, AMPLITUDES = (0.2, 3.0), (0.0, 16.0)
+CYCLES, MAX_PERIOD = 10_000, 64
+RUNS = 3
+STILL_OPEN = (3, 5)
+
+
+def best(work):
+    """(seconds of one core of the fastest of a few runs, what it returned)."""
+    fastest, answers = math.inf, None
+    for _ in range(RUNS):
+        begun = time.thread_time()
+        answers = work()
+        fastest = min(fastest, time.thread_time() - begun)
+    return fastest, answers
+
+
+def one_by_one(systems):
+    """Every point judged alone."""
+    answers = no_answers(len(systems))
+    starts, go_on = np.zeros((len(systems), 2)), np.zeros(1, np.int64)
+    many.judge_each(systems, starts, CYCLES, MAX_PERIOD, desk(CYCLES, MAX_PERIOD), answers, go_on)
+    return answers
+
+
+def in_lanes(systems):
+    """What a survey does."""
+    return many.judge_many(systems, np.zeros((len(systems), 2)), CYCLES, MAX_PERIOD, np.zeros(1, np.int64))
+
+
+def against_one():
+    """The map at e = 1, and those of its points that are marched to the end of the budget."""
+    many.compile_many(True)
+    period, amplitude = (
+        axis.ravel() for axis in np.meshgrid(np.linspace(*PERIODS, POINTS), np.linspace(*AMPLITUDES, POINTS))
+    )
+    one = np.ones(period.size)
+    systems = np.column_stack([amplitude, math.tau / period, period, 0 * one, one, math.inf * one, one])
+    together, answers = best(lambda: in_lanes(systems))
+    alone, told = best(lambda: one_by_one(systems))
+    note = f"{1e6 * alone / len(systems):.3g} µs one by one"
+    yield Figure("e = 1, 10⁴ cycles, a point", 1e6 * together / len(systems), "µs", 40, note=note)
+    yield Figure(
+        "  against one by one",
+        alone / together,
+        "×",
+        1,
+        least=True,
+        note="" if many.vectors() else "no vectors here",
+    )
+    share = 100.0 * np.mean(answers.kind != told.kind)
+    yield Figure(
+        "  told otherwise", share, "%", note="as many as a change of the last digit of the phase does"
+    )
+    longest = systems[np.isin(told.kind, STILL_OPEN)]
+    together, _ = best(lambda: in_lanes(longest))
+    alone, _ = best(lambda: one_by_one(longest))
+    yield Figure("  those marched to the end: against one by one", alone / together, "×", 5, least=True)

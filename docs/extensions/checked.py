@@ -1,0 +1,92 @@
+"""What is built is checked: no link within the pages is dead, and nothing is asked of another host."""
+
+import re
+from html.parser import HTMLParser
+from pathlib import Path
+from urllib.parse import unquote, urldefrag, urlsplit
+
+LOADED = {
+    "script": "src",
+    "img": "src",
+    "iframe": "src",
+    "source": "src",
+    "video": "src",
+    "audio": "src",
+    "object": "data",
+}
+LOADED_LINKS = {
+    "stylesheet",
+    "icon",
+    "preload",
+    "prefetch",
+    "preconnect",
+    "dns-prefetch",
+    "manifest",
+    "modulepreload",
+}
+IN_STYLES = re.compile(r"""(?:url\(|@import\s)\s*["']?([^"')\s;]+)""")
+
+
+class Page(HTMLParser):
+    """What a page names (`ids`), what it links to (`links`) and what it loads (`loads`)."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.ids, self.links, self.loads = (
+            set(),
+            [],
+            IN_STYLES.findall("".join(re.findall(r"<style.*?</style>", text, re.DOTALL))),
+        )
+        self.feed(text)
+
+    def handle_starttag(self, tag, attributes):
+        found = {name: value or "" for name, value in attributes}
+        self.ids |= {found[name] for name in ("id", "name") if name in found}
+        if tag == "a" and "href" in found:
+            self.links.append(found["href"])
+        elif tag == "link" and LOADED_LINKS & set(found.get("rel", "").split()):
+            self.loads.append(found.get("href", ""))
+        elif LOADED.get(tag) in found:
+            self.loads.append(found[LOADED[tag]])
+
+
+def is_elsewhere(address):
+    """Whether it names another host."""
+    return bool(urlsplit(address).netloc)
+
+
+def faults(folder):
+    """One sentence for each dead link and each request to another host in the pages and styles of a folder."""
+    folder = folder.resolve()
+    pages = {path: Page(path.read_text(encoding="utf-8")) for path in sorted(folder.rglob("*.html"))}
+    for path, page in pages.items():
+        here = path.relative_to(folder)
+        for address in page.links + page.loads:
+            if is_elsewhere(address):
+                if address in page.loads:
+                    yield f"{here} asks another host for {address}"
+                continue
+            if urlsplit(address).scheme:  # data:, mailto:
+                continue
+            name, anchor = urldefrag(address)
+            target = (path.parent / unquote(urlsplit(name).path)).resolve() if name else path
+            if not target.exists():
+                yield f"{here} points at {address}, which is not there"
+            elif anchor and target.suffix == ".html" and unquote(anchor) not in pages[target].ids:
+                yield f"{here} points at {address}, and there is no such place on that page"
+    for path in sorted(folder.rglob("*.css")):
+        for address in filter(is_elsewhere, IN_STYLES.findall(path.read_text(encoding="utf-8"))):
+            yield f"{path.relative_to(folder)} asks another host for {address}"
+
+
+def check(app, failure):
+    """Says each fault as a warning, at which `make docs` fails."""
+    from sphinx.util.logging import getLogger
+
+    if failure is None and app.builder.format == "html":
+        for fault in faults(Path(app.outdir)):
+            getLogger(__name__).warning(fault)
+
+
+def setup(app):
+    app.connect("build-finished", check, priority=900)

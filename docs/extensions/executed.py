@@ -1,0 +1,124 @@
+"""Every `python` and `sh` block of a page is run when the page is made; what it prints and the pictures it writes stand below it.
+
+A script is shown by the directive ``{script}``: its docstring, what it printed, its picture and its source. Nothing that a page shows was
+computed at another time or place.
+"""
+
+import ast
+import inspect
+import json
+import re
+import shutil
+import subprocess
+import sys
+import textwrap
+from pathlib import Path
+
+from docutils import nodes
+from docutils.parsers.rst import Directive
+from PIL import Image
+from sphinx.errors import ExtensionError
+from sphinx.transforms import SphinxTransform
+from sphinx.util import logging
+
+ROOT = Path(__file__).parents[2]
+RUNS = ROOT / "build" / "docs-runs"  # a folder a page: what its blocks write
+DOTS_PER_INCH, CSS_PIXELS_PER_INCH = 200, 96
+LONG_LINE = 100  # such a line is a sentence, no row of a table
+TABLE = re.compile(r"\S {3,}\S")  # two columns
+logger = logging.getLogger(__name__)
+
+
+class Executed(SphinxTransform):
+    """Runs the blocks of a page and shows what comes of them."""
+
+    default_priority = 200
+
+    def apply(self, **options):
+        blocks = [node for node in self.document.findall(nodes.literal_block) if language_of(node)]
+        if not blocks:
+            return
+        for source in (ROOT / "src").rglob("*.py"):  # a package that changed makes other pages
+            self.env.note_dependency(str(source))
+        folder = RUNS / self.env.docname
+        results = run(folder, [(language_of(node), node.astext()) for node in blocks])
+        for block, (printed, pictures) in zip(blocks, results, strict=True):
+            shown = [output(printed)] if printed.strip() else []
+            shown += [picture(folder / name) for name in pictures]
+            after = block.parent.index(block) + 1
+            block.parent[after:after] = shown
+            if block.get("from-script"):
+                block.parent.remove(block)
+
+
+def language_of(node):
+    """`python` or `sh` of a block that is to be run; None of others, among them what is shown of a file."""
+    language = node.get("language")
+    return language if language in ("python", "sh") and "shown" not in node else None
+
+
+def run(folder, blocks):
+    """What each block printed, and the names of the pictures it wrote into the folder."""
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir(parents=True)
+    logger.info("running %d blocks of %s", len(blocks), folder.name)
+    command = [sys.executable, Path(__file__).with_name("run_page.py")]
+    done = subprocess.run(
+        command, cwd=folder, input=json.dumps(blocks), capture_output=True, text=True, check=False
+    )
+    if done.returncode:
+        raise ExtensionError(f"a block of the page {folder.name} fails:\n{done.stderr}")
+    return json.loads(done.stdout)
+
+
+def output(printed):
+    """What was printed, to be told from code by its looks."""
+    lines = printed.rstrip().splitlines()
+    if any(TABLE.search(line) for line in lines):
+        # Rows must not be broken where the page is narrow, so that sentences among them are broken here.
+        lines, classes = (
+            [textwrap.fill(line, LONG_LINE) if len(line) > LONG_LINE else line for line in lines],
+            [],
+        )
+    else:
+        classes = ["sentences"] if max(map(len, lines)) > LONG_LINE else []
+    text = "\n".join(lines)
+    return nodes.literal_block(text, text, language="none", classes=["printed", *classes])
+
+
+def picture(path):
+    """The picture at the size it has on paper."""
+    with Image.open(path) as image:
+        width = image.width * CSS_PIXELS_PER_INCH // DOTS_PER_INCH
+    return nodes.image(
+        uri=f"/../{path.relative_to(ROOT).as_posix()}", width=f"{width}px", alt=path.stem.replace("-", " ")
+    )
+
+
+class Script(Directive):
+    """``{script} examples/tangle.py``: a section with the script's docstring, what came of running it, and its source."""
+
+    required_arguments = 1
+
+    def run(self):
+        path = ROOT / self.arguments[0]
+        self.state.document.settings.env.note_dependency(str(path))
+        source = path.read_text(encoding="utf-8")
+        first, _, rest = inspect.cleandoc(ast.get_docstring(ast.parse(source))).partition("\n\n")
+        section = nodes.section(ids=[nodes.make_id(path.stem)], names=[path.stem])
+        section += nodes.title("", " ".join(first.split()).rstrip("."))
+        self.state.nested_parse(rest.splitlines(), self.content_offset, section)
+        code = source
+        if "__main__" not in source:  # a figure of a paper: its module draws, and that is all
+            module = ".".join(Path(self.arguments[0]).with_suffix("").parts[1:])
+            code = f"import rocking as rk\nfrom {module} import draw\nrk.plot.save(draw(), {path.stem + '.png'!r})"
+        section += nodes.literal_block(code, code, **{"language": "python", "from-script": True})
+        section += nodes.raw("", f"<details><summary>{path.name}</summary>", format="html")
+        section += nodes.literal_block(source, source, language="python", shown=True)
+        section += nodes.raw("", "</details>", format="html")
+        return [section]
+
+
+def setup(app):
+    app.add_transform(Executed)
+    app.add_directive("script", Script)

@@ -1,0 +1,128 @@
+"""The pages: all of them are found, nothing on them leads nowhere, every public name has its entry, and every block is run."""
+
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from sybil import Document
+from sybil.parsers.myst import CodeBlockParser, PythonCodeBlockParser
+
+import rocking
+from rocking.cli.app import app
+
+ROOT = Path(__file__).parents[2]
+DOCS = ROOT / "docs"
+PAGES = sorted(DOCS.rglob("*.md"))
+FRONT = [ROOT / name for name in ("README.md", "CONTRIBUTING.md", "CHANGELOG.md")]
+EXAMPLES = sorted((ROOT / "examples").glob("*.py"))
+FIGURES = sorted((ROOT / "src" / "rocking" / "papers").rglob("figure*.py"))
+FENCE = re.compile(r"^```(.*?)\n(.*?)^```", re.MULTILINE | re.DOTALL)
+
+
+def name_of(path):
+    return path.relative_to(ROOT).as_posix()
+
+
+def fences(path):
+    """(what it is, what it holds) of every fenced block of a page."""
+    return [(kind.strip(), body) for kind, body in FENCE.findall(path.read_text(encoding="utf-8"))]
+
+
+def prose(path):
+    """A page without its blocks and its inline code."""
+    return re.sub(r"`[^`\n]*`", "", FENCE.sub("", path.read_text(encoding="utf-8")))
+
+
+def anchors(path):
+    """What its headings are called in links."""
+    headings = re.findall(r"^#+ (.*)$", FENCE.sub("", path.read_text(encoding="utf-8")), re.MULTILINE)
+    return {re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") for heading in headings}
+
+
+def listed(page):
+    """The pages that its tables of contents name."""
+    return [
+        page.parent / f"{line}.md"
+        for kind, body in fences(page)
+        if kind == "{toctree}"
+        for line in body.split("\n")
+        if line and not line.startswith(":")
+    ]
+
+
+def test_every_page_is_in_a_table_of_contents_once():
+    found, left = [DOCS / "index.md"], [DOCS / "index.md"]
+    while left:
+        below = listed(left.pop())
+        found += below
+        left += below
+    assert sorted(found) == PAGES
+
+
+@pytest.mark.parametrize("page", PAGES + FRONT, ids=name_of)
+def test_no_link_is_dead(page):
+    for target in re.findall(r"\]\(([^)\s]+)\)", prose(page)):
+        file, _, anchor = target.partition("#")
+        there = (page.parent / file).resolve() if file else page
+        assert there.exists(), target
+        assert not anchor or anchor in anchors(there), target
+
+
+@pytest.mark.parametrize("page", PAGES + FRONT, ids=name_of)
+def test_no_page_names_another_host(page):
+    assert re.findall(r"https?://(?!127\.0\.0\.1)|//[\w-]+\.", page.read_text(encoding="utf-8")) == []
+
+
+PUBLIC = {
+    *(f"rocking.{name}" for name in set(rocking.__all__) - {"__version__", "plot", "theory"}),
+    *(f"rocking.plot.{name}" for name in rocking.plot.__all__),
+    *(f"rocking.theory.{name}" for name in rocking.theory.__all__),
+}
+
+
+def entries():
+    """The names that the reference documents, in full."""
+    for page in sorted(DOCS.glob("reference*.md")):
+        module = ""
+        for directive, name in re.findall(
+            r"^\.\. (\w+):: ([\w.]+)", page.read_text(encoding="utf-8"), re.MULTILINE
+        ):
+            if directive == "currentmodule":
+                module = name
+            else:
+                yield name if name.startswith("rocking.") else f"{module}.{name}"
+
+
+@pytest.mark.parametrize("name", sorted(PUBLIC))
+def test_every_public_name_has_one_entry_in_the_reference(name):
+    assert list(entries()).count(name) == 1
+
+
+def test_every_command_has_its_entry():
+    commands = [one.name or one.callback.__name__.replace("_", "-") for one in app.registered_commands]
+    page = (DOCS / "reference-commands.md").read_text(encoding="utf-8")
+    assert re.findall(r"^## rocking (\S+)$", page, re.MULTILINE) == commands
+
+
+def test_every_example_and_every_figure_is_in_the_gallery():
+    shown = [kind.split()[1] for page in PAGES for kind, _ in fences(page) if kind.startswith("{script}")]
+    assert sorted(shown) == sorted(map(name_of, EXAMPLES + FIGURES))
+
+
+@pytest.mark.parametrize("page", [*PAGES, ROOT / "README.md"], ids=name_of)
+def test_every_block_of_code_is_run(page):
+    """There are no blocks but those that the tests run and those of which Sphinx makes pages."""
+    blocks = [kind for kind, _ in fences(page) if kind in ("python", "sh")]
+    others = {kind.partition(" ")[0] for kind, _ in fences(page)} - {"python", "sh"}
+    assert others <= ({""} if page in FRONT else {"{toctree}", "{eval-rst}", "{script}"})
+    document = Document.parse(str(page), PythonCodeBlockParser(), CodeBlockParser("sh", evaluator=print))
+    assert len(list(document.examples())) == len(blocks)
+    assert page.parent in (ROOT, DOCS)  # where the tests look for them
+
+
+@pytest.mark.parametrize("script", EXAMPLES, ids=name_of)
+def test_every_example_runs_and_draws(script, tmp_path):
+    subprocess.run([sys.executable, script, "picture.png"], cwd=tmp_path, check=True, capture_output=True)
+    assert (tmp_path / "picture.png").stat().st_size > 10_000

@@ -1,0 +1,85 @@
+"""What makes the pages: blocks are run as for a reader, and what is built is searched for dead links and for other hosts."""
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from docs.extensions.checked import faults
+
+RUN_PAGE = Path(__file__).parents[2] / "docs" / "extensions" / "run_page.py"
+
+
+def run_page(blocks, folder):
+    return subprocess.run(
+        [sys.executable, RUN_PAGE],
+        cwd=folder,
+        input=json.dumps(blocks),
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+
+
+def test_blocks_build_on_each_other_and_show_what_they_print_and_draw(tmp_path):
+    blocks = [
+        ["python", "import rocking as rk\nax = rk.plot.schematic()\nprint('drawn')"],
+        ["python", "rk.plot.save(ax, 'block.png')"],
+        ["sh", "rocking --version"],
+        ["python", "rk.plot.save(ax, 'block.png')\nrk.plot.save(ax, 'again.png')"],
+    ]
+    done = run_page(blocks, tmp_path)
+    printed, pictures = zip(*json.loads(done.stdout), strict=True)
+    assert printed[0] == "drawn\n"
+    assert printed[2].startswith("rocking ")
+    assert list(pictures) == [[], ["block.png"], [], ["block.png", "again.png"]]
+
+
+@pytest.mark.parametrize("block", [["python", "1 / 0"], ["sh", "rocking simulate --amplitude x"]])
+def test_a_block_that_fails_fails_the_page(block, tmp_path):
+    done = run_page([block], tmp_path)
+    assert done.returncode == 1
+    assert done.stdout == ""
+    assert "ZeroDivisionError" in done.stderr or "--amplitude" in done.stderr
+
+
+def test_sound_pages_have_no_faults(tmp_path):
+    (tmp_path / "a.html").write_text(
+        '<h1 id="top">A</h1><a href="b.html#here">b</a><a href="#top">up</a><img src="data:image/png;base64,AA==">'
+        '<a href="https://example.org">elsewhere, if the reader wants</a><link rel="stylesheet" href="a.css">'
+    )
+    (tmp_path / "b.html").write_text('<p id="here">B</p><a href="a.html">a</a>')
+    (tmp_path / "a.css").write_text("p { background: url(data:image/png;base64,AA==) }")
+    assert list(faults(tmp_path)) == []
+
+
+@pytest.mark.parametrize(
+    ("text", "fault"),
+    [
+        ('<a href="none.html">', "a.html points at none.html, which is not there"),
+        ('<img src="none.png">', "a.html points at none.png, which is not there"),
+        ('<a href="#none">', "a.html points at #none, and there is no such place on that page"),
+        (
+            '<script src="https://example.org/x.js"></script>',
+            "a.html asks another host for https://example.org/x.js",
+        ),
+        (
+            '<link rel="stylesheet" href="//example.org/x.css">',
+            "a.html asks another host for //example.org/x.css",
+        ),
+        (
+            "<style>@import 'https://example.org/f';</style>",
+            "a.html asks another host for https://example.org/f",
+        ),
+    ],
+)
+def test_each_fault_is_said(tmp_path, text, fault):
+    (tmp_path / "a.html").write_text(text)
+    assert list(faults(tmp_path)) == [fault]
+
+
+def test_a_font_of_another_host_is_seen_in_a_style(tmp_path):
+    (tmp_path / "a.css").write_text('@font-face { src: url("https://example.org/font.woff2") }')
+    assert list(faults(tmp_path)) == ["a.css asks another host for https://example.org/font.woff2"]
