@@ -3,20 +3,11 @@
 import re
 import subprocess
 import sys
-from pathlib import Path
 from statistics import median
 
 from benchmarks.table import Figure
+from docs.extensions import seen
 
-CHROMIUM = "/usr/bin/chromium"
-FLAGS = [
-    "--headless",
-    "--no-sandbox",
-    "--disable-gpu",
-    "--disable-quic",
-    "--no-first-run",
-    "--disable-background-networking",
-]
 CLICKS = [(across / 7, up / 5) for across in range(1, 7) for up in range(1, 5)]
 RESTITUTIONS = 0.92, 0.91, 0.9
 PATIENCE = 60_000
@@ -38,18 +29,14 @@ PLACE = """() => {
 
 def page():
     """Figures of the page; none where there is no browser."""
-    if not Path(CHROMIUM).exists():
+    if not seen.CHROMIUM.exists():
         return
-    from playwright.sync_api import sync_playwright
-
     command = [sys.executable, "-m", "rocking", "explore", "--port", "0", "--no-browser"]
     with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True) as server:
         try:
             address = re.search(r"http://localhost:\d+/", server.stdout.readline())[0]
-            with sync_playwright() as playwright:
-                browser = playwright.chromium.launch(executable_path=CHROMIUM, args=FLAGS)
+            with seen.chromium() as browser:
                 yield from _figures(browser, address)
-                browser.close()
         finally:
             server.terminate()
 

@@ -89,7 +89,8 @@ JSON = st.dictionaries(
 @given(st.text(max_size=100) | JSON)
 def test_any_message_is_heard_or_refused(text):
     with suppress(Refused):
-        message(text)
+        asked = message(text)
+        assert all(isinstance(each, str) for each in (asked["what"], *asked["fields"].values()))
 
 
 @pytest.mark.parametrize(
