@@ -64,10 +64,10 @@ def arc_from(p, side, start, angle, velocity):
 
 
 @njit(**INNER)
-def arc_after(p, side, start, velocity, cosine, sine):
-    """The arc that leaves the base on ``side``, where the forcing there is known already."""
-    pull = forcing_term(p, cosine)
-    return Arc(side, start, 0.0, velocity, cosine, sine, p.frequency * start + p.phase, pull)
+def arc_after(p, side, start, angle, velocity, cosine, sine):
+    """``arc_from`` where the forcing is known already."""
+    pull = angle + forcing_term(p, cosine)
+    return Arc(side, start, angle, velocity, cosine, sine, p.frequency * start + p.phase, pull)
 
 
 @njit(**INNER)

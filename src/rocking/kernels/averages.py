@@ -15,18 +15,20 @@ def weighted_mean(values):
     power of the length.
     """
     total, weights = 0.0, 0.0
-    step = 1.0 / (values.shape[0] + 1)
-    for k in range(values.shape[0]):
-        weight = bump((k + 1) * step)
-        total += weight * values[k]
-        weights += weight
+    count = values.shape[0]
+    step = 1.0 / (count + 1)
+    for k in range((count + 1) // 2):
+        weight, opposite = bump_at(k, count, step)
+        total += weight * (values[k] + values[opposite])
+        weights += 2.0 * weight
     return total / weights
 
 
 @njit(**INLINED)
-def bump(x):
-    """The weight at x from 0 to 1."""
-    return math.exp(-1.0 / (x * (1.0 - x)))
+def bump_at(k, count, step):
+    """(weight, the place that has it too): the weights are the same from either end; the middle's is halved, for it comes twice."""
+    x, opposite = (k + 1) * step, count - 1 - k
+    return math.exp(-1.0 / (x * (1.0 - x))) * (0.5 if opposite == k else 1.0), opposite
 
 
 @njit(**COMPILED)
@@ -43,9 +45,7 @@ def digits_of_both(values):
     first, second, third, fourth = 0.0, 0.0, 0.0, 0.0
     step = 1.0 / (half + 1)
     for k in range((half + 1) // 2):
-        # The weights are the same from either end.
-        weight, opposite = bump((k + 1) * step), half - 1 - k
-        weight *= 0.5 if opposite == k else 1.0
+        weight, opposite = bump_at(k, half, step)
         first += weight * (values[0, k] + values[0, opposite])
         second += weight * (values[0, half + k] + values[0, half + opposite])
         third += weight * (values[1, k] + values[1, opposite])

@@ -33,7 +33,7 @@ def after_impact(p, arc, time, coming, quiet):
         if side == 0 or time == arc.start:
             side, mode = arc.side, REST
     turned = side * arc.side
-    after = arc_after(p, side, time, speed, turned * coming.cosine, turned * coming.sine)
+    after = arc_after(p, side, time, 0.0, speed, turned * coming.cosine, turned * coming.sine)
     if mode == FLIGHT and 0.0 < speed < SLOW and p.restitution < 1.0:
         settled = base_settling_time(p, after.cosine, after.sine, speed)
         if settled <= quiet or (settled < math.inf and speed < SLOWEST):
@@ -49,12 +49,15 @@ def after_brace(p, arc, time, coming, quiet):
     speed = p.brace_restitution * max(coming.velocity, 0.0)
     if speed < NEGLIGIBLE and p.brace_restitution < 1.0:
         speed = 0.0
+    if speed >= SLOW:
+        # Only how a slow hop goes hangs on the last digits of the pull.
+        return FLIGHT, arc_after(p, arc.side, time, p.brace_angle, -speed, coming.cosine, coming.sine)
     after = arc_from(p, arc.side, time, p.brace_angle, -speed)
     mode = FLIGHT
     if speed == 0.0:
         if stays_leaning(p, arc.side, after.psi) or time == arc.start:
             mode = LEAN
-    elif speed < SLOW and p.brace_restitution < 1.0:
+    elif p.brace_restitution < 1.0:
         settled = brace_settling_time(p, after.cosine, after.sine, speed)
         if settled <= quiet or (settled < math.inf and speed < SLOWEST):
             mode = LEAN

@@ -4,8 +4,8 @@ import math
 
 from numba import njit
 
-from .arc import arc_after, arc_from, earlier
-from .elementary import MAKING, WITHIN
+from .arc import arc_after, earlier
+from .elementary import WITHIN, direction
 from .events import FLIGHT, IMPACT, Next, any_event
 from .lanes import (
     ACROSS,
@@ -17,6 +17,7 @@ from .lanes import (
     COUNTED,
     CYCLE,
     DOUBLINGS,
+    FREQUENCY,
     IMPACTS,
     LANES,
     LEG_END,
@@ -27,6 +28,7 @@ from .lanes import (
     PEAK,
     PEAK_SEEN,
     PERIOD,
+    PHASE,
     SIDE,
     SINE,
     SLOWEST,
@@ -41,7 +43,7 @@ from .lanes import (
     put,
     set_system,
 )  # fmt: skip
-from .lossless import collect, sketch
+from .lossless import collect, may_be_asked_for, sketch
 from .march import DONE, RESYNCHRONISE, UNKNOWN, Progress
 from .release import Watch
 from .turning import peak_with
@@ -75,11 +77,11 @@ def seat(s, i, p, progress, columns, target):
 def arc_of(s, i, p):
     """The arc under way in a lane."""
     side, start = int(of(s, i, SIDE)), of(s, i, START)
-    return arc_after(p, side, start, of(s, i, VELOCITY), of(s, i, COSINE), of(s, i, SINE))
+    return arc_after(p, side, start, 0.0, of(s, i, VELOCITY), of(s, i, COSINE), of(s, i, SINE))
 
 
 @njit(**WITHIN)
-def read(s, i, wants, p, run, desk, trail):
+def read(s, i, wants, p, run, max_cycles, desk, trail):
     """(status, run) of a lane, with what happened since it was last read: at the end of the leg if it wants that."""
     watch, flights, section_time, count, lossless, measuring = run
     before, arc, cycle, target = watch.progress, arc_of(s, i, p), int(of(s, i, CYCLE)), int(of(s, i, TARGET))
@@ -103,8 +105,12 @@ def read(s, i, wants, p, run, desk, trail):
         -math.inf,
     )
     written = impacts - int(of(s, i, COUNTED))
-    count = room(desk.section, count, cycle + 1 - before.cycle, desk.scratch.shape[0])
-    count = sketch(p, before, trail[1:], written, after, section_time, desk.section, count)
+    rows = desk.scratch.shape[0]
+    if may_be_asked_for(desk.growth[0], target, max_cycles, rows):
+        count = room(desk.section, count, cycle + 1 - before.cycle, rows)
+        count = sketch(p, before, trail[1:], written, after, section_time, desk.section, count)
+    else:
+        count = 0
     flights = collect(p, flights, written, trail[1:], desk.flights)
     put(s, i, COUNTED, impacts)
     a, b = of(s, i, ACROSS), of(s, i, ALONG)
@@ -155,20 +161,20 @@ def see_peak(s, i, p):
     put(s, i, PEAK, peak_with(p, arc_of(s, i, p), coming, of(s, i, PEAK)))
 
 
-@njit(**MAKING)
-def note(s, guests, trail):
+@njit(**WITHIN)
+def note(s, trail):
     """Into each lane's trail the arc under way, again and again until the next one begins; now and then its forcing from the clock."""
     for i in range(LANES):
         impacts = int(of(s, i, IMPACTS))
         k = impacts - int(of(s, i, COUNTED))
-        start, side, velocity = of(s, i, START), of(s, i, SIDE), of(s, i, VELOCITY)
+        start, side = of(s, i, START), of(s, i, SIDE)
         trail[i, k, 0], trail[i, k, 1], trail[i, k, 4], trail[i, k, 6] = (
             of(s, i, CYCLE),
             start,
             side,
-            velocity,
+            of(s, i, VELOCITY),
         )
         if impacts & RESYNCHRONISE == 0 and of(s, i, STAGE) == WALK:
-            arc = arc_from(guests[i].p, int(side), start, 0.0, velocity)
-            put(s, i, COSINE, arc.cosine)
-            put(s, i, SINE, arc.sine)
+            sine, cosine, _, _ = direction(of(s, i, FREQUENCY) * start + of(s, i, PHASE))
+            put(s, i, COSINE, side * cosine)
+            put(s, i, SINE, side * sine)

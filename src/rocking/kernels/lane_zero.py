@@ -87,13 +87,17 @@ def derivatives(u, v, cosine, sine, amplitude, frequency):
 
 @njit(**EXACT_INNER)
 def taylor(c, x):
-    """(w, w', w'') a time x later, by their Taylor series."""
+    """(w, w', w'') a time x later, by their Taylor series; summed in pairs, of which none waits for another."""
     c0, c1, c2, c3, c4, c5, c6, c7, c8 = c
-    w2 = fma(x, fma(x, fma(x, fma(x, fma(x, fma(x, I6 * c8, I5 * c7), I4 * c6), I3 * c5), I2 * c4), c3), c2)
-    w1 = fma(x, fma(x, fma(x, fma(x, I7 * c8, I6 * c7), I5 * c6), I4 * c5), I3 * c4)
-    w1 = fma(x, fma(x, fma(x, w1, I2 * c3), c2), c1)
-    w0 = fma(x, fma(x, fma(x, fma(x, I8 * c8, I7 * c7), I6 * c6), I5 * c5), I4 * c4)
-    return fma(x, fma(x, fma(x, fma(x, w0, I3 * c3), I2 * c2), c1), c0), w1, w2
+    x2 = x * x
+    x4 = x2 * x2
+    low = fma(x2, fma(x, I3 * c3, I2 * c2), fma(x, c1, c0))
+    high = fma(x4, I8 * c8, fma(x2, fma(x, I7 * c7, I6 * c6), fma(x, I5 * c5, I4 * c4)))
+    low_1 = fma(x2, fma(x, I3 * c4, I2 * c3), fma(x, c2, c1))
+    high_1 = fma(x2, fma(x, I7 * c8, I6 * c7), fma(x, I5 * c6, I4 * c5))
+    low_2 = fma(x2, fma(x, I3 * c5, I2 * c4), fma(x, c3, c2))
+    high_2 = fma(x2, I6 * c8, fma(x, I5 * c7, I4 * c6))
+    return fma(x4, high, low), fma(x4, high_1, low_1), fma(x4, high_2, low_2)
 
 
 @njit(**EXACT_INNER)
@@ -142,8 +146,9 @@ def guess(s):
         c = derivatives(u, v, cosine, sine, amplitude, frequency)
         for _ in range(2):
             w, dw, ddw = taylor(c, x)
-            y = -w / dw
-            bend = 0.5 * y * ddw / dw
+            per = 1.0 / dw
+            y = -w * per
+            bend = 0.5 * y * ddw * per
             x += y * halved(fma(bend, fma(2.0, bend, -1.0), 1.0))
         found = about + x
         found = choose((dw < 0.0) & (found > low) & (found < high), found, 0.5 * (low + high))
@@ -234,7 +239,8 @@ def step(s):
         f, df, ddf = fma(-amplitude, cosine, -1.0), amplitude * frequency * sine, square * amplitude * cosine
         second, third = u + f, v + df
         fourth, fifth = second + ddf, fma(-square, df, third)
-        per = 1.0 / v
+        diving, fall = stage == BOTTOM, u + v
+        per = 1.0 / choose(diving, fall + f, v)
         y = -u * per
         factor = correction(y, second, third, fourth, per)
 
@@ -251,12 +257,11 @@ def step(s):
         put(s, i, NEXT_VERSINH, choose(arrived, versinh, next_versinh))
 
         # the bottom of a dip, where u + u' = 0, as ``crossing.dip``
-        diving, fall = stage == BOTTOM, u + v
         held, through = diving | (stage == REFINE), diving & (u < 0.0)
         above = diving & above_tangent(u, fall, t, low, high)
         beyond = choose(diving, through | (fall > 0.0), u <= 0.0)
         low, high = choose(held & (beyond == False), t, low), choose(held & beyond, t, high)  # noqa: E712
-        ahead = t + choose(diving, -fall / (fall + f), y * halved(factor))
+        ahead = t + choose(diving, -fall * per, y * halved(factor))
         # A step that would leave what holds the zero, or the bottom, goes to its middle.
         inside = (ahead >= low) & (ahead <= high) & (diving | (v < 0.0))
         put(s, i, TIME, choose(held, choose(inside, ahead, 0.5 * (low + high)), t))

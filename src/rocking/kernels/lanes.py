@@ -13,11 +13,11 @@ from numba import njit
 
 from .branchless import EXACT_INNER
 
-LANES = 16
+LANES = 24
 
 (
     # the system
-    AMPLITUDE, FREQUENCY, RESPONSE, RESTITUTION, PERIOD, PER_PERIOD,
+    AMPLITUDE, FREQUENCY, PHASE, RESPONSE, RESTITUTION, PERIOD, PER_PERIOD,
     # when, within the cycle, a convex stretch begins on either side
     CUT_RIGHT, CUT_LEFT,
     # 1 + beta cos eta and the size of its rate at the cuts; lengths of the concave and the convex stretches; e^+-length
@@ -41,7 +41,7 @@ LANES = 16
     # a difference in (Theta, Theta'), to be doubled so often
     ACROSS, ALONG, DOUBLINGS,
     ROWS,
-) = range(68)  # fmt: skip
+) = range(69)  # fmt: skip
 
 # What is next for a lane: nothing; to begin an arc; to walk; to guess the zero in its stretch; to look for the bottom of a dip; to
 # step to the zero; the impact, once it was attended to; what none of these can do.
@@ -72,6 +72,7 @@ def set_system(s, i, p):
     """What lane i must know of its system."""
     put(s, i, AMPLITUDE, p.amplitude)
     put(s, i, FREQUENCY, p.frequency)
+    put(s, i, PHASE, p.phase)
     put(s, i, RESPONSE, p.response)
     put(s, i, RESTITUTION, p.restitution)
     put(s, i, PERIOD, p.period)

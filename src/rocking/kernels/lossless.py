@@ -6,7 +6,7 @@ from typing import NamedTuple
 from numba import njit
 
 from .arc import arc_from
-from .averages import digits_of_agreement, digits_of_both
+from .averages import digits_of_both
 from .elementary import WITHIN, WRITTEN_IN
 from .events import BRACE, FLIGHT, IMPACT, NONE
 from .march import PAUSED, RELEASED, march_on
@@ -20,6 +20,8 @@ CHAOTIC_DIGITS = 6.0
 LONG = 2048
 # Shear lets differences grow like the length times a factor, at most e to this; seen: e^3.
 SHEAR = 5.0
+# More than that of any motion whose flights are kept (``desk``).
+OUTGROWN = 20.0
 
 
 class Flights(NamedTuple):
@@ -96,9 +98,18 @@ def work_out(p, section, first, count, section_time):
             section[k, 0], section[k, 1] = state_at(p, FLIGHT, arc, elapsed)
 
 
+@njit(**WITHIN)
+def may_be_asked_for(growth, target, max_cycles, rows):
+    """Whether the states of a leg to ``target`` may be asked for: on a torus, and of every motion the last ones, ``rows`` at most.
+
+    On a torus differences never grow so much as ``agreement`` would not allow of as many flights as are kept.
+    """
+    return growth <= OUTGROWN or target > max_cycles - rows
+
+
 @njit(**WRITTEN_IN)
-def follow_flights(p, progress, flights, target, most_events, section_time, count, desk):
-    """(status, progress, flights, rows of the section) at the end of cycle ``target``."""
+def follow_flights(p, progress, flights, target, most_events, section_time, count, desk, wanted):
+    """(status, progress, flights, rows of the section, if they are ``wanted``) at the end of cycle ``target``."""
     while True:
         before = progress
         status, progress, _, written = march_on(
@@ -114,7 +125,8 @@ def follow_flights(p, progress, flights, target, most_events, section_time, coun
             True,
         )
         flights = collect(p, flights, written, desk.events, desk.flights)
-        count = sketch(p, before, desk.events, written, progress, section_time, desk.section, count)
+        if wanted:
+            count = sketch(p, before, desk.events, written, progress, section_time, desk.section, count)
         on = status in (PAUSED, RELEASED)
         if not on or progress.impacts + progress.brace_hits > most_events:
             return status, progress, flights, count
@@ -146,4 +158,4 @@ def too_few(flights):
 @njit(**WITHIN)
 def digits_of_speeds(flights, values):
     """The digits of ``agreement``, however much differences have grown."""
-    return 0.0 if too_few(flights) else digits_of_agreement(values[1, : flights.count])
+    return 0.0 if too_few(flights) else digits_of_both(values[:, : flights.count])[1]

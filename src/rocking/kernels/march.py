@@ -44,7 +44,7 @@ MOST_EVENTS = 10_000_000
 BREATH = 2_000_000
 # Guesses of the first two waits where there are none.
 UNKNOWN = (0.0, 1.0)
-# From impact to impact the forcing is turned on with the arc; after this many (a power of two, less one) it
+# From event to event the forcing is turned on with the arc; after this many (a power of two, less one) it
 # is taken from the clock anew.
 RESYNCHRONISE = 15
 
@@ -240,7 +240,7 @@ def march_on(p, progress, cycles, section_time, section, events, columns, growth
             elapsed = cycle * p.period + arc.start
             carry_rows(p, columns, growth, mode, arc, coming, mode_after, after.side, elapsed)
         mode, arc, before = mode_after, after, arc.side * coming.velocity
-        if impacts & RESYNCHRONISE == 0:
+        if (impacts + brace_hits) & RESYNCHRONISE == 0:
             arc = arc_from(p, arc.side, arc.start, arc.angle, arc.velocity)
         if events.shape[0] > 0:
             written = note_event(events, written, cycle, mode, arc, coming.event, before)

@@ -105,12 +105,14 @@ def polished(p, steady, now, rough):
     c8 = c6 + square * square * ddf
     s = rough
     for _ in range(ROUNDS):
-        w4 = c4 + s * (c5 + s * (I2 * c6))
-        w3 = c3 + s * (c4 + s * (I2 * c5 + s * (I3 * c6)))
-        w2 = c2 + s * (c3 + s * (I2 * c4 + s * (I3 * c5 + s * (I4 * c6 + s * (I5 * c7)))))
-        w1 = c1 + s * (c2 + s * (I2 * c3 + s * (I3 * c4 + s * (I4 * c5 + s * (I5 * c6 + s * (I6 * c7))))))
-        high = I4 * c4 + s * (I5 * c5 + s * (I6 * c6 + s * (I7 * c7 + s * (I8 * c8))))
-        w0 = c0 + s * (c1 + s * (I2 * c2 + s * (I3 * c3 + s * high)))
+        q = s * s
+        h = q * q
+        w4 = (c4 + s * c5) + q * (I2 * c6)
+        w3 = (c3 + s * c4) + q * (I2 * c5 + s * (I3 * c6))
+        w2 = (c2 + s * c3) + q * (I2 * c4 + s * (I3 * c5)) + h * (I4 * c6 + s * (I5 * c7))
+        w1 = (c1 + s * c2) + q * (I2 * c3 + s * (I3 * c4)) + h * ((I4 * c5 + s * (I5 * c6)) + q * (I6 * c7))
+        w0 = (c0 + s * c1) + q * (I2 * c2 + s * (I3 * c3))
+        w0 += h * ((I4 * c4 + s * (I5 * c5)) + q * (I6 * c6 + s * (I7 * c7)) + h * (I8 * c8))
         if not w1 < 0.0:
             return rough
         s += step_to_zero(w0, w1, (w2 - w0, w3 - w1, w4 - w2))

@@ -86,7 +86,7 @@ def onward(s, i, wants, guest, queue, asking, bench):
     stays, due = wants < BLOCK or marched, marched or wants == ALONE
     status, run = np.int64(DONE), case.run
     if not settled:
-        status, run = read(s, i, wants, p, run, desk, trail)
+        status, run = read(s, i, wants, p, run, max_cycles, desk, trail)
         case = with_run(case, run)
     while due or settled or not fits(p, case):
         if settled:
@@ -138,6 +138,6 @@ def judge_together(systems, starts, max_cycles, max_period, bench, answers, stop
         if blocks == 0:
             break
         strike(s)
-        note(s, guests, bench.trail)
+        note(s, bench.trail)
         advance(s)
     return blocks == 0

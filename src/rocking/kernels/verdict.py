@@ -21,6 +21,7 @@ from .lossless import (
     agreement,
     digits_of_speeds,
     follow_flights,
+    may_be_asked_for,
     no_flights,
     work_out,
 )
@@ -112,8 +113,9 @@ def leg(p, run, max_cycles, target, desk):
     cycle, rows = watch.progress.cycle, desk.scratch.shape[0]
     count = room(desk.section, count, target - cycle, rows)
     if lossless:
+        wanted = may_be_asked_for(desk.growth[0], target, max_cycles, rows)
         status, progress, flights, count = follow_flights(
-            p, watch.progress, flights, target, most, section_time, count, desk
+            p, watch.progress, flights, target, most, section_time, count if wanted else 0, desk, wanted
         )
         watch = Watch(progress, watch.base, watch.brace, 0, 0.0, watch.peak)
         return status, Run(watch, flights, section_time, count, lossless, measuring)

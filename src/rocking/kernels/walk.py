@@ -15,6 +15,8 @@ from .elementary import INNER, WITHIN
 from .harmonic import first_cut, forcing_rates, forcing_term
 
 MOST_TURNS = 64
+# Knots of a dip that are looked at.
+MOST_DIPS = 4
 MARGIN = 1e-11
 # In units of the rounding error of c+ and c-.
 WIDE = 16.0
@@ -131,6 +133,12 @@ def rises(w, dw):
 
 
 @njit(**INNER)
+def lasts(here, doubt):
+    """Whether w is positive in all of a convex stretch, by one knot in it: it lies above the free motion through that, either way."""
+    return here.w - abs(here.dw) > doubt
+
+
+@njit(**INNER)
 def may_dip(level, left, right, left_doubt, right_doubt):
     """Whether w, positive at both ends of a convex stretch, may reach zero within.
 
@@ -145,8 +153,11 @@ def may_dip(level, left, right, left_doubt, right_doubt):
 
 
 @njit(**WITHIN)
-def bottom(p, arc, level, left, right):
-    """The knot near the bottom of a dip: where the slope, a cubic by its values and derivatives at both ends, vanishes."""
+def bottom(p, arc, level, left, right, doubt):
+    """A knot of a dip that tells whether it reaches zero, or, after some tries, a knot near its bottom.
+
+    The first is where the slope, a cubic by its values and derivatives at both ends, vanishes; then Newton's method.
+    """
     width = right.time - left.time
     a, b = left.dw, right.dw
     da, db = (left.w + left.f) * width, (right.w + right.f) * width
@@ -155,9 +166,14 @@ def bottom(p, arc, level, left, right):
         c2, c3 = 3.0 * (b - a) - 2.0 * da - db, da + db - 2.0 * (b - a)
         x -= (a + x * (da + x * (c2 + x * c3))) / (da + x * (2.0 * c2 + x * 3.0 * c3))
     x = min(max(x, 0.0), 1.0)
-    time = left.time + x * width
-    now = after(p, arc, lapse_of(p, time))
-    return knot(p, arc, level.constant, level.of_angle, time, now)
+    time, here = left.time + x * width, left
+    for _ in range(MOST_DIPS):
+        now = after(p, arc, lapse_of(p, time))
+        here = knot(p, arc, level.constant, level.of_angle, time, now)
+        if here.w < -doubt or lasts(here, doubt):
+            break
+        time = min(max(time - here.dw / (here.w + here.f), left.time), right.time)
+    return here
 
 
 @njit(**INNER)
@@ -258,10 +274,10 @@ def walk(p, arc, level, end):
         elif not right.w > right_doubt:
             return Walk(UNSURE, left, right)
         if may_dip(level, left, right, doubt, right_doubt):
-            middle = bottom(p, arc, level, left, right)
+            middle = bottom(p, arc, level, left, right, right_doubt)
             if middle.w < -right_doubt:
                 return Walk(ZERO, left, middle)
-            if not middle.w - abs(middle.dw) > right_doubt:
+            if not lasts(middle, right_doubt):
                 return Walk(UNSURE, left, right)
         if last:
             return Walk(CLEAR, left, end)
