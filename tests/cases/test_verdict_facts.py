@@ -45,6 +45,24 @@ def test_figure_6_is_chaotic_from_most_starts_and_never_anything_else():
     assert kinds.count("chaotic") >= 8
 
 
+# Beside a bifurcation: the largest multiplier is .998 and more, and the motion nears the orbit for 10⁴ to 10⁵ cycles. At the third, a
+# period doubling, it nears the orbit that repels too, from which this one was born. Points, of a map of a million, in T and A.
+WEAK = [(464, 661, 2), (506, 748, 24), (517, 763, 4), (393, 882, 2), (379, 938, 2)]
+
+
+@pytest.mark.parametrize("across, up, impacts", WEAK)
+def test_weakly_attracting_orbit_is_the_one_that_a_million_cycles_end_on(across, up, impacts):
+    period, amplitude = np.linspace(0.2, 3, 1000)[across], np.linspace(0, 16, 1000)[up]
+    found = classify(amplitude, period, 0.925)
+    assert (found.kind, found.impacts_per_period) == ("periodic", impacts)
+    assert found.transient < 2_000
+    assert 0.998 < abs(found.multipliers[0]) < 1.0
+    system = rk.System(rk.Harmonic(amplitude=amplitude, period=period), 0.925)
+    ends = rk.simulate(system, cycles=1_000_000, record="section").section(found.orbit.phase)[-found.period :]
+    away = np.hypot(*(ends - [found.orbit.state.angle, found.orbit.state.velocity]).T)
+    assert away.min() < 1e-8
+
+
 def test_figure_4_overturns_in_the_sixth_cycle():
     assert classify(1.75, 2.0, 0.95).transient == 5
 

@@ -22,11 +22,17 @@ CLOSE = 0.01
 CLEARANCE = 1e-6
 # How far a return may be from what the multipliers say, as a share of what is left of the distance.
 NONLINEAR = 0.2
+# Beside a bifurcation an orbit attracts weakly, and its returns obey the multipliers alone only after 10**4 cycles or more. They
+# may bend by this share of all of the distance, if they come nearer by this share of what the multipliers promise: what is
+# small of second order cannot turn that round on the rest of the way.
+BENT, APPROACH = 0.01, 0.3
 RETURNS = 3
 # States of an orbit as near as this are one.
 SAME = 1e-9
 # A motion as near as this to a neutral orbit is on it.
 NEUTRAL = 1e-10
+# A motion that passes an orbit which repels comes this much nearer from look to look.
+MUCH_NEARER = 0.5
 # Distances below this are rounding.
 ROUNDING = 1e-12
 
@@ -65,8 +71,9 @@ def find_cycle(p, section_time, desk, count, most_lag, most_work, known, since, 
     """Compare a motion with the periodic orbit that its last ``count`` states approach.
 
     First with the ``known`` one, found ``since`` cycles ago, and with no other while the motion comes nearer to
-    it; then with the limit of the returns; then, if they have none, with what is nearest to a close return. A
-    ``neutral`` orbit attracts nothing: the motion must be on it.
+    it, much nearer if it repels: what was born of it lies beside it; then with the limit of the returns; then, if
+    they have none, with what is nearest to a close return. A ``neutral`` orbit attracts nothing: the motion must be
+    on it.
     """
     section, nothing, columns, scratch = desk.section, desk.nothing, desk.trial, desk.scratch
     clocked, row, work, candidate, seen = later(p, section_time), count - 1, 0, KNOWN, no_cycle(0)
@@ -94,7 +101,8 @@ def find_cycle(p, section_time, desk, count, most_lag, most_work, known, since, 
                 continue
         answer, away = compare(p, section, row, lag, found)
         if answer != REACHED and not (neutral and away <= NEUTRAL):
-            if trying == KNOWN and answer == NOT_YET and away < known.distance:
+            nearer = away < known.distance * (1.0 if attracts(p, found.image) else MUCH_NEARER)
+            if trying == KNOWN and answer == NOT_YET and nearer:
                 return Cycle(NOT_YET, lag, False, found, math.nan, away, work)
             if trying != KNOWN or answer == ON_EVENT:
                 seen = Cycle(answer, lag, False, found, math.nan, away, work)
@@ -147,21 +155,32 @@ def least_period(rows, lag, same):
 
 
 @njit(**WITHIN)
+def spectral_radius(tangent):
+    """The size of the largest multiplier."""
+    real, imaginary, _, _ = multipliers(tangent)
+    return math.hypot(real, imaginary)
+
+
+@njit(**WITHIN)
+def attracts(p, image):
+    """Whether an orbit is stable, and loses something: else both its multipliers may be inside the unit circle by rounding alone."""
+    return spectral_radius(image.tangent) < 1.0 and loses(p, image.impacts, image.brace_hits)
+
+
+@njit(**WITHIN)
 def compare(p, section, row, period, found):
     """(answer, distance from the orbit a period before the row): the Floquet stop.
 
     The orbit must be stable, and each of the last RETURNS returns what its multipliers say, up to a share of
-    what is left, with the orbit's own impacts: one alone may do so by chance, and the map has kinks that only the
-    next ones meet. An orbit that rests or leans in between is not judged here: its section need not resolve when. One
-    that loses nothing attracts nothing: both its multipliers are inside the unit circle by rounding alone.
+    what is left (or of the distance, where they attract weakly), with the orbit's own impacts: one alone may do so by
+    chance, and the map has kinks that only the next ones meet. An orbit that rests or leans in between is not judged
+    here: its section need not resolve when.
     """
     angle, velocity, image = found.angle, found.velocity, found.image
     tangent = image.tangent
-    real, imaginary, _, _ = multipliers(tangent)
-    radius = math.hypot(real, imaginary)
+    radius = spectral_radius(tangent)
     distance = size(section[row - period, 0] - angle, section[row - period, 1] - velocity)
-    attracts = radius < 1.0 and loses(p, image.impacts, image.brace_hits)
-    if not attracts or radius == 0.0 or row < RETURNS * period:
+    if not attracts(p, image) or radius == 0.0 or row < RETURNS * period:
         return NOT_YET, distance
     for k in range(period):
         if on_event(p, section, row - k):
@@ -174,7 +193,10 @@ def compare(p, section, row, period, found):
         to_x = section[after, 0] - angle - (tangent.a * x + tangent.c * y)
         to_y = section[after, 1] - velocity - (tangent.b * x + tangent.d * y)
         impacts, brace_hits = section[after, 2] - section[before, 2], section[after, 3] - section[before, 3]
-        near = length(norm, to_x, to_y) <= NONLINEAR * (1.0 - radius) * length(norm, x, y)
+        left = length(norm, x, y)
+        straight = length(norm, to_x, to_y) <= max(NONLINEAR * (1.0 - radius), BENT) * left
+        landed = length(norm, section[after, 0] - angle, section[after, 1] - velocity)
+        near = straight and landed <= (1.0 - APPROACH * (1.0 - radius)) * left
         near = near or size(x, y) <= ROUNDING
         if not near or impacts != image.impacts or brace_hits != image.brace_hits:
             return NOT_YET, distance

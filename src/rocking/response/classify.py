@@ -64,7 +64,8 @@ def classify(
     -------
     Verdict
         `print` shows its evidence. Its tolerances: the residual is one relative to what differences grow to in a period,
-        `approach` is how far, as a share of what is left, a return may be from what the multipliers say.
+        `approach` is how far, as a share of what is left, a return may be from what the multipliers say (a hundredth of all
+        of the distance where that is more, if it comes nearer by three tenths of what they promise).
 
     Raises
     ------
