@@ -19,24 +19,19 @@ from rocking.plot.animation import animation
 from rocking.plot.basins import basins
 from rocking.plot.bifurcation_curve import bifurcation_curve
 from rocking.plot.branch import branch
-from rocking.plot.branch import png as branch_png
 from rocking.plot.chaos_share import chaos_share
 from rocking.plot.convergence import convergence
 from rocking.plot.dimension import dimension
 from rocking.plot.frequency_response import frequency_response
-from rocking.plot.frequency_response import png as frequency_response_png
 from rocking.plot.impact_section import impact_section
 from rocking.plot.manifolds import manifolds
-from rocking.plot.manifolds import png as manifolds_png
 from rocking.plot.melnikov import heteroclinic, melnikov
 from rocking.plot.modes import modes
 from rocking.plot.notebook import picture
 from rocking.plot.orbit_diagram import orbit_diagram
-from rocking.plot.orbit_diagram import png as orbit_diagram_png
 from rocking.plot.overturning import overturning
-from rocking.plot.overview import overview, png
+from rocking.plot.overview import overview
 from rocking.plot.parametric_map import parametric_map
-from rocking.plot.parametric_map import png as map_png
 from rocking.plot.phase_portrait import phase_portrait
 from rocking.plot.repeatability import repeatability, repeatability_map
 from rocking.plot.safe_basin import safe_basin
@@ -48,7 +43,6 @@ from rocking.plot.style import panels, title
 from rocking.plot.thresholds import thresholds
 from rocking.plot.tiles import tiles
 from rocking.plot.time_history import time_history
-from rocking.plot.verdict import png as verdict_png
 from rocking.plot.verdict import verdict
 
 __all__ = [
@@ -85,19 +79,19 @@ __all__ = [
     "verdict",
 ]
 
-pictures.hang(Branch, branch_png)
-pictures.hang(FrequencyResponse, frequency_response_png)
-pictures.hang(Motion, png)
-pictures.hang(OrbitDiagram, orbit_diagram_png)
-pictures.hang(SaddleManifolds, manifolds_png)
-pictures.hang(Verdict, verdict_png)
 for kind, draw in (
+    (Branch, branch),
+    (FrequencyResponse, frequency_response),
+    (Motion, overview),
+    (OrbitDiagram, orbit_diagram),
+    (SaddleManifolds, manifolds),
+    (Verdict, verdict),
     (BasinMap, basins),
     (SafeBasin, safe_basin),
     (OverturningCurve, overturning),
     (ChaosShare, chaos_share),
     (Repeatability, repeatability),
     (RepeatabilityMap, repeatability_map),
+    ("map", parametric_map),
 ):
     pictures.hang(kind, picture(draw))
-pictures.hang("map", map_png)

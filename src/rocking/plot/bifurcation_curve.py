@@ -3,12 +3,12 @@
 from collections.abc import Sequence
 from typing import Any
 
-import numpy as np
 from matplotlib.axes import Axes
 
 from rocking.model import Block, refusal
 from rocking.orbits import BifurcationCurve
 from rocking.plot import style
+from rocking.plot.curves import several, unless_there
 from rocking.plot.quantities import parameter
 
 LOOKS: dict[str, tuple[str, Any]] = {
@@ -51,9 +51,7 @@ def bifurcation_curve(
     >>> rk.plot.bifurcation_curve(curve).get_ylabel()
     'amplitude $A$ (–)'
     """
-    each = [result] if isinstance(result, BifurcationCurve) else list(result) if np.iterable(result) else []
-    if not each or not all(isinstance(one, BifurcationCurve) for one in each):
-        raise TypeError(refusal("result", "be a BifurcationCurve or a sequence of them", result))
+    each = several(result, BifurcationCurve)
     plane = each[0].names
     for one in each:
         if one.names != plane:
@@ -62,20 +60,17 @@ def bifurcation_curve(
             )
     (across, x_label), (upright, y_label) = (parameter(name, block) for name in plane)
     ax = style.own(ax, height=2.9)
-    labelled = set()
     for one in each:
         colour, dashes = LOOKS[one.kind]
-        name = f"{one.kind.replace('-', ' ')}, period {one.period}"
         ax.plot(
             across(one.points[:, 0]),
             upright(one.points[:, 1]),
             color=colour,
             linestyle=dashes,
             linewidth=style.LINE,
-            label="_" if name in labelled else name,
+            label=unless_there(ax, f"{one.kind.replace('-', ' ')}, period {one.period}"),
             gid=one.kind,
         )
-        labelled.add(name)
     style.label(ax, x_label, y_label)
     style.key(ax)
     return ax

@@ -1,6 +1,5 @@
 """Branches of periodic orbits over the parameter that was followed, with the points where something changes."""
 
-import io
 from collections.abc import Sequence
 
 import numpy as np
@@ -70,22 +69,13 @@ def branch(
     across, x_label = parameter(branches[0].name, block)
     upright = shown.velocity if quantity == "velocity" else shown.angle
     ax = style.own(ax, height=3.0)
-    labelled: set[str] = set()
     for one in sorted(branches, key=lambda one: not one.symmetric):
         line = curves.line(one, quantity, phase).shown(across, upright)
         for is_stable in (True, False):
             name = f"{'' if one.symmetric else 'un'}symmetric, {'' if is_stable else 'un'}stable"
-            drawn = curves.part(
-                ax,
-                line,
-                is_stable,
-                color=COLOURS[one.symmetric],
-                linewidth=style.LINE,
-                gid=name,
+            curves.part(
+                ax, line, is_stable, name, color=COLOURS[one.symmetric], linewidth=style.LINE, gid=name
             )
-            if drawn and name not in labelled:
-                drawn[0].set_label(name)
-                labelled.add(name)
     _marks(ax, branches, lambda orbit: upright(curves.heights_of(orbit, quantity, phase)), across)
     style.label(ax, x_label, curves.height_label(quantity, shown))
     style.key(ax)
@@ -93,9 +83,7 @@ def branch(
 
 
 def _branches(result: Branch | Sequence[Branch]) -> list[Branch]:
-    branches = [result] if isinstance(result, Branch) else list(result) if np.iterable(result) else []
-    if not branches or not all(isinstance(one, Branch) for one in branches):
-        raise TypeError(refusal("result", "be a Branch or a sequence of them", result))
+    branches = curves.several(result, Branch)
     for one in branches:
         if one.name != branches[0].name:
             raise ValueError(
@@ -125,12 +113,3 @@ def _marks(ax: Axes, branches: Sequence[Branch], heights, across) -> None:
             gid=kind,
             zorder=3,
         )
-
-
-def png(followed: Branch) -> bytes:
-    """The picture as the bytes of a PNG, for a notebook."""
-    stream = io.BytesIO()
-    figure, (ax,) = style.panels(height=3.0)
-    branch(followed, ax)
-    figure.savefig(stream, format="png", dpi=110)
-    return stream.getvalue()

@@ -70,10 +70,5 @@ def convergence(spectrum: LyapunovSpectrum, ax: Axes | None = None, exponent: in
         ax.axhline(0.0, color=style.INK, linewidth=style.THIN, gid="zero")
     style.label(ax, "cycles averaged over", rf"exponent $\lambda_{exponent}$ per $\tau$")
     style.logarithmic(ax.xaxis)
-    ax.set_title(
-        rf"$\lambda_{exponent}$ = {plus_minus(final, error)}",
-        loc="right",
-        fontsize=style.SMALL,
-        color=style.INK,
-    )
+    style.note(ax, rf"$\lambda_{exponent}$ = {plus_minus(final, error)}")
     return ax

@@ -1,17 +1,18 @@
 """What pictures over a parameter share: its axis, and branches of orbits as lines, stable solid, unstable dashed."""
 
 from collections.abc import Callable
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 from attrs import evolve
 from matplotlib.axes import Axes
-from matplotlib.lines import Line2D
 
-from rocking.model import Orbit
+from rocking.model import Orbit, refusal
 from rocking.motion import simulate
 from rocking.orbits import Branch
 from rocking.plot.quantities import Quantities
+
+Drawn = TypeVar("Drawn")
 
 COLUMNS = {"angle": 0, "velocity": 1}
 QUANTITIES = (*COLUMNS, "peak")
@@ -75,8 +76,11 @@ def heights_of(orbit: Orbit, quantity: str, phase: float) -> np.ndarray:
     return motion.at(wait + forcing.period * np.arange(orbit.period))[COLUMNS[quantity]]
 
 
-def part(ax: Axes, drawn: Line, is_stable: bool, **look: Any) -> list[Line2D]:
-    """The stable or the unstable parts of a branch, a line a column; both reach to where one becomes the other."""
+def part(ax: Axes, drawn: Line, is_stable: bool, label: str, **look: Any) -> None:
+    """The stable or the unstable parts of a branch, a line a column; both reach to where one becomes the other.
+
+    Of all that have a label the first is in the legend.
+    """
     here = (drawn.stable == is_stable) & ~drawn.between
     near = np.zeros(len(here), bool)
     near[1:] |= here[:-1]
@@ -84,6 +88,28 @@ def part(ax: Axes, drawn: Line, is_stable: bool, **look: Any) -> list[Line2D]:
     # where the change itself is not among the special points, the unstable part fills the gap
     own = here | (near & (drawn.between | (not is_stable)))
     if not here.any():
-        return []
+        return
     heights = np.where(own[:, None], drawn.heights, np.nan)
-    return ax.plot(drawn.values, heights, linestyle="-" if is_stable else DASHED, **look)
+    lines = ax.plot(drawn.values, heights, linestyle="-" if is_stable else DASHED, **look)
+    lines[0].set_label(unless_there(ax, label))
+
+
+def unless_there(ax: Axes, label: str) -> str:
+    """A label, or none where something drawn has it already."""
+    return "_" if label in ax.get_legend_handles_labels()[1] else label
+
+
+def spans(values: np.ndarray, where: np.ndarray) -> np.ndarray:
+    """The ends of all runs of values that are chosen, NaN after each pair: half-way to the values beside, or at the last one."""
+    edges = np.concatenate([values[:1], 0.5 * (values[1:] + values[:-1]), values[-1:]])
+    chosen = np.concatenate([[False], where, [False]])
+    begins, ends = np.flatnonzero(~chosen[:-1] & chosen[1:]), np.flatnonzero(chosen[:-1] & ~chosen[1:])
+    return np.column_stack([edges[begins], edges[ends], np.full(len(begins), np.nan)]).ravel()
+
+
+def several(result: Any, kind: type[Drawn]) -> list[Drawn]:
+    """One or several results of a kind; TypeError otherwise."""
+    each = [result] if isinstance(result, kind) else list(result) if np.iterable(result) else []
+    if not each or not all(isinstance(one, kind) for one in each):
+        raise TypeError(refusal("result", f"be a {kind.__name__} or a sequence of them", result))
+    return each

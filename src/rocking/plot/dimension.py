@@ -85,10 +85,5 @@ def dimension(result: CorrelationDimension, ax: Axes | None = None) -> Axes:
     right.spines["right"].set(visible=True)
     right.spines["left"].set(visible=False)
     right.yaxis.label.set_color(style.IMPACT)
-    ax.set_title(
-        f"dimension {result.value:.2f}, in [{low:.2f}, {high:.2f}]",
-        loc="right",
-        fontsize=style.SMALL,
-        color=style.INK,
-    )
+    style.note(ax, f"dimension {result.value:.2f}, in [{low:.2f}, {high:.2f}]")
     return ax

@@ -1,7 +1,5 @@
 """Peak rotation over the forcing's period: branches of (1, n) orbits, and what a start from rest does."""
 
-import io
-
 import numpy as np
 from matplotlib.axes import Axes
 
@@ -57,19 +55,10 @@ def frequency_response(result: FrequencyResponse, ax: Axes | None = None, block:
     ax = style.own(ax, height=3.0)
     for n, colour in zip(result.modes, _colours(len(result.modes)), strict=True):
         for is_stable in (True, False):
-            name, labelled = f"(1,{n}), {'' if is_stable else 'un'}stable", False
+            name = f"(1,{n}), {'' if is_stable else 'un'}stable"
             for branch in result.of(n):
-                drawn = curves.part(
-                    ax,
-                    curves.line(branch, "peak", 0.0).shown(across, shown.angle),
-                    is_stable,
-                    color=colour,
-                    linewidth=style.LINE,
-                    gid=name,
-                )
-                if drawn and not labelled:
-                    drawn[0].set_label(name)
-                    labelled = True
+                line = curves.line(branch, "peak", 0.0).shown(across, shown.angle)
+                curves.part(ax, line, is_stable, name, color=colour, linewidth=style.LINE, gid=name)
     _from_rest(ax, result, across, shown.angle)
     style.label(ax, x_label, curves.height_label("peak", shown))
     low, high = ax.get_ylim()
@@ -105,9 +94,7 @@ def _from_rest(ax: Axes, result: FrequencyResponse, across, upright) -> None:
         )
     fell = rest["kind"] == Kind.OVERTURNED.value
     if fell.any():
-        middles = 0.5 * (values[1:] + values[:-1])
-        edges = np.concatenate([values[:1], middles, values[-1:]])
-        ends = np.column_stack([edges[:-1][fell], edges[1:][fell], np.full(int(fell.sum()), np.nan)]).ravel()
+        ends = curves.spans(values, fell)
         ax.plot(
             across(ends),
             np.full(len(ends), BAR),
@@ -118,12 +105,3 @@ def _from_rest(ax: Axes, result: FrequencyResponse, across, upright) -> None:
             label="from rest: overturned",
             gid="overturned",
         )
-
-
-def png(response: FrequencyResponse) -> bytes:
-    """The picture as the bytes of a PNG, for a notebook."""
-    stream = io.BytesIO()
-    figure, (ax,) = style.panels(height=3.0)
-    frequency_response(response, ax)
-    figure.savefig(stream, format="png", dpi=110)
-    return stream.getvalue()

@@ -1,7 +1,5 @@
 """Stable and unstable manifolds of the saddles on a section."""
 
-import io
-
 import numpy as np
 from matplotlib.axes import Axes
 
@@ -9,6 +7,7 @@ from rocking.model import Block, instance
 from rocking.orbits import SaddleManifolds
 from rocking.plot import style
 from rocking.plot.quantities import quantities
+from rocking.plot.section import at_phase
 
 UNSTABLE, STABLE = style.IMPACT, style.MOTION
 WIDER = 1.15
@@ -77,8 +76,7 @@ def manifolds(result: SaddleManifolds, ax: Axes | None = None, block: Block | No
     )
     style.label(ax, shown.angle_label, shown.velocity_label)
     _frame(ax, result, shown)
-    at = rf"$\psi = {result.phase % (2.0 * np.pi):.4g}$ (mod $2\pi$)"
-    ax.set_title(at, loc="right", fontsize=style.SMALL, color=style.INK)
+    style.note(ax, at_phase(result.phase))
     style.key(ax)
     return ax
 
@@ -89,12 +87,3 @@ def _frame(ax: Axes, result: SaddleManifolds, shown) -> None:
     wide, fast = WIDER * sizes[:, 0].max(), WIDER * sizes.sum(axis=1).max()
     ax.set_xlim(*(float(shown.angle(side * wide)) for side in (-1, 1)))
     ax.set_ylim(*(float(shown.velocity(side * fast)) for side in (-1, 1)))
-
-
-def png(grown: SaddleManifolds) -> bytes:
-    """The picture as the bytes of a PNG, for a notebook."""
-    stream = io.BytesIO()
-    figure, (ax,) = style.panels(height=3.0)
-    manifolds(grown, ax)
-    figure.savefig(stream, format="png", dpi=110)
-    return stream.getvalue()

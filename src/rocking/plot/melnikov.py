@@ -69,12 +69,7 @@ def melnikov(amplitude: float, period: float, restitution: float, ax: Axes | Non
     ax.axhline(0.0, color=style.GUIDE, linewidth=style.THIN, zorder=0, gid="zero")
     style.label(ax, r"time $\tau_0/T$ of the forcing (–)", r"energy gained $M(\tau_0)$ (–)")
     first, exact = melnikov_amplitude(period, restitution), heteroclinic_amplitude(period, restitution)
-    ax.set_title(
-        rf"$A = {amplitude:.4g}$: $A_M = {first:.4g}$, $A^* = {exact:.4g}$",
-        loc="right",
-        fontsize=style.SMALL,
-        color=style.INK,
-    )
+    style.note(ax, rf"$A = {amplitude:.4g}$: $A_M = {first:.4g}$, $A^* = {exact:.4g}$")
     style.key(ax)
     return ax
 

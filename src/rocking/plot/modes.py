@@ -112,12 +112,7 @@ def modes(
     style.label(ax, shown.amplitude_label, label)
     ax.set_xlim(left=0.0)
     forced = f"$T = {period:.6g}$" if block is None else f"{block.seconds(period):.4g} s"
-    ax.set_title(
-        rf"(1,{n}) modes, {forced}, $e = {restitution:.4g}$",
-        loc="right",
-        fontsize=style.SMALL,
-        color=style.INK,
-    )
+    style.note(ax, rf"(1,{n}) modes, {forced}, $e = {restitution:.4g}$")
     _explain(ax)
     return ax
 

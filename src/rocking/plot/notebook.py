@@ -7,17 +7,18 @@ from collections.abc import Callable
 from typing import Any
 
 from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
 DOTS_PER_INCH = 110
 
 
-def picture(draw: Callable[[Any], Axes]) -> Callable[[Any], bytes]:
+def picture(draw: Callable[[Any], Axes | Figure]) -> Callable[[Any], bytes]:
     """What makes the bytes of a PNG of a result, from what draws it."""
 
     def png(result: Any) -> bytes:
         stream = io.BytesIO()
-        ax = draw(result)
-        ax.get_figure(root=True).savefig(stream, format="png", dpi=DOTS_PER_INCH)  # type: ignore[union-attr]
+        drawn: Any = draw(result)
+        drawn.get_figure(root=True).savefig(stream, format="png", dpi=DOTS_PER_INCH)
         return stream.getvalue()
 
     return png

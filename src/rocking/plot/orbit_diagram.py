@@ -1,6 +1,5 @@
 """Stroboscopic points over a parameter, with the branches of periodic orbits that run through them."""
 
-import io
 from collections.abc import Sequence
 
 import numpy as np
@@ -142,38 +141,31 @@ def _checked(result: OrbitDiagram, branch: Branch) -> Branch:
 
 def _branches(ax: Axes, lines: Sequence[curves.Line], is_stable: bool) -> None:
     """The stable or the unstable parts of branches."""
-    word, labelled = ("stable" if is_stable else "unstable"), False
+    word, width = ("stable", OUTLINE) if is_stable else ("unstable", style.THIN)
     for line in lines:
-        drawn = curves.part(
+        curves.part(
             ax,
             line,
             is_stable,
+            f"{word} orbits",
             color=style.INK,
-            linewidth=OUTLINE if is_stable else style.THIN,
+            linewidth=width,
             gid=f"{word} branch",
             zorder=1.8,
         )
-        if drawn and not labelled:
-            drawn[0].set_label(f"{word} orbits")
-            labelled = True
 
 
 def _bars(ax: Axes, result: OrbitDiagram, across) -> None:
     """A bar a sweep, below the points, along the values at which the block overturned."""
     low, high = ax.get_ylim()
     ax.set_ylim(low - ROOM * (high - low), high)
-    values = result.values
-    middles = 0.5 * (values[1:] + values[:-1])
-    edges = np.concatenate([values[:1], middles, values[-1:]])
     for row, way in enumerate(result.sweeps):
-        fell = np.concatenate([[False], result.overturned[row], [False]])
-        begins, ends = np.flatnonzero(~fell[:-1] & fell[1:]), np.flatnonzero(fell[:-1] & ~fell[1:])
-        if not len(begins):
+        if not result.overturned[row].any():
             continue
-        ends_of_bars = np.column_stack([edges[begins], edges[ends], np.full(len(begins), np.nan)]).ravel()
+        ends = curves.spans(result.values, result.overturned[row])
         ax.plot(
-            across(ends_of_bars),
-            np.full(len(ends_of_bars), BAR * (row + 0.6)),
+            across(ends),
+            np.full(len(ends), BAR * (row + 0.6)),
             transform=ax.get_xaxis_transform(),
             color=WAYS[way][1] if len(result.sweeps) > 1 else style.INK,
             linewidth=THICK,
@@ -181,12 +173,3 @@ def _bars(ax: Axes, result: OrbitDiagram, across) -> None:
             label="overturned" + (f", {way}" if len(result.sweeps) > 1 else ""),
             gid=f"overturned {way}",
         )
-
-
-def png(diagram: OrbitDiagram) -> bytes:
-    """The picture as the bytes of a PNG, for a notebook."""
-    stream = io.BytesIO()
-    figure, (ax,) = style.panels(height=3.0)
-    orbit_diagram(diagram, ax)
-    figure.savefig(stream, format="png", dpi=110)
-    return stream.getvalue()

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import io
-
 from matplotlib.figure import Figure
 
 from rocking.model import Block, Outcome, instance
@@ -62,10 +60,3 @@ def _cycles(motion: Motion) -> tuple[float, float] | None:
     if motion.outcome is Outcome.BOUNDED and motion.cycles > CYCLES_SHOWN:
         return motion.cycles - CYCLES_SHOWN, motion.cycles
     return None
-
-
-def png(motion: Motion) -> bytes:
-    """The overview as the bytes of a PNG, for a notebook."""
-    stream = io.BytesIO()
-    overview(motion).savefig(stream, format="png", dpi=110)
-    return stream.getvalue()

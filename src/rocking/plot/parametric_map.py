@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 import os
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any
@@ -227,23 +226,9 @@ def _legend(ax: Axes, keys: Sequence[Patch | Line2D]) -> None:
     """Below the axes: two columns while they are short."""
     ax.legend(
         handles=keys,
-        loc="upper center",
-        bbox_to_anchor=(0.5, 0.0),
-        borderaxespad=3.8,
+        **style.BELOW | {"fontsize": style.SMALL - 0.5},
         ncols=2,
-        fontsize=style.SMALL - 0.5,
-        labelcolor=style.INK,
-        frameon=False,
         handlelength=1.8,
         columnspacing=0.8,
         handletextpad=0.5,
     )
-
-
-def png(found: xr.Dataset) -> bytes:
-    """The map as the bytes of a PNG, for a notebook."""
-    stream = io.BytesIO()
-    figure, (ax,) = style.panels(height=4.4)
-    parametric_map(found, ax)
-    figure.savefig(stream, format="png", dpi=110)
-    return stream.getvalue()

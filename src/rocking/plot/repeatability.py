@@ -56,7 +56,7 @@ def repeatability(found: Repeatability, ax: Axes | None = None) -> Axes:
     ax.invert_yaxis()
     ax.set_xlim(0.0, 100.0)
     off = f"inputs off by up to {100 * found.relative:.3g} %"
-    ax.set_title(off, loc="right", fontsize=style.SMALL, color=style.INK)
+    style.note(ax, off)
     return ax
 
 

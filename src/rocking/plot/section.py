@@ -79,9 +79,7 @@ def section(
     )
     style.label(ax, shown.angle_label, shown.velocity_label)
     if phase is not None:
-        ax.set_title(
-            rf"$\psi = {_angle(phase)}$ (mod $2\pi$)", loc="right", fontsize=style.SMALL, color=style.INK
-        )
+        style.note(ax, at_phase(phase))
     return ax
 
 
@@ -96,5 +94,6 @@ def _points(result) -> NDArray:
     return points
 
 
-def _angle(phase: float) -> str:
-    return f"{phase % (2 * math.pi):.4g}"
+def at_phase(phase: float) -> str:
+    """At which forcing phase a section is taken."""
+    return rf"$\psi = {phase % (2 * math.pi):.4g}$ (mod $2\pi$)"

@@ -4,6 +4,8 @@ Sizes are chosen for a journal's column (88 mm wide). The colours are those of O
 tell apart. Everything is set on the artists themselves; matplotlib's global settings and backend are never touched.
 """
 
+from typing import Any
+
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.axis import Axis
@@ -33,6 +35,16 @@ TABLE = "#CFCFCF"
 BLOCK = "#E8C07D"
 INK = "#262626"
 GUIDE = "#9A9A9A"
+
+# A legend under the label of the horizontal axis, clear of titles and of what is drawn.
+BELOW: dict[str, Any] = {
+    "loc": "upper center",
+    "bbox_to_anchor": (0.5, 0.0),
+    "borderaxespad": 3.8,  # in sizes of its text: past the ticks' numbers and the label
+    "fontsize": SMALL,
+    "labelcolor": INK,
+    "frameon": False,
+}
 
 
 def own(ax: Axes | None, height: float = 2.4) -> Axes:
@@ -80,6 +92,11 @@ def title(ax: Axes, text: str) -> None:
     ax.set_title(f"{letter} {text}" if letter else text, loc="left", fontsize=TEXT, color=INK)
 
 
+def note(ax: Axes, text: str) -> None:
+    """Writes `text`, small, above the axes at the right."""
+    ax.set_title(text, loc="right", fontsize=SMALL, color=INK)
+
+
 def label(ax: Axes, x: str, y: str) -> None:
     """Labels both axes with symbol and unit, and gives ticks and frame their sizes; few ticks, so that numbers fit."""
     ax.xaxis.set_major_locator(MaxNLocator(5, steps=[1, 2, 2.5, 5, 10]))
@@ -101,34 +118,15 @@ def logarithmic(axis: Axis) -> None:
 
 
 def key(ax: Axes) -> None:
-    """A legend under the label of the horizontal axis, clear of titles and of what is drawn; its marks never shrink."""
-    legend = ax.legend(
-        loc="upper center",
-        bbox_to_anchor=(0.5, 0.0),
-        borderaxespad=3.8,  # in sizes of its text: past the ticks' numbers and the label
-        ncols=2,
-        fontsize=SMALL,
-        labelcolor=INK,
-        frameon=False,
-        handletextpad=0.2,
-        columnspacing=1.2,
-    )
+    """A legend of what is drawn; its marks never shrink."""
+    legend = ax.legend(**BELOW, ncols=2, handletextpad=0.2, columnspacing=1.2)
     for mark in legend.get_lines():
         mark.set(markersize=MARK, markeredgewidth=0.8)
 
 
 def patches(ax: Axes, handles: list, columns: int = 2) -> None:
-    """A legend of coloured patches under the label of the horizontal axis."""
-    ax.legend(
-        handles=handles,
-        loc="upper center",
-        bbox_to_anchor=(0.5, 0.0),
-        borderaxespad=3.8,
-        ncols=columns,
-        fontsize=SMALL,
-        labelcolor=INK,
-        frameon=False,
-    )
+    """A legend of coloured patches."""
+    ax.legend(handles=handles, **BELOW, ncols=columns)
 
 
 def point_size(count: int) -> float:

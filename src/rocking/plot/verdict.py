@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 import math
 import textwrap
 
@@ -102,7 +101,7 @@ def _motion(verdict: Verdict, history: Axes, portrait: Axes, block: Block | None
     time_history(motion, history, block, window)
     phase_portrait(motion, portrait, block, window)
     if verdict.kind in ENDS and motion.outcome is Outcome.BOUNDED:
-        history.set_title("this run of it ends otherwise", loc="right", fontsize=style.SMALL, color=style.INK)
+        style.note(history, "this run of it ends otherwise")
     if first > 0:
         unit = quantities(block).time_unit
         history.set_xlabel(f"time after cycle {first:,} ({unit})", fontsize=style.TEXT, color=style.INK)
@@ -178,10 +177,3 @@ def _ring(ax: Axes, points: NDArray, block: Block | None, kind: Kind) -> None:
         zorder=3,
     )
     style.key(ax)
-
-
-def png(verdict_: Verdict) -> bytes:
-    """The picture as the bytes of a PNG, for a notebook."""
-    stream = io.BytesIO()
-    verdict(verdict_).savefig(stream, format="png", dpi=110)
-    return stream.getvalue()
