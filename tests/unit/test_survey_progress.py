@@ -5,7 +5,7 @@ import re
 import numpy as np
 
 import rocking as rk
-from rocking.survey import percent
+from rocking.model import percent
 
 ASKED = {
     "amplitude": np.linspace(0.0, 16.0, 80),

@@ -6,23 +6,8 @@ from typing import Annotated
 
 import typer
 
-from rocking.cli.basins import EXAMPLES as BASINS_EXAMPLES
-from rocking.cli.basins import basins
-from rocking.cli.cite import cite
-from rocking.cli.classify import EXAMPLES as CLASSIFY_EXAMPLES
-from rocking.cli.classify import classify
-from rocking.cli.explore import explore
-from rocking.cli.map import EXAMPLES as MAP_EXAMPLES
-from rocking.cli.map import map_
-from rocking.cli.modes import EXAMPLES as MODES_EXAMPLES
-from rocking.cli.modes import modes
-from rocking.cli.orbit_diagram import EXAMPLES as ORBIT_DIAGRAM_EXAMPLES
-from rocking.cli.orbit_diagram import orbit_diagram
-from rocking.cli.overturning import EXAMPLES as OVERTURNING_EXAMPLES
-from rocking.cli.overturning import overturning
-from rocking.cli.paper import EXAMPLES as PAPER_EXAMPLES
-from rocking.cli.paper import paper
-from rocking.cli.simulate import EXAMPLES, simulate
+from rocking.cli import basins, cite, classify, explore, modes, orbit_diagram, overturning, paper, simulate
+from rocking.cli import map as map_
 
 VERSION = typer.Option("--version", help="Show the version and stop.")
 
@@ -33,16 +18,23 @@ app = typer.Typer(
     rich_markup_mode=None,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
-app.command(epilog=EXAMPLES)(simulate)
-app.command(epilog=CLASSIFY_EXAMPLES)(classify)
-app.command(epilog=MODES_EXAMPLES)(modes)
-app.command("map", epilog=MAP_EXAMPLES)(map_)
-app.command(epilog=BASINS_EXAMPLES)(basins)
-app.command(epilog=OVERTURNING_EXAMPLES)(overturning)
-app.command(epilog=ORBIT_DIAGRAM_EXAMPLES)(orbit_diagram)
-app.command()(explore)
-app.command(epilog=PAPER_EXAMPLES)(paper)
-app.command()(cite)
+
+
+def _shown(examples: str) -> str:
+    """Examples under the help; the control character keeps lines as they are."""
+    return f"\b\n{examples}"
+
+
+app.command(epilog=_shown(simulate.EXAMPLES))(simulate.simulate)
+app.command(epilog=_shown(classify.EXAMPLES))(classify.classify)
+app.command(epilog=_shown(modes.EXAMPLES))(modes.modes)
+app.command("map", epilog=_shown(map_.EXAMPLES))(map_.map_)
+app.command(epilog=_shown(basins.EXAMPLES))(basins.basins)
+app.command(epilog=_shown(overturning.EXAMPLES))(overturning.overturning)
+app.command(epilog=_shown(orbit_diagram.EXAMPLES))(orbit_diagram.orbit_diagram)
+app.command()(explore.explore)
+app.command(epilog=_shown(paper.EXAMPLES))(paper.paper)
+app.command()(cite.cite)
 
 
 @app.callback(invoke_without_command=True)

@@ -10,9 +10,12 @@ import attrs
 
 from rocking.cli import quantities, studies
 from rocking.cli.axes import Axis
+from rocking.cli.options import START, SYSTEM
+from rocking.cli.options import question as system_of
 from rocking.cli.screen import Row, print_json, print_table
 from rocking.cli.summary import asked_of, physical_of, question_of
 from rocking.cli.surveys import FILES, MOST_ROWS, carried_out, share_record
+from rocking.model import counted
 
 if TYPE_CHECKING:
     from rocking.model import BasinMap, Block, UncertaintyExponent
@@ -38,8 +41,8 @@ def _checks() -> dict[str, studies.Check]:
         "boundary_runs": (0, MOST_SAMPLES),
     }
     return {
-        **quantities.fixed(*quantities.SYSTEM),
-        **quantities.varying(*quantities.START),
+        **quantities.fixed(*SYSTEM),
+        **quantities.varying(*START),
         **quantities.counts(limits),
         **quantities.places("store", *FILES),
     }
@@ -50,8 +53,8 @@ def compute(given: Mapping[str, Any]) -> tuple[BasinMap, Block | None]:
     from rocking.survey import basin_map
 
     asked = {name: each for name, each in given.items() if name not in FILES}
-    shaken = {name: asked.pop(name) for name in quantities.SYSTEM if name in asked}
-    system, _, block = quantities.point_of(shaken)
+    shaken = {name: asked.pop(name) for name in SYSTEM if name in asked}
+    system, _, block = system_of(shaken)
     reach = 1.0 if system.braces is None else min(system.braces.angle, 1.0)
     usual = {"angle": Axis(-reach, reach, USUAL), "velocity": Axis(-1.0, 1.0, USUAL)}
     for name, axis in usual.items():
@@ -70,8 +73,8 @@ def show(found: BasinMap, block: Block | None, files: list[Path], *, as_json: bo
         told = {} if block is None else {"block": physical_of(found.system, block)}
         print_json(record(found, files) | told)
         return
-    count = len(found.attractors)
-    title = f"basins, {found.fractions[0].of:,} starts: {count} response{'s' * (count != 1)} to be told apart"
+    responses = counted(len(found.attractors), "response")
+    title = f"basins, {found.fractions[0].of:,} starts: {responses} to be told apart"
     print_table(title, [*asked_of(found.system, block), *rows(found)], files)
 
 

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from contextlib import suppress
-from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import typer
 
-from rocking.cli.options import YourInput, number, option, question
+from rocking.cli.options import YourInput, number, number_option, option, question
 
 if TYPE_CHECKING:
     import numpy as np
@@ -44,24 +44,17 @@ def number_or_axis(text: str) -> float | Axis:
     )
 
 
-def _option(name: str, text: str) -> Any:
+def axis_option(name: str, text: str) -> Any:
+    """An option that is an axis."""
+    return typer.Option(name, parser=number_or_axis, metavar="AXIS", help=text)
+
+
+def value_option(name: str, text: str) -> Any:
+    """An option that is a number or an axis; a block has one height and one width."""
+    if name in ("--height", "--width"):
+        return number_option(name, text)
     return typer.Option(name, parser=number_or_axis, metavar="NUMBER|AXIS", help=text)
 
-
-Value = float | None
-
-Amplitude = Annotated[Value, _option("--amplitude", "Normalised: A of the base, in units of g θcr.")]
-Period = Annotated[Value, _option("--period", "Normalised: T of the base, in τ.")]
-Frequency = Annotated[Value, _option("--frequency", "Normalised: Ω of the base, instead of --period.")]
-Acceleration = Annotated[Value, _option("--acceleration", "SI: amplitude of the base, m/s².")]
-AccelerationG = Annotated[Value, _option("--acceleration-g", "SI: the same in units of g.")]
-Displacement = Annotated[Value, _option("--displacement", "SI: or of the base's displacement, m.")]
-FrequencyHz = Annotated[Value, _option("--frequency-hz", "SI: of the base, Hz.")]
-PeriodS = Annotated[Value, _option("--period-s", "SI: of the base, s, instead of --frequency-hz.")]
-Restitution = Annotated[Value, _option("--restitution", "e at an impact; in SI Housner's unless given.")]
-Phase = Annotated[float, _option("--phase", "φ of the base's acceleration, rad.")]
-BraceAngle = Annotated[Value, _option("--brace-angle", "Θb of side braces, in θcr; no braces unless given.")]
-BraceRestitution = Annotated[Value, _option("--brace-restitution", "r at a brace; 1 unless given.")]
 
 # What an option in SI varies.
 VARIES = {

@@ -8,72 +8,34 @@ from typing import Annotated, Any
 import typer
 
 from rocking.cli import options as ask
-from rocking.cli.axes import number_or_axis
+from rocking.cli.axes import axis_option
 from rocking.cli.studies import Study
 
-# The control character keeps the lines that follow as they are.
-EXAMPLES = """\b
+EXAMPLES = """\
 rocking basins --amplitude 5.5 --period 1 --restitution 0.8 --angle=-1:1:300 --velocity=-1:1:300 --plot basins.png
 rocking basins --amplitude 5.5 --period 1 --restitution 0.8 --samples 10000 --json"""
 
 Angle = Annotated[
-    Any,
-    typer.Option(
-        "--angle",
-        parser=number_or_axis,
-        metavar="AXIS",
-        help="Θ at the start, in θcr: START:STOP:COUNT; -1:1:200 unless given.",
-    ),
+    Any, axis_option("--angle", "Θ at the start, in θcr: START:STOP:COUNT; -1:1:200 unless given.")
 ]
-Velocity = Annotated[
-    Any,
-    typer.Option(
-        "--velocity", parser=number_or_axis, metavar="AXIS", help="Θ' at the start, in θcr per τ, likewise."
-    ),
-]
-Samples = Annotated[
-    ask.Number,
-    typer.Option(
-        "--samples", parser=ask.number, metavar="NUMBER", help="Random starts in those ranges, not a grid."
-    ),
-]
-Seed = Annotated[
-    ask.Number,
-    typer.Option(
-        "--seed", parser=ask.number, metavar="NUMBER", help="Of all that is drawn at random; 0 unless given."
-    ),
-]
+Velocity = Annotated[Any, axis_option("--velocity", "Θ' at the start, in θcr per τ, likewise.")]
+Samples = Annotated[ask.Number, ask.number_option("--samples", "Random starts in those ranges, not a grid.")]
+Seed = Annotated[ask.Number, ask.number_option("--seed", "Of all that is drawn at random; 0 unless given.")]
 BoundaryRuns = Annotated[
     ask.Number,
-    typer.Option(
-        "--boundary-runs",
-        parser=ask.number,
-        metavar="NUMBER",
-        help="Runs for the exponents of the boundaries; 100,000 unless given, 0: none.",
+    ask.number_option(
+        "--boundary-runs", "Runs for the exponents of the boundaries; 100,000 unless given, 0: none."
     ),
 ]
 Plot = Annotated[
     Path | None,
-    typer.Option(metavar="FILE", help="The basins, a colour an attractor, with shares (.png .svg .pdf)."),
+    ask.file_option("--plot", "The basins, a colour an attractor, with shares (.png .svg .pdf)."),
 ]
 
 
+@ask.asks(*ask.SYSTEM)
 def basins(
     context: typer.Context,
-    amplitude: ask.Amplitude = None,
-    period: ask.Period = None,
-    frequency: ask.Frequency = None,
-    height: ask.Height = None,
-    width: ask.Width = None,
-    acceleration: ask.Acceleration = None,
-    acceleration_g: ask.AccelerationG = None,
-    displacement: ask.Displacement = None,
-    frequency_hz: ask.FrequencyHz = None,
-    period_s: ask.PeriodS = None,
-    restitution: ask.Restitution = None,
-    phase: ask.Phase = None,
-    brace_angle: ask.BraceAngle = None,
-    brace_restitution: ask.BraceRestitution = None,
     angle: Angle = None,
     velocity: Velocity = None,
     samples: Samples = None,
@@ -87,6 +49,7 @@ def basins(
     plot: Plot = None,
     netcdf: ask.SurveyNetcdf = None,
     json: ask.Json = False,
+    **shared: Any,
 ) -> None:
     """Tell which start leads where.
 

@@ -2,38 +2,25 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import typer
 
 from rocking.cli import options as ask
 
-# The control character keeps the lines that follow as they are.
-EXAMPLES = """\b
+EXAMPLES = """\
 rocking classify --amplitude 6.5 --period 0.4 --restitution 0.925 --plot verdict.png
 rocking classify --height 2 --width 0.5 --acceleration 4 --frequency-hz 1.2"""
 
 
+@ask.asks(*ask.SYSTEM, *ask.START, phase=0.0, angle=0.0, velocity=0.0)
 def classify(
     context: typer.Context,
-    amplitude: ask.Amplitude = None,
-    period: ask.Period = None,
-    frequency: ask.Frequency = None,
-    height: ask.Height = None,
-    width: ask.Width = None,
-    acceleration: ask.Acceleration = None,
-    acceleration_g: ask.AccelerationG = None,
-    displacement: ask.Displacement = None,
-    frequency_hz: ask.FrequencyHz = None,
-    period_s: ask.PeriodS = None,
-    restitution: ask.Restitution = None,
-    phase: ask.Phase = 0.0,
-    brace_angle: ask.BraceAngle = None,
-    brace_restitution: ask.BraceRestitution = None,
-    angle: ask.Angle = 0.0,
-    velocity: ask.Velocity = 0.0,
     max_cycles: ask.MaxCycles = 100_000,
     max_period: ask.MaxPeriod = 64,
     plot: ask.VerdictPlot = None,
     json: ask.Json = False,
+    **shared: Any,
 ) -> None:
     """Tell what a response is, and how that is known."""
     from rocking.cli import findings, outputs

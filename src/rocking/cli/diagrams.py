@@ -12,7 +12,7 @@ from rocking.cli.axes import Study
 from rocking.cli.files import write_dataset
 from rocking.cli.options import option
 from rocking.cli.screen import print_json, print_table
-from rocking.cli.summary import reach
+from rocking.cli.summary import reach, size_of
 from rocking.model import replacing
 
 if TYPE_CHECKING:
@@ -88,14 +88,7 @@ def record(diagram: OrbitDiagram, block: Block | None, files: Sequence[Path]) ->
         ],
         "files": [str(path) for path in files],
     }
-    if block is not None:
-        told["block"] = {
-            "height_m": block.height,
-            "width_m": block.width,
-            "critical_angle_deg": float(block.degrees(1.0)),
-            "time_unit_s": block.seconds(1.0),
-        }
-    return told
+    return told if block is None else told | {"block": size_of(block)}
 
 
 def write_plot(diagram: OrbitDiagram, block: Block | None, path: Path) -> None:

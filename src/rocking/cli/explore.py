@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from rocking.cli.options import YourInput, number
+from rocking.cli.options import YourInput, number_option
 
 PORT = 5006
 MOST_PORT = 65_535
@@ -14,8 +14,7 @@ MOST_PORT = 65_535
 
 def explore(
     port: Annotated[
-        int,
-        typer.Option("--port", parser=number, metavar="NUMBER", help="Of this machine; 0: any that is free."),
+        int, number_option("--port", "Where on this machine the page is; 0: any port that is free.")
     ] = PORT,
     no_browser: Annotated[bool, typer.Option("--no-browser", help="Only say where the page is.")] = False,
 ) -> None:

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from rocking.cli.options import option, your_input
 from rocking.model import check_writable, replacing
@@ -25,6 +25,18 @@ def check_files(
         with your_input():
             check_writable(option(name), path, suffixes[name])
     return asked
+
+
+def write_csv(tables: Iterable[Mapping[str, Any]], path: Path) -> None:
+    """Tables with the same headings as one: columns, each an array, by their headings."""
+    import csv
+
+    with replacing(path) as temporary, temporary.open("w", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file)
+        for number, table in enumerate(tables):
+            if number == 0:
+                writer.writerow(table)
+            writer.writerows(zip(*(column.tolist() for column in table.values()), strict=True))
 
 
 def write_dataset(data: xr.Dataset, path: Path) -> None:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from rocking.cli.maps import COUNTS
 from rocking.cli.quantities import TOLD
 from rocking.cli.screen import Row, print_json, print_table
-from rocking.model import counted
+from rocking.model import counted, percent
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -53,8 +53,6 @@ def _in_si(name: str, values: tuple[float, ...], block: Block | None) -> str:
 
 
 def _found(kinds: dict[str, int], grounds: dict[str, int]) -> Iterator[Row]:
-    from rocking.survey import percent
-
     total = sum(kinds.values())
     for kind, count in kinds.items():
         if count:

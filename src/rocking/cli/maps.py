@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING, Any
 
 from attrs import field, frozen
 
-from rocking.cli import quantities, studies
+from rocking.cli import files, quantities, studies
 from rocking.cli.files import SUFFIXES, check_files
-from rocking.cli.options import YourInput, option, your_input
+from rocking.cli.options import START, SYSTEM, YourInput, option, your_input
 from rocking.cli.surveys import ARGUMENTS, carried_out
-from rocking.model import check_replaceable, instance, refusal, replacing
+from rocking.model import check_replaceable, instance, refusal
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -69,7 +69,7 @@ def _checks() -> dict[str, studies.Check]:
     from rocking.survey import MOST_CYCLES, MOST_PERIOD
 
     return {
-        **quantities.varying(*quantities.SYSTEM, *quantities.START),
+        **quantities.varying(*SYSTEM, *START),
         **quantities.counts({"max_cycles": (1, MOST_CYCLES), "max_period": (1, MOST_PERIOD)}),
         "curves": _names,
         "symbols": lambda entry: instance("symbols", entry, str),
@@ -142,16 +142,9 @@ def write_netcdf(found: xr.Dataset, path: Path, _: Question) -> None:
 
 def write_csv(found: xr.Dataset, path: Path, _: Question) -> None:
     """A row a point: the axes, then all that was found, flags as words."""
-    import csv
-
     from rocking.survey import tables
 
-    with replacing(path) as temporary, temporary.open("w", newline="", encoding="utf-8") as file:
-        writer = csv.writer(file)
-        for part, table in enumerate(tables(found)):
-            if part == 0:
-                writer.writerow(table)
-            writer.writerows(zip(*(column.tolist() for column in table.values()), strict=True))
+    files.write_csv(tables(found), path)
 
 
 WRITERS: dict[str, Callable[[xr.Dataset, Path, Question], None]] = {

@@ -3,15 +3,19 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager, suppress
+from inspect import Parameter, Signature, signature
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, TypeVar
 
 import typer
 
 if TYPE_CHECKING:
     from rocking.model import Block, State, System
+
+
+Command = TypeVar("Command", bound=Callable[..., None])
 
 
 class YourInput(typer.TyperException):
@@ -26,56 +30,92 @@ def number(text: str) -> float:
     raise typer.BadParameter(f"must be a number alone, such as 0.6; got {text!r}")
 
 
-def _number(name: str, text: str) -> Any:
+def number_option(name: str, text: str) -> Any:
+    """An option that is a number."""
     return typer.Option(name, parser=number, metavar="NUMBER", help=text)
 
 
-def _file(name: str, text: str) -> Any:
+def file_option(name: str, text: str) -> Any:
+    """An option that is a file to be written."""
     return typer.Option(name, metavar="FILE", help=text)
 
 
 Number = float | None
 
-Amplitude = Annotated[Number, _number("--amplitude", "Normalised: A of the base, in units of g θcr.")]
-Period = Annotated[Number, _number("--period", "Normalised: T of the base, in τ.")]
-Frequency = Annotated[Number, _number("--frequency", "Normalised: Ω of the base, instead of --period.")]
+NORMALISED = ("amplitude", "period", "frequency")
+SI = ("height", "width", "acceleration", "acceleration_g", "displacement", "frequency_hz", "period_s")
+FORCED = (*NORMALISED, *SI, "restitution")
+SYSTEM = (*FORCED, "phase", "brace_angle", "brace_restitution")
+START = ("angle", "velocity")
+HELP = {
+    "amplitude": "Normalised: A of the base, in units of g θcr.",
+    "period": "Normalised: T of the base, in τ.",
+    "frequency": "Normalised: Ω of the base, instead of --period.",
+    "height": "SI: of the block, m.",
+    "width": "SI: of the block, m.",
+    "acceleration": "SI: amplitude of the base, m/s².",
+    "acceleration_g": "SI: the same in units of g.",
+    "displacement": "SI: or of the base's displacement, m.",
+    "frequency_hz": "SI: of the base, Hz.",
+    "period_s": "SI: of the base, s, instead of --frequency-hz.",
+    "restitution": "e at an impact; in SI Housner's unless given.",
+    "phase": "φ of the base's acceleration, rad.",
+    "brace_angle": "Θb of side braces, in θcr; no braces unless given.",
+    "brace_restitution": "r at a brace; 1 unless given.",
+    "angle": "Θ at the start, in θcr.",
+    "velocity": "Θ' at the start, in θcr per τ.",
+}
+"""What an option of a system or a start says, whoever asks for it."""
+ZERO = ("phase", *START)
+"""What is 0 unless given, where nothing else is said of it."""
 
-Height = Annotated[Number, _number("--height", "SI: of the block, m.")]
-Width = Annotated[Number, _number("--width", "SI: of the block, m.")]
-Acceleration = Annotated[Number, _number("--acceleration", "SI: amplitude of the base, m/s².")]
-AccelerationG = Annotated[Number, _number("--acceleration-g", "SI: the same in units of g.")]
-Displacement = Annotated[Number, _number("--displacement", "SI: or of the base's displacement, m.")]
-FrequencyHz = Annotated[Number, _number("--frequency-hz", "SI: of the base, Hz.")]
-PeriodS = Annotated[Number, _number("--period-s", "SI: of the base, s, instead of --frequency-hz.")]
 
-Restitution = Annotated[Number, _number("--restitution", "e at an impact; in SI Housner's unless given.")]
-Phase = Annotated[Number, _number("--phase", "φ of the base's acceleration, rad.")]
-BraceAngle = Annotated[Number, _number("--brace-angle", "Θb of side braces, in θcr; no braces unless given.")]
-BraceRestitution = Annotated[Number, _number("--brace-restitution", "r at a brace; 1 unless given.")]
-Angle = Annotated[float, _number("--angle", "Θ at the start, in θcr.")]
-Velocity = Annotated[float, _number("--velocity", "Θ' at the start, in θcr per τ.")]
-Cycles = Annotated[int, _number("--cycles", "Cycles of the base to run.")]
+def asks(
+    *names: str, declare: Callable[[str, str], Any] = number_option, **usual: float
+) -> Callable[[Command], Command]:
+    """Give a command these options before its own; it takes them as ``**shared``, and all are in its context.
+
+    ``declare`` makes an option of its name and what it says; ``usual`` is what one is unless given.
+    """
+    shared = []
+    for name in names:
+        text = HELP[name]
+        if name in ZERO and name not in usual:
+            text = f"{text.removesuffix('.')}; 0 unless given."
+        kind = Annotated[Number, declare(option(name), text)]
+        shared.append(Parameter(name, Parameter.KEYWORD_ONLY, default=usual.get(name), annotation=kind))
+
+    def declared(command: Command) -> Command:
+        context, *others = signature(command, eval_str=True).parameters.values()
+        own = [
+            each.replace(kind=Parameter.KEYWORD_ONLY) for each in others if each.kind != Parameter.VAR_KEYWORD
+        ]
+        command.__signature__ = Signature([context, *shared, *own])  # type: ignore[attr-defined]
+        return command
+
+    return declared
+
+
+Cycles = Annotated[int, number_option("--cycles", "Cycles of the base to run.")]
 
 Plot = Annotated[
     Path | None,
-    _file(
+    file_option(
         "--plot",
         "History and phase portrait, of a long run its last 30 cycles (.png .svg .pdf), or film (.gif .mp4).",
     ),
 ]
-Csv = Annotated[Path | None, _file("--csv", "Time, angle and velocity at even steps.")]
-Netcdf = Annotated[Path | None, _file("--netcdf", "The same with its description (.nc).")]
+Csv = Annotated[Path | None, file_option("--csv", "Time, angle and velocity at even steps (.csv).")]
+Netcdf = Annotated[Path | None, file_option("--netcdf", "The same with its description (.nc).")]
 VerdictPlot = Annotated[
     Path | None,
-    _file("--plot", "Last cycles, phase portrait and section, with the verdict (.png .svg .pdf)."),
+    file_option("--plot", "Last cycles, phase portrait and section, with the verdict (.png .svg .pdf)."),
 ]
-MaxCycles = Annotated[int, _number("--max-cycles", "Cycles of the base to follow at most.")]
-MaxPeriod = Annotated[int, _number("--max-period", "Longest period looked for, in cycles of the base.")]
-ModeCycles = Annotated[
-    int, typer.Option("-n", parser=number, metavar="NUMBER", help="Forcing cycles in a response: 1, 3, 5, ….")
-]
+MaxCycles = Annotated[int, number_option("--max-cycles", "Cycles of the base to follow at most.")]
+MaxPeriod = Annotated[int, number_option("--max-period", "Longest period looked for, in cycles of the base.")]
+ModeCycles = Annotated[int, number_option("-n", "Forcing cycles in a response: 1, 3, 5, ….")]
 ModesPlot = Annotated[
-    Path | None, _file("--plot", "Speed and phase of the modes over the amplitude (.png .svg .pdf).")
+    Path | None, file_option("--plot", "Speed and phase of the modes over the amplitude (.png .svg .pdf).")
 ]
 Store = Annotated[
     Path | None,
@@ -87,24 +127,22 @@ Repair = Annotated[
     bool, typer.Option("--repair", help="Compute tiles of the store again that are found damaged.")
 ]
 SurveyCycles = Annotated[
-    Number, _number("--max-cycles", "Cycles of the base to follow at most; 10,000 unless given.")
+    Number, number_option("--max-cycles", "Cycles of the base to follow at most; 10,000 unless given.")
 ]
 SurveyPeriod = Annotated[
     Number,
-    _number("--max-period", "Longest period looked for, in cycles of the base; 64 unless given."),
+    number_option("--max-period", "Longest period looked for, in cycles of the base; 64 unless given."),
 ]
-SurveyNetcdf = Annotated[Path | None, _file("--netcdf", "All that was found, with its description (.nc).")]
+SurveyNetcdf = Annotated[
+    Path | None, file_option("--netcdf", "All that was found, with its description (.nc).")
+]
 Json = Annotated[bool, typer.Option("--json", help="Print the summary as JSON.")]
 
-NORMALISED = ("amplitude", "period", "frequency")
-SI = ("height", "width", "acceleration", "acceleration_g", "displacement", "frequency_hz", "period_s")
 IN_SI = {"amplitude": "acceleration", "period": "period_s", "frequency": "frequency_hz"}
 LENGTHS = ("cycles", "max_cycles", "max_period")
-ARGUMENTS = {name: name for name in (*NORMALISED, *SI, "restitution", "phase", "angle", "velocity", *LENGTHS)}
-UNASKED = {"phase": 0.0, "angle": 0.0, "velocity": 0.0, "brace_angle": None, "brace_restitution": None}
-"""What a command that asks for a system without its start leaves out."""
-AT_REST = {"angle": 0.0, "velocity": 0.0}
-"""The start of a command that asks for many."""
+ARGUMENTS = {name: name for name in (*FORCED, "phase", *START, *LENGTHS)}
+USUAL: dict[str, Any] = dict.fromkeys((*SYSTEM, *START)) | dict.fromkeys(ZERO, 0.0)
+"""What is meant where nothing is said."""
 BRACES = {"angle": "brace_angle", "restitution": "brace_restitution"}
 NORMALISED_NEEDS = "--amplitude, --period (or --frequency) and --restitution"
 SI_NEEDS = "--height, --width, --acceleration (or --acceleration-g, --displacement) and --frequency-hz (or --period-s)"
@@ -136,6 +174,7 @@ def question(given: Mapping[str, Any]) -> tuple[System, State, Block | None]:
     """The system and the start that the options ask for, and the block if they are in SI; refused as `YourInput`."""
     from rocking.model import LARGEST_START, Block, Harmonic, State, System, within
 
+    given = USUAL | dict(given)
     normalised = [name for name in NORMALISED if given[name] is not None]
     physical = [name for name in SI if given[name] is not None]
     if normalised and physical:

@@ -6,9 +6,9 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from rocking.cli import files
 from rocking.cli.files import PICTURES, SUFFIXES, check_files, write_dataset
 from rocking.cli.options import YourInput, option
-from rocking.model import replacing
 
 if TYPE_CHECKING:
     from rocking.model import Block, System, Verdict
@@ -65,14 +65,7 @@ def write_plot(motion: Motion, block: Block | None, path: Path) -> None:
 
 def write_csv(motion: Motion, block: Block | None, path: Path) -> None:
     """A hundred rows a cycle, normalised, then in SI if there is a block; the header names the units."""
-    import csv
-
-    with replacing(path) as temporary, temporary.open("w", newline="", encoding="utf-8") as file:
-        writer = csv.writer(file)
-        for number, table in enumerate(tables(motion, block)):
-            if number == 0:
-                writer.writerow(table)
-            writer.writerows(zip(*(column.tolist() for column in table.values()), strict=True))
+    files.write_csv(tables(motion, block), path)
 
 
 def tables(motion: Motion, block: Block | None) -> Iterator[dict[str, Any]]:

@@ -11,51 +11,33 @@ from rocking.cli import axes
 from rocking.cli import options as ask
 from rocking.cli.studies import Study
 
-# The control character keeps the lines that follow as they are.
-EXAMPLES = """\b
+EXAMPLES = """\
 rocking overturning --period 0.4:3:50 --restitution 0.925 --plot overturning.png
 rocking overturning --period 1 --restitution 0.925 --amplitude 1:16:1501 --phases 1 --json"""
 
 Amplitude = Annotated[
     Any,
-    typer.Option(
-        "--amplitude",
-        parser=axes.number_or_axis,
-        metavar="AXIS",
-        help="Amplitudes to scan: START:STOP:COUNT; 1:16:301 unless given.",
-    ),
+    axes.axis_option("--amplitude", "Amplitudes to scan: START:STOP:COUNT; 1:16:301 unless given."),
 ]
 Phases = Annotated[
     ask.Number,
-    typer.Option(
-        "--phases",
-        parser=ask.number,
-        metavar="NUMBER",
-        help="Phases at which the shaking begins; 16 unless given.",
-    ),
+    ask.number_option("--phases", "Phases at which the shaking begins; 16 unless given."),
 ]
 MaxCycles = Annotated[
     ask.Number,
-    typer.Option(
-        "--max-cycles",
-        parser=ask.number,
-        metavar="NUMBER",
-        help="Cycles of the base to follow at most; 1,000 unless given.",
-    ),
+    ask.number_option("--max-cycles", "Cycles of the base to follow at most; 1,000 unless given."),
 ]
 Plot = Annotated[
     Path | None,
-    typer.Option(
-        metavar="FILE", help="The lowest amplitude, over the share of phases that overturn (.png .svg .pdf)."
+    ask.file_option(
+        "--plot", "The lowest amplitude, over the share of phases that overturn (.png .svg .pdf)."
     ),
 ]
 
 
+@ask.asks("period", "frequency", "restitution", declare=axes.value_option)
 def overturning(
     context: typer.Context,
-    period: axes.Period = None,
-    frequency: axes.Frequency = None,
-    restitution: axes.Restitution = None,
     amplitude: Amplitude = None,
     phases: Phases = None,
     max_cycles: MaxCycles = None,
@@ -66,6 +48,7 @@ def overturning(
     plot: Plot = None,
     netcdf: ask.SurveyNetcdf = None,
     json: ask.Json = False,
+    **shared: Any,
 ) -> None:
     """Find the lowest amplitude that overturns a block from rest.
 

@@ -9,8 +9,7 @@ import typer
 
 from rocking.cli.options import YourInput, your_input
 
-EXAMPLES = """\b
-rocking paper 1 4 --output figures"""
+EXAMPLES = "rocking paper 1 4 --output figures"
 
 FIGURES = typer.Argument(
     metavar="FIGURE",

@@ -5,19 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from rocking.cli.axes import FORM, VARIES, Axis
-from rocking.cli.options import NORMALISED, SI, YourInput
-from rocking.cli.options import question as point
+from rocking.cli.options import SI, YourInput, question
 from rocking.cli.studies import Check, quantity
 from rocking.model import instance, reals, refusal, whole
 
-if TYPE_CHECKING:
-    from rocking.model import Block
-
-SYSTEM = (*NORMALISED, *SI, "restitution", "phase", "brace_angle", "brace_restitution")
-START = ("angle", "velocity")
 TOLD = (
     "amplitude",
     "period",
@@ -30,12 +24,6 @@ TOLD = (
     "velocity",
 )
 """What a survey is told by, in this order."""
-
-
-def point_of(given: Mapping[str, Any]) -> tuple[Any, Any, Block | None]:
-    """The system and the start of what is given, and the block if it is in SI."""
-    usual = dict.fromkeys((*SYSTEM, *START)) | {"phase": 0.0, "angle": 0.0, "velocity": 0.0}
-    return point(usual | dict(given))
 
 
 def normalised(given: Mapping[str, Any]) -> dict[str, Any]:
@@ -70,7 +58,7 @@ def normalised(given: Mapping[str, Any]) -> dict[str, Any]:
 
 def _numbers(given: Mapping[str, Any]) -> dict[str, Any]:
     """A system and a start as `parametric_map` has them."""
-    system, start, _ = point_of(given)
+    system, start, _ = question(given)
     forcing, by_frequency = system.forcing, "frequency" in given or "frequency_hz" in given
     told = {
         "amplitude": forcing.amplitude,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import typer
 
@@ -12,35 +12,20 @@ if TYPE_CHECKING:
     from rocking.model import State, System
     from rocking.motion import Motion
 
-# The control character keeps the lines that follow as they are.
-EXAMPLES = """\b
+EXAMPLES = """\
 rocking simulate --amplitude 2 --period 1 --restitution 0.925 --plot motion.png
 rocking simulate --height 2 --width 0.5 --acceleration 3 --frequency-hz 1.2"""
 
 
+@ask.asks(*ask.SYSTEM, *ask.START, phase=0.0, angle=0.0, velocity=0.0)
 def simulate(
     context: typer.Context,
-    amplitude: ask.Amplitude = None,
-    period: ask.Period = None,
-    frequency: ask.Frequency = None,
-    height: ask.Height = None,
-    width: ask.Width = None,
-    acceleration: ask.Acceleration = None,
-    acceleration_g: ask.AccelerationG = None,
-    displacement: ask.Displacement = None,
-    frequency_hz: ask.FrequencyHz = None,
-    period_s: ask.PeriodS = None,
-    restitution: ask.Restitution = None,
-    phase: ask.Phase = 0.0,
-    brace_angle: ask.BraceAngle = None,
-    brace_restitution: ask.BraceRestitution = None,
-    angle: ask.Angle = 0.0,
-    velocity: ask.Velocity = 0.0,
     cycles: ask.Cycles = 200,
     plot: ask.Plot = None,
     csv: ask.Csv = None,
     netcdf: ask.Netcdf = None,
     json: ask.Json = False,
+    **shared: Any,
 ) -> None:
     """Run one block and tell what it did."""
     from rocking.cli import outputs, summary

@@ -11,6 +11,7 @@ import attrs
 
 from rocking.cli.outputs import MOST_CYCLES_KEPT
 from rocking.cli.screen import Row, print_json, print_table
+from rocking.model import counted
 
 if TYPE_CHECKING:
     from rocking.model import Block, System, Verdict
@@ -35,18 +36,13 @@ def verdict(motion: Motion) -> str:
         return f"overturned: no return is proved at τ = {overturning.time:.6g}, in the {cycle} cycle"
     if motion.outcome == "at-rest":
         return "at rest, and stays so"
-    return f"bounded over {length(motion)} (neither rest nor overturning was proved)"
+    return f"bounded over {counted(motion.cycles, 'cycle')} (neither rest nor overturning was proved)"
 
 
 def ordinal(number: int) -> str:
     """1st, 2nd, 3rd, 4th, …."""
     ending = "th" if number % 100 in (11, 12, 13) else {1: "st", 2: "nd", 3: "rd"}.get(number % 10, "th")
     return f"{number}{ending}"
-
-
-def length(motion: Motion) -> str:
-    """How many cycles were run."""
-    return f"{motion.cycles} cycle{'' if motion.cycles == 1 else 's'}"
 
 
 def asked(result: Motion | Verdict, block: Block | None) -> Iterator[Row]:
@@ -82,7 +78,7 @@ def asked_of(system: System, block: Block | None) -> Iterator[Row]:
 def found(motion: Motion, block: Block | None) -> Iterator[Row]:
     """Rows that answer it."""
     time = "" if block is None else f"{block.seconds(motion.duration):.4g} s"
-    yield "run", f"{length(motion)}, τ = {motion.duration:.6g}", time
+    yield "run", f"{counted(motion.cycles, 'cycle')}, τ = {motion.duration:.6g}", time
     yield "impacts", f"{motion.impacts}{_cut(motion, 'rest')}", ""
     if motion.system.braces is not None:
         yield "brace hits", f"{motion.brace_hits}{_cut(motion, 'leaning')}", ""
@@ -173,14 +169,20 @@ def physical(result: Motion | Verdict, block: Block) -> dict[str, Any]:
     }
 
 
-def physical_of(system: System, block: Block) -> dict[str, Any]:
-    """The block and its base alone."""
-    forcing = system.forcing
+def size_of(block: Block) -> dict[str, float]:
+    """The block alone."""
     return {
         "height_m": block.height,
         "width_m": block.width,
         "critical_angle_deg": float(block.degrees(1.0)),
         "time_unit_s": block.seconds(1.0),
+    }
+
+
+def physical_of(system: System, block: Block) -> dict[str, Any]:
+    """The block and its base alone."""
+    forcing = system.forcing
+    return size_of(block) | {
         "acceleration_m_per_s2": block.acceleration(forcing.amplitude),
         "period_s": block.seconds(forcing.period),
         "restitution_is_housners": block.has_housner_restitution,

@@ -1,6 +1,5 @@
 """Surveys: one question asked at every point of a grid, on all cores or a cluster, in memory or in a store."""
 
-from rocking.model import percent
 from rocking.survey import notebook
 from rocking.survey.attractors import lead
 from rocking.survey.axes import check_quantity
@@ -30,7 +29,6 @@ __all__ = [
     "lead",
     "overturning_amplitude",
     "parametric_map",
-    "percent",
     "repeatability",
     "repeatability_map",
     "respond",
