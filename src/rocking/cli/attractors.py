@@ -31,7 +31,8 @@ def question(typed: Mapping[str, Any], file: Path | None) -> dict[str, Any]:
 
 def _checks() -> dict[str, studies.Check]:
     """How each entry of a study file is read."""
-    from rocking.survey import MOST_CYCLES, MOST_PERIOD, MOST_SAMPLES, MOST_SEED
+    from rocking.response import MOST_CYCLES, MOST_PERIOD
+    from rocking.survey import MOST_SAMPLES, MOST_SEED
 
     limits = {
         "samples": (1, MOST_SAMPLES),

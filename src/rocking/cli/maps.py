@@ -66,7 +66,7 @@ def _block(given: Mapping[str, Any]) -> Block | None:
 
 def _checks() -> dict[str, studies.Check]:
     """How each entry of a study file is read."""
-    from rocking.survey import MOST_CYCLES, MOST_PERIOD
+    from rocking.response import MOST_CYCLES, MOST_PERIOD
 
     return {
         **quantities.varying(*SYSTEM, *START),

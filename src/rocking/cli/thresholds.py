@@ -30,7 +30,8 @@ def question(typed: Mapping[str, Any], file: Path | None) -> dict[str, Any]:
 
 def _checks() -> dict[str, studies.Check]:
     """How each entry of a study file is read."""
-    from rocking.survey import MOST_CYCLES, MOST_PERIOD, MOST_PHASES
+    from rocking.response import MOST_CYCLES, MOST_PERIOD
+    from rocking.survey import MOST_PHASES
 
     limits = {"phases": (1, MOST_PHASES), "max_cycles": (1, MOST_CYCLES), "max_period": (1, MOST_PERIOD)}
     return {

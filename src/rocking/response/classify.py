@@ -91,12 +91,19 @@ def classify(
     """
     start = State() if start is None else start
     check_start(system, start)
-    max_cycles = whole("max_cycles", max_cycles, 1, MOST_CYCLES)
-    max_period = whole("max_period", max_period, 1, MOST_PERIOD)
+    max_cycles, max_period = budget(max_cycles, max_period).values()
     judgement = _judged(system, start, max_cycles, max_period)
     return _verdict(
         start, Case(system, max_cycles, max_period, judgement, _to_its_end(system, start, judgement))
     )
+
+
+def budget(max_cycles: int, max_period: int) -> dict[str, int]:
+    """For how many cycles a motion is followed at most, and up to which period an orbit is looked for; by name, checked."""
+    return {
+        "max_cycles": whole("max_cycles", max_cycles, 1, MOST_CYCLES),
+        "max_period": whole("max_period", max_period, 1, MOST_PERIOD),
+    }
 
 
 def _judged(system: System, start: State, max_cycles: int, max_period: int) -> kernel.Judgement:

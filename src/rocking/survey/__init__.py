@@ -6,7 +6,7 @@ from rocking.survey.axes import check_quantity
 from rocking.survey.basins import basin_map
 from rocking.survey.chaos import chaos_share
 from rocking.survey.export import counts, tables, to_netcdf
-from rocking.survey.maps import MOST_CYCLES, MOST_PERIOD, parametric_map
+from rocking.survey.maps import parametric_map
 from rocking.survey.overturning import MOST_PHASES, overturning_amplitude
 from rocking.survey.repeatability import repeatability
 from rocking.survey.repeatability_map import repeatability_map
@@ -16,8 +16,6 @@ from rocking.survey.safe import safe_basin
 from rocking.survey.samples import MOST_SAMPLES, MOST_SEED
 
 __all__ = [
-    "MOST_CYCLES",
-    "MOST_PERIOD",
     "MOST_PHASES",
     "MOST_SAMPLES",
     "MOST_SEED",

@@ -12,8 +12,8 @@ from rocking.kernels import answers, judgement, many
 from rocking.kernels import attractor as kernel
 from rocking.model import Attractor, Harmonic, State, System
 from rocking.motion import simulate
-from rocking.response import classify
-from rocking.survey.axes import SYSTEM, Points, points
+from rocking.response import budget, classify
+from rocking.survey.axes import Points, points
 from rocking.survey.chaotic import averages, grouped
 from rocking.survey.responses import VARIABLES, judged
 from rocking.survey.tiles import Arrays, Measure, Variable
@@ -66,7 +66,7 @@ def destination(max_cycles: int, max_period: int, title: str) -> Measure:
         by_name["transient"],
         by_name["cycles"],
     )
-    options = {"max_cycles": max_cycles, "max_period": max_period}
+    options = budget(max_cycles, max_period)
     return Measure(title, judge, compile_both, variables, options, many.METHOD, shares="kind")
 
 
@@ -101,8 +101,7 @@ def judge(points: Points, options: Mapping[str, int], stop: np.ndarray) -> Array
         return None
     anchors = kernel.anchors_of(*points, told)
     # without losses there is no attractor, and a mean takes for ever to settle
-    lossy = points.systems[:, SYSTEM.index("restitution")] < 1.0
-    means = averages(points, (told.kind == judgement.CHAOTIC) & lossy, options["max_cycles"], stop)
+    means = averages(points, (told.kind == judgement.CHAOTIC) & ~points.lossless, options["max_cycles"], stop)
     if stop[0]:
         return None
     answers = judged(told)

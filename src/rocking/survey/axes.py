@@ -62,6 +62,11 @@ class Points(NamedTuple):
     systems: np.ndarray  # (n, 7), SYSTEM, as `kernels.parameters.make` takes it
     starts: np.ndarray  # (n, 2), START
 
+    @property
+    def lossless(self) -> np.ndarray:
+        """Which of them lose nothing at impacts."""
+        return np.asarray(self.systems[:, SYSTEM.index("restitution")] == 1.0)
+
 
 @frozen(eq=False)
 class Question:

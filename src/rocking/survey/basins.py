@@ -26,8 +26,7 @@ from rocking.survey.attractors import destination, named, told_apart
 from rocking.survey.axes import Points, Question, points, question
 from rocking.survey.boundary import distances, exponent, trios
 from rocking.survey.dataset import attributes, coordinate
-from rocking.survey.maps import MOST_CYCLES, MOST_PERIOD
-from rocking.survey.samples import MOST_SAMPLES, MOST_SEED, sampled, span
+from rocking.survey.samples import MOST_SAMPLES, generator, sampled, span
 from rocking.survey.tiles import Measure
 
 if TYPE_CHECKING:
@@ -109,13 +108,9 @@ def basin_map(
     ['period 1, symmetric', 'overturned', 'period 3, symmetric']
     """
     instance("system", system, System)
-    measure = destination(
-        whole("max_cycles", max_cycles, 1, MOST_CYCLES),
-        whole("max_period", max_period, 1, MOST_PERIOD),
-        TITLE,
-    )
+    measure = destination(max_cycles, max_period, TITLE)
     runs = whole("boundary_runs", boundary_runs, 0, MOST_SAMPLES)
-    random = np.random.default_rng(whole("seed", seed, 0, MOST_SEED))
+    random = generator(seed)
     if samples is None:
         asked = question({**asked_of(system), "angle": angle, "velocity": velocity}, 2, "a basin map")
         found = ask(asked, measure, store, executor, progress=progress, repair=repair).load()
@@ -147,23 +142,23 @@ def _fractions(counts: np.ndarray, attractors: tuple[Attractor, ...]) -> tuple[S
     )
 
 
-def asked_of(system: System) -> dict[str, float | None]:
+def asked_of(system: System) -> dict[str, float]:
     """A system by the names of its quantities."""
     forcing, braces = system.forcing, system.braces
-    return {
+    asked = {
         "amplitude": forcing.amplitude,
         "period": forcing.period,
         "phase": forcing.phase,
         "restitution": system.restitution,
-        "brace_angle": None if braces is None else braces.angle,
-        "brace_restitution": None if braces is None else braces.restitution,
     }
+    if braces is not None:
+        asked |= {"brace_angle": braces.angle, "brace_restitution": braces.restitution}
+    return asked
 
 
 def points_of(system: System, starts: np.ndarray) -> Points:
     """One system from starts (n, 2)."""
-    fixed = {name: value for name, value in asked_of(system).items() if value is not None}
-    return points({"angle": starts[:, 0], "velocity": starts[:, 1]}, fixed)
+    return points({"angle": starts[:, 0], "velocity": starts[:, 1]}, asked_of(system))
 
 
 def grid_starts(asked: Question) -> np.ndarray:
@@ -193,14 +188,13 @@ def _random_dataset(
     import xarray as xr
 
     answers = sampled(points_of(system, starts), measure, executor)
-    fixed = {name: value for name, value in asked_of(system).items() if value is not None}
     return xr.Dataset(
         {each.name: ("sample", answers[each.name], each.attributes) for each in measure.variables},
         {
             name: ("sample", starts[:, column], coordinate(name))
             for column, name in enumerate(("angle", "velocity"))
         },
-        attributes(Question({}, fixed), measure),
+        attributes(Question({}, asked_of(system)), measure),
     )
 
 

@@ -11,9 +11,8 @@ from rocking.kernels import judgement as kernel
 from rocking.model import ChaosShare, Share, whole, within
 from rocking.survey.axes import Question, axis, points
 from rocking.survey.dataset import attributes, coordinate
-from rocking.survey.maps import MOST_CYCLES, MOST_PERIOD
 from rocking.survey.outcomes import KINDS, interval_variables, outcome
-from rocking.survey.samples import MOST_SAMPLES, MOST_SEED, sampled, span
+from rocking.survey.samples import MOST_SAMPLES, generator, sampled, span
 
 TITLE = "Share of chaotic responses of a free-standing block on a shaking base"
 
@@ -74,11 +73,7 @@ def chaos_share(
     >>> found.dataset.share.dims
     ('restitution', 'response')
     """
-    measure = outcome(
-        whole("max_cycles", max_cycles, 1, MOST_CYCLES),
-        whole("max_period", max_period, 1, MOST_PERIOD),
-        TITLE,
-    )
+    measure = outcome(max_cycles, max_period, TITLE)
     plain = np.ndim(restitution) == 0
     values = (
         np.array([within("restitution", restitution, 0, 1)]) if plain else axis("restitution", restitution)
@@ -91,7 +86,7 @@ def chaos_share(
         braces = Braces(brace_angle, brace_restitution)
         fixed = {"brace_angle": braces.angle, "brace_restitution": braces.restitution}
     count = whole("samples", samples, 1, MOST_SAMPLES)
-    random = np.random.default_rng(whole("seed", seed, 0, MOST_SEED))
+    random = generator(seed)
     counts = []
     for each in values.tolist():
         drawn = {name: random.uniform(*ends, count) for name, ends in spans.items()}

@@ -9,6 +9,7 @@ import numpy as np
 from rocking.kernels import judgement as kernel
 from rocking.kernels import many
 from rocking.model import Kind, Share
+from rocking.response import budget
 from rocking.survey.axes import Points
 from rocking.survey.responses import VARIABLES
 from rocking.survey.tiles import Arrays, Measure
@@ -20,7 +21,7 @@ KINDS = tuple(Kind(each.name.lower().replace("_", "-")) for each in kernel.Kind)
 
 def outcome(max_cycles: int, max_period: int, title: str) -> Measure:
     """The kind of each response, by the cascade of `classify`."""
-    options = {"max_cycles": max_cycles, "max_period": max_period}
+    options = budget(max_cycles, max_period)
     return Measure(title, judge, many.compile_many, (KIND,), options, many.METHOD, shares="kind")
 
 

@@ -13,7 +13,6 @@ from rocking.model import OverturningCurve, refusal, whole
 from rocking.survey.ask import ask
 from rocking.survey.axes import question
 from rocking.survey.dataset import attributes, coordinate
-from rocking.survey.maps import MOST_CYCLES, MOST_PERIOD
 from rocking.survey.outcomes import outcome
 from rocking.survey.scan import Scan, refined
 from rocking.theory import heteroclinic_amplitude
@@ -89,11 +88,7 @@ def overturning_amplitude(
     count = whole("phases", phases, 1, MOST_PHASES)
     if np.ndim(amplitude) != 1:
         raise TypeError(refusal("amplitude", "be an axis of amplitudes to scan, ascending", amplitude))
-    measure = outcome(
-        whole("max_cycles", max_cycles, 1, MOST_CYCLES),
-        whole("max_period", max_period, 1, MOST_PERIOD),
-        TITLE,
-    )
+    measure = outcome(max_cycles, max_period, TITLE)
     turned = np.arange(count) * (np.pi / count)
     given = {
         "amplitude": amplitude,

@@ -13,10 +13,9 @@ from rocking.kernels import judgement as kernel
 from rocking.model import Kind, Repeatability, Share, State, System, check_start, whole, within
 from rocking.survey.basins import points_of
 from rocking.survey.disturbed import INPUTS, LARGEST_RELATIVE, TITLE, disturbed
-from rocking.survey.maps import MOST_CYCLES, MOST_PERIOD
 from rocking.survey.outcomes import KINDS
 from rocking.survey.responses import response
-from rocking.survey.samples import MOST_SAMPLES, MOST_SEED, sampled
+from rocking.survey.samples import MOST_SAMPLES, generator, sampled
 
 Name = TypeVar("Name", bound=str)
 
@@ -82,12 +81,8 @@ def repeatability(
     check_start(system, start)
     off = within("relative", relative, 0, LARGEST_RELATIVE)
     count = whole("samples", samples, 1, MOST_SAMPLES)
-    measure = response(
-        whole("max_cycles", max_cycles, 1, MOST_CYCLES),
-        whole("max_period", max_period, 1, MOST_PERIOD),
-        TITLE,
-    )
-    random = np.random.default_rng(whole("seed", seed, 0, MOST_SEED))
+    measure = response(max_cycles, max_period, TITLE)
+    random = generator(seed)
     meant = points_of(system, np.tile([start.angle, start.velocity], (count, 1)))
     answers = sampled(disturbed(meant, random.uniform(-1.0, 1.0, (count, INPUTS)), off), measure, executor)
     kinds = Counter(KINDS[k] for k in answers["kind"].tolist())

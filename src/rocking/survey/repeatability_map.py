@@ -12,10 +12,10 @@ import numpy as np
 from rocking.kernels import judgement as kernel
 from rocking.kernels import many
 from rocking.model import RepeatabilityMap, Share, whole, within
+from rocking.response import budget
 from rocking.survey.ask import ask
 from rocking.survey.axes import Points, question
 from rocking.survey.disturbed import LARGEST_RELATIVE, TITLE, disturbed, spread
-from rocking.survey.maps import MOST_CYCLES, MOST_PERIOD
 from rocking.survey.outcomes import KIND, KINDS
 from rocking.survey.tiles import Arrays, Measure, Variable
 
@@ -95,9 +95,7 @@ def repeatability_map(
     }
     asked = question(given, 2, "a map of repeatability")
     off = round(within("relative", relative, 0, LARGEST_RELATIVE) / MILLIONTH)
-    options = {
-        "max_cycles": whole("max_cycles", max_cycles, 1, MOST_CYCLES),
-        "max_period": whole("max_period", max_period, 1, MOST_PERIOD),
+    options = budget(max_cycles, max_period) | {
         "samples": whole("samples", samples, 2, MOST_AT_A_POINT),
         "relative_millionths": off,
     }

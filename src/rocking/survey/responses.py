@@ -9,6 +9,7 @@ import numpy as np
 
 from rocking.kernels import answers, many
 from rocking.kernels import judgement as kernel
+from rocking.response import budget
 from rocking.survey.axes import Points, points
 from rocking.survey.tiles import Arrays, Measure, Variable
 
@@ -91,7 +92,7 @@ VARIABLES = (
 
 def response(max_cycles: int, max_period: int, title: str) -> Measure:
     """What the cascade of `classify` says at each point."""
-    options = {"max_cycles": max_cycles, "max_period": max_period}
+    options = budget(max_cycles, max_period)
     return Measure(title, judge, many.compile_many, VARIABLES, options, many.METHOD, shares="kind")
 
 

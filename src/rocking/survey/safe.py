@@ -11,9 +11,8 @@ from rocking.kernels import judgement as kernel
 from rocking.model import SafeBasin, Share, refusal, whole
 from rocking.survey.axes import RANGES, Points, Question, points, question
 from rocking.survey.dataset import attributes, coordinate
-from rocking.survey.maps import MOST_CYCLES, MOST_PERIOD
 from rocking.survey.outcomes import interval_variables, outcome
-from rocking.survey.samples import MOST_SAMPLES, MOST_SEED, sampled, span
+from rocking.survey.samples import MOST_SAMPLES, generator, sampled, span
 from rocking.theory import heteroclinic_amplitude, melnikov_amplitude
 
 TITLE = "Safe basin of a free-standing block on a shaking base"
@@ -81,11 +80,7 @@ def safe_basin(
     >>> found.dataset.safe.dims, round(found.heteroclinic_amplitude, 4)
     (('amplitude',), 3.6878)
     """
-    measure = outcome(
-        whole("max_cycles", max_cycles, 1, MOST_CYCLES),
-        whole("max_period", max_period, 1, MOST_PERIOD),
-        TITLE,
-    )
+    measure = outcome(max_cycles, max_period, TITLE)
     given = {
         "amplitude": amplitude,
         "period": period,
@@ -103,7 +98,7 @@ def safe_basin(
     )
     low, high = zip(span("angle", angle, reach), span("velocity", velocity), strict=True)
     count = whole("samples", samples, 1, MOST_SAMPLES)
-    starts = np.random.default_rng(whole("seed", seed, 0, MOST_SEED)).uniform(low, high, (count, 2))
+    starts = generator(seed).uniform(low, high, (count, 2))
     amplitudes = asked.axes["amplitude"]
     kinds = [
         sampled(_placed(asked, value, starts), measure, executor)["kind"] for value in amplitudes.tolist()

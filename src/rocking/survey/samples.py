@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from rocking.model import reals, refusal, shown
+from rocking.model import reals, refusal, shown, whole
 from rocking.survey.axes import RANGES, Points
 from rocking.survey.run import engine
 from rocking.survey.tiles import Arrays, Measure
@@ -20,7 +20,7 @@ MOST_SEED = 2**32 - 1
 
 def sampled(points: Points, measure: Measure, executor: Executor | None = None) -> Arrays:
     """The answers of a measure at points, in their order."""
-    measure.compile(bool((points.systems[:, 4] == 1.0).any()))
+    measure.compile(bool(points.lossless.any()))
     total = len(points.systems)
     with engine(executor) as (pool, stop):
         futures = []
@@ -35,6 +35,11 @@ def sampled(points: Points, measure: Measure, executor: Executor | None = None) 
     if len(answers) < len(futures):
         raise CancelledError("told to stop")
     return {name: np.concatenate([each[name] for each in answers]) for name in answers[0]}
+
+
+def generator(seed: int) -> np.random.Generator:
+    """Random numbers, the same for the same seed."""
+    return np.random.default_rng(whole("seed", seed, 0, MOST_SEED))
 
 
 def span(name: str, values: Any, widest: tuple[float, float] | None = None) -> tuple[float, float]:
