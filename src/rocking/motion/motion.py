@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from attrs import field, frozen
 
-from rocking.kernels import events as kernel_events
 from rocking.kernels import sample
 from rocking.model import (
     Block,
@@ -24,6 +23,7 @@ from rocking.model import (
     refusal,
     within,
 )
+from rocking.motion.events import absolute, events_of
 from rocking.motion.run import parameters, section_of
 
 if TYPE_CHECKING:
@@ -31,40 +31,8 @@ if TYPE_CHECKING:
 
     from rocking.motion.validity import Validity
 
-EVENT = np.dtype(
-    [
-        ("time", "f8"),
-        ("cycle", "i8"),
-        ("phase", "f8"),
-        ("angle", "f8"),
-        ("before", "f8"),
-        ("after", "f8"),
-        ("kind", "U8"),
-    ]
-)
 TURN = np.dtype([("time", "f8"), ("angle", "f8")])
-KINDS = np.array(["impact", "brace", "rest", "lift-off", "lean", "leave"])
 LARGEST_PHASE = 1000.0
-
-
-def events_of(system: System, rows: np.ndarray, duration: float) -> np.ndarray:
-    """Event rows of the kernel as `Motion.events` gives them."""
-    rows = rows[rows[:, 2] != kernel_events.NONE]
-    forcing = system.forcing
-    events = np.empty(len(rows), EVENT)
-    events["cycle"] = rows[:, 0]
-    events["time"] = _absolute(rows, forcing.period, duration)
-    events["phase"] = np.mod(forcing.frequency * rows[:, 1] + forcing.phase, 2.0 * math.pi)
-    events["angle"] = rows[:, 4] * rows[:, 5] + 0.0
-    events["before"] = rows[:, 7] + 0.0
-    events["after"] = rows[:, 4] * rows[:, 6] + 0.0
-    events["kind"] = KINDS[rows[:, 2].astype(int)]
-    return events
-
-
-def _absolute(rows: np.ndarray, period: float, duration: float) -> np.ndarray:
-    # rounding must not put the last event after the end
-    return np.minimum(rows[:, 0] * period + rows[:, 1], duration)
 
 
 @frozen(eq=False, slots=False)
@@ -133,7 +101,7 @@ class Motion:
     def peaks(self) -> np.ndarray:
         """Every local extreme of Θ between events, a structured array: time (τ), angle."""
         rows = self._rows()
-        begins = _absolute(rows, self.system.forcing.period, self.duration)
+        begins = absolute(rows, self.system.forcing.period, self.duration)
         lasts = np.append(
             np.diff(rows[:, 0]) * self.system.forcing.period + np.diff(rows[:, 1]), self.duration - begins[-1]
         )
@@ -286,7 +254,7 @@ class Motion:
             raise ValueError(refusal("times", f"lie in the run, [0, {last:.6g}]", float(outside)))
         flat = times.ravel()
         period = self.system.forcing.period
-        begins = _absolute(rows, self.system.forcing.period, self.duration)
+        begins = absolute(rows, self.system.forcing.period, self.duration)
         index = np.searchsorted(begins, flat, side="right") - 1
         cycle = np.floor(flat / period)
         elapsed = (cycle - rows[index, 0]) * period + ((flat - cycle * period) - rows[index, 1])

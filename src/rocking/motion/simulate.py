@@ -10,7 +10,8 @@ import numpy as np
 from rocking.kernels import march as kernel
 from rocking.kernels import notes
 from rocking.model import Overturning, State, System, check_start, one_of, whole
-from rocking.motion.motion import Motion, events_of
+from rocking.motion.events import events_of
+from rocking.motion.motion import Motion
 from rocking.motion.run import begin, outcome_of, parameters, run, state_of
 
 MOST_CYCLES = 1_000_000_000

@@ -3,27 +3,22 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
-from typing import TYPE_CHECKING, NamedTuple
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
 import numpy as np
 from attrs import evolve, frozen
-from numpy.typing import NDArray
 
 from rocking.model import Block, instance
+from rocking.motion.extremes import NOTHING, Arcs, Array, Extreme, least
 
 if TYPE_CHECKING:
     from rocking.motion.motion import Motion
-
-Array = NDArray[np.float64]
-Measure = Callable[[Array, Array], Array]
 
 ORDINARY_FRICTION = 0.5
 """Dry stone, concrete or steel seldom offers less: a motion that needs more is warned of."""
 SLENDER_ERROR = 0.05
 """Relative error up to which the block counts as slender: θcr = 18°, about three times as high as wide."""
-POINTS_PER_PERIOD = 32
-POINTS_AT_ONCE = 500_000
 SHORTEST_ARC = 1e-10
 """In τ. The reaction on the shorter arcs of a chatter is that of their longer neighbours, to as many digits."""
 
@@ -103,28 +98,6 @@ class Validity:
             f"slender model: {slender}",
         ]
         return "\n".join((*lines, *(f"warning: {warning}" for warning in self.warnings)))
-
-
-class Arcs(NamedTuple):
-    """Stretches of a motion between two events, and the side (−1, 0 at rest, 1) of the block on each."""
-
-    starts: Array
-    ends: Array
-    sides: Array
-
-    def where(self, chosen: NDArray[np.bool_]) -> Arcs:
-        """The chosen ones."""
-        return Arcs(*(column[chosen] for column in self))
-
-
-class Extreme(NamedTuple):
-    """A value and where it occurs; the lower, the earlier, the less."""
-
-    value: float
-    time: float
-
-
-NOTHING = Extreme(math.inf, 0.0)
 
 
 def validity(motion: Motion, block: Block) -> Validity:
@@ -260,45 +233,3 @@ def split(motion: Motion, until: float) -> tuple[Arcs, Arcs, Arcs]:
         starts, np.where(rests, np.minimum(ends, starts + motion.system.forcing.period), ends), np.sign(angle)
     )
     return arcs.where(~rests & ~leans), arcs.where(rests), arcs.where(leans)
-
-
-def least(measure: Measure, arcs: Arcs, scale: float) -> Extreme:
-    """Least value of a `measure` of times and sides over all `arcs`, on which it varies over times of `scale`.
-
-    The least value can lie beside a grid point that is no higher than its neighbours, and no deeper below it than they
-    are above (the measure is convex there): where that is not above the best point of the grid, the search goes on.
-    """
-    from scipy.optimize import elementwise
-
-    best = NOTHING
-    for times, sides, which in grids(arcs, scale):
-        values = measure(times, sides)
-        best = min(best, lowest(values, times))
-        before, here, after = values[:-2], values[1:-1], values[2:]
-        bracketed = (which[:-2] == which[2:]) & (here <= before) & (here <= after) & np.isfinite(here)
-        chosen = np.flatnonzero(bracketed)
-        chosen = chosen[2 * here[chosen] - np.maximum(before, after)[chosen] <= best.value]
-        if chosen.size:
-            bracket = (times[chosen], times[chosen + 1], times[chosen + 2])
-            refined = elementwise.find_minimum(measure, bracket, args=(sides[chosen + 1],))
-            best = min(best, lowest(refined.f_x, refined.x))
-    return best
-
-
-def lowest(values: Array, times: Array) -> Extreme:
-    """The least of some values."""
-    index = int(np.argmin(values))
-    return Extreme(float(values[index]), float(times[index]))
-
-
-def grids(arcs: Arcs, scale: float) -> Iterator[tuple[Array, Array, NDArray[np.intp]]]:
-    """Times on the arcs, both ends included (the last instant is the one before the event), sides, and which arc each is on."""
-    steps = 8 + np.ceil(POINTS_PER_PERIOD * (arcs.ends - arcs.starts) / scale)
-    steps = np.minimum(steps, POINTS_AT_ONCE).astype(int)
-    batches = np.cumsum(steps) // POINTS_AT_ONCE
-    for batch in np.unique(batches):
-        chosen, points = arcs.where(batches == batch), steps[batches == batch] + 1
-        which = np.repeat(np.arange(points.size), points)
-        step = np.arange(which.size) - (np.cumsum(points) - points)[which]
-        times = chosen.starts[which] + (chosen.ends - chosen.starts)[which] * (step / (points[which] - 1))
-        yield np.minimum(times, np.nextafter(chosen.ends, -math.inf)[which]), chosen.sides[which], which

@@ -3,11 +3,13 @@
 from rocking.orbits.branches import Branch, SpecialPoint
 from rocking.orbits.continuation import continue_orbit, switch_branch
 from rocking.orbits.curves import BifurcationCurve, bifurcation_curve
-from rocking.orbits.diagram import OrbitDiagram, orbit_diagram
+from rocking.orbits.diagram import orbit_diagram
 from rocking.orbits.find import find_orbit
-from rocking.orbits.frequency_response import FrequencyResponse, frequency_response
+from rocking.orbits.frequency_response import frequency_response
 from rocking.orbits.manifolds import Manifold, SaddleManifolds, saddle_manifolds
+from rocking.orbits.peaks import FrequencyResponse
 from rocking.orbits.search import Orbits, find_orbits
+from rocking.orbits.swept import OrbitDiagram
 from rocking.orbits.tangency import manifold_gap, tangency_amplitude
 
 __all__ = [

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from typing import NamedTuple
 
 import numpy as np
@@ -25,6 +24,7 @@ from rocking.orbits.chains import (
     solved,
     value_of,
 )
+from rocking.orbits.vary import checked_range
 
 KINDS = {
     codes.FOLD: "fold",
@@ -33,15 +33,6 @@ KINDS = {
     codes.GRAZING: "grazing",
 }
 MOST_SPECIAL = 1000
-# A model's own ranges; towards 0 nothing is left of a restitution to follow.
-ALLOWED = {
-    "amplitude": (0.0, 1e3),
-    "frequency": (1e-3, 1e3),
-    "period": (math.tau / 1e3, math.tau / 1e-3),
-    "restitution": (1e-3, 1.0),
-    "brace_angle": (1e-3, 1e3),
-    "brace_restitution": (1e-3, 1.0),
-}
 BORN = -1
 ENDS = {
     BORN: "born at a special point",
@@ -164,14 +155,6 @@ def switch_branch(
         half = _follow(chain, special.name, off, sense * direction, (low, high), step, most)
         branches.append(_born(chain, special, row, half))
     return tuple(branches)
-
-
-def checked_range(parameter: str, bounds: tuple[float, float]) -> tuple[float, float]:
-    """The range of a parameter, ordered, not empty, and within what a system may have."""
-    low, high = (within(f"bounds of {parameter}", value, *ALLOWED[parameter]) for value in bounds)
-    if not low < high:
-        raise ValueError(refusal("bounds", "be (lowest, highest), the one below the other", bounds))
-    return low, high
 
 
 class _Half(NamedTuple):

@@ -15,7 +15,8 @@ from rocking.model import instance, one_of, refusal, whole, within
 from rocking.motion import simulate
 from rocking.orbits.branches import SpecialPoint
 from rocking.orbits.chains import BRACE, IMPACT, NAMES, Chain, clocked, equations, parameters, value_of
-from rocking.orbits.continuation import ENDS, checked_range
+from rocking.orbits.continuation import ENDS
+from rocking.orbits.vary import checked_range
 
 KINDS = {"fold": codes.FOLD, "grazing": codes.GRAZING}
 # An event this slow is the one that grazes.

@@ -6,10 +6,9 @@ import os
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from itertools import repeat
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
-from attrs import field, frozen
 from numpy.typing import ArrayLike, NDArray
 
 from rocking.kernels import desk, march
@@ -21,18 +20,14 @@ from rocking.model import (
     check_start,
     instance,
     one_of,
-    pictures,
     reals,
     refusal,
     whole,
     within,
 )
 from rocking.motion import begin
-from rocking.orbits.record import diagram_dataset
+from rocking.orbits.swept import OrbitDiagram
 from rocking.orbits.vary import PARAMETERS, with_value
-
-if TYPE_CHECKING:
-    import xarray as xr
 
 SWEEPS = {"up": ("up",), "down": ("down",), "both": ("up", "down"), "rest": ("rest",)}
 LARGEST_PHASE = 1e3
@@ -41,92 +36,6 @@ MOST_CYCLES = 1_000_000
 MOST_POINTS = 2**25
 # Compiled code cannot be interrupted: it comes up for air after so many cycles, or one value.
 BREATH = 1_000_000
-
-
-@frozen(eq=False)
-class OrbitDiagram:
-    """Stroboscopic points over a parameter; made by `orbit_diagram`.
-
-    Attributes
-    ----------
-    system : System
-        The system of which one parameter is varied.
-    parameter : str
-        Its name.
-    values : ndarray, shape (n,)
-        Its values, ascending.
-    sweeps : tuple of str
-        "up", "down" or both, or "rest": a row each of what follows.
-    points : ndarray, shape (sweeps, n, m, 2)
-        (Θ, Θ') at the section, cycle after cycle; NaN where the block overturned.
-    overturned : ndarray of bool, shape (sweeps, n)
-        Where it was proved that it does not return.
-    peak : ndarray, shape (sweeps, n)
-        Largest |Θ| over the m cycles after the transient; NaN where it overturned.
-    start : State
-        Where the first motion began, or each.
-    transient : int
-        Cycles left out before.
-    section_phase : float
-        Forcing phase ψ of the section, rad.
-    """
-
-    system: System
-    parameter: str
-    values: NDArray[np.float64] = field(repr=False)
-    sweeps: tuple[str, ...]
-    points: NDArray[np.float64] = field(repr=False)
-    overturned: NDArray[np.bool_] = field(repr=False)
-    peak: NDArray[np.float64] = field(repr=False)
-    start: State
-    transient: int
-    section_phase: float
-
-    @property
-    def cycles(self) -> int:
-        """How many points each value has."""
-        return self.points.shape[2]
-
-    @property
-    def fixed(self) -> dict[str, float]:
-        """The parameters that were not varied, by name."""
-        forcing, braces = self.system.forcing, self.system.braces
-        values = {"amplitude": forcing.amplitude, "period": forcing.period, "phase": forcing.phase}
-        values["restitution"] = self.system.restitution
-        if braces is not None:
-            values |= {"brace_angle": braces.angle, "brace_restitution": braces.restitution}
-        varied = "period" if self.parameter == "frequency" else self.parameter
-        return {name: value for name, value in values.items() if name != varied}
-
-    def to_xarray(self) -> xr.Dataset:
-        """The diagram as a dataset whose coordinates are `sweep`, the parameter and `cycle`."""
-        return diagram_dataset(self)
-
-    def __str__(self) -> str:
-        values = self.values
-        span = (
-            f"{values[0]:.6g} to {values[-1]:.6g}, {len(values):,} values"
-            if len(values) > 1
-            else f"{values[0]:.6g}"
-        )
-        told = "; ".join(
-            _overturnings(way, fell, values) for way, fell in zip(self.sweeps, self.overturned, strict=True)
-        )
-        return f"orbit diagram over {self.parameter} {span}, {self.cycles:,} points each after {self.transient:,} cycles: {told}"
-
-    def _repr_html_(self) -> str | None:
-        return pictures.html(self)
-
-
-def _overturnings(way: str, fell: np.ndarray, values: np.ndarray) -> str:
-    how = {"up": "swept up", "down": "swept down", "rest": "each from its start"}[way]
-    if not fell.any():
-        return f"{how}, never overturned"
-    found = values[fell]
-    where = f"at {found[0]:.6g}" if len(found) == 1 else f"from {found[0]:.6g} to {found[-1]:.6g}"
-    return (
-        f"{how}, overturned at {len(found):,} ({where})" if len(found) > 1 else f"{how}, overturned {where}"
-    )
 
 
 def orbit_diagram(

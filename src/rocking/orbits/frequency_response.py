@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 import math
-from collections import Counter
 from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
-from attrs import field, frozen
 from numpy.typing import ArrayLike, NDArray
 
 from rocking.model import (
@@ -20,7 +18,6 @@ from rocking.model import (
     Orbit,
     System,
     exactly_one,
-    pictures,
     reals,
     refusal,
     whole,
@@ -28,13 +25,11 @@ from rocking.model import (
 )
 from rocking.orbits.branches import Branch
 from rocking.orbits.chains import IMPACT, Chain, chain_of, orbit_of, solved
-from rocking.orbits.continuation import checked_range, continue_orbit, switch_branch
-from rocking.orbits.record import frequency_response_dataset
+from rocking.orbits.continuation import continue_orbit, switch_branch
+from rocking.orbits.peaks import FrequencyResponse
+from rocking.orbits.vary import checked_range
 from rocking.response import classify
 from rocking.theory import symmetric_modes
-
-if TYPE_CHECKING:
-    import xarray as xr
 
 MOST_VALUES = 100_000
 MOST_CYCLES_IN_MODE = 99
@@ -42,65 +37,6 @@ MOST_CYCLES_IN_MODE = 99
 SAME = 1e-6
 
 REST = np.dtype([("kind", "U14"), ("period", np.int64), ("peak", float), ("steady_peak", float)])
-
-
-@frozen(eq=False)
-class FrequencyResponse:
-    """Peak rotation over the period or the frequency of the forcing; made by `frequency_response`.
-
-    Attributes
-    ----------
-    amplitude, restitution : float
-        A and e.
-    modes : tuple of int
-        The n of the (1, n) orbits followed: one rocking cycle in n forcing cycles.
-    parameter : str
-        "period" or "frequency".
-    values : ndarray, shape (m,)
-        Its values at which a start from rest was judged, ascending; the branches run from the first to the last.
-    branches : tuple of Branch
-        Of each n in turn the symmetric branches, each followed by the unsymmetric ones born from it; `points["peak"]` is the
-        largest |Θ|. Of two branches that are mirror images of each other, and so have the same peaks, one.
-    rest : structured array, shape (m,)
-        What a start from rest does: "kind" (see `Kind`), "period" in forcing cycles (0 where it has none), "peak", the largest
-        |Θ| from the start on, "steady_peak", that of the periodic response reached (NaN where there is none).
-    """
-
-    amplitude: float
-    restitution: float
-    modes: tuple[int, ...]
-    parameter: str
-    values: NDArray[np.float64] = field(repr=False)
-    branches: tuple[Branch, ...] = field(repr=False)
-    rest: NDArray[np.void] = field(repr=False)
-
-    def of(self, n: int) -> tuple[Branch, ...]:
-        """The branches of the (1, n) orbits."""
-        return tuple(branch for branch in self.branches if branch.period == n)
-
-    def to_xarray(self) -> xr.Dataset:
-        """The start from rest along the parameter, and all branches, one after the other, along `point`."""
-        return frequency_response_dataset(self)
-
-    def __str__(self) -> str:
-        found = "; ".join(_told(n, self.of(n)) for n in self.modes)
-        kinds = Counter(str(kind) for kind in self.rest["kind"])
-        rest = ", ".join(f"{number:,} {kind}" for kind, number in kinds.most_common())
-        return (
-            f"frequency response at amplitude {self.amplitude:.6g}, restitution {self.restitution:.6g}, {self.parameter} "
-            f"{self.values[0]:.6g} to {self.values[-1]:.6g}: {found}; from rest {rest}"
-        )
-
-    def _repr_html_(self) -> str | None:
-        return pictures.html(self)
-
-
-def _told(n: int, branches: Sequence[Branch]) -> str:
-    if not branches:
-        return f"(1,{n}) none found"
-    symmetric = sum(branch.symmetric for branch in branches)
-    peak = max(float(np.nanmax(branch.points["peak"])) for branch in branches)
-    return f"(1,{n}) {symmetric} symmetric, {len(branches) - symmetric} unsymmetric, peak up to {peak:.4g}"
 
 
 def frequency_response(

@@ -10,8 +10,8 @@ from attrs import field, frozen
 
 from rocking.kernels import manifold as kernel
 from rocking.kernels import march
-from rocking.model import State, System, TooManyEvents, instance, pictures, refusal, whole, within
-from rocking.motion import begin
+from rocking.model import System, TooManyEvents, pictures, whole, within
+from rocking.orbits.saddles import check, parameters, response, saddle
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -165,39 +165,6 @@ def saddle_manifolds(
         unstable=unstable,
         stable=stable,
     )
-
-
-def check(system: System) -> None:
-    """Refuse a system without saddle orbits that keep to their sides, or whose impacts cannot be reversed."""
-    instance("system", system, System)
-    if system.braces is not None:
-        raise ValueError(
-            refusal("system", "have no braces, between which there are no such saddles", system.braces)
-        )
-    if system.restitution == 0.0:
-        raise ValueError(refusal("restitution", "be positive, for impacts to be reversed", 0.0))
-    if response(system) >= 1.0:
-        most = 1.0 + system.forcing.frequency**2
-        allowed = f"be below 1 + Ω² = {most:.6g}, where the saddle orbits touch Θ = 0"
-        raise ValueError(refusal("amplitude", allowed, system.forcing.amplitude))
-
-
-def response(system: System) -> float:
-    """β = A/(1 + Ω²)."""
-    return system.forcing.amplitude / (1.0 + system.forcing.frequency**2)
-
-
-def saddle(system: System, phase: float, side: int) -> tuple[float, float]:
-    """(Θ, Θ') of the saddle orbit on a side at a forcing phase: ±1 + β cos ψ."""
-    beta = response(system)
-    return side + beta * math.cos(phase), -beta * system.forcing.frequency * math.sin(phase)
-
-
-def parameters(system: System, phase: float, backward: bool) -> Any:
-    """What the kernels read, the clock at 0 at a forcing phase; backward in time, where Θ' and φ are negated and e is 1/e."""
-    p = begin(system, State())[0]
-    phase = math.remainder(phase, math.tau)
-    return p._replace(phase=-phase, restitution=1.0 / p.restitution) if backward else p._replace(phase=phase)
 
 
 def _manifold(

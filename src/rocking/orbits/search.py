@@ -8,18 +8,16 @@ from concurrent.futures import ThreadPoolExecutor
 from typing import Any, overload
 
 import numpy as np
-from attrs import evolve, field, frozen
+from attrs import field, frozen
 
-from rocking.model import Orbit, State, System, instance, refusal, whole, within
-from rocking.motion import simulate
+from rocking.model import Orbit, System, instance, refusal, whole, within
 from rocking.orbits.chains import clocked
-from rocking.orbits.find import hunted, orbit_from
+from rocking.orbits.find import hunted
+from rocking.orbits.known import Known
 
 MOST_PERIOD = 64
 # Away from the phase of any likely start.
 SECTION = 0.3819660112501051
-# Starts that Newton's method leads this near to each other are one; orbits as near as this too.
-SAME = 1e-6
 # The first round's starts a map, then twice as many, and so on.
 FIRST_ROUND = 2048
 MOST_ROUNDS = 6
@@ -148,7 +146,7 @@ def find_orbits(
     box = _box(system, angles, velocities)
     forcing = system.forcing
     there = clocked(system, (forcing.phase + math.tau * SECTION) % math.tau)
-    known, used = _Known(there), 0
+    known, used = Known(there), 0
     jobs = [(n, False) for n in range(1, max_period + 1)] + [(n, True) for n in range(1, max_period + 1, 2)]
     settled = False
     with ThreadPoolExecutor() as pool:
@@ -216,54 +214,3 @@ def _starts(system: System, box: tuple[float, ...] | None, count: int, first: in
     wide = np.maximum(stays + came, 0.0)
     plus, minus = stays - wide * x, came - wide * y
     return np.column_stack([0.5 * side * (plus + minus), 0.5 * side * (plus - minus)])
-
-
-def mirrored(orbit: Orbit) -> Orbit:
-    """The mirror image of an orbit, which the other half of the forcing period makes an orbit too."""
-    state = State(-orbit.state.angle, -orbit.state.velocity)
-    return evolve(orbit, state=state, phase=(orbit.phase + math.pi) % math.tau)
-
-
-class _Known:
-    """The orbits found so far, with all their states on the section."""
-
-    def __init__(self, system: System) -> None:
-        self.system = system
-        self.orbits: list[Orbit] = []
-        self.hits: list[int] = []
-        self.rows = np.empty((0, 2))
-        self.owner = np.empty(0, int)
-
-    def take(self, states: np.ndarray, period: int) -> None:
-        """Count the states that belong to known orbits; add the orbits of the others, with their mirror images."""
-        states = states[~self._counted(states)]
-        while len(states):
-            orbit = orbit_from(self.system, State(*map(float, states[0])), period)
-            if orbit.impacts != 0 or orbit.brace_hits != 0 or abs(orbit.state.angle) > SAME:
-                self._add(orbit)
-                if not orbit.symmetric:
-                    self._add(mirrored(orbit))
-            near = np.hypot(*(states - states[0]).T) <= SAME
-            near |= self._counted(states)
-            states = states[~near]
-
-    def _counted(self, states: np.ndarray) -> np.ndarray:
-        """Which states belong to known orbits; their hits are counted."""
-        if not len(self.rows):
-            return np.zeros(len(states), bool)
-        apart = np.hypot(states[:, 0, None] - self.rows[:, 0], states[:, 1, None] - self.rows[:, 1])
-        nearest = apart.argmin(axis=1)
-        close = apart[np.arange(len(states)), nearest] <= SAME
-        for owner, number in zip(*np.unique(self.owner[nearest[close]], return_counts=True), strict=True):
-            self.hits[owner] += int(number)
-        return close
-
-    def _add(self, orbit: Orbit) -> None:
-        forcing = self.system.forcing
-        wait = ((forcing.phase - orbit.phase) % math.tau) / forcing.frequency
-        there = simulate(clocked(orbit.system, orbit.phase), orbit.state, cycles=orbit.period + 1)
-        rows = np.column_stack(there.at(wait + forcing.period * np.arange(orbit.period)))
-        self.rows = np.concatenate([self.rows, rows])
-        self.owner = np.concatenate([self.owner, np.full(orbit.period, len(self.orbits))])
-        self.orbits.append(orbit)
-        self.hits.append(0)

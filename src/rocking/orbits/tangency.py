@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from rocking.kernels import manifold as kernel
 from rocking.model import System, refusal
-from rocking.orbits.manifolds import check, parameters
+from rocking.orbits.saddles import check, parameters
 from rocking.orbits.vary import with_value
 
 SAMPLES = 128

@@ -1,10 +1,12 @@
-"""One parameter of a system, by its name: what it is, and the same system with another value of it."""
+"""One parameter of a system, by its name: the range in which it is followed, and the same system with another value of it."""
 
 from __future__ import annotations
 
+import math
+
 from attrs import evolve
 
-from rocking.model import Braces, Harmonic, System
+from rocking.model import Braces, Harmonic, System, refusal, within
 
 PARAMETERS = (
     "amplitude",
@@ -15,6 +17,15 @@ PARAMETERS = (
     "brace_angle",
     "brace_restitution",
 )
+# A model's own ranges; towards 0 nothing is left of a restitution to follow.
+ALLOWED = {
+    "amplitude": (0.0, 1e3),
+    "frequency": (1e-3, 1e3),
+    "period": (math.tau / 1e3, math.tau / 1e-3),
+    "restitution": (1e-3, 1.0),
+    "brace_angle": (1e-3, 1e3),
+    "brace_restitution": (1e-3, 1.0),
+}
 
 
 def with_value(system: System, parameter: str, value: float) -> System:
@@ -32,3 +43,11 @@ def with_value(system: System, parameter: str, value: float) -> System:
         return evolve(system, restitution=value)
     braces = system.braces or Braces(angle=value)
     return evolve(system, braces=evolve(braces, **{parameter.removeprefix("brace_"): value}))
+
+
+def checked_range(parameter: str, bounds: tuple[float, float]) -> tuple[float, float]:
+    """The range of a parameter, ordered, not empty, and within what a system may have."""
+    low, high = (within(f"bounds of {parameter}", value, *ALLOWED[parameter]) for value in bounds)
+    if not low < high:
+        raise ValueError(refusal("bounds", "be (lowest, highest), the one below the other", bounds))
+    return low, high
