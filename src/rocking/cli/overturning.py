@@ -15,6 +15,7 @@ EXAMPLES = """\
 rocking overturning --period 0.4:3:50 --restitution 0.925 --plot overturning.png
 rocking overturning --period 1 --restitution 0.925 --amplitude 1:16:1501 --phases 1 --json"""
 
+Restitution = Annotated[ask.Number, axes.value_option("--restitution", "e at an impact.")]
 Amplitude = Annotated[
     Any,
     axes.axis_option("--amplitude", "Amplitudes to scan: START:STOP:COUNT; 1:16:301 unless given."),
@@ -35,9 +36,10 @@ Plot = Annotated[
 ]
 
 
-@ask.asks("period", "frequency", "restitution", declare=axes.value_option)
+@ask.asks("period", "frequency", declare=axes.value_option)
 def overturning(
     context: typer.Context,
+    restitution: Restitution = None,
     amplitude: Amplitude = None,
     phases: Phases = None,
     max_cycles: MaxCycles = None,

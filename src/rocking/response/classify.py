@@ -74,8 +74,9 @@ def classify(
 
     Notes
     -----
-    Not guaranteed: that chaos lasts, for a chaotic transient may be longer than any budget; and that an orbit is the only
-    response, for another start may lead to another one.
+    Not guaranteed: that chaos lasts, for a chaotic transient may be longer than any budget; that a motion without losses that
+    sticks to a torus for long is not taken for quasi-periodic; and that an orbit is the only response, for another start may lead
+    to another one.
 
     References
     ----------
