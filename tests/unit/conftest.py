@@ -1,6 +1,9 @@
-"""The command, typed in this process."""
+"""The command, typed in this process, or in one of its own that somebody ends with Ctrl-C."""
 
+import signal
+import subprocess
 import sys
+import time
 
 import pytest
 
@@ -16,5 +19,24 @@ def rocking(monkeypatch, tmp_path, capsys):
         monkeypatch.setattr(sys, "argv", ["rocking", *line.split()])
         code, message = run()
         return code, message, capsys.readouterr().out
+
+    return type_line
+
+
+@pytest.fixture
+def interrupted(tmp_path):
+    """Types a command line in an empty folder, and Ctrl-C so many seconds later: (exit code, stdout, stderr)."""
+
+    def type_line(line, seconds):
+        with subprocess.Popen(
+            [sys.executable, "-m", "rocking", *line.split()],
+            cwd=tmp_path,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+        ) as process:
+            time.sleep(seconds)
+            process.send_signal(signal.SIGINT)
+            out, err = process.communicate(timeout=20)
+        return process.returncode, out, err
 
     return type_line

@@ -1,10 +1,6 @@
 """`rocking classify` as a stranger types it: what it says, what a program reads, how it refuses and how it ends."""
 
 import json
-import signal
-import subprocess
-import sys
-import time
 
 import pytest
 
@@ -158,16 +154,7 @@ def test_failure_of_our_own_is_one_line_and_exit_code_1(rocking, monkeypatch):
     assert (code, message.strip(), out) == (1, "failed, and should not have: MemoryError:", "")
 
 
-def test_interrupted_verdict_says_so_and_leaves_no_file(tmp_path):
+def test_interrupted_verdict_says_so_and_leaves_no_file(interrupted, tmp_path):
     line = f"classify {CHAOTIC} --max-cycles 1e8 --plot a.png"
-    with subprocess.Popen(
-        [sys.executable, "-m", "rocking", *line.split()],
-        cwd=tmp_path,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-    ) as process:
-        time.sleep(2.0)
-        process.send_signal(signal.SIGINT)
-        out, err = process.communicate(timeout=20)
-    assert (process.returncode, out, err) == (130, b"", b"rocking: interrupted\n")
+    assert interrupted(line, 2.0) == (130, b"", b"rocking: interrupted\n")
     assert not list(tmp_path.iterdir())

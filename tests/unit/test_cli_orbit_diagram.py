@@ -2,10 +2,6 @@
 
 import csv
 import json
-import signal
-import subprocess
-import sys
-import time
 
 import numpy as np
 import pytest
@@ -206,16 +202,7 @@ def test_long_run_in_a_terminal_shows_a_bar_that_leaves_nothing_behind(rocking, 
     assert "%" not in out
 
 
-def test_interrupted_diagram_says_so_and_leaves_no_file(tmp_path):
+def test_interrupted_diagram_says_so_and_leaves_no_file(interrupted, tmp_path):
     line = f"orbit-diagram --amplitude 7:10:1000 {NORMALISED} --transient 1e6 --plot a.png"
-    with subprocess.Popen(
-        [sys.executable, "-m", "rocking", *line.split()],
-        cwd=tmp_path,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-    ) as process:
-        time.sleep(3.0)
-        process.send_signal(signal.SIGINT)
-        out, err = process.communicate(timeout=20)
-    assert (process.returncode, out, err) == (130, b"", b"rocking: interrupted\n")
+    assert interrupted(line, 3.0) == (130, b"", b"rocking: interrupted\n")
     assert not list(tmp_path.iterdir())

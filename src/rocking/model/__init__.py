@@ -22,7 +22,7 @@ from rocking.model.errors import (
     within,
 )
 from rocking.model.files import check_folder, check_replaceable, check_writable, replacing, replacing_folder
-from rocking.model.forcing import FREQUENCIES, LARGEST_AMPLITUDE, LARGEST_PHASE, Harmonic
+from rocking.model.forcing import FREQUENCIES, LARGEST_AMPLITUDE, LARGEST_PHASE, PERIODS, Harmonic
 from rocking.model.mode import Mode
 from rocking.model.outcome import Outcome, Overturning
 from rocking.model.share import LEVEL, Share, wilson
@@ -40,6 +40,7 @@ __all__ = [
     "LARGEST_PHASE",
     "LARGEST_START",
     "LEVEL",
+    "PERIODS",
     "VERSION",
     "Attractor",
     "BasinMap",

@@ -12,6 +12,7 @@ from rocking.model.errors import exactly_one, reals, within
 
 LARGEST_AMPLITUDE = 1e3
 FREQUENCIES = (1e-3, 1e3)
+PERIODS = (math.tau / FREQUENCIES[1], math.tau / FREQUENCIES[0])
 LARGEST_PHASE = 1e3
 
 
@@ -21,8 +22,7 @@ def _amplitude(value: float) -> float:
 
 
 def _period(value: float | None) -> float | None:
-    low, high = FREQUENCIES
-    return None if value is None else within("period", value, math.tau / high, math.tau / low)
+    return None if value is None else within("period", value, *PERIODS)
 
 
 def _frequency(value: float | None) -> float | None:

@@ -11,6 +11,7 @@ from attrs import field, frozen
 
 from rocking.kernels import sample
 from rocking.model import (
+    LARGEST_PHASE,
     Block,
     Outcome,
     Overturning,
@@ -32,7 +33,6 @@ if TYPE_CHECKING:
     from rocking.motion.validity import Validity
 
 TURN = np.dtype([("time", "f8"), ("angle", "f8")])
-LARGEST_PHASE = 1000.0
 
 
 @frozen(eq=False, slots=False)

@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 from rocking.kernels import desk, march
 from rocking.kernels import sweep as kernel
 from rocking.model import (
+    LARGEST_PHASE,
     State,
     System,
     TooManyEvents,
@@ -30,7 +31,6 @@ from rocking.orbits.swept import OrbitDiagram
 from rocking.orbits.vary import PARAMETERS, with_value
 
 SWEEPS = {"up": ("up",), "down": ("down",), "both": ("up", "down"), "rest": ("rest",)}
-LARGEST_PHASE = 1e3
 MOST_CYCLES = 1_000_000
 # Two numbers each: half a gibibyte.
 MOST_POINTS = 2**25

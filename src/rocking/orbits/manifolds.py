@@ -10,13 +10,19 @@ from attrs import field, frozen
 
 from rocking.kernels import manifold as kernel
 from rocking.kernels import march
-from rocking.model import System, TooManyEvents, pictures, whole, within
+from rocking.model import (
+    LARGEST_PHASE,
+    System,
+    TooManyEvents,
+    pictures,
+    whole,
+    within,
+)
 from rocking.orbits.saddles import check, parameters, response, saddle
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-LARGEST_PHASE = 1e3
 MOST_CYCLES = 100
 SPACINGS = (1e-5, 1.0)
 # Neighbouring pieces of a curve longer than this share of the spacing bend by no more than this angle, rad.

@@ -2,11 +2,19 @@
 
 from __future__ import annotations
 
-import math
-
 from attrs import evolve
 
-from rocking.model import Braces, Harmonic, System, refusal, within
+from rocking.model import (
+    BRACE_ANGLES,
+    FREQUENCIES,
+    LARGEST_AMPLITUDE,
+    PERIODS,
+    Braces,
+    Harmonic,
+    System,
+    refusal,
+    within,
+)
 
 PARAMETERS = (
     "amplitude",
@@ -19,11 +27,11 @@ PARAMETERS = (
 )
 # A model's own ranges; towards 0 nothing is left of a restitution to follow.
 ALLOWED = {
-    "amplitude": (0.0, 1e3),
-    "frequency": (1e-3, 1e3),
-    "period": (math.tau / 1e3, math.tau / 1e-3),
+    "amplitude": (0.0, LARGEST_AMPLITUDE),
+    "frequency": FREQUENCIES,
+    "period": PERIODS,
     "restitution": (1e-3, 1.0),
-    "brace_angle": (1e-3, 1e3),
+    "brace_angle": BRACE_ANGLES,
     "brace_restitution": (1e-3, 1.0),
 }
 

@@ -5,7 +5,13 @@ from collections.abc import Sequence
 import numpy as np
 from matplotlib.axes import Axes
 
-from rocking.model import Block, one_of, refusal, within
+from rocking.model import (
+    LARGEST_PHASE,
+    Block,
+    one_of,
+    refusal,
+    within,
+)
 from rocking.orbits import Branch
 from rocking.plot import curves, style
 from rocking.plot.quantities import parameter, quantities
@@ -18,7 +24,6 @@ MARKERS = {
     "grazing": ("x", False, "grazing"),
 }
 COLOURS = {True: style.MOTION, False: style.IMPACT}
-LARGEST_PHASE = 1e3
 
 
 def branch(

@@ -6,12 +6,17 @@ import numpy as np
 from matplotlib.axes import Axes
 from numpy.typing import ArrayLike, NDArray
 
-from rocking.model import Block, reals, refusal, whole, within
+from rocking.model import (
+    LARGEST_PHASE,
+    Block,
+    reals,
+    refusal,
+    whole,
+    within,
+)
 from rocking.motion import Motion
 from rocking.plot import style
 from rocking.plot.quantities import quantities
-
-LARGEST_PHASE = 1000.0
 
 
 def section(

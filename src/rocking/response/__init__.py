@@ -1,7 +1,7 @@
 """What a response is: its section, spectrum, exponents, dimension and frequencies, and a verdict with its evidence."""
 
 from rocking.response.birkhoff import RotationNumber, rotation_number
-from rocking.response.classify import MOST_CYCLES, MOST_PERIOD, budget, classify
+from rocking.response.classify import KINDS, MOST_CYCLES, MOST_PERIOD, budget, classify
 from rocking.response.density import Peak, SpectralDensity
 from rocking.response.dimension import CorrelationDimension, correlation_dimension
 from rocking.response.exponents import LyapunovSpectrum
@@ -10,6 +10,7 @@ from rocking.response.section import impact_section
 from rocking.response.spectrum import spectral_density
 
 __all__ = [
+    "KINDS",
     "MOST_CYCLES",
     "MOST_PERIOD",
     "CorrelationDimension",

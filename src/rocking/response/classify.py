@@ -25,14 +25,8 @@ SAME_PEAK = 1e-6
 # How often, in seconds, it is looked whether Ctrl-C was pressed where waiting itself does not hear it.
 LISTENING = 0.1
 
-KINDS = {
-    kernel.REST: Kind.REST,
-    kernel.PERIODIC: Kind.PERIODIC,
-    kernel.QUASI_PERIODIC: Kind.QUASI_PERIODIC,
-    kernel.CHAOTIC: Kind.CHAOTIC,
-    kernel.OVERTURNS: Kind.OVERTURNED,
-    kernel.UNDETERMINED: Kind.UNDETERMINED,
-}
+KINDS = tuple(Kind(each.name.lower().replace("_", "-")) for each in kernel.Kind)
+"""The kinds by their numbers."""
 
 
 def classify(

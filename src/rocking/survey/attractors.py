@@ -10,7 +10,14 @@ import numpy as np
 
 from rocking.kernels import answers, judgement, many
 from rocking.kernels import attractor as kernel
-from rocking.model import Attractor, Harmonic, State, System
+from rocking.model import (
+    Attractor,
+    Harmonic,
+    Kind,
+    State,
+    System,
+    Verdict,
+)
 from rocking.motion import simulate
 from rocking.response import budget, classify
 from rocking.survey.axes import Points, points
@@ -195,9 +202,9 @@ def named(
     return tuple(Attractor(name, verdict) for name, verdict in zip(names, verdicts, strict=True))
 
 
-def _name(verdict: Any) -> str:
+def _name(verdict: Verdict) -> str:
     if verdict.orbit is None:
-        leans = verdict.kind == judgement.Kind.REST.name.lower() and verdict.steady_peak
+        leans = verdict.kind is Kind.REST and verdict.steady_peak
         return "leaning" if leans else str(verdict.kind)
     return f"period {verdict.period}, {'symmetric' if verdict.symmetric else 'unsymmetric'}"
 

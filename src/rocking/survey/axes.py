@@ -17,6 +17,7 @@ from rocking.model import (
     LARGEST_AMPLITUDE,
     LARGEST_PHASE,
     LARGEST_START,
+    PERIODS,
     exactly_one,
     reals,
     refusal,
@@ -26,7 +27,6 @@ from rocking.model import (
 
 Values = Mapping[str, np.ndarray]
 
-PERIODS = math.tau / FREQUENCIES[1], math.tau / FREQUENCIES[0]
 RANGES = {
     "amplitude": (0.0, LARGEST_AMPLITUDE),
     "velocity": (-LARGEST_START, LARGEST_START),

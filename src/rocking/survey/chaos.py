@@ -9,9 +9,10 @@ import numpy as np
 
 from rocking.kernels import judgement as kernel
 from rocking.model import ChaosShare, Share, whole, within
+from rocking.response import KINDS
 from rocking.survey.axes import Question, axis, points
 from rocking.survey.dataset import attributes, coordinate
-from rocking.survey.outcomes import KINDS, interval_variables, outcome
+from rocking.survey.outcomes import interval_variables, outcome
 from rocking.survey.samples import MOST_SAMPLES, generator, sampled, span
 
 TITLE = "Share of chaotic responses of a free-standing block on a shaking base"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from rocking.model import FREQUENCIES, LARGEST_AMPLITUDE
+from rocking.model import LARGEST_AMPLITUDE, PERIODS
 from rocking.survey.axes import SYSTEM, Points
 
 TITLE = "Repeatability of the response of a free-standing block on a shaking base"
@@ -31,8 +31,7 @@ def disturbed(meant: Points, units: np.ndarray, off: float) -> Points:
         systems[:, place[name]] for name in ("amplitude", "period", "restitution")
     )
     np.minimum(amplitude * factors[:, 0], LARGEST_AMPLITUDE, out=amplitude)
-    shortest, longest = (np.float64(2.0 * np.pi) / each for each in FREQUENCIES[::-1])
-    np.clip(period * factors[:, 1], shortest, longest, out=period)
+    np.clip(period * factors[:, 1], *PERIODS, out=period)
     systems[:, place["frequency"]] = 2.0 * np.pi / period
     # drawn evenly from what is possible
     low, high = restitution * (1.0 - off), np.minimum(restitution * (1.0 + off), 1.0)

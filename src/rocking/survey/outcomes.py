@@ -6,17 +6,14 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from rocking.kernels import judgement as kernel
 from rocking.kernels import many
-from rocking.model import Kind, Share
+from rocking.model import Share
 from rocking.response import budget
 from rocking.survey.axes import Points
 from rocking.survey.responses import VARIABLES
 from rocking.survey.tiles import Arrays, Measure
 
 KIND = VARIABLES[0]
-KINDS = tuple(Kind(each.name.lower().replace("_", "-")) for each in kernel.Kind)
-"""The kinds by their numbers."""
 
 
 def outcome(max_cycles: int, max_period: int, title: str) -> Measure:

@@ -11,9 +11,9 @@ import numpy as np
 
 from rocking.kernels import judgement as kernel
 from rocking.model import Kind, Repeatability, Share, State, System, check_start, whole, within
+from rocking.response import KINDS
 from rocking.survey.basins import points_of
 from rocking.survey.disturbed import INPUTS, LARGEST_RELATIVE, TITLE, disturbed
-from rocking.survey.outcomes import KINDS
 from rocking.survey.responses import response
 from rocking.survey.samples import MOST_SAMPLES, generator, sampled
 

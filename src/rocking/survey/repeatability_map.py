@@ -12,11 +12,11 @@ import numpy as np
 from rocking.kernels import judgement as kernel
 from rocking.kernels import many
 from rocking.model import RepeatabilityMap, Share, whole, within
-from rocking.response import budget
+from rocking.response import KINDS, budget
 from rocking.survey.ask import ask
 from rocking.survey.axes import Points, question
 from rocking.survey.disturbed import LARGEST_RELATIVE, TITLE, disturbed, spread
-from rocking.survey.outcomes import KIND, KINDS
+from rocking.survey.outcomes import KIND
 from rocking.survey.tiles import Arrays, Measure, Variable
 
 MILLIONTH = 1e-6

@@ -7,9 +7,14 @@ from typing import Any
 
 import numpy as np
 
-from rocking.model import FREQUENCIES, LARGEST_AMPLITUDE, one_of, reals, refusal
+from rocking.model import (
+    LARGEST_AMPLITUDE,
+    PERIODS,
+    one_of,
+    reals,
+    refusal,
+)
 
-PERIODS = (math.tau / FREQUENCIES[1], math.tau / FREQUENCIES[0])
 MOST_CYCLES = 9_999
 ORBITS = {"upper": 1.0, "lower": -1.0}
 

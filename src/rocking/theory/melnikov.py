@@ -16,9 +16,13 @@ from typing import Any
 import numpy as np
 from scipy.integrate import quad
 
-from rocking.model import LARGEST_AMPLITUDE, reals, within
-from rocking.theory.arguments import (
+from rocking.model import (
+    LARGEST_AMPLITUDE,
     PERIODS,
+    reals,
+    within,
+)
+from rocking.theory.arguments import (
     amplitudes,
     between,
     frequencies,

@@ -18,8 +18,15 @@ import numpy as np
 
 from rocking.kernels import parameters as numbers
 from rocking.kernels import symmetric
-from rocking.model import LARGEST_AMPLITUDE, Mode, refusal, whole, within
-from rocking.theory.arguments import MOST_CYCLES, PERIODS, frequencies, odd, plain, restitutions
+from rocking.model import (
+    LARGEST_AMPLITUDE,
+    PERIODS,
+    Mode,
+    refusal,
+    whole,
+    within,
+)
+from rocking.theory.arguments import MOST_CYCLES, frequencies, odd, plain, restitutions
 
 # Beyond it sinh is infinite.
 LARGEST_ARGUMENT = 700.0
