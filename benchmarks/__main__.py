@@ -1,4 +1,4 @@
-"""`python -m benchmarks`: one table, medians, every ratio from the same run."""
+"""`python -m benchmarks`: one table, every ratio from the same run."""
 
 from benchmarks import closed_forms, explorer, lanes, one_block, orbits, processes, survey, verdicts
 from benchmarks.table import Report

@@ -1,10 +1,11 @@
 """Many blocks in lockstep against one after another, on the map of what loses nothing."""
 
 import math
-import time
+from time import thread_time
 
 import numpy as np
 
+from benchmarks.clock import quickest
 from benchmarks.table import Figure
 from rocking.kernels import many
 from rocking.kernels.answers import no_answers
@@ -15,16 +16,6 @@ PERIODS, AMPLITUDES = (0.2, 3.0), (0.0, 16.0)
 CYCLES, MAX_PERIOD = 10_000, 64
 RUNS = 3
 STILL_OPEN = (3, 5)
-
-
-def best(work):
-    """(seconds of one core of the fastest of a few runs, what it returned)."""
-    fastest, answers = math.inf, None
-    for _ in range(RUNS):
-        begun = time.thread_time()
-        answers = work()
-        fastest = min(fastest, time.thread_time() - begun)
-    return fastest, answers
 
 
 def one_by_one(systems):
@@ -48,8 +39,8 @@ def against_one():
     )
     one = np.ones(period.size)
     systems = np.column_stack([amplitude, math.tau / period, period, 0 * one, one, math.inf * one, one])
-    together, answers = best(lambda: in_lanes(systems))
-    alone, told = best(lambda: one_by_one(systems))
+    together, answers = quickest(RUNS, lambda: in_lanes(systems), thread_time)
+    alone, told = quickest(RUNS, lambda: one_by_one(systems), thread_time)
     note = f"{1e6 * alone / len(systems):.3g} µs one by one"
     yield Figure("e = 1, 10⁴ cycles, a point", 1e6 * together / len(systems), "µs", 40, note=note)
     yield Figure(
@@ -65,6 +56,6 @@ def against_one():
         "  told otherwise", share, "%", note="as many as a change of the last digit of the phase does"
     )
     longest = systems[np.isin(told.kind, STILL_OPEN)]
-    together, _ = best(lambda: in_lanes(longest))
-    alone, _ = best(lambda: one_by_one(longest))
+    together, _ = quickest(RUNS, lambda: in_lanes(longest), thread_time)
+    alone, _ = quickest(RUNS, lambda: one_by_one(longest), thread_time)
     yield Figure("  those marched to the end: against one by one", alone / together, "×", 5, least=True)

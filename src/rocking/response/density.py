@@ -137,7 +137,7 @@ class SpectralDensity:
         one = len(self.peaks) == 1
         shared = f" overlapping by {self.overlap}" * (self.segments > 1)
         return (
-            f"{what}: {len(self.peaks)} line{'' if one else 's'} ({names}{', …' * (len(self.peaks) > 5)}"
+            f"{what}: {counted(len(self.peaks), 'line')} ({names}{', …' * (len(self.peaks) > 5)}"
             f"{turning}; {unnamed} unnamed) {'carries' if one else 'carry'} {100 * self.line_share:.4g} % of the variance; "
             f"{counted(self.segments, 'segment')} of {self.segment} cycles{shared}, "
             f"window {self.window}, {self.samples} samples a cycle, {self.aliased:.1g} of the variance aliased, "

@@ -8,6 +8,7 @@ import time
 import numpy as np
 from attrs import frozen
 
+from rocking.model import counted
 from rocking.survey.axes import Question
 from rocking.survey.plan import Level
 from rocking.survey.tiles import Batch, Measure, compute
@@ -44,7 +45,7 @@ class Cost:
             what += f", {self.done:,} of them done"
         if workers is None:
             return f"{what}, about {duration(self.seconds)} of one core"
-        return f"{what}, about {duration(self.seconds / workers)} on {workers} core{'s' * (workers != 1)}"
+        return f"{what}, about {duration(self.seconds / workers)} on {counted(workers, 'core')}"
 
 
 def cost(asked: Question, measure: Measure, levels: list[Level], there: int) -> Cost:

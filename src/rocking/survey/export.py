@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -29,23 +29,22 @@ def parts(found: xr.Dataset) -> Iterator[xr.Dataset]:
 
 def counts(found: xr.Dataset, name: str) -> dict[str, int]:
     """How many points have each of a variable's flags, by its meaning."""
-    meanings = flags(found, name)
+    meanings = flags(found[name].attrs)
     total = np.zeros(256, np.int64)
     for part in parts(found[[name]]):
         total += np.bincount(part[name].values.ravel(), minlength=256)
     return {meaning: int(total[value]) for value, meaning in meanings.items()}
 
 
-def flags(found: xr.Dataset, name: str) -> dict[int, str]:
-    """What the values of a variable mean."""
-    told = found[name].attrs
+def flags(told: Mapping[str, Any]) -> dict[int, str]:
+    """What the values of a variable with these attributes mean."""
     return dict(zip(np.asarray(told["flag_values"]).tolist(), told["flag_meanings"].split(), strict=True))
 
 
 def tables(found: xr.Dataset) -> Iterator[dict[str, np.ndarray]]:
     """Columns by name, of a part at a time: the axes, then all variables, flags as words."""
     words = {
-        name: np.array([flags(found, name).get(value, "") for value in range(256)])
+        name: np.array([flags(found[name].attrs).get(value, "") for value in range(256)])
         for name in map(str, found.data_vars)
         if "flag_values" in found[name].attrs
     }

@@ -10,7 +10,7 @@ from attrs import frozen
 
 from rocking.model import VERSION, shown
 from rocking.survey.axes import Question, described
-from rocking.survey.plan import Level, even_edges, levels, tile_edges
+from rocking.survey.plan import Level, even_edges, levels, thinned, tile_edges
 from rocking.survey.tiles import Measure
 
 SAME = 1e-9
@@ -29,7 +29,7 @@ class Layout:
         """Its grids, the coarsest first."""
         grids = [self.axes]
         for halved in reversed(self.halved):
-            grids.insert(0, _thinned(grids[0], halved))
+            grids.insert(0, thinned(grids[0], halved))
         parts = zip(grids, [None, *self.halved], self.tiles, strict=True)
         return [Level(number, *part) for number, part in enumerate(parts)]
 
@@ -114,11 +114,6 @@ def _join(path: str, name: str, there: np.ndarray, here: np.ndarray) -> tuple[np
         f"{here[0]:.6g} to {here[-1]:.6g} leave some of them out: ask for these, for more beyond the last, or for half the "
         "spacing (one less than twice as many)"
     )
-
-
-def _thinned(axes: dict[str, np.ndarray], halved: tuple[bool, ...]) -> dict[str, np.ndarray]:
-    pairs = zip(axes.items(), halved, strict=True)
-    return {name: values[::2] if half else values for (name, values), half in pairs}
 
 
 def _flat(told: Mapping[str, Any]) -> dict[str, Any]:

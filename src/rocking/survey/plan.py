@@ -110,13 +110,18 @@ def levels(asked: Question) -> list[Level]:
     halvings: list[tuple[bool, ...]] = []
     while any(values.size > COARSEST for values in grids[0].values()):
         halvings.insert(0, tuple(values.size > COARSEST for values in grids[0].values()))
-        thinned = zip(grids[0].items(), halvings[0], strict=True)
-        grids.insert(0, {name: values[::2] if half else values for (name, values), half in thinned})
+        grids.insert(0, thinned(grids[0], halvings[0]))
     edges = tile_edges(asked.shape)
     return [
         Level(number, axes, halved, even_edges(axes, edges))
         for number, (axes, halved) in enumerate(zip(grids, (None, *halvings), strict=True))
     ]
+
+
+def thinned(axes: dict[str, np.ndarray], halved: tuple[bool, ...]) -> dict[str, np.ndarray]:
+    """The axes of the level before."""
+    pairs = zip(axes.items(), halved, strict=True)
+    return {name: values[::2] if half else values for (name, values), half in pairs}
 
 
 def finest(asked: Question) -> list[Level]:

@@ -20,6 +20,7 @@ from rich.text import Text
 
 from rocking.model import percent
 from rocking.survey.cost import Cost
+from rocking.survey.export import flags
 from rocking.survey.tiles import Measure
 
 
@@ -36,10 +37,8 @@ class Bar:
 
     def __init__(self, cost: Cost, measure: Measure, workers: int | None) -> None:
         self.cost, self.workers = cost, workers
-        flags = next(each for each in measure.variables if each.name == measure.shares).attributes
-        self.meanings = dict(
-            zip(np.asarray(flags["flag_values"]).tolist(), flags["flag_meanings"].split(), strict=True)
-        )
+        told = next(each for each in measure.variables if each.name == measure.shares)
+        self.meanings = flags(told.attributes)
         self.counts = dict.fromkeys(self.meanings, 0)
         self.settled_points = 0
         fixed = Column(no_wrap=True)

@@ -10,7 +10,7 @@ from typing import TypeVar
 import numpy as np
 
 from rocking.kernels import judgement as kernel
-from rocking.model import Kind, Repeatability, Share, State, System, check_start, whole, within
+from rocking.model import Kind, Repeatability, Share, State, System, check_start, counted, whole, within
 from rocking.response import KINDS
 from rocking.survey.basins import points_of
 from rocking.survey.disturbed import INPUTS, LARGEST_RELATIVE, TITLE, disturbed
@@ -111,5 +111,5 @@ def _told(kind: int, period: int, symmetric: int, impacts: int) -> str:
     """A response in a few words."""
     if kind != kernel.PERIODIC:
         return str(KINDS[kind])
-    many_impacts = "with rest" if impacts < 0 else f"{impacts} impact{'s' * (impacts != 1)}"
+    many_impacts = "with rest" if impacts < 0 else counted(impacts, "impact")
     return f"period {period}, {'symmetric' if symmetric == 1 else 'unsymmetric'}, {many_impacts}"
