@@ -78,6 +78,25 @@ def test_few_points_end_a_branch_with_that_reason(orbit):
     assert branch.ends == ("as many points as allowed", "as many points as allowed")
 
 
+def test_few_points_end_what_is_born_and_a_curve_as_well():
+    strong = rk.find_orbit(rk.System(rk.Harmonic(20.0, period=1.0), 0.9), rk.State(0.9, -0.1), 1)
+    (breaking,) = rk.continue_orbit(strong, "amplitude", (15, 25)).special
+    born = rk.switch_branch(breaking, (15, 30), max_points=5)
+    assert [len(branch) for branch in born] == [6, 6]
+    assert {branch.ends[1] for branch in born} == {"as many points as allowed"}
+    curve = rk.bifurcation_curve(breaking, "period", "amplitude", ((0.9, 1.1), (15, 30)), max_points=4)
+    assert curve.ends == ("as many points as allowed", "as many points as allowed")
+
+
+def test_orbits_are_looked_for_from_the_box_that_is_given():
+    """From where every block is past return none is found."""
+    assert len(rk.find_orbits(SYSTEM, 1, angles=(3.0, 4.0), velocities=(3.0, 4.0), effort=0.05)) == 0
+    with pytest.raises(
+        ValueError, match=r"^velocities must be \(lowest, highest\), the one below the other; got"
+    ):
+        rk.find_orbits(SYSTEM, 1, velocities=(0.3, -0.3))
+
+
 def test_nothing_is_born_at_a_fold(orbit):
     branch = rk.continue_orbit(orbit, "amplitude", (0.01, 3))
     fold = next(point for point in branch.special if point.kind == "fold")

@@ -195,6 +195,31 @@ def test_the_safe_area_is_what_the_motions_themselves_say():
         assert share.count == sum(each != "overturned" for each in outcomes)
 
 
+def test_the_safe_area_is_that_of_the_frequency_the_phase_and_the_box_asked_for():
+    starts = np.random.default_rng(5).uniform((-0.4, -0.9), (0.3, 0.2), (60, 2))
+    asked = {"frequency": 5.0, "phase": 1.0, "restitution": 0.8}
+    found = rk.safe_basin(
+        amplitude=[0.5, 6.0], **asked, angle=(-0.4, 0.3), velocity=(-0.9, 0.2), samples=60, seed=5
+    )
+    for amplitude, share in zip((0.5, 6.0), found.shares, strict=True):
+        system = rk.System(rk.Harmonic(amplitude, frequency=5.0, phase=1.0), 0.8)
+        outcomes = [
+            rk.simulate(system, rk.State(*each), cycles=500, record="none").outcome for each in starts
+        ]
+        assert 0 < share.count == sum(each != "overturned" for each in outcomes) < 60
+
+
+def test_between_braces_every_start_is_safe():
+    asked = {"amplitude": [3.0, 6.0], "period": 1.0, "restitution": 0.8, "brace_angle": 0.5, "samples": 20}
+    found = rk.safe_basin(**asked, brace_restitution=0.7, angle=(-0.5, 0.5), max_cycles=200)
+    assert [share.count for share in found.shares] == [20, 20]
+    assert found.dataset.attrs["brace_restitution"] == 0.7
+    with pytest.raises(
+        ValueError, match=r"^angle must be a pair \(low, high\) in \[-0.5, 0.5\], low below high"
+    ):
+        rk.safe_basin(**asked)
+
+
 def test_the_safe_area_need_not_fall_above_the_tangency():
     tangency = rk.theory.heteroclinic_amplitude(1.0, 0.8)
     found = rk.safe_basin(

@@ -12,20 +12,18 @@ LEVEL = 0.95
 """How often an interval covers what it is of, about."""
 
 
-def wilson(count: Any, of: Any, level: float = LEVEL) -> tuple[Any, Any]:
-    """The interval of a share of which `count` in `of` independent trials were seen; arrays broadcast.
+def wilson(count: Any, of: Any) -> tuple[Any, Any]:
+    """The 95 % interval of a share of which `count` in `of` independent trials were seen; arrays broadcast.
 
     Parameters
     ----------
     count, of : int or array
         Successes and trials; (0, 1) without any trial.
-    level : float
-        How often the interval covers the share, on average over shares.
 
     Returns
     -------
     tuple
-        (low, high): (p + z²/2n ± z √(p(1 − p)/n + z²/4n²))/(1 + z²/n), the shares that a test of this level does not
+        (low, high): (p + z²/2n ± z √(p(1 − p)/n + z²/4n²))/(1 + z²/n), the shares that a test of level 5 % does not
         reject.
 
     References
@@ -38,7 +36,7 @@ def wilson(count: Any, of: Any, level: float = LEVEL) -> tuple[Any, Any]:
     >>> low, round(high, 4)
     (0.0, 0.037)
     """
-    z = NormalDist().inv_cdf(0.5 + 0.5 * level)
+    z = NormalDist().inv_cdf(0.5 + 0.5 * LEVEL)
     seen, trials = np.asarray(count, float), np.asarray(of, float)
     whole = trials + z * z
     middle = (seen + 0.5 * z * z) / whole

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from numbers import Real
 from typing import Any, NamedTuple
 
@@ -199,6 +199,6 @@ def _within_a_turn(phases: np.ndarray) -> np.ndarray:
     return np.array([numbers.within_a_turn(phase) for phase in distinct.tolist()])[places]
 
 
-def described(asked: Question, names: Sequence[str] = tuple(RANGES)) -> dict[str, float]:
+def described(asked: Question) -> dict[str, float]:
     """What does not vary, by name, in the order in which it is told."""
-    return {name: asked.fixed[name] for name in names if name in asked.fixed}
+    return {name: asked.fixed[name] for name in RANGES if name in asked.fixed}

@@ -74,11 +74,9 @@ def starts(amplitude: float, period: float, restitution: float) -> xr.Dataset:
 
 
 @cache
-def repeatable(restitution: float, brace_angle: float | None = None) -> rk.RepeatabilityMap:
+def repeatable(restitution: float) -> rk.RepeatabilityMap:
     """Over a map, whether an experiment with inputs off by 1 % ends the same."""
-    return rk.repeatability_map(
-        **axes(REPEATED), restitution=restitution, brace_angle=brace_angle, samples=8, max_cycles=10_000
-    )
+    return rk.repeatability_map(**axes(REPEATED), restitution=restitution, samples=8, max_cycles=10_000)
 
 
 @cache

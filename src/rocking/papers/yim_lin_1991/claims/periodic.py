@@ -97,9 +97,9 @@ def _half_cycle(velocity: float, phase: float, mode: rk.Mode) -> tuple[float, fl
     return phase + frequency * hit["time"] - np.pi * mode.n, abs(hit["after"])
 
 
-def _matrix(mode: rk.Mode, step: float = 1e-6) -> np.ndarray:
+def _matrix(mode: rk.Mode) -> np.ndarray:
     """That of eq. (9), in (phase, speed), by central differences of simulations."""
-    columns = []
+    step, columns = 1e-6, []
     for shift in ((step, 0.0), (0.0, step)):
         ahead = _half_cycle(mode.velocity + shift[1], mode.phase + shift[0], mode)
         behind = _half_cycle(mode.velocity - shift[1], mode.phase - shift[0], mode)
