@@ -63,6 +63,16 @@ def test_weakly_attracting_orbit_is_the_one_that_a_million_cycles_end_on(across,
     assert away.min() < 1e-8
 
 
+def test_chaotic_is_what_has_an_exponent_of_six_standard_errors_and_nothing_with_less():
+    """In the sticky sea of figure 6 they are from two to twenty-five after 20,000 cycles."""
+    found = [classify(2.0, 0.4, 1.0, phase=1e-8 * k, max_cycles=20_000) for k in range(48)]
+    weighed = [verdict for verdict in found if verdict.exponent_error is not None]
+    errors = [verdict.exponent / verdict.exponent_error for verdict in weighed]
+    assert [verdict.kind == "chaotic" for verdict in weighed] == [error >= 6.0 for error in errors]
+    assert min(errors) < 5.0
+    assert 7.0 < np.median(errors) < 12.0
+
+
 def test_figure_4_overturns_in_the_sixth_cycle():
     assert classify(1.75, 2.0, 0.95).transient == 5
 
