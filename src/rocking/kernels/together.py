@@ -66,7 +66,7 @@ def fits(p, case):
     """Whether plain marching is all that is left: nothing is lost, and no brace is there."""
     progress, arc = case.run.watch.progress, case.run.watch.progress.arc
     system = p.restitution == 1.0 and p.brace_angle == math.inf and p.amplitude > 1.0 and p.period >= SHORTEST
-    flies = progress.mode == FLIGHT and progress.no_return == math.inf
+    flies = progress.mode == FLIGHT
     return system and case.run.lossless and flies and arc.angle == 0.0 and arc.velocity >= SLOWEST
 
 
