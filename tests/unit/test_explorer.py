@@ -3,6 +3,8 @@
 import asyncio
 import json
 import math
+import subprocess
+import sys
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from functools import partial
@@ -140,9 +142,8 @@ def test_deep_views_are_drawn_as_differences_without_loss(middle, width):
 
 def test_points_of_a_picture_are_the_middles_of_its_cells():
     across, up = Span(0.2, 3.0), Span(0.0, 16.0)
-    picture = Picture(
-        {"orbit": np.zeros((5, 5), int)}, np.zeros((5, 5), int), points=5, settled=0, of=0, done=True
-    )
+    nothing = {"look": np.zeros((5, 5), int), "orbit": np.zeros((5, 5), int)}
+    picture = Picture(nothing, points=5, settled=0, of=0, done=True)
     drawn = planes.image(picture, planes.Corner(0.0, 0.0), across, up)
     for begin, length, span in (("x", "w", across), ("y", "h", up)):
         middles = drawn[begin][0] + (np.arange(5) + 0.5) * drawn[length][0] / 5
@@ -182,8 +183,8 @@ def test_refined_map_is_the_packages_map():
     )
     names = "kind", "response_period", "symmetric"
     assert (pictures[-1].look == looks(*(found[name].values for name in names))).all()
-    assert [len(picture.look) for picture in pictures if picture.settled == picture.of][:3] == [5, 9, 17]
-    assert pictures[-1].done
+    assert [len(picture.look) for picture in pictures if picture.settled == picture.of] == [5, 9, 17, 33]
+    assert [picture.done for picture in pictures] == [False] * (len(pictures) - 1) + [True]
     assert pictures[-1].colours().shape == (33, 33)
 
 
@@ -430,3 +431,17 @@ def test_every_ground_of_the_cascade_has_its_words_and_its_level():
     for amplitude, period in ((0.5, 1.0), (2.0, 1.0), (2.0, 2.0)):
         verdict = rk.classify(rk.System(rk.Harmonic(amplitude, period=period), 0.925))
         assert LEVELS[int(found.evidence.sel(amplitude=amplitude, period=period))] == verdict.evidence.level
+
+
+READY = """
+from rocking.explorer.app import warm_up
+warm_up()
+from rocking.kernels import many
+print(bool(many.judge_each.signatures and many.judge_together.signatures))
+"""
+
+
+def test_maps_with_and_without_loss_are_compiled_before_the_first_visit():
+    """Else the first one that asks for them waits a minute, and all others with it."""
+    told = subprocess.run([sys.executable, "-c", READY], capture_output=True, text=True, check=True)
+    assert told.stdout == "True\n"

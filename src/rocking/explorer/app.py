@@ -98,14 +98,15 @@ def warm_up() -> None:
     pictures.spectrum(DEFAULT)
     pictures.diagram(DEFAULT, np.zeros(1, np.int64))
     pictures.Section(DEFAULT).grow(2)
-    plane = Plane(
-        ("period", DEFAULT.periods),
-        ("amplitude", DEFAULT.amplitudes),
-        DEFAULT.fixed,
-        COARSEST + 1,
-        apart=True,
-    )
-    Refinement(plane, Workers(), np.zeros(1, np.int64)).coarse()
+    for restitution in (DEFAULT.restitution, 1.0):  # without loss blocks march in lanes
+        plane = Plane(
+            ("period", DEFAULT.periods),
+            ("amplitude", DEFAULT.amplitudes),
+            DEFAULT.fixed | {"restitution": restitution},
+            COARSEST + 1,
+            apart=True,
+        )
+        Refinement(plane, Workers(), np.zeros(1, np.int64)).coarse()
 
 
 def _text(name: str) -> str:

@@ -19,6 +19,7 @@ from rocking.survey import lead, respond
 
 PERIOD = 64
 FIELDS = {
+    "look": np.uint8,
     "kind": np.uint8,
     "evidence": np.uint8,
     "response_period": np.int32,
@@ -27,14 +28,16 @@ FIELDS = {
     "exponent": np.float64,
     "orbit": np.uint8,
 }
-"""What is kept of the answers at each point."""
+"""What is kept of each point: how it is drawn, and of the answers."""
 UNDETERMINED = list(Kind).index(Kind.UNDETERMINED)
-FIRST, USUAL, LAST = 60, 1_000, 10_000
-"""Cycles a point: of the first, coarse picture; of the finer ones; of what is still open when all points are there."""
+FIRST, ALL = 60, 10_000
+"""Cycles a point that stays open so long: of the first, coarse picture; of the finer ones."""
 COARSEST = 8
-PIECE = 0.04
+PIECE = 0.12
 """Seconds that a piece of work takes, about: so long does a thread need to turn to something else."""
-SMALLEST, START, LARGEST = 16, 256, 8192
+AHEAD = 2
+"""Pieces that wait or are under way for each thread, lest it idle until the page's own thread comes to think of the next."""
+SMALLEST, START, LARGEST = 16, 256, 16_384
 SHOWN_EVERY = 0.3
 """Seconds between two pictures of a grid that is not yet full."""
 STRIPES, STRIPE = 7, 2
@@ -75,8 +78,6 @@ class Picture:
     ----------
     fields : dict of arrays (n, n)
         `FIELDS`, upward first.
-    look : array (n, n)
-        Places in `LOOKS`; `NONE` where there is no start.
     points : int
         Along either side of the finest grid.
     settled, of : int
@@ -86,11 +87,15 @@ class Picture:
     """
 
     fields: dict[str, np.ndarray] = field(repr=False)
-    look: np.ndarray = field(repr=False)
     points: int
     settled: int
     of: int
     done: bool
+
+    @property
+    def look(self) -> np.ndarray:
+        """Places in `LOOKS` (n, n); `NONE` where there is no start."""
+        return self.fields["look"]
 
     def colours(self) -> np.ndarray:
         """The picture (points, points), of the finest grid whatever is known: stripes stay while it refines."""
@@ -139,52 +144,51 @@ class Refinement:
         self._begin((self.plane.points - 1) // COARSEST + 1)
         places = np.flatnonzero(self.inside)
         self._keep(places, self._judge(places, self.plane.first))
-        return self._picture(places.size, places.size, done=False)
+        return self._picture(places.size, places.size)
 
     async def finer(self) -> AsyncIterator[Picture]:
-        """One picture after the other, after `coarse`."""
-        side = len(self.fields["kind"])
+        """One picture after the other, after `coarse`; the last one is done."""
+        side, open_ = len(self.fields["kind"]), self.fields["kind"] == UNDETERMINED
         while side < self.plane.points:
             side = 2 * side - 1
             self._begin(side)
-            fresh = np.ones((side, side), bool)
-            fresh[::2, ::2] = False
-            async for picture in self._settle(np.flatnonzero(fresh & self.inside), USUAL):
+            due = np.ones((side, side), bool)
+            due[::2, ::2] = open_
+            async for picture in self._settle(np.flatnonzero(due & self.inside)):
                 yield picture
-        left = np.flatnonzero(self.fields["kind"] == UNDETERMINED)
-        async for picture in self._settle(left, LAST):
-            yield picture
-        yield self._picture(0, 0, done=True)
+            open_ = np.zeros((side, side), bool)
 
-    async def _settle(self, places: np.ndarray, cycles: int) -> AsyncIterator[Picture]:
+    async def _settle(self, places: np.ndarray) -> AsyncIterator[Picture]:
         """Judge the points at these places, a few at a time, and show how far it is now and then."""
-        order = np.random.default_rng(0).permutation(
-            places
-        )  # all over the picture, and each piece as dear as the next
-        open_: dict[asyncio.Future[tuple[dict[str, np.ndarray], float]], np.ndarray] = {}
+        # all over the picture, and each piece as dear as the next
+        order = np.random.default_rng(0).permutation(places)
+        under_way: dict[asyncio.Future[tuple[dict[str, np.ndarray], float]], np.ndarray] = {}
         begun, settled, shown = 0, 0, time.perf_counter()
-        while begun < order.size or open_:
-            while begun < order.size and len(open_) < self.workers.count:
-                piece = order[begun : begun + self.piece]
+        while settled < order.size:
+            while begun < order.size and len(under_way) < AHEAD * self.workers.count:
+                piece = order[begun : begun + self._next(order.size - begun)]
                 begun += piece.size
-                work = partial(self._timed, piece, cycles)
-                open_[asyncio.ensure_future(self.workers.later(work))] = piece
-            done, _ = await asyncio.wait(open_, return_when=asyncio.FIRST_COMPLETED)
+                work = partial(self._timed, piece)
+                under_way[asyncio.ensure_future(self.workers.later(work))] = piece
+            done, _ = await asyncio.wait(under_way, return_when=asyncio.FIRST_COMPLETED)
             for future in done:
-                piece = open_.pop(future)
+                piece = under_way.pop(future)
                 answers, taken = future.result()
                 self._keep(piece, answers)
                 settled += piece.size
                 self.piece = int(np.clip(piece.size * PIECE / max(taken, 1e-6), SMALLEST, LARGEST))
             if time.perf_counter() - shown > SHOWN_EVERY and settled < order.size:
                 shown = time.perf_counter()
-                yield self._picture(settled, order.size, done=False)
-        if order.size:
-            yield self._picture(settled, order.size, done=False)
+                yield self._picture(settled, order.size)
+        yield self._picture(settled, order.size)
 
-    def _timed(self, places: np.ndarray, cycles: int) -> tuple[dict[str, np.ndarray], float]:
+    def _next(self, left: int) -> int:
+        """How many points the next piece has; the last ones have few, so that all threads come to the end together."""
+        return min(self.piece, max(left // (AHEAD * self.workers.count), SMALLEST))
+
+    def _timed(self, places: np.ndarray) -> tuple[dict[str, np.ndarray], float]:
         begun = time.thread_time()
-        return self._judge(places, cycles), time.thread_time() - begun
+        return self._judge(places, ALL), time.thread_time() - begun
 
     def _judge(self, places: np.ndarray, cycles: int) -> dict[str, np.ndarray]:
         ask = lead if self.plane.apart else respond
@@ -205,16 +209,18 @@ class Refinement:
         values = self.plane.values(np.arange(side * side), side)
         angles = np.abs(values.get("angle", np.zeros(1)))
         self.inside = np.broadcast_to((angles <= self.plane.reach), side * side).reshape(side, side)
+        self.fields["look"][~self.inside] = kinds.NONE
 
     def _keep(self, places: np.ndarray, answers: dict[str, np.ndarray]) -> None:
+        look = kinds.looks(answers["kind"], answers["response_period"], answers["symmetric"])
+        answers["look"] = look
         if self.plane.apart:
-            look = kinds.looks(answers["kind"], answers["response_period"], answers["symmetric"])
             states = np.column_stack([answers["orbit_angle"], answers["orbit_velocity"]])
             answers["orbit"] = self.orbits.numbers(look, states)
         for name in FIELDS.keys() & answers.keys():
             self.fields[name].reshape(-1)[places] = answers[name]
 
-    def _picture(self, settled: int, of: int, *, done: bool) -> Picture:
+    def _picture(self, settled: int, of: int) -> Picture:
         kept = {name: values.copy() for name, values in self.fields.items()}
-        found = kinds.looks(kept["kind"], kept["response_period"], kept["symmetric"])
-        return Picture(kept, np.where(self.inside, found, kinds.NONE), self.plane.points, settled, of, done)
+        done = self.side == self.plane.points and settled == of
+        return Picture(kept, self.plane.points, settled, of, done)

@@ -79,14 +79,12 @@ def legend(counts: np.ndarray) -> list[dict[str, str]]:
 def progress(picture: Picture) -> dict[str, Any]:
     """How far the map is: in words, and as a share of all points."""
     side = len(picture.look)
-    longer = side == picture.points and picture.of < side * side // 2
-    text = f"map of {side} × {side} points" + (", the open ones longer" if longer else "")
     share = (
         1.0
         if picture.done
         else 0.25 * (side / picture.points) ** 2 * (1.0 + 3.0 * picture.settled / max(picture.of, 1))
     )
-    return {"text": text, "share": share, "side": side, "done": picture.done}
+    return {"text": f"map of {side} × {side} points", "share": share, "side": side, "done": picture.done}
 
 
 def python(shown: Shown) -> str:
