@@ -190,16 +190,31 @@ def test_bad_address_opens_with_a_word_on_what_is_wrong(visit):
     visitor.is_content()
 
 
-def test_mirror_images_in_the_basin_have_shades_and_a_word_for_them(visit):
-    visitor = visit()
+NAMED = (
+    "[...document.querySelectorAll('#attractors li')].map(each => each.childNodes[1].textContent).join('; ')"
+)
+
+
+@pytest.mark.parametrize("width, height, scheme", [(1280, 800, "light"), (390, 844, "dark")])
+def test_basin_has_a_legend_of_its_attractors_mirror_images_apart(visit, width, height, scheme):
+    visitor = visit(width, height, scheme)
     visitor.open("?version=1&amplitude=14&period=1.35&restitution=0.925")
-    visitor.page.wait_for_function("document.getElementById('shades').textContent === 'paler: another orbit'")
+    visitor.page.wait_for_function(f"{NAMED} === 'overturned; 1, unsymmetric; another'")
+    shares = re.findall(r"([\d.]+) %", visitor.text("attractors"))
+    assert sum(map(float, shares)) == pytest.approx(100, abs=0.2)
+    colours = visitor.page.evaluate(
+        "[...document.querySelectorAll('#attractors i')].map(each => each.style.background)"
+    )
+    assert len(set(colours)) == 3
+    visitor.finished()
     image = np.array(dict(json.loads(visitor.data("basin"))[0])["image"][0])
     unsymmetric = 2
     assert {unsymmetric, unsymmetric + len(LOOKS)} <= set(image.ravel().tolist())
-    visitor.see("twins")
-    visitor.click("map", 0.2, 0.9)
-    visitor.page.wait_for_function("document.getElementById('shades').textContent === ''")
+    visitor.page.locator("#basin-picture").scroll_into_view_if_needed()
+    visitor.see(f"twins-{width}-{scheme}")
+    visitor.page.fill("#amplitude", "2")
+    visitor.page.press("#amplitude", "Enter")
+    visitor.page.wait_for_function(f"!{NAMED}.includes('another')")
     visitor.is_content()
 
 

@@ -25,6 +25,7 @@ from rocking.explorer.refine import UNDETERMINED, WHITE, Picture, Plane, Refinem
 from rocking.explorer.state import DEFAULT, POINTS, Shown, Span, closest, nearby
 from rocking.explorer.visit import Visit
 from rocking.explorer.work import Jobs, Workers
+from rocking.model import percent
 from rocking.plot.kinds import LOOKS, NONE, looks
 
 numbers = st.floats(allow_nan=False, allow_infinity=False)
@@ -223,7 +224,14 @@ def test_mirror_images_have_shades_of_their_own():
         set(last.colours()[twins & (last.fields["orbit"] == number)].tolist()) - {WHITE} for number in (0, 1)
     ]
     assert [len(shade) for shade in shades] == [1, 1]
-    assert len({figures.PALETTE[number] for shade in shades for number in shade}) == 2
+    colours = {figures.PALETTE[number] for shade in shades for number in shade}
+    assert len(colours) == 2
+    entries = told.attractors(last.counts())
+    assert [each["name"] for each in entries] == ["1, unsymmetric", "another", "overturned"]
+    assert {each["colour"] for each in entries[:2]} == colours
+    assert sorted(each["share"] for each in entries) == sorted(
+        percent(share.value) for share in found.fractions
+    )
 
 
 def test_orbits_keep_their_numbers_and_too_many_have_none():

@@ -25,7 +25,7 @@ function begin(doc) {
   listen("verdict", judge);
   listen("legend", legend);
   listen("progress", progress);
-  listen("basin", ({ apart }) => { find("shades").textContent = apart ? "paler: another orbit" : ""; });
+  listen("basin", attractors);
   listen("refused", refuse);
   for (const name of ["map", "basin"]) {
     for (const range of [models[name].x_range, models[name].y_range]) {
@@ -197,8 +197,8 @@ function judge(told) {
   scene();
 }
 
-function legend({ legend }) {
-  find("legend").replaceChildren(...legend.map(each => {
+function entries(legend) {
+  return legend.map(each => {
     const row = document.createElement("li"), swatch = document.createElement("i"), share = document.createElement("small");
     const stripes = each.hatch ? `repeating-linear-gradient(${each.hatch === "white" ? 45 : 135}deg, ${each.hatch} 0 2px, transparent 2px 5px), ` : "";
     swatch.style.background = stripes + each.colour;
@@ -206,9 +206,19 @@ function legend({ legend }) {
     row.append(swatch, each.name, share);
     row.classList.toggle("none", !each.share);
     return row;
-  }));
-  find("map").setAttribute("aria-label", "Map of responses over period and amplitude: " + legend.filter(each => each.share).map(each => `${each.name} ${each.share}`).join(", ")
-    + ". Arrow keys move it, plus and minus zoom, 0 shows all; type A and T to select a system.");
+  });
+}
+
+const shares = legend => legend.filter(each => each.share).map(each => `${each.name} ${each.share}`).join(", ");
+
+function legend({ legend }) {
+  find("legend").replaceChildren(...entries(legend));
+  find("map").setAttribute("aria-label", `Map of responses over period and amplitude: ${shares(legend)}. Arrow keys move it, plus and minus zoom, 0 shows all; type A and T to select a system.`);
+}
+
+function attractors({ legend }) {
+  find("attractors").replaceChildren(...entries(legend));
+  find("basin").setAttribute("aria-label", `Basin, where each start leads: ${shares(legend)}. Arrow keys move it, plus and minus zoom, 0 shows all; type Θ₀ and Θ′₀ to select a start.`);
 }
 
 function progress(told) {

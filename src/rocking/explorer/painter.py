@@ -133,7 +133,7 @@ class Painter:
         self.map.show(image=planes.image(picture, self.corner, shown.periods, shown.amplitudes))
         if picture.settled == picture.of:
             self.map.show(answers=planes.answers(picture))
-        self.link.tell("legend", {"legend": told.legend(picture.counts())})
+        self.link.tell("legend", {"legend": told.legend(picture.counts().sum(axis=0))})
         self.link.tell("progress", told.progress(picture))
 
     # one system
@@ -220,7 +220,7 @@ class Painter:
 
     def _draw_basin(self, shown: Shown, picture: Picture) -> None:
         self.basin.show(image=planes.image(picture, self.basin_corner, shown.angles, shown.velocities))
-        self.link.tell("basin", {"apart": bool(picture.fields["orbit"].any())})
+        self.link.tell("basin", {"legend": told.attractors(picture.counts())})
 
     # the diagram
 

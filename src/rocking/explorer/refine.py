@@ -102,13 +102,16 @@ class Picture:
         side = len(self.look)
         stride = (self.points - 1) // (side - 1)
         nearest = (np.arange(self.points) + stride // 2) // stride
-        shade = self.fields["orbit"] % SHADES
-        drawn = np.where(self.look == kinds.NONE, PLAIN, self.look + len(kinds.LOOKS) * shade)
-        return _COLOURS[_stripes(self.points), drawn[np.ix_(nearest, nearest)]]
+        return _COLOURS[_stripes(self.points), self._drawn()[np.ix_(nearest, nearest)]]
 
     def counts(self) -> np.ndarray:
-        """How many points of this grid have each look."""
-        return np.bincount(self.look[self.look != kinds.NONE], minlength=len(kinds.LOOKS))
+        """How many points of this grid have each shade (rows) of each look (columns)."""
+        return np.bincount(self._drawn().ravel(), minlength=PLAIN + 1)[:PLAIN].reshape(SHADES, -1)
+
+    def _drawn(self) -> np.ndarray:
+        """The numbers of the shades of the looks; `PLAIN` where there is no start."""
+        shade = self.fields["orbit"] % SHADES
+        return np.where(self.look == kinds.NONE, PLAIN, self.look + len(kinds.LOOKS) * shade)
 
 
 def _colours() -> np.ndarray:

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from rocking.explorer.fields import written
+from rocking.explorer.figures import SHADED
 from rocking.explorer.refine import Picture
 from rocking.explorer.state import DEFAULT, Shown
 from rocking.model import Block, Verdict, counted, percent
@@ -63,17 +64,34 @@ def _complex(value: complex) -> str:
 
 
 def legend(counts: np.ndarray) -> list[dict[str, str]]:
-    """All looks, each always in its place, with the shares of those that a picture has."""
+    """All looks, each always in its place, with the shares of those that a picture has: `counts` (looks,)."""
     total = max(int(counts.sum()), 1)
     return [
-        {
-            "name": look.name,
-            "colour": look.colour,
-            "hatch": look.hatch or "",
-            "share": percent(count / total) if count else "",
-        }
+        _entry(look.name, look.colour, look, count / total)
         for look, count in zip(kinds.LOOKS, counts.tolist(), strict=True)
     ]
+
+
+def attractors(counts: np.ndarray) -> list[dict[str, str]]:
+    """What starts lead to, with shares: the looks that a picture has, and their shades, the largest first; `counts` (shades, looks)."""
+    total, entries = max(int(counts.sum()), 1), []
+    for place in np.argsort(-counts.sum(axis=0), kind="stable").tolist():
+        name, look = kinds.LOOKS[place].name, kinds.LOOKS[place]
+        for shade in np.argsort(-counts[:, place], kind="stable").tolist():
+            if counts[shade, place]:
+                colour = SHADED[shade * len(kinds.LOOKS) + place]
+                entries.append(_entry(name, colour, look, counts[shade, place] / total))
+                name = "another"
+    return entries
+
+
+def _entry(name: str, colour: str, look: kinds.Look, share: float) -> dict[str, str]:
+    return {
+        "name": name,
+        "colour": colour,
+        "hatch": look.hatch or "",
+        "share": percent(share) if share else "",
+    }
 
 
 def progress(picture: Picture) -> dict[str, Any]:
