@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from attrs import frozen
 from bokeh.models import ColumnDataSource, LinearAxis, LinearColorMapper, Range1d
 from bokeh.models.annotations import Span
 from bokeh.models.tickers import BasicTicker
@@ -34,31 +33,13 @@ FEW = 3
 """Numbers along an axis that is short."""
 
 
-@frozen(eq=False)
-class Drawing:
-    """A figure with the sources of what is drawn in it, by name."""
-
-    figure: Any
-    sources: dict[str, ColumnDataSource]
-    here: Any = None
-    """The line at what is selected, where there is one."""
-
-    def show(self, ranges: tuple[float, float, float, float] | None = None, **data: dict[str, Any]) -> None:
-        """New data for some of its sources, and ranges: left, right, bottom, top."""
-        for name, columns in data.items():
-            self.sources[name].data = columns
-        if ranges is not None:
-            self.figure.x_range.update(start=ranges[0], end=ranges[1])
-            self.figure.y_range.update(start=ranges[2], end=ranges[3])
-
-
 def no_image() -> dict[str, Any]:
     """The columns of an image of nothing."""
     return {"image": [np.zeros((2, 2), np.uint8)], "x": [0.0], "y": [0.0], "w": [0.0], "h": [0.0]}
 
 
-def _empty(*columns: str) -> ColumnDataSource:
-    return ColumnDataSource({name: [] for name in columns})
+def _empty(name: str, *columns: str) -> ColumnDataSource:
+    return ColumnDataSource({column: [] for column in columns}, name=name)
 
 
 def _figure(name: str, across: str, up: str, tools: str = "", ticks: int = 5, **more: Any) -> Any:
@@ -84,36 +65,27 @@ def _figure(name: str, across: str, up: str, tools: str = "", ticks: int = 5, **
     return made
 
 
-def _plane(name: str, across: str, up: str) -> Drawing:
+def _plane(name: str, across: str, up: str) -> Any:
     """A picture of two quantities that is zoomed and moved, with the point that is selected."""
     made = _figure(name, across, up, tools="pan,wheel_zoom,tap", active_scroll="wheel_zoom")
     made.yaxis.ticker = BasicTicker(desired_num_ticks=6)
     made.grid.visible = False
     colours = LinearColorMapper(palette=PALETTE, low=-0.5, high=len(PALETTE) - 0.5)
-    image = ColumnDataSource(no_image())
+    image = ColumnDataSource(no_image(), name="image")
     drawn = made.image("image", "x", "y", "w", "h", source=image, color_mapper=colours)
     drawn.nonselection_glyph = drawn.selection_glyph = None
-    point = _empty("x", "y")
+    point = _empty("point", "x", "y")
     for size, colour, width in ((15, "white", 4.5), (15, ACCENT, 2.2)):
         made.scatter("x", "y", source=point, size=size, fill_color=None, line_color=colour, line_width=width)
-    return Drawing(
-        made,
-        {
-            "image": image,
-            "point": point,
-            "answers": ColumnDataSource(name="answers" if name == "map" else None),
-        },
-    )
+    return made
 
 
-def plane_of_systems() -> Drawing:
+def plane_of_systems() -> Any:
     """The map over period and amplitude, with the curves of the theory, and axes in SI at its other sides."""
-    drawing = _plane("map", "", "")
-    made = drawing.figure
-    curves = _empty("xs", "ys", "dash")
+    made = _plane("map", "", "")
+    curves = _empty("curves", "xs", "ys", "dash")
     for colour, width in (("white", 4.0), (style.INK, 1.4)):
         made.multi_line("xs", "ys", source=curves, line_color=colour, line_width=width, line_dash="dash")
-    drawing.sources["curves"] = curves
     made.extra_x_ranges["si"], made.extra_y_ranges["si"] = (
         Range1d(start=0.0, end=1.0),
         Range1d(start=0.0, end=1.0),
@@ -122,37 +94,37 @@ def plane_of_systems() -> Drawing:
     for axis, side in ((above, "above"), (right, "right")):
         axis.update(**AXIS, ticker=BasicTicker(desired_num_ticks=5))
         made.add_layout(axis, side)
-    return drawing
+    return made
 
 
-def plane_of_starts() -> Drawing:
+def plane_of_starts() -> Any:
     """The basin over angle and velocity of the start."""
     return _plane("basin", "angle at the start Θ₀", "velocity at the start Θ′₀")
 
 
-def history() -> Drawing:
+def history() -> Any:
     """The angle over time."""
     made = _figure("history", "time τ", "angle Θ")
-    line = _empty("time", "angle", "velocity")
+    line = _empty("line", "time", "angle", "velocity")
     made.line("time", "angle", source=line, name="line", line_color=style.MOTION, line_width=1.4)
-    return Drawing(made, {"history": line})
+    return made
 
 
-def portrait() -> Drawing:
+def portrait() -> Any:
     """The velocity over the angle, with impacts."""
     made = _figure("portrait", "angle Θ", "velocity Θ′", ticks=FEW)
-    line, hits = _empty("angle", "velocity"), _empty("angle", "velocity", "colour")
+    line, hits = _empty("line", "angle", "velocity"), _empty("hits", "angle", "velocity", "colour")
     made.line(
         "angle", "velocity", source=line, name="line", line_color=style.MOTION, line_width=1.0, line_alpha=0.8
     )
     made.scatter("angle", "velocity", source=hits, size=4.5, color="colour", line_color=None)
-    return Drawing(made, {"portrait": line, "hits": hits})
+    return made
 
 
-def section() -> Drawing:
+def section() -> Any:
     """The state once a cycle: single points, or where they are many how dense they lie."""
     made = _figure("section", "angle Θ", "velocity Θ′", ticks=FEW)
-    dense = ColumnDataSource(no_image())
+    dense = ColumnDataSource(no_image(), name="dense")
     shades = [f"{style.MOTION}{round(255 * share):02X}" for share in (0.0, *np.linspace(0.35, 1.0, 8))]
     made.image(
         "image",
@@ -163,21 +135,21 @@ def section() -> Drawing:
         source=dense,
         color_mapper=LinearColorMapper(palette=shades, low=0, high=9),
     )
-    points = _empty("angle", "velocity")
+    points = _empty("points", "angle", "velocity")
     made.scatter(
         "angle", "velocity", source=points, name="dots", size=4.0, color=style.MOTION, line_color=None
     )
-    orbit = _empty("angle", "velocity")
+    orbit = _empty("orbit", "angle", "velocity")
     made.scatter(
         "angle", "velocity", source=orbit, size=11, fill_color=None, line_color=ACCENT, line_width=1.6
     )
-    return Drawing(made, {"section": points, "dense": dense, "orbit": orbit})
+    return made
 
 
-def spectrum() -> Drawing:
+def spectrum() -> Any:
     """The spectral density over the frequency in units of the forcing's, with the strongest lines named."""
     made = _figure("spectrum", "frequency over that of the base", "density S", y_axis_type="log")
-    line, names = _empty("frequency", "density"), _empty("frequency", "density", "name")
+    line, names = _empty("line", "frequency", "density"), _empty("names", "frequency", "density", "name")
     made.line("frequency", "density", source=line, name="line", line_color=style.MOTION, line_width=1.2)
     made.text(
         "frequency",
@@ -191,13 +163,13 @@ def spectrum() -> Drawing:
         text_baseline="bottom",
         y_offset=-3,
     )
-    return Drawing(made, {"spectrum": line, "names": names})
+    return made
 
 
-def diagram() -> Drawing:
+def diagram() -> Any:
     """What is left of the motion after a transient, over the amplitude or the period."""
     made = _figure("diagram", "", "angle Θ", tools="tap")
-    points = _empty("value", "angle")
+    points = _empty("points", "value", "angle")
     made.scatter(
         "value",
         "angle",
@@ -208,6 +180,5 @@ def diagram() -> Drawing:
         line_color=None,
         marker="square",
     )
-    here = Span(dimension="height", location=0.0, line_color=ACCENT, line_width=1.5)
-    made.add_layout(here)
-    return Drawing(made, {"diagram": points}, here)
+    made.add_layout(Span(name="here", dimension="height", location=0.0, line_color=ACCENT, line_width=1.5))
+    return made

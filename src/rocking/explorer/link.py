@@ -6,6 +6,7 @@ import json
 from itertools import count
 from typing import Any
 
+from bokeh.core.properties import Any as Anything
 from bokeh.core.properties import String
 from bokeh.model import DataModel
 
@@ -22,6 +23,7 @@ class Link(DataModel):
     """`asked` comes from the page, all others go to it."""
 
     asked = String(default="")
+    drawn = Anything()
     shown = String(default="")
     verdict = String(default="")
     legend = String(default="")
@@ -33,6 +35,13 @@ class Link(DataModel):
         """Tell the page, which hears only of what differs: hence the number."""
         numbered = {"n": next(_numbers), **message}
         setattr(self, name, json.dumps(numbered, ensure_ascii=False, allow_nan=False))
+
+    def draw(self, **figures: dict[str, Any]) -> None:
+        """What is new in figures, by their names: columns by the names of their sources; `ranges`, `label` and `here` where these change.
+
+        One matter, whatever it holds: the server goes through all models for each, and the browser paints after each.
+        """
+        self.drawn = {"n": next(_numbers), **figures}  # type: ignore[assignment]  # its hint knows of no value
 
 
 def message(text: str) -> dict[str, Any]:

@@ -21,6 +21,7 @@ function begin(doc) {
   const model = name => doc.get_model_by_name(name);
   link = model("link");
   for (const name of ["map", "basin", "history", "portrait", "section", "spectrum", "diagram"]) models[name] = model(name);
+  link.properties.drawn.change.connect(() => draw(link.drawn));
   listen("shown", show);
   listen("verdict", judge);
   listen("legend", legend);
@@ -89,6 +90,26 @@ window.addEventListener("popstate", () => { if (link) ask("open", { address: loc
 find("undo").onclick = () => history.back();
 find("redo").onclick = () => history.forward();
 
+// ---- what figures show
+
+const parts = told => (told instanceof Map ? [...told] : Object.entries(told));
+let answers = {}; // of the map, at each point
+
+function draw(drawn) {
+  for (const [name, told] of parts(drawn)) if (models[name]) for (const [part, value] of parts(told)) fill(name, part, value);
+}
+
+function fill(name, part, value) {
+  const figure = models[name], change = (model, to) => model.setv(to, { sync: false });
+  if (part === "answers") answers = Object.fromEntries(parts(value));
+  else if (part === "label") change(figure.below[0], { axis_label: value });
+  else if (part === "here") change(figure.center.find(each => each.name === part), { location: value });
+  else if (part === "ranges") {
+    change(figure.x_range, { start: value[0], end: value[1] });
+    change(figure.y_range, { start: value[2], end: value[3] });
+  } else change(figure.renderers.find(each => each.data_source.name === part).data_source, { data: value });
+}
+
 // ---- planes: zoomed and moved here, computed there
 
 const timers = {};
@@ -152,7 +173,7 @@ function point(name, event) {
   const box = view?.el.getBoundingClientRect(), inner = view?.frame?.bbox;
   if (!inner) return;
   const across = (event.clientX - box.left - inner.left) / inner.width, up = 1 - (event.clientY - box.top - inner.top) / inner.height;
-  const source = answers(), side = source && Math.round(Math.sqrt(source.look?.length ?? 0));
+  const source = answers, side = Math.round(Math.sqrt(source.look?.length ?? 0));
   if (!side || across < 0 || across > 1 || up < 0 || up > 1) return;
   const { x_range, y_range } = models.map, [left, right, bottom, top] = shown.planes.map.ranges;
   const x = x_range.start + across * (x_range.end - x_range.start), y = y_range.start + up * (y_range.end - y_range.start);
@@ -171,12 +192,6 @@ function point(name, event) {
   const strong = document.createElement("b");
   strong.textContent = parts.shift();
   readout.append(strong, "; " + parts.join("; "));
-}
-
-let holder;
-function answers() {
-  holder ??= models.map.renderers[0].document.get_model_by_name("answers");
-  return holder && Object.fromEntries(holder.data instanceof Map ? holder.data : Object.entries(holder.data));
 }
 
 // ---- words
@@ -305,7 +320,7 @@ function save(name, blob, suffix) {
 function table(name) {
   const columns = {}, quote = value => (typeof value === "string" ? `"${value.replaceAll('"', '""')}"` : value);
   if (name === "map") {
-    const source = answers(), side = Math.round(Math.sqrt(source.look.length)), [left, right, bottom, top] = shown.planes.map.ranges, [baseX, baseY] = shown.planes.map.base;
+    const source = answers, side = Math.round(Math.sqrt(source.look.length)), [left, right, bottom, top] = shown.planes.map.ranges, [baseX, baseY] = shown.planes.map.base;
     const at = (low, high, place) => low + (high - low) * place / (side - 1);
     columns.period = Array.from(source.look, (_, n) => baseX + at(left, right, n % side));
     columns.amplitude = Array.from(source.look, (_, n) => baseY + at(bottom, top, Math.floor(n / side)));
@@ -315,9 +330,9 @@ function table(name) {
     columns.exponent = source.exponent;
   } else {
     for (const renderer of models[name].renderers) {
-      const data = renderer.data_source.data, entries = data instanceof Map ? [...data] : Object.entries(data);
-      if (name === "basin" && !entries.some(([key]) => key === "image")) continue;
-      for (const [key, values] of entries) if (!(key in columns) && values.length && typeof values[0] !== "object") columns[key] = values;
+      const columnsOf = parts(renderer.data_source.data);
+      if (name === "basin" && !columnsOf.some(([key]) => key === "image")) continue;
+      for (const [key, values] of columnsOf) if (!(key in columns) && values.length && typeof values[0] !== "object") columns[key] = values;
       if (Object.keys(columns).length) break;
     }
   }

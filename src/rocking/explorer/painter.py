@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 from collections.abc import Callable
 from functools import partial
+from typing import Any
 
 import numpy as np
 from bokeh.document import Document
@@ -41,24 +42,18 @@ class Painter:
     def __init__(self, document: Document, link: Link, workers: Workers) -> None:
         self.document, self.link, self.workers = document, link, workers
         self.jobs = Jobs()
-        self.map, self.basin = figures.plane_of_systems(), figures.plane_of_starts()
-        self.history, self.portrait, self.section = figures.history(), figures.portrait(), figures.section()
-        self.spectrum, self.diagram = figures.spectrum(), figures.diagram()
+        self.map, self.basin, self.diagram = (
+            figures.plane_of_systems(),
+            figures.plane_of_starts(),
+            figures.diagram(),
+        )
         self.corner = self.basin_corner = planes.Corner(0.0, 0.0)
 
     def attach(self) -> None:
         """Put the figures into the document; it hears only of events that were listened to before."""
-        drawings = (
-            self.map,
-            self.basin,
-            self.history,
-            self.portrait,
-            self.section,
-            self.spectrum,
-            self.diagram,
-        )
+        others = figures.history(), figures.portrait(), figures.section(), figures.spectrum()
         with self.document.models.freeze():  # else it goes through all of them once a root
-            for root in (*(each.figure for each in drawings), self.map.sources["answers"], self.link):
+            for root in (self.map, self.basin, self.diagram, *others, self.link):
                 self.document.add_root(root)
 
     # what stands still
@@ -78,15 +73,12 @@ class Painter:
 
     def mark(self, shown: Shown) -> None:
         """Ring what is selected, and draw the curves asked for."""
-        corner, basin_corner = self.corner, self.basin_corner
-        self.map.show(
-            point={"x": [shown.period - corner.across], "y": [shown.amplitude - corner.up]},
-            curves=planes.curves(shown, corner),
+        system = planes.point(self.corner, shown.period, shown.amplitude)
+        self.link.draw(
+            map={"point": system, "curves": planes.curves(shown, self.corner)},
+            basin={"point": planes.point(self.basin_corner, shown.angle, shown.velocity)},
+            diagram={"here": getattr(shown, shown.vary)},
         )
-        self.basin.show(
-            point={"x": [shown.angle - basin_corner.across], "y": [shown.velocity - basin_corner.up]}
-        )
-        self.diagram.here.location = getattr(shown, shown.vary)
 
     async def _draw(self, change: Callable[[], None]) -> None:
         """Change the document in its own time, with its lock held."""
@@ -130,9 +122,10 @@ class Painter:
             await self._draw(partial(self._draw_map, shown, finer))
 
     def _draw_map(self, shown: Shown, picture: Picture) -> None:
-        self.map.show(image=planes.image(picture, self.corner, shown.periods, shown.amplitudes))
+        drawn = {"image": planes.image(picture, self.corner, shown.periods, shown.amplitudes)}
         if picture.settled == picture.of:
-            self.map.show(answers=planes.answers(picture))
+            drawn["answers"] = planes.answers(picture)
+        self.link.draw(map=drawn)
         self.link.tell("legend", {"legend": told.legend(picture.counts().sum(axis=0))})
         self.link.tell("progress", told.progress(picture))
 
@@ -151,11 +144,14 @@ class Painter:
         drawn = await self.workers.soon(partial(section.drawn, period))
 
         def change() -> None:
-            self.history.show(found.spans["history"], history=found.history)
-            self.portrait.show(found.spans["portrait"], portrait=found.portrait, hits=found.hits)
-            self.spectrum.show(spectrum.ranges, spectrum=spectrum.line, names=spectrum.names)
-            self._draw_section(drawn, section)
-            self._draw_basin(shown, picture)
+            self.link.draw(
+                history={"ranges": found.spans["history"], "line": found.history},
+                portrait={"ranges": found.spans["portrait"], "line": found.portrait, "hits": found.hits},
+                spectrum={"ranges": spectrum.ranges, "line": spectrum.line, "names": spectrum.names},
+                section=_section(drawn, section),
+                basin=self._basin(shown, picture),
+            )
+            self._tell_attractors(picture)
             self._tell_verdict(shown, found.verdict, spectrum.why)
 
         await self._draw(change)
@@ -169,9 +165,7 @@ class Painter:
         self.link.tell("verdict", words | {"spectrum": why})
 
     def _draw_section(self, drawn: pictures.Drawn, grown: pictures.Section) -> None:
-        self.section.show(drawn.ranges, section=drawn.points, dense=drawn.dense, orbit=drawn.orbit)
-        ended = f", then {grown.ended.replace('-', ' ')}" if grown.ended else ""
-        self.section.figure.below[0].axis_label = f"angle Θ ({len(grown.points):,} cycles{ended})"
+        self.link.draw(section=_section(drawn, grown))
 
     async def _grow(self, section: pictures.Section, period: int | None, stop: np.ndarray) -> None:
         for cycles in GROWTH[1:]:
@@ -218,8 +212,14 @@ class Painter:
         async for picture in basin.finer():
             await self._draw(partial(self._draw_basin, shown, picture))
 
+    def _basin(self, shown: Shown, picture: Picture) -> dict[str, Any]:
+        return {"image": planes.image(picture, self.basin_corner, shown.angles, shown.velocities)}
+
     def _draw_basin(self, shown: Shown, picture: Picture) -> None:
-        self.basin.show(image=planes.image(picture, self.basin_corner, shown.angles, shown.velocities))
+        self.link.draw(basin=self._basin(shown, picture))
+        self._tell_attractors(picture)
+
+    def _tell_attractors(self, picture: Picture) -> None:
         self.link.tell("basin", {"legend": told.attractors(picture.counts())})
 
     # the diagram
@@ -228,9 +228,12 @@ class Painter:
         """The orbit diagram along the map's axis; what a click asks for comes first."""
         await self.jobs.over("response")
         columns, ranges = await self.workers.later(partial(pictures.diagram, shown, stop))
+        drawn = {"ranges": ranges, "label": VARIED[shown.vary], "points": columns}
+        await self._draw(partial(self.link.draw, diagram=drawn))
 
-        def change() -> None:
-            self.diagram.figure.below[0].axis_label = VARIED[shown.vary]
-            self.diagram.show(ranges, diagram=columns)
 
-        await self._draw(change)
+def _section(drawn: pictures.Drawn, grown: pictures.Section) -> dict[str, Any]:
+    ended = f", then {grown.ended.replace('-', ' ')}" if grown.ended else ""
+    label = f"angle Θ ({len(grown.points):,} cycles{ended})"
+    columns = {"points": drawn.points, "dense": drawn.dense, "orbit": drawn.orbit}
+    return {"ranges": drawn.ranges, "label": label, **columns}

@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 from attrs import frozen
 
-from rocking.explorer.figures import Drawing
 from rocking.explorer.refine import Picture
 from rocking.explorer.state import Shown, Span, closest
 from rocking.model import Block
@@ -68,9 +67,9 @@ def corner_of(across: Span, up: Span) -> Corner:
     return Corner(base_of(across), base_of(up))
 
 
-def place(drawing: Drawing, corner: Corner, across: Span, up: Span, limits: tuple[Span, Span]) -> None:
+def place(made: Any, corner: Corner, across: Span, up: Span, limits: tuple[Span, Span]) -> None:
     """Move the axes, and say how far one may move and zoom."""
-    pairs = (drawing.figure.x_range, across, corner.across), (drawing.figure.y_range, up, corner.up)
+    pairs = (made.x_range, across, corner.across), (made.y_range, up, corner.up)
     for (axis, span, base), limit in zip(pairs, limits, strict=True):
         axis.update(
             start=span.low - base,
@@ -80,13 +79,18 @@ def place(drawing: Drawing, corner: Corner, across: Span, up: Span, limits: tupl
         )
 
 
-def label(drawing: Drawing, corner: Corner, names: tuple[str, str]) -> None:
+def label(made: Any, corner: Corner, names: tuple[str, str]) -> None:
     """Say what the axes are, and which number they count from."""
     for axis, name, base in (
-        (drawing.figure.below[0], names[0], corner.across),
-        (drawing.figure.left[0], names[1], corner.up),
+        (made.below[0], names[0], corner.across),
+        (made.left[0], names[1], corner.up),
     ):
         axis.axis_label = f"{name} − {base!r}" if base else name
+
+
+def point(corner: Corner, across: float, up: float) -> dict[str, Any]:
+    """A place in a plane as a figure draws it."""
+    return {"x": [across - corner.across], "y": [up - corner.up]}
 
 
 def image(picture: Picture, corner: Corner, across: Span, up: Span) -> dict[str, Any]:
@@ -137,9 +141,8 @@ def _curve(name: str, across: Span, up: Span, restitution: float) -> tuple[np.nd
     return periods, *map_curves.lines_of(map_curves.CURVES[name], periods, restitutions, up.low, up.high)
 
 
-def metres(drawing: Drawing, corner: Corner, shown: Shown, block: Block | None) -> None:
+def metres(made: Any, corner: Corner, shown: Shown, block: Block | None) -> None:
     """The axes at the other sides: the same in SI where there is a block."""
-    made = drawing.figure
     above, right = made.above[0], made.right[0]
     for axis in (above, right):
         axis.visible = block is not None

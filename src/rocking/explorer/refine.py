@@ -187,7 +187,7 @@ class Refinement:
 
     def _next(self, left: int) -> int:
         """How many points the next piece has; the last ones have few, so that all threads come to the end together."""
-        return min(self.piece, max(left // (AHEAD * self.workers.count), SMALLEST))
+        return min(self.piece, max(left // (AHEAD * self.workers.count), START))
 
     def _timed(self, places: np.ndarray) -> tuple[dict[str, np.ndarray], float]:
         begun = time.thread_time()

@@ -29,9 +29,9 @@ class Visit:
         self.painter = Painter(document, self.link, workers)
         self.shown, self.opened = DEFAULT, False
         self.link.on_change("asked", lambda _name, _before, text: self.hear(text))
-        self.painter.map.figure.on_event(Tap, self._tapped_map)
-        self.painter.basin.figure.on_event(Tap, self._tapped_basin)
-        self.painter.diagram.figure.on_event(Tap, self._tapped_diagram)
+        self.painter.map.on_event(Tap, self._tapped_map)
+        self.painter.basin.on_event(Tap, self._tapped_basin)
+        self.painter.diagram.on_event(Tap, self._tapped_diagram)
         self.painter.attach()
         document.on_session_destroyed(lambda _context: self.painter.jobs.end_all())
 
