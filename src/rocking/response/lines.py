@@ -15,6 +15,8 @@ MOST_LINES = 40
 CHANCE = 1e-3
 COHERENCE = 0.8
 SURROUNDINGS = 24
+SIDES, HANN = np.array([-1.0, 0.0, 1.0]), np.array([-0.5, 1.0, -0.5])
+"""A Hann window's own spectrum: at so many resolutions, so much."""
 
 
 @frozen
@@ -157,13 +159,12 @@ def refined(record: np.ndarray, start: float) -> tuple[float, float]:
     offset = 0.0
     for share in (0.5, 0.25, 0.05, 0.05):
         step = share * bin_width
-        below, here, above = (
-            2 * math.log(abs(near.windowed(offset + side * step)) or 1e-300) for side in (-1, 0, 1)
-        )
+        sizes = np.abs(near.windowed(offset + step * SIDES))
+        below, here, above = 2 * np.log(np.maximum(sizes, 1e-300))
         bend = below - 2 * here + above
         if bend < 0:
             offset += min(max(step * (below - above) / (2 * bend), -bin_width), bin_width)
-    return start + offset, 2 * abs(near.windowed(offset))
+    return float(start + offset), float(2 * np.abs(near.windowed(np.array(offset))))
 
 
 @frozen
@@ -190,18 +191,18 @@ class Near:
         sums = np.einsum("cs,sk->ck", record, turns.real) + 1j * np.einsum("cs,sk->ck", record, turns.imag)
         return cls(frequency, sums / record.size)
 
-    def windowed(self, offset: float) -> complex:
-        """(1/L) ∫ x (1 − cos(2πt/L)) e^{−2πiνt} dt over the whole record."""
-        width = 1 / len(self.sums)
-        sides = self.plain(offset - width) + self.plain(offset + width)
-        return self.plain(offset) - sides / 2
+    def windowed(self, offsets: np.ndarray) -> np.ndarray:
+        """(1/L) ∫ x (1 − cos(2πt/L)) e^{−2πiνt} dt over the whole record, at each of the offsets."""
+        return self.plain(offsets[..., None] + SIDES / len(self.sums)) @ HANN
 
-    def plain(self, offset: float) -> complex:
-        """(1/L) ∫ x e^{−2πiνt} dt."""
+    def plain(self, offsets: np.ndarray) -> np.ndarray:
+        """(1/L) ∫ x e^{−2πiνt} dt at each of the offsets."""
         cycles, terms = self.sums.shape
-        series = np.cumprod(np.append(1.0, -2j * math.pi * offset / np.arange(1, terms)))
+        offset = offsets[..., None]
+        ratios = -2j * math.pi * offset / np.arange(1, terms)
+        series = np.cumprod(np.concatenate([np.ones_like(offset), ratios], axis=-1), axis=-1)
         turns = np.mod((self.frequency + offset) * np.arange(cycles), 1.0) + offset / 2
-        return complex((np.exp(-2j * math.pi * turns) * (self.sums * series).sum(axis=1)).sum())
+        return (np.exp(-2j * math.pi * turns) * np.einsum("...k,ck->...c", series, self.sums)).sum(axis=-1)
 
 
 def _hann(count: int) -> np.ndarray:

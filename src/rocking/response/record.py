@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import numpy as np
 
 from rocking.motion import Motion
@@ -44,12 +46,17 @@ def sampling(motion: Motion, transient: int, samples: int | None) -> tuple[int, 
 
 
 def _share_above(record: np.ndarray, frequency: float) -> float:
-    from scipy.signal import get_window
-
     values = (record - record.mean()).ravel()
-    power = np.abs(np.fft.rfft(values * get_window("blackmanharris", values.size))) ** 2
+    power = np.abs(np.fft.rfft(values * _taper(values.size))) ** 2
     total = power.sum()
     return float(power[int(frequency * len(record)) :].sum() / total) if total else 0.0
+
+
+@lru_cache(2)
+def _taper(values: int) -> np.ndarray:
+    from scipy.signal import get_window
+
+    return get_window("blackmanharris", values)
 
 
 def recurrence(record: np.ndarray) -> int | None:
