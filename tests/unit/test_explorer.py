@@ -21,12 +21,13 @@ from rocking.explorer.app import GROUNDS, LEVELS
 from rocking.explorer.fields import READ, Refused, address, changed, from_address, in_metres, written
 from rocking.explorer.link import message
 from rocking.explorer.orbits import Orbits
-from rocking.explorer.refine import UNDETERMINED, WHITE, Picture, Plane, Refinement
+from rocking.explorer.refine import AHEAD, START, UNDETERMINED, WHITE, Picture, Plane, Refinement
 from rocking.explorer.state import DEFAULT, POINTS, Shown, Span, closest, nearby
 from rocking.explorer.visit import Visit
 from rocking.explorer.work import Jobs, Workers
 from rocking.model import percent
 from rocking.plot.kinds import LOOKS, NONE, looks
+from rocking.survey import cores
 
 numbers = st.floats(allow_nan=False, allow_infinity=False)
 
@@ -187,6 +188,29 @@ def test_refined_map_is_the_packages_map():
     assert [len(picture.look) for picture in pictures if picture.settled == picture.of] == [5, 9, 17, 33]
     assert [picture.done for picture in pictures] == [False] * (len(pictures) - 1) + [True]
     assert pictures[-1].colours().shape == (33, 33)
+
+
+def pieces(monkeypatch, seconds):
+    """How many points each piece of a refinement has, if a point takes so long."""
+    plane = Plane(("period", Span(0.2, 3.0)), ("amplitude", Span(0.0, 16.0)), {"restitution": 0.925}, 33)
+    sizes, judge = [], Refinement._timed
+
+    def timed(refinement, places):
+        sizes.append(places.size)
+        return judge(refinement, places)[0], seconds * places.size
+
+    monkeypatch.setattr(Refinement, "_timed", timed)
+    refined(plane)
+    return sizes
+
+
+def test_pieces_have_one_point_where_points_are_dear_and_many_where_they_are_cheap(monkeypatch):
+    """So threads turn to something else, and what is known is shown, however long one point takes."""
+    dear = pieces(monkeypatch, 1.0)
+    assert dear[0] == START
+    assert set(dear[AHEAD * cores() :]) == {1}
+    monkeypatch.undo()
+    assert max(pieces(monkeypatch, 1e-6)) > 8 * START
 
 
 def test_coarse_map_calls_undetermined_what_it_cannot_know():
@@ -367,6 +391,21 @@ def test_diagram_that_is_no_longer_wanted_ends_midway(monkeypatch):
         pictures.diagram(DEFAULT, stop)
     assert len(done) == 1
     assert done[0] < pictures.VALUES
+
+
+def test_diagram_that_is_no_longer_wanted_ends_while_its_cost_is_looked_for(monkeypatch):
+    """A cycle may have ten million events."""
+    stop, looked = np.zeros(1, np.int64), []
+
+    def hits(system, start):
+        stop[0] = 1
+        looked.append(system)
+        return 1.0
+
+    monkeypatch.setattr(pictures, "hits_per_cycle", hits)
+    with pytest.raises(asyncio.CancelledError):
+        pictures.diagram(DEFAULT, stop)
+    assert len(looked) == 1
 
 
 def test_diagram_costs_what_its_dearest_values_cost(monkeypatch):

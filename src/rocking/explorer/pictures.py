@@ -250,10 +250,13 @@ def diagram(shown: Shown, stop: np.ndarray) -> tuple[Columns, Ranges]:
     start: State = shown.start
     nothing: Columns = {"value": [], "angle": []}
     ranges = span.low, span.high, *_around(np.empty(0))
-    along = (shown.at(value) for value in (span.low, values[VALUES // 2], span.high))
-    hits = max(hits_per_cycle(each.system, start) for each in (shown, *along))
-    if math.isinf(hits):
-        return nothing, ranges
+    hits = 1.0
+    for each in (shown, *(shown.at(value) for value in (span.low, values[VALUES // 2], span.high))):
+        if stop[0]:
+            raise CancelledError
+        hits = max(hits, hits_per_cycle(each.system, start))
+        if math.isinf(hits):
+            return nothing, ranges
     share = min(LATER_HITS / (hits * VALUES * (TRANSIENT + KEPT)), 1.0)
     lengths = int(share * TRANSIENT), max(int(share * KEPT), 1)
     pieces = []

@@ -37,7 +37,10 @@ PIECE = 0.12
 """Seconds that a piece of work takes, about: so long does a thread need to turn to something else."""
 AHEAD = 2
 """Pieces that wait or are under way for each thread, lest it idle until the page's own thread comes to think of the next."""
-SMALLEST, START, LARGEST = 16, 256, 16_384
+START, FEW, LARGEST = 16, 256, 16_384
+"""Points of the first piece, of the last ones of a grid, and at most; fewer wherever they are dear."""
+FASTER = 8
+"""Times the size of a piece that the next one may have: a few cheap points say little of the others."""
 SHOWN_EVERY = 0.3
 """Seconds between two pictures of a grid that is not yet full."""
 STRIPES, STRIPE = 7, 2
@@ -179,7 +182,8 @@ class Refinement:
                 answers, taken = future.result()
                 self._keep(piece, answers)
                 settled += piece.size
-                self.piece = int(np.clip(piece.size * PIECE / max(taken, 1e-6), SMALLEST, LARGEST))
+                times = min(PIECE / max(taken, 1e-6), FASTER)
+                self.piece = min(max(int(piece.size * times), 1), LARGEST)
             if time.perf_counter() - shown > SHOWN_EVERY and settled < order.size:
                 shown = time.perf_counter()
                 yield self._picture(settled, order.size)
@@ -187,7 +191,7 @@ class Refinement:
 
     def _next(self, left: int) -> int:
         """How many points the next piece has; the last ones have few, so that all threads come to the end together."""
-        return min(self.piece, max(left // (AHEAD * self.workers.count), START))
+        return min(self.piece, max(left // (AHEAD * self.workers.count), FEW))
 
     def _timed(self, places: np.ndarray) -> tuple[dict[str, np.ndarray], float]:
         begun = time.thread_time()
