@@ -25,6 +25,8 @@ GROWTH = (1_000, 2_000, 7_000, 20_000, 30_000, 40_000)
 """Cycles that a section grows by, one step after another: 10⁵ in all."""
 BREATH = 0.2
 """Seconds between two steps of it, so that it is seen to grow, and before a basin is refined."""
+MAP_FIRST = 1.0
+"""Seconds at most for which a basin leaves all cores to a map that refines."""
 MAP_LIMITS = Span(*PERIODS), Span(0.0, LARGEST_AMPLITUDE)
 BASIN_LIMITS = Span(-LARGEST_START, LARGEST_START), Span(-LARGEST_START, LARGEST_START)
 BASIN_LABELS = "angle at the start Θ₀", "velocity at the start Θ′₀"
@@ -210,6 +212,7 @@ class Painter:
     async def _finish_basin(self, shown: Shown, basin: Refinement, stop: np.ndarray) -> None:
         basin.stop = stop
         await asyncio.sleep(BREATH)  # what there is is painted before all cores are taken
+        await self.jobs.over("map", MAP_FIRST)
         async for picture in basin.finer():
             await self._draw(partial(self._draw_basin, shown, picture))
 

@@ -41,7 +41,7 @@ START, FEW, LARGEST = 16, 256, 16_384
 """Points of the first piece, of the last ones of a grid, and at most; fewer wherever they are dear."""
 FASTER = 8
 """Times the size of a piece that the next one may have: a few cheap points say little of the others."""
-SHOWN_EVERY = 0.3
+SHOWN_EVERY = 0.5
 """Seconds between two pictures of a grid that is not yet full."""
 STRIPES, STRIPE = 7, 2
 """Points from one stripe of a hatch to the next, and across one."""

@@ -62,10 +62,10 @@ class Jobs:
             stop[0] = 1
             task.cancel()
 
-    async def over(self, name: str) -> None:
-        """Wait for the end of the job of that name, if there is one, however it ends."""
+    async def over(self, name: str, most: float | None = None) -> None:
+        """Wait for the end of the job of that name, if there is one, however it ends; for so many seconds at most."""
         if name in self._jobs:
-            await asyncio.wait([self._jobs[name][0]])
+            await asyncio.wait([self._jobs[name][0]], timeout=most)
 
     def end_all(self) -> None:
         """End whatever is under way."""
