@@ -1,6 +1,7 @@
 """What the page shows is a value: to an address and back; nothing typed breaks it; its pictures are the map's."""
 
 import asyncio
+import itertools
 import json
 import math
 import subprocess
@@ -296,6 +297,15 @@ def test_motion_that_becomes_faster_than_any_start_is_drawn():
     section = pictures.Section(shown)
     section.grow(100)
     assert section.ended == "too fast"
+
+
+def test_names_of_a_spectrum_do_not_run_into_each_other():
+    """Lines at thirds of the forcing's frequency, of much the same height."""
+    names = pictures.spectrum(Shown(amplitude=10.103037, period=1.721328, restitution=0.8)).names
+    places = list(zip(names["frequency"], np.log10(names["density"]), strict=True))
+    assert names["name"][:2] == ["f", "f/3"]
+    for (across, up), (other_across, other_up) in itertools.combinations(places, 2):
+        assert abs(across - other_across) > 0.45 or abs(up - other_up) > 1.2
 
 
 def test_motion_of_too_many_events_has_no_pictures(monkeypatch):

@@ -32,6 +32,8 @@ SETTLING, RECORD = 128, 256
 """Cycles left out before a spectrum, and taken for it."""
 HIGHEST, DECADES, NAMES = 3.05, 10.0, 6
 """Of a spectrum: up to which multiple of the base's frequency, how deep, and how many lines are named."""
+NAME_ACROSS, NAME_UP = 0.45, 1.2
+"""Names nearer than this, in multiples across and in decades up, would run into each other."""
 NO_SPECTRUM = "no spectrum: the motion ends, or has too many events"
 SINGLE = 1_500
 """Places in a section that are drawn as points; of more it is shown how dense they lie."""
@@ -177,14 +179,16 @@ def spectrum(shown: Shown) -> Spectrum:
     heights = density.density[kept]
     top = float(heights.max()) if heights.size else 1.0
     bottom = max(top * 10.0**-DECADES, float(heights.min()) if heights.size else 0.0)
-    named = [peak for peak in density.peaks if peak.name and peak.frequency * shown.period <= HIGHEST * 0.97][
-        :NAMES
-    ]
-    names = {
-        "frequency": [peak.frequency * shown.period for peak in named],
-        "density": [peak.height for peak in named],
-        "name": [peak.name for peak in named],
-    }
+    named: list[tuple[float, float, str]] = []
+    for peak in density.peaks:
+        multiple = peak.frequency * shown.period
+        clear = all(
+            abs(multiple - across) >= NAME_ACROSS or abs(math.log10(peak.height / up)) >= NAME_UP
+            for across, up, _ in named
+        )
+        if peak.name and multiple <= HIGHEST * 0.97 and clear and len(named) < NAMES:
+            named.append((multiple, peak.height, peak.name))
+    names = {key: [each[k] for each in named] for k, key in enumerate(("frequency", "density", "name"))}
     ranges = (0.0, HIGHEST, bottom, top * (top / bottom) ** 0.18)
     return Spectrum({"frequency": multiples[kept], "density": heights}, names, ranges)
 
