@@ -15,7 +15,7 @@ from rocking.survey import cores
 
 FORGOTTEN = 8.0
 """Seconds after which the server has dropped a visit that nobody looks at, and looked for such."""
-ALLOWED = 20e6
+ALLOWED = 30e6
 """Bytes that the memory may have grown by, however many visits: one alone takes some 10⁷."""
 
 
