@@ -1,9 +1,11 @@
 """Surveys that are killed, interrupted, run twice at once or out of disk lose nothing that was kept."""
 
+import shutil
 import signal
 import subprocess
 import sys
 import time
+import warnings
 
 import numpy as np
 import pytest
@@ -91,6 +93,19 @@ def test_map_killed_ten_times_is_that_of_an_undisturbed_run_byte_for_byte(tmp_pa
     # a run that was quicker than its death would show nothing
     assert done.stdout.split().count("True") >= 5
     rk.parametric_map(**ASKED, store=folder)
+    assert files(folder) == files(whole)
+
+
+def test_run_killed_between_a_folder_and_its_first_file_is_gone_on_with_in_silence(tmp_path, whole):
+    folder = tmp_path / "map.zarr"
+    shutil.copytree(whole, folder)
+    for level in folder.glob("level-*"):
+        shutil.rmtree(level / "brace_hits_per_period")
+        (level / "brace_hits_per_period").mkdir()
+        (level / "brace_hits_per_period" / "zarr.json.0123.partial").touch()
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        rk.parametric_map(**ASKED, store=folder, repair=True)
     assert files(folder) == files(whole)
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from rocking.model import check_folder, refusal
@@ -83,6 +83,10 @@ def reading(folder: Path) -> Iterator[None]:
 
 
 def clear_partial(folder: Path) -> None:
-    """Remove what a killed run was writing."""
+    """Remove what a killed run was writing, and the folders that it made for that: zarr warns of those that hold nothing."""
     for left in folder.rglob("*.partial"):
         left.unlink(missing_ok=True)
+    for within, _, files in os.walk(folder, topdown=False):
+        if not files and within != str(folder):
+            with suppress(OSError):  # it holds another folder
+                os.rmdir(within)
