@@ -8,7 +8,7 @@ from numba import njit
 from rocking.kernels.arc import arc_from, earlier
 from rocking.kernels.elementary import COMPILED
 from rocking.kernels.events import FLIGHT
-from rocking.kernels.lane_block import arc_of, find, over, seat
+from rocking.kernels.lane_block import arc_of, find, over, seat, set_leg
 from rocking.kernels.lane_march import advance, strike
 from rocking.kernels.lanes import (
     ARRIVED,
@@ -46,7 +46,8 @@ def sit_down(s, i, p, side, start, velocity, columns, cycles):
     """A block in lane i that leaves the base."""
     arc = arc_from(p, side, start, 0.0, velocity)
     progress = Progress(FLIGHT, 0, arc, True, 0, 0, 0, 0.0, math.inf, 1.0, 0.0, -math.inf)
-    seat(s, i, p, progress, columns, cycles)
+    seat(s, i, p, progress, columns, 0)
+    set_leg(s, i, cycles, False)
 
 
 @njit(**COMPILED)

@@ -2,36 +2,46 @@
 
 import math
 
+import numpy as np
 from numba import njit
 
-from .elementary import COMPILED, ENTRY, INLINED, MAKING, WITHIN
+from .branchless import EXACT, both_exponentials
+from .elementary import COMPILED, ENTRY, MAKING, MAKING_ENTRY, WITHIN
+
+# Of a weight below e to minus this nothing is seen in a sum.
+UNSEEN = 700.0
 
 
-@njit(**COMPILED)
+@njit(**EXACT)
+def bumps(count, weights):
+    """The weights of the first half of ``count`` values, several at a time; the other half has the same from its end.
+
+    An odd count's middle one is halved: it comes from either end.
+    """
+    step, half = 1.0 / (count + 1), (count + 1) // 2
+    for k in range(half):
+        x = (k + 1) * step
+        weights[k] = both_exponentials(max(-1.0 / (x * (1.0 - x)), -UNSEEN))[0]
+    if count % 2 == 1:
+        weights[half - 1] *= 0.5
+
+
+@njit(**MAKING)
 def weighted_mean(values):
     """Birkhoff average with the weight exp(-1/(x(1 - x))), x from 0 to 1 along ``values``.
 
     Das, Saiki, Sander and Yorke (2017), Nonlinearity 30: on a quasi-periodic motion it converges faster than any
     power of the length.
     """
-    total, weights = 0.0, 0.0
-    count = values.shape[0]
-    step = 1.0 / (count + 1)
-    for k in range((count + 1) // 2):
-        weight, opposite = bump_at(k, count, step)
-        total += weight * (values[k] + values[opposite])
-        weights += 2.0 * weight
-    return total / weights
+    total, count = 0.0, values.shape[0]
+    weights = np.empty((count + 1) // 2)
+    bumps(count, weights)
+    for k in range(weights.shape[0]):
+        total += weights[k] * (values[k] + values[count - 1 - k])
+    return total / (2.0 * weights.sum())
 
 
-@njit(**INLINED)
-def bump_at(k, count, step):
-    """(weight, the place that has it too): the weights are the same from either end; the middle's is halved, for it comes twice."""
-    x, opposite = (k + 1) * step, count - 1 - k
-    return math.exp(-1.0 / (x * (1.0 - x))) * (0.5 if opposite == k else 1.0), opposite
-
-
-@njit(**COMPILED)
+@njit(**MAKING)
 def digits_of_agreement(values):
     """To how many decimal digits the weighted means of both halves of ``values`` agree, relative to their size."""
     half = values.shape[0] // 2
@@ -39,13 +49,13 @@ def digits_of_agreement(values):
 
 
 @njit(**WITHIN)
-def digits_of_both(values):
-    """``digits_of_agreement`` of each of two rows, for which the weights are worked out but once."""
+def digits_of_both(values, weights):
+    """``digits_of_agreement`` of each of two rows; in ``weights`` is room for a quarter of their length, and one."""
     half = values.shape[1] // 2
     first, second, third, fourth = 0.0, 0.0, 0.0, 0.0
-    step = 1.0 / (half + 1)
+    bumps(half, weights)
     for k in range((half + 1) // 2):
-        weight, opposite = bump_at(k, half, step)
+        weight, opposite = weights[k], half - 1 - k
         first += weight * (values[0, k] + values[0, opposite])
         second += weight * (values[0, half + k] + values[0, half + opposite])
         third += weight * (values[1, k] + values[1, opposite])
@@ -88,13 +98,13 @@ def batch_error(batches):
     return mean, worst / batches.shape[0]
 
 
-@njit(**ENTRY)
+@njit(**MAKING_ENTRY)
 def weighted_mean_plain(values):
     """``weighted_mean`` for Python."""
     return weighted_mean(values)
 
 
-@njit(**ENTRY)
+@njit(**MAKING_ENTRY)
 def digits_of_agreement_plain(values):
     """``digits_of_agreement`` for Python."""
     return digits_of_agreement(values)

@@ -32,6 +32,7 @@ class Desk(NamedTuple):
     scratch: np.ndarray  # (n, 4), a trial orbit's; as many of the last cycles are looked at
     events: np.ndarray  # (n, 8)
     flights: np.ndarray  # (2, n)
+    weights: np.ndarray  # (n/4 + 1,)
     batches: np.ndarray
     columns: np.ndarray  # (2, 2)
     trial: np.ndarray  # (2, 2)
@@ -42,11 +43,13 @@ class Desk(NamedTuple):
 def desk(max_cycles, max_period):
     """Working memory for runs of up to ``max_cycles`` and orbits of up to ``max_period``."""
     rows = max(4 * max_period, LEG) + 1
+    flights = min(max(4 * max_cycles, 1024), 1 << 18)
     return Desk(
         np.empty((rows + SPARE * LEG, 8)),
         np.empty((rows, 4)),
         np.empty((512, 8)),
-        np.empty((2, min(max(4 * max_cycles, 1024), 1 << 18))),
+        np.empty((2, flights)),
+        np.empty(flights // 4 + 1),
         np.empty(BATCHES),
         np.empty((2, 2)),
         np.empty((2, 2)),
@@ -64,6 +67,7 @@ class Bench(NamedTuple):
     scratch: np.ndarray
     events: np.ndarray
     flights: np.ndarray
+    weights: np.ndarray
     batches: np.ndarray
     columns: np.ndarray
     trial: np.ndarray
@@ -86,6 +90,7 @@ def bench(max_cycles, max_period):
         one.scratch,
         one.events,
         flights,
+        one.weights,
         batches,
         columns,
         one.trial,
@@ -102,6 +107,7 @@ def place(bench, lane):
         bench.scratch,
         bench.events,
         bench.flights[lane],
+        bench.weights,
         bench.batches[lane],
         bench.columns[lane],
         bench.trial,

@@ -29,17 +29,23 @@ class Swing(NamedTuple):
 
 
 @njit(**INNER)
+def clock(frequency, phase, side, time):
+    """(cosine, sine, psi, 1 - |cosine|, whether that is accurate however small) at a time within the cycle."""
+    psi = frequency * time + phase
+    sine, cosine, versine, exact = direction(psi)
+    return side * cosine, side * sine, psi, versine, exact
+
+
+@njit(**INNER)
 def begin(p, side, time, angle):
     """(cosine, sine, psi, pull) at a time within the cycle; pull = u - 1 - A cosine = u'', exact however close to 0."""
-    psi = p.frequency * time + p.phase
-    sine, cosine, versine, exact = direction(psi)
-    cosine *= side
+    cosine, sine, psi, versine, exact = clock(p.frequency, p.phase, side, time)
     above = angle - 1.0
     pull = fma(-p.amplitude, cosine, above)
     if exact:
         most = math.copysign(p.amplitude, cosine)
         pull = fma(most, versine, above - most)
-    return cosine, side * sine, psi, pull
+    return cosine, sine, psi, pull
 
 
 @njit(**INNER)

@@ -5,8 +5,9 @@ import math
 from numba import njit
 
 from .arc import arc_after, earlier
-from .elementary import WITHIN, direction
+from .elementary import WITHIN
 from .events import FLIGHT, IMPACT, Next, any_event
+from .harmonic import clock
 from .lanes import (
     ACROSS,
     ALONE,
@@ -36,6 +37,8 @@ from .lanes import (
     STAGE,
     START,
     TARGET,
+    TRAILS,
+    UNCOLLECTED,
     VELOCITY,
     WAIT,
     WALK,
@@ -43,7 +46,7 @@ from .lanes import (
     put,
     set_system,
 )  # fmt: skip
-from .lossless import collect, may_be_asked_for, sketch
+from .lossless import Flights, sketch
 from .march import DONE, RESYNCHRONISE, UNKNOWN, Progress
 from .release import Watch
 from .turning import peak_with
@@ -53,8 +56,8 @@ LN2 = math.log(2.0)
 
 
 @njit(**WITHIN)
-def seat(s, i, p, progress, columns, target):
-    """Put a block into a lane."""
+def seat(s, i, p, progress, columns, collected):
+    """Put a block into a lane, of which so many flights were collected."""
     set_system(s, i, p)
     arc = progress.arc
     put(s, i, CYCLE, progress.cycle)
@@ -65,12 +68,19 @@ def seat(s, i, p, progress, columns, target):
     put(s, i, SINE, arc.sine)
     put(s, i, IMPACTS, progress.impacts)
     put(s, i, COUNTED, progress.impacts)
+    put(s, i, UNCOLLECTED, progress.impacts - collected)
     put(s, i, PEAK, progress.peak)
     put(s, i, ACROSS, columns[0, 0])
     put(s, i, ALONG, columns[0, 1])
     put(s, i, DOUBLINGS, 0.0)
-    put(s, i, TARGET, target)
     put(s, i, STAGE, BEGUN)
+
+
+@njit(**WITHIN)
+def set_leg(s, i, target, trails):
+    """Where the leg of a lane ends, and whether its arcs are asked for."""
+    put(s, i, TARGET, target)
+    put(s, i, TRAILS, trails)
 
 
 @njit(**WITHIN)
@@ -81,11 +91,14 @@ def arc_of(s, i, p):
 
 
 @njit(**WITHIN)
-def read(s, i, wants, p, run, max_cycles, desk, trail):
+def read(s, i, wants, p, run, desk, trail):
     """(status, run) of a lane, with what happened since it was last read: at the end of the leg if it wants that."""
     watch, flights, section_time, count, lossless, measuring = run
     before, arc, cycle, target = watch.progress, arc_of(s, i, p), int(of(s, i, CYCLE)), int(of(s, i, TARGET))
-    pending = arc.start <= section_time
+    pending, written = arc.start <= section_time, int(of(s, i, IMPACTS)) - int(of(s, i, COUNTED))
+    if written > 0:
+        collected = min(flights.count + written, desk.flights.shape[1])
+        flights = Flights(IMPACT, cycle, arc.start, flights.first_cycle, collected)
     if wants == LEG_END:
         arc, cycle, pending = earlier(arc, (target - cycle) * p.period), target, True
     impacts, peak = int(of(s, i, IMPACTS)), of(s, i, PEAK)
@@ -104,14 +117,11 @@ def read(s, i, wants, p, run, max_cycles, desk, trail):
         wait,
         -math.inf,
     )
-    written = impacts - int(of(s, i, COUNTED))
-    rows = desk.scratch.shape[0]
-    if may_be_asked_for(desk.growth[0], target, max_cycles, rows):
-        count = room(desk.section, count, cycle + 1 - before.cycle, rows)
+    if of(s, i, TRAILS) > 0.0:
+        count = room(desk.section, count, cycle + 1 - before.cycle, desk.scratch.shape[0])
         count = sketch(p, before, trail[1:], written, after, section_time, desk.section, count)
     else:
         count = 0
-    flights = collect(p, flights, written, trail[1:], desk.flights)
     put(s, i, COUNTED, impacts)
     a, b = of(s, i, ACROSS), of(s, i, ALONG)
     size = math.hypot(a, b)
@@ -162,19 +172,25 @@ def see_peak(s, i, p):
 
 
 @njit(**WITHIN)
-def note(s, trail):
-    """Into each lane's trail the arc under way, again and again until the next one begins; now and then its forcing from the clock."""
+def note(s, flights, trail):
+    """Of each lane how long the last flight lasted and the square of its speed; into its trail, where it is asked for, the arc under way.
+
+    So again and again until the next impact. Now and then the forcing is taken from the clock.
+    """
     for i in range(LANES):
         impacts = int(of(s, i, IMPACTS))
-        k = impacts - int(of(s, i, COUNTED))
-        start, side = of(s, i, START), of(s, i, SIDE)
-        trail[i, k, 0], trail[i, k, 1], trail[i, k, 4], trail[i, k, 6] = (
-            of(s, i, CYCLE),
-            start,
-            side,
-            of(s, i, VELOCITY),
-        )
+        k, j = impacts - int(of(s, i, COUNTED)), impacts - int(of(s, i, UNCOLLECTED)) - 1
+        start, side, velocity = of(s, i, START), of(s, i, SIDE), of(s, i, VELOCITY)
+        if k > 0 and j < flights.shape[2]:
+            flights[i, 0, j], flights[i, 1, j] = of(s, i, WAIT), velocity * velocity
+        if of(s, i, TRAILS) > 0.0:
+            trail[i, k, 0], trail[i, k, 1], trail[i, k, 4], trail[i, k, 6] = (
+                of(s, i, CYCLE),
+                start,
+                side,
+                velocity,
+            )
         if impacts & RESYNCHRONISE == 0 and of(s, i, STAGE) == WALK:
-            sine, cosine, _, _ = direction(of(s, i, FREQUENCY) * start + of(s, i, PHASE))
-            put(s, i, COSINE, side * cosine)
-            put(s, i, SINE, side * sine)
+            cosine, sine, _, _, _ = clock(of(s, i, FREQUENCY), of(s, i, PHASE), side, start)
+            put(s, i, COSINE, cosine)
+            put(s, i, SINE, sine)

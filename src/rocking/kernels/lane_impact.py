@@ -4,7 +4,7 @@ import math
 
 from numba import njit
 
-from .branchless import EXACT_INNER, both_exponentials, choose, logarithm
+from .branchless import EXACT_INNER, ROUGHLY, both_exponentials, choose, logarithm_of_ratio
 from .elementary import fma
 from .lanes import (
     ACROSS,
@@ -17,12 +17,12 @@ from .lanes import (
     CONTENT,
     COSINE,
     COUNTED,
-    CREST,
     CUT_LEFT,
     CUT_RIGHT,
     CYCLE,
     DOUBLINGS,
     END,
+    EXCEEDS,
     FREQUENCY,
     GROWING,
     IMPACTS,
@@ -60,12 +60,12 @@ from .lanes import (
     of,
     put,
 )  # fmt: skip
+from .shortcut import I2, I4, I6, I8
 
 # Differences are brought back to size 1 from here.
 LARGE = 2.0**64
 # c+ and c- below this tell a crest and its time well enough.
 TOLD = -1e-5
-BEFORE = 1e-9
 
 
 @njit(**EXACT_INNER)
@@ -73,10 +73,10 @@ def attend(s):
     """What each lane wants before its impact."""
     for i in range(LANES):
         stage, start, wait, cycle = of(s, i, STAGE), of(s, i, START), of(s, i, WAIT), of(s, i, CYCLE)
-        target, period, peak, crest = of(s, i, TARGET), of(s, i, PERIOD), of(s, i, PEAK), of(s, i, CREST)
+        target, period, exceeds = of(s, i, TARGET), of(s, i, PERIOD), of(s, i, EXCEEDS)
         speed, restitution = of(s, i, SPEED), of(s, i, RESTITUTION)
         kept = of(s, i, IMPACTS) - of(s, i, COUNTED)
-        wants = choose(crest <= peak, CONTENT, PEAK_SEEN)
+        wants = choose(exceeds == 0.0, CONTENT, PEAK_SEEN)
         wants = choose(kept > TRAIL - 3.0, READING, wants)
         wants = choose(restitution * speed < SLOWEST, ALONE, wants)
         wants = choose(start + wait > (target - cycle) * period, LEG_END, wants)
@@ -133,8 +133,9 @@ def begin(s):
     """The arc that begins where a lane has arrived, or its block has just come: its c+ and c-, and where the walk along it starts.
 
     Where c+ and c- are negative u lies within beta of 1 - m cosh(t - middle), m = 2 sqrt(c+ c-): above 0 from ``early`` to
-    ``late``, which need not be walked, and below 1 - m + beta, or less where no crest of the forcing is near the middle
-    (``turning.crest``).
+    ``late``, between the roots of c+ z + 1 - beta + c-/z in z = e^t, which need not be walked; and below 1 - m + beta, or
+    less where no crest of the forcing is near the middle (``turning.crest``). The exponentials of where the walk starts
+    wait for nothing of the next lanes: a loop of their own lets the machine begin with those.
     """
     for i in range(LANES):
         stage, start, side, velocity = of(s, i, STAGE), of(s, i, START), of(s, i, SIDE), of(s, i, VELOCITY)
@@ -145,41 +146,45 @@ def begin(s):
             of(s, i, RESPONSE),
         )
         period, per_period, inside = of(s, i, PERIOD), of(s, i, PER_PERIOD), of(s, i, INSIDE)
-        right, left, low, end, crest = (
+        right, left, low, end, exceeds, peak = (
             of(s, i, CUT_RIGHT),
             of(s, i, CUT_LEFT),
             of(s, i, LOW),
             of(s, i, END),
-            of(s, i, CREST),
+            of(s, i, EXCEEDS),
+            of(s, i, PEAK),
         )
-        growing, shrinking, z, per_z = of(s, i, GROWING), of(s, i, SHRINKING), of(s, i, Z), of(s, i, PER_Z)
+        growing, shrinking = of(s, i, GROWING), of(s, i, SHRINKING)
         mean, half = fma(-response, cosine, -1.0), fma(response * frequency, sine, velocity)
         grow, shrink = 0.5 * (mean + half), 0.5 * (mean - half)
         to_cut = choose(side > 0.0, right, left) - start
         cut = fma(-math.floor(to_cut * per_period), period, to_cut)
 
-        told = max(grow, shrink) < TOLD
-        m = 2.0 * math.sqrt(grow * shrink)
-        middle = 0.5 * logarithm(shrink / grow)
-        away = fma(-0.5, inside, cut) - middle
+        told, q = max(grow, shrink) < TOLD, 1.0 - response
+        m, root = math.sqrt(4.0 * grow * shrink), math.sqrt(fma(q, q, -4.0 * grow * shrink))
+        late, twice = logarithm_of_ratio(q + root, -2.0 * grow), logarithm_of_ratio(-shrink, -grow)
+        away = fma(-0.5, inside, cut) - 0.5 * twice
         away = fma(-math.floor(fma(away, per_period, 0.5)), period, away)
-        # 1 - cos y >= y**2 (1/2 - a**2/24), and >= 2 (y/pi)**2, for y up to a = frequency * away
+        away = max(abs(away) - ROUGHLY, 0.0)
+        # 1 - cos y >= y**2 (1/2 - a**2/4! + a**4/6! - a**6/8!) for y up to a = frequency * away <= pi
         square = frequency * frequency
-        bowl = 2.0 * response * square * max(2.0 / math.pi**2, fma(-square * away, away / 24.0, 0.5))
-        bound = fma(-0.5 * away * away * bowl, m / (m + bowl), 1.0 - m + response)
-        ratio = (1.0 - response) / m
-        width = logarithm(ratio + math.sqrt(fma(ratio, ratio, -1.0)))
-        early, late = middle - width + BEFORE, middle + width - BEFORE
-        leaps = told & (ratio > 1.0) & (cut > early) & (cut < late)
+        a = square * away * away
+        bowl = 2.0 * response * square * fma(-a, fma(-a, fma(-a, I8, I6), I4), I2)
+        may_exceed = (1.0 - m + response - peak) * (m + bowl) > 0.5 * away * away * bowl * m
+        early, late = twice - late + 2.0 * ROUGHLY, late - 2.0 * ROUGHLY
+        leaps = told & (q > m) & (cut > early) & (cut < late)
         turns = choose(leaps, math.floor((late - cut) * per_period), 0.0)
         cut = fma(turns, period, cut)
-        new_z, new_per_z = both_exponentials(cut)
         begins = (stage == ARRIVED) | (stage == BEGUN)
         put(s, i, GROWING, choose(begins, grow, growing))
         put(s, i, SHRINKING, choose(begins, shrink, shrinking))
-        put(s, i, CREST, choose(begins, choose(told, bound, math.inf), crest))
+        put(s, i, EXCEEDS, choose(begins, choose(told & (may_exceed == False), 0.0, 1.0), exceeds))  # noqa: E712
         put(s, i, LOW, choose(begins, max(cut - inside, 0.0), low))
         put(s, i, END, choose(begins, cut, end))
+    for i in range(LANES):
+        stage, end, z, per_z = of(s, i, STAGE), of(s, i, END), of(s, i, Z), of(s, i, PER_Z)
+        new_z, new_per_z = both_exponentials(end)
+        begins = (stage == ARRIVED) | (stage == BEGUN)
         put(s, i, Z, choose(begins, new_z, z))
         put(s, i, PER_Z, choose(begins, new_per_z, per_z))
         put(s, i, STAGE, choose(begins, WALK, stage))

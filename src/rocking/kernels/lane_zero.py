@@ -144,13 +144,13 @@ def guess(s):
         u, v = choose(hops, 0.0, u), choose(hops, velocity, v)
         cosine, sine = choose(hops, cosine_0, cosine), choose(hops, sine_0, sine)
         c = derivatives(u, v, cosine, sine, amplitude, frequency)
-        for _ in range(2):
-            w, dw, ddw = taylor(c, x)
-            per = 1.0 / dw
-            y = -w * per
-            bend = 0.5 * y * ddw * per
-            x += y * halved(fma(bend, fma(2.0, bend, -1.0), 1.0))
-        found = about + x
+        w, dw, ddw = taylor(c, x)
+        per = 1.0 / dw
+        y = -w * per
+        bend = 0.5 * y * ddw * per
+        x += y * halved(fma(bend, fma(2.0, bend, -1.0), 1.0))
+        w, dw, _ = taylor(c, x)
+        found = about + x - w / dw
         found = choose((dw < 0.0) & (found > low) & (found < high), found, 0.5 * (low + high))
         guessing = stage == GUESS
         put(s, i, TIME, choose(guessing, found, time))

@@ -27,21 +27,22 @@ LANES = 24
     COSINE_IN, SINE_IN, GROW_IN, DECAY_IN, COSINE_OUT, SINE_OUT, GROW_OUT, DECAY_OUT,
     # the arc: where it starts, and c+ and c-
     STAGE, CYCLE, START, SIDE, VELOCITY, COSINE, SINE, GROWING, SHRINKING,
-    # no zero lies before LOW; at END, e^END = Z, the next convex stretch begins; whether that holds no zero; u stays
-    # below CREST
-    LOW, END, Z, PER_Z, CLEARED, CREST,
+    # no zero lies before LOW; at END, e^END = Z, the next convex stretch begins; whether that holds no zero; whether u
+    # may exceed PEAK
+    LOW, END, Z, PER_Z, CLEARED, EXCEEDS,
     # the stretch of the zero: 1 where it is concave, -1 where convex; its middle and e^+- that; its end
     CONCAVE, MIDDLE, MIDDLE_Z, MIDDLE_PER_Z, HIGH,
     # the time looked at, how often one has been, and what the elementary functions are there
     TIME, TRIES, SINH, VERSINH, EXCESS, HIGHER, SIN_X, VERSINE, LAG, DEFICIT,
     # the impact to come
     WAIT, SPEED, NEXT_COSINE, NEXT_SINE, NEXT_SINH, NEXT_VERSINH, WANTS,
-    # the end of the leg, what was counted before it began, and what was met since
-    TARGET, COUNTED, IMPACTS, PEAK,
+    # the end of the leg; whether its arcs are asked for; the impacts counted before it began, those of no flight that was
+    # collected, all; the largest angle
+    TARGET, TRAILS, COUNTED, UNCOLLECTED, IMPACTS, PEAK,
     # a difference in (Theta, Theta'), to be doubled so often
     ACROSS, ALONG, DOUBLINGS,
     ROWS,
-) = range(69)  # fmt: skip
+) = range(71)  # fmt: skip
 
 # What is next for a lane: nothing; to begin an arc; to walk; to guess the zero in its stretch; to look for the bottom of a dip; to
 # step to the zero; the impact, once it was attended to; what none of these can do.

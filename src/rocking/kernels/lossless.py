@@ -41,6 +41,15 @@ def no_flights():
 
 
 @njit(**WITHIN)
+def under_way(progress):
+    """Before the event to come, which ends the first flight if an impact began it."""
+    arc = progress.arc
+    if progress.mode == FLIGHT and arc.angle == 0.0 and arc.velocity > 0.0:
+        return Flights(IMPACT, progress.cycle, arc.start, progress.cycle, 0)
+    return no_flights()
+
+
+@njit(**WITHIN)
 def collect(p, flights, rows, events, values):
     """Add recorded events: ``values`` (2, n) takes how long each flight lasted, and the square of the speed it ended with."""
     event, cycle, time, first_cycle, count = flights
@@ -133,7 +142,7 @@ def follow_flights(p, progress, flights, target, most_events, section_time, coun
 
 
 @njit(**WITHIN)
-def agreement(flights, values, growth):
+def agreement(flights, values, weights, growth):
     """(digits to which the averages over both halves agree, whether all is as on a torus).
 
     The flight times must agree to ENOUGH_DIGITS. Inside an island they are locked to the forcing, and their
@@ -144,7 +153,7 @@ def agreement(flights, values, growth):
     count, cycles = flights.count, flights.cycle - flights.first_cycle
     if too_few(flights) or growth > math.log(max(count, cycles)) + SHEAR:
         return 0.0, False
-    times, digits = digits_of_both(values[:, :count])
+    times, digits = digits_of_both(values[:, :count], weights)
     needed = min(max(CHAOTIC_DIGITS + math.log2(count / LONG), CHAOTIC_DIGITS), ENOUGH_DIGITS)
     return digits, digits >= needed and times >= ENOUGH_DIGITS
 
@@ -156,6 +165,6 @@ def too_few(flights):
 
 
 @njit(**WITHIN)
-def digits_of_speeds(flights, values):
+def digits_of_speeds(flights, values, weights):
     """The digits of ``agreement``, however much differences have grown."""
-    return 0.0 if too_few(flights) else digits_of_both(values[:, : flights.count])[1]
+    return 0.0 if too_few(flights) else digits_of_both(values[:, : flights.count], weights)[1]

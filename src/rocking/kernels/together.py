@@ -12,9 +12,9 @@ from numba import njit
 from .answers import Answers, answer, asked
 from .desk import place
 from .elementary import MAKING_ENTRY, WITHIN
-from .events import FLIGHT
+from .events import FLIGHT, IMPACT
 from .judgement import OPEN, undecided
-from .lane_block import find, note, over, read, seat, see_peak
+from .lane_block import find, note, over, read, seat, see_peak, set_leg
 from .lane_march import advance, strike
 from .lanes import (
     ALONE,
@@ -22,19 +22,18 @@ from .lanes import (
     BLOCK,
     CERTAINTY,
     CONTENT,
-    CREST,
+    EXCEEDS,
     IDLE,
     LANES,
     LEG_END,
-    PEAK,
     PEAK_SEEN,
     SLOWEST,
     STAGE,
-    TARGET,
     WANTS,
     of,
     put,
 )  # fmt: skip
+from .lossless import may_be_asked_for
 from .march import DONE
 from .parameters import HarmonicParameters
 from .verdict import Case, leg, look, next_look, opened
@@ -67,7 +66,8 @@ def fits(p, case):
     progress, arc = case.run.watch.progress, case.run.watch.progress.arc
     system = p.restitution == 1.0 and p.brace_angle == math.inf and p.amplitude > 1.0 and p.period >= SHORTEST
     flies = progress.mode == FLIGHT
-    return system and case.run.lossless and flies and arc.angle == 0.0 and arc.velocity >= SLOWEST
+    flies = flies and arc.angle == 0.0 and arc.velocity >= SLOWEST
+    return system and flies and case.run.lossless and case.run.flights.event == IMPACT
 
 
 @njit(**WITHIN)
@@ -86,7 +86,7 @@ def onward(s, i, wants, guest, queue, asking, bench):
     stays, due = wants < BLOCK or marched, marched or wants == ALONE
     status, run = np.int64(DONE), case.run
     if not settled:
-        status, run = read(s, i, wants, p, run, max_cycles, desk, trail)
+        status, run = read(s, i, wants, p, run, desk, trail)
         case = with_run(case, run)
     while due or settled or not fits(p, case):
         if settled:
@@ -103,11 +103,23 @@ def onward(s, i, wants, guest, queue, asking, bench):
             status, run = leg(p, case.run, max_cycles, next_look(case, max_cycles), desk)
         told, case = look(p, case, status, run, max_cycles, max_period, desk)
         due, marched, settled = False, False, told[0] != OPEN
-    if stays:
-        put(s, i, TARGET, next_look(case, max_cycles))
-    else:
-        seat(s, i, p, case.run.watch.progress, desk.columns, next_look(case, max_cycles))
+    if not stays:
+        seat(s, i, p, case.run.watch.progress, desk.columns, case.run.flights.count)
+    target = next_look(case, max_cycles)
+    set_leg(s, i, target, may_be_asked_for(desk.growth[0], target, max_cycles, desk.scratch.shape[0]))
     return Guest(point, p, case), queue
+
+
+@njit(**WITHIN)
+def until_wanted(s, flights, trail, stop):
+    """All lanes onward until one of them wants attention."""
+    while stop[0] == 0:
+        strike(s)
+        note(s, flights, trail)
+        advance(s)
+        for i in range(LANES):
+            if of(s, i, WANTS) != CONTENT:
+                return
 
 
 @njit(**MAKING_ENTRY)
@@ -133,11 +145,9 @@ def judge_together(systems, starts, max_cycles, max_period, bench, answers, stop
                     blocks -= guest.point < 0
                     wants = LEG_END if of(s, i, STAGE) == ARRIVED and over(s, i) else CONTENT
                 guests[i] = guest
-            if of(s, i, STAGE) == ARRIVED and of(s, i, CREST) > of(s, i, PEAK):
+            if of(s, i, STAGE) == ARRIVED and of(s, i, EXCEEDS) > 0.0:
                 see_peak(s, i, guests[i].p)
         if blocks == 0:
             break
-        strike(s)
-        note(s, bench.trail)
-        advance(s)
+        until_wanted(s, bench.flights, bench.trail, stop)
     return blocks == 0

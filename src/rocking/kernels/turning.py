@@ -118,6 +118,11 @@ def crest(p, arc, until, peak):
         second, third = now.angle + f, now.velocity + df
         if not second < 0.0:
             break
+        # The rate is concave: below its tangent on the crest's far side, above its chord on the near one.
+        ahead_of = now.velocity * ahead > 0.0
+        rest = now.velocity / (-second) if ahead_of else t - middle
+        if now.angle + 0.5 * abs(now.velocity * rest) <= peak:
+            return True, peak
         step = step_to_zero(now.velocity, second, (df, ddf, -p.frequency * p.frequency * df))
         if abs(step) < near:
             inside = 0.0 < t + step < until

@@ -23,6 +23,7 @@ from .lossless import (
     follow_flights,
     may_be_asked_for,
     no_flights,
+    under_way,
     work_out,
 )
 from .march import DONE, UNKNOWN, begin
@@ -173,7 +174,7 @@ def look(p, case, status, run, max_cycles, max_period, desk):
             begin_measuring(watch, desk.columns, desk.growth)
         grown, measuring, batch_end = desk.growth[0], True, batch_end + batch
     if lossless and flights.count >= enough:
-        digits, converged = agreement(flights, desk.flights, desk.growth[0])
+        digits, converged = agreement(flights, desk.flights, desk.weights, desk.growth[0])
         enough = flights.count * 5 // 4
     due, over = target in (checkpoint, max_cycles), target == max_cycles
     if converged or over:
@@ -198,11 +199,11 @@ def look(p, case, status, run, max_cycles, max_period, desk):
             section_time, count = (section_time + NEXT_SECTION * p.period) % p.period, 0
             known = no_cycle(0)
     if due and not lossless and target >= GROW_FROM and 2 * lossy <= target:
-        lossless, grown = True, 0.0
+        lossless, grown, flights = True, 0.0, under_way(done)
         begin_tangent(desk.columns, desk.growth)
     if over:
         stands = unmoved(desk.section, count, max_period)
-        digits = digits_of_speeds(flights, desk.flights)
+        digits = digits_of_speeds(flights, desk.flights, desk.weights)
         told = unsettled(p, watch, work, max_cycles, measured, lossless, digits, desk.batches, stands)
         return told, case
     if lossless:

@@ -89,4 +89,4 @@ def clear_partial(folder: Path) -> None:
     for within, _, files in os.walk(folder, topdown=False):
         if not files and within != str(folder):
             with suppress(OSError):  # it holds another folder
-                os.rmdir(within)
+                Path(within).rmdir()
