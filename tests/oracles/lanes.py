@@ -14,6 +14,7 @@ from rocking.kernels.lanes import (
     ARRIVED,
     CERTAINTY,
     CYCLE,
+    EXCEEDS,
     IDLE,
     IMPACTS,
     LANES,
@@ -21,6 +22,7 @@ from rocking.kernels.lanes import (
     NEXT_SINE,
     NEXT_SINH,
     NEXT_VERSINH,
+    PEAK,
     ROWS,
     SIDE,
     SPEED,
@@ -109,6 +111,25 @@ def first_impacts(systems, starts):
         for i, k in enumerate(here):
             found[k], certain[k] = rows[list(FIRST), i], rows[STAGE, i] == ARRIVED
     return found, certain
+
+
+def may_exceed(systems, starts, peaks):
+    """Whether the lanes look at these first arcs, where the largest angle so far is so large."""
+    answers = np.empty(len(systems))
+    for first in range(0, len(systems), LANES):
+        s, here = empty(), range(first, min(first + LANES, len(systems)))
+        for i, k in enumerate(here):
+            sit_down(s, i, systems[k], *starts[k], EYE, 10**9)
+            s[PEAK * LANES + i] = peaks[k]
+        strike_now(s)
+        answers[here] = s.reshape(ROWS, LANES)[EXCEEDS, : len(here)]
+    return answers > 0.0
+
+
+@njit(**COMPILED)
+def strike_now(s):
+    """``strike`` for Python."""
+    strike(s)
 
 
 @njit(**COMPILED)

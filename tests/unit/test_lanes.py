@@ -101,6 +101,28 @@ def test_first_impacts_are_those_of_one_block():
     assert compared >= 0.4 * len(systems)
 
 
+def test_arc_that_rises_above_the_peak_is_always_looked_at_and_few_others():
+    """The largest angle is that of u = c+ e^t + c- e^-t + 1 + beta cos eta at a thousand instants up to the impact."""
+    systems, starts = drawn(4096, 6)
+    largest = np.full(len(systems), np.nan)
+    for k, (p, (side, start, velocity)) in enumerate(zip(systems, starts, strict=True)):
+        coming = alone(p, side, start, velocity)
+        if coming.event != events.IMPACT:
+            continue
+        t = np.linspace(0.0, coming.wait, 1000)
+        eta = p.frequency * (start + t) + p.phase + (0.0 if side > 0 else math.pi)
+        beta = p.amplitude / (1.0 + p.frequency**2)
+        mean, half = -1.0 - beta * math.cos(eta[0]), velocity + beta * p.frequency * math.sin(eta[0])
+        u = 0.5 * ((mean + half) * np.exp(t) + (mean - half) * np.exp(-t)) + 1.0 + beta * np.cos(eta)
+        largest[k] = u.max()
+    falls = np.isfinite(largest)
+    assert falls.mean() > 0.4
+    looked_at = oracle.may_exceed(systems, starts, largest - 1e-9)
+    assert looked_at[falls].all()
+    above = oracle.may_exceed(systems, starts, largest + 0.03)
+    assert above[falls].mean() < 0.4
+
+
 def test_lanes_leave_little_to_the_functions_for_one_block():
     """What comes down at all comes down in its lane, but for a few in a hundred."""
     systems, starts = drawn(2048, 4)
