@@ -484,6 +484,7 @@ def test_case_of_the_gallery_has_an_address_and_lines_of_python(case):
 def test_every_ground_of_the_cascade_has_its_words_and_its_level():
     """What a map keeps of the evidence is a number; the page tells it as `classify` does."""
     found = rk.parametric_map(amplitude=[0.5, 2.0], period=[1.0, 2.0], restitution=0.925)
+    assert GROUNDS[0] == "proved never to return"
     assert len(GROUNDS) == len(LEVELS) == len(found.evidence.attrs["flag_meanings"].split())
     for amplitude, period in ((0.5, 1.0), (2.0, 1.0), (2.0, 2.0)):
         verdict = rk.classify(rk.System(rk.Harmonic(amplitude, period=period), 0.925))

@@ -27,7 +27,7 @@ NAMES = ("localhost", HOST)
 UNUSED = 5_000
 """Milliseconds after which a visit is dropped that nobody looks at; looked for every two seconds."""
 GROUNDS = (
-    "no return is proved", "rest for ever is proved", "released as before", "a stable orbit is reached", "a neutral orbit",
+    "proved never to return", "proved to rest for ever", "released as before", "a stable orbit is reached", "a neutral orbit",
     "averages agree as on a torus", "exponent clearly positive", "released, period unresolved", "too few cycles to tell",
     "exponent not clear", "between torus and chaos", "too many events", "stands on an unstable orbit",
 )  # fmt: skip
