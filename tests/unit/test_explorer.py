@@ -491,6 +491,14 @@ def test_every_ground_of_the_cascade_has_its_words_and_its_level():
         assert LEVELS[int(found.evidence.sel(amplitude=amplitude, period=period))] == verdict.evidence.level
 
 
+def test_response_that_forgets_is_told_in_the_words_of_the_command_line(rocking):
+    code, _, out = rocking("classify --amplitude 0.5 --period 1 --restitution 0.925")
+    verdict = rk.classify(rk.System(rk.Harmonic(0.5, period=1.0), 0.925))
+    facts = dict(told.verdict(verdict, None)["facts"])
+    assert (code, facts["exponent λ₁"]) == (0, "−∞ (forgets every small difference)")
+    assert facts["exponent λ₁"] in out
+
+
 READY = """
 from rocking.explorer.app import warm_up
 warm_up()

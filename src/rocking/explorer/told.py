@@ -43,7 +43,7 @@ def verdict(found: Verdict, block: Block | None) -> dict[str, Any]:
 def exponent(value: float, error: float | None) -> str:
     """An exponent with its error."""
     if value == -math.inf:
-        return "−∞ (superstable)"
+        return "−∞ (forgets every small difference)"
     return f"{_signed(value)} ± {error:.2g} per τ" if error else f"{_signed(value)} per τ"
 
 
