@@ -10,6 +10,7 @@ from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from functools import partial
 
+import attrs
 import numpy as np
 import pytest
 from bokeh.document import Document
@@ -117,10 +118,11 @@ def test_field_is_refused_in_one_sentence(typed, field, sentence):
     assert refusal.value.fields == {field: sentence}
 
 
+METRES = {"height": "2", "width": "0.5", "acceleration": "3", "unit": "m/s²", "frequency_hz": "1.2"}
+
+
 def test_block_in_metres_is_the_packages():
-    shown = in_metres(
-        DEFAULT, {"height": "2", "width": "0.5", "acceleration": "3", "unit": "m/s²", "frequency_hz": "1.2"}
-    )
+    shown = in_metres(DEFAULT, METRES)
     block = rk.Block(2.0, 0.5)
     system = block.system(acceleration=3.0, frequency_hz=1.2)
     assert (shown.amplitude, shown.period) == (system.forcing.amplitude, system.forcing.period)
@@ -128,6 +130,53 @@ def test_block_in_metres_is_the_packages():
     assert shown.amplitudes.low <= shown.amplitude <= shown.amplitudes.high
     with pytest.raises(Refused, match="restitution by Housner's formula is"):
         in_metres(DEFAULT, {"height": "1", "width": "9", "acceleration": "3", "frequency_hz": "1"})
+
+
+def test_block_in_metres_stays_in_the_commands(rocking):
+    shown = in_metres(DEFAULT, METRES | {"acceleration": "0.3", "unit": "g", "frequency_hz": "1.9"})
+    forced = "--height 2 --width 0.5 --acceleration 2.941995 --frequency-hz 1.9"
+    point, motion, plane = told.commands(shown).splitlines()
+    assert point == f"rocking classify {forced}"
+    assert motion == f"rocking simulate {forced} --cycles 30 --plot motion.png"
+    assert plane.startswith("rocking map --height 2 --width 0.5 --acceleration 0:")
+    for line in (point, motion, plane):
+        code, message, out = rocking(line.removeprefix("rocking ").replace(":101", ":3"))
+        assert (code, message) == (0, "")
+        assert "m/s²" in out
+    other = attrs.evolve(shown, restitution=0.9, angle=-0.1)
+    assert told.commands(other).splitlines()[0] == f"rocking classify {forced} --restitution=0.9 --angle=-0.1"
+
+
+def option(line, name):
+    return line.split(f"--{name} ")[1].split()[0]
+
+
+@given(inside(0.01, 10), inside(0.01, 10), st.just(0.0) | inside(1e-9, 1000), inside(0.01, 6000))
+def test_commands_in_si_are_of_the_system_shown(height, width, amplitude, period):
+    """To the last places: no quantity is rounded more than eight times on its way out and back."""
+    shown = attrs.evolve(DEFAULT, height=height, width=width, amplitude=amplitude, period=period)
+    point, _, plane = told.commands(shown).splitlines()
+    acceleration, hertz = (float(option(point, name)) for name in ("acceleration", "frequency-hz"))
+    block = shown.block
+    near = partial(pytest.approx, rel=8 * 2**-53, abs=0.0)
+    assert block.amplitude(acceleration) == near(amplitude)
+    assert math.tau / block.frequency(hertz) == near(period)
+    for name, turn, span in (
+        ("acceleration", block.amplitude, shown.amplitudes),
+        ("period-s", block.time, shown.periods),
+    ):
+        low, high, points = option(plane, name).split(":")
+        assert (turn(float(low)), turn(float(high)), points) == (near(span.low), near(span.high), "101")
+
+
+def test_verdict_on_a_block_says_in_si_what_the_units_are():
+    shown = in_metres(DEFAULT, METRES | {"acceleration": "4", "frequency_hz": "2.5"})
+    verdict = rk.classify(shown.system)
+    facts = dict(told.verdict(verdict, shown.block)["facts"])
+    assert facts["base"] == "4 m/s² (0.4079 g), 0.4 s (2.5 Hz)"
+    assert facts["units"] == "A 2.402 m/s², τ 0.3744 s, Θ 14.04°"
+    assert facts["period"].endswith(f"symmetric ({0.4 * verdict.period:.4g} s)")
+    assert "base" not in dict(told.verdict(verdict, None)["facts"])
 
 
 @pytest.mark.parametrize(
@@ -489,6 +538,16 @@ def test_every_ground_of_the_cascade_has_its_words_and_its_level():
     for amplitude, period in ((0.5, 1.0), (2.0, 1.0), (2.0, 2.0)):
         verdict = rk.classify(rk.System(rk.Harmonic(amplitude, period=period), 0.925))
         assert LEVELS[int(found.evidence.sel(amplitude=amplitude, period=period))] == verdict.evidence.level
+
+
+def test_multipliers_are_told_as_a_pair():
+    def told_of(amplitude, period):
+        verdict = rk.classify(rk.System(rk.Harmonic(amplitude, period=period), 0.925))
+        return verdict.multipliers, dict(told.verdict(verdict, None)["facts"])["multipliers"]
+
+    (complex_one, _), text = told_of(2.0, 1.0)
+    assert text == f"−{-complex_one.real:.4g} ± {abs(complex_one.imag):.4g}i"
+    assert told_of(1.0111, 4.7531) == ((0j, 0j), "0 and 0")
 
 
 def test_response_that_forgets_is_told_in_the_words_of_the_command_line(rocking):

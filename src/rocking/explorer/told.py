@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -11,7 +12,7 @@ from rocking.explorer.fields import written
 from rocking.explorer.figures import SHADED
 from rocking.explorer.refine import Picture
 from rocking.explorer.state import DEFAULT, Shown
-from rocking.model import Block, Verdict, counted, percent
+from rocking.model import GRAVITY, Block, Harmonic, Verdict, counted, percent
 from rocking.plot import kinds
 
 Facts = list[tuple[str, str]]
@@ -19,16 +20,18 @@ Facts = list[tuple[str, str]]
 
 def verdict(found: Verdict, block: Block | None) -> dict[str, Any]:
     """A verdict for the page: its kind, numbers with what they are, and the evidence in one sentence."""
-    facts: Facts = []
+    forcing = found.system.forcing
+    facts: Facts = [] if block is None else _physical(forcing, block)
     if found.period is not None:
         symmetry = "symmetric" if found.symmetric else "unsymmetric"
-        facts.append(("period", f"{counted(found.period, 'cycle')}, {symmetry}"))
+        seconds = "" if block is None else f" ({block.seconds(found.period * forcing.period):.4g} s)"
+        facts.append(("period", f"{counted(found.period, 'cycle')}, {symmetry}{seconds}"))
         hits = [(found.impacts_per_period, "impact"), (found.brace_hits_per_period, "brace hit")]
         told = ", ".join(counted(number, what) for number, what in hits if number)
         facts.append(("in a period", told or "rest or leaning"))
     facts.append(("peak |Θ|", f"{found.peak:.6g}" + _reach(found.peak, block)))
     if found.multipliers is not None:
-        facts.append(("multipliers", " and ".join(_complex(each) for each in found.multipliers)))
+        facts.append(("multipliers", _pair(*found.multipliers)))
     if found.exponent is not None:
         facts.append(("exponent λ₁", exponent(found.exponent, found.exponent_error)))
     facts.append(("followed", counted(found.cycles, "cycle")))
@@ -47,6 +50,18 @@ def exponent(value: float, error: float | None) -> str:
     return f"{_signed(value)} ± {error:.2g} per τ" if error else f"{_signed(value)} per τ"
 
 
+def _physical(forcing: Harmonic, block: Block) -> Facts:
+    """The base's motion in SI, and what the normalised units are there."""
+    acceleration, seconds = block.acceleration(forcing.amplitude), block.seconds(forcing.period)
+    base = f"{acceleration:.4g} m/s² ({acceleration / GRAVITY:.4g} g), {seconds:.4g} s ({1 / seconds:.4g} Hz)"
+    units = (
+        ("A", f"{block.acceleration(1.0):.4g} m/s²"),
+        ("τ", f"{block.seconds(1.0):.4g} s"),
+        ("Θ", f"{block.degrees(1.0):.4g}°"),
+    )
+    return [("base", base), ("units", ", ".join(f"{name} {unit}" for name, unit in units))]
+
+
 def _reach(angle: float, block: Block | None) -> str:
     return (
         "" if block is None else f" ({block.degrees(angle):.3g}°, top {block.top_displacement(angle):.3g} m)"
@@ -57,10 +72,10 @@ def _signed(value: float) -> str:
     return f"{value:.4g}".replace("-", "−")
 
 
-def _complex(value: complex) -> str:
-    if abs(value.imag) < 1e-12:
-        return _signed(value.real)
-    return f"{_signed(value.real)} {'+' if value.imag > 0 else '−'} {abs(value.imag):.4g}i"
+def _pair(larger: complex, smaller: complex) -> str:
+    if abs(larger.imag) < 1e-12:
+        return f"{_signed(larger.real)} and {_signed(smaller.real)}"
+    return f"{_signed(larger.real)} ± {abs(larger.imag):.4g}i"
 
 
 def legend(counts: np.ndarray) -> list[dict[str, str]]:
@@ -140,16 +155,56 @@ def _block(shown: Shown) -> str:
 
 
 def commands(shown: Shown) -> str:
-    """The same at a prompt: what the response is, and the map."""
+    """The same at a prompt, in SI where there is a block: what the response is, its motion, and the map."""
     usual = ("phase", "angle", "velocity", "brace_angle", "brace_restitution")
     named = [name for name in usual if name in shown.fixed and getattr(shown, name) != getattr(DEFAULT, name)]
-    options = [
-        f" --{name.replace('_', '-')}={written(getattr(shown, name))}" for name in ("restitution", *named)
-    ]
-    rest = "".join(options)
-    point = f"rocking classify --amplitude {written(shown.amplitude)} --period {written(shown.period)}{rest}"
-    plane = (
-        f"rocking map --amplitude {written(shown.amplitudes)}:101 --period {written(shown.periods)}:101{rest}"
-        " --plot map.png"
+    block = shown.block
+    if block is None or block.restitution != block.housner_restitution:
+        named = ["restitution", *named]
+    rest = "".join(f" --{name.replace('_', '-')}={written(getattr(shown, name))}" for name in named)
+    point, plane = _normalised(shown) if block is None else _in_metres(shown, block)
+    return (
+        f"rocking classify {point}{rest}\n"
+        f"rocking simulate {point}{rest} --cycles {shown.first + shown.cycles} --plot motion.png\n"
+        f"rocking map {plane}{rest} --plot map.png"
     )
-    return f"{point}\n{plane}"
+
+
+def _normalised(shown: Shown) -> tuple[str, str]:
+    """Options of the forcing selected, and of those of the map."""
+    return (
+        f"--amplitude {written(shown.amplitude)} --period {written(shown.period)}",
+        f"--amplitude {written(shown.amplitudes)}:101 --period {written(shown.periods)}:101",
+    )
+
+
+def _in_metres(shown: Shown, block: Block) -> tuple[str, str]:
+    """The same of a block in SI; the map over seconds, for even steps of the frequency are not even ones of the period."""
+
+    def acceleration(amplitude: float) -> str:
+        return _digits(amplitude, block.acceleration, block.amplitude)
+
+    def hertz(period: float) -> str:
+        return _digits(
+            period, lambda each: 1 / block.seconds(each), lambda each: math.tau / block.frequency(each)
+        )
+
+    def seconds(period: float) -> str:
+        return _digits(period, block.seconds, block.time)
+
+    size = f"--height {written(block.height)} --width {written(block.width)}"
+    across = f"{seconds(shown.periods.low)}:{seconds(shown.periods.high)}:101"
+    up = f"{acceleration(shown.amplitudes.low)}:{acceleration(shown.amplitudes.high)}:101"
+    return (
+        f"{size} --acceleration {acceleration(shown.amplitude)} --frequency-hz {hertz(shown.period)}",
+        f"{size} --acceleration {up} --period-s {across}",
+    )
+
+
+def _digits(value: float, physical: Callable[[float], float], normalised: Callable[[float], float]) -> str:
+    """What is in SI, in the fewest digits that give the normalised value back: 3 where 3 was typed."""
+    for digits in (15, 16, 17):
+        text = f"{physical(value):.{digits}g}"
+        if normalised(float(text)) == value:
+            break
+    return text
