@@ -244,17 +244,80 @@ def test_block_in_metres_stands_on_the_map_with_axes_in_si(visit):
     visitor.page.select_option("#metres [name=unit]", "g")
     visitor.page.click("text=Show this block")
     visitor.page.wait_for_function("location.search.includes('height=2')")
-    visitor.page.keyboard.press("Escape")
+    assert not visitor.page.is_visible("#units"), "what it asked for is seen"
     visitor.judged()
     visitor.finished()
-    amplitude = float(visitor.page.input_value("#amplitude"))
-    assert amplitude == pytest.approx(0.4 / np.arctan2(0.5, 2.0))
-    assert float(visitor.page.input_value("#restitution")) == pytest.approx(1 - 1.5 * 0.25 / 4.25)
+    for name, value in (("amplitude", 0.4 / np.arctan2(0.5, 2.0)), ("restitution", 1 - 1.5 * 0.25 / 4.25)):
+        assert visitor.page.input_value(f"#{name}") == f"≈{value:.4g}"
+        visitor.page.focus(f"#{name}")
+        assert float(visitor.page.input_value(f"#{name}")) == pytest.approx(value, rel=1e-15)
+    visitor.page.press("#restitution", "Tab")
+    assert visitor.page.input_value("#restitution").startswith("≈")
+    assert "base\n3.923 m/s² (0.4 g), 0.8333 s (1.2 Hz)" in visitor.text("facts")
     assert (
         visitor.page.evaluate("Bokeh.documents[0].get_model_by_name('map').above[0].axis_label")
         == "period (s)"
     )
     visitor.see("metres")
+    visitor.is_content()
+
+
+# Controls whose middle belongs to something else
+COVERED = """within => [...document.querySelector(within).querySelectorAll("button, input, select")].filter(each => {
+    const box = each.getBoundingClientRect();
+    return document.elementFromPoint(box.left + box.width / 2, box.top + box.height / 2) !== each;
+}).map(each => each.outerHTML)"""
+CUT = """() => [...document.querySelectorAll("#fields label > *")].filter(each => each.scrollWidth > each.clientWidth)
+    .map(each => each.value ?? each.textContent)"""
+SCREENS = pytest.mark.parametrize("width, height", [(1280, 800), (390, 844)])
+
+
+@SCREENS
+def test_what_a_block_in_metres_lacks_is_asked_for_without_covering_anything(visit, width, height):
+    visitor = visit(width, height)
+    visitor.open()
+    visitor.page.click("text=Real units")
+    for name, text in (("height", "2"), ("width", "x"), ("acceleration", "3")):
+        visitor.page.fill(f"#m-{name}", text)
+    visitor.page.click("text=Show this block")
+    visitor.page.wait_for_selector("#m-frequency_hz[aria-invalid=true]")
+    assert visitor.text("m-frequency_hz-refused") == "give the frequency"
+    assert visitor.text("m-width-refused") == "width must be a number in [0.001, 1000]; got 'x'"
+    visitor.see(f"metres-refused-{width}")
+    assert visitor.page.evaluate(COVERED, "#units") == []
+    visitor.page.locator("#m-frequency_hz").press_sequentially("1")
+    assert not visitor.page.is_visible("#m-frequency_hz-refused")
+    assert visitor.page.is_visible("#m-width-refused"), "of another field"
+    visitor.page.fill("#m-width", "0.5")
+    visitor.page.click("text=Show this block")
+    visitor.page.wait_for_selector("#units", state="hidden")
+    visitor.page.wait_for_function("location.search.includes('width=0.5')")
+    visitor.is_content()
+
+
+@SCREENS
+def test_fields_have_words_beside_their_symbols_and_room_for_what_they_hold(visit, width, height):
+    visitor = visit(width, height)
+    visitor.open(
+        "?version=1&amplitude=1.2487408494631143&period=2.2260119362057162&restitution=0.9117647058823529&height=2&width=0.5"
+        "&angle=-0.12345678&velocity=0.000123456789"
+    )
+    labels = visitor.page.locator("#fields label").all_inner_texts()
+    assert [" ".join(label.split()) for label in labels] == [
+        "A amplitude", "T period", "e restitution", "φ phase", "Θ₀ angle", "Θ′₀ velocity", "Θb brace angle", "r brace restitution",
+        "first cycle", "cycles",
+    ]  # fmt: skip
+    assert visitor.page.evaluate(CUT) == []
+    assert visitor.page.evaluate("document.documentElement.scrollWidth") <= width
+    visitor.page.fill("#velocity", "x")
+    visitor.page.press("#velocity", "Enter")
+    visitor.page.wait_for_selector("#velocity[aria-invalid=true]")
+    assert visitor.text("velocity-refused").endswith("; got 'x'"), (
+        "what is typed takes the place of all digits"
+    )
+    assert visitor.page.evaluate(COVERED, "#fields") == []
+    assert visitor.page.evaluate(COVERED, "#map-picture .tools") == []
+    visitor.see(f"fields-{width}")
     visitor.is_content()
 
 

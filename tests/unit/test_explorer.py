@@ -107,6 +107,10 @@ def test_any_message_is_heard_or_refused(text):
         ({"period": "nan"}, "period", "period must be a number in [0.00628319, 6283.19]; got 'nan'"),
         ({"cycles": "1.5"}, "cycles", "cycles must be a whole number in [1, 200]; got '1.5'"),
         ({"cycles": "²"}, "cycles", "cycles must be a whole number in [1, 200]; got '²'"),
+        ({"amplitude": ""}, "amplitude", "give the amplitude"),
+        ({"cycles": " "}, "cycles", "give the cycles"),
+        ({"brace_angle": "x"}, "brace_angle", "brace angle must be a number in [0.001, 1000]; got 'x'"),
+        ({"first": "-1"}, "first", "first cycle must be a whole number in [0, 100000]; got '-1'"),
         ({"vary": "phase"}, "vary", "vary must be one of amplitude, period; got 'phase'"),
         ({"brace_angle": "0.5", "angle": "0.9"}, "angle", "angle must lie between the braces, in [-0.5, 0.5]; got 0.9"),
         ({"periods": "2:1"}, "periods", "periods must be LOW:HIGH, LOW below HIGH, no closer than doubles can tell; got '2:1'"),
@@ -118,6 +122,7 @@ def test_field_is_refused_in_one_sentence(typed, field, sentence):
     assert refusal.value.fields == {field: sentence}
 
 
+SQUAT = "restitution by Housner's formula is -0.429 for a block as squat as 2 m x 9 m and must lie in [0, 1]"
 METRES = {"height": "2", "width": "0.5", "acceleration": "3", "unit": "m/s²", "frequency_hz": "1.2"}
 
 
@@ -128,8 +133,24 @@ def test_block_in_metres_is_the_packages():
     assert (shown.amplitude, shown.period) == (system.forcing.amplitude, system.forcing.period)
     assert (shown.restitution, shown.block.critical_angle) == (block.restitution, block.critical_angle)
     assert shown.amplitudes.low <= shown.amplitude <= shown.amplitudes.high
-    with pytest.raises(Refused, match="restitution by Housner's formula is"):
-        in_metres(DEFAULT, {"height": "1", "width": "9", "acceleration": "3", "frequency_hz": "1"})
+
+
+@pytest.mark.parametrize(
+    "typed, field, sentence",
+    [
+        ({"frequency_hz": ""}, "frequency_hz", "give the frequency"),
+        ({"height": " "}, "height", "give the height"),
+        ({"frequency_hz": "soon"}, "frequency_hz", "frequency must be a number in [1e-06, 1e+06]; got 'soon'"),
+        ({"frequency_hz": "1e5"}, "frequency_hz", "frequency must lie in [0.000425137, 425.137] Hz; got 100000.0"),
+        ({"acceleration": "1e5"}, "acceleration", "acceleration must lie in [0, 2402.42] m/s²; got 100000.0"),
+        ({"acceleration": "1e5", "unit": "g"}, "acceleration", "acceleration must lie in [0, 244.979] g; got 100000.0"),
+        ({"width": "9"}, "width", f"{SQUAT}: make the block narrower or taller"),
+    ],
+)  # fmt: skip
+def test_block_in_metres_is_refused_in_the_words_of_its_fields(typed, field, sentence):
+    with pytest.raises(Refused) as refusal:
+        in_metres(DEFAULT, METRES | typed)
+    assert refusal.value.fields == {field: sentence}
 
 
 def test_block_in_metres_stays_in_the_commands(rocking):

@@ -14,6 +14,7 @@ from bokeh.document import Document
 from bokeh.server.server import Server
 
 from rocking.explorer import gallery, pictures, planes
+from rocking.explorer.fields import WORDS
 from rocking.explorer.refine import COARSEST, Plane, Refinement
 from rocking.explorer.state import DEFAULT
 from rocking.explorer.visit import Visit
@@ -56,8 +57,8 @@ FIELDS = (
     ("velocity", "Θ′₀", "velocity at the start, in α θcr"),
     ("brace_angle", "Θb", "angle of the braces; empty: none"),
     ("brace_restitution", "r", "restitution at a brace"),
-    ("first", "from", "first cycle drawn"),
-    ("cycles", "cycles", "cycles drawn"),
+    ("first", "", "first cycle drawn"),
+    ("cycles", "", "cycles drawn"),
 )
 
 
@@ -129,6 +130,7 @@ def _page() -> dict[str, object]:
         "script": _text("page.js"),
         "given": json.dumps(given, ensure_ascii=False).replace("<", "\\u003c"),
         "fields": FIELDS,
+        "words": WORDS,
         "curves": planes.NAMES,
         "groups": groups,
         "version": VERSION,

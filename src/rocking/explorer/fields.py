@@ -29,6 +29,14 @@ LONGEST = 40
 LONGEST_ADDRESS = 2000
 PERIODS = math.tau / FREQUENCIES[1], math.tau / FREQUENCIES[0]
 LATEST, MOST_SHOWN = 100_000, 200
+WORDS = {
+    "brace_angle": "brace angle",
+    "brace_restitution": "brace restitution",
+    "first": "first cycle",
+    "acceleration_g": "acceleration",
+    "frequency_hz": "frequency",
+}
+"""What a field is called where it is not called by its name: at the field, and where what is typed there is refused."""
 
 
 class Refused(ValueError):
@@ -39,8 +47,16 @@ class Refused(ValueError):
         self.fields = dict(fields)
 
 
+def _given(name: str, text: str) -> str:
+    """What was typed, if anything was."""
+    if not text.strip():
+        raise ValueError(f"give the {name}")
+    return text.strip()
+
+
 def _number(low: float, high: float) -> Callable[[str, str], float]:
     def read(name: str, text: str) -> float:
+        _given(name, text)
         allowed = f"be a number in [{low:.6g}, {high:.6g}]"
         try:
             value = float(text) if len(text) <= LONGEST else math.nan
@@ -55,7 +71,7 @@ def _number(low: float, high: float) -> Callable[[str, str], float]:
 
 def _count(low: int, high: int) -> Callable[[str, str], int]:
     def read(name: str, text: str) -> int:
-        value = text.strip()
+        value = _given(name, text)
         if not (value.isascii() and value.isdigit() and len(value) < 10 and low <= int(value) <= high):
             raise ValueError(refusal(name, f"be a whole number in [{low}, {high}]", text))
         return int(value)
@@ -164,9 +180,7 @@ def in_metres(shown: Shown, typed: Mapping[str, str]) -> Shown:
         block = Block(read["height"], read["width"])
         system = block.system(**{size: read["acceleration"]}, frequency_hz=read["frequency_hz"])
     except ValueError as error:
-        sentence = str(error)
-        name = sentence.partition(" ")[0].replace("acceleration_g", "acceleration")
-        raise Refused({name if name in PHYSICAL else "height": sentence}) from None
+        raise Refused(_at_its_field(str(error))) from None
     forcing = system.forcing
     return attrs.evolve(
         shown,
@@ -178,6 +192,14 @@ def in_metres(shown: Shown, typed: Mapping[str, str]) -> Shown:
         amplitudes=_reaching(shown.amplitudes, forcing.amplitude, LARGEST_AMPLITUDE),
         periods=_reaching(shown.periods, forcing.period, PERIODS[1]),
     )
+
+
+def _at_its_field(sentence: str) -> dict[str, str]:
+    """What the package refuses of a block or its shaking, at the field that it is about and in that field's words."""
+    name, _, rest = sentence.partition(" ")
+    if name == "restitution":  # Housner's, which follows from the sizes
+        return {"width": f"{sentence.partition(':')[0]}: make the block narrower or taller"}
+    return {name.removesuffix("_g"): f"{WORDS.get(name, name)} {rest}"}
 
 
 def _reaching(span: Span, value: float, most: float) -> Span:
@@ -197,7 +219,7 @@ def _read(
             refused["page"] = refusal("field", f"be one of {', '.join(how)}", name)
             continue
         try:
-            read[name] = how[name](name, text)
+            read[name] = how[name](WORDS.get(name, name), text)
         except ValueError as error:
             refused[name] = str(error)
     return read, refused

@@ -51,14 +51,22 @@ const waiting = setInterval(() => {
 
 const depth = () => history.state?.n ?? 0;
 
+// as many digits as a field has room for; all of them are there to be edited
+function brief(text) {
+  if (text.length <= 8) return text;
+  const rounded = [4, 3, 2, 1].map(digits => String(Number(Number(text).toPrecision(digits))));
+  return "≈" + (rounded.find(each => each.length <= 7) ?? rounded[3]);
+}
+
 function show(told) {
   const before = shown;
   shown = told;
   for (const [name, text] of Object.entries(told.fields)) {
     const input = document.querySelector(`#fields [name="${name}"]`);
     if (!input) continue;
-    input.title = text.length > 6 ? text : "";
-    if (document.activeElement !== input || !input.dataset.typing) input.value = text;
+    input.title = brief(text) === text ? "" : text;
+    if (document.activeElement !== input) input.value = brief(text);
+    else if (!input.dataset.typing) input.value = text;
   }
   const on = new Set(told.fields.curves.split(","));
   for (const box of all("#curves input")) box.checked = on.has(box.name);
@@ -78,6 +86,7 @@ function show(told) {
   find("commands").textContent = told.commands;
   find("link-text").textContent = location.href;
   if (told.moved) find("verdict").classList.add("stale");
+  find("units").close(); // what it asked for is seen
   if (told.fields.height) { find("m-height").value = told.fields.height; find("m-width").value = told.fields.width; }
 }
 
@@ -244,8 +253,14 @@ function progress(told) {
   document.body.dataset.map = told.done ? "done" : String(told.side);
 }
 
+function pardon(input) {
+  if (!input.hasAttribute("aria-invalid")) return;
+  input.removeAttribute("aria-invalid");
+  find(input.id + "-refused").textContent = "";
+}
+
 function refuse({ fields }) {
-  for (const input of all("input[aria-invalid]")) input.removeAttribute("aria-invalid");
+  all("input[aria-invalid]").forEach(pardon);
   const rest = [];
   for (const [name, sentence] of Object.entries(fields)) {
     const id = find("units").open && find("m-" + name) ? "m-" + name : name;
@@ -256,6 +271,8 @@ function refuse({ fields }) {
   }
   say(rest.join("; "));
 }
+
+document.addEventListener("input", event => pardon(event.target));
 
 let fading;
 function say(text) {
@@ -269,6 +286,12 @@ function say(text) {
 // ---- controls
 
 for (const input of all("#fields input")) {
+  input.addEventListener("focus", () => {
+    if (!input.value.startsWith("≈")) return;
+    input.value = shown.fields[input.name];
+    input.select(); // as it was when it came here by a key; a click then sets the caret
+  });
+  input.addEventListener("blur", () => { if (input.value === shown?.fields[input.name]) input.value = brief(input.value); });
   input.addEventListener("input", () => { input.dataset.typing = "yes"; });
   input.addEventListener("change", () => { delete input.dataset.typing; ask("fields", { [input.name]: input.value }); });
   input.addEventListener("keydown", event => {
@@ -300,7 +323,7 @@ find("metres").addEventListener("submit", event => {
   event.preventDefault();
   ask("metres", Object.fromEntries(new FormData(event.target)));
 });
-find("no-metres").onclick = () => { ask("fields", { height: "", width: "" }); find("units").close(); };
+find("no-metres").onclick = () => { ask("fields", { height: "", width: "" }); };
 for (const button of all("[data-copy]")) button.onclick = async () => {
   const text = { link: location.href, python: shown.python, commands: shown.commands }[button.dataset.copy];
   try { await navigator.clipboard.writeText(text); button.textContent = "Copied"; } catch { button.textContent = "Select and copy"; }
