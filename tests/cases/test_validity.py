@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from rocking import Block, Braces, Harmonic, State, System, simulate
+from rocking.motion import block_warnings
 from rocking.motion.validity import base_reaction, impact_friction
 
 GRAVITY = 9.80665
@@ -280,3 +281,35 @@ def test_report_reads_as_lines_and_an_unrecorded_motion_is_refused():
     assert "warning: outside the slender range" in text
     with pytest.raises(ValueError, match="record must be 'all'"):
         simulate(system, cycles=5, record="none").validity(TALL)
+
+
+@pytest.mark.parametrize("block", [TALL, SQUAT, Block(height=1.8, width=0.6)], ids=["tall", "squat", "1:3"])
+def test_acceleration_that_lifts_only_the_model_is_warned_of(block):
+    """A standing block turns about its corner once a_x H/2 > g B/2; the model has it lift from A = 1 on."""
+    truth = block.amplitude(GRAVITY * block.width / block.height)
+    assert truth > 1.0
+    for amplitude in (0.99, (1.0 + truth) / 2, truth * 1.0001):
+        system = System(Harmonic(amplitude=amplitude, period=1.0), restitution=block.restitution)
+        said = [text for text in simulate(system, cycles=3).validity(block).warnings if "lifting" in text]
+        assert bool(said) is (1.0 < amplitude < truth)
+    among = [0.5, 1.0, (1.0 + truth) / 2, 3.0]
+    assert any("1 of the 4 accelerations lie between" in text for text in block_warnings(block, among))
+
+
+def test_what_concerns_the_block_is_said_without_a_motion_as_with_one():
+    moving = run(2.0, 1.0, 0.7).validity(SQUAT)
+    alone = list(block_warnings(SQUAT, 2.0, 0.5))
+    assert f"{moving.moment_error:.1%}, the base's push by up to {moving.forcing_error:.1%}" in alone[0]
+    assert any("less than Housner's" in text for text in alone)
+    assert not list(block_warnings(TALL, 2.0, 1.0))
+
+
+def test_report_has_seconds_and_degrees_and_says_where_no_friction_would_do():
+    motion = run(2.0, 1.0, 0.925)
+    found = motion.validity(TALL)
+    assert f"{math.degrees(found.angle):.4g}°, {motion.peak:.4g} of the critical angle" in str(found)
+    for time in (found.friction_time, found.reaction_time):
+        assert f"τ = {time:.6g} = {TALL.seconds(time):.4g} s)" in str(found)
+    jumping = run(15.0, 2.0, 0.925, braces=Braces(angle=1.0)).validity(Block(height=1.0, width=0.9))
+    assert jumping.friction == math.inf
+    assert "none would do, for the base reaction vanishes (motion, τ = " in str(jumping)

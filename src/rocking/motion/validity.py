@@ -11,14 +11,13 @@ from attrs import evolve, frozen
 
 from rocking.model import Block, instance
 from rocking.motion.extremes import NOTHING, Arcs, Array, Extreme, least
+from rocking.motion.slender import block_warnings, degrees_too, slender_errors
 
 if TYPE_CHECKING:
     from rocking.motion.motion import Motion
 
 ORDINARY_FRICTION = 0.5
 """Dry stone, concrete or steel seldom offers less: a motion that needs more is warned of."""
-SLENDER_ERROR = 0.05
-"""Relative error up to which the block counts as slender: θcr = 18°, about three times as high as wide."""
 SHORTEST_ARC = 1e-10
 """In τ. The reaction on the shorter arcs of a chatter is that of their longer neighbours, to as many digits."""
 
@@ -48,6 +47,8 @@ class Validity:
     moment_error, forcing_error : float
         By how much, relatively, the slender model overrates the restoring moment (δ for sin δ) and the moment of the
         base's acceleration (1 for cos δ) where they are worst, δ = θcr − |θ|; infinite from δ = −90° on.
+    time_unit : float
+        1/α, in seconds.
     warnings : tuple of str
         One sentence for each assumption that fails, and for each thing that the motion alone does not determine.
 
@@ -62,9 +63,9 @@ class Validity:
     >>> block = Block(height=2.0, width=0.5)
     >>> print(simulate(block.system(acceleration=3.0, frequency_hz=1.2)).validity(block))
     judged up to τ = 15.5003, where no return is proved
-    least friction without sliding: 0.2587 (motion, τ = 0)
-    least base reaction: 0.8576 Mg (τ = 12.4227)
-    largest angle: 0.1708 rad, 0.6973 of the critical angle
+    least friction without sliding: 0.2587 (motion, τ = 0 = 0 s)
+    least base reaction: 0.8576 Mg (τ = 12.4227 = 4.651 s)
+    largest angle: 0.1708 rad = 9.788°, 0.6973 of the critical angle
     slender model: restoring moment up to 1.01%, base's push up to 3.08% too large
     """
 
@@ -79,14 +80,18 @@ class Validity:
     critical_angle: float
     moment_error: float
     forcing_error: float
+    time_unit: float
     warnings: tuple[str, ...] = ()
 
     def __str__(self) -> str:
         friction = reaction = "not judged"
         if self.friction is not None:
-            friction = f"{self.friction:.4g} ({self.friction_source}, τ = {self.friction_time:.6g})"
+            least = f"{self.friction:.4g}"
+            if self.friction == math.inf:
+                least = "none would do, for the base reaction vanishes"
+            friction = f"{least} ({self.friction_source}, {self.instant(self.friction_time)})"
         if self.reaction is not None:
-            reaction = f"{self.reaction:.4g} Mg (τ = {self.reaction_time:.6g})"
+            reaction = f"{self.reaction:.4g} Mg ({self.instant(self.reaction_time)})"
         slender = "does not apply over a right angle from balance"
         if self.forcing_error < math.inf:
             slender = f"restoring moment up to {self.moment_error:.2%}, base's push up to {self.forcing_error:.2%} too large"
@@ -94,10 +99,14 @@ class Validity:
         lines += [
             f"least friction without sliding: {friction}",
             f"least base reaction: {reaction}",
-            f"largest angle: {self.angle:.4g} rad, {self.angle / self.critical_angle:.4g} of the critical angle",
+            f"largest angle: {degrees_too(self.angle, 4)}, {self.angle / self.critical_angle:.4g} of the critical angle",
             f"slender model: {slender}",
         ]
         return "\n".join((*lines, *(f"warning: {warning}" for warning in self.warnings)))
+
+    def instant(self, time: float | None) -> str:
+        """A time in τ and in seconds; none is told of what did not occur."""
+        return "" if time is None else f"τ = {time:.6g} = {time * self.time_unit:.4g} s"
 
 
 def validity(motion: Motion, block: Block) -> Validity:
@@ -149,6 +158,7 @@ def validity(motion: Motion, block: Block) -> Validity:
         critical_angle=block.critical_angle,
         moment_error=moment_error,
         forcing_error=forcing_error,
+        time_unit=block.seconds(1.0),
     )
     return evolve(found, warnings=tuple(warnings(found, motion, block, leaning)))
 
@@ -184,33 +194,17 @@ def largest_angle(motion: Motion, block: Block, until: float) -> float:
     return float(np.max(np.abs(np.concatenate(angles)))) * block.critical_angle
 
 
-def slender_errors(block: Block, angle: float) -> tuple[float, float]:
-    """Largest δ/sin δ − 1 and 1/cos δ − 1 for |θ| up to `angle`; infinite from δ = −90° on."""
-    worst = max(block.critical_angle, angle - block.critical_angle)
-    if worst >= math.pi / 2:
-        return math.inf, math.inf
-    return worst / math.sin(worst) - 1, 1 / math.cos(worst) - 1
-
-
 def warnings(found: Validity, motion: Motion, block: Block, leaning: Arcs) -> Iterator[str]:
     """One sentence for each assumption that fails, and for each thing that is left out."""
     if found.overturned and found.reaction is None:
         yield "not judged: whether the block slides or jumps, for it is past return from the start"
     if found.friction is not None and ORDINARY_FRICTION < found.friction < math.inf:
-        at = f"({found.friction_source}, τ = {found.friction_time:.6g})"
+        at = f"({found.friction_source}, {found.instant(found.friction_time)})"
         yield f"sliding: only a coefficient of friction of {found.friction:.3g} or more prevents it {at}"
     if found.reaction is not None and found.reaction <= 0:
-        yield f"base reaction: {found.reaction:.3g} Mg at τ = {found.reaction_time:.6g}, the base would have to pull the block down"
-    if max(found.moment_error, found.forcing_error) > SLENDER_ERROR:
-        how = f"the restoring moment is overrated by up to {found.moment_error:.1%}, the base's push by up to {found.forcing_error:.1%}"
-        if found.forcing_error == math.inf:
-            how = "over a right angle from balance its moments do not apply"
-        yield f"outside the slender range, θcr = {found.critical_angle:.3g} rad and |θ| up to {found.angle:.3g} rad: {how}"
-    if motion.impacts and motion.system.restitution < block.housner_restitution * (1 - 1e-12):
-        yield (
-            f"restitution {motion.system.restitution:.4g} is less than Housner's {block.housner_restitution:.4g}: the base's "
-            "impulse at an impact would have to act outside the base"
-        )
+        yield f"base reaction: {found.reaction:.3g} Mg at {found.instant(found.reaction_time)}, the base would have to pull the block down"
+    hit = motion.system.restitution if motion.impacts else 1.0
+    yield from block_warnings(block, motion.system.forcing.amplitude, hit, found.angle)
     if motion.brace_hits:
         yield f"brace hits: {motion.brace_hits}, whose reactions at the base depend on where the brace acts, are left out"
     if leaning.starts.size:
