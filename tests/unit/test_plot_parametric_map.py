@@ -155,6 +155,7 @@ def test_axes_in_si_are_the_blocks():
     block = rk.Block(2.0, 0.5)
     ax = rk.plot.parametric_map(a_map([("rest", 0, 2), ("chaotic", 0, 2)]), block=block)
     assert (ax.get_xlabel(), ax.get_ylabel()) == ("period (s)", "amplitude $a_x$ (m/s²)")
+    assert ax.get_title(loc="left") == "block 2 m × 0.5 m"
     assert ax.get_ylim() == pytest.approx(block.acceleration(np.array([0.5, 2.5])))
     step = 1 / (COUNT - 1)
     assert ax.get_xlim() == pytest.approx(block.seconds(np.array([1 - step / 2, 2 + step / 2])))

@@ -112,3 +112,15 @@ def test_results_show_themselves_in_a_notebook(basins, curve):
         picture = re.search(r"base64,([^\"]+)", html)[1]
         assert base64.b64decode(picture).startswith(b"\x89PNG")
         assert str(each).split("%")[0] in html
+
+
+def test_a_block_gives_its_units_and_its_name(curve, basins):
+    block = rk.Block(2.0, 0.5)
+    ax = rk.plot.overturning(curve, block=block)
+    across, up = drawn(ax, "lowest").get_data()
+    assert across == pytest.approx(block.seconds(curve.dataset.period.values))
+    assert up == pytest.approx(block.acceleration(curve.dataset.lowest.values), nan_ok=True)
+    assert (ax.get_xlabel(), ax.get_title(loc="left")) == ("period (s)", "block 2 m × 0.5 m")
+    ax = rk.plot.basins(basins, block=block)
+    assert ax.get_title(loc="left") == "block 2 m × 0.5 m"
+    assert ax.get_xlim()[1] > block.degrees(1.0)

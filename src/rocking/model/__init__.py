@@ -25,6 +25,7 @@ from rocking.model.files import check_folder, check_replaceable, check_writable,
 from rocking.model.forcing import FREQUENCIES, LARGEST_AMPLITUDE, LARGEST_PHASE, PERIODS, Harmonic
 from rocking.model.mode import Mode
 from rocking.model.outcome import Outcome, Overturning
+from rocking.model.physical import PHYSICAL, block_attributes
 from rocking.model.share import LEVEL, Share, wilson
 from rocking.model.surveys import ChaosShare, OverturningCurve, Repeatability, RepeatabilityMap, SafeBasin
 from rocking.model.system import BRACE_ANGLES, LARGEST_START, Braces, State, System, check_start
@@ -41,6 +42,7 @@ __all__ = [
     "LARGEST_START",
     "LEVEL",
     "PERIODS",
+    "PHYSICAL",
     "VERSION",
     "Attractor",
     "BasinMap",
@@ -66,6 +68,7 @@ __all__ = [
     "TooShort",
     "UncertaintyExponent",
     "Verdict",
+    "block_attributes",
     "check_folder",
     "check_replaceable",
     "check_start",

@@ -91,6 +91,11 @@ class Block:
             )
 
     @property
+    def size(self) -> str:
+        """Height and width, as a block is named."""
+        return f"{self.height:g} m × {self.width:g} m"
+
+    @property
     def radius(self) -> float:
         """R, from a corner to the centre of mass, in metres."""
         return math.hypot(self.height, self.width) / 2

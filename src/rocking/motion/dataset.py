@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from rocking.model import VERSION, Block, instance, refusal, within
+from rocking.model import VERSION, Block, block_attributes, instance, refusal, within
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -189,11 +189,5 @@ def _attributes(motion: Motion, block: Block | None) -> dict[str, Any]:
             "overturning_cycle": motion.overturning.cycle,
         }
     if block is not None:
-        attributes |= {
-            "block_height_m": block.height,
-            "block_width_m": block.width,
-            "block_inertia_ratio": block.inertia_ratio,
-            "block_critical_angle_rad": block.critical_angle,
-            "block_frequency_parameter_per_s": block.frequency_parameter,
-        }
+        attributes |= block_attributes(block)
     return attributes

@@ -9,11 +9,11 @@ from matplotlib.axes import Axes
 from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.patches import Patch
 
-from rocking.model import Attractor, BasinMap, Kind, instance
+from rocking.model import Attractor, BasinMap, Block, Kind, instance
 from rocking.plot import style
 from rocking.plot.kinds import COLOURS, paler
 from rocking.plot.parametric_map import MOST_DRAWN
-from rocking.plot.quantities import PARAMETERS
+from rocking.plot.quantities import parameter
 
 # For the orbits, the largest basin first: those of Okabe and Ito that no other kind has, then paler ones.
 ORBITS = (style.MOTION, "#56B4E9", "#E69F00", "#CC79A7", "#8C6D31", "#B5A0D8", "#7FC8A9", "#F2B8A0")
@@ -25,7 +25,7 @@ LONGEST = 12
 HATCH = "////"
 
 
-def basins(found: BasinMap, ax: Axes | None = None) -> Axes:
+def basins(found: BasinMap, ax: Axes | None = None, block: Block | None = None) -> Axes:
     """Draws where each start leads: a colour an attractor, with its share; overturning is dark, undetermined hatched.
 
     Parameters
@@ -34,6 +34,8 @@ def basins(found: BasinMap, ax: Axes | None = None) -> Axes:
         From `basin_map`, over a grid or of random starts.
     ax : matplotlib Axes, optional
         Drawn into; a new figure, a column wide, if not given.
+    block : Block, optional
+        Gives SI axes and a title; otherwise the axes are normalised.
 
     Returns
     -------
@@ -63,12 +65,13 @@ def basins(found: BasinMap, ax: Axes | None = None) -> Axes:
     ax = style.own(ax, height=4.0)
     hues = colours(found.attractors)
     places = found.dataset.attractor
+    (turn_across, x_label), (turn_up, y_label) = (parameter(name, block) for name in ("angle", "velocity"))
     map_ = ListedColormap(hues)
     norm = BoundaryNorm(np.arange(len(hues) + 1) - 0.5, len(hues))
     if places.ndim == 2:
         steps = {name: slice(None, None, -(-size // MOST_DRAWN)) for name, size in places.sizes.items()}
         drawn = places.isel(steps).transpose("velocity", "angle")
-        across, up = drawn.angle.values, drawn.velocity.values
+        across, up = turn_across(drawn.angle.values), turn_up(drawn.velocity.values)
         ax.pcolormesh(
             across, up, drawn.values, cmap=map_, norm=norm, shading="nearest", rasterized=True, gid="basins"
         )
@@ -78,8 +81,8 @@ def basins(found: BasinMap, ax: Axes | None = None) -> Axes:
                 ax.contourf(across, up, where, [0.5, 1.5], colors="none", hatches=[HATCH])
     else:
         ax.scatter(
-            places.angle.values,
-            places.velocity.values,
+            turn_across(places.angle.values),
+            turn_up(places.velocity.values),
             c=places.values,
             cmap=map_,
             norm=norm,
@@ -88,7 +91,8 @@ def basins(found: BasinMap, ax: Axes | None = None) -> Axes:
             rasterized=places.size > style.MOST_MARKS,
             gid="basins",
         )
-    style.label(ax, PARAMETERS["angle"], PARAMETERS["velocity"])
+    style.label(ax, x_label, y_label)
+    style.block_title(ax, block)
     _legend(ax, found, hues)
     return ax
 

@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 from matplotlib.axes import Axes
 
-from rocking.model import OverturningCurve, instance, refusal
+from rocking.model import Block, OverturningCurve, instance, refusal
 from rocking.plot import style
-from rocking.plot.quantities import PARAMETERS
+from rocking.plot.quantities import parameter
 
 
-def overturning(found: OverturningCurve, ax: Axes | None = None) -> Axes:
+def overturning(found: OverturningCurve, ax: Axes | None = None, block: Block | None = None) -> Axes:
     """Draws the lowest overturning amplitude over what varies, and behind it the share of phases at which the block overturns.
 
     Parameters
@@ -19,6 +19,8 @@ def overturning(found: OverturningCurve, ax: Axes | None = None) -> Axes:
         From `overturning_amplitude`; one quantity varies, or none, then the share is drawn over the amplitude.
     ax : matplotlib Axes, optional
         Drawn into; a new figure, a column wide, if not given.
+    block : Block, optional
+        Gives SI axes and a title; otherwise the axes are normalised.
 
     Returns
     -------
@@ -47,7 +49,9 @@ def overturning(found: OverturningCurve, ax: Axes | None = None) -> Axes:
             refusal("found", "vary over one quantity to be drawn", over, "select one value first")
         )
     ax = style.own(ax, height=3.3)
-    amplitudes = data.amplitude.values
+    style.block_title(ax, block)
+    level, y_label = parameter("amplitude", block)
+    amplitudes = level(data.amplitude.values)
     if data.lowest.ndim == 0:
         ax.plot(
             amplitudes,
@@ -58,12 +62,15 @@ def overturning(found: OverturningCurve, ax: Axes | None = None) -> Axes:
             gid="share",
         )
         if np.isfinite(data.lowest):
-            ax.axvline(float(data.lowest), color=style.IMPACT, linewidth=style.LINE, label="lowest found")
+            ax.axvline(
+                float(level(data.lowest)), color=style.IMPACT, linewidth=style.LINE, label="lowest found"
+            )
             style.key(ax)
-        style.label(ax, PARAMETERS["amplitude"], "phases at which it overturns [%]")
+        style.label(ax, y_label, "phases at which it overturns [%]")
         return ax
     (name,) = data.lowest.dims
-    across = data[name].values
+    turn, x_label = parameter(str(name), block)
+    across = turn(data[name].values)
     shares = 100 * data.overturning_share.transpose("amplitude", name).values
     image = ax.pcolormesh(
         across,
@@ -81,7 +88,7 @@ def overturning(found: OverturningCurve, ax: Axes | None = None) -> Axes:
     bar.ax.tick_params(labelsize=style.SMALL)
     ax.plot(
         across,
-        data.lowest.values,
+        level(data.lowest.values),
         color=style.IMPACT,
         linewidth=style.LINE,
         marker="o",
@@ -89,7 +96,15 @@ def overturning(found: OverturningCurve, ax: Axes | None = None) -> Axes:
         label="lowest found",
         gid="lowest",
     )
-    above, tangency = ax.get_ylim(), data.heteroclinic_amplitude.values
+    _tangency(ax, across, level(data.heteroclinic_amplitude.values))
+    style.label(ax, x_label, y_label)
+    style.key(ax)
+    return ax
+
+
+def _tangency(ax: Axes, across: np.ndarray, tangency: np.ndarray) -> None:
+    """A* where it is seen; the axes stay those of what was scanned."""
+    above = ax.get_ylim()
     if (tangency > above[0]).any():
         dashes = (0, (5, 2))
         ax.plot(
@@ -101,6 +116,3 @@ def overturning(found: OverturningCurve, ax: Axes | None = None) -> Axes:
             label="exact tangency $A^*$",
         )
         ax.set_ylim(above)
-    style.label(ax, PARAMETERS[str(name)], PARAMETERS["amplitude"])
-    style.key(ax)
-    return ax

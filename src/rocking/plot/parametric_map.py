@@ -51,7 +51,7 @@ def parametric_map(
     ax : matplotlib Axes, optional
         Drawn into; a new figure, a column wide, if not given.
     block : Block, optional
-        Gives SI axes; otherwise they are the map's own, normalised.
+        Gives SI axes and a title; otherwise the axes are the map's own, normalised.
     curves : sequence of str
         Theory over a map of the amplitude and the period, frequency or restitution, for the block without braces:
         "symmetry-breaking-1", "symmetry-breaking-3", "existence-1", "existence-3" (of the modes (1,1) and (1,3); dotted where the
@@ -106,6 +106,7 @@ def parametric_map(
         dict(zip(read.names, (turn_up, turn_across), strict=True)),
     )
     style.label(ax, x_label, y_label)
+    style.block_title(ax, block)
     ax.set(xlim=turn_across(edges(read.across))[[0, -1]], ylim=turn_up(edges(read.up))[[0, -1]])
     _legend(ax, [*keys, *lines])
     return ax

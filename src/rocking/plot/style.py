@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, MaxNLocator, NullLocator
 from numpy.typing import NDArray
 
-from rocking.model import instance
+from rocking.model import Block, instance
 
 COLUMN = 3.5
 PAGE = 7.2
@@ -90,6 +90,12 @@ def title(ax: Axes, text: str) -> None:
     """Writes `text` above the axes at the left; a panel's letter already there stays in front of it."""
     letter = ax.get_title(loc="left")
     ax.set_title(f"{letter} {text}" if letter else text, loc="left", fontsize=TEXT, color=INK)
+
+
+def block_title(ax: Axes, block: Block | None) -> None:
+    """Names the block of a picture in SI above the axes at the left."""
+    if block is not None:
+        title(ax, f"block {block.size}")
 
 
 def note(ax: Axes, text: str) -> None:

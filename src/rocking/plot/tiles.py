@@ -182,7 +182,8 @@ def _page(read: Responses, counts: np.ndarray, pyramid: Pyramid, block: Block | 
     return environment.from_string(template).render(
         view=view,
         legend=legend,
-        fixed={name: f"{read.told[name]:.6g}" for name in FIXED if name in read.told},
+        fixed=({} if block is None else {"block": block.size})
+        | {name: f"{read.told[name]:.6g}" for name in FIXED if name in read.told},
         points=f"{read.up.size:,} × {read.across.size:,}",
         version=VERSION,
     )
