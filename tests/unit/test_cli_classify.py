@@ -158,3 +158,41 @@ def test_interrupted_verdict_says_so_and_leaves_no_file(interrupted, tmp_path):
     line = f"classify {CHAOTIC} --max-cycles 1e8 --plot a.png"
     assert interrupted(line, 2.0) == (130, b"", b"rocking: interrupted\n")
     assert not list(tmp_path.iterdir())
+
+
+def test_real_block_is_judged_over_a_period_of_its_response(rocking):
+    line = "--height 2 --width 2 --acceleration-g 1.2 --frequency-hz 1.5"
+    out = rocking(f"classify {line}")[2]
+    block = rk.Block(2.0, 2.0)
+    orbit = rk.classify(block.system(acceleration_g=1.2, frequency_hz=1.5)).orbit
+    begun = block.system(acceleration_g=1.2, frequency_hz=1.5, phase=orbit.phase)
+    found = rk.simulate(begun, orbit.state, cycles=orbit.period).validity(block)
+    assert found.reaction < 0
+    assert "the model is judged over a period of the response" in out
+    assert str(found) in out
+    assert told(rocking, line)["validity"]["warnings"] == list(found.warnings)
+
+
+def test_real_block_whose_response_has_no_period_is_judged_from_its_start(rocking):
+    line = "--height 2 --width 0.5 --acceleration 6 --frequency-hz 1.2"
+    block = rk.Block(2.0, 0.5)
+    motion = rk.simulate(block.system(acceleration=6.0, frequency_hz=1.2))
+    out = rocking(f"classify {line}")[2]
+    assert f"the model is judged over the first {motion.cycles} cycle" in out
+    assert str(motion.validity(block)) in out
+
+
+def test_block_that_rocks_in_the_model_alone_is_said_to_stand_still(rocking):
+    out = rocking("classify --height 1.8 --width 0.6 --acceleration-g 0.33 --frequency-hz 1.5")[2]
+    assert "3.236 m/s² = 0.33 g lies between, where the real one stands still" in out
+
+
+def test_start_in_degrees_is_hinted_at(rocking):
+    degrees = rk.Block(1.8, 0.6).angle(degrees=3)
+    line = "--height 1.8 --width 0.6 --acceleration 4 --frequency-hz 1.5 --angle"
+    for command in ("classify", "simulate"):
+        out = rocking(f"{command} {line} 3")[2]
+        assert "\nwarning: --angle 3 is 3 θcr = 55.3°, beyond the critical angle" in out
+        assert f"; 3° is --angle {degrees:.4g}\n" in out
+        assert "warning: --angle" not in rocking(f"{command} {line} 0.9")[2]
+        assert "not in degrees" in " ".join(rocking(f"{command} --help")[2].split())

@@ -162,7 +162,7 @@ def test_axes_in_si_are_those_of_the_block(rocking):
     code, message, out = rocking(line)
     assert (code, message) == (0, "")
     _, amplitude, frequency, *_ = [line.split() for line in out.splitlines()]
-    assert amplitude[-4:] == ["1", "to", "8", "m/s²"]
+    assert " ".join(amplitude[-9:]) == "1 to 8 m/s² = 0.102 to 0.8158 g"
     assert frequency[-4:] == ["0.5", "to", "3", "Hz"]
     with xr.open_dataset("map.nc", engine="h5netcdf") as found:
         for i, acceleration in enumerate(np.linspace(1, 8, 4)):
@@ -264,5 +264,48 @@ def test_tiles_are_those_of_the_map_in_its_units(rocking, found, tmp_path):
     rocking(
         "map --height 2 --width 0.5 --acceleration 1:8:4 --frequency-hz 0.5:3:5 --max-cycles 20 --tiles si --plot si.svg"
     )
-    assert '"name": "frequency (Hz)"' in Path("si/index.html").read_text(encoding="utf-8")
+    page = Path("si/index.html").read_text(encoding="utf-8")
+    assert '"name": "frequency (Hz)"' in page
+    assert "2 m × 0.5 m" in page
     assert Path("si.svg").is_file()
+
+
+CABINET = "map --height 1.8 --width 0.6 --acceleration-g 0.3:0.6:20 --frequency-hz 1:2:3 --max-cycles 50"
+
+
+def test_files_of_a_block_have_its_units_beside_the_normalised_ones(rocking):
+    rocking(f"{CABINET} --csv a.csv --netcdf a.nc")
+    block = rk.Block(1.8, 0.6)
+    with Path("a.csv").open(newline="", encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    assert {"amplitude", "frequency"}.isdisjoint(rows[0])
+    for row in rows[::7]:
+        amplitude, frequency = float(row["amplitude [g theta_cr]"]), float(row["frequency [alpha]"])
+        assert float(row["acceleration [m/s^2]"]) == pytest.approx(block.acceleration(amplitude))
+        assert float(row["frequency [Hz]"]) == pytest.approx(block.hertz(frequency))
+        assert float(row["peak [rad]"]) == pytest.approx(block.radians(float(row["peak [theta_cr]"])))
+    with xr.open_dataset("a.nc", engine="h5netcdf") as found:
+        assert {"acceleration_m_per_s2", "frequency_hz"} < set(found.coords)
+        assert found.acceleration_m_per_s2.attrs["units"] == "m s-2"
+        assert found.acceleration_m_per_s2.values == pytest.approx(np.linspace(0.3, 0.6, 20) * 9.80665)
+        assert found.frequency_hz.values == pytest.approx([1.0, 1.5, 2.0])
+        assert (found.attrs["block_height_m"], found.attrs["block_width_m"]) == (1.8, 0.6)
+
+
+def test_json_of_a_block_has_its_size_its_axes_and_its_warnings(rocking):
+    read = json.loads(rocking(f"{CABINET} --json")[2])
+    assert (read["block"]["height_m"], read["block"]["width_m"]) == (1.8, 0.6)
+    assert read["block"]["frequency_hz"] == pytest.approx({"start": 1.0, "stop": 2.0, "count": 3})
+    slender, lifting = read["warnings"]
+    assert "5.4%" in slender
+    assert "1 of the 20 accelerations lie between" in lifting
+    out = rocking(CABINET)[2]
+    assert f"warning: {slender}\nwarning: {lifting}\n" in out
+    assert "= 0.3 to 0.6 g" in out
+
+
+def test_block_so_squat_that_it_needs_a_restitution_is_mapped_with_it(rocking):
+    line = (
+        "map --height 2 --width 3.5 --acceleration 4:20:3 --frequency-hz 1:2:3 --max-cycles 20 --restitution"
+    )
+    assert rocking(f"{line} 0.4")[:2] == (0, "")

@@ -83,7 +83,11 @@ def test_block_gives_si(rocking):
     top = block.top_displacement(mode.peak)
     assert f"largest |Θ| {mode.peak:.6g} = {block.degrees(mode.peak):.4g}°, top {top:.4g} m" in lines
     begins = rk.theory.existence_amplitude(forcing.period, block.restitution, 1)
-    assert f"modes exist from A_E A = {begins:.6g} {block.acceleration(begins):.4g} m/s²" in lines
+    acceleration = block.acceleration(begins)
+    assert (
+        f"modes exist from A_E A = {begins:.6g} {acceleration:.4g} m/s² = {acceleration / 9.80665:.4g} g"
+        in lines
+    )
     assert told(rocking, SI)["block"]["height_m"] == 2.0
 
 
@@ -111,3 +115,10 @@ REFUSED = {
 def test_what_has_no_modes_is_refused_in_one_line(rocking, tmp_path, line):
     assert rocking(f"modes {line}") == (2, REFUSED[line], "")
     assert list(tmp_path.iterdir()) == []
+
+
+def test_block_out_of_the_slender_range_is_warned_of(rocking):
+    line = "--height 2 --width 2 --acceleration 12 --frequency-hz 1.5"
+    assert "\nwarning: outside the slender range" in rocking(f"modes {line}")[2]
+    assert "41.4%" in told(rocking, line)["warnings"][0]
+    assert told(rocking, SI)["warnings"] == []

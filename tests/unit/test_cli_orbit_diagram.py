@@ -52,7 +52,8 @@ def test_files_hold_every_point(rocking, tmp_path):
     assert (code, out.splitlines()[-3:]) == (0, ["wrote a.png", "wrote a.csv", "wrote a.nc"])
     with (tmp_path / "a.csv").open() as file:
         head, *rows = csv.reader(file)
-    assert head == ["sweep", "amplitude", "cycle", "angle [theta_cr]", "velocity [alpha theta_cr]"]
+    angle, velocity = "angle [theta_cr]", "velocity [alpha theta_cr]"
+    assert head == ["sweep", "amplitude [g theta_cr]", "cycle", angle, velocity]
     gone = [row for row in rows if row[2] == "overturned"]
     assert len(gone) == DIAGRAM.overturned.sum()
     kept = np.array([row[3:] for row in rows if row[2] != "overturned"], float)
@@ -206,3 +207,38 @@ def test_interrupted_diagram_says_so_and_leaves_no_file(interrupted, tmp_path):
     line = f"orbit-diagram --amplitude 7:10:1000 {NORMALISED} --transient 1e6 --plot a.png"
     assert interrupted(line, 3.0) == (130, b"", b"rocking: interrupted\n")
     assert not list(tmp_path.iterdir())
+
+
+IN_SI = "--height 2 --width 0.5 --acceleration 2:6:5 --frequency-hz 1.2"
+
+
+def test_block_has_its_accelerations_in_the_answer_and_in_the_files(rocking, tmp_path):
+    import xarray as xr
+
+    block, asked = rk.Block(2.0, 0.5), np.linspace(2, 6, 5)
+    out = rocking(f"orbit-diagram {IN_SI} --csv a.csv --netcdf a.nc")[2]
+    assert "2 to 6 m/s² = 0.2039 to 0.6118 g" in out
+    with (tmp_path / "a.csv").open(encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    assert sorted({float(row["acceleration [m/s^2]"]) for row in rows}) == pytest.approx(asked)
+    moving = [row for row in rows if row["angle [theta_cr]"]]
+    assert len(moving) < len(rows)
+    for row in moving[::50]:
+        assert float(row["angle [rad]"]) == pytest.approx(block.radians(float(row["angle [theta_cr]"])))
+    with xr.open_dataset(tmp_path / "a.nc") as read:
+        assert read.acceleration_m_per_s2.values == pytest.approx(asked)
+        assert (read.attrs["block_height_m"], read.attrs["block_width_m"]) == (2.0, 0.5)
+
+
+def test_block_has_its_accelerations_in_json_and_its_warnings(rocking):
+    read = told(rocking, f"{IN_SI} --json")
+    ends = read["block"]["acceleration_m_per_s2"]
+    assert (ends["start"], ends["stop"], ends["count"]) == (2.0, pytest.approx(6.0), 5)
+    up = read["sweeps"][0]
+    block = rk.Block(2.0, 0.5)
+    expected = block.acceleration(np.array(up["overturned_at"]))
+    assert up["overturned_at_acceleration_m_per_s2"] == pytest.approx(expected)
+    assert up["peak_deg"] == pytest.approx(block.degrees(up["peak"]))
+    assert read["warnings"] == []
+    squat = rocking(f"orbit-diagram {IN_SI.replace('0.5', '1.5')} --transient 5 --cycles 2")[2]
+    assert "warning: outside the slender range" in squat

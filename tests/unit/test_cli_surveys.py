@@ -169,3 +169,74 @@ def test_what_cannot_be_done_is_said_in_one_line(rocking, line, message):
     assert (code, out) == (2, "")
     assert message in told
     assert "\n" not in told
+
+
+CABINET = "--height 2 --width 0.5 --phases 2 --max-cycles 100"
+
+
+def test_overturning_of_a_block_is_that_of_its_normalised_one_in_its_units(rocking, tmp_path):
+    import xarray as xr
+
+    block, hertz = rk.Block(2.0, 0.5), np.array([1.0, 1.5, 2.0])
+    line = f"overturning {CABINET} --frequency-hz 1:2:3 --acceleration-g 0.2:1:41"
+    told = json.loads(rocking(f"{line} --netcdf a.nc --plot a.svg --json")[2], parse_constant=pytest.fail)
+    expected = rk.overturning_amplitude(
+        frequency=block.frequency(hertz),
+        restitution=block.restitution,
+        amplitude=block.amplitude(9.80665 * np.linspace(0.2, 1, 41)),
+        phases=2,
+        max_cycles=100,
+    ).dataset.lowest.values
+    assert [row["lowest"] for row in told["curve"]] == pytest.approx(expected)
+    assert [row["frequency_hz"] for row in told["curve"]] == pytest.approx(hertz)
+    lowest = block.acceleration(expected)
+    assert [row["lowest_acceleration_m_per_s2"] for row in told["curve"]] == pytest.approx(lowest)
+    assert (told["restitution"], told["block"]["height_m"]) == (block.restitution, 2.0)
+    with xr.open_dataset(tmp_path / "a.nc", engine="h5netcdf") as read:
+        assert read.lowest_acceleration_m_per_s2.values == pytest.approx(lowest)
+        assert read.frequency_hz.values == pytest.approx(hertz)
+    title, _, *table = rocking(line)[2].splitlines()
+    least, g = lowest.min(), lowest.min() / 9.80665
+    at = hertz[lowest.argmin()]
+    assert title.startswith(
+        f"a block of 2 m × 0.5 m overturns from rest at {least:.4g} m/s² = {g:.4g} g and {at:g} Hz; normalised: "
+    )
+    for row, level, frequency in zip(table, lowest, hertz, strict=True):
+        assert [float(word) for word in row.split()[-5:-2]] == pytest.approx(
+            [frequency, level, level / 9.80665], rel=1e-3
+        )
+
+
+def test_overturning_of_a_block_scans_the_usual_amplitudes_and_says_where_nothing_falls(rocking):
+    told = json.loads(rocking(f"overturning {CABINET} --period-s 0.5 --json")[2])
+    assert told["amplitude"] == {"start": 1.0, "stop": 16.0, "count": 301}
+    title = rocking(f"overturning {CABINET} --period-s 0.5 --acceleration 1:2:5")[2].splitlines()[0]
+    assert title.startswith("nothing overturns from rest")
+    assert title.endswith("1 to 2 m/s² = 0.102 to 0.2039 g")
+
+
+@pytest.mark.parametrize(
+    "line, message",
+    [
+        ("--frequency-hz 1", "missing --width: give --height, --width"),
+        ("--width 0.5", "give exactly one of --frequency-hz, --period-s"),
+        ("--width 0.5 --frequency-hz 1 --amplitude 1:2", "--amplitude is normalised, --height is SI"),
+        ("--width 0.5 --frequency-hz 1 --acceleration 3", "--acceleration must be an axis, START:STOP:COUNT"),
+    ],
+)
+def test_overturning_in_si_is_refused_in_the_words_of_its_options(rocking, line, message):
+    code, told, _ = rocking(f"overturning --height 2 {line}")
+    assert code == 2
+    assert told.startswith(message)
+
+
+def test_basins_of_a_block_have_its_units_and_its_warnings(rocking, tmp_path):
+    import xarray as xr
+
+    line = "basins --height 2 --width 1 --acceleration 6 --frequency-hz 1.2 --angle=-1:1:5 --velocity=-1:1:5"
+    out = rocking(f"{line} --boundary-runs 0 --netcdf a.nc --plot a.svg")[2]
+    assert "warning: outside the slender range" in out
+    with xr.open_dataset(tmp_path / "a.nc", engine="h5netcdf") as read:
+        starts = rk.Block(2.0, 1.0).radians(np.linspace(-1, 1, 5))
+        assert read.angle_rad.values == pytest.approx(starts)
+        assert read.attrs["block_width_m"] == 1.0

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import attrs
 
 from rocking.cli import quantities, studies
+from rocking.cli.applies import warned, warnings
 from rocking.cli.axes import Axis
 from rocking.cli.options import START, SYSTEM
 from rocking.cli.options import question as system_of
@@ -70,13 +71,14 @@ def _starts(asked: Any, *, random: bool) -> Any:
 
 def show(found: BasinMap, block: Block | None, files: list[Path], *, as_json: bool) -> None:
     """Print the attractors, their shares and the exponents of the boundaries."""
+    doubts = warnings(block, found.system.forcing.amplitude, found.system.restitution)
     if as_json:
-        told = {} if block is None else {"block": physical_of(found.system, block)}
+        told = {} if block is None else {"block": physical_of(found.system, block), "warnings": doubts}
         print_json(record(found, files) | told)
         return
     responses = counted(len(found.attractors), "response")
     title = f"basins, {found.fractions[0].of:,} starts: {responses} to be told apart"
-    print_table(title, [*asked_of(found.system, block), *rows(found)], files)
+    print_table(title, [*asked_of(found.system, block), *rows(found)], files, warned(doubts))
 
 
 def rows(found: BasinMap) -> Iterator[Row]:

@@ -16,7 +16,8 @@ rocking basins --amplitude 5.5 --period 1 --restitution 0.8 --angle=-1:1:300 --v
 rocking basins --amplitude 5.5 --period 1 --restitution 0.8 --samples 10000 --json"""
 
 Angle = Annotated[
-    Any, axis_option("--angle", "Θ at the start, in θcr: START:STOP:COUNT; -1:1:200 unless given.")
+    Any,
+    axis_option("--angle", "Θ at the start, in θcr, not degrees: START:STOP:COUNT; -1:1:200 unless given."),
 ]
 Velocity = Annotated[Any, axis_option("--velocity", "Θ' at the start, in θcr per τ, likewise.")]
 Samples = Annotated[ask.Number, ask.number_option("--samples", "Random starts in those ranges, not a grid.")]
@@ -60,5 +61,5 @@ def basins(
     asked = attractors.question(context.params, study)
     files = surveys.files_of(asked)
     found, block = attractors.compute(asked)
-    surveys.write(found, "basins", files)
+    surveys.write(found, "basins", files, block)
     attractors.show(found, block, surveys.written(asked, files), as_json=json)

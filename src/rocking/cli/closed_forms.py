@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING, Any
 
 from attrs import frozen
 
+from rocking.cli.applies import warned, warnings
 from rocking.cli.screen import aligned, print_json, print_table
-from rocking.cli.summary import asked_of, physical_of, reach
+from rocking.cli.summary import asked_of, in_si, physical_of, reach
 from rocking.model import counted
 
 if TYPE_CHECKING:
@@ -75,14 +76,15 @@ def show(answer: Answer, block: Block | None, file: Path | None, *, as_json: boo
         return
     rows = [*asked_of(answer.system, block), *bounds(answer, block)]
     columns = ["", *aligned(list(zip(*table(answer.modes, block), strict=True)))] if answer.modes else []
-    print_table(str(answer), rows, [] if file is None else [file], columns)
+    more = [*columns, *warned(warnings(block, answer.amplitude, answer.system.restitution))]
+    print_table(str(answer), rows, [] if file is None else [file], more)
 
 
 def bounds(answer: Answer, block: Block | None) -> Iterator[tuple[str, str, str]]:
     """Rows of the amplitudes that bound the modes, and of the two for crossing manifolds."""
     for name, label in LABELS.items():
         value = answer.amplitudes[name]
-        yield label, f"A = {value:.6g}", "" if block is None else f"{block.acceleration(value):.4g} m/s²"
+        yield label, f"A = {value:.6g}", in_si("amplitude", value, block)
 
 
 def table(modes: list[Mode], block: Block | None) -> Iterator[tuple[str, ...]]:
@@ -136,7 +138,10 @@ def record(answer: Answer, block: Block | None, file: Path | None) -> dict[str, 
         ],
         "files": [] if file is None else [str(file)],
     }
-    return told if block is None else told | {"block": physical_of(answer.system, block)}
+    if block is None:
+        return told
+    found = warnings(block, answer.amplitude, answer.system.restitution)
+    return told | {"block": physical_of(answer.system, block), "warnings": found}
 
 
 def _complex(value: complex) -> str:

@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import attrs
+import numpy as np
 
+from rocking.cli import files
+from rocking.cli.applies import warned, warnings
 from rocking.cli.axes import Study
-from rocking.cli.files import write_dataset
 from rocking.cli.options import option
-from rocking.cli.screen import print_json, print_table
-from rocking.cli.summary import reach, size_of
-from rocking.model import replacing
+from rocking.cli.screen import Row, print_json, print_table
+from rocking.cli.summary import asked_in_si, beyond, in_si, reach
+from rocking.model import PHYSICAL
 
 if TYPE_CHECKING:
     from rocking.model import Block
@@ -57,12 +59,34 @@ def show(diagram: OrbitDiagram, study: Study, files: Sequence[Path], *, as_json:
         print_json(record(diagram, study.block, files))
         return
     fixed = ", ".join(f"{name} {value:.6g}" for name, value in diagram.fixed.items())
-    rows = [("varied", study.typed, ""), ("fixed", fixed, "")]
+    in_units = (in_si(name, value, study.block) for name, value in diagram.fixed.items())
+    rows: list[Row] = [("varied", study.typed, ""), ("fixed", fixed, ", ".join(filter(None, in_units)))]
+    if study.block is not None:
+        rows += _in_si(diagram, study.block)
     for way, fell, peaks in zip(diagram.sweeps, diagram.overturned, diagram.peak, strict=True):
         known = peaks[~fell]
         if known.size:
             rows.append((f"largest |Θ|, {way}", f"{known.max():.6g}", reach(float(known.max()), study.block)))
-    print_table(str(diagram), rows, files)
+    more = [*beyond(diagram.start.angle, study.block), *warned(_warnings(diagram, study.block))]
+    print_table(str(diagram), rows, files, more)
+
+
+def _in_si(diagram: OrbitDiagram, block: Block) -> Iterator[Row]:
+    """Rows that say in SI what the title says normalised: the values, and those at which the block overturned."""
+    places = {diagram.parameter: diagram.values} | {
+        f"overturned, {way}": diagram.values[fell]
+        for way, fell in zip(diagram.sweeps, diagram.overturned, strict=True)
+    }
+    for name, values in places.items():
+        ends = np.unique(values[[0, -1]]) if values.size else values
+        shown = in_si(diagram.parameter, ends, block)
+        if values.size and shown:
+            yield name, " to ".join(f"{value:.6g}" for value in ends), shown
+
+
+def _warnings(diagram: OrbitDiagram, block: Block | None) -> list[str]:
+    asked = diagram.fixed | {diagram.parameter: diagram.values}
+    return warnings(block, asked["amplitude"], asked["restitution"])
 
 
 def record(diagram: OrbitDiagram, block: Block | None, files: Sequence[Path]) -> dict[str, Any]:
@@ -88,7 +112,17 @@ def record(diagram: OrbitDiagram, block: Block | None, files: Sequence[Path]) ->
         ],
         "files": [str(path) for path in files],
     }
-    return told if block is None else told | {"block": size_of(block)}
+    if block is None:
+        return told
+    for sweep in told["sweeps"]:
+        if diagram.parameter in PHYSICAL:
+            varied = PHYSICAL[diagram.parameter]
+            sweep[f"overturned_at_{varied.key}"] = varied.turn(block, sweep["overturned_at"]).tolist()
+        sweep["peak_deg"] = None if sweep["peak"] is None else float(block.degrees(sweep["peak"]))
+    return told | {
+        "block": asked_in_si(diagram.to_xarray(), block),
+        "warnings": _warnings(diagram, block),
+    }
 
 
 def write_plot(diagram: OrbitDiagram, block: Block | None, path: Path) -> None:
@@ -99,25 +133,32 @@ def write_plot(diagram: OrbitDiagram, block: Block | None, path: Path) -> None:
 
 
 def write_csv(diagram: OrbitDiagram, block: Block | None, path: Path) -> None:
-    """A row a point, normalised; where the block overturned one row without numbers."""
-    import csv
+    """A row a point, normalised, then in SI if there is a block; where the block overturned one row without numbers."""
+    files.write_csv(_tables(diagram, block), path)
 
-    with replacing(path) as temporary, temporary.open("w", newline="", encoding="utf-8") as file:
-        writer = csv.writer(file)
-        writer.writerow(
-            ["sweep", diagram.parameter, "cycle", "angle [theta_cr]", "velocity [alpha theta_cr]"]
-        )
-        for way, fell, points in zip(diagram.sweeps, diagram.overturned, diagram.points, strict=True):
-            for value, gone, rows in zip(diagram.values.tolist(), fell, points, strict=True):
-                if gone:
-                    writer.writerow([way, value, "overturned", "", ""])
-                else:
-                    writer.writerows([way, value, k, *row] for k, row in enumerate(rows.tolist()))
+
+def _tables(diagram: OrbitDiagram, block: Block | None) -> Iterator[dict[str, Any]]:
+    """Columns by their heading, of one value after another."""
+    for way, fell, points in zip(diagram.sweeps, diagram.overturned, diagram.points, strict=True):
+        for value, gone, rows in zip(diagram.values, fell, points, strict=True):
+            count = 1 if gone else len(rows)
+            said = {
+                "sweep": np.full(count, way),
+                diagram.parameter: np.full(count, value),
+                "cycle": np.array(["overturned"]) if gone else np.arange(count),
+            }
+            table = files.columns(said | {"angle": rows[:count, 0], "velocity": rows[:count, 1]}, block)
+            yield {name: np.array([""]) if _empty(column) else column for name, column in table.items()}
+
+
+def _empty(column: np.ndarray) -> bool:
+    """Whether it holds no numbers, for there the block overturned."""
+    return column.dtype.kind == "f" and bool(np.isnan(column).all())
 
 
 def write_netcdf(diagram: OrbitDiagram, block: Block | None, path: Path) -> None:
-    """The diagram's dataset."""
-    write_dataset(diagram.to_xarray(), path)
+    """The diagram's dataset, with its values in SI if there is a block."""
+    files.write_dataset(files.with_block(diagram.to_xarray(), block), path)
 
 
 WRITERS: dict[str, Callable[[OrbitDiagram, Block | None, Path], None]] = {

@@ -7,10 +7,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from rocking.cli.options import option, your_input
-from rocking.model import check_writable, replacing
+from rocking.model import PHYSICAL, block_attributes, check_writable, replacing
 
 if TYPE_CHECKING:
     import xarray as xr
+
+    from rocking.model import Block
 
 PICTURES = (".png", ".svg", ".pdf")
 SUFFIXES = {"plot": PICTURES, "csv": (".csv",), "netcdf": (".nc",)}
@@ -37,6 +39,34 @@ def write_csv(tables: Iterable[Mapping[str, Any]], path: Path) -> None:
             if number == 0:
                 writer.writerow(table)
             writer.writerows(zip(*(column.tolist() for column in table.values()), strict=True))
+
+
+def columns(table: Mapping[str, Any], block: Block | None) -> dict[str, Any]:
+    """Normalised columns with their units in the headings; those of a block are repeated in SI."""
+    known = {name: PHYSICAL[name] for name in table if name in PHYSICAL}
+    told = {
+        f"{name} [{known[name].normalised}]" if name in known else name: column
+        for name, column in table.items()
+    }
+    if block is None:
+        return told
+    return told | {each.heading: each.turn(block, table[name]) for name, each in known.items()}
+
+
+def with_block(data: xr.Dataset, block: Block | None) -> xr.Dataset:
+    """The dataset with its block: coordinates in SI beside the normalised ones, and what block it is."""
+    if block is None:
+        return data
+    beside = {
+        each.key: (
+            data[name].dims,
+            each.turn(block, data[name].values),
+            {"long_name": f"{each.name} in SI", "units": each.cf},
+        )
+        for name, each in PHYSICAL.items()
+        if name in data.coords
+    }
+    return data.assign_coords(beside).assign_attrs(block_attributes(block))
 
 
 def write_dataset(data: xr.Dataset, path: Path) -> None:

@@ -9,9 +9,10 @@ from typing import TYPE_CHECKING, Any
 
 import attrs
 
+from rocking.cli import applies
 from rocking.cli.options import as_typed
 from rocking.cli.screen import Row, print_json, print_table
-from rocking.cli.summary import asked, physical, question, reach
+from rocking.cli.summary import asked, beyond, physical, question, reach
 from rocking.model import counted, plus_minus
 
 if TYPE_CHECKING:
@@ -27,7 +28,11 @@ def show(verdict: Verdict, block: Block | None, file: Path | None, *, as_json: b
         print_json(record(verdict, block, file))
         return
     rows = [*asked(verdict, block), *found(verdict, block)]
-    print_table(as_typed(str(verdict), BUDGET), rows, [] if file is None else [file])
+    more = list(beyond(verdict.start.angle, block))
+    if block is not None:
+        over, motion = applies.shown_by(verdict)
+        more += [over, *applies.lines(motion, block)]
+    print_table(as_typed(str(verdict), BUDGET), rows, [] if file is None else [file], more)
 
 
 def found(verdict: Verdict, block: Block | None) -> Iterator[Row]:
@@ -82,7 +87,11 @@ def record(verdict: Verdict, block: Block | None, file: Path | None) -> dict[str
         else {"phase": orbit.phase, "residual": orbit.residual} | attrs.asdict(orbit.state),
         "files": [] if file is None else [str(file)],
     }
-    return told if block is None else told | {"block": physical(verdict, block)}
+    if block is None:
+        return told
+    over, motion = applies.shown_by(verdict)
+    validity = applies.record(motion, block)
+    return told | {"block": physical(verdict, block), "judged": over, "validity": validity}
 
 
 def _parts(multipliers: tuple[complex, complex]) -> list[list[float]]:

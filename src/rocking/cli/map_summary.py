@@ -6,9 +6,13 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
+from rocking.cli.applies import warned, warnings
 from rocking.cli.maps import COUNTS
 from rocking.cli.quantities import TOLD
 from rocking.cli.screen import Row, print_json, print_table
+from rocking.cli.summary import asked_in_si, beyond, in_si
 from rocking.model import counted, percent
 
 if TYPE_CHECKING:
@@ -18,8 +22,6 @@ if TYPE_CHECKING:
 
 OPEN = ("unresolved-reset", "unwatched", "indistinct", "between", "crowded")
 """Why a response is undetermined."""
-SHAKING = {"amplitude": ("acceleration", "m/s²"), "period": ("seconds", "s"), "frequency": ("hertz", "Hz")}
-"""What a block makes of each, and in which unit."""
 
 
 def show(found: xr.Dataset, block: Block | None, files: list[Path], *, as_json: bool) -> None:
@@ -27,29 +29,35 @@ def show(found: xr.Dataset, block: Block | None, files: list[Path], *, as_json: 
     from rocking.survey import counts
 
     kinds, grounds = counts(found, "kind"), counts(found, "evidence")
+    doubts = warnings(block, _values(found, "amplitude"), _values(found, "restitution"))
     if as_json:
-        print_json(record(found, kinds, grounds, files))
+        told = {} if block is None else {"block": asked_in_si(found, block), "warnings": doubts}
+        print_json(record(found, kinds, grounds, files) | told)
         return
     size = " × ".join(f"{found.sizes[name]:,}" for name in found.kind.dims)
-    print_table(f"parametric map, {size} points", [*_asked(found, block), *_found(kinds, grounds)], files)
+    rows = [*_asked(found, block), *_found(kinds, grounds)]
+    more = [*beyond(_farthest(found), block), *warned(doubts)]
+    print_table(f"parametric map, {size} points", rows, files, more)
+
+
+def _values(found: xr.Dataset, name: str) -> Any:
+    """Those of an axis, or the one that does not vary."""
+    return found[name].values if name in found.coords else found.attrs[name]
+
+
+def _farthest(found: xr.Dataset) -> float:
+    """The start farthest from upright."""
+    return float(max(np.atleast_1d(_values(found, "angle")), key=abs))
 
 
 def _asked(found: xr.Dataset, block: Block | None) -> Iterator[Row]:
     for name in map(str, found.kind.dims):
         first, last = found[name].values[[0, -1]]
-        yield name, f"{first:.6g} to {last:.6g}", _in_si(name, (first, last), block)
+        yield name, f"{first:.6g} to {last:.6g}", in_si(name, (first, last), block)
     for name in (*TOLD, "max_cycles"):
         if name in found.attrs:
             value = found.attrs[name]
-            yield name.replace("_", " "), f"{value:.6g}", _in_si(name, (value,), block)
-
-
-def _in_si(name: str, values: tuple[float, ...], block: Block | None) -> str:
-    """What shakes a block, as it was asked."""
-    if block is None or name not in SHAKING:
-        return ""
-    physical, unit = SHAKING[name]
-    return " to ".join(f"{getattr(block, physical)(value):.4g}" for value in values) + f" {unit}"
+            yield name.replace("_", " "), f"{value:.6g}", in_si(name, value, block)
 
 
 def _found(kinds: dict[str, int], grounds: dict[str, int]) -> Iterator[Row]:

@@ -52,16 +52,10 @@ def question(typed: Mapping[str, Any], file: Path | None) -> Question:
         counts | quantities.normalised(given),
         drawn,
         **places,
-        block=_block(given),
+        block=quantities.block_of(given),
     )
     _check_theory(asked)
     return asked
-
-
-def _block(given: Mapping[str, Any]) -> Block | None:
-    from rocking.model import Block
-
-    return Block(given["height"], given["width"]) if "height" in given else None
 
 
 def _checks() -> dict[str, studies.Check]:
@@ -133,18 +127,20 @@ def write_tiles(found: xr.Dataset, path: Path, asked: Question) -> None:
     plot.tiles(found, path.parent, asked.block)
 
 
-def write_netcdf(found: xr.Dataset, path: Path, _: Question) -> None:
-    """The map as it is, tile by tile."""
+def write_netcdf(found: xr.Dataset, path: Path, asked: Question) -> None:
+    """The map as it is, tile by tile; of a block with its axes in SI as well."""
     from rocking.survey import to_netcdf
 
-    to_netcdf(found, path)
+    to_netcdf(files.with_block(found, asked.block), path)
 
 
-def write_csv(found: xr.Dataset, path: Path, _: Question) -> None:
-    """A row a point: the axes, then all that was found, flags as words."""
+def write_csv(found: xr.Dataset, path: Path, asked: Question) -> None:
+    """A row a point: the axes, then all that was found, flags as words; of a block then what has a unit in SI."""
     from rocking.survey import tables
 
-    files.write_csv(tables(found), path)
+    block = asked.block
+    rows = tables(found)
+    files.write_csv(rows if block is None else (files.columns(table, block) for table in rows), path)
 
 
 WRITERS: dict[str, Callable[[xr.Dataset, Path, Question], None]] = {

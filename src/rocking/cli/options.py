@@ -44,6 +44,8 @@ Number = float | None
 
 NORMALISED = ("amplitude", "period", "frequency")
 SI = ("height", "width", "acceleration", "acceleration_g", "displacement", "frequency_hz", "period_s")
+SCANNED_SI = tuple(name for name in SI if name != "displacement")
+"""Where accelerations are scanned: one displacement is another acceleration at each frequency."""
 FORCED = (*NORMALISED, *SI, "restitution")
 SYSTEM = (*FORCED, "phase", "brace_angle", "brace_restitution")
 START = ("angle", "velocity")
@@ -62,7 +64,7 @@ HELP = {
     "phase": "φ of the base's acceleration, rad.",
     "brace_angle": "Θb of side braces, in θcr; no braces unless given.",
     "brace_restitution": "r at a brace; 1 unless given.",
-    "angle": "Θ at the start, in θcr.",
+    "angle": "Θ at the start, in units of the critical angle θcr, not in degrees.",
     "velocity": "Θ' at the start, in θcr per τ.",
 }
 """What an option of a system or a start says, whoever asks for it."""

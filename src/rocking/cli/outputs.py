@@ -78,14 +78,9 @@ def tables(motion: Motion, block: Block | None) -> Iterator[dict[str, Any]]:
         count = (last - first) * STEPS_PER_CYCLE + (last == motion.cycles)
         time = np.minimum((first * STEPS_PER_CYCLE + np.arange(count)) * step, motion.duration)
         angle, velocity = motion.at(time)
-        table = {"time [1/alpha]": time, "angle [theta_cr]": angle, "velocity [alpha theta_cr]": velocity}
+        table = files.columns({"time": time, "angle": angle, "velocity": velocity}, block)
         if block is not None:
-            table |= {
-                "time [s]": block.seconds(time),
-                "angle [rad]": block.radians(angle),
-                "velocity [rad/s]": block.radians_per_second(velocity),
-                "top_displacement [m]": block.top_displacement(angle),
-            }
+            table["top_displacement [m]"] = block.top_displacement(angle)
         yield table
 
 

@@ -13,12 +13,15 @@ from rocking.cli.studies import Study
 
 EXAMPLES = """\
 rocking overturning --period 0.4:3:50 --restitution 0.925 --plot overturning.png
-rocking overturning --period 1 --restitution 0.925 --amplitude 1:16:1501 --phases 1 --json"""
+rocking overturning --period 1 --restitution 0.925 --amplitude 1:16:1501 --phases 1 --json
+rocking overturning --height 2 --width 0.5 --frequency-hz 1:2:10"""
 
-Restitution = Annotated[ask.Number, axes.value_option("--restitution", "e at an impact.")]
 Amplitude = Annotated[
     Any,
-    axes.axis_option("--amplitude", "Amplitudes to scan: START:STOP:COUNT; 1:16:301 unless given."),
+    axes.axis_option(
+        "--amplitude",
+        "Normalised: amplitudes to scan, START:STOP:COUNT; 1:16:301 unless given, in SI the like.",
+    ),
 ]
 Phases = Annotated[
     ask.Number,
@@ -36,10 +39,9 @@ Plot = Annotated[
 ]
 
 
-@ask.asks("period", "frequency", declare=axes.value_option)
+@ask.asks("period", "frequency", *ask.SCANNED_SI, "restitution", declare=axes.value_option)
 def overturning(
     context: typer.Context,
-    restitution: Restitution = None,
     amplitude: Amplitude = None,
     phases: Phases = None,
     max_cycles: MaxCycles = None,
@@ -60,6 +62,6 @@ def overturning(
 
     asked = thresholds.question(context.params, study)
     files = surveys.files_of(asked)
-    found = thresholds.compute(asked)
-    surveys.write(found, "overturning", files)
-    thresholds.show(found, surveys.written(asked, files), as_json=json)
+    found, block = thresholds.compute(asked)
+    thresholds.write(found, files, block)
+    thresholds.show(found, block, surveys.written(asked, files), as_json=json)

@@ -5,12 +5,15 @@ from __future__ import annotations
 from collections.abc import Mapping
 from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from rocking.cli.axes import FORM, VARIES, Axis
 from rocking.cli.options import SI, YourInput, question
 from rocking.cli.studies import Check, quantity
 from rocking.model import instance, reals, refusal, whole
+
+if TYPE_CHECKING:
+    from rocking.model import Block
 
 TOLD = (
     "amplitude",
@@ -71,6 +74,17 @@ def _numbers(given: Mapping[str, Any]) -> dict[str, Any]:
     if system.braces is not None:
         told |= {"brace_angle": system.braces.angle, "brace_restitution": system.braces.restitution}
     return told
+
+
+def block_of(given: Mapping[str, Any]) -> Block | None:
+    """The block of what is asked in SI; where the restitution varies, with the first."""
+    from rocking.model import Block
+
+    if "height" not in given:
+        return None
+    restitution = given.get("restitution")
+    first = restitution.start if isinstance(restitution, Axis) else restitution
+    return Block(given["height"], given["width"], first[0] if isinstance(first, list) else first)
 
 
 def values(asked: Any) -> Any:

@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from rich.console import Console
 
 Row = tuple[str, ...]
+WARNING = "warning: "
 
 
 def screen() -> Console:
@@ -28,7 +29,7 @@ def print_table(title: str, rows: Iterable[Row], files: Iterable[Path], more: It
     for line in aligned(list(rows)):
         console.print(line)
     for line in more:
-        console.print(line, style="yellow" if line.startswith("warning") else None)
+        console.print(line, style="yellow" if line.startswith(WARNING) else None)
     for path in files:
         console.print(f"wrote {path}")
 

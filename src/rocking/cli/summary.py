@@ -3,18 +3,21 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import attrs
+import numpy as np
 
-from rocking.cli.outputs import MOST_CYCLES_KEPT
-from rocking.cli.screen import Row, print_json, print_table
-from rocking.model import counted
+from rocking.cli import applies
+from rocking.cli.screen import WARNING, Row, print_json, print_table
+from rocking.model import GRAVITY, PHYSICAL, Block, counted
 
 if TYPE_CHECKING:
-    from rocking.model import Block, System, Verdict
+    import xarray as xr
+
+    from rocking.model import System, Verdict
     from rocking.motion import Motion
 
 
@@ -23,9 +26,8 @@ def show(motion: Motion, block: Block | None, files: Sequence[Path], *, as_json:
     if as_json:
         print_json(record(motion, block, files))
         return
-    print_table(
-        verdict(motion), [*asked(motion, block), *found(motion, block)], files, validity(motion, block)
-    )
+    more = [*beyond(motion.start.angle, block), *applies.lines(motion, block)]
+    print_table(verdict(motion), [*asked(motion, block), *found(motion, block)], files, more)
 
 
 def verdict(motion: Motion) -> str:
@@ -65,14 +67,54 @@ def asked_of(system: System, block: Block | None) -> Iterator[Row]:
         yield "", "normalised", "in SI"
         yield "critical angle", "1", f"{block.degrees(1.0):.4g}°"
         yield "time unit 1/α", "1", f"{block.seconds(1.0):.4g} s"
-        yield "amplitude", f"A = {forcing.amplitude:.6g}", f"{block.acceleration(forcing.amplitude):.4g} m/s²"
-        yield "period", f"T = {forcing.period:.6g}", f"{block.seconds(forcing.period):.4g} s"
+        yield "amplitude", f"A = {forcing.amplitude:.6g}", in_si("amplitude", forcing.amplitude, block)
+        yield "period", f"T = {forcing.period:.6g}", in_si("period", forcing.period, block)
         yield "phase", f"φ = {forcing.phase:.6g}", f"{math.degrees(forcing.phase):.4g}°"
         chosen = "Housner's for this block" if block.has_housner_restitution else "as chosen"
         yield "restitution", f"e = {restitution:.6g}", chosen
     if braces is not None:
         at = "" if block is None else f"{block.degrees(braces.angle):.4g}°"
         yield "braces", f"Θb = {braces.angle:.6g}, r = {braces.restitution:.6g}", at
+
+
+def in_si(name: str, values: Any, block: Block | None) -> str:
+    """What a block makes of a quantity, or of the ends of a range of it; of an acceleration in m/s² and in g."""
+    if block is None or name not in SHOWN:
+        return ""
+    turn, unit = SHOWN[name]
+    shown = f"{_range(turn(block, values))}{unit}"
+    return f"{shown} = {_range(block.acceleration(values) / GRAVITY)} g" if name == "amplitude" else shown
+
+
+def _range(values: Any) -> str:
+    return " to ".join(f"{value:.4g}" for value in np.atleast_1d(values))
+
+
+def _degrees_per_second(block: Block, velocities: Any) -> Any:
+    return np.degrees(block.radians_per_second(velocities))
+
+
+SHOWN: dict[str, tuple[Callable[[Block, Any], Any], str]] = {
+    "amplitude": (Block.acceleration, " m/s²"),
+    "period": (Block.seconds, " s"),
+    "frequency": (Block.hertz, " Hz"),
+    "angle": (Block.degrees, "°"),
+    "velocity": (_degrees_per_second, "°/s"),
+    "brace_angle": (Block.degrees, "°"),
+}
+"""What a block makes of each, and in which unit it is read."""
+
+
+def beyond(angle: float, block: Block | None) -> Iterator[str]:
+    """A hint where the block starts beyond the angle at which it falls by itself: degrees may have been meant."""
+    if abs(angle) <= 1.0:
+        return
+    meant = "" if block is None else f"; {angle:.6g}° is --angle {block.angle(degrees=angle):.4g}"
+    at = "" if block is None else f" = {block.degrees(angle):.4g}°"
+    yield (
+        f"{WARNING}--angle {angle:.6g} is {angle:.6g} θcr{at}, beyond the critical angle θcr, from which the block falls by its own "
+        f"weight: it is in units of θcr, not in degrees{meant}"
+    )
 
 
 def found(motion: Motion, block: Block | None) -> Iterator[Row]:
@@ -108,18 +150,7 @@ def _cut(motion: Motion, end: str) -> str:
 def _state(state: Any, block: Block | None) -> str:
     if block is None:
         return ""
-    return f"{block.degrees(state.angle):.4g}°, {block.degrees(state.velocity) * block.frequency_parameter:.4g}°/s"
-
-
-def validity(motion: Motion, block: Block | None) -> list[str]:
-    """Whether the model applies to the block, in a few lines; nothing for a normalised system."""
-    if block is None:
-        return []
-    if motion.record != "all":
-        long = motion.cycles > MOST_CYCLES_KEPT
-        why = f"more than {MOST_CYCLES_KEPT:,} cycles" if long else "more events than are kept"
-        return [f"warning: whether the block slides or jumps is not judged: {why}"]
-    return str(motion.validity(block)).splitlines()
+    return f"{in_si('angle', state.angle, block)}, {in_si('velocity', state.velocity, block)}"
 
 
 def record(motion: Motion, block: Block | None, files: Sequence[Path]) -> dict[str, Any]:
@@ -139,7 +170,7 @@ def record(motion: Motion, block: Block | None, files: Sequence[Path]) -> dict[s
     }
     if block is not None:
         summary["block"] = physical(motion, block)
-        summary["validity"] = attrs.asdict(motion.validity(block)) if motion.record == "all" else None
+        summary["validity"] = applies.record(motion, block)
     return summary
 
 
@@ -177,6 +208,18 @@ def size_of(block: Block) -> dict[str, float]:
         "critical_angle_deg": float(block.degrees(1.0)),
         "time_unit_s": block.seconds(1.0),
     }
+
+
+def asked_in_si(data: xr.Dataset, block: Block) -> dict[str, Any]:
+    """The block, and what its survey varies or keeps, in SI."""
+    asked: dict[str, Any] = {}
+    for name, each in PHYSICAL.items():
+        if name in data.coords:
+            start, stop = each.turn(block, data[name].values[[0, -1]]).tolist()
+            asked[each.key] = {"start": start, "stop": stop, "count": data.sizes[name]}
+        elif name in data.attrs:
+            asked[each.key] = float(each.turn(block, data.attrs[name]))
+    return size_of(block) | asked
 
 
 def physical_of(system: System, block: Block) -> dict[str, Any]:

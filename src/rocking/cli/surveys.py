@@ -7,12 +7,12 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from rocking.cli.files import check_files, write_dataset
+from rocking.cli.files import check_files, with_block, write_dataset
 from rocking.cli.options import ARGUMENTS as SYSTEM_ARGUMENTS
 from rocking.cli.options import as_typed, your_input
 
 if TYPE_CHECKING:
-    from rocking.model import BasinMap, OverturningCurve, Share
+    from rocking.model import BasinMap, Block, OverturningCurve, Share
 
 OWN = ("samples", "seed", "boundary_runs", "phases", "store", "repair", "brace_angle", "brace_restitution")
 ARGUMENTS = SYSTEM_ARGUMENTS | {name: name for name in OWN}
@@ -36,14 +36,16 @@ def files_of(asked: Mapping[str, Any]) -> dict[str, Path]:
     return check_files({name: asked.get(name) for name in FILES})
 
 
-def write(found: BasinMap | OverturningCurve, picture: str, files: Mapping[str, Path]) -> None:
-    """Write a picture and the dataset."""
+def write(
+    found: BasinMap | OverturningCurve, picture: str, files: Mapping[str, Path], block: Block | None
+) -> None:
+    """Write a picture and the dataset, with SI axes if there is a block."""
     if "plot" in files:
         from rocking import plot
 
-        plot.save(getattr(plot, picture)(found), files["plot"])
+        plot.save(getattr(plot, picture)(found, block=block), files["plot"])
     if "netcdf" in files:
-        write_dataset(found.dataset, files["netcdf"])
+        write_dataset(with_block(found.dataset, block), files["netcdf"])
 
 
 def written(asked: Mapping[str, Any], files: Mapping[str, Path]) -> list[Path]:

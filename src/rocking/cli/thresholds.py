@@ -7,23 +7,29 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from rocking.cli import quantities, studies
-from rocking.cli.options import YourInput
-from rocking.cli.screen import print_json, print_table
+from rocking.cli import quantities, studies, surveys
+from rocking.cli.applies import warned, warnings
+from rocking.cli.axes import FORM, Axis
+from rocking.cli.options import SCANNED_SI, YourInput, option
+from rocking.cli.screen import Row, print_json, print_table
+from rocking.cli.summary import asked_in_si, in_si
 from rocking.cli.surveys import FILES, MOST_ROWS, carried_out
+from rocking.model import GRAVITY, PHYSICAL, OverturningCurve
 
 if TYPE_CHECKING:
     import xarray as xr
 
-    from rocking.model import OverturningCurve
+    from rocking.model import Block
 
 ASKED = ("period", "frequency", "restitution", "amplitude")
+LEVELS = ("lowest", "resolution", "survived_up_to")
+"""What is an amplitude of the answer."""
 
 
 def question(typed: Mapping[str, Any], file: Path | None) -> dict[str, Any]:
     """What options and study file ask for; what is typed wins."""
     given = studies.asked(typed, file, _checks())
-    if "restitution" not in given:
+    if "restitution" not in given and not given.keys() & set(SCANNED_SI):
         raise YourInput("missing --restitution")
     return given
 
@@ -35,56 +41,113 @@ def _checks() -> dict[str, studies.Check]:
 
     limits = {"phases": (1, MOST_PHASES), "max_cycles": (1, MOST_CYCLES), "max_period": (1, MOST_PERIOD)}
     return {
-        **quantities.varying(*ASKED),
+        **quantities.varying(*ASKED, *SCANNED_SI),
         **quantities.counts(limits),
         **quantities.places("store", *FILES),
     }
 
 
-def compute(given: Mapping[str, Any]) -> OverturningCurve:
-    """The curve."""
+def compute(given: Mapping[str, Any]) -> tuple[OverturningCurve, Block | None]:
+    """The curve, and the block if it is in SI."""
     from rocking.survey import overturning_amplitude
 
-    asked = {
-        name: quantities.values(each) if name in ASKED else each
-        for name, each in given.items()
-        if name not in FILES
-    }
-    return carried_out(overturning_amplitude, asked)
+    shaken = {name: each for name, each in given.items() if name in (*ASKED, *SCANNED_SI)}
+    others = {name: each for name, each in given.items() if name not in (*shaken, *FILES)}
+    if shaken.keys() & set(SCANNED_SI):
+        asked = _normalised(shaken)
+    else:
+        asked = {name: quantities.values(each) for name, each in shaken.items()}
+    found = carried_out(overturning_amplitude, asked | others)
+    return found, quantities.block_of(given)
 
 
-def show(found: OverturningCurve, files: list[Path], *, as_json: bool) -> None:
+def _normalised(given: Mapping[str, Any]) -> dict[str, Any]:
+    """What is asked in SI; of accelerations nothing unless they are given."""
+    levels = [name for name in ("acceleration", "acceleration_g") if name in given]
+    for name in levels:
+        if not isinstance(given[name], Axis):
+            raise YourInput(f"{option(name)} must be an axis, {FORM}, of what is scanned; got {given[name]}")
+    asked = quantities.normalised(given if levels else {**given, "acceleration": 0.0})
+    return {name: asked[name] for name in ASKED if name in asked and (levels or name != "amplitude")}
+
+
+def write(found: OverturningCurve, files: Mapping[str, Path], block: Block | None) -> None:
+    """Write the picture and the dataset, of a block with the levels in SI as well."""
+    data = found.dataset
+    if block is not None:
+        levels = {_key(name): block.acceleration(data[name].values) for name in LEVELS}
+        told = {"units": PHYSICAL["amplitude"].cf}
+        data = data.assign({name: (data.lowest.dims, each, told) for name, each in levels.items()})
+    surveys.write(OverturningCurve(data), "overturning", files, block)
+
+
+def _key(level: str) -> str:
+    return f"{level}_{PHYSICAL['amplitude'].key}"
+
+
+def show(found: OverturningCurve, block: Block | None, files: list[Path], *, as_json: bool) -> None:
     """Print the lowest overturning amplitudes."""
+    doubts = _warnings(found, block)
     if as_json:
-        print_json(record(found, files))
+        told = {} if block is None else {"block": asked_in_si(found.dataset, block), "warnings": doubts}
+        print_json(record(found, block, files) | told)
         return
-    print_table(str(found), rows(found), files)
+    print_table(title(found, block), rows(found, block), files, warned(doubts))
 
 
-COLUMNS = ("lowest", "resolution", "survived_up_to", "surviving_above")
+def title(found: OverturningCurve, block: Block | None) -> str:
+    """The least of all, of a block first in SI."""
+    lowest = found.dataset.lowest
+    if block is None:
+        return str(found)
+    if lowest.isnull().all():
+        return f"{found}: {in_si('amplitude', found.dataset.amplitude.values[[0, -1]], block)}"
+    where = lowest.isel({} if lowest.ndim == 0 else lowest.argmin(...))
+    at = [in_si(str(name), float(where[name]), block) for name in lowest.dims]
+    told = " and ".join([in_si("amplitude", float(where), block), *filter(None, at)])
+    return f"a block of {block.size} overturns from rest at {told}; normalised: {found}"
 
 
-def rows(found: OverturningCurve) -> Iterator[tuple[str, ...]]:
-    """A row a value of what varies."""
+def _warnings(found: OverturningCurve, block: Block | None) -> list[str]:
+    data = found.dataset
+    lowest = data.lowest.values[data.lowest.notnull().values]
+    restitution = data.restitution.values if "restitution" in data.coords else data.attrs["restitution"]
+    return warnings(block, lowest, restitution)
+
+
+COLUMNS = (*LEVELS, "surviving_above")
+
+
+def rows(found: OverturningCurve, block: Block | None) -> Iterator[Row]:
+    """A row a value of what varies, then the same in SI."""
     data = found.dataset
     over = [str(name) for name in data.lowest.dims]
-    yield (*over, "lowest A", "scanned at steps of", "all survive up to", "survive above")
+    known = [] if block is None else [name for name in over if name in PHYSICAL]
+    heading = (*over, "lowest A", "scanned at steps of", "all survive up to", "survive above")
+    in_units = () if block is None else ("m/s²", "g", "steps, m/s²", "up to, m/s²")
+    yield (*heading, *(PHYSICAL[name].unit for name in known), *in_units)
     for index in list(_places(data))[:MOST_ROWS]:
-        at = [f"{data[name].values[k]:.6g}" for name, k in zip(over, index, strict=True)]
+        at = {name: data[name].values[k] for name, k in zip(over, index, strict=True)}
         low, step, up_to, above = (float(data[name].values[index]) for name in COLUMNS)
-        yield (
-            *at,
+        told = [
+            *(f"{value:.6g}" for value in at.values()),
             "none" if math.isnan(low) else f"{low:.6g}",
             _number(step),
             _number(up_to),
             "–" if math.isnan(above) else f"{100 * above:.3g} %",
-        )
+        ]
+        if block is not None:
+            told += [f"{PHYSICAL[name].turn(block, at[name]):.4g}" for name in known]
+            levels = [block.acceleration(level) for level in (low, step, up_to)]
+            told += [_number(level, 4) for level in (levels[0], levels[0] / GRAVITY, *levels[1:])]
+        yield tuple(told)
     left = data.lowest.size - MOST_ROWS
     if left > 0:
-        yield (f"and {left} more (--json, --netcdf and --plot have all)", *[""] * (len(over) + 3))
+        rest = len(heading) + len(known) + len(in_units) - 1
+        yield (f"and {left} more (--json, --netcdf and --plot have all)", *[""] * rest)
 
 
-def record(found: OverturningCurve, files: list[Path]) -> dict[str, Any]:
+def record(found: OverturningCurve, block: Block | None, files: list[Path]) -> dict[str, Any]:
     """The same for a program to read."""
     data = found.dataset
     over = [str(name) for name in data.lowest.dims]
@@ -94,6 +157,14 @@ def record(found: OverturningCurve, files: list[Path]) -> dict[str, Any]:
         | {name: float(data[name].values[index]) for name in (*COLUMNS, "lowest_phase", "undetermined")}
         for index in _places(data)
     ]
+    if block is not None:
+        for row in rows:
+            row |= {
+                PHYSICAL[name].key: float(PHYSICAL[name].turn(block, row[name]))
+                for name in over
+                if name in PHYSICAL
+            }
+            row |= {_key(name): float(block.acceleration(row[name])) for name in LEVELS}
     fixed = {name: data.attrs[name] for name in ("period", "frequency", "restitution") if name in data.attrs}
     scanned = {"start": float(amplitudes[0]), "stop": float(amplitudes[-1]), "count": int(amplitudes.size)}
     return {
@@ -111,5 +182,5 @@ def _places(data: xr.Dataset) -> Iterator[tuple[int, ...]]:
     yield from np.ndindex(*data.lowest.shape)
 
 
-def _number(number: float) -> str:
-    return "–" if math.isnan(number) else f"{number:.6g}"
+def _number(number: float, digits: int = 6) -> str:
+    return "–" if math.isnan(number) else f"{number:.{digits}g}"
