@@ -44,8 +44,6 @@ Number = float | None
 
 NORMALISED = ("amplitude", "period", "frequency")
 SI = ("height", "width", "acceleration", "acceleration_g", "displacement", "frequency_hz", "period_s")
-SCANNED_SI = tuple(name for name in SI if name != "displacement")
-"""Where accelerations are scanned: one displacement is another acceleration at each frequency."""
 FORCED = (*NORMALISED, *SI, "restitution")
 SYSTEM = (*FORCED, "phase", "brace_angle", "brace_restitution")
 START = ("angle", "velocity")

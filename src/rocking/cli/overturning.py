@@ -16,13 +16,19 @@ rocking overturning --period 0.4:3:50 --restitution 0.925 --plot overturning.png
 rocking overturning --period 1 --restitution 0.925 --amplitude 1:16:1501 --phases 1 --json
 rocking overturning --height 2 --width 0.5 --frequency-hz 1:2:10"""
 
+SHAKEN = ("period", "frequency", "height", "width", "frequency_hz", "period_s", "restitution")
 Amplitude = Annotated[
     Any,
     axes.axis_option(
         "--amplitude",
-        "Normalised: amplitudes to scan, START:STOP:COUNT; 1:16:301 unless given, in SI the like.",
+        "Normalised: amplitudes to scan, START:STOP:COUNT; 1:16:301 unless given.",
     ),
 ]
+Acceleration = Annotated[
+    Any,
+    axes.axis_option("--acceleration", "SI: accelerations to scan, m/s²; 1:16:301 times g θcr unless given."),
+]
+AccelerationG = Annotated[Any, axes.axis_option("--acceleration-g", "SI: the same in units of g.")]
 Phases = Annotated[
     ask.Number,
     ask.number_option("--phases", "Phases at which the shaking begins; 16 unless given."),
@@ -39,10 +45,12 @@ Plot = Annotated[
 ]
 
 
-@ask.asks("period", "frequency", *ask.SCANNED_SI, "restitution", declare=axes.value_option)
+@ask.asks(*SHAKEN, declare=axes.value_option)
 def overturning(
     context: typer.Context,
     amplitude: Amplitude = None,
+    acceleration: Acceleration = None,
+    acceleration_g: AccelerationG = None,
     phases: Phases = None,
     max_cycles: MaxCycles = None,
     max_period: ask.SurveyPeriod = None,

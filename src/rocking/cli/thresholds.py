@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from rocking.cli import quantities, studies, surveys
 from rocking.cli.applies import warned, warnings
 from rocking.cli.axes import FORM, Axis
-from rocking.cli.options import SCANNED_SI, YourInput, option
+from rocking.cli.options import SI, YourInput, option
 from rocking.cli.screen import Row, print_json, print_table
 from rocking.cli.summary import asked_in_si, in_si
 from rocking.cli.surveys import FILES, MOST_ROWS, carried_out
@@ -21,6 +21,8 @@ if TYPE_CHECKING:
 
     from rocking.model import Block
 
+SCANNED_SI = tuple(name for name in SI if name != "displacement")
+"""One displacement is another acceleration at each frequency."""
 ASKED = ("period", "frequency", "restitution", "amplitude")
 LEVELS = ("lowest", "resolution", "survived_up_to")
 """What is an amplitude of the answer."""
