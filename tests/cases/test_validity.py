@@ -245,7 +245,7 @@ def test_overturning_motion_is_judged_up_to_its_proof():
     assert motion.overturning is not None
     assert max(found.reaction_time, found.friction_time) <= found.until == motion.overturning.time
     assert 0 < found.friction < math.inf
-    assert str(found).startswith(f"judged up to τ = {found.until:.6g}, where no return is proved\n")
+    assert str(found).startswith(f"judged up to τ = {found.until:.6g}, where it is proved never to return\n")
 
 
 @pytest.mark.parametrize(

@@ -76,7 +76,7 @@ def test_overturning_is_told_with_its_time(rocking):
     code, _, out = rocking("simulate --amplitude 1.75 --period 2 --restitution 0.95")
     assert code == 0
     assert out.startswith(
-        f"overturned: no return is proved at τ = {motion.overturning.time:.6g}, in the 6th cycle\n"
+        f"overturned: proved at τ = {motion.overturning.time:.6g}, in the 6th cycle, never to return\n"
     )
 
 
@@ -138,7 +138,7 @@ def test_run_too_long_to_judge_names_the_limit_and_one_that_overturns_early_is_j
     assert said in rocking(f"{line} 0.1")[2]
     early = rocking(f"{line} 3")[2]
     assert early == rocking(f"{line} 3".replace("1000000", "200"))[2]
-    assert "judged up to τ = 15.5003, where no return is proved\n" in early
+    assert "judged up to τ = 15.5003, where it is proved never to return\n" in early
 
 
 @pytest.mark.parametrize("columns", ["20", "80", "200"])

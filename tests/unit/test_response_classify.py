@@ -44,13 +44,13 @@ SAID = {
         FALLING,
         None,
         {},
-        "overturned: no return: after 4 impacts, at τ = 10.3092, the growing part of the motion can no longer be undone (exact)",
+        "overturned: proved after 4 impacts, at τ = 10.3092, never to return: the growing part of the motion can no longer be undone (exact)",
     ),
     "no return at once": (
         system(0.0, 1.0, 0.9),
         rk.State(1.5),
         {},
-        "overturned: no return: without an impact, at τ = 0, the growing part of the motion can no longer be undone (exact)",
+        "overturned: proved without an impact, at τ = 0, never to return: the growing part of the motion can no longer be undone (exact)",
     ),
     "rest": (RESTING, None, {}, "rest: rests for ever: A = 0.5 ≤ 1 never lifts it off (exact)"),
     "rest in the end": (
@@ -71,7 +71,7 @@ SAID = {
         {},
         (
             "periodic: period 1, symmetric: every lift-off from rest is the same state but for its side, two of them are 1 half "
-            "cycle of the forcing apart, and differences grew less than 1e8-fold between them (verified, after …)"
+            "cycle of the forcing apart, and differences grew less than 1e8-fold between them (verified, within the first cycle)"
         ),
     ),
     "reset on one side": (
@@ -89,7 +89,7 @@ SAID = {
         {},
         (
             "periodic: period 1, symmetric: every release from a brace is the same state but for its side, two of them are 1 half "
-            "cycle of the forcing apart, and differences grew less than 1e8-fold between them (verified, after …)"
+            "cycle of the forcing apart, and differences grew less than 1e8-fold between them (verified, within the first cycle)"
         ),
     ),
     "unresolved reset": (
@@ -445,7 +445,7 @@ def test_end_that_another_run_does_not_meet_is_told_without_its_time(asked, monk
     monkeypatch.setattr(sys.modules[rk.classify.__module__], "simulate", lambda *_, **__: elsewhere)
     verdict = rk.classify(asked)
     assert verdict.evidence.level == "exact"
-    assert "for ever" in str(verdict) or "no return: after 6 cycles" in str(verdict)
+    assert "for ever" in str(verdict) or "proved after 6 cycles never to return" in str(verdict)
     assert str(verdict).endswith("(exact; but so sensitive until then that another rounding ends otherwise)")
 
 

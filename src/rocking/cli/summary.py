@@ -35,7 +35,7 @@ def verdict(motion: Motion) -> str:
     overturning = motion.overturning
     if overturning is not None:
         cycle = ordinal(overturning.cycle + 1)
-        return f"overturned: no return is proved at τ = {overturning.time:.6g}, in the {cycle} cycle"
+        return f"overturned: proved at τ = {overturning.time:.6g}, in the {cycle} cycle, never to return"
     if motion.outcome == "at-rest":
         return "at rest, and stays so"
     return f"bounded over {counted(motion.cycles, 'cycle')} (neither rest nor overturning was proved)"

@@ -148,7 +148,7 @@ class Verdict:
     --------
     >>> import rocking as rk
     >>> print(rk.classify(rk.System(rk.Harmonic(amplitude=1.75, period=2.0), restitution=0.95)))
-    overturned: no return: after 4 impacts, at τ = 10.3092, the growing part of the motion can no longer be undone (exact)
+    overturned: proved after 4 impacts, at τ = 10.3092, never to return: the growing part of the motion can no longer be undone (exact)
     """
 
     system: System

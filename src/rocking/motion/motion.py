@@ -50,7 +50,7 @@ class Motion:
     outcome : Outcome
         OVERTURNED or AT_REST where that is proved, else BOUNDED, which says no more than that neither was.
     overturning : Overturning or None
-        When no return was proved.
+        When it was proved never to return.
     impacts, brace_hits : int
         Impacts at Θ = 0 and hits on the braces.
     peak : float

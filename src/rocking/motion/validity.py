@@ -62,7 +62,7 @@ class Validity:
     >>> from rocking import Block, simulate
     >>> block = Block(height=2.0, width=0.5)
     >>> print(simulate(block.system(acceleration=3.0, frequency_hz=1.2)).validity(block))
-    judged up to τ = 15.5003, where no return is proved
+    judged up to τ = 15.5003, where it is proved never to return
     least friction without sliding: 0.2587 (motion, τ = 0 = 0 s)
     least base reaction: 0.8576 Mg (τ = 12.4227 = 4.651 s)
     largest angle: 0.1708 rad = 9.788°, 0.6973 of the critical angle
@@ -95,7 +95,7 @@ class Validity:
         slender = "does not apply over a right angle from balance"
         if self.forcing_error < math.inf:
             slender = f"restoring moment up to {self.moment_error:.2%}, base's push up to {self.forcing_error:.2%} too large"
-        lines = [f"judged up to τ = {self.until:.6g}, where no return is proved"] if self.overturned else []
+        lines = [f"judged up to τ = {self.until:.6g}, where it is proved never to return"] if self.overturned else []
         lines += [
             f"least friction without sliding: {friction}",
             f"least base reaction: {reaction}",

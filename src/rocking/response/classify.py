@@ -34,13 +34,13 @@ def classify(
 ) -> Verdict:
     """Tell what the response of a block is, and how that is known: the first evidence that suffices decides.
 
-    In this order: no return and rest for ever are proved. A motion that comes to rest or leans and is released as it was
-    before forgets all else. A periodic orbit is found by Newton's method with the exact Jacobian from the closest
-    return, and counts when it is stable and the motion approaches it as its multipliers say. Motion that loses nothing
-    is quasi-periodic where weighted Birkhoff averages over its flights converge and neighbours part no faster than
-    linearly. Chaotic is what has, at the
-    end of the budget and not before, a largest exponent 6 standard errors above zero. Nothing is a default: what none of
-    this shows is undetermined, and the evidence says what was tried.
+    In this order: that it never returns, or rests for ever, is proved. A motion that comes to rest or leans and is
+    released as it was before forgets all else. A periodic orbit is found by Newton's method with the exact Jacobian
+    from the closest return, and counts when it is stable and the motion approaches it as its multipliers say.
+    Motion that loses nothing is quasi-periodic where weighted Birkhoff averages over its flights converge and
+    neighbours part no faster than linearly. Chaotic is what has, at the end of the budget and not before, a largest
+    exponent 6 standard errors above zero. Nothing is a default: what none of this shows is undetermined, and the
+    evidence says what was tried.
 
     Parameters
     ----------

@@ -49,9 +49,9 @@ def _no_return(case: Case) -> Shown:
     overturning = None if case.motion is None else case.motion.overturning
     undone = "the growing part of the motion can no longer be undone"
     if overturning is None:
-        return Shown("exact", f"no return: after {spent(case)} {undone}", f"exact; {OTHERWISE}")
+        return Shown("exact", f"proved after {spent(case)} never to return: {undone}", f"exact; {OTHERWISE}")
     when = f"after {counted(overturning.impacts, 'impact')}" if overturning.impacts else "without an impact"
-    return Shown("exact", f"no return: {when}, at τ = {overturning.time:.6g}, {undone}", "exact")
+    return Shown("exact", f"proved {when}, at τ = {overturning.time:.6g}, never to return: {undone}", "exact")
 
 
 def _still_for_ever(case: Case) -> Shown:
@@ -75,7 +75,7 @@ def _reset(case: Case) -> Shown:
         f"{_periodic(judged)}: every {which} is the same state{' but for its side' * judged.symmetric}, two of them are "
         f"{apart} of the forcing apart, and differences grew less than {MOST_GROWTH}-fold between them"
     )
-    return Shown("verified", what, f"verified, after {spent(case)}", {"growth": float(MOST_GROWTH)})
+    return Shown("verified", what, f"verified, {_when(case)}", {"growth": float(MOST_GROWTH)})
 
 
 def _orbit(case: Case) -> Shown:
@@ -89,7 +89,7 @@ def _orbit(case: Case) -> Shown:
         f"unit circle (largest {_below_one(math.hypot(judged.real, judged.imaginary))}) and {reached}"
     )
     tolerances = {"residual": orbit.RESIDUAL, "approach": cycle.NONLINEAR, "distance": cycle.ROUNDING}
-    return Shown("verified", what, f"verified, after {spent(case)}", tolerances)
+    return Shown("verified", what, f"verified, {_when(case)}", tolerances)
 
 
 def _neutral_orbit(case: Case) -> Shown:
@@ -99,7 +99,7 @@ def _neutral_orbit(case: Case) -> Shown:
         "stay neighbours and need not approach"
     )
     tolerances = {"residual": orbit.RESIDUAL, "distance": verdict.UNMOVED, "digits": lossless.ENOUGH_DIGITS}
-    return Shown("verified", what, f"verified, after {spent(case)}", tolerances)
+    return Shown("verified", what, f"verified, {_when(case)}", tolerances)
 
 
 def _torus(case: Case) -> Shown:
@@ -113,7 +113,7 @@ def _torus(case: Case) -> Shown:
         "speed digits": lossless.CHAOTIC_DIGITS,
         "log shear": lossless.SHEAR,
     }
-    return Shown("verified", what, f"verified, after {spent(case)}", tolerances)
+    return Shown("verified", what, f"verified, {_when(case)}", tolerances)
 
 
 def _exponent(case: Case) -> Shown:
@@ -203,6 +203,11 @@ SHOWN: dict[kernel.Ground, Callable[[Case], Shown]] = {
 def spent(case: Case) -> str:
     """How many cycles were followed."""
     return counted(case.judgement.cycles, "cycle")
+
+
+def _when(case: Case) -> str:
+    """When it was shown: what is seen at once is seen before a cycle is over."""
+    return f"after {spent(case)}" if case.judgement.cycles else "within the first cycle"
 
 
 def at_most(size: float) -> str:

@@ -103,7 +103,7 @@ def figure_4() -> Finding:
     cycle = fell.cycle + 1 if fell else 0
     return Finding(
         motion.outcome is rk.Outcome.OVERTURNED,
-        f"{motion.outcome} in cycle {cycle}, after {motion.impacts} impacts; no return is proved",
+        f"{motion.outcome} in cycle {cycle}, after {motion.impacts} impacts; proved never to return",
     )
 
 
