@@ -9,6 +9,8 @@ import pytest
 import xarray as xr
 
 import rocking as rk
+from rocking.cli.map_summary import OPEN
+from rocking.kernels.judgement import Ground
 
 LINE = "map --amplitude 0:16:20 --period 0.2:3:18 --restitution 0.9 --max-cycles 100"
 ASKED = {
@@ -37,6 +39,13 @@ def test_summary_tells_axes_and_counts(rocking, found):
     for kind, count in shares(found).items():
         ending = f" {count} point{'s' * (count > 1)}"
         assert any(line.startswith(f"{kind} ") and line.endswith(ending) for line in lines) == (count > 0)
+
+
+def test_what_is_undetermined_says_why_in_plain_words(rocking):
+    assert list(OPEN) == [each.name.lower().replace("_", "-") for each in Ground if each > Ground.EXPONENT]
+    _, _, out = rocking("map --amplitude 5:6:2 --period 1:2:2 --restitution 0.01")
+    (told,) = [line for line in out.splitlines() if "unresolved-reset" in line]
+    assert told.endswith(f" 1 point: {OPEN['unresolved-reset']}")
 
 
 def test_json_agrees_with_the_map(rocking, found):

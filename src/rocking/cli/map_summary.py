@@ -20,7 +20,14 @@ if TYPE_CHECKING:
 
     from rocking.model import Block
 
-OPEN = ("unresolved-reset", "unwatched", "indistinct", "between", "crowded")
+OPEN = {
+    "unresolved-reset": "rests or leans and is released again, too sensitive to tell its period",
+    "unwatched": "no orbit reached, in too few cycles to call it chaotic",
+    "indistinct": "no orbit reached, and an exponent not clearly above zero",
+    "between": "averages agree too well for chaos, not well enough for a torus",
+    "crowded": "chatters almost without loss, more impacts than are followed",
+    "standing": "stands on an unstable orbit",
+}
 """Why a response is undetermined."""
 
 
@@ -65,9 +72,10 @@ def _found(kinds: dict[str, int], grounds: dict[str, int]) -> Iterator[Row]:
     for kind, count in kinds.items():
         if count:
             yield kind, percent(count / total), counted(count, "point")
-    for ground in OPEN:
+    for ground, why in OPEN.items():
         if grounds[ground]:
-            yield f"  {ground}", percent(grounds[ground] / total), counted(grounds[ground], "point")
+            many = counted(grounds[ground], "point")
+            yield f"  {ground}", percent(grounds[ground] / total), f"{many}: {why}"
 
 
 def record(
