@@ -274,8 +274,8 @@ REFUSED = {
     "--height 2 --width 0.5 --acceleration 3": "give exactly one of --frequency-hz, --period-s; got none",
     f"{SI} --period-s 1": "give exactly one of --frequency-hz, --period-s; got --frequency-hz=1.8 and --period-s=1",
     f"{SI} --acceleration 1e9": "--acceleration must lie in [0, 2402.42] m/s²; got 1000000000.0",
-    f"{SI} --width 3": "--restitution by Housner's formula is -0.0385 for a block as squat as 2 m x 3 m and must lie in "
-    "[0, 1]: give --restitution",
+    f"{SI} --width 3": "--restitution by Housner's formula is -0.0385 for a block 2 m high and 3 m wide and must lie in "
+    "[0, 1]: are --height and --width swapped? If not, give --restitution",
     f"{SI} --height 0": "--height must lie in [0.001, 1000] m; got 0",
     f"{NORMALISED} --period 0": "--period must lie in [0.00628319, 6283.19]; got 0",
     f"{NORMALISED} --period -1": "--period must lie in [0.00628319, 6283.19]; got -1",

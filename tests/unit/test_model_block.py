@@ -151,7 +151,10 @@ def test_ends_of_the_normalised_ranges_are_allowed_in_si(end):
         (lambda: rk.Block(2, 0.5, restitution=1.2), "restitution must lie in [0, 1]; got 1.2"),
         (
             lambda: rk.Block(1, 2),
-            "restitution by Housner's formula is -0.2 for a block as squat as 1 m x 2 m and must lie in [0, 1]: give restitution",
+            (
+                "restitution by Housner's formula is -0.2 for a block 1 m high and 2 m wide and must lie in [0, 1]: "
+                "are height and width swapped? If not, give restitution"
+            ),
         ),
         (
             lambda: BLOCK.system(acceleration=-1, period_s=1),

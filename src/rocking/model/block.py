@@ -86,8 +86,8 @@ class Block:
     def __attrs_post_init__(self) -> None:
         if self.has_housner_restitution and self.restitution < 0:
             raise ValueError(
-                f"restitution by Housner's formula is {self.restitution:.3g} for a block as squat as "
-                f"{self.height:g} m x {self.width:g} m and must lie in [0, 1]: give restitution"
+                f"restitution by Housner's formula is {self.restitution:.3g} for a block {self.height:g} m high and "
+                f"{self.width:g} m wide and must lie in [0, 1]: are height and width swapped? If not, give restitution"
             )
 
     @property
