@@ -167,14 +167,22 @@ def test_extension_killed_between_its_steps_is_taken_up(copied, monkeypatch):
 
 STRANGERS = {
     "another restitution": ({"restitution": 0.8}, "restitution is 0.9 there and 0.8 here"),
+    "a restitution with all its digits": (
+        {"restitution": 0.8925501432664756},
+        "restitution is 0.9 there and 0.89255 here (",
+    ),
+    "nearly the same restitution": (
+        {"restitution": 0.9 + 1e-9},
+        "restitution is 0.9 there and 0.900000001 here (",
+    ),
     "more cycles, another start": (
         {"max_cycles": 50, "angle": 0.1},
-        "angle is 0.0 there and 0.1 here; max_cycles is 40 there and 50 here",
+        "angle is 0 there and 0.1 here; max_cycles is 40 there and 50 here",
     ),
-    "braces": ({"brace_angle": 1.0}, "brace_angle is not given there and 1.0 here; brace_restitution is not"),
+    "braces": ({"brace_angle": 1.0}, "brace_angle is not given there and 1 here; brace_restitution is not"),
     "other axes": (
         {"period": None, "frequency": np.linspace(1.0, 2.0, 9)},
-        "over is ['amplitude', 'period'] there and ['amplitude', 'frequency'] here",
+        "it varies amplitude and period there, amplitude and frequency here",
     ),
 }
 

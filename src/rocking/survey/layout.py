@@ -17,6 +17,10 @@ SAME = 1e-9
 """Axis values closer than this share of their distance from the next are the same: an axis made longer rounds otherwise."""
 
 
+USUAL_DIGITS, ALL_DIGITS = 6, 17
+"""Of numbers that differ as many are told as tell them apart."""
+
+
 @frozen(eq=False)
 class Layout:
     """The grids of a store: the finest one's axes, along which axes each but the first halves the one before, their tiles."""
@@ -69,7 +73,7 @@ def check_same(path: str, stored: Mapping[str, Any], mine: Mapping[str, Any]) ->
     """Refuse a store that was made otherwise; ValueError that says what differs."""
     ours, theirs = _flat(mine), _flat(stored)
     differences = [
-        f"{name} is {_told(theirs.get(name))} there and {_told(ours.get(name))} here"
+        _difference(name, theirs.get(name), ours.get(name))
         for name in dict.fromkeys((*theirs, *ours))
         if theirs.get(name) != ours.get(name)
     ]
@@ -122,5 +126,15 @@ def _flat(told: Mapping[str, Any]) -> dict[str, Any]:
     return alone | dict(told.get("fixed", {})) | dict(told.get("options", {}))
 
 
-def _told(value: Any) -> str:
+def _difference(name: str, there: Any, here: Any) -> str:
+    if name == "over":
+        return f"it varies {' and '.join(there)} there, {' and '.join(here)} here"
+    pairs = ((_told(there, digits), _told(here, digits)) for digits in range(USUAL_DIGITS, ALL_DIGITS + 1))
+    one, other = next(pair for pair in pairs if pair[0] != pair[1])
+    return f"{name} is {one} there and {other} here"
+
+
+def _told(value: Any, digits: int) -> str:
+    if isinstance(value, float):
+        return f"{value:.{digits}g}"
     return "not given" if value is None else shown(value)
