@@ -5,7 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from rocking.model.errors import TooShort, one_of, reals, shown, whole
+import rocking as rk
+from rocking.model.errors import WAYS, TooShort, one_of, reals, shown, whole
 
 
 @pytest.mark.parametrize("value", [5, 5.0, np.int64(5), np.float64(5)])
@@ -51,6 +52,12 @@ def test_one_of_names_the_choices():
         one_of("record", "some", ("all", "none"))
     with pytest.raises(TypeError, match=r"^record must be one of 'all', 'none'; got 1$"):
         one_of("record", 1, ("all", "none"))
+
+
+@pytest.mark.parametrize("name", [name for name in WAYS if WAYS[name].startswith("make one: ")])
+def test_what_is_told_makes_a_value_of_the_kind(name):
+    told = WAYS[name].removeprefix("make one: ").removesuffix(", or by rk.Block")
+    assert type(eval(told, {"rk": rk})) is getattr(rk, name)
 
 
 def test_values_are_shown_in_one_short_line():

@@ -160,13 +160,25 @@ def test_acceleration_of_the_base_is_equation_3():
 @pytest.mark.parametrize(
     ("call", "message"),
     [
-        (lambda: rk.System(2.0, 0.9), "forcing must be a Harmonic; got 2.0"),
-        (lambda: rk.System(SYSTEM.forcing, 0.9, braces=1.0), "braces must be a Braces; got 1.0"),
+        (
+            lambda: rk.System(2.0, 0.9),
+            "forcing must be a Harmonic; got 2.0 (make one: rk.Harmonic(amplitude=2.0, period=1.0))",
+        ),
+        (
+            lambda: rk.System(SYSTEM.forcing, 0.9, braces=1.0),
+            "braces must be a Braces; got 1.0 (make one: rk.Braces(angle=1.0))",
+        ),
         (
             lambda: check_start(SYSTEM.forcing, rk.State()),
-            "system must be a System; got Harmonic(amplitude=2.0, period=1.0, phase=0.0)",
+            (
+                "system must be a System; got Harmonic(amplitude=2.0, period=1.0, phase=0.0) "
+                "(make one: rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925), or by rk.Block)"
+            ),
         ),
-        (lambda: check_start(SYSTEM, 0.5), "start must be a State; got 0.5"),
+        (
+            lambda: check_start(SYSTEM, 0.5),
+            "start must be a State; got 0.5 (make one: rk.State(angle=0.1, velocity=0.0))",
+        ),
     ],
 )
 def test_values_of_another_kind_are_type_errors(call, message):

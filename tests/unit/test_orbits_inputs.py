@@ -67,6 +67,13 @@ def test_an_orbit_that_rests_is_not_followed():
         rk.continue_orbit(resting, "amplitude", (1, 2))
 
 
+def test_a_response_that_is_not_periodic_has_no_orbit_to_follow():
+    resting = rk.classify(rk.System(rk.Harmonic(amplitude=0.5, period=1.0), restitution=0.9)).orbit
+    said = r"^orbit must be an Orbit; got None \(rk.classify finds one only where the response is periodic; "
+    with pytest.raises(TypeError, match=said):
+        rk.continue_orbit(resting, "amplitude", (1, 2))
+
+
 def test_a_saddle_without_impacts_is_not_followed():
     saddle = next(orbit for orbit in rk.find_orbits(SYSTEM, 1) if orbit.impacts == 0)
     with pytest.raises(ValueError, match=r"^orbit must have an impact or a brace hit"):

@@ -264,8 +264,8 @@ def test_wrong_wishes_are_refused_in_one_line(tmp_path, name, how, message):
     [
         (3, "a.gif", None, "^motion must be a Motion; got 3$"),
         (None, 3, None, r"^path must be the name of a file that ends in \.gif, \.mp4; got 3$"),
-        (None, "a.gif", 3, "^block must be a Block; got 3$"),
-        (None, "a.gif", 0, "^block must be a Block; got 0$"),
+        (None, "a.gif", 3, "^block must be a Block; got 3 "),
+        (None, "a.gif", 0, "^block must be a Block; got 0 "),
     ],
 )
 def test_argument_of_another_kind_is_refused_in_one_line(tmp_path, monkeypatch, motion, name, block, message):

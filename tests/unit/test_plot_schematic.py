@@ -63,7 +63,7 @@ def test_every_symbol_of_figure_1_is_there_and_none_covers_another(block):
 @pytest.mark.parametrize(
     ("how", "message"),
     [
-        ({"block": 3}, "^block must be a Block; got 3$"),
+        ({"block": 3}, "^block must be a Block; got 3 "),
         ({"ax": 3}, "^ax must be an? Axes; got 3$"),
         ({"lean": "x"}, r"^lean must be a real number in \[-1, 1\]; got 'x'$"),
     ],

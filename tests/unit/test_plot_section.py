@@ -112,7 +112,7 @@ def test_what_holds_no_points_is_refused_in_one_line(given):
     ("how", "message"),
     [
         ({"phase": "a"}, r"^phase must be a real number in \[-1000, 1000\]; got 'a'$"),
-        ({"block": 3}, "^block must be a Block; got 3$"),
+        ({"block": 3}, "^block must be a Block; got 3 "),
         ({"ax": 3}, "^ax must be an? Axes; got 3$"),
     ],
 )

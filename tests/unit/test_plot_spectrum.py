@@ -115,7 +115,7 @@ def test_axes_given_are_drawn_into(periodic):
         ({"density": 3}, "^density must be a SpectralDensity; got 3$"),
         ({"highest": 0.0}, r"^highest must lie in \[0.1, 1000\]; got 0.0$"),
         ({"names": 1.5}, r"^names must be a whole number in \[0, 100\]; got 1.5$"),
-        ({"block": 3}, "^block must be a Block; got 3$"),
+        ({"block": 3}, "^block must be a Block; got 3 "),
         ({"ax": 3}, "^ax must be an? Axes; got 3$"),
     ],
 )

@@ -162,7 +162,7 @@ def test_motion_without_events_is_refused_with_the_way_out():
     ("how", "message"),
     [
         ({"motion": 3}, "^motion must be a Motion; got 3$"),
-        ({"block": 3}, "^block must be a Block; got 3$"),
+        ({"block": 3}, "^block must be a Block; got 3 "),
         ({"ax": 3}, "^ax must be an? Axes; got 3$"),
     ],
 )

@@ -111,7 +111,7 @@ def test_overturning_block_has_its_impacts_before_the_proof():
         ({"source": 3}, r"^source must be a System or a Motion; got 3$"),
         ({"cycles": 2.5}, r"^cycles must be a whole number in \[1, 1000000000\]; got 2.5$"),
         ({"cycles": 10, "transient": 10}, r"^transient must be a whole number in \[0, 9\]; got 10$"),
-        ({"start": 3}, r"^start must be a State; got 3$"),
+        ({"start": 3}, r"^start must be a State; got 3 "),
         (
             {"source": rk.simulate(MODE, cycles=3), "cycles": 3},
             r"^cycles must be left out with a motion, .+ 3$",

@@ -135,7 +135,13 @@ REFUSED = {
         {"amplitude": ["a", "b"]},
         "amplitude must hold two numbers or more in [0, 1000], ascending; got ['a', 'b']",
     ),
-    "a text": ({"amplitude": "1:2"}, "amplitude must be a real number in [0, 1000]; got '1:2'"),
+    "a text": (
+        {"amplitude": "1:2"},
+        (
+            "amplitude must be a real number in [0, 1000] or an array; got '1:2' "
+            "(an axis is an array, such as np.linspace(start, stop, count))"
+        ),
+    ),
     "nothing to write to": ({"store": ""}, "store must be the path of a folder; got ''"),
     "rebound without braces": (
         {"brace_restitution": 0.5},
@@ -143,7 +149,10 @@ REFUSED = {
     ),
     "three axes": (
         {"restitution": [0.8, 0.9]},
-        "a parametric map needs two quantities to vary, given as axes; got amplitude and restitution and period",
+        (
+            "a parametric map needs two quantities to vary, given as axes; got amplitude and restitution and period "
+            "(give one of them a single number)"
+        ),
     ),
     "one axis": (
         {"amplitude": 1.0},

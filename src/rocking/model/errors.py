@@ -12,6 +12,15 @@ import numpy as np
 Value = TypeVar("Value")
 
 LONGEST_SHOWN = 60
+WAYS = {
+    "State": "make one: rk.State(angle=0.1, velocity=0.0)",
+    "Harmonic": "make one: rk.Harmonic(amplitude=2.0, period=1.0)",
+    "Braces": "make one: rk.Braces(angle=1.0)",
+    "Block": "make one: rk.Block(height=2.0, width=0.5)",
+    "System": "make one: rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925), or by rk.Block",
+    "Orbit": "rk.classify finds one only where the response is periodic; rk.find_orbits looks for all",
+}
+"""How one comes by a value of a kind."""
 
 
 class TooManyEvents(ValueError):
@@ -125,10 +134,10 @@ def reals(name: str, values: Any) -> Any:
 
 
 def instance(name: str, value: Value, kind: type) -> Value:
-    """Return `value` if it is a `kind`; TypeError otherwise."""
+    """Return `value` if it is a `kind`; TypeError otherwise, which says how to come by one."""
     if not isinstance(value, kind):
         article = "an" if kind.__name__[0] in "AEIO" else "a"
-        raise TypeError(refusal(name, f"be {article} {kind.__name__}", value))
+        raise TypeError(refusal(name, f"be {article} {kind.__name__}", value, WAYS.get(kind.__name__, "")))
     return value
 
 

@@ -95,7 +95,11 @@ class Validity:
         slender = "does not apply over a right angle from balance"
         if self.forcing_error < math.inf:
             slender = f"restoring moment up to {self.moment_error:.2%}, base's push up to {self.forcing_error:.2%} too large"
-        lines = [f"judged up to τ = {self.until:.6g}, where it is proved never to return"] if self.overturned else []
+        lines = (
+            [f"judged up to τ = {self.until:.6g}, where it is proved never to return"]
+            if self.overturned
+            else []
+        )
         lines += [
             f"least friction without sliding: {friction}",
             f"least base reaction: {reaction}",

@@ -114,10 +114,11 @@ def question(asked: Mapping[str, Any], count: int, what: str) -> Question:
     if _is_axis(rebound) or rebound != 1.0:
         raise TypeError(refusal("brace_restitution", "come with brace_angle", rebound))
     axes = {name: axis(name, value) for name, value in given.items() if _is_axis(value)}
-    fixed = {name: within(name, value, *RANGES[name]) for name, value in given.items() if name not in axes}
+    fixed = {name: _number(name, value) for name, value in given.items() if name not in axes}
     if len(axes) != count:
-        got = " and ".join(axes) or "none"
-        raise TypeError(f"{what} needs {_counted(count)} to vary, given as axes; got {got}")
+        got, more = " and ".join(axes) or "none", len(axes) - count
+        way_out = f" (give {'one' if more == 1 else more} of them a single number)" if more > 0 else ""
+        raise TypeError(f"{what} needs {_counted(count)} to vary, given as axes; got {got}{way_out}")
     asked_for = Question(axes, fixed)
     _check_braces(asked_for)
     return asked_for
@@ -150,7 +151,17 @@ def axis(name: str, values: Any) -> np.ndarray:
 
 def check_quantity(name: str, value: Any) -> float | np.ndarray:
     """Check a number, or an axis, for one of the quantities."""
-    return axis(name, value) if _is_axis(value) else within(name, value, *RANGES[name])
+    return axis(name, value) if _is_axis(value) else _number(name, value)
+
+
+def _number(name: str, value: Any) -> float:
+    if isinstance(value, str):
+        low, high = RANGES[name]
+        way_out = "an axis is an array, such as np.linspace(start, stop, count)"
+        raise TypeError(
+            refusal(name, f"be a real number in [{low:.6g}, {high:.6g}] or an array", value, way_out)
+        )
+    return within(name, value, *RANGES[name])
 
 
 def _is_axis(value: Any) -> bool:

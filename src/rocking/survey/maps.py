@@ -38,7 +38,9 @@ def parametric_map(
     ----------
     amplitude, period, frequency, restitution, phase, angle, velocity, brace_angle, brace_restitution : float or array (n,)
         As in `Harmonic` (either `period` or `frequency`), `System`, `Braces` and `State`, normalised. Two of them are
-        arrays, ascending: the axes of the map.
+        arrays, ascending: the axes of the map. A sequence holds the values themselves, so that a range of them is
+        ``np.linspace(0, 16, 60)``. Those of a block in SI: ``block.amplitude(accelerations)``,
+        ``block.frequency(hertz)``, ``block.restitution``.
     max_cycles, max_period : int
         As in `classify`. Chaotic responses need 10⁴ cycles (with braces 10⁵) to be called so.
     store : path, optional
