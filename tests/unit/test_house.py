@@ -9,6 +9,8 @@ import pytest
 from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
 
+import rocking
+
 ROOT = Path(__file__).parents[2]
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
 MODULES = sorted((ROOT / "src").rglob("*.py"))
@@ -112,6 +114,13 @@ def test_build_machine_runs_make(target):
 
 
 def test_citation_gives_the_version_of_the_package():
-    from rocking import __version__
+    assert f"\nversion: {rocking.__version__}\n" in (ROOT / "CITATION.cff").read_text()
 
-    assert f"\nversion: {__version__}\n" in (ROOT / "CITATION.cff").read_text()
+
+def test_package_is_cited_by_the_authors_and_the_year_of_its_files():
+    (author,) = re.findall(r"^authors:\n  - name: (.+)$", (ROOT / "CITATION.cff").read_text(), re.MULTILINE)
+    year, holder = re.search(r"Copyright \(c\) (\d{4}), (.+)", (ROOT / "LICENSE").read_text()).groups()
+    package = rocking.cite().partition("\n\n")[0]
+    assert author == holder
+    assert f"author = {{{{{author}}}}}," in package
+    assert f"year = {{{year}}}," in package

@@ -5,8 +5,9 @@ from __future__ import annotations
 from rocking.model.version import VERSION
 
 PACKAGE = """@software{{rocking,
+  author = {{{{The rocking authors}}}},
   title = {{rocking: exact simulation and nonlinear dynamics of free-standing blocks on a shaking base}},
-  version = {{{version}}},
+  version = {{{version}}}, year = {{2026}},
 }}"""
 
 SOURCES = """@article{yim-lin-1991,
