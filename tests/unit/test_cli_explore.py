@@ -1,11 +1,14 @@
-"""`rocking explore`: what is refused before a server begins. What it serves, tests/browser looks at."""
+"""`rocking explore`: what is refused before a server begins, and how it ends. What it serves, tests/browser looks at."""
 
+import signal
 import socket
+import subprocess
+import sys
 
 import pytest
 
 
-@pytest.mark.parametrize("port", ["65536", "-1", "1.5"])
+@pytest.mark.parametrize("port", ["65536", "-1", "1.5", "abc"])
 def test_port_that_is_none_is_refused(rocking, port):
     assert rocking(f"explore --no-browser --port={port}")[:2] == (
         2,
@@ -19,4 +22,13 @@ def test_port_in_use_is_told_with_the_way_out(rocking):
         code, message, _ = rocking(f"explore --no-browser --port={port}")
     assert code == 2
     assert message.startswith(f"--port {port} cannot be listened at: ")
-    assert message.endswith("(give another, or 0)")
+    assert message.endswith("(give another, or 0, which takes any that is free)")
+
+
+def test_control_c_ends_what_is_served_quietly_and_is_no_failure():
+    command = [sys.executable, "-m", "rocking", "explore", "--port", "0", "--no-browser"]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
+        assert process.stdout.readline().startswith("http://localhost:")
+        process.send_signal(signal.SIGINT)
+        out, err = process.communicate(timeout=60)
+    assert (process.returncode, out, err) == (0, "", "")
