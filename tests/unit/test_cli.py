@@ -266,12 +266,15 @@ REFUSED = {
     "--amplitude 2 --height 1": "--amplitude is normalised, --height is SI: give one kind (in SI it is --acceleration)",
     "--amplitude 2 --period 1": "missing --restitution: give --amplitude, --period (or --frequency) and --restitution",
     "--period 1": "missing --amplitude and --restitution: give --amplitude, --period (or --frequency) and --restitution",
-    "--amplitude 2 --restitution 0.9": "give exactly one of --period, --frequency; got none",
+    "--amplitude 2": "missing --period and --restitution: give --amplitude, --period (or --frequency) and --restitution",
+    "--amplitude 2 --restitution 0.9": "missing --period: give --amplitude, --period (or --frequency) and --restitution",
     f"{NORMALISED} --frequency 6": "give exactly one of --period, --frequency; got --period=1.0 and --frequency=6.0",
-    "--height 2 --acceleration 3": "missing --width: give --height, --width, --acceleration "
+    "--height 2 --acceleration 3": "missing --width and --frequency-hz: give --height, --width, --acceleration "
     "(or --acceleration-g, --displacement) and --frequency-hz (or --period-s)",
-    "--height 2 --width 0.5 --period-s 1": "give exactly one of --acceleration, --acceleration-g, --displacement; got none",
-    "--height 2 --width 0.5 --acceleration 3": "give exactly one of --frequency-hz, --period-s; got none",
+    "--height 2 --width 0.5 --period-s 1": "missing --acceleration: give --height, --width, --acceleration "
+    "(or --acceleration-g, --displacement) and --frequency-hz (or --period-s)",
+    "--height 2 --width 0.5 --acceleration 3": "missing --frequency-hz: give --height, --width, --acceleration "
+    "(or --acceleration-g, --displacement) and --frequency-hz (or --period-s)",
     f"{SI} --period-s 1": "give exactly one of --frequency-hz, --period-s; got --frequency-hz=1.8 and --period-s=1",
     f"{SI} --acceleration 1e9": "--acceleration must lie in [0, 2402.42] m/s²; got 1000000000.0",
     f"{SI} --width 3": "--restitution by Housner's formula is -0.0385 for a block 2 m high and 3 m wide and must lie in "
@@ -382,7 +385,7 @@ def test_piped_output_has_no_colours_and_errors_go_to_stderr(tmp_path):
         [*COMMAND, "simulate", "--amplitude", "2"], capture_output=True, text=True, check=False
     )
     assert (done.returncode, done.stdout) == (2, "")
-    assert done.stderr.startswith("rocking: missing --restitution")
+    assert done.stderr.startswith("rocking: missing --period and --restitution")
     assert len(done.stderr.splitlines()) == 1
 
 

@@ -119,7 +119,7 @@ def test_every_kind_can_be_drawn_and_nothing_else_is_left(rocking, tmp_path, lin
 
 NORMALISED = "--amplitude 2 --period 1 --restitution 0.925"
 REFUSED = {
-    "--amplitude 2": "missing --restitution: give --amplitude, --period (or --frequency) and --restitution",
+    "--amplitude 2": "missing --period and --restitution: give --amplitude, --period (or --frequency) and --restitution",
     f"{NORMALISED} --max-cycles 0": "--max-cycles must be a whole number in [1, 100000000]; got 0",
     f"{NORMALISED} --max-cycles 1e9": "--max-cycles must be a whole number in [1, 100000000]; got 1000000000.0",
     f"{NORMALISED} --max-cycles inf": "--max-cycles must be a whole number in [1, 100000000]; got inf",

@@ -9,7 +9,9 @@ import pytest
 import xarray as xr
 
 import rocking as rk
+from rocking.cli.main import run
 from rocking.cli.map_summary import OPEN
+from rocking.cli.maps import WRITERS
 from rocking.kernels.judgement import Ground
 
 LINE = "map --amplitude 0:16:20 --period 0.2:3:18 --restitution 0.9 --max-cycles 100"
@@ -211,7 +213,9 @@ def test_all_errors_of_a_study_file_are_told_at_once(rocking):
 
 
 REFUSED = {
-    "map --amplitude 0:16:20 --restitution 0.9": "give exactly one of --period, --frequency; got none",
+    "map --amplitude 0:16:20 --restitution 0.9": (
+        "missing --period: give --amplitude, --period (or --frequency) and --restitution"
+    ),
     "map --amplitude 0:16:20 --period 1 --restitution 0.9": (
         "a parametric map needs two quantities to vary, given as axes; got --amplitude"
     ),
@@ -255,6 +259,38 @@ def test_store_of_another_map_is_refused_by_the_names_of_options(rocking):
             "and 50 here (give another folder, or ask for the same)"
         ),
     )
+
+
+def test_store_of_another_block_is_refused_by_what_follows_from_the_block(rocking):
+    line = "map --height 2 --acceleration 1:8:2 --frequency-hz 1:3:2 --max-cycles 5 --store map.zarr"
+    rocking(f"{line} --width 0.6")
+    told = "--store 'map.zarr' holds another survey: restitution, which follows from the block, is 0.876147 there and "
+    assert rocking(f"{line} --width 0.5")[:2] == (
+        2,
+        f"{told}0.911765 here (give another folder, or ask for the same)",
+    )
+    assert (
+        "--restitution is 0.876147 there and 0.9 here" in rocking(f"{line} --width 0.5 --restitution 0.9")[1]
+    )
+
+
+def test_squat_block_with_a_restitution_is_mapped_in_its_units(rocking):
+    line = (
+        "map --height 0.6 --width 1.8 --acceleration 1:8:2 --frequency-hz 1:3:2 --max-cycles 5 --plot map.png"
+    )
+    for restitution in ("0.5", "0.5:0.6:2 --frequency-hz 1"):
+        assert rocking(f"{line} --restitution {restitution}")[:2] == (0, "")
+
+
+def test_who_interrupts_a_picture_is_told_that_the_store_is_complete(rocking, monkeypatch, capsys):
+    def interrupt(*_):
+        raise KeyboardInterrupt
+
+    monkeypatch.setitem(WRITERS, "plot", interrupt)
+    monkeypatch.setattr("sys.argv", ["rocking", *f"{LINE} --store map.zarr --plot map.png".split()])
+    assert run()[0] == 130
+    told = "rocking: --store 'map.zarr' is complete; the same command makes what was not yet written\n"
+    assert capsys.readouterr().err == told
 
 
 def test_study_that_is_no_toml_is_refused(rocking):

@@ -91,6 +91,11 @@ def test_basins_draws_random_starts_between_the_ends_of_a_study_files_axes(rocki
     assert told["starts"] == 50
 
 
+def test_random_starts_are_said_to_be_random_whatever_the_count_of_their_range(rocking):
+    title = rocking(f"{BASINS} --samples 50 --boundary-runs 0")[2].splitlines()[0]
+    assert title.startswith("basins, 50 starts at random between the ends of both ranges: ")
+
+
 def test_basins_of_a_braced_block_begin_between_its_braces(rocking):
     line = "basins --amplitude 2 --period 1 --restitution 0.9 --brace-angle 0.5 --boundary-runs 0 --velocity=-1:1:3"
     told = json.loads(rocking(f"{line} --json")[2])
@@ -159,8 +164,11 @@ def test_all_errors_of_a_study_file_are_told_at_once(rocking, command, wrong, to
             "basins --amplitude 2 --period 1 --restitution 0.9 --samples 10 --angle 1",
             "--angle must be a pair",
         ),
-        ("overturning --period 1", "missing --restitution"),
-        ("overturning --restitution 0.9", "give exactly one of --period, --frequency"),
+        (
+            "overturning --amplitude 1:2:3",
+            "missing --period and --restitution: give --period (or --frequency) and",
+        ),
+        ("overturning --restitution 0.9", "missing --period: give"),
         (f"{CURVE} --phases 1.5", "--phases must be a whole number"),
     ],
 )

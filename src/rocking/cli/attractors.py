@@ -61,7 +61,7 @@ def compute(given: Mapping[str, Any]) -> tuple[BasinMap, Block | None]:
     usual = {"angle": Axis(-reach, reach, USUAL), "velocity": Axis(-1.0, 1.0, USUAL)}
     for name, axis in usual.items():
         asked[name] = _starts(asked.get(name, axis), random="samples" in asked)
-    return carried_out(basin_map, {"system": system} | asked), block
+    return carried_out(basin_map, {"system": system} | asked, block), block
 
 
 def _starts(asked: Any, *, random: bool) -> Any:
@@ -77,7 +77,10 @@ def show(found: BasinMap, block: Block | None, files: list[Path], *, as_json: bo
         print_json(record(found, files) | told)
         return
     responses = counted(len(found.attractors), "response")
-    title = f"basins, {found.fractions[0].of:,} starts: {responses} to be told apart"
+    starts = f"{found.fractions[0].of:,} starts"
+    if "sample" in found.dataset.dims:
+        starts += " at random between the ends of both ranges"
+    title = f"basins, {starts}: {responses} to be told apart"
     print_table(title, [*asked_of(found.system, block), *rows(found)], files, warned(doubts))
 
 

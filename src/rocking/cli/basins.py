@@ -20,7 +20,10 @@ Angle = Annotated[
     axis_option("--angle", "Θ at the start, in θcr, not degrees: START:STOP:COUNT; -1:1:200 unless given."),
 ]
 Velocity = Annotated[Any, axis_option("--velocity", "Θ' at the start, in θcr per τ, likewise.")]
-Samples = Annotated[ask.Number, ask.number_option("--samples", "Random starts in those ranges, not a grid.")]
+Samples = Annotated[
+    ask.Number,
+    ask.number_option("--samples", "Random starts in those ranges, not a grid: their COUNT is not used."),
+]
 Seed = Annotated[ask.Number, ask.number_option("--seed", "Of all that is drawn at random; 0 unless given.")]
 BoundaryRuns = Annotated[
     ask.Number,
@@ -61,5 +64,6 @@ def basins(
     asked = attractors.question(context.params, study)
     files = surveys.files_of(asked)
     found, block = attractors.compute(asked)
-    surveys.write(found, "basins", files, block)
+    with surveys.complete(asked.get("store")):
+        surveys.write(found, "basins", files, block)
     attractors.show(found, block, surveys.written(asked, files), as_json=json)

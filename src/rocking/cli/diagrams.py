@@ -12,7 +12,7 @@ import numpy as np
 from rocking.cli import files
 from rocking.cli.applies import warned, warnings
 from rocking.cli.axes import Study
-from rocking.cli.options import option
+from rocking.cli.options import option, options
 from rocking.cli.screen import Row, print_json, print_table
 from rocking.cli.summary import asked_in_si, beyond, in_si, reach
 from rocking.model import PHYSICAL
@@ -21,9 +21,7 @@ if TYPE_CHECKING:
     from rocking.model import Block
     from rocking.orbits import OrbitDiagram
 
-ARGUMENTS = {
-    name: name for name in ("sweep", "transient", "section_phase", "brace_angle", "brace_restitution")
-}
+ARGUMENTS = options("sweep", "transient", "section_phase", "brace_angle", "brace_restitution")
 # Below about a second a bar would only flicker.
 LONG = 2_000_000
 

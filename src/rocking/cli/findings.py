@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import attrs
 
 from rocking.cli import applies
-from rocking.cli.options import as_typed
+from rocking.cli.options import as_typed, options
 from rocking.cli.screen import Row, print_json, print_table
 from rocking.cli.summary import asked, beyond, physical, question, reach
 from rocking.model import counted, plus_minus
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from rocking.model import Block, Verdict
 
 
-BUDGET = {"max_cycles": "max_cycles", "max_period": "max_period"}
+BUDGET = options("max_cycles", "max_period")
 
 
 def show(verdict: Verdict, block: Block | None, file: Path | None, *, as_json: bool) -> None:

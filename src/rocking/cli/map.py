@@ -13,7 +13,7 @@ from rocking.cli.studies import Study
 
 EXAMPLES = """\
 rocking map --amplitude 0:16:100 --period 0.2:3:100 --restitution 0.925 --plot map.png
-rocking map --height 2 --width 0.5 --acceleration 1:8:50 --frequency-hz 0.5:3:50 --store map.zarr"""
+rocking map --height 2 --width 0.5 --acceleration 1:8:50 --frequency-hz 0.5:3:50 --store block.zarr"""
 
 
 Plot = Annotated[Path | None, ask.file_option("--plot", "The map in colours, with shares (.png .svg .pdf).")]
@@ -59,12 +59,13 @@ def map_(
 
     Two options are its axes, START:STOP:COUNT.
     """
-    from rocking.cli import map_summary, maps
+    from rocking.cli import map_summary, maps, surveys
 
     question = maps.question(context.params, study)
     files = maps.files_of(question)
     found = maps.compute(question)
-    for name, path in files.items():
-        maps.WRITERS[name](found, path, question)
+    with surveys.complete(question.store):
+        for name, path in files.items():
+            maps.WRITERS[name](found, path, question)
     written = [path for path in (question.store, *files.values()) if path is not None]
     map_summary.show(found, question.block, written, as_json=json)

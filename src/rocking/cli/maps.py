@@ -10,7 +10,7 @@ from attrs import field, frozen
 
 from rocking.cli import files, quantities, studies
 from rocking.cli.files import SUFFIXES, check_files
-from rocking.cli.options import START, SYSTEM, YourInput, option, your_input
+from rocking.cli.options import START, SYSTEM, YourInput, option, options, your_input
 from rocking.cli.surveys import ARGUMENTS, carried_out
 from rocking.model import check_replaceable, instance, refusal
 
@@ -92,7 +92,7 @@ def _check_theory(asked: Question) -> None:
     from rocking.survey import parametric_map
 
     corners = {name: each[[0, -1]] if np.ndim(each) else each for name, each in asked.arguments.items()}
-    with your_input(ARGUMENTS | {name: name for name in THEORY}):
+    with your_input(ARGUMENTS | options(*THEORY)):
         plot.parametric_map(parametric_map(**corners | {"max_cycles": 1}), **asked.drawn)
 
 
@@ -110,7 +110,9 @@ def compute(asked: Question) -> xr.Dataset:
     """The map."""
     from rocking.survey import parametric_map
 
-    return carried_out(parametric_map, asked.arguments | {"store": asked.store, "repair": asked.repair})
+    return carried_out(
+        parametric_map, asked.arguments | {"store": asked.store, "repair": asked.repair}, asked.block
+    )
 
 
 def write_plot(found: xr.Dataset, path: Path, asked: Question) -> None:

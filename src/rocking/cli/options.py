@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from inspect import Parameter, Signature, signature
 from pathlib import Path
@@ -138,24 +138,30 @@ SurveyNetcdf = Annotated[
 ]
 Json = Annotated[bool, typer.Option("--json", help="Print the summary as JSON.")]
 
-IN_SI = {"amplitude": "acceleration", "period": "period_s", "frequency": "frequency_hz"}
-LENGTHS = ("cycles", "max_cycles", "max_period")
-ARGUMENTS = {name: name for name in (*FORCED, "phase", *START, *LENGTHS)}
-USUAL: dict[str, Any] = dict.fromkeys((*SYSTEM, *START)) | dict.fromkeys(ZERO, 0.0)
-"""What is meant where nothing is said."""
-BRACES = {"angle": "brace_angle", "restitution": "brace_restitution"}
-NORMALISED_NEEDS = "--amplitude, --period (or --frequency) and --restitution"
-SI_NEEDS = "--height, --width, --acceleration (or --acceleration-g, --displacement) and --frequency-hz (or --period-s)"
-
 
 def option(name: str) -> str:
     """How the argument `name` is typed."""
     return "--" + name.replace("_", "-")
 
 
+def options(*names: str) -> dict[str, str]:
+    """How arguments are typed whose options are named like them."""
+    return {name: option(name) for name in names}
+
+
+IN_SI = {"amplitude": "acceleration", "period": "period_s", "frequency": "frequency_hz"}
+LENGTHS = ("cycles", "max_cycles", "max_period")
+ARGUMENTS = options(*FORCED, "phase", *START, *LENGTHS)
+USUAL: dict[str, Any] = dict.fromkeys((*SYSTEM, *START)) | dict.fromkeys(ZERO, 0.0)
+"""What is meant where nothing is said."""
+BRACES = {"angle": option("brace_angle"), "restitution": option("brace_restitution")}
+NORMALISED_NEEDS = "--amplitude, --period (or --frequency) and --restitution"
+SI_NEEDS = "--height, --width, --acceleration (or --acceleration-g, --displacement) and --frequency-hz (or --period-s)"
+
+
 @contextmanager
 def your_input(typed: Mapping[str, str] | None = None) -> Iterator[None]:
-    """Turn a refusal inside the block into one of yours, the arguments in it named by the options in which they are `typed`."""
+    """Turn a refusal inside the block into one of yours, the arguments in it named as they are `typed`."""
     try:
         yield
     except (ValueError, TypeError, OSError) as error:
@@ -163,11 +169,11 @@ def your_input(typed: Mapping[str, str] | None = None) -> Iterator[None]:
 
 
 def as_typed(text: str, typed: Mapping[str, str]) -> str:
-    """The same with arguments named by the options in which they are `typed`."""
+    """The same with arguments named as they are `typed`."""
     if not typed:
         return text
     words = r"(?<!['\w-])(" + "|".join(typed) + r")(?!['\w])"
-    return re.sub(words, lambda found: option(typed[found[0]]), text)
+    return re.sub(words, lambda found: typed[found[0]], text)
 
 
 def question(given: Mapping[str, Any]) -> tuple[System, State, Block | None]:
@@ -185,9 +191,9 @@ def question(given: Mapping[str, Any]) -> tuple[System, State, Block | None]:
     if not normalised and not physical:
         raise YourInput(f"give {NORMALISED_NEEDS}, or in SI {SI_NEEDS}")
     if normalised:
-        _require(given, ("amplitude", "restitution"), NORMALISED_NEEDS)
+        require(given, (("amplitude",), ("period", "frequency"), ("restitution",)), NORMALISED_NEEDS)
     else:
-        _require(given, ("height", "width"), SI_NEEDS)
+        require(given, (("height",), ("width",), SI[2:5], SI[5:]), SI_NEEDS)
     braces = _braces(given)
     with your_input(ARGUMENTS):
         state = (within(name, given[name], -LARGEST_START, LARGEST_START) for name in ("angle", "velocity"))
@@ -212,7 +218,8 @@ def _braces(given: Mapping[str, Any]) -> Any:
         return Braces(given["brace_angle"], restitution)
 
 
-def _require(given: Mapping[str, Any], names: tuple[str, ...], needs: str) -> None:
-    missing = [option(name) for name in names if given[name] is None]
+def require(given: Mapping[str, Any], groups: Iterable[tuple[str, ...]], needs: str) -> None:
+    """Refuse as `YourInput` what lacks all of a group of options, one of which is needed."""
+    missing = [option(group[0]) for group in groups if all(given.get(name) is None for name in group)]
     if missing:
         raise YourInput(f"missing {' and '.join(missing)}: give {needs}")

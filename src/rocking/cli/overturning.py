@@ -71,5 +71,6 @@ def overturning(
     asked = thresholds.question(context.params, study)
     files = surveys.files_of(asked)
     found, block = thresholds.compute(asked)
-    thresholds.write(found, files, block)
+    with surveys.complete(asked.get("store")):
+        thresholds.write(found, files, block)
     thresholds.show(found, block, surveys.written(asked, files), as_json=json)

@@ -12,9 +12,13 @@ import typer
 from rocking.cli.axes import FORM, MOST, USUAL_COUNT, Axis, number_or_axis
 from rocking.cli.options import YourInput
 
+STUDY = (
+    "All this in a TOML file, a line an option: restitution = 0.9, an axis in quotes, such as "
+    'period = "1:3:60"; what is typed here wins.'
+)
 Study = Annotated[
     Path | None,
-    typer.Option("--study", metavar="FILE", help="All this in a TOML file; what is typed here wins."),
+    typer.Option("--study", metavar="FILE", help=STUDY),
 ]
 Check = Callable[[Any], Any]
 

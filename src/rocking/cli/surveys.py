@@ -3,32 +3,56 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from rocking.cli.files import check_files, with_block, write_dataset
 from rocking.cli.options import ARGUMENTS as SYSTEM_ARGUMENTS
-from rocking.cli.options import as_typed, your_input
+from rocking.cli.options import NORMALISED, as_typed, option, options, your_input
 
 if TYPE_CHECKING:
     from rocking.model import BasinMap, Block, OverturningCurve, Share
 
 OWN = ("samples", "seed", "boundary_runs", "phases", "store", "repair", "brace_angle", "brace_restitution")
-ARGUMENTS = SYSTEM_ARGUMENTS | {name: name for name in OWN}
+ARGUMENTS = SYSTEM_ARGUMENTS | options(*OWN)
 FILES = ("plot", "netcdf")
 MOST_ROWS = 20
 
 
-def carried_out(survey: Callable[..., Any], arguments: Mapping[str, Any]) -> Any:
-    """What a survey finds, with a bar where somebody watches; interrupted, it says how to go on."""
-    with your_input(ARGUMENTS):
+def carried_out(survey: Callable[..., Any], arguments: Mapping[str, Any], block: Block | None = None) -> Any:
+    """What a survey finds, with a bar where somebody watches; interrupted, it says how to go on.
+
+    What a block in SI was made into is not named by options, for none of them was typed.
+    """
+    with your_input(ARGUMENTS | _made_of(block)):
         try:
             return survey(**arguments, progress=sys.stderr.isatty())
         except KeyboardInterrupt as error:
             for note in getattr(error, "__notes__", ()):
                 print(f"rocking: {as_typed(note, ARGUMENTS)}", file=sys.stderr)
             raise
+
+
+def _made_of(block: Block | None) -> dict[str, str]:
+    if block is None:
+        return {}
+    shaken = {name: f"the normalised {name}" for name in NORMALISED}
+    follows = {"restitution": "restitution, which follows from the block,"}
+    return shaken | follows if block.has_housner_restitution else shaken
+
+
+@contextmanager
+def complete(store: Path | None) -> Iterator[None]:
+    """Say to who interrupts what is written after the survey that its store is complete."""
+    try:
+        yield
+    except KeyboardInterrupt:
+        if store is not None:
+            told = f"{option('store')} {str(store)!r} is complete; the same command makes what was not yet written"
+            print(f"rocking: {told}", file=sys.stderr)
+        raise
 
 
 def files_of(asked: Mapping[str, Any]) -> dict[str, Path]:
