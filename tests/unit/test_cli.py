@@ -15,6 +15,8 @@ import pytest
 import rocking as rk
 from rocking.cli.main import main
 from rocking.cli.summary import ordinal
+from rocking.papers.yim_lin_1991 import reproduce
+from rocking.papers.yim_lin_1991.claim import Chapter, Finding
 
 NORMALISED = "--amplitude 2 --period 1 --restitution 0.925"
 SI = "--height 2 --width 0.5 --acceleration 2.9 --frequency-hz 1.8"
@@ -342,6 +344,33 @@ def test_paper_writes_the_figures_asked_for(rocking, tmp_path):
         "figure-01.svg",
     ]
     assert "wrote results/new/figure-01.svg" in out
+
+
+def three_claims():
+    chapter = Chapter("of three")
+    chapter.claim("first")(lambda: Finding(True, "1"))
+    chapter.claim("second")(lambda: Finding(True, "2"))
+    chapter.claim("third", slips="3")(lambda: Finding(False, "3", shown=True))
+    return (chapter,)
+
+
+@pytest.mark.parametrize(
+    "figures, last",
+    [("claims", "3 claims of the paper: reproduced 2, the paper slips 1"), ("1", "wrote made/figure-01.svg")],
+)
+def test_paper_ends_with_how_its_claims_stand(rocking, monkeypatch, figures, last):
+    monkeypatch.setattr(sys.modules[reproduce.__module__], "_chapters", three_claims)
+    assert rocking(f"paper {figures} --output made")[2].splitlines()[-1] == last
+
+
+def test_whole_paper_ends_with_the_page_to_open(rocking, monkeypatch):
+    def nothing(folder, figures, progress, summary):
+        summary("3 claims of the paper: reproduced 3")
+        return [folder / "index.html"]
+
+    monkeypatch.setattr("rocking.papers.yim_lin_1991.reproduce", nothing)
+    told = ["wrote made/index.html", "3 claims of the paper: reproduced 3; open made/index.html"]
+    assert rocking("paper --output made")[2].splitlines() == told
 
 
 @pytest.mark.parametrize(

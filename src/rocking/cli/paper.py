@@ -32,6 +32,7 @@ def paper(
 
     with your_input():
         check_folder("--output", output)
+    last: list[str] = []
     bar = Progress(console=Console(stderr=True))
 
     def advance(done: int, total: int, name: str) -> None:
@@ -41,7 +42,7 @@ def paper(
         bar.update(bar.task_ids[0], completed=done, description=name)
 
     try:
-        files = yim_lin_1991.reproduce(output, figures or None, advance)
+        files = yim_lin_1991.reproduce(output, figures or None, advance, last.append)
     except (ValueError, OSError) as error:
         if bar.tasks:
             raise  # it was drawing already: the fault is not in what was typed
@@ -51,3 +52,7 @@ def paper(
             bar.stop()
     for path in files:
         print(f"wrote {path}")
+    if not figures:
+        last.append(f"open {output / yim_lin_1991.PAGE}")
+    if last:
+        print("; ".join(last))

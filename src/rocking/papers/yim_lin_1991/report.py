@@ -74,6 +74,13 @@ def counted(judgements: Iterable[Judgement]) -> Mapping[Standing, int]:
     return {standing: found[standing] for standing in Standing}
 
 
+def summed_up(judgements: Iterable[Judgement]) -> str:
+    """How many claims stand how, in one sentence."""
+    counts = counted(judgements)
+    told = ", ".join(f"{standing} {counts[standing]}" for standing in Standing if counts[standing])
+    return f"{sum(counts.values())} claims of the paper: {told}"
+
+
 def write_claims(folder: Path, judgements: Iterable[Judgement]) -> list[Path]:
     """Writes the claims as a table of their own."""
     rows = [

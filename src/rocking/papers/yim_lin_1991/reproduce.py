@@ -39,6 +39,7 @@ def reproduce(
     folder: str | Path,
     figures: Iterable[str | int] | None = None,
     progress: Callable[[int, int, str], object] | None = None,
+    summary: Callable[[str], object] | None = None,
 ) -> list[Path]:
     """Writes figures of Yim and Lin (1991) as PNG (200 dpi) and SVG, tables as CSV and Markdown; the same bytes every time.
 
@@ -52,6 +53,9 @@ def reproduce(
         given, and then also index.html, one page of them all, with a twin in PDF where WeasyPrint is installed.
     progress : callable, optional
         Called as ``progress(done, total, name)`` before each of them and each claim, and once at the end.
+
+    summary : callable, optional
+        Called as ``summary(sentence)`` once the claims are judged: how many there are, and how they stand.
 
     Returns
     -------
@@ -82,6 +86,8 @@ def reproduce(
         if name == "claims":
             judgements = report.judged(_chapters(), steps.next)
             written += report.write_claims(folder, judgements)
+            if summary is not None:
+                summary(report.summed_up(judgements))
             continue
         steps.next(name if name in (*TABLES, *beyond.NAMES) else f"figure {name}")
         if name in TABLES:
