@@ -39,6 +39,11 @@ def run_commands(example):
         subprocess.run([scripts / name, *options], check=True, capture_output=True)
 
 
+def keep_study(example):
+    """A `toml` block: the study file of the commands after it."""
+    Path("study.toml").write_text(example.parsed, encoding="utf-8")
+
+
 @pytest.hookimpl(tryfirst=True)  # before the workers' items are grouped by their marks
 def pytest_collection_modifyitems(items):
     """The blocks of one page build on each other: one worker runs them all."""
@@ -48,7 +53,11 @@ def pytest_collection_modifyitems(items):
 
 
 pytest_collect_file = Sybil(
-    parsers=[PythonCodeBlockParser(), CodeBlockParser(language="sh", evaluator=run_commands)],
+    parsers=[
+        PythonCodeBlockParser(),
+        CodeBlockParser(language="sh", evaluator=run_commands),
+        CodeBlockParser(language="toml", evaluator=keep_study),
+    ],
     patterns=["README.md", "docs/*.md"],
     fixtures=["readers_folder"],
 ).pytest()

@@ -116,10 +116,34 @@ def test_every_block_of_code_is_run(page):
     """There are no blocks but those that the tests run and those of which Sphinx makes pages."""
     blocks = [kind for kind, _ in fences(page) if kind in ("python", "sh")]
     others = {kind.partition(" ")[0] for kind, _ in fences(page)} - {"python", "sh"}
-    assert others <= ({""} if page in FRONT else {"{toctree}", "{eval-rst}", "{script}"})
+    assert others <= ({"", "toml"} if page in FRONT else {"{toctree}", "{eval-rst}", "{script}"})
     document = Document.parse(str(page), PythonCodeBlockParser(), CodeBlockParser("sh", evaluator=print))
     assert len(list(document.examples())) == len(blocks)
     assert page.parent in (ROOT, DOCS)  # where the tests look for them
+
+
+def test_no_two_pages_write_to_one_store():
+    """Who tries one after the other in a folder of his own is not refused."""
+    texts = {name_of(page): page.read_text(encoding="utf-8") for page in [*PAGES, ROOT / "README.md"]}
+    texts |= {f"help of {one.callback.__name__}": one.epilog or "" for one in app.registered_commands}
+    stores = [
+        (store, where) for where, text in texts.items() for store in set(re.findall(r"[\w-]+\.zarr", text))
+    ]
+    assert len(dict(stores)) == len(stores) > 5, sorted(stores)
+
+
+def test_readme_shows_what_is_printed():
+    """But for the numbers that rounding decides, those of the second sentence and a residual of the first."""
+    (shown,) = [
+        body.splitlines() for kind, body in fences(ROOT / "README.md") if not kind and "periodic:" in body
+    ]
+    system = rocking.Block(height=2.0, width=0.5).system(acceleration=4.0, frequency_hz=1.2)
+    forcing = rocking.Harmonic(amplitude=15.0, period=2.0)
+    braced = rocking.System(forcing, restitution=0.925, braces=rocking.Braces(angle=1.0))
+    for line, asked, rounded in zip(
+        shown, (system, braced), (r"(?<=≤ )[\de-]+", r"\d\.\d+|\d+(?= standard)"), strict=True
+    ):
+        assert re.sub(rounded, "#", line) == re.sub(rounded, "#", str(rocking.classify(asked)))
 
 
 @pytest.mark.parametrize("script", EXAMPLES, ids=name_of)
