@@ -165,6 +165,17 @@ def test_extension_killed_between_its_steps_is_taken_up(copied, monkeypatch):
     assert rk.parametric_map(**longer, store=copied).load().equals(rk.parametric_map(**longer))
 
 
+def test_who_interrupts_the_reading_of_a_store_is_told_that_it_is_complete(tmp_path, monkeypatch):
+    def interrupt(_):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(store.Store, "dataset", interrupt)
+    with pytest.raises(KeyboardInterrupt) as caught:
+        rk.parametric_map(**ASKED, store=tmp_path / "map.zarr")
+    told = f"The survey is complete in {str(tmp_path / 'map.zarr')!r}, and the same call reads it."
+    assert caught.value.__notes__ == [told]
+
+
 STRANGERS = {
     "another restitution": ({"restitution": 0.8}, "restitution is 0.9 there and 0.8 here"),
     "a restitution with all its digits": (

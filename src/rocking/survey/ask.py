@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Iterator
 from concurrent.futures import Executor
+from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 from rocking.model import instance
@@ -41,13 +43,14 @@ def ask(
         _carry_out(
             kept, executor, progress, f"what is done is in {str(store)!r}, and the same call goes on with it"
         )
-    return kept.dataset()
+    with _noted(f"The survey is complete in {str(store)!r}, and the same call reads it."):
+        return kept.dataset()
 
 
 def _carry_out(results: Results, executor: Executor | None, progress: bool, interrupted: str) -> None:
     # Before other threads begin: a process that ends while one of them compiles may crash.
     results.measure.compile(results.asked.lossless)
-    try:
+    with _noted(f"The survey was interrupted; {interrupted}."):
         if not progress:
             run(results, executor)
             return
@@ -57,6 +60,13 @@ def _carry_out(results: Results, executor: Executor | None, progress: bool, inte
         planned = cost(results.asked, results.measure, results.levels, results.done)
         with Bar(planned, results.measure, workers) as bar:
             run(results, executor, bar)
+
+
+@contextmanager
+def _noted(note: str) -> Iterator[None]:
+    """Tell who types Ctrl-C what it means for the survey."""
+    try:
+        yield
     except KeyboardInterrupt as error:
-        error.add_note(f"The survey was interrupted; {interrupted}.")
+        error.add_note(note)
         raise
