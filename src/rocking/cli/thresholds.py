@@ -32,7 +32,9 @@ def question(typed: Mapping[str, Any], file: Path | None) -> dict[str, Any]:
     """What options and study file ask for; what is typed wins."""
     given = studies.asked(typed, file, _checks())
     if not given.keys() & set(SCANNED_SI):
-        require(given, (("period", "frequency"), ("restitution",)), "--period (or --frequency) and --restitution")
+        require(
+            given, (("period", "frequency"), ("restitution",)), "--period (or --frequency) and --restitution"
+        )
     return given
 
 
