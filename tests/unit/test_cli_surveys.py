@@ -227,7 +227,7 @@ def test_overturning_of_a_block_scans_the_usual_amplitudes_and_says_where_nothin
     "line, message",
     [
         ("--frequency-hz 1", "missing --width: give --height, --width"),
-        ("--width 0.5", "give exactly one of --frequency-hz, --period-s"),
+        ("--width 0.5", "missing --frequency-hz: give --height, --width and --frequency-hz (or"),
         ("--width 0.5 --frequency-hz 1 --amplitude 1:2", "--amplitude is normalised, --height is SI"),
         ("--width 0.5 --frequency-hz 1 --acceleration 3", "--acceleration must be an axis, START:STOP:COUNT"),
     ],

@@ -31,10 +31,12 @@ LEVELS = ("lowest", "resolution", "survived_up_to")
 def question(typed: Mapping[str, Any], file: Path | None) -> dict[str, Any]:
     """What options and study file ask for; what is typed wins."""
     given = studies.asked(typed, file, _checks())
-    if not given.keys() & set(SCANNED_SI):
-        require(
-            given, (("period", "frequency"), ("restitution",)), "--period (or --frequency) and --restitution"
-        )
+    if given.keys() & set(SCANNED_SI):
+        needs = "--height, --width and --frequency-hz (or --period-s)"
+        require(given, (("height",), ("width",), SI[5:]), needs)
+    else:
+        needs = "--period (or --frequency) and --restitution"
+        require(given, (("period", "frequency"), ("restitution",)), needs)
     return given
 
 
@@ -61,8 +63,8 @@ def compute(given: Mapping[str, Any]) -> tuple[OverturningCurve, Block | None]:
         asked = _normalised(shaken)
     else:
         asked = {name: quantities.values(each) for name, each in shaken.items()}
-    found = carried_out(overturning_amplitude, asked | others)
-    return found, quantities.block_of(given)
+    block = quantities.block_of(given)
+    return carried_out(overturning_amplitude, asked | others, block), block
 
 
 def _normalised(given: Mapping[str, Any]) -> dict[str, Any]:
