@@ -12,6 +12,7 @@ import pytest
 import xarray as xr
 
 import rocking as rk
+from rocking.survey.guard import undisturbed
 
 SIZE = 150
 ASKED = {
@@ -147,6 +148,21 @@ def test_second_run_on_a_store_is_refused_until_the_first_is_gone(running):
     process.wait()
     with pytest.raises(ValueError, match="max_cycles is 20000 there and 100 here"):
         rk.parametric_map(**ASKED, store=folder)
+
+
+def test_ctrl_c_waits_for_the_end_of_what_is_done_with_a_store():
+    done = []
+
+    @undisturbed()
+    def write():
+        signal.raise_signal(signal.SIGINT)
+        done.append("all of it")
+
+    with pytest.raises(KeyboardInterrupt):
+        write()
+    assert done == ["all of it"]
+    with pytest.raises(KeyboardInterrupt):  # and does so no longer
+        signal.raise_signal(signal.SIGINT)
 
 
 def test_interrupted_run_ends_soon_and_says_how_to_go_on(running):

@@ -122,7 +122,7 @@ def test_field_is_refused_in_one_sentence(typed, field, sentence):
     assert refusal.value.fields == {field: sentence}
 
 
-SQUAT = "restitution by Housner's formula is -0.429 for a block as squat as 2 m x 9 m and must lie in [0, 1]"
+SQUAT = "restitution by Housner's formula is -0.429 for a block 2 m high and 9 m wide and must lie in [0, 1]"
 METRES = {"height": "2", "width": "0.5", "acceleration": "3", "unit": "m/s²", "frequency_hz": "1.2"}
 
 

@@ -13,6 +13,7 @@ import numpy as np
 from attrs import frozen
 
 from rocking.survey.axes import Question
+from rocking.survey.guard import undisturbed
 from rocking.survey.plan import Level, Tile
 from rocking.survey.tiles import Arrays, Measure, batches, compute
 
@@ -101,14 +102,15 @@ def _settle(pending: deque[Pending], results: Results, watcher: Watcher | None) 
     first = pending[0]
     wait(first.futures, return_when=FIRST_EXCEPTION)
     tile, shared = first.tile, first.tile.shared()
-    answers = results.read(tile) if first.known.any() else results.measure.blank(tile.shape)
-    if shared is not None:
-        for name, values in results.coarser(tile).items():
-            answers[name][shared[0]] = values
-    for wanted, future in zip(first.wanted, first.futures, strict=True):
-        for name, values in future.result().items():
-            answers[name].reshape(-1)[wanted] = values
-    results.write(tile, answers)
+    with undisturbed():
+        answers = results.read(tile) if first.known.any() else results.measure.blank(tile.shape)
+        if shared is not None:
+            for name, values in results.coarser(tile).items():
+                answers[name][shared[0]] = values
+        for wanted, future in zip(first.wanted, first.futures, strict=True):
+            for name, values in future.result().items():
+                answers[name].reshape(-1)[wanted] = values
+        results.write(tile, answers)
     _tell(watcher, results, tile, answers, ~first.known, before=False)
     pending.popleft()
     return len(first.futures)

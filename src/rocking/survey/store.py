@@ -21,6 +21,7 @@ from rocking.survey.guard import (
     clear_partial,
     reading,
     something_else,
+    undisturbed,
     writing,
 )
 from rocking.survey.layout import Layout, check_same, described_layout, fingerprint, joined, new_layout
@@ -47,7 +48,7 @@ class Store:
 
     def __init__(self, path: Path, asked: Question, measure: Measure, *, repair: bool) -> None:
         self.path, self.measure = path, measure
-        with writing(path):
+        with undisturbed(), writing(path):
             clear_partial(path)
             self.layout, self.root = self._agreed(asked)
             self.asked = Question(self.layout.axes, asked.fixed)
