@@ -109,6 +109,23 @@ def test_what_a_study_file_says_twice_is_refused(rocking):
     assert rocking("basins --study study.toml")[:2] == (2, told)
 
 
+@pytest.mark.parametrize("command", ["map", "overturning"])
+def test_a_block_of_many_sizes_is_refused(rocking, command):
+    Path("study.toml").write_text(
+        'height = "1:2:3"\nwidth = 0.5\nfrequency-hz = "1:2:3"\nacceleration = "2:4:3"\n'
+    )
+    code, told, _ = rocking(f"{command} --study study.toml")
+    assert (code, told) == (2, "--height must be one number of metres: a survey is of one block")
+
+
+def test_a_path_is_told_as_it_was_typed(rocking):
+    line = "map --amplitude 1:2:3 --period 1:2:3 --restitution 0.9 --max-cycles 20 --store phase/period.zarr"
+    assert rocking(line)[0] == 0
+    code, told, _ = rocking(line.replace("0.9", "0.8"))
+    assert code == 2
+    assert "'phase/period.zarr'" in told
+
+
 def test_overturning_reads_a_study_file(rocking):
     Path("study.toml").write_text(
         'period = "1.2:2.2:3"\nrestitution = 0.9\namplitude = { start = 1, stop = 6, count = 21 }\nphases = 2\n'

@@ -13,6 +13,7 @@ import zarr
 import rocking as rk
 from rocking.kernels.many import METHOD
 from rocking.survey import run, store
+from rocking.survey.layout import check_same
 
 SIZE = 130
 ASKED = {
@@ -207,6 +208,15 @@ def test_store_of_another_survey_is_refused_with_what_differs(made, what):
     assert files(made) == before
 
 
+def test_store_of_other_variables_is_told_by_those_that_only_one_has():
+    there = {"survey": "map", "variables": [*"abcdefghij" * 9, "angle"], "fixed": {}, "options": {}}
+    with pytest.raises(ValueError, match=r"variables is \['angle'\] there and \['peak'\] here"):
+        check_same("map.zarr", there, there | {"variables": [*"abcdefghij" * 9, "peak"]})
+    long = {"survey": "map" * 40 + "a"}
+    with pytest.raises(ValueError, match="survey is one there and another here"):
+        check_same("map.zarr", long, {"survey": "map" * 40 + "b"})
+
+
 def test_store_of_another_method_is_refused(made, monkeypatch):
     monkeypatch.setattr("rocking.kernels.many.METHOD", METHOD + 1)
     with pytest.raises(
@@ -236,6 +246,13 @@ def test_store_that_is_a_file_is_refused(tmp_path, monkeypatch):
     refused("map.zarr", "store must be a folder's name; got 'map.zarr', which is a file")
     refused("map.zarr/in", "store must be a folder that can be written; got 'map.zarr/in'")
     assert Path("map.zarr").read_text() == "mine"
+
+
+def test_folder_of_a_run_killed_at_its_first_file_is_taken(tmp_path):
+    (tmp_path / "map.zarr").mkdir()
+    (tmp_path / "map.zarr" / "zarr.json.0123.partial").touch()
+    rk.parametric_map(**ASKED, store=tmp_path / "map.zarr")
+    assert not list(tmp_path.rglob("*.partial"))
 
 
 def test_folder_that_holds_something_else_is_refused(tmp_path, monkeypatch):

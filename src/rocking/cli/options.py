@@ -169,11 +169,11 @@ def your_input(typed: Mapping[str, str] | None = None) -> Iterator[None]:
 
 
 def as_typed(text: str, typed: Mapping[str, str]) -> str:
-    """The same with arguments named as they are `typed`."""
+    """The same with arguments named as they are `typed`, but for what stands in quotes: a path, say."""
     if not typed:
         return text
-    words = r"(?<!['\w-])(" + "|".join(typed) + r")(?!['\w])"
-    return re.sub(words, lambda found: typed[found[0]], text)
+    words = r"(?<!\w)'[^']*'|(?<![\w-])(" + "|".join(typed) + r")(?!['\w])"
+    return re.sub(words, lambda found: typed[found[1]] if found[1] else found[0], text)
 
 
 def question(given: Mapping[str, Any]) -> tuple[System, State, Block | None]:

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from rocking.cli.axes import FORM, VARIES, Axis
-from rocking.cli.options import SI, YourInput, question
+from rocking.cli.options import SI, YourInput, option, question
 from rocking.cli.studies import Check, quantity
 from rocking.model import instance, reals, refusal, whole
 
@@ -36,7 +36,7 @@ def normalised(given: Mapping[str, Any]) -> dict[str, Any]:
     spans = {name: each if isinstance(each, Axis) else None for name, each in given.items()}
     lists = {name: each for name, each in given.items() if np.ndim(each) > 0 and spans[name] is None}
     if any(name in SI for name in lists):
-        raise YourInput(f"{next(iter(lists))} in SI must be a number or {FORM}; got a list")
+        raise YourInput(f"{option(next(iter(lists)))} in SI must be a number or {FORM}; got a list")
     varied = [name for name, span in spans.items() if span is not None]
     if "displacement" in given and any(name in ("frequency_hz", "period_s") for name in varied):
         raise YourInput(
@@ -82,6 +82,9 @@ def block_of(given: Mapping[str, Any]) -> Block | None:
 
     if "height" not in given:
         return None
+    for name in ("height", "width"):
+        if isinstance(given[name], Axis | list):
+            raise YourInput(f"{option(name)} must be one number of metres: a survey is of one block")
     restitution = given.get("restitution")
     first = restitution.start if isinstance(restitution, Axis) else restitution
     return Block(given["height"], given["width"], first[0] if isinstance(first, list) else first)

@@ -30,6 +30,7 @@ from .lanes import (
     PEAK_SEEN,
     PERIOD,
     PHASE,
+    READING,
     SIDE,
     SINE,
     SLOWEST,
@@ -45,6 +46,7 @@ from .lanes import (
     of,
     put,
     set_system,
+    trail_is_full,
 )  # fmt: skip
 from .lossless import Flights, sketch
 from .march import DONE, RESYNCHRONISE, UNKNOWN, Progress
@@ -154,7 +156,9 @@ def find(s, i, p):
     put(s, i, NEXT_SINH, coming.sinh)
     put(s, i, NEXT_VERSINH, coming.versinh)
     put(s, i, STAGE, ARRIVED)
-    return LEG_END if over(s, i) else PEAK_SEEN
+    if over(s, i):
+        return LEG_END
+    return READING if trail_is_full(of(s, i, IMPACTS), of(s, i, COUNTED)) else PEAK_SEEN
 
 
 @njit(**WITHIN)

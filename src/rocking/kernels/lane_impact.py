@@ -50,7 +50,6 @@ from .lanes import (
     STAGE,
     START,
     TARGET,
-    TRAIL,
     UNSURE,
     VELOCITY,
     WAIT,
@@ -59,6 +58,7 @@ from .lanes import (
     Z,
     of,
     put,
+    trail_is_full,
 )  # fmt: skip
 from .shortcut import I2, I4, I6, I8
 
@@ -75,9 +75,9 @@ def attend(s):
         stage, start, wait, cycle = of(s, i, STAGE), of(s, i, START), of(s, i, WAIT), of(s, i, CYCLE)
         target, period, exceeds = of(s, i, TARGET), of(s, i, PERIOD), of(s, i, EXCEEDS)
         speed, restitution = of(s, i, SPEED), of(s, i, RESTITUTION)
-        kept = of(s, i, IMPACTS) - of(s, i, COUNTED)
+        full = trail_is_full(of(s, i, IMPACTS), of(s, i, COUNTED))
         wants = choose(exceeds == 0.0, CONTENT, PEAK_SEEN)
-        wants = choose(kept > TRAIL - 3.0, READING, wants)
+        wants = choose(full, READING, wants)
         wants = choose(restitution * speed < SLOWEST, ALONE, wants)
         wants = choose(start + wait > (target - cycle) * period, LEG_END, wants)
         put(s, i, WANTS, choose(stage == ARRIVED, wants, choose(stage == UNSURE, CERTAINTY, CONTENT)))

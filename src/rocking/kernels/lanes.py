@@ -69,6 +69,12 @@ def put(s, i, row, value):
 
 
 @njit(**EXACT_INNER)
+def trail_is_full(impacts, counted):
+    """Whether a trail must be read before another arc is written into it."""
+    return impacts - counted > TRAIL - 3.0
+
+
+@njit(**EXACT_INNER)
 def set_system(s, i, p):
     """What lane i must know of its system."""
     put(s, i, AMPLITUDE, p.amplitude)

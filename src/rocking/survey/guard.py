@@ -26,7 +26,7 @@ def check_store(path: str | os.PathLike[str]) -> Path:
     if folder.exists() and not folder.is_dir():
         raise StoreError(f"store must be a folder's name; got {str(path)!r}, which is a file")
     check_folder("store", folder)
-    held = {each.name for each in folder.iterdir()} if folder.exists() else set()
+    held = {each.name for each in folder.iterdir() if each.suffix != ".partial"} if folder.exists() else set()
     if held and ROOT not in held:
         raise StoreError(something_else(folder, f"a folder with {min(held)!r} in it"))
     return folder

@@ -129,8 +129,13 @@ def _flat(told: Mapping[str, Any]) -> dict[str, Any]:
 def _difference(name: str, there: Any, here: Any) -> str:
     if name == "over":
         return f"it varies {' and '.join(there)} there, {' and '.join(here)} here"
+    if isinstance(there, list) and isinstance(here, list):  # what only one of them has
+        there, here = (
+            [each for each in there if each not in here],
+            [each for each in here if each not in there],
+        )
     pairs = ((_told(there, digits), _told(here, digits)) for digits in range(USUAL_DIGITS, ALL_DIGITS + 1))
-    one, other = next(pair for pair in pairs if pair[0] != pair[1])
+    one, other = next((pair for pair in pairs if pair[0] != pair[1]), ("one", "another"))
     return f"{name} is {one} there and {other} here"
 
 

@@ -102,13 +102,14 @@ def _settle(pending: deque[Pending], results: Results, watcher: Watcher | None) 
     first = pending[0]
     wait(first.futures, return_when=FIRST_EXCEPTION)
     tile, shared = first.tile, first.tile.shared()
+    found = [future.result() for future in first.futures]
     with undisturbed():
         answers = results.read(tile) if first.known.any() else results.measure.blank(tile.shape)
         if shared is not None:
             for name, values in results.coarser(tile).items():
                 answers[name][shared[0]] = values
-        for wanted, future in zip(first.wanted, first.futures, strict=True):
-            for name, values in future.result().items():
+        for wanted, new in zip(first.wanted, found, strict=True):
+            for name, values in new.items():
                 answers[name].reshape(-1)[wanted] = values
         results.write(tile, answers)
     _tell(watcher, results, tile, answers, ~first.known, before=False)
