@@ -1,11 +1,16 @@
 """Surveys that are killed, interrupted, run twice at once or out of disk lose nothing that was kept."""
 
+import os
 import shutil
 import signal
 import subprocess
 import sys
 import time
 import warnings
+from collections import deque
+from concurrent.futures import Future
+from threading import Timer
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -13,6 +18,7 @@ import xarray as xr
 
 import rocking as rk
 from rocking.survey.guard import undisturbed
+from rocking.survey.run import Pending, _settle
 
 SIZE = 150
 ASKED = {
@@ -163,6 +169,26 @@ def test_ctrl_c_waits_for_the_end_of_what_is_done_with_a_store():
     assert done == ["all of it"]
     with pytest.raises(KeyboardInterrupt):  # and does so no longer
         signal.raise_signal(signal.SIGINT)
+
+
+def test_ctrl_c_is_heard_while_a_slow_batch_is_waited_for_beside_one_that_failed():
+    slow, failed = Future(), Future()
+    failed.set_exception(ValueError("failed"))
+    tile = SimpleNamespace(shape=(2,), shared=lambda: None)
+    pending = deque([Pending(tile, np.zeros(2, bool), [np.array([0]), np.array([1])], [slow, failed])])
+    results = SimpleNamespace(measure=SimpleNamespace(blank=lambda _: {}))
+    timers = [
+        Timer(0.3, os.kill, (os.getpid(), signal.SIGINT)),
+        Timer(2.0, slow.set_exception, (ValueError("slow"),)),
+    ]
+    for timer in timers:
+        timer.start()
+    try:
+        with pytest.raises(KeyboardInterrupt):
+            _settle(pending, results, None)
+    finally:
+        for timer in timers:
+            timer.join()
 
 
 def test_interrupted_run_ends_soon_and_says_how_to_go_on(running):
