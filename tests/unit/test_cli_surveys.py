@@ -186,6 +186,10 @@ def test_all_errors_of_a_study_file_are_told_at_once(rocking, command, wrong, to
             "missing --period and --restitution: give --period (or --frequency) and",
         ),
         ("overturning --restitution 0.9", "missing --period: give"),
+        (
+            "overturning --restitution 0.9 --period 1 --acceleration 1:3:10",
+            "--period is normalised, --acceleration is SI: give one kind",
+        ),
         (f"{CURVE} --phases 1.5", "--phases must be a whole number"),
     ],
 )

@@ -176,18 +176,25 @@ def as_typed(text: str, typed: Mapping[str, str]) -> str:
     return re.sub(words, lambda found: typed[found[1]] if found[1] else found[0], text)
 
 
-def question(given: Mapping[str, Any]) -> tuple[System, State, Block | None]:
-    """The system and the start that the options ask for, and the block if they are in SI; refused as `YourInput`."""
-    from rocking.model import LARGEST_START, Block, Harmonic, State, System, within
-
-    given = USUAL | dict(given)
-    normalised = [name for name in NORMALISED if given[name] is not None]
-    physical = [name for name in SI if given[name] is not None]
+def kinds(given: Mapping[str, Any]) -> tuple[list[str], list[str]]:
+    """What is given normalised, and what in SI; refused as `YourInput` where it is both."""
+    normalised, physical = (
+        [name for name in kind if given.get(name) is not None] for kind in (NORMALISED, SI)
+    )
     if normalised and physical:
         name = normalised[0]
         raise YourInput(
             f"{option(name)} is normalised, {option(physical[0])} is SI: give one kind (in SI it is {option(IN_SI[name])})"
         )
+    return normalised, physical
+
+
+def question(given: Mapping[str, Any]) -> tuple[System, State, Block | None]:
+    """The system and the start that the options ask for, and the block if they are in SI; refused as `YourInput`."""
+    from rocking.model import LARGEST_START, Block, Harmonic, State, System, within
+
+    given = USUAL | dict(given)
+    normalised, physical = kinds(given)
     if not normalised and not physical:
         raise YourInput(f"give {NORMALISED_NEEDS}, or in SI {SI_NEEDS}")
     if normalised:

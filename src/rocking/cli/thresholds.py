@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from rocking.cli import quantities, studies, surveys
 from rocking.cli.applies import warned, warnings
 from rocking.cli.axes import FORM, Axis
-from rocking.cli.options import SI, YourInput, option, require
+from rocking.cli.options import SI, YourInput, kinds, option, require
 from rocking.cli.screen import Row, print_json, print_table
 from rocking.cli.summary import asked_in_si, in_si
 from rocking.cli.surveys import FILES, MOST_ROWS, carried_out
@@ -31,7 +31,8 @@ LEVELS = ("lowest", "resolution", "survived_up_to")
 def question(typed: Mapping[str, Any], file: Path | None) -> dict[str, Any]:
     """What options and study file ask for; what is typed wins."""
     given = studies.asked(typed, file, _checks())
-    if given.keys() & set(SCANNED_SI):
+    _, physical = kinds(given)
+    if physical:
         needs = "--height, --width and --frequency-hz (or --period-s)"
         require(given, (("height",), ("width",), SI[5:]), needs)
     else:
