@@ -7,7 +7,8 @@ import pytest
 from numba import njit
 
 import rocking as rk
-from rocking.kernels import desk, orbit, returns
+from rocking.kernels import cycle, desk, mode, orbit, returns
+from rocking.kernels.march import UNKNOWN
 from rocking.kernels.parameters import harmonic_parameters
 from rocking.kernels.tangent import Tangent
 
@@ -43,11 +44,23 @@ def adapted_norm(a, b, c, d, radius):
 
 @njit(error_model="numpy")
 def find_fixed_point(p, angle, velocity, cycles, memory):
-    found = orbit.find_fixed_point(p, angle, velocity, cycles, 1 << 40, memory.nothing, memory.trial)
+    found = orbit.find_fixed_point(p, angle, velocity, cycles, 1 << 40, memory.nothing, memory.trial, UNKNOWN)
     image = found.image
     return (
         found.converged, found.angle, found.velocity, found.residual, found.error, found.work, image.tangent, image.impacts,
     )  # fmt: skip
+
+
+@njit(error_model="numpy")
+def nearest(p, order, angle, velocity):
+    found = mode.nearest(p, order, angle, velocity)
+    return found.distance, found.angle, found.velocity, found.since, found.half
+
+
+@njit(error_model="numpy")
+def compare(p, section, row, period, angle, velocity, a, b, c, d, impacts):
+    image = orbit.Image(True, angle, velocity, Tangent(a, b, c, d), impacts, 0, 0.0, UNKNOWN)
+    return cycle.compare(p, section, row, period, orbit.Found(True, angle, velocity, image, 0.0, 0.0, 0))
 
 
 def linear_returns(matrix, orbit_rows, off, count):
@@ -181,6 +194,83 @@ def test_newtons_method_finds_the_mode_of_the_closed_form_with_its_multipliers(a
     assert a * d - b * c == pytest.approx(e**4, abs=1e-10 * max(1, abs(a), abs(c)) ** 2)
     assert residual <= 1e-12 * max(1, abs(a), abs(b), abs(c), abs(d))
     assert math.dist(state, (angle, velocity)) < 1e-11 + 10 * error
+
+
+@pytest.mark.parametrize(
+    ("amplitude", "period", "e"), [(2.0, 1.0, 0.925), (10.0, 1.0, 0.8), (5.0, 2.0, 0.9), (2.0, 1.0, 1.0)]
+)
+@pytest.mark.parametrize("mirrored", [False, True])
+def test_the_state_of_a_mode_is_that_of_the_closed_form_on_either_side(amplitude, period, e, mirrored):
+    p, state, _ = mode_1_1(amplitude, period, e)
+    if mirrored:
+        p, state = p._replace(phase=p.phase + math.pi), (-state[0], -state[1])
+    off = np.array([3e-3, -4e-3])
+    distance, angle, velocity, since, half = nearest(p, 1, *(np.array(state) + off))
+    assert distance == pytest.approx(5e-3, rel=1e-9)
+    assert (angle, velocity) == pytest.approx(state, rel=1e-12, abs=1e-14)
+    assert half == pytest.approx(period / 2, rel=1e-15, abs=0)
+    assert since == pytest.approx(period / 4 + (half if mirrored else 0.0) % half, rel=1e-9)
+
+
+@pytest.mark.parametrize("order", [1, 3, 5])
+@pytest.mark.parametrize("phase", [0.0, 2.0, -1.0])
+def test_the_state_of_a_mode_that_is_nearest_comes_back_after_its_period(order, phase):
+    p = harmonic_parameters(6.5, 2 * math.pi / 0.4, 0.4, phase, 0.925)
+    distances = []
+    for near in RANDOM.normal(scale=0.3, size=(8, 2)):
+        distance, *state, _, _ = nearest(p, order, *near)
+        converged, *found, residual, _, _, _, impacts = find_fixed_point(p, *state, order, desk.desk(100, 8))
+        assert distance == pytest.approx(math.dist(state, near), rel=1e-12)
+        if order == 3:
+            # the others are not admissible here
+            assert converged
+            assert found == state
+            assert residual < 1e-14
+            assert impacts == 2
+        distances.append(state)
+    assert len({tuple(state) for state in distances}) <= order
+
+
+def test_there_is_no_mode_of_even_order_below_the_fold_or_without_restitution():
+    p = harmonic_parameters(2.0, 2 * math.pi, 1.0, 0.3, 0.925)
+    assert nearest(p, 1, 0.0, 0.0)[0] < math.inf
+    assert nearest(p, 2, 0.0, 0.0)[0] == math.inf
+    assert nearest(p, 0, 0.0, 0.0)[0] == math.inf
+    fold = rk.theory.existence_amplitude(1.0, 0.925, 1)
+    for amplitude, e, there in ((0.999 * fold, 0.925, False), (1.001 * fold, 0.925, True), (2.0, 0.0, False)):
+        p = harmonic_parameters(amplitude, 2 * math.pi, 1.0, 0.3, e)
+        assert (nearest(p, 1, 0.0, 0.0)[0] < math.inf) == there
+
+
+@pytest.mark.parametrize("period", [1, 3])
+@pytest.mark.parametrize("turn", [0.0, 1.1])
+def test_the_cycle_at_which_an_orbit_is_reached_is_foretold(period, turn):
+    """Returns that obey multipliers but for a term of second order: what they are off by halves with the distance."""
+    radius = 0.8
+    matrix = spiral(radius, turn) if turn else np.diag([radius, 0.1])
+    (a, c), (b, d) = matrix
+    p = harmonic_parameters(2.0, 2 * math.pi, 1.0, 0.3, 0.925)
+    fixed, x, rows = np.array([0.5, 0.7]), np.array([0.3, 0.0]), np.zeros((60 * period, 4))
+    for k in range(60):
+        rows[k * period : (k + 1) * period, :2] = fixed + x
+        rows[k * period : (k + 1) * period, 2] = 2 * k
+        x = matrix @ x + 0.5 * np.array([x @ x, 0.0])
+    answers = {
+        row: compare(p, rows, row, period, *fixed, a, b, c, d, 2)
+        for row in range(3 * period, len(rows), period)
+    }
+    reached = min(row for row, (answer, _, _) in answers.items() if answer == cycle.REACHED)
+    assert reached >= 8 * period
+    for row, (answer, _, coming) in answers.items():
+        if row < reached:
+            assert answer == cycle.NOT_YET
+            assert coming % period == 0
+            assert row + coming <= reached + period
+            # further away the distance shrinks otherwise than the multipliers say
+            if row >= reached - 5 * period:
+                assert row + coming >= reached - period
+        else:
+            assert (answer, coming) == (cycle.REACHED, 0)
 
 
 def test_newtons_method_gives_up_where_the_block_overturns():

@@ -7,10 +7,12 @@ from numba import njit
 
 from .elementary import WITHIN, WRITTEN_IN, size
 from .march import UNKNOWN
+from .mode import nearest
 from .orbit import Found, Image, adapted_norm, find_fixed_point, image_after, length, multipliers
 from .parameters import later
 from .returns import apart, approached, closest_return
 from .tangent import Tangent
+from .turning import largest_on
 
 # Where Newton's method starts, in this order; and once more with the least period of what it found.
 KNOWN, APPROACHED, CLOSEST, NO_MORE = range(4)
@@ -27,6 +29,7 @@ NONLINEAR = 0.2
 # small of second order cannot turn that round on the rest of the way.
 BENT, APPROACH = 0.01, 0.3
 RETURNS = 3
+MOST_FORETOLD = 1 << 20
 # States of an orbit as near as this are one.
 SAME = 1e-9
 # A motion as near as this to a neutral orbit is on it.
@@ -46,8 +49,9 @@ class Cycle(NamedTuple):
     period: int
     symmetric: bool
     found: Found
-    peak: float
+    peak: float  # NaN where it was not asked for
     distance: float  # from the orbit, a period before the last return
+    coming: int  # cycles until it may be reached, as far as that can be foretold; 0 where it cannot
     work: int
 
 
@@ -71,13 +75,14 @@ def find_cycle(p, section_time, desk, count, most_lag, most_work, known, since, 
     """Compare a motion with the periodic orbit that its last ``count`` states approach.
 
     First with the ``known`` one, found ``since`` cycles ago, and with no other while the motion comes nearer to
-    it, much nearer if it repels: what was born of it lies beside it; then with the limit of the returns; then, if
-    they have none, with what is nearest to a close return. A ``neutral`` orbit attracts nothing: the motion must be
-    on it.
+    it, much nearer if it repels: what was born of it lies beside it; then with the limit of the returns, or the
+    symmetric mode beside it; then, if they have none, with what is nearest to a close return. A ``neutral`` orbit
+    attracts nothing: the motion must be on it.
     """
     section, nothing, columns, scratch = desk.section, desk.nothing, desk.trial, desk.scratch
     clocked, row, work, candidate, seen = later(p, section_time), count - 1, 0, KNOWN, no_cycle(0)
     angle, velocity, lag, found, enough = 0.0, 0.0, 0, known.found, UNBOUNDED
+    symmetric, peak, waits, mode = known.symmetric, known.peak, UNKNOWN, nearest(clocked, 0, 0.0, 0.0)
     while candidate < NO_MORE:
         trying, candidate = candidate, (NO_MORE if candidate == REFINED else candidate + 1)
         if trying == KNOWN:
@@ -86,6 +91,9 @@ def find_cycle(p, section_time, desk, count, most_lag, most_work, known, since, 
         elif trying == APPROACHED:
             row = count - 1
             lag, angle, velocity = approached(section, count, most_lag)
+            mode = nearest(clocked, lag, angle, velocity)
+            if mode.distance <= CLOSE:
+                angle, velocity, waits = mode.angle, mode.velocity, (mode.half - mode.since, mode.half)
         elif trying == CLOSEST:
             lag, away = closest_return(section, count, most_lag)
             lag = lag if away <= CLOSE else 0
@@ -95,20 +103,28 @@ def find_cycle(p, section_time, desk, count, most_lag, most_work, known, since, 
         if lag == 0 or enough <= 0:
             continue
         if trying != KNOWN:
-            found = find_fixed_point(clocked, angle, velocity, lag, enough, nothing, columns)
+            found = find_fixed_point(clocked, angle, velocity, lag, enough, nothing, columns, waits)
             work += found.work
+            waits, symmetric, peak = UNKNOWN, False, math.nan
             if not found.converged:
                 continue
-        answer, away = compare(p, section, row, lag, found)
+            if lag == mode.order and size(found.angle - mode.angle, found.velocity - mode.velocity) <= SAME:
+                symmetric, peak = True, largest_on(clocked, mode.arc, mode.half, 0.0)
+        answer, away, coming = compare(p, section, row, lag, found)
         if answer != REACHED and not (neutral and away <= NEUTRAL):
+            coming = max(coming - (count - 1 - row), 0)
             nearer = away < known.distance * (1.0 if attracts(p, found.image) else MUCH_NEARER)
             if trying == KNOWN and answer == NOT_YET and nearer:
-                return Cycle(NOT_YET, lag, False, found, math.nan, away, work)
+                return Cycle(NOT_YET, lag, symmetric, found, peak, away, coming, work)
+            # Of what is found time and again somewhere else nothing is foretold.
+            coming = coming if trying == APPROACHED and known.period == 0 else 0
             if trying != KNOWN or answer == ON_EVENT:
-                seen = Cycle(answer, lag, False, found, math.nan, away, work)
+                seen = Cycle(answer, lag, symmetric, found, peak, away, coming, work)
             if answer == ON_EVENT or trying == APPROACHED:
                 break
             continue
+        if symmetric:
+            return Cycle(REACHED, lag, True, found, peak, away, 0, work)
         whole = image_after(
             clocked,
             found.angle,
@@ -126,9 +142,9 @@ def find_cycle(p, section_time, desk, count, most_lag, most_work, known, since, 
         period = least_period(scratch, lag, same)
         if period == lag:
             symmetric = period % 2 == 1 and is_mirrored(scratch, (period - 1) // 2, found, same)
-            return Cycle(REACHED, period, symmetric, found, whole.peak, away, work)
+            return Cycle(REACHED, period, symmetric, found, whole.peak, away, 0, work)
         angle, velocity, lag, enough, candidate = found.angle, found.velocity, period, UNBOUNDED, REFINED
-    return Cycle(seen.answer, seen.period, False, seen.found, math.nan, seen.distance, work)
+    return Cycle(*seen[:7], work)
 
 
 @njit(**WITHIN)
@@ -136,7 +152,7 @@ def no_cycle(work):
     """No orbit; its multipliers are those of a motion that forgets everything."""
     nowhere = Image(False, math.nan, math.nan, Tangent(0.0, 0.0, 0.0, 0.0), -1, -1, math.nan, UNKNOWN)
     nothing = Found(False, math.nan, math.nan, nowhere, math.nan, math.nan, 0)
-    return Cycle(NOT_YET, 0, False, nothing, math.nan, math.nan, work)
+    return Cycle(NOT_YET, 0, False, nothing, math.nan, math.nan, 0, work)
 
 
 @njit(**WITHIN)
@@ -158,7 +174,7 @@ def least_period(rows, lag, same):
 def spectral_radius(tangent):
     """The size of the largest multiplier."""
     real, imaginary, _, _ = multipliers(tangent)
-    return math.hypot(real, imaginary)
+    return size(real, imaginary)
 
 
 @njit(**WITHIN)
@@ -169,22 +185,24 @@ def attracts(p, image):
 
 @njit(**WITHIN)
 def compare(p, section, row, period, found):
-    """(answer, distance from the orbit a period before the row): the Floquet stop.
+    """(answer, distance from the orbit a period before the row, cycles until it may be reached, 0 where nobody knows): the Floquet stop.
 
     The orbit must be stable, and each of the last RETURNS returns what its multipliers say, up to a share of
     what is left (or of the distance, where they attract weakly), with the orbit's own impacts: one alone may do so by
     chance, and the map has kinks that only the next ones meet. An orbit that rests or leans in between is not judged
     here: its section need not resolve when.
+
+    What a return is off by, as a share of the distance, shrinks like the distance itself, by the larger multiplier a return.
     """
     angle, velocity, image = found.angle, found.velocity, found.image
     tangent = image.tangent
     radius = spectral_radius(tangent)
     distance = size(section[row - period, 0] - angle, section[row - period, 1] - velocity)
     if not attracts(p, image) or radius == 0.0 or row < RETURNS * period:
-        return NOT_YET, distance
+        return NOT_YET, distance, 0
     for k in range(period):
         if on_event(p, section, row - k):
-            return ON_EVENT, distance
+            return ON_EVENT, distance, 0
     norm = adapted_norm(tangent, 0.5 * (1.0 + radius))
     for k in range(RETURNS):
         after = row - k * period
@@ -194,10 +212,11 @@ def compare(p, section, row, period, found):
         to_y = section[after, 1] - velocity - (tangent.b * x + tangent.d * y)
         impacts, brace_hits = section[after, 2] - section[before, 2], section[after, 3] - section[before, 3]
         left = length(norm, x, y)
-        straight = length(norm, to_x, to_y) <= max(NONLINEAR * (1.0 - radius), BENT) * left
+        off = length(norm, to_x, to_y) / (max(NONLINEAR * (1.0 - radius), BENT) * left)
         landed = length(norm, section[after, 0] - angle, section[after, 1] - velocity)
-        near = straight and landed <= (1.0 - APPROACH * (1.0 - radius)) * left
+        near = off <= 1.0 and landed <= (1.0 - APPROACH * (1.0 - radius)) * left
         near = near or size(x, y) <= ROUNDING
         if not near or impacts != image.impacts or brace_hits != image.brace_hits:
-            return NOT_YET, distance
-    return REACHED, distance
+            more = math.log(off) / -math.log(radius) - 1.0 if k == 0 and off > 1.0 else -float(k)
+            return NOT_YET, distance, period * math.ceil(min(RETURNS + more, MOST_FORETOLD))
+    return REACHED, distance, 0

@@ -153,7 +153,7 @@ def released(watch, work):
     period = half_periods if symmetric else half_periods // 2
     forgets = no_cycle(0).found.image
     release = Found(True, arc.side * arc.angle, 0.0, forgets, 0.0, 0.0, 0)
-    orbit = Cycle(REACHED, period, symmetric, release, watch.orbit_peak, 0.0, 0)
+    orbit = Cycle(REACHED, period, symmetric, release, watch.orbit_peak, 0.0, 0, 0)
     transient = max(watch.progress.cycle - (half_periods + 1) // 2, 0)
     return judged(PERIODIC, RESET, watch, work, -math.inf, 0.0, transient, orbit, arc.start, math.nan)
 

@@ -6,7 +6,7 @@ from typing import NamedTuple
 from numba import njit
 
 from .elementary import WITHIN, WRITTEN_IN, size
-from .march import DONE, UNKNOWN, begin, march_on
+from .march import DONE, begin, march_on
 from .tangent import Tangent, read_tangent
 
 RESIDUAL = 1e-12
@@ -65,10 +65,10 @@ def image_after(p, angle, velocity, cycles, section_time, section, nothing, colu
 
 
 @njit(**WRITTEN_IN)
-def find_fixed_point(p, angle, velocity, cycles, most_work, nothing, columns):
-    """Newton's method on the map over ``cycles`` forcing cycles, until the residual is at most RESIDUAL."""
+def find_fixed_point(p, angle, velocity, cycles, most_work, nothing, columns, waits):
+    """Newton's method on the map over ``cycles`` forcing cycles, until the residual is at most RESIDUAL; ``waits`` as for ``begin``."""
     reach = min(p.brace_angle, FARTHEST)
-    work, failures, best, steps, converged, waits = 0, 0, math.inf, 0, False, UNKNOWN
+    work, failures, best, steps, converged = 0, 0, math.inf, 0, False
     while True:
         image = image_after(p, angle, velocity, cycles, 0.0, nothing.section, nothing, columns, False, waits)
         waits = image.waits

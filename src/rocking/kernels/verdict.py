@@ -139,8 +139,10 @@ def unmoved(section, count, max_period):
 
 
 @njit(**WITHIN)
-def next_checkpoint(cycle):
-    """When to look for a periodic orbit again: after 10, 14 cycles, then ever later."""
+def next_checkpoint(cycle, coming):
+    """When to look for a periodic orbit again: as foretold, where one was found, else after 10, 14 cycles, then ever later."""
+    if coming > 0:
+        return cycle + min(coming, max(cycle // 2, FIRST_CHECKPOINTS))
     return cycle + FIRST_CHECKPOINTS if cycle < GROW_FROM else int(cycle * CHECKPOINTS_GROW)
 
 
@@ -176,6 +178,7 @@ def look(p, case, status, run, max_cycles, max_period, desk):
     if lossless and flights.count >= enough:
         digits, converged = agreement(flights, desk.flights, desk.weights, desk.growth[0])
         enough = flights.count * 5 // 4
+    coming = 0
     due, over = target in (checkpoint, max_cycles), target == max_cycles
     if converged or over:
         work_out(p, desk.section, count - 1 - max_period, count, section_time)
@@ -189,7 +192,7 @@ def look(p, case, status, run, max_cycles, max_period, desk):
         cycle = find_cycle(
             p, section_time, desk, count, max_period, most_work, known, target - known_at, still
         )
-        work += cycle.work
+        work, coming = work + cycle.work, cycle.coming
         if cycle.answer == REACHED:
             ground = NEUTRAL_ORBIT if still else ORBIT
             return periodic(p, ground, watch, work, cycle, section_time), case
@@ -209,7 +212,7 @@ def look(p, case, status, run, max_cycles, max_period, desk):
     if lossless:
         checkpoint = target + LEG
     elif target == checkpoint:
-        checkpoint = next_checkpoint(target)
+        checkpoint = next_checkpoint(target, coming)
     run = Run(watch, flights, section_time, count, lossless, measuring)
     case = Case(
         run, done.impacts, done.brace_hits, checkpoint, batch_end, measured, grown, lossy, enough, digits,

@@ -1,12 +1,6 @@
 """Symmetric (1, n) modes in closed form: Spanos & Koh (1984), eqs (8)-(10) of Yim & Lin (1991).
 
-With h = nπ/Ω, half a response, t = tanh(h/2), k∓ = (1 ∓ e)/2e and a = Ω²t²k₋² + k₊², the speed V after an impact and the phase φ
-there obey
-
-    β cos φ = −t V k₋,   βΩ sin φ = t − V k₊,   so that   aV² − 2t k₊ V + t² − Ω²β² = 0.
-
-Written with the distance of V from V_E = t k₊/a, where both roots meet, nothing cancels and nothing overflows:
-(V − V_E)² = (Ω/a)² (√a β − t²k₋)(√a β + t²k₋), and the trace of the half-cycle map is 1 + e² + e(1+e) sinh h (1/V − 1/V_E).
+What they are follows from ``rocking.kernels.mode``; here are the amplitudes between which they exist and are stable.
 """
 
 from __future__ import annotations
@@ -16,8 +10,8 @@ from typing import Any
 
 import numpy as np
 
+from rocking.kernels import mode, symmetric
 from rocking.kernels import parameters as numbers
-from rocking.kernels import symmetric
 from rocking.model import (
     LARGEST_AMPLITUDE,
     PERIODS,
@@ -27,9 +21,6 @@ from rocking.model import (
     within,
 )
 from rocking.theory.arguments import MOST_CYCLES, frequencies, odd, plain, restitutions
-
-# Beyond it sinh is infinite.
-LARGEST_ARGUMENT = 700.0
 
 
 def existence_amplitude(period: Any, restitution: Any, n: Any) -> Any:
@@ -183,27 +174,12 @@ def symmetric_modes(amplitude: float, period: float, restitution: float, n: int)
         remedy = "an impact that stops the block leaves no mode"
         raise ValueError(refusal("restitution", "lie in (0, 1] for symmetric modes", restitution, remedy))
     odd(whole("n", n, 1, MOST_CYCLES))
-    h = n * math.pi / omega
-    t, beta = math.tanh(0.5 * h), amplitude / (1.0 + omega * omega)
-    less, more = (1.0 - e) / (2.0 * e), (1.0 + e) / (2.0 * e)
-    a = (omega * t * less) ** 2 + more * more
-    root_a = math.sqrt(a)
-    square = (root_a * beta - t * t * less) * (root_a * beta + t * t * less)
-    if amplitude == 0.0 or square < 0.0:
-        return []
-    root = math.sqrt(square)
-    fold = t * more / a
-    fast = fold + omega * root / a
-    slow = (t - omega * beta) * (t + omega * beta) / (a * fast)
+    beta = amplitude / (1.0 + omega * omega)
     modes = []
-    for speed, sign in ((fast, 1.0), (slow, -1.0))[: 2 if root > 0.0 and slow > 0.0 else 1]:
-        # (t − V k₊)/Ω without the cancellation where e is near 1
-        sine = (omega * t**3 * less * less - sign * root * more) / a
-        phase = math.atan2(sine, -t * speed * less)
-        apart = -sign * omega * root / (a * speed * fold)
-        steep = math.sinh(h) if h < LARGEST_ARGUMENT else math.inf
-        trace = 1.0 + e * e + (e * (1.0 + e) * steep * apart if apart != 0.0 else 0.0)
-        modes.append(_mode(amplitude, period, e, n, speed, phase, trace))
+    for faster in (True, False):
+        speed, phase, trace = mode.closed_form_plain(omega, beta, e, n, faster)
+        if amplitude > 0.0 and speed > 0.0:
+            modes.append(_mode(amplitude, period, e, n, speed, phase, trace))
     return modes
 
 
