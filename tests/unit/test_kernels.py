@@ -73,6 +73,40 @@ def test_nothing_compiled_calls_what_is_kept_on_disk():
     assert [kernel.py_func.__name__ for kernel in kept if id(kernel) in called] == []
 
 
+EVERY_KIND = """
+import importlib, pkgutil
+from numba.core.caching import FunctionCache
+from numba.core.dispatcher import Dispatcher
+from numba.core.types import BaseTuple, BaseNamedTuple
+import rocking as rk
+from rocking import kernels
+
+def named(kind):
+    parts = kind.types if isinstance(kind, BaseTuple) else ()
+    return isinstance(kind, BaseNamedTuple) or any(named(part) for part in parts)
+
+system = rk.System(rk.Harmonic(2.0, period=1.0), 0.925)
+rk.simulate(system, cycles=3), rk.classify(system), rk.theory.symmetric_modes(2.0, 1.0, 0.925, 1)
+rk.parametric_map(amplitude=[1.0, 2.0], period=[1.0, 2.0], restitution=1.0, max_cycles=200)
+modules = [importlib.import_module(f"rocking.kernels.{module.name}") for module in pkgutil.iter_modules(kernels.__path__)]
+met = {
+    f"{what.py_func.__module__}.{what.py_func.__name__}": [named(sign.return_type) for sign in what.nopython_signatures]
+    for module in modules for what in vars(module).values()
+    if isinstance(what, Dispatcher) and isinstance(what._cache, FunctionCache) and what.nopython_signatures
+}
+print(len(met), [name for name, returns in met.items() if any(returns)])
+"""
+
+
+def test_nothing_compiled_hands_a_named_tuple_to_python():
+    """It would be made by calling its class, and an interrupt that strikes there ends the process."""
+    told = subprocess.run(
+        [sys.executable, "-c", EVERY_KIND], capture_output=True, text=True, check=True
+    ).stdout.split(maxsplit=1)
+    assert int(told[0]) >= 8
+    assert told[1].strip() == "[]"
+
+
 CHAOS = """
 import rocking as rk
 braced = rk.System(rk.Harmonic(15.0, period=2.0), 0.925, rk.Braces(1.0))

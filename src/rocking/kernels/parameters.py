@@ -117,9 +117,9 @@ def make(amplitude, frequency, period, phase, restitution, brace_angle, brace_re
 
 @njit(**ENTRY)
 def make_plain(amplitude, frequency, period, phase, restitution, brace_angle, brace_restitution):
-    """``make`` for Python: a plain tuple."""
+    """``make`` for Python: a plain tuple, as ``march.plain`` has it."""
     p = make(amplitude, frequency, period, phase, restitution, brace_angle, brace_restitution)
-    return tuple(p)
+    return p[:]
 
 
 def harmonic_parameters(

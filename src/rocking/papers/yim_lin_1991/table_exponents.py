@@ -88,12 +88,21 @@ def _quasi_periodic() -> Row:
     )
 
 
+def sea_systems(count: int) -> list[rk.System]:
+    """The chaotic system and others like it, from ``count`` phases that no experiment tells apart."""
+    forcing, restitution = CHAOTIC.system.forcing, CHAOTIC.system.restitution
+    return [
+        rk.System(rk.Harmonic(forcing.amplitude, period=forcing.period, phase=phase), restitution)
+        for phase in np.linspace(0.0, SEA_PHASES, count)
+    ]
+
+
 @cache
 def sea() -> tuple[float, float]:
     """Mean and standard deviation of λ₁ of the chaotic sea, in nats per cycle, over runs of the length of 1991."""
-    system = CHAOTIC.system
-    values = [_estimate(_from_phase(system, phase)) for phase in np.linspace(0.0, SEA_PHASES, SEA_STARTS)]
-    per_cycle = np.array(values) * system.forcing.period
+    per_cycle = (
+        np.array([_estimate(system) for system in sea_systems(SEA_STARTS)]) * CHAOTIC.system.forcing.period
+    )
     return float(per_cycle.mean()), float(per_cycle.std(ddof=1))
 
 
@@ -168,11 +177,6 @@ def _estimate(system: rk.System) -> float:
         return float(rk.lyapunov(system, cycles=SEA_CYCLES, transient=0).values[0])
     except rk.TooShort as short:
         return float(short.estimate.values[0])
-
-
-def _from_phase(system: rk.System, phase: float) -> rk.System:
-    forcing = system.forcing
-    return rk.System(rk.Harmonic(forcing.amplitude, period=forcing.period, phase=phase), system.restitution)
 
 
 def _dimension(system: rk.System, points: int, transient: int = 0) -> Dimension:

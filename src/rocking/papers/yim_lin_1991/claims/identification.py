@@ -100,10 +100,13 @@ def figure_8b() -> Finding:
 @CHAPTER.claim("Fig. 8c")
 def figure_8c() -> Finding:
     """That of the chaotic response is a broad band."""
-    density = rk.spectral_density(rk.simulate(CHAOTIC.system, cycles=8_192))
+    # One run in thirty sticks to an island for so long that its lines hold half of all.
+    systems = table_exponents.sea_systems(9)
+    shares = [rk.spectral_density(rk.simulate(system, cycles=8_192)).line_share for system in systems]
     return Finding(
-        density.line_share < 0.5,
-        f"lines hold {100 * density.line_share:.1f} % of the variance, the band the rest",
+        bool(np.median(shares) < 0.5),
+        f"lines hold {100 * np.median(shares):.0f} % of the variance, the band the rest: the median of "
+        f"{len(shares)} runs, from phases within {table_exponents.SEA_PHASES:g}; the most {100 * max(shares):.0f} %",
     )
 
 
