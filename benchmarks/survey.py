@@ -61,7 +61,16 @@ def maps():
     yield Figure("  resets of unresolved period", 100.0 * unresolved.mean(), "%", 0.02)
     _, quarter, _ = taken(**asked(POINTS // 2))
     yield Figure("  a point's cost, against a quarter of the points", work / quarter / 4.0, "×", 1.1)
-    yield Figure("  marching 1,000 cycles at every point takes", marched() / work, "times", 10, least=True)
+    states = np.empty((MARCHED, 4))
+    noting = f"{marched(states, True) / work:.3g} times, where it keeps the states and the peak that tell what a response is"
+    yield Figure(
+        "  marching 1,000 cycles at every point takes",
+        marched(np.empty((0, 4)), False) / work,
+        "times",
+        10,
+        least=True,
+        note=noting,
+    )
     wall, work, found = taken(**asked(POINTS, 1.0))
     yield Figure("10⁶ points, e = 1, ≤ 10,000 cycles", wall, "s", 20, note=f"{work:.3g} s of processors")
     open_share = 100.0 * np.isin(found.kind.values, (3, 5)).mean()
@@ -110,7 +119,7 @@ def busy():
 
 
 @njit(nogil=True)
-def march_all(amplitudes, periods, cycles, table, row):
+def march_all(amplitudes, periods, cycles, section, want_peak, table, row):
     """Every point from rest to the end of its cycles, unless it overturns or rests for ever before; impacts met."""
     impacts = 0
     for k in range(amplitudes.shape[0]):
@@ -118,18 +127,18 @@ def march_all(amplitudes, periods, cycles, table, row):
         progress, status = march.begin(p, 0.0, 0.0, march.UNKNOWN)[0], march.PAUSED
         while status == march.PAUSED:
             status, progress, _, _ = march.march_on(
-                p, progress, cycles, 0.0, table, table, table, row, False, False
+                p, progress, cycles, 0.0, section, table, table, row, want_peak, False
             )
         impacts += progress.impacts
     return impacts
 
 
-def marched():
+def marched(section, want_peak):
     """Processor seconds of the map of a million points if every one were marched, from one in a hundred."""
     grid = np.meshgrid(np.linspace(*AMPLITUDES, POINTS // 10), np.linspace(*PERIODS, POINTS // 10))
     amplitudes, periods = (axis.ravel() for axis in grid)
     nothing = np.empty((0, 2)), np.empty(0)
-    march_all(amplitudes[:1], periods[:1], 1, *nothing)
+    march_all(amplitudes[:1], periods[:1], 1, section, want_peak, *nothing)
     begun = time.thread_time()
-    march_all(amplitudes, periods, MARCHED, *nothing)
+    march_all(amplitudes, periods, MARCHED, section, want_peak, *nothing)
     return 100.0 * (time.thread_time() - begun)

@@ -78,6 +78,13 @@ def test_near_the_third_of_a_turn_the_orbit_of_21_cycles_is_not_taken_for_that_o
     assert (found.kind, found.period) == ("periodic", 21)
 
 
+def test_an_orbit_approached_slowly_is_not_hidden_by_another_far_away():
+    """Once in 17 cycles, while the motion creeps to an orbit of 3, it comes a ten-thousandth nearer to one of 17 that lies .26 away."""
+    system = rk.System(rk.Harmonic(5.957957957957958, period=0.9819819819819819), 0.925)
+    found = rk.classify(system, max_cycles=5_000)
+    assert (found.kind, found.period) == ("periodic", 3)
+
+
 @pytest.mark.parametrize(("amplitude", "period"), [(1.0, 1.0), (3.0, 0.8), (2.0, 2.0)])
 def test_a_start_on_a_neutral_mode_without_loss_is_periodic(amplitude, period):
     """e = 1: the mode (1, 1) has V = tanh(π/2Ω) ± Ωβ at a phase of ∓π/2, on the unit circle for t < V < 1/t, eqs. (8)–(10)."""

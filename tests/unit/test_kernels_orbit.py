@@ -273,6 +273,15 @@ def test_the_cycle_at_which_an_orbit_is_reached_is_foretold(period, turn):
             assert (answer, coming) == (cycle.REACHED, 0)
 
 
+def test_of_a_motion_that_comes_no_nearer_nothing_is_foretold():
+    p, rows = harmonic_parameters(2.0, 2 * math.pi, 1.0, 0.3, 0.925), np.zeros((20, 4))
+    rows[:, :2] = [(0.5 + 0.2 * 0.9999**k, 0.7) for k in range(20)]
+    rows[:, 2] = 2 * np.arange(20)
+    answer, distance, coming = compare(p, rows, 19, 1, 0.5, 0.7, 0.8, 0.0, 0.0, 0.1, 2)
+    assert (answer, coming) == (cycle.NOT_YET, 0)
+    assert distance == pytest.approx(0.2 * 0.9999**18, rel=1e-12)
+
+
 def test_newtons_method_gives_up_where_the_block_overturns():
     p = harmonic_parameters(1.75, math.pi, 2.0, 0.0, 0.95)
     assert not find_fixed_point(p, 0.9, 0.5, 3, desk.desk(100, 8))[0]

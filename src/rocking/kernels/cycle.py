@@ -192,7 +192,8 @@ def compare(p, section, row, period, found):
     chance, and the map has kinks that only the next ones meet. An orbit that rests or leans in between is not judged
     here: its section need not resolve when.
 
-    What a return is off by, as a share of the distance, shrinks like the distance itself, by the larger multiplier a return.
+    What a return is off by, as a share of the distance, shrinks like the distance itself, by the larger multiplier a return;
+    of a motion that does not come nearer nothing is foretold.
     """
     angle, velocity, image = found.angle, found.velocity, found.image
     tangent = image.tangent
@@ -214,9 +215,10 @@ def compare(p, section, row, period, found):
         left = length(norm, x, y)
         off = length(norm, to_x, to_y) / (max(NONLINEAR * (1.0 - radius), BENT) * left)
         landed = length(norm, section[after, 0] - angle, section[after, 1] - velocity)
-        near = off <= 1.0 and landed <= (1.0 - APPROACH * (1.0 - radius)) * left
-        near = near or size(x, y) <= ROUNDING
+        comes = landed <= (1.0 - APPROACH * (1.0 - radius)) * left
+        near = (comes and off <= 1.0) or size(x, y) <= ROUNDING
         if not near or impacts != image.impacts or brace_hits != image.brace_hits:
             more = math.log(off) / -math.log(radius) - 1.0 if k == 0 and off > 1.0 else -float(k)
-            return NOT_YET, distance, period * math.ceil(min(RETURNS + more, MOST_FORETOLD))
+            coming = period * math.ceil(min(RETURNS + more, MOST_FORETOLD))
+            return NOT_YET, distance, coming if comes else 0
     return REACHED, distance, 0
