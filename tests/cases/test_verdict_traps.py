@@ -78,6 +78,21 @@ def test_near_the_third_of_a_turn_the_orbit_of_21_cycles_is_not_taken_for_that_o
     assert (found.kind, found.period) == ("periodic", 21)
 
 
+@pytest.mark.parametrize(
+    ("amplitude", "period", "restitution", "start", "found"),
+    [
+        (4.20971051431227, 0.3, 0.6, (0.05, 0.0), 3),
+        (1.7927406076353247, 0.007032280718753793, 0.01, (0.0, 0.1), 1),
+    ],
+)
+def test_an_unsymmetric_orbit_is_not_hidden_by_the_symmetric_one_it_was_born_of(
+    amplitude, period, restitution, start, found
+):
+    system = rk.System(rk.Harmonic(amplitude, period=period), restitution)
+    verdict = rk.classify(system, rk.State(*start), max_cycles=3_000)
+    assert (verdict.kind, verdict.period, verdict.symmetric) == ("periodic", found, False)
+
+
 def test_an_orbit_approached_slowly_is_not_hidden_by_another_far_away():
     """Once in 17 cycles, while the motion creeps to an orbit of 3, it comes a ten-thousandth nearer to one of 17 that lies .26 away."""
     system = rk.System(rk.Harmonic(5.957957957957958, period=0.9819819819819819), 0.925)

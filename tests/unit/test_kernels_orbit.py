@@ -212,23 +212,40 @@ def test_the_state_of_a_mode_is_that_of_the_closed_form_on_either_side(amplitude
     assert since == pytest.approx(period / 4 + (half if mirrored else 0.0) % half, rel=1e-9)
 
 
-@pytest.mark.parametrize("order", [1, 3, 5])
-@pytest.mark.parametrize("phase", [0.0, 2.0, -1.0])
-def test_the_state_of_a_mode_that_is_nearest_comes_back_after_its_period(order, phase):
+@pytest.mark.parametrize("phase", [0.0, 2.0, -1.0, 5.5])
+def test_of_the_three_states_of_a_mode_the_nearest_is_told(phase):
+    """The orbit's own states are marched from one of them: fixed points of three cycles, two impacts round."""
+    system = rk.System(rk.Harmonic(6.5, period=0.4, phase=phase), 0.925)
     p = harmonic_parameters(6.5, 2 * math.pi / 0.4, 0.4, phase, 0.925)
-    distances = []
-    for near in RANDOM.normal(scale=0.3, size=(8, 2)):
-        distance, *state, _, _ = nearest(p, order, *near)
-        converged, *found, residual, _, _, _, impacts = find_fixed_point(p, *state, order, desk.desk(100, 8))
-        assert distance == pytest.approx(math.dist(state, near), rel=1e-12)
-        if order == 3:
-            # the others are not admissible here
-            assert converged
-            assert found == state
-            assert residual < 1e-14
-            assert impacts == 2
-        distances.append(state)
-    assert len({tuple(state) for state in distances}) <= order
+    _, *state, _, _ = nearest(p, 3, 0.0, 0.0)
+    converged, *found, residual, _, _, _, impacts = find_fixed_point(p, *state, 3, desk.desk(100, 8))
+    assert converged
+    assert found == state
+    assert residual < 1e-14
+    assert impacts == 2
+    states = rk.simulate(system, rk.State(*state), cycles=2, record="section").section()
+    assert len(np.unique(states.round(6), axis=0)) == 3
+    for other in states:
+        for off in RANDOM.normal(scale=0.02, size=(4, 2)):
+            wanted = other + off
+            away = np.hypot(*(states - wanted).T)
+            distance, angle, velocity, _, _ = nearest(p, 3, *wanted)
+            assert distance == pytest.approx(away.min(), rel=1e-9)
+            assert (angle, velocity) == pytest.approx(tuple(states[away.argmin()]), abs=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("period", "e", "order"), [(1.0, 0.8, 1), (0.4, 0.925, 3), (0.01, 0.2, 1), (0.3, 0.6, 3)]
+)
+def test_a_mode_that_repels_is_no_place_to_begin_at(period, e, order):
+    """Beyond A_SB it lies between the two unsymmetric orbits that motions come to."""
+    breaks = rk.theory.symmetry_breaking_amplitude(period, e, order)
+    there = [
+        nearest(harmonic_parameters(share * breaks, 2 * math.pi / period, period, 0.3, e), order, 0.0, 0.0)[0]
+        for share in (1 - 1e-6, 1 + 1e-6)
+    ]
+    assert there[0] < math.inf
+    assert there[1] == math.inf
 
 
 def test_there_is_no_mode_of_even_order_below_the_fold_or_without_restitution():

@@ -338,3 +338,14 @@ def test_what_is_no_number_is_refused_as_such():
         rk.theory.existence_amplitude("one", 0.9, 1)
     with pytest.raises(TypeError, match="^restitution must be a real number in"):
         rk.theory.symmetric_modes(2.0, 1.0, None, 1)
+
+
+@pytest.mark.parametrize("e", [1e-3, 1e-100, 1e-156, 1e-300])
+def test_however_little_is_kept_the_modes_of_twice_the_fold_are_there(e):
+    """As e goes to 0 speeds shrink like e, and phase and trace tend to limits."""
+    modes = rk.theory.symmetric_modes(2 * rk.theory.existence_amplitude(1.0, e, 1), 1.0, e, 1)
+    known = rk.theory.symmetric_modes(2 * rk.theory.existence_amplitude(1.0, 1e-9, 1), 1.0, 1e-9, 1)
+    assert len(modes) == len(known) > 0
+    for mode, limit in zip(modes, known, strict=True):
+        assert mode.velocity / e == pytest.approx(limit.velocity / 1e-9, rel=10 * e + 1e-8)
+        assert mode.phase == pytest.approx(limit.phase, abs=10 * e + 1e-8)

@@ -1,4 +1,4 @@
-"""Whether a motion has reached a periodic orbit: the closest return, Newton's method from it, and the Floquet stop."""
+"""Whether a motion has reached a periodic orbit: what its returns point to, Newton's method from there, and the Floquet stop."""
 
 import math
 from typing import NamedTuple
@@ -20,6 +20,8 @@ REFINED = -1
 UNBOUNDED = 1 << 62
 # From returns further apart Newton's method seldom finds what the motion approaches.
 CLOSE = 0.01
+# A symmetric mode is taken for the limit of the returns where it is nearer to that than this share of the way left.
+BESIDE = 0.5
 # A section must not lie on an event: sides, impacts and derivatives are ambiguous there. In cycles.
 CLEARANCE = 1e-6
 # How far a return may be from what the multipliers say, as a share of what is left of the distance.
@@ -92,7 +94,8 @@ def find_cycle(p, section_time, desk, count, most_lag, most_work, known, since, 
             row = count - 1
             lag, angle, velocity = approached(section, count, most_lag)
             mode = nearest(clocked, lag, angle, velocity)
-            if mode.distance <= CLOSE:
+            left = size(section[row, 0] - angle, section[row, 1] - velocity)
+            if mode.distance <= max(BESIDE * left, SAME):
                 angle, velocity, waits = mode.angle, mode.velocity, (mode.half - mode.since, mode.half)
         elif trying == CLOSEST:
             lag, away = closest_return(section, count, most_lag)

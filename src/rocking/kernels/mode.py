@@ -25,7 +25,7 @@ LARGEST_ARGUMENT = 700.0
 class Nearest(NamedTuple):
     """Of the states of a mode on a section the one nearest to a given state."""
 
-    distance: float  # infinite where there is no mode
+    distance: float  # infinite where there is no stable mode
     order: int
     angle: float
     velocity: float
@@ -38,23 +38,23 @@ class Nearest(NamedTuple):
 def closed_form(frequency, response, restitution, order, faster):
     """(speed after an impact, phase there, trace of the half-cycle map) of the faster or slower mode; NaN where there is none."""
     e, h = restitution, order * math.pi / frequency
-    t = math.tanh(0.5 * h)
-    less, more = (1.0 - e) / (2.0 * e), (1.0 + e) / (2.0 * e)
-    swept = frequency * t * less
-    a = swept * swept + more * more
-    fold, width = t * more / a, math.sqrt(a) * response
-    root = math.sqrt((width - t * t * less) * (width + t * t * less))
+    t, lost, kept, twice = math.tanh(0.5 * h), 1.0 - e, 1.0 + e, 2.0 * e
+    swept = frequency * t * lost
+    # a, the root and k-+ times (2e)**2 or 2e
+    a = swept * swept + kept * kept
+    fold, width = twice * t * kept / a, math.sqrt(a) * response
+    root = math.sqrt((width - t * t * lost) * (width + t * t * lost))
     root = root if faster else -root
-    fast = fold + frequency * abs(root) / a
-    slow = (t - frequency * response) * (t + frequency * response) / (a * fast)
+    fast = fold + twice * frequency * abs(root) / a
+    slow = (t - frequency * response) * (t + frequency * response) * twice * (twice / fast) / a
     # at the fold both are one
     speed = fast if faster else (slow if root < 0.0 else math.nan)
     # (t - V k+)/Omega without the cancellation where e is near 1
-    sine = (frequency * t * t * t * less * less - root * more) / a
-    apart = -frequency * root / (a * speed * fold)
+    sine = (frequency * t * t * t * lost * lost - root * kept) / a
+    apart = -frequency * root * (twice / speed) / (a * fold)
     steep = math.sinh(h) if h < LARGEST_ARGUMENT else math.inf
-    trace = 1.0 + e * e + (e * (1.0 + e) * steep * apart if apart != 0.0 else 0.0)
-    return speed, math.atan2(sine, -t * speed * less), trace
+    trace = 1.0 + e * e + (e * kept * steep * apart if apart != 0.0 else 0.0)
+    return speed, math.atan2(sine, -t * lost * (speed / twice)), trace
 
 
 @njit(**ENTRY)
@@ -65,13 +65,13 @@ def closed_form_plain(frequency, response, restitution, order, faster):
 
 @njit(**WITHIN)
 def nearest(p, order, angle, velocity):
-    """The state of the faster (1, ``order``) mode at the start of a cycle of ``p`` that lies nearest to (angle, velocity)."""
+    """Of the faster (1, ``order``) mode, if that is stable, the state at the start of a cycle nearest to (angle, velocity)."""
     half = order * math.pi * p.per_frequency
     best = Nearest(math.inf, order, math.nan, math.nan, arc_from(p, 1, 0.0, 0.0, 0.0), 0.0, half)
     if order % 2 == 0 or p.restitution == 0.0:
         return best
-    speed, phase, _ = closed_form(p.frequency, p.response, p.restitution, order, True)
-    if not speed > 0.0:
+    speed, phase, trace = closed_form(p.frequency, p.response, p.restitution, order, True)
+    if not (speed > 0.0 and abs(trace) < 1.0 + p.restitution * p.restitution):
         return best
     first = p.phase - phase
     first -= TURN * math.floor(first / TURN)
