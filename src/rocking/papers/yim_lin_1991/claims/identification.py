@@ -100,7 +100,7 @@ def figure_8b() -> Finding:
 @CHAPTER.claim("Fig. 8c")
 def figure_8c() -> Finding:
     """That of the chaotic response is a broad band."""
-    # One run in thirty sticks to an island for so long that its lines hold half of all.
+    # One run in forty sticks to an island for so long that its lines hold half of all.
     systems = table_exponents.sea_systems(9)
     shares = [rk.spectral_density(rk.simulate(system, cycles=8_192)).line_share for system in systems]
     return Finding(
