@@ -71,6 +71,7 @@ def maps():
         least=True,
         note=noting,
     )
+    rk.parametric_map(**asked(20, 1.0), max_cycles=200)
     wall, work, found = taken(**asked(POINTS, 1.0))
     yield Figure("10⁶ points, e = 1, ≤ 10,000 cycles", wall, "s", 20, note=f"{work:.3g} s of processors")
     open_share = 100.0 * np.isin(found.kind.values, (3, 5)).mean()
