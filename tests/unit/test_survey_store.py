@@ -157,13 +157,25 @@ def test_one_axis_alone_is_refined_and_extended_at_once(copied, computed):
     assert found.equals(rk.parametric_map(**(ASKED | changed)))
 
 
-def test_extension_killed_between_its_steps_is_taken_up(copied, monkeypatch):
+@pytest.mark.parametrize("step", [0, 1, 2, 7])
+def test_extension_killed_between_its_steps_is_taken_up(copied, monkeypatch, step):
     longer = ASKED | {"period": np.append(ASKED["period"], [3.1, 3.2])}
+    resize, left = zarr.Array.resize, [step]
+
+    def killed(array, shape):
+        left[0] -= 1
+        return resize(array, shape) if left[0] >= 0 else 1 / 0
+
     with monkeypatch.context() as patch:
-        patch.setattr(store, "_make_coordinate", lambda *_: 1 / 0)
+        patch.setattr(zarr.Array, "resize", killed)
         with pytest.raises(ZeroDivisionError):
             rk.parametric_map(**longer, store=copied)
     assert rk.parametric_map(**longer, store=copied).load().equals(rk.parametric_map(**longer))
+
+
+def test_damaged_coordinate_is_written_again(copied, plain):
+    (copied / "level-1" / "period" / "c" / "0").write_bytes(b"no number")
+    assert rk.parametric_map(**ASKED, store=copied).load().equals(plain)
 
 
 def test_who_interrupts_the_reading_of_a_store_is_told_that_it_is_complete(tmp_path, monkeypatch):

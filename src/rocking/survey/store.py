@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from rocking.survey import arrays
 from rocking.survey.axes import Question
-from rocking.survey.dataset import attributes, coordinate
 from rocking.survey.guard import (
     ROOT,
     StoreError,
@@ -26,7 +26,7 @@ from rocking.survey.guard import (
 )
 from rocking.survey.layout import Layout, check_same, described_layout, fingerprint, joined, new_layout
 from rocking.survey.plan import Level, Slices, Tile
-from rocking.survey.tiles import Arrays, Measure, Variable
+from rocking.survey.tiles import Arrays, Measure
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -53,7 +53,7 @@ class Store:
             self.layout, self.root = self._agreed(asked)
             self.asked = Question(self.layout.axes, asked.fixed)
             self.levels: list[Level] = self.layout.levels()
-            self.arrays = [self._in_line(level) for level in self.levels]
+            self.arrays = self._arranged()
         self.done = 0
         self.begun: set[tuple[int, tuple[int, ...]]] = set()  # tiles of which something sound is there
         self.held: tuple[int, Arrays] = (-1, {})
@@ -87,7 +87,7 @@ class Store:
         """Keep a tile; its last variable, which marks it done, last."""
         with writing(self.path):
             for name, array in self.arrays[tile.level.number].items():
-                array[tile.region] = answers[name]
+                array.set_basic_selection(tile.region, answers[name])
 
     def dataset(self) -> xr.Dataset:
         """The finest level, read when it is used."""
@@ -142,20 +142,21 @@ class Store:
         return self.path / level.name / name / "c"
 
     def _read(self, level: Level, name: str, region: Slices) -> np.ndarray:
-        return np.asarray(self.arrays[level.number][name][region])
+        return np.asarray(self.arrays[level.number][name].get_basic_selection(region))
 
     def _agreed(self, asked: Question) -> tuple[Layout, zarr.Group]:
         """What the store holds together with what is asked, as its root says; refused if they do not go together."""
         import zarr
-        from zarr.storage import LocalStore
+
+        from rocking.survey.files import Files
 
         mine = fingerprint(asked, self.measure)
         if not (self.path / ROOT).exists():
             layout = new_layout(asked)
             told = {NAME: mine | described_layout(layout)}
-            return layout, zarr.create_group(LocalStore(self.path), zarr_format=3, attributes=told)
+            return layout, zarr.create_group(Files(self.path), zarr_format=3, attributes=told)
         with reading(self.path):
-            root = zarr.open_group(LocalStore(self.path), mode="r+", zarr_format=3, use_consolidated=False)
+            root = zarr.open_group(Files(self.path), mode="r+", zarr_format=3, use_consolidated=False)
         stored: Any = root.attrs.get(NAME)
         if stored is None:
             raise StoreError(something_else(self.path, "a Zarr store of something else"))
@@ -165,30 +166,12 @@ class Store:
             root.attrs[NAME] = stored | described_layout(layout)
         return layout, root
 
-    def _in_line(self, level: Level) -> dict[str, zarr.Array]:
-        """The arrays of a level, made or made larger where need be."""
+    def _arranged(self) -> list[dict[str, zarr.Array]]:
+        """The arrays of each level, made or made larger where need be."""
         with reading(self.path):
-            group = self.root.require_group(level.name)
-        told = _plain(attributes(self.asked, self.measure))
-        if group.attrs.asdict() != told:
-            group.attrs.put(told)
-        with reading(self.path):
-            members: dict[str, Any] = dict(group.arrays())
-        for name, values in level.axes.items():
-            stored = members.get(name)
-            if stored is None or stored.shape != values.shape or not np.array_equal(stored[:], values):
-                _make_coordinate(group, name, values)
-        return {
-            each.name: self._array(group, members.get(each.name), each, level)
-            for each in self.measure.variables
-        }
-
-    def _array(self, group: zarr.Group, array: Any, variable: Variable, level: Level) -> zarr.Array:
-        if array is None:
-            return _make_array(group, variable, level)
-        if array.shape != level.shape:
-            array.resize(level.shape)
-        return array
+            groups = arrays.make_groups(self.root, self.asked, self.measure, self.levels)
+            there: list[dict[str, Any]] = [dict(group.arrays()) for group in groups]
+        return arrays.make_arrays(self.root, self.measure, self.levels, there)
 
 
 @contextmanager
@@ -216,42 +199,3 @@ def open_level(path: Path, number: int) -> xr.Dataset:
     import xarray as xr
 
     return xr.open_zarr(path, group=f"level-{number}", chunks=None, consolidated=False)
-
-
-def _make_array(group: zarr.Group, variable: Variable, level: Level) -> zarr.Array:
-    from zarr.codecs import Crc32cCodec
-
-    return group.create_array(
-        variable.name,
-        shape=level.shape,
-        chunks=level.tile,
-        dtype=variable.dtype,
-        compressors=[Crc32cCodec()],
-        filters=None,
-        fill_value=variable.fill,
-        dimension_names=list(level.axes),
-        attributes=_plain(variable.attributes),
-    )
-
-
-def _make_coordinate(group: zarr.Group, name: str, values: np.ndarray) -> None:
-    from zarr.codecs import Crc32cCodec
-
-    made = group.create_array(
-        name,
-        shape=values.shape,
-        chunks=values.shape,
-        dtype="float64",
-        compressors=[Crc32cCodec()],
-        filters=None,
-        fill_value=np.nan,
-        dimension_names=[name],
-        attributes=_plain(coordinate(name)),
-        overwrite=True,
-    )
-    made[:] = values
-
-
-def _plain(told: dict[str, Any]) -> dict[str, Any]:
-    """The same with lists for arrays, as JSON has them."""
-    return {name: value.tolist() if isinstance(value, np.ndarray) else value for name, value in told.items()}
