@@ -49,18 +49,14 @@ def digits_of_agreement(values):
 
 
 @njit(**WITHIN)
-def digits_of_both(values, weights):
-    """``digits_of_agreement`` of each of two rows; in ``weights`` is room for a quarter of their length, and one."""
-    half = values.shape[1] // 2
-    first, second, third, fourth = 0.0, 0.0, 0.0, 0.0
-    bumps(half, weights)
+def digits_with(values, weights):
+    """``digits_of_agreement`` by the weights that ``bumps`` gives half as many values."""
+    half, first, second = values.shape[0] // 2, 0.0, 0.0
     for k in range((half + 1) // 2):
-        weight, opposite = weights[k], half - 1 - k
-        first += weight * (values[0, k] + values[0, opposite])
-        second += weight * (values[0, half + k] + values[0, half + opposite])
-        third += weight * (values[1, k] + values[1, opposite])
-        fourth += weight * (values[1, half + k] + values[1, half + opposite])
-    return digits_alike(first, second), digits_alike(third, fourth)
+        opposite = half - 1 - k
+        first += weights[k] * (values[k] + values[opposite])
+        second += weights[k] * (values[half + k] + values[half + opposite])
+    return digits_alike(first, second)
 
 
 @njit(**WITHIN)

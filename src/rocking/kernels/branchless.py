@@ -28,7 +28,7 @@ EXACT_INNER = dict(EXACT, forceinline=True)
 # Added to a number and taken off again it rounds to an integer, which its last bits hold.
 ROUNDER = 1.5 * 2.0**52
 PER_LN2 = 1.0 / math.log(2.0)
-# More than ``logarithm_of_ratio`` is wrong by.
+# More than ``logarithms_of_ratios`` are wrong by.
 ROUGHLY = 2e-6
 # ln 2 in two parts; the first has 32 bits.
 LN2 = (0.6931471803691238, 1.9082149292705877e-10)
@@ -135,17 +135,27 @@ def circular(rate, t):
 
 @njit(**EXACT_INNER)
 def parts(x):
-    """(m, k) with x = m * 2**k of a normal x > 0, m from 2**-1/2 to 2**1/2."""
+    """(m, k) with x = m * 2**k of a normal x > 0; m lies between 2**-1/2 and 2**1/2 whatever x is, NaN too."""
     bits = bits_of(x)
     exponent = (bits - ROOT_HALF) >> EXPONENT
     return from_bits(bits - (exponent << EXPONENT)), from_bits(exponent + INTEGER) - ROUNDER
 
 
 @njit(**EXACT_INNER)
-def logarithm_of_ratio(a, b):
-    """ln(a/b) of normal numbers above 0, to 1.2e-6 (``ROUGHLY``): from artanh of |s| <= 1/3, five terms."""
-    (m, power), (n, other) = parts(a), parts(b)
-    s = (m - n) / (m + n)
+def logarithms_of_ratios(a, b, c, d):
+    """ln(a/b) and ln(c/d) of normal numbers above 0, to 1.2e-6 (``ROUGHLY``); one division, the slowest step, serves both.
+
+    Either is right whatever the numbers of the other are.
+    """
+    (a, i), (b, j) = parts(a), parts(b)
+    (c, k), (d, n) = parts(c), parts(d)
+    per = 1.0 / ((a + b) * (c + d))
+    return logarithm(i - j, (a - b) * (c + d) * per), logarithm(k - n, (c - d) * (a + b) * per)
+
+
+@njit(**EXACT_INNER)
+def logarithm(power, s):
+    """power ln 2 + 2 artanh s for |s| <= 1/3, from five terms."""
     q = s * s
     odd = fma(q, fma(q, fma(q, fma(q, 1.0 / 9.0, 1.0 / 7.0), 0.2), 1.0 / 3.0), 1.0)
-    return fma(power - other, LN2[0], 2.0 * s * odd)
+    return fma(power, LN2[0], 2.0 * s * odd)

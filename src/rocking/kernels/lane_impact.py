@@ -4,7 +4,7 @@ import math
 
 from numba import njit
 
-from .branchless import EXACT_INNER, ROUGHLY, both_exponentials, choose, logarithm_of_ratio
+from .branchless import EXACT_INNER, ROUGHLY, both_exponentials, choose, logarithms_of_ratios
 from .elementary import fma
 from .lanes import (
     ACROSS,
@@ -162,7 +162,7 @@ def begin(s):
 
         told, q = max(grow, shrink) < TOLD, 1.0 - response
         m, root = math.sqrt(4.0 * grow * shrink), math.sqrt(fma(q, q, -4.0 * grow * shrink))
-        late, twice = logarithm_of_ratio(q + root, -2.0 * grow), logarithm_of_ratio(-shrink, -grow)
+        late, twice = logarithms_of_ratios(q + root, -2.0 * grow, -shrink, -grow)
         away = fma(-0.5, inside, cut) - 0.5 * twice
         away = fma(-math.floor(fma(away, per_period, 0.5)), period, away)
         away = max(abs(away) - ROUGHLY, 0.0)

@@ -5,9 +5,6 @@ from numba import njit
 from . import lane_impact, lane_walk, lane_zero
 from .branchless import EXACT
 
-# Turns of the forcing that one pass walks along.
-STRIDES = 2
-
 
 @njit(**EXACT)
 def strike(s):
@@ -19,8 +16,7 @@ def strike(s):
 @njit(**EXACT)
 def advance(s):
     """All lanes onward, to their impacts if those are near enough; and what they want there."""
-    for _ in range(STRIDES):
-        lane_walk.walk(s)
+    lane_walk.walk(s)
     lane_zero.guess(s)
     lane_zero.look(s)
     lane_zero.step(s)

@@ -15,20 +15,14 @@ from .lanes import (
     CONCAVE,
     CUT_PLACE,
     CUT_RATE,
-    DECAY_IN,
     DECAY_OUT,
     END,
-    GROW_IN,
     GROW_OUT,
     GROWING,
     GUESS,
     HIGH,
-    INSIDE,
     LANES,
     LOW,
-    MIDDLE,
-    MIDDLE_PER_Z,
-    MIDDLE_Z,
     OUT_TANH_HALF,
     OUTSIDE,
     PER_Z,
@@ -48,6 +42,9 @@ from .lanes import (
 )  # fmt: skip
 from .walk import MARGIN
 
+# Turns of the forcing that one pass walks along.
+STRIDES = 2
+
 
 @njit(**EXACT_INNER)
 def may_dip(u, du, u_right, du_right, tanh):
@@ -57,8 +54,28 @@ def may_dip(u, du, u_right, du_right, tanh):
 
 
 @njit(**EXACT_INNER)
+def stretch(grow, shrink, forcing, half_grow, half_decay, tanh, z, per_z, end, cleared):
+    """Of a convex stretch: (u at its start, halfway and end; errors at start and end; whether no zero is there; or in a dip only)."""
+    place, rate, response = forcing
+    growing, shrinking = grow * z, shrink * per_z
+    u, du = growing + shrinking + place, growing - shrinking - rate
+    error = MARGIN * (abs(growing) + abs(shrinking) + 1.0)
+    growing, shrinking = growing * half_grow, shrinking * half_decay
+    u_half, du_half = growing + shrinking + 1.0 - response, growing - shrinking
+    growing, shrinking = growing * half_grow, shrinking * half_decay
+    u_right, du_right = growing + shrinking + place, growing - shrinking + rate
+    error_right = error + MARGIN * (abs(growing) + abs(shrinking))
+    for_ever = (growing > 0.0) & (growing - abs(shrinking) + 1.0 - response > error_right)
+    passed = (u > error) & (u_half > error_right) & (u_right > error_right)
+    passed = passed & (end < LONGEST) & (for_ever == False)  # noqa: E712
+    doubt = may_dip(u, du, u_half, du_half, tanh) | may_dip(u_half, du_half, u_right, du_right, tanh)
+    doubt = doubt & (cleared == 0.0)
+    return u, u_half, u_right, error, error_right, passed & (doubt == False), passed & doubt  # noqa: E712
+
+
+@njit(**EXACT_INNER)
 def walk(s):
-    """One convex stretch further, and the concave one before it: past them, or to the zero in one of them."""
+    """STRIDES convex stretches further at most, and the concave ones before them: past them, or to the zero in one of them."""
     for i in range(LANES):
         stage, low, end, z, per_z = (
             of(s, i, STAGE),
@@ -68,52 +85,39 @@ def walk(s):
             of(s, i, PER_Z),
         )
         grow, shrink, cleared = of(s, i, GROWING), of(s, i, SHRINKING), of(s, i, CLEARED)
-        place, rate, response = of(s, i, CUT_PLACE), of(s, i, CUT_RATE), of(s, i, RESPONSE)
-        inside, outside, period = of(s, i, INSIDE), of(s, i, OUTSIDE), of(s, i, PERIOD)
+        forcing = of(s, i, CUT_PLACE), of(s, i, CUT_RATE), of(s, i, RESPONSE)
+        outside, period = of(s, i, OUTSIDE), of(s, i, PERIOD)
         turn_growth, turn_decay = of(s, i, TURN_GROWTH), of(s, i, TURN_DECAY)
-        grow_in, decay_in = of(s, i, GROW_IN), of(s, i, DECAY_IN)
         grow_out, decay_out = of(s, i, GROW_OUT), of(s, i, DECAY_OUT)
-        concave, middle, high = of(s, i, CONCAVE), of(s, i, MIDDLE), of(s, i, HIGH)
-        middle_z, middle_per_z = of(s, i, MIDDLE_Z), of(s, i, MIDDLE_PER_Z)
-        time, tries = of(s, i, TIME), of(s, i, TRIES)
-        tanh = of(s, i, OUT_TANH_HALF) * (1.0 + MARGIN)
-        half_z, half_per_z = z * (grow_out * grow_out), per_z * (decay_out * decay_out)
-
-        growing, shrinking = grow * z, shrink * per_z
-        u, du = growing + shrinking + place, growing - shrinking - rate
-        error = MARGIN * (abs(growing) + abs(shrinking) + 1.0)
-        growing, shrinking = grow * half_z, shrink * half_per_z
-        u_half, du_half = growing + shrinking + 1.0 - response, growing - shrinking
-        growing, shrinking = growing * (grow_out * grow_out), shrinking * (decay_out * decay_out)
-        u_right, du_right = growing + shrinking + place, growing - shrinking + rate
-        error_right = error + MARGIN * (abs(growing) + abs(shrinking))
-        for_ever = (growing > 0.0) & (growing - abs(shrinking) + 1.0 - response > error_right)
-
-        walking, above = stage == WALK, u > error
+        concave, high, time, tries = of(s, i, CONCAVE), of(s, i, HIGH), of(s, i, TIME), of(s, i, TRIES)
+        half_grow, half_decay = grow_out * grow_out, decay_out * decay_out
+        tanh, walking = of(s, i, OUT_TANH_HALF) * (1.0 + MARGIN), stage == WALK
+        for _ in range(STRIDES - 1):
+            _, _, _, _, _, on, _ = stretch(
+                grow, shrink, forcing, half_grow, half_decay, tanh, z, per_z, end, cleared
+            )
+            on = on & walking
+            low, cleared = choose(on, end + outside, low), choose(on, 0.0, cleared)
+            end = choose(on, end + period, end)
+            z, per_z = choose(on, z * turn_growth, z), choose(on, per_z * turn_decay, per_z)
+        u, u_half, u_right, error, error_right, on, looks = stretch(
+            grow, shrink, forcing, half_grow, half_decay, tanh, z, per_z, end, cleared
+        )
+        above, found_in = u > error, u < -error
         dips = above & (u_half < -error_right)
-        found_in = walking & (u < -error)
-        found_out = walking & (dips | (above & (u_right < -error_right) & (u_half > error_right)))
-        found = found_in | found_out
-        passed = walking & above & (u_half > error_right) & (u_right > error_right)
-        passed = passed & (end < LONGEST) & (for_ever == False)  # noqa: E712
-        doubt = may_dip(u, du, u_half, du_half, tanh) | may_dip(u_half, du_half, u_right, du_right, tanh)
-        doubt = doubt & (cleared == 0.0)
-        looks = passed & doubt
-        on = passed & (cleared + choose(doubt, 0.0, 1.0) > 0.0)
-        lost = choose(walking, UNSURE, stage)
-        put(s, i, STAGE, choose(found, GUESS, choose(on, WALK, choose(looks, BOTTOM, lost))))
-        put(s, i, CONCAVE, choose(found_in, 1.0, choose(found_out, -1.0, concave)))
-        halfway_in, halfway_out = fma(-0.5, inside, end), fma(0.5, outside, end)
-        put(s, i, MIDDLE, choose(found_in, halfway_in, choose(found_out, halfway_out, middle)))
-        z_in, per_z_in = z * (decay_in * decay_in), per_z * (grow_in * grow_in)
-        put(s, i, MIDDLE_Z, choose(found_in, z_in, choose(found_out, half_z, middle_z)))
-        put(s, i, MIDDLE_PER_Z, choose(found_in, per_z_in, choose(found_out, half_per_z, middle_per_z)))
-        right = choose(dips, halfway_out, end + outside)
-        put(s, i, HIGH, choose(found_in, end, choose(found_out, right, choose(looks, end + outside, high))))
-        put(s, i, LOW, choose(found_out | looks, end, choose(on, end + outside, low)))
-        put(s, i, TIME, choose(looks, halfway_out, time))
-        put(s, i, TRIES, choose(found | looks, 0.0, tries))
+        found = found_in | dips | (above & (u_right < -error_right) & (u_half > error_right))
+        next_stage = choose(found, GUESS, choose(on, WALK, choose(looks, BOTTOM, UNSURE)))
+        halfway = fma(0.5, outside, end)
+        next_high = choose(found_in, end, choose(dips, halfway, end + outside))
+        next_low = choose(found_in, low, choose(on, end + outside, end))
+        put(s, i, STAGE, choose(walking, next_stage, stage))
+        put(s, i, CONCAVE, choose(walking, choose(found_in, 1.0, -1.0), concave))
+        put(s, i, LOW, choose(walking, next_low, low))
+        put(s, i, HIGH, choose(walking, next_high, high))
+        put(s, i, TIME, choose(walking, halfway, time))
+        put(s, i, TRIES, choose(walking, 0.0, tries))
         put(s, i, CLEARED, choose(walking, 0.0, cleared))
+        on = on & walking
         put(s, i, END, choose(on, end + period, end))
         put(s, i, Z, choose(on, z * turn_growth, z))
         put(s, i, PER_Z, choose(on, per_z * turn_decay, per_z))

@@ -18,6 +18,7 @@ from .lanes import (
     DECAY_IN,
     DECAY_OUT,
     DEFICIT,
+    END,
     EXCESS,
     FREQUENCY,
     GROW_IN,
@@ -30,14 +31,12 @@ from .lanes import (
     LAG,
     LANES,
     LOW,
-    MIDDLE,
-    MIDDLE_PER_Z,
-    MIDDLE_Z,
     NEXT_COSINE,
     NEXT_SINE,
     NEXT_SINH,
     NEXT_VERSINH,
     OUTSIDE,
+    PER_Z,
     REFINE,
     RESPONSE,
     SHRINKING,
@@ -56,10 +55,11 @@ from .lanes import (
     VERSINH,
     WAIT,
     WALK,
+    Z,
     of,
     put,
 )  # fmt: skip
-from .shortcut import I2, I3, I4, I5, I6, I7, I8
+from .shortcut import I2, I3, I4, I5, I6
 from .walk import MARGIN
 
 MOST_TRIES = 12
@@ -76,28 +76,25 @@ def correction(y, second, third, fourth, per):
 
 @njit(**EXACT_INNER)
 def derivatives(u, v, cosine, sine, amplitude, frequency):
-    """u and its first eight derivatives at an instant, from u'' = u + f."""
+    """u and its first six derivatives at an instant, from u'' = u + f."""
     turned = -frequency * frequency
     f, df, ddf = fma(-amplitude, cosine, -1.0), amplitude * frequency * sine, -turned * amplitude * cosine
     c2, c3 = u + f, v + df
     c4, c5 = c2 + ddf, fma(turned, df, c3)
-    c6, c7 = fma(turned, ddf, c4), fma(turned * turned, df, c5)
-    return u, v, c2, c3, c4, c5, c6, c7, fma(turned * turned, ddf, c6)
+    return u, v, c2, c3, c4, c5, fma(turned, ddf, c4)
 
 
 @njit(**EXACT_INNER)
 def taylor(c, x):
     """(w, w', w'') a time x later, by their Taylor series; summed in pairs, of which none waits for another."""
-    c0, c1, c2, c3, c4, c5, c6, c7, c8 = c
+    c0, c1, c2, c3, c4, c5, c6 = c
     x2 = x * x
-    x4 = x2 * x2
     low = fma(x2, fma(x, I3 * c3, I2 * c2), fma(x, c1, c0))
-    high = fma(x4, I8 * c8, fma(x2, fma(x, I7 * c7, I6 * c6), fma(x, I5 * c5, I4 * c4)))
+    high = fma(x2, I6 * c6, fma(x, I5 * c5, I4 * c4))
     low_1 = fma(x2, fma(x, I3 * c4, I2 * c3), fma(x, c2, c1))
-    high_1 = fma(x2, fma(x, I7 * c8, I6 * c7), fma(x, I5 * c6, I4 * c5))
+    high_1 = fma(x, I5 * c6, I4 * c5)
     low_2 = fma(x2, fma(x, I3 * c5, I2 * c4), fma(x, c3, c2))
-    high_2 = fma(x2, I6 * c8, fma(x, I5 * c7, I4 * c6))
-    return fma(x4, high, low), fma(x4, high_1, low_1), fma(x4, high_2, low_2)
+    return fma(x2 * x2, high, low), fma(x2 * x2, high_1, low_1), fma(x2 * x2, I4 * c6, low_2)
 
 
 @njit(**EXACT_INNER)
@@ -110,11 +107,11 @@ def halved(factor):
 def guess(s):
     """Where the zero lies in its stretch, to some six digits: two steps on a Taylor series about the middle of the right half of it."""
     for i in range(LANES):
-        stage, concave, middle = of(s, i, STAGE), of(s, i, CONCAVE), of(s, i, MIDDLE)
+        stage, concave, end = of(s, i, STAGE), of(s, i, CONCAVE), of(s, i, END)
         low, high, time = of(s, i, LOW), of(s, i, HIGH), of(s, i, TIME)
         z, per_z, grow, shrink = (
-            of(s, i, MIDDLE_Z),
-            of(s, i, MIDDLE_PER_Z),
+            of(s, i, Z),
+            of(s, i, PER_Z),
             of(s, i, GROWING),
             of(s, i, SHRINKING),
         )
@@ -125,6 +122,10 @@ def guess(s):
         grow_out, decay_out = of(s, i, GROW_OUT), of(s, i, DECAY_OUT)
         velocity, cosine_0, sine_0 = of(s, i, VELOCITY), of(s, i, COSINE), of(s, i, SINE)
         within = concave > 0.0
+        # of the concave stretch, which ends at ``end``, or of the convex one, which begins there
+        middle = fma(0.5, choose(within, -inside, outside), end)
+        z *= choose(within, decay_in * decay_in, grow_out * grow_out)
+        per_z *= choose(within, grow_in * grow_in, decay_out * decay_out)
         late = (fma(concave, response, fma(grow, z, shrink * per_z)) > -1.0) | (middle <= low)
         quarter = 0.25 * choose(within, inside, outside)
         more, less = choose(within, grow_in, grow_out), choose(within, decay_in, decay_out)

@@ -30,8 +30,8 @@ LANES = 24
     # no zero lies before LOW; at END, e^END = Z, the next convex stretch begins; whether that holds no zero; whether u
     # may exceed PEAK
     LOW, END, Z, PER_Z, CLEARED, EXCEEDS,
-    # the stretch of the zero: 1 where it is concave, -1 where convex; its middle and e^+- that; its end
-    CONCAVE, MIDDLE, MIDDLE_Z, MIDDLE_PER_Z, HIGH,
+    # the stretch of the zero: 1 where it is concave, to END, -1 where convex, from there on; no zero lies after HIGH
+    CONCAVE, HIGH,
     # the time looked at, how often one has been, and what the elementary functions are there
     TIME, TRIES, SINH, VERSINH, EXCESS, HIGHER, SIN_X, VERSINE, LAG, DEFICIT,
     # the impact to come
@@ -42,7 +42,7 @@ LANES = 24
     # a difference in (Theta, Theta'), to be doubled so often
     ACROSS, ALONG, DOUBLINGS,
     ROWS,
-) = range(71)  # fmt: skip
+) = range(68)  # fmt: skip
 
 # What is next for a lane: nothing; to begin an arc; to walk; to guess the zero in its stretch; to look for the bottom of a dip; to
 # step to the zero; the impact, once it was attended to; what none of these can do.

@@ -6,7 +6,7 @@ from typing import NamedTuple
 from numba import njit
 
 from .arc import arc_from
-from .averages import digits_of_both
+from .averages import bumps, digits_with
 from .elementary import WITHIN, WRITTEN_IN
 from .events import BRACE, FLIGHT, IMPACT, NONE
 from .march import PAUSED, RELEASED, march_on
@@ -153,9 +153,10 @@ def agreement(flights, values, weights, growth):
     count, cycles = flights.count, flights.cycle - flights.first_cycle
     if too_few(flights) or growth > math.log(max(count, cycles)) + SHEAR:
         return 0.0, False
-    times, digits = digits_of_both(values[:, :count], weights)
+    bumps(count // 2, weights)
+    digits = digits_with(values[1, :count], weights)
     needed = min(max(CHAOTIC_DIGITS + math.log2(count / LONG), CHAOTIC_DIGITS), ENOUGH_DIGITS)
-    return digits, digits >= needed and times >= ENOUGH_DIGITS
+    return digits, digits >= needed and digits_with(values[0, :count], weights) >= ENOUGH_DIGITS
 
 
 @njit(**WITHIN)
@@ -167,4 +168,7 @@ def too_few(flights):
 @njit(**WITHIN)
 def digits_of_speeds(flights, values, weights):
     """The digits of ``agreement``, however much differences have grown."""
-    return 0.0 if too_few(flights) else digits_of_both(values[:, : flights.count], weights)[1]
+    if too_few(flights):
+        return 0.0
+    bumps(flights.count // 2, weights)
+    return digits_with(values[1, : flights.count], weights)

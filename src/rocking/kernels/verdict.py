@@ -17,6 +17,7 @@ from .elementary import ENTRY, WITHIN, WRITTEN_IN
 from .judgement import NEUTRAL_ORBIT, OPEN, ORBIT, ended, periodic, torus, undecided, unsettled
 from .lossless import (
     FEWEST_FLIGHTS,
+    OUTGROWN,
     Flights,
     agreement,
     digits_of_speeds,
@@ -210,7 +211,8 @@ def look(p, case, status, run, max_cycles, max_period, desk):
         told = unsettled(p, watch, work, max_cycles, measured, lossless, digits, desk.batches, stands)
         return told, case
     if lossless:
-        checkpoint = target + LEG
+        # Where differences have grown so much averages are not compared again (``agreement``).
+        checkpoint = max_cycles if desk.growth[0] > OUTGROWN else target + LEG
     elif target == checkpoint:
         checkpoint = next_checkpoint(target, coming)
     run = Run(watch, flights, section_time, count, lossless, measuring)
