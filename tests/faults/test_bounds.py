@@ -1,0 +1,36 @@
+"""No compiled function writes or reads beyond an array: where that is not checked it damages what lies beside it."""
+
+import os
+import subprocess
+import sys
+
+import pytest
+
+JUDGED = """
+import math
+import numpy as np
+from rocking.kernels import many
+from rocking.kernels.answers import no_answers
+from rocking.kernels.desk import desk
+
+# chaos and tori without loss; a cycle, chaos, resets and overturning with losses; braces
+cases = [(2.0, 0.4, 1.0), (4.0, 0.4, 1.0), (1.75, 0.9, 1.0), (2.0, 1.0, 0.925), (10.103037, 1.721328, 0.8), (1.1, 0.7, 0.5),
+         (1.75, 2.0, 0.95), (15.0, 2.0, 0.925)]
+systems = np.array([(a, math.tau / t, t, 0.0, e, 1.0 if a == 15.0 else math.inf, 1.0) for a, t, e in cases])
+starts = np.zeros((len(systems), 2))
+for max_cycles, max_period in ((1, 1), (129, 1), (200, 64), (639, 64), (1_000, 300), (20_000, 2), (100_000, 1), (150_000, 64)):
+    answers, stop = no_answers(len(systems)), np.zeros(1, np.int64)
+    many.judge_each(systems, starts, max_cycles, max_period, desk(max_cycles, max_period), answers, stop)
+    many.judge_many(systems, starts, max_cycles, max_period, stop)
+print(*answers.kind)
+"""
+
+
+@pytest.mark.long
+def test_cascade_stays_within_its_arrays(tmp_path):
+    checked = os.environ | {"NUMBA_BOUNDSCHECK": "1", "NUMBA_CACHE_DIR": str(tmp_path)}
+    done = subprocess.run(
+        [sys.executable, "-c", JUDGED], check=False, capture_output=True, text=True, env=checked
+    )
+    assert done.returncode == 0, done.stderr[-2000:]
+    assert len(set(done.stdout.split())) >= 4
