@@ -77,8 +77,9 @@ def test_visits_opened_and_dropped_leave_nothing_behind(running, visits):
     memory = server.memory_info().rss
     run(drop_many(running.address, visits))
     assert server.num_threads() <= threads
-    assert server.memory_info().rss < memory + ALLOWED
     assert comes_to_rest(server), "the server goes on computing for nobody"
+    # at rest, for a map under way has memory of its own
+    assert server.memory_info().rss < memory + ALLOWED
 
 
 def comes_to_rest(server):

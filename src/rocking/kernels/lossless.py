@@ -7,7 +7,6 @@ from numba import njit
 
 from .arc import arc_from
 from .averages import bumps, digits_with
-from .desk import LEG
 from .elementary import WITHIN, WRITTEN_IN
 from .events import BRACE, FLIGHT, IMPACT, NONE
 from .march import PAUSED, RELEASED, march_on
@@ -115,13 +114,6 @@ def may_be_asked_for(growth, target, max_cycles, rows):
     On a torus differences never grow so much as ``agreement`` would not allow of as many flights as are kept.
     """
     return growth <= OUTGROWN or target > max_cycles - rows
-
-
-@njit(**WITHIN)
-def asked_next(growth, cycle, max_cycles, rows):
-    """The end of the leg to come, at the latest: LEG cycles on or, while states are not asked for, where they may be again."""
-    after, may_be = cycle + LEG, max_cycles - rows
-    return after if may_be_asked_for(growth, after, max_cycles, rows) else max(after, may_be)
 
 
 @njit(**WRITTEN_IN)

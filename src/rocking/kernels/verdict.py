@@ -12,14 +12,13 @@ import numpy as np
 from numba import njit
 
 from .cycle import ON_EVENT, REACHED, Cycle, find_cycle, loses, no_cycle
-from .desk import BATCHES
+from .desk import BATCHES, LEG
 from .elementary import ENTRY, WITHIN, WRITTEN_IN
 from .judgement import NEUTRAL_ORBIT, OPEN, ORBIT, ended, periodic, torus, undecided, unsettled
 from .lossless import (
     FEWEST_FLIGHTS,
     Flights,
     agreement,
-    asked_next,
     digits_of_speeds,
     follow_flights,
     may_be_asked_for,
@@ -211,7 +210,7 @@ def look(p, case, status, run, max_cycles, max_period, desk):
         told = unsettled(p, watch, work, max_cycles, measured, lossless, digits, desk.batches, stands)
         return told, case
     if lossless:
-        checkpoint = asked_next(desk.growth[0], target, max_cycles, desk.scratch.shape[0])
+        checkpoint = target + LEG
     elif target == checkpoint:
         checkpoint = next_checkpoint(target, coming)
     run = Run(watch, flights, section_time, count, lossless, measuring)

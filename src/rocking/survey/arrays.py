@@ -1,4 +1,4 @@
-"""The groups and arrays of a store, as Zarr's third format describes them; what is missing is made all at once."""
+"""The groups and arrays of a store, as Zarr's third format describes them."""
 
 from __future__ import annotations
 
@@ -17,13 +17,15 @@ if TYPE_CHECKING:
     import zarr
 
 
-def make_groups(root: zarr.Group, asked: Question, measure: Measure, levels: list[Level]) -> list[zarr.Group]:
-    """A group a level, each of which says what the survey is."""
+def make_groups(
+    root: zarr.Group, asked: Question, measure: Measure, levels: list[Level], there: dict[str, Any]
+) -> list[zarr.Group]:
+    """A group a level, each of which says what the survey is; made where it is not ``there``."""
     from zarr.core.group import GroupMetadata
 
     told = _plain(attributes(asked, measure))
     wanted = {level.name: GroupMetadata(told) for level in levels}
-    found = _made(root, wanted, {name: root.get(name) for name in wanted})
+    found = _made(root, wanted, there)
     for group in found.values():
         if group.attrs.asdict() != told:
             group.attrs.put(told)
@@ -35,8 +37,7 @@ def make_arrays(
 ) -> list[dict[str, zarr.Array]]:
     """The variables of each level by name, beside its coordinates: made, or made larger, where need be.
 
-    `there` are the arrays that each level has already. One by one the arrays of five levels take .2 s to make, all at
-    once .05 s.
+    ``there`` are the arrays that each level has already.
     """
     wanted = {
         f"{level.name}/{name}": description
@@ -61,16 +62,20 @@ def make_arrays(
 
 
 def _made(root: zarr.Group, wanted: Mapping[str, Any], there: Mapping[str, Any]) -> dict[str, Any]:
-    """What is wanted, by its path: as it is there, else made as described."""
+    """What is wanted, by its path: as it is there, else made as described.
+
+    `create_array` looks at every group above again and writes those: for the arrays of five levels that takes .2 s, this .1 s.
+    """
     from zarr import create_hierarchy
 
-    missing = {path: description for path, description in wanted.items() if there.get(path) is None}
-    made = dict(create_hierarchy(store=root.store, nodes=missing))
-    return {path: made[path] if path in missing else there[path] for path in wanted}
+    found = {path: there.get(path) for path in wanted}
+    for path in [path for path, known in found.items() if known is None]:
+        found |= dict(create_hierarchy(store=root.store, nodes={path: wanted[path]}))
+    return found
 
 
 def _descriptions(level: Level, measure: Measure) -> dict[str, Any]:
-    """The coordinates and variables of a level: a chunk a coordinate, a chunk a tile of a variable."""
+    """The coordinates and variables of a level: a coordinate in one chunk, a variable in one a tile."""
     names = list(level.axes)
     along = {
         name: _array(values.shape, values.shape, "float64", math.nan, [name], coordinate(name))

@@ -169,7 +169,9 @@ class Store:
     def _arranged(self) -> list[dict[str, zarr.Array]]:
         """The arrays of each level, made or made larger where need be."""
         with reading(self.path):
-            groups = arrays.make_groups(self.root, self.asked, self.measure, self.levels)
+            known = {level.name: self.root.get(level.name) for level in self.levels}
+        groups = arrays.make_groups(self.root, self.asked, self.measure, self.levels, known)
+        with reading(self.path):
             there: list[dict[str, Any]] = [dict(group.arrays()) for group in groups]
         return arrays.make_arrays(self.root, self.measure, self.levels, there)
 
