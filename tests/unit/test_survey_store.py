@@ -1,6 +1,9 @@
 """Stores: what is in them is the same as without, is never computed twice, and goes with nothing else."""
 
+import errno
+import gc
 import math
+import os
 import re
 import shutil
 from pathlib import Path
@@ -13,6 +16,7 @@ import zarr
 import rocking as rk
 from rocking.kernels.many import METHOD
 from rocking.survey import run, store
+from rocking.survey.files import Files
 from rocking.survey.layout import check_same
 
 SIZE = 130
@@ -171,6 +175,27 @@ def test_extension_killed_between_its_steps_is_taken_up(copied, monkeypatch, ste
         with pytest.raises(ZeroDivisionError):
             rk.parametric_map(**longer, store=copied)
     assert rk.parametric_map(**longer, store=copied).load().equals(rk.parametric_map(**longer))
+
+
+@pytest.mark.parametrize("written", [0, 1, 3, 8, 30])
+def test_full_disk_while_a_store_is_made_is_said_once(tmp_path, monkeypatch, capfd, plain, written):
+    write, left = Files.set_sync, [written]
+
+    def full(files, key, value):
+        left[0] -= 1
+        if left[0] < 0:
+            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+        write(files, key, value)
+
+    with monkeypatch.context() as patch:
+        patch.setattr(Files, "set_sync", full)
+        with pytest.raises(
+            OSError, match=r"cannot be written: No space left on device; what is there stays good"
+        ):
+            rk.parametric_map(**ASKED, store=tmp_path / "map.zarr")
+    gc.collect()
+    assert capfd.readouterr().err == ""
+    assert rk.parametric_map(**ASKED, store=tmp_path / "map.zarr").load().equals(plain)
 
 
 def test_damaged_coordinate_is_written_again(copied, plain):
