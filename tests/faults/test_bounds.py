@@ -23,6 +23,12 @@ for max_cycles, max_period in ((1, 1), (129, 1), (200, 64), (639, 64), (1_000, 3
     many.judge_each(systems, starts, max_cycles, max_period, desk(max_cycles, max_period), answers, stop)
     many.judge_many(systems, starts, max_cycles, max_period, stop)
 print(*answers.kind)
+
+# of short periods, without loss: motions that stick to tori and leave them again, many flying less than once a cycle
+amplitude, period = (axis.ravel() for axis in np.meshgrid(np.linspace(1.01, 7.0, 24), np.linspace(0.1, 0.6, 24)))
+one = np.ones(period.size)
+systems = np.column_stack([amplitude, math.tau / period, period, 0.0 * one, one, math.inf * one, one])
+many.judge_many(systems, np.tile((0.0, 0.3), (len(systems), 1)), 20_000, 1, np.zeros(1, np.int64))
 """
 
 
