@@ -6,7 +6,7 @@ from numba import njit
 
 from .arc import arc_after, earlier
 from .elementary import WITHIN
-from .events import FLIGHT, IMPACT, Next, any_event
+from .events import FLIGHT, IMPACT, any_event
 from .harmonic import clock
 from .lanes import (
     ACROSS,
@@ -51,7 +51,7 @@ from .lanes import (
 from .lossless import Flights, sketch
 from .march import DONE, RESYNCHRONISE, UNKNOWN, Progress
 from .release import Watch
-from .turning import peak_with
+from .turning import largest_on
 from .verdict import Run, room
 
 LN2 = math.log(2.0)
@@ -164,15 +164,7 @@ def find(s, i, p):
 @njit(**WITHIN)
 def see_peak(s, i, p):
     """The largest angle up to the coming impact."""
-    side = int(of(s, i, SIDE))
-    cosine, sine, sinh, versinh = (
-        of(s, i, NEXT_COSINE),
-        of(s, i, NEXT_SINE),
-        of(s, i, NEXT_SINH),
-        of(s, i, NEXT_VERSINH),
-    )
-    coming = Next(of(s, i, WAIT), IMPACT, side, 0.0, -of(s, i, SPEED), cosine, sine, sinh, versinh)
-    put(s, i, PEAK, peak_with(p, arc_of(s, i, p), coming, of(s, i, PEAK)))
+    put(s, i, PEAK, largest_on(p, arc_of(s, i, p), of(s, i, WAIT), of(s, i, PEAK)))
 
 
 @njit(**WITHIN)

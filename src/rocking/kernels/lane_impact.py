@@ -66,11 +66,13 @@ from .shortcut import I2, I4, I6, I8
 LARGE = 2.0**64
 # c+ and c- below this tell a crest and its time well enough.
 TOLD = -1e-5
+RIGHT_ANGLE = 0.5 * math.pi
 
 
 @njit(**EXACT_INNER)
 def attend(s):
-    """What each lane wants before its impact."""
+    """What each lane wants before its impact; whether any wants anything."""
+    any_wants = False
     for i in range(LANES):
         stage, start, wait, cycle = of(s, i, STAGE), of(s, i, START), of(s, i, WAIT), of(s, i, CYCLE)
         target, period, exceeds = of(s, i, TARGET), of(s, i, PERIOD), of(s, i, EXCEEDS)
@@ -80,7 +82,10 @@ def attend(s):
         wants = choose(full, READING, wants)
         wants = choose(restitution * speed < SLOWEST, ALONE, wants)
         wants = choose(start + wait > (target - cycle) * period, LEG_END, wants)
-        put(s, i, WANTS, choose(stage == ARRIVED, wants, choose(stage == UNSURE, CERTAINTY, CONTENT)))
+        wants = choose(stage == ARRIVED, wants, choose(stage == UNSURE, CERTAINTY, CONTENT))
+        put(s, i, WANTS, wants)
+        any_wants |= wants != CONTENT
+    return any_wants
 
 
 @njit(**EXACT_INNER)
@@ -166,11 +171,12 @@ def begin(s):
         away = fma(-0.5, inside, cut) - 0.5 * twice
         away = fma(-math.floor(fma(away, per_period, 0.5)), period, away)
         away = max(abs(away) - ROUGHLY, 0.0)
-        # 1 - cos y >= y**2 (1/2 - a**2/4! + a**4/6! - a**6/8!) for y up to a = frequency * away <= pi
+        # 1 - cos y >= y**2 (1/2 - a**2/4! + a**4/6! - a**6/8!) for y up to a, and at least 1 from a = pi/2 to pi
         square = frequency * frequency
-        a = square * away * away
+        a = min(square * away * away, RIGHT_ANGLE * RIGHT_ANGLE)
         bowl = 2.0 * response * square * fma(-a, fma(-a, fma(-a, I8, I6), I4), I2)
-        may_exceed = (1.0 - m + response - peak) * (m + bowl) > 0.5 * away * away * bowl * m
+        above = 1.0 - m + response - peak
+        may_exceed = (above > response) | (above * (m + bowl) > 0.5 * away * away * bowl * m)
         early, late = twice - late + 2.0 * ROUGHLY, late - 2.0 * ROUGHLY
         leaps = told & (q > m) & (cut > early) & (cut < late)
         turns = choose(leaps, math.floor((late - cut) * per_period), 0.0)

@@ -15,9 +15,10 @@ def strike(s):
 
 @njit(**EXACT)
 def advance(s):
-    """All lanes onward, to their impacts if those are near enough; and what they want there."""
+    """All lanes onward, to their impacts if those are near enough; whether any wants anything there."""
+    lane_walk.stride(s)
     lane_walk.walk(s)
     lane_zero.guess(s)
     lane_zero.look(s)
     lane_zero.step(s)
-    lane_impact.attend(s)
+    return lane_impact.attend(s)

@@ -42,9 +42,6 @@ from .lanes import (
 )  # fmt: skip
 from .walk import MARGIN
 
-# Turns of the forcing that one pass walks along.
-STRIDES = 2
-
 
 @njit(**EXACT_INNER)
 def may_dip(u, du, u_right, du_right, tanh):
@@ -74,8 +71,38 @@ def stretch(grow, shrink, forcing, half_grow, half_decay, tanh, z, per_z, end, c
 
 
 @njit(**EXACT_INNER)
+def ahead(s, i, end, z, per_z, cleared):
+    """The convex stretch of lane i that begins at ``end``: what ``stretch`` says of it."""
+    forcing = of(s, i, CUT_PLACE), of(s, i, CUT_RATE), of(s, i, RESPONSE)
+    grow_out, decay_out = of(s, i, GROW_OUT), of(s, i, DECAY_OUT)
+    half_grow, half_decay = grow_out * grow_out, decay_out * decay_out
+    tanh = of(s, i, OUT_TANH_HALF) * (1.0 + MARGIN)
+    grow, shrink = of(s, i, GROWING), of(s, i, SHRINKING)
+    return stretch(grow, shrink, forcing, half_grow, half_decay, tanh, z, per_z, end, cleared)
+
+
+@njit(**EXACT_INNER)
+def stride(s):
+    """A turn of the forcing further, where certainly no zero lies in the next stretches."""
+    for i in range(LANES):
+        stage, low, cleared = of(s, i, STAGE), of(s, i, LOW), of(s, i, CLEARED)
+        end, z, per_z = of(s, i, END), of(s, i, Z), of(s, i, PER_Z)
+        outside, period = of(s, i, OUTSIDE), of(s, i, PERIOD)
+        turn_growth, turn_decay = of(s, i, TURN_GROWTH), of(s, i, TURN_DECAY)
+        passed = ahead(s, i, end, z, per_z, cleared)[5] & (stage == WALK)
+        put(s, i, LOW, choose(passed, end + outside, low))
+        put(s, i, CLEARED, choose(passed, 0.0, cleared))
+        put(s, i, END, choose(passed, end + period, end))
+        put(s, i, Z, choose(passed, z * turn_growth, z))
+        put(s, i, PER_Z, choose(passed, per_z * turn_decay, per_z))
+
+
+@njit(**EXACT_INNER)
 def walk(s):
-    """STRIDES convex stretches further at most, and the concave ones before them: past them, or to the zero in one of them."""
+    """The next convex stretch and the concave one before it: past them, or to the zero in one of them.
+
+    ``stride`` before it does not look for the zero: most often only the last of two turns holds it.
+    """
     for i in range(LANES):
         stage, low, end, z, per_z = (
             of(s, i, STAGE),
@@ -84,32 +111,19 @@ def walk(s):
             of(s, i, Z),
             of(s, i, PER_Z),
         )
-        grow, shrink, cleared = of(s, i, GROWING), of(s, i, SHRINKING), of(s, i, CLEARED)
-        forcing = of(s, i, CUT_PLACE), of(s, i, CUT_RATE), of(s, i, RESPONSE)
+        cleared, concave, high = of(s, i, CLEARED), of(s, i, CONCAVE), of(s, i, HIGH)
+        time, tries = of(s, i, TIME), of(s, i, TRIES)
         outside, period = of(s, i, OUTSIDE), of(s, i, PERIOD)
         turn_growth, turn_decay = of(s, i, TURN_GROWTH), of(s, i, TURN_DECAY)
-        grow_out, decay_out = of(s, i, GROW_OUT), of(s, i, DECAY_OUT)
-        concave, high, time, tries = of(s, i, CONCAVE), of(s, i, HIGH), of(s, i, TIME), of(s, i, TRIES)
-        half_grow, half_decay = grow_out * grow_out, decay_out * decay_out
-        tanh, walking = of(s, i, OUT_TANH_HALF) * (1.0 + MARGIN), stage == WALK
-        for _ in range(STRIDES - 1):
-            _, _, _, _, _, on, _ = stretch(
-                grow, shrink, forcing, half_grow, half_decay, tanh, z, per_z, end, cleared
-            )
-            on = on & walking
-            low, cleared = choose(on, end + outside, low), choose(on, 0.0, cleared)
-            end = choose(on, end + period, end)
-            z, per_z = choose(on, z * turn_growth, z), choose(on, per_z * turn_decay, per_z)
-        u, u_half, u_right, error, error_right, on, looks = stretch(
-            grow, shrink, forcing, half_grow, half_decay, tanh, z, per_z, end, cleared
-        )
+        u, u_half, u_right, error, error_right, passed, looks = ahead(s, i, end, z, per_z, cleared)
         above, found_in = u > error, u < -error
         dips = above & (u_half < -error_right)
         found = found_in | dips | (above & (u_right < -error_right) & (u_half > error_right))
-        next_stage = choose(found, GUESS, choose(on, WALK, choose(looks, BOTTOM, UNSURE)))
+        next_stage = choose(found, GUESS, choose(passed, WALK, choose(looks, BOTTOM, UNSURE)))
         halfway = fma(0.5, outside, end)
         next_high = choose(found_in, end, choose(dips, halfway, end + outside))
-        next_low = choose(found_in, low, choose(on, end + outside, end))
+        next_low = choose(found_in, low, choose(passed, end + outside, end))
+        walking = stage == WALK
         put(s, i, STAGE, choose(walking, next_stage, stage))
         put(s, i, CONCAVE, choose(walking, choose(found_in, 1.0, -1.0), concave))
         put(s, i, LOW, choose(walking, next_low, low))
@@ -117,7 +131,7 @@ def walk(s):
         put(s, i, TIME, choose(walking, halfway, time))
         put(s, i, TRIES, choose(walking, 0.0, tries))
         put(s, i, CLEARED, choose(walking, 0.0, cleared))
-        on = on & walking
-        put(s, i, END, choose(on, end + period, end))
-        put(s, i, Z, choose(on, z * turn_growth, z))
-        put(s, i, PER_Z, choose(on, per_z * turn_decay, per_z))
+        passed = passed & walking
+        put(s, i, END, choose(passed, end + period, end))
+        put(s, i, Z, choose(passed, z * turn_growth, z))
+        put(s, i, PER_Z, choose(passed, per_z * turn_decay, per_z))

@@ -105,7 +105,10 @@ def halved(factor):
 
 @njit(**EXACT_INNER)
 def guess(s):
-    """Where the zero lies in its stretch, to some six digits: two steps on a Taylor series about the middle of the right half of it."""
+    """Where the zero lies in its stretch, to some six digits.
+
+    From where a parabola comes down two steps on a Taylor series, both about the middle of the half that holds the zero.
+    """
     for i in range(LANES):
         stage, concave, end = of(s, i, STAGE), of(s, i, CONCAVE), of(s, i, END)
         low, high, time = of(s, i, LOW), of(s, i, HIGH), of(s, i, TIME)
@@ -135,16 +138,19 @@ def guess(s):
         u = growing + shrinking + fma(response, cosine, 1.0)
         v = fma(-response * frequency, sine, growing - shrinking)
         about = middle + choose(late, quarter, -quarter)
-        # half of a quarter further, on the zero's side
-        x = choose(u > 0.0, 0.5, -0.5) * quarter
         # A short hop comes down about where the parabola from its start does.
         fall = fma(amplitude, cosine_0, 1.0)
-        hop = 2.0 * velocity / fall
-        hops = (low == 0.0) & (fall > 0.0) & (hop * frequency < 1.0) & (hop < 0.5 * high)
-        about, x = choose(hops, 0.0, about), choose(hops, hop, x)
+        hops = (low == 0.0) & (2.0 * velocity * frequency < fall) & (4.0 * velocity < fall * high)
+        about = choose(hops, 0.0, about)
         u, v = choose(hops, 0.0, u), choose(hops, velocity, v)
         cosine, sine = choose(hops, cosine_0, cosine), choose(hops, sine_0, sine)
         c = derivatives(u, v, cosine, sine, amplitude, frequency)
+        # else half of a quarter further, on the zero's side
+        under = fma(v, v, -2.0 * u * c[2])
+        root = math.sqrt(max(under, 0.0))
+        x = choose(v > 0.0, v + root, 2.0 * u) / choose(v > 0.0, -c[2], root - v)
+        near = (under > 0.0) & (abs(x) < quarter)
+        x = choose(near | hops, x, choose(u > 0.0, 0.5, -0.5) * quarter)
         w, dw, ddw = taylor(c, x)
         per = 1.0 / dw
         y = -w * per

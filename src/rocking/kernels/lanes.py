@@ -13,7 +13,7 @@ from numba import njit
 
 from .branchless import EXACT_INNER
 
-LANES = 24
+LANES = 48
 
 (
     # the system

@@ -116,10 +116,8 @@ def until_wanted(s, flights, trail, stop):
     while stop[0] == 0:
         strike(s)
         note(s, flights, trail)
-        advance(s)
-        for i in range(LANES):
-            if of(s, i, WANTS) != CONTENT:
-                return
+        if advance(s):
+            return
 
 
 @njit(**MAKING_ENTRY)
