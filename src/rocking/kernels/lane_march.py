@@ -18,6 +18,7 @@ def advance(s):
     """All lanes onward, to their impacts if those are near enough; whether any wants anything there."""
     lane_walk.stride(s)
     lane_walk.walk(s)
+    lane_zero.aim(s)
     lane_zero.guess(s)
     lane_zero.look(s)
     lane_zero.step(s)

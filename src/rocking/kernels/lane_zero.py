@@ -7,7 +7,9 @@ from numba import njit
 from .branchless import EXACT_INNER, choose, circular, hyperbolic
 from .elementary import SHORT, fma
 from .lanes import (
+    ABOUT,
     AMPLITUDE,
+    ANGLE_THERE,
     ARRIVED,
     BOTTOM,
     CLEARED,
@@ -15,6 +17,7 @@ from .lanes import (
     COSINE,
     COSINE_IN,
     COSINE_OUT,
+    COSINE_THERE,
     DECAY_IN,
     DECAY_OUT,
     DEFICIT,
@@ -35,8 +38,10 @@ from .lanes import (
     NEXT_SINE,
     NEXT_SINH,
     NEXT_VERSINH,
+    OFF,
     OUTSIDE,
     PER_Z,
+    RATE_THERE,
     REFINE,
     RESPONSE,
     SHRINKING,
@@ -44,6 +49,7 @@ from .lanes import (
     SINE,
     SINE_IN,
     SINE_OUT,
+    SINE_THERE,
     SINH,
     SPEED,
     STAGE,
@@ -75,8 +81,9 @@ def correction(y, second, third, fourth, per):
 
 
 @njit(**EXACT_INNER)
-def derivatives(u, v, cosine, sine, amplitude, frequency):
-    """u and its first six derivatives at an instant, from u'' = u + f."""
+def derivatives(there, amplitude, frequency):
+    """u and its first six derivatives at an instant (u, u', cos eta, sin eta), from u'' = u + f."""
+    u, v, cosine, sine = there
     turned = -frequency * frequency
     f, df, ddf = fma(-amplitude, cosine, -1.0), amplitude * frequency * sine, -turned * amplitude * cosine
     c2, c3 = u + f, v + df
@@ -104,14 +111,10 @@ def halved(factor):
 
 
 @njit(**EXACT_INNER)
-def guess(s):
-    """Where the zero lies in its stretch, to some six digits.
-
-    From where a parabola comes down two steps on a Taylor series, both about the middle of the half that holds the zero.
-    """
+def aim(s):
+    """The middle of the half of its stretch that holds the zero, u and its derivatives there, and where a parabola comes down."""
     for i in range(LANES):
-        stage, concave, end = of(s, i, STAGE), of(s, i, CONCAVE), of(s, i, END)
-        low, high, time = of(s, i, LOW), of(s, i, HIGH), of(s, i, TIME)
+        concave, end, low, high = of(s, i, CONCAVE), of(s, i, END), of(s, i, LOW), of(s, i, HIGH)
         z, per_z, grow, shrink = (
             of(s, i, Z),
             of(s, i, PER_Z),
@@ -141,16 +144,30 @@ def guess(s):
         # A short hop comes down about where the parabola from its start does.
         fall = fma(amplitude, cosine_0, 1.0)
         hops = (low == 0.0) & (2.0 * velocity * frequency < fall) & (4.0 * velocity < fall * high)
-        about = choose(hops, 0.0, about)
         u, v = choose(hops, 0.0, u), choose(hops, velocity, v)
         cosine, sine = choose(hops, cosine_0, cosine), choose(hops, sine_0, sine)
-        c = derivatives(u, v, cosine, sine, amplitude, frequency)
+        second = u + fma(-amplitude, cosine, -1.0)
         # else half of a quarter further, on the zero's side
-        under = fma(v, v, -2.0 * u * c[2])
+        under = fma(v, v, -2.0 * u * second)
         root = math.sqrt(max(under, 0.0))
-        x = choose(v > 0.0, v + root, 2.0 * u) / choose(v > 0.0, -c[2], root - v)
-        near = (under > 0.0) & (abs(x) < quarter)
-        x = choose(near | hops, x, choose(u > 0.0, 0.5, -0.5) * quarter)
+        x = choose(v > 0.0, v + root, 2.0 * u) / choose(v > 0.0, -second, root - v)
+        near = hops | ((under > 0.0) & (abs(x) < quarter))
+        put(s, i, ANGLE_THERE, u)
+        put(s, i, RATE_THERE, v)
+        put(s, i, COSINE_THERE, cosine)
+        put(s, i, SINE_THERE, sine)
+        put(s, i, ABOUT, choose(hops, 0.0, about))
+        put(s, i, OFF, choose(near, x, choose(u > 0.0, 0.5, -0.5) * quarter))
+
+
+@njit(**EXACT_INNER)
+def guess(s):
+    """Where the zero lies, to some six digits: two steps on the Taylor series about where ``aim`` has it."""
+    for i in range(LANES):
+        stage, time, low, high = of(s, i, STAGE), of(s, i, TIME), of(s, i, LOW), of(s, i, HIGH)
+        about, x = of(s, i, ABOUT), of(s, i, OFF)
+        there = of(s, i, ANGLE_THERE), of(s, i, RATE_THERE), of(s, i, COSINE_THERE), of(s, i, SINE_THERE)
+        c = derivatives(there, of(s, i, AMPLITUDE), of(s, i, FREQUENCY))
         w, dw, ddw = taylor(c, x)
         per = 1.0 / dw
         y = -w * per
@@ -165,28 +182,12 @@ def guess(s):
 
 
 @njit(**EXACT_INNER)
-def look(s):
-    """The elementary functions at the time that each lane looks at."""
-    for i in range(LANES):
-        sinh, versinh, excess, higher = hyperbolic(of(s, i, TIME))
-        put(s, i, SINH, sinh)
-        put(s, i, VERSINH, versinh)
-        put(s, i, EXCESS, excess)
-        put(s, i, HIGHER, higher)
-    for i in range(LANES):
-        sin_x, versine, lag, deficit = circular(of(s, i, FREQUENCY), of(s, i, TIME))
-        put(s, i, SIN_X, sin_x)
-        put(s, i, VERSINE, versine)
-        put(s, i, LAG, lag)
-        put(s, i, DEFICIT, deficit)
-
-
-@njit(**EXACT_INNER)
-def instant(system, start, t, functions):
+def instant(system, start, t, hyperbolics, circulars):
     """(u, u', cos eta, sin eta) of an arc from the base at a time t, eq. (5) as in ``harmonic.respond`` and ``arc.after``."""
     amplitude, frequency, response = system
     velocity, cosine, sine = start
-    sinh, versinh, excess, higher, sin_x, versine, lag, deficit = functions
+    sinh, versinh, excess, higher = hyperbolics
+    sin_x, versine, lag, deficit = circulars
     near = frequency * t < SHORT
     in_phase, lateness = versinh + versine, fma(frequency, excess, lag)
     place = choose(near, -fma(frequency * frequency, higher, deficit), in_phase)
@@ -200,6 +201,33 @@ def instant(system, start, t, functions):
         cosine - fma(cosine, versine, sine * sin_x),
         sine - fma(sine, versine, -cosine * sin_x),
     )
+
+
+@njit(**EXACT_INNER)
+def look(s):
+    """The elementary functions and the instant at the time that each lane looks at."""
+    for i in range(LANES):
+        sinh, versinh, excess, higher = hyperbolic(of(s, i, TIME))
+        put(s, i, SINH, sinh)
+        put(s, i, VERSINH, versinh)
+        put(s, i, EXCESS, excess)
+        put(s, i, HIGHER, higher)
+    for i in range(LANES):
+        sin_x, versine, lag, deficit = circular(of(s, i, FREQUENCY), of(s, i, TIME))
+        put(s, i, SIN_X, sin_x)
+        put(s, i, VERSINE, versine)
+        put(s, i, LAG, lag)
+        put(s, i, DEFICIT, deficit)
+    for i in range(LANES):
+        system = of(s, i, AMPLITUDE), of(s, i, FREQUENCY), of(s, i, RESPONSE)
+        start = of(s, i, VELOCITY), of(s, i, COSINE), of(s, i, SINE)
+        hyperbolics = of(s, i, SINH), of(s, i, VERSINH), of(s, i, EXCESS), of(s, i, HIGHER)
+        circulars = of(s, i, SIN_X), of(s, i, VERSINE), of(s, i, LAG), of(s, i, DEFICIT)
+        u, v, cosine, sine = instant(system, start, of(s, i, TIME), hyperbolics, circulars)
+        put(s, i, ANGLE_THERE, u)
+        put(s, i, RATE_THERE, v)
+        put(s, i, COSINE_THERE, cosine)
+        put(s, i, SINE_THERE, sine)
 
 
 @njit(**EXACT_INNER)
@@ -234,14 +262,16 @@ def step(s):
     for i in range(LANES):
         stage, t, low, high = of(s, i, STAGE), of(s, i, TIME), of(s, i, LOW), of(s, i, HIGH)
         tries, wait, speed, cleared = of(s, i, TRIES), of(s, i, WAIT), of(s, i, SPEED), of(s, i, CLEARED)
-        sinh, versinh, excess, higher = of(s, i, SINH), of(s, i, VERSINH), of(s, i, EXCESS), of(s, i, HIGHER)
-        sin_x, versine, lag, deficit = of(s, i, SIN_X), of(s, i, VERSINE), of(s, i, LAG), of(s, i, DEFICIT)
-        amplitude, frequency, response = of(s, i, AMPLITUDE), of(s, i, FREQUENCY), of(s, i, RESPONSE)
-        start = of(s, i, VELOCITY), of(s, i, COSINE), of(s, i, SINE)
+        sinh, versinh = of(s, i, SINH), of(s, i, VERSINH)
+        amplitude, frequency = of(s, i, AMPLITUDE), of(s, i, FREQUENCY)
+        u, v, cosine, sine = (
+            of(s, i, ANGLE_THERE),
+            of(s, i, RATE_THERE),
+            of(s, i, COSINE_THERE),
+            of(s, i, SINE_THERE),
+        )
         next_cosine, next_sine = of(s, i, NEXT_COSINE), of(s, i, NEXT_SINE)
         next_sinh, next_versinh = of(s, i, NEXT_SINH), of(s, i, NEXT_VERSINH)
-        functions = sinh, versinh, excess, higher, sin_x, versine, lag, deficit
-        u, v, cosine, sine = instant((amplitude, frequency, response), start, t, functions)
         square = frequency * frequency
         f, df, ddf = fma(-amplitude, cosine, -1.0), amplitude * frequency * sine, square * amplitude * cosine
         second, third = u + f, v + df

@@ -34,6 +34,9 @@ LANES = 48
     CONCAVE, HIGH,
     # the time looked at, how often one has been, and what the elementary functions are there
     TIME, TRIES, SINH, VERSINH, EXCESS, HIGHER, SIN_X, VERSINE, LAG, DEFICIT,
+    # u, u', cos eta and sin eta there, and before that where the series that guesses the time is about; when that is, and
+    # how much later it is entered
+    ANGLE_THERE, RATE_THERE, COSINE_THERE, SINE_THERE, ABOUT, OFF,
     # the impact to come
     WAIT, SPEED, NEXT_COSINE, NEXT_SINE, NEXT_SINH, NEXT_VERSINH, WANTS,
     # the end of the leg; whether its arcs are asked for; the impacts counted before it began, those of no flight that was
@@ -42,7 +45,7 @@ LANES = 48
     # a difference in (Theta, Theta'), to be doubled so often
     ACROSS, ALONG, DOUBLINGS,
     ROWS,
-) = range(68)  # fmt: skip
+) = range(74)  # fmt: skip
 
 # What is next for a lane: nothing; to begin an arc; to walk; to guess the zero in its stretch; to look for the bottom of a dip; to
 # step to the zero; the impact, once it was attended to; what none of these can do.
