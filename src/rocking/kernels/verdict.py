@@ -12,7 +12,7 @@ import numpy as np
 from numba import njit
 
 from .cycle import ON_EVENT, REACHED, Cycle, find_cycle, loses, no_cycle
-from .desk import BATCHES, LEG
+from .desk import BATCHES, LEG, SEASONED
 from .elementary import ENTRY, WITHIN, WRITTEN_IN
 from .judgement import NEUTRAL_ORBIT, OPEN, ORBIT, ended, periodic, torus, undecided, unsettled
 from .lossless import (
@@ -210,7 +210,7 @@ def look(p, case, status, run, max_cycles, max_period, desk):
         told = unsettled(p, watch, work, max_cycles, measured, lossless, digits, desk.batches, stands)
         return told, case
     if lossless:
-        checkpoint = target + LEG
+        checkpoint = target + (LEG if target < SEASONED else 2 * LEG)
     elif target == checkpoint:
         checkpoint = next_checkpoint(target, coming)
     run = Run(watch, flights, section_time, count, lossless, measuring)
