@@ -8,8 +8,8 @@ from numba import njit
 from .elementary import WITHIN
 from .lanes import LANES, ROWS, TRAIL
 
-# Cycles between looks at a motion that loses nothing; twice as many once it has gone on for so long.
-LEG, SEASONED = 128, 512
+# Cycles between looks at a motion that loses nothing.
+LEG = 128
 # The last states are moved to the front once in so many looks.
 SPARE = 3
 # Over so many equal parts of the second half of the budget the exponent is measured.

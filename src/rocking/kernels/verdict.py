@@ -12,7 +12,7 @@ import numpy as np
 from numba import njit
 
 from .cycle import ON_EVENT, REACHED, Cycle, find_cycle, loses, no_cycle
-from .desk import BATCHES, LEG, SEASONED
+from .desk import BATCHES
 from .elementary import ENTRY, WITHIN, WRITTEN_IN
 from .judgement import NEUTRAL_ORBIT, OPEN, ORBIT, ended, periodic, torus, undecided, unsettled
 from .lossless import (
@@ -22,6 +22,7 @@ from .lossless import (
     digits_of_speeds,
     follow_flights,
     may_be_asked_for,
+    next_leg,
     no_flights,
     under_way,
     work_out,
@@ -210,7 +211,7 @@ def look(p, case, status, run, max_cycles, max_period, desk):
         told = unsettled(p, watch, work, max_cycles, measured, lossless, digits, desk.batches, stands)
         return told, case
     if lossless:
-        checkpoint = target + (LEG if target < SEASONED else 2 * LEG)
+        checkpoint = next_leg(target, desk.growth[0])
     elif target == checkpoint:
         checkpoint = next_checkpoint(target, coming)
     run = Run(watch, flights, section_time, count, lossless, measuring)
