@@ -112,7 +112,7 @@ def next_event(p, mode, arc, guess):
 
     NONE after a finite wait only renews an arc grown long.
     """
-    if mode == FLIGHT and p.base_half < math.inf and arc.velocity != 0.0:
+    if mode == FLIGHT and p.base_half < math.inf:
         at_brace = False
         if p.brace_angle == math.inf:
             answer, t, now, lapse = likely_impact(p, arc, guess)

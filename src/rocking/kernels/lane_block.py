@@ -5,7 +5,7 @@ import math
 from numba import njit
 
 from .arc import arc_after, earlier
-from .elementary import WITHIN
+from .elementary import INNER, WITHIN
 from .events import FLIGHT, IMPACT, any_event
 from .harmonic import clock
 from .lanes import (
@@ -78,7 +78,7 @@ def seat(s, i, p, progress, columns, collected):
     put(s, i, STAGE, BEGUN)
 
 
-@njit(**WITHIN)
+@njit(**INNER)
 def set_leg(s, i, target, trails):
     """Where the leg of a lane ends, and whether its arcs are asked for."""
     put(s, i, TARGET, target)
@@ -90,6 +90,24 @@ def arc_of(s, i, p):
     """The arc under way in a lane."""
     side, start = int(of(s, i, SIDE)), of(s, i, START)
     return arc_after(p, side, start, 0.0, of(s, i, VELOCITY), of(s, i, COSINE), of(s, i, SINE))
+
+
+@njit(**INNER)
+def growth_since(s, i):
+    """(the logarithm of what differences have grown by since that was last read, the difference, of size 1)."""
+    a, b = of(s, i, ACROSS), of(s, i, ALONG)
+    size = math.hypot(a, b)
+    grown = math.log(size) + of(s, i, DOUBLINGS) * LN2
+    put(s, i, ACROSS, a / size)
+    put(s, i, ALONG, b / size)
+    put(s, i, DOUBLINGS, 0.0)
+    return grown, a / size, b / size
+
+
+@njit(**INNER)
+def collected(s, i, flights):
+    """How many flights there are, with those that were not yet read."""
+    return flights.count + int(of(s, i, IMPACTS)) - int(of(s, i, COUNTED))
 
 
 @njit(**WITHIN)
@@ -125,13 +143,8 @@ def read(s, i, wants, p, run, desk, trail):
     else:
         count = 0
     put(s, i, COUNTED, impacts)
-    a, b = of(s, i, ACROSS), of(s, i, ALONG)
-    size = math.hypot(a, b)
-    desk.growth[0] += math.log(size) + of(s, i, DOUBLINGS) * LN2
-    desk.columns[0, 0], desk.columns[0, 1] = a / size, b / size
-    put(s, i, ACROSS, a / size)
-    put(s, i, ALONG, b / size)
-    put(s, i, DOUBLINGS, 0.0)
+    grown, desk.columns[0, 0], desk.columns[0, 1] = growth_since(s, i)
+    desk.growth[0] += grown
     watch = Watch(after, watch.base, watch.brace, 0, 0.0, watch.peak)
     return DONE, Run(watch, flights, section_time, count, lossless, measuring)
 
@@ -158,7 +171,8 @@ def find(s, i, p):
     put(s, i, STAGE, ARRIVED)
     if over(s, i):
         return LEG_END
-    return READING if trail_is_full(of(s, i, IMPACTS), of(s, i, COUNTED)) else PEAK_SEEN
+    full = trail_is_full(of(s, i, TRAILS), of(s, i, IMPACTS), of(s, i, COUNTED))
+    return READING if full else PEAK_SEEN
 
 
 @njit(**WITHIN)

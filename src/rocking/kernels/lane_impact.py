@@ -50,6 +50,7 @@ from .lanes import (
     STAGE,
     START,
     TARGET,
+    TRAILS,
     UNSURE,
     VELOCITY,
     WAIT,
@@ -77,7 +78,7 @@ def attend(s):
         stage, start, wait, cycle = of(s, i, STAGE), of(s, i, START), of(s, i, WAIT), of(s, i, CYCLE)
         target, period, exceeds = of(s, i, TARGET), of(s, i, PERIOD), of(s, i, EXCEEDS)
         speed, restitution = of(s, i, SPEED), of(s, i, RESTITUTION)
-        full = trail_is_full(of(s, i, IMPACTS), of(s, i, COUNTED))
+        full = trail_is_full(of(s, i, TRAILS), of(s, i, IMPACTS), of(s, i, COUNTED))
         wants = choose(exceeds == 0.0, CONTENT, PEAK_SEEN)
         wants = choose(full, READING, wants)
         wants = choose(restitution * speed < SLOWEST, ALONE, wants)

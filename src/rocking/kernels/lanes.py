@@ -72,9 +72,9 @@ def put(s, i, row, value):
 
 
 @njit(**EXACT_INNER)
-def trail_is_full(impacts, counted):
+def trail_is_full(trails, impacts, counted):
     """Whether a trail must be read before another arc is written into it."""
-    return impacts - counted > TRAIL - 3.0
+    return trails * (impacts - counted) > TRAIL - 3.0
 
 
 @njit(**EXACT_INNER)

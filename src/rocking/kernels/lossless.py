@@ -7,7 +7,6 @@ from numba import njit
 
 from .arc import arc_from
 from .averages import bumps, digits_with
-from .desk import LEG
 from .elementary import WITHIN, WRITTEN_IN
 from .events import BRACE, FLIGHT, IMPACT, NONE
 from .march import PAUSED, RELEASED, march_on
@@ -115,12 +114,6 @@ def may_be_asked_for(growth, target, max_cycles, rows):
     On a torus differences never grow so much as ``agreement`` would not allow of as many flights as are kept.
     """
     return growth <= OUTGROWN or target > max_cycles - rows
-
-
-@njit(**WITHIN)
-def next_leg(cycle, growth):
-    """Where the leg from ``cycle`` on ends: what has outgrown any torus has few answers to come and is looked at half as often."""
-    return cycle + (LEG if growth <= OUTGROWN else 2 * LEG)
 
 
 @njit(**WRITTEN_IN)

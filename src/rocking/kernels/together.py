@@ -11,10 +11,10 @@ from numba import njit
 
 from .answers import Answers, answer, asked
 from .desk import place
-from .elementary import MAKING_ENTRY, WITHIN
+from .elementary import INNER, MAKING_ENTRY, WITHIN
 from .events import FLIGHT, IMPACT
 from .judgement import OPEN, undecided
-from .lane_block import find, note, over, read, seat, see_peak, set_leg
+from .lane_block import collected, find, growth_since, note, over, read, seat, see_peak, set_leg
 from .lane_march import advance, strike
 from .lanes import (
     ALONE,
@@ -29,6 +29,7 @@ from .lanes import (
     PEAK_SEEN,
     SLOWEST,
     STAGE,
+    TRAILS,
     WANTS,
     of,
     put,
@@ -36,7 +37,7 @@ from .lanes import (
 from .lossless import may_be_asked_for
 from .march import DONE
 from .parameters import HarmonicParameters
-from .verdict import Case, leg, look, next_look, opened
+from .verdict import Case, leg, look, next_look, opened, over_batch, unseen
 
 # Of a quicker forcing an arc has too many stretches to be walked along in step with others.
 SHORTEST = 0.1
@@ -74,6 +75,26 @@ def fits(p, case):
 def with_run(case, run):
     """The case with its motion further on."""
     return Case(run, *case[1:])
+
+
+@njit(**INNER)
+def passed(s, i, guest, max_cycles, bench):
+    """(whether a lane whose leg has ended is on its next one already, since nothing of it is asked for now or there; its block)."""
+    point, p, case = guest
+    target = next_look(case, max_cycles)
+    if of(s, i, TRAILS) > 0.0 or case.converged or target == max_cycles:
+        return False, guest
+    grown, bench.columns[i, 0, 0], bench.columns[i, 0, 1] = growth_since(s, i)
+    growth = bench.growth[i, 0] + grown
+    bench.growth[i, 0] = growth
+    further = unseen(case, collected(s, i, case.run.flights), max_cycles, growth)
+    if may_be_asked_for(growth, next_look(further, max_cycles), max_cycles, bench.scratch.shape[0]):
+        return False, guest
+    if further.measured > case.measured:
+        exponent = over_batch(p, case.run.watch, target, max_cycles, growth - case.grown)
+        bench.batches[i, case.measured] = exponent
+    set_leg(s, i, next_look(further, max_cycles), False)
+    return True, Guest(point, p, further)
 
 
 @njit(**WITHIN)
@@ -136,13 +157,15 @@ def judge_together(systems, starts, max_cycles, max_period, bench, answers, stop
                 continue
             if wants == CERTAINTY:
                 wants = find(s, i, guests[i].p)
-            if wants != PEAK_SEEN:
-                guest = guests[i]
-                while wants != CONTENT:
+            while wants != CONTENT and wants != PEAK_SEEN:
+                on, guest = (
+                    passed(s, i, guests[i], max_cycles, bench) if wants == LEG_END else (False, guests[i])
+                )
+                if not on:
                     guest, queue = onward(s, i, wants, guest, queue, asking, bench)
                     blocks -= guest.point < 0
-                    wants = LEG_END if of(s, i, STAGE) == ARRIVED and over(s, i) else CONTENT
                 guests[i] = guest
+                wants = LEG_END if of(s, i, STAGE) == ARRIVED and over(s, i) else CONTENT
             if of(s, i, STAGE) == ARRIVED and of(s, i, EXCEEDS) > 0.0:
                 see_peak(s, i, guests[i].p)
         if blocks == 0:

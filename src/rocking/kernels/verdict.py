@@ -12,8 +12,8 @@ import numpy as np
 from numba import njit
 
 from .cycle import ON_EVENT, REACHED, Cycle, find_cycle, loses, no_cycle
-from .desk import BATCHES
-from .elementary import ENTRY, WITHIN, WRITTEN_IN
+from .desk import BATCHES, LEG
+from .elementary import ENTRY, INNER, WITHIN, WRITTEN_IN
 from .judgement import NEUTRAL_ORBIT, OPEN, ORBIT, ended, periodic, torus, undecided, unsettled
 from .lossless import (
     FEWEST_FLIGHTS,
@@ -22,7 +22,6 @@ from .lossless import (
     digits_of_speeds,
     follow_flights,
     may_be_asked_for,
-    next_leg,
     no_flights,
     under_way,
     work_out,
@@ -31,9 +30,7 @@ from .march import DONE, UNKNOWN, begin
 from .release import Watch, begin_measuring, begin_tangent, follow, released_since, unvisited, watched
 from .returns import closest_return
 
-FIRST_CHECKPOINT = 10
-FIRST_CHECKPOINTS = 4  # cycles between the first ones
-GROW_FROM = 14
+FIRST_CHECKPOINT = 14
 CHECKPOINTS_GROW = 1.25
 FIRST_SECTION = 0.3819660112501051  # of a period
 NEXT_SECTION = 0.6180339887498949
@@ -75,12 +72,18 @@ class Case(NamedTuple):
     work: int
 
 
+@njit(**INNER)
+def batch_of(max_cycles):
+    """Over so many cycles the exponent is measured at a time."""
+    return max_cycles // (2 * BATCHES)
+
+
 @njit(**WITHIN)
 def opened(p, angle, velocity, max_cycles):
     """The case of a motion from (angle, velocity)."""
     watch = watched(begin(p, angle, velocity, UNKNOWN)[0])
     run = Run(watch, no_flights(), FIRST_SECTION * p.period, 0, False, False)
-    batch = max_cycles // (2 * BATCHES)
+    batch = batch_of(max_cycles)
     batch_end = (max_cycles - BATCHES * batch) if batch > 0 else max_cycles + 1
     hits = watch.progress.brace_hits
     return Case(
@@ -88,7 +91,7 @@ def opened(p, angle, velocity, max_cycles):
     )
 
 
-@njit(**WITHIN)
+@njit(**INNER)
 def next_look(case, max_cycles):
     """The end of the leg to come."""
     return min(case.checkpoint, case.batch_end, max_cycles)
@@ -141,10 +144,34 @@ def unmoved(section, count, max_period):
 
 @njit(**WITHIN)
 def next_checkpoint(cycle, coming):
-    """When to look for a periodic orbit again: as foretold, where one was found, else after 10, 14 cycles, then ever later."""
-    if coming > 0:
-        return cycle + min(coming, max(cycle // 2, FIRST_CHECKPOINTS))
-    return cycle + FIRST_CHECKPOINTS if cycle < GROW_FROM else int(cycle * CHECKPOINTS_GROW)
+    """When to look for a periodic orbit again: as foretold, where one was found, else ever later."""
+    return cycle + min(coming, cycle // 2) if coming > 0 else int(cycle * CHECKPOINTS_GROW)
+
+
+@njit(**INNER)
+def over_batch(p, watch, target, max_cycles, grown):
+    """The exponent over the batch that ends at ``target``, in which differences have ``grown``; a release forgets them all."""
+    batch = batch_of(max_cycles)
+    return (-math.inf if released_since(watch, target - batch) else grown) / (batch * p.period)
+
+
+@njit(**INNER)
+def unseen(case, flights, max_cycles, growth):
+    """The case after a look, before the end, at a motion without loss that has outgrown any torus, after so many flights.
+
+    That tells of its exponent only; where a batch has ended it is still to be noted.
+    """
+    run, impacts, brace_hits, _, batch_end, measured, grown, lossy, enough, digits, converged = case[:11]
+    target = next_look(case, max_cycles)
+    if target == batch_end:
+        measured += run.measuring
+        run, grown, batch_end = Run(*run[:5], True), growth, batch_end + batch_of(max_cycles)
+    if flights >= enough:
+        enough, digits, converged = flights * 5 // 4, 0.0, False
+    return Case(
+        run, impacts, brace_hits, target + LEG, batch_end, measured, grown, lossy, enough, digits, converged,
+        *case[11:]
+    )  # fmt: skip
 
 
 @njit(**WRITTEN_IN)
@@ -166,16 +193,12 @@ def look(p, case, status, run, max_cycles, max_period, desk):
         watch = unvisited(watch) if lossless else watch
         lossy, lossless, flights = target, False, no_flights()
     if target == batch_end:
-        batch = max_cycles // (2 * BATCHES)
         if measuring:
-            # A release forgets all differences.
-            forgets = released_since(watch, target - batch)
-            grown = -math.inf if forgets else desk.growth[0] - grown
-            desk.batches[measured] = grown / (batch * p.period)
+            desk.batches[measured] = over_batch(p, watch, target, max_cycles, desk.growth[0] - grown)
             measured += 1
         elif not lossless:
             begin_measuring(watch, desk.columns, desk.growth)
-        grown, measuring, batch_end = desk.growth[0], True, batch_end + batch
+        grown, measuring, batch_end = desk.growth[0], True, batch_end + batch_of(max_cycles)
     if lossless and flights.count >= enough:
         digits, converged = agreement(flights, desk.flights, desk.weights, desk.growth[0])
         enough = flights.count * 5 // 4
@@ -202,7 +225,7 @@ def look(p, case, status, run, max_cycles, max_period, desk):
         if cycle.answer == ON_EVENT:
             section_time, count = (section_time + NEXT_SECTION * p.period) % p.period, 0
             known = no_cycle(0)
-    if due and not lossless and target >= GROW_FROM and 2 * lossy <= target:
+    if due and not lossless and 2 * lossy <= target:
         lossless, grown, flights = True, 0.0, under_way(done)
         begin_tangent(desk.columns, desk.growth)
     if over:
@@ -211,7 +234,7 @@ def look(p, case, status, run, max_cycles, max_period, desk):
         told = unsettled(p, watch, work, max_cycles, measured, lossless, digits, desk.batches, stands)
         return told, case
     if lossless:
-        checkpoint = next_leg(target, desk.growth[0])
+        checkpoint = target + LEG
     elif target == checkpoint:
         checkpoint = next_checkpoint(target, coming)
     run = Run(watch, flights, section_time, count, lossless, measuring)
