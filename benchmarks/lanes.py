@@ -31,13 +31,15 @@ def in_lanes(systems):
     return many.judge_many(systems, np.zeros((len(systems), 2)), CYCLES, MAX_PERIOD, np.zeros(1, np.int64))
 
 
-def systems_of(points):
-    """The map at e = 1, so many points along either axis."""
+def systems_of(points, restitution=1.0):
+    """The map, so many points along either axis."""
     period, amplitude = (
         axis.ravel() for axis in np.meshgrid(np.linspace(*PERIODS, points), np.linspace(*AMPLITUDES, points))
     )
     one = np.ones(period.size)
-    return np.column_stack([amplitude, math.tau / period, period, 0 * one, one, math.inf * one, one])
+    return np.column_stack(
+        [amplitude, math.tau / period, period, 0 * one, restitution * one, math.inf * one, one]
+    )
 
 
 def against_one():

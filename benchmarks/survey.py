@@ -1,6 +1,5 @@
 """Maps of a million points: what they cost with one worker and two, in memory and in a store, against marching every point."""
 
-import math
 import os
 import subprocess
 import sys
@@ -13,8 +12,13 @@ import numpy as np
 from numba import njit
 
 import rocking as rk
+from benchmarks.clock import quickest
+from benchmarks.lanes import MAX_PERIOD, systems_of
 from benchmarks.table import Figure
-from rocking.kernels import march, parameters
+from rocking.kernels import many, march, verdict
+from rocking.kernels.answers import answer, no_answers
+from rocking.kernels.answers import asked as asked_of
+from rocking.kernels.desk import desk
 
 POINTS = 1000
 PERIODS, AMPLITUDES = (0.2, 3.0), (0.0, 16.0)
@@ -61,15 +65,14 @@ def maps():
     yield Figure("  resets of unresolved period", 100.0 * unresolved.mean(), "%", 0.02)
     _, quarter, _ = taken(**asked(POINTS // 2))
     yield Figure("  a point's cost, against a quarter of the points", work / quarter / 4.0, "×", 1.1)
-    states = np.empty((MARCHED, 4))
-    noting = f"{marched(states, True) / work:.3g} times, where it keeps the states and the peak that tell what a response is"
+    early, late, marched = kernels()
     yield Figure(
-        "  marching 1,000 cycles at every point takes",
-        marched(np.empty((0, 4)), False) / work,
+        "  kernels: marching 1,000 cycles at every point before it is judged takes",
+        late / early,
         "times",
         10,
         least=True,
-        note=noting,
+        note=f"{marched / early:.3g} times where nothing is kept and nothing judged",
     )
     rk.parametric_map(**asked(20, 1.0), max_cycles=200)
     wall, work, found = taken(**asked(POINTS, 1.0))
@@ -120,26 +123,52 @@ def busy():
 
 
 @njit(nogil=True)
-def march_all(amplitudes, periods, cycles, section, want_peak, table, row):
-    """Every point from rest to the end of its cycles, unless it overturns or rests for ever before; impacts met."""
-    impacts = 0
-    for k in range(amplitudes.shape[0]):
-        p = parameters.make(amplitudes[k], 2.0 * math.pi / periods[k], periods[k], 0.0, 0.925, math.inf, 1.0)
+def judge_late(systems, cycles, memory, answers):
+    """The cascade of a map without its early looks: the first comes after so many cycles."""
+    for k in range(systems.shape[0]):
+        p = asked_of(systems[k])
+        case = verdict.opened(p, 0.0, 0.0, cycles)
+        case = verdict.Case(*case[:3], np.int64(cycles), cycles + 1, *case[5:])
+        status, run = verdict.leg(p, case.run, cycles, cycles, memory)
+        told, _ = verdict.look(p, case, status, run, cycles, MAX_PERIOD, memory)
+        answer(answers, k, told)
+
+
+@njit(nogil=True)
+def march_all(systems, cycles, memory, answers):
+    """Every point from rest to the end of its cycles, unless it overturns or rests for ever before."""
+    nothing = memory.nothing
+    for k in range(systems.shape[0]):
+        p = asked_of(systems[k])
         progress, status = march.begin(p, 0.0, 0.0, march.UNKNOWN)[0], march.PAUSED
         while status == march.PAUSED:
             status, progress, _, _ = march.march_on(
-                p, progress, cycles, 0.0, section, table, table, row, want_peak, False
+                p,
+                progress,
+                cycles,
+                0.0,
+                nothing.section,
+                nothing.events,
+                nothing.columns,
+                nothing.growth,
+                False,
+                False,
             )
-        impacts += progress.impacts
-    return impacts
+        answers.impacts[k] = progress.impacts
 
 
-def marched(section, want_peak):
-    """Processor seconds of the map of a million points if every one were marched, from one in a hundred."""
-    grid = np.meshgrid(np.linspace(*AMPLITUDES, POINTS // 10), np.linspace(*PERIODS, POINTS // 10))
-    amplitudes, periods = (axis.ravel() for axis in grid)
-    nothing = np.empty((0, 2)), np.empty(0)
-    march_all(amplitudes[:1], periods[:1], 1, section, want_peak, *nothing)
-    begun = time.thread_time()
-    march_all(amplitudes, periods, MARCHED, section, want_peak, *nothing)
-    return 100.0 * (time.thread_time() - begun)
+def kernels():
+    """Seconds of one thread for every tenth point of the map along either axis: by the cascade, by it without early looks, marched."""
+    systems, memory = systems_of(POINTS // 10, 0.925), desk(10_000, MAX_PERIOD)
+    starts, go_on, answers = np.zeros((len(systems), 2)), np.zeros(1, np.int64), no_answers(len(systems))
+
+    def early():
+        many.judge_each(systems, starts, 10_000, MAX_PERIOD, memory, answers, go_on)
+
+    for each in (judge_late, march_all):
+        each(systems[:1], 1, memory, answers)
+    late, marched = (
+        quickest(RUNS, lambda each=each: each(systems, MARCHED, memory, answers), time.thread_time)[0]
+        for each in (judge_late, march_all)
+    )
+    return quickest(RUNS, early, time.thread_time)[0], late, marched
