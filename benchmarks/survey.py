@@ -19,11 +19,12 @@ from rocking.kernels import many, march, verdict
 from rocking.kernels.answers import answer, no_answers
 from rocking.kernels.answers import asked as asked_of
 from rocking.kernels.desk import desk
+from rocking.kernels.elementary import COMPILED
 
 POINTS = 1000
 PERIODS, AMPLITUDES = (0.2, 3.0), (0.0, 16.0)
 MARCHED = 1000
-"""Cycles of a map that marches every point and asks nothing."""
+"""Cycles of a map that marches every point before anything is asked of it, or asks nothing."""
 RUNS = 3
 PEAK = """
 import pathlib, resource, sys
@@ -122,7 +123,7 @@ def busy():
     return f"load {os.getloadavg()[0]:.1f} on {os.cpu_count()} cores" if hasattr(os, "getloadavg") else ""
 
 
-@njit(nogil=True)
+@njit(**COMPILED)
 def judge_late(systems, cycles, memory, answers):
     """The cascade of a map without its early looks: the first comes after so many cycles."""
     for k in range(systems.shape[0]):
@@ -134,7 +135,7 @@ def judge_late(systems, cycles, memory, answers):
         answer(answers, k, told)
 
 
-@njit(nogil=True)
+@njit(**COMPILED)
 def march_all(systems, cycles, memory, answers):
     """Every point from rest to the end of its cycles, unless it overturns or rests for ever before."""
     nothing = memory.nothing

@@ -202,12 +202,14 @@ def compare(p, section, row, period, found):
     tangent = image.tangent
     radius = spectral_radius(tangent)
     distance = size(section[row - period, 0] - angle, section[row - period, 1] - velocity)
-    if not attracts(p, image) or radius == 0.0 or row < RETURNS * period:
+    if not 0.0 < radius < 1.0 or not loses(p, image.impacts, image.brace_hits) or row < RETURNS * period:
         return NOT_YET, distance, 0
     for k in range(period):
         if on_event(p, section, row - k):
             return ON_EVENT, distance, 0
     norm = adapted_norm(tangent, 0.5 * (1.0 + radius))
+    # By so much returns are off because the orbit itself is.
+    doubt = found.residual * (math.sqrt(norm[0]) + math.sqrt(norm[2]))
     for k in range(RETURNS):
         after = row - k * period
         before = after - period
@@ -216,7 +218,7 @@ def compare(p, section, row, period, found):
         to_y = section[after, 1] - velocity - (tangent.b * x + tangent.d * y)
         impacts, brace_hits = section[after, 2] - section[before, 2], section[after, 3] - section[before, 3]
         left = length(norm, x, y)
-        off = length(norm, to_x, to_y) / (max(NONLINEAR * (1.0 - radius), BENT) * left)
+        off = (length(norm, to_x, to_y) - doubt) / (max(NONLINEAR * (1.0 - radius), BENT) * left)
         landed = length(norm, section[after, 0] - angle, section[after, 1] - velocity)
         comes = landed <= (1.0 - APPROACH * (1.0 - radius)) * left
         near = (comes and off <= 1.0) or size(x, y) <= ROUNDING

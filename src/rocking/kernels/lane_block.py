@@ -105,9 +105,9 @@ def growth_since(s, i):
 
 
 @njit(**INNER)
-def collected(s, i, flights):
-    """How many flights there are, with those that were not yet read."""
-    return flights.count + int(of(s, i, IMPACTS)) - int(of(s, i, COUNTED))
+def flights_by_now(s, i, flights, most):
+    """How many flights are collected, with those since the lane was last read."""
+    return min(flights.count + int(of(s, i, IMPACTS)) - int(of(s, i, COUNTED)), most)
 
 
 @njit(**WITHIN)
@@ -117,7 +117,7 @@ def read(s, i, wants, p, run, desk, trail):
     before, arc, cycle, target = watch.progress, arc_of(s, i, p), int(of(s, i, CYCLE)), int(of(s, i, TARGET))
     pending, written = arc.start <= section_time, int(of(s, i, IMPACTS)) - int(of(s, i, COUNTED))
     if written > 0:
-        collected = min(flights.count + written, desk.flights.shape[1])
+        collected = flights_by_now(s, i, flights, desk.flights.shape[1])
         flights = Flights(IMPACT, cycle, arc.start, flights.first_cycle, collected)
     if wants == LEG_END:
         arc, cycle, pending = earlier(arc, (target - cycle) * p.period), target, True

@@ -73,7 +73,7 @@ def put(s, i, row, value):
 
 @njit(**EXACT_INNER)
 def trail_is_full(trails, impacts, counted):
-    """Whether a trail must be read before another arc is written into it."""
+    """Whether a trail must be read before another arc is written into it: where none is asked for (``trails`` 0) never."""
     return trails * (impacts - counted) > TRAIL - 3.0
 
 

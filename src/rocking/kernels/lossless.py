@@ -20,7 +20,7 @@ CHAOTIC_DIGITS = 6.0
 LONG = 2048
 # Shear lets differences grow like the length times a factor, at most e to this; seen: e^3.
 SHEAR = 5.0
-# More than that of any motion whose flights are kept (``desk``).
+# More than ``agreement`` allows of as many flights as are kept (``desk``).
 OUTGROWN = 20.0
 
 
@@ -111,9 +111,9 @@ def work_out(p, section, first, count, section_time):
 def may_be_asked_for(growth, target, max_cycles, rows):
     """Whether the states of a leg to ``target`` may be asked for: on a torus, and of every motion the last ones, ``rows`` at most.
 
-    On a torus differences never grow so much as ``agreement`` would not allow of as many flights as are kept.
+    On a torus differences never grow by more than ``agreement`` would allow at the end.
     """
-    return growth <= OUTGROWN or target > max_cycles - rows
+    return growth <= max(OUTGROWN, math.log(max_cycles) + SHEAR) or target > max_cycles - rows
 
 
 @njit(**WRITTEN_IN)

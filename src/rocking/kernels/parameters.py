@@ -79,10 +79,12 @@ def make(amplitude, frequency, period, phase, restitution, brace_angle, brace_re
     brace_half = (
         math.acos((brace_angle - 1.0) / amplitude) if abs(brace_angle - 1.0) < amplitude else math.inf
     )
-    brace_inside, brace_growth, brace_decay = math.nan, math.nan, math.nan
+    growth, turn_growth = math.exp(min(outside, 700.0)), math.exp(min(period, 700.0))
+    brace_rate, brace_inside, brace_growth, brace_tanh = math.nan, math.nan, math.nan, math.nan
     if brace_half < math.inf:
         brace_inside = 2.0 * brace_half / frequency
-        brace_growth, brace_decay = math.exp(min(brace_inside, 700.0)), math.exp(-brace_inside)
+        brace_rate = response * frequency * math.sin(brace_half)
+        brace_growth, brace_tanh = math.exp(min(brace_inside, 700.0)), math.tanh(brace_inside)
     return HarmonicParameters(
         amplitude,
         frequency,
@@ -100,18 +102,18 @@ def make(amplitude, frequency, period, phase, restitution, brace_angle, brace_re
         response * frequency * math.sin(base_half) if amplitude > 1.0 else 0.0,
         inside,
         outside,
-        math.exp(min(outside, 700.0)),
-        math.exp(-outside),
-        math.exp(min(period, 700.0)),
-        math.exp(-period),
+        growth,
+        1.0 / growth,
+        turn_growth,
+        1.0 / turn_growth,
         math.tanh(outside),
         (brace_angle - 1.0) * (1.0 - reciprocal),
-        response * frequency * math.sin(brace_half),
+        brace_rate,
         brace_inside,
         period - brace_inside,
         brace_growth,
-        brace_decay,
-        math.tanh(brace_inside),
+        1.0 / brace_growth,
+        brace_tanh,
     )
 
 

@@ -14,7 +14,7 @@ from .desk import place
 from .elementary import INNER, MAKING_ENTRY, WITHIN
 from .events import FLIGHT, IMPACT
 from .judgement import OPEN, undecided
-from .lane_block import collected, find, growth_since, note, over, read, seat, see_peak, set_leg
+from .lane_block import find, flights_by_now, growth_since, note, over, read, seat, see_peak, set_leg
 from .lane_march import advance, strike
 from .lanes import (
     ALONE,
@@ -37,7 +37,7 @@ from .lanes import (
 from .lossless import may_be_asked_for
 from .march import DONE
 from .parameters import HarmonicParameters
-from .verdict import Case, leg, look, next_look, opened, over_batch, unseen
+from .verdict import Case, leg, look, next_look, opened, outgrown, over_batch
 
 # Of a quicker forcing an arc has too many stretches to be walked along in step with others.
 SHORTEST = 0.1
@@ -79,21 +79,25 @@ def with_run(case, run):
 
 @njit(**INNER)
 def passed(s, i, guest, max_cycles, bench):
-    """(whether a lane whose leg has ended is on its next one already, since nothing of it is asked for now or there; its block)."""
+    """(whether a lane at the end of its leg was sent on without being read, its block): if its motion has outgrown any torus.
+
+    What differences have grown by is read in any case.
+    """
     point, p, case = guest
-    target = next_look(case, max_cycles)
+    target, most = next_look(case, max_cycles), bench.flights.shape[2]
     if of(s, i, TRAILS) > 0.0 or case.converged or target == max_cycles:
         return False, guest
     grown, bench.columns[i, 0, 0], bench.columns[i, 0, 1] = growth_since(s, i)
     growth = bench.growth[i, 0] + grown
     bench.growth[i, 0] = growth
-    further = unseen(case, collected(s, i, case.run.flights), max_cycles, growth)
-    if may_be_asked_for(growth, next_look(further, max_cycles), max_cycles, bench.scratch.shape[0]):
+    further = outgrown(case, flights_by_now(s, i, case.run.flights, most), max_cycles, growth)
+    ahead = next_look(further, max_cycles)
+    if may_be_asked_for(growth, ahead, max_cycles, bench.scratch.shape[0]):
         return False, guest
     if further.measured > case.measured:
         exponent = over_batch(p, case.run.watch, target, max_cycles, growth - case.grown)
         bench.batches[i, case.measured] = exponent
-    set_leg(s, i, next_look(further, max_cycles), False)
+    set_leg(s, i, ahead, False)
     return True, Guest(point, p, further)
 
 

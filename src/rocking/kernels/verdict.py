@@ -156,21 +156,35 @@ def over_batch(p, watch, target, max_cycles, grown):
 
 
 @njit(**INNER)
-def unseen(case, flights, max_cycles, growth):
-    """The case after a look, before the end, at a motion without loss that has outgrown any torus, after so many flights.
+def batch_after(target, max_cycles, batch_end, measured, measuring, grown, growth):
+    """(the end of the next batch, how many are measured, whether that has begun, the growth before it) after a leg to ``target``."""
+    if target != batch_end:
+        return batch_end, measured, measuring, grown
+    return batch_end + batch_of(max_cycles), measured + measuring, True, growth
 
-    That tells of its exponent only; where a batch has ended it is still to be noted.
+
+@njit(**INNER)
+def enough_after(count):
+    """How many flights there must be for their averages to be compared again."""
+    return count * 5 // 4
+
+
+@njit(**INNER)
+def outgrown(case, flights, max_cycles, growth):
+    """What ``look`` makes of a case, before the end, of a motion without loss that has outgrown any torus, after so many flights.
+
+    Only an exponent could be noted, if a batch has ended.
     """
-    run, impacts, brace_hits, _, batch_end, measured, grown, lossy, enough, digits, converged = case[:11]
-    target = next_look(case, max_cycles)
-    if target == batch_end:
-        measured += run.measuring
-        run, grown, batch_end = Run(*run[:5], True), growth, batch_end + batch_of(max_cycles)
-    if flights >= enough:
-        enough, digits, converged = flights * 5 // 4, 0.0, False
+    run, target = case.run, next_look(case, max_cycles)
+    batch_end, measured, measuring, grown = batch_after(
+        target, max_cycles, case.batch_end, case.measured, run.measuring, case.grown, growth
+    )
+    run = Run(run.watch, run.flights, run.section_time, run.count, run.lossless, measuring)
+    compared = flights >= case.enough
     return Case(
-        run, impacts, brace_hits, target + LEG, batch_end, measured, grown, lossy, enough, digits, converged,
-        *case[11:]
+        run, case.impacts, case.brace_hits, target + LEG, batch_end, measured, grown, case.lossy,
+        enough_after(flights) if compared else case.enough, 0.0 if compared else case.digits, False,
+        case.known, case.known_at, case.work
     )  # fmt: skip
 
 
@@ -195,13 +209,14 @@ def look(p, case, status, run, max_cycles, max_period, desk):
     if target == batch_end:
         if measuring:
             desk.batches[measured] = over_batch(p, watch, target, max_cycles, desk.growth[0] - grown)
-            measured += 1
         elif not lossless:
             begin_measuring(watch, desk.columns, desk.growth)
-        grown, measuring, batch_end = desk.growth[0], True, batch_end + batch_of(max_cycles)
+    batch_end, measured, measuring, grown = batch_after(
+        target, max_cycles, batch_end, measured, measuring, grown, desk.growth[0]
+    )
     if lossless and flights.count >= enough:
         digits, converged = agreement(flights, desk.flights, desk.weights, desk.growth[0])
-        enough = flights.count * 5 // 4
+        enough = enough_after(flights.count)
     coming = 0
     due, over = target in (checkpoint, max_cycles), target == max_cycles
     if converged or over:

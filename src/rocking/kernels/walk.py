@@ -193,8 +193,10 @@ def stays_clear(p, arc, level, end):
     start, (cut, convex) = start_knot(p, arc, level), first_stretch(p, arc, level)
     begins_well, ends_well = rises(start.w, start.dw), rises(end.w, -end.dw)
     time = cut + level.concave if convex else cut
-    if not (start.w > 0.0 or start.dw > 0.0) or (convex and not begins_well):
-        return convex and ends_well and end.time <= cut
+    if not (start.w > 0.0 or start.dw > 0.0):
+        return False
+    if convex and not begins_well:
+        return ends_well and end.time <= cut
     if end.time <= time or (ends_well and end.time <= time + level.convex):
         return True
     grow, shrink, error = exponentials(p, arc)
@@ -228,11 +230,13 @@ def walk(p, arc, level, end):
     """
     before, (cut, convex) = start_knot(p, arc, level), first_stretch(p, arc, level)
     ends_well = rises(end.w, -end.dw)
-    # a convex stretch under way in which w rises holds no zero; else it is looked at like a whole one
-    under_way = convex and not rises(before.w, before.dw)
+    # a convex stretch under way in which w rises holds no zero; else it is looked at like a whole one, and so is that of a
+    # lift-off, through all of which w rises: from where it ends w is known to be positive, or all is in doubt
+    lifts = before.w == 0.0 == before.dw
+    under_way = convex and (lifts or not rises(before.w, before.dw))
     time = 0.0 if under_way else cut + level.concave if convex else cut
     length = cut if under_way else level.convex
-    if not (before.w > 0.0 or before.dw > 0.0 or (convex and before.w == 0.0 == before.dw)):
+    if not (before.w > 0.0 or before.dw > 0.0 or (convex and lifts and (end.w > 0.0 or end.time > cut))):
         return Walk(UNSURE, before, before)
     if end.time <= time or (ends_well and end.time <= time + length):
         return Walk(CLEAR, before, end)
@@ -273,7 +277,7 @@ def walk(p, arc, level, end):
             return Walk(ZERO, left, right)
         elif not right.w > right_doubt:
             return Walk(UNSURE, left, right)
-        if may_dip(level, left, right, doubt, right_doubt):
+        if not (lifts and k == 0) and may_dip(level, left, right, doubt, right_doubt):
             middle = bottom(p, arc, level, left, right, right_doubt)
             if middle.w < -right_doubt:
                 return Walk(ZERO, left, middle)

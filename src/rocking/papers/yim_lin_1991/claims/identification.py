@@ -175,7 +175,7 @@ def dimension_quasi_periodic() -> Finding:
 )
 def dimension_chaotic() -> Finding:
     """The dimension of the chaotic response is 2.3, not an integer."""
-    found = _dimension(CHAOTIC.system, 50_000)
+    found = table_exponents.sea_dimension().found
     fine = found.slopes[found.radii[:-1] < 0.03]
     slope = float(fine[: max(len(fine) // 2, 1)].mean()) if len(fine) else math.nan
     coarse = float(found.slopes[found.radii[:-1] >= table_exponents.COARSE].mean())
