@@ -19,7 +19,8 @@ def overturns(amplitude, period, restitution, phase):
 
 
 def test_a_curve_is_a_plain_scan_with_its_first_hits_refined():
-    periods, amplitudes, phases = [1.2, 1.7], np.linspace(1.5, 6.0, 31), [0.0, math.pi / 3, 2 * math.pi / 3]
+    # at these periods the first hits lie at a plain edge: in a fractal, as at T = 1.7, no amplitude just below them is safe
+    periods, amplitudes, phases = [1.2, 1.3], np.linspace(1.5, 6.0, 31), [0.0, math.pi / 3, 2 * math.pi / 3]
     found = rk.overturning_amplitude(
         period=periods, restitution=0.925, amplitude=amplitudes, phases=3, max_cycles=CYCLES
     ).dataset
