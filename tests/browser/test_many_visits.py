@@ -4,6 +4,7 @@ import asyncio
 import json
 import random
 import re
+import sys
 from concurrent.futures import ThreadPoolExecutor
 
 import psutil
@@ -58,38 +59,58 @@ async def ask(connection, link, text):
     await send(connection, "PATCH-DOC", {"events": [change]})
 
 
+async def begun(address, number):
+    """A visit that has asked for a map of its own: its connection."""
+    connection, link = await opened(address)
+    view = f"version=1&amplitude={2 + number % 9}&period=1&restitution=1"
+    await ask(connection, link, json.dumps({"what": "open", "fields": {"address": view}}))
+    return connection
+
+
 async def drop_many(address, count):
-    """Open so many visits, each of which asks for a map of its own, and drop them at once."""
+    """Begin so many visits and drop each at once."""
     for number in range(count):
-        connection, link = await opened(address)
-        view = f"version=1&amplitude={2 + number % 9}&period=1&restitution=1"
-        await ask(connection, link, json.dumps({"what": "open", "fields": {"address": view}}))
-        connection.close()
+        (await begun(address, number)).close()
     await asyncio.sleep(FORGOTTEN)
+
+
+async def watch_together(address, server):
+    """Begin more visits than there are threads and watch them to their end: none of the threads is left out."""
+    connections = [await begun(address, number) for number in range(2 * cores())]
+    watching = [asyncio.create_task(frames(each, sys.maxsize)) for each in connections]
+    rested = await comes_to_rest(server)
+    for each in watching:
+        each.cancel()
+    for each in connections:
+        each.close()
+    await asyncio.sleep(FORGOTTEN)
+    return rested
+
+
+async def comes_to_rest(server):
+    """Whether the server ends what it was at, within a minute or two: it may have to compile on a new machine."""
+    for _ in range(120):
+        before = server.cpu_times().user
+        await asyncio.sleep(1.0)
+        if server.cpu_times().user - before < 0.1:
+            return True
+    return False
 
 
 @pytest.mark.parametrize("visits", [20, pytest.param(200, marks=pytest.mark.long)])
 def test_visits_opened_and_dropped_leave_nothing_behind(running, visits):
     server = psutil.Process(running.process.pid)
     threads = server.num_threads() + 2 * cores() + 1  # both pools, and one that a diagram has for a moment
-    run(drop_many(running.address, max(20, visits // 2)))  # every thread has the memory that it keeps
-    assert comes_to_rest(server)
+    # Every thread has the memory that it keeps: a map's working memory, of some 10⁷ bytes, stays with its thread.
+    assert run(watch_together(running.address, server))
+    run(drop_many(running.address, max(20, visits // 2)))
+    assert run(comes_to_rest(server))
     memory = server.memory_info().rss
     run(drop_many(running.address, visits))
     assert server.num_threads() <= threads
-    assert comes_to_rest(server), "the server goes on computing for nobody"
+    assert run(comes_to_rest(server)), "the server goes on computing for nobody"
     # at rest, for a map under way has memory of its own
     assert server.memory_info().rss < memory + ALLOWED
-
-
-def comes_to_rest(server):
-    """Whether the server ends what it was at, within a minute or two: it may have to compile on a new machine."""
-    for _ in range(120):
-        before = server.cpu_times().user
-        run(asyncio.sleep(1.0))
-        if server.cpu_times().user - before < 0.1:
-            return True
-    return False
 
 
 STRANGE = [
