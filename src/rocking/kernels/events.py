@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 from numba import njit
 
-from .arc import evaluate, recall
+from .arc import NONE_YET, evaluate, recall
 from .crossing import CROSSING, LONGEST, NEVER, base_watch, brace_watch, first_zero
 from .elementary import COMPILED, INLINED, WITHIN
 from .harmonic import first_cut, next_cut
@@ -110,14 +110,14 @@ def stays_leaning(p, side, psi):
 def next_event(p, mode, arc, guess):
     """(what comes next and when, the lapse to guess from next time), from the lapse until the coming event as it is guessed.
 
-    NONE after a finite wait only renews an arc grown long.
+    Between braces nothing is guessed from. NONE after a finite wait only renews an arc grown long.
     """
     if mode == FLIGHT and p.base_half < math.inf:
-        at_brace = False
+        at_brace, lapse = False, NONE_YET
         if p.brace_angle == math.inf:
             answer, t, now, lapse = likely_impact(p, arc, guess)
         else:
-            answer, at_brace, t, now, lapse = likely_event(p, arc, guess)
+            answer, at_brace, t, now = likely_event(p, arc)
         if answer == NEVER_MORE:
             return Next(math.inf, NONE, arc.side, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0), guess
         if answer == ZERO:

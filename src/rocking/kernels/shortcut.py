@@ -2,7 +2,8 @@
 
 A steady motion repeats its arcs, so an earlier arc tells where the next zero is, and what carries an arc on by that
 time is still at hand (``Lapse``): from there a Taylor series reaches the zero. Where it lies further off the series
-guesses, and one new evaluation follows. It is the *first* zero if no stretch before it holds one: most often their order
+guesses, and one new evaluation follows. Between braces flights are short, and the series about their start guesses. It is
+the *first* zero if the block cannot turn on its way there, or no stretch before it holds one: most often their order
 alone proves that, else ``walk``. Where the guess is no good, the walk brackets the zero and tells where to begin.
 Whatever is not certain by a wide margin is left to ``crossing``.
 """
@@ -17,12 +18,14 @@ from .elementary import INNER
 from .harmonic import forcing_rates, forcing_term
 from .walk import (
     CLEAR,
+    MARGIN,
     UNSURE,
     ZERO,
     Knot,
     base_level,
     brace_level,
     knot,
+    start_knot,
     stays_clear,
     walk,
 )
@@ -33,9 +36,9 @@ TRIES = 6
 SMALL = 2e-4
 # A longer step is polished where it is shorter than REACH, in units of 1/max(1, Omega), in so many rounds; from a
 # bend below this one more round would not show.
-REACH, ROUNDS, BEND = 1.5, 3, 0.25
+REACH, ROUNDS, BEND = 1.8, 3, 0.25
 # From so near, and such a bend, it needs no polish.
-NEAR = 0.5
+NEAR = 0.7
 I2, I3, I4, I5, I6, I7, I8 = (1.0 / math.factorial(k) for k in range(2, 9))
 
 
@@ -205,15 +208,47 @@ def bracketed(p, arc, reached, event):
 
 
 @njit(**INNER)
-def likely_event(p, arc, guess):
-    """(answer, whether at a brace, time, instant, lapse close by) of the first event of a flight between braces."""
-    now = after(p, arc, guess)
-    at_brace = now.velocity > 0.0
+def ahead(p, arc):
+    """(whether at a brace, after how long) the event seems to be, by the series about the start; infinite where it tells none."""
+    base, brace = start_knot(p, arc, base_level(p)), start_knot(p, arc, brace_level(p))
+    to_base, to_brace = stride(base), stride(brace)
+    at_brace = to_brace < to_base
+    here, rough = (brace, to_brace) if at_brace else (base, to_base)
+    if not max(1.0, p.frequency) * rough <= REACH:
+        return at_brace, math.inf
+    step = polished(p, p.brace_angle - 1.0 if at_brace else 1.0, here, rough)
+    return at_brace, step if step > 0.0 and step != rough else math.inf
+
+
+@njit(**INNER)
+def crosses(p, arc, at_brace, t, speed):
+    """Whether an arc that arrives with this speed after t certainly never turns on its way: then it meets nothing before.
+
+    Between base and brace -A - 1 <= u'' <= A + brace_angle - 1: so long it keeps its direction from the start on, and so
+    long before the end.
+    """
+    fall, rise = p.amplitude + 1.0, p.amplitude + p.brace_angle - 1.0
+    towards, first, last = (arc.velocity, fall, rise) if at_brace else (-arc.velocity, rise, fall)
+    return (1.0 + MARGIN) * t * first * last < towards * last + speed * first
+
+
+@njit(**INNER)
+def likely_event(p, arc):
+    """(answer, whether at a brace, time, instant) of the first event of a flight between braces.
+
+    It is guessed from the start of the arc, not from an earlier one: in chaos that is seldom like it.
+    """
+    at_brace, t = ahead(p, arc)
     constant, s = (p.brace_angle, -1.0) if at_brace else (0.0, 1.0)
-    reached, t, now, lapse = seek(p, arc, constant, s, guess, 0.0, LONGEST)
-    answer, other, bracket = bracketed(p, arc, reached, Knot(t, constant, now.velocity, 0.0, 0.0))
+    reached, velocity = False, 0.0
+    if t < math.inf:
+        reached, t, now, _ = seek(p, arc, constant, s, lapse_of(p, t), 0.0, LONGEST)
+        velocity = now.velocity
+        if reached and crosses(p, arc, at_brace, t, abs(velocity)):
+            return ZERO, at_brace, t, now
+    answer, other, bracket = bracketed(p, arc, reached, Knot(t, constant, velocity, 0.0, 0.0))
     if reached and answer != ZERO:
-        return UNSURE if answer == UNSURE else ZERO, at_brace, t, now, lapse
+        return UNSURE if answer == UNSURE else ZERO, at_brace, t, now
     constant, s = (p.brace_angle, -1.0) if other else (0.0, 1.0)
-    reached, t, now, lapse = seek_in(p, arc, constant, s, bracket)
-    return ZERO if answer == ZERO and reached else UNSURE, other, t, now, lapse
+    reached, t, now, _ = seek_in(p, arc, constant, s, bracket)
+    return ZERO if answer == ZERO and reached else UNSURE, other, t, now

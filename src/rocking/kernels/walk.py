@@ -152,6 +152,21 @@ def may_dip(level, left, right, left_doubt, right_doubt):
     return not crossed >= level.tanh * (w * w_right - dw * dw_right) * (1.0 + MARGIN)
 
 
+@njit(**INNER)
+def held_up(p, level, here, left):
+    """Whether w, falling, certainly stays positive in what is ``left`` of a convex stretch, of at most half a turn.
+
+    There f is concave and ends at zero: it lies above its chord, and w, as w'' >= f, above a cubic.
+    """
+    if not (here.f > 0.0 and p.frequency * level.convex <= math.pi):
+        return False
+    # the cubic falls to its least at left - left sqrt(1 + 2 w'/(f left)), or all the way
+    under = 1.0 + 2.0 * here.dw / (here.f * left)
+    time = left - left * math.sqrt(max(under, 0.0))
+    least = here.w + time * (here.dw + time * here.f * (0.5 - time / (6.0 * left)))
+    return least > MARGIN * (1.0 + here.w + left * (left * here.f - here.dw))
+
+
 @njit(**WITHIN)
 def bottom(p, arc, level, left, right, doubt):
     """A knot of a dip that tells whether it reaches zero, or, after some tries, a knot near its bottom.
@@ -277,7 +292,8 @@ def walk(p, arc, level, end):
             return Walk(ZERO, left, right)
         elif not right.w > right_doubt:
             return Walk(UNSURE, left, right)
-        if not (lifts and k == 0) and may_dip(level, left, right, doubt, right_doubt):
+        held = k == 0 and (lifts or (under_way and held_up(p, level, before, cut)))
+        if not held and may_dip(level, left, right, doubt, right_doubt):
             middle = bottom(p, arc, level, left, right, right_doubt)
             if middle.w < -right_doubt:
                 return Walk(ZERO, left, middle)

@@ -23,7 +23,7 @@ from rocking.papers.yim_lin_1991.tables import write_table
 # Runs of the length of 1991, from phases that no experiment tells apart.
 SEA_STARTS, SEA_CYCLES, SEA_PHASES = 100, 2_000, 1e-7
 # Points of the sea are taken from so many runs, after so many cycles in which they part.
-SEA_RUNS, SEA_POINTS, SEA_PARTED = 10, 10_000, 500
+SEA_RUNS, SEA_POINTS, SEA_PARTED = 40, 5_000, 500
 # Radii, in standard deviations, that a section of some thousand points reaches down to.
 COARSE = 0.1
 
