@@ -154,6 +154,22 @@ def test_a_second_dip_is_found_after_a_first_that_does_not_reach_zero():
     assert later > 60
 
 
+def test_a_dip_narrower_than_a_billionth_of_its_stretch_is_found():
+    """Falling slowly from a hair above the base while the base pushes the block up: there the parabola is the arc."""
+    rng = np.random.default_rng(19)
+    for _ in range(300):
+        amplitude, frequency = float(rng.uniform(100, 1000)), float(rng.uniform(0.1, 0.3))
+        height, phase = float(10.0 ** rng.uniform(-16, -13)), float(rng.uniform(0.6, 1.0)) * math.pi
+        pull = height - 1.0 - amplitude * math.cos(phase)
+        speed = math.sqrt(2.0 * height * pull) * float(1.0 + 10.0 ** rng.uniform(-2, 0))
+        arc = Arc(amplitude, frequency, math.inf, 1, height, -speed, phase)
+        kind, time, _ = first_event(arc)
+        assert kind == "base", arc
+        assert time == pytest.approx((speed - math.sqrt(speed**2 - 2.0 * height * pull)) / pull, rel=1e-5), (
+            arc
+        )
+
+
 def test_hundreds_of_stretches_do_not_hide_the_base():
     """Ω 100–200 and flights of many time constants."""
     rng = np.random.default_rng(13)

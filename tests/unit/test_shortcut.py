@@ -1,4 +1,4 @@
-"""What is proved of a flight without a search: that it turns nowhere, that a dip stays above zero."""
+"""What is proved of a flight without a search: that it turns nowhere, that a dip stays above zero; and what is not."""
 
 import math
 
@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from numba import njit
 
-from rocking.kernels import shortcut, walk
-from rocking.kernels.arc import arc_from
+from rocking.kernels import events, shortcut, walk
+from rocking.kernels.arc import NONE_YET, arc_from
 from rocking.kernels.elementary import COMPILED
 from rocking.kernels.parameters import harmonic_parameters
 
@@ -26,6 +26,15 @@ def held_up(p, start, angle, velocity, at_brace):
     arc = arc_from(p, 1, start, angle, velocity)
     end, convex = walk.first_stretch(p, arc, level)
     return convex and walk.held_up(p, level, walk.start_knot(p, arc, level), end), end
+
+
+@njit(**COMPILED)
+def first_events(p, start, angle, velocity):
+    """(event, time) of the first event: without a search where that is certain; by the search."""
+    arc = arc_from(p, 1, start, angle, velocity)
+    likely, _ = events.next_event(p, events.FLIGHT, arc, NONE_YET)
+    sure = events.any_event(p, events.FLIGHT, arc)
+    return (likely.event, likely.wait), (sure.event, sure.wait)
 
 
 def exponentials(amplitude, frequency, psi, angle, velocity):
@@ -114,3 +123,31 @@ def test_dip_that_is_said_to_be_held_up_stays_above_zero(at_brace):
         claimed += claims
     assert fell > 2_000
     assert claimed > 0.2 * stayed
+
+
+def test_touch_that_hangs_on_the_last_digits_is_left_to_the_search():
+    """Flights between braces that stand where the flight turns, to some parts in 10^16 to 10^12."""
+    random = np.random.default_rng(29)
+    touched = 0
+    for _ in range(20_000):
+        amplitude, period = 1.0 + 10.0 ** random.uniform(-2, 1.3), 10.0 ** random.uniform(-0.5, 1)
+        frequency, start = math.tau / period, period * random.random()
+        motion = (amplitude, frequency, frequency * start, random.random(), 10.0 ** random.uniform(-2, 0.5))
+        times = 0.9 * period * SAMPLES
+        heights = angles(*motion, times)
+        turns = np.flatnonzero((heights[1:-1] > heights[:-2]) & (heights[1:-1] > heights[2:])) + 1
+        if turns.size == 0 or (heights[: turns[0]] <= 0.0).any():
+            continue
+        t = times[turns[0]]
+        for _ in range(8):
+            pull = angles(*motion, t) - 1.0 - amplitude * math.cos(motion[2] + frequency * t)
+            t -= velocities(*motion, t) / pull
+        brace = angles(*motion, t) * (1.0 + random.choice([-1, 1]) * 10.0 ** random.uniform(-17, -12))
+        if not brace > motion[3]:
+            continue
+        p = harmonic_parameters(amplitude, frequency, period, 0.0, 0.9, brace, 1.0)
+        likely, sure = first_events(p, start, *motion[3:])
+        assert likely[0] == sure[0], (amplitude, period, start, motion[3:], brace)
+        assert likely[1] == pytest.approx(sure[1], rel=1e-6)
+        touched += sure[0] == events.BRACE
+    assert 2_000 < touched < 9_000

@@ -155,7 +155,8 @@ def dip(p, arc, watch, left, w, dw, right, w_right, dw_right):
         ahead = t - slope / (slope + f)
         if not low <= ahead <= high:
             ahead = 0.5 * (low + high)
-        if abs(ahead - t) <= 1e-9 * (high - left):
+        # how much lower the bottom may be is no more than the tangent says
+        if abs(ahead - t) <= 1e-9 * (high - left) and w > abs(slope * (ahead - t)):
             return math.inf
         t = ahead
     return math.inf

@@ -11,8 +11,8 @@ from .crossing import CROSSING, LONGEST, NEVER, base_watch, brace_watch, first_z
 from .elementary import COMPILED, INLINED, WITHIN
 from .harmonic import first_cut, next_cut
 from .shortcut import likely_event, likely_impact
+from .walk import MARGIN, ZERO
 from .walk import NEVER as NEVER_MORE
-from .walk import ZERO
 
 
 class Mode(IntEnum):
@@ -107,10 +107,17 @@ def stays_leaning(p, side, psi):
 
 
 @njit(**INLINED)
+def grazes(p, arc, t, velocity):
+    """Whether an arc arrives so slowly that the last digits tell whether it arrives at all."""
+    pull = p.amplitude + 1.0
+    return velocity * velocity <= MARGIN * pull * (arc.angle + t * (abs(arc.velocity) + t * pull))
+
+
+@njit(**INLINED)
 def next_event(p, mode, arc, guess):
     """(what comes next and when, the lapse to guess from next time), from the lapse until the coming event as it is guessed.
 
-    Between braces nothing is guessed from. NONE after a finite wait only renews an arc grown long.
+    Between braces none is. NONE after a finite wait only renews an arc grown long.
     """
     if mode == FLIGHT and p.base_half < math.inf:
         at_brace, lapse = False, NONE_YET
@@ -120,13 +127,13 @@ def next_event(p, mode, arc, guess):
             answer, at_brace, t, now = likely_event(p, arc)
         if answer == NEVER_MORE:
             return Next(math.inf, NONE, arc.side, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0), guess
-        if answer == ZERO:
+        if answer == ZERO and not grazes(p, arc, t, now.velocity):
             event, angle = (BRACE, p.brace_angle) if at_brace else (IMPACT, 0.0)
             return Next(
                 t, event, arc.side, angle, now.velocity, now.cosine, now.sine, now.sinh, now.versinh
             ), lapse
     coming = any_event(p, mode, arc)
-    if mode != FLIGHT:
+    if mode != FLIGHT or p.brace_angle < math.inf:
         return coming, guess
     return coming, recall(p, min(coming.wait, LONGEST))
 

@@ -97,7 +97,7 @@ def polished(p, steady, now, rough):
     """A rough step to the zero of w, corrected by where the Taylor series about ``now`` has it: no new elementary functions.
 
     c_k are the derivatives of w there, w_k those at the end of the step. Only a guess: the series stops where it is
-    good to some five digits within REACH.
+    good to some three digits within REACH. Where it does not fall towards a zero the rough step is returned as it was.
     """
     square = -p.frequency * p.frequency
     df, ddf = now.df, turned(p, steady, now)
@@ -209,7 +209,7 @@ def bracketed(p, arc, reached, event):
 
 @njit(**INNER)
 def ahead(p, arc):
-    """(whether at a brace, after how long) the event seems to be, by the series about the start; infinite where it tells none."""
+    """(whether at a brace, after how long) the event seems to be, by the series about the start; infinite where that tells none."""
     base, brace = start_knot(p, arc, base_level(p)), start_knot(p, arc, brace_level(p))
     to_base, to_brace = stride(base), stride(brace)
     at_brace = to_brace < to_base
@@ -224,10 +224,11 @@ def ahead(p, arc):
 def crosses(p, arc, at_brace, t, speed):
     """Whether an arc that arrives with this speed after t certainly never turns on its way: then it meets nothing before.
 
-    Between base and brace -A - 1 <= u'' <= A + brace_angle - 1: so long it keeps its direction from the start on, and so
-    long before the end.
+    u'' >= -A - 1 above the base and u'' <= A + brace_angle - 1 below the brace. So |u'| is above zero for its value at the start
+    over the one bound, counted from there, and for its value at the end over the other, counted back from there: together
+    longer than t.
     """
-    fall, rise = p.amplitude + 1.0, p.amplitude + p.brace_angle - 1.0
+    fall, rise = p.amplitude + 1.0, (p.amplitude - 1.0) + p.brace_angle
     towards, first, last = (arc.velocity, fall, rise) if at_brace else (-arc.velocity, rise, fall)
     return (1.0 + MARGIN) * t * first * last < towards * last + speed * first
 
