@@ -129,7 +129,7 @@ def test_touch_that_hangs_on_the_last_digits_is_left_to_the_search():
     """Flights between braces that stand where the flight turns, to some parts in 10^16 to 10^12."""
     random = np.random.default_rng(29)
     touched = 0
-    for _ in range(20_000):
+    for _ in range(8_000):
         amplitude, period = 1.0 + 10.0 ** random.uniform(-2, 1.3), 10.0 ** random.uniform(-0.5, 1)
         frequency, start = math.tau / period, period * random.random()
         motion = (amplitude, frequency, frequency * start, random.random(), 10.0 ** random.uniform(-2, 0.5))
@@ -150,4 +150,4 @@ def test_touch_that_hangs_on_the_last_digits_is_left_to_the_search():
         assert likely[0] == sure[0], (amplitude, period, start, motion[3:], brace)
         assert likely[1] == pytest.approx(sure[1], rel=1e-6)
         touched += sure[0] == events.BRACE
-    assert 2_000 < touched < 9_000
+    assert 800 < touched < 3_600
