@@ -75,7 +75,7 @@ async def drop_many(address, count):
 
 
 async def watch_together(address, server):
-    """Begin more visits than there are threads and watch them to their end: none of the threads is left out."""
+    """Begin more visits than there are threads for maps and watch them to their end: none of the threads is left out."""
     connections = [await begun(address, number) for number in range(2 * cores())]
     watching = [asyncio.create_task(frames(each, sys.maxsize)) for each in connections]
     rested = await comes_to_rest(server)

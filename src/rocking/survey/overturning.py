@@ -73,7 +73,7 @@ def overturning_amplitude(
     -----
     Not guaranteed: that nothing overturns below `lowest`, between two amplitudes or two phases of the scan; `resolution` is
     how far apart the amplitudes are there. Where it lies in a fractal set, and not at a plain edge, the last digits of the
-    system move it: for one cabinet at 1 Hz by 1e-5, always within `resolution`. Where the lowest amplitude scanned overturns
+    system move it: for one cabinet at 1 Hz by 1e-5. Where the lowest amplitude scanned overturns
     already, it is `lowest`, and `survived_up_to` is NaN.
 
     Examples
