@@ -24,8 +24,9 @@ PLAIN = [
 def marched(system, event, cycles):
     """(events after it, final state) of a motion from one of its impacts to the end of cycle ``cycles``, every lane the same."""
     forcing = system.forcing
+    braces = () if system.braces is None else (system.braces.angle, system.braces.restitution)
     p = harmonic_parameters(
-        forcing.amplitude, forcing.frequency, forcing.period, forcing.phase, system.restitution
+        forcing.amplitude, forcing.frequency, forcing.period, forcing.phase, system.restitution, *braces
     )
     first = int(event["cycle"])
     start = event["time"] - first * forcing.period
@@ -72,13 +73,38 @@ def test_the_same_events_in_the_same_order(amplitude, period, restitution):
     assert noted[:, 2] * noted[:, 3] == pytest.approx(impacts["after"][1:], rel=0, abs=1e-11)
 
 
-def asked(count, phase=0.0):
-    """Systems that lose nothing, over the periods and amplitudes of the paper's maps, and their starts."""
+@pytest.mark.parametrize(
+    "amplitude, period, restitution, brace, returned, cycles",
+    [(10.0, 2.5, 0.925, 1.0, 1.0, 3), (6.0, 2.0, 0.8, 0.5, 0.6, 3), (12.0, 0.7, 0.95, 0.2, 0.9, 4)],
+)
+def test_the_same_events_between_braces_in_the_same_order(
+    amplitude, period, restitution, brace, returned, cycles
+):
+    """Over cycles in which differences grow less than a millionfold."""
+    system = rk.System(
+        rk.Harmonic(amplitude=amplitude, period=period), restitution, rk.Braces(brace, returned)
+    )
+    motion = rk.simulate(system, cycles=cycles)
+    met = motion.events[np.isin(motion.events["kind"], ["impact", "brace"])]
+    first = met[np.flatnonzero(met["kind"] == "impact")[0]]
+    noted, _ = marched(system, first, cycles)
+    later = met[met["time"] > first["time"]]
+    assert (later["kind"] == "brace").sum() >= 3
+    assert len(noted) == len(later)
+    assert noted[:, 0] * period + noted[:, 1] == pytest.approx(later["time"], rel=0, abs=1e-8)
+    assert noted[:, 2] * noted[:, 3] == pytest.approx(later["after"], rel=0, abs=1e-7)
+
+
+def asked(count, phase=0.0, brace=math.inf):
+    """Systems that lose nothing, or between braces, over the periods and amplitudes of the paper's maps, and their starts."""
     period, amplitude = (
         axis.ravel() for axis in np.meshgrid(np.linspace(0.2, 3.0, count), np.linspace(0.0, 16.0, count))
     )
     one = np.ones(period.size)
-    systems = np.column_stack([amplitude, math.tau / period, period, phase * one, one, math.inf * one, one])
+    restitution = one if brace == math.inf else 0.925 * one
+    systems = np.column_stack(
+        [amplitude, math.tau / period, period, phase * one, restitution, brace * one, one]
+    )
     return systems, np.zeros((period.size, 2))
 
 
@@ -93,12 +119,12 @@ def together(systems, starts, cycles):
     return many.judge_many(systems, starts, cycles, 64, np.zeros(1, np.int64))
 
 
-def differing(count, cycles):
+def differing(count, cycles, brace=math.inf):
     """(points, those that lanes tell otherwise, those that one block tells otherwise 2e-16 further on in phase)."""
-    systems, starts = asked(count)
+    systems, starts = asked(count, 0.0, brace)
     alone = one_by_one(systems, starts, cycles)
     other = np.flatnonzero(together(systems, starts, cycles).kind != alone)
-    flips = one_by_one(*asked(count, 2e-16), cycles) != alone
+    flips = one_by_one(*asked(count, 2e-16, brace), cycles) != alone
     # Each of them is told otherwise by one block too, for some change of 1e-13: mostly one of the first 16, but where nearly all
     # neighbours overturn in time (all but one in 300, at two of 90,000 points) it takes more to meet one that does not.
     stands = other
@@ -112,24 +138,43 @@ def differing(count, cycles):
     return systems.shape[0], other.size, int(flips.sum())
 
 
-def test_lanes_tell_what_one_block_tells_unless_the_last_digits_tell():
+@pytest.mark.parametrize(("cycles", "brace"), [(1000, math.inf), (300, 1.0)], ids=["no braces", "braces"])
+def test_lanes_tell_what_one_block_tells_unless_the_last_digits_tell(cycles, brace):
     """The shares of both are small numbers here: of their difference the chance is one in a thousand."""
-    _, lanes, one = differing(40, 1000)
+    _, lanes, one = differing(40, cycles, brace)
     assert lanes <= 2 * one + 3.0 * math.sqrt(2 * one + 1)
 
 
 @pytest.mark.long
-def test_of_the_whole_map_lanes_tell_otherwise_at_most_twice_as_often_as_the_last_digit():
-    points, lanes, one = differing(300, 10_000)
+@pytest.mark.parametrize(("cycles", "brace"), [(10_000, math.inf), (1000, 1.0)], ids=["no braces", "braces"])
+def test_of_the_whole_map_lanes_tell_otherwise_at_most_twice_as_often_as_the_last_digit(cycles, brace):
+    points, lanes, one = differing(300, cycles, brace)
     print(f"of {points} points lanes tell {lanes} otherwise, one block {one}")
     assert lanes <= 2 * one
-    assert lanes <= 0.02 * points
+    # so many of them lie between two answers
+    assert lanes <= (0.02 if brace == math.inf else 0.05) * points
 
 
-def test_differences_grow_in_lanes_as_they_do_alone():
+@pytest.mark.parametrize(
+    ("amplitude", "period", "restitution", "brace"),
+    [(2.0, 0.4, 1.0, math.inf), (12.0, 2.5, 0.925, 1.0)],
+    ids=["no braces", "braces"],
+)
+def test_differences_grow_in_lanes_as_they_do_alone(amplitude, period, restitution, brace):
     """The exponents of a chaotic sea, from rest, over 10⁴ cycles; of two runs of it no more can be said."""
     systems = np.array(
-        [[2.0, math.tau / 0.4, 0.4, phase, 1.0, math.inf, 1.0] for phase in 1e-9 * np.arange(8)]
+        [
+            [
+                amplitude,
+                math.tau / period,
+                period,
+                phase,
+                restitution,
+                brace,
+                0.9 if brace < math.inf else 1.0,
+            ]
+            for phase in 1e-9 * np.arange(8)
+        ]
     )
     starts, alone = np.zeros((8, 2)), no_answers(8)
     found = together(systems, starts, 10_000)
@@ -139,11 +184,12 @@ def test_differences_grow_in_lanes_as_they_do_alone():
     assert abs(found.exponent.mean() - alone.exponent.mean()) <= 5 * spread
 
 
-def test_answers_hang_on_no_neighbour():
+@pytest.mark.parametrize(("cycles", "brace"), [(600, math.inf), (150, 1.0)], ids=["no braces", "braces"])
+def test_answers_hang_on_no_neighbour(cycles, brace):
     """To the last bit, in any order, and in any part of the points."""
-    systems, starts = asked(16)
-    whole = together(systems, starts, 600)
+    systems, starts = asked(16, 0.0, brace)
+    whole = together(systems, starts, cycles)
     order = np.random.default_rng(7).permutation(len(systems))
     for part in (order, order[:37], order[:1]):
-        for name, found in zip(whole._fields, together(systems[part], starts[part], 600), strict=True):
+        for name, found in zip(whole._fields, together(systems[part], starts[part], cycles), strict=True):
             assert np.array_equal(found, getattr(whole, name)[part], equal_nan=True), name

@@ -9,14 +9,15 @@ from rocking.kernels.arc import arc_from, earlier
 from rocking.kernels.elementary import COMPILED
 from rocking.kernels.events import FLIGHT
 from rocking.kernels.lane_block import arc_of, find, over, seat, set_leg
-from rocking.kernels.lane_march import advance, strike
+from rocking.kernels.lane_march import advance, advance_between, strike, strike_between
 from rocking.kernels.lanes import (
     ARRIVED,
+    AT_BRACE,
     CERTAINTY,
     CYCLE,
+    EVENTS,
     EXCEEDS,
     IDLE,
-    IMPACTS,
     LANES,
     NEXT_COSINE,
     NEXT_SINE,
@@ -40,16 +41,31 @@ from rocking.kernels.march import Progress
 from rocking.kernels.notes import state_at
 
 EYE = np.eye(2)
-FIRST = (WAIT, SPEED, NEXT_COSINE, NEXT_SINE, NEXT_SINH, NEXT_VERSINH)
+FIRST = (WAIT, SPEED, NEXT_COSINE, NEXT_SINE, NEXT_SINH, NEXT_VERSINH, AT_BRACE)
 
 
 @njit(**COMPILED)
-def sit_down(s, i, p, side, start, velocity, columns, cycles):
-    """A block in lane i that leaves the base."""
-    arc = arc_from(p, side, start, 0.0, velocity)
+def sit_down(s, i, p, side, start, velocity, columns, cycles, angle=0.0):
+    """A block in lane i that leaves the base, or flies already."""
+    arc = arc_from(p, side, start, angle, velocity)
     progress = Progress(FLIGHT, 0, arc, True, 0, 0, 0, 0.0, math.inf, 1.0, 0.0, -math.inf)
     seat(s, i, p, progress, columns, 0)
     set_leg(s, i, cycles, False)
+
+
+@njit(**COMPILED)
+def strike_all(s, braced):
+    """The events of all lanes that have arrived."""
+    if braced:
+        strike_between(s)
+    else:
+        strike(s)
+
+
+@njit(**COMPILED)
+def advance_all(s, braced):
+    """All lanes onward."""
+    return advance_between(s) if braced else advance(s)
 
 
 @njit(**COMPILED)
@@ -61,11 +77,11 @@ def pass_on(s, passes):
 
 @njit(**COMPILED)
 def to_the_end(s, p, events):
-    """March all lanes, of one system, to their targets; ``events`` (lanes, n, 4) takes (cycle, time, side, velocity) after each impact."""
-    moving = LANES
-    strike(s)
+    """March all lanes, of one system, to their targets; ``events`` (lanes, n, 4) takes (cycle, time, side, velocity) after each event."""
+    moving, braced = LANES, p.brace_angle < math.inf
+    strike_all(s, braced)
     while moving > 0:
-        advance(s)
+        advance_all(s, braced)
         moving = 0
         for i in range(LANES):
             wants = of(s, i, WANTS)
@@ -74,9 +90,9 @@ def to_the_end(s, p, events):
             if of(s, i, STAGE) == ARRIVED and over(s, i):
                 put(s, i, STAGE, IDLE)
             moving += of(s, i, STAGE) != IDLE
-        strike(s)
+        strike_all(s, braced)
         for i in range(LANES):
-            k = int(of(s, i, IMPACTS)) - 1
+            k = int(of(s, i, EVENTS)) - 1
             if k >= 0:
                 events[i, k, 0], events[i, k, 1] = of(s, i, CYCLE), of(s, i, START)
                 events[i, k, 2], events[i, k, 3] = of(s, i, SIDE), of(s, i, VELOCITY)
@@ -96,17 +112,17 @@ def empty():
     return np.zeros(ROWS * LANES)
 
 
-def first_impacts(systems, starts):
-    """((wait, speed, cos, sin, sinh, cosh - 1) of each first impact as the lanes find it, whether they are certain of it).
+def first_events(systems, starts):
+    """((wait, speed, cos, sin, sinh, cosh - 1, whether at a brace) of each first event as lanes find it, whether they are certain).
 
-    ``starts`` are (side, start, velocity).
+    ``starts`` are (side, start, velocity) or, between braces, where all systems have some, (side, start, velocity, angle).
     """
     found, certain = np.empty((len(systems), len(FIRST))), np.zeros(len(systems), bool)
     for first in range(0, len(systems), LANES):
         s, here = empty(), range(first, min(first + LANES, len(systems)))
         for i, k in enumerate(here):
-            sit_down(s, i, systems[k], *starts[k], EYE, 10**9)
-        strike_and_pass(s)
+            sit_down(s, i, systems[k], *starts[k][:3], EYE, 10**9, *starts[k][3:])
+        strike_and_pass(s, systems[0].brace_angle < math.inf)
         rows = s.reshape(ROWS, LANES)
         for i, k in enumerate(here):
             found[k], certain[k] = rows[list(FIRST), i], rows[STAGE, i] == ARRIVED
@@ -133,11 +149,11 @@ def strike_now(s):
 
 
 @njit(**COMPILED)
-def strike_and_pass(s):
+def strike_and_pass(s, braced):
     """From the start of an arc as far as lanes go without attention."""
-    strike(s)
+    strike_all(s, braced)
     while True:
-        advance(s)
+        advance_all(s, braced)
         under_way = 0
         for i in range(LANES):
             stage = of(s, i, STAGE)

@@ -27,9 +27,9 @@ def logarithms_of_ratios(a, b, c, d):
 
 
 @njit(**COMPILED)
-def alone(p, side, start, velocity):
-    """The first event of an arc from the base, as the functions for one block find it."""
-    return events.any_event(p, events.FLIGHT, arc_from(p, side, start, 0.0, velocity))
+def alone(p, side, start, velocity, angle=0.0):
+    """The first event of an arc, as the functions for one block find it."""
+    return events.any_event(p, events.FLIGHT, arc_from(p, side, start, angle, velocity))
 
 
 def test_elementary_functions_have_full_relative_accuracy_however_short_the_arc():
@@ -87,7 +87,7 @@ def test_first_impacts_are_those_of_one_block():
     Time and speed agree to rounding, 16 ulp of what they are made of; a rounding of u moves them by its ratio to the speed.
     """
     systems, starts = drawn(4096, 3)
-    found, certain = oracle.first_impacts(systems, starts)
+    found, certain = oracle.first_events(systems, starts)
     compared = 0
     for p, start, ours, sure in zip(systems, starts, found, certain, strict=True):
         if not sure:
@@ -100,7 +100,7 @@ def test_first_impacts_are_those_of_one_block():
         bend = abs(1.0 + p.amplitude) / -one.velocity
         assert abs(ours[0] - one.wait) <= 16 * ULP * one.wait + scale / -one.velocity, (p, start)
         assert abs(ours[1] + one.velocity) <= scale * (1.0 + bend), (p, start)
-        there = one.cosine, one.sine, one.sinh, one.versinh
+        there = one.cosine, one.sine, one.sinh, one.versinh, 0.0
         assert ours[2:] == pytest.approx(there, rel=1e-8, abs=1e-8), (p, start)
     assert compared >= 0.4 * len(systems)
 
@@ -130,9 +130,72 @@ def test_arc_that_rises_above_the_peak_is_always_looked_at_and_few_others():
 def test_lanes_leave_little_to_the_functions_for_one_block():
     """What comes down at all comes down in its lane, but for a few in a hundred."""
     systems, starts = drawn(2048, 4)
-    _, certain = oracle.first_impacts(systems, starts)
+    _, certain = oracle.first_events(systems, starts)
     comes_down = [alone(p, *start).event == events.IMPACT for p, start in zip(systems, starts, strict=True)]
     assert certain[comes_down].mean() > 0.95
+
+
+def drawn_between(count, seed):
+    """Systems with braces, and flights from the base, from a brace and between: (side, start, velocity, angle)."""
+    random = np.random.default_rng(seed)
+    systems, starts = [], []
+    for _ in range(count):
+        period, amplitude = 10 ** random.uniform(-0.8, 1), 1.0 + 10 ** random.uniform(-2, 1.2)
+        brace, place = 10 ** random.uniform(-1.5, 0.5), random.integers(3)
+        p = harmonic_parameters(
+            amplitude, math.tau / period, period, random.uniform(0, math.tau), 0.9, brace, random.random()
+        )
+        side, start, speed = random.choice([-1, 1]), period * random.random(), 10 ** random.uniform(-4, 1)
+        angle = (0.0, brace, brace * random.random())[place]
+        systems.append(p)
+        starts.append((int(side), start, (speed, -speed, speed * random.choice([-1, 1]))[place], angle))
+    return systems, starts
+
+
+def test_first_events_between_braces_are_those_of_one_block():
+    """Never a later one, never another, and nearly always one that needs no function for one block."""
+    systems, starts = drawn_between(8192, 8)
+    found, certain = oracle.first_events(systems, starts)
+    at_brace = 0
+    for p, start, ours, sure in zip(systems, starts, found, certain, strict=True):
+        if not sure:
+            continue
+        one = alone(p, *start)
+        assert ours[6] == (one.event == events.BRACE), (p, start)
+        assert one.event in (events.BRACE, events.IMPACT), (p, start)
+        at_brace += one.event == events.BRACE
+        grown = math.cosh(one.wait)
+        scale = (
+            32
+            * ULP
+            * grown
+            * (abs(start[2]) + start[3] + (1.0 + p.amplitude) * min(one.wait, 1.0) + p.response)
+        )
+        bend = (1.0 + p.amplitude + p.brace_angle) / abs(one.velocity)
+        assert abs(ours[0] - one.wait) <= 16 * ULP * one.wait + scale / abs(one.velocity), (p, start)
+        assert abs(ours[1] - abs(one.velocity)) <= scale * (1.0 + bend), (p, start)
+        there = one.cosine, one.sine, one.sinh, one.versinh
+        assert ours[2:6] == pytest.approx(there, rel=1e-8, abs=1e-8), (p, start)
+    assert 0.2 * len(systems) < at_brace < 0.8 * len(systems)
+    assert certain.mean() > 0.9
+
+
+@pytest.mark.parametrize("brace_angle", [0.3, 1.0])
+def test_what_a_lane_does_between_braces_hangs_on_no_other(brace_angle):
+    """Every bit of it, wherever the block sits and whoever sits beside it."""
+    p = harmonic_parameters(8.0, math.tau, 1.0, 0.3, 0.9, brace_angle, 0.8)
+    random = np.random.default_rng(5)
+    blocks = [(1, float(random.uniform(0, 1)), float(random.uniform(0.2, 2.0))) for _ in range(lanes.LANES)]
+
+    def marched(order):
+        s, noted = oracle.empty(), np.zeros((lanes.LANES, 2000, 4))
+        for i, k in enumerate(order):
+            oracle.sit_down(s, i, p, *blocks[k], oracle.EYE, 20)
+        oracle.to_the_end(s, p, noted)
+        return noted[np.argsort(order)]
+
+    order = random.permutation(lanes.LANES)
+    assert np.array_equal(marched(np.arange(lanes.LANES)), marched(order))
 
 
 @pytest.mark.parametrize("restitution", [0.8, 0.95, 1.0])

@@ -1,4 +1,4 @@
-"""What is proved of a flight without a search: that it turns nowhere, that a dip stays above zero; and what is not."""
+"""What is proved of a flight without a search: that it meets nothing on its way; and what is not."""
 
 import math
 
@@ -9,23 +9,32 @@ from numba import njit
 from rocking.kernels import events, shortcut, walk
 from rocking.kernels.arc import NONE_YET, arc_from
 from rocking.kernels.elementary import COMPILED
-from rocking.kernels.parameters import harmonic_parameters
+from rocking.kernels.parameters import harmonic_parameters, make
 
 SAMPLES = np.linspace(0.0, 1.0, 300)
 
 
 @njit(**COMPILED)
-def crosses(p, start, angle, velocity, at_brace, t, speed):
-    return shortcut.crosses(p, arc_from(p, 1, start, angle, velocity), at_brace, t, speed)
+def stays_between(p, t, angle, velocity, end, arrival):
+    return shortcut.stays_between(p, t, (angle, velocity), (end, arrival))
 
 
 @njit(**COMPILED)
-def held_up(p, start, angle, velocity, at_brace):
-    """(what is claimed of the convex stretch in which the arc starts, its end); nothing of an arc that starts in another."""
-    level = walk.brace_level(p) if at_brace else walk.base_level(p)
-    arc = arc_from(p, 1, start, angle, velocity)
-    end, convex = walk.first_stretch(p, arc, level)
-    return convex and walk.held_up(p, level, walk.start_knot(p, arc, level), end), end
+def misread(systems, starts, told):
+    """How many first events are not those of the search; ``told`` (n,) takes whether the search was not asked."""
+    count = 0
+    for k in range(len(systems)):
+        amplitude, period, brace = systems[k]
+        frequency = 2.0 * math.pi / period
+        p = make(amplitude, frequency, period, 0.0, 0.9, brace, 1.0)
+        arc = arc_from(p, 1, starts[k, 0], starts[k, 1], starts[k, 2])
+        told[k] = shortcut.likely_event(p, arc)[0] == walk.ZERO
+        likely, _ = events.next_event(p, events.FLIGHT, arc, NONE_YET)
+        sure = events.any_event(p, events.FLIGHT, arc)
+        # a rounding of u moves the time by its ratio to the speed
+        rounding = 1e-14 * (1.0 + amplitude) * (1.0 + sure.wait) / abs(sure.velocity)
+        count += likely.event != sure.event or not abs(likely.wait - sure.wait) <= 1e-9 * sure.wait + rounding
+    return count
 
 
 @njit(**COMPILED)
@@ -56,73 +65,54 @@ def velocities(amplitude, frequency, psi, angle, velocity, times):
     return grow * np.exp(times) - shrink * np.exp(-times) - swung
 
 
-def flights(at_brace, count):
-    """Random flights from the base to what is then the brace, or from a brace to the base: (system, start, u, u', t, all u')."""
+def test_flight_that_is_said_to_stay_between_meets_nothing():
+    """Of random flights the least distance to the base and to the braces, at 300 instants; also of those that end beyond."""
     random = np.random.default_rng(17)
-    while count > 0:
+    left = claimed = stayed = 0
+    for _ in range(40_000):
         amplitude, period = 1.0 + 10.0 ** random.uniform(-3, 1.3), 10.0 ** random.uniform(-1, 1)
-        frequency, start = math.tau / period, period * random.random()
-        velocity, t = 10.0 ** random.uniform(-3, 0.5), 0.9 * period * random.random()
-        angle, times = 0.0, t * SAMPLES
-        psi = frequency * start
-        if not at_brace:
-            # u at t is linear in the angle at the start
-            velocity = -velocity
-            angle = -angles(amplitude, frequency, psi, 0.0, velocity, t) / math.cosh(t)
-        speeds = velocities(amplitude, frequency, psi, angle, velocity, times)
-        brace = angles(amplitude, frequency, psi, angle, velocity, t) if at_brace else angle
-        if brace > 1e-6 and (speeds[-1] > 0.0) == at_brace:
-            count -= 1
-            yield (
-                harmonic_parameters(amplitude, frequency, period, 0.0, 0.9, brace, 1.0),
-                start,
-                angle,
-                velocity,
-                t,
-                speeds,
-            )
-
-
-@pytest.mark.parametrize("at_brace", [True, False], ids=["to a brace", "to the base"])
-def test_flight_that_is_said_to_cross_never_turns(at_brace):
-    turned = claimed = 0
-    for p, start, angle, velocity, t, speeds in flights(at_brace, 40_000):
-        turns = not ((speeds > 0.0) == at_brace).all()
-        claims = crosses(p, start, angle, velocity, at_brace, t, abs(speeds[-1]))
-        assert not (claims and turns), (p.amplitude, p.period, start, angle, velocity, t)
-        turned += turns
+        frequency, psi, brace = (
+            math.tau / period,
+            math.tau * random.random(),
+            10.0 ** random.uniform(-1.5, 0.5),
+        )
+        angle = brace * random.choice([0.0, random.random(), 1.0])
+        velocity, t = random.choice([-1, 1]) * 10.0 ** random.uniform(-3, 0.5), 0.6 * period * random.random()
+        motion = (amplitude, frequency, psi, angle, velocity, t * SAMPLES)
+        heights, arrival = angles(*motion), velocities(*motion)[-1]
+        p = harmonic_parameters(amplitude, frequency, period, 0.0, 0.9, brace, 1.0)
+        claims = stays_between(p, t, angle, velocity, heights[-1], arrival)
+        between = heights[1:].min() > 0.0 and heights[1:].max() < brace
+        assert not claims or between, (amplitude, period, brace, psi, angle, velocity, t)
+        left += not between
+        stayed += between
         claimed += claims
     # the question has both answers, and the proof is worth its while
-    assert turned > 2_000
-    assert claimed > 0.4 * (40_000 - turned)
+    assert left > 2_000
+    assert claimed > 0.6 * stayed
 
 
-@pytest.mark.parametrize("at_brace", [True, False], ids=["of the distance to a brace", "of that to the base"])
-def test_dip_that_is_said_to_be_held_up_stays_above_zero(at_brace):
-    random = np.random.default_rng(23)
-    sign, fell, claimed, stayed = (-1.0 if at_brace else 1.0), 0, 0, 0
-    for _ in range(40_000):
-        amplitude, period = 1.0 + 10.0 ** random.uniform(-2, 1.3), 10.0 ** random.uniform(-1, 1)
-        frequency, brace = math.tau / period, 10.0 ** random.uniform(-1.5, 0.3)
-        # where w'' - w is positive, and until it is no more
-        half = math.acos(max((brace - 1.0) / amplitude, -1.0)) if at_brace else math.acos(1.0 / amplitude)
-        phase = half * random.uniform(-1, 1)
-        length, psi = (half - phase) / frequency, phase if at_brace else phase + math.pi
-        start, distance = psi % math.tau / frequency, brace * random.random()
-        rate = -(10.0 ** random.uniform(-2, 1))
-        p = harmonic_parameters(amplitude, frequency, period, 0.0, 0.9, brace, 1.0)
-        angle = brace - distance if at_brace else distance
-        claims, end = held_up(p, start, angle, sign * rate, at_brace)
-        assert end == pytest.approx(length, rel=1e-9, abs=1e-12)
-        times = length * SAMPLES
-        heights = angles(amplitude, frequency, psi, angle, sign * rate, times)
-        least = (brace - heights if at_brace else heights).min()
-        assert not (claims and least <= 0.0), (amplitude, period, start, angle, rate)
-        fell += least <= 0.0
-        stayed += least > 0.0
-        claimed += claims
-    assert fell > 2_000
-    assert claimed > 0.2 * stayed
+@pytest.mark.parametrize("place", ["on the base", "on a brace", "between", "just off a brace"])
+def test_first_event_between_braces_is_that_of_the_search(place):
+    """Of random flights: amplitudes, periods, braces and speeds over several decades; most are told without the search."""
+    random, count = np.random.default_rng(31), 100_000
+    amplitude, period = 1.0 + 10.0 ** random.uniform(-3, 1.3, count), 10.0 ** random.uniform(-1, 1, count)
+    brace, speed = 10.0 ** random.uniform(-2, 0.5, count), 10.0 ** random.uniform(-5, 1, count)
+    angle, sign = {
+        "on the base": (0.0 * brace, 1),
+        "on a brace": (brace, -1),
+        "between": (brace * random.random(count), random.choice([-1, 1], count)),
+        "just off a brace": (
+            brace * (1.0 - 10.0 ** random.uniform(-12, 0, count)),
+            random.choice([-1, 1], count),
+        ),
+    }[place]
+    starts, told = (
+        np.column_stack([period * random.random(count), angle, sign * speed]),
+        np.zeros(count, bool),
+    )
+    assert misread(np.column_stack([amplitude, period, brace]), starts, told) == 0
+    assert told.mean() > 0.8
 
 
 def test_touch_that_hangs_on_the_last_digits_is_left_to_the_search():

@@ -4,22 +4,25 @@ import math
 
 from numba import njit
 
-from .arc import arc_after, earlier
+from .arc import NONE_YET, arc_after, earlier
 from .elementary import INNER, WITHIN
-from .events import FLIGHT, IMPACT, any_event
+from .events import BRACE, FLIGHT, IMPACT, next_event
 from .harmonic import clock
 from .lanes import (
     ACROSS,
     ALONE,
     ALONG,
+    ANGLE,
     ARRIVED,
+    AT_BRACE,
     BEGUN,
+    BRACE_HITS,
     COSINE,
     COUNTED,
     CYCLE,
     DOUBLINGS,
+    EVENTS,
     FREQUENCY,
-    IMPACTS,
     LANES,
     LEG_END,
     NEXT_COSINE,
@@ -65,12 +68,15 @@ def seat(s, i, p, progress, columns, collected):
     put(s, i, CYCLE, progress.cycle)
     put(s, i, START, arc.start)
     put(s, i, SIDE, arc.side)
+    put(s, i, ANGLE, arc.angle)
     put(s, i, VELOCITY, arc.velocity)
     put(s, i, COSINE, arc.cosine)
     put(s, i, SINE, arc.sine)
-    put(s, i, IMPACTS, progress.impacts)
-    put(s, i, COUNTED, progress.impacts)
-    put(s, i, UNCOLLECTED, progress.impacts - collected)
+    events = progress.impacts + progress.brace_hits
+    put(s, i, EVENTS, events)
+    put(s, i, COUNTED, events)
+    put(s, i, UNCOLLECTED, events - collected)
+    put(s, i, BRACE_HITS, progress.brace_hits)
     put(s, i, PEAK, progress.peak)
     put(s, i, ACROSS, columns[0, 0])
     put(s, i, ALONG, columns[0, 1])
@@ -89,7 +95,7 @@ def set_leg(s, i, target, trails):
 def arc_of(s, i, p):
     """The arc under way in a lane."""
     side, start = int(of(s, i, SIDE)), of(s, i, START)
-    return arc_after(p, side, start, 0.0, of(s, i, VELOCITY), of(s, i, COSINE), of(s, i, SINE))
+    return arc_after(p, side, start, of(s, i, ANGLE), of(s, i, VELOCITY), of(s, i, COSINE), of(s, i, SINE))
 
 
 @njit(**INNER)
@@ -107,7 +113,7 @@ def growth_since(s, i):
 @njit(**INNER)
 def flights_by_now(s, i, flights, most):
     """How many flights are collected, with those since the lane was last read."""
-    return min(flights.count + int(of(s, i, IMPACTS)) - int(of(s, i, COUNTED)), most)
+    return min(flights.count + int(of(s, i, EVENTS)) - int(of(s, i, COUNTED)), most)
 
 
 @njit(**WITHIN)
@@ -115,13 +121,13 @@ def read(s, i, wants, p, run, desk, trail):
     """(status, run) of a lane, with what happened since it was last read: at the end of the leg if it wants that."""
     watch, flights, section_time, count, lossless, measuring = run
     before, arc, cycle, target = watch.progress, arc_of(s, i, p), int(of(s, i, CYCLE)), int(of(s, i, TARGET))
-    pending, written = arc.start <= section_time, int(of(s, i, IMPACTS)) - int(of(s, i, COUNTED))
-    if written > 0:
+    pending, written = arc.start <= section_time, int(of(s, i, EVENTS)) - int(of(s, i, COUNTED))
+    if lossless and written > 0:
         collected = flights_by_now(s, i, flights, desk.flights.shape[1])
         flights = Flights(IMPACT, cycle, arc.start, flights.first_cycle, collected)
     if wants == LEG_END:
         arc, cycle, pending = earlier(arc, (target - cycle) * p.period), target, True
-    impacts, peak = int(of(s, i, IMPACTS)), of(s, i, PEAK)
+    events, hits, peak = int(of(s, i, EVENTS)), int(of(s, i, BRACE_HITS)), of(s, i, PEAK)
     wait = of(s, i, WAIT) if of(s, i, STAGE) == ARRIVED else UNKNOWN[0]
     after = Progress(
         FLIGHT,
@@ -129,8 +135,8 @@ def read(s, i, wants, p, run, desk, trail):
         arc,
         pending,
         0,
-        impacts,
-        before.brace_hits,
+        events - hits,
+        hits,
         peak,
         math.inf,
         UNKNOWN[1],
@@ -142,7 +148,7 @@ def read(s, i, wants, p, run, desk, trail):
         count = sketch(p, before, trail[1:], written, after, section_time, desk.section, count)
     else:
         count = 0
-    put(s, i, COUNTED, impacts)
+    put(s, i, COUNTED, events)
     grown, desk.columns[0, 0], desk.columns[0, 1] = growth_since(s, i)
     desk.growth[0] += grown
     watch = Watch(after, watch.base, watch.brace, 0, 0.0, watch.peak)
@@ -159,11 +165,14 @@ def over(s, i):
 @njit(**WITHIN)
 def find(s, i, p):
     """What a lane wants once the coming event, of which it was not certain, is found."""
-    coming = any_event(p, FLIGHT, arc_of(s, i, p))
-    if not (coming.event == IMPACT and -coming.velocity >= SLOWEST):
+    coming, _ = next_event(p, FLIGHT, arc_of(s, i, p), NONE_YET)
+    hits, speed = coming.event == BRACE, abs(coming.velocity)
+    returned = (p.brace_restitution if hits else p.restitution) * speed
+    if not ((hits or coming.event == IMPACT) and returned >= SLOWEST):
         return ALONE
     put(s, i, WAIT, coming.wait)
-    put(s, i, SPEED, -coming.velocity)
+    put(s, i, SPEED, speed)
+    put(s, i, AT_BRACE, hits)
     put(s, i, NEXT_COSINE, coming.cosine)
     put(s, i, NEXT_SINE, coming.sine)
     put(s, i, NEXT_SINH, coming.sinh)
@@ -171,7 +180,7 @@ def find(s, i, p):
     put(s, i, STAGE, ARRIVED)
     if over(s, i):
         return LEG_END
-    full = trail_is_full(of(s, i, TRAILS), of(s, i, IMPACTS), of(s, i, COUNTED))
+    full = trail_is_full(of(s, i, TRAILS), of(s, i, EVENTS), of(s, i, COUNTED))
     return READING if full else PEAK_SEEN
 
 
@@ -182,25 +191,25 @@ def see_peak(s, i, p):
 
 
 @njit(**WITHIN)
-def note(s, flights, trail):
-    """Of each lane how long the last flight lasted and the square of its speed; into its trail, where it is asked for, the arc under way.
+def note(s, flights, trail, braced):
+    """Of each lane how long the last flight lasted and the square of its speed, without braces; into its trail, if asked for, its arc.
 
     So again and again until the next impact. Now and then the forcing is taken from the clock.
     """
     for i in range(LANES):
-        impacts = int(of(s, i, IMPACTS))
-        k, j = impacts - int(of(s, i, COUNTED)), impacts - int(of(s, i, UNCOLLECTED)) - 1
-        start, side, velocity = of(s, i, START), of(s, i, SIDE), of(s, i, VELOCITY)
-        if k > 0 and j < flights.shape[2]:
+        events = int(of(s, i, EVENTS))
+        k, j = events - int(of(s, i, COUNTED)), events - int(of(s, i, UNCOLLECTED)) - 1
+        start, side, angle, velocity = of(s, i, START), of(s, i, SIDE), of(s, i, ANGLE), of(s, i, VELOCITY)
+        if not braced and k > 0 and j < flights.shape[2]:
             flights[i, 0, j], flights[i, 1, j] = of(s, i, WAIT), velocity * velocity
         if of(s, i, TRAILS) > 0.0:
-            trail[i, k, 0], trail[i, k, 1], trail[i, k, 4], trail[i, k, 6] = (
+            trail[i, k, 0], trail[i, k, 1], trail[i, k, 2] = (
                 of(s, i, CYCLE),
                 start,
-                side,
-                velocity,
+                BRACE if angle > 0.0 else IMPACT,
             )
-        if impacts & RESYNCHRONISE == 0 and of(s, i, STAGE) == WALK:
+            trail[i, k, 4], trail[i, k, 5], trail[i, k, 6] = side, angle, velocity
+        if events & RESYNCHRONISE == 0 and of(s, i, STAGE) == WALK:
             cosine, sine, _, _, _ = clock(of(s, i, FREQUENCY), of(s, i, PHASE), side, start)
             put(s, i, COSINE, cosine)
             put(s, i, SINE, sine)

@@ -22,12 +22,13 @@ from .lanes import (
     CYCLE,
     DOUBLINGS,
     END,
+    EVENTS,
     EXCEEDS,
     FREQUENCY,
     GROWING,
-    IMPACTS,
     INSIDE,
     LANES,
+    LARGE,
     LEG_END,
     LOW,
     NEXT_COSINE,
@@ -63,8 +64,6 @@ from .lanes import (
 )  # fmt: skip
 from .shortcut import I2, I4, I6, I8
 
-# Differences are brought back to size 1 from here.
-LARGE = 2.0**64
 # c+ and c- below this tell a crest and its time well enough.
 TOLD = -1e-5
 RIGHT_ANGLE = 0.5 * math.pi
@@ -78,7 +77,7 @@ def attend(s):
         stage, start, wait, cycle = of(s, i, STAGE), of(s, i, START), of(s, i, WAIT), of(s, i, CYCLE)
         target, period, exceeds = of(s, i, TARGET), of(s, i, PERIOD), of(s, i, EXCEEDS)
         speed, restitution = of(s, i, SPEED), of(s, i, RESTITUTION)
-        full = trail_is_full(of(s, i, TRAILS), of(s, i, IMPACTS), of(s, i, COUNTED))
+        full = trail_is_full(of(s, i, TRAILS), of(s, i, EVENTS), of(s, i, COUNTED))
         wants = choose(exceeds == 0.0, CONTENT, PEAK_SEEN)
         wants = choose(full, READING, wants)
         wants = choose(restitution * speed < SLOWEST, ALONE, wants)
@@ -105,7 +104,7 @@ def strike(s):
             of(s, i, RESTITUTION),
             of(s, i, NEXT_COSINE),
         )
-        impacts = of(s, i, IMPACTS)
+        impacts = of(s, i, EVENTS)
         # as ``tangent.event_map``
         shear = fma((1.0 - restitution) * amplitude, next_cosine, -(1.0 + restitution)) / speed
         a, b = fma(cosh, across, sinh * along), fma(sinh, across, cosh * along)
@@ -118,7 +117,7 @@ def strike(s):
         put(s, i, ACROSS, choose(arrived, a * scale, across))
         put(s, i, ALONG, choose(arrived, b * scale, along))
         put(s, i, DOUBLINGS, choose(arrived, doublings + times, doublings))
-        put(s, i, IMPACTS, choose(arrived, impacts + 1.0, impacts))
+        put(s, i, EVENTS, choose(arrived, impacts + 1.0, impacts))
     for i in range(LANES):
         stage, start, cycle, side = of(s, i, STAGE), of(s, i, START), of(s, i, CYCLE), of(s, i, SIDE)
         velocity, cosine, sine, wait = of(s, i, VELOCITY), of(s, i, COSINE), of(s, i, SINE), of(s, i, WAIT)

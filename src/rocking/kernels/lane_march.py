@@ -2,7 +2,7 @@
 
 from numba import njit
 
-from . import lane_impact, lane_walk, lane_zero
+from . import lane_brace, lane_impact, lane_walk, lane_zero
 from .branchless import EXACT
 
 
@@ -23,3 +23,17 @@ def advance(s):
     lane_zero.look(s)
     lane_zero.step(s)
     return lane_impact.attend(s)
+
+
+@njit(**EXACT)
+def strike_between(s):
+    """``strike`` between braces."""
+    lane_brace.strike(s)
+
+
+@njit(**EXACT)
+def advance_between(s):
+    """``advance`` between braces."""
+    lane_brace.aim(s)
+    lane_brace.step(s)
+    return lane_brace.attend(s)

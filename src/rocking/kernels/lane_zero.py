@@ -183,16 +183,16 @@ def guess(s):
 
 @njit(**EXACT_INNER)
 def instant(system, start, t, hyperbolics, circulars):
-    """(u, u', cos eta, sin eta) of an arc from the base at a time t, eq. (5) as in ``harmonic.respond`` and ``arc.after``."""
+    """(u - u0, u', cos eta, sin eta) of an arc at a time t, eq. (5) as in ``harmonic.respond`` and ``arc.after``."""
     amplitude, frequency, response = system
-    velocity, cosine, sine = start
+    above, velocity, cosine, sine = start
     sinh, versinh, excess, higher = hyperbolics
     sin_x, versine, lag, deficit = circulars
     near = frequency * t < SHORT
     in_phase, lateness = versinh + versine, fma(frequency, excess, lag)
     place = choose(near, -fma(frequency * frequency, higher, deficit), in_phase)
     rate = choose(near, -frequency * lateness, fma(frequency, sin_x, sinh))
-    steady = choose(near, fma(-amplitude, cosine, -1.0), -1.0)
+    steady = choose(near, fma(-amplitude, cosine, above), above)
     displaced = response * fma(sine, lateness, -cosine * place)
     moved = response * fma(frequency * sine, in_phase, -cosine * rate)
     return (
@@ -204,8 +204,8 @@ def instant(system, start, t, hyperbolics, circulars):
 
 
 @njit(**EXACT_INNER)
-def look(s):
-    """The elementary functions and the instant at the time that each lane looks at."""
+def elements(s):
+    """The elementary functions at the time that each lane looks at."""
     for i in range(LANES):
         sinh, versinh, excess, higher = hyperbolic(of(s, i, TIME))
         put(s, i, SINH, sinh)
@@ -218,12 +218,24 @@ def look(s):
         put(s, i, VERSINE, versine)
         put(s, i, LAG, lag)
         put(s, i, DEFICIT, deficit)
+
+
+@njit(**EXACT_INNER)
+def instant_of(s, i, above):
+    """``instant`` of lane i where it looks, whose arc starts so far ``above`` the angle 1."""
+    system = of(s, i, AMPLITUDE), of(s, i, FREQUENCY), of(s, i, RESPONSE)
+    start = above, of(s, i, VELOCITY), of(s, i, COSINE), of(s, i, SINE)
+    hyperbolics = of(s, i, SINH), of(s, i, VERSINH), of(s, i, EXCESS), of(s, i, HIGHER)
+    circulars = of(s, i, SIN_X), of(s, i, VERSINE), of(s, i, LAG), of(s, i, DEFICIT)
+    return instant(system, start, of(s, i, TIME), hyperbolics, circulars)
+
+
+@njit(**EXACT_INNER)
+def look(s):
+    """The instant at the time that each lane looks at, on arcs from the base."""
+    elements(s)
     for i in range(LANES):
-        system = of(s, i, AMPLITUDE), of(s, i, FREQUENCY), of(s, i, RESPONSE)
-        start = of(s, i, VELOCITY), of(s, i, COSINE), of(s, i, SINE)
-        hyperbolics = of(s, i, SINH), of(s, i, VERSINH), of(s, i, EXCESS), of(s, i, HIGHER)
-        circulars = of(s, i, SIN_X), of(s, i, VERSINE), of(s, i, LAG), of(s, i, DEFICIT)
-        u, v, cosine, sine = instant(system, start, of(s, i, TIME), hyperbolics, circulars)
+        u, v, cosine, sine = instant_of(s, i, -1.0)
         put(s, i, ANGLE_THERE, u)
         put(s, i, RATE_THERE, v)
         put(s, i, COSINE_THERE, cosine)

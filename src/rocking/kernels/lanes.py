@@ -39,17 +39,21 @@ LANES = 48
     ANGLE_THERE, RATE_THERE, COSINE_THERE, SINE_THERE, ABOUT, OFF,
     # the impact to come
     WAIT, SPEED, NEXT_COSINE, NEXT_SINE, NEXT_SINH, NEXT_VERSINH, WANTS,
-    # the end of the leg; whether its arcs are asked for; the impacts counted before it began, those of no flight that was
+    # the end of the leg; whether its arcs are asked for; the events counted before it began, those of no flight that was
     # collected, all; the largest angle
-    TARGET, TRAILS, COUNTED, UNCOLLECTED, IMPACTS, PEAK,
+    TARGET, TRAILS, COUNTED, UNCOLLECTED, EVENTS, PEAK,
     # a difference in (Theta, Theta'), to be doubled so often
     ACROSS, ALONG, DOUBLINGS,
+    # where braces stand and what they give back; the angle where the arc starts; whether a brace is met next; hits by now
+    BRACE_ANGLE, BRACE_RESTITUTION, ANGLE, AT_BRACE, BRACE_HITS,
+    # between braces: (u, u', cos eta, sin eta) at the time ABOUT, up to which nothing is met
+    KNOT_ANGLE, KNOT_RATE, KNOT_COSINE, KNOT_SINE,
     ROWS,
-) = range(74)  # fmt: skip
+) = range(83)  # fmt: skip
 
 # What is next for a lane: nothing; to begin an arc; to walk; to guess the zero in its stretch; to look for the bottom of a dip; to
-# step to the zero; the impact, once it was attended to; what none of these can do.
-IDLE, BEGUN, WALK, GUESS, BOTTOM, REFINE, ARRIVED, UNSURE = (float(stage) for stage in range(8))
+# step to the zero; the event, once it was attended to; what none of these can do; to look from further on.
+IDLE, BEGUN, WALK, GUESS, BOTTOM, REFINE, ARRIVED, UNSURE, FURTHER = (float(stage) for stage in range(9))
 # What a lane wants: nothing; that its peak be looked at; that its trail be read; a block; that its leg be ended; that its block
 # be marched alone; that the coming event be found.
 CONTENT, PEAK_SEEN, READING, BLOCK, LEG_END, ALONE, CERTAINTY = (float(want) for want in range(7))
@@ -57,6 +61,8 @@ CONTENT, PEAK_SEEN, READING, BLOCK, LEG_END, ALONE, CERTAINTY = (float(want) for
 SLOWEST = 1e-6
 # Arcs since the trail was last read.
 TRAIL = 384
+# Differences are brought back to size 1 from here.
+LARGE = 2.0**64
 
 
 @njit(**EXACT_INNER)
@@ -87,6 +93,8 @@ def set_system(s, i, p):
     put(s, i, RESTITUTION, p.restitution)
     put(s, i, PERIOD, p.period)
     put(s, i, PER_PERIOD, 1.0 / p.period)
+    put(s, i, BRACE_ANGLE, p.brace_angle)
+    put(s, i, BRACE_RESTITUTION, p.brace_restitution)
     cut = p.base_half - p.phase
     for row, eta in ((CUT_RIGHT, cut), (CUT_LEFT, cut - math.pi)):
         put(s, i, row, (eta - 2.0 * math.pi * math.floor(eta / (2.0 * math.pi))) * p.per_frequency)

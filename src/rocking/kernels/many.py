@@ -15,7 +15,7 @@ from .together import SHORTEST, judge_together
 from .verdict import judge
 
 # The version of what is answered: raised whenever an answer to the same question may change, so that a store never mixes two.
-METHOD = 11
+METHOD = 12
 
 
 @njit(**ENTRY)
@@ -40,17 +40,25 @@ def vectors():
     return {"+avx2", "+fma"} <= set(features)
 
 
-def plain(systems):
-    """Which points may come to be marched in lanes: without loss, for then much plain marching is likely; a point's own matter."""
+def lasting(systems):
+    """(which points may come to be marched in lanes without braces, and which between braces): a point's own matter.
+
+    Where much plain marching is likely: without loss, or in what braces make of it.
+    """
     amplitude, _, period, _, restitution, brace_angle, _ = systems.T
-    lossless = (restitution == 1.0) & (brace_angle == math.inf)
-    return lossless & (amplitude > 1.0) & (period >= SHORTEST) & vectors()
+    may, braced = (amplitude > 1.0) & (period >= SHORTEST) & vectors(), brace_angle < math.inf
+    return may & (restitution == 1.0) & ~braced, may & braced
 
 
 def judge_many(systems, starts, max_cycles, max_period, stop):
     """``Answers`` for points (n, 7) and (n, 2); None where ``stop`` (1,) was set by another thread on the way."""
-    answers, in_lanes = no_answers(len(systems)), plain(systems)
-    for part, judge_part, memory in ((~in_lanes, judge_each, desk), (in_lanes, judge_together, bench)):
+    answers, (lossless, braced) = no_answers(len(systems)), lasting(systems)
+    parts = (
+        (~(lossless | braced), judge_each, desk),
+        (lossless, judge_together, bench),
+        (braced, judge_together, bench),
+    )
+    for part, judge_part, memory in parts:
         if not part.any():
             continue
         some, room = no_answers(int(part.sum())), memory(max_cycles, max_period)
@@ -61,12 +69,12 @@ def judge_many(systems, starts, max_cycles, max_period, stop):
     return answers
 
 
-def compile_many(lossless):
+def compile_many(may_last):
     """Compile, or load, what ``judge_many`` runs: a process that ends while another thread compiles may crash.
 
-    Some points are ``lossless``: only for those the lanes are compiled.
+    Some points may have to be marched for long (``may_last``): only for those the lanes are compiled.
     """
     still = np.array(
         [[0.0, 1.0, math.tau, 0.0, 0.0, math.inf, 1.0], [2.0, math.tau, 1.0, 0.0, 1.0, math.inf, 1.0]]
     )
-    judge_many(still[: 1 + lossless], np.zeros((1 + lossless, 2)), 1, 1, np.zeros(1, np.int64))
+    judge_many(still[: 1 + may_last], np.zeros((1 + may_last, 2)), 1, 1, np.zeros(1, np.int64))

@@ -42,14 +42,6 @@ class HarmonicParameters(NamedTuple):
     turn_growth: float
     turn_decay: float
     base_outside_tanh: float
-    # the same of the brace, where the inner stretch is the convex one; NaN where it has no cuts
-    brace_place: float
-    brace_rate: float
-    brace_inside: float
-    brace_outside: float
-    brace_inside_growth: float
-    brace_inside_decay: float
-    brace_inside_tanh: float
 
 
 @njit(**WITHIN)
@@ -80,11 +72,6 @@ def make(amplitude, frequency, period, phase, restitution, brace_angle, brace_re
         math.acos((brace_angle - 1.0) / amplitude) if abs(brace_angle - 1.0) < amplitude else math.inf
     )
     growth, turn_growth = math.exp(min(outside, 700.0)), math.exp(min(period, 700.0))
-    brace_rate, brace_inside, brace_growth, brace_tanh = math.nan, math.nan, math.nan, math.nan
-    if brace_half < math.inf:
-        brace_inside = 2.0 * brace_half / frequency
-        brace_rate = response * frequency * math.sin(brace_half)
-        brace_growth, brace_tanh = math.exp(min(brace_inside, 700.0)), math.tanh(brace_inside)
     return HarmonicParameters(
         amplitude,
         frequency,
@@ -107,13 +94,6 @@ def make(amplitude, frequency, period, phase, restitution, brace_angle, brace_re
         turn_growth,
         1.0 / turn_growth,
         math.tanh(outside),
-        (brace_angle - 1.0) * (1.0 - reciprocal),
-        brace_rate,
-        brace_inside,
-        period - brace_inside,
-        brace_growth,
-        1.0 / brace_growth,
-        brace_tanh,
     )
 
 

@@ -2,10 +2,11 @@
 
 A steady motion repeats its arcs, so an earlier arc tells where the next zero is, and what carries an arc on by that
 time is still at hand (``Lapse``): from there a Taylor series reaches the zero. Where it lies further off the series
-guesses, and one new evaluation follows. Between braces flights are short, and the series about their start guesses. It is
-the *first* zero if the block cannot turn on its way there, or no stretch before it holds one: most often their order
-alone proves that, else ``walk``. Where the guess is no good, the walk brackets the zero and tells where to begin.
-Whatever is not certain by a wide margin is left to ``crossing``.
+guesses, and one new evaluation follows. It is the *first* zero if no stretch before it holds one: most often their order
+alone proves that. Where the guess is no good, ``walk`` brackets the zero and tells where to begin.
+
+Between braces flights are short: the series about their start guesses, and the cubic with the same ends proves that
+nothing is met before. Whatever is not certain by a wide margin is left to ``crossing``.
 """
 
 import math
@@ -17,13 +18,10 @@ from .crossing import LONGEST, reversion, step_to_zero
 from .elementary import INNER
 from .harmonic import forcing_rates, forcing_term
 from .walk import (
-    CLEAR,
     MARGIN,
     UNSURE,
     ZERO,
     Knot,
-    base_level,
-    brace_level,
     knot,
     start_knot,
     stays_clear,
@@ -31,9 +29,12 @@ from .walk import (
 )
 
 TRIES = 6
+# So often the series is begun anew on the way to an event.
+LOOKS = 8
+NOWHERE = Instant(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 # The step by the reverted series and the Taylor series that follow it are exact to rounding for steps below this, in
 # units of 1/max(1, Omega), of w'/w'' and of the root of w'/w'''.
-SMALL = 2e-4
+SMALL = 1e-3
 # A longer step is polished where it is shorter than REACH, in units of 1/max(1, Omega), in so many rounds; from a
 # bend below this one more round would not show.
 REACH, ROUNDS, BEND = 1.8, 3, 0.25
@@ -94,10 +95,10 @@ def turned(p, steady, now):
 
 @njit(**INNER)
 def polished(p, steady, now, rough):
-    """A rough step to the zero of w, corrected by where the Taylor series about ``now`` has it: no new elementary functions.
+    """(whether w falls there, a step to its zero): a rough one corrected by the Taylor series about ``now``, no new elementary functions.
 
     c_k are the derivatives of w there, w_k those at the end of the step. Only a guess: the series stops where it is
-    good to some three digits within REACH. Where it does not fall towards a zero the rough step is returned as it was.
+    good to some three digits within REACH.
     """
     square = -p.frequency * p.frequency
     df, ddf = now.df, turned(p, steady, now)
@@ -117,11 +118,11 @@ def polished(p, steady, now, rough):
         w0 = (c0 + s * c1) + q * (I2 * c2 + s * (I3 * c3))
         w0 += h * ((I4 * c4 + s * (I5 * c5)) + q * (I6 * c6 + s * (I7 * c7)) + h * (I8 * c8))
         if not w1 < 0.0:
-            return rough
+            return False, rough
         s += step_to_zero(w0, w1, (w2 - w0, w3 - w1, w4 - w2))
         if abs(w0 * w2) < BEND * w1 * w1:
             break
-    return s
+    return True, s
 
 
 @njit(**INNER)
@@ -133,7 +134,7 @@ def leap(p, steady, here):
             return True, step
     step = stride(here)
     if max(1.0, p.frequency) * abs(step) <= REACH:
-        return True, polished(p, steady, here, step)
+        return True, polished(p, steady, here, step)[1]
     return False, step
 
 
@@ -158,17 +159,17 @@ def seek(p, arc, constant, s, lapse, low, high):
 
 
 @njit(**INNER)
-def seek_in(p, arc, constant, s, bracket):
-    """``seek`` in a bracket: from where the series about its nearer end has the zero, or from the middle where both are far."""
+def seek_in(p, arc, bracket):
+    """``seek`` for the zero of u in a bracket: from where the series about its nearer end has the zero, or the middle."""
     low, high = bracket.low, bracket.high
-    told, step = leap(p, constant + s, low)
+    told, step = leap(p, 1.0, low)
     t = low.time + step
     if not (told and low.time < t < high.time):
-        told, step = leap(p, constant + s, high)
+        told, step = leap(p, 1.0, high)
         t = high.time + step
         if not (told and low.time < t < high.time):
             t = 0.5 * (low.time + high.time)
-    return seek(p, arc, constant, s, lapse_of(p, t), low.time, min(high.time, LONGEST))
+    return seek(p, arc, 0.0, 1.0, lapse_of(p, t), low.time, min(high.time, LONGEST))
 
 
 @njit(**INNER)
@@ -179,77 +180,79 @@ def likely_impact(p, arc, guess):
     """
     if guess.time > 0.0:
         reached, t, now, lapse = seek(p, arc, 0.0, 1.0, guess, 0.0, LONGEST)
-        if reached and stays_clear(p, arc, base_level(p), Knot(t, 0.0, now.velocity, 0.0, 0.0)):
+        if reached and stays_clear(p, arc, Knot(t, 0.0, now.velocity, 0.0, 0.0)):
             return ZERO, t, now, lapse
-    bracket = walk(p, arc, base_level(p), Knot(math.inf, 0.0, 0.0, 0.0, 0.0))
-    reached, t, now, lapse = seek_in(p, arc, 0.0, 1.0, bracket)
+    bracket = walk(p, arc)
+    reached, t, now, lapse = seek_in(p, arc, bracket)
     return (bracket.answer if bracket.answer != ZERO or reached else UNSURE), t, now, lapse
 
 
 @njit(**INNER)
-def bracketed(p, arc, reached, event):
-    """(answer, whether at a brace, walk): the bracket of a flight's first event, or CLEAR where the one ``reached`` is the first.
-
-    ``event`` is that in terms of the base, u and u'. Where a brace is met the base is far, and the other way round: a zero in
-    the bracket of the one comes before that of the other.
-    """
-    never = Knot(math.inf, 0.0, 0.0, 0.0, 0.0)
-    base = walk(p, arc, base_level(p), event if reached else never)
-    if base.answer == UNSURE:
-        return UNSURE, False, base
-    until = base.high if base.answer == ZERO else event
-    end = Knot(until.time, p.brace_angle - until.w, -until.dw, 0.0, 0.0)
-    brace = walk(p, arc, brace_level(p), end if reached or base.answer == ZERO else never)
-    if brace.answer == ZERO or brace.answer == UNSURE:
-        return brace.answer, True, brace
-    if base.answer == ZERO:
-        return ZERO, False, base
-    return CLEAR if reached else UNSURE, False, base
-
-
-@njit(**INNER)
-def ahead(p, arc):
-    """(whether at a brace, after how long) the event seems to be, by the series about the start; infinite where that tells none."""
-    base, brace = start_knot(p, arc, base_level(p)), start_knot(p, arc, brace_level(p))
+def ahead(p, base, brace):
+    """(whether the series about an instant tells where an event is, whether at a brace, after how long); else how far it leads."""
     to_base, to_brace = stride(base), stride(brace)
     at_brace = to_brace < to_base
     here, rough = (brace, to_brace) if at_brace else (base, to_base)
-    if not max(1.0, p.frequency) * rough <= REACH:
-        return at_brace, math.inf
-    step = polished(p, p.brace_angle - 1.0 if at_brace else 1.0, here, rough)
-    return at_brace, step if step > 0.0 and step != rough else math.inf
+    farthest = REACH / max(1.0, p.frequency)
+    rough = min(rough, farthest)
+    told, step = polished(p, p.brace_angle - 1.0 if at_brace else 1.0, here, rough)
+    told = told and 0.0 < step <= farthest
+    return told, at_brace, step if told else rough
 
 
 @njit(**INNER)
-def crosses(p, arc, at_brace, t, speed):
-    """Whether an arc that arrives with this speed after t certainly never turns on its way: then it meets nothing before.
+def outweighs(first, last, off):
+    """Whether first s (1 - s)^2 + last s^2 (1 - s) > off s^2 (1 - s)^2 for every share s of the way."""
+    least = min(first, last)
+    return least > 0.0 and first + last + 2.0 * least > off
 
-    u'' >= -A - 1 above the base and u'' <= A + brace_angle - 1 below the brace. So |u'| is above zero for its value at the start
-    over the one bound, counted from there, and for its value at the end over the other, counted back from there: together
-    longer than t.
+
+@njit(**INNER)
+def stays_between(p, t, first, last):
+    """Whether a flight certainly meets neither the base nor a brace within a time t, by (u, u') at its ends.
+
+    Between them u lies within t^4 s^2 (1 - s)^2 max|u''''|/24 of the cubic with the same ends, whose Bernstein coefficients
+    tell on which side of the base and of the brace that stays. u'''' = u - 1 + A (Omega^2 - 1) cos eta; and |u - 1| is nowhere
+    larger than A, or 1, or than at the ends, since u'' = u - 1 - A cos eta.
     """
-    fall, rise = p.amplitude + 1.0, (p.amplitude - 1.0) + p.brace_angle
-    towards, first, last = (arc.velocity, fall, rise) if at_brace else (-arc.velocity, rise, fall)
-    return (1.0 + MARGIN) * t * first * last < towards * last + speed * first
+    (angle, velocity), (end, arrival) = first, last
+    left, right, square = t * velocity, t * arrival, t * t
+    most = max(p.amplitude, 1.0, max(angle, end) - 1.0)
+    most += p.amplitude * abs(p.frequency * p.frequency - 1.0)
+    off = (1.0 + MARGIN) / 24.0 * square * square * most + MARGIN * t
+    to_brace, end_to_brace = p.brace_angle - angle, p.brace_angle - end
+    inside = end >= 0.0 and end_to_brace >= 0.0
+    above = outweighs(3.0 * angle + left, 3.0 * end - right, off)
+    return inside and above and outweighs(3.0 * to_brace - left, 3.0 * end_to_brace + right, off)
 
 
 @njit(**INNER)
 def likely_event(p, arc):
-    """(answer, whether at a brace, time, instant) of the first event of a flight between braces.
+    """(answer, whether at a brace, time, instant) of the first event of a flight between braces: ZERO, or UNSURE.
 
-    It is guessed from the start of the arc, not from an earlier one: in chaos that is seldom like it.
+    It is guessed from the start of the arc, not from an earlier one: in chaos that is seldom like it. Where the series tells
+    of no event, it begins anew further on; or, where that is beyond one, the event is sought from there. Whatever is not
+    certain is asked again of half the way.
     """
-    at_brace, t = ahead(p, arc)
-    constant, s = (p.brace_angle, -1.0) if at_brace else (0.0, 1.0)
-    reached, velocity = False, 0.0
-    if t < math.inf:
-        reached, t, now, _ = seek(p, arc, constant, s, lapse_of(p, t), 0.0, LONGEST)
-        velocity = now.velocity
-        if reached and crosses(p, arc, at_brace, t, abs(velocity)):
-            return ZERO, at_brace, t, now
-    answer, other, bracket = bracketed(p, arc, reached, Knot(t, constant, velocity, 0.0, 0.0))
-    if reached and answer != ZERO:
-        return UNSURE if answer == UNSURE else ZERO, at_brace, t, now
-    constant, s = (p.brace_angle, -1.0) if other else (0.0, 1.0)
-    reached, t, now, _ = seek_in(p, arc, constant, s, bracket)
-    return ZERO if answer == ZERO and reached else UNSURE, other, t, now
+    base, brace = start_knot(p, arc, 0.0, 1.0), start_knot(p, arc, p.brace_angle, -1.0)
+    told, at_brace, step = ahead(p, base, brace)
+    for _ in range(LOOKS):
+        lapse = lapse_of(p, base.time + step)
+        now = after(p, arc, lapse)
+        if not told:
+            if stays_between(p, step, (base.w, base.dw), (now.angle, now.velocity)):
+                base, brace = (
+                    knot(p, arc, 0.0, 1.0, lapse.time, now),
+                    knot(p, arc, p.brace_angle, -1.0, lapse.time, now),
+                )
+                told, at_brace, step = ahead(p, base, brace)
+                continue
+            at_brace = now.angle > p.brace_angle
+            told = at_brace or now.angle < 0.0
+        if told:
+            place, s = (p.brace_angle, -1.0) if at_brace else (0.0, 1.0)
+            reached, t, now, _ = seek(p, arc, place, s, lapse, base.time, LONGEST)
+            if reached and stays_between(p, t - base.time, (base.w, base.dw), (place, now.velocity)):
+                return ZERO, at_brace, t, now
+        told, step = False, 0.5 * step
+    return UNSURE, False, 0.0, NOWHERE

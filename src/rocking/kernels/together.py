@@ -15,7 +15,7 @@ from .elementary import INNER, MAKING_ENTRY, WITHIN
 from .events import FLIGHT, IMPACT
 from .judgement import OPEN, undecided
 from .lane_block import find, flights_by_now, growth_since, note, over, read, seat, see_peak, set_leg
-from .lane_march import advance, strike
+from .lane_march import advance, advance_between, strike, strike_between
 from .lanes import (
     ALONE,
     ARRIVED,
@@ -37,6 +37,7 @@ from .lanes import (
 from .lossless import may_be_asked_for
 from .march import DONE
 from .parameters import HarmonicParameters
+from .release import begin_tangent
 from .verdict import Case, leg, look, next_look, opened, outgrown, over_batch
 
 # Of a quicker forcing an arc has too many stretches to be walked along in step with others.
@@ -63,12 +64,15 @@ class Asking(NamedTuple):
 
 @njit(**WITHIN)
 def fits(p, case):
-    """Whether plain marching is all that is left: nothing is lost, and no brace is there."""
-    progress, arc = case.run.watch.progress, case.run.watch.progress.arc
-    system = p.restitution == 1.0 and p.brace_angle == math.inf and p.amplitude > 1.0 and p.period >= SHORTEST
-    flies = progress.mode == FLIGHT
-    flies = flies and arc.angle == 0.0 and arc.velocity >= SLOWEST
-    return system and flies and case.run.lossless and case.run.flights.event == IMPACT
+    """Whether plain marching is all that is left: between braces from impact to impact, or without any where nothing is lost."""
+    run, watch = case.run, case.run.watch
+    progress, arc = watch.progress, watch.progress.arc
+    if progress.mode != FLIGHT or not (p.amplitude > 1.0 and p.period >= SHORTEST):
+        return False
+    if p.brace_angle < math.inf:
+        return not (run.lossless or watch.base.seen or watch.brace.seen)
+    plain = p.restitution == 1.0 and arc.angle == 0.0 and arc.velocity >= SLOWEST
+    return plain and run.lossless and run.flights.event == IMPACT
 
 
 @njit(**WITHIN)
@@ -85,7 +89,7 @@ def passed(s, i, guest, max_cycles, bench):
     """
     point, p, case = guest
     target, most = next_look(case, max_cycles), bench.flights.shape[2]
-    if of(s, i, TRAILS) > 0.0 or case.converged or target == max_cycles:
+    if not case.run.lossless or of(s, i, TRAILS) > 0.0 or case.converged or target == max_cycles:
         return False, guest
     grown, bench.columns[i, 0, 0], bench.columns[i, 0, 1] = growth_since(s, i)
     growth = bench.growth[i, 0] + grown
@@ -122,7 +126,11 @@ def onward(s, i, wants, guest, queue, asking, bench):
                 return Guest(-1, p, case), queue
             point, queue = queue, queue + 1
             p = asked(systems[point])
-            case = opened(p, starts[point, 0], starts[point, 1], max_cycles)
+            case, told = opened(p, starts[point, 0], starts[point, 1], max_cycles), undecided(case.run.watch)
+            settled = stays = False
+            if fits(p, case):
+                begin_tangent(desk.columns, desk.growth)
+                break
         if not marched:
             stays = False
             status, run = leg(p, case.run, max_cycles, next_look(case, max_cycles), desk)
@@ -131,17 +139,23 @@ def onward(s, i, wants, guest, queue, asking, bench):
     if not stays:
         seat(s, i, p, case.run.watch.progress, desk.columns, case.run.flights.count)
     target = next_look(case, max_cycles)
-    set_leg(s, i, target, may_be_asked_for(desk.growth[0], target, max_cycles, desk.scratch.shape[0]))
+    asked_for = not case.run.lossless or may_be_asked_for(
+        desk.growth[0], target, max_cycles, desk.scratch.shape[0]
+    )
+    set_leg(s, i, target, asked_for)
     return Guest(point, p, case), queue
 
 
 @njit(**WITHIN)
-def until_wanted(s, flights, trail, stop):
+def until_wanted(s, flights, trail, braced, stop):
     """All lanes onward until one of them wants attention."""
     while stop[0] == 0:
-        strike(s)
-        note(s, flights, trail)
-        if advance(s):
+        if braced:
+            strike_between(s)
+        else:
+            strike(s)
+        note(s, flights, trail, braced)
+        if advance_between(s) if braced else advance(s):
             return
 
 
@@ -149,6 +163,7 @@ def until_wanted(s, flights, trail, stop):
 def judge_together(systems, starts, max_cycles, max_period, bench, answers, stop):
     """Whether all points were judged, and ``stop[0]`` not set on the way; arguments as for ``many.judge_each``."""
     s, p, queue, blocks = bench.state, asked(systems[0]), np.int64(0), LANES
+    braced = p.brace_angle < math.inf
     asking = Asking(systems, starts, max_cycles, max_period, answers)
     guests = [Guest(-1, p, opened(p, 0.0, 0.0, max_cycles))] * LANES
     for i in range(LANES):
@@ -174,5 +189,5 @@ def judge_together(systems, starts, max_cycles, max_period, bench, answers, stop
                 see_peak(s, i, guests[i].p)
         if blocks == 0:
             break
-        until_wanted(s, bench.flights, bench.trail, stop)
+        until_wanted(s, bench.flights, bench.trail, braced, stop)
     return blocks == 0

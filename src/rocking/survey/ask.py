@@ -49,7 +49,7 @@ def ask(
 
 def _carry_out(results: Results, executor: Executor | None, progress: bool, interrupted: str) -> None:
     # Before other threads begin: a process that ends while one of them compiles may crash.
-    results.measure.compile(results.asked.lossless)
+    results.measure.compile(results.asked.may_last)
     with _noted(f"The survey was interrupted; {interrupted}."):
         if not progress:
             run(results, executor)

@@ -77,9 +77,9 @@ def destination(max_cycles: int, max_period: int, title: str) -> Measure:
     return Measure(title, judge, compile_both, variables, options, many.METHOD, shares="kind")
 
 
-def compile_both(lossless: bool) -> None:
+def compile_both(may_last: bool) -> None:
     """Compile the cascade, and what follows orbits."""
-    many.compile_many(lossless)
+    many.compile_many(may_last)
     still = np.array([[0.0, 1.0, math.tau, 0.0, 0.0, math.inf, 1.0]])
     kernel.anchors_of(still, np.zeros((1, 2)), answers.no_answers(1))
     simulate(System(Harmonic(0.0, period=1.0), 0.0), cycles=1, record="section")

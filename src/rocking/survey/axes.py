@@ -67,6 +67,11 @@ class Points(NamedTuple):
         """Which of them lose nothing at impacts."""
         return np.asarray(self.systems[:, SYSTEM.index("restitution")] == 1.0)
 
+    @property
+    def may_last(self) -> np.ndarray:
+        """Which of them may have to be marched for long: they lose nothing at impacts, or stand between braces."""
+        return self.lossless | (self.systems[:, SYSTEM.index("brace_angle")] < math.inf)
+
 
 @frozen(eq=False)
 class Question:
@@ -89,9 +94,10 @@ class Question:
         return math.prod(self.shape)
 
     @property
-    def lossless(self) -> bool:
-        """Whether some points lose nothing at impacts."""
-        return 1.0 in (
+    def may_last(self) -> bool:
+        """Whether some points may have to be marched for long: they lose nothing at impacts, or stand between braces."""
+        named = self.axes.keys() | self.fixed.keys()
+        return "brace_angle" in named or 1.0 in (
             self.axes["restitution"] if "restitution" in self.axes else [self.fixed["restitution"]]
         )
 

@@ -20,7 +20,7 @@ MOST_SEED = 2**32 - 1
 
 def sampled(points: Points, measure: Measure, executor: Executor | None = None) -> Arrays:
     """The answers of a measure at points, in their order."""
-    measure.compile(bool(points.lossless.any()))
+    measure.compile(bool(points.may_last.any()))
     total = len(points.systems)
     with engine(executor) as (pool, stop):
         futures = []

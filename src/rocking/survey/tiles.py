@@ -52,7 +52,7 @@ class Measure:
         (points, options, stop) → an array (n,) a variable, by name; of a module, so that another process finds it. A
         pure function of the points; None when another thread set `stop[0]` on the way.
     compile : callable
-        Compiles, or loads, what `judge` runs; told whether some points may lose nothing.
+        Compiles, or loads, what `judge` runs; told whether some points may have to be marched for long.
     variables : tuple of Variable
         The last one is written last: where it is there, all are.
     options : dict

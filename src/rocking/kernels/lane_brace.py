@@ -1,0 +1,333 @@
+"""Flights between braces, for many blocks at once: where each ends, that nothing is met before, and what the event does.
+
+As ``shortcut.likely_event`` does for one block: the series about the start, or about an instant further on, guesses the
+event; the cubic between two instants proves that nothing is met between them. What that does not settle is left to the
+functions for one block.
+"""
+
+import math
+
+from numba import njit
+
+from .branchless import EXACT_INNER, choose
+from .elementary import fma
+from .lane_zero import correction, derivatives, elements, halved, instant_of, onward
+from .lanes import (
+    ABOUT,
+    ACROSS,
+    ALONE,
+    ALONG,
+    AMPLITUDE,
+    ANGLE,
+    ARRIVED,
+    AT_BRACE,
+    BEGUN,
+    BRACE_ANGLE,
+    BRACE_HITS,
+    BRACE_RESTITUTION,
+    CERTAINTY,
+    CONTENT,
+    COSINE,
+    COUNTED,
+    CYCLE,
+    DOUBLINGS,
+    EVENTS,
+    EXCEEDS,
+    FREQUENCY,
+    FURTHER,
+    KNOT_ANGLE,
+    KNOT_COSINE,
+    KNOT_RATE,
+    KNOT_SINE,
+    LANES,
+    LARGE,
+    LEG_END,
+    NEXT_COSINE,
+    NEXT_SINE,
+    NEXT_SINH,
+    NEXT_VERSINH,
+    PEAK,
+    PEAK_SEEN,
+    PER_PERIOD,
+    PERIOD,
+    READING,
+    REFINE,
+    RESTITUTION,
+    SIDE,
+    SINE,
+    SINH,
+    SLOWEST,
+    SPEED,
+    STAGE,
+    START,
+    TARGET,
+    TIME,
+    TRAILS,
+    TRIES,
+    UNSURE,
+    VELOCITY,
+    VERSINH,
+    WAIT,
+    WALK,
+    WANTS,
+    of,
+    put,
+    trail_is_full,
+)  # fmt: skip
+from .shortcut import I2, I3, I4, I5, I6, I7, I8, REACH
+from .walk import MARGIN
+
+MOST_TRIES, ROUNDS = 8, 2
+# As near as this the step of fifth order leaves less than rounding, and so do the series that follow it.
+NEAR = 1e-3
+
+
+@njit(**EXACT_INNER)
+def parabola(u, v, second, brace_angle):
+    """(whether at a brace, when) the event is where the parabola comes, or, against the pull, the tangent; ``shortcut.stride``."""
+    falls = second < 0.0
+    towards, distance = choose(falls, -v, v), choose(falls, u, brace_angle - u)
+    size = abs(second)
+    root = math.sqrt(fma(towards, towards, 2.0 * size * distance))
+    ahead = choose(towards > 0.0, 2.0 * distance, root - towards) / choose(
+        towards > 0.0, root + towards, size
+    )
+    against = choose(towards < 0.0, (distance - brace_angle) / towards, math.inf)
+    turns = against < ahead
+    return falls == turns, choose(turns, against, ahead)
+
+
+@njit(**EXACT_INNER)
+def aim(s):
+    """When each lane looks next: where the series has its event, or, where that tells none, further on."""
+    for i in range(LANES):
+        stage, time, about = of(s, i, STAGE), of(s, i, TIME), of(s, i, ABOUT)
+        at_brace, amplitude, frequency = of(s, i, AT_BRACE), of(s, i, AMPLITUDE), of(s, i, FREQUENCY)
+        brace_angle = of(s, i, BRACE_ANGLE)
+        u, v, cosine, sine = (
+            of(s, i, KNOT_ANGLE),
+            of(s, i, KNOT_RATE),
+            of(s, i, KNOT_COSINE),
+            of(s, i, KNOT_SINE),
+        )
+        c = derivatives((u, v, cosine, sine), amplitude, frequency)
+        square = frequency * frequency
+        c7 = fma(square * square, amplitude * frequency * sine, c[5])
+        c8 = fma(square * square, square * amplitude * cosine, c[6])
+        brace_next, rough = parabola(u, v, c[2], brace_angle)
+        sign = choose(brace_next, -1.0, 1.0)
+        c0, c1, c2, c3 = choose(brace_next, brace_angle - u, u), sign * v, sign * c[2], sign * c[3]
+        c4, c5, c6, c7, c8 = sign * c[4], sign * c[5], sign * c[6], sign * c7, sign * c8
+        farthest = REACH / max(1.0, frequency)
+        x = choose(rough <= farthest, rough, farthest)
+        told = x > 0.0
+        # as ``shortcut.polished``
+        for _ in range(ROUNDS):
+            q = x * x
+            h = q * q
+            w4 = fma(q, I2 * c6, fma(x, c5, c4))
+            w3 = fma(q, fma(x, I3 * c6, I2 * c5), fma(x, c4, c3))
+            w2 = fma(h, fma(x, I5 * c7, I4 * c6), fma(q, fma(x, I3 * c5, I2 * c4), fma(x, c3, c2)))
+            w1 = fma(q, I6 * c7, fma(x, I5 * c6, I4 * c5))
+            w1 = fma(h, w1, fma(q, fma(x, I3 * c4, I2 * c3), fma(x, c2, c1)))
+            w0 = fma(h, I8 * c8, fma(q, fma(x, I7 * c7, I6 * c6), fma(x, I5 * c5, I4 * c4)))
+            w0 = fma(h, w0, fma(q, fma(x, I3 * c3, I2 * c2), fma(x, c1, c0)))
+            per = 1.0 / w1
+            y = -w0 * per
+            told = told & (w1 < 0.0)
+            x += y * halved(correction(y, w2, w3, w4, per))
+        told = told & (x > 0.0) & (x <= farthest)
+        aims = stage == WALK
+        put(
+            s,
+            i,
+            TIME,
+            choose(aims, about + choose(told, x, choose(rough <= farthest, rough, farthest)), time),
+        )
+        put(s, i, AT_BRACE, choose(aims, choose(brace_next, 1.0, 0.0), at_brace))
+        put(s, i, STAGE, choose(aims, choose(told, REFINE, FURTHER), stage))
+
+
+@njit(**EXACT_INNER)
+def outweighs(first, last, off):
+    """``shortcut.outweighs``."""
+    least = min(first, last)
+    return (least > 0.0) & (first + last + 2.0 * least > off)
+
+
+@njit(**EXACT_INNER)
+def stays_between(system, t, first, last):
+    """``shortcut.stays_between``."""
+    amplitude, frequency, brace_angle = system
+    (angle, velocity), (end, arrival) = first, last
+    left, right, square = t * velocity, t * arrival, t * t
+    most = max(amplitude, 1.0, max(angle, end) - 1.0)
+    most += amplitude * abs(fma(frequency, frequency, -1.0))
+    off = (1.0 + MARGIN) / 24.0 * square * square * most + MARGIN * t
+    to_brace, end_to_brace = brace_angle - angle, brace_angle - end
+    above = outweighs(fma(3.0, angle, left), fma(3.0, end, -right), off)
+    below = outweighs(fma(3.0, to_brace, -left), fma(3.0, end_to_brace, right), off)
+    return above & below & (end >= 0.0) & (end_to_brace >= 0.0)
+
+
+@njit(**EXACT_INNER)
+def step(s):
+    """From the time looked at to the event, or nearer to it; or on from there, where that is too far."""
+    elements(s)
+    for i in range(LANES):
+        stage, t, about, tries = of(s, i, STAGE), of(s, i, TIME), of(s, i, ABOUT), of(s, i, TRIES)
+        wait, speed, at_brace = of(s, i, WAIT), of(s, i, SPEED), of(s, i, AT_BRACE) > 0.0
+        angle, velocity, brace_angle = of(s, i, ANGLE), of(s, i, VELOCITY), of(s, i, BRACE_ANGLE)
+        sinh, versinh = of(s, i, SINH), of(s, i, VERSINH)
+        amplitude, frequency = of(s, i, AMPLITUDE), of(s, i, FREQUENCY)
+        knot_angle, knot_rate = of(s, i, KNOT_ANGLE), of(s, i, KNOT_RATE)
+        knot_cosine, knot_sine = of(s, i, KNOT_COSINE), of(s, i, KNOT_SINE)
+        next_cosine, next_sine = of(s, i, NEXT_COSINE), of(s, i, NEXT_SINE)
+        next_sinh, next_versinh = of(s, i, NEXT_SINH), of(s, i, NEXT_VERSINH)
+        risen, v, cosine, sine = instant_of(s, i, angle - 1.0)
+        u = angle + risen
+        _, _, second, third, fourth, fifth, _ = derivatives((u, v, cosine, sine), amplitude, frequency)
+        # towards a brace u falls short of it
+        left = choose(at_brace, risen - (brace_angle - angle), u)
+        per = 1.0 / v
+        y = -left * per
+        factor = correction(y, second, third, fourth, per)
+        x = y * factor
+        slope = fma(x, fma(x, fma(x, fma(x, I4 * fifth, I3 * fourth), I2 * third), second), v)
+        towards = choose(at_brace, v, -v)
+        close = (abs(left) * max(1.0, frequency) < NEAR * towards) & (abs(left * second) < NEAR * v * v)
+        close = close & (left * left * abs(third) < NEAR * NEAR * towards * v * v)
+
+        heads, goes_on = stage == REFINE, stage == FURTHER
+        place = choose(at_brace, brace_angle, 0.0)
+        span, end, arrival = (
+            choose(heads, t + x, t) - about,
+            choose(heads, place, u),
+            choose(heads, slope, v),
+        )
+        system = amplitude, frequency, brace_angle
+        free = stays_between(system, span, (knot_angle, knot_rate), (end, arrival))
+        # ``events.grazes``
+        pull, later = amplitude + 1.0, t + x
+        touches = slope * slope <= MARGIN * pull * (angle + later * (abs(velocity) + later * pull))
+        arrived, further = heads & close & free & (touches == False), goes_on & free  # noqa: E712
+        ahead = t + y * halved(factor)
+        nears = heads & (close == False) & (towards > 0.0) & (ahead > about)  # noqa: E712
+        # too far: what was met lies before
+        above, beneath = goes_on & (u > brace_angle), goes_on & (u < 0.0)
+
+        next_c, next_s, next_sh, next_vh = onward(x, frequency, cosine, sine, sinh, versinh)
+        put(s, i, WAIT, choose(arrived, later, wait))
+        put(s, i, SPEED, choose(arrived, abs(slope), speed))
+        put(s, i, NEXT_COSINE, choose(arrived, next_c, next_cosine))
+        put(s, i, NEXT_SINE, choose(arrived, next_s, next_sine))
+        put(s, i, NEXT_SINH, choose(arrived, next_sh, next_sinh))
+        put(s, i, NEXT_VERSINH, choose(arrived, next_vh, next_versinh))
+        put(s, i, KNOT_ANGLE, choose(further, u, knot_angle))
+        put(s, i, KNOT_RATE, choose(further, v, knot_rate))
+        put(s, i, KNOT_COSINE, choose(further, cosine, knot_cosine))
+        put(s, i, KNOT_SINE, choose(further, sine, knot_sine))
+        put(s, i, ABOUT, choose(further, t, about))
+        moves, beyond = heads | goes_on, above | beneath
+        back = moves & ((arrived | nears | further | beyond) == False)  # noqa: E712
+        put(s, i, AT_BRACE, choose(above, 1.0, choose(beneath, 0.0, choose(at_brace, 1.0, 0.0))))
+        put(s, i, TIME, choose(nears, ahead, choose(back, fma(0.5, t - about, about), t)))
+        put(s, i, TRIES, choose(moves, tries + 1.0, tries))
+        on = choose(arrived, ARRIVED, choose(nears | beyond, REFINE, choose(further, WALK, FURTHER)))
+        on = choose(arrived | (tries < MOST_TRIES), on, UNSURE)
+        put(s, i, STAGE, choose(heads | goes_on, on, stage))
+
+
+@njit(**EXACT_INNER)
+def attend(s):
+    """What each lane wants before its event; whether any wants anything."""
+    any_wants = False
+    for i in range(LANES):
+        stage, start, wait, cycle = of(s, i, STAGE), of(s, i, START), of(s, i, WAIT), of(s, i, CYCLE)
+        target, period, at_brace = of(s, i, TARGET), of(s, i, PERIOD), of(s, i, AT_BRACE) > 0.0
+        speed, exceeds = of(s, i, SPEED), of(s, i, EXCEEDS) > 0.0
+        returned = choose(at_brace, of(s, i, BRACE_RESTITUTION), of(s, i, RESTITUTION))
+        full = trail_is_full(of(s, i, TRAILS), of(s, i, EVENTS), of(s, i, COUNTED))
+        wants = choose(exceeds & (at_brace == False), PEAK_SEEN, CONTENT)  # noqa: E712
+        wants = choose(full, READING, wants)
+        wants = choose(returned * speed < SLOWEST, ALONE, wants)
+        wants = choose(start + wait > (target - cycle) * period, LEG_END, wants)
+        wants = choose(stage == ARRIVED, wants, choose(stage == UNSURE, CERTAINTY, CONTENT))
+        put(s, i, WANTS, wants)
+        any_wants |= wants != CONTENT
+    return any_wants
+
+
+@njit(**EXACT_INNER)
+def strike(s):
+    """Events: where a lane has arrived, eq. (2) or what a brace does, and the next arc."""
+    for i in range(LANES):
+        stage, across, along, doublings = (
+            of(s, i, STAGE),
+            of(s, i, ACROSS),
+            of(s, i, ALONG),
+            of(s, i, DOUBLINGS),
+        )
+        sinh, cosh, speed = of(s, i, NEXT_SINH), 1.0 + of(s, i, NEXT_VERSINH), of(s, i, SPEED)
+        amplitude, next_cosine, brace_angle = (
+            of(s, i, AMPLITUDE),
+            of(s, i, NEXT_COSINE),
+            of(s, i, BRACE_ANGLE),
+        )
+        restitution, brace_restitution = of(s, i, RESTITUTION), of(s, i, BRACE_RESTITUTION)
+        at_brace = of(s, i, AT_BRACE) > 0.0
+        # as ``tangent.event_map``
+        pressed = (1.0 + brace_restitution) * fma(-amplitude, next_cosine, brace_angle - 1.0)
+        pulled = fma((1.0 - restitution) * amplitude, next_cosine, -(1.0 + restitution))
+        shear, factor = (
+            choose(at_brace, pressed, pulled) / speed,
+            choose(at_brace, -brace_restitution, restitution),
+        )
+        a, b = fma(cosh, across, sinh * along), fma(sinh, across, cosh * along)
+        a, b = factor * a, fma(shear, a, factor * b)
+        size = abs(a) + abs(b)
+        large, little = size > LARGE, size < 1.0 / LARGE
+        scale = choose(large, 1.0 / LARGE, choose(little, LARGE, 1.0))
+        times = choose(large, 64.0, choose(little, -64.0, 0.0))
+        arrived = stage == ARRIVED
+        put(s, i, ACROSS, choose(arrived, a * scale, across))
+        put(s, i, ALONG, choose(arrived, b * scale, along))
+        put(s, i, DOUBLINGS, choose(arrived, doublings + times, doublings))
+    for i in range(LANES):
+        stage, start, cycle, side = of(s, i, STAGE), of(s, i, START), of(s, i, CYCLE), of(s, i, SIDE)
+        velocity, cosine, sine, wait = of(s, i, VELOCITY), of(s, i, COSINE), of(s, i, SINE), of(s, i, WAIT)
+        angle, peak, events, hits = of(s, i, ANGLE), of(s, i, PEAK), of(s, i, EVENTS), of(s, i, BRACE_HITS)
+        speed, next_cosine, next_sine = of(s, i, SPEED), of(s, i, NEXT_COSINE), of(s, i, NEXT_SINE)
+        period, per_period, brace_angle = of(s, i, PERIOD), of(s, i, PER_PERIOD), of(s, i, BRACE_ANGLE)
+        restitution, brace_restitution = of(s, i, RESTITUTION), of(s, i, BRACE_RESTITUTION)
+        tries, about = of(s, i, TRIES), of(s, i, ABOUT)
+        knot_angle, knot_rate = of(s, i, KNOT_ANGLE), of(s, i, KNOT_RATE)
+        knot_cosine, knot_sine = of(s, i, KNOT_COSINE), of(s, i, KNOT_SINE)
+        hit, arrived = of(s, i, AT_BRACE) > 0.0, stage == ARRIVED
+        begins = arrived | (stage == BEGUN)
+        turns, turned = math.floor((start + wait) * per_period), choose(hit, 1.0, -1.0)
+        angle = choose(arrived, choose(hit, brace_angle, 0.0), angle)
+        velocity = choose(arrived, choose(hit, -brace_restitution, restitution) * speed, velocity)
+        cosine, sine = (
+            choose(arrived, turned * next_cosine, cosine),
+            choose(arrived, turned * next_sine, sine),
+        )
+        put(s, i, START, choose(arrived, fma(-turns, period, start) + wait, start))
+        put(s, i, CYCLE, choose(arrived, cycle + turns, cycle))
+        put(s, i, SIDE, choose(arrived, turned * side, side))
+        put(s, i, ANGLE, angle)
+        put(s, i, VELOCITY, velocity)
+        put(s, i, COSINE, cosine)
+        put(s, i, SINE, sine)
+        peak = choose(arrived, max(peak, angle), peak)
+        put(s, i, PEAK, peak)
+        put(s, i, EXCEEDS, choose(peak < brace_angle, 1.0, 0.0))
+        put(s, i, EVENTS, choose(arrived, events + 1.0, events))
+        put(s, i, BRACE_HITS, choose(arrived & hit, hits + 1.0, hits))
+        put(s, i, KNOT_ANGLE, choose(begins, angle, knot_angle))
+        put(s, i, KNOT_RATE, choose(begins, velocity, knot_rate))
+        put(s, i, KNOT_COSINE, choose(begins, cosine, knot_cosine))
+        put(s, i, KNOT_SINE, choose(begins, sine, knot_sine))
+        put(s, i, ABOUT, choose(begins, 0.0, about))
+        put(s, i, TRIES, choose(begins, 0.0, tries))
+        put(s, i, STAGE, choose(begins, WALK, stage))
