@@ -193,3 +193,29 @@ def test_answers_hang_on_no_neighbour(cycles, brace):
     for part in (order, order[:37], order[:1]):
         for name, found in zip(whole._fields, together(systems[part], starts[part], cycles), strict=True):
             assert np.array_equal(found, getattr(whole, name)[part], equal_nan=True), name
+
+
+# A, T, φ, e, Θb, r, cycles, the longest period: what settles, comes to rest or leans on its way, or repeats itself too late to be told
+BETWEEN = [
+    (6.022018400548217, 1.9750950957845779, 0.29689638055990913, 0.925, 1.019706035213965, 0.0, 300, 16),
+    (11.878404776566112, 3.106661053765255, 5.027015349696704, 0.0, 2.0974020582417823, 0.5, 300, 16),
+    (8.864972439615363, 1.048110040198151, 1.0585106915763935, 0.0, 1.5447596165716047, 0.5, 300, 16),
+    (12.99709910694312, 2.7609999463791652, 5.131536056243492, 0.0, 0.1956577024688689, 0.9, 100, 8),
+    (11.671392852155254, 0.27002929228725797, 1.5428964528312439, 1.0, 0.15097622797314594, 0.0, 300, 16),
+    (15.516832141844997, 0.23866310407682245, 5.799713591443896, 0.3, 2.8126752941286064, 0.5, 300, 16),
+    (5.0, 0.2, 0.16, 0.925, 0.5, 1.0, 6000, 1),
+]
+
+
+@pytest.mark.parametrize("case", BETWEEN, ids=lambda case: f"A={case[0]:.3g}, e={case[3]}, r={case[5]}")
+def test_what_differences_forget_is_told_alike_between_braces(case):
+    """Also when, after how many events of which kind, and how fast differences shrink."""
+    amplitude, period, phase, restitution, brace, returned, cycles, longest = case
+    systems = np.array([[amplitude, math.tau / period, period, phase, restitution, brace, returned]])
+    starts, go_on = np.zeros((1, 2)), np.zeros(1, np.int64)
+    alone, found = no_answers(1), many.judge_many(systems, starts, cycles, longest, go_on)
+    many.judge_each(systems, starts, cycles, longest, desk(cycles, longest), alone, go_on)
+    for name in ("kind", "ground", "period", "symmetric", "impacts", "brace_hits", "transient", "cycles"):
+        assert getattr(found, name) == getattr(alone, name), name
+    for name in ("exponent", "peak"):
+        assert getattr(found, name) == pytest.approx(getattr(alone, name), rel=1e-9), name

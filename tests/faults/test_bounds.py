@@ -29,6 +29,11 @@ amplitude, period = (axis.ravel() for axis in np.meshgrid(np.linspace(1.01, 7.0,
 one = np.ones(period.size)
 systems = np.column_stack([amplitude, math.tau / period, period, 0.0 * one, one, math.inf * one, one])
 many.judge_many(systems, np.tile((0.0, 0.3), (len(systems), 1)), 20_000, 1, np.zeros(1, np.int64))
+
+# between braces with hardly any loss: long legs of few events
+systems[:, 4], systems[:, 5], systems[:, 6] = 0.9999, 3.0, 0.9999
+for max_cycles, max_period in ((6_000, 1), (10_000, 64)):
+    many.judge_many(systems[::3], np.tile((0.0, 0.3), (len(systems[::3]), 1)), max_cycles, max_period, np.zeros(1, np.int64))
 """
 
 

@@ -36,8 +36,9 @@ def check_against_classify(found, axes, fixed, max_cycles=200, max_period=64):
         assert at["impacts_per_period"] == told(verdict.impacts_per_period, -1)
         assert at["brace_hits_per_period"] == told(verdict.brace_hits_per_period, -1)
         assert at["symmetric"] == (2 if verdict.symmetric is None else verdict.symmetric)
-        # A map marches what loses nothing in lanes, where other roundings are made.
-        tolerance = 1e-9 if verdict.system.restitution == 1.0 else 0.0
+        # A map marches in lanes, where other roundings are made, what loses nothing or stands between braces.
+        in_lanes = verdict.system.restitution == 1.0 or verdict.system.braces is not None
+        tolerance = 1e-9 if in_lanes else 0.0
         for name in ("exponent", "exponent_error"):
             assert at[name] == pytest.approx(
                 told(getattr(verdict, name), math.nan), abs=tolerance, rel=tolerance, nan_ok=True
@@ -72,7 +73,7 @@ def test_every_point_is_what_classify_says():
         ),
         (
             {"brace_angle": np.linspace(0.5, 2.0, 4), "brace_restitution": np.linspace(0.0, 1.0, 4)},
-            {"amplitude": 5.0, "period": 1.5, "restitution": 0.9},
+            {"amplitude": 3.0, "period": 1.5, "restitution": 0.9},
         ),
         (
             {"amplitude": np.linspace(1.0, 16.0, 4), "angle": np.linspace(-0.9, 0.9, 4)},

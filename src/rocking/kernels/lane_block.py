@@ -5,9 +5,11 @@ import math
 from numba import njit
 
 from .arc import NONE_YET, arc_after, earlier
+from .crossing import LONGEST
 from .elementary import INNER, WITHIN
 from .events import BRACE, FLIGHT, IMPACT, next_event
 from .harmonic import clock
+from .impact import SLOW
 from .lanes import (
     ACROSS,
     ALONE,
@@ -17,6 +19,7 @@ from .lanes import (
     AT_BRACE,
     BEGUN,
     BRACE_HITS,
+    CONTENT,
     COSINE,
     COUNTED,
     CYCLE,
@@ -52,10 +55,11 @@ from .lanes import (
     trail_is_full,
 )  # fmt: skip
 from .lossless import Flights, sketch
-from .march import DONE, RESYNCHRONISE, UNKNOWN, Progress
+from .march import CROWDED, DONE, RESYNCHRONISE, UNKNOWN, Progress
 from .release import Watch
+from .settling import base_settling_time, brace_settling_time
 from .turning import largest_on
-from .verdict import Run, room
+from .verdict import Run, most_events, room
 
 LN2 = math.log(2.0)
 
@@ -78,10 +82,16 @@ def seat(s, i, p, progress, columns, collected):
     put(s, i, UNCOLLECTED, events - collected)
     put(s, i, BRACE_HITS, progress.brace_hits)
     put(s, i, PEAK, progress.peak)
+    put(s, i, STAGE, BEGUN)
+    set_difference(s, i, columns)
+
+
+@njit(**INNER)
+def set_difference(s, i, columns):
+    """The difference that a lane carries from here on."""
     put(s, i, ACROSS, columns[0, 0])
     put(s, i, ALONG, columns[0, 1])
     put(s, i, DOUBLINGS, 0.0)
-    put(s, i, STAGE, BEGUN)
 
 
 @njit(**INNER)
@@ -117,7 +127,7 @@ def flights_by_now(s, i, flights, most):
 
 
 @njit(**WITHIN)
-def read(s, i, wants, p, run, desk, trail):
+def read(s, i, wants, p, run, max_cycles, desk, trail):
     """(status, run) of a lane, with what happened since it was last read: at the end of the leg if it wants that."""
     watch, flights, section_time, count, lossless, measuring = run
     before, arc, cycle, target = watch.progress, arc_of(s, i, p), int(of(s, i, CYCLE)), int(of(s, i, TARGET))
@@ -127,6 +137,9 @@ def read(s, i, wants, p, run, desk, trail):
         flights = Flights(IMPACT, cycle, arc.start, flights.first_cycle, collected)
     if wants == LEG_END:
         arc, cycle, pending = earlier(arc, (target - cycle) * p.period), target, True
+    elif cycle < before.cycle:
+        # the arc under way began before the lane was last read
+        arc, cycle, pending = earlier(arc, (before.cycle - cycle) * p.period), before.cycle, before.pending
     events, hits, peak = int(of(s, i, EVENTS)), int(of(s, i, BRACE_HITS)), of(s, i, PEAK)
     wait = of(s, i, WAIT) if of(s, i, STAGE) == ARRIVED else UNKNOWN[0]
     after = Progress(
@@ -152,14 +165,36 @@ def read(s, i, wants, p, run, desk, trail):
     grown, desk.columns[0, 0], desk.columns[0, 1] = growth_since(s, i)
     desk.growth[0] += grown
     watch = Watch(after, watch.base, watch.brace, 0, 0.0, watch.peak)
-    return DONE, Run(watch, flights, section_time, count, lossless, measuring)
+    status = CROWDED if events > most_events(max_cycles) else DONE
+    return status, Run(watch, flights, section_time, count, lossless, measuring)
 
 
 @njit(**WITHIN)
 def over(s, i):
-    """Whether the coming impact lies beyond the end of the leg."""
+    """Whether the coming event lies beyond the end of the leg."""
     left = (of(s, i, TARGET) - of(s, i, CYCLE)) * of(s, i, PERIOD)
     return of(s, i, START) + of(s, i, WAIT) > left
+
+
+@njit(**WITHIN)
+def settles(s, i, p):
+    """Whether events certainly accumulate after the coming one, as in ``impact``."""
+    hits, cosine, sine = of(s, i, AT_BRACE) > 0.0, of(s, i, NEXT_COSINE), of(s, i, NEXT_SINE)
+    restitution = p.brace_restitution if hits else p.restitution
+    speed = restitution * of(s, i, SPEED)
+    if not (restitution < 1.0 and speed < SLOW):
+        return False
+    if hits:
+        return brace_settling_time(p, cosine, sine, speed) <= LONGEST
+    return base_settling_time(p, -cosine, -sine, speed) <= LONGEST
+
+
+@njit(**WITHIN)
+def wanted(s, i, p):
+    """What a lane wants that may have arrived: the end of its leg, to be marched alone, or nothing."""
+    if of(s, i, STAGE) != ARRIVED:
+        return CONTENT
+    return LEG_END if over(s, i) else ALONE if settles(s, i, p) else CONTENT
 
 
 @njit(**WITHIN)
@@ -178,8 +213,9 @@ def find(s, i, p):
     put(s, i, NEXT_SINH, coming.sinh)
     put(s, i, NEXT_VERSINH, coming.versinh)
     put(s, i, STAGE, ARRIVED)
-    if over(s, i):
-        return LEG_END
+    wants = wanted(s, i, p)
+    if wants != CONTENT:
+        return wants
     full = trail_is_full(of(s, i, TRAILS), of(s, i, EVENTS), of(s, i, COUNTED))
     return READING if full else PEAK_SEEN
 

@@ -104,7 +104,7 @@ def strike(s):
             of(s, i, RESTITUTION),
             of(s, i, NEXT_COSINE),
         )
-        impacts = of(s, i, EVENTS)
+        events = of(s, i, EVENTS)
         # as ``tangent.event_map``
         shear = fma((1.0 - restitution) * amplitude, next_cosine, -(1.0 + restitution)) / speed
         a, b = fma(cosh, across, sinh * along), fma(sinh, across, cosh * along)
@@ -117,7 +117,7 @@ def strike(s):
         put(s, i, ACROSS, choose(arrived, a * scale, across))
         put(s, i, ALONG, choose(arrived, b * scale, along))
         put(s, i, DOUBLINGS, choose(arrived, doublings + times, doublings))
-        put(s, i, EVENTS, choose(arrived, impacts + 1.0, impacts))
+        put(s, i, EVENTS, choose(arrived, events + 1.0, events))
     for i in range(LANES):
         stage, start, cycle, side = of(s, i, STAGE), of(s, i, START), of(s, i, CYCLE), of(s, i, SIDE)
         velocity, cosine, sine, wait = of(s, i, VELOCITY), of(s, i, COSINE), of(s, i, SINE), of(s, i, WAIT)

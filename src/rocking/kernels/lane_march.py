@@ -2,7 +2,7 @@
 
 from numba import njit
 
-from . import lane_brace, lane_impact, lane_walk, lane_zero
+from . import lane_brace, lane_event, lane_impact, lane_walk, lane_zero
 from .branchless import EXACT
 
 
@@ -28,7 +28,7 @@ def advance(s):
 @njit(**EXACT)
 def strike_between(s):
     """``strike`` between braces."""
-    lane_brace.strike(s)
+    lane_event.strike(s)
 
 
 @njit(**EXACT)
@@ -36,4 +36,4 @@ def advance_between(s):
     """``advance`` between braces."""
     lane_brace.aim(s)
     lane_brace.step(s)
-    return lane_brace.attend(s)
+    return lane_event.attend(s)

@@ -1,10 +1,10 @@
-"""Many blocks in lockstep: the march of blocks that fly from impact to impact, without a branch.
+"""Many blocks in lockstep: the march of blocks that fly from event to event, without a branch.
 
 A lane holds one block: row r of lane i lies at ``state[r * LANES + i]``, so that one instruction moves several blocks.
 In a pass every lane does what is next for it. It walks along the stretches of its arc to the one in which the first
 zero of u lies (``lane_walk``), guesses it there, evaluates the arc and steps to it (``lane_zero``), and the impact
-begins the next arc (``lane_impact``). Whatever is rare, or not certain by a wide margin, is left to the functions
-for one block: the lane wants attention.
+begins the next arc (``lane_impact``); between braces ``lane_brace`` and ``lane_event`` do all that. Whatever is rare, or
+not certain by a wide margin, is left to the functions for one block: the lane wants attention.
 """
 
 import math
@@ -37,7 +37,7 @@ LANES = 48
     # u, u', cos eta and sin eta there, and before that where the series that guesses the time is about; when that is, and
     # how much later it is entered
     ANGLE_THERE, RATE_THERE, COSINE_THERE, SINE_THERE, ABOUT, OFF,
-    # the impact to come
+    # the event to come
     WAIT, SPEED, NEXT_COSINE, NEXT_SINE, NEXT_SINH, NEXT_VERSINH, WANTS,
     # the end of the leg; whether its arcs are asked for; the events counted before it began, those of no flight that was
     # collected, all; the largest angle
@@ -55,9 +55,9 @@ LANES = 48
 # step to the zero; the event, once it was attended to; what none of these can do; to look from further on.
 IDLE, BEGUN, WALK, GUESS, BOTTOM, REFINE, ARRIVED, UNSURE, FURTHER = (float(stage) for stage in range(9))
 # What a lane wants: nothing; that its peak be looked at; that its trail be read; a block; that its leg be ended; that its block
-# be marched alone; that the coming event be found.
-CONTENT, PEAK_SEEN, READING, BLOCK, LEG_END, ALONE, CERTAINTY = (float(want) for want in range(7))
-# An impact slower than this is marched alone.
+# be marched alone; that the coming event be found; that it be asked whether what follows a slow event accumulates.
+CONTENT, PEAK_SEEN, READING, BLOCK, LEG_END, ALONE, CERTAINTY, SLOW_SEEN = (float(want) for want in range(8))
+# An event slower than this is marched alone.
 SLOWEST = 1e-6
 # Arcs since the trail was last read.
 TRAIL = 384
@@ -78,9 +78,9 @@ def put(s, i, row, value):
 
 
 @njit(**EXACT_INNER)
-def trail_is_full(trails, impacts, counted):
+def trail_is_full(trails, events, counted):
     """Whether a trail must be read before another arc is written into it: where none is asked for (``trails`` 0) never."""
-    return trails * (impacts - counted) > TRAIL - 3.0
+    return trails * (events - counted) > TRAIL - 3.0
 
 
 @njit(**EXACT_INNER)

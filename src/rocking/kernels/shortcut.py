@@ -34,7 +34,7 @@ LOOKS = 8
 NOWHERE = Instant(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 # The step by the reverted series and the Taylor series that follow it are exact to rounding for steps below this, in
 # units of 1/max(1, Omega), of w'/w'' and of the root of w'/w'''.
-SMALL = 1e-3
+SMALL = 2e-4
 # A longer step is polished where it is shorter than REACH, in units of 1/max(1, Omega), in so many rounds; from a
 # bend below this one more round would not show.
 REACH, ROUNDS, BEND = 1.8, 3, 0.25

@@ -10,11 +10,22 @@ import numpy as np
 from numba import njit
 
 from .answers import Answers, answer, asked
-from .desk import place
+from .desk import LEG, place
 from .elementary import INNER, MAKING_ENTRY, WITHIN
 from .events import FLIGHT, IMPACT
 from .judgement import OPEN, undecided
-from .lane_block import find, flights_by_now, growth_since, note, over, read, seat, see_peak, set_leg
+from .lane_block import (
+    find,
+    flights_by_now,
+    growth_since,
+    note,
+    read,
+    seat,
+    see_peak,
+    set_difference,
+    set_leg,
+    wanted,
+)
 from .lane_march import advance, advance_between, strike, strike_between
 from .lanes import (
     ALONE,
@@ -27,8 +38,10 @@ from .lanes import (
     LANES,
     LEG_END,
     PEAK_SEEN,
+    SLOW_SEEN,
     SLOWEST,
     STAGE,
+    TARGET,
     TRAILS,
     WANTS,
     of,
@@ -111,11 +124,12 @@ def onward(s, i, wants, guest, queue, asking, bench):
     point, p, case = guest
     desk, trail = place(bench, i), bench.trail[i]
     systems, starts, max_cycles, max_period, answers = asking
-    told, settled, marched = undecided(case.run.watch), wants == BLOCK, wants == LEG_END
-    stays, due = wants < BLOCK or marched, marched or wants == ALONE
+    told, settled, ended = undecided(case.run.watch), wants == BLOCK, wants == LEG_END
+    marched = ended and of(s, i, TARGET) == next_look(case, max_cycles)
+    stays, due = wants < BLOCK or ended, marched or wants == ALONE
     status, run = np.int64(DONE), case.run
     if not settled:
-        status, run = read(s, i, wants, p, run, desk, trail)
+        status, run = read(s, i, wants, p, run, max_cycles, desk, trail)
         case = with_run(case, run)
     while due or settled or not fits(p, case):
         if settled:
@@ -136,9 +150,12 @@ def onward(s, i, wants, guest, queue, asking, bench):
             status, run = leg(p, case.run, max_cycles, next_look(case, max_cycles), desk)
         told, case = look(p, case, status, run, max_cycles, max_period, desk)
         due, marched, settled = False, False, told[0] != OPEN
-    if not stays:
+    if stays:
+        set_difference(s, i, desk.columns)
+    else:
         seat(s, i, p, case.run.watch.progress, desk.columns, case.run.flights.count)
-    target = next_look(case, max_cycles)
+    # no more cycles at a time than the section has room for
+    target = min(next_look(case, max_cycles), case.run.watch.progress.cycle + LEG)
     asked_for = not case.run.lossless or may_be_asked_for(
         desk.growth[0], target, max_cycles, desk.scratch.shape[0]
     )
@@ -176,6 +193,8 @@ def judge_together(systems, starts, max_cycles, max_period, bench, answers, stop
                 continue
             if wants == CERTAINTY:
                 wants = find(s, i, guests[i].p)
+            elif wants == SLOW_SEEN:
+                wants = wanted(s, i, guests[i].p)
             while wants != CONTENT and wants != PEAK_SEEN:
                 on, guest = (
                     passed(s, i, guests[i], max_cycles, bench) if wants == LEG_END else (False, guests[i])
@@ -184,7 +203,7 @@ def judge_together(systems, starts, max_cycles, max_period, bench, answers, stop
                     guest, queue = onward(s, i, wants, guest, queue, asking, bench)
                     blocks -= guest.point < 0
                 guests[i] = guest
-                wants = LEG_END if of(s, i, STAGE) == ARRIVED and over(s, i) else CONTENT
+                wants = wanted(s, i, guests[i].p)
             if of(s, i, STAGE) == ARRIVED and of(s, i, EXCEEDS) > 0.0:
                 see_peak(s, i, guests[i].p)
         if blocks == 0:

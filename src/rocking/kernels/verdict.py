@@ -110,10 +110,16 @@ def room(section, count, coming, looked_at):
     return kept
 
 
+@njit(**INNER)
+def most_events(max_cycles):
+    """A motion with more events is not judged to its end."""
+    return MOST_EVENTS_A_CYCLE * max_cycles + FREE_EVENTS
+
+
 @njit(**WRITTEN_IN)
 def leg(p, run, max_cycles, target, desk):
     """(status, run): a motion followed to ``target`` with its last states."""
-    most = MOST_EVENTS_A_CYCLE * max_cycles + FREE_EVENTS
+    most = most_events(max_cycles)
     watch, flights, section_time, count, lossless, measuring = run
     cycle, rows = watch.progress.cycle, desk.scratch.shape[0]
     count = room(desk.section, count, target - cycle, rows)
@@ -125,7 +131,9 @@ def leg(p, run, max_cycles, target, desk):
         watch = Watch(progress, watch.base, watch.brace, 0, 0.0, watch.peak)
         return status, Run(watch, flights, section_time, count, lossless, measuring)
     growth = desk.growth if measuring else desk.nothing.growth
-    total, status = count + min(target - cycle, rows), np.int64(DONE)
+    # the section of the cycle under way may be past
+    coming = target - cycle - (not watch.progress.pending)
+    total, status = count + min(coming, rows), np.int64(DONE)
     while status == DONE and cycle < target:
         # Of a long leg only the last states are kept.
         until = target if target - cycle <= rows else target - rows
