@@ -1,4 +1,4 @@
-"""Many blocks in lockstep against one after another, on the map of what loses nothing."""
+"""Many blocks in lockstep against one after another, on the map of what loses nothing and on that between braces."""
 
 import math
 from time import thread_time
@@ -13,37 +13,37 @@ from rocking.kernels.desk import desk
 
 POINTS, FINER = 100, 200
 PERIODS, AMPLITUDES = (0.2, 3.0), (0.0, 16.0)
-CYCLES, MAX_PERIOD = 10_000, 64
+CYCLES, BRACED_CYCLES, MAX_PERIOD = 10_000, 1_000, 64
 RUNS = 3
 STILL_OPEN = (3, 5)
 
 
-def one_by_one(systems):
+def one_by_one(systems, cycles=CYCLES):
     """Every point judged alone."""
     answers = no_answers(len(systems))
     starts, go_on = np.zeros((len(systems), 2)), np.zeros(1, np.int64)
-    many.judge_each(systems, starts, CYCLES, MAX_PERIOD, desk(CYCLES, MAX_PERIOD), answers, go_on)
+    many.judge_each(systems, starts, cycles, MAX_PERIOD, desk(cycles, MAX_PERIOD), answers, go_on)
     return answers
 
 
-def in_lanes(systems):
+def in_lanes(systems, cycles=CYCLES):
     """What a survey does."""
-    return many.judge_many(systems, np.zeros((len(systems), 2)), CYCLES, MAX_PERIOD, np.zeros(1, np.int64))
+    return many.judge_many(systems, np.zeros((len(systems), 2)), cycles, MAX_PERIOD, np.zeros(1, np.int64))
 
 
-def systems_of(points, restitution=1.0):
+def systems_of(points, restitution=1.0, brace_angle=math.inf):
     """The map, so many points along either axis."""
     period, amplitude = (
         axis.ravel() for axis in np.meshgrid(np.linspace(*PERIODS, points), np.linspace(*AMPLITUDES, points))
     )
     one = np.ones(period.size)
     return np.column_stack(
-        [amplitude, math.tau / period, period, 0 * one, restitution * one, math.inf * one, one]
+        [amplitude, math.tau / period, period, 0 * one, restitution * one, brace_angle * one, one]
     )
 
 
 def against_one():
-    """The map at e = 1, and those points of a finer one that are marched to the end of the budget."""
+    """The map at e = 1, those points of a finer one that are marched to the end of the budget, and the map between braces."""
     many.compile_many(True)
     systems = systems_of(POINTS)
     together, answers = quickest(RUNS, lambda: in_lanes(systems), thread_time)
@@ -73,4 +73,15 @@ def against_one():
         5,
         least=True,
         note=f"{len(longest):,} points, that the lanes stay full",
+    )
+    braced = systems_of(POINTS, 0.925, 1.0)
+    together, _ = quickest(RUNS, lambda: in_lanes(braced, BRACED_CYCLES), thread_time)
+    alone, _ = quickest(RUNS, lambda: one_by_one(braced, BRACED_CYCLES), thread_time)
+    yield Figure(
+        "with braces, 10³ cycles: against one by one",
+        alone / together,
+        "×",
+        1,
+        least=True,
+        note=f"{1e6 * together / len(braced):.3g} µs a point",
     )
