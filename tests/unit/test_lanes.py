@@ -180,33 +180,26 @@ def test_first_events_between_braces_are_those_of_one_block():
     assert certain.mean() > 0.9
 
 
-@pytest.mark.parametrize("brace_angle", [0.3, 1.0])
-def test_what_a_lane_does_between_braces_hangs_on_no_other(brace_angle):
+@pytest.mark.parametrize(
+    ("amplitude", "period", "restitution", "brace"),
+    [
+        (4.0, 0.4, 0.8, math.inf),
+        (4.0, 0.4, 0.95, math.inf),
+        (4.0, 0.4, 1.0, math.inf),
+        (8.0, 1.0, 0.9, 0.3),
+        (8.0, 1.0, 0.9, 1.0),
+    ],
+)
+def test_what_a_lane_does_hangs_on_no_other(amplitude, period, restitution, brace):
     """Every bit of it, wherever the block sits and whoever sits beside it."""
-    p = harmonic_parameters(8.0, math.tau, 1.0, 0.3, 0.9, brace_angle, 0.8)
+    p = harmonic_parameters(amplitude, math.tau / period, period, 0.3, restitution, brace, 0.8)
     random = np.random.default_rng(5)
-    blocks = [(1, float(random.uniform(0, 1)), float(random.uniform(0.2, 2.0))) for _ in range(lanes.LANES)]
+    blocks = [
+        (1, float(random.uniform(0, period)), float(random.uniform(0.2, 0.6))) for _ in range(lanes.LANES)
+    ]
 
     def marched(order):
         s, noted = oracle.empty(), np.zeros((lanes.LANES, 2000, 4))
-        for i, k in enumerate(order):
-            oracle.sit_down(s, i, p, *blocks[k], oracle.EYE, 20)
-        oracle.to_the_end(s, p, noted)
-        return noted[np.argsort(order)]
-
-    order = random.permutation(lanes.LANES)
-    assert np.array_equal(marched(np.arange(lanes.LANES)), marched(order))
-
-
-@pytest.mark.parametrize("restitution", [0.8, 0.95, 1.0])
-def test_what_a_lane_does_hangs_on_no_other(restitution):
-    """Every bit of it, wherever the block sits and whoever sits beside it."""
-    p = harmonic_parameters(4.0, math.tau / 0.4, 0.4, 0.3, restitution)
-    random = np.random.default_rng(5)
-    blocks = [(1, float(random.uniform(0, 0.4)), float(random.uniform(0.2, 0.6))) for _ in range(lanes.LANES)]
-
-    def marched(order):
-        s, noted = oracle.empty(), np.zeros((lanes.LANES, 400, 4))
         for i, k in enumerate(order):
             oracle.sit_down(s, i, p, *blocks[k], oracle.EYE, 20)
         oracle.to_the_end(s, p, noted)

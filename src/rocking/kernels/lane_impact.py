@@ -89,44 +89,55 @@ def attend(s):
 
 
 @njit(**EXACT_INNER)
+def sheared(s, i):
+    """Of an impact in lane i the shear times the speed, as ``tangent.event_map`` has it."""
+    restitution, next_cosine = of(s, i, RESTITUTION), of(s, i, NEXT_COSINE)
+    return fma((1.0 - restitution) * of(s, i, AMPLITUDE), next_cosine, -(1.0 + restitution))
+
+
+@njit(**EXACT_INNER)
+def carry(s, i, factor, shear):
+    """What an event, [[factor, 0], [shear, factor]], makes of the difference in lane i, where that has arrived."""
+    stage, across, along, doublings = (
+        of(s, i, STAGE),
+        of(s, i, ACROSS),
+        of(s, i, ALONG),
+        of(s, i, DOUBLINGS),
+    )
+    sinh, cosh, events = of(s, i, NEXT_SINH), 1.0 + of(s, i, NEXT_VERSINH), of(s, i, EVENTS)
+    a, b = fma(cosh, across, sinh * along), fma(sinh, across, cosh * along)
+    a, b = factor * a, fma(shear, a, factor * b)
+    size = abs(a) + abs(b)
+    large, little = size > LARGE, size < 1.0 / LARGE
+    scale = choose(large, 1.0 / LARGE, choose(little, LARGE, 1.0))
+    times = choose(large, 64.0, choose(little, -64.0, 0.0))
+    arrived = stage == ARRIVED
+    put(s, i, ACROSS, choose(arrived, a * scale, across))
+    put(s, i, ALONG, choose(arrived, b * scale, along))
+    put(s, i, DOUBLINGS, choose(arrived, doublings + times, doublings))
+    put(s, i, EVENTS, choose(arrived, events + 1.0, events))
+
+
+@njit(**EXACT_INNER)
+def turn_clock(s, i):
+    """The cycle of the event in lane i, and the time within it, where that has arrived."""
+    stage, start, cycle, wait = of(s, i, STAGE), of(s, i, START), of(s, i, CYCLE), of(s, i, WAIT)
+    turns, arrived = math.floor((start + wait) * of(s, i, PER_PERIOD)), stage == ARRIVED
+    put(s, i, START, choose(arrived, fma(-turns, of(s, i, PERIOD), start) + wait, start))
+    put(s, i, CYCLE, choose(arrived, cycle + turns, cycle))
+
+
+@njit(**EXACT_INNER)
 def strike(s):
     """Impacts: where a lane has arrived, eq. (2) and the next arc."""
     for i in range(LANES):
-        stage, across, along, doublings = (
-            of(s, i, STAGE),
-            of(s, i, ACROSS),
-            of(s, i, ALONG),
-            of(s, i, DOUBLINGS),
-        )
-        sinh, cosh, speed = of(s, i, NEXT_SINH), 1.0 + of(s, i, NEXT_VERSINH), of(s, i, SPEED)
-        amplitude, restitution, next_cosine = (
-            of(s, i, AMPLITUDE),
-            of(s, i, RESTITUTION),
-            of(s, i, NEXT_COSINE),
-        )
-        events = of(s, i, EVENTS)
-        # as ``tangent.event_map``
-        shear = fma((1.0 - restitution) * amplitude, next_cosine, -(1.0 + restitution)) / speed
-        a, b = fma(cosh, across, sinh * along), fma(sinh, across, cosh * along)
-        a, b = restitution * a, fma(shear, a, restitution * b)
-        size = abs(a) + abs(b)
-        large, little = size > LARGE, size < 1.0 / LARGE
-        scale = choose(large, 1.0 / LARGE, choose(little, LARGE, 1.0))
-        times = choose(large, 64.0, choose(little, -64.0, 0.0))
-        arrived = stage == ARRIVED
-        put(s, i, ACROSS, choose(arrived, a * scale, across))
-        put(s, i, ALONG, choose(arrived, b * scale, along))
-        put(s, i, DOUBLINGS, choose(arrived, doublings + times, doublings))
-        put(s, i, EVENTS, choose(arrived, events + 1.0, events))
+        carry(s, i, of(s, i, RESTITUTION), sheared(s, i) / of(s, i, SPEED))
     for i in range(LANES):
-        stage, start, cycle, side = of(s, i, STAGE), of(s, i, START), of(s, i, CYCLE), of(s, i, SIDE)
-        velocity, cosine, sine, wait = of(s, i, VELOCITY), of(s, i, COSINE), of(s, i, SINE), of(s, i, WAIT)
+        turn_clock(s, i)
+        stage, side, velocity = of(s, i, STAGE), of(s, i, SIDE), of(s, i, VELOCITY)
+        cosine, sine = of(s, i, COSINE), of(s, i, SINE)
         speed, next_cosine, next_sine = of(s, i, SPEED), of(s, i, NEXT_COSINE), of(s, i, NEXT_SINE)
-        period, per_period, restitution = of(s, i, PERIOD), of(s, i, PER_PERIOD), of(s, i, RESTITUTION)
-        arrived = stage == ARRIVED
-        turns = math.floor((start + wait) * per_period)
-        put(s, i, START, choose(arrived, fma(-turns, period, start) + wait, start))
-        put(s, i, CYCLE, choose(arrived, cycle + turns, cycle))
+        restitution, arrived = of(s, i, RESTITUTION), stage == ARRIVED
         put(s, i, SIDE, choose(arrived, -side, side))
         put(s, i, VELOCITY, choose(arrived, restitution * speed, velocity))
         put(s, i, COSINE, choose(arrived, -next_cosine, cosine))
