@@ -77,7 +77,7 @@ class Asking(NamedTuple):
 
 @njit(**WITHIN)
 def fits(p, case):
-    """Whether plain marching is all that is left: between braces from impact to impact, or without any where nothing is lost."""
+    """Whether plain marching is all that is left: between braces from event to event, or without any where nothing is lost."""
     run, watch = case.run, case.run.watch
     progress, arc = watch.progress, watch.progress.arc
     if progress.mode != FLIGHT or not (p.amplitude > 1.0 and p.period >= SHORTEST):
