@@ -40,10 +40,18 @@ class Desk(NamedTuple):
     nothing: Nothing
 
 
+def apart(count):
+    """So many numbers, or a few more, that of rows of them not all begin on the same line of the fast memory's pages.
+
+    Lanes write into all their rows in turn; where those compete for a few lines each write waits.
+    """
+    return count + (8 - count) % 512
+
+
 def desk(max_cycles, max_period):
     """Working memory for runs of up to ``max_cycles`` and orbits of up to ``max_period``."""
     rows = max(4 * max_period, LEG) + 1
-    flights = min(max(4 * max_cycles, 1024), 1 << 18)
+    flights = apart(min(max(4 * max_cycles, 1024), 1 << 18))
     return Desk(
         np.empty((rows + SPARE * LEG, 8)),
         np.empty((rows, 4)),

@@ -59,8 +59,8 @@ IDLE, BEGUN, WALK, GUESS, BOTTOM, REFINE, ARRIVED, UNSURE, FURTHER = (float(stag
 CONTENT, PEAK_SEEN, READING, BLOCK, LEG_END, ALONE, CERTAINTY, SLOW_SEEN = (float(want) for want in range(8))
 # An event slower than this is marched alone.
 SLOWEST = 1e-6
-# Arcs since the trail was last read.
-TRAIL = 384
+# Arcs since the trail was last read; odd, as ``desk.apart`` would have it.
+TRAIL = 385
 # Differences are brought back to size 1 from here.
 LARGE = 2.0**64
 

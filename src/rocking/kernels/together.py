@@ -118,7 +118,7 @@ def passed(s, i, guest, max_cycles, bench):
     return True, Guest(point, p, further)
 
 
-@njit(**WITHIN)
+@njit(**INNER)
 def onward(s, i, wants, guest, queue, asking, bench):
     """(who is in a lane, how many were let in) after a leg, or part of one: its block again, or the next that comes to plain marching."""
     point, p, case = guest
