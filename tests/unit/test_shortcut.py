@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from numba import njit
 
-from rocking.kernels import events, shortcut, walk
+from rocking.kernels import between, events, shortcut, walk
 from rocking.kernels.arc import NONE_YET, arc_from
 from rocking.kernels.elementary import COMPILED
 from rocking.kernels.parameters import harmonic_parameters, make
@@ -16,7 +16,8 @@ SAMPLES = np.linspace(0.0, 1.0, 300)
 
 @njit(**COMPILED)
 def stays_between(p, t, angle, velocity, end, arrival):
-    return shortcut.stays_between(p, t, (angle, velocity), (end, arrival))
+    system = p.amplitude, p.frequency, p.brace_angle
+    return between.stays_between(system, t, (angle, velocity), (end, arrival))
 
 
 @njit(**COMPILED)

@@ -9,6 +9,7 @@ import math
 
 from numba import njit
 
+from .between import stays_between
 from .branchless import EXACT_INNER, choose
 from .elementary import fma
 from .lane_instant import correction, derivatives, elements, halved, instant_of, onward
@@ -116,28 +117,6 @@ def aim(s):
         )
         put(s, i, AT_BRACE, choose(aims, choose(brace_next, 1.0, 0.0), at_brace))
         put(s, i, STAGE, choose(aims, choose(told, REFINE, FURTHER), stage))
-
-
-@njit(**EXACT_INNER)
-def outweighs(first, last, off):
-    """``shortcut.outweighs``."""
-    least = min(first, last)
-    return (least > 0.0) & (first + last + 2.0 * least > off)
-
-
-@njit(**EXACT_INNER)
-def stays_between(system, t, first, last):
-    """``shortcut.stays_between``."""
-    amplitude, frequency, brace_angle = system
-    (angle, velocity), (end, arrival) = first, last
-    left, right, square = t * velocity, t * arrival, t * t
-    most = max(amplitude, 1.0, max(angle, end) - 1.0)
-    most += amplitude * abs(fma(frequency, frequency, -1.0))
-    off = (1.0 + MARGIN) / 24.0 * square * square * most + MARGIN * t
-    to_brace, end_to_brace = brace_angle - angle, brace_angle - end
-    above = outweighs(fma(3.0, angle, left), fma(3.0, end, -right), off)
-    below = outweighs(fma(3.0, to_brace, -left), fma(3.0, end_to_brace, right), off)
-    return above & below & (end >= 0.0) & (end_to_brace >= 0.0)
 
 
 @njit(**EXACT_INNER)

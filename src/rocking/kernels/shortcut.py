@@ -14,11 +14,11 @@ import math
 from numba import njit
 
 from .arc import Instant, after, lapse_of
+from .between import stays_between
 from .crossing import LONGEST, reversion, step_to_zero
 from .elementary import INNER
 from .harmonic import forcing_rates, forcing_term
 from .walk import (
-    MARGIN,
     UNSURE,
     ZERO,
     Knot,
@@ -201,32 +201,6 @@ def ahead(p, base, brace):
 
 
 @njit(**INNER)
-def outweighs(first, last, off):
-    """Whether first s (1 - s)^2 + last s^2 (1 - s) > off s^2 (1 - s)^2 for every share s of the way."""
-    least = min(first, last)
-    return least > 0.0 and first + last + 2.0 * least > off
-
-
-@njit(**INNER)
-def stays_between(p, t, first, last):
-    """Whether a flight certainly meets neither the base nor a brace within a time t, by (u, u') at its ends.
-
-    Between them u lies within t^4 s^2 (1 - s)^2 max|u''''|/24 of the cubic with the same ends, whose Bernstein coefficients
-    tell on which side of the base and of the brace that stays. u'''' = u - 1 + A (Omega^2 - 1) cos eta; and |u - 1| is nowhere
-    larger than A, or 1, or than at the ends, since u'' = u - 1 - A cos eta.
-    """
-    (angle, velocity), (end, arrival) = first, last
-    left, right, square = t * velocity, t * arrival, t * t
-    most = max(p.amplitude, 1.0, max(angle, end) - 1.0)
-    most += p.amplitude * abs(p.frequency * p.frequency - 1.0)
-    off = (1.0 + MARGIN) / 24.0 * square * square * most + MARGIN * t
-    to_brace, end_to_brace = p.brace_angle - angle, p.brace_angle - end
-    inside = end >= 0.0 and end_to_brace >= 0.0
-    above = outweighs(3.0 * angle + left, 3.0 * end - right, off)
-    return inside and above and outweighs(3.0 * to_brace - left, 3.0 * end_to_brace + right, off)
-
-
-@njit(**INNER)
 def likely_event(p, arc):
     """(answer, whether at a brace, time, instant) of the first event of a flight between braces: ZERO, or UNSURE.
 
@@ -234,13 +208,14 @@ def likely_event(p, arc):
     of no event, it begins anew further on; or, where that is beyond one, the event is sought from there. Whatever is not
     certain is asked again of half the way.
     """
+    system = p.amplitude, p.frequency, p.brace_angle
     base, brace = start_knot(p, arc, 0.0, 1.0), start_knot(p, arc, p.brace_angle, -1.0)
     told, at_brace, step = ahead(p, base, brace)
     for _ in range(LOOKS):
         lapse = lapse_of(p, base.time + step)
         now = after(p, arc, lapse)
         if not told:
-            if stays_between(p, step, (base.w, base.dw), (now.angle, now.velocity)):
+            if stays_between(system, step, (base.w, base.dw), (now.angle, now.velocity)):
                 base, brace = (
                     knot(p, arc, 0.0, 1.0, lapse.time, now),
                     knot(p, arc, p.brace_angle, -1.0, lapse.time, now),
@@ -252,7 +227,7 @@ def likely_event(p, arc):
         if told:
             place, s = (p.brace_angle, -1.0) if at_brace else (0.0, 1.0)
             reached, t, now, _ = seek(p, arc, place, s, lapse, base.time, LONGEST)
-            if reached and stays_between(p, t - base.time, (base.w, base.dw), (place, now.velocity)):
+            if reached and stays_between(system, t - base.time, (base.w, base.dw), (place, now.velocity)):
                 return ZERO, at_brace, t, now
         told, step = False, 0.5 * step
     return UNSURE, False, 0.0, NOWHERE
