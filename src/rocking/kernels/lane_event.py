@@ -5,10 +5,9 @@ from numba import njit
 from .branchless import EXACT_INNER, choose
 from .elementary import fma
 from .impact import SLOW
-from .lane_impact import carry, sheared, turn_clock
+from .lane_impact import carry, heed, sheared, turn_clock
 from .lanes import (
     ABOUT,
-    ALONE,
     AMPLITUDE,
     ANGLE,
     ARRIVED,
@@ -17,44 +16,29 @@ from .lanes import (
     BRACE_ANGLE,
     BRACE_HITS,
     BRACE_RESTITUTION,
-    CERTAINTY,
     CONTENT,
     COSINE,
-    COUNTED,
-    CYCLE,
-    EVENTS,
     EXCEEDS,
     KNOT_ANGLE,
     KNOT_COSINE,
     KNOT_RATE,
     KNOT_SINE,
     LANES,
-    LEG_END,
     NEXT_COSINE,
     NEXT_SINE,
     PEAK,
     PEAK_SEEN,
-    PERIOD,
-    READING,
     RESTITUTION,
     SIDE,
     SINE,
     SLOW_SEEN,
-    SLOWEST,
     SPEED,
     STAGE,
-    START,
-    TARGET,
-    TRAILS,
     TRIES,
-    UNSURE,
     VELOCITY,
-    WAIT,
     WALK,
-    WANTS,
     of,
     put,
-    trail_is_full,
 )  # fmt: skip
 
 
@@ -63,19 +47,12 @@ def attend(s):
     """What each lane wants before its event; whether any wants anything."""
     any_wants = False
     for i in range(LANES):
-        stage, start, wait, cycle = of(s, i, STAGE), of(s, i, START), of(s, i, WAIT), of(s, i, CYCLE)
-        target, period, at_brace = of(s, i, TARGET), of(s, i, PERIOD), of(s, i, AT_BRACE) > 0.0
-        speed, exceeds = of(s, i, SPEED), of(s, i, EXCEEDS) > 0.0
-        returned = choose(at_brace, of(s, i, BRACE_RESTITUTION), of(s, i, RESTITUTION))
-        full = trail_is_full(of(s, i, TRAILS), of(s, i, EVENTS), of(s, i, COUNTED))
+        at_brace, exceeds = of(s, i, AT_BRACE) > 0.0, of(s, i, EXCEEDS) > 0.0
+        restitution = choose(at_brace, of(s, i, BRACE_RESTITUTION), of(s, i, RESTITUTION))
+        returned = restitution * of(s, i, SPEED)
         wants = choose(exceeds & (at_brace == False), PEAK_SEEN, CONTENT)  # noqa: E712
-        wants = choose((returned < 1.0) & (returned * speed < SLOW), SLOW_SEEN, wants)
-        wants = choose(full, READING, wants)
-        wants = choose(returned * speed < SLOWEST, ALONE, wants)
-        wants = choose(start + wait > (target - cycle) * period, LEG_END, wants)
-        wants = choose(stage == ARRIVED, wants, choose(stage == UNSURE, CERTAINTY, CONTENT))
-        put(s, i, WANTS, wants)
-        any_wants |= wants != CONTENT
+        wants = choose((restitution < 1.0) & (returned < SLOW), SLOW_SEEN, wants)
+        any_wants |= heed(s, i, wants, returned)
     return any_wants
 
 

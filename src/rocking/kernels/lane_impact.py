@@ -70,21 +70,26 @@ RIGHT_ANGLE = 0.5 * math.pi
 
 
 @njit(**EXACT_INNER)
+def heed(s, i, wants, returned):
+    """Whether lane i wants anything before its event, which gives back the speed ``returned``: what that ``wants``, or what comes first."""
+    stage, start, wait, cycle = of(s, i, STAGE), of(s, i, START), of(s, i, WAIT), of(s, i, CYCLE)
+    target, period = of(s, i, TARGET), of(s, i, PERIOD)
+    full = trail_is_full(of(s, i, TRAILS), of(s, i, EVENTS), of(s, i, COUNTED))
+    wants = choose(full, READING, wants)
+    wants = choose(returned < SLOWEST, ALONE, wants)
+    wants = choose(start + wait > (target - cycle) * period, LEG_END, wants)
+    wants = choose(stage == ARRIVED, wants, choose(stage == UNSURE, CERTAINTY, CONTENT))
+    put(s, i, WANTS, wants)
+    return wants != CONTENT
+
+
+@njit(**EXACT_INNER)
 def attend(s):
     """What each lane wants before its impact; whether any wants anything."""
     any_wants = False
     for i in range(LANES):
-        stage, start, wait, cycle = of(s, i, STAGE), of(s, i, START), of(s, i, WAIT), of(s, i, CYCLE)
-        target, period, exceeds = of(s, i, TARGET), of(s, i, PERIOD), of(s, i, EXCEEDS)
-        speed, restitution = of(s, i, SPEED), of(s, i, RESTITUTION)
-        full = trail_is_full(of(s, i, TRAILS), of(s, i, EVENTS), of(s, i, COUNTED))
-        wants = choose(exceeds == 0.0, CONTENT, PEAK_SEEN)
-        wants = choose(full, READING, wants)
-        wants = choose(restitution * speed < SLOWEST, ALONE, wants)
-        wants = choose(start + wait > (target - cycle) * period, LEG_END, wants)
-        wants = choose(stage == ARRIVED, wants, choose(stage == UNSURE, CERTAINTY, CONTENT))
-        put(s, i, WANTS, wants)
-        any_wants |= wants != CONTENT
+        wants = choose(of(s, i, EXCEEDS) == 0.0, CONTENT, PEAK_SEEN)
+        any_wants |= heed(s, i, wants, of(s, i, RESTITUTION) * of(s, i, SPEED))
     return any_wants
 
 
