@@ -451,6 +451,13 @@ def test_reader_that_leaves_early_is_no_error_message():
         assert process.stderr.read() == b""
 
 
+def test_output_that_was_closed_before_is_no_error():
+    done = subprocess.run(
+        ["/bin/sh", "-c", 'exec "$@" >&-', "sh", *COMMAND, "cite"], stderr=subprocess.PIPE, check=False
+    )
+    assert (done.returncode, done.stderr) == (0, b"")
+
+
 def test_interrupted_run_says_so_and_leaves_no_file(tmp_path):
     line = f"simulate {NORMALISED} --cycles 100000 --csv motion.csv"
     process = subprocess.Popen(

@@ -150,6 +150,10 @@ def test_curves_and_symbols_are_drawn_into_the_picture(rocking, monkeypatch):
         ("--symbols 12 --plot a.png", "--symbols must be one of 'kinds', '10', '11', '13b'; got '12'"),
         ("--curves melnikov", "--curves is drawn into a picture: give --plot FILE as well"),
         ("--symbols 11 --tiles map", "--symbols is drawn into a picture: give --plot FILE as well"),
+        (
+            "--curves melnikov --plot a.png --brace-angle 0.3",
+            "--curves must lie over a map of a block without braces; got 'brace_angle = 0.3'",
+        ),
     ],
 )
 def test_what_cannot_be_drawn_is_refused_before_the_map_is_computed(rocking, monkeypatch, options, message):
@@ -238,6 +242,9 @@ REFUSED = {
     f"{LINE} --tiles {Path(__file__).parent}": (
         f"--tiles must be new, empty, or hold an earlier index.html; got {str(Path(__file__).parent)!r}, which holds something else"
     ),
+    f"{LINE} --store map --tiles ./map": "--store and --tiles must differ; got 'map' for both",
+    f"{LINE} --plot map.png --tiles map.png": "--tiles and --plot must differ; got 'map.png' for both",
+    f"{LINE} --store=": "Invalid value for '--store': must be the path of a folder; got ''",
     f"{LINE} --csv nowhere/map.csv": "--csv must lie in an existing folder; got 'nowhere/map.csv'",
     f"{LINE} --study nowhere.toml": "--study must name a TOML file; got 'nowhere.toml': No such file or directory",
 }

@@ -191,6 +191,11 @@ def test_all_errors_of_a_study_file_are_told_at_once(rocking, command, wrong, to
             "--period is normalised, --acceleration is SI: give one kind",
         ),
         (f"{CURVE} --phases 1.5", "--phases must be a whole number"),
+        (f"{BASINS} --store a.nc --netcdf a.nc", "--store and --netcdf must differ; got 'a.nc' for both"),
+        (
+            f"{CURVE.replace('0.925', '0.8:0.9:2')} --plot b.png",
+            "--plot draws over one axis; got --period and --restitution",
+        ),
     ],
 )
 def test_what_cannot_be_done_is_said_in_one_line(rocking, line, message):

@@ -214,6 +214,9 @@ def test_between_braces_every_start_is_safe():
     found = rk.safe_basin(**asked, brace_restitution=0.7, angle=(-0.5, 0.5), max_cycles=200)
     assert [share.count for share in found.shares] == [20, 20]
     assert found.dataset.attrs["brace_restitution"] == 0.7
+    assert np.isnan([found.heteroclinic_amplitude, found.melnikov_amplitude]).all()
+    assert "A*" not in str(found)
+    assert [line.get_gid() for line in rk.plot.safe_basin(found).lines] == ["safe"]
     with pytest.raises(
         ValueError, match=r"^angle must be a pair \(low, high\) in \[-0.5, 0.5\], low below high"
     ):
@@ -239,3 +242,17 @@ def test_a_safe_basin_needs_amplitudes():
         rk.safe_basin(amplitude=1.0, period=[1.0, 2.0], restitution=0.8)
     with pytest.raises(TypeError, match="a safe basin needs one quantity to vary"):
         rk.safe_basin(amplitude=1.0, period=1.0, restitution=0.8)
+
+
+def test_what_is_drawn_at_random_can_be_drawn_again_from_what_the_dataset_says():
+    asked = {"angle": (-0.4, 0.3), "velocity": (-0.2, 0.5), "samples": 20, "seed": 7}
+    told = rk.safe_basin(amplitude=[3.0, 6.0], period=1.0, restitution=0.8, **asked).dataset.attrs
+    assert {name: told[name] for name in ("samples", "seed", "angle_range", "velocity_range")} == {
+        "samples": 20,
+        "seed": 7,
+        "angle_range": [-0.4, 0.3],
+        "velocity_range": [-0.2, 0.5],
+    }
+    system = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), 0.925)
+    found = rk.basin_map(system, **asked, boundary_runs=0).dataset
+    assert found.attrs["seed"] == 7

@@ -138,6 +138,7 @@ def test_samples_at_a_point_are_spread_evenly():
 
 def test_shares_of_chaos_are_counts_of_what_classify_says():
     found = rk.chaos_share(restitution=0.3, samples=25, seed=2, max_cycles=10_000)
+    assert found.dataset.attrs["seed"] == 2
     random = np.random.default_rng(2)
     periods, amplitudes = random.uniform(0.2, 3.0, 25), random.uniform(0.0, 16.0, 25)
     kinds = Counter(
@@ -183,3 +184,8 @@ def test_bad_input_for_repeatability_is_refused_in_one_line():
         rk.repeatability(3)
     with pytest.raises(ValueError, match=re.escape("samples must be a whole number in [2, 1000]; got 1")):
         rk.repeatability_map(amplitude=[1, 2], period=[1, 2], restitution=0.9, samples=1)
+
+
+def test_a_restitution_of_braces_that_are_not_there_is_refused():
+    with pytest.raises(TypeError, match=r"^brace_restitution must come with brace_angle; got 0.5"):
+        rk.chaos_share(restitution=0.3, samples=25, brace_restitution=0.5)

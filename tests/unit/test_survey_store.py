@@ -341,7 +341,7 @@ def test_damage_is_found_named_and_mended_on_request(copied, what, name, compute
     else:
         chunk.write_bytes(DAMAGE[what](chunk.read_bytes()))
     if (what, name) != ("missing", "cycles"):  # that is a tile which was never done
-        with pytest.raises(OSError, match=f"is damaged at {re.escape(str(chunk))}; repair=True computes"):
+        with pytest.raises(OSError, match=f"is damaged at {re.escape(str(chunk))}; with repair these tiles"):
             rk.parametric_map(**ASKED, store=copied)
     assert rk.parametric_map(**ASKED, store=copied, repair=True).load().equals(plain)
     tile = math.prod(zarr.open_array(copied / "level-2" / "kind", mode="r").chunks)

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from rocking.cli.options import option, your_input
+from rocking.cli.options import YourInput, option, your_input
 from rocking.model import PHYSICAL, block_attributes, check_writable, replacing
 
 if TYPE_CHECKING:
@@ -27,6 +27,17 @@ def check_files(
         with your_input():
             check_writable(option(name), path, suffixes[name])
     return asked
+
+
+def check_apart(paths: Mapping[str, Path | None]) -> None:
+    """`YourInput` for two outputs at one place."""
+    taken: dict[Path, str] = {}
+    for name, path in paths.items():
+        if path is None:
+            continue
+        other = taken.setdefault(path.resolve(), name)
+        if other != name:
+            raise YourInput(f"{option(other)} and {option(name)} must differ; got {str(path)!r} for both")
 
 
 def write_csv(tables: Iterable[Mapping[str, Any]], path: Path) -> None:

@@ -6,6 +6,7 @@ import logging
 import os
 import signal
 import sys
+from pathlib import Path
 from typing import NoReturn
 
 INTERRUPTED = 130
@@ -30,9 +31,11 @@ def main() -> NoReturn:
         raise KeyboardInterrupt
 
     signal.signal(signal.SIGINT, interrupt)
-    for stream in (sys.stdout, sys.stderr):
+    if sys.stdout is None:  # closed by who started us
+        sys.stdout = Path(os.devnull).open("w", encoding="utf-8")  # noqa: SIM115
+    for stream in filter(None, (sys.stdout, sys.stderr)):
         # A terminal without Greek letters shows question marks.
-        stream.reconfigure(errors="replace")  # type: ignore[union-attr]
+        stream.reconfigure(errors="replace")
     if sys.stderr.isatty():
         log = logging.getLogger("rocking")
         log.addHandler(Terminal(logging.INFO))

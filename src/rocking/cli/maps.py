@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from attrs import field, frozen
 
 from rocking.cli import files, quantities, studies
-from rocking.cli.files import SUFFIXES, check_files
+from rocking.cli.files import SUFFIXES, check_apart, check_files
 from rocking.cli.options import START, SYSTEM, YourInput, option, options, your_input
 from rocking.cli.surveys import ARGUMENTS, carried_out
 from rocking.model import check_replaceable, instance, refusal
@@ -98,6 +98,7 @@ def _check_theory(asked: Question) -> None:
 
 def files_of(asked: Question) -> dict[str, Path]:
     """The files asked for, of tiles their page; refused where they cannot be written."""
+    check_apart({name: getattr(asked, name) for name in ("store", "tiles", *SUFFIXES)})
     files = check_files({name: getattr(asked, name) for name in SUFFIXES})
     if asked.tiles is not None:
         with your_input():

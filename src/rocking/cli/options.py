@@ -35,6 +35,13 @@ def number_option(name: str, text: str) -> Any:
     return typer.Option(name, parser=number, metavar="NUMBER", help=text)
 
 
+def folder(text: str) -> Path:
+    """A folder's name, which what is not set is not."""
+    if not text:
+        raise typer.BadParameter("must be the path of a folder; got ''")
+    return Path(text)
+
+
 def file_option(name: str, text: str) -> Any:
     """An option that is a file to be written."""
     return typer.Option(name, metavar="FILE", help=text)
@@ -120,7 +127,10 @@ ModesPlot = Annotated[
 Store = Annotated[
     Path | None,
     typer.Option(
-        "--store", metavar="DIR", help="Zarr store, written while it runs; the same command goes on with it."
+        "--store",
+        parser=folder,
+        metavar="DIR",
+        help="Zarr store, written while it runs; the same command goes on with it.",
     ),
 ]
 Repair = Annotated[

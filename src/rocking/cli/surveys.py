@@ -8,7 +8,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from rocking.cli.files import check_files, with_block, write_dataset
+from rocking.cli.files import check_apart, check_files, with_block, write_dataset
 from rocking.cli.options import ARGUMENTS as SYSTEM_ARGUMENTS
 from rocking.cli.options import NORMALISED, as_typed, option, options, your_input
 
@@ -57,6 +57,7 @@ def complete(store: Path | None) -> Iterator[None]:
 
 def files_of(asked: Mapping[str, Any]) -> dict[str, Path]:
     """The files asked for; refused where they cannot be written."""
+    check_apart({name: asked.get(name) for name in ("store", *FILES)})
     return check_files({name: asked.get(name) for name in FILES})
 
 

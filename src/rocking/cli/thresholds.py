@@ -38,6 +38,13 @@ def question(typed: Mapping[str, Any], file: Path | None) -> dict[str, Any]:
     else:
         needs = "--period (or --frequency) and --restitution"
         require(given, (("period", "frequency"), ("restitution",)), needs)
+    varied = [
+        name
+        for name, each in given.items()
+        if isinstance(each, Axis) and name not in ("amplitude", "acceleration", "acceleration_g")
+    ]
+    if "plot" in given and len(varied) > 1:
+        raise YourInput(f"--plot draws over one axis; got {' and '.join(map(option, varied))}")
     return given
 
 

@@ -28,7 +28,8 @@ class SafeBasin:
     shares : tuple of Share
         The same shares, as counts.
     heteroclinic_amplitude, melnikov_amplitude : float
-        A*, above which the boundary of the starts that overturn is fractal, exactly, and A_M, its first order.
+        A*, above which the boundary of the starts that overturn is fractal, exactly, and A_M, its first order; NaN between
+        braces, for which neither is known.
     """
 
     dataset: xr.Dataset = field(repr=False)
@@ -40,11 +41,13 @@ class SafeBasin:
         amplitudes = self.dataset.amplitude.values
         least = min(range(len(self.shares)), key=lambda k: self.shares[k].value)
         first, last = self.shares[0], self.shares[-1]
-        return (
+        told = (
             f"safe: {first} of {first.of:,} starts at A = {amplitudes[0]:.6g}, {last} at A = {amplitudes[-1]:.6g}, fewest "
-            f"{self.shares[least]} at A = {amplitudes[least]:.6g}; A* = {self.heteroclinic_amplitude:.6g}, "
-            f"A_M = {self.melnikov_amplitude:.6g}"
+            f"{self.shares[least]} at A = {amplitudes[least]:.6g}"
         )
+        if np.isnan(self.heteroclinic_amplitude):
+            return told
+        return f"{told}; A* = {self.heteroclinic_amplitude:.6g}, A_M = {self.melnikov_amplitude:.6g}"
 
     def _repr_html_(self) -> str | None:
         return pictures.html(self)

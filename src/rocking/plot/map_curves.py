@@ -79,6 +79,12 @@ def draw(
                 f"{upward} and {across}",
             )
         )
+    if names and "brace_angle" in told:
+        raise ValueError(
+            refusal(
+                "curves", "lie over a map of a block without braces", f"brace_angle = {told['brace_angle']}"
+            )
+        )
     return [_line(ax, CURVES[name], axes, told, turns) for name in names]
 
 

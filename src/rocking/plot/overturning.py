@@ -58,7 +58,7 @@ def overturning(found: OverturningCurve, ax: Axes | None = None, block: Block | 
             100 * data.overturning_share.values,
             color=style.INK,
             linewidth=style.LINE,
-            drawstyle="steps-mid",
+            drawstyle="steps-post",
             gid="share",
         )
         if np.isfinite(data.lowest):
@@ -67,6 +67,7 @@ def overturning(found: OverturningCurve, ax: Axes | None = None, block: Block | 
             )
             style.key(ax)
         style.label(ax, y_label, "phases at which it overturns [%]")
+        ax.set_ylim(bottom=0.0)
         return ax
     (name,) = data.lowest.dims
     turn, x_label = parameter(str(name), block)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import numpy as np
 from matplotlib.axes import Axes
 
 from rocking.model import SafeBasin, instance
@@ -52,16 +53,20 @@ def safe_basin(found: SafeBasin, ax: Axes | None = None) -> Axes:
         label="safe, with its 95 % interval",
         gid="safe",
     )
-    ax.axvline(
-        found.heteroclinic_amplitude, color=style.IMPACT, linewidth=style.LINE, label="exact tangency $A^*$"
-    )
-    ax.axvline(
-        found.melnikov_amplitude,
-        color=style.INK,
-        linewidth=style.LINE,
-        linestyle=(0, (5, 2)),
-        label="Melnikov's $A_M$",
-    )
+    if np.isfinite(found.heteroclinic_amplitude):
+        ax.axvline(
+            found.heteroclinic_amplitude,
+            color=style.IMPACT,
+            linewidth=style.LINE,
+            label="exact tangency $A^*$",
+        )
+        ax.axvline(
+            found.melnikov_amplitude,
+            color=style.INK,
+            linewidth=style.LINE,
+            linestyle=(0, (5, 2)),
+            label="Melnikov's $A_M$",
+        )
     style.label(ax, PARAMETERS["amplitude"], "safe starts [%]")
     ax.set_ylim(bottom=0.0)
     style.key(ax)

@@ -123,7 +123,7 @@ def basin_map(
         check_reach(system, ends["angle"])
         count = whole("samples", samples, 1, MOST_SAMPLES)
         starts = random.uniform(*_corners(ends), (count, 2))
-        found = _random_dataset(system, starts, measure, executor)
+        found = _random_dataset(system, starts, measure, executor).assign_attrs(seed=seed)
     labels, first = told_apart(system, {str(name): found[name].values for name in found.data_vars})
     attractors = named(system, starts, first, max_cycles, max_period)
     _attach(found, labels, [each.name for each in attractors])

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from rocking.kernels import judgement as kernel
-from rocking.model import ChaosShare, Share, whole, within
+from rocking.model import ChaosShare, Share, refusal, whole, within
 from rocking.response import KINDS
 from rocking.survey.axes import Question, axis, points
 from rocking.survey.dataset import attributes, coordinate
@@ -86,6 +86,8 @@ def chaos_share(
 
         braces = Braces(brace_angle, brace_restitution)
         fixed = {"brace_angle": braces.angle, "brace_restitution": braces.restitution}
+    elif brace_restitution != 1.0:
+        raise TypeError(refusal("brace_restitution", "come with brace_angle", brace_restitution))
     count = whole("samples", samples, 1, MOST_SAMPLES)
     random = generator(seed)
     counts = []
@@ -93,7 +95,7 @@ def chaos_share(
         drawn = {name: random.uniform(*ends, count) for name, ends in spans.items()}
         kinds = sampled(points(drawn, {"restitution": each, **fixed}), measure, executor)["kind"]
         counts.append(np.bincount(kinds, minlength=len(KINDS)))
-    return _summed_up(values, spans, fixed, measure, np.array(counts))
+    return _summed_up(values, spans, fixed, measure, np.array(counts), seed)
 
 
 def _summed_up(
@@ -102,6 +104,7 @@ def _summed_up(
     fixed: Any,
     measure: Any,
     counts: np.ndarray,
+    seed: int,
 ) -> ChaosShare:
     import xarray as xr
 
@@ -121,6 +124,7 @@ def _summed_up(
     }
     told = attributes(Question({}, dict(fixed)), measure) | {
         "samples": of,
+        "seed": seed,
         **{f"{name}_range": list(ends) for name, ends in spans.items()},
     }
     return ChaosShare(xr.Dataset(variables, coordinates, told), shares)

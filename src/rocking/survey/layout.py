@@ -116,7 +116,7 @@ def _join(path: str, name: str, there: np.ndarray, here: np.ndarray) -> tuple[np
     raise ValueError(
         f"store {path!r} holds {there.size} values of {name} from {there[0]:.6g} to {there[-1]:.6g}, and {here.size} from "
         f"{here[0]:.6g} to {here[-1]:.6g} leave some of them out: ask for these, for more beyond the last, or for half the "
-        "spacing (one less than twice as many)"
+        "spacing, these among them"
     )
 
 

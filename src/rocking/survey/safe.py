@@ -38,7 +38,7 @@ def safe_basin(
     """Tell which share of starts does not overturn at each of several amplitudes, beside the thresholds A* and A_M.
 
     Above A* the boundary of the starts that overturn is fractal; that is what those thresholds are for. The safe area
-    need not fall from there on.
+    need not fall from there on. Both are of the block without braces: between braces they are NaN.
 
     Parameters
     ----------
@@ -103,21 +103,24 @@ def safe_basin(
     kinds = [
         sampled(_placed(asked, value, starts), measure, executor)["kind"] for value in amplitudes.tolist()
     ]
-    return _summed_up(asked, measure, kinds)
+    drawn = {"seed": seed, "angle_range": [low[0], high[0]], "velocity_range": [low[1], high[1]]}
+    return _summed_up(asked, measure, kinds, drawn)
 
 
 def _placed(asked: Question, amplitude: float, starts: np.ndarray) -> Points:
     return points({"angle": starts[:, 0], "velocity": starts[:, 1]}, asked.fixed | {"amplitude": amplitude})
 
 
-def _summed_up(asked: Question, measure: Any, kinds: list[np.ndarray]) -> SafeBasin:
+def _summed_up(asked: Question, measure: Any, kinds: list[np.ndarray], drawn: dict[str, Any]) -> SafeBasin:
     import xarray as xr
 
     shares = tuple(Share(np.count_nonzero(each != kernel.OVERTURNS), each.size) for each in kinds)
     open_ones = np.array([np.mean(each == kernel.UNDETERMINED) for each in kinds])
     period = asked.fixed.get("period") or 2.0 * np.pi / asked.fixed["frequency"]
-    exact = heteroclinic_amplitude(period, asked.fixed["restitution"])
-    first_order = melnikov_amplitude(period, asked.fixed["restitution"])
+    exact = first_order = np.nan
+    if "brace_angle" not in asked.fixed:
+        exact = heteroclinic_amplitude(period, asked.fixed["restitution"])
+        first_order = melnikov_amplitude(period, asked.fixed["restitution"])
     variables = interval_variables("safe", shares, "amplitude", "share of the starts that do not overturn")
     variables["undetermined"] = (
         "amplitude",
@@ -126,6 +129,7 @@ def _summed_up(asked: Question, measure: Any, kinds: list[np.ndarray]) -> SafeBa
     )
     told = attributes(asked, measure) | {
         "samples": shares[0].of,
+        **drawn,
         "heteroclinic_amplitude": exact,
         "melnikov_amplitude": first_order,
     }

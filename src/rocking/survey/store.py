@@ -106,7 +106,7 @@ class Store:
         if found and not repair:
             more = f" and {len(found) - MOST_NAMED} more" if len(found) > MOST_NAMED else ""
             raise StoreError(
-                f"store {str(self.path)!r} is damaged at {', '.join(found[:MOST_NAMED])}{more}; repair=True computes these tiles again"
+                f"store {str(self.path)!r} is damaged at {', '.join(found[:MOST_NAMED])}{more}; with repair these tiles are computed again"
             )
 
     def _marked(self, level: Level) -> list[Tile]:
