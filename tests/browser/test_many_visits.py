@@ -97,7 +97,8 @@ async def comes_to_rest(server):
     return False
 
 
-@pytest.mark.parametrize("visits", [20, pytest.param(200, marks=pytest.mark.long)])
+@pytest.mark.long
+@pytest.mark.parametrize("visits", [20, 200])
 def test_visits_opened_and_dropped_leave_nothing_behind(running, visits):
     server = psutil.Process(running.process.pid)
     threads = server.num_threads() + 2 * cores() + 1  # both pools, and one that a diagram has for a moment

@@ -115,6 +115,7 @@ print(rk.simulate(braced, cycles=30_000, record="none").final)
 MODE = "import rocking as rk; assert rk.theory.symmetric_modes(2.0, 1.0, 0.9, 1)[0].admissible"
 
 
+@pytest.mark.long
 def test_a_chaotic_run_is_the_same_whatever_was_compiled_when(tmp_path):
     """It multiplies a last digit to the first."""
     found = set()
