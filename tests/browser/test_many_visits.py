@@ -14,6 +14,7 @@ from tornado.websocket import websocket_connect
 
 from rocking.survey import cores
 
+VISITS = 200
 FORGOTTEN = 8.0
 """Seconds after which the server has dropped a visit that nobody looks at, and looked for such."""
 ALLOWED = 30e6
@@ -98,16 +99,15 @@ async def comes_to_rest(server):
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("visits", [20, 200])
-def test_visits_opened_and_dropped_leave_nothing_behind(running, visits):
+def test_visits_opened_and_dropped_leave_nothing_behind(running):
     server = psutil.Process(running.process.pid)
     threads = server.num_threads() + 2 * cores() + 1  # both pools, and one that a diagram has for a moment
     # Every thread has the memory that it keeps: a map's working memory, of some 10⁷ bytes, stays with its thread.
     assert run(watch_together(running.address, server))
-    run(drop_many(running.address, max(20, visits // 2)))
+    run(drop_many(running.address, VISITS // 2))
     assert run(comes_to_rest(server))
     memory = server.memory_info().rss
-    run(drop_many(running.address, visits))
+    run(drop_many(running.address, VISITS))
     assert server.num_threads() <= threads
     assert run(comes_to_rest(server)), "the server goes on computing for nobody"
     # at rest, for a map under way has memory of its own

@@ -451,11 +451,13 @@ def test_reader_that_leaves_early_is_no_error_message():
         assert process.stderr.read() == b""
 
 
-def test_output_that_was_closed_before_is_no_error():
+@pytest.mark.parametrize("closing", [">&-", "2>&-"])
+def test_output_that_was_closed_before_is_no_error(closing):
     done = subprocess.run(
-        ["/bin/sh", "-c", 'exec "$@" >&-', "sh", *COMMAND, "cite"], stderr=subprocess.PIPE, check=False
+        ["/bin/sh", "-c", f'exec "$@" {closing}', "sh", *COMMAND, "cite"], capture_output=True, check=False
     )
     assert (done.returncode, done.stderr) == (0, b"")
+    assert bool(done.stdout) == (closing == "2>&-")
 
 
 def test_interrupted_run_says_so_and_leaves_no_file(tmp_path):

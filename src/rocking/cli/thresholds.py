@@ -41,7 +41,9 @@ def question(typed: Mapping[str, Any], file: Path | None) -> dict[str, Any]:
     varied = [
         name
         for name, each in given.items()
-        if isinstance(each, Axis) and name not in ("amplitude", "acceleration", "acceleration_g")
+        if name in (*ASKED, *SCANNED_SI)
+        and name not in ("amplitude", "acceleration", "acceleration_g")
+        and not isinstance(each, int | float)
     ]
     if "plot" in given and len(varied) > 1:
         raise YourInput(f"--plot draws over one axis; got {' and '.join(map(option, varied))}")

@@ -51,6 +51,7 @@ def safe_basin(found: SafeBasin, ax: Axes | None = None) -> Axes:
         marker="o",
         markersize=style.point_size(across.size),
         label="safe, with its 95 % interval",
+        clip_on=False,  # where all are safe the points lie on the frame
         gid="safe",
     )
     if np.isfinite(found.heteroclinic_amplitude):
