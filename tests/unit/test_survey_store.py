@@ -2,6 +2,7 @@
 
 import errno
 import gc
+import json
 import math
 import os
 import re
@@ -85,7 +86,7 @@ def test_every_level_is_a_plain_grid_that_opens_in_xarray(plain, made):
 def test_store_is_zarr_3_with_checksums_and_one_chunk_a_tile(made):
     array = zarr.open_array(made / "level-2" / "peak", mode="r")
     assert array.metadata.zarr_format == 3
-    assert [type(codec).__name__ for codec in array.compressors] == ["Crc32cCodec"]
+    assert [type(codec).__name__ for codec in array.compressors] == ["BloscCodec", "Crc32cCodec"]
     assert len(list((made / "level-2" / "peak" / "c").rglob("*/*"))) == 16
     assert array.metadata.dimension_names == ("amplitude", "period")
 
@@ -260,6 +261,17 @@ def test_store_of_another_method_is_refused(made, monkeypatch):
         ValueError, match=f"holds another survey: method is {METHOD} there and {METHOD + 1} here"
     ):
         rk.parametric_map(**ASKED, store=made)
+
+
+def test_store_of_another_format_is_refused(copied):
+    root = copied / "zarr.json"
+    described = json.loads(root.read_text())
+    del described["attributes"]["rocking_survey"]["format"]
+    root.write_text(json.dumps(described))
+    before = files(copied)
+    with pytest.raises(ValueError, match="holds another survey: format is not given there and 2 here"):
+        rk.parametric_map(**ASKED, store=copied)
+    assert files(copied) == before
 
 
 @pytest.mark.parametrize(

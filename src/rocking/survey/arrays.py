@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -16,16 +16,18 @@ from rocking.survey.tiles import Measure
 if TYPE_CHECKING:
     import zarr
 
+    from rocking.survey.files import Files
+
 
 def make_groups(
-    root: zarr.Group, asked: Question, measure: Measure, levels: list[Level], there: dict[str, Any]
+    files: Files, asked: Question, measure: Measure, levels: list[Level], there: dict[str, Any]
 ) -> list[zarr.Group]:
     """A group a level, each of which says what the survey is; made where it is not ``there``."""
     from zarr.core.group import GroupMetadata
 
     told = _plain(attributes(asked, measure))
     wanted = {level.name: GroupMetadata(told) for level in levels}
-    found = _made(root, wanted, there)
+    found = _made(files, wanted, there)
     for group in found.values():
         if group.attrs.asdict() != told:
             group.attrs.put(told)
@@ -33,7 +35,7 @@ def make_groups(
 
 
 def make_arrays(
-    root: zarr.Group, measure: Measure, levels: list[Level], there: list[dict[str, Any]]
+    files: Files, measure: Measure, levels: list[Level], there: list[dict[str, Any]]
 ) -> list[dict[str, zarr.Array]]:
     """The variables of each level by name, beside its coordinates: made, or made larger, where need be.
 
@@ -49,28 +51,39 @@ def make_arrays(
         for level, those in zip(levels, there, strict=True)
         for name, array in those.items()
     }
-    found = _made(root, wanted, known)
+    found = _made(files, wanted, known)
     for level in levels:
         for name, values in level.axes.items():
             array = _sized(found[f"{level.name}/{name}"], values.shape)
-            if not _holds(array, values):
-                array[:] = values
+            for key, content in _chunks(array, values):
+                if files.kept(key) != content:  # not there, or damaged: what it must hold is known
+                    files.keep(key, content)
     return [
         {each.name: _sized(found[f"{level.name}/{each.name}"], level.shape) for each in measure.variables}
         for level in levels
     ]
 
 
-def _made(root: zarr.Group, wanted: Mapping[str, Any], there: Mapping[str, Any]) -> dict[str, Any]:
+def _made(files: Files, wanted: Mapping[str, Any], there: Mapping[str, Any]) -> dict[str, Any]:
     """What is wanted, by its path: as it is there, else made as described.
 
-    `create_array` looks at every group above again and writes those: for the arrays of five levels that takes .2 s, this .1 s.
+    Zarr would read every group above again for each: for the arrays of five levels that took .3 s.
     """
-    from zarr import create_hierarchy
+    from zarr import Array, AsyncArray, AsyncGroup, Group
+    from zarr.core.buffer import default_buffer_prototype
+    from zarr.core.group import GroupMetadata
+    from zarr.storage import StorePath
 
     found = {path: there.get(path) for path in wanted}
     for path in [path for path, known in found.items() if known is None]:
-        found |= dict(create_hierarchy(store=root.store, nodes={path: wanted[path]}))
+        place, description = StorePath(files, path), wanted[path]
+        for name, content in description.to_buffer_dict(default_buffer_prototype()).items():
+            files.set_sync(f"{path}/{name}", content)
+        found[path] = (
+            Group(AsyncGroup(description, place))
+            if isinstance(description, GroupMetadata)
+            else Array(AsyncArray(description, place))
+        )
     return found
 
 
@@ -97,6 +110,8 @@ def _array(
 ) -> Any:
     from zarr.core.metadata import ArrayV3Metadata
 
+    from rocking.survey.files import codecs
+
     return ArrayV3Metadata.from_dict(
         {
             "zarr_format": 3,
@@ -106,7 +121,7 @@ def _array(
             "chunk_grid": {"name": "regular", "configuration": {"chunk_shape": list(chunk)}},
             "chunk_key_encoding": {"name": "default", "configuration": {"separator": "/"}},
             "fill_value": "NaN" if math.isnan(fill) else fill,
-            "codecs": [{"name": "bytes", "configuration": {"endian": "little"}}, {"name": "crc32c"}],
+            "codecs": codecs(dtype),
             "dimension_names": names,
             "attributes": _plain(told),
         }
@@ -120,12 +135,13 @@ def _sized(array: zarr.Array, shape: tuple[int, ...]) -> zarr.Array:
     return array
 
 
-def _holds(array: zarr.Array, values: np.ndarray) -> bool:
-    """Whether a coordinate is there; one that is damaged is not, and what it must hold is known."""
-    try:
-        return np.array_equal(array[:], values)
-    except Exception:  # noqa: BLE001 (a broken chunk is met in many ways)
-        return False
+def _chunks(coordinate: zarr.Array, values: np.ndarray) -> Iterator[tuple[str, bytes]]:
+    """The files of a coordinate, which an axis made longer has several of: (key, what it holds)."""
+    from rocking.survey.files import encoded
+
+    (edge,) = coordinate.chunks
+    for number, first in enumerate(range(0, values.size, edge)):
+        yield f"{coordinate.path}/c/{number}", encoded(values[first : first + edge], (edge,), math.nan)
 
 
 def _plain(told: dict[str, Any]) -> dict[str, Any]:

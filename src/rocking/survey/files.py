@@ -1,10 +1,19 @@
-"""The files of a store."""
+"""The files of a store: where they are written, and how a variable's chunk becomes one."""
 
 from __future__ import annotations
 
+from typing import Any
+
+import numpy as np
+from numcodecs import Blosc
+from numcodecs.checksum32 import CRC32C
 from zarr.abc.store import ByteRequest
-from zarr.core.buffer import Buffer, BufferPrototype
+from zarr.core.buffer import Buffer, BufferPrototype, default_buffer_prototype
 from zarr.storage import LocalStore
+
+SHRINK = Blosc("lz4", clevel=1, shuffle=Blosc.SHUFFLE)
+"""To a sixth of a map; to write the rest would take ten times as long."""
+CHECK = CRC32C()
 
 
 class Files(LocalStore):
@@ -23,3 +32,41 @@ class Files(LocalStore):
     async def set(self, key: str, value: Buffer) -> None:
         """Write a file, under another name first."""
         self.set_sync(key, value)
+
+    def kept(self, key: str) -> bytes | None:
+        """The bytes of a file, or None."""
+        found = self.get_sync(key)
+        return None if found is None else found.to_bytes()
+
+    def keep(self, key: str, content: bytes) -> None:
+        """Write these bytes."""
+        self.set_sync(key, default_buffer_prototype().buffer.from_bytes(content))
+
+
+def codecs(dtype: str) -> list[dict[str, Any]]:
+    """What `encoded` does, as Zarr's third format describes it."""
+    shrink = {
+        "cname": SHRINK.cname,
+        "clevel": SHRINK.clevel,
+        "shuffle": "shuffle",
+        "typesize": np.dtype(dtype).itemsize,
+        "blocksize": SHRINK.blocksize,
+    }
+    return [
+        {"name": "bytes", "configuration": {"endian": "little"}},
+        {"name": "blosc", "configuration": shrink},
+        {"name": "crc32c"},
+    ]
+
+
+def encoded(values: np.ndarray, chunk: tuple[int, ...], fill: float) -> bytes:
+    """A chunk with these values, or with these at its beginning if an axis ends within it.
+
+    Zarr would answer the same, after two hand-overs between threads: half of what storing a map took.
+    """
+    whole = values
+    if values.shape != chunk:
+        whole = np.full(chunk, fill, values.dtype)
+        whole[tuple(map(slice, values.shape))] = values
+    little = np.ascontiguousarray(whole, whole.dtype.newbyteorder("<"))
+    return bytes(CHECK.encode(SHRINK.encode(little)))

@@ -16,7 +16,8 @@ from rocking.survey.tiles import Measure
 SAME = 1e-9
 """Axis values closer than this share of their distance from the next are the same: an axis made longer rounds otherwise."""
 
-
+FORMAT = 2
+"""Of the files: raised when what is written is no longer what a store made before says of its arrays."""
 USUAL_DIGITS, ALL_DIGITS = 6, 17
 """Of numbers that differ as many are told as tell them apart."""
 
@@ -65,6 +66,7 @@ def fingerprint(asked: Question, measure: Measure) -> dict[str, Any]:
         "options": dict(measure.options),
         "variables": [each.name for each in measure.variables],
         "method": measure.method,
+        "format": FORMAT,
         "made_by": {"version": VERSION, "processor": llvm.get_host_cpu_name()},
     }
 
@@ -122,7 +124,7 @@ def _join(path: str, name: str, there: np.ndarray, here: np.ndarray) -> tuple[np
 
 def _flat(told: Mapping[str, Any]) -> dict[str, Any]:
     """What is compared, by the name that it is told by."""
-    alone = {name: told.get(name) for name in ("survey", "over", "variables", "method")}
+    alone = {name: told.get(name) for name in ("survey", "over", "variables", "method", "format")}
     return alone | dict(told.get("fixed", {})) | dict(told.get("options", {}))
 
 

@@ -36,7 +36,7 @@ NAME = "rocking_survey"
 """The attribute of the root group that tells a survey's store from other folders."""
 MOST_NAMED = 5
 MOST_HELD = 1 << 20
-"""Points of a level that is held in memory, some 50 MB, while the next one is computed."""
+"""Points of a level, some 50 MB, that is held in memory for the next one's sake."""
 
 
 class Store:
@@ -47,7 +47,10 @@ class Store:
     """
 
     def __init__(self, path: Path, asked: Question, measure: Measure, *, repair: bool) -> None:
+        from rocking.survey.files import Files
+
         self.path, self.measure = path, measure
+        self.files = Files(path)
         with undisturbed(), writing(path):
             clear_partial(path)
             self.layout, self.root = self._agreed(asked)
@@ -56,7 +59,7 @@ class Store:
             self.arrays = self._arranged()
         self.done = 0
         self.begun: set[tuple[int, tuple[int, ...]]] = set()  # tiles of which something sound is there
-        self.held: tuple[int, Arrays] = (-1, {})
+        self.held: dict[int, Arrays] = {}  # small levels that others follow, by their number
         self.check(repair=repair)
 
     def known(self, tile: Tile) -> np.ndarray:
@@ -72,22 +75,37 @@ class Store:
         return {name: self._read(tile.level, name, tile.region) for name in wanted}
 
     def coarser(self, tile: Tile) -> Arrays:
-        """Of the level before, the points that a tile shares; a small level is read once, and whole."""
+        """Of the level before, the points that a tile shares."""
         level, shared = self.levels[tile.level.number - 1], tile.shared()
         assert shared is not None
-        if math.prod(level.shape) > MOST_HELD:
+        held = self._held(level)
+        if held is None:
             return {name: self._read(level, name, shared[1]) for name in self.arrays[level.number]}
-        if self.held[0] != level.number:
-            everything = tuple(slice(None) for _ in level.shape)
-            whole = {name: self._read(level, name, everything) for name in self.arrays[level.number]}
-            self.held = level.number, whole
-        return {name: values[shared[1]] for name, values in self.held[1].items()}
+        return {name: values[shared[1]] for name, values in held.items()}
 
     def write(self, tile: Tile, answers: Arrays) -> None:
         """Keep a tile; its last variable, which marks it done, last."""
+        from rocking.survey.files import encoded
+
+        held = self._held(tile.level)
         with writing(self.path):
-            for name, array in self.arrays[tile.level.number].items():
-                array.set_basic_selection(tile.region, answers[name])
+            for each in self.measure.variables:
+                content = encoded(answers[each.name], tile.level.tile, each.fill)
+                self.files.keep(self._chunk(tile, each.name), content)
+        if held is not None:
+            for name, values in answers.items():
+                held[name][tile.region] = values
+
+    def _held(self, level: Level) -> Arrays | None:
+        """What is there of a small level that another one follows; None of others."""
+        if level is self.levels[-1] or math.prod(level.shape) > MOST_HELD:
+            return None
+        if level.number not in self.held:
+            self.held[level.number] = held = self.measure.blank(level.shape)
+            for tile in (tile for tile in level.tiles() if (level.number, tile.index) in self.begun):
+                for name, values in self.read(tile).items():
+                    held[name][tile.region] = values
+        return self.held[level.number]
 
     def dataset(self) -> xr.Dataset:
         """The finest level, read when it is used."""
@@ -99,7 +117,7 @@ class Store:
         found: list[str] = []
         for tile in (tile for level in self.levels for tile in self._marked(level)):
             known, damaged = self._inspected(tile)
-            found += [str(self._chunk(tile, name)) for name in damaged]
+            found += [str(self.path / self._chunk(tile, name)) for name in damaged]
             if known.any() and not damaged:
                 self.begun.add((tile.level.number, tile.index))
                 self.done += int(tile.own(known).sum())
@@ -111,7 +129,7 @@ class Store:
 
     def _marked(self, level: Level) -> list[Tile]:
         """The tiles of a level whose marker is there: of many that are not, nobody asks one by one."""
-        folder = self._chunks(level, self.measure.marker.name)
+        folder = self.path / self._chunks(level, self.measure.marker.name)
         found = (path.relative_to(folder).parts for path in folder.glob("/".join("*" * len(level.shape))))
         numbered = (tuple(map(int, parts)) for parts in found if all(map(str.isdecimal, parts)))
         return [level.at(index) for index in sorted(numbered)]
@@ -133,13 +151,13 @@ class Store:
                 damaged.append(variable.name)
         return known, damaged
 
-    def _chunk(self, tile: Tile, name: str) -> Path:
-        """The file of a tile's variable."""
-        return self._chunks(tile.level, name) / "/".join(map(str, tile.index))
+    def _chunk(self, tile: Tile, name: str) -> str:
+        """The file of a tile's variable, below the store's folder."""
+        return "/".join((self._chunks(tile.level, name), *map(str, tile.index)))
 
-    def _chunks(self, level: Level, name: str) -> Path:
-        """The folder of a variable's files."""
-        return self.path / level.name / name / "c"
+    def _chunks(self, level: Level, name: str) -> str:
+        """The folder of a variable's files, below the store's."""
+        return f"{level.name}/{name}/c"
 
     def _read(self, level: Level, name: str, region: Slices) -> np.ndarray:
         return np.asarray(self.arrays[level.number][name].get_basic_selection(region))
@@ -148,15 +166,13 @@ class Store:
         """What the store holds together with what is asked, as its root says; refused if they do not go together."""
         import zarr
 
-        from rocking.survey.files import Files
-
         mine = fingerprint(asked, self.measure)
         if not (self.path / ROOT).exists():
             layout = new_layout(asked)
             told = {NAME: mine | described_layout(layout)}
-            return layout, zarr.create_group(Files(self.path), zarr_format=3, attributes=told)
+            return layout, zarr.create_group(self.files, zarr_format=3, attributes=told)
         with reading(self.path):
-            root = zarr.open_group(Files(self.path), mode="r+", zarr_format=3, use_consolidated=False)
+            root = zarr.open_group(self.files, mode="r+", zarr_format=3, use_consolidated=False)
         stored: Any = root.attrs.get(NAME)
         if stored is None:
             raise StoreError(something_else(self.path, "a Zarr store of something else"))
@@ -170,10 +186,10 @@ class Store:
         """The arrays of each level, made or made larger where need be."""
         with reading(self.path):
             known = {level.name: self.root.get(level.name) for level in self.levels}
-        groups = arrays.make_groups(self.root, self.asked, self.measure, self.levels, known)
+        groups = arrays.make_groups(self.files, self.asked, self.measure, self.levels, known)
         with reading(self.path):
             there: list[dict[str, Any]] = [dict(group.arrays()) for group in groups]
-        return arrays.make_arrays(self.root, self.measure, self.levels, there)
+        return arrays.make_arrays(self.files, self.measure, self.levels, there)
 
 
 @contextmanager
