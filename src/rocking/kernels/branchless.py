@@ -1,7 +1,7 @@
 """The elementary functions of an arc without a branch, so that the compiler computes them for many blocks at once.
 
-As accurate as those of ``elementary``: short arguments through their Taylor series, long ones through an
-exponential and a sine and cosine of reduced arguments; both are computed and one is chosen.
+All are made of the Taylor series of a reduced argument. From an argument so short that nothing is taken off it the
+series give the differences, such as sinh t - t, to full relative accuracy as well; of longer ones these are formed.
 """
 
 import math
@@ -11,7 +11,7 @@ from llvmlite import ir
 from numba import njit, types
 from numba.extending import intrinsic
 
-from .elementary import EVEN, HALF_PI, ODD, SHORT, TWO_OVER_PI, fma, series, short_series
+from .elementary import EVEN, HALF_PI, ODD, TWO_OVER_PI, fma, short_series
 
 # Where the compiler may not choose which product it fuses with a sum, a result hangs neither on the width of the
 # machine's vectors nor on what was compiled together: what is fused is written so.
@@ -28,6 +28,8 @@ EXACT_INNER = dict(EXACT, forceinline=True)
 # Added to a number and taken off again it rounds to an integer, which its last bits hold.
 ROUNDER = 1.5 * 2.0**52
 PER_LN2 = 1.0 / math.log(2.0)
+# Of times and angles up to these, below ln 2 / 2 and pi / 4, nothing is taken off.
+SHORT_TIME, SHORT_ANGLE = 0.34, 0.78
 # More than ``logarithms_of_ratios`` are wrong by.
 ROUGHLY = 2e-6
 # ln 2 in two parts; the first has 32 bits.
@@ -70,43 +72,37 @@ def from_bits(typingctx, n):
 
 
 @njit(**EXACT_INNER)
-def both_exponentials(t):
-    """(e^t, e^-t) for abs(t) < 700: even and odd part of the reduced argument serve both."""
+def reduced_exponential(t):
+    """(sinh r, cosh r - 1, sinh r - r, cosh r - 1 - r**2/2, k, 2**k, 2**-k) of t = r + k ln 2, abs(r) <= ln 2 / 2."""
     shifted = fma(t, PER_LN2, ROUNDER)
     k = shifted - ROUNDER
     r = fma(-k, LN2[1], fma(-k, LN2[0], t))
     q = r * r
-    even = q * fma(q, short_series(q, EVEN), 0.5)
-    odd = fma(r * q, short_series(q, ODD), r)
+    higher, excess = q * q * short_series(q, EVEN), r * q * short_series(q, ODD)
     power = bits_of(shifted) << EXPONENT
-    return (1.0 + (even + odd)) * from_bits(ONE + power), (1.0 + (even - odd)) * from_bits(ONE - power)
+    return r + excess, fma(0.5, q, higher), excess, higher, k, from_bits(ONE + power), from_bits(ONE - power)
+
+
+@njit(**EXACT_INNER)
+def both_exponentials(t):
+    """(e^t, e^-t) for abs(t) < 700: even and odd part of the reduced argument serve both."""
+    odd, even, _, _, _, up, down = reduced_exponential(t)
+    return (1.0 + (even + odd)) * up, (1.0 + (even - odd)) * down
 
 
 @njit(**EXACT_INNER)
 def hyperbolic(t):
-    """(sinh t, cosh t - 1, sinh t - t, cosh t - 1 - t**2/2) for t >= 0."""
-    q = t * t
-    excess = q * t * series(q, ODD)
-    higher = q * q * series(q, EVEN)
-    grown, shrunk = both_exponentials(t)
-    sinh = 0.5 * grown - 0.5 * shrunk
-    versinh = (0.5 * grown - 1.0) + 0.5 * shrunk
-    short = t < SHORT
-    return (
-        choose(short, t + excess, sinh),
-        choose(short, fma(0.5, q, higher), versinh),
-        choose(short, excess, sinh - t),
-        choose(short, higher, fma(-0.5, q, versinh)),
-    )
+    """(sinh t, cosh t - 1, sinh t - t, for short t also cosh t - 1 - t**2/2) for t >= 0."""
+    odd, even, excess, higher, k, up, down = reduced_exponential(t)
+    grown, shrunk = (0.5 * (1.0 + (even + odd))) * up, (0.5 * (1.0 + (even - odd))) * down
+    sinh, versinh, short = grown - shrunk, (grown - 1.0) + shrunk, k == 0.0
+    return choose(short, odd, sinh), choose(short, even, versinh), choose(short, excess, sinh - t), higher
 
 
 @njit(**EXACT_INNER)
 def circular(rate, t):
     """(sin x, 1 - cos x, x - sin x, for short x also x**2/2 - 1 + cos x) of x = rate * t, 0 <= x up to 10**6."""
     x = rate * t
-    q = x * x
-    short_lag = q * x * series(-q, ODD)
-    higher = q * q * series(-q, EVEN)
     shifted = fma(x, TWO_OVER_PI, ROUNDER)
     quadrant = shifted - ROUNDER
     high = fma(-quadrant, HALF_PI[0], x)
@@ -114,8 +110,8 @@ def circular(rate, t):
     r = high + tail
     tail = fma(-quadrant, HALF_PI[2], tail - (r - high))
     p = r * r
-    excess = r * p * short_series(-p, ODD)
-    versine = p * fma(-p, short_series(-p, EVEN), 0.5)
+    excess, higher = r * p * short_series(-p, ODD), p * p * short_series(-p, EVEN)
+    versine = fma(0.5, p, -higher)
     odd_part = r + (tail * (1.0 - versine) - excess)
     even_part = 1.0 - (versine + r * tail)
     k = bits_of(shifted)
@@ -124,13 +120,8 @@ def circular(rate, t):
     cosine = choose(swapped, odd_part, even_part)
     sine = choose((k & 2) != 0, -sine, sine)
     cosine = choose(((k + 1) & 2) != 0, -cosine, cosine)
-    short = x < SHORT
-    return (
-        choose(short, x - short_lag, sine),
-        choose(short, fma(0.5, q, -higher), 1.0 - cosine),
-        choose(short, short_lag, x - sine),
-        higher,
-    )
+    short = quadrant == 0.0
+    return sine, choose(short, versine, 1.0 - cosine), choose(short, excess, x - sine), higher
 
 
 @njit(**EXACT_INNER)

@@ -2,9 +2,11 @@
 
 import math
 
+import numpy as np
 from numba import njit
 
 from .arc import NONE_YET, arc_after, earlier
+from .branchless import EXACT_INNER, choose
 from .crossing import LONGEST
 from .elementary import INNER, WITHIN
 from .events import BRACE, FLIGHT, IMPACT, next_event
@@ -24,6 +26,7 @@ from .lanes import (
     COUNTED,
     CYCLE,
     DOUBLINGS,
+    DUE,
     EVENTS,
     FREQUENCY,
     LANES,
@@ -39,8 +42,10 @@ from .lanes import (
     READING,
     SIDE,
     SINE,
+    SLOT,
     SLOWEST,
     SPEED,
+    SQUARE,
     STAGE,
     START,
     TARGET,
@@ -226,26 +231,43 @@ def see_peak(s, i, p):
     put(s, i, PEAK, largest_on(p, arc_of(s, i, p), of(s, i, WAIT), of(s, i, PEAK)))
 
 
+@njit(**EXACT_INNER)
+def sort_out(s, most, braced):
+    """What of each lane is to be noted: where its last flight goes, -1 if nowhere; the square of its speed; whether ``note_arc`` is due."""
+    for i in range(LANES):
+        events, stage, velocity = of(s, i, EVENTS), of(s, i, STAGE), of(s, i, VELOCITY)
+        slot, rounds = events - of(s, i, UNCOLLECTED) - 1.0, events * (1.0 / (RESYNCHRONISE + 1))
+        kept = (events > of(s, i, COUNTED)) & (slot < most) & (braced == False)  # noqa: E712
+        due = (of(s, i, TRAILS) > 0.0) | ((np.floor(rounds) == rounds) & (stage == WALK))
+        put(s, i, SLOT, choose(kept, slot, -1.0))
+        put(s, i, SQUARE, velocity * velocity)
+        put(s, i, DUE, choose(due, 1.0, 0.0))
+
+
+@njit(**INNER)
+def note_arc(s, i, trail):
+    """Into the trail of a lane, if it is asked for, the arc under way; now and then the forcing is taken from the clock."""
+    events, start, side, angle = int(of(s, i, EVENTS)), of(s, i, START), of(s, i, SIDE), of(s, i, ANGLE)
+    if of(s, i, TRAILS) > 0.0:
+        k, event = events - int(of(s, i, COUNTED)), BRACE if angle > 0.0 else IMPACT
+        trail[i, k, 0], trail[i, k, 1], trail[i, k, 2] = of(s, i, CYCLE), start, event
+        trail[i, k, 4], trail[i, k, 5], trail[i, k, 6] = side, angle, of(s, i, VELOCITY)
+    if events & RESYNCHRONISE == 0 and of(s, i, STAGE) == WALK:
+        cosine, sine, _, _, _ = clock(of(s, i, FREQUENCY), of(s, i, PHASE), side, start)
+        put(s, i, COSINE, cosine)
+        put(s, i, SINE, sine)
+
+
 @njit(**WITHIN)
 def note(s, flights, trail, braced):
-    """Of each lane how long the last flight lasted and the square of its speed, without braces; into its trail, if asked for, its arc.
+    """Of each lane how long the last flight lasted and the square of its speed, without braces, and what ``note_arc`` does.
 
-    So again and again until the next impact. Now and then the forcing is taken from the clock.
+    So again and again until the next impact.
     """
+    sort_out(s, flights.shape[2], braced)
     for i in range(LANES):
-        events = int(of(s, i, EVENTS))
-        k, j = events - int(of(s, i, COUNTED)), events - int(of(s, i, UNCOLLECTED)) - 1
-        start, side, angle, velocity = of(s, i, START), of(s, i, SIDE), of(s, i, ANGLE), of(s, i, VELOCITY)
-        if not braced and k > 0 and j < flights.shape[2]:
-            flights[i, 0, j], flights[i, 1, j] = of(s, i, WAIT), velocity * velocity
-        if of(s, i, TRAILS) > 0.0:
-            trail[i, k, 0], trail[i, k, 1], trail[i, k, 2] = (
-                of(s, i, CYCLE),
-                start,
-                BRACE if angle > 0.0 else IMPACT,
-            )
-            trail[i, k, 4], trail[i, k, 5], trail[i, k, 6] = side, angle, velocity
-        if events & RESYNCHRONISE == 0 and of(s, i, STAGE) == WALK:
-            cosine, sine, _, _, _ = clock(of(s, i, FREQUENCY), of(s, i, PHASE), side, start)
-            put(s, i, COSINE, cosine)
-            put(s, i, SINE, sine)
+        slot = int(of(s, i, SLOT))
+        if slot >= 0:
+            flights[i, 0, slot], flights[i, 1, slot] = of(s, i, WAIT), of(s, i, SQUARE)
+        if of(s, i, DUE) > 0.0:
+            note_arc(s, i, trail)

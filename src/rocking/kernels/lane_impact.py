@@ -2,6 +2,7 @@
 
 import math
 
+import numpy as np
 from numba import njit
 
 from .branchless import EXACT_INNER, ROUGHLY, both_exponentials, choose, logarithms_of_ratios
@@ -17,9 +18,11 @@ from .lanes import (
     CONTENT,
     COSINE,
     COUNTED,
+    CUT,
     CUT_LEFT,
     CUT_RIGHT,
     CYCLE,
+    DEEP,
     DOUBLINGS,
     END,
     EVENTS,
@@ -29,6 +32,7 @@ from .lanes import (
     INSIDE,
     LANES,
     LARGE,
+    LATE,
     LEG_END,
     LOW,
     NEXT_COSINE,
@@ -52,6 +56,7 @@ from .lanes import (
     START,
     TARGET,
     TRAILS,
+    TWICE,
     UNSURE,
     VELOCITY,
     WAIT,
@@ -127,7 +132,7 @@ def carry(s, i, factor, shear):
 def turn_clock(s, i):
     """The cycle of the event in lane i, and the time within it, where that has arrived."""
     stage, start, cycle, wait = of(s, i, STAGE), of(s, i, START), of(s, i, CYCLE), of(s, i, WAIT)
-    turns, arrived = math.floor((start + wait) * of(s, i, PER_PERIOD)), stage == ARRIVED
+    turns, arrived = np.floor((start + wait) * of(s, i, PER_PERIOD)), stage == ARRIVED
     put(s, i, START, choose(arrived, fma(-turns, of(s, i, PERIOD), start) + wait, start))
     put(s, i, CYCLE, choose(arrived, cycle + turns, cycle))
 
@@ -155,8 +160,8 @@ def begin(s):
 
     Where c+ and c- are negative u lies within beta of 1 - m cosh(t - middle), m = 2 sqrt(c+ c-): above 0 from ``early`` to
     ``late``, between the roots of c+ z + 1 - beta + c-/z in z = e^t, which need not be walked; and below 1 - m + beta, or
-    less where no crest of the forcing is near the middle (``turning.crest``). The exponentials of where the walk starts
-    wait for nothing of the next lanes: a loop of their own lets the machine begin with those.
+    less where no crest of the forcing is near the middle (``turning.crest``). In each of three short loops nothing waits
+    for the lanes before: the machine works on several of them at once.
     """
     for i in range(LANES):
         stage, start, side, velocity = of(s, i, STAGE), of(s, i, START), of(s, i, SIDE), of(s, i, VELOCITY)
@@ -166,26 +171,30 @@ def begin(s):
             of(s, i, FREQUENCY),
             of(s, i, RESPONSE),
         )
-        period, per_period, inside = of(s, i, PERIOD), of(s, i, PER_PERIOD), of(s, i, INSIDE)
-        right, left, low, end, exceeds, peak = (
-            of(s, i, CUT_RIGHT),
-            of(s, i, CUT_LEFT),
-            of(s, i, LOW),
-            of(s, i, END),
-            of(s, i, EXCEEDS),
-            of(s, i, PEAK),
-        )
+        period, per_period = of(s, i, PERIOD), of(s, i, PER_PERIOD)
+        right, left = of(s, i, CUT_RIGHT), of(s, i, CUT_LEFT)
         growing, shrinking = of(s, i, GROWING), of(s, i, SHRINKING)
         mean, half = fma(-response, cosine, -1.0), fma(response * frequency, sine, velocity)
-        grow, shrink = 0.5 * (mean + half), 0.5 * (mean - half)
-        to_cut = choose(side > 0.0, right, left) - start
-        cut = fma(-math.floor(to_cut * per_period), period, to_cut)
-
-        told, q = max(grow, shrink) < TOLD, 1.0 - response
+        grow, shrink, q = 0.5 * (mean + half), 0.5 * (mean - half), 1.0 - response
         m, root = math.sqrt(4.0 * grow * shrink), math.sqrt(fma(q, q, -4.0 * grow * shrink))
         late, twice = logarithms_of_ratios(q + root, -2.0 * grow, -shrink, -grow)
+        to_cut = choose(side > 0.0, right, left) - start
+        begins = (stage == ARRIVED) | (stage == BEGUN)
+        put(s, i, GROWING, choose(begins, grow, growing))
+        put(s, i, SHRINKING, choose(begins, shrink, shrinking))
+        put(s, i, DEEP, m)
+        put(s, i, TWICE, twice)
+        put(s, i, LATE, choose(q > m, late, -math.inf))
+        put(s, i, CUT, fma(-np.floor(to_cut * per_period), period, to_cut))
+    for i in range(LANES):
+        stage, grow, shrink = of(s, i, STAGE), of(s, i, GROWING), of(s, i, SHRINKING)
+        m, twice, late, cut = of(s, i, DEEP), of(s, i, TWICE), of(s, i, LATE), of(s, i, CUT)
+        frequency, response, inside = of(s, i, FREQUENCY), of(s, i, RESPONSE), of(s, i, INSIDE)
+        period, per_period = of(s, i, PERIOD), of(s, i, PER_PERIOD)
+        low, end, exceeds, peak = of(s, i, LOW), of(s, i, END), of(s, i, EXCEEDS), of(s, i, PEAK)
+        told = max(grow, shrink) < TOLD
         away = fma(-0.5, inside, cut) - 0.5 * twice
-        away = fma(-math.floor(fma(away, per_period, 0.5)), period, away)
+        away = fma(-np.floor(fma(away, per_period, 0.5)), period, away)
         away = max(abs(away) - ROUGHLY, 0.0)
         # 1 - cos y >= y**2 (1/2 - a**2/4! + a**4/6! - a**6/8!) for y up to a, and at least 1 from a = pi/2 to pi
         square = frequency * frequency
@@ -194,12 +203,10 @@ def begin(s):
         above = 1.0 - m + response - peak
         may_exceed = (above > response) | (above * (m + bowl) > 0.5 * away * away * bowl * m)
         early, late = twice - late + 2.0 * ROUGHLY, late - 2.0 * ROUGHLY
-        leaps = told & (q > m) & (cut > early) & (cut < late)
-        turns = choose(leaps, math.floor((late - cut) * per_period), 0.0)
+        leaps = told & (cut > early) & (cut < late)
+        turns = choose(leaps, np.floor((late - cut) * per_period), 0.0)
         cut = fma(turns, period, cut)
         begins = (stage == ARRIVED) | (stage == BEGUN)
-        put(s, i, GROWING, choose(begins, grow, growing))
-        put(s, i, SHRINKING, choose(begins, shrink, shrinking))
         put(s, i, EXCEEDS, choose(begins, choose(told & (may_exceed == False), 0.0, 1.0), exceeds))  # noqa: E712
         put(s, i, LOW, choose(begins, max(cut - inside, 0.0), low))
         put(s, i, END, choose(begins, cut, end))

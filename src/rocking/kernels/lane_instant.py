@@ -2,8 +2,8 @@
 
 from numba import njit
 
-from .branchless import EXACT_INNER, choose, circular, hyperbolic
-from .elementary import SHORT, fma
+from .branchless import EXACT_INNER, SHORT_ANGLE, SHORT_TIME, choose, circular, hyperbolic
+from .elementary import fma
 from .lanes import (
     AMPLITUDE,
     COSINE,
@@ -58,7 +58,7 @@ def instant(system, start, t, hyperbolics, circulars):
     above, velocity, cosine, sine = start
     sinh, versinh, excess, higher = hyperbolics
     sin_x, versine, lag, deficit = circulars
-    near = frequency * t < SHORT
+    near = (frequency * t < SHORT_ANGLE) & (t < SHORT_TIME)
     in_phase, lateness = versinh + versine, fma(frequency, excess, lag)
     place = choose(near, -fma(frequency * frequency, higher, deficit), in_phase)
     rate = choose(near, -frequency * lateness, fma(frequency, sin_x, sinh))

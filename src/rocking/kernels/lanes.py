@@ -51,6 +51,12 @@ LANES = 48
     ROWS,
 ) = range(83)  # fmt: skip
 
+# Where an arc begins, and nothing is looked at yet: the first cut; m = 2 sqrt(c+ c-), ln(c-/c+), and the time up to which u
+# is certainly positive.
+CUT, DEEP, TWICE, LATE = SINH, VERSINH, EXCESS, HIGHER
+# After that, when what ended is noted: where, the square of the speed, whether there is more to note.
+SLOT, SQUARE, DUE = SIN_X, VERSINE, LAG
+
 # What is next for a lane: nothing; to begin an arc; to walk; to guess the zero in its stretch; to look for the bottom of a dip; to
 # step to the zero; the event, once it was attended to; what none of these can do; to look from further on.
 IDLE, BEGUN, WALK, GUESS, BOTTOM, REFINE, ARRIVED, UNSURE, FURTHER = (float(stage) for stage in range(9))
