@@ -72,13 +72,22 @@ def from_bits(typingctx, n):
 
 
 @njit(**EXACT_INNER)
+def shortest_series(q, c):
+    """The first 6 terms of ``series``, enough for |argument| <= ln 2 / 2."""
+    q2 = q * q
+    even = fma(fma(c[4], q2, c[2]), q2, c[0])
+    odd = fma(fma(c[5], q2, c[3]), q2, c[1])
+    return fma(odd, q, even)
+
+
+@njit(**EXACT_INNER)
 def reduced_exponential(t):
     """(sinh r, cosh r - 1, sinh r - r, cosh r - 1 - r**2/2, k, 2**k, 2**-k) of t = r + k ln 2, abs(r) <= ln 2 / 2."""
     shifted = fma(t, PER_LN2, ROUNDER)
     k = shifted - ROUNDER
     r = fma(-k, LN2[1], fma(-k, LN2[0], t))
     q = r * r
-    higher, excess = q * q * short_series(q, EVEN), r * q * short_series(q, ODD)
+    higher, excess = q * q * shortest_series(q, EVEN), r * q * shortest_series(q, ODD)
     power = bits_of(shifted) << EXPONENT
     return r + excess, fma(0.5, q, higher), excess, higher, k, from_bits(ONE + power), from_bits(ONE - power)
 

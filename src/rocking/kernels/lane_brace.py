@@ -125,14 +125,12 @@ def step(s):
     elements(s)
     for i in range(LANES):
         stage, t, about, tries = of(s, i, STAGE), of(s, i, TIME), of(s, i, ABOUT), of(s, i, TRIES)
-        wait, speed, at_brace = of(s, i, WAIT), of(s, i, SPEED), of(s, i, AT_BRACE) > 0.0
+        wait, at_brace = of(s, i, WAIT), of(s, i, AT_BRACE) > 0.0
         angle, velocity, brace_angle = of(s, i, ANGLE), of(s, i, VELOCITY), of(s, i, BRACE_ANGLE)
         sinh, versinh = of(s, i, SINH), of(s, i, VERSINH)
         amplitude, frequency = of(s, i, AMPLITUDE), of(s, i, FREQUENCY)
         knot_angle, knot_rate = of(s, i, KNOT_ANGLE), of(s, i, KNOT_RATE)
         knot_cosine, knot_sine = of(s, i, KNOT_COSINE), of(s, i, KNOT_SINE)
-        next_cosine, next_sine = of(s, i, NEXT_COSINE), of(s, i, NEXT_SINE)
-        next_sinh, next_versinh = of(s, i, NEXT_SINH), of(s, i, NEXT_VERSINH)
         risen, v, cosine, sine = instant_of(s, i, angle - 1.0)
         u = angle + risen
         _, _, second, third, fourth, fifth, _ = derivatives((u, v, cosine, sine), amplitude, frequency)
@@ -165,13 +163,14 @@ def step(s):
         # too far: what was met lies before
         above, beneath = goes_on & (u > brace_angle), goes_on & (u < 0.0)
 
-        next_c, next_s, next_sh, next_vh = onward(x, frequency, cosine, sine, sinh, versinh)
+        next_cosine, next_sine, next_sinh, next_versinh = onward(x, frequency, cosine, sine, sinh, versinh)
         put(s, i, WAIT, choose(arrived, later, wait))
-        put(s, i, SPEED, choose(arrived, abs(slope), speed))
-        put(s, i, NEXT_COSINE, choose(arrived, next_c, next_cosine))
-        put(s, i, NEXT_SINE, choose(arrived, next_s, next_sine))
-        put(s, i, NEXT_SINH, choose(arrived, next_sh, next_sinh))
-        put(s, i, NEXT_VERSINH, choose(arrived, next_vh, next_versinh))
+        # of a lane that has not arrived nobody asks for these
+        put(s, i, SPEED, abs(slope))
+        put(s, i, NEXT_COSINE, next_cosine)
+        put(s, i, NEXT_SINE, next_sine)
+        put(s, i, NEXT_SINH, next_sinh)
+        put(s, i, NEXT_VERSINH, next_versinh)
         put(s, i, KNOT_ANGLE, choose(further, u, knot_angle))
         put(s, i, KNOT_RATE, choose(further, v, knot_rate))
         put(s, i, KNOT_COSINE, choose(further, cosine, knot_cosine))

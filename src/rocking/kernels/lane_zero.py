@@ -180,7 +180,7 @@ def step(s):
     """From the time looked at to the zero, or nearer to it; or to the bottom of a dip, which shows that there is none."""
     for i in range(LANES):
         stage, t, low, high = of(s, i, STAGE), of(s, i, TIME), of(s, i, LOW), of(s, i, HIGH)
-        tries, wait, speed, cleared = of(s, i, TRIES), of(s, i, WAIT), of(s, i, SPEED), of(s, i, CLEARED)
+        tries, wait, cleared = of(s, i, TRIES), of(s, i, WAIT), of(s, i, CLEARED)
         sinh, versinh = of(s, i, SINH), of(s, i, VERSINH)
         amplitude, frequency = of(s, i, AMPLITUDE), of(s, i, FREQUENCY)
         u, v, cosine, sine = (
@@ -189,8 +189,6 @@ def step(s):
             of(s, i, COSINE_THERE),
             of(s, i, SINE_THERE),
         )
-        next_cosine, next_sine = of(s, i, NEXT_COSINE), of(s, i, NEXT_SINE)
-        next_sinh, next_versinh = of(s, i, NEXT_SINH), of(s, i, NEXT_VERSINH)
         square = frequency * frequency
         f, df, ddf = fma(-amplitude, cosine, -1.0), amplitude * frequency * sine, square * amplitude * cosine
         second, third = u + f, v + df
@@ -206,11 +204,12 @@ def step(s):
         slope = fma(x, fma(x, fma(x, fma(x, I4 * fifth, I3 * fourth), I2 * third), second), v)
         cosine, sine, sinh, versinh = onward(x, frequency, cosine, sine, sinh, versinh)
         put(s, i, WAIT, choose(arrived, t + x, wait))
-        put(s, i, SPEED, choose(arrived, -slope, speed))
-        put(s, i, NEXT_COSINE, choose(arrived, cosine, next_cosine))
-        put(s, i, NEXT_SINE, choose(arrived, sine, next_sine))
-        put(s, i, NEXT_SINH, choose(arrived, sinh, next_sinh))
-        put(s, i, NEXT_VERSINH, choose(arrived, versinh, next_versinh))
+        # of a lane that has not arrived nobody asks for these
+        put(s, i, SPEED, -slope)
+        put(s, i, NEXT_COSINE, cosine)
+        put(s, i, NEXT_SINE, sine)
+        put(s, i, NEXT_SINH, sinh)
+        put(s, i, NEXT_VERSINH, versinh)
 
         # the bottom of a dip, where u + u' = 0, as ``crossing.dip``
         held, through = diving | (stage == REFINE), diving & (u < 0.0)
