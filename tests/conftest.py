@@ -24,10 +24,10 @@ def reproduced(tmp_path_factory):
     return Reproduced(folder, paths, calls)
 
 
-@pytest.hookimpl(tryfirst=True)  # before the workers' items are grouped by their marks
+@pytest.hookimpl(tryfirst=True)  # before items are chosen, and those of the workers grouped, by their marks
 def pytest_collection_modifyitems(items):
-    """It takes a minute, and more on a machine with much else to do: one worker runs all that look at it."""
+    """It takes minutes, and one worker runs all that look at it."""
     for item in items:
         if "reproduced" in getattr(item, "fixturenames", ()):
             item.add_marker(pytest.mark.xdist_group("reproduced"))
-            item.add_marker(pytest.mark.timeout(1200))
+            item.add_marker(pytest.mark.long)

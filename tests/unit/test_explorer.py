@@ -528,6 +528,11 @@ def test_curve_of_a_mode_is_dotted_on_the_page_where_the_mode_is_not_admissible(
         assert {mode.admissible for mode in modes} == {holds}
 
 
+def test_curves_of_a_block_without_braces_are_not_drawn_over_the_map_of_one_between_them():
+    shown = changed(DEFAULT, {"curves": "melnikov", "brace_angle": "1"})
+    assert planes.curves(shown, planes.Corner(0.0, 0.0))["xs"] == []
+
+
 KINDS = {
     "figure-2a": ("periodic", 1), "figure-2b": ("periodic", 3), "figure-2c": ("periodic", 10), "figure-4": ("overturned", None),
     "figure-5": ("quasi-periodic", None), "figure-6": ("chaotic", None), "figure-11": ("periodic", 1), "figure-13a": ("chaotic", None),

@@ -284,6 +284,11 @@ def test_axes_that_leave_out_what_is_there_are_refused(made, axis):
         rk.parametric_map(**(ASKED | {"amplitude": axis}), store=made)
 
 
+def test_repair_without_a_store_is_refused():
+    with pytest.raises(ValueError, match="repair must go with store, whose damaged tiles it computes again"):
+        rk.parametric_map(**ASKED, repair=True)
+
+
 def refused(folder, message):
     with pytest.raises(OSError, match=f"^{re.escape(message)}$"):
         rk.parametric_map(**ASKED, store=folder)

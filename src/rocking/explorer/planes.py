@@ -121,9 +121,9 @@ def answers(picture: Picture) -> dict[str, np.ndarray]:
 
 
 def curves(shown: Shown, corner: Corner) -> dict[str, Any]:
-    """The curves asked for, as far as they are seen; dotted where the mode is not admissible."""
+    """The curves asked for, as far as they are seen, none between braces; dotted where the mode is not admissible."""
     columns: dict[str, Any] = {"xs": [], "ys": [], "dash": []}
-    for name in shown.curves:
+    for name in shown.curves if shown.brace_angle is None else ():
         periods, *lines = _curve(name, shown.periods, shown.amplitudes, shown.restitution)
         for line, dash in zip(lines, (DASHES[name], DOTTED), strict=True):
             if np.isfinite(line).any():

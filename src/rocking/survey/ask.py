@@ -8,7 +8,7 @@ from concurrent.futures import Executor
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
-from rocking.model import instance
+from rocking.model import instance, refusal
 from rocking.survey.axes import Question
 from rocking.survey.cost import cost
 from rocking.survey.memory import Memory, check_fits
@@ -32,6 +32,8 @@ def ask(
     """Carry a survey out, or go on with one in a store."""
     if executor is not None:
         instance("executor", executor, Executor)
+    if store is None and repair:
+        raise ValueError(refusal("repair", "go with store, whose damaged tiles it computes again", repair))
     if store is None:
         check_fits(asked, measure)
         results = Memory(asked, measure)
