@@ -38,7 +38,7 @@ test: lint ## lint, then the tests, the examples in docstrings and the README
 	@$(chromium)
 	@$(bin)/python -m pytest -q -n $(workers)
 
-test-long: setup ## the tests that take minutes: millions of crossings, systems and cycles
+test-long: setup ## the tests that take minutes: millions of crossings, systems and cycles, the report
 	@$(compile)
 	@$(chromium)
 	@$(bin)/python -m pytest -q -n $(workers) -m long --timeout 3600

@@ -31,3 +31,4 @@ def pytest_collection_modifyitems(items):
         if "reproduced" in getattr(item, "fixturenames", ()):
             item.add_marker(pytest.mark.xdist_group("reproduced"))
             item.add_marker(pytest.mark.long)
+            item.add_marker(pytest.mark.timeout(1200))

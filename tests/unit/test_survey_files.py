@@ -9,11 +9,11 @@ from rocking.survey.files import codecs, encoded
 EDGES = (40, 30)
 
 
-@pytest.mark.parametrize("dtype", ["uint8", "int32", "float64"])
+@pytest.mark.parametrize("dtype", ["uint8", "int32", "float32", "float64"])
 @pytest.mark.parametrize("ends", [(0, 0), (7, 0), (0, 1), (39, 29)], ids=str)
 def test_chunk_is_what_zarr_writes(tmp_path, dtype, ends):
     shape = tuple(edge - short for edge, short in zip(EDGES, ends, strict=True))
-    fill = np.iinfo(dtype).max if dtype != "float64" else np.inf
+    fill = np.inf if dtype.startswith("float") else np.iinfo(dtype).max
     random = np.random.default_rng(7)
     values = (100 * random.random(shape)).astype(dtype)
     values[0] = 3  # what is all the same shrinks

@@ -1,6 +1,6 @@
 """The elementary functions of an arc without a branch, so that the compiler computes them for many blocks at once.
 
-All are made of the Taylor series of a reduced argument. From an argument so short that nothing is taken off it the
+Those of an arc are made of the Taylor series of a reduced argument. From an argument so short that nothing is taken off it the
 series give the differences, such as sinh t - t, to full relative accuracy as well; of longer ones these are formed.
 """
 
@@ -73,7 +73,7 @@ def from_bits(typingctx, n):
 
 @njit(**EXACT_INNER)
 def shortest_series(q, c):
-    """The first 6 terms of ``series``, enough for |argument| <= ln 2 / 2."""
+    """The first 6 terms of ``elementary.series``, enough for |argument| <= ln 2 / 2."""
     q2 = q * q
     even = fma(fma(c[4], q2, c[2]), q2, c[0])
     odd = fma(fma(c[5], q2, c[3]), q2, c[1])

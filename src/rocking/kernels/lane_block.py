@@ -237,6 +237,7 @@ def sort_out(s, most, braced):
     for i in range(LANES):
         events, stage, velocity = of(s, i, EVENTS), of(s, i, STAGE), of(s, i, VELOCITY)
         slot, rounds = events - of(s, i, UNCOLLECTED) - 1.0, events * (1.0 / (RESYNCHRONISE + 1))
+        # the clock's turn as in ``note_arc``: of a power of two
         kept = (events > of(s, i, COUNTED)) & (slot < most) & (braced == False)  # noqa: E712
         due = (of(s, i, TRAILS) > 0.0) | ((np.floor(rounds) == rounds) & (stage == WALK))
         put(s, i, SLOT, choose(kept, slot, -1.0))
@@ -260,9 +261,9 @@ def note_arc(s, i, trail):
 
 @njit(**WITHIN)
 def note(s, flights, trail, braced):
-    """Of each lane how long the last flight lasted and the square of its speed, without braces, and what ``note_arc`` does.
+    """Write down of each lane what its last flight was, where there are no braces: how long, and the square of its speed.
 
-    So again and again until the next impact.
+    So again and again until the next impact; and ``note_arc`` where that is due.
     """
     sort_out(s, flights.shape[2], braced)
     for i in range(LANES):

@@ -51,8 +51,8 @@ LANES = 48
     ROWS,
 ) = range(83)  # fmt: skip
 
-# Where an arc begins, and nothing is looked at yet: the first cut; m = 2 sqrt(c+ c-), ln(c-/c+), and the time up to which u
-# is certainly positive.
+# Where an arc begins, and nothing is looked at yet: the first cut; m = 2 sqrt(c+ c-), ln(c-/c+), and roughly the time up to
+# which u must be positive, if there is one.
 CUT, DEEP, TWICE, LATE = SINH, VERSINH, EXCESS, HIGHER
 # After that, when what ended is noted: where, the square of the speed, whether there is more to note.
 SLOT, SQUARE, DUE = SIN_X, VERSINE, LAG

@@ -135,13 +135,13 @@ def _sized(array: zarr.Array, shape: tuple[int, ...]) -> zarr.Array:
     return array
 
 
-def _chunks(coordinate: zarr.Array, values: np.ndarray) -> Iterator[tuple[str, bytes]]:
+def _chunks(array: zarr.Array, values: np.ndarray) -> Iterator[tuple[str, bytes]]:
     """The files of a coordinate, which an axis made longer has several of: (key, what it holds)."""
     from rocking.survey.files import encoded
 
-    (edge,) = coordinate.chunks
+    (edge,) = array.chunks
     for number, first in enumerate(range(0, values.size, edge)):
-        yield f"{coordinate.path}/c/{number}", encoded(values[first : first + edge], (edge,), math.nan)
+        yield f"{array.path}/c/{number}", encoded(values[first : first + edge], (edge,), math.nan)
 
 
 def _plain(told: dict[str, Any]) -> dict[str, Any]:

@@ -36,7 +36,7 @@ NAME = "rocking_survey"
 """The attribute of the root group that tells a survey's store from other folders."""
 MOST_NAMED = 5
 MOST_HELD = 1 << 20
-"""Points of a level, some 50 MB, that is held in memory for the next one's sake."""
+"""Points of a level, some 50 MB, that is held in memory for the next one's sake; all of them together are less than twice that."""
 
 
 class Store:
