@@ -237,8 +237,8 @@ def sort_out(s, most, braced):
     for i in range(LANES):
         events, stage, velocity = of(s, i, EVENTS), of(s, i, STAGE), of(s, i, VELOCITY)
         slot, rounds = events - of(s, i, UNCOLLECTED) - 1.0, events * (1.0 / (RESYNCHRONISE + 1))
-        # the clock's turn as in ``note_arc``: of a power of two
         kept = (events > of(s, i, COUNTED)) & (slot < most) & (braced == False)  # noqa: E712
+        # every so many events as in ``note_arc``, exactly: RESYNCHRONISE + 1 is a power of two
         due = (of(s, i, TRAILS) > 0.0) | ((np.floor(rounds) == rounds) & (stage == WALK))
         put(s, i, SLOT, choose(kept, slot, -1.0))
         put(s, i, SQUARE, velocity * velocity)
