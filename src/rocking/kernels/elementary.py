@@ -108,7 +108,8 @@ def quarter_turn(x, correction):
 
     1 - |cos| keeps its relative accuracy in the even quadrants, those about the multiples of pi.
     """
-    quadrant = math.floor(x * TWO_OVER_PI + 0.5)
+    # ``math.floor`` goes through an integer and back
+    quadrant = np.floor(x * TWO_OVER_PI + 0.5)
     high = fma(-quadrant, HALF_PI[0], x)
     tail = fma(-quadrant, HALF_PI[1], correction)
     r = high + tail

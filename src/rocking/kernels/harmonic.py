@@ -9,6 +9,7 @@ positive side and psi + pi on the negative one; (cosine, sine) are those of eta.
 import math
 from typing import NamedTuple
 
+import numpy as np
 from numba import njit
 
 from .elementary import INNER, SHORT, circular, direction, fma
@@ -106,7 +107,7 @@ def first_cut(p, side, psi, centre, half):
     zeta = psi - centre + half
     if side < 0:
         zeta += math.pi
-    zeta -= TURN * math.floor(zeta * (1.0 / TURN))
+    zeta -= TURN * np.floor(zeta * (1.0 / TURN))
     if zeta >= TURN:
         zeta = 0.0  # just before the first cut, rounded onto it: what follows it has begun
     inside = zeta < 2.0 * half

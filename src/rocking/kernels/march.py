@@ -42,8 +42,8 @@ from .turning import largest_on, peak_with
 MOST_EVENTS = 10_000_000
 # Compiled code cannot be interrupted: it comes up for air after this many events.
 BREATH = 2_000_000
-# Guesses of the first two waits where there are none.
-UNKNOWN = (0.0, 1.0)
+# No guesses of the first two waits.
+UNKNOWN = (0.0, 0.0)
 # From event to event the forcing is turned on with the arc; after this many (a power of two, less one) it
 # is taken from the clock anew.
 RESYNCHRONISE = 15

@@ -12,6 +12,7 @@ Written with the distance of V from V_E = t k₊/a, where both roots meet, nothi
 import math
 from typing import NamedTuple
 
+import numpy as np
 from numba import njit
 
 from .arc import Arc, arc_from, evaluate
@@ -20,6 +21,7 @@ from .harmonic import TURN
 
 # Beyond it sinh is infinite.
 LARGEST_ARGUMENT = 700.0
+NOWHERE = Arc(1, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0)
 
 
 class Nearest(NamedTuple):
@@ -67,14 +69,14 @@ def closed_form_plain(frequency, response, restitution, order, faster):
 def nearest(p, order, angle, velocity):
     """Of the faster (1, ``order``) mode, if that is stable, the state at the start of a cycle nearest to (angle, velocity)."""
     half = order * math.pi * p.per_frequency
-    best = Nearest(math.inf, order, math.nan, math.nan, arc_from(p, 1, 0.0, 0.0, 0.0), 0.0, half)
+    best = Nearest(math.inf, order, math.nan, math.nan, NOWHERE, 0.0, half)
     if order % 2 == 0 or p.restitution == 0.0:
         return best
     speed, phase, trace = closed_form(p.frequency, p.response, p.restitution, order, True)
     if not (speed > 0.0 and abs(trace) < 1.0 + p.restitution * p.restitution):
         return best
     first = p.phase - phase
-    first -= TURN * math.floor(first / TURN)
+    first -= TURN * np.floor(first / TURN)
     for k in range(order):
         since, side = (first + k * TURN) * p.per_frequency, 1
         if since >= half:

@@ -39,7 +39,7 @@ SMALL = 2e-4
 # bend below this one more round would not show.
 REACH, ROUNDS, BEND = 1.8, 3, 0.25
 # From so near, and such a bend, it needs no polish.
-NEAR = 0.7
+NEAR = 0.28
 I2, I3, I4, I5, I6, I7, I8 = (1.0 / math.factorial(k) for k in range(2, 9))
 
 
@@ -128,14 +128,16 @@ def polished(p, steady, now, rough):
 @njit(**INNER)
 def leap(p, steady, here):
     """(whether the series about a knot tells where w has its zero, the step there)."""
+    scale, rough = max(1.0, p.frequency), math.inf
     if abs(here.w * (here.w + here.f)) < BEND * here.dw * here.dw and here.dw < 0.0:
-        step = step_to_zero(here.w, here.dw, (here.f, here.df, turned(p, steady, here)))
-        if max(1.0, p.frequency) * abs(step) < NEAR:
-            return True, step
-    step = stride(here)
-    if max(1.0, p.frequency) * abs(step) <= REACH:
-        return True, polished(p, steady, here, step)[1]
-    return False, step
+        rough = step_to_zero(here.w, here.dw, (here.f, here.df, turned(p, steady, here)))
+        if scale * abs(rough) < NEAR:
+            return True, rough
+    else:
+        rough = stride(here)
+    if scale * abs(rough) <= REACH:
+        return True, polished(p, steady, here, rough)[1]
+    return False, rough
 
 
 @njit(**INNER)

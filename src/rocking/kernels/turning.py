@@ -2,6 +2,7 @@
 
 import math
 
+import numpy as np
 from numba import njit
 
 from .arc import evaluate, exponentials, within_reach
@@ -95,7 +96,7 @@ def crest(p, arc, until, peak):
     m = 2.0 * math.sqrt(grow * shrink)
     middle = 0.5 * math.log(shrink / grow)
     eta = p.frequency * middle + arc.psi + (math.pi if arc.side < 0 else 0.0)
-    ahead = TURN * math.floor(eta / TURN + 0.5) - eta
+    ahead = TURN * np.floor(eta / TURN + 0.5) - eta
     bowl = (0.5 * TURN) ** -2 * 4.0 * p.response
     stiff = bowl * p.frequency * p.frequency
     if 1.0 - m + p.response - 0.5 * ahead * ahead * bowl * m / (m + stiff) <= peak:
