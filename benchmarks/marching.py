@@ -34,7 +34,7 @@ from rocking.kernels.march import MOST_EVENTS, UNKNOWN, begin
 from rocking.kernels.release import begin_tangent
 
 CYCLES, BEFORE = 3000, 30
-BLOCKS = 20 * LANES
+BLOCKS = 28 * LANES
 RUNS = 5
 
 

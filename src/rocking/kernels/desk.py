@@ -3,7 +3,9 @@
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
+from llvmlite import ir
+from numba import njit, types
+from numba.extending import intrinsic
 
 from .elementary import WITHIN
 from .lanes import LANES, ROWS, TRAIL
@@ -31,7 +33,7 @@ class Desk(NamedTuple):
     section: np.ndarray  # (n, 8), the last cycles: ``note_state``, then ``lossless.sketch``
     scratch: np.ndarray  # (n, 4), a trial orbit's; as many of the last cycles are looked at
     events: np.ndarray  # (n, 8)
-    flights: np.ndarray  # (2, n)
+    flights: np.ndarray  # (n, 2)
     weights: np.ndarray  # (n/4 + 1,)
     batches: np.ndarray
     columns: np.ndarray  # (2, 2)
@@ -48,6 +50,21 @@ def apart(count):
     return count + (8 - count) % 512
 
 
+@intrinsic
+def fetch(typingctx, address):
+    """Have the line of memory at an address brought near: it is about to be written. An address beyond all arrays does no harm."""
+
+    def generate(context, builder, signature, arguments):
+        pointer, number = ir.IntType(8).as_pointer(), ir.IntType(32)
+        kind = ir.FunctionType(ir.VoidType(), [pointer, number, number, number])
+        function = builder.module.declare_intrinsic("llvm.prefetch.p0i8", fnty=kind)
+        # to write, to keep as near as can be, not a program
+        builder.call(function, [builder.inttoptr(arguments[0], pointer), number(1), number(3), number(1)])
+        return context.get_dummy_value()
+
+    return types.void(types.intp), generate
+
+
 def desk(max_cycles, max_period):
     """Working memory for runs of up to ``max_cycles`` and orbits of up to ``max_period``."""
     rows = max(4 * max_period, LEG) + 1
@@ -56,7 +73,7 @@ def desk(max_cycles, max_period):
         np.empty((rows + SPARE * LEG, 8)),
         np.empty((rows, 4)),
         np.empty((512, 8)),
-        np.empty((2, flights)),
+        np.empty((flights, 2)),
         np.empty(flights // 4 + 1),
         np.empty(BATCHES),
         np.empty((2, 2)),

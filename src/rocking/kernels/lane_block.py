@@ -8,6 +8,7 @@ from numba import njit
 from .arc import NONE_YET, arc_after, earlier
 from .branchless import EXACT_INNER, choose
 from .crossing import LONGEST
+from .desk import fetch
 from .elementary import INNER, WITHIN
 from .events import BRACE, FLIGHT, IMPACT, next_event
 from .harmonic import clock
@@ -67,6 +68,8 @@ from .turning import largest_on
 from .verdict import Run, most_events, room
 
 LN2 = math.log(2.0)
+# A line of memory holds four flights: the next but one is brought near.
+AHEAD = 8
 
 
 @njit(**WITHIN)
@@ -138,7 +141,7 @@ def read(s, i, wants, p, run, max_cycles, desk, trail):
     before, arc, cycle, target = watch.progress, arc_of(s, i, p), int(of(s, i, CYCLE)), int(of(s, i, TARGET))
     pending, written = arc.start <= section_time, int(of(s, i, EVENTS)) - int(of(s, i, COUNTED))
     if lossless and written > 0:
-        collected = flights_by_now(s, i, flights, desk.flights.shape[1])
+        collected = flights_by_now(s, i, flights, desk.flights.shape[0])
         flights = Flights(IMPACT, cycle, arc.start, flights.first_cycle, collected)
     if wants == LEG_END:
         arc, cycle, pending = earlier(arc, (target - cycle) * p.period), target, True
@@ -265,10 +268,12 @@ def note(s, flights, trail, braced):
 
     So again and again until the next impact; and ``note_arc`` where that is due.
     """
-    sort_out(s, flights.shape[2], braced)
+    sort_out(s, flights.shape[1], braced)
     for i in range(LANES):
         slot = int(of(s, i, SLOT))
         if slot >= 0:
-            flights[i, 0, slot], flights[i, 1, slot] = of(s, i, WAIT), of(s, i, SQUARE)
+            flights[i, slot, 0], flights[i, slot, 1] = of(s, i, WAIT), of(s, i, SQUARE)
+            # No machine foresees where as many lanes write next.
+            fetch(flights.ctypes.data + flights.itemsize * 2 * (i * flights.shape[1] + slot + AHEAD))
         if of(s, i, DUE) > 0.0:
             note_arc(s, i, trail)

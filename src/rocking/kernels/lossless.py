@@ -51,7 +51,7 @@ def under_way(progress):
 
 @njit(**WITHIN)
 def collect(p, flights, rows, events, values):
-    """Add recorded events: ``values`` (2, n) takes how long each flight lasted, and the square of the speed it ended with."""
+    """Add recorded events: ``values`` (n, 2) takes how long each flight lasted, and the square of the speed it ended with."""
     event, cycle, time, first_cycle, count = flights
     for k in range(rows):
         now, met = int(events[k, 0]), int(events[k, 2])
@@ -59,9 +59,9 @@ def collect(p, flights, rows, events, values):
             continue
         if met != event:
             event, count, first_cycle = met, 0, now
-        elif count < values.shape[1]:
-            values[0, count] = (now - cycle) * p.period + (events[k, 1] - time)
-            values[1, count] = events[k, 6] * events[k, 6]
+        elif count < values.shape[0]:
+            values[count, 0] = (now - cycle) * p.period + (events[k, 1] - time)
+            values[count, 1] = events[k, 6] * events[k, 6]
             count += 1
         cycle, time = now, events[k, 1]
     return Flights(event, cycle, time, first_cycle, count)
@@ -154,9 +154,9 @@ def agreement(flights, values, weights, growth):
     if too_few(flights) or growth > math.log(max(count, cycles)) + SHEAR:
         return 0.0, False
     bumps(count // 2, weights)
-    digits = digits_with(values[1, :count], weights)
+    digits = digits_with(values[:count, 1], weights)
     needed = min(max(CHAOTIC_DIGITS + math.log2(count / LONG), CHAOTIC_DIGITS), ENOUGH_DIGITS)
-    return digits, digits >= needed and digits_with(values[0, :count], weights) >= ENOUGH_DIGITS
+    return digits, digits >= needed and digits_with(values[:count, 0], weights) >= ENOUGH_DIGITS
 
 
 @njit(**WITHIN)
@@ -171,4 +171,4 @@ def digits_of_speeds(flights, values, weights):
     if too_few(flights):
         return 0.0
     bumps(flights.count // 2, weights)
-    return digits_with(values[1, : flights.count], weights)
+    return digits_with(values[: flights.count, 1], weights)

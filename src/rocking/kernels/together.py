@@ -101,7 +101,7 @@ def passed(s, i, guest, max_cycles, bench):
     What differences have grown by is read in any case.
     """
     point, p, case = guest
-    target, most = next_look(case, max_cycles), bench.flights.shape[2]
+    target, most = next_look(case, max_cycles), bench.flights.shape[1]
     if not case.run.lossless or of(s, i, TRAILS) > 0.0 or case.converged or target == max_cycles:
         return False, guest
     grown, bench.columns[i, 0, 0], bench.columns[i, 0, 1] = growth_since(s, i)
