@@ -39,7 +39,7 @@ SMALL = 2e-4
 # bend below this one more round would not show.
 REACH, ROUNDS, BEND = 1.8, 3, 0.25
 # From so near, and such a bend, it needs no polish.
-NEAR = 0.28
+NEAR = 0.25
 I2, I3, I4, I5, I6, I7, I8 = (1.0 / math.factorial(k) for k in range(2, 9))
 
 
