@@ -39,6 +39,7 @@ def march(p, cycles, angle=0.0, velocity=0.0):
     return found
 
 
+@pytest.mark.long
 def test_an_edit_in_a_called_function_is_seen_at_the_next_start(tmp_path):
     shutil.copytree(SOURCES, tmp_path / "src", ignore=shutil.ignore_patterns("__pycache__", "*.egg-info"))
     environment = {

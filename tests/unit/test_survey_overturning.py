@@ -20,7 +20,8 @@ def overturns(amplitude, period, restitution, phase):
 
 def test_a_curve_is_a_plain_scan_with_its_first_hits_refined():
     # at these periods the first hits lie at a plain edge: in a fractal, as at T = 1.7, no amplitude just below them is safe
-    periods, amplitudes, phases = [1.2, 1.3], np.linspace(1.5, 6.0, 31), [0.0, math.pi / 3, 2 * math.pi / 3]
+    # and none of these answers is another when the phase is changed by up to 8e-13
+    periods, amplitudes, phases = [1.2, 1.3], np.linspace(1.45, 5.95, 16), [0.0, math.pi / 3, 2 * math.pi / 3]
     found = rk.overturning_amplitude(
         period=periods, restitution=0.925, amplitude=amplitudes, phases=3, max_cycles=CYCLES
     ).dataset
@@ -30,7 +31,7 @@ def test_a_curve_is_a_plain_scan_with_its_first_hits_refined():
         assert found.overturning_share.values[k] == pytest.approx(fell.mean(axis=0), abs=0)
         assert found.changes.values[k].tolist() == (fell[:, 1:] != fell[:, :-1]).sum(axis=1).tolist()
         assert found.survived_up_to.values[k] == amplitudes[first - 1]
-        assert found.resolution.values[k] == pytest.approx(0.15, abs=1e-12)
+        assert found.resolution.values[k] == pytest.approx(0.3, abs=1e-12)
         assert found.surviving_above.values[k] == pytest.approx(1 - fell[:, first:].mean(), abs=1e-12)
         lowest, phase = found.lowest.values[k], found.lowest_phase.values[k]
         assert amplitudes[first - 1] < lowest <= amplitudes[first]
