@@ -25,6 +25,12 @@ def quickest(repeats, work, clock=perf_counter):
     return min(times), result
 
 
+def quickest_in_turn(turns, ways, clock=perf_counter):
+    """``quickest`` of each of several ways, run one after another in every turn: none alone meets a bad moment of the machine."""
+    runs = [[quickest(1, way, clock) for way in ways] for _ in range(turns)]
+    return [min(of_one, key=lambda run: run[0]) for of_one in zip(*runs, strict=True)]
+
+
 def nanoseconds_per_impact(repeats, march, *arguments):
     """Of a march on one thread, in processor time: whatever else the machine does counts as little as it can."""
     time, (impacts, _) = seconds(repeats, march, *arguments, clock=thread_time)
