@@ -7,6 +7,7 @@ import tempfile
 import time
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
+from statistics import median
 
 import numpy as np
 from numba import njit
@@ -90,20 +91,18 @@ def engines():
     """Workers and stores, on the map of figure 11."""
     rk.parametric_map(**asked(20))
     one, two = [], []
-    for _ in range(RUNS):
+    for _ in range(TURNS):
         for times, workers in ((one, 1), (two, 2)):
             with ThreadPoolExecutor(workers) as pool:
                 times.append(taken(**asked(POINTS), executor=pool)[0])
-    yield Figure(
-        "one worker, against two", sorted(one)[1] / sorted(two)[1], "×", 1.9, least=True, note=busy()
-    )
+    yield Figure("one worker, against two", median(one) / median(two), "×", 1.9, least=True, note=busy())
     plain, stored = [], []
     with tempfile.TemporaryDirectory() as folder:
         rk.parametric_map(**asked(20), store=f"{folder}/warm.zarr")
         for run in range(RUNS):
             plain.append(taken(**asked(POINTS))[1])
             stored.append(taken(**asked(POINTS), store=f"{folder}/{run}.zarr")[1])
-        share = 100.0 * (sorted(stored)[1] / sorted(plain)[1] - 1.0)
+        share = 100.0 * (median(stored) / median(plain) - 1.0)
         yield Figure("storing, of the processors' time", share, "%", 10)
         size = sum(path.stat().st_size for path in Path(folder, "0.zarr").rglob("*"))
         yield Figure("  on disk", size / 1e6, "MB")
