@@ -21,6 +21,7 @@ from .harmonic import TURN
 
 # Beyond it sinh is infinite.
 LARGEST_ARGUMENT = 700.0
+# The arc of no mode.
 NOWHERE = Arc(1, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0)
 
 
