@@ -11,6 +11,7 @@ from numba import njit
 from benchmarks.table import Figure
 from rocking.kernels import judgement, verdict
 from rocking.kernels.desk import desk
+from rocking.kernels.elementary import COMPILED
 from rocking.kernels.parameters import make
 
 POINTS = 200
@@ -30,7 +31,7 @@ print(seconds, int(most[0] if most else resource.getrusage(resource.RUSAGE_SELF)
 """
 
 
-@njit(nogil=True)
+@njit(**COMPILED)
 def judge_all(amplitudes, periods, restitution, max_cycles, memory, kinds, grounds, work):
     """Every point from rest, phase 0."""
     for k in range(amplitudes.shape[0]):
