@@ -143,8 +143,14 @@ MEAN_TRANSIENT = 32_400
 
 def test_a_chaotic_transient_is_chaotic_over_the_cycles_watched_and_says_so():
     found = [classify(amplitude, 0.33, 0.99, max_cycles=20_000) for amplitude in TRANSIENTS[:16]]
-    assert {verdict.kind for verdict in found} == {"chaotic", "periodic"}  # half are over by then
+    kinds = [str(verdict.kind) for verdict in found]
+    # half are over by then; a run may have seen too little of chaos to call it so
+    assert min(kinds.count("chaotic"), kinds.count("periodic")) >= 3
+    assert kinds.count("undetermined") <= 2
+    assert set(kinds) <= {"chaotic", "periodic", "undetermined"}
     for verdict in found:
+        if verdict.kind == "undetermined":
+            continue
         if verdict.kind == "chaotic":
             assert (verdict.evidence.level, verdict.cycles) == ("statistical", 20_000)
             assert "20000" in str(verdict.evidence).replace(",", "")

@@ -12,14 +12,13 @@ import numpy as np
 import xarray as xr
 
 import rocking as rk
-from rocking.papers.yim_lin_1991.cases import CHAOTIC, QUASI_PERIODIC
+from rocking.papers.yim_lin_1991.cases import QUASI_PERIODIC
 
 PERIODS, AMPLITUDES = (0.2, 3.0), (0.0, 16.0)
 RESTITUTIONS = (0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.925, 0.95, 0.97, 0.99, 1.0)
 SAMPLES = 400
 REPEATED = 32
 BRACED_RESTITUTIONS, BRACED_SAMPLES = (0.2, 0.4, 0.6, 0.8, 0.925), 250
-SEA = 8
 SYSTEMS = 900
 
 
@@ -92,16 +91,6 @@ def responses_uncertain(brace_angle: float | None = None) -> rk.Share:
         found = rk.repeatability(system, samples=16, max_cycles=10_000)
         differ += len(set(found.responses) - {rk.Kind.UNDETERMINED.value}) > 1
     return rk.Share(differ, SYSTEMS)
-
-
-@cache
-def sea_verdicts() -> tuple[rk.Verdict, ...]:
-    """Figure 6 from phases that no experiment tells apart."""
-    forcing = CHAOTIC.system.forcing
-    return tuple(
-        rk.classify(rk.System(rk.Harmonic(forcing.amplitude, period=forcing.period, phase=phase), 1.0))
-        for phase in np.linspace(0.0, 1e-7, SEA)
-    )
 
 
 @cache
