@@ -240,7 +240,15 @@ REFUSED = {
     ),
     f"{LINE} --plot map.gif": "--plot must end in .png, .svg, .pdf; got 'map.gif'",
     f"{LINE} --tiles {Path(__file__).parent}": (
-        f"--tiles must be new, empty, or hold an earlier index.html; got {str(Path(__file__).parent)!r}, which holds something else"
+        "--tiles must be new, empty, or hold just an earlier index.html and what belongs to it; got "
+        f"{str(Path(__file__).parent)!r}, which holds something else"
+    ),
+    f"{LINE} --tiles .": "--tiles must be another folder than the one this runs in; got '.'",
+    f"{LINE} --tiles look --csv look/map.csv": (
+        "--tiles and --csv must lie beside each other; got 'look/map.csv' for --csv"
+    ),
+    f"{LINE} --store look/map.zarr --tiles look": (
+        "--store and --tiles must lie beside each other; got 'look' for --tiles"
     ),
     f"{LINE} --store map --tiles ./map": "--store and --tiles must differ; got 'map' for both",
     f"{LINE} --plot map.png --tiles map.png": "--tiles and --plot must differ; got 'map.png' for both",

@@ -124,6 +124,17 @@ def test_a_path_is_told_as_it_was_typed(rocking):
     code, told, _ = rocking(line.replace("0.9", "0.8"))
     assert code == 2
     assert "'phase/period.zarr'" in told
+    chunk = Path("phase/period.zarr/level-0/cycles/c/0/0")
+    chunk.write_bytes(chunk.read_bytes()[:-1])
+    code, told, _ = rocking(line)
+    assert code == 2
+    assert f"is damaged at '{chunk}'; with --repair" in told
+
+
+def test_a_study_that_begins_with_a_mark_of_its_byte_order_is_read(rocking):
+    line = "map --amplitude 1:2:3 --period 1:2:3 --max-cycles 20"
+    Path("study.toml").write_text("restitution = 0.9\n", encoding="utf-8-sig")
+    assert rocking(f"{line} --study study.toml") == rocking(f"{line} --restitution 0.9")
 
 
 def test_overturning_reads_a_study_file(rocking):

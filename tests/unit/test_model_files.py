@@ -2,7 +2,7 @@
 
 import pytest
 
-from rocking.model.files import check_folder, check_writable, replacing, replacing_folder
+from rocking.model.files import Made, check_folder, check_writable, replacing, replacing_folder
 
 
 def names(folder):
@@ -94,8 +94,11 @@ def test_folder_inside_a_file_is_refused(tmp_path):
             check_folder("--output", path)
 
 
+MADE = Made("mark", beside=(), sign="")
+
+
 def write_folder(target, text):
-    with replacing_folder("folder", target, "mark") as temporary:
+    with replacing_folder("folder", target, MADE) as temporary:
         (temporary / "mark").write_text(text)
         assert not (target / "mark").exists() or (target / "mark").read_text() != text
 
@@ -113,7 +116,7 @@ def test_failure_leaves_the_old_folder_and_nothing_else(tmp_path, failure):
     write_folder(tmp_path / "kept", "old")
 
     def fail():
-        with replacing_folder("folder", tmp_path / "kept", "mark") as temporary:
+        with replacing_folder("folder", tmp_path / "kept", MADE) as temporary:
             (temporary / "half").touch()
             raise failure
 
@@ -128,6 +131,9 @@ def test_folder_that_was_not_written_here_is_refused_and_an_empty_one_taken(tmp_
     write_folder(tmp_path / "empty", "new")
     (tmp_path / "other").mkdir()
     (tmp_path / "other" / "notes").touch()
-    with pytest.raises(OSError, match="folder must be new, empty, or hold an earlier mark; got '.*other'"):
+    with pytest.raises(
+        OSError,
+        match="folder must be new, empty, or hold just an earlier mark and what belongs to it; got '.*other'",
+    ):
         write_folder(tmp_path / "other", "new")
     assert names(tmp_path / "other") == ["notes"]

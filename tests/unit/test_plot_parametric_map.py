@@ -203,6 +203,26 @@ def test_curves_follow_the_frequency_the_restitution_and_si_axes():
     np.testing.assert_allclose(block.amplitude(y), expected, rtol=1e-12)
 
 
+@pytest.mark.parametrize("name", [name for name in CURVES if name.startswith(("symmetry", "existence"))])
+def test_curve_ends_where_theory_knows_no_amplitude(name):
+    """A block that stays down has none of these modes."""
+    found = a_map([("rest", 0, 2)] * 30).drop_attrs().rename(period="restitution")
+    found = found.assign_coords(restitution=np.linspace(0.0, 1.0, COUNT)).assign_attrs(period=1.0)
+    ax = rk.plot.parametric_map(found, curves=[name])
+    x, y = lines_of(ax).T
+    assert x.size > 20
+    assert x.min() > 0.0
+    np.testing.assert_allclose(y, CURVES[name](1.0, x), rtol=1e-12)
+
+
+def test_legend_says_of_a_curve_that_it_is_not_here():
+    found = a_map([("rest", 0, 2)] * 5, restitution=0.9)
+    high = found.assign_coords(amplitude=found.amplitude + 900.0)
+    for each, label in ((found, "zeros from $A_M$"), (high, "zeros from $A_M$: not here")):
+        legend = rk.plot.parametric_map(each, curves=["melnikov"]).get_legend()
+        assert label in [text.get_text() for text in legend.get_texts()]
+
+
 def test_curve_of_a_mode_is_dotted_where_the_mode_is_not_admissible():
     """(1,3) at e = .925 is not there at A_SB below T = .8 or so."""
     found = a_map([("rest", 0, 2)] * 16, restitution=0.925)

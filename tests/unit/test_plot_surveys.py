@@ -8,6 +8,7 @@ import pytest
 from matplotlib.colors import to_rgb
 
 import rocking as rk
+from rocking.model import percent
 from rocking.plot.basins import colours
 
 SYSTEM = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), 0.925)
@@ -48,7 +49,18 @@ def test_colours_of_attractors_differ_however_many_there_are(basins):
 def test_a_legend_tells_names_and_shares(basins):
     texts = [text.get_text() for text in rk.plot.basins(basins).get_legend().get_texts()]
     pairs = zip(basins.attractors, basins.fractions, strict=True)
-    assert texts == [f"{each.name} {100 * share.value:.2g} %" for each, share in pairs]
+    assert texts == [f"{each.name} {percent(share.value)}" for each, share in pairs]
+
+
+def test_all_is_a_hundred_percent():
+    near = {"angle": np.linspace(0.1, 0.11, 4), "velocity": np.linspace(0.0, 0.01, 4), "boundary_runs": 0}
+    one = rk.plot.basins(rk.basin_map(rk.System(rk.Harmonic(2.0, period=1.0), 0.9), **near))
+    sure = rk.repeatability_map(
+        amplitude=[0.5, 0.6], period=[0.8, 0.9], restitution=0.925, samples=2, max_cycles=100
+    )
+    for ax in (one, rk.plot.repeatability_map(sure)):
+        (text,) = ax.get_legend().get_texts()
+        assert text.get_text().endswith(" 100 %")
 
 
 def test_random_starts_are_points():
@@ -70,6 +82,15 @@ def test_an_overturning_curve_lies_over_the_shares(curve):
     assert np.asarray(drawn(ax, "share").get_array()).ravel() == pytest.approx(
         100 * curve.dataset.overturning_share.values.T.ravel()
     )
+
+
+def test_shares_of_one_period_are_seen_where_nothing_overturns():
+    found = rk.overturning_amplitude(period=0.3, restitution=0.925, amplitude=[1.0, 2.0], phases=2)
+    ax = rk.plot.overturning(found)
+    assert drawn(ax, "share").get_ydata().tolist() == [0.0, 0.0]
+    low, high = ax.get_ylim()
+    assert low < 0.0
+    assert high > 100.0
 
 
 def test_two_axes_are_too_many_for_an_overturning_curve():

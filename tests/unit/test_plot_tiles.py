@@ -175,8 +175,34 @@ def test_what_fails_leaves_what_was_there(tmp_path, monkeypatch):
 
 def test_folder_with_something_else_is_refused(tmp_path):
     (tmp_path / "notes.txt").touch()
-    with pytest.raises(OSError, match="folder must be new, empty, or hold an earlier index.html; got '.*'"):
+    with pytest.raises(
+        OSError,
+        match="folder must be new, empty, or hold just an earlier index.html and what belongs to it; got '.*'",
+    ):
         rk.plot.tiles(scattered(3, 2), tmp_path)
     with pytest.raises(OSError, match="folder must be a folder that can be written; got '.*notes.txt'"):
         rk.plot.tiles(scattered(3, 2), tmp_path / "notes.txt")
     assert [path.name for path in tmp_path.iterdir()] == ["notes.txt"]
+
+
+@pytest.mark.parametrize("own", ["thesis.tex", "index.html", "tiles"])
+def test_nothing_of_somebody_elses_is_replaced(tmp_path, own):
+    """A file beside an earlier export; a page of that name which this has not written; a folder of tiles for a page that is gone."""
+    folder = rk.plot.tiles(scattered(3, 2), tmp_path / "map").parent
+    if own == "tiles":
+        (folder / "index.html").unlink()
+    else:
+        (folder / own).write_text("mine")
+    before = sorted((path, path.stat().st_mtime_ns) for path in folder.rglob("*"))
+    with pytest.raises(FileExistsError, match="which holds something else"):
+        rk.plot.tiles(scattered(5, 2), folder)
+    assert sorted((path, path.stat().st_mtime_ns) for path in folder.rglob("*")) == before
+
+
+def test_folder_that_this_runs_in_is_refused(tmp_path, monkeypatch):
+    (tmp_path / "deep").mkdir()
+    monkeypatch.chdir(tmp_path / "deep")
+    for folder in (".", "..", tmp_path):
+        with pytest.raises(OSError, match="folder must be another folder than the one this runs in; got"):
+            rk.plot.tiles(scattered(3, 2), folder)
+    assert (tmp_path / "deep").is_dir()

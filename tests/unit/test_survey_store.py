@@ -358,12 +358,25 @@ def test_damage_is_found_named_and_mended_on_request(copied, what, name, compute
     else:
         chunk.write_bytes(DAMAGE[what](chunk.read_bytes()))
     if (what, name) != ("missing", "cycles"):  # that is a tile which was never done
-        with pytest.raises(OSError, match=f"is damaged at {re.escape(str(chunk))}; with repair these tiles"):
+        with pytest.raises(
+            OSError, match=f"is damaged at {re.escape(repr(str(chunk)))}; with repair these tiles"
+        ):
             rk.parametric_map(**ASKED, store=copied)
     assert rk.parametric_map(**ASKED, store=copied, repair=True).load().equals(plain)
     tile = math.prod(zarr.open_array(copied / "level-2" / "kind", mode="r").chunks)
     assert computed() <= tile - (tile**0.5 // 2) ** 2
     assert files(copied) == whole
+
+
+@pytest.mark.parametrize("name", ["level-2/kind/c/1/2", "level-0/kind/zarr.json"])
+@pytest.mark.parametrize("draw", [rk.plot.parametric_map, lambda store: rk.plot.tiles(store, "look")])
+def test_damaged_store_is_not_drawn(copied, name, draw, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (copied / name).write_bytes(b"[]")
+    message = f"found must be the folder of a store that can be read; got {str(copied)!r}, which is damaged: "
+    with pytest.raises(OSError, match=re.escape(message) + "the survey that made it says where"):
+        draw(copied)
+    assert not Path("look").exists()
 
 
 @pytest.mark.parametrize("name", ["zarr.json", "level-1/kind/zarr.json"])
@@ -377,7 +390,7 @@ def test_damage_in_a_coarse_level_is_mended_there(copied, plain):
     whole = files(copied)
     for chunk in ("level-0/peak/c/0/0", "level-1/kind/c/0/1"):
         (copied / chunk).write_bytes(b"")
-    with pytest.raises(OSError, match="level-0/peak/c/0/0, .*level-1/kind/c/0/1; with repair"):
+    with pytest.raises(OSError, match="level-0/peak/c/0/0', .*level-1/kind/c/0/1'; with repair"):
         rk.parametric_map(**ASKED, store=copied)
     rk.parametric_map(**ASKED, store=copied, repair=True)
     assert files(copied) == whole

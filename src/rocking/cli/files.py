@@ -30,14 +30,20 @@ def check_files(
 
 
 def check_apart(paths: Mapping[str, Path | None]) -> None:
-    """`YourInput` for two outputs at one place."""
+    """`YourInput` for two outputs at one place, or one inside another, which is written as a whole."""
     taken: dict[Path, str] = {}
     for name, path in paths.items():
         if path is None:
             continue
-        other = taken.setdefault(path.resolve(), name)
-        if other != name:
-            raise YourInput(f"{option(other)} and {option(name)} must differ; got {str(path)!r} for both")
+        place = path.resolve()
+        for there, other in taken.items():
+            if place == there:
+                raise YourInput(f"{option(other)} and {option(name)} must differ; got {str(path)!r} for both")
+            if place.is_relative_to(there) or there.is_relative_to(place):
+                raise YourInput(
+                    f"{option(other)} and {option(name)} must lie beside each other; got {str(path)!r} for {option(name)}"
+                )
+        taken[place] = name
 
 
 def write_csv(tables: Iterable[Mapping[str, Any]], path: Path) -> None:

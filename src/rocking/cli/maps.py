@@ -12,14 +12,13 @@ from rocking.cli import files, quantities, studies
 from rocking.cli.files import SUFFIXES, check_apart, check_files
 from rocking.cli.options import START, SYSTEM, YourInput, option, options, your_input
 from rocking.cli.surveys import ARGUMENTS, carried_out
-from rocking.model import check_replaceable, instance, refusal
+from rocking.model import TILES, check_replaceable, instance, refusal
 
 if TYPE_CHECKING:
     import xarray as xr
 
     from rocking.model import Block
 
-PAGE = "index.html"
 COUNTS = ("max_cycles", "max_period")
 THEORY = ("curves", "symbols")
 PLACES = ("store", "repair", "tiles", *SUFFIXES)
@@ -102,8 +101,8 @@ def files_of(asked: Question) -> dict[str, Path]:
     files = check_files({name: getattr(asked, name) for name in SUFFIXES})
     if asked.tiles is not None:
         with your_input():
-            check_replaceable(option("tiles"), asked.tiles, PAGE)
-        files["tiles"] = asked.tiles / PAGE
+            check_replaceable(option("tiles"), asked.tiles, TILES)
+        files["tiles"] = asked.tiles / TILES.page
     return files
 
 

@@ -182,7 +182,7 @@ def as_typed(text: str, typed: Mapping[str, str]) -> str:
     """The same with arguments named as they are `typed`, but for what stands in quotes: a path, say."""
     if not typed:
         return text
-    words = r"(?<!\w)'[^']*'|(?<![\w-])(" + "|".join(typed) + r")(?!['\w])"
+    words = r"(?<!\w)(?:'[^']*'|\"[^\"]*\")|(?<![\w-])(" + "|".join(typed) + r")(?!['\w])"
     return re.sub(words, lambda found: typed[found[1]] if found[1] else found[0], text)
 
 

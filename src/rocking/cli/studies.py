@@ -62,7 +62,7 @@ def read(path: Path, checks: Mapping[str, Check]) -> dict[str, Any]:
     from cattrs.gen import make_dict_structure_fn, override
 
     try:
-        said = tomllib.loads(path.read_text(encoding="utf-8"))
+        said = tomllib.loads(path.read_text(encoding="utf-8-sig"))
     except (OSError, ValueError) as error:
         why = error.strerror if isinstance(error, OSError) else error
         raise YourInput(f"--study must name a TOML file; got {str(path)!r}: {why}") from error

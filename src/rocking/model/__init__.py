@@ -21,7 +21,14 @@ from rocking.model.errors import (
     whole,
     within,
 )
-from rocking.model.files import check_folder, check_replaceable, check_writable, replacing, replacing_folder
+from rocking.model.files import (
+    TILES,
+    check_folder,
+    check_replaceable,
+    check_writable,
+    replacing,
+    replacing_folder,
+)
 from rocking.model.forcing import FREQUENCIES, LARGEST_AMPLITUDE, LARGEST_PHASE, PERIODS, Harmonic
 from rocking.model.mode import Mode
 from rocking.model.outcome import Outcome, Overturning
@@ -43,6 +50,7 @@ __all__ = [
     "LEVEL",
     "PERIODS",
     "PHYSICAL",
+    "TILES",
     "VERSION",
     "Attractor",
     "BasinMap",

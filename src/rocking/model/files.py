@@ -10,6 +10,8 @@ from contextlib import contextmanager
 from pathlib import Path
 from tempfile import TemporaryFile
 
+from attrs import frozen
+
 
 def check_writable(name: str, path: str | os.PathLike[str], suffixes: Sequence[str] = ()) -> Path:
     """Return `path` if a file may be written there; refuse it in one line that starts with `name` otherwise.
@@ -80,21 +82,44 @@ def replacing(path: str | os.PathLike[str]) -> Iterator[Path]:
         temporary.unlink(missing_ok=True)
 
 
-def check_replaceable(name: str, path: str | os.PathLike[str], mark: str) -> Path:
+@frozen
+class Made:
+    """How a folder that was written here is known: by the names of all that it holds, and a sign in the one of them that is a page."""
+
+    page: str
+    beside: tuple[str, ...]
+    sign: str
+
+    def is_in(self, folder: Path) -> bool:
+        """Whether the folder holds just that."""
+        if {each.name for each in folder.iterdir()} != {self.page, *self.beside}:
+            return False
+        page = folder / self.page
+        return page.is_file() and self.sign in page.read_text(encoding="utf-8", errors="replace")
+
+
+# The page of a map in tiles: one room writes it, another asks before the work whether it may be written.
+TILES = Made("index.html", beside=("tiles",), sign='<meta name="generator" content="rocking')
+
+
+def check_replaceable(name: str, path: str | os.PathLike[str], made: Made) -> Path:
     """Return `path` if `replacing_folder` may write it; OSError in one line that starts with `name` if not."""
     path = check_folder(name, path)
-    if path.exists() and any(path.iterdir()) and not (path / mark).is_file():
+    if Path.cwd().is_relative_to(path.resolve()):
+        raise OSError(f"{name} must be another folder than the one this runs in; got {str(path)!r}")
+    if path.exists() and any(path.iterdir()) and not made.is_in(path):
         raise FileExistsError(
-            f"{name} must be new, empty, or hold an earlier {mark}; got {str(path)!r}, which holds something else"
+            f"{name} must be new, empty, or hold just an earlier {made.page} and what belongs to it; got {str(path)!r}, "
+            "which holds something else"
         )
     return path
 
 
 @contextmanager
-def replacing_folder(name: str, path: str | os.PathLike[str], mark: str) -> Iterator[Path]:
+def replacing_folder(name: str, path: str | os.PathLike[str], made: Made) -> Iterator[Path]:
     """Yield a new folder beside `path` and rename it to `path` if the block succeeds; what stood there goes only then.
 
-    Only a folder that is empty, or that holds a file called `mark` (one written before), is replaced.
+    Only a folder that is empty, or that holds what was `made` here before and nothing else, is replaced.
 
     Raises
     ------
@@ -105,12 +130,13 @@ def replacing_folder(name: str, path: str | os.PathLike[str], mark: str) -> Iter
     --------
     >>> from tempfile import TemporaryDirectory
     >>> with TemporaryDirectory() as folder:
-    ...     with replacing_folder("folder", Path(folder) / "map", "index.html") as partial:
+    ...     made = Made("index.html", beside=(), sign="a page")
+    ...     with replacing_folder("folder", Path(folder) / "map", made) as partial:
     ...         _ = (partial / "index.html").write_text("a page")
     ...     [file.name for file in Path(folder).rglob("*")]
     ['map', 'index.html']
     """
-    target = check_replaceable(name, path, mark).resolve()
+    target = check_replaceable(name, path, made).resolve()
     target.parent.mkdir(parents=True, exist_ok=True)
     temporary, before = (target.with_name(f".{target.name}-{secrets.token_hex(4)}") for _ in range(2))
     try:

@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.patches import Patch
 
-from rocking.model import Attractor, BasinMap, Block, Kind, instance
+from rocking.model import Attractor, BasinMap, Block, Kind, instance, percent
 from rocking.plot import style
 from rocking.plot.kinds import COLOURS, paler
 from rocking.plot.parametric_map import MOST_DRAWN
@@ -119,7 +119,7 @@ def _legend(ax: Axes, found: BasinMap, hues: list) -> None:
             hatch=HATCH if each.kind is Kind.UNDETERMINED else None,
             edgecolor=style.INK,
             linewidth=style.THIN,
-            label=f"{each.name} {100 * share.value:.2g} %",
+            label=f"{each.name} {percent(share.value)}",
         )
         for each, share, hue in named
     ]

@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 from matplotlib.patheffects import withStroke
 
-from rocking.model import one_of, refusal
+from rocking.model import LARGEST_AMPLITUDE, one_of, refusal
 from rocking.plot import style
 from rocking.plot.thresholds import DOTTED
 from rocking.theory import (
@@ -97,6 +97,7 @@ def _line(
     period = math.tau / given["frequency"] if "frequency" in given else given["period"]
     period, restitution = np.broadcast_arrays(period, given["restitution"])
     lines = lines_of(curve, period, restitution, heights[0], heights[-1])
+    there = "" if np.isfinite(lines).any() else ": not here"
     for line, dashes in zip(lines, (curve.dashes, DOTTED), strict=True):
         ax.plot(
             turns[across](places),
@@ -109,7 +110,9 @@ def _line(
             scalex=False,
             scaley=False,
         )
-    return Line2D([], [], color=style.INK, linestyle=curve.dashes, linewidth=style.LINE, label=curve.name)
+    return Line2D(
+        [], [], color=style.INK, linestyle=curve.dashes, linewidth=style.LINE, label=curve.name + there
+    )
 
 
 def lines_of(
@@ -121,6 +124,8 @@ def lines_of(
     # as far as one point beyond what is seen, so that the line meets the frame
     seen[1:] |= seen[:-1].copy()
     seen[:-1] |= seen[1:].copy()
+    # a neighbour may have no such amplitude, or one beyond all that may be asked for
+    seen &= amplitudes <= LARGEST_AMPLITUDE
     sure = _admissible(curve, amplitudes, period, restitution, seen)
 
     def line(part: np.ndarray) -> np.ndarray:

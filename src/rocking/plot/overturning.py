@@ -67,7 +67,8 @@ def overturning(found: OverturningCurve, ax: Axes | None = None, block: Block | 
             )
             style.key(ax)
         style.label(ax, y_label, "phases at which it overturns [%]")
-        ax.set_ylim(bottom=0.0)
+        # a line at 0 or at 100 is seen as well
+        ax.set_ylim(-4.0, 104.0)
         return ax
     (name,) = data.lowest.dims
     turn, x_label = parameter(str(name), block)

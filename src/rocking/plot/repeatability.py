@@ -7,7 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.patches import Patch
 
-from rocking.model import Kind, Repeatability, RepeatabilityMap, instance
+from rocking.model import Kind, Repeatability, RepeatabilityMap, instance, percent
 from rocking.plot import style
 from rocking.plot.kinds import COLOURS
 from rocking.plot.quantities import PARAMETERS
@@ -110,9 +110,9 @@ def repeatability_map(found: RepeatabilityMap, ax: Axes | None = None) -> Axes:
     )
     style.label(ax, *(PARAMETERS[str(name)] for name in reversed(data.kind.dims)))
     names = [*(str(kind) for kind in Kind), "not certain"]
-    shares = 100 * np.bincount(values.ravel(), minlength=count + 1) / values.size
+    shares = np.bincount(values.ravel(), minlength=count + 1) / values.size
     handles = [
-        Patch(facecolor=hue, edgecolor=style.INK, linewidth=style.THIN, label=f"{name} {share:.2g} %")
+        Patch(facecolor=hue, edgecolor=style.INK, linewidth=style.THIN, label=f"{name} {percent(share)}")
         for hue, name, share in zip(hues, names, shares, strict=True)
         if share
     ]

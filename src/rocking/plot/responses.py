@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -34,6 +35,7 @@ class Responses:
     """
 
     def __init__(self, found: Any) -> None:
+        self.folder = Path(found) if isinstance(found, str | os.PathLike) else None
         self.levels = _levels(found)
         finest = self.levels[-1]
         first, second = map(str, finest.kind.dims)
@@ -44,7 +46,9 @@ class Responses:
 
     def rows(self, begin: int, end: int) -> np.ndarray:
         """The looks of some rows; `NONE` where no level has anything."""
-        part = self.levels[-1][list(NEEDED)].isel({self.names[0]: slice(begin, end)}).load()
+        part = self.levels[-1][list(NEEDED)].isel({self.names[0]: slice(begin, end)})
+        with _reading(self.folder):
+            part = part.load()
         found = looks(*(part[name].values for name in NEEDED))
         missing = found == NONE
         if missing.any() and len(self.levels) > 1:
@@ -61,6 +65,7 @@ class Responses:
         """What the nearest points of the level before are like."""
         if self._below is None:
             self._below = Responses(self.levels[:-1])
+            self._below.folder = self.folder
         below = self._below
         rows, columns = nearest(below.up, self.up[begin:end]), nearest(below.across, self.across)
         read = below.rows(rows[0], rows[-1] + 1)
@@ -101,7 +106,22 @@ def _opened(folder: Path) -> list[xr.Dataset]:
     count = sum(1 for each in folder.glob("level-*") if each.is_dir())
     if not count:
         raise ValueError(refusal("found", "be the folder of a map's store", str(folder)))
-    return [
-        xr.open_zarr(folder, group=f"level-{number}", chunks=None, consolidated=False)
-        for number in range(count)
-    ]
+    with _reading(folder):
+        return [
+            xr.open_zarr(folder, group=f"level-{number}", chunks=None, consolidated=False)
+            for number in range(count)
+        ]
+
+
+@contextmanager
+def _reading(folder: Path | None) -> Iterator[None]:
+    """Say of a store that cannot be read which it is, and how it is mended."""
+    try:
+        yield
+    except Exception as error:
+        if folder is None:
+            raise
+        raise OSError(
+            f"found must be the folder of a store that can be read; got {str(folder)!r}, which is damaged: "
+            "the survey that made it says where, and mends it with repair"
+        ) from error

@@ -12,7 +12,7 @@ import numpy as np
 from matplotlib.colors import to_rgb
 from PIL import Image
 
-from rocking.model import VERSION, Block, percent, replacing_folder
+from rocking.model import TILES, VERSION, Block, percent, replacing_folder
 from rocking.plot import style
 from rocking.plot.kinds import LOOKS, NONE
 from rocking.plot.quantities import parameter
@@ -23,7 +23,6 @@ if TYPE_CHECKING:
 
 EDGE = 256
 """Dots along an edge of a tile."""
-PAGE = "index.html"
 HATCHED = {
     name: [number for number, look in enumerate(LOOKS) if look.hatch == colour]
     for name, colour in (("white", "white"), ("dark", style.INK))
@@ -43,7 +42,7 @@ def tiles(
     found : xarray.Dataset, path, or sequence of xarray.Dataset
         As in `parametric_map`; it need not fit in memory.
     folder : path
-        A new one, an empty one, or one that this has written before, which is then replaced as a whole.
+        A new one, an empty one, or one that holds just what this has written before, which is then replaced as a whole.
     block : Block, optional
         Gives SI axes; otherwise they are the map's own, normalised.
 
@@ -76,15 +75,15 @@ def tiles(
     ['index.html', 'tiles']
     """
     read = Responses(found)
-    with replacing_folder("folder", folder, PAGE) as partial:
-        pyramid = Pyramid(partial / "tiles", read.up.size, read.across.size)
+    with replacing_folder("folder", folder, TILES) as partial:
+        pyramid = Pyramid(partial / TILES.beside[0], read.up.size, read.across.size)
         counts = np.zeros(NONE + 1, np.int64)
         for codes in _from_the_top(read):
             counts += np.bincount(codes.ravel(), minlength=NONE + 1)
             pyramid.add(codes)
         pyramid.finish()
-        (partial / PAGE).write_text(_page(read, counts, pyramid, block), encoding="utf-8")
-    return Path(folder) / PAGE
+        (partial / TILES.page).write_text(_page(read, counts, pyramid, block), encoding="utf-8")
+    return Path(folder) / TILES.page
 
 
 def _from_the_top(read: Responses) -> Iterator[np.ndarray]:

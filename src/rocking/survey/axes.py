@@ -171,6 +171,8 @@ def _number(name: str, value: Any) -> float:
 
 
 def _is_axis(value: Any) -> bool:
+    if isinstance(value, list | tuple):
+        return True
     return not isinstance(value, Real | str) and np.ndim(value) > 0
 
 

@@ -74,7 +74,9 @@ def parametric_map(
 
     Notes
     -----
-    Not guaranteed: what `classify` does not guarantee; and that nothing happens between the points.
+    Not guaranteed: what `classify` does not guarantee; and that nothing happens between the points. Points that are marched
+    long are marched many at once, which rounds otherwise than `classify` does: where an answer hangs on the last
+    digit, in chaos and after chaotic transients, the two may differ.
 
     Examples
     --------

@@ -33,8 +33,9 @@ def repeatability(
 ) -> Repeatability:
     """Tell what comes of an experiment whose inputs are off by a little: the share of each outcome, with its interval.
 
-    A, T, e and both numbers of the start are each drawn evenly from within `relative` of themselves, e not above 1. What is
-    zero stays so: a block at rest is at rest.
+    A, T, e and both numbers of the start are each drawn evenly from within `relative` of themselves, e not above 1. Where that
+    goes beyond what A, T or the angle may be, a brace say, they are at that limit. What is zero stays so: a block at rest
+    is at rest.
 
     Parameters
     ----------

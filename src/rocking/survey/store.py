@@ -117,7 +117,7 @@ class Store:
         found: list[str] = []
         for tile in (tile for level in self.levels for tile in self._marked(level)):
             known, damaged = self._inspected(tile)
-            found += [str(self.path / self._chunk(tile, name)) for name in damaged]
+            found += [repr(str(self.path / self._chunk(tile, name))) for name in damaged]
             if known.any() and not damaged:
                 self.begun.add((tile.level.number, tile.index))
                 self.done += int(tile.own(known).sum())
