@@ -132,6 +132,10 @@ REFUSED = {
         {"amplitude": [[1.0, 2.0]]},
         "amplitude must hold two numbers or more in [0, 1000], ascending; got an array of shape (1, 2)",
     ),
+    "a ragged table": (
+        {"amplitude": [1.0, [2.0, 3.0]]},
+        "amplitude must hold two numbers or more in [0, 1000], ascending; got [1.0, [2.0, 3.0]]",
+    ),
     "words": (
         {"amplitude": ["a", "b"]},
         "amplitude must hold two numbers or more in [0, 1000], ascending; got ['a', 'b']",

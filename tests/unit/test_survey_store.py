@@ -368,10 +368,12 @@ def test_damage_is_found_named_and_mended_on_request(copied, what, name, compute
     assert files(copied) == whole
 
 
-@pytest.mark.parametrize("name", ["level-2/kind/c/1/2", "level-0/kind/zarr.json"])
+@pytest.mark.parametrize("name", ["level-2/kind/c/1/2", "level-1/kind/c/0/0", "level-0/kind/zarr.json"])
 @pytest.mark.parametrize("draw", [rk.plot.parametric_map, lambda store: rk.plot.tiles(store, "look")])
 def test_damaged_store_is_not_drawn(copied, name, draw, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
+    if name.startswith("level-1"):  # which is asked where the finer one has nothing
+        (copied / "level-2/kind/c/0/0").unlink()
     (copied / name).write_bytes(b"[]")
     message = f"found must be the folder of a store that can be read; got {str(copied)!r}, which is damaged: "
     with pytest.raises(OSError, match=re.escape(message) + "the survey that made it says where"):
