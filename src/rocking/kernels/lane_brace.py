@@ -16,11 +16,13 @@ from .lane_instant import correction, derivatives, elements, halved, instant_of,
 from .lanes import (
     ABOUT,
     AMPLITUDE,
+    AMPLITUDE_RATE,
     ANGLE,
     ARRIVED,
     AT_BRACE,
     BRACE_ANGLE,
     FREQUENCY,
+    FREQUENCY_SQUARE,
     FURTHER,
     KNOT_ANGLE,
     KNOT_COSINE,
@@ -73,7 +75,7 @@ def aim(s):
     """When each lane looks next: where the series has its event, or, where that tells none, further on."""
     for i in range(LANES):
         stage, time, about = of(s, i, STAGE), of(s, i, TIME), of(s, i, ABOUT)
-        at_brace, amplitude, frequency = of(s, i, AT_BRACE), of(s, i, AMPLITUDE), of(s, i, FREQUENCY)
+        at_brace, frequency = of(s, i, AT_BRACE), of(s, i, FREQUENCY)
         brace_angle = of(s, i, BRACE_ANGLE)
         u, v, cosine, sine = (
             of(s, i, KNOT_ANGLE),
@@ -81,10 +83,10 @@ def aim(s):
             of(s, i, KNOT_COSINE),
             of(s, i, KNOT_SINE),
         )
-        c = derivatives((u, v, cosine, sine), amplitude, frequency)
-        square = frequency * frequency
-        c7 = fma(square * square, amplitude * frequency * sine, c[5])
-        c8 = fma(square * square, square * amplitude * cosine, c[6])
+        c = derivatives(s, i, (u, v, cosine, sine))
+        square = of(s, i, FREQUENCY_SQUARE)
+        c7 = fma(square * square, of(s, i, AMPLITUDE_RATE) * sine, c[5])
+        c8 = fma(square * square, square * of(s, i, AMPLITUDE) * cosine, c[6])
         brace_next, rough = parabola(u, v, c[2], brace_angle)
         sign = choose(brace_next, -1.0, 1.0)
         c0, c1, c2, c3 = choose(brace_next, brace_angle - u, u), sign * v, sign * c[2], sign * c[3]
@@ -133,7 +135,7 @@ def step(s):
         knot_cosine, knot_sine = of(s, i, KNOT_COSINE), of(s, i, KNOT_SINE)
         risen, v, cosine, sine = instant_of(s, i, angle - 1.0)
         u = angle + risen
-        _, _, second, third, fourth, fifth, _ = derivatives((u, v, cosine, sine), amplitude, frequency)
+        _, _, second, third, fourth, fifth, _ = derivatives(s, i, (u, v, cosine, sine))
         # towards a brace u falls short of it
         left = choose(at_brace, risen - (brace_angle - angle), u)
         per = 1.0 / v

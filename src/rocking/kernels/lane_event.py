@@ -81,7 +81,7 @@ def strike(s):
         knot_angle, knot_rate = of(s, i, KNOT_ANGLE), of(s, i, KNOT_RATE)
         knot_cosine, knot_sine = of(s, i, KNOT_COSINE), of(s, i, KNOT_SINE)
         hit, arrived = of(s, i, AT_BRACE) > 0.0, stage == ARRIVED
-        begins = arrived | (stage == BEGUN)
+        begins = stage >= BEGUN
         turned = choose(hit, 1.0, -1.0)
         angle = choose(arrived, choose(hit, brace_angle, 0.0), angle)
         velocity = choose(arrived, choose(hit, -brace_restitution, restitution) * speed, velocity)

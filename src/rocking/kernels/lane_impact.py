@@ -14,6 +14,7 @@ from .lanes import (
     AMPLITUDE,
     ARRIVED,
     BEGUN,
+    BOWL,
     CERTAINTY,
     CONTENT,
     COSINE,
@@ -27,7 +28,7 @@ from .lanes import (
     END,
     EVENTS,
     EXCEEDS,
-    FREQUENCY,
+    FREQUENCY_SQUARE,
     GROWING,
     INSIDE,
     LANES,
@@ -46,6 +47,7 @@ from .lanes import (
     PERIOD,
     READING,
     RESPONSE,
+    RESPONSE_RATE,
     RESTITUTION,
     SHRINKING,
     SIDE,
@@ -165,23 +167,24 @@ def begin(s):
     """
     for i in range(LANES):
         stage, start, side, velocity = of(s, i, STAGE), of(s, i, START), of(s, i, SIDE), of(s, i, VELOCITY)
-        cosine, sine, frequency, response = (
+        cosine, sine, response, response_rate = (
             of(s, i, COSINE),
             of(s, i, SINE),
-            of(s, i, FREQUENCY),
             of(s, i, RESPONSE),
+            of(s, i, RESPONSE_RATE),
         )
         period, per_period = of(s, i, PERIOD), of(s, i, PER_PERIOD)
         right, left = of(s, i, CUT_RIGHT), of(s, i, CUT_LEFT)
         growing, shrinking = of(s, i, GROWING), of(s, i, SHRINKING)
-        mean, half = fma(-response, cosine, -1.0), fma(response * frequency, sine, velocity)
-        grow, shrink, q = 0.5 * (mean + half), 0.5 * (mean - half), 1.0 - response
-        m, root = math.sqrt(4.0 * grow * shrink), math.sqrt(fma(q, q, -4.0 * grow * shrink))
-        late, twice = logarithms_of_ratios(q + root, -2.0 * grow, -shrink, -grow)
+        mean, half = fma(-response, cosine, -1.0), fma(response_rate, sine, velocity)
+        # 2 c+ and 2 c-
+        grow, shrink, q = mean + half, mean - half, 1.0 - response
+        m, root = math.sqrt(grow * shrink), math.sqrt(fma(q, q, -grow * shrink))
+        late, twice = logarithms_of_ratios(q + root, -grow, -shrink, -grow)
         to_cut = choose(side > 0.0, right, left) - start
-        begins = (stage == ARRIVED) | (stage == BEGUN)
-        put(s, i, GROWING, choose(begins, grow, growing))
-        put(s, i, SHRINKING, choose(begins, shrink, shrinking))
+        begins = stage >= BEGUN
+        put(s, i, GROWING, choose(begins, 0.5 * grow, growing))
+        put(s, i, SHRINKING, choose(begins, 0.5 * shrink, shrinking))
         put(s, i, DEEP, m)
         put(s, i, TWICE, twice)
         put(s, i, LATE, choose(q > m, late, -math.inf))
@@ -189,31 +192,31 @@ def begin(s):
     for i in range(LANES):
         stage, grow, shrink = of(s, i, STAGE), of(s, i, GROWING), of(s, i, SHRINKING)
         m, twice, late, cut = of(s, i, DEEP), of(s, i, TWICE), of(s, i, LATE), of(s, i, CUT)
-        frequency, response, inside = of(s, i, FREQUENCY), of(s, i, RESPONSE), of(s, i, INSIDE)
+        square, response, inside = of(s, i, FREQUENCY_SQUARE), of(s, i, RESPONSE), of(s, i, INSIDE)
         period, per_period = of(s, i, PERIOD), of(s, i, PER_PERIOD)
         low, end, exceeds, peak = of(s, i, LOW), of(s, i, END), of(s, i, EXCEEDS), of(s, i, PEAK)
         told = max(grow, shrink) < TOLD
-        away = fma(-0.5, inside, cut) - 0.5 * twice
+        away = fma(-0.5, inside + twice, cut)
         away = fma(-np.floor(fma(away, per_period, 0.5)), period, away)
         away = max(abs(away) - ROUGHLY, 0.0)
         # 1 - cos y >= y**2 (1/2 - a**2/4! + a**4/6! - a**6/8!) for y up to a, and at least 1 from a = pi/2 to pi
-        square = frequency * frequency
-        a = min(square * away * away, RIGHT_ANGLE * RIGHT_ANGLE)
-        bowl = 2.0 * response * square * fma(-a, fma(-a, fma(-a, I8, I6), I4), I2)
+        far = away * away
+        a = min(square * far, RIGHT_ANGLE * RIGHT_ANGLE)
+        bowl = of(s, i, BOWL) * fma(-a, fma(-a, fma(-a, I8, I6), I4), I2)
         above = 1.0 - m + response - peak
-        may_exceed = (above > response) | (above * (m + bowl) > 0.5 * away * away * bowl * m)
+        may_exceed = (above > response) | (above * (m + bowl) > 0.5 * far * bowl * m)
         early, late = twice - late + 2.0 * ROUGHLY, late - 2.0 * ROUGHLY
         leaps = told & (cut > early) & (cut < late)
         turns = choose(leaps, np.floor((late - cut) * per_period), 0.0)
         cut = fma(turns, period, cut)
-        begins = (stage == ARRIVED) | (stage == BEGUN)
+        begins = stage >= BEGUN
         put(s, i, EXCEEDS, choose(begins, choose(told & (may_exceed == False), 0.0, 1.0), exceeds))  # noqa: E712
         put(s, i, LOW, choose(begins, max(cut - inside, 0.0), low))
         put(s, i, END, choose(begins, cut, end))
     for i in range(LANES):
         stage, end, z, per_z = of(s, i, STAGE), of(s, i, END), of(s, i, Z), of(s, i, PER_Z)
         new_z, new_per_z = both_exponentials(end)
-        begins = (stage == ARRIVED) | (stage == BEGUN)
+        begins = stage >= BEGUN
         put(s, i, Z, choose(begins, new_z, z))
         put(s, i, PER_Z, choose(begins, new_per_z, per_z))
         put(s, i, STAGE, choose(begins, WALK, stage))

@@ -2,18 +2,22 @@
 
 from numba import njit
 
-from .branchless import EXACT_INNER, SHORT_ANGLE, SHORT_TIME, choose, circular, hyperbolic
+from .branchless import EXACT_INNER, choose, circular, hyperbolic
 from .elementary import fma
 from .lanes import (
     AMPLITUDE,
+    AMPLITUDE_RATE,
+    BRIEF,
     COSINE,
     DEFICIT,
     EXCESS,
     FREQUENCY,
+    FREQUENCY_SQUARE,
     HIGHER,
     LAG,
     LANES,
     RESPONSE,
+    RESPONSE_RATE,
     SIN_X,
     SINE,
     SINH,
@@ -24,7 +28,7 @@ from .lanes import (
     of,
     put,
 )  # fmt: skip
-from .shortcut import I2, I3, I4, I5
+from .shortcut import I2, I3, I4
 
 
 @njit(**EXACT_INNER)
@@ -35,14 +39,14 @@ def correction(y, second, third, fourth, per):
 
 
 @njit(**EXACT_INNER)
-def derivatives(there, amplitude, frequency):
-    """u and its first six derivatives at an instant (u, u', cos eta, sin eta), from u'' = u + f."""
+def derivatives(s, i, there):
+    """u and its first six derivatives at an instant (u, u', cos eta, sin eta) in lane i, from u'' = u + f."""
     u, v, cosine, sine = there
-    turned = -frequency * frequency
-    f, df, ddf = fma(-amplitude, cosine, -1.0), amplitude * frequency * sine, -turned * amplitude * cosine
-    c2, c3 = u + f, v + df
-    c4, c5 = c2 + ddf, fma(turned, df, c3)
-    return u, v, c2, c3, c4, c5, fma(turned, ddf, c4)
+    square, pull = of(s, i, FREQUENCY_SQUARE), of(s, i, AMPLITUDE) * cosine
+    df, ddf = of(s, i, AMPLITUDE_RATE) * sine, square * pull
+    c2, c3 = u - (1.0 + pull), v + df
+    c4, c5 = c2 + ddf, fma(-square, df, c3)
+    return u, v, c2, c3, c4, c5, fma(-square, ddf, c4)
 
 
 @njit(**EXACT_INNER)
@@ -52,19 +56,20 @@ def halved(factor):
 
 
 @njit(**EXACT_INNER)
-def instant(system, start, t, hyperbolics, circulars):
-    """(u - u0, u', cos eta, sin eta) of an arc at a time t, eq. (5) as in ``harmonic.respond`` and ``arc.after``."""
-    amplitude, frequency, response = system
-    above, velocity, cosine, sine = start
-    sinh, versinh, excess, higher = hyperbolics
-    sin_x, versine, lag, deficit = circulars
-    near = (frequency * t < SHORT_ANGLE) & (t < SHORT_TIME)
+def instant_of(s, i, above):
+    """(u - u0, u', cos eta, sin eta) of lane i where it looks, eq. (5) as in ``harmonic.respond`` and ``arc.after``; u0 = 1 + ``above``."""
+    frequency, response = of(s, i, FREQUENCY), of(s, i, RESPONSE)
+    velocity, cosine, sine = of(s, i, VELOCITY), of(s, i, COSINE), of(s, i, SINE)
+    sinh, versinh, excess = of(s, i, SINH), of(s, i, VERSINH), of(s, i, EXCESS)
+    sin_x, versine, lag = of(s, i, SIN_X), of(s, i, VERSINE), of(s, i, LAG)
+    near = of(s, i, TIME) < of(s, i, BRIEF)
     in_phase, lateness = versinh + versine, fma(frequency, excess, lag)
-    place = choose(near, -fma(frequency * frequency, higher, deficit), in_phase)
+    place = choose(near, -fma(of(s, i, FREQUENCY_SQUARE), of(s, i, HIGHER), of(s, i, DEFICIT)), in_phase)
     rate = choose(near, -frequency * lateness, fma(frequency, sin_x, sinh))
-    steady = choose(near, fma(-amplitude, cosine, above), above)
-    displaced = response * fma(sine, lateness, -cosine * place)
-    moved = response * fma(frequency * sine, in_phase, -cosine * rate)
+    steady = choose(near, fma(-of(s, i, AMPLITUDE), cosine, above), above)
+    response_cosine = response * cosine
+    displaced = fma(response * sine, lateness, -response_cosine * place)
+    moved = fma(of(s, i, RESPONSE_RATE) * sine, in_phase, -response_cosine * rate)
     return (
         fma(velocity, sinh, fma(steady, versinh, displaced)),
         velocity + fma(velocity, versinh, fma(steady, sinh, moved)),
@@ -91,20 +96,10 @@ def elements(s):
 
 
 @njit(**EXACT_INNER)
-def instant_of(s, i, above):
-    """``instant`` of lane i where it looks, whose arc starts so far ``above`` the angle 1."""
-    system = of(s, i, AMPLITUDE), of(s, i, FREQUENCY), of(s, i, RESPONSE)
-    start = above, of(s, i, VELOCITY), of(s, i, COSINE), of(s, i, SINE)
-    hyperbolics = of(s, i, SINH), of(s, i, VERSINH), of(s, i, EXCESS), of(s, i, HIGHER)
-    circulars = of(s, i, SIN_X), of(s, i, VERSINE), of(s, i, LAG), of(s, i, DEFICIT)
-    return instant(system, start, of(s, i, TIME), hyperbolics, circulars)
-
-
-@njit(**EXACT_INNER)
 def onward(x, frequency, cosine, sine, sinh, versinh):
     """(cos eta, sin eta, sinh, cosh - 1) a small time x later, as in ``shortcut.advance``."""
     angle = frequency * x
-    sin_x = angle * fma(-angle * angle, fma(-angle * angle, I5, I3), 1.0)
+    sin_x = angle * fma(-angle * angle, I3, 1.0)
     versine = angle * angle * fma(-angle * angle, I4, I2)
     sinh_x, versinh_x = x * fma(x * x, I3, 1.0), x * x * fma(x * x, I4, I2)
     return (

@@ -15,15 +15,15 @@ from .lanes import (
     CONCAVE,
     CUT_PLACE,
     CUT_RATE,
-    DECAY_OUT,
     END,
-    GROW_OUT,
     GROWING,
     GUESS,
+    HALF_DECAY,
+    HALF_GROWTH,
+    HALF_TANH,
     HIGH,
     LANES,
     LOW,
-    OUT_TANH_HALF,
     OUTSIDE,
     PER_Z,
     PERIOD,
@@ -74,9 +74,7 @@ def stretch(grow, shrink, forcing, half_grow, half_decay, tanh, z, per_z, end, c
 def ahead(s, i, end, z, per_z, cleared):
     """The convex stretch of lane i that begins at ``end``: what ``stretch`` says of it."""
     forcing = of(s, i, CUT_PLACE), of(s, i, CUT_RATE), of(s, i, RESPONSE)
-    grow_out, decay_out = of(s, i, GROW_OUT), of(s, i, DECAY_OUT)
-    half_grow, half_decay = grow_out * grow_out, decay_out * decay_out
-    tanh = of(s, i, OUT_TANH_HALF) * (1.0 + MARGIN)
+    half_grow, half_decay, tanh = of(s, i, HALF_GROWTH), of(s, i, HALF_DECAY), of(s, i, HALF_TANH)
     grow, shrink = of(s, i, GROWING), of(s, i, SHRINKING)
     return stretch(grow, shrink, forcing, half_grow, half_decay, tanh, z, per_z, end, cleared)
 

@@ -41,6 +41,7 @@ from .lanes import (
     RATE_THERE,
     REFINE,
     RESPONSE,
+    RESPONSE_RATE,
     SHRINKING,
     SINE,
     SINE_IN,
@@ -70,15 +71,23 @@ NEAR = 1e-3
 
 @njit(**EXACT_INNER)
 def taylor(c, x):
-    """(w, w', w'') a time x later, by their Taylor series; summed in pairs, of which none waits for another."""
+    """(w, w', w''/2) a time x later by their Taylor series, of which c are the coefficients: by Horner's rule, thrice."""
     c0, c1, c2, c3, c4, c5, c6 = c
-    x2 = x * x
-    low = fma(x2, fma(x, I3 * c3, I2 * c2), fma(x, c1, c0))
-    high = fma(x2, I6 * c6, fma(x, I5 * c5, I4 * c4))
-    low_1 = fma(x2, fma(x, I3 * c4, I2 * c3), fma(x, c2, c1))
-    high_1 = fma(x, I5 * c6, I4 * c5)
-    low_2 = fma(x2, fma(x, I3 * c5, I2 * c4), fma(x, c3, c2))
-    return fma(x2 * x2, high, low), fma(x2 * x2, high_1, low_1), fma(x2 * x2, I4 * c6, low_2)
+    w = fma(x, c6, c5)
+    dw = fma(x, c6, w)
+    ddw = fma(x, c6, dw)
+    w = fma(x, w, c4)
+    dw = fma(x, dw, w)
+    ddw = fma(x, ddw, dw)
+    w = fma(x, w, c3)
+    dw = fma(x, dw, w)
+    ddw = fma(x, ddw, dw)
+    w = fma(x, w, c2)
+    dw = fma(x, dw, w)
+    ddw = fma(x, ddw, dw)
+    w = fma(x, w, c1)
+    dw = fma(x, dw, w)
+    return fma(x, w, c0), dw, ddw
 
 
 @njit(**EXACT_INNER)
@@ -100,17 +109,18 @@ def aim(s):
         velocity, cosine_0, sine_0 = of(s, i, VELOCITY), of(s, i, COSINE), of(s, i, SINE)
         within = concave > 0.0
         # of the concave stretch, which ends at ``end``, or of the convex one, which begins there
-        middle = fma(0.5, choose(within, -inside, outside), end)
-        z *= choose(within, decay_in * decay_in, grow_out * grow_out)
-        per_z *= choose(within, grow_in * grow_in, decay_out * decay_out)
-        late = (fma(concave, response, fma(grow, z, shrink * per_z)) > -1.0) | (middle <= low)
-        quarter = 0.25 * choose(within, inside, outside)
         more, less = choose(within, grow_in, grow_out), choose(within, decay_in, decay_out)
-        growing, shrinking = grow * z * choose(late, more, less), shrink * per_z * choose(late, less, more)
+        # e^+-half of the stretch, from ``end`` to its middle, is the square of what a quarter makes
+        to_middle, per_that = choose(within, less, more), choose(within, more, less)
+        growing, shrinking = grow * (z * (to_middle * to_middle)), shrink * (per_z * (per_that * per_that))
+        quarter = 0.25 * choose(within, inside, outside)
+        middle = end + choose(within, -(quarter + quarter), quarter + quarter)
+        late = (fma(concave, response, growing + shrinking) > -1.0) | (middle <= low)
+        growing, shrinking = growing * choose(late, more, less), shrinking * choose(late, less, more)
         cosine, sine = choose(within, cosine_in, cosine_out), choose(within, sine_in, sine_out)
         sine = choose(late, sine, -sine)
         u = growing + shrinking + fma(response, cosine, 1.0)
-        v = fma(-response * frequency, sine, growing - shrinking)
+        v = fma(-of(s, i, RESPONSE_RATE), sine, growing - shrinking)
         about = middle + choose(late, quarter, -quarter)
         # A short hop comes down about where the parabola from its start does.
         fall = fma(amplitude, cosine_0, 1.0)
@@ -138,11 +148,12 @@ def guess(s):
         stage, time, low, high = of(s, i, STAGE), of(s, i, TIME), of(s, i, LOW), of(s, i, HIGH)
         about, x = of(s, i, ABOUT), of(s, i, OFF)
         there = of(s, i, ANGLE_THERE), of(s, i, RATE_THERE), of(s, i, COSINE_THERE), of(s, i, SINE_THERE)
-        c = derivatives(there, of(s, i, AMPLITUDE), of(s, i, FREQUENCY))
+        c0, c1, c2, c3, c4, c5, c6 = derivatives(s, i, there)
+        c = c0, c1, I2 * c2, I3 * c3, I4 * c4, I5 * c5, I6 * c6
         w, dw, ddw = taylor(c, x)
         per = 1.0 / dw
         y = -w * per
-        bend = 0.5 * y * ddw * per
+        bend = y * ddw * per
         x += y * halved(fma(bend, fma(2.0, bend, -1.0), 1.0))
         w, dw, _ = taylor(c, x)
         found = about + x - w / dw
@@ -182,24 +193,21 @@ def step(s):
         stage, t, low, high = of(s, i, STAGE), of(s, i, TIME), of(s, i, LOW), of(s, i, HIGH)
         tries, wait, cleared = of(s, i, TRIES), of(s, i, WAIT), of(s, i, CLEARED)
         sinh, versinh = of(s, i, SINH), of(s, i, VERSINH)
-        amplitude, frequency = of(s, i, AMPLITUDE), of(s, i, FREQUENCY)
+        frequency = of(s, i, FREQUENCY)
         u, v, cosine, sine = (
             of(s, i, ANGLE_THERE),
             of(s, i, RATE_THERE),
             of(s, i, COSINE_THERE),
             of(s, i, SINE_THERE),
         )
-        square = frequency * frequency
-        f, df, ddf = fma(-amplitude, cosine, -1.0), amplitude * frequency * sine, square * amplitude * cosine
-        second, third = u + f, v + df
-        fourth, fifth = second + ddf, fma(-square, df, third)
+        _, _, second, third, fourth, fifth, _ = derivatives(s, i, (u, v, cosine, sine))
         diving, fall = stage == BOTTOM, u + v
-        per = 1.0 / choose(diving, fall + f, v)
+        per = 1.0 / choose(diving, v + second, v)
         y = -u * per
         factor = correction(y, second, third, fourth, per)
 
         # near enough, as ``shortcut.close``: the rest of the way by Taylor series
-        close = (abs(u) * max(1.0, frequency) < -NEAR * v) & (abs(u * second) < NEAR * v * v)
+        close = (v < 0.0) & (abs(y) * max(1.0, frequency) < NEAR) & (abs(y * per * second) < NEAR)
         arrived, x = (stage == REFINE) & close, y * factor
         slope = fma(x, fma(x, fma(x, fma(x, I4 * fifth, I3 * fourth), I2 * third), second), v)
         cosine, sine, sinh, versinh = onward(x, frequency, cosine, sine, sinh, versinh)

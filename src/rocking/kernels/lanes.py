@@ -11,18 +11,20 @@ import math
 
 from numba import njit
 
-from .branchless import EXACT_INNER
+from .branchless import EXACT_INNER, SHORT_ANGLE, SHORT_TIME
+from .walk import MARGIN
 
 LANES = 48
 
 (
-    # the system
+    # the system; A Omega, Omega**2, beta Omega, 2 beta Omega**2; up to when the elementary functions are those of a short time
     AMPLITUDE, FREQUENCY, PHASE, RESPONSE, RESTITUTION, PERIOD, PER_PERIOD,
+    AMPLITUDE_RATE, FREQUENCY_SQUARE, RESPONSE_RATE, BOWL, BRIEF,
     # when, within the cycle, a convex stretch begins on either side
     CUT_RIGHT, CUT_LEFT,
     # 1 + beta cos eta and the size of its rate at the cuts; lengths of the concave and the convex stretches; e^+-length
-    # of a whole turn, the hyperbolic tangent of half of a convex one
-    CUT_PLACE, CUT_RATE, INSIDE, OUTSIDE, TURN_GROWTH, TURN_DECAY, OUT_TANH_HALF,
+    # of a whole turn and of half of a convex stretch, the hyperbolic tangent of that, with a margin
+    CUT_PLACE, CUT_RATE, INSIDE, OUTSIDE, TURN_GROWTH, TURN_DECAY, HALF_GROWTH, HALF_DECAY, HALF_TANH,
     # of a concave and of a convex stretch a quarter from their middle: cos eta, the size of sin eta, e^+-quarter
     COSINE_IN, SINE_IN, GROW_IN, DECAY_IN, COSINE_OUT, SINE_OUT, GROW_OUT, DECAY_OUT,
     # the arc: where it starts, and c+ and c-
@@ -49,7 +51,7 @@ LANES = 48
     # between braces: (u, u', cos eta, sin eta) at the time ABOUT, up to which nothing is met
     KNOT_ANGLE, KNOT_RATE, KNOT_COSINE, KNOT_SINE,
     ROWS,
-) = range(83)  # fmt: skip
+) = range(90)  # fmt: skip
 
 # Where an arc begins, and nothing is looked at yet: the first cut; m = 2 sqrt(c+ c-), ln(c-/c+), and roughly the time up to
 # which u must be positive, if there is one.
@@ -57,9 +59,9 @@ CUT, DEEP, TWICE, LATE = SINH, VERSINH, EXCESS, HIGHER
 # After that, when what ended is noted: where, the square of the speed, whether there is more to note.
 SLOT, SQUARE, DUE = SIN_X, VERSINE, LAG
 
-# What is next for a lane: nothing; to begin an arc; to walk; to guess the zero in its stretch; to look for the bottom of a dip; to
-# step to the zero; the event, once it was attended to; what none of these can do; to look from further on.
-IDLE, BEGUN, WALK, GUESS, BOTTOM, REFINE, ARRIVED, UNSURE, FURTHER = (float(stage) for stage in range(9))
+# What is next for a lane: nothing; to walk; to guess the zero in its stretch; to look for the bottom of a dip; to step to the
+# zero; what none of these can do; to look from further on; to begin an arc, the event before it, once that was attended to.
+IDLE, WALK, GUESS, BOTTOM, REFINE, UNSURE, FURTHER, BEGUN, ARRIVED = (float(stage) for stage in range(9))
 # What a lane wants: nothing; that its peak be looked at; that its trail be read; a block; that its leg be ended; that its block
 # be marched alone; that the coming event be found; that it be asked whether what follows a slow event accumulates.
 CONTENT, PEAK_SEEN, READING, BLOCK, LEG_END, ALONE, CERTAINTY, SLOW_SEEN = (float(want) for want in range(8))
@@ -99,6 +101,11 @@ def set_system(s, i, p):
     put(s, i, RESTITUTION, p.restitution)
     put(s, i, PERIOD, p.period)
     put(s, i, PER_PERIOD, 1.0 / p.period)
+    put(s, i, AMPLITUDE_RATE, p.amplitude * p.frequency)
+    put(s, i, FREQUENCY_SQUARE, p.frequency * p.frequency)
+    put(s, i, RESPONSE_RATE, p.response * p.frequency)
+    put(s, i, BOWL, 2.0 * p.response * p.frequency * p.frequency)
+    put(s, i, BRIEF, min(SHORT_TIME, SHORT_ANGLE / p.frequency))
     put(s, i, BRACE_ANGLE, p.brace_angle)
     put(s, i, BRACE_RESTITUTION, p.brace_restitution)
     cut = p.base_half - p.phase
@@ -110,7 +117,9 @@ def set_system(s, i, p):
     put(s, i, OUTSIDE, p.base_outside)
     put(s, i, TURN_GROWTH, p.turn_growth)
     put(s, i, TURN_DECAY, p.turn_decay)
-    put(s, i, OUT_TANH_HALF, math.tanh(0.5 * p.base_outside))
+    put(s, i, HALF_GROWTH, math.exp(0.5 * p.base_outside))
+    put(s, i, HALF_DECAY, math.exp(-0.5 * p.base_outside))
+    put(s, i, HALF_TANH, math.tanh(0.5 * p.base_outside) * (1.0 + MARGIN))
     cosine, sine = math.cos(0.5 * p.base_half), math.sin(0.5 * p.base_half)
     put(s, i, COSINE_IN, cosine)
     put(s, i, SINE_IN, sine)

@@ -1,0 +1,30 @@
+"""Short polynomials that are as good on a short range as long ones: Lanczos's economisation.
+
+A polynomial's last power is replaced by lower ones, the others of the Chebyshev polynomial of its degree, which is
+small all over the range. What that changes is its coefficient over 2**(2n - 1), n its degree, times the range to that
+power; to leave the power out would change 2**(2n - 1) times as much. In fractions, so that every machine has the same
+coefficients.
+"""
+
+from fractions import Fraction
+
+
+def chebyshev(most):
+    """The coefficients of the Chebyshev polynomials on [0, 1] up to a degree, by T[n+1](x) = 2 (2x - 1) T[n](x) - T[n-1](x)."""
+    polynomials = [[1], [-1, 2]]
+    for _ in range(most - 1):
+        before, last = polynomials[-2:]
+        turns = zip([0, *last], [*last, 0], [*before, 0, 0], strict=True)
+        polynomials.append([4 * raised - 2 * same - earlier for raised, same, earlier in turns])
+    return polynomials
+
+
+def economised(coefficients, widest, terms):
+    """Of a polynomial by increasing powers so many coefficients, (``terms``,), of one nearly equal to it on [0, ``widest``]."""
+    width, polynomials = Fraction(widest), chebyshev(len(coefficients) - 1)
+    left = [Fraction(c) * width**k for k, c in enumerate(coefficients)]
+    while len(left) > terms:
+        polynomial = polynomials[len(left) - 1]
+        share = left.pop() / polynomial[-1]
+        left = [c - share * other for c, other in zip(left, polynomial[:-1], strict=True)]
+    return tuple(float(c / width**k) for k, c in enumerate(left))
