@@ -136,8 +136,8 @@ def differing(count, cycles, brace=math.inf):
     # neighbours overturn in time it takes more to meet one that does not (all but one in 300, at two of 90,000 points; at a third
     # all but one in 7,000, in lanes and alone).
     random, stands = np.random.default_rng(11), other
-    for count in (16, 256, 4096, 65_536):
-        stands = [k for k in stands if stands_firm(systems[k], alone[k], count, cycles, random)]
+    for changes in (16, 256, 4096, 65_536):
+        stands = [k for k in stands if stands_firm(systems[k], alone[k], changes, cycles, random)]
     assert not stands, systems[stands]
     return systems.shape[0], other.size, int(flips.sum())
 

@@ -30,19 +30,17 @@ def test_one_power_less_costs_what_the_chebyshev_polynomial_is_high():
 
 
 @pytest.mark.parametrize(
-    ("ours", "widest", "exact"),
+    ("ours", "first", "sign", "widest", "exact"),
     [
-        (branchless.SINH_SERIES, TIME, lambda r: (mp.sinh(r) - r) / r**3),
-        (branchless.COSH_SERIES, TIME, lambda r: (mp.cosh(r) - 1 - r**2 / 2) / r**4),
-        (branchless.SIN_SERIES, ANGLE, lambda r: (mp.sin(r) - r) / -(r**3)),
-        (branchless.COS_SERIES, ANGLE, lambda r: (mp.cos(r) - 1 + r**2 / 2) / r**4),
+        (branchless.SINH_SERIES, 3, 1, TIME, lambda r: (mp.sinh(r) - r) / r**3),
+        (branchless.COSH_SERIES, 4, 1, TIME, lambda r: (mp.cosh(r) - 1 - r**2 / 2) / r**4),
+        (branchless.SIN_SERIES, 3, -1, ANGLE, lambda r: (mp.sin(r) - r) / -(r**3)),
+        (branchless.COS_SERIES, 4, -1, ANGLE, lambda r: (mp.cos(r) - 1 + r**2 / 2) / r**4),
     ],
     ids=["sinh", "cosh", "sin", "cos"],
 )
-def test_the_series_of_the_lanes_are_good_to_rounding(ours, widest, exact):
+def test_the_series_of_the_lanes_are_good_to_rounding(ours, first, sign, widest, exact):
     """To 1.5 units of the last digit, where as many terms of Taylor's leave more than ten times that."""
-    first = 3 if ours[0] > 0.1 else 4
-    sign = -1 if ours[1] < 0 else 1
     with mp.workdps(60):
         taylor = [mp.mpf(sign) ** n / mp.factorial(first + 2 * n) for n in range(len(ours))]
         squares = [mp.mpf(q) for q in np.linspace(1e-4, 1.0, 200) * widest]

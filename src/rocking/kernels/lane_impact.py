@@ -200,11 +200,11 @@ def begin(s):
         away = fma(-np.floor(fma(away, per_period, 0.5)), period, away)
         away = max(abs(away) - ROUGHLY, 0.0)
         # 1 - cos y >= y**2 (1/2 - a**2/4! + a**4/6! - a**6/8!) for y up to a, and at least 1 from a = pi/2 to pi
-        far = away * away
-        a = min(square * far, RIGHT_ANGLE * RIGHT_ANGLE)
+        away_2 = away * away
+        a = min(square * away_2, RIGHT_ANGLE * RIGHT_ANGLE)
         bowl = of(s, i, BOWL) * fma(-a, fma(-a, fma(-a, I8, I6), I4), I2)
         above = 1.0 - m + response - peak
-        may_exceed = (above > response) | (above * (m + bowl) > 0.5 * far * bowl * m)
+        may_exceed = (above > response) | (above * (m + bowl) > 0.5 * away_2 * bowl * m)
         early, late = twice - late + 2.0 * ROUGHLY, late - 2.0 * ROUGHLY
         leaps = told & (cut > early) & (cut < late)
         turns = choose(leaps, np.floor((late - cut) * per_period), 0.0)

@@ -75,19 +75,19 @@ def taylor(c, x):
     c0, c1, c2, c3, c4, c5, c6 = c
     w = fma(x, c6, c5)
     dw = fma(x, c6, w)
-    ddw = fma(x, c6, dw)
+    bend = fma(x, c6, dw)
     w = fma(x, w, c4)
     dw = fma(x, dw, w)
-    ddw = fma(x, ddw, dw)
+    bend = fma(x, bend, dw)
     w = fma(x, w, c3)
     dw = fma(x, dw, w)
-    ddw = fma(x, ddw, dw)
+    bend = fma(x, bend, dw)
     w = fma(x, w, c2)
     dw = fma(x, dw, w)
-    ddw = fma(x, ddw, dw)
+    bend = fma(x, bend, dw)
     w = fma(x, w, c1)
     dw = fma(x, dw, w)
-    return fma(x, w, c0), dw, ddw
+    return fma(x, w, c0), dw, bend
 
 
 @njit(**EXACT_INNER)
@@ -110,9 +110,9 @@ def aim(s):
         within = concave > 0.0
         # of the concave stretch, which ends at ``end``, or of the convex one, which begins there
         more, less = choose(within, grow_in, grow_out), choose(within, decay_in, decay_out)
-        # e^+-half of the stretch, from ``end`` to its middle, is the square of what a quarter makes
-        to_middle, per_that = choose(within, less, more), choose(within, more, less)
-        growing, shrinking = grow * (z * (to_middle * to_middle)), shrink * (per_z * (per_that * per_that))
+        # from ``end`` to the middle twice a quarter on, or back
+        on, back = choose(within, less, more), choose(within, more, less)
+        growing, shrinking = grow * (z * (on * on)), shrink * (per_z * (back * back))
         quarter = 0.25 * choose(within, inside, outside)
         middle = end + choose(within, -(quarter + quarter), quarter + quarter)
         late = (fma(concave, response, growing + shrinking) > -1.0) | (middle <= low)
@@ -150,10 +150,10 @@ def guess(s):
         there = of(s, i, ANGLE_THERE), of(s, i, RATE_THERE), of(s, i, COSINE_THERE), of(s, i, SINE_THERE)
         c0, c1, c2, c3, c4, c5, c6 = derivatives(s, i, there)
         c = c0, c1, I2 * c2, I3 * c3, I4 * c4, I5 * c5, I6 * c6
-        w, dw, ddw = taylor(c, x)
+        w, dw, half_ddw = taylor(c, x)
         per = 1.0 / dw
         y = -w * per
-        bend = y * ddw * per
+        bend = y * half_ddw * per
         x += y * halved(fma(bend, fma(2.0, bend, -1.0), 1.0))
         w, dw, _ = taylor(c, x)
         found = about + x - w / dw

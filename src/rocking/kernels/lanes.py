@@ -60,7 +60,8 @@ CUT, DEEP, TWICE, LATE = SINH, VERSINH, EXCESS, HIGHER
 SLOT, SQUARE, DUE = SIN_X, VERSINE, LAG
 
 # What is next for a lane: nothing; to walk; to guess the zero in its stretch; to look for the bottom of a dip; to step to the
-# zero; what none of these can do; to look from further on; to begin an arc, the event before it, once that was attended to.
+# zero; what none of these can do; to look from further on; an arc, of a block that has just come; the event, once it was
+# attended to, and then an arc: from BEGUN on an arc begins.
 IDLE, WALK, GUESS, BOTTOM, REFINE, UNSURE, FURTHER, BEGUN, ARRIVED = (float(stage) for stage in range(9))
 # What a lane wants: nothing; that its peak be looked at; that its trail be read; a block; that its leg be ended; that its block
 # be marched alone; that the coming event be found; that it be asked whether what follows a slow event accumulates.
