@@ -5,7 +5,8 @@ import subprocess
 import sys
 import tempfile
 import time
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
+from multiprocessing import get_context
 from pathlib import Path
 from statistics import median
 
@@ -64,6 +65,23 @@ def in_turn(*questions, turns=TURNS):
     return [np.transpose(of_one) for of_one in zip(*runs, strict=True)]
 
 
+def by_one_worker(points):
+    """Seconds of a map by a single thread, for a process of its own."""
+    with ThreadPoolExecutor(1) as alone:
+        return taken(**asked(points), executor=alone)[0]
+
+
+def side_by_side():
+    """What two cores of this machine do against one: of two processes that share nothing, a map each, against one of them alone."""
+    with ProcessPoolExecutor(2, get_context("spawn")) as apart:
+        for _ in range(2):
+            list(apart.map(by_one_worker, [20, 20]))
+        yield from (
+            2 * max(apart.map(by_one_worker, [POINTS])) / max(apart.map(by_one_worker, [POINTS, POINTS]))
+            for _ in range(PAIRS)
+        )
+
+
 def maps():
     """The goals of a million points, and how the cost grows."""
     rk.parametric_map(**asked(20))
@@ -107,6 +125,7 @@ def engines():
         )
     note = f"median of {PAIRS} pairs; {median(work / two):.3g} cores at work"
     yield Figure("one worker, against two", median(one / two), "×", 1.9, least=True, note=note)
+    yield Figure("  a process, against two that share nothing", median(side_by_side()), "×")
     with tempfile.TemporaryDirectory() as folder:
         rk.parametric_map(**asked(20), store=f"{folder}/warm.zarr")
         stores = (Path(folder, f"{turn}.zarr") for turn in itertools.count())

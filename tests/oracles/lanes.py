@@ -10,10 +10,13 @@ from rocking.kernels.elementary import COMPILED
 from rocking.kernels.events import FLIGHT
 from rocking.kernels.lane_block import arc_of, find, over, seat, set_leg
 from rocking.kernels.lane_march import advance, advance_between, strike, strike_between
+from rocking.kernels.lane_zero import step
 from rocking.kernels.lanes import (
+    ANGLE_THERE,
     ARRIVED,
     AT_BRACE,
     CERTAINTY,
+    COSINE_THERE,
     CYCLE,
     EVENTS,
     EXCEEDS,
@@ -24,8 +27,11 @@ from rocking.kernels.lanes import (
     NEXT_SINH,
     NEXT_VERSINH,
     PEAK,
+    RATE_THERE,
+    REFINE,
     ROWS,
     SIDE,
+    SINE_THERE,
     SPEED,
     STAGE,
     START,
@@ -36,6 +42,7 @@ from rocking.kernels.lanes import (
     WANTS,
     of,
     put,
+    set_system,
 )  # fmt: skip
 from rocking.kernels.march import Progress
 from rocking.kernels.notes import state_at
@@ -127,6 +134,30 @@ def first_events(systems, starts):
         for i, k in enumerate(here):
             found[k], certain[k] = rows[list(FIRST), i], rows[STAGE, i] == ARRIVED
     return found, certain
+
+
+@njit(**COMPILED)
+def step_from(s, p, instants):
+    """A lane of the system for each (u, u', cos eta, sin eta), at the time 0 of its arc, and one step of each."""
+    for i in range(len(instants)):
+        set_system(s, i, p)
+        put(s, i, STAGE, REFINE)
+        put(s, i, ANGLE_THERE, instants[i, 0])
+        put(s, i, RATE_THERE, instants[i, 1])
+        put(s, i, COSINE_THERE, instants[i, 2])
+        put(s, i, SINE_THERE, instants[i, 3])
+    step(s)
+
+
+def steps_to_zero(p, instants):
+    """((wait, speed) of each zero as a step from (u, u', cos eta, sin eta) finds it, whether it says so)."""
+    found, arrived = np.empty((len(instants), 2)), np.zeros(len(instants), bool)
+    for first in range(0, len(instants), LANES):
+        s, part = empty(), instants[first : first + LANES]
+        step_from(s, p, part)
+        rows, here = s.reshape(ROWS, LANES)[:, : len(part)], slice(first, first + len(part))
+        found[here], arrived[here] = rows[[WAIT, SPEED]].T, rows[STAGE] == ARRIVED
+    return found, arrived
 
 
 def may_exceed(systems, starts, peaks):

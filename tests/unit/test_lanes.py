@@ -108,6 +108,33 @@ def test_first_impacts_are_those_of_one_block():
     assert compared >= 0.4 * len(systems)
 
 
+def test_no_step_reaches_a_zero_that_it_only_comes_near():
+    """From instants at which u, u' and u'' are small in any proportion, a slow block's, against the closed form in 40 digits."""
+    random = np.random.default_rng(12)
+    amplitude, frequency, count = 10.0, 5.0, 6000
+    p = harmonic_parameters(amplitude, frequency, math.tau / frequency, 0.0, 0.9)
+    speed = 10.0 ** random.uniform(-6, -3, count)
+    u = speed * 10.0 ** random.uniform(-7, -3, count)
+    second = 10.0 ** random.uniform(-9, -1, count) * random.choice([-1, 1], count)
+    cosine = (u - 1.0 - second) / amplitude
+    sine = np.sqrt(1.0 - cosine**2) * random.choice([-1, 1], count)
+    instants = np.column_stack([u, -speed, cosine, sine])
+    found, arrived = oracle.steps_to_zero(p, instants)
+    assert 0.2 < arrived.mean() < 0.95
+    with mp.workdps(40):
+        for (wait, falls), instant in zip(found[arrived], instants[arrived], strict=True):
+            u0, v0, cos0, sin0 = map(mp.mpf, instant)
+            eta, beta = mp.atan2(sin0, cos0), mp.mpf(amplitude) / (1 + frequency**2)
+            mean, half = u0 - 1 - beta * mp.cos(eta), v0 + beta * frequency * mp.sin(eta)
+
+            def angle(t, mean=mean, half=half, eta=eta, beta=beta):
+                return mean * mp.cosh(t) + half * mp.sinh(t) + 1 + beta * mp.cos(frequency * t + eta)
+
+            zero = mp.findroot(angle, (0, -u0 / v0))
+            assert abs(wait - zero) <= 1e-9 * zero, instant
+            assert abs(falls + mp.diff(angle, zero)) <= 1e-9 * abs(v0), instant
+
+
 def test_arc_that_rises_above_the_peak_is_always_looked_at_and_few_others():
     """The largest angle is that of u = c+ e^t + c- e^-t + 1 + beta cos eta at a thousand instants up to the impact."""
     systems, starts = drawn(4096, 6)

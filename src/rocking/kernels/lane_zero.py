@@ -207,7 +207,9 @@ def step(s):
         factor = correction(y, second, third, fourth, per)
 
         # near enough, as ``shortcut.close``: the rest of the way by Taylor series
-        close = (v < 0.0) & (abs(y) * max(1.0, frequency) < NEAR) & (abs(y * per * second) < NEAR)
+        bend, twist = y * per * second, y * (y * per) * third
+        close = (v < 0.0) & (abs(y) * max(1.0, frequency) < NEAR)
+        close &= (abs(bend) < NEAR) & (abs(twist) < NEAR * NEAR)
         arrived, x = (stage == REFINE) & close, y * factor
         slope = fma(x, fma(x, fma(x, fma(x, I4 * fifth, I3 * fourth), I2 * third), second), v)
         cosine, sine, sinh, versinh = onward(x, frequency, cosine, sine, sinh, versinh)
