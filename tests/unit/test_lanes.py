@@ -109,18 +109,18 @@ def test_first_impacts_are_those_of_one_block():
 
 
 def test_no_step_reaches_a_zero_that_it_only_comes_near():
-    """From instants at which u, u' and u'' are small in any proportion, a slow block's, against the closed form in 40 digits."""
+    """From instants at which u, u' and u'' are small, either side of the base, against the closed form in 40 digits."""
     random = np.random.default_rng(12)
     amplitude, frequency, count = 10.0, 5.0, 6000
     p = harmonic_parameters(amplitude, frequency, math.tau / frequency, 0.0, 0.9)
-    speed = 10.0 ** random.uniform(-6, -3, count)
-    u = speed * 10.0 ** random.uniform(-7, -3, count)
-    second = 10.0 ** random.uniform(-9, -1, count) * random.choice([-1, 1], count)
+    speed = 10.0 ** random.uniform(-6, -1, count)
+    u = speed * 10.0 ** random.uniform(-7, -3, count) * random.choice([-1, 1], count)
+    second = 10.0 ** random.uniform(-7, 0, count) * random.choice([-1, 1], count)
     cosine = (u - 1.0 - second) / amplitude
     sine = np.sqrt(1.0 - cosine**2) * random.choice([-1, 1], count)
     instants = np.column_stack([u, -speed, cosine, sine])
     found, arrived = oracle.steps_to_zero(p, instants)
-    assert 0.2 < arrived.mean() < 0.95
+    assert 0.2 < arrived.mean() < 0.8
     with mp.workdps(40):
         for (wait, falls), instant in zip(found[arrived], instants[arrived], strict=True):
             u0, v0, cos0, sin0 = map(mp.mpf, instant)
@@ -131,8 +131,8 @@ def test_no_step_reaches_a_zero_that_it_only_comes_near():
                 return mean * mp.cosh(t) + half * mp.sinh(t) + 1 + beta * mp.cos(frequency * t + eta)
 
             zero = mp.findroot(angle, (0, -u0 / v0))
-            assert abs(wait - zero) <= 1e-9 * zero, instant
-            assert abs(falls + mp.diff(angle, zero)) <= 1e-9 * abs(v0), instant
+            assert abs(wait - zero) <= 1e-11 * abs(zero), instant
+            assert abs(falls + mp.diff(angle, zero)) <= 1e-11 * abs(v0), instant
 
 
 def test_arc_that_rises_above_the_peak_is_always_looked_at_and_few_others():

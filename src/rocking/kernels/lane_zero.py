@@ -65,7 +65,7 @@ from .shortcut import I2, I3, I4, I5, I6
 from .walk import MARGIN
 
 MOST_TRIES = 12
-# As near as this the step of fifth order leaves less than rounding, and so do the series that follow it.
+# As near as this the step of fifth order leaves of u less than rounding does, and so do the series that follow it.
 NEAR = 1e-3
 
 
