@@ -72,7 +72,7 @@ def by_one_worker(points):
 
 
 def side_by_side():
-    """What two cores of this machine do against one: of two processes that share nothing, a map each, the speeds against that of one alone."""
+    """What two cores do against one on this machine: the speeds of two processes, a map each, against that of one alone."""
     with ProcessPoolExecutor(2, get_context("spawn")) as apart:
         for _ in range(2):
             list(apart.map(by_one_worker, [20, 20]))
