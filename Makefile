@@ -17,10 +17,10 @@ chromium = [ -x /usr/bin/chromium ] || scripts/debian.sh chromium || echo 'witho
 # What the PDF twin of the report is made with; without it there is the page alone.
 print = scripts/debian.sh libpango-1.0-0 libpangoft2-1.0-0 libharfbuzz-subset0 || true
 
-.PHONY: help setup reproduce explore test test-long bench lint format docs constraints
+.PHONY: help setup reproduce explore test test-long test-exhaustive bench bench-against lint format docs constraints
 
 help:
-	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' Makefile | while IFS=$$'\t' read -r name what; do printf 'make %-12s %s\n' "$$name" "$$what"; done
+	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' Makefile | while IFS=$$'\t' read -r name what; do printf 'make %-15s %s\n' "$$name" "$$what"; done
 
 setup: ## make .venv with pinned versions, or bring it up to date
 	@scripts/setup.sh
@@ -43,9 +43,17 @@ test-long: setup ## the tests that take minutes: millions of crossings, systems 
 	@$(chromium)
 	@$(bin)/python -m pytest -q -n $(workers) -m long --timeout 3600
 
+test-exhaustive: setup ## the tests that look at a part of something, such as 300 points of a map, at the whole: hours
+	@$(print)
+	@$(compile)
+	@$(bin)/python -m pytest -q -n $(workers) -m 'long or not long' --exhaustive --timeout 0 -rP tests
+
 bench: setup ## what it costs, as ratios against peers measured in the same run
 	@$(chromium)
 	@$(bin)/python -m benchmarks
+
+bench-against: setup ## its speed against that at a commit, such as REF=main, in some ten minutes; seed=N repeats an order of runs
+	@$(bin)/python -m benchmarks.against "$(REF)" $(if $(seed),--seed $(seed))
 
 lint: setup ## ruff, mypy, import-linter
 	@$(bin)/ruff check --quiet

@@ -48,7 +48,7 @@ def draw():
         right.plot(PERIODS, first / exact, dashes, color="#0072B2", label=f"$e = {restitution}$")
     right.axhline(1.0, color="#9A9A9A", linewidth=0.6)
     right.set(xscale="log", yscale="log")
-    right.set_xlabel(r"period $T = 2\pi/\Omega$ of the base (–)", fontsize=9)
+    right.set_xlabel("period $T$ (–)", fontsize=9)
     right.set_ylabel("$A_M/A^*$ (–)", fontsize=9)
     right.tick_params(labelsize=8)
     right.spines[["top", "right"]].set_visible(False)

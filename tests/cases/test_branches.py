@@ -44,6 +44,19 @@ def test_the_symmetric_mode_breaks_its_symmetry_where_the_closed_form_says(perio
     assert branch.ends == ("end of the range", "end of the range")
 
 
+def test_what_is_printed_of_a_branch_says_where_it_is_stable():
+    """Up to the closed form's symmetry breaking; the pair that is born there, up to its period doubling."""
+    breaking = symmetry_breaking_amplitude(1.721328, 0.8, 1)
+    branch = rk.continue_orbit(mode_orbit(7.0, 1.721328, 0.8, 1), "amplitude", (5.0, 9.0))
+    assert f" points, stable from 5 to {breaking:.6g}: " in str(branch)
+    born = rk.switch_branch(special(branch, "symmetry-breaking")[0], (5.0, 11.0))[0]
+    first = born.points["parameter"][np.flatnonzero(born.points["stable"])[0]]
+    doubling = special(born, "period-doubling")[0].parameter
+    assert f" points, stable from {first:.6g} to {doubling:.6g}: " in str(born)
+    beyond = rk.continue_orbit(mode_orbit(8.0, 1.721328, 0.8, 1), "amplitude", (7.5, 9.0))
+    assert " points, nowhere stable: " in str(beyond)
+
+
 @pytest.mark.parametrize("period, restitution", CASES)
 def test_beyond_it_two_mirror_images_are_as_stable_as_a_verdict_says(period, restitution):
     breaking = symmetry_breaking_amplitude(period, restitution, 1)
@@ -276,12 +289,12 @@ def isolated_orbit():
     return rk.find_orbit(braced, rk.State(-0.5728344694, 4.3332188138), 5)
 
 
-def test_curves_of_period_doubling_are_where_branches_at_other_periods_double():
+def test_curves_of_period_doubling_are_where_branches_at_other_periods_double(thin):
     orbit = mode_orbit(7.0, 1.721328, 0.8, 1)
     doubling = doubling_of(orbit)
     curve = rk.bifurcation_curve(doubling, "period", "amplitude", ((1.5, 2.2), (5.0, 15.0)))
     assert curve.kind == "period-doubling"
-    for period, amplitude in curve.points[:: max(len(curve) // 5, 1)]:
+    for period, amplitude in thin(curve.points, 5):
         breaking = symmetry_breaking_amplitude(period, 0.8, 1)
         there = doubling_of(mode_orbit(0.95 * breaking, period, 0.8, 1))
         assert there.parameter == pytest.approx(amplitude, abs=1e-8)
@@ -320,25 +333,25 @@ def test_a_curve_of_grazing_is_the_same_wherever_its_orbit_is_begun():
     np.testing.assert_allclose(curves[0].points, curves[1].points, rtol=0, atol=1e-8)
 
 
-def test_a_curve_of_grazing_with_a_brace_is_the_peak_without_it():
+def test_a_curve_of_grazing_with_a_brace_is_the_peak_without_it(thin):
     """Over the restitution: the brace that the orbit just touches is as far out as the orbit of the block without braces."""
     braced = mode_orbit(2.0, 1.0, 0.925, 1, rk.Braces(1.0, 0.9))
     grazing = special(rk.continue_orbit(braced, "brace_angle", (0.05, 2.0)), "grazing")[0]
     curve = rk.bifurcation_curve(grazing, "amplitude", "brace_angle", ((1.0, 4.0), (0.01, 2.0)))
     assert curve.kind == "grazing"
     assert np.ptp(curve.points[:, 0]) == pytest.approx(3.0, abs=1e-6)
-    for amplitude, angle in curve.points[:: len(curve) // 10]:
+    for amplitude, angle in thin(curve.points, 10):
         assert angle == pytest.approx(peak_of(mode_orbit(amplitude, 1.0, 0.925, 1)), abs=1e-8)
 
 
-def test_a_curve_of_grazing_with_the_base_is_where_the_slower_mode_comes_back_to_it():
+def test_a_curve_of_grazing_with_the_base_is_where_the_slower_mode_comes_back_to_it(thin):
     """Eq. (5) with the speed and the phase of eq. (8) touches Θ = 0 on its way."""
     branch = rk.continue_orbit(mode_orbit(1.0, 1.0, 0.8, 1), "amplitude", (0.01, 3.0))
     grazing = special(branch, "grazing")[0]
     assert grazing.parameter == pytest.approx(comes_back(1.0), abs=1e-8)
     curve = rk.bifurcation_curve(grazing, "period", "amplitude", ((0.7, 2.0), (0.01, 5.0)))
     assert np.ptp(curve.points[:, 0]) == pytest.approx(1.3, abs=1e-6)
-    for period, amplitude in curve.points[:: len(curve) // 10]:
+    for period, amplitude in thin(curve.points, 10):
         assert amplitude == pytest.approx(comes_back(period), abs=1e-8)
 
 

@@ -1,10 +1,13 @@
 """The paper's claims: all of them are there, each judged by a computation, and none is left unexplained."""
 
+import csv
 import re
+from types import SimpleNamespace
 
 import pytest
 
-from rocking.papers.yim_lin_1991 import claim
+import rocking as rk
+from rocking.papers.yim_lin_1991 import claim, surveys
 from rocking.papers.yim_lin_1991.claim import Chapter, Finding, Standing
 from rocking.papers.yim_lin_1991.claims import CHAPTERS
 
@@ -86,6 +89,42 @@ def test_slip_of_the_paper_is_shown_by_its_computation(compute):
     assert SLIPS[compute] in judged.because
 
 
+MACHINE = {
+    "a hyphen for a minus sign": r"(?<![\w.–])-\d",
+    "a power of ten as a machine writes it": r"\de[+-]?\d",
+    "a list of Python": r"\[",
+    "a truth value of Python": r"True|False|None",
+    "an absolute value that is at most 0": r"≤ 0(?![.\d])",
+    "decimals of what is none or all": r"(?<![\d.])0\.0 %|100\.0",
+    "a power of e": r"e\^",
+}
+"""What a computer prints and a journal does not, by its name."""
+
+
+@pytest.mark.parametrize(
+    "compute",
+    ["equation_2", "equation_3", "equation_6", "pairs", "lower_orbit", "exponent_periodic", "divergence", "unsymmetric",
+     "damped_quasi_periodic", "eigenvalues", "figure_7c", "exponent_quasi_periodic"],
+)  # fmt: skip
+def test_figures_of_a_claim_are_printed_as_in_a_journal(compute):
+    figures = one(compute).judged().finding.figures
+    assert {name: figures for name, machine in MACHINE.items() if re.search(machine, figures)} == {}
+
+
+def test_figures_of_all_claims_are_printed_as_in_a_journal(reproduced):
+    with (reproduced.folder / "table-claims.csv").open(encoding="utf-8", newline="") as file:
+        texts = [row["computed"] for row in csv.DictReader(file)]
+    texts.append((reproduced.folder / "table-exponents.md").read_text(encoding="utf-8"))
+    assert [
+        (name, text) for text in texts for name, machine in MACHINE.items() if re.search(machine, text)
+    ] == []
+
+
+def test_numbers_are_typeset_and_words_are_not():
+    text = "-1.5e-07 and 1e-12, A-4, 3-7, e = -0.5, (-2), 2e5 and 10⁻³"
+    assert claim.typeset(text) == "−1.5·10⁻⁷ and 10⁻¹², A-4, 3-7, e = −0.5, (−2), 2e5 and 10⁻³"
+
+
 @pytest.mark.parametrize(
     ("holds", "shown", "standing", "because"),
     [
@@ -104,6 +143,46 @@ def test_verdict_follows_from_what_was_computed(holds, shown, standing, because)
 
     judged = chapter[0].judged()
     assert (judged.standing, judged.because, judged.claim.says) == (standing, because, "Something")
+
+
+COUNTS = {
+    0.2: 74,
+    0.3: 70,
+    0.4: 35,
+    0.5: 15,
+    0.6: 10,
+    0.7: 3,
+    0.8: 0,
+    0.9: 0,
+    0.925: 0,
+    0.95: 0,
+    0.97: 0,
+    0.99: 1,
+    1.0: 9,
+}
+
+
+@pytest.mark.parametrize(
+    ("compute", "other"),
+    [
+        ("chaos_above_095", {0.3: 90}),  # does not fall
+        ("chaos_above_095", {0.2: 130, 0.3: 120}),  # not about every fifth
+        ("chaos_above_095", {0.6: 20, 0.5: 30}),  # one in twenty at 0.6
+        ("chaos_above_095", {0.6: 0, 0.7: 0}),  # not at every e up to there
+        ("chaos_against_losses", {0.7: 20}),
+        ("rare", {0.2: 130}),
+    ],
+)
+def test_what_is_said_of_the_share_of_chaos_stands_only_with_the_numbers_of_its_row(
+    monkeypatch, compute, other
+):
+    def judged(counts):
+        found = SimpleNamespace(shares=[rk.Share(counts[e], 400) for e in surveys.RESTITUTIONS])
+        monkeypatch.setattr(surveys, "chaos", lambda: found)
+        return one(compute).judged()
+
+    assert judged(COUNTS).standing is one(compute).otherwise
+    assert judged(COUNTS | other).standing is Standing.UNEXPLAINED
 
 
 def test_claim_without_another_explanation_is_unexplained_when_it_does_not_hold():

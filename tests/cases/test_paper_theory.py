@@ -46,7 +46,7 @@ def test_without_losses_periodic_responses_exist_and_are_neutrally_stable():
     """Its conclusion 3 has none; figure 5 turns around one."""
     mode = rk.theory.symmetric_modes(4.0, 0.4, 1.0, 3)[0]
     assert mode.admissible
-    assert mode.stability == "neutrally stable"
+    assert mode.stability == "neutral"
     off = rk.State(velocity=1.01 * mode.velocity)
     near, far = (
         rk.simulate(mode.system, start, cycles=30_000, record="section") for start in (mode.start, off)

@@ -193,3 +193,25 @@ def test_every_one_of_ten_thousand_starts_is_settled_and_no_attractor_is_missed(
     assert counts.keys() == ATTRACTORS.keys()
     # a start on the boundary of a basin, to the last digit, may fall to either side
     assert sum(abs(counts[period] - ATTRACTORS[period]) for period in ATTRACTORS) <= 4
+
+
+def test_impacts_between_two_leans_are_counted():
+    """The block leans on either brace in every cycle, after infinitely many hits; in between it strikes the base twice."""
+    found = classify(27.1556, 2.8054, 0.95, braces=rk.Braces(0.5, 0.3))
+    assert (found.kind, found.period, found.symmetric) == ("periodic", 1, True)
+    kinds = Counter(rk.simulate(found.system, cycles=7).events["kind"].tolist())
+    fewer = Counter(rk.simulate(found.system, cycles=4).events["kind"].tolist())
+    assert (kinds["lean"] - fewer["lean"], kinds["rest"]) == (6, 0)
+    assert 3 * found.impacts_per_period == kinds["impact"] - fewer["impact"] == 6
+    assert found.brace_hits_per_period is None
+    assert "infinitely many brace hits" in str(found)
+
+
+@pytest.mark.parametrize(("amplitude", "period"), [(2.0, 1.5), (3.2, 1.5), (4.0, 0.3), (4.0, 1.0)])
+def test_a_block_that_rests_without_bouncing_has_impacts_that_can_be_counted(amplitude, period):
+    """e = 0: every rest follows one impact."""
+    found = classify(amplitude, period, 0.0)
+    events = rk.simulate(found.system, cycles=100 + found.period).events
+    impacts = np.sum((events["kind"] == "impact") & (events["cycle"] >= 100))
+    assert found.kind == "periodic"
+    assert found.impacts_per_period == impacts

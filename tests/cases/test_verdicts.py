@@ -25,7 +25,7 @@ LEVELS = {
     "rest": ["exact"],
     "overturned": ["exact"],
     "periodic": ["verified", "exact"],
-    "quasi-periodic": ["verified"],
+    "quasi-periodic": ["statistical"],
     "chaotic": ["statistical"],
     "undetermined": ["none"],
 }
@@ -43,20 +43,12 @@ def verdict(name, number, factor):
 
 
 def differing(found, case):
-    """What a verdict says otherwise than the table, as {name: (said, true)}.
-
-    A block that rests or leans within the period may hit nothing a countable number of times: None is right there too.
-    """
+    """Return what a verdict says otherwise than the table, as {name: (said, true)}; infinitely many hits are None."""
     if found.kind != case["kind"]:
         return {"kind": (str(found.kind), case["kind"])}
     names = {"period", "impacts_per_period", "brace_hits_per_period", "symmetric"} & case.keys()
     pairs = {name: (getattr(found, name), case[name]) for name in sorted(names)}
-    uncounted = ("impacts_per_period", "brace_hits_per_period") if case.get("chatter") else ()
-    return {
-        name: (said, true)
-        for name, (said, true) in pairs.items()
-        if said != true and not (said is None and name in uncounted)
-    }
+    return {name: (said, true) for name, (said, true) in pairs.items() if said != true}
 
 
 @pytest.mark.parametrize("name, number", CASES)

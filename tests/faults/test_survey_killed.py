@@ -109,7 +109,7 @@ def test_run_killed_between_a_folder_and_its_first_file_is_gone_on_with_in_silen
     for level in folder.glob("level-*"):
         shutil.rmtree(level / "brace_hits_per_period")
         (level / "brace_hits_per_period").mkdir()
-        (level / "brace_hits_per_period" / "zarr.json.0123.partial").touch()
+        (level / "brace_hits_per_period" / f"zarr.{'0123' * 8}.partial").touch()
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         rk.parametric_map(**ASKED, store=folder, repair=True)

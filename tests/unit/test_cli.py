@@ -14,7 +14,7 @@ import pytest
 
 import rocking as rk
 from rocking.cli.main import main
-from rocking.cli.summary import ordinal
+from rocking.model import ordinal
 from rocking.papers.yim_lin_1991 import reproduce
 from rocking.papers.yim_lin_1991.claim import Chapter, Finding
 

@@ -2,6 +2,7 @@
 
 import csv
 import json
+import os
 from pathlib import Path
 
 import numpy as np
@@ -306,6 +307,23 @@ def test_who_interrupts_a_picture_is_told_that_the_store_is_complete(rocking, mo
     assert run()[0] == 130
     told = "rocking: --store 'map.zarr' is complete; the same command makes what was not yet written\n"
     assert capsys.readouterr().err == told
+
+
+def test_study_that_is_no_file_is_refused_before_it_is_read(rocking):
+    os.mkfifo("pipe")
+    for name in ("/dev/zero", "pipe"):
+        told = f"--study must name a TOML file; got '{name}': it is no file but a device, a pipe or a socket"
+        assert rocking(f"map --study {name}")[:2] == (2, told)
+
+
+def test_study_too_long_or_nested_too_deeply_is_refused(rocking):
+    Path("long.toml").write_text("#" * 1_000_001)
+    Path("deep.toml").write_text("a=" + "[" * 5000 + "]" * 5000)
+    for name, why in (("long", "it has more than 1,000,000 bytes"), ("deep", "it is nested too deeply")):
+        told = f"--study must name a TOML file; got '{name}.toml': {why}"
+        assert rocking(f"map --study {name}.toml")[:2] == (2, told)
+    Path("long.toml").write_text((STUDY + "#" * 1_000_000)[:1_000_000])
+    assert rocking("map --study long.toml")[0] == 0
 
 
 def test_study_that_is_no_toml_is_refused(rocking):

@@ -30,6 +30,22 @@ def test_basins_lists_the_attractors_with_their_shares(rocking, tmp_path):
         assert (kept.attractor.values == found.dataset.attractor.values).all()
 
 
+def test_basins_above_the_tangency_are_not_called_smooth(rocking):
+    """A = 3.7 lies above A* = 3.6878, from which on the boundary of overturning is fractal, exactly."""
+    code, _, out = rocking(
+        "basins --amplitude 3.7 --period 1 --restitution 0.8 --angle=-1:1:40 --velocity=-1:1:40 --boundary-runs 20000"
+    )
+    assert code == 0
+    (told,) = (line for line in out.splitlines() if line.strip().startswith("boundary of overturning"))
+    assert "smooth" not in told
+    assert "undecided: 0.72–1.13 contains 1" in told
+    assert "fractal above A* = 3.68781" in out
+    _, _, below = rocking(
+        "basins --amplitude 3.6 --period 1 --restitution 0.8 --angle=-1:1:5 --velocity=-1:1:5 --boundary-runs 0"
+    )
+    assert "by theory" not in below
+
+
 def test_basins_for_a_program(rocking):
     code, message, out = rocking(
         "basins --height 2 --width 0.5 --acceleration 4 --frequency-hz 1.2 --samples 300 --boundary-runs 0 --json"

@@ -129,7 +129,8 @@ def test_overturned_motion_says_when():
     assert 0 <= motion.overturning.time - 2.0 * dataset.attrs["overturning_cycle"] < 2.0
     assert dataset["event_cycle"].max() <= dataset.attrs["overturning_cycle"]
     assert "counted from 0" in dataset.attrs["comment"]
-    assert dataset["time"][-1] <= motion.duration
+    assert motion.duration < dataset["time"][-1]
+    assert np.abs(dataset["angle"]).max() <= 3.0
 
 
 @pytest.mark.parametrize("block", [None, BLOCK], ids=["normalised", "physical"])

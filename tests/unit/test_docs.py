@@ -75,6 +75,35 @@ def test_no_page_names_another_host(page):
     assert re.findall(r"https?://(?!127\.0\.0\.1)|//[\w-]+\.", page.read_text(encoding="utf-8")) == []
 
 
+def test_nothing_is_installed_by_a_name_that_an_index_may_give_to_another_package():
+    """The package is on no index: only its own files install it."""
+    texts = [*PAGES, *FRONT, *(ROOT / "src").rglob("*.py"), *(ROOT / "src").rglob("*.html")]
+    lines = [
+        line for path in texts for line in re.findall(r"pip install.*", path.read_text(encoding="utf-8"))
+    ]
+    assert len(lines) >= 2
+    assert [line for line in lines if not re.match(r"pip install [\"']?\.\[", line)] == []
+
+
+def test_the_same_bytes_are_said_of_one_kind_of_processor_only():
+    said = [
+        paragraph
+        for path in [*PAGES, *FRONT]
+        for paragraph in path.read_text(encoding="utf-8").split("\n\n")
+        if "concurrent.futures" in paragraph and re.search(r"same\s+bytes|bit-identical", paragraph)
+    ]
+    assert len(said) >= 2
+    assert [
+        paragraph for paragraph in said if not re.search(r"(kind|type)\s+of\s+processor", paragraph)
+    ] == []
+
+
+def test_readme_says_of_what_kind_the_base_motion_is():
+    text = " ".join((ROOT / "README.md").read_text(encoding="utf-8").split())
+    assert "The base motion is harmonic" in text
+    assert "earthquake" not in text
+
+
 PUBLIC = {
     *(f"rocking.{name}" for name in set(rocking.__all__) - {"__version__", "plot", "theory"}),
     *(f"rocking.plot.{name}" for name in rocking.plot.__all__),

@@ -29,7 +29,7 @@ from rocking.explorer.visit import Visit
 from rocking.explorer.work import Jobs, Workers
 from rocking.model import percent
 from rocking.plot.kinds import LOOKS, NONE, looks
-from rocking.survey import cores
+from rocking.survey import attractors, cores
 
 numbers = st.floats(allow_nan=False, allow_infinity=False)
 
@@ -338,6 +338,19 @@ def test_orbits_keep_their_numbers_and_too_many_have_none():
     assert orbits.numbers(np.full(40, 7), many).tolist() == [*range(16), *[0] * 24]
 
 
+def test_orbits_are_those_that_a_basin_map_tells_apart():
+    """States 5e-6 apart are two attractors of a basin map, and two orbits of the page; 5e-7 apart one of either."""
+    looks = np.array([3, 3])
+    for apart, numbers in ((5e-6, [0, 1]), (5e-7, [0, 0])):
+        states = np.array([[0.5, 1.0], [0.5, 1.0 + apart]])
+        assert Orbits().numbers(looks, states).tolist() == numbers
+        answers = {name: np.zeros(2) for name in attractors.CLASS} | {
+            "orbit_angle": states[:, 0], "orbit_velocity": states[:, 1],
+            "mean_angle": np.full(2, np.nan), "mean_angle_error": np.full(2, np.nan),
+        }  # fmt: skip
+        assert attractors.told_apart(DEFAULT.system, answers)[0].tolist() == numbers
+
+
 def test_start_far_beyond_return_is_drawn_as_far_as_doubles_hold():
     typed = {
         "amplitude": "0.0004",
@@ -564,6 +577,8 @@ def test_every_ground_of_the_cascade_has_its_words_and_its_level():
     """What a map keeps of the evidence is a number; the page tells it as `classify` does."""
     found = rk.parametric_map(amplitude=[0.5, 2.0], period=[1.0, 2.0], restitution=0.925)
     assert GROUNDS[0] == "proved never to return"
+    # what sticks to an island for long may pass for a torus, and leave it later
+    assert LEVELS[GROUNDS.index("averages agree as on a torus")] == "statistical"
     assert len(GROUNDS) == len(LEVELS) == len(found.evidence.attrs["flag_meanings"].split())
     for amplitude, period in ((0.5, 1.0), (2.0, 1.0), (2.0, 2.0)):
         verdict = rk.classify(rk.System(rk.Harmonic(amplitude, period=period), 0.925))

@@ -113,6 +113,36 @@ def test_build_machine_runs_make(target):
     assert re.search(rf"^(?:exec )?make {target}\b", (ROOT / ".ci/run").read_text(), re.MULTILINE)
 
 
+def test_build_machine_leaves_out_what_takes_hours():
+    assert "exhaustive" not in (ROOT / ".ci/run").read_text()
+
+
+def test_a_part_is_drawn_by_its_seed_or_evenly_spread_and_the_whole_is_the_whole(
+    thin, pytestconfig, monkeypatch, capsys
+):
+    monkeypatch.setattr(pytestconfig.option, "exhaustive", False)
+    drawn = thin(range(1_000), 30, seed=11)
+    assert capsys.readouterr().out == "30 of 1000, seed 11\n"
+    assert len(set(drawn)) == 30
+    assert drawn == thin(range(1_000), 30, seed=11) != thin(range(1_000), 30, seed=12)
+    assert list(thin(range(1_000), 4)) == [0, 250, 500, 750]
+    assert list(thin("abc", 4)) == ["a", "b", "c"]
+    monkeypatch.setattr(pytestconfig.option, "exhaustive", True)
+    assert thin(range(1_000), 30, seed=11) == range(1_000)
+
+
+def test_packages_whose_inner_parts_are_used_have_an_upper_bound():
+    inner = re.compile(r"^\s*from (\w+)\.core\b", re.MULTILINE)
+    used = {name for path in MODULES for name in inner.findall(path.read_text())}
+    bounded = {
+        requirement.name
+        for requirement in map(Requirement, PROJECT["dependencies"])
+        if any(bound.operator == "<" for bound in requirement.specifier)
+    }
+    # bokeh documents what is in its `core`
+    assert {"numba", "zarr"} <= used - {"bokeh"} <= bounded
+
+
 def test_citation_gives_the_version_of_the_package():
     assert f"\nversion: {rocking.__version__}\n" in (ROOT / "CITATION.cff").read_text()
 

@@ -1,6 +1,7 @@
 """The compiled part keeps its promises: fresh machine code after every edit, no allocation per event, the state renewed without a trace."""
 
 import importlib
+import json
 import math
 import os
 import pkgutil
@@ -21,6 +22,7 @@ from rocking.kernels import elementary, events, parameters
 from rocking.kernels import march as kernel
 
 SOURCES = Path(kernel.__file__).parents[2]
+COPY = shutil.ignore_patterns("__pycache__", "*.egg-info")
 NOTHING = np.empty((0, 2))
 NO_EVENTS = np.empty((0, 8))
 PRINT_IMPACT_SPEED = (
@@ -41,7 +43,7 @@ def march(p, cycles, angle=0.0, velocity=0.0):
 
 @pytest.mark.long
 def test_an_edit_in_a_called_function_is_seen_at_the_next_start(tmp_path):
-    shutil.copytree(SOURCES, tmp_path / "src", ignore=shutil.ignore_patterns("__pycache__", "*.egg-info"))
+    shutil.copytree(SOURCES, tmp_path / "src", ignore=COPY)
     environment = {
         **os.environ,
         "PYTHONPATH": str(tmp_path / "src"),
@@ -63,9 +65,96 @@ def test_an_edit_in_a_called_function_is_seen_at_the_next_start(tmp_path):
     assert abs(run() - before) > 1e-3
 
 
+PRINT_CACHE_PATHS = """
+import importlib, json, pkgutil
+from numba.core.caching import FunctionCache
+from numba.core.dispatcher import Dispatcher
+from rocking import kernels
+
+modules = [importlib.import_module(found.name) for found in pkgutil.walk_packages(kernels.__path__, "rocking.kernels.")]
+entries = {what for module in modules for what in vars(module).values() if isinstance(what, Dispatcher)}
+paths = {f"{entry.py_func.__module__}.{entry.py_func.__name__}": entry._cache.cache_path
+    for entry in entries if isinstance(entry._cache, FunctionCache)}
+print(json.dumps(paths))
+"""
+
+
+ENTRY_SOURCE = """
+from numba import njit
+from rocking.kernels.elementary import ENTRY
+
+@njit(**ENTRY)
+def entry():
+    return 1
+"""
+
+
+def cache_paths(source, home):
+    """Where each entry of the kernels keeps its machine code, as {name: path}."""
+    environment = {**os.environ, "PYTHONPATH": str(source), "NUMBA_CACHE_DIR": str(home)}
+    command = [sys.executable, "-c", PRINT_CACHE_PATHS]
+    told = subprocess.run(command, env=environment, capture_output=True, text=True, check=True).stdout
+    return json.loads(told)
+
+
+def test_an_edit_of_any_source_moves_the_machine_code_of_every_entry(tmp_path):
+    """Of one in a package within the package too; and an entry there keeps its code as all others do."""
+    source, home = tmp_path / "src", tmp_path / "cache"
+    shutil.copytree(SOURCES, source, ignore=COPY)
+    package = source / "rocking/kernels"
+    inner = package / "inner"
+    inner.mkdir()
+    (inner / "__init__.py").write_text("")
+    (inner / "callee.py").write_text("VALUE = 1")
+    (inner / "entry.py").write_text(ENTRY_SOURCE)
+    found = [cache_paths(source, home)]
+    for callee in (package / "impact.py", inner / "callee.py"):
+        callee.write_text(callee.read_text() + "\n")
+        found.append(cache_paths(source, home))
+    assert {"rocking.kernels.attractor.anchor_each", "rocking.kernels.inner.entry.entry"} < found[0].keys()
+    assert all(paths.keys() == found[0].keys() for paths in found)
+    assert all(len({paths[name] for paths in found}) == len(found) for name in found[0])
+    folders = {Path(path).relative_to(home).parts[:2] for paths in found for path in paths.values()}
+    assert len(folders) == len(found)  # one a set of sources, and no entry keeps its code anywhere else
+
+
+RUN_ENTRY = """
+import logging, sys, tempfile
+def nowhere():
+    raise FileNotFoundError("no usable temporary directory found")
+tempfile.gettempdir = nowhere
+logging.basicConfig(level="INFO", format="%(message)s")
+from rocking.kernels.entry import entry
+print(entry())
+"""
+
+
+@pytest.mark.parametrize("place", ["NUMBA_CACHE_DIR", "XDG_CACHE_HOME", "HOME", None])
+def test_machine_code_is_kept_in_the_first_folder_that_can_be_written_and_else_not_at_all(tmp_path, place):
+    shutil.copytree(SOURCES, tmp_path / "src", ignore=COPY)
+    (tmp_path / "src/rocking/kernels/entry.py").write_text(ENTRY_SOURCE)
+    nowhere = {"NUMBA_CACHE_DIR": "/dev/null/below", "XDG_CACHE_HOME": "/dev/null/below", "HOME": "/dev/null"}
+    environment = os.environ | nowhere | {"PYTHONPATH": str(tmp_path / "src")}
+    if place:
+        environment[place] = str(tmp_path / "home")
+    if place == "HOME":
+        del environment["XDG_CACHE_HOME"]
+    command = [sys.executable, "-c", RUN_ENTRY]
+    done = subprocess.run(command, cwd=tmp_path, env=environment, capture_output=True, text=True, check=True)
+    assert done.stdout == "1\n"
+    kept = [path for path in tmp_path.rglob("*") if path.suffix in {".nbi", ".nbc"}]
+    if place:
+        assert len(kept) == 2
+        assert all((tmp_path / "home") in path.parents for path in kept)
+        assert "once for this machine" in done.stderr
+    else:
+        assert kept == []
+        assert "at every start, for no cache folder can be written" in done.stderr
+
+
 def test_nothing_compiled_calls_what_is_kept_on_disk():
     """Else its speed and its last digits would depend on what this machine compiled first."""
-    rooms = pkgutil.iter_modules(kernels.__path__, "rocking.kernels.")
+    rooms = pkgutil.walk_packages(kernels.__path__, "rocking.kernels.")
     found = [value for room in rooms for value in vars(importlib.import_module(room.name)).values()]
     compiled = {kernel.py_func: kernel for kernel in found if isinstance(kernel, Dispatcher)}
     kept = [kernel for kernel in compiled.values() if isinstance(kernel._cache, FunctionCache)]
@@ -89,7 +178,7 @@ def named(kind):
 system = rk.System(rk.Harmonic(2.0, period=1.0), 0.925)
 rk.simulate(system, cycles=3), rk.classify(system), rk.theory.symmetric_modes(2.0, 1.0, 0.925, 1)
 rk.parametric_map(amplitude=[1.0, 2.0], period=[1.0, 2.0], restitution=1.0, max_cycles=200)
-modules = [importlib.import_module(f"rocking.kernels.{module.name}") for module in pkgutil.iter_modules(kernels.__path__)]
+modules = [importlib.import_module(found.name) for found in pkgutil.walk_packages(kernels.__path__, "rocking.kernels.")]
 met = {
     f"{what.py_func.__module__}.{what.py_func.__name__}": [named(sign.return_type) for sign in what.nopython_signatures]
     for module in modules for what in vars(module).values()

@@ -47,10 +47,11 @@ def test_error_of_a_sum_is_the_spread_of_its_groups():
 
 def test_error_of_a_mean_is_the_largest_of_three_ways_to_group():
     batches = 3.0 + RANDOM.normal(size=64)
-    mean, error = averages.batch_error(batches)
+    mean, error, correlation = averages.batch_error(batches)
     known = [np.std(batches.reshape(-1, k).mean(axis=1), ddof=1) / math.sqrt(64 / k) for k in (1, 2, 4)]
     assert mean == pytest.approx(batches.mean(), rel=1e-15, abs=0)
     assert error == pytest.approx(max(known), rel=1e-12, abs=0)
+    assert correlation == pytest.approx((max(known) / known[0]) ** 2, rel=1e-12, abs=0)
 
 
 def test_correlated_batches_have_the_larger_error_that_is_theirs():

@@ -44,7 +44,9 @@ def adapted_norm(a, b, c, d, radius):
 
 @njit(error_model="numpy")
 def find_fixed_point(p, angle, velocity, cycles, memory):
-    found = orbit.find_fixed_point(p, angle, velocity, cycles, 1 << 40, memory.nothing, memory.trial, UNKNOWN)
+    found = orbit.find_fixed_point(
+        p, angle, velocity, cycles, 1 << 40, memory.nothing, memory.trial, UNKNOWN, orbit.NEARBY, 0.0, 1.0
+    )
     image = found.image
     return (
         found.converged, found.angle, found.velocity, found.residual, found.error, found.work, image.tangent, image.impacts,
@@ -302,3 +304,23 @@ def test_of_a_motion_that_comes_no_nearer_nothing_is_foretold():
 def test_newtons_method_gives_up_where_the_block_overturns():
     p = harmonic_parameters(1.75, math.pi, 2.0, 0.0, 0.95)
     assert not find_fixed_point(p, 0.9, 0.5, 3, desk.desk(100, 8))[0]
+
+
+@pytest.mark.parametrize("mirrored", [False, True])
+def test_multipliers_by_trace_and_determinant_are_the_eigenvalues(mirrored):
+    """Against numpy's, of the matrix or of its square; the larger first, of conjugate ones that above the real axis."""
+    random = np.random.default_rng(8)
+    pairs = 0
+    for _ in range(300):
+        matrix = random.normal(size=(2, 2))
+        half, determinant = 0.5 * float(np.trace(matrix)), float(np.linalg.det(matrix))
+        found = orbit.multipliers_plain(half, half * half - determinant, determinant, mirrored)
+        expected = np.linalg.eigvals(matrix @ matrix if mirrored else matrix)
+        order = (lambda value: -value.imag) if np.iscomplexobj(expected) else (lambda value: -abs(value))
+        assert found == pytest.approx(
+            sorted(expected, key=order), abs=1e-12 * (1.0 + abs(expected).max()) ** 2
+        )
+        # no negative zeros
+        assert np.iscomplexobj(expected) or "-0j" not in f"{found}"
+        pairs += np.iscomplexobj(expected)
+    assert 50 < pairs < 250

@@ -1,12 +1,19 @@
 """Checks shared by every room."""
 
+import copy
 import math
+import pickle
+from fractions import Fraction
 
 import numpy as np
 import pytest
 
 import rocking as rk
-from rocking.model.errors import WAYS, TooShort, one_of, reals, shown, whole
+from rocking.cli.options import YourInput
+from rocking.explorer.fields import Refused
+from rocking.model import WriteError
+from rocking.model.errors import WAYS, NoOrbit, TooManyEvents, TooShort, one_of, reals, shown, whole
+from rocking.survey.guard import StoreError
 
 
 @pytest.mark.parametrize("value", [5, 5.0, np.int64(5), np.float64(5)])
@@ -46,6 +53,45 @@ def test_reals_refuses_everything_else_in_one_line(value):
     assert len(str(caught.value).splitlines()) == 1
 
 
+MASKED = np.ma.array([1.0, 9e99], mask=[False, True])
+
+
+@pytest.mark.parametrize("value", [np.ma.masked, MASKED, [MASKED, MASKED], (1.0, np.ma.masked), MASKED[1:]])
+def test_masked_values_are_refused(value):
+    with pytest.raises(
+        ValueError, match=r"^times must hold no masked values; got .*\(leave them out, or fill them\)$"
+    ):
+        reals("times", value)
+    for call in (
+        rk.Block(2.0, 0.5).amplitude,
+        rk.simulate(rk.System(rk.Harmonic(2.0, period=1.0), 0.9), cycles=1).at,
+        rk.theory.free_impact_speed,
+    ):
+        with pytest.raises(ValueError, match="must hold no masked values"):
+            call(value)
+
+
+def test_masked_point_of_an_axis_is_refused():
+    masked = np.ma.array(np.linspace(1.0, 2.0, 6), mask=[0, 1, 0, 0, 0, 0])
+    with pytest.raises(ValueError, match="^amplitude must hold no masked values"):
+        rk.parametric_map(amplitude=masked, period=np.linspace(1.0, 2.0, 3), restitution=0.9)
+
+
+def test_array_whose_mask_hides_nothing_is_taken():
+    assert reals("times", np.ma.array([1.0, 2.0])).tolist() == [1.0, 2.0]
+
+
+@pytest.mark.parametrize("value", [10**400, -(10**400), 10**5000, Fraction(10**400)], ids=lambda _: "huge")
+def test_number_beyond_all_floats_is_refused(value):
+    with pytest.raises(
+        ValueError, match=r"^times must be a real number of size up to 1\.79769e\+308; got "
+    ) as caught:
+        reals("times", value)
+    assert len(str(caught.value).splitlines()) == 1
+    with pytest.raises(ValueError, match="^acceleration must be a real number of size up to"):
+        rk.Block(2.0, 0.5).amplitude(value)
+
+
 def test_one_of_names_the_choices():
     assert one_of("record", "all", ("all", "none")) == "all"
     with pytest.raises(ValueError, match=r"^record must be one of 'all', 'none'; got 'some'$"):
@@ -70,3 +116,24 @@ def test_a_run_too_short_always_carries_its_estimate():
     assert TooShort("too short", 0.5).estimate == 0.5
     with pytest.raises(TypeError, match="estimate"):
         TooShort("too short")  # what supports no estimate at all is a plain ValueError
+
+
+RAISED = [
+    (TooShort("too short", rk.State(angle=0.5)), {"estimate": rk.State(angle=0.5)}),
+    (NoOrbit("none", 1.0, rk.State(angle=0.5), 0.1), {"phase": 1.0, "state": rk.State(angle=0.5), "residual": 0.1}),
+    (TooManyEvents("too many"), {}),
+    (StoreError("damaged"), {}),
+    (WriteError("full"), {}),
+    (YourInput("mistyped"), {"message": "mistyped"}),
+    (Refused({"angle": "too large"}), {"fields": {"angle": "too large"}}),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("again", [copy.copy, copy.deepcopy, lambda error: pickle.loads(pickle.dumps(error))])
+@pytest.mark.parametrize("error, carried", RAISED, ids=[type(error).__name__ for error, _ in RAISED])
+def test_copy_of_an_error_says_and_carries_the_same(error, carried, again):
+    error.add_note("in the second run")
+    found = again(error)
+    assert type(found) is type(error)
+    assert (str(found), found.__notes__) == (str(error), error.__notes__)
+    assert {name: getattr(found, name) for name in carried} == carried

@@ -1,8 +1,19 @@
 """Files are whole or not there, and what stood there before stays until the new one is whole."""
 
+import errno
+import re
+
 import pytest
 
-from rocking.model.files import Made, check_folder, check_writable, replacing, replacing_folder
+from rocking.model.files import (
+    Made,
+    WriteError,
+    check_folder,
+    check_replaceable,
+    check_writable,
+    replacing,
+    replacing_folder,
+)
 
 
 def names(folder):
@@ -18,6 +29,54 @@ def test_file_appears_under_its_name_only_once_complete(tmp_path):
         assert not target.exists()
     assert names(tmp_path) == ["table.csv"]
     assert target.read_text() == "whole"
+
+
+def test_longest_name_that_a_file_may_have_is_written(tmp_path):
+    target = tmp_path / ("n" * 251 + ".csv")
+    with replacing(check_writable("--csv", target)) as temporary:
+        temporary.write_text("whole")
+    assert names(tmp_path) == [target.name]
+    write_folder(tmp_path / ("n" * 255), "whole")
+    assert names(tmp_path) == [target.name, "n" * 255]
+
+
+def test_paths_that_cannot_exist_are_refused_in_one_line(tmp_path, monkeypatch):
+    for check in (check_writable, check_folder, lambda name, path: check_replaceable(name, path, MADE)):
+        for path in (tmp_path / ("n" * 256), tmp_path / "nul\0.csv"):
+            with pytest.raises(OSError, match=r"^--out must be a path that can exist; got '.*': [^\n]+$"):
+                check("--out", path)
+    (tmp_path / "gone").mkdir()
+    monkeypatch.chdir(tmp_path / "gone")
+    (tmp_path / "gone").rmdir()
+    for check in (check_writable, check_folder, lambda name, path: check_replaceable(name, path, MADE)):
+        with pytest.raises(OSError, match="got 'a': the working directory does not exist any more$"):
+            check("--out", "a")
+        assert check("--out", tmp_path / "a") == tmp_path / "a"
+
+
+@pytest.mark.parametrize("failure", [OSError(errno.ENOSPC, "No space left on device"), AttributeError("pos")])
+@pytest.mark.parametrize("writing", [replacing, lambda path: replacing_folder("folder", path, MADE)])
+def test_refusal_of_the_system_names_what_cannot_be_written(tmp_path, writing, failure):
+    """Also where a library stumbles over it and says something else."""
+
+    def fail():
+        with writing(tmp_path / "out"):
+            try:
+                raise OSError(errno.ENOSPC, "No space left on device")
+            except OSError:
+                raise failure from None
+
+    told = f"{str(tmp_path / 'out')!r} cannot be written: No space left on device; what was there before is unchanged"
+    with pytest.raises(WriteError, match=re.escape(told)):
+        fail()
+    assert names(tmp_path) == []
+
+
+def test_failure_that_is_none_of_the_system_is_raised_as_it_is(tmp_path):
+    for failure in (OSError("the store is damaged"), ValueError("no number")):
+        with pytest.raises(type(failure), match=str(failure)) as caught, replacing(tmp_path / "out"):
+            raise failure
+        assert caught.value is failure
 
 
 @pytest.mark.parametrize("failure", [RuntimeError, KeyboardInterrupt, SystemExit])
@@ -94,7 +153,7 @@ def test_folder_inside_a_file_is_refused(tmp_path):
             check_folder("--output", path)
 
 
-MADE = Made("mark", beside=(), sign="")
+MADE = Made("mark", others="", sign="")
 
 
 def write_folder(target, text):

@@ -94,7 +94,7 @@ def test_curves_have_a_look_a_kind():
     assert len({(line.get_color(), line.get_linestyle()) for line in ax.lines}) == len(curves) == 3
     for curve, line in zip(curves, ax.lines, strict=True):
         np.testing.assert_array_equal(line.get_xydata(), curve.points)
-    assert (ax.get_xlabel(), ax.get_ylabel()) == (r"period $T$ ($\tau$)", r"amplitude $A$ (–)")
+    assert (ax.get_xlabel(), ax.get_ylabel()) == (r"period $T$ (–)", r"amplitude $A$ (–)")
     across = rk.plot.bifurcation_curve(curves[0], block=BLOCK)
     np.testing.assert_allclose(across.lines[0].get_ydata(), BLOCK.acceleration(curves[0].points[:, 1]))
 

@@ -185,9 +185,11 @@ def test_folder_with_something_else_is_refused(tmp_path):
     assert [path.name for path in tmp_path.iterdir()] == ["notes.txt"]
 
 
-@pytest.mark.parametrize("own", ["thesis.tex", "index.html", "tiles"])
+@pytest.mark.parametrize(
+    "own", ["thesis.tex", "index.html", "tiles", "tiles/thesis.tex", "tiles/0/thesis.png"]
+)
 def test_nothing_of_somebody_elses_is_replaced(tmp_path, own):
-    """A file beside an earlier export; a page of that name which this has not written; a folder of tiles for a page that is gone."""
+    """A file beside an earlier export or within; a page of that name which this has not written; tiles whose page is gone."""
     folder = rk.plot.tiles(scattered(3, 2), tmp_path / "map").parent
     if own == "tiles":
         (folder / "index.html").unlink()

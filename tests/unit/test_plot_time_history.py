@@ -114,10 +114,24 @@ def test_overturning_is_followed_to_three_critical_angles():
     assert time[-1] > motion.overturning.time
 
 
-def test_block_that_starts_past_three_critical_angles_is_shown_to_the_end_of_its_run():
+def test_block_that_starts_past_three_critical_angles_is_shown_for_a_unit_of_time():
     motion = rk.simulate(FALLING, rk.State(angle=3.5), cycles=50)
     time, _ = curve(rk.plot.time_history(motion))
-    assert (time[0], time[-1]) == (0.0, motion.duration)
+    assert (time[0], time[-1]) == (0.0, 1.0)
+
+
+def test_slow_base_shows_the_fall_and_not_what_is_beyond_all_numbers(tmp_path):
+    """Its cycle of overturning goes on for a thousand units of time, in which e^τ is no float any more."""
+    motion = rk.simulate(rk.System(rk.Harmonic(2.0, period=1000.0), 0.9))
+    for cycles in (None, (0, 1)):
+        _, angle = curve(rk.plot.time_history(motion, cycles=cycles))
+        assert np.isfinite(angle).all()
+        assert abs(angle[-1]) == pytest.approx(3.0, abs=1e-10)
+    with pytest.raises(
+        ValueError, match=r"^cycles must begin before \|Θ\| = 3, in cycle 0\.00\d+; got \(0\.5, 1\)$"
+    ):
+        rk.plot.time_history(motion, cycles=(0.5, 1))
+    assert rk.plot.animation(motion, tmp_path / "fall.gif", seconds=0.2).stat().st_size > 0
 
 
 def test_block_at_rest_is_a_line_at_zero():

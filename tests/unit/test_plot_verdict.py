@@ -7,6 +7,7 @@ from itertools import combinations
 
 import numpy as np
 import pytest
+from attrs import evolve
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.colors import to_rgb
 from PIL import Image
@@ -51,6 +52,31 @@ def test_evidence_stands_above_in_full_and_nothing_overlaps(name):
     assert not any(one.overlaps(other) for one, other in combinations(boxes, 2))
     assert all(figure.bbox.x0 <= box.x0 and box.x1 <= figure.bbox.x1 + 1 for box in boxes)
     assert len(figure.axes) == (2 if verdict.kind in ("overturned", "rest") else 3)
+
+
+def notes(figure):
+    return [ax.get_title(loc=place) for ax in figure.axes for place in ("left", "right")]
+
+
+@pytest.mark.parametrize(
+    "name", ["periodic", "period 10", "chatter", "leaves the braces", "quasi-periodic", "chaotic"]
+)
+def test_run_that_is_drawn_agrees_with_the_verdict(name):
+    assert "this run of it ends otherwise" not in notes(rk.plot.verdict(verdict_of(name)))
+
+
+def test_a_note_says_where_the_run_that_is_drawn_contradicts_the_verdict():
+    """As after a chaotic transient, which `simulate` and `classify` may leave in different cycles: other starts stand for that."""
+    beside, chaotic = system(10.103037, 1.721328, 0.8), rk.State()
+    periodic = rk.simulate(system(10.0, 1.721328, 0.8), cycles=1_000).final
+    verdicts = {
+        kind: rk.classify(beside, start, max_cycles=20_000)
+        for kind, start in (("chaotic", chaotic), ("periodic", periodic))
+    }
+    assert [str(verdict.kind) for verdict in verdicts.values()] == ["chaotic", "periodic"]
+    for kind, start in (("chaotic", periodic), ("periodic", chaotic)):
+        drawn = rk.plot.verdict(evolve(verdicts[kind], start=start))
+        assert notes(drawn).count("this run of it ends otherwise") == 1
 
 
 @pytest.mark.parametrize("name", ["periodic", "period 10"])

@@ -93,6 +93,9 @@ def test_version_is_that_of_the_installed_package():
 def test_citations_are_bibtex_with_balanced_braces():
     text = rocking.cite()
     assert text.count("{") == text.count("}")
+    # a bibliography style prints a note, and does not print an annote
+    assert " note = " not in text
+    assert text.count(" annote = ") == text.count("\n@")
     assert text.count("\n@article{") == 10
     assert f"version = {{{rocking.__version__}}}" in text
     for source in (

@@ -131,6 +131,17 @@ def test_short_runs_are_refused_with_what_was_found():
         rk.rotation_number(ISLANDS, cycles=4)
 
 
+@pytest.mark.parametrize("cycles", [20_000, 100_000])
+def test_curve_bent_around_its_mean_is_no_matter_of_the_length_of_the_run(cycles):
+    told = re.escape(
+        "start must lie on a curve that surrounds its own mean; every 2nd of the impacts, 2 in 1 cycle, lies on none "
+        "(the motion is chaotic, or its curve is bent: take another start)"
+    )
+    with pytest.raises(ValueError, match=f"^{told}$") as caught:
+        rk.rotation_number(system(0.3, 2.0), rk.State(velocity=0.55), cycles=cycles)
+    assert not isinstance(caught.value, rk.TooShort)
+
+
 REFUSED = {
     "impacts that lose": (
         system(2.0, 1.0, 0.925),

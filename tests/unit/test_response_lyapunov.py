@@ -132,6 +132,30 @@ def test_motion_is_the_simulated_one():
     assert spectrum.impacts == whole.impacts - early.impacts > 50
 
 
+TURNED = rk.theory.symmetric_modes(4.0, 0.4, 1.0, 3)[0]
+
+
+@pytest.mark.parametrize(
+    "system, start",
+    [
+        # complex multipliers, so that both are equal; a torus, on which both are 0
+        (rk.System(rk.Harmonic(2.0, period=1.0), 0.8), rk.State()),
+        (TURNED.system, rk.State(velocity=TURNED.velocity + 1e-3)),
+        (rk.System(rk.Harmonic(10.103037, period=1.721328), 0.8), rk.State()),
+    ],
+)
+def test_exponents_descend_with_their_errors_and_growths(system, start):
+    found = rk.lyapunov(system, start)
+    assert found.values[0] >= found.values[1]
+    np.testing.assert_allclose(
+        found.growths.sum(axis=0) / (10_000 * system.forcing.period), found.values, rtol=1e-12
+    )
+    assert (found.history["errors"][-1] <= found.errors).all()
+    # λ₁ + λ₂ is what the impacts take, whichever comes first
+    taken = 2.0 * math.log(system.restitution) * found.impacts / (10_000 * system.forcing.period)
+    assert found.values.sum() == pytest.approx(taken, abs=1e-12)
+
+
 def test_exponents_do_not_depend_on_the_batches():
     """One product of derivatives by finite differences against the sum over 256 batches."""
     cycles, spectrum = 5, rk.lyapunov

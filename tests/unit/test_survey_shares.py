@@ -25,6 +25,19 @@ def test_an_interval_of_none_or_all_reaches_the_end_exactly():
     assert wilson(50, 50)[1] == 1.0
     assert wilson(0, 0) == (0.0, 1.0)
     assert str(Share(1, 3000)) == "0.033 % (0.0059–0.2 %)"
+    assert str(Share(2999, 3000)) == "99.967 % (99.8–99.9941 %)"
+    assert str(Share(0, 50)) == "0 % (0–7.1 %)"
+    assert str(Share(50, 50)) == "100 % (92.9–100 %)"
+
+
+@pytest.mark.parametrize("count, of, unknown", [(567, 3000, 300), (0, 50, 3), (47, 50, 3)])
+def test_an_interval_covers_every_number_of_the_unknown_that_may_belong_and_no_more(count, of, unknown):
+    """Its lower end counts none of them, so that they widen it upwards alone."""
+    ends = [wilson(count + each, of) for each in range(unknown + 1)]
+    share = Share(count, of, unknown)
+    assert (share.low, share.high) == (min(low for low, _ in ends), max(high for _, high in ends))
+    assert share.low == Share(count, of).low
+    assert share.high > Share(count, of).high or share.high == 1.0
 
 
 @pytest.mark.parametrize("share, of", [(0.189, 3000), (0.045, 3000), (0.64, 400), (0.5, 100)])
@@ -81,7 +94,7 @@ def test_a_smooth_boundary_has_exponent_one_and_its_interval_covers():
     random, covered = np.random.default_rng(2), 0
     for _ in range(300):
         found = exponent(*fake_trios(lambda x: x > 0.4, random))
-        covered += found.smooth
+        covered += found.low <= 1.0 <= found.high
     assert 0.93 <= covered / 300 <= 1.0
 
 
@@ -90,6 +103,21 @@ def test_a_cantor_boundary_has_the_exponent_of_its_dimension():
     # its share oscillates about the power law, by a few percent of the slope over eight octaves
     assert found.value == pytest.approx(CANTOR, abs=0.03)
     assert not found.smooth
+    assert found.fractal
+
+
+@pytest.mark.parametrize(
+    "interval, smooth, fractal, meaning",
+    [
+        ((0.72, 1.13), False, False, "undecided: 0.72–1.13 contains 1"),
+        ((0.95, 1.04), True, False, "1, and not below 0.9: smooth"),
+        ((0.72, 0.98), False, True, "below 1: fractal"),
+        ((1.02, 1.2), False, False, "undecided: 1.02–1.20 lies above 1"),
+    ],
+)
+def test_only_a_narrow_interval_says_what_a_boundary_is(interval, smooth, fractal, meaning):
+    found = rk.UncertaintyExponent(sum(interval) / 2, *interval, (), (), 1.0)
+    assert (found.smooth, found.fractal, found.meaning) == (smooth, fractal, meaning)
 
 
 def test_where_nothing_is_uncertain_there_is_no_exponent():
@@ -109,6 +137,7 @@ def test_the_boundary_of_overturning_is_smooth_up_to_the_tangency_and_fractal_ab
         ).uncertainty_exponent
         for times in (0.9, 1.0, 1.5)
     ]
-    assert found[0].smooth
-    assert found[1].smooth
+    for one in found[:2]:
+        assert one.low <= 1.0 <= one.high
+        assert not one.fractal
     assert found[2].high < 0.7

@@ -304,9 +304,75 @@ def test_store_that_is_a_file_is_refused(tmp_path, monkeypatch):
 
 def test_folder_of_a_run_killed_at_its_first_file_is_taken(tmp_path):
     (tmp_path / "map.zarr").mkdir()
-    (tmp_path / "map.zarr" / "zarr.json.0123.partial").touch()
+    (tmp_path / "map.zarr" / f"zarr.{'0123' * 8}.partial").touch()
     rk.parametric_map(**ASKED, store=tmp_path / "map.zarr")
     assert not list(tmp_path.rglob("*.partial"))
+
+
+@pytest.mark.parametrize(
+    "name", ["thesis.tex.partial", "zarr.json.partial", f"zarr.{'0123' * 8}.partial.txt"]
+)
+def test_folder_of_somebodys_unfinished_files_is_refused_and_they_stay(tmp_path, monkeypatch, name):
+    monkeypatch.chdir(tmp_path)
+    Path("download").mkdir()
+    Path("download", name).write_text("mine")
+    with pytest.raises(
+        OSError, match="^store must be a new folder, or one of a survey; got 'download', which is"
+    ):
+        rk.parametric_map(**ASKED, store="download")
+    assert [each.name for each in Path("download").iterdir()] == [name]
+    assert Path("download", name).read_text() == "mine"
+
+
+OWN = ("notes.partial", "level-0/notes.partial", "level-0/peak/c/0/0.partial", f"level-0/peak/c/0/peak.{'0123' * 8}.partial")  # fmt: skip
+EMPTY = ("mine", "level-0/mine", "level-0/peak/mine", "level-0/x.partial", f"level-0/peak/c/0/0.{'0123' * 8}.partial")  # fmt: skip
+
+
+@pytest.mark.filterwarnings("ignore:Object at .* is not recognized as a component of a Zarr hierarchy")
+def test_what_others_keep_in_a_store_stays_and_what_a_killed_run_left_goes(copied, computed):
+    for name in OWN:
+        (copied / name).write_text("mine")
+    for name in EMPTY:
+        (copied / name).mkdir()
+    (copied / "level-0" / "lost").symlink_to("nowhere")
+    (copied / "level-7" / "peak" / "c" / "0").mkdir(parents=True)
+    for left in ("zarr", "level-0/zarr", "level-0/peak/zarr", "level-0/peak/c/0/1", "level-7/peak/c/0/12"):
+        (copied / f"{left}.{'89ab' * 8}.partial").touch()
+    rk.parametric_map(**ASKED, store=copied)
+    assert computed() == 0
+    assert [(copied / name).read_text() for name in OWN] == ["mine"] * len(OWN)
+    assert all((copied / name).is_dir() for name in EMPTY)
+    assert (copied / "level-0" / "lost").is_symlink()
+    assert not list(copied.rglob(f"*.{'89ab' * 8}.partial"))
+    assert not (copied / "level-7").exists()
+
+
+def test_store_of_another_survey_is_left_as_a_killed_run_left_it(copied):
+    left = copied / f"zarr.{'0123' * 8}.partial"
+    left.touch()
+    with pytest.raises(ValueError, match="holds another survey"):
+        rk.parametric_map(**(ASKED | {"max_cycles": 50}), store=copied)
+    assert left.exists()
+
+
+def test_link_is_followed_to_a_store_that_is_not_there_yet(tmp_path, plain):
+    (tmp_path / "link").symlink_to("map.zarr")
+    assert rk.parametric_map(**ASKED, store=tmp_path / "link").load().equals(plain)
+    assert (tmp_path / "map.zarr" / "zarr.json").is_file()
+
+
+def test_path_that_no_folder_can_have_is_refused(tmp_path, monkeypatch):
+    (tmp_path / "loop").symlink_to("loop")
+    for path in (tmp_path / "loop", tmp_path / ("a" * 300), tmp_path / "\0"):
+        with pytest.raises(OSError, match="^store must be a path that can exist; got ") as caught:
+            rk.parametric_map(**ASKED, store=path)
+        assert len(str(caught.value).splitlines()) == 1
+    (tmp_path / "gone").mkdir()
+    monkeypatch.chdir(tmp_path / "gone")
+    (tmp_path / "gone").rmdir()
+    refused(
+        "map", "store must be a path that can exist; got 'map': the working directory does not exist any more"
+    )
 
 
 def test_folder_that_holds_something_else_is_refused(tmp_path, monkeypatch):
@@ -386,6 +452,38 @@ def test_damaged_description_is_refused(copied, name):
     (copied / name).write_text("{")
     with pytest.raises(OSError, match="is damaged: one of its files zarr.json cannot be read"):
         rk.parametric_map(**ASKED, store=copied)
+
+
+BROKEN = {
+    "something else": lambda said: [1, 2],
+    "no tiles": lambda said: {name: each for name, each in said.items() if name != "tiles"},
+    "no list of tiles": lambda said: said | {"tiles": "x"},
+    "tiles of other axes": lambda said: said | {"tiles": [each[:1] for each in said["tiles"]]},
+    "tiles without points": lambda said: said | {"tiles": [[0, 0] for _ in said["tiles"]]},
+    "nothing halved": lambda said: said | {"halved": None},
+    "too little halved": lambda said: said | {"halved": said["halved"][1:]},
+    "halved by words": lambda said: said | {"halved": [["yes", "no"] for _ in said["halved"]]},
+    "fixed is a number": lambda said: said | {"fixed": 7},
+    "options are a list": lambda said: said | {"options": [1]},
+    "axes are a number": lambda said: said | {"axes": 3},
+    "axes of words": lambda said: said | {"axes": said["axes"] | {"period": ["a", "b"]}},
+    "axes that fall": lambda said: said | {"axes": said["axes"] | {"period": said["axes"]["period"][::-1]}},
+    "another axis": lambda said: said | {"axes": {"phase": [0, 1], "period": said["axes"]["period"]}},
+}
+
+
+@pytest.mark.parametrize("what", BROKEN)
+def test_store_whose_root_says_what_no_survey_writes_is_damaged(copied, what):
+    root = copied / "zarr.json"
+    described = json.loads(root.read_text())
+    described["attributes"]["rocking_survey"] = BROKEN[what](described["attributes"]["rocking_survey"])
+    root.write_text(json.dumps(described))
+    before = files(copied)
+    with pytest.raises(
+        OSError, match=f"^store {str(copied)!r} is damaged: one of its files zarr.json cannot be read"
+    ):
+        rk.parametric_map(**ASKED, store=copied)
+    assert files(copied) == before
 
 
 def test_damage_in_a_coarse_level_is_mended_there(copied, plain):

@@ -169,7 +169,7 @@ def test_faster_mode_is_stable_just_between_existence_and_symmetry_breaking():
             for amplitude, stable in [*((a, True) for a in inside), (ends * (1 + 1e-9), False)]:
                 if amplitude < 1000.0:
                     mode = rk.theory.symmetric_modes(float(amplitude), period, e, 1)[0]
-                    assert mode.stable == stable, (period, e, amplitude)
+                    assert (mode.stability != "unstable") == stable, (period, e, amplitude)
 
 
 def test_closed_forms_over_arrays_are_those_of_the_theory_in_thirty_digits():
@@ -287,7 +287,7 @@ def test_numbers_give_numbers_and_arrays_broadcast():
 def test_mode_says_what_it_is_in_one_line():
     stable, neutral = (rk.theory.symmetric_modes(2.0, 1.0, e, 1)[0] for e in (0.925, 1.0))
     assert str(stable) == "(1,1) mode: V = 0.532017, φ = -1.67791, stable, admissible"
-    assert "neutrally stable" in str(neutral)
+    assert "neutral" in str(neutral)
     slow = rk.theory.symmetric_modes(1.2, 1.0, 0.925, 1)[1]
     assert str(slow).endswith("unstable, admissible")
 

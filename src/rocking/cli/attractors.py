@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -19,7 +20,7 @@ from rocking.cli.surveys import FILES, MOST_ROWS, carried_out, share_record
 from rocking.model import counted
 
 if TYPE_CHECKING:
-    from rocking.model import BasinMap, Block, UncertaintyExponent
+    from rocking.model import BasinMap, Block, System, UncertaintyExponent
 
 USUAL = 200
 """Starts along an axis from -1 to 1, or from brace to brace."""
@@ -100,11 +101,20 @@ def rows(found: BasinMap) -> Iterator[Row]:
     }
     for name, exponent in names.items():
         if exponent is not None:
-            yield (
-                name,
-                f"uncertainty exponent {exponent}",
-                "below 1: fractal" if exponent.high < 1.0 else "1: smooth",
-            )
+            yield name, f"uncertainty exponent {exponent}", exponent.meaning
+    if tangency := tangled_from(found.system):
+        yield "boundary by theory", f"fractal above A* = {tangency:.6g}", "the saddles' manifolds cross"
+
+
+def tangled_from(system: System) -> float | None:
+    """A*, where theory proves that the boundary of overturning is fractal at this amplitude: A* < A < √(1 + Ω²); else None."""
+    from rocking.theory import heteroclinic_amplitude
+
+    forcing = system.forcing
+    if system.braces is not None or not 0.0 < system.restitution < 1.0:
+        return None
+    tangency = float(heteroclinic_amplitude(forcing.period, system.restitution))
+    return tangency if tangency < forcing.amplitude < math.hypot(1.0, forcing.frequency) else None
 
 
 def record(found: BasinMap, files: list[Path]) -> dict[str, Any]:
@@ -134,4 +144,4 @@ def exponent_record(exponent: UncertaintyExponent | None) -> dict[str, Any] | No
     """An exponent with its interval."""
     if exponent is None:
         return None
-    return {name: getattr(exponent, name) for name in ("value", "low", "high", "misfit")}
+    return {name: getattr(exponent, name) for name in ("value", "low", "high", "misfit", "meaning")}

@@ -36,9 +36,9 @@ class Answer:
             below = f"A = {amplitude:.6g} lies {begins - amplitude:.3g} below A_E = {begins:.6g}"
             return f"no {name}: {below}, where they begin"
         real = [mode for mode in self.modes if mode.admissible]
-        stable = [mode for mode in real if mode.stable]
-        word = "neutrally stable" if self.system.restitution == 1.0 else "stable"
-        return f"{counted(count, name)}, {len(real)} admissible, {len(stable)} of them {word}"
+        word = "neutral" if self.system.restitution == 1.0 else "stable"
+        found = [mode for mode in real if mode.stability == word]
+        return f"{counted(count, name)}, {len(real)} admissible, {len(found)} of them {word}"
 
     @property
     def amplitude(self) -> float:

@@ -44,7 +44,9 @@ def explore(
     from importlib.util import find_spec
 
     if find_spec("bokeh") is None:
-        raise YourInput("the page needs the extra explorer: pip install 'rocking[explorer]'")
+        raise YourInput(
+            "the page needs the extra explorer: pip install '.[explorer]' in a copy of the repository"
+        )
     from rocking.explorer import serve
 
     try:

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from rocking.cli.options import YourInput, option, your_input
-from rocking.model import PHYSICAL, block_attributes, check_writable, replacing
+from rocking.model import PHYSICAL, block_attributes, check_writable, replacing, replacing_hdf5, resolve_path
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -35,7 +35,8 @@ def check_apart(paths: Mapping[str, Path | None]) -> None:
     for name, path in paths.items():
         if path is None:
             continue
-        place = path.resolve()
+        with your_input():
+            place = resolve_path(option(name), path)
         for there, other in taken.items():
             if place == there:
                 raise YourInput(f"{option(other)} and {option(name)} must differ; got {str(path)!r} for both")
@@ -88,5 +89,5 @@ def with_block(data: xr.Dataset, block: Block | None) -> xr.Dataset:
 
 def write_dataset(data: xr.Dataset, path: Path) -> None:
     """A dataset that is in memory, as netCDF."""
-    with replacing(path) as temporary:
-        data.to_netcdf(temporary, engine="h5netcdf")
+    with replacing_hdf5(path) as file:
+        data.to_netcdf(file, engine="h5netcdf")

@@ -42,10 +42,9 @@ def found(verdict: Verdict, block: Block | None) -> Iterator[Row]:
         time = orbit.period * verdict.system.forcing.period
         seconds = "" if block is None else f"{block.seconds(time):.4g} s"
         yield "period", f"{counted(orbit.period, 'cycle')}, τ = {time:.6g}", seconds
-        if orbit.impacts is not None:
-            yield "impacts per period", f"{orbit.impacts}", ""
-        if orbit.brace_hits is not None and verdict.system.braces is not None:
-            yield "brace hits per period", f"{orbit.brace_hits}", ""
+        yield "impacts per period", _count(orbit.impacts), ""
+        if verdict.system.braces is not None:
+            yield "brace hits per period", _count(orbit.brace_hits), ""
         yield "multipliers", _pair(*orbit.multipliers), ""
     if exponent is not None:
         yield "largest exponent", *_exponent(exponent, verdict.exponent_error, block)
@@ -92,6 +91,10 @@ def record(verdict: Verdict, block: Block | None, file: Path | None) -> dict[str
     over, motion = applies.shown_by(verdict)
     validity = applies.record(motion, block)
     return told | {"block": physical(verdict, block), "judged": over, "validity": validity}
+
+
+def _count(hits: int | None) -> str:
+    return "infinitely many, before rest or leaning" if hits is None else f"{hits}"
 
 
 def _parts(multipliers: tuple[complex, complex]) -> list[list[float]]:

@@ -59,14 +59,31 @@ def run() -> tuple[int, str]:
         sys.stdout.flush()
     except KeyboardInterrupt:
         return INTERRUPTED, ""
-    except BrokenPipeError:
-        # Nobody reads on; stdout goes nowhere, lest the interpreter complain when it closes it.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return 1, ""
     except Exception as error:  # noqa: BLE001 (a traceback helps nobody at a prompt)
-        from typer import TyperException
-
-        if isinstance(error, TyperException):
-            return 2, " ".join(error.format_message().split())
-        return 1, " ".join(f"failed, and should not have: {type(error).__name__}: {error}".split())
+        code, message = refused(error)
+        return code, " ".join(message.split())
     return code or 0, ""
+
+
+def refused(error: Exception) -> tuple[int, str]:
+    """The exit code of a command that an error ended, and what to say of it."""
+    from typer import TyperException
+
+    from rocking.model import FULL, WriteError
+
+    if isinstance(error, TyperException):
+        return 2, error.format_message()
+    if isinstance(error, WriteError):
+        return 2, str(error)
+    if isinstance(error, BrokenPipeError):  # nobody reads on
+        discard_stdout()
+        return 1, ""
+    if isinstance(error, OSError) and error.errno in FULL:
+        discard_stdout()
+        return 2, f"the output cannot be written: {error.strerror} (make room, or send it elsewhere)"
+    return 1, f"failed, and should not have: {type(error).__name__}: {error}"
+
+
+def discard_stdout() -> None:
+    """Send the rest of stdout nowhere: the interpreter complains of what it cannot write at its end."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

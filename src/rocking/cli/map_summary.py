@@ -27,6 +27,9 @@ OPEN = {
     "between": "averages agree too well for chaos, not well enough for a torus",
     "crowded": "chatters almost without loss, more impacts than are followed",
     "standing": "stands on an unstable orbit",
+    "little-growth": "an exponent above zero, but differences grew as little as while a motion leaves an unstable orbit",
+    "correlated": "an exponent above zero, but from batches that depend on each other",
+    "lingering": "an exponent above zero, but close to an unstable orbit in the last cycles",
 }
 """Why a response is undetermined."""
 

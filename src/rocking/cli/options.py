@@ -112,7 +112,9 @@ Plot = Annotated[
         "History and phase portrait, of a long run its last 30 cycles (.png .svg .pdf), or film (.gif .mp4).",
     ),
 ]
-Csv = Annotated[Path | None, file_option("--csv", "Time, angle and velocity at even steps (.csv).")]
+Csv = Annotated[
+    Path | None, file_option("--csv", "Time, angle and velocity at even steps, a fall up to |Θ| = 3 (.csv).")
+]
 Netcdf = Annotated[Path | None, file_option("--netcdf", "The same with its description (.nc).")]
 VerdictPlot = Annotated[
     Path | None,

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 FILMS = (".gif", ".mp4")
 STEPS_PER_CYCLE = 100
-CYCLES_AT_ONCE = 1000
+ROWS_AT_ONCE = 100_000
 MOST_CYCLES_KEPT = 100_000
 """Of a longer run only the counters, the peak and the end are kept."""
 
@@ -69,14 +69,16 @@ def write_csv(motion: Motion, block: Block | None, path: Path) -> None:
 
 
 def tables(motion: Motion, block: Block | None) -> Iterator[dict[str, Any]]:
-    """Columns by their heading, so many cycles at once that a long motion needs no more memory than a short one."""
+    """Columns by their heading, so many rows at once that a long motion needs no more memory than a short one."""
     import numpy as np
 
+    from rocking.motion import end_shown
+
     step = motion.system.forcing.period / STEPS_PER_CYCLE
-    for first in range(0, motion.cycles, CYCLES_AT_ONCE):
-        last = min(first + CYCLES_AT_ONCE, motion.cycles)
-        count = (last - first) * STEPS_PER_CYCLE + (last == motion.cycles)
-        time = np.minimum((first * STEPS_PER_CYCLE + np.arange(count)) * step, motion.duration)
+    end = end_shown(motion)
+    count = 1 + int(end / step * (1 + 1e-12))
+    for first in range(0, count, ROWS_AT_ONCE):
+        time = np.minimum(np.arange(first, min(first + ROWS_AT_ONCE, count)) * step, end)
         angle, velocity = motion.at(time)
         table = files.columns({"time": time, "angle": angle, "velocity": velocity}, block)
         if block is not None:

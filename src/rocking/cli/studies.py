@@ -20,6 +20,8 @@ Study = Annotated[
     Path | None,
     typer.Option("--study", metavar="FILE", help=STUDY),
 ]
+MOST_BYTES = 1_000_000
+"""In a study file, which has some ten lines."""
 Check = Callable[[Any], Any]
 
 
@@ -62,9 +64,11 @@ def read(path: Path, checks: Mapping[str, Check]) -> dict[str, Any]:
     from cattrs.gen import make_dict_structure_fn, override
 
     try:
-        said = tomllib.loads(path.read_text(encoding="utf-8-sig"))
-    except (OSError, ValueError) as error:
-        why = error.strerror if isinstance(error, OSError) else error
+        said = tomllib.loads(_text(path))
+    except (OSError, ValueError, RecursionError) as error:
+        why = getattr(error, "strerror", None) or error
+        if isinstance(error, RecursionError):
+            why = "it is nested too deeply"
         raise YourInput(f"--study must name a TOML file; got {str(path)!r}: {why}") from error
     _check_once(path, said)
     entries = attrs.make_class("Study", {name: attrs.field(default=None) for name in checks})
@@ -76,6 +80,17 @@ def read(path: Path, checks: Mapping[str, Check]) -> dict[str, Any]:
     except cattrs.ClassValidationError as errors:
         raise YourInput(f"study {str(path)!r}: " + "; ".join(_told(errors, checks))) from None
     return {name: entry for name, entry in attrs.asdict(found).items() if entry is not None}
+
+
+def _text(path: Path) -> str:
+    """What is in a file of the usual kind and size: a device may have no end, and a pipe may wait for ever."""
+    if path.exists() and not path.is_file() and not path.is_dir():
+        raise ValueError("it is no file but a device, a pipe or a socket")
+    with path.open("rb") as file:
+        content = file.read(MOST_BYTES + 1)
+    if len(content) > MOST_BYTES:
+        raise ValueError(f"it has more than {MOST_BYTES:,} bytes")
+    return content.decode("utf-8-sig")
 
 
 def _check_once(path: Path, said: Mapping[str, Any]) -> None:

@@ -12,7 +12,7 @@ import numpy as np
 
 from rocking.cli import applies
 from rocking.cli.screen import WARNING, Row, print_json, print_table
-from rocking.model import GRAVITY, PHYSICAL, Block, counted
+from rocking.model import GRAVITY, PHYSICAL, Block, counted, ordinal
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -39,12 +39,6 @@ def verdict(motion: Motion) -> str:
     if motion.outcome == "at-rest":
         return "at rest, and stays so"
     return f"bounded over {counted(motion.cycles, 'cycle')} (neither rest nor overturning was proved)"
-
-
-def ordinal(number: int) -> str:
-    """1st, 2nd, 3rd, 4th, …."""
-    ending = "th" if number % 100 in (11, 12, 13) else {1: "st", 2: "nd", 3: "rd"}.get(number % 10, "th")
-    return f"{number}{ending}"
 
 
 def asked(result: Motion | Verdict, block: Block | None) -> Iterator[Row]:

@@ -4,50 +4,32 @@ from __future__ import annotations
 
 import gc
 import json
-import socket
 from importlib.resources import files
 
 import numpy as np
 from bokeh.application import Application
 from bokeh.application.handlers.function import FunctionHandler
 from bokeh.document import Document
-from bokeh.server.server import Server
+from bokeh.server.server import BaseServer
 
 from rocking.explorer import gallery, pictures, planes
 from rocking.explorer.fields import WORDS
 from rocking.explorer.refine import COARSEST, Plane, Refinement
+from rocking.explorer.server import local_server
 from rocking.explorer.state import DEFAULT
 from rocking.explorer.visit import Visit
 from rocking.explorer.work import Workers
 from rocking.model import VERSION
 from rocking.plot import kinds
 
-HOST = "127.0.0.1"
-NAMES = ("localhost", HOST)
-"""Where a page may come from that asks for a visit: this machine; a tunnel has the same port at its other end."""
-UNUSED = 5_000
-"""Milliseconds after which a visit is dropped that nobody looks at; looked for every two seconds."""
 GROUNDS = (
     "proved never to return", "proved to rest for ever", "released as before", "a stable orbit is reached", "a neutral orbit",
     "averages agree as on a torus", "exponent clearly positive", "released, period unresolved", "too few cycles to tell",
     "exponent not clear", "between torus and chaos", "too many events", "stands on an unstable orbit",
+    "differences grew little", "batches are correlated", "close to an unstable orbit",
 )  # fmt: skip
 """Evidence in a map, in a few words each, in the order of the kernels' grounds."""
-LEVELS = [
-    "exact",
-    "exact",
-    "verified",
-    "verified",
-    "verified",
-    "verified",
-    "statistical",
-    "none",
-    "none",
-    "none",
-    "none",
-    "none",
-    "none",
-]
+LEVELS = ["exact"] * 2 + ["verified"] * 3 + ["statistical"] * 2 + ["none"] * 9
 FIELDS = (
     ("amplitude", "A", "amplitude of the base, in g θcr"),
     ("period", "T", "period of the base, in 1/α"),
@@ -62,11 +44,11 @@ FIELDS = (
 )
 
 
-def serve(port: int = 0) -> Server:
-    """A server that is ready to be started (`run_until_shutdown`), on this machine's own address; port 0: any that is free."""
-    port = _free(port)
-    warm_up()
-    gc.freeze()  # whenever a visit is dropped all garbage is looked for: not among what stays for ever
+def serve(port: int = 0) -> BaseServer:
+    """A server that is ready to be started (`run_until_shutdown`), for this machine alone; port 0: any that is free.
+
+    Raises OSError where the port cannot be listened at.
+    """
     workers = Workers()
 
     def open_visit(document: Document) -> None:
@@ -75,22 +57,10 @@ def serve(port: int = 0) -> Server:
         document.template_variables.update(_page())
         Visit(document, workers)
 
-    return Server(
-        {"/": Application(FunctionHandler(open_visit))},
-        address=HOST,
-        port=port,
-        allow_websocket_origin=[f"{name}:{port}" for name in NAMES],
-        unused_session_lifetime_milliseconds=UNUSED,
-        check_unused_sessions_milliseconds=2_000,
-        session_token_expiration=3_600,
-        keep_alive_milliseconds=0,
-    )
-
-
-def _free(port: int) -> int:
-    """The same port, or one for 0; OSError where it cannot be listened at."""
-    with socket.create_server((HOST, port)) as free:
-        return free.getsockname()[1]
+    server = local_server(Application(FunctionHandler(open_visit)), port)
+    warm_up()
+    gc.freeze()  # whenever a visit is dropped all garbage is looked for: not among what stays for ever
+    return server
 
 
 def warm_up() -> None:

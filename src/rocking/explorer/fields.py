@@ -46,6 +46,9 @@ class Refused(ValueError):
         super().__init__("; ".join(fields.values()))
         self.fields = dict(fields)
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        return type(self), (self.fields,), self.__dict__
+
 
 def _given(name: str, text: str) -> str:
     """What was typed, if anything was."""

@@ -133,14 +133,14 @@ CASES = (
         "chaos-more-loss",
         BEYOND,
         "Chaos at e = .3",
-        "The more is lost, the more of the map is chaotic.",
+        "Where much is lost chaos is commoner than where little is.",
         _system(7.0, 1.15, 0.3, first=200),
     ),
     Case(
         "crisis",
         BEYOND,
         "A crisis at e = .99",
-        "At A = 4.86 chaos ends, after 32,400 cycles on average; at 4.88 it stays.",
+        "At A = 4.86 chaos ends, often after 10⁴ cycles or more; at 4.88 no end was seen.",
         _system(4.88, 0.33, 0.99, amplitudes=Span(4.7, 5.0), periods=Span(0.3, 0.36)),
     ),
 )

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-SAME = 1e-5
-"""States that stand for orbits and come as near as this are one orbit's."""
+from rocking.survey import alike
+
 MOST = 16
 """Orbits of one look that are told apart: more are no list of attractors."""
 
@@ -32,6 +32,6 @@ class Orbits:
                 return
             if number == len(met):
                 met.append(states[left[0]].copy())
-            near = np.abs(states[left] - met[number]).max(axis=1) <= SAME
-            found[left[near]] = number
-            left = left[~near]
+            rows = alike(states[left], met[number][None])[:, 0]
+            found[left[rows]] = number
+            left = np.delete(left, rows)

@@ -27,8 +27,7 @@ def verdict(found: Verdict, block: Block | None) -> dict[str, Any]:
         seconds = "" if block is None else f" ({block.seconds(found.period * forcing.period):.4g} s)"
         facts.append(("period", f"{counted(found.period, 'cycle')}, {symmetry}{seconds}"))
         hits = [(found.impacts_per_period, "impact"), (found.brace_hits_per_period, "brace hit")]
-        told = ", ".join(counted(number, what) for number, what in hits if number)
-        facts.append(("in a period", told or "rest or leaning"))
+        facts.append(("in a period", ", ".join(hits_in_period(*hit) for hit in hits if hit[0] != 0)))
     facts.append(("peak |Θ|", f"{found.peak:.6g}" + _reach(found.peak, block)))
     if found.multipliers is not None:
         facts.append(("multipliers", _pair(*found.multipliers)))
@@ -41,6 +40,11 @@ def verdict(found: Verdict, block: Block | None) -> dict[str, Any]:
         "facts": facts,
         "evidence": str(found.evidence),
     }
+
+
+def hits_in_period(number: int | None, what: str) -> str:
+    """How many hits a period has; infinitely many come before rest or leaning."""
+    return f"infinitely many {what}s" if number is None else counted(number, what)
 
 
 def exponent(value: float, error: float | None) -> str:

@@ -16,7 +16,7 @@ class Answers(NamedTuple):
     ground: np.ndarray  # (n,), Ground
     period: np.ndarray  # (n,), 0 where none
     symmetric: np.ndarray  # (n,), 0 or 1
-    impacts: np.ndarray  # (n,), -1 where they accumulate or there is no orbit
+    impacts: np.ndarray  # (n,), -1 where there are infinitely many or there is no orbit
     brace_hits: np.ndarray  # (n,), likewise
     exponent: np.ndarray  # (n,), NaN where not weighed
     error: np.ndarray  # (n,), likewise

@@ -81,17 +81,19 @@ def error_of_sum(departures, width):
 
 @njit(**MAKING)
 def batch_error(batches):
-    """(mean, standard error) of a correlated series from batch means: the largest error of all, half and a quarter as many.
+    """(mean, standard error, correlation) of a series from batch means: the largest error of all, half and a quarter as many.
 
     Where batches are long against the correlation time, merging them changes the error by chance only; where
-    they are not, it grows.
+    they are not, it grows: ``correlation`` is the factor by which that raises the variance.
     """
     mean = batches.mean()
     departures = batches - mean
-    worst = 0.0
-    for width in (1, 2, 4):
-        worst = max(worst, error_of_sum(departures, width))
-    return mean, worst / batches.shape[0]
+    finest = error_of_sum(departures, 1)
+    largest = finest
+    for width in (2, 4):
+        largest = max(largest, error_of_sum(departures, width))
+    correlation = (largest / finest) ** 2 if finest > 0.0 else 1.0
+    return mean, largest / batches.shape[0], correlation
 
 
 @njit(**MAKING_ENTRY)

@@ -5,10 +5,20 @@ from typing import NamedTuple
 
 from numba import njit
 
-from .elementary import WITHIN, WRITTEN_IN, size
+from .elementary import ENTRY, WITHIN, WRITTEN_IN, size
 from .march import UNKNOWN
 from .mode import nearest
-from .orbit import Found, Image, adapted_norm, find_fixed_point, image_after, length, multipliers
+from .orbit import (
+    NEARBY,
+    UNBOUNDED,
+    Found,
+    Image,
+    adapted_norm,
+    find_fixed_point,
+    image_after,
+    length,
+    multipliers,
+)
 from .parameters import later
 from .returns import apart, approached, closest_return
 from .tangent import Tangent
@@ -17,7 +27,6 @@ from .turning import largest_on
 # Where Newton's method starts, in this order; and once more with the least period of what it found.
 KNOWN, APPROACHED, CLOSEST, NO_MORE = range(4)
 REFINED = -1
-UNBOUNDED = 1 << 62
 # From returns further apart Newton's method seldom finds what the motion approaches.
 CLOSE = 0.01
 # A symmetric mode is taken for the limit of the returns where it is nearer to that than this share of the way left.
@@ -106,7 +115,9 @@ def find_cycle(p, section_time, desk, count, most_lag, most_work, known, since, 
         if lag == 0 or enough <= 0:
             continue
         if trying != KNOWN:
-            found = find_fixed_point(clocked, angle, velocity, lag, enough, nothing, columns, waits)
+            found = find_fixed_point(
+                clocked, angle, velocity, lag, enough, nothing, columns, waits, NEARBY, 0.0, 1.0
+            )
             work += found.work
             waits, symmetric, peak = UNKNOWN, False, math.nan
             if not found.converged:
@@ -142,35 +153,48 @@ def find_cycle(p, section_time, desk, count, most_lag, most_work, known, since, 
         )
         work += whole.impacts + whole.brace_hits
         same = max(SAME, 100.0 * found.error)
-        period = least_period(scratch, lag, same)
+        period, mirrored = repetition(scratch, scratch, found.angle, found.velocity, lag, same)
         if period == lag:
-            symmetric = period % 2 == 1 and is_mirrored(scratch, (period - 1) // 2, found, same)
-            return Cycle(REACHED, period, symmetric, found, whole.peak, away, 0, work)
+            return Cycle(REACHED, period, mirrored, found, whole.peak, away, 0, work)
         angle, velocity, lag, enough, candidate = found.angle, found.velocity, period, UNBOUNDED, REFINED
     return Cycle(*seen[:7], work)
 
 
 @njit(**WITHIN)
+def constant_image(impacts, brace_hits):
+    """An image that does not depend on the state: its derivative, and so both multipliers, are zero."""
+    nothing = Tangent(0.0, 0.0, 0.0, 0.0)
+    return Image(False, math.nan, math.nan, nothing, impacts, brace_hits, math.nan, UNKNOWN)
+
+
+@njit(**WITHIN)
 def no_cycle(work):
-    """No orbit; its multipliers are those of a motion that forgets everything."""
-    nowhere = Image(False, math.nan, math.nan, Tangent(0.0, 0.0, 0.0, 0.0), -1, -1, math.nan, UNKNOWN)
-    nothing = Found(False, math.nan, math.nan, nowhere, math.nan, math.nan, 0)
+    """No orbit."""
+    nothing = Found(False, math.nan, math.nan, constant_image(-1, -1), math.nan, math.nan, 0)
     return Cycle(NOT_YET, 0, False, nothing, math.nan, math.nan, 0, work)
 
 
 @njit(**WITHIN)
-def is_mirrored(section, row, found, same):
-    """Whether a row is the mirror image of the fixed point."""
-    return size(section[row, 0] + found.angle, section[row, 1] + found.velocity) <= same
+def repetition(rows, halves, angle, velocity, lag, same):
+    """(least period, whether it is its own mirror image half of that later) of an orbit of ``lag`` cycles through a state.
+
+    ``rows`` are its states on any section, a cycle apart; ``halves`` those half a cycle after the state, and on. States as
+    near as ``same`` are one.
+    """
+    period = lag
+    for divisor in range(1, min(lag, rows.shape[0])):
+        if lag % divisor == 0 and apart(rows, divisor, 0) <= same:
+            period = divisor
+            break
+    half = (period - 1) // 2
+    mirrored = period % 2 == 1 and size(halves[half, 0] + angle, halves[half, 1] + velocity) <= same
+    return period, mirrored
 
 
-@njit(**WITHIN)
-def least_period(rows, lag, same):
-    """The smallest divisor of ``lag`` after which the rows of the orbit repeat themselves."""
-    for period in range(1, lag):
-        if lag % period == 0 and apart(rows, period, 0) <= same:
-            return period
-    return lag
+@njit(**ENTRY)
+def repetition_plain(rows, halves, angle, velocity, lag, same):
+    """``repetition`` for Python."""
+    return repetition(rows, halves, angle, velocity, lag, same)
 
 
 @njit(**WITHIN)

@@ -11,6 +11,7 @@ import numpy as np
 from numba import njit, types
 from numba.extending import intrinsic
 
+from .machine_code import FOLDER
 from .whole import WholeCompiler
 
 # Arrays are lent: to count who holds them, at every call, takes a fifth of what a map of points costs.
@@ -24,14 +25,16 @@ COMPILED = dict(
 )
 # What Python calls is kept on disk, whole, with all that it calls; and nothing else is: a part that lies compiled on
 # disk can no longer be written into its callers, which would then be slower and round otherwise, depending on what this
-# machine compiled first. So nothing compiled calls a function of this kind.
-ENTRY = dict(COMPILED, cache=True, pipeline_class=WholeCompiler)
+# machine compiled first. So nothing compiled calls a function of this kind. Without a folder of our own nothing is kept:
+# the compiler would keep it beside the sources.
+KEPT = dict(cache=FOLDER is not None, pipeline_class=WholeCompiler)
+ENTRY = dict(COMPILED, **KEPT)
 # What only kernels call needs no way in from Python, which takes as long to compile as the function itself. Called from
 # Python it would end the process.
 WITHIN = dict(COMPILED, no_cpython_wrapper=True)
 # What makes arrays or lists of its own must count who holds them.
 MAKING = dict(COMPILED, _nrt=True)
-MAKING_ENTRY = dict(MAKING, cache=True, pipeline_class=WholeCompiler)
+MAKING_ENTRY = dict(MAKING, **KEPT)
 INLINED = dict(COMPILED, forceinline=True)
 INNER = dict(WITHIN, forceinline=True)
 # The compiler optimises what a function calls once more with every caller. Where a short function is all there is

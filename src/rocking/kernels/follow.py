@@ -8,6 +8,7 @@ from numba import njit
 from .chain import Chain
 from .elementary import MAKING, MAKING_ENTRY, WITHIN
 from .points import (
+    CALM,
     CLOSE,
     CLOSED,
     EASY,
@@ -28,10 +29,14 @@ from .points import (
     SMALLEST_STEP,
     STRAIGHT,
     SYMMETRY_BREAKING,
+    TINY,
+    Point,
     Step,
     last_own,
     locate,
+    multiplier_angle,
     own_at,
+    passes_and_returns,
     step_to,
     test_value,
 )  # fmt: skip
@@ -73,18 +78,31 @@ def keep_point(desk, k, row, point, peak, out, facts):
     facts[row, 3] = desk.links[0, 0]
 
 
-@njit(**MAKING)
-def next_step(p, which, chain, y, direction, turned, length, longest, limits, bounds, before, desk):
-    """The next point, left in ``desk.trial``, and the direction there, ``turned``: with shorter steps where the branch bends.
+@njit(**WITHIN)
+def is_calm(earlier, before, point, length, longest):
+    """Whether the multipliers change little in a step, so that none passes a special point unseen."""
+    start = multiplier_angle(before.trace, before.determinant)
+    stop = multiplier_angle(point.trace, point.determinant)
+    if not abs(stop - start) <= CALM:
+        return False
+    first = multiplier_angle(earlier.point.trace, earlier.point.determinant)
+    return length <= CLOSE * longest or not passes_and_returns(first, earlier.length, start, stop, length)
 
-    At a grazing and at the end of the range the step ends on it.
+
+@njit(**MAKING)
+def next_step(p, which, chain, y, direction, ahead, length, longest, limits, bounds, before, earlier, desk):
+    """The next point, left in ``desk.trial``, and the direction there, ``ahead``: with shorter steps where the branch bends.
+
+    Steps are shorter too where the multipliers change fast; ``earlier`` is the step before. At a grazing and at the end of
+    the range the step ends on it.
     """
     k = chain.kinds.shape[0]
     while True:
         own, point, peak = own_at(p, which, chain, y, direction, length, bounds, desk)
-        turned[:] = direction
-        near = point.found and turn_direction(turned, desk)
-        near = near and along(turned, direction, np.zeros(k + 1), desk.weights) > STRAIGHT
+        ahead[:] = direction
+        near = point.found and turn_direction(ahead, desk)
+        near = near and along(ahead, direction, np.zeros(k + 1), desk.weights) > STRAIGHT
+        near = near and (length <= TINY * longest or is_calm(earlier, before, point, length, longest))
         if near and (own or length <= CLOSE * longest):
             break
         length *= SHRINK
@@ -159,30 +177,45 @@ def follow(
     count += 1
     if count == out.shape[0] or not turn_direction(direction, desk):
         return count, found, MANY if count == out.shape[0] else LOST
-    first, first_direction, turned = y.copy(), direction.copy(), direction.copy()
+    first, first_direction, ahead = y.copy(), direction.copy(), direction.copy()
+    none = Point(False, 0, math.nan, math.nan, math.nan, math.nan)
+    earlier = Step(GOING, 1.0, none, 0.0)
     while count < out.shape[0]:
-        step = next_step(p, which, chain, y, direction, turned, length, longest, limits, bounds, before, desk)
+        step = next_step(
+            p, which, chain, y, direction, ahead, length, longest, limits, bounds, before, earlier, desk
+        )
         if step.end == LOST or (step.end == RANGE and step.length == 0.0):
             return count, found, step.end
         keep_point(desk, k, count, step.point, step.peak, out, facts)
-        # Where a branch begins at a special point, that point is not met again.
-        if count > 1:
-            found, merges = note_specials(
-                p, which, chain, mirrored, y, direction, step, before, bounds, count, found, specials, changes, desk
-            )  # fmt: skip
-            if not math.isnan(merges):
-                _, point, peak = own_at(p, which, chain, y, direction, merges, bounds, desk)
-                keep_point(desk, k, count, point, peak, out, facts)
-                return count + 1, found, MERGED
+        found, merges = note_specials(
+            p,
+            which,
+            chain,
+            mirrored,
+            y,
+            direction,
+            step,
+            before,
+            bounds,
+            count,
+            found,
+            specials,
+            changes,
+            desk,
+        )
+        if not math.isnan(merges):
+            _, point, peak = own_at(p, which, chain, y, direction, merges, bounds, desk)
+            keep_point(desk, k, count, point, peak, out, facts)
+            return count + 1, found, MERGED
         if step.end == GRAZED and found < specials.shape[0]:
             specials[found] = out[count]
             changes[found, 0], changes[found, 1] = GRAZING, count
             found += 1
-        y[:], before = out[count], step.point
+        y[:], before, earlier = out[count], step.point, Step(GOING, step.length, before, 0.0)
         count += 1
         if step.end != GOING:
             return count, found, step.end
-        direction[:] = turned
+        direction[:] = ahead
         now = along(first_direction, y, first, desk.weights)
         if count > LOOP and was < 0.0 <= now and norm(y - first, desk.weights) < 2.0 * longest:
             return count, found, CLOSED

@@ -7,7 +7,7 @@ from typing import NamedTuple
 from numba import njit
 
 from .averages import batch_error
-from .cycle import REACHED, Cycle, no_cycle
+from .cycle import REACHED, Cycle, constant_image, no_cycle
 from .desk import BATCHES
 from .elementary import WITHIN
 from .lossless import CHAOTIC_DIGITS
@@ -18,6 +18,11 @@ from .release import largest_angle
 CLEARLY = 6.0  # standard errors
 CHAOS_NEEDS = 10_000
 CHAOS_NEEDS_WITH_BRACES = 100_000
+# Rounding leaves a motion some 2**-53 beside an unstable orbit. While it leaves that orbit, differences grow by 2**53 at
+# most, and they grow steadily: the exponent of that seems certain. Chaos is what grew further, as a logarithm.
+FAR = 40.0
+# The variance of the mean may exceed that of independent batches by this factor.
+MAX_CORRELATION = 4.0
 
 
 class Kind(IntEnum):
@@ -52,12 +57,19 @@ class Ground(IntEnum):
     BETWEEN = 10  # averages agree too well for chaos, too badly for a torus
     CROWDED = 11
     STANDING = 12  # on an unstable orbit, to within rounding
+    LITTLE_GROWTH = 13  # differences grew no more than while a motion leaves an unstable orbit
+    CORRELATED = 14  # the batches of the exponent depend on each other
+    LINGERING = 15  # near an unstable orbit
 
 
 (
     NO_RETURN, STILL_FOR_EVER, RESET, ORBIT, NEUTRAL_ORBIT, TORUS, EXPONENT, UNRESOLVED_RESET, UNWATCHED,
-    INDISTINCT, BETWEEN, CROWDED, STANDING,
+    INDISTINCT, BETWEEN, CROWDED, STANDING, LITTLE_GROWTH, CORRELATED, LINGERING,
 ) = (int(ground) for ground in Ground)  # fmt: skip
+
+
+# An undetermined motion has an exponent that is worth telling on these grounds.
+WEIGHED = (INDISTINCT, LITTLE_GROWTH, CORRELATED, LINGERING)
 
 
 class Judgement(NamedTuple):
@@ -147,12 +159,17 @@ def ended(status, watch, work):
 
 @njit(**WITHIN)
 def released(watch, work):
-    """The judgement of a motion that was released as it was before: superstable, and symmetric after an odd number of half cycles."""
+    """The judgement of a motion that was released as it was before: superstable, and symmetric after an odd number of half cycles.
+
+    From one release to the next a symmetric motion goes through half of its period.
+    """
     half_periods, arc = watch.half_periods, watch.progress.arc
     symmetric = half_periods % 2 == 1
-    period = half_periods if symmetric else half_periods // 2
-    forgets = no_cycle(0).found.image
-    release = Found(True, arc.side * arc.angle, 0.0, forgets, 0.0, 0.0, 0)
+    period, halves = (half_periods, 2) if symmetric else (half_periods // 2, 1)
+    impacts = halves * watch.impacts if watch.impacts >= 0 else -1
+    brace_hits = halves * watch.brace_hits if watch.brace_hits >= 0 else -1
+    image = constant_image(impacts, brace_hits)
+    release = Found(True, arc.side * arc.angle, 0.0, image, 0.0, 0.0, 0)
     orbit = Cycle(REACHED, period, symmetric, release, watch.orbit_peak, 0.0, 0, 0)
     transient = max(watch.progress.cycle - (half_periods + 1) // 2, 0)
     return judged(PERIODIC, RESET, watch, work, -math.inf, 0.0, transient, orbit, arc.start, math.nan)
@@ -177,16 +194,29 @@ def torus(watch, work, section_time, digits):
 
 
 @njit(**WITHIN)
-def unsettled(p, watch, work, max_cycles, measured, lossless, digits, batches, stands):
-    """The judgement at the end of the budget: chaotic if the exponent is clearly positive, else undetermined."""
-    mean, error = batch_error(batches) if measured == BATCHES else (math.nan, math.nan)
+def unsettled(p, watch, work, max_cycles, batch_time, measured, lossless, digits, batches, stands, lingers):
+    """The judgement at the end of the budget: chaotic if all of this shows it, else undetermined.
+
+    The exponent is clearly positive; over the batches, each of ``batch_time``, differences grew far; the batches are
+    independent; and the motion neither ``stands`` on an unstable orbit nor ``lingers`` near one.
+    """
+    mean, error, correlation = batch_error(batches) if measured == BATCHES else (math.nan, math.nan, math.nan)
     needed = CHAOS_NEEDS if p.brace_angle == math.inf else CHAOS_NEEDS_WITH_BRACES
-    kind, ground = UNDETERMINED, INDISTINCT
+    kind, ground = UNDETERMINED, EXPONENT
     if max_cycles < needed:
         ground = UNWATCHED
     elif lossless and digits >= CHAOTIC_DIGITS:
         ground = BETWEEN
-    elif 0.0 < error < math.inf and mean >= CLEARLY * error:
-        # Where differences grow and the motion stays, it balances on what repels it.
-        kind, ground = (UNDETERMINED, STANDING) if stands else (CHAOTIC, EXPONENT)
+    elif not (0.0 < error < math.inf and mean >= CLEARLY * error):
+        ground = INDISTINCT
+    elif stands:
+        ground = STANDING
+    elif lingers:
+        ground = LINGERING
+    elif mean * batch_time * BATCHES < FAR:
+        ground = LITTLE_GROWTH
+    elif correlation > MAX_CORRELATION:
+        ground = CORRELATED
+    else:
+        kind = CHAOTIC
     return judged(kind, ground, watch, work, mean, error, -1, no_cycle(work), 0.0, digits)

@@ -62,7 +62,7 @@ from .lanes import (
 )  # fmt: skip
 from .lossless import Flights, sketch
 from .march import CROWDED, DONE, RESYNCHRONISE, UNKNOWN, Progress
-from .release import Watch
+from .release import moved_on
 from .settling import base_settling_time, brace_settling_time
 from .turning import largest_on
 from .verdict import Run, most_events, room
@@ -172,7 +172,7 @@ def read(s, i, wants, p, run, max_cycles, desk, trail):
     put(s, i, COUNTED, events)
     grown, desk.columns[0, 0], desk.columns[0, 1] = growth_since(s, i)
     desk.growth[0] += grown
-    watch = Watch(after, watch.base, watch.brace, 0, 0.0, watch.peak)
+    watch = moved_on(watch, after)
     status = CROWDED if events > most_events(max_cycles) else DONE
     return status, Run(watch, flights, section_time, count, lossless, measuring)
 

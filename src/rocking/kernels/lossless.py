@@ -20,6 +20,9 @@ CHAOTIC_DIGITS = 6.0
 LONG = 2048
 # Shear lets differences grow like the length times a factor, at most e to this; seen: e^3.
 SHEAR = 5.0
+# Near the rim of an island the shear is large, and sticky chaos looks the same. Such motion needs this many flights.
+SHEARED_FLIGHTS = 8192
+SMALL_SHEAR = 1.0
 # More than ``agreement`` allows of as many flights as are kept (``desk``).
 OUTGROWN = 20.0
 
@@ -148,10 +151,12 @@ def agreement(flights, values, weights, growth):
     The flight times must agree to ENOUGH_DIGITS. Inside an island they are locked to the forcing, and their
     average converges even in a thin chaotic layer. So the average of the squared speeds must converge too, to
     CHAOTIC_DIGITS and ever more, and differences must have grown (``growth``, a logarithm) no more than like the
-    length. The digits are the speeds', 0 where there is too little to tell or differences have grown by more.
+    length times a factor. That must be small unless there are many flights. The digits are the speeds', 0 where there
+    is too little to tell or differences have grown by more.
     """
     count, cycles = flights.count, flights.cycle - flights.first_cycle
-    if too_few(flights) or growth > math.log(max(count, cycles)) + SHEAR:
+    shear = SMALL_SHEAR if count < SHEARED_FLIGHTS else SHEAR
+    if too_few(flights) or growth > math.log(max(count, cycles)) + shear:
         return 0.0, False
     bumps(count // 2, weights)
     digits = digits_with(values[:count, 1], weights)

@@ -16,10 +16,19 @@ from .harmonic import particular
 from .impact import after_event
 from .march import MOST_EVENTS, UNKNOWN, begin
 from .notes import state_at
-from .parameters import later
+from .parameters import later, make
 
 # Distance from the saddle orbit, over 1 - beta, at which a motion is taken up.
 NEAR = 0.5
+
+
+@njit(**ENTRY)
+def swings(amplitudes, frequencies, phases, out):
+    """Write (beta cos psi, its derivative) into ``out`` (n, 2): how far saddle orbits are from their corners at phases psi."""
+    for k in range(out.shape[0]):
+        frequency = frequencies[k]
+        p = make(amplitudes[k], frequency, 2.0 * math.pi / frequency, phases[k], 1.0, math.inf, 1.0)
+        out[k, 0], out[k, 1] = particular(p, math.cos(phases[k]), math.sin(phases[k]))
 
 
 @njit(**WITHIN)

@@ -112,8 +112,8 @@ def named(fields):
 
 
 @njit(**WITHIN)
-def begin(p, angle, velocity, waits):
-    """The block just after any event at the start, and whether a brace was hit there.
+def begin(p, angle, velocity, waits, start=0.0):
+    """The block just after any event at the time ``start`` within its first cycle, and whether a brace was hit there.
 
     ``waits`` guesses the time to the first event and that from there to the next.
     """
@@ -124,11 +124,11 @@ def begin(p, angle, velocity, waits):
     if hit:
         v = -p.brace_restitution * v
     mode = FLIGHT
-    arc = arc_from(p, side, 0.0, u, v)
+    arc = arc_from(p, side, start, u, v)
     if u == 0.0 and v == 0.0:
         lifting = side_to_lift(p, arc.psi)
         mode = REST if lifting == 0 else FLIGHT
-        arc = arc_from(p, side if lifting == 0 else lifting, 0.0, 0.0, 0.0)
+        arc = arc_from(p, side if lifting == 0 else lifting, start, 0.0, 0.0)
     elif u == p.brace_angle and v == 0.0 and stays_leaning(p, side, arc.psi):
         mode = LEAN
     return Progress(

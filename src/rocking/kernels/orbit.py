@@ -5,15 +5,28 @@ from typing import NamedTuple
 
 from numba import njit
 
-from .elementary import WITHIN, WRITTEN_IN, size
+from .elementary import ENTRY, WITHIN, WRITTEN_IN, size
 from .march import DONE, begin, march_on
 from .tangent import Tangent, read_tangent
 
 RESIDUAL = 1e-12
 # Near a fold Newton's method converges linearly, by halves.
 MOST_STEPS = 40
-MOST_FAILURES = 1
-FARTHEST = 10.0
+UNBOUNDED = 1 << 62
+
+
+class Patience(NamedTuple):
+    """How far Newton's method is followed."""
+
+    failures: int  # steps in all that do not lower the residual by a tenth
+    worse: float  # a step that makes the residual grow by more is halved, as one that overturns the block or leads too far
+    halvings: int  # so often
+    reach: float  # of the angle, where no brace is nearer, and of the velocity
+
+
+# From what a motion approaches; from anywhere.
+NEARBY = Patience(1, math.inf, 0, 10.0)
+ANYWHERE = Patience(MOST_STEPS, 2.0, 4, 1e3)
 
 
 class Image(NamedTuple):
@@ -42,9 +55,14 @@ class Found(NamedTuple):
 
 
 @njit(**WITHIN)
-def image_after(p, angle, velocity, cycles, section_time, section, nothing, columns, want_peak, waits):
-    """The image of a state ``cycles`` later; ``section`` as in ``march_on``, ``columns`` (2, 2) or none."""
-    progress, _ = begin(p, angle, velocity, waits)
+def image_after(
+    p, angle, velocity, cycles, section_time, section, nothing, columns, want_peak, waits, start=0.0
+):
+    """The image, at the end of cycle ``cycles``, of a state at the time ``start`` within the first.
+
+    ``section`` as in ``march_on``, ``columns`` (2, 2) or none.
+    """
+    progress, _ = begin(p, angle, velocity, waits, start)
     if columns.shape[0] > 0:
         columns[0, 0], columns[0, 1], columns[1, 0], columns[1, 1] = 1.0, 0.0, 0.0, 1.0
     status, progress, _, _ = march_on(
@@ -65,44 +83,59 @@ def image_after(p, angle, velocity, cycles, section_time, section, nothing, colu
 
 
 @njit(**WRITTEN_IN)
-def find_fixed_point(p, angle, velocity, cycles, most_work, nothing, columns, waits):
-    """Newton's method on the map over ``cycles`` forcing cycles, until the residual is at most RESIDUAL; ``waits`` as for ``begin``."""
-    reach = min(p.brace_angle, FARTHEST)
-    work, failures, best, steps, converged = 0, 0, math.inf, 0, False
+def find_fixed_point(p, angle, velocity, cycles, most_work, nothing, columns, waits, patience, start, sign):
+    """Newton's method on the map of ``image_after`` times ``sign``, until the residual is at most RESIDUAL; ``waits`` as for ``begin``.
+
+    ``sign`` is -1 where the image is mirrored, else 1. Where none is found, the state is the last one accepted.
+    """
+    reach = min(p.brace_angle, patience.reach)
+    work, failures, steps, halvings, converged, inside = 0, 0, 0, 0, False, True
+    residual, best, error, share, to_angle, to_velocity = math.inf, math.inf, math.inf, 1.0, 0.0, 0.0
+    at_angle, at_velocity = angle, velocity
     while True:
-        image = image_after(p, angle, velocity, cycles, 0.0, nothing.section, nothing, columns, False, waits)
-        waits = image.waits
-        work += image.impacts + image.brace_hits
-        a, b, c, d = image.tangent
-        miss, miss_rate = image.angle - angle, image.velocity - velocity
-        residual = max(abs(miss), abs(miss_rate))
-        growth = max(1.0, abs(a), abs(b), abs(c), abs(d))
-        converged = image.certain and residual <= RESIDUAL * growth
-        steps += 1
-        failures += not residual < 0.9 * best
-        best = min(best, residual)
-        # x + (I - J)^-1 (P(x) - x), with J = [[a, c], [b, d]]
-        determinant = (1.0 - a) * (1.0 - d) - b * c
-        to_angle = ((1.0 - d) * miss + c * miss_rate) / determinant
-        to_velocity = (b * miss + (1.0 - a) * miss_rate) / determinant
-        error = size(to_angle, to_velocity)
-        lost = not image.certain or failures > MOST_FAILURES or work > most_work or not error < math.inf
-        if converged or lost or steps > MOST_STEPS:
+        accepted = False
+        if inside:
+            image = image_after(
+                p, at_angle, at_velocity, cycles, 0.0, nothing.section, nothing, columns, False, waits, start
+            )
+            waits = image.waits
+            work += image.impacts + image.brace_hits
+            miss, miss_rate = sign * image.angle - at_angle, sign * image.velocity - at_velocity
+            missed = max(abs(miss), abs(miss_rate))
+            accepted = image.certain and missed <= patience.worse * residual
+        if accepted:
+            angle, velocity, residual = at_angle, at_velocity, missed
+            tangent = image.tangent
+            a, b, c, d = sign * tangent.a, sign * tangent.b, sign * tangent.c, sign * tangent.d
+            converged = residual <= RESIDUAL * max(1.0, abs(a), abs(b), abs(c), abs(d))
+            steps += 1
+            failures += not residual < 0.9 * best
+            best = min(best, residual)
+            # x + (I - J)^-1 (P(x) - x), with J = [[a, c], [b, d]]
+            determinant = (1.0 - a) * (1.0 - d) - b * c
+            to_angle = ((1.0 - d) * miss + c * miss_rate) / determinant
+            to_velocity = (b * miss + (1.0 - a) * miss_rate) / determinant
+            error = size(to_angle, to_velocity)
+            lost = failures > patience.failures or work > most_work or not error < math.inf
+            if converged or lost or steps > MOST_STEPS:
+                break
+            share, halvings = 1.0, 0
+        elif halvings == patience.halvings:
             break
-        angle += to_angle
-        velocity += to_velocity
-        if not (abs(angle) <= reach and abs(velocity) <= FARTHEST):
-            break
+        else:
+            share, halvings = 0.5 * share, halvings + 1
+        at_angle, at_velocity = angle + share * to_angle, velocity + share * to_velocity
+        inside = abs(at_angle) <= reach and abs(at_velocity) <= patience.reach
     return Found(converged, angle, velocity, image, residual, error, work)
 
 
 @njit(**WITHIN)
-def multipliers(tangent):
-    """Both eigenvalues, the larger first: (real, imaginary, real, imaginary)."""
-    middle = 0.5 * (tangent.a + tangent.d)
-    apart = 0.5 * (tangent.a - tangent.d)
-    square = apart * apart + tangent.b * tangent.c
-    determinant = tangent.a * tangent.d - tangent.b * tangent.c
+def eigenvalues(middle, square, determinant):
+    """Both eigenvalues of a real matrix, the larger first, or that above the real axis: (real, imaginary, real, imaginary).
+
+    ``middle`` is half its trace, ``square`` the square of half their difference, which who knows more than the trace and
+    the determinant has without cancellation.
+    """
     if square < 0.0:
         root = math.sqrt(-square)
         return middle, root, middle, -root
@@ -110,6 +143,28 @@ def multipliers(tangent):
     large = middle + root if middle >= 0.0 else middle - root
     small = determinant / large if large != 0.0 else 0.0
     return large, 0.0, small, 0.0
+
+
+@njit(**WITHIN)
+def multipliers(tangent):
+    """The ``eigenvalues`` of a tangent."""
+    apart = 0.5 * (tangent.a - tangent.d)
+    return eigenvalues(
+        0.5 * (tangent.a + tangent.d),
+        apart * apart + tangent.b * tangent.c,
+        tangent.a * tangent.d - tangent.b * tangent.c,
+    )
+
+
+@njit(**ENTRY)
+def multipliers_plain(middle, square, determinant, mirrored):
+    """``eigenvalues`` for Python, as two complex numbers; ``mirrored``: their squares, of a map over half a period."""
+    real, above, other, below = eigenvalues(middle, square, determinant)
+    if mirrored:
+        turned = 2.0 * abs(real * above)
+        real, other = real * real - above * above, other * other - below * below
+        above, below = (turned, -turned) if turned > 0.0 else (0.0, 0.0)
+    return complex(real, above), complex(other, below)
 
 
 @njit(**WITHIN)

@@ -127,5 +127,18 @@ def within_a_turn(phase: float) -> float:
 def later(p, time):
     """The same system with its clock set to 0 a time (within a period) later."""
     phase = p.phase + p.frequency * time
-    phase -= 2.0 * math.pi * round(phase / (2.0 * math.pi))
-    return HarmonicParameters(*p[:3], phase, *p[4:])
+    return at_phase(p, phase - 2.0 * math.pi * round(phase / (2.0 * math.pi)))
+
+
+@njit(**WITHIN)
+def at_phase(p, phase):
+    """The same system with another forcing phase at time 0."""
+    return make(
+        amplitude=p.amplitude,
+        frequency=p.frequency,
+        period=p.period,
+        phase=phase,
+        restitution=p.restitution,
+        brace_angle=p.brace_angle,
+        brace_restitution=p.brace_restitution,
+    )

@@ -27,6 +27,10 @@ LOOP = 8
 PARAMETER = -1
 # Directions of two neighbouring points differ by no more than this angle.
 STRAIGHT = 0.97
+# The multipliers turn by no more than this in a step, as ``multiplier_angle`` measures them: a fold and a flip are pi/2 apart.
+CALM = 0.3
+# A step as short as this, against the longest, is taken however the multipliers change in it.
+TINY = 1e-6
 # Phases half a chain apart that differ by half its turn to this: the orbit repeats itself sooner.
 SHORTER = 1e-5
 
@@ -76,6 +80,31 @@ class Step(NamedTuple):
     length: float
     point: Point
     peak: float
+
+
+@njit(**WITHIN)
+def multiplier_angle(trace, determinant):
+    """Where the multipliers stand, as an angle: pi/4 at a fold, -pi/4 at a flip, within pi/2 however large they are."""
+    return math.atan(trace / (1.0 + determinant))
+
+
+@njit(**WITHIN)
+def passes_and_returns(earlier, length_before, start, stop, length):
+    """Whether multipliers that go from ``start`` to ``stop`` seem to pass a fold or a flip and come back in between.
+
+    They lie on the parabola through these two and the value ``earlier`` (NaN: none), a length before the first.
+    """
+    slope, before = (stop - start) / length, (start - earlier) / length_before
+    bend = (slope - before) / (length + length_before)
+    # start + rise s + bend s^2 is extreme at s = -rise/(2 bend)
+    rise = slope - bend * length
+    if not 0.0 < -rise * bend < 2.0 * bend * bend * length:
+        return False
+    extreme = start - 0.25 * rise * rise / bend
+    level = 0.25 * math.pi
+    fold = (start > level) == (stop > level) != (extreme > level)
+    flip = (start > -level) == (stop > -level) != (extreme > -level)
+    return fold or flip
 
 
 @njit(**WITHIN)

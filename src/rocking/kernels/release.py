@@ -20,6 +20,9 @@ class Visit(NamedTuple):
     seen: bool
     cycle: int
     time: float
+    impacts: int  # from the start to this release
+    brace_hits: int  # likewise
+    otherwise: bool  # a release of the other kind followed
     strain: float
     peak: float
 
@@ -27,15 +30,17 @@ class Visit(NamedTuple):
 class Watch(NamedTuple):
     """A motion under way, with its releases.
 
-    ``half_periods`` is how many half cycles of the forcing apart the last two releases of one kind were, if
-    they prove an orbit; negative if differences grew too much in between; 0 before. The progress counts its
-    peak anew at each release.
+    ``half_periods`` is the number of half forcing cycles between the last two releases of one kind, if they prove an
+    orbit; negative if differences grew too much in between; 0 before. ``impacts`` and ``brace_hits`` are counted between
+    these two; -1 where they accumulate. The progress counts its peak from the last release.
     """
 
     progress: Progress
     base: Visit
     brace: Visit
     half_periods: int
+    impacts: int
+    brace_hits: int
     orbit_peak: float
     peak: float
 
@@ -43,15 +48,21 @@ class Watch(NamedTuple):
 @njit(**WITHIN)
 def watched(progress):
     """A motion at its start."""
-    never = Visit(False, 0, 0.0, -math.inf, 0.0)
-    return Watch(progress, never, never, 0, 0.0, progress.peak)
+    never = Visit(False, 0, 0.0, 0, 0, False, -math.inf, 0.0)
+    return Watch(progress, never, never, 0, -1, -1, 0.0, progress.peak)
+
+
+@njit(**WITHIN)
+def moved_on(watch, progress):
+    """The watch of a motion that has gone on to ``progress`` without a release that proves an orbit."""
+    return Watch(progress, watch.base, watch.brace, 0, -1, -1, 0.0, watch.peak)
 
 
 @njit(**WITHIN)
 def unvisited(watch):
     """The same motion, its releases forgotten: what differences have grown to since is no longer known."""
-    anew = watched(watch.progress)
-    return Watch(anew.progress, anew.base, anew.brace, 0, 0.0, watch.peak)
+    fresh = watched(watch.progress)
+    return Watch(watch.progress, fresh.base, fresh.brace, 0, -1, -1, 0.0, watch.peak)
 
 
 @njit(**WITHIN)
@@ -69,25 +80,52 @@ def released_since(watch, cycle):
 
 
 @njit(**WITHIN)
-def after_flight(visit, strain, peak):
-    """A visit after one more flight that ended in rest or leaning."""
-    return Visit(visit.seen, visit.cycle, visit.time, max(visit.strain, strain), max(visit.peak, peak))
+def after_flight(visit, strain, peak, otherwise):
+    """A visit after one more flight that ended in rest or leaning, with a release of the other kind if ``otherwise``."""
+    return Visit(
+        visit.seen,
+        visit.cycle,
+        visit.time,
+        visit.impacts,
+        visit.brace_hits,
+        visit.otherwise or otherwise,
+        max(visit.strain, strain),
+        max(visit.peak, peak),
+    )
+
+
+@njit(**WITHIN)
+def hits_between(p, progress, visit, lifts):
+    """(impacts, brace hits) from a visit to the present release of the same kind; -1 where infinitely many occur.
+
+    Rest at the base follows infinitely many impacts unless e = 0, leaning infinitely many hits unless r = 0. A release from
+    the base (``lifts``) follows rest, one from a brace follows leaning.
+    """
+    impacts, brace_hits = progress.impacts - visit.impacts, progress.brace_hits - visit.brace_hits
+    rested, leaned = lifts or visit.otherwise, visit.otherwise or not lifts
+    if rested and p.restitution > 0.0:
+        impacts = -1
+    if leaned and p.brace_restitution > 0.0:
+        brace_hits = -1
+    return impacts, brace_hits
 
 
 @njit(**WITHIN)
 def at_release(p, watch, progress):
     """The watch at a release, from the base (the arc begins there) or from a brace."""
-    base = after_flight(watch.base, progress.strain, progress.peak)
-    brace = after_flight(watch.brace, progress.strain, progress.peak)
     arc = progress.arc
-    visit = base if arc.angle == 0.0 else brace
-    half_periods = 0
+    lifts = arc.angle == 0.0
+    base = after_flight(watch.base, progress.strain, progress.peak, not lifts)
+    brace = after_flight(watch.brace, progress.strain, progress.peak, lifts)
+    visit = base if lifts else brace
+    half_periods, impacts, brace_hits = 0, -1, -1
     if visit.seen:
+        impacts, brace_hits = hits_between(p, progress, visit, lifts)
         cycles = progress.cycle - visit.cycle + (arc.start - visit.time) / p.period
         half_periods = round(2.0 * cycles)
         if not visit.strain < LARGEST_STRAIN:
             half_periods = -half_periods
-    now = Visit(True, progress.cycle, arc.start, -math.inf, 0.0)
+    now = Visit(True, progress.cycle, arc.start, progress.impacts, progress.brace_hits, False, -math.inf, 0.0)
     anew = Progress(
         progress.mode,
         progress.cycle,
@@ -103,9 +141,8 @@ def at_release(p, watch, progress):
         -math.inf,
     )
     peak = max(watch.peak, progress.peak)
-    if arc.angle == 0.0:
-        return Watch(anew, now, brace, half_periods, visit.peak, peak)
-    return Watch(anew, base, now, half_periods, visit.peak, peak)
+    base, brace = (now, brace) if lifts else (base, now)
+    return Watch(anew, base, brace, half_periods, impacts, brace_hits, visit.peak, peak)
 
 
 @njit(**WRITTEN_IN)
@@ -138,7 +175,7 @@ def follow(p, watch, target, most_events, section_time, section, nothing, column
             tracked = columns
             begin_tangent(columns, growth)
             continue
-        watch = Watch(progress, watch.base, watch.brace, 0, 0.0, watch.peak)
+        watch = moved_on(watch, progress)
         if status != PAUSED or progress.impacts + progress.brace_hits > most_events:
             return status, watch
 

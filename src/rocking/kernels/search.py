@@ -6,75 +6,43 @@ from numba import njit
 
 from .elementary import ENTRY, WITHIN
 from .march import UNKNOWN
-from .orbit import RESIDUAL, image_after
-from .parameters import HarmonicParameters
-
-MOST_STEPS = 30
-FARTHEST = 1e3
-# A step that makes the miss grow by more than this is halved, so often.
-WORSE = 2.0
-MOST_HALVINGS = 4
+from .orbit import ANYWHERE, UNBOUNDED, find_fixed_point
+from .parameters import later
 
 
 @njit(**WITHIN)
-def as_one_cycle(p, cycles):
-    """The same system, its cycle counted to last ``cycles`` forcing periods, halves too."""
-    return HarmonicParameters(*p[:2], cycles * p.period, *p[3:])
+def return_map(p, period, mirrored):
+    """(system, start, cycles, sign) of the map over ``period`` cycles, or over half an odd number of them and mirrored.
 
-
-@njit(**WITHIN)
-def newton(p, angle, velocity, turned, nothing, columns):
-    """(found, angle, velocity, residual): the fixed point of the map over one cycle of ``p`` times ``turned``.
-
-    ``turned`` is -1 where the image is to be mirrored, else 1. A step is halved while it overturns the block or leads much
-    farther off.
+    A state at the time ``start`` within the first cycle is marched to the end of cycle ``cycles``; its image is multiplied
+    by ``sign``. Half a cycle comes first: the march ends only with a whole one, and p.period stays that of the forcing.
     """
-    best, residual, to_angle, to_velocity, waits = math.inf, math.inf, 0.0, 0.0, UNKNOWN
-    for _ in range(MOST_STEPS):
-        share = 1.0
-        for _ in range(MOST_HALVINGS + 1):
-            at_angle, at_velocity = angle + share * to_angle, velocity + share * to_velocity
-            if abs(at_angle) <= min(p.brace_angle, FARTHEST) and abs(at_velocity) <= FARTHEST:
-                image = image_after(
-                    p, at_angle, at_velocity, 1, 0.0, nothing.section, nothing, columns, False, waits
-                )
-                waits = image.waits
-                miss = turned * image.angle - at_angle
-                miss_rate = turned * image.velocity - at_velocity
-                residual = max(abs(miss), abs(miss_rate))
-                if image.certain and residual <= WORSE * best:
-                    break
-            share *= 0.5
-        else:
-            return False, angle, velocity, best
-        angle, velocity, best = at_angle, at_velocity, residual
-        a, b, c, d = (
-            turned * image.tangent.a,
-            turned * image.tangent.b,
-            turned * image.tangent.c,
-            turned * image.tangent.d,
-        )
-        growth = max(1.0, abs(a), abs(b), abs(c), abs(d))
-        if residual <= RESIDUAL * growth:
-            return True, angle, velocity, residual
-        determinant = (1.0 - a) * (1.0 - d) - b * c
-        to_angle = ((1.0 - d) * miss + c * miss_rate) / determinant
-        to_velocity = (b * miss + (1.0 - a) * miss_rate) / determinant
-        if not math.hypot(to_angle, to_velocity) < math.inf:
-            return False, angle, velocity, residual
-    return False, angle, velocity, residual
+    if not mirrored:
+        return p, 0.0, period, 1.0
+    half = 0.5 * p.period
+    return later(p, -half), half, (period + 1) // 2, -1.0
 
 
 @njit(**ENTRY)
-def hunt(p, cycles, turned, starts, nothing, columns, out):
-    """Newton's method from every start; ``out`` (n, 4) takes (found, angle, velocity, residual). How many were found.
+def hunt(p, period, mirrored, starts, nothing, columns, out):
+    """Newton's method on ``return_map`` from every start; ``out`` (n, 4) takes (found, angle, velocity, residual).
 
-    ``cycles`` forcing periods go into the map; half-integer ones with ``turned`` -1.
+    Starts beyond a brace lead nowhere. How many were found.
     """
-    whole = as_one_cycle(p, cycles)
+    q, start, cycles, sign = return_map(p, period, mirrored)
     count = 0
     for i in range(starts.shape[0]):
-        found, angle, velocity, residual = newton(whole, starts[i, 0], starts[i, 1], turned, nothing, columns)
-        out[i, 0], out[i, 1], out[i, 2], out[i, 3] = found, angle, velocity, residual
-        count += found
+        out[i, 0], out[i, 1], out[i, 2], out[i, 3] = False, starts[i, 0], starts[i, 1], math.inf
+        if abs(starts[i, 0]) > p.brace_angle:
+            continue
+        found = find_fixed_point(
+            q, starts[i, 0], starts[i, 1], cycles, UNBOUNDED, nothing, columns, UNKNOWN, ANYWHERE, start, sign
+        )
+        out[i, 0], out[i, 1], out[i, 2], out[i, 3] = (
+            found.converged,
+            found.angle,
+            found.velocity,
+            found.residual,
+        )
+        count += found.converged
     return count

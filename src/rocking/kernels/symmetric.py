@@ -17,7 +17,7 @@ from .arc import arc_from
 from .crossing import CROSSING, base_watch, first_zero
 from .elementary import ENTRY, WITHIN, direction
 from .harmonic import particular
-from .parameters import HarmonicParameters
+from .parameters import at_phase
 from .turning import arc_peak
 
 PIECE = 4.0
@@ -55,6 +55,6 @@ def half_cycle(p, speed, near, far, length):
     up, peak = first_half(p, speed, near, far, length)
     if not up:
         return False, peak
-    backwards = HarmonicParameters(*p[:3], math.pi - p.phase, *p[4:])
+    backwards = at_phase(p, math.pi - p.phase)
     up, other = first_half(backwards, speed / p.restitution, far, near, length)
     return up, max(peak, other)

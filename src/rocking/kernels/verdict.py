@@ -13,7 +13,7 @@ from numba import njit
 
 from .cycle import ON_EVENT, REACHED, Cycle, find_cycle, loses, no_cycle
 from .desk import BATCHES, LEG
-from .elementary import ENTRY, INNER, WITHIN, WRITTEN_IN
+from .elementary import ENTRY, INNER, WITHIN, WRITTEN_IN, size
 from .judgement import NEUTRAL_ORBIT, OPEN, ORBIT, ended, periodic, torus, undecided, unsettled
 from .lossless import (
     FEWEST_FLIGHTS,
@@ -27,7 +27,16 @@ from .lossless import (
     work_out,
 )
 from .march import DONE, UNKNOWN, begin
-from .release import Watch, begin_measuring, begin_tangent, follow, released_since, unvisited, watched
+from .release import (
+    Watch,
+    begin_measuring,
+    begin_tangent,
+    follow,
+    moved_on,
+    released_since,
+    unvisited,
+    watched,
+)
 from .returns import closest_return
 
 FIRST_CHECKPOINT = 14
@@ -37,6 +46,8 @@ NEXT_SECTION = 0.6180339887498949
 # Newton's method may compute half as many events as the march, and this many in any case.
 FREE_WORK = 10
 UNMOVED = 1e-11
+# A motion that stays as near as this to an unstable orbit has not left it.
+NEAR = 1e-3
 # A motion with more events a cycle than this on average is not judged to its end.
 MOST_EVENTS_A_CYCLE = 200
 FREE_EVENTS = 1_000_000
@@ -128,7 +139,7 @@ def leg(p, run, max_cycles, target, desk):
         status, progress, flights, count = follow_flights(
             p, watch.progress, flights, target, most, section_time, count if wanted else 0, desk, wanted
         )
-        watch = Watch(progress, watch.base, watch.brace, 0, 0.0, watch.peak)
+        watch = moved_on(watch, progress)
         return status, Run(watch, flights, section_time, count, lossless, measuring)
     growth = desk.growth if measuring else desk.nothing.growth
     # the section of the cycle under way may be past
@@ -148,6 +159,18 @@ def unmoved(section, count, max_period):
     """Whether the motion came back to where it was: on a torus only where that is a neutral periodic orbit, on chaos never."""
     lag, distance = closest_return(section, count, max_period)
     return lag > 0 and distance <= UNMOVED
+
+
+@njit(**WITHIN)
+def lingers_near(section, count, since, known):
+    """Whether the motion was near the ``known`` orbit, found ``since`` cycles ago, in all of the cycles that are kept."""
+    if known.period == 0:
+        return False
+    rows = range(count - 1 - since % known.period, -1, -known.period)
+    for row in rows:
+        if size(section[row, 0] - known.found.angle, section[row, 1] - known.found.velocity) > NEAR:
+            return False
+    return len(rows) > 0
 
 
 @njit(**WITHIN)
@@ -172,6 +195,15 @@ def batch_after(target, max_cycles, batch_end, measured, measuring, grown, growt
 
 
 @njit(**INNER)
+def measure(p, watch, target, max_cycles, measured, measuring, grown, lossless, desk):
+    """Write the exponent over the batch that ends, or begin to measure: with differences of size 1 unless nothing is lost."""
+    if measuring:
+        desk.batches[measured] = over_batch(p, watch, target, max_cycles, desk.growth[0] - grown)
+    elif not lossless:
+        begin_measuring(watch, desk.columns, desk.growth)
+
+
+@njit(**INNER)
 def enough_after(count):
     """How many flights there must be for their averages to be compared again."""
     return count * 5 // 4
@@ -188,11 +220,12 @@ def outgrown(case, flights, max_cycles, growth):
         target, max_cycles, case.batch_end, case.measured, run.measuring, case.grown, growth
     )
     run = Run(run.watch, run.flights, run.section_time, run.count, run.lossless, measuring)
-    compared = flights >= case.enough
+    due = target == case.checkpoint
+    compared = due and flights >= case.enough
     return Case(
-        run, case.impacts, case.brace_hits, target + LEG, batch_end, measured, grown, case.lossy,
-        enough_after(flights) if compared else case.enough, 0.0 if compared else case.digits, False,
-        case.known, case.known_at, case.work
+        run, case.impacts, case.brace_hits, target + LEG if due else case.checkpoint, batch_end, measured,
+        grown, case.lossy, enough_after(flights) if compared else case.enough,
+        0.0 if compared else case.digits, False, case.known, case.known_at, case.work
     )  # fmt: skip
 
 
@@ -200,39 +233,40 @@ def outgrown(case, flights, max_cycles, growth):
 def look(p, case, status, run, max_cycles, max_period, desk):
     """(judgement, case) after a leg that ended so: kind OPEN where nothing decides yet.
 
-    Legs end at checkpoints, where a periodic orbit is looked for, and, over the second half of the budget, at
-    the ends of equal batches, over which the exponent is measured.
+    Legs end at checkpoints, which do not depend on the budget, and in its second half at the ends of equal batches. At a
+    checkpoint averages are compared, there and at the end a periodic orbit is sought; a batch only adds to the exponent.
     """
-    _, impacts, brace_hits, checkpoint, batch_end, measured, grown, lossy, enough, digits, converged = case[
-        :11
-    ]
-    known, known_at, work = case[11:]
+    impacts, brace_hits, checkpoint, batch_end, measured, grown, lossy = case[1:8]
+    enough, digits, converged, known, known_at, work = case[8:]
     watch, flights, section_time, count, lossless, measuring = run
     if status != DONE:
         return ended(status, watch, work), case
     target, done = next_look(case, max_cycles), watch.progress
-    if loses(p, done.impacts - impacts, done.brace_hits - brace_hits):
+    due, over = target == checkpoint, target == max_cycles
+    if (due or over) and loses(p, done.impacts - impacts, done.brace_hits - brace_hits):
         watch = unvisited(watch) if lossless else watch
         lossy, lossless, flights = target, False, no_flights()
     if target == batch_end:
-        if measuring:
-            desk.batches[measured] = over_batch(p, watch, target, max_cycles, desk.growth[0] - grown)
-        elif not lossless:
-            begin_measuring(watch, desk.columns, desk.growth)
+        measure(p, watch, target, max_cycles, measured, measuring, grown, lossless, desk)
     batch_end, measured, measuring, grown = batch_after(
         target, max_cycles, batch_end, measured, measuring, grown, desk.growth[0]
     )
-    if lossless and flights.count >= enough:
+    if not (due or over):
+        run = Run(watch, flights, section_time, count, lossless, measuring)
+        return undecided(watch), Case(
+            run, impacts, brace_hits, checkpoint, batch_end, measured, grown, lossy, enough, digits,
+            converged, known, known_at, work
+        )  # fmt: skip
+    if lossless and due and flights.count >= enough:
         digits, converged = agreement(flights, desk.flights, desk.weights, desk.growth[0])
         enough = enough_after(flights.count)
     coming = 0
-    due, over = target in (checkpoint, max_cycles), target == max_cycles
     if converged or over:
         work_out(p, desk.section, count - 1 - max_period, count, section_time)
     still = converged and unmoved(desk.section, count, max_period)
-    if converged and not still:
+    if due and converged and not still:
         return torus(watch, work, section_time, digits), case
-    if still or (due and not lossless):
+    if still or not lossless:
         events = done.impacts + done.brace_hits
         most_work = events if still else FREE_WORK + events // 2 - work
         work_out(p, desk.section, 0, count, section_time)
@@ -248,18 +282,19 @@ def look(p, case, status, run, max_cycles, max_period, desk):
         if cycle.answer == ON_EVENT:
             section_time, count = (section_time + NEXT_SECTION * p.period) % p.period, 0
             known = no_cycle(0)
-    if due and not lossless and 2 * lossy <= target:
+    if not lossless and 2 * lossy <= target:
         lossless, grown, flights = True, 0.0, under_way(done)
         begin_tangent(desk.columns, desk.growth)
     if over:
         stands = unmoved(desk.section, count, max_period)
+        lingers = lingers_near(desk.section, count, target - known_at, known)
         digits = digits_of_speeds(flights, desk.flights, desk.weights)
-        told = unsettled(p, watch, work, max_cycles, measured, lossless, digits, desk.batches, stands)
+        told = unsettled(
+            p, watch, work, max_cycles, batch_of(max_cycles) * p.period, measured, lossless, digits,
+            desk.batches, stands, lingers
+        )  # fmt: skip
         return told, case
-    if lossless:
-        checkpoint = target + LEG
-    elif target == checkpoint:
-        checkpoint = next_checkpoint(target, coming)
+    checkpoint = target + LEG if lossless else next_checkpoint(target, coming)
     run = Run(watch, flights, section_time, count, lossless, measuring)
     case = Case(
         run, done.impacts, done.brace_hits, checkpoint, batch_end, measured, grown, lossy, enough, digits,

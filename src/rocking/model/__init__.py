@@ -4,7 +4,7 @@ With them goes what every room shares: the one-line refusals, files that are who
 """
 
 from rocking.model import pictures
-from rocking.model.arrays import read_only
+from rocking.model.arrays import ReadOnlyArrays, read_only
 from rocking.model.basins import Attractor, BasinMap, UncertaintyExponent
 from rocking.model.block import GRAVITY, Block
 from rocking.model.citation import cite
@@ -13,8 +13,11 @@ from rocking.model.errors import (
     TooManyEvents,
     TooShort,
     exactly_one,
+    finite,
     instance,
+    members,
     one_of,
+    pair,
     reals,
     refusal,
     shown,
@@ -22,27 +25,33 @@ from rocking.model.errors import (
     within,
 )
 from rocking.model.files import (
+    FULL,
     TILES,
+    WriteError,
     check_folder,
     check_replaceable,
     check_writable,
     replacing,
     replacing_folder,
+    replacing_hdf5,
+    resolve_path,
 )
 from rocking.model.forcing import FREQUENCIES, LARGEST_AMPLITUDE, LARGEST_PHASE, PERIODS, Harmonic
 from rocking.model.mode import Mode
 from rocking.model.outcome import Outcome, Overturning
 from rocking.model.physical import PHYSICAL, block_attributes
 from rocking.model.share import LEVEL, Share, wilson
+from rocking.model.stability import Stability, stability_of
 from rocking.model.surveys import ChaosShare, OverturningCurve, Repeatability, RepeatabilityMap, SafeBasin
 from rocking.model.system import BRACE_ANGLES, LARGEST_START, Braces, State, System, check_start
 from rocking.model.verdict import Evidence, Kind, Orbit, Verdict
 from rocking.model.version import VERSION
-from rocking.model.words import counted, percent, plus_minus
+from rocking.model.words import counted, ordinal, percent, plus_minus
 
 __all__ = [
     "BRACE_ANGLES",
     "FREQUENCIES",
+    "FULL",
     "GRAVITY",
     "LARGEST_AMPLITUDE",
     "LARGEST_PHASE",
@@ -66,16 +75,19 @@ __all__ = [
     "Outcome",
     "Overturning",
     "OverturningCurve",
+    "ReadOnlyArrays",
     "Repeatability",
     "RepeatabilityMap",
     "SafeBasin",
     "Share",
+    "Stability",
     "State",
     "System",
     "TooManyEvents",
     "TooShort",
     "UncertaintyExponent",
     "Verdict",
+    "WriteError",
     "block_attributes",
     "check_folder",
     "check_replaceable",
@@ -84,8 +96,12 @@ __all__ = [
     "cite",
     "counted",
     "exactly_one",
+    "finite",
     "instance",
+    "members",
     "one_of",
+    "ordinal",
+    "pair",
     "percent",
     "pictures",
     "plus_minus",
@@ -94,7 +110,10 @@ __all__ = [
     "refusal",
     "replacing",
     "replacing_folder",
+    "replacing_hdf5",
+    "resolve_path",
     "shown",
+    "stability_of",
     "whole",
     "wilson",
     "within",

@@ -15,6 +15,10 @@ if TYPE_CHECKING:
     import xarray as xr
 
 
+# An interval that begins lower leaves both a smooth and a fractal boundary possible.
+SMOOTH_FROM = 0.9
+
+
 @frozen
 class Attractor:
     """What some of the starts lead to.
@@ -72,9 +76,24 @@ class UncertaintyExponent:
     misfit: float = field(repr=False)
 
     @property
+    def fractal(self) -> bool:
+        """Whether the whole interval lies below 1, the exponent of a smooth boundary."""
+        return self.high < 1.0
+
+    @property
     def smooth(self) -> bool:
-        """Whether a smooth boundary, whose exponent is 1, lies within the interval."""
-        return self.low <= 1.0 <= self.high
+        """Whether the interval holds 1 and begins at 0.9 or above: no fractal boundary of a dimension above 1.1 is left."""
+        return SMOOTH_FROM <= self.low <= 1.0 <= self.high
+
+    @property
+    def meaning(self) -> str:
+        """What the interval says of the boundary; a wide one that contains 1, or one above 1, decides nothing."""
+        if self.fractal:
+            return "below 1: fractal"
+        if self.smooth:
+            return f"1, and not below {SMOOTH_FROM:g}: smooth"
+        where = "contains 1" if self.low <= 1.0 else "lies above 1"
+        return f"undecided: {self.low:.2f}–{self.high:.2f} {where}"
 
     def __str__(self) -> str:
         return f"{self.value:.3f} ({self.low:.3f}–{self.high:.3f})"

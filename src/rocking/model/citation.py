@@ -16,7 +16,7 @@ SOURCES = """@article{yim-lin-1991,
   journal = {Journal of Engineering Mechanics},
   publisher = {ASCE},
   volume = {117}, number = {9}, pages = {2079--2100}, year = {1991},
-  note = {the model, eqs. (1)-(5), and the responses reproduced},
+  annote = {the model, eqs. (1)-(5), and the responses reproduced},
 }
 
 @article{spanos-koh-1984,
@@ -26,7 +26,7 @@ SOURCES = """@article{yim-lin-1991,
   publisher = {ASCE},
   volume = {110}, number = {11}, pages = {1627--1642}, year = {1984},
   doi = {10.1061/(ASCE)0733-9399(1984)110:11(1627)},
-  note = {the exact solution of the slender block between impacts, symmetric modes and their stability},
+  annote = {the exact solution of the slender block between impacts, symmetric modes and their stability},
 }
 
 @article{housner-1963,
@@ -34,7 +34,7 @@ SOURCES = """@article{yim-lin-1991,
   title = {The behavior of inverted pendulum structures during earthquakes},
   journal = {Bulletin of the Seismological Society of America},
   volume = {53}, number = {2}, pages = {403--417}, year = {1963},
-  note = {the restitution of a block, and free rocking},
+  annote = {the restitution of a block, and free rocking},
 }
 
 @article{hogan-1989,
@@ -42,14 +42,14 @@ SOURCES = """@article{yim-lin-1991,
   title = {On the dynamics of rigid-block motion under harmonic forcing},
   journal = {Proceedings of the Royal Society of London A},
   volume = {425}, number = {1869}, pages = {441--476}, year = {1989},
-  note = {the impact map and the dynamics under harmonic forcing},
+  annote = {the impact map and the dynamics under harmonic forcing},
 }
 
 @book{guckenheimer-holmes-1983,
   author = {Guckenheimer, John and Holmes, Philip},
   title = {Nonlinear oscillations, dynamical systems, and bifurcations of vector fields},
   publisher = {Springer}, address = {New York}, year = {1983},
-  note = {Melnikov's method},
+  annote = {Melnikov's method},
 }
 
 @article{benettin-1980,
@@ -59,7 +59,7 @@ SOURCES = """@article{yim-lin-1991,
   journal = {Meccanica},
   volume = {15}, pages = {9--20}, year = {1980},
   doi = {10.1007/BF02128236},
-  note = {Lyapunov exponents from differences made orthonormal again and again},
+  annote = {Lyapunov exponents from differences made orthonormal again and again},
 }
 
 @article{grassberger-procaccia-1983,
@@ -68,7 +68,7 @@ SOURCES = """@article{yim-lin-1991,
   journal = {Physica D},
   volume = {9}, pages = {189--208}, year = {1983},
   doi = {10.1016/0167-2789(83)90298-1},
-  note = {the correlation dimension},
+  annote = {the correlation dimension},
 }
 
 @article{theiler-1986,
@@ -77,7 +77,7 @@ SOURCES = """@article{yim-lin-1991,
   journal = {Physical Review A},
   volume = {34}, pages = {2427--2432}, year = {1986},
   doi = {10.1103/PhysRevA.34.2427},
-  note = {pairs close in time are left out},
+  annote = {pairs close in time are left out},
 }
 
 @article{das-2017,
@@ -86,7 +86,7 @@ SOURCES = """@article{yim-lin-1991,
   journal = {Nonlinearity},
   volume = {30}, pages = {4111--4140}, year = {2017},
   doi = {10.1088/1361-6544/aa84c2},
-  note = {weighted Birkhoff averages},
+  annote = {weighted Birkhoff averages},
 }
 
 @article{mcdonald-1985,
@@ -95,7 +95,7 @@ SOURCES = """@article{yim-lin-1991,
   journal = {Physica D},
   volume = {17}, pages = {125--153}, year = {1985},
   doi = {10.1016/0167-2789(85)90001-6},
-  note = {the uncertainty exponent of a basin's boundary},
+  annote = {the uncertainty exponent of a basin's boundary},
 }
 
 @article{wilson-1927,
@@ -104,7 +104,7 @@ SOURCES = """@article{yim-lin-1991,
   journal = {Journal of the American Statistical Association},
   volume = {22}, number = {158}, pages = {209--212}, year = {1927},
   doi = {10.1080/01621459.1927.10502953},
-  note = {the interval of a share},
+  annote = {the interval of a share},
 }
 """
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from numbers import Real
 from typing import Any, TypeVar
 
@@ -34,6 +34,10 @@ class TooShort(ValueError):
         super().__init__(message)
         self.estimate = estimate
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        # by itself an exception is made again of its message alone
+        return type(self), (str(self), self.estimate), self.__dict__
+
 
 class NoOrbit(ValueError):
     """No periodic orbit was found; `state` is what was reached, at the forcing phase `phase`, `residual` its miss a period later."""
@@ -44,12 +48,18 @@ class NoOrbit(ValueError):
         self.state = state
         self.residual = residual
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        return type(self), (str(self), self.phase, self.state, self.residual), self.__dict__
+
 
 def shown(value: object) -> str:
     """Show a value in one short line, NumPy's numbers as plain ones."""
     if isinstance(value, np.generic):
         value = value.item()
-    text = " ".join(repr(value).split())
+    try:
+        text = " ".join(repr(value).split())
+    except ValueError:  # a whole number of more digits than Python writes
+        text = "a number of too many digits"
     return text if len(text) <= LONGEST_SHOWN else text[: LONGEST_SHOWN - 1] + "…"
 
 
@@ -120,10 +130,18 @@ def whole(name: str, value: int, low: int, high: int) -> int:
 def reals(name: str, values: Any) -> Any:
     """Return a real number as a float, anything array-like as an array of floats.
 
-    Raises TypeError where `values` holds something else than real numbers.
+    Raises TypeError where `values` holds something else than real numbers, ValueError for a number beyond all floats and
+    where values are masked.
     """
     if isinstance(values, Real) and not isinstance(values, bool):
-        return float(values)
+        try:
+            return float(values)
+        except OverflowError:
+            largest = np.finfo(float).max
+            raise ValueError(refusal(name, f"be a real number of size up to {largest:.6g}", values)) from None
+    arrays = values if isinstance(values, list | tuple) else [values]
+    if any(isinstance(each, np.ma.MaskedArray) and np.ma.is_masked(each) for each in arrays):
+        raise ValueError(refusal(name, "hold no masked values", values, "leave them out, or fill them"))
     try:
         array = np.asarray(values)
     except ValueError:
@@ -131,6 +149,24 @@ def reals(name: str, values: Any) -> Any:
     if array.dtype.kind not in "fiu":
         raise TypeError(refusal(name, "be a real number or an array of real numbers", values))
     return array.astype(float)
+
+
+def members(name: str, values: Any, allowed: str) -> tuple[Any, ...]:
+    """Return what a sequence holds; TypeError, which says what is `allowed`, for a text, a mapping and what holds nothing."""
+    if isinstance(values, str | bytes | Mapping) or not isinstance(values, Iterable):
+        raise TypeError(refusal(name, allowed, values))
+    try:
+        return tuple(values)
+    except TypeError:  # an array without dimensions
+        raise TypeError(refusal(name, allowed, values)) from None
+
+
+def pair(name: str, values: Any, allowed: str) -> tuple[Any, Any]:
+    """Return both members of a pair; TypeError or ValueError, which says what is `allowed`, otherwise."""
+    found = members(name, values, allowed)
+    if len(found) != 2:
+        raise ValueError(refusal(name, allowed, values))
+    return found[0], found[1]
 
 
 def instance(name: str, value: Value, kind: type) -> Value:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from attrs import frozen
 
 from rocking.model.forcing import Harmonic
+from rocking.model.stability import Stability, stability_of
 from rocking.model.system import State, System
 
 
@@ -31,8 +32,6 @@ class Mode:
         Eigenvalues of the half-cycle map (from an impact to the next, mirrored), the larger first.
     multipliers : tuple of two complex
         Floquet multipliers over the whole response, n forcing cycles: the squares of the others.
-    stable : bool
-        Whether |trace| < 1 + e²: both multipliers inside the unit circle or, at e = 1, on it (then neutrally stable).
     admissible : bool
         Whether the block keeps its side between the impacts; if not, there is no such motion.
     peak : float or None
@@ -57,7 +56,6 @@ class Mode:
     trace: float
     half_multipliers: tuple[complex, complex]
     multipliers: tuple[complex, complex]
-    stable: bool
     admissible: bool
     peak: float | None
 
@@ -72,11 +70,14 @@ class Mode:
         return State(velocity=self.velocity)
 
     @property
-    def stability(self) -> str:
-        """In words: stable, neutrally stable (e = 1) or unstable."""
-        if not self.stable:
-            return "unstable"
-        return "neutrally stable" if self.restitution == 1.0 else "stable"
+    def stability(self) -> Stability:
+        """Stable where |trace| < 1 + e², at e = 1 neutral there; unstable elsewhere."""
+        return stability_of(self.trace, self.restitution**2)
+
+    @property
+    def stable(self) -> bool:
+        """Whether both multipliers lie inside the unit circle; at e = 1 none does."""
+        return self.stability is Stability.STABLE
 
     def __str__(self) -> str:
         admissible = "admissible" if self.admissible else "inadmissible"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from statistics import NormalDist
 from typing import Any
 
@@ -56,7 +57,8 @@ class Share:
     count, of : int
         How many of how many.
     unknown : int
-        Of how many others it is not known whether they belong to it; the interval covers that all do and that none does.
+        Of how many of the others it is not known whether they belong to it. The lower end of the interval counts none of
+        them, the upper end all of them: they widen it upwards.
 
     Examples
     --------
@@ -64,6 +66,8 @@ class Share:
     18.9 % (17.5–20.3 %)
     >>> print(Share(567, 3000, unknown=300))
     18.9 % (17.5–30.5 %)
+    >>> print(Share(3000, 3000))
+    100 % (99.9–100 %)
     """
 
     count: int = field(converter=int)
@@ -77,7 +81,7 @@ class Share:
 
     @property
     def low(self) -> float:
-        """Lower end of its 95 % interval, Wilson's."""
+        """Lower end of its 95 % interval, Wilson's, if nothing that is unknown belongs to it."""
         return wilson(self.count, self.of)[0]
 
     @property
@@ -93,6 +97,10 @@ class Share:
 
 
 def _percent(share: float) -> str:
-    """To a tenth of a percent, and finer where a share is smaller than that."""
+    """To a tenth of a percent, and finer where a share is nearer to none or to all; 0 and 100 are exact."""
     value = 100.0 * share
-    return f"{value:.2g}" if 0.0 < value < 0.1 else f"{value:.1f}"
+    if value in (0.0, 100.0):
+        return f"{value:.0f}"
+    if value > 99.9:
+        return f"{value:.{1 - math.floor(math.log10(100.0 - value))}f}"
+    return f"{value:.2g}" if value < 0.1 else f"{value:.1f}"

@@ -135,8 +135,8 @@ class Repeatability:
     system: System
     start: State
     relative: float
-    kinds: dict[Kind, Share]
-    responses: dict[str, Share] = field(repr=False)
+    kinds: dict[Kind, Share] = field(hash=False)
+    responses: dict[str, Share] = field(repr=False, hash=False)
 
     @property
     def certain(self) -> bool:

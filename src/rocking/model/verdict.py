@@ -3,13 +3,21 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from enum import StrEnum
+from typing import Any
 
-from attrs import field, frozen
+from attrs import evolve, field, frozen
 
 from rocking.model import pictures
+from rocking.model.errors import within
+from rocking.model.forcing import LARGEST_PHASE
+from rocking.model.stability import Stability, stability_of
 from rocking.model.system import State, System
 from rocking.model.words import counted
+
+# An event this near after an instant, in forcing periods, is at that instant: rounding must not put it on the other side.
+SAME_INSTANT = 1e-12
 
 
 class Kind(StrEnum):
@@ -50,7 +58,7 @@ class Evidence:
 
     level: str
     shown: str
-    tolerances: dict[str, float]
+    tolerances: dict[str, float] = field(hash=False)
     cycles: int
 
     def __str__(self) -> str:
@@ -59,22 +67,24 @@ class Evidence:
 
 @frozen
 class Orbit:
-    """A periodic orbit.
+    """A periodic orbit; found by `find_orbit`, `find_orbits`, `classify` and along a `Branch`.
+
+    `simulate(orbit.system, orbit.start)` runs along it, and `orbit.motion()` is that run.
 
     Attributes
     ----------
     system : System
-        The system it belongs to.
+        The system it belongs to, as it was passed in.
     state : State
-        Its state at the phase `phase` of the forcing.
+        Its state on the section at the forcing phase `phase`, which is usually not the forcing's own: `start` is the state there.
     phase : float
-        Forcing phase ψ of the section that `state` lies on, rad in [0, 2π).
+        Forcing phase ψ of the section that `state` lies on, rad in [0, 2π). It is chosen away from all events.
     period : int
         Forcing cycles after which it repeats itself.
     symmetric : bool
         Whether half a period later it is its own mirror image.
     impacts, brace_hits : int or None
-        Impacts at Θ = 0 and hits on the braces in a period; None where it rests or leans, for then they accumulate.
+        Impacts at Θ = 0 and hits on the braces in a period; None where infinitely many come before rest or leaning.
     multipliers : tuple of two complex
         Floquet multipliers over a period, the larger first.
     residual : float
@@ -90,15 +100,113 @@ class Orbit:
     brace_hits: int | None
     multipliers: tuple[complex, complex]
     residual: float
+    _simulate: Callable[..., Any] = field(repr=False, eq=False)
+
+    @property
+    def start(self) -> State:
+        """The state at the system's own forcing phase, at τ = 0: a motion from it is this orbit."""
+        return self.at(self.system.forcing.phase)
+
+    def at(self, phase: float) -> State:
+        """Give the state of the orbit at a forcing phase, exactly.
+
+        Parameters
+        ----------
+        phase : float
+            Forcing phase ψ, rad. It counts on from `start`, so that 2π more is one forcing cycle later.
+
+        Returns
+        -------
+        State
+            Just after any event at that instant.
+
+        Raises
+        ------
+        TypeError, ValueError
+            For a phase that is no number in [-1000, 1000].
+
+        Examples
+        --------
+        >>> import math
+        >>> import rocking as rk
+        >>> orbit = rk.classify(rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925)).orbit
+        >>> here, later = orbit.at(0.5), orbit.at(0.5 + math.pi)  # a symmetric orbit
+        >>> abs(here.angle + later.angle) < 1e-12
+        True
+        """
+        forcing = self.system.forcing
+        phase = within("phase", phase, -LARGEST_PHASE, LARGEST_PHASE)
+        whole = math.tau * self.period
+        turned = (forcing.phase - self.phase) % math.tau + (phase - forcing.phase) % whole
+        time = turned % whole / forcing.frequency
+        begun = evolve(self.system, forcing=evolve(forcing, phase=self.phase))
+        motion = self._simulate(begun, self.state, cycles=self.period)
+        events = motion.events["time"]
+        there = events[(events > time) & (events <= time + SAME_INSTANT * forcing.period)]
+        angle, velocity = motion.at(min(there[-1] if len(there) else time, motion.duration))
+        return State(float(angle), float(velocity))
+
+    def motion(self, cycles: int | None = None, record: str = "all") -> Any:
+        """Simulate the orbit from `start`.
+
+        A motion near an unstable orbit leaves it: rounding grows by |multiplier| in each period.
+
+        Parameters
+        ----------
+        cycles : int, optional
+            Forcing cycles to run; one period by default.
+        record : {"all", "section", "none"}
+            As in `simulate`.
+
+        Returns
+        -------
+        Motion
+
+        Raises
+        ------
+        TypeError, ValueError
+            As `simulate`.
+
+        Examples
+        --------
+        >>> import rocking as rk
+        >>> orbit = rk.classify(rk.System(rk.Harmonic(amplitude=6.5, period=0.4), restitution=0.925)).orbit
+        >>> orbit.motion().impacts == orbit.impacts
+        True
+        """
+        return self._simulate(self.system, self.start, self.period if cycles is None else cycles, record)
+
+    @property
+    def stability(self) -> Stability:
+        """Whether neighbouring motions approach the orbit, leave it or, where it loses nothing, do neither."""
+        trace, determinant = sum(self.multipliers).real, self._determinant
+        if self.symmetric:
+            # That of half the orbit, squared, less twice its determinant: only the upper bound can be reached.
+            trace = max(trace, 0.0)
+        return stability_of(trace, determinant)
+
+    @property
+    def superstable(self) -> bool:
+        """Whether both multipliers are zero, because the block rests or leans in every period."""
+        return self.multipliers == (0j, 0j)
 
     @property
     def stable(self) -> bool:
-        """Whether both multipliers lie inside the unit circle."""
-        return abs(self.multipliers[0]) < 1.0
+        """Whether both multipliers lie inside the unit circle, so that neighbouring motions approach the orbit."""
+        return self.stability is Stability.STABLE
+
+    @property
+    def _determinant(self) -> float:
+        """The product of the multipliers, from the events alone: exactly 1 where nothing is lost."""
+        if self.impacts is None or self.brace_hits is None or self.multipliers == (0j, 0j):
+            return 0.0
+        braces = self.system.braces
+        kept = 1.0 if braces is None else braces.restitution
+        return float(self.system.restitution ** (2 * self.impacts) * kept ** (2 * self.brace_hits))
 
     def __str__(self) -> str:
         symmetry = "symmetric" if self.symmetric else "unsymmetric"
-        impacts = "rest or leaning" if self.impacts is None else counted(self.impacts, "impact")
+        impacts = "infinitely many impacts" if self.impacts is None else counted(self.impacts, "impact")
         return f"{symmetry} orbit of period {self.period} with {impacts}"
 
 
@@ -107,7 +215,7 @@ class Verdict:
     """What a response is, with its evidence; made by `classify`.
 
     What does not apply is None. What describes an orbit (`period` to `multipliers`, `orbit`) is known of periodic responses
-    alone; of those that come to rest or lean between releases the impacts are None, for they accumulate.
+    alone.
 
     Attributes
     ----------
@@ -120,7 +228,8 @@ class Verdict:
     period : int or None
         Forcing cycles after which a periodic response repeats itself.
     impacts_per_period, brace_hits_per_period : int or None
-        Impacts at Θ = 0 and hits on the braces in that period.
+        Impacts at Θ = 0 and hits on the braces in that period; None where infinitely many come before the block rests or
+        leans.
     symmetric : bool or None
         Whether a periodic response is its own mirror image half a period later; never with an even period.
     multipliers : tuple of two complex, or None

@@ -19,6 +19,18 @@ def counted(number: int, thing: str) -> str:
     return f"{number:,} {thing}{'s' * (number != 1)}"
 
 
+def ordinal(number: int) -> str:
+    """1st, 2nd, 3rd, 4th, ….
+
+    Examples
+    --------
+    >>> [ordinal(number) for number in (1, 2, 13, 101)]
+    ['1st', '2nd', '13th', '101st']
+    """
+    ending = "th" if number % 100 in (11, 12, 13) else {1: "st", 2: "nd", 3: "rd"}.get(number % 10, "th")
+    return f"{number}{ending}"
+
+
 def plus_minus(value: float, error: float) -> str:
     """A number with its error, to the second digit of the error.
 

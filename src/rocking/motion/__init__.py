@@ -1,9 +1,22 @@
 """Simulating one block, and what it did."""
 
+from rocking.motion.fall import FALLEN, end_shown, time_of_fall
 from rocking.motion.motion import Motion
 from rocking.motion.run import begin, march_on
 from rocking.motion.simulate import kept_events, simulate
 from rocking.motion.slender import block_warnings
 from rocking.motion.validity import Validity, validity
 
-__all__ = ["Motion", "Validity", "begin", "block_warnings", "kept_events", "march_on", "simulate", "validity"]
+__all__ = [
+    "FALLEN",
+    "Motion",
+    "Validity",
+    "begin",
+    "block_warnings",
+    "end_shown",
+    "kept_events",
+    "march_on",
+    "simulate",
+    "time_of_fall",
+    "validity",
+]

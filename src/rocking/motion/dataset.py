@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from rocking.model import VERSION, Block, block_attributes, instance, refusal, within
+from rocking.motion.fall import end_shown
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -40,7 +41,8 @@ def to_dataset(motion: Motion, step: float | None = None, block: Block | None = 
         Recorded with record="all" or "section".
     step : float, optional
         Between the samples, in τ, or in seconds with a block; a hundredth of the forcing period unless given. The
-        samples start at 0 and end at the last whole step.
+        samples start at 0 and end at the last whole step of the run; those of an overturned block go on past the proof,
+        until |Θ| = 3.
     block : Block, optional
         Gives everything in s, rad, m, and adds the displacement of the block's top; normalised without.
 
@@ -97,10 +99,11 @@ def _times(motion: Motion, step: float | None, units: dict[str, Unit]) -> np.nda
     if step is None:
         spacing = motion.system.forcing.period / STEPS_PER_PERIOD
     else:
-        longest = motion.duration * second
+        longest = motion.cycles * motion.system.forcing.period * second
         spacing = within("step", step, longest / MOST_STEPS, longest, "" if unit == "1" else unit) / second
-    count = int(motion.duration / spacing * (1 + 1e-12))
-    return np.minimum(spacing * np.arange(count + 1), motion.duration)
+    end = end_shown(motion)
+    count = int(end / spacing * (1 + 1e-12))
+    return np.minimum(spacing * np.arange(count + 1), end)
 
 
 def _variable(along: str, values: Any, unit: Unit, long_name: str) -> tuple[str, Any, dict[str, str]]:

@@ -15,6 +15,7 @@ from rocking.model import (
     Block,
     Outcome,
     Overturning,
+    ReadOnlyArrays,
     State,
     System,
     counted,
@@ -36,7 +37,7 @@ TURN = np.dtype([("time", "f8"), ("angle", "f8")])
 
 
 @frozen(eq=False, slots=False)
-class Motion:
+class Motion(ReadOnlyArrays):
     """What one simulated block did; made by `simulate`.
 
     Attributes
@@ -46,7 +47,7 @@ class Motion:
     record : str
         "all", "section" or "none": what was kept.
     cycles : int
-        Whole forcing cycles run: those asked for, fewer only if the block overturned.
+        Forcing cycles run: those asked for, fewer only if the block overturned; the cycle of that proof is the last.
     outcome : Outcome
         OVERTURNED or AT_REST where that is proved, else BOUNDED, which says no more than that neither was.
     overturning : Overturning or None
@@ -54,9 +55,9 @@ class Motion:
     impacts, brace_hits : int
         Impacts at Θ = 0 and hits on the braces.
     peak : float
-        Largest |Θ| of the run; of a block that overturns, until the proof.
+        Largest |Θ| of the run, [0, `duration`].
     final : State
-        Θ, Θ' at the end, just after any event there; of an overturned block at the moment of the proof.
+        Θ, Θ' at its end, just after any event there.
 
     Examples
     --------
@@ -84,8 +85,9 @@ class Motion:
 
     @property
     def duration(self) -> float:
-        """Length of the run, in τ."""
-        return self.cycles * self.system.forcing.period
+        """Length of the run, in τ: to the end of its cycles, or to the proof in the last of them that the block overturns."""
+        end = self.cycles * self.system.forcing.period
+        return end if self.overturning is None else min(end, self.overturning.time)
 
     @cached_property
     def events(self) -> np.ndarray:
@@ -121,8 +123,8 @@ class Motion:
         Parameters
         ----------
         times : float or array_like
-            τ, from 0 to `duration`; later too where nothing more can happen, at rest or overturned (whose
-            angle becomes infinite where it is beyond all numbers).
+            τ, from 0 to `duration`; later too where nothing more can happen: at rest, or overturned while
+            the angle, which grows like e^τ, is within the range of floats.
 
         Returns
         -------
@@ -132,7 +134,7 @@ class Motion:
         Raises
         ------
         ValueError
-            Outside the run, or where the motion was not recorded with ``record="all"``.
+            Outside these times, or where the motion was not recorded with ``record="all"``.
 
         Examples
         --------
@@ -261,4 +263,8 @@ class Motion:
         out = np.empty((flat.size, 3))
         elapsed = np.where(flat > begins[index], np.maximum(elapsed, 0.0), 0.0)
         sample.sample(self._numbers, rows, index, elapsed, out)
+        if not np.isfinite(out).all():
+            first = float(flat[np.flatnonzero(~np.isfinite(out).all(axis=1))[0]])
+            allowed = f"lie in the run, [0, {self.duration:.6g}], or so soon after it that the angle is within the range of floats"
+            raise ValueError(refusal("times", allowed, first))
         return out.reshape(*times.shape, 3) + 0.0

@@ -49,6 +49,11 @@ def simulate(system: System, start: State | None = None, cycles: int = 200, reco
     TooManyEvents
         More than 10⁷ events to keep, or in a single cycle.
 
+    Notes
+    -----
+    `classify` and `parametric_map` may follow another chaotic transient of the same system and start. They stop at checkpoints,
+    or march many blocks at once, and therefore round differently.
+
     Examples
     --------
     >>> import rocking as rk

@@ -63,8 +63,8 @@ class Validity:
     >>> block = Block(height=2.0, width=0.5)
     >>> print(simulate(block.system(acceleration=3.0, frequency_hz=1.2)).validity(block))
     judged up to τ = 15.5003, where it is proved never to return
-    least friction without sliding: 0.2587 (motion, τ = 0 = 0 s)
-    least base reaction: 0.8576 Mg (τ = 12.4227 = 4.651 s)
+    least friction without sliding: 0.2587 (motion, t = 0 s, τ = 0)
+    least base reaction: 0.8576 Mg (t = 4.651 s, τ = 12.4227)
     largest angle: 0.1708 rad = 9.788°, 0.6973 of the critical angle
     slender model: restoring moment up to 1.01%, base's push up to 3.08% too large
     """
@@ -109,8 +109,8 @@ class Validity:
         return "\n".join((*lines, *(f"warning: {warning}" for warning in self.warnings)))
 
     def instant(self, time: float | None) -> str:
-        """A time in τ and in seconds; none is told of what did not occur."""
-        return "" if time is None else f"τ = {time:.6g} = {time * self.time_unit:.4g} s"
+        """A time in seconds and in τ; empty for what did not occur."""
+        return "" if time is None else f"t = {time * self.time_unit:.4g} s, τ = {time:.6g}"
 
 
 def validity(motion: Motion, block: Block) -> Validity:

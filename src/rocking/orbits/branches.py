@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 from attrs import field, frozen
 
-from rocking.model import Orbit, pictures, within
+from rocking.model import Orbit, ReadOnlyArrays, Stability, pictures, read_only, stability_of, within
 from rocking.orbits.chains import Chain, multipliers_of, orbit_of, solved, states
+from rocking.orbits.grazing import Touch
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -21,6 +22,7 @@ POINT = np.dtype(
         ("velocity", float),
         ("multipliers", complex, 2),
         ("stable", bool),
+        ("stability", "U8"),
         ("peak", float),
     ]
 )
@@ -39,7 +41,9 @@ class SpecialPoint:
     parameter : float
         Value of the parameter that was followed.
     orbit : Orbit
-        The orbit there.
+        The orbit there. At a grazing it is the orbit without the impact that grazes, with which its multipliers would be infinite.
+        Rounding decides whether a run meets that impact; where it does, at a speed of about 10⁻⁸, the run leaves the orbit, and
+        `residual` says how far.
     name : str
         The parameter's name.
     index : int
@@ -53,13 +57,14 @@ class SpecialPoint:
     index: int
     _chain: Chain = field(repr=False)
     _row: np.ndarray = field(repr=False)
+    _touch: Touch | None = field(default=None, repr=False)
 
     def __str__(self) -> str:
         return f"{self.kind} at {self.name} {self.parameter:.10g}: {self.orbit}"
 
 
 @frozen(eq=False)
-class Branch:
+class Branch(ReadOnlyArrays):
     """Periodic orbits along a parameter; made by `continue_orbit` and `switch_branch`.
 
     Attributes
@@ -74,8 +79,8 @@ class Branch:
         Impacts at Θ = 0 and brace hits in a period.
     points : structured array
         One row an orbit, in order along the branch: "parameter"; "phase" and "velocity", the forcing phase ψ (rad) of the
-        first event and the speed just after it; "multipliers" over a period, the larger first; "stable"; "peak", the
-        largest |Θ|.
+        first event and the speed just after it; "multipliers" over a period, the larger first; "stability", see `Stability`,
+        and "stable", whether it is that; "peak", the largest |Θ|.
     special : tuple of SpecialPoint
         In order along the branch.
     ends : tuple of two str
@@ -87,7 +92,7 @@ class Branch:
     symmetric: bool
     impacts: int
     brace_hits: int
-    points: NDArray[np.void] = field(repr=False)
+    points: NDArray[np.void] = field(repr=False, converter=read_only)
     special: tuple[SpecialPoint, ...] = field(repr=False)
     ends: tuple[str, str]
     _chain: Chain = field(repr=False)
@@ -132,8 +137,26 @@ class Branch:
         found = ", ".join(f"{one.kind} at {one.parameter:.6g}" for one in self.special) or "no special point"
         return (
             f"branch of {symmetry} orbits of period {self.period}, {self.name} {low:.6g} to {high:.6g}, "
-            f"{len(self)} points: {found}; ends: {self.ends[0]} | {self.ends[1]}"
+            f"{len(self)} points, {self._stable_ranges()}: {found}; ends: {self.ends[0]} | {self.ends[1]}"
         )
+
+    def _stable_ranges(self) -> str:
+        """Return the ranges of the parameter on which the orbits do not repel, in order along the branch, in words."""
+        said = [
+            f"{stability} from " + " and from ".join(f"{low:.6g} to {high:.6g}" for low, high in ranges)
+            for stability in (Stability.STABLE, Stability.NEUTRAL)
+            if (ranges := self._ranges_of(stability))
+        ]
+        return ", ".join(said) or "nowhere stable"
+
+    def _ranges_of(self, stability: Stability) -> list[tuple[float, float]]:
+        """Return the ranges of the parameter with one stability; a range ends at the special point beside it, if any."""
+        values, changes = self.points["parameter"], {one.index: one.parameter for one in self.special}
+        edges = np.flatnonzero(np.diff(self.points["stability"] == stability, prepend=False, append=False))
+        return [
+            (changes.get(first, values[first]), changes.get(after, values[after - 1]))
+            for first, after in edges.reshape(-1, 2).tolist()
+        ]
 
     def _repr_html_(self) -> str | None:
         return pictures.html(self)
@@ -146,7 +169,8 @@ def table(rows: np.ndarray, facts: np.ndarray, mirrored: bool) -> NDArray[np.voi
     points["phase"] = np.mod(rows[:, 0], math.tau)
     points["velocity"] = facts[:, 3]
     points["multipliers"] = [multipliers_of(trace, det, mirrored) for trace, det in facts[:, :2]]
-    points["stable"] = np.abs(points["multipliers"][:, 0]) < 1.0
+    points["stability"] = [stability_of(trace, det) for trace, det in facts[:, :2]]
+    points["stable"] = points["stability"] == Stability.STABLE
     points["peak"] = facts[:, 2]
     points.flags.writeable = False
     return points

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import cmath
 import math
 from typing import Any, NamedTuple
 
@@ -12,6 +11,7 @@ from attrs import evolve
 from rocking.kernels import chain as kernel
 from rocking.kernels import events as event_kinds
 from rocking.kernels import follow as following
+from rocking.kernels import orbit as fixed_points
 from rocking.kernels import parameters as numbers
 from rocking.kernels import rounds, steps
 from rocking.model import Orbit, State, System, refusal
@@ -99,14 +99,14 @@ def clocked(system: System, phase: float) -> System:
 
 def chain_of(orbit: Orbit) -> Chain:
     """The events of an orbit; ValueError in one line where it has none, or rests or leans in between."""
-    if orbit.impacts is None:
+    if orbit.superstable:
         raise ValueError(
             refusal(
                 "orbit",
-                "have impacts that can be counted",
+                "neither rest nor lean",
                 orbit.period,
-                "this one rests or leans, where they accumulate: sweep the parameter with classify",
-            ).replace("got", "got one of period")
+                "sweep the parameter with classify",
+            ).replace("got", "got one that does, of period")
         )
     motion = simulate(clocked(orbit.system, orbit.phase), orbit.state, cycles=orbit.period)
     events = motion.events
@@ -156,12 +156,12 @@ def null_direction(chain: Chain, parameter: str, row: np.ndarray) -> np.ndarray:
 
 
 def multipliers_of(trace: float, determinant: float, mirrored: bool) -> tuple[complex, complex]:
-    """Floquet multipliers over a period, the larger first."""
+    """Floquet multipliers over a period, the larger first, or that above the real axis."""
     trace, determinant = float(trace), float(determinant)
-    root = cmath.sqrt(0.25 * trace * trace - determinant)
-    large = 0.5 * trace + (root if trace >= 0.0 else -root)
-    small = determinant / large if large != 0.0 else 0j
-    return (large**2, small**2) if mirrored else (complex(large), complex(small))
+    first, second = fixed_points.multipliers_plain(
+        0.5 * trace, 0.25 * trace * trace - determinant, determinant, mirrored
+    )
+    return first, second
 
 
 def orbit_of(chain: Chain, parameter: str, row: np.ndarray, trace: float, determinant: float) -> Orbit:
@@ -182,6 +182,7 @@ def orbit_of(chain: Chain, parameter: str, row: np.ndarray, trace: float, determ
         brace_hits=brace_hits,
         multipliers=multipliers_of(trace, determinant, chain.mirrored),
         residual=math.hypot(final.angle - start.angle, final.velocity - start.velocity),
+        simulate=simulate,
     )
 
 

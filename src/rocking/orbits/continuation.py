@@ -24,6 +24,7 @@ from rocking.orbits.chains import (
     solved,
     value_of,
 )
+from rocking.orbits.grazing import grazing_at
 from rocking.orbits.vary import checked_range
 
 KINDS = {
@@ -45,6 +46,8 @@ ENDS = {
 }
 # How far from a special point the first point of another branch lies, in steps.
 OFF = 0.1
+# How often that distance is halved at most.
+MOST_HALVINGS = 20
 
 
 def continue_orbit(
@@ -86,7 +89,9 @@ def continue_orbit(
 
     Notes
     -----
-    Not guaranteed: that two special points of one kind within a single step are seen; make the step smaller.
+    Steps are shorter where the multipliers change fast, so that a special point lies between neighbouring points with different
+    signs of its test. Not guaranteed: that a multiplier is seen which passes ±1 and comes back within a single step; make the step
+    smaller.
 
     Examples
     --------
@@ -151,10 +156,30 @@ def switch_branch(
     senses = (1.0, -1.0) if special.kind == "symmetry-breaking" else (1.0,)
     branches = []
     for sense in senses:
-        off = row + OFF * step * sense * direction
+        off = _beside(chain, special.name, row, sense * direction, (low, high), step)
         half = _follow(chain, special.name, off, sense * direction, (low, high), step, most)
         branches.append(_born(chain, special, row, half))
     return tuple(branches)
+
+
+def _beside(
+    chain: Chain,
+    parameter: str,
+    row: np.ndarray,
+    direction: np.ndarray,
+    bounds: tuple[float, float],
+    step: float,
+) -> np.ndarray:
+    """A first point of a branch born at ``row``, so near that its multipliers are still almost those there."""
+    for halving in range(MOST_HALVINGS):
+        off = row + OFF * step * 0.5**halving * direction
+        first = _follow(chain, parameter, off, direction, bounds, step, 1)
+        # at the special point a multiplier is 1: the angle is π/4
+        if len(first.facts):
+            angle = codes.multiplier_angle.py_func(*first.facts[0, :2])
+            if abs(angle - 0.25 * np.pi) <= codes.CALM:
+                return off
+    return row + OFF * step * direction
 
 
 class _Half(NamedTuple):
@@ -261,15 +286,21 @@ def _branch(
 
 def _special(chain: Chain, parameter: str, row: np.ndarray, kind: int, index: int) -> SpecialPoint:
     """A special point with its orbit."""
-    *_, trace, determinant = equations(chain, parameter, row)
+    touch = None
+    if kind == codes.GRAZING:
+        orbit, chain, row, touch = grazing_at(chain, parameter, row)
+    else:
+        *_, trace, determinant = equations(chain, parameter, row)
+        orbit = orbit_of(chain, parameter, row, trace, determinant)
     return SpecialPoint(
         kind=KINDS[kind],
         parameter=float(row[-1]),
-        orbit=orbit_of(chain, parameter, row, trace, determinant),
+        orbit=orbit,
         name=parameter,
         index=index,
         chain=chain,
         row=row.copy(),
+        touch=touch,
     )
 
 

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 from attrs import field, frozen
 from numpy.typing import NDArray
@@ -11,21 +9,17 @@ from numpy.typing import NDArray
 from rocking.kernels import curve as kernel
 from rocking.kernels import points as codes
 from rocking.kernels import steps
-from rocking.model import instance, one_of, refusal, whole, within
-from rocking.motion import simulate
+from rocking.model import ReadOnlyArrays, instance, one_of, pair, read_only, refusal, whole, within
 from rocking.orbits.branches import SpecialPoint
-from rocking.orbits.chains import BRACE, IMPACT, NAMES, Chain, clocked, equations, parameters, value_of
+from rocking.orbits.chains import IMPACT, NAMES, Chain, parameters, value_of
 from rocking.orbits.continuation import ENDS
 from rocking.orbits.vary import checked_range
 
 KINDS = {"fold": codes.FOLD, "grazing": codes.GRAZING}
-# An event this slow is the one that grazes.
-SLOW = 1e-4
-SAMPLES = 4096
 
 
 @frozen(eq=False)
-class BifurcationCurve:
+class BifurcationCurve(ReadOnlyArrays):
     """Special points of one kind through two parameters; made by `bifurcation_curve`.
 
     Attributes
@@ -44,7 +38,7 @@ class BifurcationCurve:
 
     kind: str
     names: tuple[str, str]
-    points: NDArray[np.float64] = field(repr=False)
+    points: NDArray[np.float64] = field(repr=False, converter=read_only)
     ends: tuple[str, str]
     period: int
     impacts: int
@@ -111,7 +105,8 @@ def bifurcation_curve(
         one_of(name, value, tuple(NAMES))
     if first == second or {first, second} == {"period", "frequency"}:
         raise ValueError(refusal("second", f"be another parameter than {first}", second))
-    limits = (*checked_range(first, bounds[0]), *checked_range(second, bounds[1]))
+    ranges = pair("bounds", bounds, f"be two pairs (lowest, highest), of {first} and of {second}")
+    limits = (*checked_range(first, ranges[0]), *checked_range(second, ranges[1]))
     step = within("step", step, 1e-6, 0.1)
     most = whole("max_points", max_points, 2, 1_000_000)
     here = [value_of(special.orbit.system, name) for name in (first, second)]
@@ -166,62 +161,12 @@ def _half(
 
 def _condition(special: SpecialPoint) -> tuple[Chain, np.ndarray, int, int, float]:
     """(chain, phases, arc that touches, what it touches, when): of a grazing without the event that grazes."""
-    chain = special._chain._replace(system=special.orbit.system)
-    phases = special._row[:-1]
     if special.kind != "grazing":
-        return chain, phases, -1, IMPACT, 0.0
-    links = equations(chain, special.name, special._row)[1]
-    arrives, times, k = np.abs(links[:, 1]), links[:, 6], len(phases)
-    slowest = int(arrives[:k].argmin())
-    event = (slowest + 1) % k
-    if arrives[slowest] > SLOW:
-        return chain, phases, *_nearest(special, chain, phases)
-    level, lost = int(chain.kinds[event]), 1
-    if level == IMPACT:
-        # it falls through and comes back at once: two impacts with a short arc between them
-        event, lost = (event if times[event] < times[slowest] else slowest), 2
-    if k <= lost:
+        chain = special._chain._replace(system=special.orbit.system)
+        return chain, special._row[:-1], -1, IMPACT, 0.0
+    touch = special._touch
+    if touch is None:
         raise ValueError(
             "special must have an event beside the one that grazes to be followed; got one without"
         )
-    chain, phases = _rotated(chain, phases, (event + lost) % k)
-    touches = (phases[k - lost] - phases[k - lost - 1]) / chain.system.forcing.frequency
-    kept = chain._replace(kinds=chain.kinds[: k - lost].copy(), phases=phases[: k - lost])
-    return kept, kept.phases, k - lost - 1, level, float(touches)
-
-
-def _rotated(chain: Chain, phases: np.ndarray, by: int) -> tuple[Chain, np.ndarray]:
-    """The same chain begun ``by`` events later."""
-    side, kinds = chain.side, chain.kinds
-    for j in range(by):
-        side = -side if kinds[(j + 1) % len(kinds)] == IMPACT else side
-    turned = np.concatenate([phases[by:], phases[:by] + chain.turn])
-    return chain._replace(side=side, kinds=np.roll(kinds, -by), phases=turned), turned
-
-
-def _nearest(special: SpecialPoint, chain: Chain, phases: np.ndarray) -> tuple[int, int, float]:
-    """(arc, what it all but touches, when): where the motion turns nearest to the base or to a brace."""
-    orbit, forcing = special.orbit, special.orbit.system.forcing
-    motion = simulate(clocked(orbit.system, orbit.phase), orbit.state, cycles=orbit.period)
-    times = np.linspace(0.0, orbit.period * forcing.period, SAMPLES * orbit.period)
-    size = np.abs(motion.at(times)[0])
-    inner, before, after = size[1:-1], size[:-2], size[2:]
-    # An impact has neighbours on both sides; a turn lies between samples of one side.
-    low = (inner < before) & (inner < after) & (np.diff(np.sign(motion.at(times)[0]))[1:] == 0.0)
-    candidates = [(inner[i], IMPACT, times[i + 1]) for i in np.flatnonzero(low)]
-    if orbit.system.braces is not None:
-        high = (inner > before) & (inner > after)
-        reach = orbit.system.braces.angle
-        candidates += [(reach - inner[i], BRACE, times[i + 1]) for i in np.flatnonzero(high)]
-    events = motion.events["time"]
-    candidates = [
-        one for one in candidates if not len(events) or np.abs(events - one[2]).min() > 2.0 * times[1]
-    ]
-    if not candidates:
-        raise ValueError(f"special must turn near what it grazes; got {special}")
-    _, level, time = min(candidates)
-    start = phases[0]
-    psi = orbit.phase + math.tau * math.ceil((start - orbit.phase) / math.tau) + forcing.frequency * time
-    psi = start + (psi - start) % chain.turn
-    arc = int(np.searchsorted(phases, psi, side="right")) - 1
-    return arc, int(level), float((psi - phases[arc]) / forcing.frequency)
+    return touch.chain, touch.chain.phases, touch.arc, touch.level, touch.time

@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 
+from rocking.kernels import cycle
 from rocking.kernels import desk as memory
 from rocking.kernels import search as kernel
 from rocking.model import NoOrbit, Orbit, Outcome, State, System, check_start, refusal, whole
@@ -15,6 +16,8 @@ from rocking.orbits.chains import chain_of, clocked, orbit_of, quiet_phase, solv
 MOST_PERIOD = 1000
 # States of an orbit as near as this are one.
 SAME = 1e-8
+# Events of a block that rests at the base, and of one that leans on a brace.
+RESTING, LEANING = ("rest", "lift-off"), ("lean", "leave")
 
 
 def find_orbit(system: System, guess: State, period: int) -> Orbit:
@@ -69,8 +72,7 @@ def find_orbit(system: System, guess: State, period: int) -> Orbit:
     phase = quiet_phase(own + frequency * motion.events["time"]) if len(motion.events) else own
     wait = ((phase - own) % math.tau) / frequency
     angle, velocity = (float(value) for value in motion.at(wait))
-    there = clocked(system, phase)
-    out = hunted(there, period, False, np.array([[angle, velocity]]))[0]
+    out = hunted(clocked(system, phase), period, False, np.array([[angle, velocity]]))[0]
     reached = State(float(out[1]), float(out[2]))
     if not out[0]:
         raise NoOrbit(
@@ -80,44 +82,41 @@ def find_orbit(system: System, guess: State, period: int) -> Orbit:
             reached,
             float(out[3]),
         )
-    return orbit_from(there, reached, period)
+    return orbit_from(system, phase, reached, period)
 
 
 def hunted(system: System, period: int, mirrored: bool, starts: np.ndarray) -> np.ndarray:
     """What Newton's method made of every start, (found, Θ, Θ', residual): on the map over a period, or half of one and mirrored."""
     p, _ = begin(system, State())
     out = np.empty((len(starts), 4))
-    cycles, turned = (0.5 * period, -1.0) if mirrored else (float(period), 1.0)
     desk = memory.desk(1, 1)
-    kernel.hunt(p, cycles, turned, starts, desk.nothing, desk.trial, out)
+    kernel.hunt(p, period, mirrored, starts, desk.nothing, desk.trial, out)
     return out
 
 
-def orbit_from(system: System, state: State, period: int) -> Orbit:
-    """The orbit through a state that repeats itself after `period` cycles: its least period, symmetry and events."""
-    motion = simulate(system, state, cycles=period)
+def orbit_from(system: System, phase: float, state: State, period: int) -> Orbit:
+    """The orbit through a state at a forcing phase that repeats itself after `period` cycles: its least period, symmetry and events."""
+    motion = simulate(clocked(system, phase), state, cycles=period)
     rows = motion.section()
-    apart = np.hypot(*(rows[1:] - rows[0]).T)
-    # the least time of return divides every other
-    least = next(n for n in range(1, period + 1) if apart[n - 1] <= SAME or n == period)
-    half = motion.at(0.5 * least * system.forcing.period)
-    symmetric = least % 2 == 1 and math.hypot(half[0] + state.angle, half[1] + state.velocity) <= SAME
+    halves = np.column_stack(motion.at((np.arange(period) + 0.5) * system.forcing.period))
+    least, symmetric = cycle.repetition_plain(rows, halves, state.angle, state.velocity, period, SAME)
     events = motion.events[motion.events["time"] <= least * system.forcing.period]
-    rests = bool(np.isin(events["kind"], ("rest", "lean", "lift-off", "leave")).any())
+    rested, leaned = (bool(np.isin(events["kind"], kinds).any()) for kinds in (RESTING, LEANING))
     impacts, brace_hits = (int((events["kind"] == kind).sum()) for kind in ("impact", "brace"))
     grown = math.exp(least * system.forcing.period)
     orbit = Orbit(
         system=system,
         state=state,
-        phase=system.forcing.phase % math.tau,
+        phase=phase % math.tau,
         period=least,
-        symmetric=bool(symmetric),
-        impacts=None if rests else impacts,
-        brace_hits=None if rests else brace_hits,
-        multipliers=(0j, 0j) if rests else (complex(grown), complex(1.0 / grown)),
-        residual=float(apart[least - 1]),
+        symmetric=symmetric,
+        impacts=None if rested and system.restitution > 0.0 else impacts,
+        brace_hits=None if leaned and system.braces and system.braces.restitution > 0.0 else brace_hits,
+        multipliers=(0j, 0j) if rested or leaned else (complex(grown), complex(1.0 / grown)),
+        residual=float(np.hypot(*(rows[least] - rows[0]))),
+        simulate=simulate,
     )
-    if rests or impacts + brace_hits == 0:
+    if orbit.superstable or impacts + brace_hits == 0:
         return orbit
     chain = chain_of(orbit)
     found = solved(chain, "amplitude", system.forcing.amplitude, chain.phases)

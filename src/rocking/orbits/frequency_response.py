@@ -204,5 +204,4 @@ def _from_rest(systems: Sequence[System], max_cycles: int) -> NDArray[np.void]:
     rest["steady_peak"] = [
         math.nan if verdict.steady_peak is None else verdict.steady_peak for verdict in verdicts
     ]
-    rest.flags.writeable = False
     return rest

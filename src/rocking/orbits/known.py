@@ -23,10 +23,10 @@ def mirrored(orbit: Orbit) -> Orbit:
 
 
 class Known:
-    """The orbits found so far, with all their states on the section."""
+    """The orbits found so far, with all their states on the section at a forcing phase."""
 
-    def __init__(self, system: System) -> None:
-        self.system = system
+    def __init__(self, system: System, phase: float) -> None:
+        self.system, self.phase = system, phase
         self.orbits: list[Orbit] = []
         self.hits: list[int] = []
         self.rows = np.empty((0, 2))
@@ -36,7 +36,7 @@ class Known:
         """Count the states that belong to known orbits; add the orbits of the others, with their mirror images."""
         states = states[~self._counted(states)]
         while len(states):
-            orbit = orbit_from(self.system, State(*map(float, states[0])), period)
+            orbit = orbit_from(self.system, self.phase, State(*map(float, states[0])), period)
             if orbit.impacts != 0 or orbit.brace_hits != 0 or abs(orbit.state.angle) > SAME:
                 self._add(orbit)
                 if not orbit.symmetric:
@@ -58,7 +58,7 @@ class Known:
 
     def _add(self, orbit: Orbit) -> None:
         forcing = self.system.forcing
-        wait = ((forcing.phase - orbit.phase) % math.tau) / forcing.frequency
+        wait = ((self.phase - orbit.phase) % math.tau) / forcing.frequency
         there = simulate(clocked(orbit.system, orbit.phase), orbit.state, cycles=orbit.period + 1)
         rows = np.column_stack(there.at(wait + forcing.period * np.arange(orbit.period)))
         self.rows = np.concatenate([self.rows, rows])

@@ -12,9 +12,11 @@ from rocking.kernels import manifold as kernel
 from rocking.kernels import march
 from rocking.model import (
     LARGEST_PHASE,
+    ReadOnlyArrays,
     System,
     TooManyEvents,
     pictures,
+    read_only,
     whole,
     within,
 )
@@ -36,7 +38,7 @@ MARGIN = 0.5
 
 
 @frozen(eq=False)
-class Manifold:
+class Manifold(ReadOnlyArrays):
     """One manifold of one saddle orbit, on the section.
 
     Attributes
@@ -57,8 +59,8 @@ class Manifold:
 
     stable: bool
     side: int
-    points: NDArray[np.float64] = field(repr=False)
-    times: NDArray[np.float64] = field(repr=False)
+    points: NDArray[np.float64] = field(repr=False, converter=read_only)
+    times: NDArray[np.float64] = field(repr=False, converter=read_only)
     resolved: bool
 
     @property
@@ -68,7 +70,7 @@ class Manifold:
 
 
 @frozen(eq=False)
-class SaddleManifolds:
+class SaddleManifolds(ReadOnlyArrays):
     """The manifolds of both saddle orbits on a section; made by `saddle_manifolds`.
 
     Attributes
@@ -88,7 +90,7 @@ class SaddleManifolds:
     system: System
     phase: float
     cycles: int
-    saddles: NDArray[np.float64] = field(repr=False)
+    saddles: NDArray[np.float64] = field(repr=False, converter=read_only)
     unstable: tuple[Manifold, ...] = field(repr=False)
     stable: tuple[Manifold, ...] = field(repr=False)
 
@@ -191,7 +193,6 @@ def _manifold(
     moments = np.concatenate([[math.nan, -math.inf], np.insert(times[rows], apart, math.nan)])
     if backward:
         curve[:, 1] *= -1.0
-    curve.flags.writeable = False
     return Manifold(stable=backward, side=side, points=curve, times=moments, resolved=resolved)
 
 

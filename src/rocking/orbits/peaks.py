@@ -10,7 +10,7 @@ import numpy as np
 from attrs import field, frozen
 from numpy.typing import NDArray
 
-from rocking.model import Kind, pictures
+from rocking.model import Kind, ReadOnlyArrays, pictures, read_only
 from rocking.orbits.branches import Branch
 from rocking.orbits.record import LONG_NAMES, described, named
 
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 @frozen(eq=False)
-class FrequencyResponse:
+class FrequencyResponse(ReadOnlyArrays):
     """Peak rotation over the period or the frequency of the forcing; made by `frequency_response`.
 
     Attributes
@@ -44,9 +44,9 @@ class FrequencyResponse:
     restitution: float
     modes: tuple[int, ...]
     parameter: str
-    values: NDArray[np.float64] = field(repr=False)
+    values: NDArray[np.float64] = field(repr=False, converter=read_only)
     branches: tuple[Branch, ...] = field(repr=False)
-    rest: NDArray[np.void] = field(repr=False)
+    rest: NDArray[np.void] = field(repr=False, converter=read_only)
 
     def of(self, n: int) -> tuple[Branch, ...]:
         """The branches of the (1, n) orbits."""

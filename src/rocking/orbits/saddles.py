@@ -7,6 +7,7 @@ from typing import Any
 
 from rocking.model import State, System, instance, refusal
 from rocking.motion import begin
+from rocking.theory import saddle_orbit
 
 
 def check(system: System) -> None:
@@ -26,13 +27,14 @@ def check(system: System) -> None:
 
 def response(system: System) -> float:
     """β = A/(1 + Ω²)."""
-    return system.forcing.amplitude / (1.0 + system.forcing.frequency**2)
+    return float(begin(system, State())[0].response)
 
 
 def saddle(system: System, phase: float, side: int) -> tuple[float, float]:
-    """(Θ, Θ') of the saddle orbit on a side at a forcing phase: ±1 + β cos ψ."""
-    beta = response(system)
-    return side + beta * math.cos(phase), -beta * system.forcing.frequency * math.sin(phase)
+    """(Θ, Θ') of the saddle orbit on a side at a forcing phase."""
+    forcing = system.forcing
+    angle, velocity = saddle_orbit(phase, forcing.amplitude, forcing.period, "upper" if side > 0 else "lower")
+    return angle, velocity
 
 
 def parameters(system: System, phase: float, backward: bool) -> Any:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from typing import Any, overload
@@ -10,10 +11,11 @@ from typing import Any, overload
 import numpy as np
 from attrs import field, frozen
 
-from rocking.model import Orbit, System, instance, refusal, whole, within
+from rocking.model import Orbit, Stability, System, instance, pair, refusal, whole, within
 from rocking.orbits.chains import clocked
 from rocking.orbits.find import hunted
 from rocking.orbits.known import Known
+from rocking.orbits.saddles import response
 
 MOST_PERIOD = 64
 # Away from the phase of any likely start.
@@ -43,6 +45,8 @@ class Orbits(Sequence[Orbit]):
         Starts in all, over all maps.
     settled : bool
         Whether the last round, with as many starts as all before it, found nothing new.
+    orbits : tuple of Orbit
+        What the sequence holds.
 
     Notes
     -----
@@ -55,7 +59,7 @@ class Orbits(Sequence[Orbit]):
     hits: tuple[int, ...]
     starts: int
     settled: bool
-    _orbits: tuple[Orbit, ...] = field(repr=False)
+    orbits: tuple[Orbit, ...] = field(repr=False)
 
     @overload
     def __getitem__(self, index: int) -> Orbit: ...
@@ -64,16 +68,19 @@ class Orbits(Sequence[Orbit]):
     def __getitem__(self, index: slice) -> tuple[Orbit, ...]: ...
 
     def __getitem__(self, index: Any) -> Any:
-        return self._orbits[index]
+        return self.orbits[index]
 
     def __iter__(self) -> Iterator[Orbit]:
-        return iter(self._orbits)
+        return iter(self.orbits)
 
     def __len__(self) -> int:
-        return len(self._orbits)
+        return len(self.orbits)
 
     def __str__(self) -> str:
-        stable = sum(orbit.stable for orbit in self)
+        counts = Counter(orbit.stability for orbit in self)
+        stable = f"{counts[Stability.STABLE]} of them stable"
+        if counts[Stability.NEUTRAL]:
+            stable += f", {counts[Stability.NEUTRAL]} neutral"
         least = min(self.hits, default=0)
         last = (
             "the last half of them found nothing new"
@@ -81,8 +88,8 @@ class Orbits(Sequence[Orbit]):
             else "the last of them still found new ones"
         )
         return (
-            f"{len(self)} orbits of period ≤ {self.max_period}, {stable} of them stable, from {self.starts} starts; "
-            f"{last}, each was met {least} times at least; none other is not guaranteed"
+            f"{len(self)} orbits of period ≤ {self.max_period}, {stable}, from {self.starts} starts; "
+            f"{last}, each was met {least} times at least; completeness is not guaranteed"
         )
 
 
@@ -146,7 +153,7 @@ def find_orbits(
     box = _box(system, angles, velocities)
     forcing = system.forcing
     there = clocked(system, (forcing.phase + math.tau * SECTION) % math.tau)
-    known, used = Known(there), 0
+    known, used = Known(system, there.forcing.phase), 0
     jobs = [(n, False) for n in range(1, max_period + 1)] + [(n, True) for n in range(1, max_period + 1, 2)]
     settled = False
     with ThreadPoolExecutor() as pool:
@@ -173,7 +180,8 @@ def find_orbits(
 
 
 def _rank(orbit: Orbit) -> tuple[int, float, float]:
-    return orbit.period, abs(orbit.multipliers[0]), orbit.state.angle
+    size = 1.0 if orbit.stability is Stability.NEUTRAL else abs(orbit.multipliers[0])
+    return orbit.period, size, orbit.state.angle
 
 
 def _box(system: System, angles: Any, velocities: Any) -> tuple[float, ...] | None:
@@ -181,16 +189,16 @@ def _box(system: System, angles: Any, velocities: Any) -> tuple[float, ...] | No
     if angles is None and velocities is None and system.braces is None:
         return None
     forcing, braces = system.forcing, system.braces
-    beta = forcing.amplitude / (1.0 + forcing.frequency**2)
+    beta = response(system)
     reach = 1.0 + beta if braces is None else braces.angle
     fastest = (1.0 + (0.0 if braces is None else reach)) * FASTER * (1.0 + beta * (1.0 + forcing.frequency))
     box: tuple[float, ...] = ()
     for name, bounds, usual in (("angles", angles, reach), ("velocities", velocities, fastest)):
-        low, high = (
-            (-usual, usual) if bounds is None else (within(name, value, -1e3, 1e3) for value in bounds)
-        )
+        allowed = "be (lowest, highest), the one below the other"
+        ends = (-usual, usual) if bounds is None else pair(name, bounds, allowed)
+        low, high = (value if bounds is None else within(name, value, -1e3, 1e3) for value in ends)
         if not low < high:
-            raise ValueError(refusal(name, "be (lowest, highest), the one below the other", bounds))
+            raise ValueError(refusal(name, allowed, bounds))
         box = (*box, low, high)
     return box
 
@@ -202,7 +210,7 @@ def _starts(system: System, box: tuple[float, ...] | None, count: int, first: in
     if box is not None:
         return np.column_stack([box[0] + (box[1] - box[0]) * x, box[2] + (box[3] - box[2]) * y])
     forcing = system.forcing
-    beta = forcing.amplitude / (1.0 + forcing.frequency**2)
+    beta = response(system)
     in_phase = beta * math.cos(forcing.phase)
     quadrature = beta * forcing.frequency * math.sin(forcing.phase)
     # On either side u + u' and u - u' have each their bound, and u >= 0: a triangle, a parallelogram folded over.

@@ -8,7 +8,7 @@ import numpy as np
 from attrs import field, frozen
 from numpy.typing import NDArray
 
-from rocking.model import State, System, pictures
+from rocking.model import ReadOnlyArrays, State, System, pictures, read_only
 from rocking.orbits.record import LONG_NAMES, described, named
 
 if TYPE_CHECKING:
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 @frozen(eq=False)
-class OrbitDiagram:
+class OrbitDiagram(ReadOnlyArrays):
     """Stroboscopic points over a parameter; made by `orbit_diagram`.
 
     Attributes
@@ -45,11 +45,11 @@ class OrbitDiagram:
 
     system: System
     parameter: str
-    values: NDArray[np.float64] = field(repr=False)
+    values: NDArray[np.float64] = field(repr=False, converter=read_only)
     sweeps: tuple[str, ...]
-    points: NDArray[np.float64] = field(repr=False)
-    overturned: NDArray[np.bool_] = field(repr=False)
-    peak: NDArray[np.float64] = field(repr=False)
+    points: NDArray[np.float64] = field(repr=False, converter=read_only)
+    overturned: NDArray[np.bool_] = field(repr=False, converter=read_only)
+    peak: NDArray[np.float64] = field(repr=False, converter=read_only)
     start: State
     transient: int
     section_phase: float

@@ -12,6 +12,7 @@ from rocking.model import (
     Braces,
     Harmonic,
     System,
+    pair,
     refusal,
     within,
 )
@@ -55,7 +56,9 @@ def with_value(system: System, parameter: str, value: float) -> System:
 
 def checked_range(parameter: str, bounds: tuple[float, float]) -> tuple[float, float]:
     """The range of a parameter, ordered, not empty, and within what a system may have."""
-    low, high = (within(f"bounds of {parameter}", value, *ALLOWED[parameter]) for value in bounds)
+    allowed = "be (lowest, highest), the one below the other"
+    ends = pair("bounds", bounds, allowed)
+    low, high = (within(f"bounds of {parameter}", value, *ALLOWED[parameter]) for value in ends)
     if not low < high:
-        raise ValueError(refusal("bounds", "be (lowest, highest), the one below the other", bounds))
+        raise ValueError(refusal("bounds", allowed, bounds))
     return low, high

@@ -14,13 +14,13 @@ from matplotlib.text import Text
 from numpy.typing import NDArray
 
 from rocking.model import Block, Outcome, System, instance, within
-from rocking.motion import Motion
+from rocking.motion import Motion, time_of_fall
 from rocking.plot import style
 from rocking.plot.film import check_film, write_film
 from rocking.plot.quantities import quantities
 from rocking.plot.scene import Scene
 from rocking.plot.time_history import draw_history
-from rocking.plot.trace import fall, settled, window
+from rocking.plot.trace import settled, window
 
 NOMINAL = Block(height=2.0, width=0.5)
 CYCLES_SHOWN, DECAY_SHOWN = 10, 30
@@ -94,7 +94,7 @@ def _window(motion: Motion, block: Block, cycles: tuple[float, float] | None) ->
     if motion.overturning is None:
         return max(0.0, motion.duration - CYCLES_SHOWN * unit), motion.duration
     start = max(0.0, motion.overturning.time - CYCLES_SHOWN * unit)
-    flat = fall(motion, motion.overturning, block.angle(degrees=90))
+    flat = time_of_fall(motion, motion.overturning, block.angle(degrees=90))
     return start, flat + 0.08 * (flat - start)
 
 
@@ -105,15 +105,24 @@ class _Film:
         body = block or NOMINAL
         self.times, self.shown = times, quantities(block)
         flat = body.angle(degrees=90)
-        self.angles = np.clip(motion.at(times)[0], -flat, flat)
+        # where it lies it stays: no more is asked of the motion
+        end = (
+            times[-1]
+            if motion.overturning is None
+            else min(times[-1], time_of_fall(motion, motion.overturning, flat))
+        )
+        self.angles = np.clip(motion.at(np.minimum(times, end))[0], -flat, flat)
         self.figure = Figure(SIZE, dpi=DOTS)
         self.figure.set_layout_engine("constrained", rect=(0.0, 0.0, 1.0, 0.9))
         above, below = self.figure.subplots(2, 1, height_ratios=(2.6, 1))
         factors = self._scene(above, motion.system, body)
-        draw_history(below, motion, times[0], times[-1], block)
+        draw_history(below, motion, times[0], end, block)
         if motion.overturning is not None:
             (curve,) = (line for line in below.lines if line.get_gid() == "motion")
-            curve.set_ydata(np.clip(curve.get_ydata(), self.shown.angle(-flat), self.shown.angle(flat)))
+            time, angle = (np.append(column, column[-1]) for column in curve.get_data())
+            time[-1] = self.shown.time(times[-1])
+            curve.set_data(time, np.clip(angle, self.shown.angle(-flat), self.shown.angle(flat)))
+            below.set_xlim(self.shown.time(times[0]), time[-1])
             most = 1.5 * min(max(motion.peak, 1.0), flat)
             below.set_ylim(self.shown.angle(-most), self.shown.angle(most))
         self.cursor = below.axvline(0.0, color=style.IMPACT, linewidth=style.LINE, animated=True)

@@ -8,6 +8,7 @@ from matplotlib.axes import Axes
 from rocking.model import (
     LARGEST_PHASE,
     Block,
+    Stability,
     one_of,
     refusal,
     within,
@@ -33,7 +34,7 @@ def branch(
     phase: float = 0.0,
     block: Block | None = None,
 ) -> Axes:
-    """Draws one or several branches: stable orbits solid, unstable dashed, special points with a marker a kind.
+    """Draws one or several branches: stable orbits solid, unstable dashed, neutral dash-dotted, special points with a marker a kind.
 
     Parameters
     ----------
@@ -76,10 +77,10 @@ def branch(
     ax = style.own(ax, height=3.0)
     for one in sorted(branches, key=lambda one: not one.symmetric):
         line = curves.line(one, quantity, phase).shown(across, upright)
-        for is_stable in (True, False):
-            name = f"{'' if one.symmetric else 'un'}symmetric, {'' if is_stable else 'un'}stable"
+        for stability in Stability:
+            name = f"{'' if one.symmetric else 'un'}symmetric, {stability}"
             curves.part(
-                ax, line, is_stable, name, color=COLOURS[one.symmetric], linewidth=style.LINE, gid=name
+                ax, line, stability, name, color=COLOURS[one.symmetric], linewidth=style.LINE, gid=name
             )
     _marks(ax, branches, lambda orbit: upright(curves.heights_of(orbit, quantity, phase)), across)
     style.label(ax, x_label, curves.height_label(quantity, shown))

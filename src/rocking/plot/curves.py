@@ -1,14 +1,12 @@
-"""What pictures over a parameter share: its axis, and branches of orbits as lines, stable solid, unstable dashed."""
+"""What pictures over a parameter share: its axis, and branches of orbits as lines, in a dash for each stability."""
 
 from collections.abc import Callable
 from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
-from attrs import evolve
 from matplotlib.axes import Axes
 
-from rocking.model import Orbit, refusal
-from rocking.motion import simulate
+from rocking.model import Orbit, Stability, refusal
 from rocking.orbits import Branch
 from rocking.plot.quantities import Quantities
 
@@ -17,7 +15,11 @@ Drawn = TypeVar("Drawn")
 COLUMNS = {"angle": 0, "velocity": 1}
 QUANTITIES = (*COLUMNS, "peak")
 BORN = "born"
-DASHED: Any = (0, (4, 2))
+DASHES: dict[Stability, Any] = {
+    Stability.STABLE: "-",
+    Stability.NEUTRAL: (0, (5, 1.5, 1, 1.5)),
+    Stability.UNSTABLE: (0, (4, 2)),
+}
 
 
 def height_label(quantity: str, shown: Quantities) -> str:
@@ -30,10 +32,10 @@ def height_label(quantity: str, shown: Quantities) -> str:
 
 
 class Line(NamedTuple):
-    """A branch as it is drawn: a row an orbit, and one more wherever something changes: ``between`` what is stable and what not."""
+    """A branch as it is drawn: a row an orbit, and one more wherever something changes: ``between`` two stabilities."""
 
     values: np.ndarray
-    stable: np.ndarray
+    stability: np.ndarray
     heights: np.ndarray
     between: np.ndarray
 
@@ -45,7 +47,7 @@ class Line(NamedTuple):
 def line(branch: Branch, quantity: str, phase: float) -> Line:
     """A branch as a line a cycle of its period, or one of its peaks."""
     points = branch.points
-    values, stable = points["parameter"], points["stable"]
+    values, stability = points["parameter"], points["stability"]
     heights = (
         points["peak"][:, None] if quantity == "peak" else branch.section(phase)[:, :, COLUMNS[quantity]]
     )
@@ -60,7 +62,7 @@ def line(branch: Branch, quantity: str, phase: float) -> Line:
     between[0] = BORN in branch.ends[0]  # at a multiplier of 1
     return Line(
         np.insert(values, places, added),
-        np.insert(stable, places, False),
+        np.insert(stability, places, Stability.UNSTABLE),
         np.insert(heights, places, tips, axis=0),
         np.insert(between, places, True),
     )
@@ -68,29 +70,27 @@ def line(branch: Branch, quantity: str, phase: float) -> Line:
 
 def heights_of(orbit: Orbit, quantity: str, phase: float) -> np.ndarray:
     """The same of one orbit."""
-    forcing = evolve(orbit.system.forcing, phase=orbit.phase)
-    motion = simulate(evolve(orbit.system, forcing=forcing), orbit.state, cycles=orbit.period)
     if quantity == "peak":
-        return np.array([motion.peak])
-    wait = (phase - orbit.phase) % (2.0 * np.pi) / forcing.frequency
-    return motion.at(wait + forcing.period * np.arange(orbit.period))[COLUMNS[quantity]]
+        return np.array([orbit.motion().peak])
+    states = [orbit.at(phase + 2.0 * np.pi * cycle) for cycle in range(orbit.period)]
+    return np.array([getattr(state, quantity) for state in states])
 
 
-def part(ax: Axes, drawn: Line, is_stable: bool, label: str, **look: Any) -> None:
-    """The stable or the unstable parts of a branch, a line a column; both reach to where one becomes the other.
+def part(ax: Axes, drawn: Line, stability: Stability, label: str, **look: Any) -> None:
+    """The parts of a branch that have one stability, a line a column; they reach to where it becomes another.
 
     Of all that have a label the first is in the legend.
     """
-    here = (drawn.stable == is_stable) & ~drawn.between
+    here = (drawn.stability == stability) & ~drawn.between
     near = np.zeros(len(here), bool)
     near[1:] |= here[:-1]
     near[:-1] |= here[1:]
     # where the change itself is not among the special points, the unstable part fills the gap
-    own = here | (near & (drawn.between | (not is_stable)))
+    own = here | (near & (drawn.between | (stability is Stability.UNSTABLE)))
     if not here.any():
         return
     heights = np.where(own[:, None], drawn.heights, np.nan)
-    lines = ax.plot(drawn.values, heights, linestyle="-" if is_stable else DASHED, **look)
+    lines = ax.plot(drawn.values, heights, linestyle=DASHES[stability], **look)
     lines[0].set_label(unless_there(ax, label))
 
 

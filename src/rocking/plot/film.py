@@ -1,6 +1,8 @@
 """Frames into a GIF or an MP4: whole or not at all."""
 
+import errno
 from collections.abc import Iterator
+from contextlib import suppress
 from itertools import combinations
 from pathlib import Path
 
@@ -68,18 +70,27 @@ def _palette() -> Image.Image:
 
 
 def _mp4(path: Path, frames: Iterator[NDArray], fps: float) -> None:
-    from imageio_ffmpeg import write_frames
+    from imageio_ffmpeg import count_frames_and_secs, write_frames
 
     first = next(frames)
     height, width, _ = first.shape
-    writer = write_frames(str(path), (width, height), fps=fps, quality=7, ffmpeg_log_level="error")
+    writer = write_frames(str(path), (width, height), fps=fps, quality=7, ffmpeg_log_level="fatal")
+    sent = 1
     try:
         writer.send(None)
         writer.send(first.tobytes())
         for frame in frames:
             writer.send(frame.tobytes())
+            sent += 1
+    except OSError as error:
+        raise OSError(errno.EIO, "ffmpeg has ended") from error
     finally:
         writer.close()
+    # nobody is told how ffmpeg ended: on a full disk it leaves half a film
+    with suppress(RuntimeError):
+        if count_frames_and_secs(str(path))[0] == sent:
+            return
+    raise OSError(errno.EIO, "ffmpeg has not written every frame")
 
 
 WRITERS = {".gif": _gif, ".mp4": _mp4}

@@ -3,7 +3,7 @@
 import numpy as np
 from matplotlib.axes import Axes
 
-from rocking.model import Block, Kind, instance
+from rocking.model import Block, Kind, Stability, instance
 from rocking.orbits import FrequencyResponse
 from rocking.plot import curves, style
 from rocking.plot.kinds import COLOURS
@@ -54,11 +54,11 @@ def frequency_response(result: FrequencyResponse, ax: Axes | None = None, block:
     across, x_label = parameter(result.parameter, block)
     ax = style.own(ax, height=3.0)
     for n, colour in zip(result.modes, _colours(len(result.modes)), strict=True):
-        for is_stable in (True, False):
-            name = f"(1,{n}), {'' if is_stable else 'un'}stable"
+        for stability in Stability:
+            name = f"(1,{n}), {stability}"
             for branch in result.of(n):
                 line = curves.line(branch, "peak", 0.0).shown(across, shown.angle)
-                curves.part(ax, line, is_stable, name, color=colour, linewidth=style.LINE, gid=name)
+                curves.part(ax, line, stability, name, color=colour, linewidth=style.LINE, gid=name)
     _from_rest(ax, result, across, shown.angle)
     style.label(ax, x_label, curves.height_label("peak", shown))
     low, high = ax.get_ylim()

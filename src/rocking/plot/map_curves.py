@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 from matplotlib.patheffects import withStroke
 
-from rocking.model import LARGEST_AMPLITUDE, one_of, refusal
+from rocking.model import LARGEST_AMPLITUDE, members, one_of, refusal
 from rocking.plot import style
 from rocking.plot.thresholds import DOTTED
 from rocking.theory import (
@@ -63,7 +63,8 @@ def check(names: Iterable[str]) -> tuple[str, ...]:
     """The names of curves, unless one is unknown."""
     if isinstance(names, str):
         names = (names,)
-    return tuple(one_of("curves", name, tuple(CURVES)) for name in names)
+    allowed = f"be a sequence of {', '.join(map(repr, CURVES))}"
+    return tuple(one_of("curves", name, tuple(CURVES)) for name in members("curves", names, allowed))
 
 
 def draw(

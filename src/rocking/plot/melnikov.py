@@ -5,7 +5,7 @@ import math
 import numpy as np
 from matplotlib.axes import Axes
 
-from rocking.model import Block
+from rocking.model import LARGEST_AMPLITUDE, PERIODS, Block, within
 from rocking.plot import style
 from rocking.plot.quantities import quantities
 from rocking.theory import (
@@ -54,6 +54,8 @@ def melnikov(amplitude: float, period: float, restitution: float, ax: Axes | Non
     >>> [line.get_label() for line in ax.lines][:3]
     ['$M^+$', '$M^-$', 'exact gap']
     """
+    amplitude = within("amplitude", amplitude, 0.0, LARGEST_AMPLITUDE)
+    period, restitution = within("period", period, *PERIODS), within("restitution", restitution, 0.0, 1.0)
     turns = np.linspace(0.0, 1.0, POINTS)
     times = turns * period
     upper = melnikov_function(times, amplitude, period, restitution)

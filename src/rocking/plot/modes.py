@@ -8,8 +8,8 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
 from rocking.model import LARGEST_AMPLITUDE, Block, Mode, one_of, within
-from rocking.plot import style
-from rocking.plot.quantities import quantities
+from rocking.plot import curves, style
+from rocking.plot.quantities import parameter, quantities
 from rocking.theory import (
     existence_amplitude,
     slower_mode_amplitude,
@@ -22,7 +22,10 @@ POINTS = 400
 NEAR = 1e-9
 # The picture goes on this much beyond where symmetry breaks.
 BEYOND = 1.25
-DASHES: dict[str, Any] = {"stable": "-", "unstable": (0, (5, 2)), "inadmissible": (0, (1, 1.5))}
+DASHES: dict[str, Any] = {
+    **{str(name): dashes for name, dashes in curves.DASHES.items()},
+    "inadmissible": (0, (1, 1.5)),
+}
 
 
 def modes(
@@ -62,8 +65,8 @@ def modes(
 
     Notes
     -----
-    Modes begin at A_E and the faster one loses its stability at A_SB, 1.25 times which is shown, up to A = 1000. On the other side of an
-    impact everything is mirrored: −V, φ + π.
+    Modes begin at A_E and the faster one loses its stability at A_SB, 1.25 times which is shown, up to A = 1000. At e = 1 it is
+    neutral up to there, and dash-dotted. On the other side of an impact everything is mirrored: −V, φ + π.
 
     Examples
     --------
@@ -82,7 +85,7 @@ def modes(
     ends = (most, min(slower_mode_amplitude(period, n) * (1.0 - NEAR), most))
     shown = quantities(block)
     ax = style.own(ax, height=2.9)
-    across = shown.amplitude
+    across, x_label = parameter("amplitude", block)
 
     def up(mode: Mode) -> float:
         return shown.velocity(mode.velocity) if quantity == "velocity" else mode.phase % math.tau
@@ -109,7 +112,7 @@ def modes(
             gid="marked",
         )
     label = shown.speed_label if quantity == "velocity" else r"phase $\varphi$ of the forcing there (rad)"
-    style.label(ax, shown.amplitude_label, label)
+    style.label(ax, x_label, label)
     ax.set_xlim(left=0.0)
     forced = f"$T = {period:.6g}$" if block is None else f"{block.seconds(period):.4g} s"
     style.note(ax, rf"(1,{n}) modes, {forced}, $e = {restitution:.4g}$")
@@ -120,7 +123,7 @@ def modes(
 def _kind(mode: Mode) -> str:
     if not mode.admissible:
         return "inadmissible"
-    return "stable" if mode.stable else "unstable"
+    return mode.stability
 
 
 def _draw(ax: Axes, points: list, colour: str, root: str) -> None:

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 from matplotlib.axes import Axes
 
-from rocking.model import Block, instance, one_of, refusal
+from rocking.model import Block, Stability, instance, members, one_of, refusal
 from rocking.orbits import Branch, OrbitDiagram
 from rocking.plot import curves, style
 from rocking.plot.quantities import parameter, quantities
@@ -45,7 +45,7 @@ def orbit_diagram(
     ax : matplotlib Axes, optional
         Drawn into; a new figure, a column wide, if not given.
     branches : sequence of Branch
-        Of periodic orbits over the same parameter, from `rocking.continue_orbit`: stable solid, unstable dashed.
+        Of periodic orbits over the same parameter, from `rocking.continue_orbit`: stable solid, unstable dashed, neutral dash-dotted.
     quantity : {"angle", "velocity", "peak"}
         What is drawn: Θ or Θ' at the section, or the largest |Θ| in between.
     block : Block, optional
@@ -75,7 +75,9 @@ def orbit_diagram(
     """
     instance("result", result, OrbitDiagram)
     quantity = one_of("quantity", quantity, curves.QUANTITIES)
-    followed = [_checked(result, branch) for branch in branches]
+    followed = [
+        _checked(result, branch) for branch in members("branches", branches, "be a sequence of Branch")
+    ]
     shown = quantities(block)
     across, x_label = parameter(result.parameter, block)
     upright = shown.velocity if quantity == "velocity" else shown.angle
@@ -83,8 +85,8 @@ def orbit_diagram(
     ax = style.own(ax, height=3.0)
     for row, way in enumerate(result.sweeps):
         _points(ax, result, row, way, quantity, across, upright)
-    for is_stable in (True, False):
-        _branches(ax, lines, is_stable)
+    for stability in Stability:
+        _branches(ax, lines, stability)
     style.label(ax, x_label, curves.height_label(quantity, shown))
     _bars(ax, result, across)
     ends = across(result.values[[0, -1]])
@@ -139,18 +141,18 @@ def _checked(result: OrbitDiagram, branch: Branch) -> Branch:
     return branch
 
 
-def _branches(ax: Axes, lines: Sequence[curves.Line], is_stable: bool) -> None:
-    """The stable or the unstable parts of branches."""
-    word, width = ("stable", OUTLINE) if is_stable else ("unstable", style.THIN)
+def _branches(ax: Axes, lines: Sequence[curves.Line], stability: Stability) -> None:
+    """The parts of branches that have one stability."""
+    width = style.THIN if stability is Stability.UNSTABLE else OUTLINE
     for line in lines:
         curves.part(
             ax,
             line,
-            is_stable,
-            f"{word} orbits",
+            stability,
+            f"{stability} orbits",
             color=style.INK,
             linewidth=width,
-            gid=f"{word} branch",
+            gid=f"{stability} branch",
             zorder=1.8,
         )
 

@@ -82,7 +82,7 @@ def parametric_map(
     ... )
     >>> ax = rk.plot.parametric_map(found, curves=["symmetry-breaking-1", "melnikov"])
     >>> ax.get_xlabel(), ax.get_ylabel()
-    ('period $T$ ($\\tau$)', 'amplitude $A$ (–)')
+    ('period $T$ (–)', 'amplitude $A$ (–)')
     """
     if symbols is not None:
         one_of("symbols", symbols, ("kinds", *PAPER))

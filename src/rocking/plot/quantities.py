@@ -23,8 +23,6 @@ class Quantities:
     frequency: Callable[[Any], Any]
     density: Callable[[Any], Any]
     time_label: str
-    amplitude_label: str
-    period_label: str
     angle_label: str
     velocity_label: str
     speed_label: str
@@ -46,8 +44,6 @@ NORMALISED = Quantities(
     frequency=_same,
     density=_same,
     time_label=r"time $\tau = \alpha t$ (–)",
-    amplitude_label=r"amplitude $A = a_x/(g\,\theta_\mathrm{cr})$ (–)",
-    period_label=r"period $T = 2\pi/\Omega$ of the base (–)",
     angle_label=r"angle $\Theta = \theta/\theta_\mathrm{cr}$ (–)",
     velocity_label=r"velocity $\Theta' = \mathrm{d}\Theta/\mathrm{d}\tau$ (–)",
     speed_label=r"speed after impact $|\Theta'|$ (–)",
@@ -71,8 +67,6 @@ def quantities(block: Block | None) -> Quantities:
         frequency=lambda frequency: frequency / block.seconds(1.0),
         density=lambda density: density * block.degrees(1.0) ** 2 * block.seconds(1.0),
         time_label=r"time $t$ (s)",
-        amplitude_label=r"amplitude $a_x$ of the base (m/s²)",
-        period_label=r"period of the base (s)",
         angle_label=r"angle $\theta$ (°)",
         velocity_label=r"velocity $\dot\theta$ (°/s)",
         speed_label=r"speed after impact $|\dot\theta|$ (°/s)",
@@ -85,9 +79,9 @@ def quantities(block: Block | None) -> Quantities:
 
 PARAMETERS = {
     "amplitude": r"amplitude $A$ (–)",
-    "period": r"period $T$ ($\tau$)",
+    "period": r"period $T$ (–)",
     "frequency": r"frequency $\Omega$ (rad per $\tau$)",
-    "phase": r"phase $\phi$ (rad)",
+    "phase": r"phase $\varphi$ (rad)",
     "restitution": r"restitution $e$ (–)",
     "brace_angle": r"brace angle $\Theta_\mathrm{b}$ (–)",
     "brace_restitution": r"restitution at the braces $r$ (–)",

@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, MaxNLocator, NullLocator
 from numpy.typing import NDArray
 
-from rocking.model import Block, instance
+from rocking.model import Block, instance, members, refusal, whole, within
 
 COLUMN = 3.5
 PAGE = 7.2
@@ -23,6 +23,7 @@ LINE = 1.0
 THIN = 0.6
 MARK = 4.0
 # More than these become an image inside a vector file, which would grow without end.
+MOST_PANELS = 100
 MOST_MARKS = 2_000
 CELLS = 4096
 ROUNDING = 1e-9
@@ -71,6 +72,11 @@ def panels(rows: int = 1, columns: int = 1, height: float = 2.4, ratios: tuple[f
     tuple
         The matplotlib figure and its axes in reading order, lettered (a), (b), … where there are several.
 
+    Raises
+    ------
+    TypeError, ValueError
+        For numbers that lie outside their range, and for `ratios` that are not one a column.
+
     Examples
     --------
     >>> import rocking as rk
@@ -78,6 +84,13 @@ def panels(rows: int = 1, columns: int = 1, height: float = 2.4, ratios: tuple[f
     >>> left.get_title(loc="left"), right.get_title(loc="left")
     ('(a)', '(b)')
     """
+    rows, columns = whole("rows", rows, 1, MOST_PANELS), whole("columns", columns, 1, MOST_PANELS)
+    height = within("height", height, 0.1, 100.0)
+    if ratios is not None:
+        allowed = f"be {columns} positive numbers, one a column"
+        ratios = tuple(within("ratios", each, 0.0, 1e6) for each in members("ratios", ratios, allowed))
+        if len(ratios) != columns or min(ratios) == 0.0:
+            raise ValueError(refusal("ratios", allowed, ratios))
     figure = Figure(figsize=(COLUMN if columns == 1 else PAGE, height * rows), layout="constrained")
     axes = list(figure.subplots(rows, columns, squeeze=False, width_ratios=ratios).flat)
     for letter, ax in zip("abcdefghijkl", axes, strict=False):
@@ -88,7 +101,7 @@ def panels(rows: int = 1, columns: int = 1, height: float = 2.4, ratios: tuple[f
 
 def title(ax: Axes, text: str) -> None:
     """Writes `text` above the axes at the left; a panel's letter already there stays in front of it."""
-    letter = ax.get_title(loc="left")
+    letter = instance("ax", ax, Axes).get_title(loc="left")
     ax.set_title(f"{letter} {text}" if letter else text, loc="left", fontsize=TEXT, color=INK)
 
 

@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike
 
 from rocking.model import Block, reals, refusal
 from rocking.plot import style
-from rocking.plot.quantities import quantities
+from rocking.plot.quantities import parameter
 
 DOTTED = (0, (1, 1.5))
 # Colours, and dashes that tell them apart without colours.
@@ -60,8 +60,10 @@ def thresholds(
     >>> len(ax.lines)
     1
     """
-    shown = quantities(block)
+    (turn_across, x_label), (turn_up, y_label) = (parameter(name, block) for name in ("period", "amplitude"))
     across = np.asarray(reals("periods", periods))
+    if not isinstance(curves, Mapping):
+        raise TypeError(refusal("curves", "be a dict of amplitudes by label", curves))
     if not 1 <= len(curves) <= len(LINES):
         raise ValueError(refusal("curves", f"hold 1 to {len(LINES)} of them", len(curves)))
     ax = style.own(ax, height=2.9)
@@ -72,15 +74,15 @@ def thresholds(
             raise ValueError(
                 refusal("curves", f"have one amplitude a period, {across.size}", f"{name}: {values.size}")
             )
-        up = shown.amplitude(values)
+        up = turn_up(values)
         for part, how, label in ((holds, dashes, name), (~holds, DOTTED, None)):
             if part.any():
                 # one point more, so that no gap is left where the dots begin
                 drawn = part | np.concatenate(([False], part[:-1]))
                 line = np.where(drawn, up, np.nan)
                 ax.plot(
-                    shown.time(across), line, color=colour, linestyle=how, label=label, linewidth=style.LINE
+                    turn_across(across), line, color=colour, linestyle=how, label=label, linewidth=style.LINE
                 )
-    style.label(ax, shown.period_label, shown.amplitude_label)
+    style.label(ax, x_label, y_label)
     style.key(ax)
     return ax

@@ -76,7 +76,7 @@ def tiles(
     """
     read = Responses(found)
     with replacing_folder("folder", folder, TILES) as partial:
-        pyramid = Pyramid(partial / TILES.beside[0], read.up.size, read.across.size)
+        pyramid = Pyramid(partial / "tiles", read.up.size, read.across.size)
         counts = np.zeros(NONE + 1, np.int64)
         for codes in _from_the_top(read):
             counts += np.bincount(codes.ravel(), minlength=NONE + 1)
@@ -191,7 +191,7 @@ def _page(read: Responses, counts: np.ndarray, pyramid: Pyramid, block: Block | 
 FIXED = (
     "amplitude", "period", "frequency", "restitution", "phase", "angle", "velocity", "brace_angle", "brace_restitution", "max_cycles",
 )  # fmt: skip
-TEX = {r"\tau": "τ", r"\Omega": "Ω", r"\phi": "φ", r"\Theta": "Θ", r"\theta": "θ", r"\dot": "", r"\mathrm": "", "_0": "₀",
+TEX = {r"\tau": "τ", r"\Omega": "Ω", r"\varphi": "φ", r"\Theta": "Θ", r"\theta": "θ", r"\dot": "", r"\mathrm": "", "_0": "₀",
        "_x": "ₓ", "_{b}": "b", "$": "", "(–)": ""}  # fmt: skip
 
 

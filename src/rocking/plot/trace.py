@@ -5,26 +5,24 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from rocking.model import Overturning, instance, refusal, within
-from rocking.motion import Motion
+from rocking.model import instance, refusal, within
+from rocking.motion import FALLEN, Motion, end_shown
 
 SAMPLES_PER_TIME = 64
 SAMPLES_PER_PICTURE = 1000
 MOST_SAMPLES = 500_000
-FALLEN = 3.0
 STILLNESS_SHOWN = 0.15
 
 
 def window(motion: Motion, cycles: tuple[float, float] | None) -> tuple[float, float]:
     """First and last instant shown, in τ, for `cycles` = (first, last) counted from the start; None is the whole motion.
 
-    The whole of an overturned motion goes on past the proof that it never returns, until |Θ| = 3.
+    An overturned motion goes on past the proof that it never returns, until |Θ| = 3.
     """
     instance("motion", motion, Motion)
+    end = end_shown(motion)
     if cycles is None:
-        return 0.0, motion.duration if motion.overturning is None else fall(
-            motion, motion.overturning, FALLEN
-        )
+        return 0.0, end
     try:
         first, last = cycles
     except (TypeError, ValueError):
@@ -33,7 +31,11 @@ def window(motion: Motion, cycles: tuple[float, float] | None) -> tuple[float, f
     if within("cycles", last, 0, motion.cycles) <= first:
         raise ValueError(refusal("cycles", "be a pair (first, last) with first < last", cycles))
     period = motion.system.forcing.period
-    return first * period, last * period
+    if first * period >= end:
+        raise ValueError(
+            refusal("cycles", f"begin before |Θ| = {FALLEN:g}, in cycle {end / period:.4g}", cycles)
+        )
+    return first * period, min(last * period, end)
 
 
 def settled(motion: Motion) -> float:
@@ -44,21 +46,6 @@ def settled(motion: Motion) -> float:
         return motion.duration
     still = max(STILLNESS_SHOWN * last, forcing.period if forcing.amplitude else 0.0)
     return min(last + still, motion.duration)
-
-
-def fall(motion: Motion, overturning: Overturning, angle: float) -> float:
-    """Time τ at which a motion that is past return reaches |Θ| = `angle`; the end of the run if it began beyond."""
-    from scipy.optimize import brentq
-
-    def beyond(time: float) -> float:
-        return abs(float(motion.at(time)[0])) - angle
-
-    before = after = overturning.time
-    if beyond(after) >= 0:
-        return after if after > 0 else motion.duration
-    while beyond(after) < 0:
-        before, after = after, after + 0.25
-    return brentq(beyond, before, after, xtol=1e-12)
 
 
 def trace(motion: Motion, start: float, stop: float) -> tuple[NDArray, NDArray, NDArray]:

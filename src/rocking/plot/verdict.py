@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import textwrap
 
+import numpy as np
 from attrs import evolve
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -34,6 +35,11 @@ LETTERS = 122
 BAND = 0.007
 # What is left of the transient where the last cycles begin.
 LEFT = 1e-4
+# Points of the section nearer to each other than this are those of one periodic orbit.
+SAME = 1e-3
+# So many points of a run that has become periodic repeat themselves at its end.
+LAST = 200
+OTHERWISE = "this run of it ends otherwise"
 
 
 def verdict(verdict: Verdict, block: Block | None = None) -> Figure:
@@ -59,6 +65,9 @@ def verdict(verdict: Verdict, block: Block | None = None) -> Figure:
     -----
     A block that overturns or comes to rest is shown until it has, without a section. In the section of a periodic response
     the points on the way lead to the orbit, which is ringed. The band at the left has the colour of the kind.
+
+    The motion is drawn from a run of `simulate`. It may follow another chaotic transient than the run of `classify`, because
+    the two round differently. Where the run that is drawn contradicts the verdict, a note above it says so.
 
     Examples
     --------
@@ -101,7 +110,9 @@ def _motion(verdict: Verdict, history: Axes, portrait: Axes, block: Block | None
     time_history(motion, history, block, window)
     phase_portrait(motion, portrait, block, window)
     if verdict.kind in ENDS and motion.outcome is Outcome.BOUNDED:
-        style.note(history, "this run of it ends otherwise")
+        style.note(history, OTHERWISE)
+    if verdict.period and not _repeats(motion.section()[-verdict.period - 1 :], verdict.period):
+        style.note(history, OTHERWISE)
     if first > 0:
         unit = quantities(block).time_unit
         history.set_xlabel(f"time after cycle {first:,} ({unit})", fontsize=style.TEXT, color=style.INK)
@@ -133,6 +144,12 @@ def _after(verdict: Verdict, cycles: int) -> State:
     return simulate(verdict.system, verdict.start, cycles=cycles, record="none").final
 
 
+def _repeats(points: NDArray, period: int) -> bool:
+    """Whether all points of a section repeat themselves with a period, of which there is one at least."""
+    apart = np.hypot(*(points[period:] - points[:-period]).T)
+    return apart.size > 0 and bool(apart.max() <= SAME)
+
+
 def _section(verdict: Verdict, ax: Axes, block: Block | None) -> None:
     orbit, phase = verdict.orbit, verdict.system.forcing.phase
     try:
@@ -140,6 +157,9 @@ def _section(verdict: Verdict, ax: Axes, block: Block | None) -> None:
             late = _after(verdict, min(verdict.cycles, LATEST))
             motion = simulate(verdict.system, late, cycles=POINTS, record="section")
             section(motion.section(), ax, block, phase)
+            last = motion.section()[-LAST:]
+            if verdict.kind is Kind.CHAOTIC and any(_repeats(last, n) for n in range(1, LAST // 2)):
+                style.title(ax, OTHERWISE)
             return
         cycles = min(verdict.cycles, LATEST) + 2 * orbit.period
         motion = simulate(verdict.system, verdict.start, cycles=cycles, record="section")
@@ -147,7 +167,7 @@ def _section(verdict: Verdict, ax: Axes, block: Block | None) -> None:
         ax.set_axis_off()
         return
     # where it forgets, the orbit's own phase is that of a release, at which there is nothing to see
-    phase = orbit.phase if orbit.impacts is not None else (orbit.phase + 0.5 * math.pi) % math.tau
+    phase = (orbit.phase + 0.5 * math.pi) % math.tau if orbit.superstable else orbit.phase
     points = motion.section(phase)
     section(points[: -orbit.period], ax, block, phase)
     _ring(ax, _on(orbit, points), block, verdict.kind)
@@ -155,7 +175,7 @@ def _section(verdict: Verdict, ax: Axes, block: Block | None) -> None:
 
 def _on(orbit: Orbit, points: NDArray) -> NDArray:
     """The points of an orbit: from itself, or, where it forgets, the last ones, which lie on it."""
-    if orbit.impacts is None:
+    if orbit.superstable:
         return points[-orbit.period :]
     system = evolve(orbit.system, forcing=evolve(orbit.system.forcing, phase=orbit.phase))
     return simulate(system, orbit.state, cycles=orbit.period, record="section").section()[:-1]

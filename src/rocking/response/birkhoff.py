@@ -8,7 +8,7 @@ import numpy as np
 from attrs import evolve, frozen
 from numpy.typing import NDArray
 
-from rocking.model import Outcome, State, System, TooShort, counted, refusal, whole
+from rocking.model import Outcome, State, System, TooShort, counted, ordinal, refusal, whole
 from rocking.motion import Motion, simulate
 from rocking.response.islands import (
     FEWEST_TURNS,
@@ -104,14 +104,15 @@ def rotation_number(system: System, start: State | None = None, cycles: int = 20
         what was found.
     ValueError
         For motion that loses something (an impact with e < 1, a brace hit with r < 1, rest, leaning), that overturns
-        or that never strikes; or an argument outside its range.
+        or that never strikes; for motion locked to the forcing that turns about nothing, as in an island so bent that
+        its mean lies outside; or for an argument outside its range.
     TypeError
         For an argument of the wrong type.
 
     Notes
     -----
     Not guaranteed: that a fraction with a denominator up to 500 met to all digits is one; an irrational number can
-    come as close, with a chance of about 10⁻⁴ at 9 digits. Islands so bent that their mean lies outside are refused.
+    come as close, with a chance of about 10⁻⁴ at 9 digits.
 
     References
     ----------
@@ -217,10 +218,10 @@ def _about_the_centre(locked: RotationNumber, phases: Array, speeds: Array) -> R
             )
         mean, digits, pieces = turning_of(points)
         if mean is None:
-            raise TooShort(
-                f"the motion is locked, {found.locked} in {found.section} and cycles, but every {stride}th of them lies on no "
-                "curve around its mean: chaotic, or an island bent too far",
-                found,
+            each = "each" if stride == 1 else f"every {ordinal(stride)}"
+            raise ValueError(
+                f"start must lie on a curve that surrounds its own mean; {each} of the {found.section}, {stride} in "
+                f"{counted(found.period, 'cycle')}, lies on none (the motion is chaotic, or its curve is bent: take another start)"
             )
         turning = evolve(found, free=mean, digits=min(found.digits, digits))
         _check(turning)

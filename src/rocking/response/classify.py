@@ -38,9 +38,10 @@ def classify(
     released as it was before forgets all else. A periodic orbit is found by Newton's method with the exact Jacobian
     from the closest return, and counts when it is stable and the motion approaches it as its multipliers say.
     Motion that loses nothing is quasi-periodic where weighted Birkhoff averages over its flights converge and
-    neighbours part no faster than linearly. Chaotic is what has, at the end of the budget and not before, a largest
-    exponent 6 standard errors above zero. Nothing is a default: what none of this shows is undetermined, and the
-    evidence says what was tried.
+    neighbours part no faster than linearly, over the cycles watched. Chaotic is what has, at the end of the budget and not
+    before, a largest exponent 6 standard errors above zero, from independent batches, over which differences grew by e⁴⁰; and
+    what does not linger near an unstable orbit. Nothing is a default: what none of this shows is undetermined, and the evidence
+    says what was tried.
 
     Parameters
     ----------
@@ -71,6 +72,9 @@ def classify(
     Not guaranteed: that chaos lasts, for a chaotic transient may be longer than any budget; that a motion without losses that
     sticks to a torus for long is not taken for quasi-periodic; and that an orbit is the only response, for another start may lead
     to another one.
+
+    `simulate` may follow another chaotic transient of the same system and start, and leave it in another cycle. It runs without
+    the checkpoints at which this function looks for evidence, and therefore rounds differently. So does `parametric_map`.
 
     References
     ----------
@@ -158,7 +162,7 @@ def _verdict(start: State, case: Case) -> Verdict:
     periodic = judged.kind == kernel.PERIODIC
     orbit = _orbit(case) if periodic else None
     # of what is undetermined only an exponent that was weighed is told
-    measured = judged.kind != kernel.UNDETERMINED or judged.ground == kernel.Ground.INDISTINCT
+    measured = judged.kind != kernel.UNDETERMINED or judged.ground in kernel.WEIGHED
     steady, transient = _known(judged.steady_peak), None if judged.transient < 0 else judged.transient
     if judged.kind == kernel.REST and motion is not None:
         steady = abs(motion.final.angle)
@@ -209,6 +213,7 @@ def _orbit(case: Case) -> Orbit:
             complex(judged.other_real, judged.other_imaginary),
         ),
         residual=judged.residual,
+        simulate=simulate,
     )
 
 

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from attrs import field, frozen
 
-from rocking.model import System, counted, read_only
+from rocking.model import ReadOnlyArrays, System, counted, read_only
 
 SHOWN = 16
 SHARE_OF_LINES = 0.9
@@ -46,7 +46,7 @@ class Peak:
 
 
 @frozen(eq=False)
-class SpectralDensity:
+class SpectralDensity(ReadOnlyArrays):
     """One-sided power spectral density of Θ, in Θ² per (cycle per τ); made by `spectral_density`.
 
     Attributes

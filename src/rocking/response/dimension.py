@@ -8,7 +8,7 @@ import numpy as np
 from attrs import field, frozen
 from numpy.typing import ArrayLike, NDArray
 
-from rocking.model import TooShort, read_only, reals, refusal
+from rocking.model import ReadOnlyArrays, TooShort, read_only, reals, refusal
 from rocking.motion import Motion
 from rocking.response.pairs import pairs_within
 from rocking.response.scaling import Scaling, scaling_region
@@ -24,7 +24,7 @@ ROUNDING = 1e-12
 
 
 @frozen(eq=False, slots=False)
-class CorrelationDimension:
+class CorrelationDimension(ReadOnlyArrays):
     """The correlation dimension of a set of points, as an interval; made by `correlation_dimension`.
 
     Attributes

@@ -8,7 +8,7 @@ from decimal import ROUND_UP, Context, Decimal
 
 from attrs import field, frozen
 
-from rocking.kernels import cycle, lossless, orbit, release, verdict
+from rocking.kernels import cycle, desk, lossless, orbit, release, verdict
 from rocking.kernels import judgement as kernel
 from rocking.model import Evidence, System, counted, plus_minus
 from rocking.motion import Motion
@@ -113,7 +113,8 @@ def _torus(case: Case) -> Shown:
         "speed digits": lossless.CHAOTIC_DIGITS,
         "log shear": lossless.SHEAR,
     }
-    return Shown("verified", what, f"verified, {_when(case)}", tolerances)
+    remark = f"statistical, over {spent(case)}: a motion that stays near a torus for long may leave it later"
+    return Shown("statistical", what, remark, tolerances)
 
 
 def _exponent(case: Case) -> Shown:
@@ -124,6 +125,31 @@ def _exponent(case: Case) -> Shown:
     )
     remark = "statistical: a longer run may find an end to it"
     return Shown("statistical", what, remark, {"standard errors": kernel.CLEARLY})
+
+
+def _little_growth(case: Case) -> Shown:
+    grown = case.judgement.exponent * _measured_time(case)
+    what = (
+        f"{_seems_chaotic(case)}, but over the second half of the run differences grew by a factor of only e^{grown:.3g}: they "
+        "do so too while a motion leaves an unstable orbit"
+    )
+    return Shown("none", what, _longer(case), {"log growth": kernel.FAR})
+
+
+def _correlated(case: Case) -> Shown:
+    what = (
+        f"{_seems_chaotic(case)}, but the {desk.BATCHES} batches behind that error depend on each other: joined four to one "
+        f"they raise its variance more than {kernel.MAX_CORRELATION:.0f}-fold"
+    )
+    return Shown("none", what, _longer(case), {"correlation": kernel.MAX_CORRELATION})
+
+
+def _lingering(case: Case) -> Shown:
+    what = (
+        f"{_seems_chaotic(case)}, but in its last cycles the motion stays within {verdict.NEAR:.0e} of an unstable "
+        "orbit"
+    )
+    return Shown("none", what, f"{_longer(case)}, or start elsewhere", {"distance": verdict.NEAR})
 
 
 def _unresolved_reset(case: Case) -> Shown:
@@ -144,8 +170,7 @@ def _unwatched(case: Case) -> Shown:
 
 
 def _indistinct(case: Case) -> Shown:
-    judged = case.judgement
-    longer = f"raise max_cycles above {case.max_cycles:,}"
+    judged, longer = case.judgement, _longer(case)
     if not 0.0 < judged.error < math.inf:
         return Shown(
             "none", f"{_no_orbit(case)}, and its largest exponent has no error that could be trusted", longer
@@ -164,7 +189,7 @@ def _between(case: Case) -> Shown:
         f"nothing is lost, and the averages over both halves of {spent(case)} agree to {case.judgement.digits:.1f} digits: better "
         f"than on chaotic motion (below {lossless.CHAOTIC_DIGITS:.0f}), but not all is as on a torus"
     )
-    return Shown("none", what, f"raise max_cycles above {case.max_cycles:,}")
+    return Shown("none", what, _longer(case))
 
 
 def _crowded(case: Case) -> Shown:
@@ -197,12 +222,34 @@ SHOWN: dict[kernel.Ground, Callable[[Case], Shown]] = {
     kernel.Ground.BETWEEN: _between,
     kernel.Ground.CROWDED: _crowded,
     kernel.Ground.STANDING: _standing,
+    kernel.Ground.LITTLE_GROWTH: _little_growth,
+    kernel.Ground.CORRELATED: _correlated,
+    kernel.Ground.LINGERING: _lingering,
 }
 
 
 def spent(case: Case) -> str:
     """How many cycles were followed."""
     return counted(case.judgement.cycles, "cycle")
+
+
+def _longer(case: Case) -> str:
+    """The remedy where a longer run may decide."""
+    return f"raise max_cycles above {case.max_cycles:,}"
+
+
+def _measured_time(case: Case) -> float:
+    """The time, in τ, over which the exponent is measured: the batches of the second half."""
+    batch = case.max_cycles // (2 * desk.BATCHES)
+    return desk.BATCHES * batch * case.system.forcing.period
+
+
+def _seems_chaotic(case: Case) -> str:
+    judged = case.judgement
+    return (
+        f"{_no_orbit(case)}, and its largest exponent, {plus_minus(judged.exponent, judged.error)} per τ, is "
+        f"{judged.exponent / judged.error:.0f} standard errors above zero"
+    )
 
 
 def _when(case: Case) -> str:
@@ -222,10 +269,11 @@ def _below_one(size: float) -> str:
 
 def _periodic(judged: kernel.Judgement) -> str:
     parts = [f"period {judged.period}", "symmetric" if judged.symmetric else "unsymmetric"]
-    if judged.impacts >= 0:
-        parts.append(counted(judged.impacts, "impact"))
-    if judged.brace_hits > 0:
-        parts.append(counted(judged.brace_hits, "brace hit"))
+    for number, what in ((judged.impacts, "impact"), (judged.brace_hits, "brace hit")):
+        if number < 0:
+            parts.append(f"infinitely many {what}s")
+        elif number or what == "impact":
+            parts.append(counted(number, what))
     return ", ".join(parts)
 
 

@@ -8,14 +8,14 @@ from functools import cached_property
 import numpy as np
 from attrs import field, frozen
 
-from rocking.model import State, System, TooShort, counted, plus_minus, read_only
+from rocking.model import ReadOnlyArrays, State, System, TooShort, counted, plus_minus, read_only
 from rocking.response.batches import BatchMean, batch_mean
 
 HISTORY = np.dtype([("cycles", "i8"), ("values", "f8", 2), ("errors", "f8", 2)])
 
 
 @frozen(eq=False, slots=False)
-class LyapunovSpectrum:
+class LyapunovSpectrum(ReadOnlyArrays):
     """Both Lyapunov exponents of a motion, with errors; made by `lyapunov`.
 
     Attributes
@@ -41,7 +41,7 @@ class LyapunovSpectrum:
     impacts, brace_hits : int
         In the cycles averaged over.
     growths : ndarray, shape (batches, 2)
-        Logarithms of growth along either direction, summed over consecutive batches.
+        Logarithms of growth along either direction, that of λ₁ first, summed over consecutive batches.
     lengths : ndarray, shape (batches,)
         Cycles in each batch.
 

@@ -137,7 +137,9 @@ def _spectrum(
     lengths: np.ndarray,
     counted: tuple[int, int],
 ) -> LyapunovSpectrum:
-    """The exponents of the growths in consecutive batches; TooShort where they support no error."""
+    """The exponents of the growths in consecutive batches, the larger first; TooShort where they support no error."""
+    # Of equal exponents either direction may have grown more.
+    growths = growths[:, np.argsort(-growths.sum(axis=0), kind="stable")]
     time = cycles * system.forcing.period
     means = means_of(growths, lengths * system.forcing.period)
     floor = ROUNDING * (1.0 + sum(counted) / time)

@@ -1,7 +1,7 @@
 """Surveys: one question asked at every point of a grid, on all cores or a cluster, in memory or in a store."""
 
 from rocking.survey import notebook
-from rocking.survey.attractors import lead
+from rocking.survey.attractors import alike, lead
 from rocking.survey.axes import check_quantity
 from rocking.survey.basins import basin_map
 from rocking.survey.chaos import chaos_share
@@ -19,6 +19,7 @@ __all__ = [
     "MOST_PHASES",
     "MOST_SAMPLES",
     "MOST_SEED",
+    "alike",
     "basin_map",
     "chaos_share",
     "check_quantity",

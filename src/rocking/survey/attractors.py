@@ -146,7 +146,6 @@ def _joined(system: System, distinct: np.ndarray, anchors: np.ndarray) -> np.nda
     """A number for each distinct row, the same for rows of one attractor."""
     from scipy.sparse import coo_array
     from scipy.sparse.csgraph import connected_components
-    from scipy.spatial import cKDTree
 
     classes = np.unique(distinct[:, : len(CLASS) + 1], axis=0, return_inverse=True)[1].ravel()
     pairs = [np.empty((0, 2), int)]
@@ -154,8 +153,7 @@ def _joined(system: System, distinct: np.ndarray, anchors: np.ndarray) -> np.nda
         members = np.flatnonzero(classes == number)
         if members.size < 2 or np.isnan(anchors[members]).any():
             continue
-        near = cKDTree(anchors[members]).query_pairs(SAME, output_type="ndarray")
-        pairs.append(members[near])
+        pairs.append(members[alike(anchors[members], anchors[members])])
         period = int(distinct[members[0], 1])
         # a class of thousands is no list of attractors, but near a torus
         if period > 1 and members.size <= 1000:
@@ -167,14 +165,19 @@ def _joined(system: System, distinct: np.ndarray, anchors: np.ndarray) -> np.nda
 
 def _shared(system: System, members: np.ndarray, anchors: np.ndarray, period: int) -> np.ndarray:
     """Pairs of orbits of one period of which one's state is any of the other's."""
+    states = np.concatenate([section_of(system, anchors[each], period) for each in members])
+    rows, others = alike(states, anchors[members]).T
+    return np.column_stack([np.repeat(members, period)[rows], members[others]])
+
+
+def alike(states: np.ndarray, others: np.ndarray) -> np.ndarray:
+    """Pairs (m, 2) of rows of `states` (n, 2) and of `others` (k, 2) that stand for one attractor: as near as SAME to each other."""
     from scipy.spatial import cKDTree
 
-    states = np.concatenate([section_of(system, anchors[each], period) for each in members])
-    owners = np.repeat(members, period)
-    near = cKDTree(states).query_ball_point(anchors[members], SAME)
-    return np.array(
-        [(one, owners[k]) for one, found in zip(members, near, strict=True) for k in found]
-    ).reshape(-1, 2)
+    near = cKDTree(states).query_ball_point(others, SAME)
+    counts = [len(found) for found in near]
+    rows = np.concatenate([np.empty(0, int), *near]).astype(int)
+    return np.column_stack([rows, np.repeat(np.arange(len(others)), counts)])
 
 
 def section_of(system: System, anchor: np.ndarray, period: int) -> np.ndarray:

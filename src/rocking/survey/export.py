@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from rocking.model import check_writable, replacing
+from rocking.model import check_writable, replacing_hdf5
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -63,7 +63,7 @@ def to_netcdf(found: xr.Dataset, path: str | os.PathLike[str]) -> None:
     import h5netcdf
 
     target = check_writable("path", path, (".nc",))
-    with replacing(target) as temporary, h5netcdf.File(temporary, "w") as file:
+    with replacing_hdf5(target) as opened, h5netcdf.File(opened, "w") as file:
         file.dimensions = {str(name): size for name, size in found.sizes.items()}
         file.attrs.update(_plain(found.attrs))
         for name, variable in found.variables.items():

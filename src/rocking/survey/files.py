@@ -7,8 +7,9 @@ from typing import Any
 import numpy as np
 from numcodecs import Blosc
 from numcodecs.checksum32 import CRC32C
+from zarr.abc.buffer import Buffer, BufferPrototype
 from zarr.abc.store import ByteRequest
-from zarr.core.buffer import Buffer, BufferPrototype, default_buffer_prototype
+from zarr.buffer import default_buffer_prototype
 from zarr.storage import LocalStore
 
 SHRINK = Blosc("lz4", clevel=1, shuffle=Blosc.SHUFFLE)

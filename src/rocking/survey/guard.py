@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 import os
+import re
 import signal
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from threading import current_thread, main_thread
 
-from rocking.model import check_folder, refusal
+from rocking.model import check_folder, refusal, resolve_path
 
 ROOT = "zarr.json"
+UNFINISHED = re.compile(r"(zarr|\d+)\.[0-9a-f]{32}\.partial")
+"""The name of a description or of a chunk while Zarr writes it."""
 
 
 class StoreError(OSError):
@@ -23,10 +26,12 @@ def check_store(path: str | os.PathLike[str]) -> Path:
     if not isinstance(path, str | os.PathLike) or not os.fspath(path):
         raise TypeError(refusal("store", "be the path of a folder", path))
     folder = Path(path)
-    if folder.exists() and not folder.is_dir():
+    place = resolve_path("store", folder)
+    if place.exists() and not place.is_dir():
         raise StoreError(f"store must be a folder's name; got {str(path)!r}, which is a file")
     check_folder("store", folder)
-    held = {each.name for each in folder.iterdir() if each.suffix != ".partial"} if folder.exists() else set()
+    names = {each.name for each in place.iterdir()} if place.exists() else set()
+    held = {name for name in names if not UNFINISHED.fullmatch(name)}
     if held and ROOT not in held:
         raise StoreError(something_else(folder, f"a folder with {min(held)!r} in it"))
     return folder
@@ -101,11 +106,18 @@ def reading(folder: Path) -> Iterator[None]:
         ) from error
 
 
-def clear_partial(folder: Path) -> None:
-    """Remove what a killed run was writing, and the folders that it made for that: zarr warns of those that hold nothing."""
-    for left in folder.rglob("*.partial"):
-        left.unlink(missing_ok=True)
-    for within, _, files in os.walk(folder, topdown=False):
-        if not files and within != str(folder):
-            with suppress(OSError):  # it holds another folder
-                Path(within).rmdir()
+def remove_unfinished(folder: Path, arrays: Iterable[str]) -> None:
+    """Remove what a killed run left in a survey's store: unfinished files, and folders of its `arrays` that hold nothing.
+
+    Zarr warns of such a folder. All other names in the store are left alone.
+    """
+    own = re.compile(rf"\.|level-\d+(/({'|'.join(map(re.escape, arrays))})(/c(/\d+)*)?)?")
+    for place, _, files in os.walk(folder, topdown=False):
+        below = Path(place).relative_to(folder).as_posix()
+        if not own.fullmatch(below):
+            continue
+        for name in filter(UNFINISHED.fullmatch, files):
+            Path(place, name).unlink(missing_ok=True)
+        if below != ".":
+            with suppress(OSError):  # it holds something
+                Path(place).rmdir()

@@ -46,6 +46,35 @@ def new_layout(asked: Question) -> Layout:
     return Layout(asked.axes, halved, [each.tile for each in grids])
 
 
+def read_layout(stored: Mapping[str, Any]) -> Layout:
+    """A layout as a store describes it; ValueError or TypeError where no `described_layout` says that."""
+    missing = [name for name in ("axes", "halved", "tiles") if name not in stored]
+    if missing:
+        raise ValueError(f"it does not say {missing[0]}")
+    axes = {name: np.array(values, float) for name, values in dict(stored["axes"]).items()}
+    halved = [tuple(each) for each in stored["halved"]]
+    tiles = [tuple(each) for each in stored["tiles"]]
+    for name, values in axes.items():
+        if (
+            values.ndim != 1
+            or values.size < 2
+            or not np.isfinite(values).all()
+            or (np.diff(values) <= 0).any()
+        ):
+            raise ValueError(f"{name} is no axis")
+    if (
+        list(axes) != stored["over"]
+        or len(tiles) != len(halved) + 1
+        or any(len(each) != len(axes) for each in (*halved, *tiles))
+    ):
+        raise ValueError("its levels, axes and tiles do not go together")
+    if not all(type(flag) is bool for each in halved for flag in each):
+        raise ValueError("what is halved must be true or false")
+    if not all(type(edge) is int and edge > 0 for each in tiles for edge in each):
+        raise ValueError("tiles must have whole numbers of points")
+    return Layout(axes, halved, tiles)
+
+
 def described_layout(layout: Layout) -> dict[str, Any]:
     """A layout as JSON has it."""
     return {
@@ -71,6 +100,16 @@ def fingerprint(asked: Question, measure: Measure) -> dict[str, Any]:
     }
 
 
+def check_described(stored: Any) -> None:
+    """Refuse what `fingerprint` never says, whatever the survey; TypeError."""
+    kinds = {"fixed": dict, "options": dict, "over": list, "variables": list}
+    if not isinstance(stored, dict):
+        raise TypeError(f"it says {shown(stored)}")
+    for name, kind in kinds.items():
+        if not isinstance(stored.get(name, kind()), kind):
+            raise TypeError(f"it says {name} = {shown(stored[name])}")
+
+
 def check_same(path: str, stored: Mapping[str, Any], mine: Mapping[str, Any]) -> None:
     """Refuse a store that was made otherwise; ValueError that says what differs."""
     ours, theirs = _flat(mine), _flat(stored)
@@ -85,20 +124,18 @@ def check_same(path: str, stored: Mapping[str, Any], mine: Mapping[str, Any]) ->
         )
 
 
-def joined(path: str, stored: Mapping[str, Any], asked: Question) -> Layout:
+def joined(path: str, stored: Layout, asked: Question) -> Layout:
     """What a store holds together with what is asked: the same axes, longer ones, or ones of half the spacing (or a quarter, …).
 
     Raises ValueError for axes that leave out or move what is there.
     """
-    finest = {name: np.array(values) for name, values in stored["axes"].items()}
-    pairs = [_join(path, name, values, asked.axes[name]) for name, values in finest.items()]
-    axes = {name: values for name, (values, _) in zip(finest, pairs, strict=True)}
+    pairs = [_join(path, name, values, asked.axes[name]) for name, values in stored.axes.items()]
+    axes = {name: values for name, (values, _) in zip(stored.axes, pairs, strict=True)}
     halvings = [times for _, times in pairs]
     more = [tuple(number < times for times in halvings) for number in range(max(halvings))]
-    tiles = [tuple(each) for each in stored["tiles"]]
     edges = tile_edges([values.size for values in axes.values()])
-    layout = Layout(axes, [*map(tuple, stored["halved"]), *more], tiles + [edges] * len(more))
-    for number in range(len(tiles), len(layout.tiles)):
+    layout = Layout(axes, stored.halved + more, stored.tiles + [edges] * len(more))
+    for number in range(len(stored.tiles), len(layout.tiles)):
         layout.tiles[number] = even_edges(layout.levels()[number].axes, edges)
     return layout
 
@@ -130,7 +167,7 @@ def _flat(told: Mapping[str, Any]) -> dict[str, Any]:
 
 def _difference(name: str, there: Any, here: Any) -> str:
     if name == "over":
-        return f"it varies {' and '.join(there)} there, {' and '.join(here)} here"
+        return f"it varies {' and '.join(map(str, there or ()))} there, {' and '.join(here)} here"
     if isinstance(there, list) and isinstance(here, list):  # what only one of them has
         there, here = (
             [each for each in there if each not in here],

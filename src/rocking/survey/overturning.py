@@ -19,7 +19,7 @@ from rocking.theory import heteroclinic_amplitude
 
 MOST_PHASES = 100_000
 TITLE = "Overturning of a free-standing block from rest on a shaking base"
-SCANNED = tuple(np.linspace(1.0, 16.0, 301).tolist())
+SCANNED = np.linspace(1.0, 16.0, 301)
 """Amplitudes scanned unless others are given; up to 1 nothing moves from rest."""
 
 
@@ -28,7 +28,7 @@ def overturning_amplitude(
     period: Any = None,
     frequency: Any = None,
     restitution: Any,
-    amplitude: Any = SCANNED,
+    amplitude: Any = None,
     phases: int = 16,
     max_cycles: int = 1_000,
     max_period: int = 64,
@@ -49,7 +49,7 @@ def overturning_amplitude(
         T or Ω (exactly one of them), ascending if several.
     restitution : float or array (n,)
         e, likewise.
-    amplitude : array (n,)
+    amplitude : array (n,), optional
         The amplitudes to scan, ascending; 301 from 1 to 16 unless given.
     phases : int
         How many phases φ, evenly over half a turn: from rest those of the other half only swap left and right.
@@ -87,6 +87,7 @@ def overturning_amplitude(
     (('period',), (2, 31))
     """
     count = whole("phases", phases, 1, MOST_PHASES)
+    amplitude = SCANNED if amplitude is None else amplitude
     if np.ndim(amplitude) != 1:
         raise TypeError(refusal("amplitude", "be an axis of amplitudes to scan, ascending", amplitude))
     measure = outcome(max_cycles, max_period, TITLE)

@@ -76,7 +76,7 @@ def repeatability(
     >>> import rocking as rk
     >>> system = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925)
     >>> print(rk.repeatability(system, samples=200))
-    200 runs off by up to 1 %: period 1, symmetric, 2 impacts 100.0 % (98.1–100.0 %)
+    200 runs off by up to 1 %: period 1, symmetric, 2 impacts 100 % (98.1–100 %)
     """
     start = State() if start is None else start
     check_start(system, start)
@@ -112,5 +112,5 @@ def _told(kind: int, period: int, symmetric: int, impacts: int) -> str:
     """A response in a few words."""
     if kind != kernel.PERIODIC:
         return str(KINDS[kind])
-    many_impacts = "with rest" if impacts < 0 else counted(impacts, "impact")
+    many_impacts = "infinitely many impacts" if impacts < 0 else counted(impacts, "impact")
     return f"period {period}, {'symmetric' if symmetric == 1 else 'unsymmetric'}, {many_impacts}"

@@ -41,7 +41,7 @@ VARIABLES = (
         -2,
         {
             "long_name": "impacts in a period of the response",
-            "comment": "-1: not periodic, or they accumulate",
+            "comment": "-1: not periodic, or infinitely many before rest or leaning",
         },
     ),
     Variable(
@@ -50,7 +50,7 @@ VARIABLES = (
         -2,
         {
             "long_name": "brace hits in a period of the response",
-            "comment": "-1: not periodic, or they accumulate",
+            "comment": "-1: not periodic, or infinitely many before rest or leaning",
         },
     ),
     Variable("symmetric", "uint8", 255, {"long_name": "symmetry of the response", **SYMMETRY}),
@@ -118,7 +118,7 @@ def respond(
 
 def judged(told: answers.Answers) -> Arrays:
     """The cascade's answers by the names of the variables."""
-    unweighed = (told.kind == kernel.UNDETERMINED) & (told.ground != kernel.INDISTINCT)
+    unweighed = (told.kind == kernel.UNDETERMINED) & ~np.isin(told.ground, kernel.WEIGHED)
     overturns, periodic = told.kind == kernel.OVERTURNS, told.kind == kernel.PERIODIC
     return {
         "kind": told.kind,

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from rocking.model import reals, refusal, shown, whole
+from rocking.model import instance, reals, refusal, shown, whole
 from rocking.survey.axes import RANGES, Points
 from rocking.survey.run import engine
 from rocking.survey.tiles import Arrays, Measure
@@ -20,6 +20,8 @@ MOST_SEED = 2**32 - 1
 
 def sampled(points: Points, measure: Measure, executor: Executor | None = None) -> Arrays:
     """The answers of a measure at points, in their order."""
+    if executor is not None:
+        instance("executor", executor, Executor)
     measure.compile(bool(points.may_last.any()))
     total = len(points.systems)
     with engine(executor) as (pool, stop):

@@ -18,13 +18,22 @@ from rocking.survey.guard import (
     StoreError,
     alone,
     check_store,
-    clear_partial,
     reading,
+    remove_unfinished,
     something_else,
     undisturbed,
     writing,
 )
-from rocking.survey.layout import Layout, check_same, described_layout, fingerprint, joined, new_layout
+from rocking.survey.layout import (
+    Layout,
+    check_described,
+    check_same,
+    described_layout,
+    fingerprint,
+    joined,
+    new_layout,
+    read_layout,
+)
 from rocking.survey.plan import Level, Slices, Tile
 from rocking.survey.tiles import Arrays, Measure
 
@@ -52,10 +61,10 @@ class Store:
         self.path, self.measure = path, measure
         self.files = Files(path)
         with undisturbed(), writing(path):
-            clear_partial(path)
             self.layout, self.root = self._agreed(asked)
             self.asked = Question(self.layout.axes, asked.fixed)
             self.levels: list[Level] = self.layout.levels()
+            remove_unfinished(path, [*self.layout.axes, *(each.name for each in measure.variables)])
             self.arrays = self._arranged()
         self.done = 0
         self.begun: set[tuple[int, tuple[int, ...]]] = set()  # tiles of which something sound is there
@@ -176,8 +185,12 @@ class Store:
         stored: Any = root.attrs.get(NAME)
         if stored is None:
             raise StoreError(something_else(self.path, "a Zarr store of something else"))
+        with reading(self.path):
+            check_described(stored)
         check_same(str(self.path), stored, mine)
-        layout = joined(str(self.path), stored, asked)
+        with reading(self.path):
+            held = read_layout(stored)
+        layout = joined(str(self.path), held, asked)
         if stored | described_layout(layout) != stored:
             root.attrs[NAME] = stored | described_layout(layout)
         return layout, root
@@ -207,7 +220,7 @@ def opened(
     """
     folder = check_store(path)
     with writing(folder):
-        folder.mkdir(parents=True, exist_ok=True)
+        folder.resolve().mkdir(parents=True, exist_ok=True)
     with alone(folder):
         yield Store(folder, asked, measure, repair=repair)
 

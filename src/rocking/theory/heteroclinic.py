@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from rocking.kernels import manifold
 from rocking.model import reals
 from rocking.theory.arguments import amplitudes, frequencies, plain, restitutions, side_of
 
@@ -76,8 +77,8 @@ def saddle_orbit(phase: Any, amplitude: Any, period: Any, orbit: str = "upper") 
     >>> round(angle, 6), velocity
     (1.04941, 0.0)
     """
-    psi, omega, beta = _response(phase, amplitude, period)
-    return plain(side_of(orbit) + beta * np.cos(psi)), plain(-beta * omega * np.sin(psi) + 0.0)
+    angle, velocity = _swing(phase, amplitude, period)
+    return plain(side_of(orbit) + angle), plain(velocity + 0.0)
 
 
 def unstable_manifold_velocity(phase: Any, amplitude: Any, period: Any) -> Any:
@@ -90,8 +91,8 @@ def unstable_manifold_velocity(phase: Any, amplitude: Any, period: Any) -> Any:
     >>> unstable_manifold_velocity(0.3, 0.0, 1.0)
     1.0
     """
-    psi, omega, beta = _response(phase, amplitude, period)
-    return plain(1.0 - beta * (np.cos(psi) + omega * np.sin(psi)))
+    angle, velocity = _swing(phase, amplitude, period)
+    return plain(1.0 - (angle - velocity))
 
 
 def stable_manifold_velocity(phase: Any, amplitude: Any, period: Any) -> Any:
@@ -104,8 +105,8 @@ def stable_manifold_velocity(phase: Any, amplitude: Any, period: Any) -> Any:
     >>> stable_manifold_velocity(0.3, 0.0, 1.0)
     1.0
     """
-    psi, omega, beta = _response(phase, amplitude, period)
-    return plain(1.0 + beta * (np.cos(psi) - omega * np.sin(psi)))
+    angle, velocity = _swing(phase, amplitude, period)
+    return plain(1.0 + (angle + velocity))
 
 
 def manifold_gap(phase: Any, amplitude: Any, period: Any, restitution: Any) -> Any:
@@ -133,13 +134,16 @@ def manifold_gap(phase: Any, amplitude: Any, period: Any, restitution: Any) -> A
     >>> bool(abs(largest) < 1e-11)
     True
     """
-    psi, omega, beta = _response(phase, amplitude, period)
+    angle, velocity = _swing(phase, amplitude, period)
     e = restitutions(restitution)
     lost = 1.0 - e
-    return plain(-lost - beta * ((1.0 + e) * np.cos(psi) - omega * lost * np.sin(psi)))
+    return plain(-lost - ((1.0 + e) * angle + lost * velocity))
 
 
-def _response(phase: Any, amplitude: Any, period: Any) -> tuple[Any, Any, Any]:
-    """(ψ, Ω, β)."""
+def _swing(phase: Any, amplitude: Any, period: Any) -> tuple[Any, Any]:
+    """(β cos ψ, −βΩ sin ψ): how far a saddle orbit is from ±1, and its velocity."""
     omega = frequencies(period)
-    return np.asarray(reals("phase", phase)), omega, amplitudes(amplitude) / (1.0 + omega * omega)
+    forcing = np.broadcast_arrays(amplitudes(amplitude), omega, reals("phase", phase))
+    swing = np.empty((*forcing[0].shape, 2))
+    manifold.swings(*(np.ascontiguousarray(each, float).ravel() for each in forcing), swing.reshape(-1, 2))
+    return swing[..., 0], swing[..., 1]

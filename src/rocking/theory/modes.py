@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from rocking.kernels import mode, symmetric
+from rocking.kernels import mode, orbit, symmetric
 from rocking.kernels import parameters as numbers
 from rocking.model import (
     LARGEST_AMPLITUDE,
@@ -174,7 +174,7 @@ def symmetric_modes(amplitude: float, period: float, restitution: float, n: int)
         remedy = "an impact that stops the block leaves no mode"
         raise ValueError(refusal("restitution", "lie in (0, 1] for symmetric modes", restitution, remedy))
     odd(whole("n", n, 1, MOST_CYCLES))
-    beta = amplitude / (1.0 + omega * omega)
+    beta = numbers.harmonic_parameters(amplitude, omega, period, 0.0, e).response
     modes = []
     for faster in (True, False):
         speed, phase, trace = mode.closed_form_plain(omega, beta, e, n, faster)
@@ -188,12 +188,12 @@ def _mode(
 ) -> Mode:
     """One root with what follows from it."""
     omega = math.tau / period
-    length, swing = n * math.pi / omega, amplitude * math.cos(phase) / (1.0 + omega * omega)
-    shrunk = math.exp(-length)
-    common, other = -1.0 / (1.0 + shrunk), swing / math.expm1(-length)
     p = numbers.harmonic_parameters(amplitude, omega, period, phase, e)
+    length = n * math.pi / omega
+    common = -1.0 / (1.0 + math.exp(-length))
+    other = p.response * math.cos(phase) / math.expm1(-length)
     up, peak = symmetric.half_cycle(p, speed, common + other, common - other, length)
-    half = _multipliers(trace, e)
+    known = 0.5 * trace, (0.5 * trace - e) * (0.5 * trace + e), e * e
     return Mode(
         amplitude=amplitude,
         period=float(period),
@@ -202,28 +202,8 @@ def _mode(
         velocity=speed,
         phase=phase,
         trace=trace,
-        half_multipliers=half,
-        multipliers=_squares(half),
-        stable=abs(trace) < 1.0 + e * e,
+        half_multipliers=orbit.multipliers_plain(*known, False),
+        multipliers=orbit.multipliers_plain(*known, True),
         admissible=bool(up),
         peak=peak if up else None,
     )
-
-
-def _multipliers(trace: float, e: float) -> tuple[complex, complex]:
-    """Both eigenvalues of a matrix with this trace and determinant e², the larger first."""
-    square = (0.5 * trace - e) * (0.5 * trace + e)
-    if square < 0.0:
-        root = math.sqrt(-square)
-        return complex(0.5 * trace, root), complex(0.5 * trace, -root)
-    large = 0.5 * trace + math.copysign(math.sqrt(square), trace)
-    return complex(large), complex(e * e / large)
-
-
-def _squares(pair: tuple[complex, complex]) -> tuple[complex, complex]:
-    """Over the whole response: of two conjugate ones again the one above the real axis first."""
-    if pair[0].imag == 0.0:
-        return complex(pair[0].real * pair[0].real), complex(pair[1].real * pair[1].real)
-    square = pair[0] * pair[0]
-    above = complex(square.real, abs(square.imag))
-    return above, above.conjugate()

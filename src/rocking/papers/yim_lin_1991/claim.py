@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import inspect
+import re
 from collections.abc import Callable
 from enum import StrEnum
 
-from attrs import frozen
+from attrs import evolve, frozen
 
 SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
@@ -21,6 +22,35 @@ def small(value: float) -> str:
     """
     digit, _, power = f"{value:.0e}".partition("e")
     return f"{digit}·10{str(int(power)).translate(SUPERSCRIPT)}" if value else "0"
+
+
+def agreement(value: float) -> str:
+    """How far two computed quantities are apart at most.
+
+    Examples
+    --------
+    >>> agreement(6.1e-14), agreement(0.0)
+    ('apart by at most 6·10⁻¹⁴', 'equal bit for bit')
+    """
+    return f"apart by at most {small(value)}" if value else "equal bit for bit"
+
+
+def typeset(text: str) -> str:
+    """Text with its numbers as in print: a minus sign, and powers of ten.
+
+    Examples
+    --------
+    >>> typeset("-0.052, within 1e-07, 2.5e+05, cycles 1-3, x-2")
+    '−0.052, within 10⁻⁷, 2.5·10⁵, cycles 1-3, x-2'
+    """
+
+    def power(found: re.Match[str]) -> str:
+        digits, exponent = found.groups()
+        ten = f"10{str(int(exponent)).translate(SUPERSCRIPT)}"
+        return ten if digits == "1" else f"{digits}·{ten}"
+
+    text = re.sub(r"(?<![\w.])(\d+(?:\.\d+)?)e([+-]\d+)\b", power, text)
+    return re.sub(r"(?<![\w.])-(?=\d)", "−", text)
 
 
 class Standing(StrEnum):
@@ -88,6 +118,7 @@ class Claim:
     def judged(self) -> Judged:
         """Computed now."""
         finding = self.compute()
+        finding = evolve(finding, figures=typeset(finding.figures))
         if finding.holds:
             return Judged(self, Standing.REPRODUCED, finding)
         return Judged(self, self.otherwise if finding.shown else Standing.UNEXPLAINED, finding)

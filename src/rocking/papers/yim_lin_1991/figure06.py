@@ -1,7 +1,7 @@
 """Figure 6: chaotic response, A = 2, T = 0.4, e = 1, from rest with φ = 0: (a) time history, (b) phase diagram.
 
 Ours shows 60 cycles of the time history and 120 of the phase diagram, from the start. Neighbouring motions part by a
-factor e in some eight cycles: these 120 do not yet depend on rounding, cycles after about 250 would.
+factor e in some seven cycles: these 120 do not yet depend on rounding, cycles after about 250 would.
 """
 
 from matplotlib.figure import Figure

@@ -4,7 +4,8 @@ The paper's axes are not known; ours are T 0.2 to 3 and A 0 to 16, as in all our
 
 Where ours differs: the paper takes what it shows for the absence of stable periodic response. The quasi-periodic motions are the
 islands around periodic ones that are neutrally stable, as in figure 5. Four fifths of this map overturn, and chaos is a few
-percent. Some points stay undetermined: their motions stick to the islands' edges for longer than they were followed.
+percent. Both names hold for the cycles that were followed. Some points stay undetermined: their motions stick to the islands'
+edges for longer than they were followed.
 """
 
 from matplotlib.figure import Figure

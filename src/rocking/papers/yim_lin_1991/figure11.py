@@ -5,8 +5,9 @@ in closed form. Dots continue a curve where its mode is not there to lose its st
 would not keep its side for the half cycle. The paper's axes are not known; ours are T 0.2 to 3 and A 0 to 16, as in all our maps.
 
 Where ours differs: the paper takes the curve of the (1,3) mode for its upper bound throughout. Where it is dotted, below T = 0.8 or
-so, the mode ends at a smaller amplitude, in a grazing impact. Beyond the curve of the (1,1) mode the response is period 1 still,
-unsymmetric. And A_M is no bound on chaos: above it lies most of the map, and next to none of it is chaotic (see figure 12).
+so, the mode ends at a smaller amplitude, in a grazing impact. Beyond the curve of the (1,1) mode most points overturn; nearly all
+others have period 1 and are unsymmetric. And A_M is no bound on chaos: above it lies most of the map, and next to none of it is
+chaotic (see figure 12).
 """
 
 from matplotlib.figure import Figure

@@ -8,13 +8,18 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from rocking.model import replacing
+from rocking.papers.yim_lin_1991.claim import typeset
 
 
 def write_table(folder: Path, name: str, header: Sequence[str], rows: Sequence[Sequence[str]]) -> list[Path]:
-    """Writes a table as CSV and as Markdown."""
+    """Write a table as CSV, with plain numbers, and as Markdown, with numbers as in print."""
     stream = io.StringIO()
     csv.writer(stream, lineterminator="\n").writerows([header, *rows])
-    lines = [header, ["---"] * len(header), *([text.replace("|", r"\|") for text in row] for row in rows)]
+    lines = [
+        header,
+        ["---"] * len(header),
+        *([typeset(text).replace("|", r"\|") for text in row] for row in rows),
+    ]
     markdown = "".join(f"| {' | '.join(line)} |\n" for line in lines)
     written = []
     for suffix, text in ((".csv", stream.getvalue()), (".md", markdown)):

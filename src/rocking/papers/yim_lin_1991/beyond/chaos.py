@@ -1,7 +1,8 @@
-"""Chaos grows as the losses do: its share among random periods and amplitudes, over the restitution.
+"""Chaos is commonest where the losses are large: its share among random periods and amplitudes, over the restitution.
 
-From rest, T 0.2 to 3, A 0 to 16, with 95 % intervals. The paper found chaotic responses only for e above 0.95. At e = 0.2 it is
-about every fifth system; the chaos lies in a band between period doublings and overturning, for which weak impacts leave no room.
+From rest, T 0.2 to 3, A 0 to 16, 400 systems for each e, with 95 % intervals. The paper found chaotic responses only for e above 0.95.
+Here about every fifth system is chaotic at e = 0.2. The share falls as e grows to 0.8, and no chaotic system was found at e = 0.8, 0.9,
+0.925, 0.95 and 0.97. It does not fall throughout: a few systems are chaotic at e = 1.
 """
 
 from matplotlib.figure import Figure
@@ -11,7 +12,7 @@ from rocking.papers.yim_lin_1991 import surveys
 
 
 def draw() -> Figure:
-    """Draws the share over e."""
+    """Draw the share over e."""
     figure, (ax,) = rk.plot.panels(height=3.0)
     rk.plot.chaos_share(surveys.chaos(), ax)
     return figure

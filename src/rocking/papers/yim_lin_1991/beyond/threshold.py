@@ -1,7 +1,7 @@
 """The exact threshold against Melnikov's, e = 0.5, 0.8 and 0.925.
 
 A* is the amplitude at which the manifolds of the two saddle orbits touch, in closed form; A_M of eq. (22) is its first order in A and
-1 − e. Melnikov's is too low for slow forcing and too high for fast; the two agree where little is lost.
+1 − e. Melnikov's is too low for slow forcing and too high for fast; the two agree in the limit e → 1.
 """
 
 import numpy as np

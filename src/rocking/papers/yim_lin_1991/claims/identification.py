@@ -8,6 +8,7 @@ from functools import cache
 import numpy as np
 
 import rocking as rk
+from rocking.model import percent
 from rocking.papers.yim_lin_1991 import surveys, table_exponents
 from rocking.papers.yim_lin_1991.cases import CHAOTIC, PERIODIC, QUASI_PERIODIC
 from rocking.papers.yim_lin_1991.claim import Chapter, Finding, small
@@ -93,7 +94,7 @@ def figure_8b() -> Finding:
     unnamed = sum(1 for line in density.peaks if not line.name)
     return Finding(
         unnamed == 0 and len(density.peaks) > 2 and density.line_share > 0.99,
-        f"{len(density.peaks)} lines hold {100 * density.line_share:.2f} % of the variance, all combinations of two frequencies",
+        f"{len(density.peaks)} lines hold {percent(density.line_share)} of the variance, all combinations of two frequencies",
     )
 
 

@@ -8,7 +8,7 @@ import numpy as np
 
 import rocking as rk
 from rocking.papers.yim_lin_1991 import surveys
-from rocking.papers.yim_lin_1991.claim import Chapter, Finding, small
+from rocking.papers.yim_lin_1991.claim import Chapter, Finding, agreement, small
 
 CHAPTER = Chapter("Condition for the existence of chaotic response")
 FREE = rk.System(rk.Harmonic(amplitude=0.0, period=1.0), restitution=1.0)
@@ -45,7 +45,8 @@ def conditions() -> Finding:
     rising = measured == sorted(measured)
     return Finding(
         rising and off < 1e-8,
-        f"period {', '.join(f'{period:.2f}' for period in measured)} from 0.5 to 10⁻⁶ below it; 4 arccosh(1/(1 − Θ₀)) to {small(off)}",
+        f"period {', '.join(f'{period:.2f}' for period in measured)} from 0.5 to 10⁻⁶ below it; these and 4 arccosh(1/(1 − Θ₀)) are "
+        f"{agreement(off)}",
     )
 
 
@@ -154,7 +155,7 @@ def figure_9() -> Finding:
     off = float(np.max(np.hypot(angle - closed[0], velocity - closed[1]) * np.exp(-times)))
     return Finding(
         off < 1e-14,
-        f"the block that leaves the base with Θ' = 1 stays on it for τ ≤ 8, to {small(off)} times e^τ",
+        f"the block that leaves the base with Θ' = 1 stays on it for τ ≤ 8, to {small(off)} times exp τ",
     )
 
 
@@ -233,7 +234,7 @@ def lower_orbit() -> Finding:
     off, apart = np.abs(integrals - shifted).max(), np.abs(integrals - upper[::40]).max()
     return Finding(
         bool(apart < 1e-6),
-        f"|M⁻ − M⁺| up to {apart:.3g}; |M⁻(τ₀) − M⁺(τ₀ + T/2)| ≤ {small(off)}",
+        f"|M⁻ − M⁺| up to {apart:.3g}; M⁻(τ₀) and M⁺(τ₀ + T/2) are {agreement(off)}",
         shown=bool(off < 2e-6),
     )
 

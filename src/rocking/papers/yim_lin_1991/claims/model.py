@@ -7,7 +7,7 @@ from scipy.integrate import solve_ivp
 
 import rocking as rk
 from rocking.papers.yim_lin_1991.cases import PERIODIC
-from rocking.papers.yim_lin_1991.claim import Chapter, Finding, small
+from rocking.papers.yim_lin_1991.claim import Chapter, Finding, agreement, small
 
 CHAPTER = Chapter("Equations of motion")
 BLOCK = rk.Block(height=2.0, width=0.5, restitution=0.925)
@@ -80,7 +80,7 @@ def equation_2() -> Finding:
     hits = rk.simulate(system, cycles=200).events
     hits = hits[hits["kind"] == "impact"]
     off = np.abs(hits["after"] - system.restitution * hits["before"]).max()
-    return Finding(bool(off < 1e-15), f"{len(hits)} impacts: |Θ'₊ − e Θ'₋| ≤ {small(off)}")
+    return Finding(bool(off < 1e-15), f"{len(hits)} impacts: Θ'₊ and e Θ'₋ are {agreement(off)}")
 
 
 @CHAPTER.claim("Eq. (3)")
@@ -89,7 +89,10 @@ def equation_3() -> Finding:
     forcing = rk.Harmonic(amplitude=2.0, frequency=3.0, phase=0.7)
     times = np.linspace(0.0, 50.0, 1001)
     off = np.abs(forcing.acceleration(times) - 2.0 * np.cos(3.0 * times + 0.7)).max()
-    return Finding(bool(off < 1e-13), f"|difference| ≤ {small(off)} over 50 units of τ")
+    return Finding(
+        bool(off < 1e-13),
+        f"the acceleration of the base and A cos(Ωτ + φ) are {agreement(off)} over 50 units of τ",
+    )
 
 
 def _fallen(_: float, state: np.ndarray) -> float:

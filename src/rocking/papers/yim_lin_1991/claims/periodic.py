@@ -69,7 +69,7 @@ def pairs() -> Finding:
     return Finding(
         one == 0,
         f"of {DRAWN:,} random systems {counts.count(0)} have none, {one} one, {counts.count(2)} two; "
-        f"those of figures 2a, 2b and 5: {of_figures}",
+        f"those of figures 2a, 2b and 5: {', '.join(map(str, of_figures))}",
         shown=shown and one > 0,
     )
 

@@ -28,7 +28,7 @@ def eigenvalues() -> Finding:
         if mode.admissible
     ]
     products = max(abs(mode.half_multipliers[0] * mode.half_multipliers[1] - 1.0) for mode in modes)
-    sizes = [abs(abs(mode.half_multipliers[0]) - 1.0) for mode in modes if mode.stable]
+    sizes = [abs(abs(mode.half_multipliers[0]) - 1.0) for mode in modes if mode.stability == "neutral"]
     largest = max(abs(mode.half_multipliers[0]) for mode in modes)
     return Finding(
         bool(np.isinf(largest)),
@@ -91,7 +91,7 @@ def no_periodic() -> Finding:
     section = rk.simulate(mode.system, mode.start, cycles=30_000, record="section").section()
     off = float(np.abs(section[::3] - section[0]).max())
     near = rk.classify(mode.system, rk.State(velocity=mode.velocity + 1e-3))
-    exists = mode.stable and off < 1e-6 and near.kind is rk.Kind.QUASI_PERIODIC
+    exists = mode.stability == "neutral" and off < 1e-6 and near.kind is rk.Kind.QUASI_PERIODIC
     return Finding(
         not exists,
         f"(1,3) at A = 4, T = 0.4 repeats itself for 30,000 cycles to {small(off)}; from 10⁻³ beside it the motion is {near.kind}",
@@ -136,6 +136,6 @@ def folding() -> Finding:
         and motion.outcome is rk.Outcome.BOUNDED
         and 0.0 < rate < 1.0
         and per_cycle > 3.0 * spread,
-        f"figure 6: an arc parts neighbours like e^τ, yet |Θ| ≤ {motion.peak:.3f} over 5,000 cycles and "
+        f"figure 6: an arc parts neighbours like exp τ, yet |Θ| ≤ {motion.peak:.3f} over 5,000 cycles and "
         f"λ₁ = {rate:.2f} per τ, less than the 1 of an arc",
     )

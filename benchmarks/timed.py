@@ -1,0 +1,65 @@
+"""Run one case after another for `python -m benchmarks.against`: a name a line in, processor seconds a line out.
+
+Two commits of the package run this same script, so it uses public names alone.
+"""
+
+import os
+import sys
+import time
+from concurrent.futures import ThreadPoolExecutor
+from functools import partial
+from pathlib import Path
+
+import numpy as np
+
+import rocking as rk
+
+ONE_THREAD = ThreadPoolExecutor(1)
+PERIODS, AMPLITUDES = (0.2, 3.0), (0.0, 16.0)
+# At e = 1 nearly every motion of this window is chaotic or undetermined, so nearly every block is marched to its last cycle.
+LONG_MOTIONS = {"periods": (0.2, 0.7), "amplitudes": (1.1, 1.4)}
+
+
+def march(cycles, amplitude, period, restitution):
+    """Simulate one block from rest and keep nothing."""
+    system = rk.System(rk.Harmonic(amplitude, period=period), restitution)
+    rk.simulate(system, cycles=cycles, record="none")
+
+
+def compute_map(points, restitution, periods=PERIODS, amplitudes=AMPLITUDES, **more):
+    """Classify ``points`` × ``points`` systems on one thread."""
+    axes = {"amplitude": np.linspace(*amplitudes, points), "period": np.linspace(*periods, points)}
+    rk.parametric_map(**axes, restitution=restitution, executor=ONE_THREAD, **more)
+
+
+CASES = {
+    "one block (1,1)": partial(march, 1_000_000, 2.0, 1.0, 0.925),
+    "one block (1,3)": partial(march, 2_500_000, 6.5, 0.4, 0.925),
+    "one block, chaotic": partial(march, 500_000, 10.103037, 1.721328, 0.8),
+    "lanes": partial(compute_map, 10, 1.0, **LONG_MOTIONS),
+    "map, e = .925": partial(compute_map, 140, 0.925),
+    "map, e = 1": partial(compute_map, 42, 1.0),
+    "map, braced": partial(compute_map, 35, 0.925, brace_angle=1.0, max_cycles=1_000),
+}
+"""A tenth of a second or two each."""
+
+
+def main(source, core):
+    """Serve requests on one core until the input ends; the first run of a case loads its kernels and is not timed."""
+    if Path(source) not in Path(rk.__file__).parents:
+        sys.exit(f"the package must come from {source}; got {rk.__file__}")
+    if core != "any":
+        os.sched_setaffinity(0, {int(core)})
+    ready = set()
+    for line in sys.stdin:
+        run = CASES[line.strip()]
+        if run not in ready:
+            run()
+            ready.add(run)
+        begun = time.process_time()
+        run()
+        print(time.process_time() - begun, flush=True)
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])

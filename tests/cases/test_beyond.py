@@ -1,0 +1,104 @@
+"""What lies beyond the paper: titles and captions say what the points beside them show."""
+
+import inspect
+import itertools
+import re
+
+import numpy as np
+
+import rocking as rk
+from rocking.papers.yim_lin_1991 import figure11, surveys
+from rocking.papers.yim_lin_1991.beyond import chaos, coexistence, crisis, zoom
+
+
+def title(ax):
+    return ax.get_title(loc="left")
+
+
+def caption(module):
+    return " ".join(inspect.cleandoc(module.__doc__).split())
+
+
+def points(ax, gid):
+    return [np.column_stack(line.get_data()) for line in ax.lines if line.get_gid() == gid]
+
+
+def test_titles_of_the_crisis_are_those_of_the_runs_that_are_drawn(monkeypatch):
+    monkeypatch.setattr(rk, "classify", None)  # whose run may follow another chaotic transient
+    left, right = crisis.draw().axes
+    for ax, amplitude in ((left, 4.86), (right, 4.88)):
+        assert f"$A = {amplitude}$" in title(ax)
+        (transient,), settled = points(ax, "section"), points(ax, "settled")
+        assert len(transient) + sum(map(len, settled)) == crisis.CYCLES + 1 - crisis.LEFT_OUT
+        told = re.search(r"period (\d+) from cycle ([\d,]+) on", title(ax))
+        assert (told is None) == (not settled)
+        assert ("not periodic" in title(ax)) == (not settled)
+        if settled:
+            period, cycle = (int(word.replace(",", "")) for word in told.groups())
+            assert cycle == crisis.LEFT_OUT + len(transient)
+            apart = [np.hypot(*(settled[0][n:] - settled[0][:-n]).T).max() for n in range(1, period + 1)]
+            assert apart[-1] <= 1e-3 < min(apart[:-1], default=1.0)
+            # the last point before them has not yet come back
+            before = np.concatenate([transient[-1:], settled[0]])
+            assert np.hypot(*(before[period] - before[0])) > 1e-3
+    assert "2·10⁴ cycles" in caption(crisis)
+    assert crisis.CYCLES == 20_000
+
+
+def test_title_of_the_basins_has_the_exponents_that_were_computed(monkeypatch):
+    made, basin_map = [], rk.basin_map
+    monkeypatch.setattr(coexistence, "COUNT", 40)
+    monkeypatch.setattr(
+        rk, "basin_map", lambda *given, **named: made.append(basin_map(*given, **named)) or made[-1]
+    )
+    (ax,) = coexistence.draw().axes
+    (found,) = made
+    assert title(ax) == (
+        f"uncertainty exponent\nof all boundaries: {found.attractor_exponent}\nof overturning: {found.uncertainty_exponent}"
+    )
+    assert 0.0 < found.attractor_exponent.low < found.attractor_exponent.high < 1.0
+
+
+def test_enlarged_boundary_is_as_finely_divided_as_its_title_says(monkeypatch):
+    made, parametric_map = [], rk.parametric_map
+    monkeypatch.setattr(
+        rk, "parametric_map", lambda **named: made.append(parametric_map(**named)) or made[-1]
+    )
+    figure = zoom.draw()
+    for ax, found in zip(figure.axes, made, strict=True):
+        kinds = found.kind.transpose("amplitude", "period").values.tolist()
+        pairs = [(one == 4) != (other == 4) for row in kinds for one, other in itertools.pairwise(row)]
+        told = float(re.search(r"one of two neighbours overturns: ([\d.]+) %", title(ax))[1])
+        assert told == round(100 * sum(pairs) / len(pairs), 1)
+        assert told > 10 / 2.39  # more than ten times what one smooth boundary across would give
+        # and yet there are regions without a change
+        rows = [
+            np.diff(np.flatnonzero([True, *np.not_equal(row[1:], row[:-1]), True])).max() for row in kinds
+        ]
+        assert max(rows) > 24
+
+
+def test_caption_of_the_share_of_chaos_says_what_is_drawn(reproduced):
+    shares = dict(zip(surveys.RESTITUTIONS, surveys.chaos().shares, strict=True))
+    text = caption(chaos)
+    assert "about every fifth system is chaotic at e = 0.2" in text
+    assert shares[0.2].low <= 0.2 <= shares[0.2].high
+    values = [share.value for e, share in shares.items() if e <= 0.8]
+    assert "falls as e grows to 0.8" in text
+    assert values == sorted(values, reverse=True)
+    assert "no chaotic system was found at e = 0.8, 0.9, 0.925, 0.95 and 0.97" in text
+    assert [e for e, share in shares.items() if not share.count] == [0.8, 0.9, 0.925, 0.95, 0.97]
+    assert "a few systems are chaotic at e = 1" in text
+    assert shares[1.0].count > 2
+    assert {share.of for share in shares.values()} == {400}
+
+
+def test_caption_of_figure_11_says_what_lies_beyond_the_first_curve(reproduced):
+    found = surveys.damped().transpose("amplitude", "period")
+    breaking = rk.theory.symmetry_breaking_amplitude(found.period.values, 0.925, 1)
+    beyond = found.amplitude.values[:, None] > breaking
+    stay = beyond & (found.kind.values != 4)
+    alike = (found.kind == 1) & (found.response_period == 1) & (found.symmetric == 0)
+    assert "most points overturn; nearly all others have period 1 and are unsymmetric" in caption(figure11)
+    assert stay.sum() < 0.5 * beyond.sum()
+    assert (stay & alike.values).sum() > 0.95 * stay.sum()

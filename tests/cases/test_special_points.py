@@ -1,0 +1,135 @@
+"""Special points of branches: none is lost at the default step, and grazings are located to rounding."""
+
+import math
+
+import numpy as np
+import pytest
+
+import rocking as rk
+from rocking.kernels import points as kernel
+
+FEIGENBAUM = 4.669201609
+TUTORIAL = (1.721328, 0.8)
+DEPTH = 6
+SEED = 33
+
+
+def special(branch, kind):
+    return [point for point in branch.special if point.kind == kind]
+
+
+def symmetry_breaking(period, restitution, step=0.01):
+    breaks = rk.theory.symmetry_breaking_amplitude(period, restitution, 1)
+    mode = rk.theory.symmetric_modes(0.97 * breaks, period, restitution, 1)[0]
+    orbit = rk.find_orbit(mode.system, mode.start, 1)
+    return special(
+        rk.continue_orbit(orbit, "amplitude", (0.9 * breaks, 1.1 * breaks), step), "symmetry-breaking"
+    )[0]
+
+
+def cascade(period, restitution, step=0.01):
+    """The first doublings of the unsymmetric orbit, as far as they are found."""
+    point, found = symmetry_breaking(period, restitution, step), []
+    bounds = 0.9 * point.parameter, 2.0 * point.parameter
+    while len(found) < DEPTH:
+        doublings = special(rk.switch_branch(point, bounds, step)[0], "period-doubling")
+        if not doublings:
+            break
+        point = doublings[0]
+        found.append(point.parameter)
+    return found
+
+
+def drawn():
+    random = np.random.default_rng(SEED)
+    return [(random.uniform(1.2, 2.2), random.uniform(0.7, 0.9)) for _ in range(14)]
+
+
+@pytest.mark.parametrize("period, restitution", [TUTORIAL, *drawn()])
+def test_a_cascade_loses_no_doubling_at_the_default_step(period, restitution):
+    """Each gap is the last one over Feigenbaum's number, up to a small part: a doubling that is passed over would square it."""
+    found = cascade(period, restitution)
+    assert len(found) == DEPTH
+    gaps = np.diff(found)
+    assert gaps[-2] / gaps[-1] == pytest.approx(FEIGENBAUM, rel=0.01)
+
+
+def test_the_doubling_of_the_period_32_branch_is_where_a_fine_step_has_it():
+    assert cascade(*TUTORIAL)[-1] == pytest.approx(10.7325297897, abs=5e-11)
+    assert cascade(*TUTORIAL, step=0.003)[-1] == pytest.approx(10.7325297897, abs=5e-11)
+
+
+@pytest.mark.parametrize("off", [1e-7, 1e-5, 1e-3, -1e-7, -1e-5, -1e-3])
+def test_a_special_point_in_the_first_step_is_found_once(off):
+    breaking = symmetry_breaking(*TUTORIAL)
+    born = rk.switch_branch(breaking, (7.0, 12.0))[0]
+    doubling = special(born, "period-doubling")[0]
+    (orbit,) = born.at(doubling.parameter + off)
+    again = special(rk.continue_orbit(orbit, "amplitude", (10.0, 11.0)), "period-doubling")
+    assert [point.parameter for point in again] == pytest.approx([doubling.parameter], abs=1e-11)
+    assert again[0].orbit.multipliers[0] == pytest.approx(-1.0, abs=1e-9)
+
+
+def test_a_branch_begun_at_a_special_point_has_it_once():
+    doubling = special(rk.switch_branch(symmetry_breaking(*TUTORIAL), (7.0, 12.0))[0], "period-doubling")[0]
+    again = special(rk.continue_orbit(doubling.orbit, "amplitude", (10.0, 11.0)), "period-doubling")
+    assert [point.parameter for point in again] == pytest.approx([doubling.parameter], abs=1e-11)
+
+
+def test_a_passage_and_return_within_a_step_is_seen_from_three_points():
+    """Against the parabola through them, sampled."""
+    random = np.random.default_rng(SEED)
+    seen = 0
+    for _ in range(3000):
+        before, length = random.uniform(0.1, 2.0, 2)
+        bend, rise, start = random.normal(size=3) * (2.0, 2.0, 1.0)
+        values = start + rise * (s := np.linspace(0.0, length, 2001)) + bend * s**2
+        beyond = [values > level for level in (-0.25 * math.pi, 0.25 * math.pi)]
+        expected = any(one[0] == one[-1] and (one != one[0]).any() for one in beyond)
+        earlier = start - rise * before + bend * before**2
+        told = kernel.passes_and_returns.py_func(earlier, before, values[0], values[-1], length)
+        # where the extreme all but touches a level the samples may miss it
+        if abs(abs(start - 0.25 * rise**2 / bend) - 0.25 * math.pi) > 1e-3:
+            assert told == expected
+            seen += expected
+    assert seen > 100
+
+
+@pytest.mark.parametrize("step", [0.005, 0.01, 0.02])
+def test_the_unsymmetric_orbit_ends_where_the_saddle_orbit_touches_the_base(step):
+    """Both impacts merge: what is left is Θ = ±(1 + β cos ψ) with β = 1, at A = 1 + Ω²."""
+    exact = 1.0 + (2.0 * math.pi / TUTORIAL[0]) ** 2
+    pair = rk.switch_branch(symmetry_breaking(*TUTORIAL), (7.0, 20.0), step)
+    for branch in pair:
+        assert branch.ends[1] == "grazing"
+        (point,) = special(branch, "grazing")
+        assert point.parameter == pytest.approx(exact, rel=4e-16, abs=0)
+        orbit = point.orbit
+        assert (orbit.period, orbit.impacts) == (1, 0)
+        assert orbit.stability == "unstable"
+        side = math.copysign(1.0, orbit.at(math.pi if orbit.state.angle < 0 else 0.0).angle)
+        for phase in np.linspace(0.1, 2.0, 7):
+            psi = phase if side > 0 else phase + math.pi
+            assert orbit.at(psi).angle == pytest.approx(side + math.cos(psi), abs=1e-12)
+
+
+def test_the_grazing_of_the_period_8_branch_does_not_depend_on_the_step():
+    found = []
+    for step in (0.002, 0.004, 0.007, 0.01):
+        branch = rk.switch_branch(symmetry_breaking(*TUTORIAL, step), (7.0, 20.0), step)[0]
+        for _ in range(3):
+            branch = rk.switch_branch(special(branch, "period-doubling")[0], (9.0, 12.0 + step), step)[0]
+        assert branch.period == 8
+        found.append(special(branch, "grazing")[0].parameter)
+    assert np.ptp(found) <= 1e-13 * found[0]
+    assert found[0] == pytest.approx(11.86655712, abs=1e-7)
+
+
+def test_a_grazing_with_a_brace_is_where_the_brace_is_the_peak():
+    """Of the symmetric mode without braces, whose peak the closed form has."""
+    mode = rk.theory.symmetric_modes(2.0, 1.0, 0.925, 1)[0]
+    braced = rk.System(mode.system.forcing, 0.925, rk.Braces(1.0, 0.9))
+    branch = rk.continue_orbit(rk.find_orbit(braced, mode.start, 1), "brace_angle", (0.05, 2.0))
+    (point,) = special(branch, "grazing")
+    assert point.parameter == pytest.approx(mode.peak, rel=1e-14, abs=0)
+    assert (point.orbit.impacts, point.orbit.brace_hits) == (2, 0)

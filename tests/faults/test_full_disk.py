@@ -1,0 +1,67 @@
+"""Where the system refuses to write more, one line says which output cannot be written; half a file is never left."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+SIMULATE = "simulate --amplitude 2 --period 1 --restitution 0.9 --cycles 300"
+MAP = "map --amplitude 0:6:40 --period 1:2:40 --restitution 0.9 --max-cycles 100"
+LIMITED = """
+import resource, sys
+from rocking.cli.main import main
+
+limit = int(sys.argv.pop(1))
+resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit))
+main()
+"""
+
+
+def limited(line, limit, folder):
+    """A command whose files may have so many bytes."""
+    return subprocess.run(
+        [sys.executable, "-c", LIMITED, str(limit), *line.split()],
+        cwd=folder, capture_output=True, text=True, timeout=200, check=False,
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    "line, limit",
+    [*((f"{SIMULATE} --plot out.{suffix}", 2_000) for suffix in ("png", "svg", "pdf", "gif")),
+     (f"{SIMULATE} --csv out.csv", 9_000), (f"{SIMULATE} --netcdf out.nc", 9_000),
+     (f"{MAP} --csv out.csv", 100), (f"{MAP} --netcdf out.nc", 9_000), (f"{MAP} --tiles out", 300)],
+)  # fmt: skip
+def test_output_that_finds_no_room_is_named_and_leaves_nothing(line, limit, tmp_path):
+    output = line.split()[-1]
+    done = limited(line, limit, tmp_path)
+    assert done.stderr == (
+        f"rocking: '{output}' cannot be written: File too large; what was there before is unchanged: make room, or give another place\n"
+    )
+    assert (done.returncode, done.stdout) == (2, "")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_film_that_is_not_whole_is_refused(tmp_path):
+    done = limited(f"{SIMULATE} --plot out.mp4", 9_000, tmp_path)
+    assert done.stderr.splitlines()[-1].startswith("rocking: 'out.mp4' cannot be written: ffmpeg has ")
+    assert (done.returncode, done.stdout) == (2, "")
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("unbuffered", ["", "1"])
+@pytest.mark.parametrize("line", ["cite", "map --help"])
+def test_stdout_that_finds_no_room_is_said(line, unbuffered, monkeypatch):
+    monkeypatch.setenv("PYTHONUNBUFFERED", unbuffered)
+    with Path("/dev/full").open("w") as full:
+        done = subprocess.run(
+            [sys.executable, "-m", "rocking", *line.split()],
+            stdout=full,
+            stderr=subprocess.PIPE,
+            text=True,
+            check=False,
+        )
+    assert done.stderr == (
+        "rocking: the output cannot be written: No space left on device (make room, or send it elsewhere)\n"
+    )
+    assert done.returncode == 2

@@ -1,0 +1,98 @@
+"""The run of an overturned motion ends at the proof; what shows it follows the fall to |Θ| = 3; all values are finite."""
+
+import csv
+import math
+import re
+
+import mpmath
+import numpy as np
+import pytest
+import xarray as xr
+
+import rocking as rk
+
+SLOW = rk.System(rk.Harmonic(amplitude=2.0, period=1000.0), restitution=0.9)
+"""Its cycle of overturning goes on far beyond e^709, the largest power that is a float."""
+USUAL = rk.System(rk.Harmonic(amplitude=1.75, period=2.0), restitution=0.95)
+CASES = {
+    "slow": (SLOW, rk.State()),
+    "usual": (USUAL, rk.State()),
+    "slow, past return from the start": (SLOW, rk.State(angle=500.0)),
+    "at once": (SLOW, rk.State(angle=2.0, velocity=3.0)),
+}
+
+
+@pytest.fixture(params=CASES)
+def motion(request):
+    system, start = CASES[request.param]
+    return rk.simulate(system, start, cycles=50)
+
+
+def test_run_ends_at_the_proof_and_its_end_and_peak_are_the_motions(motion):
+    assert motion.duration == motion.overturning.time <= motion.cycles * motion.system.forcing.period
+    end = motion.at(motion.duration)
+    np.testing.assert_allclose(end, (motion.final.angle, motion.final.velocity), rtol=1e-11, atol=0)
+    times = np.concatenate([np.linspace(0.0, motion.duration, 20_001), motion.peaks["time"]])
+    largest = np.abs(motion.at(times)[0]).max()
+    assert motion.peak == pytest.approx(largest, rel=1e-9, abs=0)
+
+
+def test_all_values_of_the_run_are_finite(motion):
+    times = np.linspace(0.0, motion.duration, 1001)
+    for values in (*motion.at(times), motion.acceleration(times)):
+        assert np.isfinite(values).all()
+    for block in (None, rk.Block(2.0, 0.5)):
+        for step in (None, 0.01):
+            dataset = motion.to_xarray(step=step, block=block)
+            assert dataset["time"][0] == 0.0
+            assert all(np.isfinite(dataset[name]).all() for name in dataset if name != "event_kind")
+
+
+def test_samples_end_at_the_last_step_before_the_block_has_fallen_to_three_critical_angles():
+    for system in (SLOW, USUAL):
+        motion = rk.simulate(system)
+        samples = motion.to_xarray(step=0.01)
+        last = float(samples["time"][-1])
+        assert last > motion.overturning.time
+        assert abs(motion.at(last)[0]) <= 3.0 < abs(motion.at(last + 0.01)[0])
+        assert np.abs(samples["angle"]).max() <= 3.0
+    beyond = rk.simulate(SLOW, rk.State(angle=500.0))
+    assert float(beyond.to_xarray(step=0.01)["time"][-1]) == beyond.overturning.time // 0.01 * 0.01
+
+
+def test_fall_after_the_proof_is_the_closed_form_while_it_is_a_float():
+    motion = rk.simulate(SLOW)
+    side, omega = -1, SLOW.forcing.frequency  # the base pushes it over to the left
+    with mpmath.workdps(400):
+        for time in (1.0, 10.0, 700.0):
+            t, beta = mpmath.mpf(time), 2 / (1 + mpmath.mpf(omega) ** 2)
+            exact = -side * (mpmath.cosh(t) - 1) + beta * (mpmath.cos(omega * t) - mpmath.cosh(t))
+            assert float(motion.at(time)[0]) == pytest.approx(float(exact), rel=1e-12, abs=0)
+    assert math.isfinite(motion.at(709.0)[0])
+    told = r"^times must lie in the run, \[0, 0.881374\], or so soon after it that the angle is within the range of floats; got 900.0$"
+    for ask in (motion.at, motion.acceleration):
+        with pytest.raises(ValueError, match=told):
+            ask([1.0, 900.0, 1000.0])
+
+
+def test_files_hold_the_run_and_no_infinity(rocking, tmp_path):
+    for line in ("--period 1000", "--period 2 --amplitude 1.75 --restitution 0.95"):
+        code, _, out = rocking(
+            f"simulate --amplitude 2 --restitution 0.9 {line} --csv fall.csv --netcdf fall.nc --plot fall.png"
+        )
+        assert (code, "inf" in out) == (0, False)
+        with (tmp_path / "fall.csv").open(encoding="utf-8") as file:
+            values = np.array(list(csv.reader(file))[1:], float)
+        assert np.isfinite(values).all()
+        assert np.abs(values[:, 1]).max() <= 3.0
+        with xr.open_dataset(tmp_path / "fall.nc", engine="h5netcdf") as dataset:
+            assert values[:, 0].tolist() == dataset["time"].values.tolist()
+            assert values[:, 1].tolist() == dataset["angle"].values.tolist()
+            assert all(np.isfinite(dataset[name]).all() for name in ("angle", "velocity", "acceleration"))
+
+
+def test_what_is_summed_up_says_the_same_end(rocking):
+    out = rocking("simulate --amplitude 1.75 --period 2 --restitution 0.95")[2]
+    motion = rk.simulate(USUAL)
+    assert re.search(rf"^run +6 cycles, τ = {motion.overturning.time:.6g}$", out, re.MULTILINE)
+    assert re.search(rf"^largest \|Θ\| until the proof +{motion.peak:.6g}$", out, re.MULTILINE)
