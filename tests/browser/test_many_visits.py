@@ -89,8 +89,8 @@ async def watch_together(address, server):
 
 
 async def comes_to_rest(server):
-    """Whether the server ends what it was at, within a minute or two: it may have to compile on a new machine."""
-    for _ in range(120):
+    """Whether the server ends its work, within ten minutes: a slow machine with other tests beside it takes more than two."""
+    for _ in range(600):
         before = server.cpu_times().user
         await asyncio.sleep(1.0)
         if server.cpu_times().user - before < 0.1:

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import rocking as rk
+from oracles import undamped
 from rocking.kernels import judgement, many, march
 from rocking.kernels.parameters import harmonic_parameters
 
@@ -172,7 +173,7 @@ def test_a_torus_whose_averages_agree_late_is_found_when_it_is_watched_for_long(
     assert found == {9_000: "undetermined", 60_000: "quasi-periodic"}
 
 
-def undamped(count, seed):
+def drawn(count, seed):
     """Return random undamped systems (n, 7), as kernels take them, over the range of the paper's maps."""
     random = np.random.default_rng(seed)
     period, amplitude = random.uniform(0.2, 3.0, count), random.uniform(0.0, 16.0, count)
@@ -186,7 +187,7 @@ def judged(systems, cycles):
 
 
 def test_a_longer_budget_keeps_every_verdict_that_came_before_its_end():
-    systems = undamped(1_500, 3)
+    systems = drawn(1_500, 3)
     budgets = [judged(systems, cycles) for cycles in (700, 1_500, 2_000, 10_000)]
     for shorter, longer in itertools.pairwise(budgets):
         early = (shorter.kind != int(judgement.Kind.UNDETERMINED)) & (longer.cycles < shorter.cycles.max())
@@ -215,8 +216,8 @@ def agreement_of_halves(values):
     return abs(second - first) / first
 
 
-def leaves_its_torus(system):
-    """Whether an undamped motion from rest overturns or turns chaotic within 30,000 cycles.
+def leaves_its_torus_in_doubles(system):
+    """Whether an undamped motion from rest overturns or turns chaotic within 30,000 cycles, followed in doubles.
 
     Chaotic is what has averages over both halves that differ in the sixth digit, and within ten times as many cycles
     overturns or lets differences grow by e⁴⁰.
@@ -238,12 +239,32 @@ def leaves_its_torus(system):
     return status == march.OVERTURNED or growth[0] >= 40.0
 
 
+def leaves_its_torus(system):
+    """Whether it does so in forty digits too, where averages over both halves that differ in the sixth digit are enough."""
+    amplitude, _, period = system[:3].tolist()
+    values, overturned = undamped.squared_speeds(amplitude, period, 30_000)
+    return overturned or agreement_of_halves(np.array(values)) >= 1e-6
+
+
+def test_a_torus_that_touches_an_impact_is_left_by_rounding_alone():
+    """The start from rest is such a touch. Averages agree to 15 digits, until doubles pass the base at a depth of some 10⁻¹²."""
+    row = np.array([14.497357546670587, 0.0, 1.0411306291919962])
+    torus = rk.System(rk.Harmonic(row[0], period=row[2]), 1.0)
+    assert rk.classify(torus, max_cycles=30_000).kind == "quasi-periodic"
+    assert rk.simulate(torus, cycles=30_000, record="none").outcome == "overturned"
+    assert not leaves_its_torus(row)
+
+
 @pytest.mark.long
 def test_few_of_3000_quasi_periodic_verdicts_leave_their_torus_within_30000_cycles():
-    """With this seed 14 of 3,000 do: 0.3 to 0.8 %."""
-    systems = undamped(40_000, 1991)
+    """With this seed 14 of 3,000 do in doubles, most of them by rounding alone."""
+    systems = drawn(40_000, 1991)
     settled = systems[judged(systems, 10_000).kind == int(judgement.Kind.QUASI_PERIODIC)][:3_000]
     assert len(settled) == 3_000
-    left = rk.Share(sum(leaves_its_torus(system) for system in settled), len(settled))
-    print(f"{left.count} of {left.of} leave their torus: {left}")
-    assert left.high < 0.01
+    in_doubles = [system for system in settled if leaves_its_torus_in_doubles(system)]
+    left = rk.Share(sum(leaves_its_torus(system) for system in in_doubles), len(settled))
+    print(
+        f"{len(in_doubles)} leave their torus in doubles; in forty digits {left.count} of {left.of}: {left}"
+    )
+    assert left.high < 0.005
+    assert len(in_doubles) < 30
