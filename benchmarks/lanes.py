@@ -8,9 +8,9 @@ import numpy as np
 from benchmarks import marching
 from benchmarks.clock import quickest
 from benchmarks.table import Figure
-from rocking.kernels import many
-from rocking.kernels.answers import no_answers
-from rocking.kernels.desk import desk
+from rocking.kernels import batch
+from rocking.kernels.classify.results import no_answers
+from rocking.kernels.classify.workspace import desk
 
 POINTS, FINER = 100, 200
 PERIODS, AMPLITUDES = (0.2, 3.0), (0.0, 16.0)
@@ -23,13 +23,13 @@ def one_by_one(systems, cycles=CYCLES):
     """Every point judged alone."""
     answers = no_answers(len(systems))
     starts, go_on = np.zeros((len(systems), 2)), np.zeros(1, np.int64)
-    many.judge_each(systems, starts, cycles, MAX_PERIOD, desk(cycles, MAX_PERIOD), answers, go_on)
+    batch.judge_each(systems, starts, cycles, MAX_PERIOD, desk(cycles, MAX_PERIOD), answers, go_on)
     return answers
 
 
 def in_lanes(systems, cycles=CYCLES):
     """What a survey does."""
-    return many.judge_many(systems, np.zeros((len(systems), 2)), cycles, MAX_PERIOD, np.zeros(1, np.int64))
+    return batch.judge_many(systems, np.zeros((len(systems), 2)), cycles, MAX_PERIOD, np.zeros(1, np.int64))
 
 
 def systems_of(points, restitution=1.0, brace_angle=math.inf):
@@ -45,7 +45,7 @@ def systems_of(points, restitution=1.0, brace_angle=math.inf):
 
 def against_one():
     """The map at e = 1, those points of a finer one that are marched to the end of the budget, and the map between braces."""
-    many.compile_many(True)
+    batch.compile_many(True)
     systems = systems_of(POINTS)
     together, answers = quickest(RUNS, lambda: in_lanes(systems), thread_time)
     alone, told = quickest(RUNS, lambda: one_by_one(systems), thread_time)
@@ -57,7 +57,7 @@ def against_one():
         "×",
         1,
         least=True,
-        note="" if many.vectors() else "no vectors here",
+        note="" if batch.vectors() else "no vectors here",
     )
     share = 100.0 * np.mean(answers.kind != told.kind)
     yield Figure(

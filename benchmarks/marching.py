@@ -8,12 +8,12 @@ from numba import njit
 
 from benchmarks.clock import quickest_in_turn
 from benchmarks.table import Figure
-from rocking.kernels.answers import asked
-from rocking.kernels.desk import bench, desk
-from rocking.kernels.elementary import COMPILED, MAKING
-from rocking.kernels.lane_block import find, note, seat, see_peak, set_leg
-from rocking.kernels.lane_march import advance, strike
-from rocking.kernels.lanes import (
+from rocking.kernels.classify.quasi_periodicity import follow_flights, under_way
+from rocking.kernels.classify.reset import begin_tangent
+from rocking.kernels.classify.results import asked
+from rocking.kernels.classify.workspace import desk
+from rocking.kernels.compile_options import COMPILED, MAKING
+from rocking.kernels.lanes.rows import (
     ARRIVED,
     BLOCK,
     CERTAINTY,
@@ -29,9 +29,10 @@ from rocking.kernels.lanes import (
     of,
     put,
 )
-from rocking.kernels.lossless import follow_flights, under_way
-from rocking.kernels.march import MOST_EVENTS, UNKNOWN, begin
-from rocking.kernels.release import begin_tangent
+from rocking.kernels.lanes.step import advance, strike
+from rocking.kernels.lanes.transfer import find, note, seat, see_peak, set_leg
+from rocking.kernels.lanes.workspace import bench
+from rocking.kernels.march.march import MOST_EVENTS, UNKNOWN, begin
 
 CYCLES, BEFORE = 3000, 30
 BLOCKS = 20 * LANES

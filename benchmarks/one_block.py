@@ -13,7 +13,7 @@ from benchmarks.peers import Heyoka, scipy_march
 from benchmarks.reference import DIGITS, state_at
 from benchmarks.table import Figure
 from rocking import Harmonic, State, System, simulate
-from rocking.kernels import march as kernel
+from rocking.kernels.march import march as kernel
 from rocking.kernels.parameters import harmonic_parameters
 
 CYCLES_OF_THE_KERNEL = 60_000

@@ -17,11 +17,13 @@ import rocking as rk
 from benchmarks.clock import quickest_in_turn
 from benchmarks.lanes import MAX_PERIOD, systems_of
 from benchmarks.table import Figure
-from rocking.kernels import many, march, verdict
-from rocking.kernels.answers import answer, no_answers
-from rocking.kernels.answers import asked as asked_of
-from rocking.kernels.desk import desk
-from rocking.kernels.elementary import COMPILED
+from rocking.kernels import batch
+from rocking.kernels.classify import cascade, classifier_state
+from rocking.kernels.classify.results import answer, no_answers
+from rocking.kernels.classify.results import asked as asked_of
+from rocking.kernels.classify.workspace import desk
+from rocking.kernels.compile_options import COMPILED
+from rocking.kernels.march import march
 
 POINTS = 1000
 PERIODS, AMPLITUDES = (0.2, 3.0), (0.0, 16.0)
@@ -152,10 +154,10 @@ def judge_late(systems, cycles, memory, answers):
     """The cascade of a map without its early looks: the first comes after so many cycles."""
     for k in range(systems.shape[0]):
         p = asked_of(systems[k])
-        case = verdict.opened(p, 0.0, 0.0, cycles)
-        case = verdict.Case(*case[:3], np.int64(cycles), cycles + 1, *case[5:])
-        status, run = verdict.leg(p, case.run, cycles, cycles, memory)
-        told, _ = verdict.look(p, case, status, run, cycles, MAX_PERIOD, memory)
+        case = classifier_state.opened(p, 0.0, 0.0, cycles)
+        case = classifier_state.Case(*case[:3], np.int64(cycles), cycles + 1, *case[5:])
+        status, run = cascade.leg(p, case.run, cycles, cycles, memory)
+        told, _ = cascade.look(p, case, status, run, cycles, MAX_PERIOD, memory)
         answer(answers, k, told)
 
 
@@ -188,7 +190,7 @@ def kernels():
     starts, go_on, answers = np.zeros((len(systems), 2)), np.zeros(1, np.int64), no_answers(len(systems))
 
     def early():
-        many.judge_each(systems, starts, 10_000, MAX_PERIOD, memory, answers, go_on)
+        batch.judge_each(systems, starts, 10_000, MAX_PERIOD, memory, answers, go_on)
 
     def late():
         judge_late(systems, MARCHED, memory, answers)

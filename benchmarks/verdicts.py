@@ -9,9 +9,9 @@ import numpy as np
 from numba import njit
 
 from benchmarks.table import Figure
-from rocking.kernels import judgement, verdict
-from rocking.kernels.desk import desk
-from rocking.kernels.elementary import COMPILED
+from rocking.kernels.classify import cascade, verdict_record
+from rocking.kernels.classify.workspace import desk
+from rocking.kernels.compile_options import COMPILED
 from rocking.kernels.parameters import make
 
 POINTS = 200
@@ -37,7 +37,7 @@ def judge_all(amplitudes, periods, restitution, max_cycles, memory, kinds, groun
     for k in range(amplitudes.shape[0]):
         frequency = 2.0 * math.pi / periods[k]
         p = make(amplitudes[k], frequency, periods[k], 0.0, restitution, math.inf, 1.0)
-        answer = verdict.judge(p, 0.0, 0.0, max_cycles, 64, memory)
+        answer = cascade.judge(p, 0.0, 0.0, max_cycles, 64, memory)
         kinds[k], grounds[k], work[k] = answer[0], answer[1], answer[16]
 
 
@@ -58,13 +58,13 @@ def maps():
     """The map of figure 11 (e = .925) and of figure 10 (e = 1)."""
     judge_all(np.ones(1), np.ones(1), 0.9, 100, desk(100, 64), *np.zeros((3, 1), np.int64))
     kinds, grounds, work, seconds = judged(0.925, 100_000)
-    undetermined, resets = kinds == judgement.UNDETERMINED, grounds == judgement.UNRESOLVED_RESET
+    undetermined, resets = kinds == verdict_record.UNDETERMINED, grounds == verdict_record.UNRESOLVED_RESET
     yield Figure("e = .925, impacts a point, all work", work.mean(), "", 40)
     yield Figure("  one core", seconds, "s", 0.15, note=f"{POINTS} × {POINTS} points, ≤ 100,000 cycles")
     yield Figure("  undetermined, resets left out", float((undetermined & ~resets).sum()), "points", 0)
     yield Figure("  resets of unresolved period", float(resets.sum()), "points")
     kinds, grounds, work, seconds = judged(1.0, 10_000)
-    open_share = 100.0 * np.isin(kinds, (judgement.CHAOTIC, judgement.UNDETERMINED)).mean()
+    open_share = 100.0 * np.isin(kinds, (verdict_record.CHAOTIC, verdict_record.UNDETERMINED)).mean()
     yield Figure("e = 1, impacts a point, all work", work.mean(), "", 600, note="≤ 10,000 cycles")
     yield Figure("  still chaotic or undetermined", open_share, "%", 3.5)
     yield Figure("  one core", seconds, "s")

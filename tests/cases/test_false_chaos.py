@@ -15,11 +15,12 @@ import pytest
 
 import rocking as rk
 from oracles.long_runs import growth_rate, returns_after, run
-from rocking.kernels import judgement, many
+from rocking.kernels import batch
+from rocking.kernels.classify import verdict_record
 
 BIFURCATIONS = json.loads((Path(__file__).resolve().parents[1] / "data" / "bifurcations.json").read_text())
 CYCLES = 100_000
-CHAOTIC = int(judgement.Kind.CHAOTIC)
+CHAOTIC = int(verdict_record.Kind.CHAOTIC)
 # T, e; the first two are those at which false chaos was first met
 BREAKINGS = (
     (0.6712983342872487, 0.5302457786278548),
@@ -66,7 +67,7 @@ def row(amplitude, period, phase, restitution, brace=None, brace_restitution=Non
 def verdicts(cases):
     """Return the kinds of many cases, with their systems and starts."""
     systems, starts = (np.array(part) for part in zip(*cases, strict=True))
-    return many.judge_many(systems, starts, CYCLES, 64, np.zeros(1, np.int64)), systems, starts
+    return batch.judge_many(systems, starts, CYCLES, 64, np.zeros(1, np.int64)), systems, starts
 
 
 def is_chaotic(system, start):
@@ -112,6 +113,6 @@ def test_chaos_beside_2100_bifurcations_is_chaos_in_a_million_cycles():
     found, systems, starts = verdicts(beside_bifurcations())
     assert len(systems) == 2100
     said = np.flatnonzero(found.kind == CHAOTIC)
-    print(Counter(judgement.Kind(kind).name for kind in found.kind.tolist()))
+    print(Counter(verdict_record.Kind(kind).name for kind in found.kind.tolist()))
     assert 0 < len(said) < 100
     assert [k for k in said if not is_chaotic(systems[k], starts[k])] == []

@@ -9,10 +9,10 @@ import pytest
 
 import rocking as rk
 from oracles import lanes as oracle
-from rocking.kernels import many
-from rocking.kernels.answers import no_answers
-from rocking.kernels.desk import desk
-from rocking.kernels.lanes import LANES
+from rocking.kernels import batch
+from rocking.kernels.classify.results import no_answers
+from rocking.kernels.classify.workspace import desk
+from rocking.kernels.lanes.rows import LANES
 from rocking.kernels.parameters import harmonic_parameters
 
 TABLE = json.loads((Path(__file__).resolve().parents[1] / "data" / "states.json").read_text())
@@ -111,12 +111,12 @@ def asked(count, phase=0.0, brace=math.inf):
 def one_by_one(systems, starts, cycles):
     """The kind of each point, judged alone."""
     answers, go_on = no_answers(len(systems)), np.zeros(1, np.int64)
-    assert many.judge_each(systems, starts, cycles, 64, desk(cycles, 64), answers, go_on)
+    assert batch.judge_each(systems, starts, cycles, 64, desk(cycles, 64), answers, go_on)
     return answers.kind
 
 
 def together(systems, starts, cycles):
-    return many.judge_many(systems, starts, cycles, 64, np.zeros(1, np.int64))
+    return batch.judge_many(systems, starts, cycles, 64, np.zeros(1, np.int64))
 
 
 def stands_firm(system, kind, count, cycles, random):
@@ -182,7 +182,7 @@ def test_differences_grow_in_lanes_as_they_do_alone(amplitude, period, restituti
     )
     starts, alone = np.zeros((8, 2)), no_answers(8)
     found = together(systems, starts, 10_000)
-    many.judge_each(systems, starts, 10_000, 64, desk(10_000, 64), alone, np.zeros(1, np.int64))
+    batch.judge_each(systems, starts, 10_000, 64, desk(10_000, 64), alone, np.zeros(1, np.int64))
     spread = np.hypot(found.exponent.std(), alone.exponent.std()) / math.sqrt(7)
     assert np.all(found.exponent > 0)
     assert abs(found.exponent.mean() - alone.exponent.mean()) <= 5 * spread
@@ -217,8 +217,8 @@ def test_what_differences_forget_is_told_alike_between_braces(case):
     amplitude, period, phase, restitution, brace, returned, cycles, longest = case
     systems = np.array([[amplitude, math.tau / period, period, phase, restitution, brace, returned]])
     starts, go_on = np.zeros((1, 2)), np.zeros(1, np.int64)
-    alone, found = no_answers(1), many.judge_many(systems, starts, cycles, longest, go_on)
-    many.judge_each(systems, starts, cycles, longest, desk(cycles, longest), alone, go_on)
+    alone, found = no_answers(1), batch.judge_many(systems, starts, cycles, longest, go_on)
+    batch.judge_each(systems, starts, cycles, longest, desk(cycles, longest), alone, go_on)
     for name in ("kind", "ground", "period", "symmetric", "impacts", "brace_hits", "transient", "cycles"):
         assert getattr(found, name) == getattr(alone, name), name
     for name in ("exponent", "peak"):

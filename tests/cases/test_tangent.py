@@ -5,9 +5,9 @@ import math
 import numpy as np
 import pytest
 
-from rocking.kernels import events as ev
-from rocking.kernels import march as kernel
-from rocking.kernels import tangent
+from rocking.kernels import event_kinds as ev
+from rocking.kernels.march import march as kernel
+from rocking.kernels.march import tangent
 from rocking.kernels.parameters import harmonic_parameters
 
 NAMES = ("amplitude", "frequency", "phase", "restitution", "brace_angle", "brace_restitution")

@@ -10,7 +10,9 @@ import pytest
 
 import rocking as rk
 from oracles import undamped
-from rocking.kernels import judgement, many, march
+from rocking.kernels import batch
+from rocking.kernels.classify import verdict_record
+from rocking.kernels.march import march
 from rocking.kernels.parameters import harmonic_parameters
 
 PEAK = """
@@ -183,15 +185,17 @@ def drawn(count, seed):
 
 def judged(systems, cycles):
     """Return the verdicts on systems from rest within a budget."""
-    return many.judge_many(systems, np.zeros((len(systems), 2)), cycles, 64, np.zeros(1, np.int64))
+    return batch.judge_many(systems, np.zeros((len(systems), 2)), cycles, 64, np.zeros(1, np.int64))
 
 
 def test_a_longer_budget_keeps_every_verdict_that_came_before_its_end():
     systems = drawn(1_500, 3)
     budgets = [judged(systems, cycles) for cycles in (700, 1_500, 2_000, 10_000)]
     for shorter, longer in itertools.pairwise(budgets):
-        early = (shorter.kind != int(judgement.Kind.UNDETERMINED)) & (longer.cycles < shorter.cycles.max())
-        settled = shorter.kind == int(judgement.Kind.QUASI_PERIODIC)
+        early = (shorter.kind != int(verdict_record.Kind.UNDETERMINED)) & (
+            longer.cycles < shorter.cycles.max()
+        )
+        settled = shorter.kind == int(verdict_record.Kind.QUASI_PERIODIC)
         assert settled.sum() > 100
         assert (longer.kind[settled | early] == shorter.kind[settled | early]).all()
         assert (longer.cycles[settled] == shorter.cycles[settled]).all()
@@ -259,7 +263,7 @@ def test_a_torus_that_touches_an_impact_is_left_by_rounding_alone():
 def test_few_of_3000_quasi_periodic_verdicts_leave_their_torus_within_30000_cycles():
     """With this seed 14 of 3,000 do in doubles, most of them by rounding alone."""
     systems = drawn(40_000, 1991)
-    settled = systems[judged(systems, 10_000).kind == int(judgement.Kind.QUASI_PERIODIC)][:3_000]
+    settled = systems[judged(systems, 10_000).kind == int(verdict_record.Kind.QUASI_PERIODIC)][:3_000]
     assert len(settled) == 3_000
     in_doubles = [system for system in settled if leaves_its_torus_in_doubles(system)]
     left = rk.Share(sum(leaves_its_torus(system) for system in in_doubles), len(settled))

@@ -1,6 +1,6 @@
 """Write `method.json`: what the method that surveys use answers to some questions, all of them far from any boundary.
 
-`python tests/data/make_method.py`, after METHOD in `kernels/many.py` was raised. A case whose counts change with the last
+`python tests/data/make_method.py`, after METHOD in `kernels/batch.py` was raised. A case whose counts change with the last
 digits of the amplitude, or whose numbers change by more than these do, is refused.
 """
 
@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
-from rocking.kernels import many
+from rocking.kernels import batch
 
 TABLE = Path(__file__).with_name("method.json")
 MAX_CYCLES, MAX_PERIOD = 20_000, 64
@@ -52,7 +52,7 @@ def answers(cases):
     """A record a case: whole numbers, and floats with None for what there is not."""
     table = np.array(cases)
     systems = np.column_stack([table[:, 0], math.tau / table[:, 1], table[:, 1:6]])
-    told = many.judge_many(systems, table[:, 6:8], MAX_CYCLES, MAX_PERIOD, np.zeros(1, np.int64))
+    told = batch.judge_many(systems, table[:, 6:8], MAX_CYCLES, MAX_PERIOD, np.zeros(1, np.int64))
     return [
         {name: int(getattr(told, name)[k]) for name in WHOLE}
         | {name: _real(float(getattr(told, name)[k])) for name in REAL}
@@ -88,7 +88,7 @@ def main():
     cases = [["inf" if value == math.inf else value for value in case] for case in CASES]
     rows = [json.dumps({"case": case} | record) for case, record in zip(cases, records, strict=True)]
     body = ",\n".join(rows)
-    TABLE.write_text(f'{{"method": {many.METHOD}, "answers": [\n{body}\n]}}\n')
+    TABLE.write_text(f'{{"method": {batch.METHOD}, "answers": [\n{body}\n]}}\n')
 
 
 if __name__ == "__main__":

@@ -9,9 +9,9 @@ import pytest
 JUDGED = """
 import math
 import numpy as np
-from rocking.kernels import many
-from rocking.kernels.answers import no_answers
-from rocking.kernels.desk import desk
+from rocking.kernels import batch
+from rocking.kernels.classify.results import no_answers
+from rocking.kernels.classify.workspace import desk
 
 # chaos and tori without loss; a cycle, chaos, resets and overturning with losses; braces
 cases = [(2.0, 0.4, 1.0), (4.0, 0.4, 1.0), (1.75, 0.9, 1.0), (2.0, 1.0, 0.925), (10.103037, 1.721328, 0.8), (1.1, 0.7, 0.5),
@@ -20,8 +20,8 @@ systems = np.array([(a, math.tau / t, t, 0.0, e, 1.0 if a == 15.0 else math.inf,
 starts = np.zeros((len(systems), 2))
 for max_cycles, max_period in ((1, 1), (129, 1), (200, 64), (639, 64), (1_000, 300), (20_000, 2), (100_000, 1), (150_000, 64)):
     answers, stop = no_answers(len(systems)), np.zeros(1, np.int64)
-    many.judge_each(systems, starts, max_cycles, max_period, desk(max_cycles, max_period), answers, stop)
-    many.judge_many(systems, starts, max_cycles, max_period, stop)
+    batch.judge_each(systems, starts, max_cycles, max_period, desk(max_cycles, max_period), answers, stop)
+    batch.judge_many(systems, starts, max_cycles, max_period, stop)
 print(*answers.kind)
 
 # of short periods, without loss: motions that stick to tori and leave them again, many flying less than once a cycle
@@ -33,7 +33,7 @@ many.judge_many(systems, np.tile((0.0, 0.3), (len(systems), 1)), 20_000, 1, np.z
 # between braces with hardly any loss: long legs of few events
 systems[:, 4], systems[:, 5], systems[:, 6] = 0.9999, 3.0, 0.9999
 for max_cycles, max_period in ((6_000, 1), (10_000, 64)):
-    many.judge_many(systems[::3], np.tile((0.0, 0.3), (len(systems[::3]), 1)), max_cycles, max_period, np.zeros(1, np.int64))
+    batch.judge_many(systems[::3], np.tile((0.0, 0.3), (len(systems[::3]), 1)), max_cycles, max_period, np.zeros(1, np.int64))
 """
 
 

@@ -32,10 +32,10 @@ BEGIN = f"""
 import os, random, resource, signal, sys, time
 import numpy as np
 import rocking as rk
-from rocking.kernels import many
+from rocking.kernels import batch
 import xarray, zarr
 
-many.compile_many(False)
+batch.compile_many(False)
 asked = dict(amplitude=np.linspace(0.0, 16.0, {SIZE}), period=np.linspace(0.2, 3.0, {SIZE}), restitution=1.0, max_cycles=100)
 folder = sys.argv[1]
 """

@@ -2,11 +2,12 @@
 
 import math
 
-from rocking.kernels import events
-from rocking.kernels.arc import arc_from, recall
+from rocking.kernels import event_kinds
+from rocking.kernels.arc.solution import arc_from, recall
+from rocking.kernels.march import next_event
 from rocking.kernels.parameters import harmonic_parameters
 
-KINDS = {events.IMPACT: "base", events.BRACE: "brace"}
+KINDS = {event_kinds.IMPACT: "base", event_kinds.BRACE: "brace"}
 
 
 def first_event(arc, guess=None):
@@ -18,9 +19,9 @@ def first_event(arc, guess=None):
     elapsed = 0.0
     while True:
         if guess is None:
-            coming = events.any_event(system, events.FLIGHT, flight)
+            coming = next_event.any_event(system, event_kinds.FLIGHT, flight)
         else:
-            coming, _ = events.next_event(system, events.FLIGHT, flight, recall(system, guess))
+            coming, _ = next_event.next_event(system, event_kinds.FLIGHT, flight, recall(system, guess))
         if coming.event in KINDS:
             return KINDS[coming.event], elapsed + coming.wait, coming.velocity
         if coming.wait == math.inf:

@@ -6,8 +6,9 @@ import mpmath as mp
 import numpy as np
 
 from oracles.engine import harmonic_parameters
-from rocking.kernels import events, tangent
-from rocking.kernels.arc import arc_from
+from rocking.kernels import event_kinds
+from rocking.kernels.arc.solution import arc_from
+from rocking.kernels.march import next_event, tangent
 
 
 def _flight(amplitude, omega, phase, velocity, t):
@@ -76,8 +77,8 @@ def engine(mode, faster=0.0):
         mode.amplitude, 2 * math.pi / mode.period, mode.period, mode.phase, mode.restitution
     )
     arc = arc_from(p, 1, 0.0, 0.0, mode.velocity + faster)
-    coming = events.any_event(p, events.FLIGHT, arc)
-    assert coming.event == events.IMPACT
+    coming = next_event.any_event(p, event_kinds.FLIGHT, arc)
+    assert coming.event == event_kinds.IMPACT
     start = tangent.Tangent(1.0, 0.0, 0.0, 1.0)
-    a, b, c, d = tangent.carried(p, start, events.FLIGHT, arc, coming, events.FLIGHT, -1)
+    a, b, c, d = tangent.carried(p, start, event_kinds.FLIGHT, arc, coming, event_kinds.FLIGHT, -1)
     return coming.wait, -mode.restitution * coming.velocity, -np.array([[a, c], [b, d]])

@@ -5,13 +5,11 @@ import math
 import numpy as np
 from numba import njit
 
-from rocking.kernels.arc import arc_from, earlier
-from rocking.kernels.elementary import COMPILED
-from rocking.kernels.events import FLIGHT
-from rocking.kernels.lane_block import arc_of, find, over, seat, set_leg
-from rocking.kernels.lane_march import advance, advance_between, strike, strike_between
-from rocking.kernels.lane_zero import step
-from rocking.kernels.lanes import (
+from rocking.kernels.arc.solution import arc_from, earlier
+from rocking.kernels.compile_options import COMPILED
+from rocking.kernels.event_kinds import FLIGHT
+from rocking.kernels.lanes.root import step
+from rocking.kernels.lanes.rows import (  # fmt: skip
     ANGLE_THERE,
     ARRIVED,
     AT_BRACE,
@@ -43,9 +41,11 @@ from rocking.kernels.lanes import (
     of,
     put,
     set_system,
-)  # fmt: skip
-from rocking.kernels.march import Progress
-from rocking.kernels.notes import state_at
+)
+from rocking.kernels.lanes.step import advance, advance_between, strike, strike_between
+from rocking.kernels.lanes.transfer import arc_of, find, over, seat, set_leg
+from rocking.kernels.march.event_rows import state_at
+from rocking.kernels.march.march import Progress
 
 EYE = np.eye(2)
 FIRST = (WAIT, SPEED, NEXT_COSINE, NEXT_SINE, NEXT_SINH, NEXT_VERSINH, AT_BRACE)

@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 import rocking as rk
-from rocking.kernels import march as kernel
+from rocking.kernels.march import march as kernel
 from rocking.kernels.parameters import harmonic_parameters
 
 STAGES = (100_000, 1_000_000, 5_000_000)  # cycles run before a recurrence is looked for

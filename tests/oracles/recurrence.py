@@ -25,7 +25,7 @@ from oracles.long_runs import (
     system_of,
 )
 from oracles.motion import simulate
-from rocking.kernels import march as kernel
+from rocking.kernels.march import march as kernel
 
 PATIENCE = 5_000
 BESIDE = (1e-8, 3e-9, 1e-9, 1e-10)  # a verdict must hold for a hundredth of the largest

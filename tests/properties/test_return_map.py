@@ -10,10 +10,14 @@ from numba import njit
 from oracles.arcs import arcs
 from oracles.crossing import first_events
 from oracles.distance import Arc
-from rocking.kernels import desk, events, orbit, search, walk
-from rocking.kernels.arc import arc_from, recall
-from rocking.kernels.elementary import COMPILED
-from rocking.kernels.march import DONE, UNKNOWN, begin_march, march
+from rocking.kernels import event_kinds
+from rocking.kernels.arc import bracket
+from rocking.kernels.arc.solution import arc_from, recall
+from rocking.kernels.classify import workspace
+from rocking.kernels.compile_options import COMPILED
+from rocking.kernels.march import next_event
+from rocking.kernels.march.march import DONE, UNKNOWN, begin_march, march
+from rocking.kernels.orbits import fixed_point, newton_search
 from rocking.kernels.parameters import harmonic_parameters, make
 
 STATES = 10_000
@@ -27,14 +31,14 @@ NO_COLUMNS, NO_GROWTH, NO_EVENTS = np.empty((0, 2)), np.empty(0), np.empty((0, 8
 
 @njit(**COMPILED)
 def images(systems, starts, periods, mirrored, nothing, columns, out):
-    """(certain, Θ, Θ') of each state under the map of ``search``, with the waits of a state nearby, as in Newton's method."""
+    """(certain, Θ, Θ') of each state under the map of ``newton_search``, with the waits of a state nearby, as in Newton's method."""
     for k in range(len(systems)):
         row = systems[k]
         p = make(row[0], row[1], row[2], row[3], row[4], row[5], row[6])
-        q, start, cycles, sign = search.return_map(p, periods[k], mirrored)
+        q, start, cycles, sign = newton_search.return_map(p, periods[k], mirrored)
         waits = UNKNOWN
         for beside in (0.5, 0.8, 1.0):
-            image = orbit.image_after(
+            image = fixed_point.image_after(
                 q, beside * starts[k, 0], beside * starts[k, 1], cycles, 0.0, nothing.section, nothing, columns, False, waits, start,
             )  # fmt: skip
             waits = image.waits
@@ -78,7 +82,7 @@ def test_map_of_the_search_is_that_of_the_plain_march(mirrored, braced):
     systems, starts = random_systems(STATES, braced, 33)
     random = np.random.default_rng(5)
     periods = random.choice([1, 3, 5, 7] if mirrored else [1, 2, 3, 4, 5, 6, 7], STATES)
-    memory, found = desk.desk(1, 1), np.empty((STATES, 3))
+    memory, found = workspace.desk(1, 1), np.empty((STATES, 3))
     images(systems, starts, periods, mirrored, memory.nothing, memory.trial, found)
     wrong, tight, stayed = [], 0, 0
     for k, (system, start, period) in enumerate(zip(systems, starts, periods.tolist(), strict=True)):
@@ -107,19 +111,19 @@ def test_map_of_the_search_is_that_of_the_plain_march(mirrored, braced):
 @njit(**COMPILED)
 def first_event(p, period, mirrored, side, angle, velocity, guess):
     """(ψ at the start, event, time) of the first event of an arc as the search computes it, from a guess of the time."""
-    q, start, _, _ = search.return_map(p, period, mirrored)
+    q, start, _, _ = newton_search.return_map(p, period, mirrored)
     arc = arc_from(q, side, start, angle, velocity)
-    coming, _ = events.next_event(q, events.FLIGHT, arc, recall(q, guess))
+    coming, _ = next_event.next_event(q, event_kinds.FLIGHT, arc, recall(q, guess))
     return arc.psi, coming.event, coming.wait
 
 
 @njit(**COMPILED)
 def is_certified(p, period, mirrored, arc, time, rate):
     """Whether the search would take a zero of u for the first."""
-    q, start, _, _ = search.return_map(p, period, mirrored)
+    q, start, _, _ = newton_search.return_map(p, period, mirrored)
     side, angle, velocity = arc
     flight = arc_from(q, side, start, angle, velocity)
-    return walk.stays_clear(q, flight, walk.Knot(time, 0.0, rate, 0.0, 0.0))
+    return bracket.stays_clear(q, flight, bracket.Knot(time, 0.0, rate, 0.0, 0.0))
 
 
 MAPS = [(1, False), (2, False), (3, False), (5, False), (1, True), (3, True), (5, True)]
@@ -141,7 +145,7 @@ def doubt_of(arc, event):
 @pytest.mark.parametrize("period, mirrored", MAPS)
 def test_first_events_of_the_search_are_those_of_the_oracle(period, mirrored):
     """Proved in ball arithmetic from the very phase with which the search begins; with a good guess of the time, a bad one and none."""
-    kinds, wrong, checked = {events.IMPACT: "base", events.BRACE: "brace"}, [], 0
+    kinds, wrong, checked = {event_kinds.IMPACT: "base", event_kinds.BRACE: "brace"}, [], 0
     for family in ("generic", "near_saddle", "release"):
         for arc in arcs(family, 250, period):
             psi, *_ = first_event(system_of(arc), period, mirrored, arc.side, arc.angle, arc.velocity, 0.0)

@@ -7,8 +7,9 @@ import pytest
 
 import rocking as rk
 from oracles.motion import simulate as brute_force
-from rocking.kernels import events
-from rocking.kernels.arc import arc_from
+from rocking.kernels import event_kinds
+from rocking.kernels.arc.solution import arc_from
+from rocking.kernels.march import next_event
 from rocking.kernels.parameters import harmonic_parameters
 
 
@@ -100,11 +101,11 @@ def test_who_comes_back_to_a_brace_before_the_clock_has_moved_waits_for_the_next
     )
     p = harmonic_parameters(amplitude, 2.0 * math.pi / period, period, phase, 0.5, 1.5, 0.0)
     arc = arc_from(p, 1, start, 1.5, 0.0)
-    assert not events.stays_leaning(p, 1, arc.psi)
-    coming = events.any_event(p, events.FLIGHT, arc)
-    assert coming.event == events.BRACE
+    assert not next_event.stays_leaning(p, 1, arc.psi)
+    coming = next_event.any_event(p, event_kinds.FLIGHT, arc)
+    assert coming.event == event_kinds.BRACE
     assert start + coming.wait == start
-    assert events.any_event(p, events.LEAN, arc).wait > 0.99 * period
+    assert next_event.any_event(p, event_kinds.LEAN, arc).wait > 0.99 * period
 
 
 @pytest.mark.parametrize("amplitude", [0.0, 0.5, 0.9, 1.0])

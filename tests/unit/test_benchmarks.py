@@ -5,7 +5,7 @@ import pytest
 
 import rocking as rk
 from benchmarks import verdicts
-from rocking.kernels import judgement
+from rocking.kernels.classify import verdict_record
 
 
 @pytest.mark.long
@@ -22,4 +22,4 @@ def test_map_of_the_bench_is_the_map(monkeypatch, restitution):
     assert len(set(kinds)) >= 3
     assert np.mean(kinds == found.kind.values.ravel()) > 0.98
     assert np.mean(grounds == found.evidence.values.ravel()) > 0.98
-    assert (work[kinds == judgement.PERIODIC] > 0).all()
+    assert (work[kinds == verdict_record.PERIODIC] > 0).all()

@@ -13,7 +13,7 @@ import rocking as rk
 from rocking.cli.main import run
 from rocking.cli.map_summary import OPEN
 from rocking.cli.maps import WRITERS
-from rocking.kernels.judgement import Ground
+from rocking.kernels.classify.verdict_record import Ground
 
 LINE = "map --amplitude 0:16:20 --period 0.2:3:18 --restitution 0.9 --max-cycles 100"
 ASKED = {

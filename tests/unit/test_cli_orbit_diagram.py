@@ -185,7 +185,7 @@ def test_failure_of_our_own_is_one_line_and_exit_code_1(rocking, monkeypatch):
     def fail(*_):
         raise MemoryError
 
-    monkeypatch.setattr("rocking.kernels.sweep.sweep", fail)
+    monkeypatch.setattr("rocking.kernels.march.sweep.sweep", fail)
     code, message, out = rocking(f"orbit-diagram {LINE}")
     assert (code, message.strip(), out) == (1, "failed, and should not have: MemoryError:", "")
 

@@ -6,8 +6,8 @@ import mpmath as mp
 import numpy as np
 import pytest
 
-from rocking.kernels import branchless
-from rocking.kernels.economised import chebyshev, economised
+from rocking.kernels.numerics import simd
+from rocking.kernels.numerics.economised import chebyshev, economised
 
 TIME, ANGLE = (0.5 * math.log(2.0)) ** 2, (0.25 * math.pi) ** 2
 
@@ -32,10 +32,10 @@ def test_one_power_less_costs_what_the_chebyshev_polynomial_is_high():
 @pytest.mark.parametrize(
     ("ours", "first", "sign", "widest", "exact"),
     [
-        (branchless.SINH_SERIES, 3, 1, TIME, lambda r: (mp.sinh(r) - r) / r**3),
-        (branchless.COSH_SERIES, 4, 1, TIME, lambda r: (mp.cosh(r) - 1 - r**2 / 2) / r**4),
-        (branchless.SIN_SERIES, 3, -1, ANGLE, lambda r: (mp.sin(r) - r) / -(r**3)),
-        (branchless.COS_SERIES, 4, -1, ANGLE, lambda r: (mp.cos(r) - 1 + r**2 / 2) / r**4),
+        (simd.SINH_SERIES, 3, 1, TIME, lambda r: (mp.sinh(r) - r) / r**3),
+        (simd.COSH_SERIES, 4, 1, TIME, lambda r: (mp.cosh(r) - 1 - r**2 / 2) / r**4),
+        (simd.SIN_SERIES, 3, -1, ANGLE, lambda r: (mp.sin(r) - r) / -(r**3)),
+        (simd.COS_SERIES, 4, -1, ANGLE, lambda r: (mp.cos(r) - 1 + r**2 / 2) / r**4),
     ],
     ids=["sinh", "cosh", "sin", "cos"],
 )

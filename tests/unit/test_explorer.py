@@ -606,8 +606,8 @@ def test_response_that_forgets_is_told_in_the_words_of_the_command_line(rocking)
 READY = """
 from rocking.explorer.app import warm_up
 warm_up()
-from rocking.kernels import many
-print(bool(many.judge_each.signatures and many.judge_together.signatures))
+from rocking.kernels import batch
+print(bool(batch.judge_each.signatures and batch.judge_together.signatures))
 """
 
 

@@ -18,8 +18,9 @@ from numba.core.caching import FunctionCache
 from numba.core.dispatcher import Dispatcher
 
 from rocking import kernels
-from rocking.kernels import elementary, events, parameters
-from rocking.kernels import march as kernel
+from rocking.kernels import event_kinds, parameters
+from rocking.kernels.march import march as kernel
+from rocking.kernels.numerics import elementary
 
 SOURCES = Path(kernel.__file__).parents[2]
 COPY = shutil.ignore_patterns("__pycache__", "*.egg-info")
@@ -57,7 +58,7 @@ def test_an_edit_in_a_called_function_is_seen_at_the_next_start(tmp_path):
         )
 
     before = run()
-    callee = tmp_path / "src/rocking/kernels/impact.py"
+    callee = tmp_path / "src/rocking/kernels/march/impact_law.py"
     text = callee.read_text()
     edited = text.replace("speed = p.restitution * max", "speed = 0.5 * p.restitution * max")
     assert edited != text
@@ -81,7 +82,7 @@ print(json.dumps(paths))
 
 ENTRY_SOURCE = """
 from numba import njit
-from rocking.kernels.elementary import ENTRY
+from rocking.kernels.compile_options import ENTRY
 
 @njit(**ENTRY)
 def entry():
@@ -111,7 +112,10 @@ def test_an_edit_of_any_source_moves_the_machine_code_of_every_entry(tmp_path):
     for callee in (package / "impact.py", inner / "callee.py"):
         callee.write_text(callee.read_text() + "\n")
         found.append(cache_paths(source, home))
-    assert {"rocking.kernels.attractor.anchor_each", "rocking.kernels.inner.entry.entry"} < found[0].keys()
+    assert {
+        "rocking.kernels.classify.attractor_anchor.anchor_each",
+        "rocking.kernels.inner.entry.entry",
+    } < found[0].keys()
     assert all(paths.keys() == found[0].keys() for paths in found)
     assert all(len({paths[name] for paths in found}) == len(found) for name in found[0])
     folders = {Path(path).relative_to(home).parts[:2] for paths in found for path in paths.values()}
@@ -324,8 +328,8 @@ def test_elementary_functions_keep_their_relative_accuracy_from_the_shortest_arc
 
 
 def test_modes_and_events_are_told_by_name():
-    assert [mode.name for mode in events.Mode] == ["FLIGHT", "REST", "LEAN"]
-    assert events.Event(events.LIFT_OFF).name == "LIFT_OFF"
+    assert [mode.name for mode in event_kinds.Mode] == ["FLIGHT", "REST", "LEAN"]
+    assert event_kinds.Event(event_kinds.LIFT_OFF).name == "LIFT_OFF"
 
 
 def test_compiling_is_told_once(caplog):

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from rocking.kernels import averages
+from rocking.kernels.numerics import averages
 
 RANDOM = np.random.default_rng(1991)
 

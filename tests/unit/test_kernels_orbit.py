@@ -7,10 +7,11 @@ import pytest
 from numba import njit
 
 import rocking as rk
-from rocking.kernels import cycle, desk, mode, orbit, returns
-from rocking.kernels.march import UNKNOWN
+from rocking.kernels.classify import periodicity, recurrence, workspace
+from rocking.kernels.march.march import UNKNOWN
+from rocking.kernels.march.tangent import Tangent
+from rocking.kernels.orbits import fixed_point, symmetric_mode
 from rocking.kernels.parameters import harmonic_parameters
-from rocking.kernels.tangent import Tangent
 
 RANDOM = np.random.default_rng(1991)
 
@@ -24,28 +25,38 @@ def kept_on_disk():
 # Kernels have no way in from Python but through a compiled function.
 @njit
 def closest_return(section, most_lag):
-    return returns.closest_return(section, len(section), most_lag)
+    return recurrence.closest_return(section, len(section), most_lag)
 
 
 @njit
 def approached(section, most_lag):
-    return returns.approached(section, len(section), most_lag)
+    return recurrence.approached(section, len(section), most_lag)
 
 
 @njit
 def multipliers(a, b, c, d):
-    return orbit.multipliers(Tangent(a, b, c, d))
+    return fixed_point.multipliers(Tangent(a, b, c, d))
 
 
 @njit
 def adapted_norm(a, b, c, d, radius):
-    return orbit.adapted_norm(Tangent(a, b, c, d), radius)
+    return fixed_point.adapted_norm(Tangent(a, b, c, d), radius)
 
 
 @njit(error_model="numpy")
 def find_fixed_point(p, angle, velocity, cycles, memory):
-    found = orbit.find_fixed_point(
-        p, angle, velocity, cycles, 1 << 40, memory.nothing, memory.trial, UNKNOWN, orbit.NEARBY, 0.0, 1.0
+    found = fixed_point.find_fixed_point(
+        p,
+        angle,
+        velocity,
+        cycles,
+        1 << 40,
+        memory.nothing,
+        memory.trial,
+        UNKNOWN,
+        fixed_point.NEARBY,
+        0.0,
+        1.0,
     )
     image = found.image
     return (
@@ -55,14 +66,16 @@ def find_fixed_point(p, angle, velocity, cycles, memory):
 
 @njit(error_model="numpy")
 def nearest(p, order, angle, velocity):
-    found = mode.nearest(p, order, angle, velocity)
+    found = symmetric_mode.nearest(p, order, angle, velocity)
     return found.distance, found.angle, found.velocity, found.since, found.half
 
 
 @njit(error_model="numpy")
 def compare(p, section, row, period, angle, velocity, a, b, c, d, impacts):
-    image = orbit.Image(True, angle, velocity, Tangent(a, b, c, d), impacts, 0, 0.0, UNKNOWN)
-    return cycle.compare(p, section, row, period, orbit.Found(True, angle, velocity, image, 0.0, 0.0, 0))
+    image = fixed_point.Image(True, angle, velocity, Tangent(a, b, c, d), impacts, 0, 0.0, UNKNOWN)
+    return periodicity.compare(
+        p, section, row, period, fixed_point.Found(True, angle, velocity, image, 0.0, 0.0, 0)
+    )
 
 
 def linear_returns(matrix, orbit_rows, off, count):
@@ -184,7 +197,7 @@ def mode_1_1(amplitude, period, e):
 def test_newtons_method_finds_the_mode_of_the_closed_form_with_its_multipliers(amplitude, period, e):
     p, (angle, velocity), trace = mode_1_1(amplitude, period, e)
     converged, *state, residual, error, work, tangent, impacts = find_fixed_point(
-        p, angle + 3e-3, velocity - 2e-3, 1, desk.desk(100, 8)
+        p, angle + 3e-3, velocity - 2e-3, 1, workspace.desk(100, 8)
     )
     a, b, c, d = tangent
     assert converged
@@ -220,7 +233,7 @@ def test_of_the_three_states_of_a_mode_the_nearest_is_told(phase):
     system = rk.System(rk.Harmonic(6.5, period=0.4, phase=phase), 0.925)
     p = harmonic_parameters(6.5, 2 * math.pi / 0.4, 0.4, phase, 0.925)
     _, *state, _, _ = nearest(p, 3, 0.0, 0.0)
-    converged, *found, residual, _, _, _, impacts = find_fixed_point(p, *state, 3, desk.desk(100, 8))
+    converged, *found, residual, _, _, _, impacts = find_fixed_point(p, *state, 3, workspace.desk(100, 8))
     assert converged
     assert found == state
     assert residual < 1e-14
@@ -278,18 +291,18 @@ def test_the_cycle_at_which_an_orbit_is_reached_is_foretold(period, turn):
         row: compare(p, rows, row, period, *fixed, a, b, c, d, 2)
         for row in range(3 * period, len(rows), period)
     }
-    reached = min(row for row, (answer, _, _) in answers.items() if answer == cycle.REACHED)
+    reached = min(row for row, (answer, _, _) in answers.items() if answer == periodicity.REACHED)
     assert reached >= 8 * period
     for row, (answer, _, coming) in answers.items():
         if row < reached:
-            assert answer == cycle.NOT_YET
+            assert answer == periodicity.NOT_YET
             assert coming % period == 0
             assert row + coming <= reached + period
             # further away the distance shrinks otherwise than the multipliers say
             if row >= reached - 5 * period:
                 assert row + coming >= reached - period
         else:
-            assert (answer, coming) == (cycle.REACHED, 0)
+            assert (answer, coming) == (periodicity.REACHED, 0)
 
 
 def test_of_a_motion_that_comes_no_nearer_nothing_is_foretold():
@@ -297,13 +310,13 @@ def test_of_a_motion_that_comes_no_nearer_nothing_is_foretold():
     rows[:, :2] = [(0.5 + 0.2 * 0.9999**k, 0.7) for k in range(20)]
     rows[:, 2] = 2 * np.arange(20)
     answer, distance, coming = compare(p, rows, 19, 1, 0.5, 0.7, 0.8, 0.0, 0.0, 0.1, 2)
-    assert (answer, coming) == (cycle.NOT_YET, 0)
+    assert (answer, coming) == (periodicity.NOT_YET, 0)
     assert distance == pytest.approx(0.2 * 0.9999**18, rel=1e-12)
 
 
 def test_newtons_method_gives_up_where_the_block_overturns():
     p = harmonic_parameters(1.75, math.pi, 2.0, 0.0, 0.95)
-    assert not find_fixed_point(p, 0.9, 0.5, 3, desk.desk(100, 8))[0]
+    assert not find_fixed_point(p, 0.9, 0.5, 3, workspace.desk(100, 8))[0]
 
 
 @pytest.mark.parametrize("mirrored", [False, True])
@@ -314,7 +327,7 @@ def test_multipliers_by_trace_and_determinant_are_the_eigenvalues(mirrored):
     for _ in range(300):
         matrix = random.normal(size=(2, 2))
         half, determinant = 0.5 * float(np.trace(matrix)), float(np.linalg.det(matrix))
-        found = orbit.multipliers_plain(half, half * half - determinant, determinant, mirrored)
+        found = fixed_point.multipliers_plain(half, half * half - determinant, determinant, mirrored)
         expected = np.linalg.eigvals(matrix @ matrix if mirrored else matrix)
         order = (lambda value: -value.imag) if np.iscomplexobj(expected) else (lambda value: -abs(value))
         assert found == pytest.approx(

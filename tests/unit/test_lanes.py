@@ -8,9 +8,12 @@ import pytest
 from numba import njit
 
 from oracles import lanes as oracle
-from rocking.kernels import branchless, events, lanes
-from rocking.kernels.arc import arc_from
-from rocking.kernels.elementary import COMPILED
+from rocking.kernels import event_kinds
+from rocking.kernels.arc.solution import arc_from
+from rocking.kernels.compile_options import COMPILED
+from rocking.kernels.lanes import rows
+from rocking.kernels.march import next_event
+from rocking.kernels.numerics import simd
 from rocking.kernels.parameters import harmonic_parameters
 
 ULP = 2.0**-52
@@ -18,18 +21,18 @@ ULP = 2.0**-52
 
 @njit(**COMPILED)
 def elementary(rate, t):
-    return branchless.both_exponentials(t), branchless.hyperbolic(t), branchless.circular(rate, t)
+    return simd.both_exponentials(t), simd.hyperbolic(t), simd.circular(rate, t)
 
 
 @njit(**COMPILED)
 def logarithms_of_ratios(a, b, c, d):
-    return branchless.logarithms_of_ratios(a, b, c, d)
+    return simd.logarithms_of_ratios(a, b, c, d)
 
 
 @njit(**COMPILED)
 def alone(p, side, start, velocity, angle=0.0):
     """The first event of an arc, as the functions for one block find it."""
-    return events.any_event(p, events.FLIGHT, arc_from(p, side, start, angle, velocity))
+    return next_event.any_event(p, event_kinds.FLIGHT, arc_from(p, side, start, angle, velocity))
 
 
 def test_elementary_functions_have_full_relative_accuracy_however_short_the_arc():
@@ -42,9 +45,9 @@ def test_elementary_functions_have_full_relative_accuracy_however_short_the_arc(
             whole = [(grown, mp.exp(T)), (shrunk, mp.exp(-T)), (sinh, mp.sinh(T))]
             hyperbolics = [(versinh, mp.cosh(T) - 1), (excess, mp.sinh(T) - T)]
             circulars = [(sin, mp.sin(x)), (versine, 1 - mp.cos(x)), (lag, x - mp.sin(x))]
-            if t < branchless.SHORT_TIME:
+            if t < simd.SHORT_TIME:
                 whole += [*hyperbolics, (higher, mp.cosh(T) - 1 - T * T / 2)]
-            if x < branchless.SHORT_ANGLE:
+            if x < simd.SHORT_ANGLE:
                 whole += [*circulars, (deficit, x * x / 2 - 1 + mp.cos(x))]
             for ours, exact in whole:
                 assert abs(ours - exact) <= 4 * ULP * abs(exact), (rate, t)
@@ -67,8 +70,8 @@ def test_logarithms_of_ratios_are_as_good_as_they_are_said_to_be(other):
         exact = math.log(a) - math.log(b)
         first = max(first, abs(logarithms_of_ratios(a, b, *other)[0] - exact))
         second = max(second, abs(logarithms_of_ratios(*other, a, b)[1] - exact))
-    assert 5e-6 < first < branchless.ROUGHLY
-    assert 5e-6 < second < branchless.ROUGHLY
+    assert 5e-6 < first < simd.ROUGHLY
+    assert 5e-6 < second < simd.ROUGHLY
 
 
 def drawn(count, seed):
@@ -96,7 +99,7 @@ def test_first_impacts_are_those_of_one_block():
         if not sure:
             continue
         one = alone(p, *start)
-        assert one.event == events.IMPACT, (p, start)
+        assert one.event == event_kinds.IMPACT, (p, start)
         compared += 1
         grown = math.cosh(one.wait)
         scale = 16 * ULP * grown * (start[2] + (1.0 + p.amplitude) * min(one.wait, 1.0) + p.response)
@@ -141,7 +144,7 @@ def test_arc_that_rises_above_the_peak_is_always_looked_at_and_few_others():
     largest = np.full(len(systems), np.nan)
     for k, (p, (side, start, velocity)) in enumerate(zip(systems, starts, strict=True)):
         coming = alone(p, side, start, velocity)
-        if coming.event != events.IMPACT:
+        if coming.event != event_kinds.IMPACT:
             continue
         t = np.linspace(0.0, coming.wait, 1000)
         eta = p.frequency * (start + t) + p.phase + (0.0 if side > 0 else math.pi)
@@ -161,7 +164,9 @@ def test_lanes_leave_little_to_the_functions_for_one_block():
     """What comes down at all comes down in its lane, but for a few in a hundred."""
     systems, starts = drawn(2048, 4)
     _, certain = oracle.first_events(systems, starts)
-    comes_down = [alone(p, *start).event == events.IMPACT for p, start in zip(systems, starts, strict=True)]
+    comes_down = [
+        alone(p, *start).event == event_kinds.IMPACT for p, start in zip(systems, starts, strict=True)
+    ]
     assert certain[comes_down].mean() > 0.95
 
 
@@ -191,9 +196,9 @@ def test_first_events_between_braces_are_those_of_one_block():
         if not sure:
             continue
         one = alone(p, *start)
-        assert ours[6] == (one.event == events.BRACE), (p, start)
-        assert one.event in (events.BRACE, events.IMPACT), (p, start)
-        at_brace += one.event == events.BRACE
+        assert ours[6] == (one.event == event_kinds.BRACE), (p, start)
+        assert one.event in (event_kinds.BRACE, event_kinds.IMPACT), (p, start)
+        at_brace += one.event == event_kinds.BRACE
         grown = math.cosh(one.wait)
         scale = (
             32
@@ -225,15 +230,15 @@ def test_what_a_lane_does_hangs_on_no_other(amplitude, period, restitution, brac
     p = harmonic_parameters(amplitude, math.tau / period, period, 0.3, restitution, brace, 0.8)
     random = np.random.default_rng(5)
     blocks = [
-        (1, float(random.uniform(0, period)), float(random.uniform(0.2, 0.6))) for _ in range(lanes.LANES)
+        (1, float(random.uniform(0, period)), float(random.uniform(0.2, 0.6))) for _ in range(rows.LANES)
     ]
 
     def marched(order):
-        s, noted = oracle.empty(), np.zeros((lanes.LANES, 2000, 4))
+        s, noted = oracle.empty(), np.zeros((rows.LANES, 2000, 4))
         for i, k in enumerate(order):
             oracle.sit_down(s, i, p, *blocks[k], oracle.EYE, 20)
         oracle.to_the_end(s, p, noted)
         return noted[np.argsort(order)]
 
-    order = random.permutation(lanes.LANES)
-    assert np.array_equal(marched(np.arange(lanes.LANES)), marched(order))
+    order = random.permutation(rows.LANES)
+    assert np.array_equal(marched(np.arange(rows.LANES)), marched(order))

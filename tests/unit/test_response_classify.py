@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 import rocking as rk
-from rocking.kernels import judgement as kernel
+from rocking.kernels.classify import verdict_record as kernel
 from rocking.response.evidence import SHOWN, at_most
 
 NOT_PERIODIC = (
@@ -397,7 +397,7 @@ def test_failure_in_the_thread_is_raised_where_it_is_waited_for(monkeypatch):
         raise MemoryError
 
     rk.classify(RESTING)
-    monkeypatch.setattr("rocking.kernels.verdict.judge_plain", fail)
+    monkeypatch.setattr("rocking.kernels.classify.cascade.judge_plain", fail)
     with pytest.raises(MemoryError):
         rk.classify(RESTING)
 

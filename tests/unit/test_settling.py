@@ -5,10 +5,10 @@ import math
 import numpy as np
 import pytest
 
-from rocking.kernels import events as ev
-from rocking.kernels import march as kernel
+from rocking.kernels import event_kinds as ev
 from rocking.kernels import parameters
-from rocking.kernels.settling import base_settling_time, brace_settling_time
+from rocking.kernels.march import march as kernel
+from rocking.kernels.march.chatter import base_settling_time, brace_settling_time
 
 NOTHING = np.empty((0, 2))
 

@@ -6,9 +6,11 @@ import numpy as np
 import pytest
 from numba import njit
 
-from rocking.kernels import between, events, shortcut, walk
-from rocking.kernels.arc import NONE_YET, arc_from
-from rocking.kernels.elementary import COMPILED
+from rocking.kernels import event_kinds
+from rocking.kernels.arc import bracket, enclosure, fast_path
+from rocking.kernels.arc.solution import NONE_YET, arc_from
+from rocking.kernels.compile_options import COMPILED
+from rocking.kernels.march import next_event
 from rocking.kernels.parameters import harmonic_parameters, make
 
 SAMPLES = np.linspace(0.0, 1.0, 300)
@@ -17,7 +19,7 @@ SAMPLES = np.linspace(0.0, 1.0, 300)
 @njit(**COMPILED)
 def stays_between(p, t, angle, velocity, end, arrival):
     system = p.amplitude, p.frequency, p.brace_angle
-    return between.stays_between(system, t, (angle, velocity), (end, arrival))
+    return enclosure.stays_between(system, t, (angle, velocity), (end, arrival))
 
 
 @njit(**COMPILED)
@@ -29,9 +31,9 @@ def misread(systems, starts, told):
         frequency = 2.0 * math.pi / period
         p = make(amplitude, frequency, period, 0.0, 0.9, brace, 1.0)
         arc = arc_from(p, 1, starts[k, 0], starts[k, 1], starts[k, 2])
-        told[k] = shortcut.likely_event(p, arc)[0] == walk.ZERO
-        likely, _ = events.next_event(p, events.FLIGHT, arc, NONE_YET)
-        sure = events.any_event(p, events.FLIGHT, arc)
+        told[k] = fast_path.likely_event(p, arc)[0] == bracket.ZERO
+        likely, _ = next_event.next_event(p, event_kinds.FLIGHT, arc, NONE_YET)
+        sure = next_event.any_event(p, event_kinds.FLIGHT, arc)
         # a rounding of u moves the time by its ratio to the speed
         rounding = 1e-14 * (1.0 + amplitude) * (1.0 + sure.wait) / abs(sure.velocity)
         count += likely.event != sure.event or not abs(likely.wait - sure.wait) <= 1e-9 * sure.wait + rounding
@@ -42,8 +44,8 @@ def misread(systems, starts, told):
 def first_events(p, start, angle, velocity):
     """(event, time) of the first event: without a search where that is certain; by the search."""
     arc = arc_from(p, 1, start, angle, velocity)
-    likely, _ = events.next_event(p, events.FLIGHT, arc, NONE_YET)
-    sure = events.any_event(p, events.FLIGHT, arc)
+    likely, _ = next_event.next_event(p, event_kinds.FLIGHT, arc, NONE_YET)
+    sure = next_event.any_event(p, event_kinds.FLIGHT, arc)
     return (likely.event, likely.wait), (sure.event, sure.wait)
 
 
@@ -140,5 +142,5 @@ def test_touch_that_hangs_on_the_last_digits_is_left_to_the_search():
         likely, sure = first_events(p, start, *motion[3:])
         assert likely[0] == sure[0], (amplitude, period, start, motion[3:], brace)
         assert likely[1] == pytest.approx(sure[1], rel=1e-6)
-        touched += sure[0] == events.BRACE
+        touched += sure[0] == event_kinds.BRACE
     assert 800 < touched < 3_600

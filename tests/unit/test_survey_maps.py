@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import rocking as rk
-from rocking.kernels import many
+from rocking.kernels import batch
 
 WHERE = {"amplitude": np.linspace(0.5, 12.0, 5), "period": np.linspace(0.3, 2.5, 4)}
 KINDS = dict(enumerate(rk.Kind))
@@ -95,7 +95,7 @@ def test_dataset_names_its_axes_flags_parameters_and_maker():
     assert found.kind.attrs["flag_meanings"].split() == [str(kind) for kind in rk.Kind]
     assert list(found.kind.attrs["flag_values"]) == list(range(6))
     assert found.attrs["source"] == f"rocking {rk.__version__}"
-    named = {"restitution": 0.9, "phase": 0.5, "max_cycles": 50, "max_period": 8, "method": many.METHOD}
+    named = {"restitution": 0.9, "phase": 0.5, "max_cycles": 50, "max_period": 8, "method": batch.METHOD}
     assert named.items() <= found.attrs.items()
 
 

@@ -15,7 +15,7 @@ import xarray as xr
 import zarr
 
 import rocking as rk
-from rocking.kernels.many import METHOD
+from rocking.kernels.batch import METHOD
 from rocking.survey import run, store
 from rocking.survey.files import Files
 from rocking.survey.layout import check_same
@@ -256,7 +256,7 @@ def test_store_of_other_variables_is_told_by_those_that_only_one_has():
 
 
 def test_store_of_another_method_is_refused(made, monkeypatch):
-    monkeypatch.setattr("rocking.kernels.many.METHOD", METHOD + 1)
+    monkeypatch.setattr("rocking.kernels.batch.METHOD", METHOD + 1)
     with pytest.raises(
         ValueError, match=f"holds another survey: method is {METHOD} there and {METHOD + 1} here"
     ):

@@ -10,7 +10,7 @@ import pkgutil
 
 from numba.core import event
 
-from .machine_code import FOLDER, kept_in_folder
+from rocking.kernels.machine_code import FOLDER, kept_in_folder
 
 
 class _Compiling(event.Listener):

@@ -6,7 +6,8 @@ from typing import NamedTuple
 
 from numba import njit
 
-from .elementary import ENTRY, WITHIN, fma
+from rocking.kernels.compile_options import ENTRY, WITHIN
+from rocking.kernels.numerics.elementary import fma
 
 TURN = Fraction("6.28318530717958647692528676655900576839433879875021")
 

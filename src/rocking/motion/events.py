@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from rocking.kernels import events as kernel
+from rocking.kernels import event_kinds as kernel
 from rocking.model import System
 
 EVENT = np.dtype(

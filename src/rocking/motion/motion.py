@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from attrs import field, frozen
 
-from rocking.kernels import sample
+from rocking.kernels.march import resample
 from rocking.model import (
     LARGEST_PHASE,
     Block,
@@ -108,10 +108,10 @@ class Motion(ReadOnlyArrays):
             np.diff(rows[:, 0]) * self.system.forcing.period + np.diff(rows[:, 1]), self.duration - begins[-1]
         )
         found = np.empty((4 * len(rows) + 16, 3))
-        count = sample.turns(self._numbers, rows, lasts, found)
+        count = resample.turns(self._numbers, rows, lasts, found)
         if count > len(found):
             found = np.empty((count, 3))
-            sample.turns(self._numbers, rows, lasts, found)
+            resample.turns(self._numbers, rows, lasts, found)
         peaks = np.empty(count, TURN)
         peaks["time"] = begins[found[:count, 0].astype(int)] + found[:count, 1]
         peaks["angle"] = found[:count, 2]
@@ -262,7 +262,7 @@ class Motion(ReadOnlyArrays):
         elapsed = (cycle - rows[index, 0]) * period + ((flat - cycle * period) - rows[index, 1])
         out = np.empty((flat.size, 3))
         elapsed = np.where(flat > begins[index], np.maximum(elapsed, 0.0), 0.0)
-        sample.sample(self._numbers, rows, index, elapsed, out)
+        resample.sample(self._numbers, rows, index, elapsed, out)
         if not np.isfinite(out).all():
             first = float(flat[np.flatnonzero(~np.isfinite(out).all(axis=1))[0]])
             allowed = f"lie in the run, [0, {self.duration:.6g}], or so soon after it that the angle is within the range of floats"

@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from rocking.kernels import march as kernel
 from rocking.kernels import parameters as numbers
+from rocking.kernels.march import march as kernel
 from rocking.model import Outcome, State, System, TooManyEvents
 
 MOST_RECORDED = 10_000_000

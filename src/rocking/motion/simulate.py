@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from rocking.kernels import march as kernel
-from rocking.kernels import notes
+from rocking.kernels.march import event_rows
+from rocking.kernels.march import march as kernel
 from rocking.model import Overturning, State, System, check_start, one_of, whole
 from rocking.motion.events import events_of
 from rocking.motion.motion import Motion
@@ -107,7 +107,7 @@ def kept_events(
 
 def _first_rows(progress: Any, start: State, hit: bool) -> np.ndarray:
     rows = np.empty((2, 8))
-    return rows[: notes.note_start(rows, progress, hit, start.velocity)]
+    return rows[: event_rows.note_start(rows, progress, hit, start.velocity)]
 
 
 def _overturning(status: int, progress: Any, system: System) -> Overturning | None:

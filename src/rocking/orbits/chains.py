@@ -8,12 +8,12 @@ from typing import Any, NamedTuple
 import numpy as np
 from attrs import evolve
 
-from rocking.kernels import chain as kernel
-from rocking.kernels import events as event_kinds
-from rocking.kernels import follow as following
-from rocking.kernels import orbit as fixed_points
+from rocking.kernels import event_kinds
 from rocking.kernels import parameters as numbers
-from rocking.kernels import rounds, steps
+from rocking.kernels.orbits import arclength, chain_queries
+from rocking.kernels.orbits import continuation as following
+from rocking.kernels.orbits import event_chain as kernel
+from rocking.kernels.orbits import fixed_point as fixed_points
 from rocking.model import Orbit, State, System, refusal
 from rocking.motion import simulate
 from rocking.orbits.vary import with_value
@@ -133,7 +133,7 @@ def solved(chain: Chain, parameter: str, value: float, phases: np.ndarray) -> So
     count, _, _ = following.follow(
         parameters(chain.system), NAMES[parameter], *chain.fixed, chain.mirrored, y, fixed,
         (value - scale, value + scale), 0.1, row[:1], facts[:1], row[1:], np.empty((1, 2), np.int64),
-        steps.desk(k, scale),
+        arclength.desk(k, scale),
     )  # fmt: skip
     return Solved(count == 1, row[0], *facts[0, :3])
 
@@ -142,7 +142,7 @@ def equations(chain: Chain, parameter: str, row: np.ndarray) -> tuple[np.ndarray
     """(derivatives, what is known of each arc, trace, determinant) at a point of a branch."""
     k = len(chain.kinds)
     jacobian, misses, links = np.zeros((k, k + 1)), np.zeros(k), np.zeros((k, 7))
-    trace, determinant = rounds.equations(
+    trace, determinant = chain_queries.equations(
         parameters(chain.system), NAMES[parameter], *chain.fixed, row, jacobian, misses, links
     )
     return jacobian, links, trace, determinant
@@ -189,7 +189,7 @@ def orbit_of(chain: Chain, parameter: str, row: np.ndarray, trace: float, determ
 def states(chain: Chain, parameter: str, rows: np.ndarray, phase: float, count: int) -> np.ndarray:
     """(Θ, Θ') of orbits at a phase of the forcing, in as many successive cycles: (rows, count, 2)."""
     out = np.empty((len(rows), count, 2))
-    rounds.states_at(
+    chain_queries.states_at(
         parameters(chain.system), NAMES[parameter], *chain.fixed, np.ascontiguousarray(rows), phase, out
     )
     return out

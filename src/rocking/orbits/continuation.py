@@ -6,9 +6,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from rocking.kernels import follow as kernel
-from rocking.kernels import points as codes
-from rocking.kernels import steps
+from rocking.kernels.orbits import arclength
+from rocking.kernels.orbits import branch_point as codes
+from rocking.kernels.orbits import continuation as kernel
 from rocking.model import Orbit, instance, one_of, refusal, whole, within
 from rocking.motion import simulate
 from rocking.orbits.branches import Branch, SpecialPoint, table
@@ -225,7 +225,7 @@ def _follow(
         facts,
         specials,
         changes,
-        steps.desk(k, bounds[1] - bounds[0]),
+        arclength.desk(k, bounds[1] - bounds[0]),
     )
     return _Half(out[:count].copy(), facts[:count].copy(), specials[:found], changes[:found], end)
 

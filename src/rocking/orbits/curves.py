@@ -6,9 +6,9 @@ import numpy as np
 from attrs import field, frozen
 from numpy.typing import NDArray
 
-from rocking.kernels import curve as kernel
-from rocking.kernels import points as codes
-from rocking.kernels import steps
+from rocking.kernels.orbits import arclength
+from rocking.kernels.orbits import branch_point as codes
+from rocking.kernels.orbits import continuation_codim1 as kernel
 from rocking.model import ReadOnlyArrays, instance, one_of, pair, read_only, refusal, whole, within
 from rocking.orbits.branches import SpecialPoint
 from rocking.orbits.chains import IMPACT, NAMES, Chain, parameters, value_of
@@ -148,7 +148,7 @@ def _half(
 ) -> tuple[np.ndarray, int]:
     """The curve one way: its points, and why it ends."""
     k = len(chain.kinds)
-    desk = steps.desk(k, limits[1] - limits[0], limits[3] - limits[2])
+    desk = arclength.desk(k, limits[1] - limits[0], limits[3] - limits[2])
     direction = np.zeros(k + 2)
     direction[k] = sense
     out = np.empty((most, k + 2))

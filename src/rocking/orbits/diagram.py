@@ -11,8 +11,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from rocking.kernels import desk, march
-from rocking.kernels import sweep as kernel
+from rocking.kernels.classify import workspace
+from rocking.kernels.march import march
+from rocking.kernels.march import sweep as kernel
 from rocking.model import (
     LARGEST_PHASE,
     State,
@@ -182,7 +183,7 @@ def _run(
     progress: Callable[[int], object] | None,
 ) -> None:
     """Fill the lanes, each in a thread, in batches so short that Ctrl-C and progress do not wait long."""
-    nothing = desk.Nothing(np.empty((0, 4)), np.empty((0, 8)), np.empty((0, 2)), np.empty(0))
+    nothing = workspace.Nothing(np.empty((0, 4)), np.empty((0, 8)), np.empty((0, 2)), np.empty(0))
     batch = max(BREATH // (transient + lanes[0].section.shape[1]), 1)
     states = [(start.angle, start.velocity)] * len(lanes)
 

@@ -6,9 +6,9 @@ import math
 
 import numpy as np
 
-from rocking.kernels import cycle
-from rocking.kernels import desk as memory
-from rocking.kernels import search as kernel
+from rocking.kernels.classify import periodicity
+from rocking.kernels.classify import workspace as memory
+from rocking.kernels.orbits import newton_search as kernel
 from rocking.model import NoOrbit, Orbit, Outcome, State, System, check_start, refusal, whole
 from rocking.motion import begin, simulate
 from rocking.orbits.chains import chain_of, clocked, orbit_of, quiet_phase, solved
@@ -99,7 +99,7 @@ def orbit_from(system: System, phase: float, state: State, period: int) -> Orbit
     motion = simulate(clocked(system, phase), state, cycles=period)
     rows = motion.section()
     halves = np.column_stack(motion.at((np.arange(period) + 0.5) * system.forcing.period))
-    least, symmetric = cycle.repetition_plain(rows, halves, state.angle, state.velocity, period, SAME)
+    least, symmetric = periodicity.repetition_plain(rows, halves, state.angle, state.velocity, period, SAME)
     events = motion.events[motion.events["time"] <= least * system.forcing.period]
     rested, leaned = (bool(np.isin(events["kind"], kinds).any()) for kinds in (RESTING, LEANING))
     impacts, brace_hits = (int((events["kind"] == kind).sum()) for kind in ("impact", "brace"))

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from attrs import field, frozen
 
-from rocking.kernels import manifold as kernel
-from rocking.kernels import march
+from rocking.kernels.march import march
+from rocking.kernels.orbits import saddle_manifold as kernel
 from rocking.model import (
     LARGEST_PHASE,
     ReadOnlyArrays,

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from rocking.kernels import manifold as kernel
+from rocking.kernels.orbits import saddle_manifold as kernel
 from rocking.model import System, refusal
 from rocking.orbits.saddles import check, parameters
 from rocking.orbits.vary import with_value

@@ -8,7 +8,7 @@ import numpy as np
 from attrs import frozen
 from numpy.typing import ArrayLike, NDArray
 
-from rocking.kernels import averages
+from rocking.kernels.numerics import averages
 from rocking.model import reals, refusal
 
 MOST_BATCHES = 256

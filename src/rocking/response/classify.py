@@ -9,9 +9,9 @@ from functools import cache
 from threading import Thread
 from typing import Any
 
-from rocking.kernels import desk, verdict
-from rocking.kernels import judgement as kernel
 from rocking.kernels import parameters as numbers
+from rocking.kernels.classify import cascade, workspace
+from rocking.kernels.classify import verdict_record as kernel
 from rocking.model import Kind, Orbit, Outcome, State, System, Verdict, check_start, whole
 from rocking.motion import Motion, begin, simulate
 from rocking.response.evidence import Case, evidence_of
@@ -116,9 +116,9 @@ def _judged(system: System, start: State, max_cycles: int, max_period: int) -> k
 
     def work() -> None:
         try:
-            memory = desk.desk(max_cycles, max_period)
+            memory = workspace.desk(max_cycles, max_period)
             answer.set_result(
-                verdict.judge_plain(p, start.angle, start.velocity, max_cycles, max_period, memory)
+                cascade.judge_plain(p, start.angle, start.velocity, max_cycles, max_period, memory)
             )
         except BaseException as error:  # noqa: BLE001 (it is raised where it is waited for)
             answer.set_exception(error)
@@ -133,7 +133,7 @@ def _judged(system: System, start: State, max_cycles: int, max_period: int) -> k
 def _compile() -> None:
     """Compile the cascade, or load it, before a thread needs it: a process that ends while another thread compiles may crash."""
     still = numbers.harmonic_parameters(0.0, 1.0, math.tau, 0.0, 0.0)
-    verdict.judge_plain(still, 0.0, 0.0, 1, 1, desk.desk(1, 1))
+    cascade.judge_plain(still, 0.0, 0.0, 1, 1, workspace.desk(1, 1))
 
 
 def _to_its_end(system: System, start: State, judgement: kernel.Judgement) -> Motion | None:

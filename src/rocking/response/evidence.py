@@ -8,12 +8,13 @@ from decimal import ROUND_UP, Context, Decimal
 
 from attrs import field, frozen
 
-from rocking.kernels import cycle, desk, lossless, orbit, release, verdict
-from rocking.kernels import judgement as kernel
+from rocking.kernels.classify import cascade, periodicity, quasi_periodicity, reset, workspace
+from rocking.kernels.classify import verdict_record as kernel
+from rocking.kernels.orbits import fixed_point
 from rocking.model import Evidence, System, counted, plus_minus
 from rocking.motion import Motion
 
-MOST_GROWTH = f"{math.exp(release.LARGEST_STRAIN):.0e}".replace("e+0", "e")
+MOST_GROWTH = f"{math.exp(reset.LARGEST_STRAIN):.0e}".replace("e+0", "e")
 
 OTHERWISE = "but so sensitive until then that another rounding ends otherwise"
 
@@ -80,38 +81,47 @@ def _reset(case: Case) -> Shown:
 
 def _orbit(case: Case) -> Shown:
     judged = case.judgement
-    if judged.distance <= cycle.ROUNDING:
-        reached = f"the motion lies on the orbit to within {cycle.ROUNDING:.0e}"
+    if judged.distance <= periodicity.ROUNDING:
+        reached = f"the motion lies on the orbit to within {periodicity.ROUNDING:.0e}"
     else:
         reached = f"the motion, {judged.distance:.2g} away a period before, approaches the orbit as they say"
     what = (
         f"{_periodic(judged)}: Newton's method met |P(x) − x| ≤ {at_most(judged.residual)}, both multipliers are inside the "
         f"unit circle (largest {_below_one(math.hypot(judged.real, judged.imaginary))}) and {reached}"
     )
-    tolerances = {"residual": orbit.RESIDUAL, "approach": cycle.NONLINEAR, "distance": cycle.ROUNDING}
+    tolerances = {
+        "residual": fixed_point.RESIDUAL,
+        "approach": periodicity.NONLINEAR,
+        "distance": periodicity.ROUNDING,
+    }
     return Shown("verified", what, f"verified, {_when(case)}", tolerances)
 
 
 def _neutral_orbit(case: Case) -> Shown:
     what = (
-        f"{_periodic(case.judgement)}: the motion comes back to within {verdict.UNMOVED:.0e} of where it was, its averages over "
-        f"both halves of the run agree to {lossless.ENOUGH_DIGITS:.0f} digits or more, and nothing is lost, so that neighbours "
+        f"{_periodic(case.judgement)}: the motion comes back to within {cascade.UNMOVED:.0e} of where it was, its averages over "
+        f"both halves of the run agree to {quasi_periodicity.ENOUGH_DIGITS:.0f} digits or more, and nothing is lost, so that neighbours "
         "stay neighbours and need not approach"
     )
-    tolerances = {"residual": orbit.RESIDUAL, "distance": verdict.UNMOVED, "digits": lossless.ENOUGH_DIGITS}
+    tolerances = {
+        "residual": fixed_point.RESIDUAL,
+        "distance": cascade.UNMOVED,
+        "digits": quasi_periodicity.ENOUGH_DIGITS,
+    }
     return Shown("verified", what, f"verified, {_when(case)}", tolerances)
 
 
 def _torus(case: Case) -> Shown:
     what = (
-        f"nothing is lost; the averages over both halves of the run agree as on a torus, to {lossless.ENOUGH_DIGITS:.0f} digits or "
-        f"more for the flight times and {math.floor(case.judgement.digits)} for the squared speeds; neighbours part no faster than "
-        f"linearly; and it does not return to within {verdict.UNMOVED:.0e} in {case.max_period} cycles"
+        f"nothing is lost; the averages over both halves of the run agree as on a torus, to "
+        f"{quasi_periodicity.ENOUGH_DIGITS:.0f} digits or more "
+        f"for the flight times and {math.floor(case.judgement.digits)} for the squared speeds; neighbours part no faster than "
+        f"linearly; and it does not return to within {cascade.UNMOVED:.0e} in {case.max_period} cycles"
     )
     tolerances = {
-        "flight digits": lossless.ENOUGH_DIGITS,
-        "speed digits": lossless.CHAOTIC_DIGITS,
-        "log shear": lossless.SHEAR,
+        "flight digits": quasi_periodicity.ENOUGH_DIGITS,
+        "speed digits": quasi_periodicity.CHAOTIC_DIGITS,
+        "log shear": quasi_periodicity.SHEAR,
     }
     remark = f"statistical, over {spent(case)}: a motion that stays near a torus for long may leave it later"
     return Shown("statistical", what, remark, tolerances)
@@ -138,7 +148,7 @@ def _little_growth(case: Case) -> Shown:
 
 def _correlated(case: Case) -> Shown:
     what = (
-        f"{_seems_chaotic(case)}, but the {desk.BATCHES} batches behind that error depend on each other: joined four to one "
+        f"{_seems_chaotic(case)}, but the {workspace.BATCHES} batches behind that error depend on each other: joined four to one "
         f"they raise its variance more than {kernel.MAX_CORRELATION:.0f}-fold"
     )
     return Shown("none", what, _longer(case), {"correlation": kernel.MAX_CORRELATION})
@@ -146,10 +156,10 @@ def _correlated(case: Case) -> Shown:
 
 def _lingering(case: Case) -> Shown:
     what = (
-        f"{_seems_chaotic(case)}, but in its last cycles the motion stays within {verdict.NEAR:.0e} of an unstable "
+        f"{_seems_chaotic(case)}, but in its last cycles the motion stays within {cascade.NEAR:.0e} of an unstable "
         "orbit"
     )
-    return Shown("none", what, f"{_longer(case)}, or start elsewhere", {"distance": verdict.NEAR})
+    return Shown("none", what, f"{_longer(case)}, or start elsewhere", {"distance": cascade.NEAR})
 
 
 def _unresolved_reset(case: Case) -> Shown:
@@ -187,14 +197,14 @@ def _indistinct(case: Case) -> Shown:
 def _between(case: Case) -> Shown:
     what = (
         f"nothing is lost, and the averages over both halves of {spent(case)} agree to {case.judgement.digits:.1f} digits: better "
-        f"than on chaotic motion (below {lossless.CHAOTIC_DIGITS:.0f}), but not all is as on a torus"
+        f"than on chaotic motion (below {quasi_periodicity.CHAOTIC_DIGITS:.0f}), but not all is as on a torus"
     )
     return Shown("none", what, _longer(case))
 
 
 def _crowded(case: Case) -> Shown:
     what = (
-        f"more impacts than are followed, over {verdict.MOST_EVENTS_A_CYCLE} a cycle: it chatters almost without loss; given up "
+        f"more impacts than are followed, over {cascade.MOST_EVENTS_A_CYCLE} a cycle: it chatters almost without loss; given up "
         f"after {spent(case)}"
     )
     return Shown("none", what, "start it faster, or take a smaller restitution")
@@ -202,7 +212,7 @@ def _crowded(case: Case) -> Shown:
 
 def _standing(case: Case) -> Shown:
     what = (
-        f"it comes back to within {verdict.UNMOVED:.0e} of where it was in {spent(case)}, and differences grow by "
+        f"it comes back to within {cascade.UNMOVED:.0e} of where it was in {spent(case)}, and differences grow by "
         f"{case.judgement.exponent:.4g} per τ: it stands on an unstable orbit"
     )
     return Shown("none", what, "start it a little beside")
@@ -240,8 +250,8 @@ def _longer(case: Case) -> str:
 
 def _measured_time(case: Case) -> float:
     """The time, in τ, over which the exponent is measured: the batches of the second half."""
-    batch = case.max_cycles // (2 * desk.BATCHES)
-    return desk.BATCHES * batch * case.system.forcing.period
+    batch = case.max_cycles // (2 * workspace.BATCHES)
+    return workspace.BATCHES * batch * case.system.forcing.period
 
 
 def _seems_chaotic(case: Case) -> str:

@@ -8,7 +8,7 @@ from fractions import Fraction
 import numpy as np
 from numpy.typing import NDArray
 
-from rocking.kernels import averages
+from rocking.kernels.numerics import averages
 
 Array = NDArray[np.float64]
 

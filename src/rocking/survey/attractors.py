@@ -8,8 +8,9 @@ from typing import Any
 
 import numpy as np
 
-from rocking.kernels import answers, judgement, many
-from rocking.kernels import attractor as kernel
+from rocking.kernels import batch
+from rocking.kernels.classify import attractor_anchor as kernel
+from rocking.kernels.classify import results, verdict_record
 from rocking.model import (
     Attractor,
     Harmonic,
@@ -74,14 +75,14 @@ def destination(max_cycles: int, max_period: int, title: str) -> Measure:
         by_name["cycles"],
     )
     options = budget(max_cycles, max_period)
-    return Measure(title, judge, compile_both, variables, options, many.METHOD, shares="kind")
+    return Measure(title, judge, compile_both, variables, options, batch.METHOD, shares="kind")
 
 
 def compile_both(may_last: bool) -> None:
     """Compile the cascade, and what follows orbits."""
-    many.compile_many(may_last)
+    batch.compile_many(may_last)
     still = np.array([[0.0, 1.0, math.tau, 0.0, 0.0, math.inf, 1.0]])
-    kernel.anchors_of(still, np.zeros((1, 2)), answers.no_answers(1))
+    kernel.anchors_of(still, np.zeros((1, 2)), results.no_answers(1))
     simulate(System(Harmonic(0.0, period=1.0), 0.0), cycles=1, record="section")
 
 
@@ -94,7 +95,7 @@ def lead(
 ) -> Arrays | None:
     """What `respond` says, with the state that stands for each orbit: `orbit_angle` and `orbit_velocity`."""
     asked = points(values, fixed)
-    told = many.judge_many(*asked, max_cycles, max_period, stop)
+    told = batch.judge_many(*asked, max_cycles, max_period, stop)
     if told is None:
         return None
     angles, velocities = kernel.anchors_of(*asked, told).T
@@ -103,12 +104,14 @@ def lead(
 
 def judge(points: Points, options: Mapping[str, int], stop: np.ndarray) -> Arrays | None:
     """The cascade's answers, with the state that stands for each orbit."""
-    told = many.judge_many(*points, options["max_cycles"], options["max_period"], stop)
+    told = batch.judge_many(*points, options["max_cycles"], options["max_period"], stop)
     if told is None:
         return None
     anchors = kernel.anchors_of(*points, told)
     # without losses there is no attractor, and a mean takes for ever to settle
-    means = averages(points, (told.kind == judgement.CHAOTIC) & ~points.lossless, options["max_cycles"], stop)
+    means = averages(
+        points, (told.kind == verdict_record.CHAOTIC) & ~points.lossless, options["max_cycles"], stop
+    )
     if stop[0]:
         return None
     answers = judged(told)

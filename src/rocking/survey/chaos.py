@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from rocking.kernels import judgement as kernel
+from rocking.kernels.classify import verdict_record as kernel
 from rocking.model import ChaosShare, Share, refusal, whole, within
 from rocking.response import KINDS
 from rocking.survey.axes import Question, axis, points

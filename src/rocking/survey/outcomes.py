@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from rocking.kernels import many
+from rocking.kernels import batch
 from rocking.model import Share
 from rocking.response import budget
 from rocking.survey.axes import Points
@@ -19,12 +19,12 @@ KIND = VARIABLES[0]
 def outcome(max_cycles: int, max_period: int, title: str) -> Measure:
     """The kind of each response, by the cascade of `classify`."""
     options = budget(max_cycles, max_period)
-    return Measure(title, judge, many.compile_many, (KIND,), options, many.METHOD, shares="kind")
+    return Measure(title, judge, batch.compile_many, (KIND,), options, batch.METHOD, shares="kind")
 
 
 def judge(points: Points, options: Mapping[str, int], stop: np.ndarray) -> Arrays | None:
     """The cascade's answers, of which only the kind is kept."""
-    told = many.judge_many(*points, options["max_cycles"], options["max_period"], stop)
+    told = batch.judge_many(*points, options["max_cycles"], options["max_period"], stop)
     return None if told is None else {"kind": told.kind}
 
 

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from rocking.kernels import judgement as kernel
+from rocking.kernels.classify import verdict_record as kernel
 from rocking.model import OverturningCurve, refusal, whole
 from rocking.survey.ask import ask
 from rocking.survey.axes import question

@@ -9,7 +9,7 @@ from typing import TypeVar
 
 import numpy as np
 
-from rocking.kernels import judgement as kernel
+from rocking.kernels.classify import verdict_record as kernel
 from rocking.model import Kind, Repeatability, Share, State, System, check_start, counted, whole, within
 from rocking.response import KINDS
 from rocking.survey.basins import points_of

@@ -9,8 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from rocking.kernels import judgement as kernel
-from rocking.kernels import many
+from rocking.kernels import batch
+from rocking.kernels.classify import verdict_record as kernel
 from rocking.model import RepeatabilityMap, Share, whole, within
 from rocking.response import KINDS, budget
 from rocking.survey.ask import ask
@@ -99,7 +99,7 @@ def repeatability_map(
         "samples": whole("samples", samples, 2, MOST_AT_A_POINT),
         "relative_millionths": off,
     }
-    measure = Measure(TITLE, judge, many.compile_many, VARIABLES, options, many.METHOD, shares="kind")
+    measure = Measure(TITLE, judge, batch.compile_many, VARIABLES, options, batch.METHOD, shares="kind")
     found = ask(asked, measure, store, executor, progress=progress, repair=repair).load()
     found.attrs["relative"] = off * MILLIONTH
     runs = {
@@ -148,7 +148,7 @@ def judge(at: Points, options: Mapping[str, int], stop: np.ndarray) -> Arrays | 
         tried = disturbed(
             at, np.tile(units, (len(at.systems), 1)), options["relative_millionths"] * MILLIONTH
         )
-        told = many.judge_many(*tried, options["max_cycles"], options["max_period"], stop)
+        told = batch.judge_many(*tried, options["max_cycles"], options["max_period"], stop)
         if told is None:
             return None
         counts[np.arange(len(counts)), told.kind] += 1

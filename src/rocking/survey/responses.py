@@ -7,8 +7,9 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from rocking.kernels import answers, many
-from rocking.kernels import judgement as kernel
+from rocking.kernels import batch
+from rocking.kernels.classify import results
+from rocking.kernels.classify import verdict_record as kernel
 from rocking.response import budget
 from rocking.survey.axes import Points, points
 from rocking.survey.tiles import Arrays, Measure, Variable
@@ -93,12 +94,12 @@ VARIABLES = (
 def response(max_cycles: int, max_period: int, title: str) -> Measure:
     """What the cascade of `classify` says at each point."""
     options = budget(max_cycles, max_period)
-    return Measure(title, judge, many.compile_many, VARIABLES, options, many.METHOD, shares="kind")
+    return Measure(title, judge, batch.compile_many, VARIABLES, options, batch.METHOD, shares="kind")
 
 
 def judge(points: Points, options: Mapping[str, int], stop: np.ndarray) -> Arrays | None:
     """The cascade's answers, told as `classify` tells them."""
-    told = many.judge_many(*points, options["max_cycles"], options["max_period"], stop)
+    told = batch.judge_many(*points, options["max_cycles"], options["max_period"], stop)
     return None if told is None else judged(told)
 
 
@@ -116,7 +117,7 @@ def respond(
     return judge(points(values, fixed), {"max_cycles": max_cycles, "max_period": max_period}, stop)
 
 
-def judged(told: answers.Answers) -> Arrays:
+def judged(told: results.Answers) -> Arrays:
     """The cascade's answers by the names of the variables."""
     unweighed = (told.kind == kernel.UNDETERMINED) & ~np.isin(told.ground, kernel.WEIGHED)
     overturns, periodic = told.kind == kernel.OVERTURNS, told.kind == kernel.PERIODIC

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from rocking.kernels import judgement as kernel
+from rocking.kernels.classify import verdict_record as kernel
 from rocking.model import SafeBasin, Share, refusal, whole
 from rocking.survey.axes import RANGES, Points, Question, points, question
 from rocking.survey.dataset import attributes, coordinate

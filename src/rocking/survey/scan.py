@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from attrs import frozen
 
-from rocking.kernels import judgement as kernel
+from rocking.kernels.classify import verdict_record as kernel
 from rocking.survey.axes import Question, points
 from rocking.survey.samples import sampled
 from rocking.survey.tiles import Measure

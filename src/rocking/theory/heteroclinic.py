@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from rocking.kernels import manifold
+from rocking.kernels.orbits import saddle_manifold
 from rocking.model import reals
 from rocking.theory.arguments import amplitudes, frequencies, plain, restitutions, side_of
 
@@ -145,5 +145,7 @@ def _swing(phase: Any, amplitude: Any, period: Any) -> tuple[Any, Any]:
     omega = frequencies(period)
     forcing = np.broadcast_arrays(amplitudes(amplitude), omega, reals("phase", phase))
     swing = np.empty((*forcing[0].shape, 2))
-    manifold.swings(*(np.ascontiguousarray(each, float).ravel() for each in forcing), swing.reshape(-1, 2))
+    saddle_manifold.swings(
+        *(np.ascontiguousarray(each, float).ravel() for each in forcing), swing.reshape(-1, 2)
+    )
     return swing[..., 0], swing[..., 1]

@@ -1,6 +1,6 @@
 """Symmetric (1, n) modes in closed form: Spanos & Koh (1984), eqs (8)-(10) of Yim & Lin (1991).
 
-What they are follows from ``rocking.kernels.mode``; here are the amplitudes between which they exist and are stable.
+What they are follows from ``rocking.kernels.orbits.symmetric_mode``; here are the amplitudes between which they exist and are stable.
 """
 
 from __future__ import annotations
@@ -10,8 +10,8 @@ from typing import Any
 
 import numpy as np
 
-from rocking.kernels import mode, orbit, symmetric
 from rocking.kernels import parameters as numbers
+from rocking.kernels.orbits import fixed_point, mode_admissibility, symmetric_mode
 from rocking.model import (
     LARGEST_AMPLITUDE,
     PERIODS,
@@ -177,7 +177,7 @@ def symmetric_modes(amplitude: float, period: float, restitution: float, n: int)
     beta = numbers.harmonic_parameters(amplitude, omega, period, 0.0, e).response
     modes = []
     for faster in (True, False):
-        speed, phase, trace = mode.closed_form_plain(omega, beta, e, n, faster)
+        speed, phase, trace = symmetric_mode.closed_form_plain(omega, beta, e, n, faster)
         if amplitude > 0.0 and speed > 0.0:
             modes.append(_mode(amplitude, period, e, n, speed, phase, trace))
     return modes
@@ -192,7 +192,7 @@ def _mode(
     length = n * math.pi / omega
     common = -1.0 / (1.0 + math.exp(-length))
     other = p.response * math.cos(phase) / math.expm1(-length)
-    up, peak = symmetric.half_cycle(p, speed, common + other, common - other, length)
+    up, peak = mode_admissibility.half_cycle(p, speed, common + other, common - other, length)
     known = 0.5 * trace, (0.5 * trace - e) * (0.5 * trace + e), e * e
     return Mode(
         amplitude=amplitude,
@@ -202,8 +202,8 @@ def _mode(
         velocity=speed,
         phase=phase,
         trace=trace,
-        half_multipliers=orbit.multipliers_plain(*known, False),
-        multipliers=orbit.multipliers_plain(*known, True),
+        half_multipliers=fixed_point.multipliers_plain(*known, False),
+        multipliers=fixed_point.multipliers_plain(*known, True),
         admissible=bool(up),
         peak=peak if up else None,
     )

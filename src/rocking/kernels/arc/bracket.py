@@ -1,0 +1,220 @@
+"""The first zero of an arc without braces, bracketed by what is known where its stretches meet.
+
+There (``first_zero`` says what a stretch is) cos eta is known and e^t grows by given factors, so that u and u' need no
+elementary function. A bracket holds one zero; whatever is not certain by a wide margin is UNSURE and left
+to ``first_zero``.
+"""
+
+import math
+from typing import NamedTuple
+
+from numba import njit
+
+from rocking.kernels.arc.solution import after, exponentials, lapse_of
+from rocking.kernels.compile_options import INNER, WITHIN
+from rocking.kernels.forcing.harmonic import first_cut, forcing_rates, forcing_term
+
+MOST_TURNS = 64
+# Knots of a dip that are looked at.
+MOST_DIPS = 4
+MARGIN = 1e-11
+# In units of the rounding error of c+ and c-.
+WIDE = 16.0
+
+# What a walk ends with: a bracket, none for ever, or a doubt.
+ZERO, NEVER, UNSURE = range(3)
+
+
+class Knot(NamedTuple):
+    """w at one time, with what gives all its derivatives: w'' = w + f, w''' = w' + df."""
+
+    time: float
+    w: float
+    dw: float
+    f: float
+    df: float
+
+
+class Walk(NamedTuple):
+    """How a walk ended; the bracket of ZERO."""
+
+    answer: int
+    low: Knot
+    high: Knot
+
+
+@njit(**INNER)
+def knot(p, arc, constant, s, time, now):
+    """The knot of w = constant + s u at an instant; w from its change since the start, so that it is accurate near a brace too."""
+    f = forcing_term(p, now.cosine)
+    df, _ = forcing_rates(p, now.cosine, now.sine)
+    return Knot(time, (constant + s * arc.angle) + s * now.risen, s * now.velocity, s * f - constant, s * df)
+
+
+@njit(**INNER)
+def start_knot(p, arc, constant, s):
+    """The knot of w = constant + s u at the arc's start."""
+    f = forcing_term(p, arc.cosine)
+    df, _ = forcing_rates(p, arc.cosine, arc.sine)
+    return Knot(0.0, constant + s * arc.angle, s * arc.velocity, s * f - constant, s * df)
+
+
+@njit(**INNER)
+def first_stretch(p, arc):
+    """(when the first stretch ends, whether it is convex)."""
+    cut, concave = first_cut(p, arc.side, arc.psi, 0.0, p.base_half)
+    return cut, not concave
+
+
+@njit(**INNER)
+def rises(w, dw):
+    """Whether w, positive here, stays so as long as f > 0 lasts from here on: it lies above the free motion (w'' = w)."""
+    return w + dw >= 0.0
+
+
+@njit(**INNER)
+def lasts(here, doubt):
+    """Whether w is positive in all of a convex stretch, by one knot in it: it lies above the free motion through that, either way."""
+    return here.w - abs(here.dw) > doubt
+
+
+@njit(**INNER)
+def may_dip(p, left, right, left_doubt, right_doubt):
+    """Whether w, positive at both ends of a convex stretch, may reach zero within.
+
+    It stays clear if the free motions through either end never reach zero, or only after passing each other.
+    """
+    w, dw = left.w - left_doubt, left.dw - left_doubt
+    w_right, dw_right = right.w - right_doubt, right.dw + right_doubt
+    if rises(w, dw) or rises(w_right, -dw_right):
+        return False
+    crossed = w * dw_right - w_right * dw
+    return not crossed >= p.base_outside_tanh * (w * w_right - dw * dw_right) * (1.0 + MARGIN)
+
+
+@njit(**WITHIN)
+def bottom(p, arc, left, right, doubt):
+    """A knot of a dip that tells whether it reaches zero, or, after some tries, a knot near its bottom.
+
+    The first is where the slope, a cubic by its values and derivatives at both ends, vanishes; then Newton's method.
+    """
+    width = right.time - left.time
+    a, b = left.dw, right.dw
+    da, db = (left.w + left.f) * width, (right.w + right.f) * width
+    x = -a / (b - a)
+    for _ in range(2):
+        c2, c3 = 3.0 * (b - a) - 2.0 * da - db, da + db - 2.0 * (b - a)
+        x -= (a + x * (da + x * (c2 + x * c3))) / (da + x * (2.0 * c2 + x * 3.0 * c3))
+    x = min(max(x, 0.0), 1.0)
+    time, here = left.time + x * width, left
+    for _ in range(MOST_DIPS):
+        now = after(p, arc, lapse_of(p, time))
+        here = knot(p, arc, 0.0, 1.0, time, now)
+        if here.w < -doubt or lasts(here, doubt):
+            break
+        time = min(max(time - here.dw / (here.w + here.f), left.time), right.time)
+    return here
+
+
+@njit(**INNER)
+def at_cut(p, time, growing, shrinking, turned):
+    """The knot at the beginning (``turned`` = -1) or end (1) of a convex stretch, from c+ e^t and c- e^-t."""
+    angle, rate = growing + shrinking + p.cut_place, growing - shrinking + turned * p.cut_rate
+    return Knot(time, angle, rate, 0.0, -turned * p.cut_rate * (1.0 + p.frequency * p.frequency))
+
+
+@njit(**INNER)
+def stays_clear(p, arc, end):
+    """Whether w certainly stays positive on (0, end), where it does not fall below zero.
+
+    Most often the order of the stretches alone proves it: that leaves the convex ones which the arc passes from end to end,
+    and those in which it begins falling or ends rising.
+    """
+    start, (cut, convex) = start_knot(p, arc, 0.0, 1.0), first_stretch(p, arc)
+    begins_well, ends_well = rises(start.w, start.dw), rises(end.w, -end.dw)
+    time = cut + p.base_inside if convex else cut
+    if not (start.w > 0.0 or start.dw > 0.0):
+        return False
+    if convex and not begins_well:
+        return ends_well and end.time <= cut
+    if end.time <= time or (ends_well and end.time <= time + p.base_outside):
+        return True
+    grow, shrink, error = exponentials(p, arc)
+    error *= WIDE
+    z = math.exp(time)
+    per_z = 1.0 / z
+    for _ in range(MOST_TURNS):
+        growing, shrinking = grow * z, shrink * per_z
+        left = at_cut(p, time, growing, shrinking, -1.0)
+        doubt = MARGIN * (abs(growing) + abs(shrinking) + 1.0) + error * (z + per_z)
+        growing, shrinking = growing * p.base_outside_growth, shrinking * p.base_outside_decay
+        right = at_cut(p, time, growing, shrinking, 1.0)
+        doubt = p.base_outside_growth * doubt + MARGIN * abs(growing)
+        if not (left.w > doubt and right.w > doubt) or may_dip(p, left, right, doubt, doubt):
+            return False
+        time += p.period
+        if end.time <= time or (ends_well and end.time <= time + p.base_outside):
+            return True
+        z *= p.turn_growth
+        per_z *= p.turn_decay
+    return False
+
+
+@njit(**INNER)
+def walk(p, arc):
+    """From turn to turn to the first zero of u.
+
+    A concave stretch that begins with u >= 0 holds one zero if it ends with u < 0, else none; a convex one that begins
+    with u > 0, or rising from 0, likewise, but for a dip. None will ever come as soon as what grows outweighs all else.
+    """
+    before, (cut, convex) = start_knot(p, arc, 0.0, 1.0), first_stretch(p, arc)
+    # a convex stretch under way in which u rises holds no zero; else it is looked at like a whole one, and so is that of a
+    # lift-off, through all of which u rises: from where it ends u is known to be positive, or all is in doubt
+    lifts = before.w == 0.0 == before.dw
+    if not (before.w > 0.0 or before.dw > 0.0 or (convex and lifts)):
+        return Walk(UNSURE, before, before)
+    under_way = convex and (lifts or not rises(before.w, before.dw))
+    time = 0.0 if under_way else cut + p.base_inside if convex else cut
+    length, growth, decay = p.base_outside, p.base_outside_growth, p.base_outside_decay
+    grow, shrink, error = exponentials(p, arc)
+    error *= WIDE
+    z, per_z, left, doubt = 1.0, 1.0, before, MARGIN
+    if under_way:
+        length, growth = cut, math.exp(cut)
+        decay = 1.0 / growth
+    else:
+        z = math.exp(time)
+        per_z = 1.0 / z
+    for k in range(MOST_TURNS):
+        if k > 0 or not under_way:
+            growing, shrinking = grow * z, shrink * per_z
+            left = at_cut(p, time, growing, shrinking, -1.0)
+            doubt = MARGIN * (abs(growing) + abs(shrinking) + 1.0) + error * (z + per_z)
+            if left.w < -doubt:
+                return Walk(ZERO, before, left)
+            if not left.w > doubt:
+                return Walk(UNSURE, before, left)
+        time += length
+        z *= growth
+        per_z *= decay
+        growing, shrinking = grow * z, shrink * per_z
+        right = at_cut(p, time, growing, shrinking, 1.0)
+        right_doubt = MARGIN * (abs(growing) + abs(shrinking) + 1.0) + error * (z + per_z)
+        if right.w < -right_doubt:
+            return Walk(ZERO, left, right)
+        if not right.w > right_doubt:
+            return Walk(UNSURE, left, right)
+        if not (k == 0 and lifts) and may_dip(p, left, right, doubt, right_doubt):
+            middle = bottom(p, arc, left, right, right_doubt)
+            if middle.w < -right_doubt:
+                return Walk(ZERO, left, middle)
+            if not lasts(middle, right_doubt):
+                return Walk(UNSURE, left, right)
+        if min(growing, growing - abs(shrinking) + (1.0 - p.response)) > right_doubt:
+            return Walk(NEVER, left, right)
+        before = right
+        time += p.base_inside
+        z *= p.turn_growth * p.base_outside_decay
+        per_z *= p.turn_decay * p.base_outside_growth
+        length, growth, decay = p.base_outside, p.base_outside_growth, p.base_outside_decay
+    return Walk(UNSURE, left, left)

@@ -1,0 +1,154 @@
+"""Where an arc turns, and the largest angle on it."""
+
+import math
+
+import numpy as np
+from numba import njit
+
+from rocking.kernels.arc.first_zero import CROSSING, LATER, Watch, first_zero, step_to_zero
+from rocking.kernels.arc.solution import evaluate, exponentials, within_reach
+from rocking.kernels.compile_options import INLINED, INNER, WITHIN
+from rocking.kernels.event_kinds import BRACE, IMPACT
+from rocking.kernels.forcing.harmonic import TURN, forcing_rates, forcing_term
+
+# A turn just found is not met again by rounding: it is passed by this share of the time, and ever more.
+PASSED = 2.0**-50
+# The middle of an arc must be known this well, as a phase of the forcing; crests nearer to a tie than TIED are compared.
+KNOWN, TIED = 1e-6, 1e-3
+# From this near, in units of 1/max(1, Omega), a Taylor series reaches the top of a crest to rounding; so many tries at it.
+NEAR, TRIES = 1e-3, 6
+
+
+@njit(**INLINED)
+def turn_watch(p, sign):
+    """A turn of the motion: w = sign u', f_w = sign A Omega sin eta."""
+    half = 0.5 * math.pi if p.amplitude > 0.0 else math.inf
+    return Watch(0.0, 0.0, sign, sign * 0.5 * math.pi, half, p.amplitude > 0.0)
+
+
+@njit(**WITHIN)
+def first_turn_sign(p, arc):
+    """The sign of u' just after an arc's start; positive where all of u', u'' vanish (lift-off)."""
+    if arc.velocity != 0.0:
+        return math.copysign(1.0, arc.velocity)
+    return -1.0 if arc.angle + forcing_term(p, arc.cosine) < 0.0 else 1.0
+
+
+@njit(**WITHIN)
+def next_turn(p, arc, sign, t, until):
+    """(Found, time, instant) of the next turn after t, where sign u' falls through zero."""
+    start, passed = t, PASSED * (1.0 + t)
+    while True:
+        found, then, now = first_zero(p, arc, turn_watch(p, sign), start, until)
+        if found != CROSSING or then > t:
+            return found, then, now
+        start += passed
+        passed *= 2.0
+        if start >= until:
+            return LATER, until, now
+
+
+@njit(**INNER)
+def may_exceed(p, arc, coming, peak):
+    """Whether an arc up to an impact may reach beyond ``peak``.
+
+    h = u - 1 - beta cos eta obeys h'' = h. Where it is negative at both ends it stays below
+    -min(|h|)/cosh(half the wait).
+    """
+    if peak >= p.brace_angle:
+        return False
+    start = 1.0 + p.response * arc.cosine - arc.angle
+    end = 1.0 + p.response * coming.cosine
+    nearest = min(start, end)
+    return not (nearest > 0.0 and 1.0 + p.response - nearest / math.sqrt(1.0 + 0.5 * coming.versinh) <= peak)
+
+
+@njit(**WITHIN)
+def arc_peak(p, arc, until, peak):
+    """The largest of ``peak`` and the angles on the arc up to ``until``."""
+    now = evaluate(p, arc, until)
+    peak = max(peak, within_reach(p, now.angle))
+    t = 0.0
+    sign = first_turn_sign(p, arc)
+    while True:
+        found, t, now = next_turn(p, arc, sign, t, until)
+        if found != CROSSING:
+            return peak
+        peak = max(peak, within_reach(p, now.angle))
+        sign = -sign
+
+
+@njit(**INNER)
+def crest(p, arc, until, peak):
+    """(certain, the largest of ``peak`` and the angles on the arc up to ``until``), where it is certain without a search.
+
+    Where c+ and c- are negative, u = 1 - m cosh(t - middle) + beta cos eta, m = 2 sqrt(c+ c-), is largest between the middle
+    and the nearest eta = 0 (mod 2 pi): by whole turns and by mirroring at either of the two any
+    other time is brought between them, and u higher. There m sinh s - beta Omega sin(d - Omega s), s the time from
+    the middle and d the phase to go, is convex, not above 0 at first and not below it at last: the crest is the only turn.
+    It is the arc's too if the arc reaches it.
+    As 1 - cos y >= 2 (y/pi)**2, it is lower than 1 - m + beta by what the best compromise between the two costs at least.
+    An arc that begins in the middle (a lift-off) has one of two equal crests before it.
+    """
+    grow, shrink, error = exponentials(p, arc)
+    if not (max(grow, shrink) < 0.0 and p.frequency * error < -KNOWN * max(grow, shrink)):
+        return False, peak
+    m = 2.0 * math.sqrt(grow * shrink)
+    middle = 0.5 * math.log(shrink / grow)
+    eta = p.frequency * middle + arc.psi + (math.pi if arc.side < 0 else 0.0)
+    ahead = TURN * np.floor(eta / TURN + 0.5) - eta
+    bowl = (0.5 * TURN) ** -2 * 4.0 * p.response
+    stiff = bowl * p.frequency * p.frequency
+    if 1.0 - m + p.response - 0.5 * ahead * ahead * bowl * m / (m + stiff) <= peak:
+        return True, peak
+    if 0.5 * TURN - abs(ahead) < TIED:
+        if middle * p.frequency > KNOWN:
+            return False, peak
+        ahead = abs(ahead)
+    other = middle + ahead * p.per_frequency
+    low, high = max(min(middle, other), 0.0), min(max(middle, other), until)
+    if low >= high:
+        return False, peak
+    pull = p.response * p.frequency * p.frequency
+    t = min(max(middle + ahead * p.per_frequency * (pull / (pull + m)), low), high)
+    near = NEAR / max(1.0, p.frequency)
+    for _ in range(TRIES):
+        now = evaluate(p, arc, t)
+        f = forcing_term(p, now.cosine)
+        df, ddf = forcing_rates(p, now.cosine, now.sine)
+        second, third = now.angle + f, now.velocity + df
+        if not second < 0.0:
+            break
+        # The rate is concave: below its tangent on the crest's far side, above its chord on the near one.
+        ahead_of = now.velocity * ahead > 0.0
+        rest = now.velocity / (-second) if ahead_of else t - middle
+        if now.angle + 0.5 * abs(now.velocity * rest) <= peak:
+            return True, peak
+        step = step_to_zero(now.velocity, second, (df, ddf, -p.frequency * p.frequency * df))
+        if abs(step) < near:
+            inside = 0.0 < t + step < until
+            rise = now.velocity + step * (
+                0.5 * second + step * ((1.0 / 6.0) * third + step * ((1.0 / 24.0) * (second + ddf)))
+            )
+            return inside, max(peak, within_reach(p, now.angle + step * rise))
+        before, t = t, min(max(t + step, low), high)
+        if t == before:
+            break
+    return False, peak
+
+
+@njit(**WITHIN)
+def largest_on(p, arc, until, peak):
+    """``arc_peak``, without a search where that is certain."""
+    certain, largest = crest(p, arc, until, peak)
+    return largest if certain else arc_peak(p, arc, until, peak)
+
+
+@njit(**INNER)
+def peak_with(p, arc, coming, peak):
+    """The largest of ``peak`` and the angles of an arc up to the event that ends it."""
+    if coming.event == BRACE:
+        return p.brace_angle
+    if coming.event == IMPACT and not may_exceed(p, arc, coming, peak):
+        return peak
+    return largest_on(p, arc, coming.wait, peak)

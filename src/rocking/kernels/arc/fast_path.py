@@ -1,0 +1,227 @@
+"""The first event of a flight, proved at a fraction of the cost of ``first_zero``.
+
+A steady motion repeats its arcs, so an earlier arc tells where the next zero is, and what carries an arc on by that
+time is still at hand (``Lapse``): from there a Taylor series reaches the zero. Where it lies further off the series
+guesses, and one new evaluation follows. It is the *first* zero if no stretch before it holds one: most often their order
+alone proves that. Where the guess is no good, ``bracket`` brackets the zero and tells where to begin.
+
+Between braces flights are short: the series about their start guesses, and the cubic with the same ends proves that
+nothing is met before. Whatever is not certain by a wide margin is left to ``first_zero``.
+"""
+
+import math
+
+from numba import njit
+
+from rocking.kernels.arc.bracket import UNSURE, ZERO, Knot, knot, start_knot, stays_clear, walk
+from rocking.kernels.arc.enclosure import stays_between
+from rocking.kernels.arc.first_zero import LONGEST, reversion, step_to_zero
+from rocking.kernels.arc.solution import Instant, after, lapse_of
+from rocking.kernels.compile_options import INNER
+from rocking.kernels.forcing.harmonic import forcing_rates, forcing_term
+
+TRIES = 6
+# So often the series is begun anew on the way to an event.
+LOOKS = 8
+NOWHERE = Instant(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+# The step by the reverted series and the Taylor series that follow it are exact to rounding for steps below this, in
+# units of 1/max(1, Omega), of w'/w'' and of the root of w'/w'''.
+SMALL = 2e-4
+# A longer step is polished where it is shorter than REACH, in units of 1/max(1, Omega), in so many rounds; from a
+# bend below this one more round would not show.
+REACH, ROUNDS, BEND = 1.8, 3, 0.25
+# From so near, and such a bend, it needs no polish.
+NEAR = 0.25
+I2, I3, I4, I5, I6, I7, I8 = (1.0 / math.factorial(k) for k in range(2, 9))
+
+
+@njit(**INNER)
+def advance(p, now, step):
+    """An instant carried on by a small step: Taylor series with all its derivatives from u'' = u + f; the angle is the caller's."""
+    f = forcing_term(p, now.cosine)
+    df, ddf = forcing_rates(p, now.cosine, now.sine)
+    second = now.angle + f
+    third = now.velocity + df
+    fourth = second + ddf
+    fifth = third - p.frequency * p.frequency * df
+    velocity = now.velocity + step * (
+        second + step * (0.5 * third + step * ((1.0 / 6.0) * fourth + step * ((1.0 / 24.0) * fifth)))
+    )
+    x = p.frequency * step
+    sin_x = x * (1.0 - x * x * (1.0 / 6.0 - x * x * (1.0 / 120.0)))
+    versine = x * x * (0.5 - x * x * (1.0 / 24.0))
+    cosine = now.cosine - (now.cosine * versine + now.sine * sin_x)
+    sine = now.sine - (now.sine * versine - now.cosine * sin_x)
+    h = step * (1.0 + step * step * (1.0 / 6.0))
+    v = step * step * (0.5 + step * step * (1.0 / 24.0))
+    sinh = now.sinh + (now.sinh * v + h + now.versinh * h)
+    versinh = now.versinh + (now.versinh * v + v + now.sinh * h)
+    return Instant(0.0, 0.0, velocity, cosine, sine, sinh, versinh)
+
+
+@njit(**INNER)
+def close(p, now):
+    """Whether the zero of w is so near that one step of the series reaches it."""
+    w, v = abs(now.w), -now.dw
+    bend, twist = w * abs(now.w + now.f), w * w * abs(now.dw + now.df)
+    return (
+        w * max(1.0, p.frequency) < SMALL * v and bend < SMALL * v * v and twist < SMALL * SMALL * v * v * v
+    )
+
+
+@njit(**INNER)
+def stride(now):
+    """A step towards the zero of w from further off: to where the parabola comes down, infinity where it does not."""
+    fall = now.w + now.f
+    under = now.dw * now.dw - 2.0 * now.w * fall
+    if fall < 0.0 and under > 0.0:
+        return (now.dw + math.sqrt(under)) / -fall
+    return -now.w / now.dw if now.dw < 0.0 else math.inf
+
+
+@njit(**INNER)
+def turned(p, steady, now):
+    """f'' at a knot; f = -steady and a part that turns with the forcing."""
+    return -p.frequency * p.frequency * (now.f + steady)
+
+
+@njit(**INNER)
+def polished(p, steady, now, rough):
+    """(whether w falls there, a step to its zero): a rough one corrected by the Taylor series about ``now``, no new elementary functions.
+
+    c_k are the derivatives of w there, w_k those at the end of the step. Only a guess: the series stops where it is
+    good to some three digits within REACH.
+    """
+    square = -p.frequency * p.frequency
+    df, ddf = now.df, turned(p, steady, now)
+    c0, c1 = now.w, now.dw
+    c2, c3 = c0 + now.f, c1 + df
+    c4, c5 = c2 + ddf, c3 + square * df
+    c6, c7 = c4 + square * ddf, c5 + square * square * df
+    c8 = c6 + square * square * ddf
+    s = rough
+    for _ in range(ROUNDS):
+        q = s * s
+        h = q * q
+        w4 = (c4 + s * c5) + q * (I2 * c6)
+        w3 = (c3 + s * c4) + q * (I2 * c5 + s * (I3 * c6))
+        w2 = (c2 + s * c3) + q * (I2 * c4 + s * (I3 * c5)) + h * (I4 * c6 + s * (I5 * c7))
+        w1 = (c1 + s * c2) + q * (I2 * c3 + s * (I3 * c4)) + h * ((I4 * c5 + s * (I5 * c6)) + q * (I6 * c7))
+        w0 = (c0 + s * c1) + q * (I2 * c2 + s * (I3 * c3))
+        w0 += h * ((I4 * c4 + s * (I5 * c5)) + q * (I6 * c6 + s * (I7 * c7)) + h * (I8 * c8))
+        if not w1 < 0.0:
+            return False, rough
+        s += step_to_zero(w0, w1, (w2 - w0, w3 - w1, w4 - w2))
+        if abs(w0 * w2) < BEND * w1 * w1:
+            break
+    return True, s
+
+
+@njit(**INNER)
+def leap(p, steady, here):
+    """(whether the series about a knot tells where w has its zero, the step there)."""
+    scale, rough = max(1.0, p.frequency), math.inf
+    if abs(here.w * (here.w + here.f)) < BEND * here.dw * here.dw and here.dw < 0.0:
+        rough = step_to_zero(here.w, here.dw, (here.f, here.df, turned(p, steady, here)))
+        if scale * abs(rough) < NEAR:
+            return True, rough
+    else:
+        rough = stride(here)
+    if scale * abs(rough) <= REACH:
+        return True, polished(p, steady, here, rough)[1]
+    return False, rough
+
+
+@njit(**INNER)
+def seek(p, arc, constant, s, lapse, low, high):
+    """(reached, time, instant, lapse close by) of a zero of w = constant + s u between two times, from a lapse not far from it."""
+    now = after(p, arc, lapse)
+    for _ in range(TRIES):
+        here = knot(p, arc, constant, s, lapse.time, now)
+        if close(p, here):
+            y, correction = reversion(here.w, here.dw, (here.f, here.df, turned(p, constant + s, here)))
+            step = y * correction
+            t = lapse.time + step
+            return low < t < high, t, advance(p, now, step), lapse
+        told, step = leap(p, constant + s, here)
+        t = lapse.time + step
+        if not (told and low < t < high):
+            break
+        lapse = lapse_of(p, t)
+        now = after(p, arc, lapse)
+    return False, lapse.time, now, lapse
+
+
+@njit(**INNER)
+def seek_in(p, arc, bracket):
+    """``seek`` for the zero of u in a bracket: from where the series about its nearer end has the zero, or the middle."""
+    low, high = bracket.low, bracket.high
+    told, step = leap(p, 1.0, low)
+    t = low.time + step
+    if not (told and low.time < t < high.time):
+        told, step = leap(p, 1.0, high)
+        t = high.time + step
+        if not (told and low.time < t < high.time):
+            t = 0.5 * (low.time + high.time)
+    return seek(p, arc, 0.0, 1.0, lapse_of(p, t), low.time, min(high.time, LONGEST))
+
+
+@njit(**INNER)
+def likely_impact(p, arc, guess):
+    """(answer, time, instant, lapse close by) of the first event of a flight without braces: ZERO, NEVER, or UNSURE.
+
+    From the lapse that is guessed, if it leads to an impact that is certainly the first; else from a walk.
+    """
+    if guess.time > 0.0:
+        reached, t, now, lapse = seek(p, arc, 0.0, 1.0, guess, 0.0, LONGEST)
+        if reached and stays_clear(p, arc, Knot(t, 0.0, now.velocity, 0.0, 0.0)):
+            return ZERO, t, now, lapse
+    bracket = walk(p, arc)
+    reached, t, now, lapse = seek_in(p, arc, bracket)
+    return (bracket.answer if bracket.answer != ZERO or reached else UNSURE), t, now, lapse
+
+
+@njit(**INNER)
+def ahead(p, base, brace):
+    """(whether the series about an instant tells where an event is, whether at a brace, after how long); else how far it leads."""
+    to_base, to_brace = stride(base), stride(brace)
+    at_brace = to_brace < to_base
+    here, rough = (brace, to_brace) if at_brace else (base, to_base)
+    farthest = REACH / max(1.0, p.frequency)
+    rough = min(rough, farthest)
+    told, step = polished(p, p.brace_angle - 1.0 if at_brace else 1.0, here, rough)
+    told = told and 0.0 < step <= farthest
+    return told, at_brace, step if told else rough
+
+
+@njit(**INNER)
+def likely_event(p, arc):
+    """(answer, whether at a brace, time, instant) of the first event of a flight between braces: ZERO, or UNSURE.
+
+    It is guessed from the start of the arc, not from an earlier one: in chaos that is seldom like it. Where the series tells
+    of no event, it begins anew further on; or, where that is beyond one, the event is sought from there. Whatever is not
+    certain is asked again of half the way.
+    """
+    system = p.amplitude, p.frequency, p.brace_angle
+    base, brace = start_knot(p, arc, 0.0, 1.0), start_knot(p, arc, p.brace_angle, -1.0)
+    told, at_brace, step = ahead(p, base, brace)
+    for _ in range(LOOKS):
+        lapse = lapse_of(p, base.time + step)
+        now = after(p, arc, lapse)
+        if not told:
+            if stays_between(system, step, (base.w, base.dw), (now.angle, now.velocity)):
+                base, brace = (
+                    knot(p, arc, 0.0, 1.0, lapse.time, now),
+                    knot(p, arc, p.brace_angle, -1.0, lapse.time, now),
+                )
+                told, at_brace, step = ahead(p, base, brace)
+                continue
+            at_brace = now.angle > p.brace_angle
+            told = at_brace or now.angle < 0.0
+        if told:
+            place, s = (p.brace_angle, -1.0) if at_brace else (0.0, 1.0)
+            reached, t, now, _ = seek(p, arc, place, s, lapse, base.time, LONGEST)
+            if reached and stays_between(system, t - base.time, (base.w, base.dw), (place, now.velocity)):
+                return ZERO, at_brace, t, now
+        told, step = False, 0.5 * step
+    return UNSURE, False, 0.0, NOWHERE

@@ -1,0 +1,264 @@
+"""The certified first crossing of an arc: which event comes first, and exactly when.
+
+What is watched is w = constant + of_angle u + of_velocity u': the base (w = u), a brace (w = brace_angle -
+u) or a turn (w = +-u'). Each obeys w'' - w = f_w with f_w = of_angle f + of_velocity f' - constant, and on
+a *stretch*, where f_w keeps its sign, y = w e^t is concave or convex in z = e^2t (y_zz = f_w e^-3t/4). So
+
+* a concave stretch that starts with w >= 0 holds one zero if it ends with w < 0, else none;
+* a convex one holds one zero if it ends with w < 0; else two or none, decided by the sign of w at the
+  bottom of the dip, if there is a dip.
+
+Nothing is sampled and nothing above rounding can be missed. Stretches far above w's possible oscillation
+are skipped whole.
+"""
+
+import math
+from enum import IntEnum
+from typing import NamedTuple
+
+from numba import njit
+
+from rocking.kernels.arc.solution import after, evaluate, exponentials, recall
+from rocking.kernels.compile_options import COMPILED, INLINED, WITHIN
+from rocking.kernels.forcing.harmonic import first_cut, forcing_rates, forcing_term, next_cut
+
+# An arc is renewed from its own state after this long: e^32 is where the closed form has used up double
+# precision.
+LONGEST = 32.0
+ITERATIONS = 200
+# A zero not reached in so many steps is halved in on as well.
+MOST_STEPS = 10
+
+
+class Found(IntEnum):
+    """What a search for a crossing ended with."""
+
+    CROSSING = 0
+    NEVER = 1  # proved: no crossing, however long one waits
+    LATER = 2  # none up to the limit
+
+
+CROSSING, NEVER, LATER = (int(found) for found in Found)
+
+
+class Watch(NamedTuple):
+    """What is followed to its first zero, and where the sign of its forcing term changes."""
+
+    constant: float
+    of_angle: float
+    of_velocity: float
+    centre: float  # cuts at eta = centre +- half
+    half: float
+    convex_inside: bool  # f_w > 0 for |eta - centre| < half (everywhere, where half is infinite)
+
+
+@njit(**INLINED)
+def base_watch(p):
+    """The base: w = u, f_w = -1 - A cos eta."""
+    return Watch(0.0, 1.0, 0.0, 0.0, p.base_half, False)
+
+
+@njit(**INLINED)
+def brace_watch(p):
+    """The brace: w = brace_angle - u, f_w = 1 - brace_angle + A cos eta."""
+    return Watch(p.brace_angle, -1.0, 0.0, 0.0, p.brace_half, p.brace_half < math.inf or p.brace_angle < 1.0)
+
+
+@njit(**INLINED)
+def watched(p, arc, watch, now):
+    """(w, w') at an instant; w from its change since the start, so that it is accurate near a brace too."""
+    acceleration = now.angle + forcing_term(p, now.cosine)
+    at_start = watch.constant + watch.of_angle * arc.angle
+    return (
+        at_start + (watch.of_angle * now.risen + watch.of_velocity * now.velocity),
+        watch.of_angle * now.velocity + watch.of_velocity * acceleration,
+    )
+
+
+@njit(**INLINED)
+def watched_forcing(p, watch, now):
+    """(f_w, f_w', f_w'') at an instant."""
+    f = forcing_term(p, now.cosine)
+    df, ddf = forcing_rates(p, now.cosine, now.sine)
+    dddf = -p.frequency * p.frequency * df
+    return (
+        watch.of_angle * f + watch.of_velocity * df - watch.constant,
+        watch.of_angle * df + watch.of_velocity * ddf,
+        watch.of_angle * ddf + watch.of_velocity * dddf,
+    )
+
+
+@njit(**INLINED)
+def reversion(w, dw, forcing):
+    """(y, correction): y * correction leads to the nearest zero of w's Taylor series, to fifth order; y is Newton's step."""
+    f, df, ddf = forcing
+    second = w + f
+    per = 1.0 / dw
+    y = -w * per
+    a = 0.5 * second * per
+    b = (1.0 / 6.0) * (dw + df) * per
+    c = (1.0 / 24.0) * (second + ddf) * per
+    return y, 1.0 + y * (-a + y * (2.0 * a * a - b + y * (5.0 * a * (b - a * a) - c)))
+
+
+@njit(**INLINED)
+def step_to_zero(w, dw, forcing):
+    """A step towards the zero; a correction near 0 would stop where there is none, so that far away only Newton's is taken."""
+    y, correction = reversion(w, dw, forcing)
+    return y * correction if 0.5 < correction < 2.0 else y
+
+
+@njit(**WITHIN)
+def refine(p, arc, watch, low, high, t):
+    """(time, instant) of the one zero in [low, high], w > 0 just after low and w <= 0 at high, from the guess t."""
+    now = evaluate(p, arc, t)
+    for k in range(ITERATIONS):
+        w, dw = watched(p, arc, watch, now)
+        if w > 0.0:
+            low = t
+        else:
+            high = t
+        ahead = t + step_to_zero(w, dw, watched_forcing(p, watch, now))
+        stuck = k > MOST_STEPS and k % 2 == 0
+        if stuck or not (dw < 0.0 and low <= ahead <= high):
+            ahead = 0.5 * (low + high)
+        converged = abs(ahead - t) <= 4.0 * 2.0**-53 * ahead
+        t = ahead
+        now = evaluate(p, arc, t)
+        if converged:
+            break
+    return t, now
+
+
+@njit(**WITHIN)
+def dip(p, arc, watch, left, w, dw, right, w_right, dw_right):
+    """A time in a convex stretch at which w <= 0, or infinity where w stays positive; w > 0 at both ends.
+
+    The bottom of y = w e^t is where w + w' = 0, whose left side times e^-t only grows: one safeguarded
+    Newton iteration finds it, and w there decides.
+    """
+    if w + dw >= 0.0 or dw_right - w_right <= 0.0 or dw_right + w_right <= 0.0:
+        return math.inf
+    low, high = left, right
+    t = left - (w + dw) * (right - left) / ((dw_right + w_right) - (w + dw))
+    for _ in range(ITERATIONS):
+        now = evaluate(p, arc, t)
+        w, dw = watched(p, arc, watch, now)
+        if w <= 0.0:
+            return t
+        slope = w + dw
+        if slope < 0.0:
+            low = t
+        else:
+            high = t
+        f, _, _ = watched_forcing(p, watch, now)
+        ahead = t - slope / (slope + f)
+        if not low <= ahead <= high:
+            ahead = 0.5 * (low + high)
+        # how much lower the bottom may be is no more than the tangent says
+        if abs(ahead - t) <= 1e-9 * (high - left) and w > abs(slope * (ahead - t)):
+            return math.inf
+        t = ahead
+    return math.inf
+
+
+@njit(**INLINED)
+def first_guess(p, watch, now, w, dw, low, high):
+    """Where to begin in (low, high), ``now`` at low: the parabola's return for a hop that starts at w = 0, else the middle."""
+    middle = 0.5 * (low + high)
+    f, _, _ = watched_forcing(p, watch, now)
+    hop = 2.0 * dw
+    return low - hop / f if w == 0.0 and hop > 0.0 and hop < -f * (middle - low) else middle
+
+
+@njit(**WITHIN)
+def clear_until(p, arc, watch, t):
+    """How long w certainly stays positive from t on: t where nothing is certain, infinity for ever.
+
+    w lies within ``swing`` of m + a e^t + b e^-t; the earliest time after t at which that curve, lowered by
+    its rounding error, comes down to the swing.
+    """
+    grow, shrink, error = exponentials(p, arc)
+    m = watch.constant + watch.of_angle
+    a = (watch.of_angle + watch.of_velocity) * grow - error
+    b = (watch.of_angle - watch.of_velocity) * shrink - error
+    swing = p.response * (abs(watch.of_angle) + abs(watch.of_velocity) * p.frequency)
+    m -= swing + 1e-12 * (swing + abs(m))
+    z = math.exp(t)
+    if m + a * z + b / z <= 0.0:
+        return t
+    discriminant = m * m - 4.0 * a * b
+    if discriminant <= 0.0:
+        return math.inf
+    root = math.sqrt(discriminant)
+    q = -0.5 * (m + (root if m > 0.0 else -root))
+    first = q / a if a != 0.0 else math.inf
+    second = b / q if q != 0.0 else math.inf
+    nearest = math.inf
+    if first > z:
+        nearest = first
+    if z < second < nearest:
+        nearest = second
+    return max(t, math.log(nearest) * (1.0 - 1e-12)) if nearest < math.inf else math.inf
+
+
+@njit(**WITHIN)
+def no_return_time(p, arc):
+    """When an arc that never comes back first proves it: c+ e^t - |c-| e^-t + 1 - beta > 0 from then on."""
+    grow, shrink, _ = exponentials(p, arc)
+    m = 1.0 - p.response
+    b = abs(shrink)
+    root = math.sqrt(m * m + 4.0 * grow * b)
+    z = 2.0 * b / (m + root) if m > 0.0 else (root - m) / (2.0 * grow)
+    return math.log(z) if z > 1.0 else 0.0
+
+
+@njit(**COMPILED)
+def first_zero(p, arc, watch, t, limit):
+    """(Found, time, instant): the first time after t, by ``limit``, at which w falls through zero.
+
+    w >= 0 at t. Where w = w' = 0 at t (lift-off, leaving a brace) the first convex stretch begins there,
+    and w rises through all of it.
+    """
+    now = after(p, arc, recall(p, t))
+    w, dw = watched(p, arc, watch, now)
+    at_rest = w == 0.0 and dw == 0.0
+    cut, inside = (
+        first_cut(p, arc.side, arc.psi, watch.centre, watch.half)
+        if watch.half < math.inf
+        else (math.inf, True)
+    )
+    while cut <= t:
+        inside = not inside
+        cut += next_cut(p, watch.half, inside)
+    while True:
+        right = min(cut, limit)
+        then = evaluate(p, arc, right)
+        w_right, dw_right = watched(p, arc, watch, then)
+        low_end = right if w_right < 0.0 else math.inf
+        convex = inside == watch.convex_inside
+        if at_rest:
+            low_end = math.inf
+        elif convex and w_right >= 0.0:
+            low_end = dip(p, arc, watch, t, w, dw, right, w_right, dw_right)
+        if low_end < math.inf:
+            t, now = refine(p, arc, watch, t, low_end, first_guess(p, watch, now, w, dw, t, low_end))
+            return CROSSING, t, now
+        at_rest = at_rest and not convex
+        t, w, dw, now = right, w_right, dw_right, then
+        clear = clear_until(p, arc, watch, t)
+        if clear == math.inf:
+            return NEVER, t, then
+        if t >= limit:
+            return LATER, limit, then
+        inside = not inside
+        cut += next_cut(p, watch.half, inside)
+        if clear >= limit:
+            return LATER, limit, evaluate(p, arc, limit)
+        if clear > cut:
+            cycles = math.floor((clear - t) / p.period) * p.period
+            if cycles > 0.0:
+                t += cycles
+                cut += cycles
+                now = evaluate(p, arc, t)
+                w, dw = watched(p, arc, watch, now)

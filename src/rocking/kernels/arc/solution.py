@@ -1,0 +1,126 @@
+"""One arc of rocking in closed form, eqs (4)-(5) of Yim & Lin (1991), free of cancellation on short arcs.
+
+On side sigma = sign(Theta) work with u = sigma Theta >= 0: u'' - u = f = -1 - A cos eta. From (u0, v0) at eta0
+
+    u = u0 + v0 sinh t + steady (cosh t - 1) + G(t),
+
+``steady`` a steady part of u0 - 1 - A cos eta, G the response from rest to the remainder (``harmonic.respond``).
+The exponential form u = c+ e^t + c- e^-t + 1 + beta cos eta serves bounds.
+"""
+
+from typing import NamedTuple
+
+from numba import njit
+
+from rocking.kernels.compile_options import COMPILED, INLINED, INNER
+from rocking.kernels.forcing.harmonic import Swing, begin, forcing_term, particular, respond, swing
+from rocking.kernels.numerics.elementary import hyperbolic
+
+ROUNDING = 2.0**-53
+
+
+class Arc(NamedTuple):
+    """Where an arc starts: side of the base, time within the cycle, u, u', and the forcing there."""
+
+    side: int
+    start: float
+    angle: float
+    velocity: float
+    cosine: float
+    sine: float
+    psi: float
+    pull: float  # u''
+
+
+class Instant(NamedTuple):
+    """What an arc is at one instant: u, u', the forcing there, and the hyperbolic functions of the time since its start."""
+
+    angle: float
+    risen: float  # u - u0, to relative accuracy
+    velocity: float
+    cosine: float
+    sine: float
+    sinh: float
+    versinh: float  # cosh t - 1
+
+
+class Lapse(NamedTuple):
+    """A time, and what carries an arc on by it: the same for every arc, so that a motion which repeats itself needs it but once."""
+
+    time: float
+    sinh: float
+    versinh: float
+    swing: Swing
+
+
+# No time.
+NONE_YET = Lapse(0.0, 0.0, 0.0, Swing(True, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0))
+
+
+@njit(**INLINED)
+def arc_from(p, side, start, angle, velocity):
+    """The arc that leaves (u, u') = (angle, velocity) on ``side`` at time ``start`` within the cycle."""
+    cosine, sine, psi, pull = begin(p, side, start, angle)
+    return Arc(side, start, angle, velocity, cosine, sine, psi, pull)
+
+
+@njit(**INNER)
+def arc_after(p, side, start, angle, velocity, cosine, sine):
+    """``arc_from`` where the forcing is known already."""
+    pull = angle + forcing_term(p, cosine)
+    return Arc(side, start, angle, velocity, cosine, sine, p.frequency * start + p.phase, pull)
+
+
+@njit(**INNER)
+def earlier(arc, time):
+    """The same arc as seen from ``time`` later: its start lies so much earlier."""
+    return Arc(arc.side, arc.start - time, arc.angle, arc.velocity, arc.cosine, arc.sine, arc.psi, arc.pull)
+
+
+@njit(**INNER)
+def lapse_of(p, t):
+    """The lapse of a time t >= 0."""
+    sinh, versinh, excess, higher = hyperbolic(t)
+    return Lapse(t, sinh, versinh, swing(p, t, sinh, versinh, excess, higher))
+
+
+@njit(**COMPILED)
+def recall(p, t):
+    """``lapse_of`` where it is rarely needed."""
+    return lapse_of(p, t) if t > 0.0 else NONE_YET
+
+
+@njit(**INNER)
+def evaluate(p, arc, t):
+    """The arc a time t >= 0 after its start."""
+    return after(p, arc, lapse_of(p, t))
+
+
+@njit(**INNER)
+def after(p, arc, lapse):
+    """The arc a lapse after its start: eq. (5)."""
+    _, sinh, versinh, swing = lapse
+    steady, displaced, moved, cosine, sine = respond(
+        p, arc.cosine, arc.sine, arc.angle - 1.0, arc.pull, swing
+    )
+    risen = arc.velocity * sinh + steady * versinh + displaced
+    velocity = arc.velocity + (arc.velocity * versinh + steady * sinh + moved)
+    return Instant(arc.angle + risen, risen, velocity, cosine, sine, sinh, versinh)
+
+
+@njit(**INNER)
+def within_reach(p, angle):
+    """An angle as the base and the braces allow it: near an event rounding may put it beyond."""
+    return min(max(angle, 0.0), p.brace_angle)
+
+
+@njit(**INNER)
+def exponentials(p, arc):
+    """(c+, c-, a bound on the rounding error of either): u = c+ e^t + c- e^-t + 1 + beta cos eta."""
+    place, rate = particular(p, arc.cosine, arc.sine)
+    mean = arc.angle - 1.0 - place
+    half = arc.velocity - rate
+    error = (
+        4.0 * ROUNDING * (abs(arc.angle) + abs(arc.velocity) + 1.0 + 2.0 * p.response * (1.0 + p.frequency))
+    )
+    return 0.5 * (mean + half), 0.5 * (mean - half), error

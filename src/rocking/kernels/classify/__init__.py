@@ -1,0 +1,1 @@
+"""The classification of a response, from recurrence to the verdict."""

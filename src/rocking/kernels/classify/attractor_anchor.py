@@ -1,0 +1,114 @@
+"""Where responses end up, so that two starts can be compared: one state an attractor, the same from whichever start."""
+
+import math
+
+import numpy as np
+from numba import njit
+
+from rocking.kernels.classify.verdict_record import PERIODIC, REST
+from rocking.kernels.classify.workspace import desk
+from rocking.kernels.compile_options import MAKING_ENTRY, WITHIN
+from rocking.kernels.march.march import DONE, PAUSED, STILL, UNKNOWN, begin, march_on
+from rocking.kernels.parameters import later, make
+
+# The phase of the section on which attractors are compared, in cycles: on no event of any symmetric mode but by chance.
+SECTION = 0.3819660112501051
+# States of an orbit whose angles differ by less are told apart by their velocities.
+TIED = 1e-7
+# Rest is certain long before its last impact.
+LONGER = 10
+
+
+@njit(**WITHIN)
+def follow_plainly(p, angle, velocity, cycles, section_time, section, nothing):
+    """(status, progress) after so many cycles, with the states at ``section_time`` as ``section`` has room for."""
+    progress, _ = begin(p, angle, velocity, UNKNOWN)
+    rows = 0
+    while True:
+        status, progress, taken, _ = march_on(
+            p,
+            progress,
+            cycles,
+            section_time,
+            section if rows == 0 else section[rows:],
+            nothing.events,
+            nothing.columns,
+            nothing.growth,
+            False,
+            False,
+        )
+        rows += taken
+        if status != PAUSED:
+            return status, progress
+
+
+@njit(**WITHIN)
+def rest_angle(p, angle, velocity, cycles, nothing):
+    """Where a motion that is known to end at rest does so: 0, or on a brace."""
+    if p.brace_angle == math.inf:
+        return 0.0
+    most = LONGER * max(cycles, 1)
+    status, progress = follow_plainly(p, angle, velocity, most, 0.0, nothing.section, nothing)
+    arc = progress.arc
+    return arc.side * arc.angle if status == STILL else math.nan
+
+
+@njit(**WITHIN)
+def foremost(states, first):
+    """The row of the largest angle, of those tied the one of the largest velocity."""
+    best = first
+    for row in range(first + 1, states.shape[0]):
+        ahead = states[row, 0] - states[best, 0]
+        if ahead > TIED or (ahead > -TIED and states[row, 1] > states[best, 1]):
+            best = row
+    return best
+
+
+@njit(**MAKING_ENTRY)
+def anchor_each(systems, starts, kind, period, cycles, orbit, nothing, anchors):
+    """Write for each of n points the state (angle, velocity) that stands for what it ends up on; NaN where nothing does.
+
+    Of a periodic orbit its foremost state on the section at SECTION; of rest where that is. ``kind``, ``period``,
+    ``cycles`` and ``orbit`` are ``Answers``.
+    """
+    for k in range(systems.shape[0]):
+        anchors[k, 0], anchors[k, 1] = math.nan, math.nan
+        if kind[k] != PERIODIC and kind[k] != REST:
+            continue
+        p = make(
+            systems[k, 0],
+            systems[k, 1],
+            systems[k, 2],
+            systems[k, 3],
+            systems[k, 4],
+            systems[k, 5],
+            systems[k, 6],
+        )
+        if kind[k] == REST:
+            anchors[k, 0], anchors[k, 1] = rest_angle(p, starts[k, 0], starts[k, 1], cycles[k], nothing), 0.0
+            continue
+        # The second time round: an orbit that rests is known at a release, whose instant is rounded.
+        states = np.empty((2 * period[k], 2))
+        at = (SECTION * p.period - orbit[k, 0]) % p.period
+        status, _ = follow_plainly(
+            later(p, orbit[k, 0]), orbit[k, 1], orbit[k, 2], 2 * period[k], at, states, nothing
+        )
+        if status == DONE:
+            best = foremost(states, period[k])
+            anchors[k, 0], anchors[k, 1] = states[best, 0], states[best, 1]
+
+
+def anchors_of(systems, starts, answers):
+    """``anchor_each`` for the answers of ``judge_many``: an array (n, 2)."""
+    anchors = np.empty((len(systems), 2))
+    anchor_each(
+        systems,
+        starts,
+        answers.kind,
+        answers.period,
+        answers.cycles,
+        answers.orbit,
+        desk(1, 1).nothing,
+        anchors,
+    )
+    return anchors

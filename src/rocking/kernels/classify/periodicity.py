@@ -1,0 +1,254 @@
+"""Whether a motion has reached a periodic orbit: what its returns point to, Newton's method from there, and the Floquet stop."""
+
+import math
+from typing import NamedTuple
+
+from numba import njit
+
+from rocking.kernels.arc.extrema import largest_on
+from rocking.kernels.classify.recurrence import apart, approached, closest_return
+from rocking.kernels.compile_options import ENTRY, WITHIN, WRITTEN_IN
+from rocking.kernels.march.march import UNKNOWN
+from rocking.kernels.march.tangent import Tangent
+from rocking.kernels.numerics.elementary import size
+from rocking.kernels.orbits.fixed_point import (
+    NEARBY,
+    UNBOUNDED,
+    Found,
+    Image,
+    adapted_norm,
+    find_fixed_point,
+    image_after,
+    length,
+    multipliers,
+)
+from rocking.kernels.orbits.symmetric_mode import nearest
+from rocking.kernels.parameters import later
+
+# Where Newton's method starts, in this order; and once more with the least period of what it found.
+KNOWN, APPROACHED, CLOSEST, NO_MORE = range(4)
+REFINED = -1
+# From returns further apart Newton's method seldom finds what the motion approaches.
+CLOSE = 0.01
+# A symmetric mode is taken for the limit of the returns where it is nearer to that than this share of the way left.
+BESIDE = 0.5
+# A section must not lie on an event: sides, impacts and derivatives are ambiguous there. In cycles.
+CLEARANCE = 1e-6
+# How far a return may be from what the multipliers say, as a share of what is left of the distance.
+NONLINEAR = 0.2
+# Beside a bifurcation an orbit attracts weakly, and its returns obey the multipliers alone only after 10**4 cycles or more. They
+# may bend by this share of all of the distance, if they come nearer by this share of what the multipliers promise: what is
+# small of second order cannot turn that round on the rest of the way.
+BENT, APPROACH = 0.01, 0.3
+RETURNS = 3
+MOST_FORETOLD = 1 << 20
+# States of an orbit as near as this are one.
+SAME = 1e-9
+# A motion as near as this to a neutral orbit is on it.
+NEUTRAL = 1e-10
+# A motion that passes an orbit which repels comes this much nearer from look to look.
+MUCH_NEARER = 0.5
+# Distances below this are rounding.
+ROUNDING = 1e-12
+
+NOT_YET, REACHED, ON_EVENT = range(3)
+
+
+class Cycle(NamedTuple):
+    """A periodic orbit that a motion was compared with."""
+
+    answer: int  # NOT_YET, REACHED, or ON_EVENT: the section must move
+    period: int
+    symmetric: bool
+    found: Found
+    peak: float  # NaN where it was not asked for
+    distance: float  # from the orbit, a period before the last return
+    coming: int  # cycles until it may be reached, as far as that can be foretold; 0 where it cannot
+    work: int
+
+
+@njit(**WITHIN)
+def loses(p, impacts, brace_hits):
+    """Whether so many events lose energy."""
+    return (p.restitution < 1.0 and impacts > 0) or (p.brace_restitution < 1.0 and brace_hits > 0)
+
+
+@njit(**WITHIN)
+def on_event(p, section, row):
+    """Whether an impact or a brace hit lies within CLEARANCE of a row of the section."""
+    near = CLEARANCE * p.period
+    angle = abs(section[row, 0])
+    reach = near * abs(section[row, 1]) + near * near * (1.0 + p.amplitude)
+    return angle <= reach or abs(angle - p.brace_angle) <= reach
+
+
+@njit(**WRITTEN_IN)
+def find_cycle(p, section_time, desk, count, most_lag, most_work, known, since, neutral):
+    """Compare a motion with the periodic orbit that its last ``count`` states approach.
+
+    First with the ``known`` one, found ``since`` cycles ago, and with no other while the motion comes nearer to
+    it, much nearer if it repels: what was born of it lies beside it; then with the limit of the returns, or the
+    symmetric mode beside it; then, if they have none, with what is nearest to a close return. A ``neutral`` orbit
+    attracts nothing: the motion must be on it.
+    """
+    section, nothing, columns, scratch = desk.section, desk.nothing, desk.trial, desk.scratch
+    clocked, row, work, candidate, seen = later(p, section_time), count - 1, 0, KNOWN, no_cycle(0)
+    angle, velocity, lag, found, enough = 0.0, 0.0, 0, known.found, UNBOUNDED
+    symmetric, peak, waits, mode = known.symmetric, known.peak, UNKNOWN, nearest(clocked, 0, 0.0, 0.0)
+    while candidate < NO_MORE:
+        trying, candidate = candidate, (NO_MORE if candidate == REFINED else candidate + 1)
+        if trying == KNOWN:
+            lag, row = known.period, count - 1 - since % max(known.period, 1)
+            lag = lag if row >= lag else 0
+        elif trying == APPROACHED:
+            row = count - 1
+            lag, angle, velocity = approached(section, count, most_lag)
+            mode = nearest(clocked, lag, angle, velocity)
+            left = size(section[row, 0] - angle, section[row, 1] - velocity)
+            if mode.distance <= max(BESIDE * left, SAME):
+                angle, velocity, waits = mode.angle, mode.velocity, (mode.half - mode.since, mode.half)
+        elif trying == CLOSEST:
+            lag, away = closest_return(section, count, most_lag)
+            lag = lag if away <= CLOSE else 0
+            angle, velocity = section[row, 0], section[row, 1]
+            # Only far from an orbit is Newton's method dear.
+            enough = most_work - work
+        if lag == 0 or enough <= 0:
+            continue
+        if trying != KNOWN:
+            found = find_fixed_point(
+                clocked, angle, velocity, lag, enough, nothing, columns, waits, NEARBY, 0.0, 1.0
+            )
+            work += found.work
+            waits, symmetric, peak = UNKNOWN, False, math.nan
+            if not found.converged:
+                continue
+            if lag == mode.order and size(found.angle - mode.angle, found.velocity - mode.velocity) <= SAME:
+                symmetric, peak = True, largest_on(clocked, mode.arc, mode.half, 0.0)
+        answer, away, coming = compare(p, section, row, lag, found)
+        if answer != REACHED and not (neutral and away <= NEUTRAL):
+            coming = max(coming - (count - 1 - row), 0)
+            nearer = away < known.distance * (1.0 if attracts(p, found.image) else MUCH_NEARER)
+            if trying == KNOWN and answer == NOT_YET and nearer:
+                return Cycle(NOT_YET, lag, symmetric, found, peak, away, coming, work)
+            # Of what is found time and again somewhere else nothing is foretold.
+            coming = coming if trying == APPROACHED and known.period == 0 else 0
+            if trying != KNOWN or answer == ON_EVENT:
+                seen = Cycle(answer, lag, symmetric, found, peak, away, coming, work)
+            if answer == ON_EVENT or trying == APPROACHED:
+                break
+            continue
+        if symmetric:
+            return Cycle(REACHED, lag, True, found, peak, away, 0, work)
+        whole = image_after(
+            clocked,
+            found.angle,
+            found.velocity,
+            lag,
+            0.5 * p.period,
+            scratch,
+            nothing,
+            nothing.columns,
+            True,
+            found.image.waits,
+        )
+        work += whole.impacts + whole.brace_hits
+        same = max(SAME, 100.0 * found.error)
+        period, mirrored = repetition(scratch, scratch, found.angle, found.velocity, lag, same)
+        if period == lag:
+            return Cycle(REACHED, period, mirrored, found, whole.peak, away, 0, work)
+        angle, velocity, lag, enough, candidate = found.angle, found.velocity, period, UNBOUNDED, REFINED
+    return Cycle(*seen[:7], work)
+
+
+@njit(**WITHIN)
+def constant_image(impacts, brace_hits):
+    """An image that does not depend on the state: its derivative, and so both multipliers, are zero."""
+    nothing = Tangent(0.0, 0.0, 0.0, 0.0)
+    return Image(False, math.nan, math.nan, nothing, impacts, brace_hits, math.nan, UNKNOWN)
+
+
+@njit(**WITHIN)
+def no_cycle(work):
+    """No orbit."""
+    nothing = Found(False, math.nan, math.nan, constant_image(-1, -1), math.nan, math.nan, 0)
+    return Cycle(NOT_YET, 0, False, nothing, math.nan, math.nan, 0, work)
+
+
+@njit(**WITHIN)
+def repetition(rows, halves, angle, velocity, lag, same):
+    """(least period, whether it is its own mirror image half of that later) of an orbit of ``lag`` cycles through a state.
+
+    ``rows`` are its states on any section, a cycle apart; ``halves`` those half a cycle after the state, and on. States as
+    near as ``same`` are one.
+    """
+    period = lag
+    for divisor in range(1, min(lag, rows.shape[0])):
+        if lag % divisor == 0 and apart(rows, divisor, 0) <= same:
+            period = divisor
+            break
+    half = (period - 1) // 2
+    mirrored = period % 2 == 1 and size(halves[half, 0] + angle, halves[half, 1] + velocity) <= same
+    return period, mirrored
+
+
+@njit(**ENTRY)
+def repetition_plain(rows, halves, angle, velocity, lag, same):
+    """``repetition`` for Python."""
+    return repetition(rows, halves, angle, velocity, lag, same)
+
+
+@njit(**WITHIN)
+def spectral_radius(tangent):
+    """The size of the largest multiplier."""
+    real, imaginary, _, _ = multipliers(tangent)
+    return size(real, imaginary)
+
+
+@njit(**WITHIN)
+def attracts(p, image):
+    """Whether an orbit is stable, and loses something: else both its multipliers may be inside the unit circle by rounding alone."""
+    return spectral_radius(image.tangent) < 1.0 and loses(p, image.impacts, image.brace_hits)
+
+
+@njit(**WITHIN)
+def compare(p, section, row, period, found):
+    """(answer, distance from the orbit a period before the row, cycles until it may be reached, 0 where nobody knows): the Floquet stop.
+
+    The orbit must be stable, and each of the last RETURNS returns what its multipliers say, up to a share of
+    what is left (or of the distance, where they attract weakly), with the orbit's own impacts: one alone may do so by
+    chance, and the map has kinks that only the next ones meet. An orbit that rests or leans in between is not judged
+    here: its section need not resolve when.
+
+    What a return is off by, as a share of the distance, shrinks like the distance itself, by the larger multiplier a return;
+    of a motion that does not come nearer nothing is foretold.
+    """
+    angle, velocity, image = found.angle, found.velocity, found.image
+    tangent = image.tangent
+    radius = spectral_radius(tangent)
+    distance = size(section[row - period, 0] - angle, section[row - period, 1] - velocity)
+    if not 0.0 < radius < 1.0 or not loses(p, image.impacts, image.brace_hits) or row < RETURNS * period:
+        return NOT_YET, distance, 0
+    for k in range(period):
+        if on_event(p, section, row - k):
+            return ON_EVENT, distance, 0
+    norm = adapted_norm(tangent, 0.5 * (1.0 + radius))
+    # By so much returns are off because the orbit itself is.
+    doubt = found.residual * (math.sqrt(norm[0]) + math.sqrt(norm[2]))
+    for k in range(RETURNS):
+        after = row - k * period
+        before = after - period
+        x, y = section[before, 0] - angle, section[before, 1] - velocity
+        to_x = section[after, 0] - angle - (tangent.a * x + tangent.c * y)
+        to_y = section[after, 1] - velocity - (tangent.b * x + tangent.d * y)
+        impacts, brace_hits = section[after, 2] - section[before, 2], section[after, 3] - section[before, 3]
+        left = length(norm, x, y)
+        off = (length(norm, to_x, to_y) - doubt) / (max(NONLINEAR * (1.0 - radius), BENT) * left)
+        landed = length(norm, section[after, 0] - angle, section[after, 1] - velocity)
+        comes = landed <= (1.0 - APPROACH * (1.0 - radius)) * left
+        near = (comes and off <= 1.0) or size(x, y) <= ROUNDING
+        if not near or impacts != image.impacts or brace_hits != image.brace_hits:
+            more = math.log(off) / -math.log(radius) - 1.0 if k == 0 and off > 1.0 else -float(k)
+            coming = period * math.ceil(min(RETURNS + more, MOST_FORETOLD))
+            return NOT_YET, distance, coming if comes else 0
+    return REACHED, distance, 0

@@ -1,0 +1,89 @@
+"""Where the last states of a motion point to: the lag of its returns, and the fixed point that they approach."""
+
+import math
+
+from numba import njit
+
+from rocking.kernels.compile_options import WITHIN
+from rocking.kernels.march.tangent import Tangent
+from rocking.kernels.numerics.elementary import size
+from rocking.kernels.orbits.fixed_point import multipliers
+
+# Returns as near as this are the orbit itself.
+ARRIVED = 1e-9
+# A sequence is taken for linear where it foretells its own earlier difference to this share.
+LINEAR = 0.2
+# States that hop around a longer orbit obey a rotation: what is approached must come nearer by this factor a lag.
+NEARER = 0.95
+# Differences that point the same way, to this share of their lengths, span one direction only.
+ALIGNED = 1e-5
+
+
+@njit(**WITHIN)
+def apart(section, first, second):
+    """Distance of two rows."""
+    return size(section[first, 0] - section[second, 0], section[first, 1] - section[second, 1])
+
+
+@njit(**WITHIN)
+def closest_return(section, count, most_lag):
+    """(lag, distance) of the closest return of the last row."""
+    lag, closest = 0, math.inf
+    for k in range(1, min(count - 1, most_lag) + 1):
+        distance = apart(section, count - 1, count - 1 - k)
+        if distance < closest:
+            lag, closest = k, distance
+    return lag, closest
+
+
+@njit(**WITHIN)
+def approached(section, count, most_lag):
+    """(lag, angle, velocity) of the fixed point that the last returns approach, by the least lag; lag 0 where none do.
+
+    Near a fixed point x of the map over ``lag`` cycles the differences of returns obey one matrix, d0 = M d1, d1 = M d2,
+    which gives M and x = x0 + M d0 + M M d0 + …; it must also foretell d2 from d3.
+    """
+    last = count - 1
+    for lag in range(1, most_lag + 1):
+        if lag < count and apart(section, last, last - lag) <= ARRIVED:
+            return lag, section[last, 0], section[last, 1]
+        if 4 * lag >= count:
+            continue
+        found, angle, velocity = limit(section, last, lag)
+        if found:
+            return lag, angle, velocity
+    return 0, 0.0, 0.0
+
+
+@njit(**WITHIN)
+def limit(section, row, lag):
+    """(whether the returns are linear, their limit's angle and velocity)."""
+    x0, y0 = difference(section, row, lag)
+    x1, y1 = difference(section, row - lag, lag)
+    x2, y2 = difference(section, row - 2 * lag, lag)
+    x3, y3 = difference(section, row - 3 * lag, lag)
+    area = x1 * y2 - x2 * y1
+    long1, long2 = x1 * x1 + y1 * y1, x2 * x2 + y2 * y2
+    if area * area <= ALIGNED * ALIGNED * long1 * long2:
+        # one direction only
+        a = d = (x0 * x1 + y0 * y1) / long1
+        b = c = 0.0
+    else:
+        # M (d1, d2) = (d0, d1)
+        a, c = (x0 * y2 - x1 * y1) / area, (x1 * x1 - x0 * x2) / area
+        b, d = (y0 * y2 - y1 * y1) / area, (y1 * x1 - y0 * x2) / area
+    real, imaginary, _, _ = multipliers(Tangent(a, b, c, d))
+    off = size(x2 - (a * x3 + c * y3), y2 - (b * x3 + d * y3))
+    linear = off * off <= LINEAR * LINEAR * long2 and size(real, imaginary) <= NEARER
+    # (I - M)^-1 M d0
+    determinant = (1.0 - a) * (1.0 - d) - b * c
+    x, y = a * x0 + c * y0, b * x0 + d * y0
+    angle = section[row, 0] + ((1.0 - d) * x + c * y) / determinant
+    velocity = section[row, 1] + (b * x + (1.0 - a) * y) / determinant
+    return linear, angle, velocity
+
+
+@njit(**WITHIN)
+def difference(section, row, lag):
+    """A row less the row ``lag`` cycles before."""
+    return section[row, 0] - section[row - lag, 0], section[row, 1] - section[row - lag, 1]

@@ -1,0 +1,197 @@
+"""Motions that come to rest or lean: every lift-off, and every release from a brace, is the same state up to symmetry."""
+
+import math
+from typing import NamedTuple
+
+from numba import njit
+
+from rocking.kernels.compile_options import WITHIN, WRITTEN_IN
+from rocking.kernels.event_kinds import FLIGHT
+from rocking.kernels.march.march import PAUSED, RELEASED, Progress, march_on
+from rocking.kernels.march.tangent import normalised, read_tangent, write_tangent
+
+# Differences that grow by less between two releases leave the later one certain in double precision.
+LARGEST_STRAIN = math.log(1e8)
+
+
+class Visit(NamedTuple):
+    """The last release of one kind, and what happened since."""
+
+    seen: bool
+    cycle: int
+    time: float
+    impacts: int  # from the start to this release
+    brace_hits: int  # likewise
+    otherwise: bool  # a release of the other kind followed
+    strain: float
+    peak: float
+
+
+class Watch(NamedTuple):
+    """A motion under way, with its releases.
+
+    ``half_periods`` is the number of half forcing cycles between the last two releases of one kind, if they prove an
+    orbit; negative if differences grew too much in between; 0 before. ``impacts`` and ``brace_hits`` are counted between
+    these two; -1 where they accumulate. The progress counts its peak from the last release.
+    """
+
+    progress: Progress
+    base: Visit
+    brace: Visit
+    half_periods: int
+    impacts: int
+    brace_hits: int
+    orbit_peak: float
+    peak: float
+
+
+@njit(**WITHIN)
+def watched(progress):
+    """A motion at its start."""
+    never = Visit(False, 0, 0.0, 0, 0, False, -math.inf, 0.0)
+    return Watch(progress, never, never, 0, -1, -1, 0.0, progress.peak)
+
+
+@njit(**WITHIN)
+def moved_on(watch, progress):
+    """The watch of a motion that has gone on to ``progress`` without a release that proves an orbit."""
+    return Watch(progress, watch.base, watch.brace, 0, -1, -1, 0.0, watch.peak)
+
+
+@njit(**WITHIN)
+def unvisited(watch):
+    """The same motion, its releases forgotten: what differences have grown to since is no longer known."""
+    fresh = watched(watch.progress)
+    return Watch(watch.progress, fresh.base, fresh.brace, 0, -1, -1, 0.0, watch.peak)
+
+
+@njit(**WITHIN)
+def largest_angle(watch):
+    """Largest angle since the start."""
+    return max(watch.peak, watch.progress.peak)
+
+
+@njit(**WITHIN)
+def released_since(watch, cycle):
+    """Whether the block was released in ``cycle`` or later."""
+    return (watch.base.seen and watch.base.cycle >= cycle) or (
+        watch.brace.seen and watch.brace.cycle >= cycle
+    )
+
+
+@njit(**WITHIN)
+def after_flight(visit, strain, peak, otherwise):
+    """A visit after one more flight that ended in rest or leaning, with a release of the other kind if ``otherwise``."""
+    return Visit(
+        visit.seen,
+        visit.cycle,
+        visit.time,
+        visit.impacts,
+        visit.brace_hits,
+        visit.otherwise or otherwise,
+        max(visit.strain, strain),
+        max(visit.peak, peak),
+    )
+
+
+@njit(**WITHIN)
+def hits_between(p, progress, visit, lifts):
+    """(impacts, brace hits) from a visit to the present release of the same kind; -1 where infinitely many occur.
+
+    Rest at the base follows infinitely many impacts unless e = 0, leaning infinitely many hits unless r = 0. A release from
+    the base (``lifts``) follows rest, one from a brace follows leaning.
+    """
+    impacts, brace_hits = progress.impacts - visit.impacts, progress.brace_hits - visit.brace_hits
+    rested, leaned = lifts or visit.otherwise, visit.otherwise or not lifts
+    if rested and p.restitution > 0.0:
+        impacts = -1
+    if leaned and p.brace_restitution > 0.0:
+        brace_hits = -1
+    return impacts, brace_hits
+
+
+@njit(**WITHIN)
+def at_release(p, watch, progress):
+    """The watch at a release, from the base (the arc begins there) or from a brace."""
+    arc = progress.arc
+    lifts = arc.angle == 0.0
+    base = after_flight(watch.base, progress.strain, progress.peak, not lifts)
+    brace = after_flight(watch.brace, progress.strain, progress.peak, lifts)
+    visit = base if lifts else brace
+    half_periods, impacts, brace_hits = 0, -1, -1
+    if visit.seen:
+        impacts, brace_hits = hits_between(p, progress, visit, lifts)
+        cycles = progress.cycle - visit.cycle + (arc.start - visit.time) / p.period
+        half_periods = round(2.0 * cycles)
+        if not visit.strain < LARGEST_STRAIN:
+            half_periods = -half_periods
+    now = Visit(True, progress.cycle, arc.start, progress.impacts, progress.brace_hits, False, -math.inf, 0.0)
+    anew = Progress(
+        progress.mode,
+        progress.cycle,
+        arc,
+        progress.pending,
+        progress.crowd,
+        progress.impacts,
+        progress.brace_hits,
+        arc.angle,
+        progress.no_return,
+        progress.last_wait,
+        progress.wait_before,
+        -math.inf,
+    )
+    peak = max(watch.peak, progress.peak)
+    base, brace = (now, brace) if lifts else (base, now)
+    return Watch(anew, base, brace, half_periods, impacts, brace_hits, visit.peak, peak)
+
+
+@njit(**WRITTEN_IN)
+def follow(p, watch, target, most_events, section_time, section, nothing, columns, growth):
+    """(status, watch) at the end of cycle ``target``, or at the release that decides; RELEASED only then.
+
+    ``section`` must have a row for every cycle to come, or none. ``columns`` (2, 2) carries differences
+    since the last release; with ``growth`` (1,) from the start.
+    """
+    rows = 0
+    tracked = columns if watch.base.seen or watch.brace.seen or growth.shape[0] > 0 else nothing.columns
+    while True:
+        status, progress, taken, _ = march_on(
+            p,
+            watch.progress,
+            target,
+            section_time,
+            section if rows == 0 else section[rows:],
+            nothing.events,
+            tracked,
+            growth,
+            True,
+            True,
+        )
+        rows += taken
+        if status == RELEASED:
+            watch = at_release(p, watch, progress)
+            if watch.half_periods != 0:
+                return RELEASED, watch
+            tracked = columns
+            begin_tangent(columns, growth)
+            continue
+        watch = moved_on(watch, progress)
+        if status != PAUSED or progress.impacts + progress.brace_hits > most_events:
+            return status, watch
+
+
+@njit(**WITHIN)
+def begin_tangent(columns, growth):
+    """Differences of size 1 along both axes."""
+    columns[0, 0], columns[0, 1], columns[1, 0], columns[1, 1] = 1.0, 0.0, 0.0, 1.0
+    growth[:] = 0.0
+
+
+@njit(**WITHIN)
+def begin_measuring(watch, columns, growth):
+    """From here on growth is measured; what differences have grown to since the last release stays in it."""
+    if watch.progress.mode == FLIGHT and (watch.base.seen or watch.brace.seen):
+        growth[:] = 0.0
+        write_tangent(columns, normalised(read_tangent(columns), growth))
+    else:
+        begin_tangent(columns, growth)

@@ -1,0 +1,222 @@
+"""The answers of the cascade: what a response is, on which ground, and the numbers that go with it."""
+
+import math
+from enum import IntEnum
+from typing import NamedTuple
+
+from numba import njit
+
+from rocking.kernels.classify.periodicity import REACHED, Cycle, constant_image, no_cycle
+from rocking.kernels.classify.quasi_periodicity import CHAOTIC_DIGITS
+from rocking.kernels.classify.reset import largest_angle
+from rocking.kernels.classify.workspace import BATCHES
+from rocking.kernels.compile_options import WITHIN
+from rocking.kernels.march.march import OVERTURNED, RELEASED, STILL
+from rocking.kernels.numerics.averages import batch_error
+from rocking.kernels.orbits.fixed_point import Found, multipliers
+
+CLEARLY = 6.0  # standard errors
+CHAOS_NEEDS = 10_000
+CHAOS_NEEDS_WITH_BRACES = 100_000
+# Rounding leaves a motion some 2**-53 beside an unstable orbit. While it leaves that orbit, differences grow by 2**53 at
+# most, and they grow steadily: the exponent of that seems certain. Chaos is what grew further, as a logarithm.
+FAR = 40.0
+# The variance of the mean may exceed that of independent batches by this factor.
+MAX_CORRELATION = 4.0
+
+
+class Kind(IntEnum):
+    """What a response is."""
+
+    REST = 0
+    PERIODIC = 1
+    QUASI_PERIODIC = 2
+    CHAOTIC = 3
+    OVERTURNED = 4
+    UNDETERMINED = 5
+
+
+REST, PERIODIC, QUASI_PERIODIC, CHAOTIC, OVERTURNS, UNDETERMINED = (int(kind) for kind in Kind)
+# The kind of a motion that nothing decides yet.
+OPEN = -1
+
+
+class Ground(IntEnum):
+    """Which evidence decided, or why none did."""
+
+    NO_RETURN = 0
+    STILL_FOR_EVER = 1
+    RESET = 2
+    ORBIT = 3
+    NEUTRAL_ORBIT = 4
+    TORUS = 5
+    EXPONENT = 6
+    UNRESOLVED_RESET = 7
+    UNWATCHED = 8  # too few cycles to call anything chaotic
+    INDISTINCT = 9  # the exponent is not clearly positive
+    BETWEEN = 10  # averages agree too well for chaos, too badly for a torus
+    CROWDED = 11
+    STANDING = 12  # on an unstable orbit, to within rounding
+    LITTLE_GROWTH = 13  # differences grew no more than while a motion leaves an unstable orbit
+    CORRELATED = 14  # the batches of the exponent depend on each other
+    LINGERING = 15  # near an unstable orbit
+
+
+(
+    NO_RETURN, STILL_FOR_EVER, RESET, ORBIT, NEUTRAL_ORBIT, TORUS, EXPONENT, UNRESOLVED_RESET, UNWATCHED,
+    INDISTINCT, BETWEEN, CROWDED, STANDING, LITTLE_GROWTH, CORRELATED, LINGERING,
+) = (int(ground) for ground in Ground)  # fmt: skip
+
+
+# An undetermined motion has an exponent that is worth telling on these grounds.
+WEIGHED = (INDISTINCT, LITTLE_GROWTH, CORRELATED, LINGERING)
+
+
+class Judgement(NamedTuple):
+    """What Python is told, flat; counts are -1 and numbers NaN where they do not apply."""
+
+    kind: int
+    ground: int
+    period: int
+    symmetric: bool
+    impacts: int
+    brace_hits: int
+    real: float
+    imaginary: float
+    other_real: float
+    other_imaginary: float
+    exponent: float
+    error: float
+    peak: float
+    steady_peak: float
+    transient: int
+    cycles: int
+    work: int
+    section_time: float
+    angle: float
+    velocity: float
+    residual: float
+    distance: float
+    digits: float
+
+
+@njit(**WITHIN)
+def judged(kind, ground, watch, work, exponent, error, transient, cycle, section_time, digits):
+    """A judgement as nested numbers: what a kernel hands to Python."""
+    progress, peak = watch.progress, largest_angle(watch)
+    real, imaginary, other_real, other_imaginary = multipliers(cycle.found.image.tangent)
+    if cycle.peak > peak:
+        # an orbit approached from below
+        peak = cycle.peak
+    return (
+        kind,
+        ground,
+        cycle.period,
+        cycle.symmetric,
+        cycle.found.image.impacts,
+        cycle.found.image.brace_hits,
+        real,
+        imaginary,
+        other_real,
+        other_imaginary,
+        exponent,
+        error,
+        peak,
+        cycle.peak,
+        transient,
+        progress.cycle,
+        work + progress.impacts + progress.brace_hits,
+        section_time,
+        cycle.found.angle,
+        cycle.found.velocity,
+        cycle.found.residual,
+        cycle.distance,
+        digits,
+    )
+
+
+@njit(**WITHIN)
+def undecided(watch):
+    """No judgement yet."""
+    return judged(OPEN, UNWATCHED, watch, 0, math.nan, math.nan, -1, no_cycle(0), 0.0, math.nan)
+
+
+@njit(**WITHIN)
+def ended(status, watch, work):
+    """The judgement of a motion whose end is proved, by no return, rest for ever or a release like an earlier one, or too dear."""
+    progress, none = watch.progress, no_cycle(work)
+    if status == OVERTURNED:
+        return judged(
+            OVERTURNS, NO_RETURN, watch, work, math.nan, math.nan, progress.cycle, none, 0.0, math.nan
+        )
+    if status == STILL:
+        return judged(REST, STILL_FOR_EVER, watch, work, -math.inf, 0.0, progress.cycle, none, 0.0, math.nan)
+    if status == RELEASED and watch.half_periods > 0:
+        return released(watch, work)
+    ground = UNRESOLVED_RESET if status == RELEASED else CROWDED
+    return judged(UNDETERMINED, ground, watch, work, math.nan, math.nan, -1, none, 0.0, math.nan)
+
+
+@njit(**WITHIN)
+def released(watch, work):
+    """The judgement of a motion that was released as it was before: superstable, and symmetric after an odd number of half cycles.
+
+    From one release to the next a symmetric motion goes through half of its period.
+    """
+    half_periods, arc = watch.half_periods, watch.progress.arc
+    symmetric = half_periods % 2 == 1
+    period, halves = (half_periods, 2) if symmetric else (half_periods // 2, 1)
+    impacts = halves * watch.impacts if watch.impacts >= 0 else -1
+    brace_hits = halves * watch.brace_hits if watch.brace_hits >= 0 else -1
+    image = constant_image(impacts, brace_hits)
+    release = Found(True, arc.side * arc.angle, 0.0, image, 0.0, 0.0, 0)
+    orbit = Cycle(REACHED, period, symmetric, release, watch.orbit_peak, 0.0, 0, 0)
+    transient = max(watch.progress.cycle - (half_periods + 1) // 2, 0)
+    return judged(PERIODIC, RESET, watch, work, -math.inf, 0.0, transient, orbit, arc.start, math.nan)
+
+
+@njit(**WITHIN)
+def periodic(p, ground, watch, work, cycle, section_time):
+    """The judgement of a motion on a periodic orbit."""
+    real, imaginary, _, _ = multipliers(cycle.found.image.tangent)
+    exponent, error = math.log(math.hypot(real, imaginary)) / (cycle.period * p.period), 0.0
+    if ground == NEUTRAL_ORBIT:
+        # the multipliers' product is 1, and differences were seen to grow no faster than linearly
+        exponent, error = 0.0, math.nan
+    transient = max(watch.progress.cycle - cycle.period, 0)
+    return judged(PERIODIC, ground, watch, work, exponent, error, transient, cycle, section_time, math.nan)
+
+
+@njit(**WITHIN)
+def torus(watch, work, section_time, digits):
+    """The judgement of a motion whose averages converge as on a torus."""
+    return judged(QUASI_PERIODIC, TORUS, watch, work, 0.0, math.nan, 0, no_cycle(work), section_time, digits)
+
+
+@njit(**WITHIN)
+def unsettled(p, watch, work, max_cycles, batch_time, measured, lossless, digits, batches, stands, lingers):
+    """The judgement at the end of the budget: chaotic if all of this shows it, else undetermined.
+
+    The exponent is clearly positive; over the batches, each of ``batch_time``, differences grew far; the batches are
+    independent; and the motion neither ``stands`` on an unstable orbit nor ``lingers`` near one.
+    """
+    mean, error, correlation = batch_error(batches) if measured == BATCHES else (math.nan, math.nan, math.nan)
+    needed = CHAOS_NEEDS if p.brace_angle == math.inf else CHAOS_NEEDS_WITH_BRACES
+    kind, ground = UNDETERMINED, EXPONENT
+    if max_cycles < needed:
+        ground = UNWATCHED
+    elif lossless and digits >= CHAOTIC_DIGITS:
+        ground = BETWEEN
+    elif not (0.0 < error < math.inf and mean >= CLEARLY * error):
+        ground = INDISTINCT
+    elif stands:
+        ground = STANDING
+    elif lingers:
+        ground = LINGERING
+    elif mean * batch_time * BATCHES < FAR:
+        ground = LITTLE_GROWTH
+    elif correlation > MAX_CORRELATION:
+        ground = CORRELATED
+    else:
+        kind = CHAOTIC
+    return judged(kind, ground, watch, work, mean, error, -1, no_cycle(work), 0.0, digits)

@@ -1,0 +1,1 @@
+"""The motion of the base: its forcing term, its response and its changes of sign."""

@@ -1,0 +1,152 @@
+"""Harmonic base acceleration A cos(Omega tau + phi), eq. (3) of Yim & Lin (1991).
+
+This is all that an arc knows of its forcing; another forcing is another file with these functions: what the
+arc starts from, the particular solution that starts from rest, and where the sign of a forcing term
+changes. On one side sigma of the base the block feels sigma A cos psi = A cos eta, with eta = psi on the
+positive side and psi + pi on the negative one; (cosine, sine) are those of eta.
+"""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+
+from rocking.kernels.compile_options import INNER
+from rocking.kernels.numerics.elementary import SHORT, circular, direction, fma
+
+TURN = 2.0 * math.pi
+
+
+class Swing(NamedTuple):
+    """What the forcing does to any arc within a time, for unit amplitude and each of cos eta, sin eta at its start."""
+
+    near: bool  # within a third of a turn
+    sin_x: float
+    versine: float
+    in_phase: float
+    lateness: float
+    place: float
+    rate: float
+
+
+@njit(**INNER)
+def clock(frequency, phase, side, time):
+    """(cosine, sine, psi, 1 - |cosine|, whether that is accurate however small) at a time within the cycle."""
+    psi = frequency * time + phase
+    sine, cosine, versine, exact = direction(psi)
+    return side * cosine, side * sine, psi, versine, exact
+
+
+@njit(**INNER)
+def begin(p, side, time, angle):
+    """(cosine, sine, psi, pull) at a time within the cycle; pull = u - 1 - A cosine = u'', exact however close to 0."""
+    cosine, sine, psi, versine, exact = clock(p.frequency, p.phase, side, time)
+    above = angle - 1.0
+    pull = fma(-p.amplitude, cosine, above)
+    if exact:
+        most = math.copysign(p.amplitude, cosine)
+        pull = fma(most, versine, above - most)
+    return cosine, sine, psi, pull
+
+
+@njit(**INNER)
+def forcing_term(p, cosine):
+    """f = u'' - u = -1 - A cos eta on one side of the base: eq. (4)."""
+    return -1.0 - p.amplitude * cosine
+
+
+@njit(**INNER)
+def forcing_rates(p, cosine, sine):
+    """(f', f'') of ``forcing_term``; each higher derivative is -Omega**2 times the last but one."""
+    return p.amplitude * p.frequency * sine, p.amplitude * p.frequency * p.frequency * cosine
+
+
+@njit(**INNER)
+def swing(p, t, sinh, versinh, excess, higher):
+    """The swing of a time t."""
+    sin_x, versine, lag, deficit = circular(p.frequency, t)
+    in_phase = versinh + versine
+    lateness = p.frequency * excess + lag
+    near = p.frequency * t < SHORT
+    place, rate = in_phase, sinh + p.frequency * sin_x
+    if near:
+        place = -(p.frequency * p.frequency * higher + deficit)
+        rate = -p.frequency * lateness
+    return Swing(near, sin_x, versine, in_phase, lateness, place, rate)
+
+
+@njit(**INNER)
+def respond(p, cosine, sine, above, pull, swing):
+    """(steady, G, G', cos eta, sin eta) a time later: u'' - u is split into a steady part and a rest, which moves u by G.
+
+    G'' - G = u0 - 1 - A cos eta - steady, G = G' = 0 at t = 0. Within a third of a turn ``steady`` is the ``pull`` at
+    the start, later u0 - 1 (``above``): either way G is made of sums of positive functions, and no larger parts
+    cancel.
+    """
+    near, sin_x, versine, in_phase, lateness, place, rate = swing
+    displaced = p.response * (sine * lateness - cosine * place)
+    moved = p.response * (p.frequency * sine * in_phase - cosine * rate)
+    return (
+        pull if near else above,
+        displaced,
+        moved,
+        cosine - (cosine * versine + sine * sin_x),
+        sine - (sine * versine - cosine * sin_x),
+    )
+
+
+@njit(**INNER)
+def particular(p, cosine, sine):
+    """(beta cos eta, its derivative): the bounded particular solution of u'' - u = -A cos eta."""
+    return p.response * cosine, -p.response * p.frequency * sine
+
+
+@njit(**INNER)
+def first_cut(p, side, psi, centre, half):
+    """(time to the first eta = centre +- half at or after now, whether eta lies within half of the centre until then)."""
+    zeta = psi - centre + half
+    if side < 0:
+        zeta += math.pi
+    zeta -= TURN * np.floor(zeta * (1.0 / TURN))
+    if zeta >= TURN:
+        zeta = 0.0  # just before the first cut, rounded onto it: what follows it has begun
+    inside = zeta < 2.0 * half
+    return ((2.0 * half if inside else TURN) - zeta) * p.per_frequency, inside
+
+
+@njit(**INNER)
+def next_cut(p, half, inside):
+    """Time from one cut to the next, ``inside`` telling the stretch between them."""
+    return (2.0 * half if inside else TURN - 2.0 * half) * p.per_frequency
+
+
+@njit(**INNER)
+def drift(p, cosine, sine, time):
+    """A bound on how far the base acceleration moves within the coming ``time``."""
+    x = p.frequency * time
+    return p.amplitude * (abs(sine) * x + 0.5 * x * x)
+
+
+@njit(**INNER)
+def sensitivities(p, cosine, sine, t, sinh, versinh, excess):
+    """(F_A, F'_A, F_psi, F'_psi, F_Omega, F'_Omega): the response differentiated by amplitude, starting phase, frequency."""
+    sin_x, versine, lag, _ = circular(p.frequency, t)
+    frequency, k = p.frequency, p.reciprocal
+    in_phase = k * (versinh + versine)
+    quadrature = k * (frequency * excess + lag)
+    in_phase_rate = k * (sinh + frequency * sin_x)
+    turned = -2.0 * frequency * k
+    in_phase_f = k * t * sin_x + turned * in_phase
+    quadrature_f = k * (excess + t * versine) + turned * quadrature
+    in_phase_rate_f = k * (sin_x + frequency * t * (1.0 - versine)) + turned * in_phase_rate
+    quadrature_rate_f = in_phase + frequency * in_phase_f
+    a = p.amplitude
+    return (
+        cosine * in_phase - sine * quadrature,
+        cosine * in_phase_rate - sine * frequency * in_phase,
+        -a * (sine * in_phase + cosine * quadrature),
+        -a * (sine * in_phase_rate + cosine * frequency * in_phase),
+        a * (cosine * in_phase_f - sine * quadrature_f),
+        a * (cosine * in_phase_rate_f - sine * quadrature_rate_f),
+    )

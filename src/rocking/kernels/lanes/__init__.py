@@ -1,0 +1,1 @@
+"""Many blocks at once, one in each lane of the vector registers."""

@@ -1,0 +1,189 @@
+"""Flights between braces, for many blocks at once: where each ends, that nothing is met before, and what the event does.
+
+As ``fast_path.likely_event`` does for one block: the series about the start, or about an instant further on, guesses the
+event; the cubic between two instants proves that nothing is met between them. What that does not settle is left to the
+functions for one block.
+"""
+
+import math
+
+from numba import njit
+
+from rocking.kernels.arc.bracket import MARGIN
+from rocking.kernels.arc.enclosure import stays_between
+from rocking.kernels.arc.fast_path import I2, I3, I4, I5, I6, I7, I8, REACH
+from rocking.kernels.compile_options import EXACT_INNER
+from rocking.kernels.lanes.evaluate import correction, derivatives, elements, halved, instant_of, onward
+from rocking.kernels.lanes.rows import (  # fmt: skip
+    ABOUT,
+    AMPLITUDE,
+    AMPLITUDE_RATE,
+    ANGLE,
+    ARRIVED,
+    AT_BRACE,
+    BRACE_ANGLE,
+    FREQUENCY,
+    FREQUENCY_SQUARE,
+    FURTHER,
+    KNOT_ANGLE,
+    KNOT_COSINE,
+    KNOT_RATE,
+    KNOT_SINE,
+    LANES,
+    NEXT_COSINE,
+    NEXT_SINE,
+    NEXT_SINH,
+    NEXT_VERSINH,
+    REFINE,
+    SINH,
+    SPEED,
+    STAGE,
+    TIME,
+    TRIES,
+    UNSURE,
+    VELOCITY,
+    VERSINH,
+    WAIT,
+    WALK,
+    of,
+    put,
+)
+from rocking.kernels.numerics.elementary import fma
+from rocking.kernels.numerics.simd import choose
+
+MOST_TRIES, ROUNDS = 8, 2
+# As near as this the step of fifth order leaves less than rounding, and so do the series that follow it.
+NEAR = 1e-3
+
+
+@njit(**EXACT_INNER)
+def parabola(u, v, second, brace_angle):
+    """(whether at a brace, when) the event is where the parabola comes, or, against the pull, the tangent; ``fast_path.stride``."""
+    falls = second < 0.0
+    towards, distance = choose(falls, -v, v), choose(falls, u, brace_angle - u)
+    size = abs(second)
+    root = math.sqrt(fma(towards, towards, 2.0 * size * distance))
+    ahead = choose(towards > 0.0, 2.0 * distance, root - towards) / choose(
+        towards > 0.0, root + towards, size
+    )
+    against = choose(towards < 0.0, (distance - brace_angle) / towards, math.inf)
+    turns = against < ahead
+    return falls == turns, choose(turns, against, ahead)
+
+
+@njit(**EXACT_INNER)
+def aim(s):
+    """When each lane looks next: where the series has its event, or, where that tells none, further on."""
+    for i in range(LANES):
+        stage, time, about = of(s, i, STAGE), of(s, i, TIME), of(s, i, ABOUT)
+        at_brace, frequency = of(s, i, AT_BRACE), of(s, i, FREQUENCY)
+        brace_angle = of(s, i, BRACE_ANGLE)
+        u, v, cosine, sine = (
+            of(s, i, KNOT_ANGLE),
+            of(s, i, KNOT_RATE),
+            of(s, i, KNOT_COSINE),
+            of(s, i, KNOT_SINE),
+        )
+        c = derivatives(s, i, (u, v, cosine, sine))
+        square = of(s, i, FREQUENCY_SQUARE)
+        c7 = fma(square * square, of(s, i, AMPLITUDE_RATE) * sine, c[5])
+        c8 = fma(square * square, square * of(s, i, AMPLITUDE) * cosine, c[6])
+        brace_next, rough = parabola(u, v, c[2], brace_angle)
+        sign = choose(brace_next, -1.0, 1.0)
+        c0, c1, c2, c3 = choose(brace_next, brace_angle - u, u), sign * v, sign * c[2], sign * c[3]
+        c4, c5, c6, c7, c8 = sign * c[4], sign * c[5], sign * c[6], sign * c7, sign * c8
+        farthest = REACH / max(1.0, frequency)
+        x = choose(rough <= farthest, rough, farthest)
+        told = x > 0.0
+        # as ``fast_path.polished``
+        for _ in range(ROUNDS):
+            q = x * x
+            h = q * q
+            w4 = fma(q, I2 * c6, fma(x, c5, c4))
+            w3 = fma(q, fma(x, I3 * c6, I2 * c5), fma(x, c4, c3))
+            w2 = fma(h, fma(x, I5 * c7, I4 * c6), fma(q, fma(x, I3 * c5, I2 * c4), fma(x, c3, c2)))
+            w1 = fma(q, I6 * c7, fma(x, I5 * c6, I4 * c5))
+            w1 = fma(h, w1, fma(q, fma(x, I3 * c4, I2 * c3), fma(x, c2, c1)))
+            w0 = fma(h, I8 * c8, fma(q, fma(x, I7 * c7, I6 * c6), fma(x, I5 * c5, I4 * c4)))
+            w0 = fma(h, w0, fma(q, fma(x, I3 * c3, I2 * c2), fma(x, c1, c0)))
+            per = 1.0 / w1
+            y = -w0 * per
+            told = told & (w1 < 0.0)
+            x += y * halved(correction(y, w2, w3, w4, per))
+        told = told & (x > 0.0) & (x <= farthest)
+        aims = stage == WALK
+        put(
+            s,
+            i,
+            TIME,
+            choose(aims, about + choose(told, x, choose(rough <= farthest, rough, farthest)), time),
+        )
+        put(s, i, AT_BRACE, choose(aims, choose(brace_next, 1.0, 0.0), at_brace))
+        put(s, i, STAGE, choose(aims, choose(told, REFINE, FURTHER), stage))
+
+
+@njit(**EXACT_INNER)
+def step(s):
+    """From the time looked at to the event, or nearer to it; or on from there, where that is too far."""
+    elements(s)
+    for i in range(LANES):
+        stage, t, about, tries = of(s, i, STAGE), of(s, i, TIME), of(s, i, ABOUT), of(s, i, TRIES)
+        wait, at_brace = of(s, i, WAIT), of(s, i, AT_BRACE) > 0.0
+        angle, velocity, brace_angle = of(s, i, ANGLE), of(s, i, VELOCITY), of(s, i, BRACE_ANGLE)
+        sinh, versinh = of(s, i, SINH), of(s, i, VERSINH)
+        amplitude, frequency = of(s, i, AMPLITUDE), of(s, i, FREQUENCY)
+        knot_angle, knot_rate = of(s, i, KNOT_ANGLE), of(s, i, KNOT_RATE)
+        knot_cosine, knot_sine = of(s, i, KNOT_COSINE), of(s, i, KNOT_SINE)
+        risen, v, cosine, sine = instant_of(s, i, angle - 1.0)
+        u = angle + risen
+        _, _, second, third, fourth, fifth, _ = derivatives(s, i, (u, v, cosine, sine))
+        # towards a brace u falls short of it
+        left = choose(at_brace, risen - (brace_angle - angle), u)
+        per = 1.0 / v
+        y = -left * per
+        factor = correction(y, second, third, fourth, per)
+        x = y * factor
+        slope = fma(x, fma(x, fma(x, fma(x, I4 * fifth, I3 * fourth), I2 * third), second), v)
+        towards = choose(at_brace, v, -v)
+        close = (abs(left) * max(1.0, frequency) < NEAR * towards) & (abs(left * second) < NEAR * v * v)
+        close = close & (left * left * abs(third) < NEAR * NEAR * towards * v * v)
+
+        heads, goes_on = stage == REFINE, stage == FURTHER
+        place = choose(at_brace, brace_angle, 0.0)
+        span, end, arrival = (
+            choose(heads, t + x, t) - about,
+            choose(heads, place, u),
+            choose(heads, slope, v),
+        )
+        system = amplitude, frequency, brace_angle
+        free = stays_between(system, span, (knot_angle, knot_rate), (end, arrival))
+        # ``next_event.grazes``
+        pull, later = amplitude + 1.0, t + x
+        touches = slope * slope <= MARGIN * pull * (angle + later * (abs(velocity) + later * pull))
+        arrived, further = heads & close & free & (touches == False), goes_on & free  # noqa: E712
+        ahead = t + y * halved(factor)
+        nears = heads & (close == False) & (towards > 0.0) & (ahead > about)  # noqa: E712
+        # too far: what was met lies before
+        above, beneath = goes_on & (u > brace_angle), goes_on & (u < 0.0)
+
+        next_cosine, next_sine, next_sinh, next_versinh = onward(x, frequency, cosine, sine, sinh, versinh)
+        put(s, i, WAIT, choose(arrived, later, wait))
+        # of a lane that has not arrived nobody asks for these
+        put(s, i, SPEED, abs(slope))
+        put(s, i, NEXT_COSINE, next_cosine)
+        put(s, i, NEXT_SINE, next_sine)
+        put(s, i, NEXT_SINH, next_sinh)
+        put(s, i, NEXT_VERSINH, next_versinh)
+        put(s, i, KNOT_ANGLE, choose(further, u, knot_angle))
+        put(s, i, KNOT_RATE, choose(further, v, knot_rate))
+        put(s, i, KNOT_COSINE, choose(further, cosine, knot_cosine))
+        put(s, i, KNOT_SINE, choose(further, sine, knot_sine))
+        put(s, i, ABOUT, choose(further, t, about))
+        moves, beyond = heads | goes_on, above | beneath
+        back = moves & ((arrived | nears | further | beyond) == False)  # noqa: E712
+        put(s, i, AT_BRACE, choose(above, 1.0, choose(beneath, 0.0, choose(at_brace, 1.0, 0.0))))
+        put(s, i, TIME, choose(nears, ahead, choose(back, fma(0.5, t - about, about), t)))
+        put(s, i, TRIES, choose(moves, tries + 1.0, tries))
+        on = choose(arrived, ARRIVED, choose(nears | beyond, REFINE, choose(further, WALK, FURTHER)))
+        on = choose(arrived | (tries < MOST_TRIES), on, UNSURE)
+        put(s, i, STAGE, choose(heads | goes_on, on, stage))

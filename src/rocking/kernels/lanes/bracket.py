@@ -1,0 +1,136 @@
+"""In which stretch of its arc does each lane's block come down? The order of signs at known points proves it.
+
+At the ends of the stretches, and halfway, cos eta is known and e^t follows by multiplication, so that u = c+ e^t + c- e^-t + 1 +
+beta cos eta costs no elementary function. The proof is that of ``arc.bracket``.
+"""
+
+from numba import njit
+
+from rocking.kernels.arc.bracket import MARGIN
+from rocking.kernels.arc.first_zero import LONGEST
+from rocking.kernels.compile_options import EXACT_INNER
+from rocking.kernels.lanes.rows import (  # fmt: skip
+    BOTTOM,
+    CLEARED,
+    CONCAVE,
+    CUT_PLACE,
+    CUT_RATE,
+    END,
+    GROWING,
+    GUESS,
+    HALF_DECAY,
+    HALF_GROWTH,
+    HALF_TANH,
+    HIGH,
+    LANES,
+    LOW,
+    OUTSIDE,
+    PER_Z,
+    PERIOD,
+    RESPONSE,
+    SHRINKING,
+    STAGE,
+    TIME,
+    TRIES,
+    TURN_DECAY,
+    TURN_GROWTH,
+    UNSURE,
+    WALK,
+    Z,
+    of,
+    put,
+)
+from rocking.kernels.numerics.elementary import fma
+from rocking.kernels.numerics.simd import choose
+
+
+@njit(**EXACT_INNER)
+def may_dip(u, du, u_right, du_right, tanh):
+    """``arc.bracket.may_dip`` on a part of a convex stretch, ``tanh`` of its length."""
+    crossed = fma(u, du_right, -u_right * du)
+    return (u + du < 0.0) & (du_right > u_right) & (crossed < tanh * fma(u, u_right, -du * du_right))
+
+
+@njit(**EXACT_INNER)
+def stretch(grow, shrink, forcing, half_grow, half_decay, tanh, z, per_z, end, cleared):
+    """Of a convex stretch: (u at its start, halfway and end; errors at start and end; whether no zero is there; or in a dip only)."""
+    place, rate, response = forcing
+    growing, shrinking = grow * z, shrink * per_z
+    u, du = growing + shrinking + place, growing - shrinking - rate
+    error = MARGIN * (abs(growing) + abs(shrinking) + 1.0)
+    growing, shrinking = growing * half_grow, shrinking * half_decay
+    u_half, du_half = growing + shrinking + 1.0 - response, growing - shrinking
+    growing, shrinking = growing * half_grow, shrinking * half_decay
+    u_right, du_right = growing + shrinking + place, growing - shrinking + rate
+    error_right = error + MARGIN * (abs(growing) + abs(shrinking))
+    for_ever = (growing > 0.0) & (growing - abs(shrinking) + 1.0 - response > error_right)
+    passed = (u > error) & (u_half > error_right) & (u_right > error_right)
+    passed = passed & (end < LONGEST) & (for_ever == False)  # noqa: E712
+    doubt = may_dip(u, du, u_half, du_half, tanh) | may_dip(u_half, du_half, u_right, du_right, tanh)
+    doubt = doubt & (cleared == 0.0)
+    return u, u_half, u_right, error, error_right, passed & (doubt == False), passed & doubt  # noqa: E712
+
+
+@njit(**EXACT_INNER)
+def ahead(s, i, end, z, per_z, cleared):
+    """The convex stretch of lane i that begins at ``end``: what ``stretch`` says of it."""
+    forcing = of(s, i, CUT_PLACE), of(s, i, CUT_RATE), of(s, i, RESPONSE)
+    half_grow, half_decay, tanh = of(s, i, HALF_GROWTH), of(s, i, HALF_DECAY), of(s, i, HALF_TANH)
+    grow, shrink = of(s, i, GROWING), of(s, i, SHRINKING)
+    return stretch(grow, shrink, forcing, half_grow, half_decay, tanh, z, per_z, end, cleared)
+
+
+@njit(**EXACT_INNER)
+def stride(s):
+    """A turn of the forcing further, where certainly no zero lies in the next stretches."""
+    for i in range(LANES):
+        stage, low, cleared = of(s, i, STAGE), of(s, i, LOW), of(s, i, CLEARED)
+        end, z, per_z = of(s, i, END), of(s, i, Z), of(s, i, PER_Z)
+        outside, period = of(s, i, OUTSIDE), of(s, i, PERIOD)
+        turn_growth, turn_decay = of(s, i, TURN_GROWTH), of(s, i, TURN_DECAY)
+        passed = ahead(s, i, end, z, per_z, cleared)[5] & (stage == WALK)
+        put(s, i, LOW, choose(passed, end + outside, low))
+        put(s, i, CLEARED, choose(passed, 0.0, cleared))
+        put(s, i, END, choose(passed, end + period, end))
+        put(s, i, Z, choose(passed, z * turn_growth, z))
+        put(s, i, PER_Z, choose(passed, per_z * turn_decay, per_z))
+
+
+@njit(**EXACT_INNER)
+def walk(s):
+    """The next convex stretch and the concave one before it: past them, or to the zero in one of them.
+
+    ``stride`` before it does not look for the zero: most often only the last of two turns holds it.
+    """
+    for i in range(LANES):
+        stage, low, end, z, per_z = (
+            of(s, i, STAGE),
+            of(s, i, LOW),
+            of(s, i, END),
+            of(s, i, Z),
+            of(s, i, PER_Z),
+        )
+        cleared, concave, high = of(s, i, CLEARED), of(s, i, CONCAVE), of(s, i, HIGH)
+        time, tries = of(s, i, TIME), of(s, i, TRIES)
+        outside, period = of(s, i, OUTSIDE), of(s, i, PERIOD)
+        turn_growth, turn_decay = of(s, i, TURN_GROWTH), of(s, i, TURN_DECAY)
+        u, u_half, u_right, error, error_right, passed, looks = ahead(s, i, end, z, per_z, cleared)
+        above, found_in = u > error, u < -error
+        dips = above & (u_half < -error_right)
+        found = found_in | dips | (above & (u_right < -error_right) & (u_half > error_right))
+        next_stage = choose(found, GUESS, choose(passed, WALK, choose(looks, BOTTOM, UNSURE)))
+        halfway = fma(0.5, outside, end)
+        next_high = choose(found_in, end, choose(dips, halfway, end + outside))
+        next_low = choose(found_in, low, choose(passed, end + outside, end))
+        walking = stage == WALK
+        put(s, i, STAGE, choose(walking, next_stage, stage))
+        put(s, i, CONCAVE, choose(walking, choose(found_in, 1.0, -1.0), concave))
+        put(s, i, LOW, choose(walking, next_low, low))
+        put(s, i, HIGH, choose(walking, next_high, high))
+        put(s, i, TIME, choose(walking, halfway, time))
+        put(s, i, TRIES, choose(walking, 0.0, tries))
+        put(s, i, CLEARED, choose(walking, 0.0, cleared))
+        passed = passed & walking
+        put(s, i, END, choose(passed, end + period, end))
+        put(s, i, Z, choose(passed, z * turn_growth, z))
+        put(s, i, PER_Z, choose(passed, per_z * turn_decay, per_z))

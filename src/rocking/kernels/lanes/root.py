@@ -1,0 +1,240 @@
+"""To the first zero of each lane's arc, once the stretch that holds it is known: a guess, and steps of fifth order."""
+
+import math
+
+from numba import njit
+
+from rocking.kernels.arc.bracket import MARGIN
+from rocking.kernels.arc.fast_path import I2, I3, I4, I5, I6
+from rocking.kernels.compile_options import EXACT_INNER
+from rocking.kernels.lanes.evaluate import correction, derivatives, elements, halved, instant_of, onward
+from rocking.kernels.lanes.rows import (  # fmt: skip
+    ABOUT,
+    AMPLITUDE,
+    ANGLE_THERE,
+    ARRIVED,
+    BOTTOM,
+    CLEARED,
+    CONCAVE,
+    COSINE,
+    COSINE_IN,
+    COSINE_OUT,
+    COSINE_THERE,
+    DECAY_IN,
+    DECAY_OUT,
+    END,
+    FREQUENCY,
+    GROW_IN,
+    GROW_OUT,
+    GROWING,
+    GUESS,
+    HIGH,
+    INSIDE,
+    LANES,
+    LOW,
+    NEXT_COSINE,
+    NEXT_SINE,
+    NEXT_SINH,
+    NEXT_VERSINH,
+    OFF,
+    OUTSIDE,
+    PER_Z,
+    RATE_THERE,
+    REFINE,
+    RESPONSE,
+    RESPONSE_RATE,
+    SHRINKING,
+    SINE,
+    SINE_IN,
+    SINE_OUT,
+    SINE_THERE,
+    SINH,
+    SPEED,
+    STAGE,
+    TIME,
+    TRIES,
+    UNSURE,
+    VELOCITY,
+    VERSINH,
+    WAIT,
+    WALK,
+    Z,
+    of,
+    put,
+)
+from rocking.kernels.numerics.elementary import fma
+from rocking.kernels.numerics.simd import choose
+
+MOST_TRIES = 12
+# As near as this the step of fifth order leaves of u less than rounding does, and so do the series that follow it.
+NEAR = 1e-3
+
+
+@njit(**EXACT_INNER)
+def taylor(c, x):
+    """(w, w', w''/2) a time x later by their Taylor series, of which c are the coefficients: by Horner's rule, thrice."""
+    c0, c1, c2, c3, c4, c5, c6 = c
+    w = fma(x, c6, c5)
+    dw = fma(x, c6, w)
+    bend = fma(x, c6, dw)
+    w = fma(x, w, c4)
+    dw = fma(x, dw, w)
+    bend = fma(x, bend, dw)
+    w = fma(x, w, c3)
+    dw = fma(x, dw, w)
+    bend = fma(x, bend, dw)
+    w = fma(x, w, c2)
+    dw = fma(x, dw, w)
+    bend = fma(x, bend, dw)
+    w = fma(x, w, c1)
+    dw = fma(x, dw, w)
+    return fma(x, w, c0), dw, bend
+
+
+@njit(**EXACT_INNER)
+def aim(s):
+    """The middle of the half of its stretch that holds the zero, u and its derivatives there, and where a parabola comes down."""
+    for i in range(LANES):
+        concave, end, low, high = of(s, i, CONCAVE), of(s, i, END), of(s, i, LOW), of(s, i, HIGH)
+        z, per_z, grow, shrink = (
+            of(s, i, Z),
+            of(s, i, PER_Z),
+            of(s, i, GROWING),
+            of(s, i, SHRINKING),
+        )
+        amplitude, frequency, response = of(s, i, AMPLITUDE), of(s, i, FREQUENCY), of(s, i, RESPONSE)
+        inside, cosine_in, sine_in = of(s, i, INSIDE), of(s, i, COSINE_IN), of(s, i, SINE_IN)
+        outside, cosine_out, sine_out = of(s, i, OUTSIDE), of(s, i, COSINE_OUT), of(s, i, SINE_OUT)
+        grow_in, decay_in = of(s, i, GROW_IN), of(s, i, DECAY_IN)
+        grow_out, decay_out = of(s, i, GROW_OUT), of(s, i, DECAY_OUT)
+        velocity, cosine_0, sine_0 = of(s, i, VELOCITY), of(s, i, COSINE), of(s, i, SINE)
+        within = concave > 0.0
+        # of the concave stretch, which ends at ``end``, or of the convex one, which begins there
+        more, less = choose(within, grow_in, grow_out), choose(within, decay_in, decay_out)
+        # from ``end`` to the middle twice a quarter on, or back
+        on, back = choose(within, less, more), choose(within, more, less)
+        growing, shrinking = grow * (z * (on * on)), shrink * (per_z * (back * back))
+        quarter = 0.25 * choose(within, inside, outside)
+        middle = end + choose(within, -(quarter + quarter), quarter + quarter)
+        late = (fma(concave, response, growing + shrinking) > -1.0) | (middle <= low)
+        growing, shrinking = growing * choose(late, more, less), shrinking * choose(late, less, more)
+        cosine, sine = choose(within, cosine_in, cosine_out), choose(within, sine_in, sine_out)
+        sine = choose(late, sine, -sine)
+        u = growing + shrinking + fma(response, cosine, 1.0)
+        v = fma(-of(s, i, RESPONSE_RATE), sine, growing - shrinking)
+        about = middle + choose(late, quarter, -quarter)
+        # A short hop comes down about where the parabola from its start does.
+        fall = fma(amplitude, cosine_0, 1.0)
+        hops = (low == 0.0) & (2.0 * velocity * frequency < fall) & (4.0 * velocity < fall * high)
+        u, v = choose(hops, 0.0, u), choose(hops, velocity, v)
+        cosine, sine = choose(hops, cosine_0, cosine), choose(hops, sine_0, sine)
+        second = u + fma(-amplitude, cosine, -1.0)
+        # else half of a quarter further, on the zero's side
+        under = fma(v, v, -2.0 * u * second)
+        root = math.sqrt(max(under, 0.0))
+        x = choose(v > 0.0, v + root, 2.0 * u) / choose(v > 0.0, -second, root - v)
+        near = hops | ((under > 0.0) & (abs(x) < quarter))
+        put(s, i, ANGLE_THERE, u)
+        put(s, i, RATE_THERE, v)
+        put(s, i, COSINE_THERE, cosine)
+        put(s, i, SINE_THERE, sine)
+        put(s, i, ABOUT, choose(hops, 0.0, about))
+        put(s, i, OFF, choose(near, x, choose(u > 0.0, 0.5, -0.5) * quarter))
+
+
+@njit(**EXACT_INNER)
+def guess(s):
+    """Where the zero lies, to some six digits: two steps on the Taylor series about where ``aim`` has it."""
+    for i in range(LANES):
+        stage, time, low, high = of(s, i, STAGE), of(s, i, TIME), of(s, i, LOW), of(s, i, HIGH)
+        about, x = of(s, i, ABOUT), of(s, i, OFF)
+        there = of(s, i, ANGLE_THERE), of(s, i, RATE_THERE), of(s, i, COSINE_THERE), of(s, i, SINE_THERE)
+        c0, c1, c2, c3, c4, c5, c6 = derivatives(s, i, there)
+        c = c0, c1, I2 * c2, I3 * c3, I4 * c4, I5 * c5, I6 * c6
+        w, dw, half_ddw = taylor(c, x)
+        per = 1.0 / dw
+        y = -w * per
+        bend = y * half_ddw * per
+        x += y * halved(fma(bend, fma(2.0, bend, -1.0), 1.0))
+        w, dw, _ = taylor(c, x)
+        found = about + x - w / dw
+        found = choose((dw < 0.0) & (found > low) & (found < high), found, 0.5 * (low + high))
+        guessing = stage == GUESS
+        put(s, i, TIME, choose(guessing, found, time))
+        put(s, i, STAGE, choose(guessing, REFINE, stage))
+
+
+@njit(**EXACT_INNER)
+def look(s):
+    """The instant at the time that each lane looks at, on arcs from the base."""
+    elements(s)
+    for i in range(LANES):
+        u, v, cosine, sine = instant_of(s, i, -1.0)
+        put(s, i, ANGLE_THERE, u)
+        put(s, i, RATE_THERE, v)
+        put(s, i, COSINE_THERE, cosine)
+        put(s, i, SINE_THERE, sine)
+
+
+@njit(**EXACT_INNER)
+def above_tangent(u, fall, t, low, high):
+    """Whether u is certainly positive on [low, high], in a convex stretch, by its value at t and fall = u + u' there.
+
+    y = u e^t, convex in e^2t, lies above its tangent; (e^2d - 1)/2d <= 1 + 8d up to d = 2.
+    """
+    left = high - t
+    down = choose(left < 2.0, -fall * left * fma(8.0, left, 1.0), math.inf)
+    return u - choose(fall > 0.0, fall * (t - low), down) > MARGIN
+
+
+@njit(**EXACT_INNER)
+def step(s):
+    """From the time looked at to the zero, or nearer to it; or to the bottom of a dip, which shows that there is none."""
+    for i in range(LANES):
+        stage, t, low, high = of(s, i, STAGE), of(s, i, TIME), of(s, i, LOW), of(s, i, HIGH)
+        tries, wait, cleared = of(s, i, TRIES), of(s, i, WAIT), of(s, i, CLEARED)
+        sinh, versinh = of(s, i, SINH), of(s, i, VERSINH)
+        frequency = of(s, i, FREQUENCY)
+        u, v, cosine, sine = (
+            of(s, i, ANGLE_THERE),
+            of(s, i, RATE_THERE),
+            of(s, i, COSINE_THERE),
+            of(s, i, SINE_THERE),
+        )
+        _, _, second, third, fourth, fifth, _ = derivatives(s, i, (u, v, cosine, sine))
+        diving, fall = stage == BOTTOM, u + v
+        per = 1.0 / choose(diving, v + second, v)
+        y = -u * per
+        factor = correction(y, second, third, fourth, per)
+
+        # near enough, as ``fast_path.close``: the rest of the way by Taylor series
+        bend, twist = y * per * second, y * (y * per) * third
+        close = (v < 0.0) & (abs(y) * max(1.0, frequency) < NEAR)
+        close &= (abs(bend) < NEAR) & (abs(twist) < NEAR * NEAR)
+        arrived, x = (stage == REFINE) & close, y * factor
+        slope = fma(x, fma(x, fma(x, fma(x, I4 * fifth, I3 * fourth), I2 * third), second), v)
+        cosine, sine, sinh, versinh = onward(x, frequency, cosine, sine, sinh, versinh)
+        put(s, i, WAIT, choose(arrived, t + x, wait))
+        # of a lane that has not arrived nobody asks for these
+        put(s, i, SPEED, -slope)
+        put(s, i, NEXT_COSINE, cosine)
+        put(s, i, NEXT_SINE, sine)
+        put(s, i, NEXT_SINH, sinh)
+        put(s, i, NEXT_VERSINH, versinh)
+
+        # the bottom of a dip, where u + u' = 0, as ``first_zero.dip``
+        held, through = diving | (stage == REFINE), diving & (u < 0.0)
+        above = diving & above_tangent(u, fall, t, low, high)
+        beyond = choose(diving, through | (fall > 0.0), u <= 0.0)
+        low, high = choose(held & (beyond == False), t, low), choose(held & beyond, t, high)  # noqa: E712
+        ahead = t + choose(diving, -fall * per, y * halved(factor))
+        # A step that would leave what holds the zero, or the bottom, goes to its middle.
+        inside = (ahead >= low) & (ahead <= high) & (diving | (v < 0.0))
+        put(s, i, TIME, choose(held, choose(inside, ahead, 0.5 * (low + high)), t))
+        put(s, i, LOW, low)
+        put(s, i, HIGH, high)
+        put(s, i, TRIES, choose(held, tries + 1.0, tries))
+        put(s, i, CLEARED, choose(above, 1.0, cleared))
+        tired = choose(held & (tries > MOST_TRIES), UNSURE, stage)
+        on = choose(above, WALK, choose(through, REFINE, tired))
+        put(s, i, STAGE, choose(arrived, ARRIVED, on))

@@ -1,0 +1,1 @@
+"""The march of one block from event to event."""

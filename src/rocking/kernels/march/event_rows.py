@@ -1,0 +1,59 @@
+"""What a march writes down: rows of the section, and of events."""
+
+from numba import njit
+
+from rocking.kernels.arc.solution import evaluate, within_reach
+from rocking.kernels.compile_options import ENTRY, WITHIN
+from rocking.kernels.event_kinds import BRACE, FLIGHT, LEAN, LEANS, NONE, REST, RESTS
+
+
+@njit(**WITHIN)
+def state_at(p, mode, arc, t):
+    """(Theta, Theta') a time t into an arc, a rest or a lean."""
+    if mode == REST:
+        return 0.0, 0.0
+    if mode == LEAN:
+        return arc.side * p.brace_angle, 0.0
+    now = evaluate(p, arc, t)
+    return arc.side * within_reach(p, now.angle), arc.side * now.velocity
+
+
+@njit(**WITHIN)
+def note_state(p, row, mode, arc, t, impacts, brace_hits):
+    """Write a row of the section, a time t into an arc, a rest or a lean."""
+    row[0], row[1] = state_at(p, mode, arc, t)
+    if row.shape[0] > 2:
+        row[2], row[3] = impacts, brace_hits
+
+
+@njit(**WITHIN)
+def note(events, count, cycle, mode, arc, event, before):
+    """Write one event, with the arc that follows it and the velocity before it."""
+    row = events[count]
+    row[0] = cycle
+    row[1] = arc.start
+    row[2] = event
+    row[3] = mode
+    row[4] = arc.side
+    row[5] = arc.angle
+    row[6] = arc.velocity
+    row[7] = before
+    return count + 1
+
+
+@njit(**WITHIN)
+def note_event(events, count, cycle, mode, arc, event, before):
+    """Write an event; rest or leaning that begins with it is an event of its own at the same instant."""
+    count = note(events, count, cycle, mode, arc, event, before)
+    if mode == FLIGHT:
+        return count
+    return note(events, count, cycle, mode, arc, RESTS if mode == REST else LEANS, 0.0)
+
+
+@njit(**ENTRY)
+def note_start(events, progress, hit, velocity):
+    """Write what a motion begins with: its first arc, after a hit on a brace (and leaning there) where it starts with one."""
+    mode, arc = progress.mode, progress.arc
+    if hit:
+        return note_event(events, 0, 0, mode, arc, BRACE, velocity)
+    return note(events, 0, 0, mode, arc, NONE, velocity)

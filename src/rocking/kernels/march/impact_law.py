@@ -1,0 +1,81 @@
+"""What an event does: impact, eq. (2) of Yim & Lin (1991), brace impact, rest, leaning, lift-off, leaving."""
+
+import math
+
+from numba import njit
+
+from rocking.kernels.arc.solution import arc_after, arc_from
+from rocking.kernels.compile_options import INLINED, WITHIN
+from rocking.kernels.event_kinds import BRACE, FLIGHT, IMPACT, LEAN, LEAVE, LIFT_OFF, REST
+from rocking.kernels.march.chatter import base_settling_time, brace_settling_time
+from rocking.kernels.march.next_event import side_to_lift, stays_leaning
+
+# Accumulating impacts of a recorded motion go on, one by one, down to this speed.
+SLOWEST = 1e-13
+# Below this a speed is none: where the press all but vanishes, accumulation cannot be proved to end.
+NEGLIGIBLE = 1e-30
+# Faster than this no accumulation is looked for.
+SLOW = 0.1
+
+
+@njit(**INLINED)
+def after_impact(p, arc, time, coming, quiet):
+    """(mode, arc) after an impact at the base.
+
+    ``quiet`` is the time in which nothing is asked for, so that accumulating impacts may be cut short. A block
+    that comes back before the clock has moved has not left: so at a brace too.
+    """
+    speed = p.restitution * max(-coming.velocity, 0.0)
+    if speed < NEGLIGIBLE and p.restitution < 1.0:
+        speed = 0.0
+    side, mode = -arc.side, FLIGHT
+    if speed == 0.0:
+        side = side_to_lift(p, p.frequency * time + p.phase)
+        if side == 0 or time == arc.start:
+            side, mode = arc.side, REST
+    turned = side * arc.side
+    after = arc_after(p, side, time, 0.0, speed, turned * coming.cosine, turned * coming.sine)
+    if mode == FLIGHT and 0.0 < speed < SLOW and p.restitution < 1.0:
+        settled = base_settling_time(p, after.cosine, after.sine, speed)
+        if settled <= quiet or (settled < math.inf and speed < SLOWEST):
+            mode = REST
+    if mode == REST:
+        after = arc_from(p, side, time, 0.0, 0.0)
+    return mode, after
+
+
+@njit(**WITHIN)
+def after_brace(p, arc, time, coming, quiet):
+    """(mode, arc) after a hit on a brace."""
+    speed = p.brace_restitution * max(coming.velocity, 0.0)
+    if speed < NEGLIGIBLE and p.brace_restitution < 1.0:
+        speed = 0.0
+    if speed >= SLOW:
+        # Only how a slow hop goes hangs on the last digits of the pull.
+        return FLIGHT, arc_after(p, arc.side, time, p.brace_angle, -speed, coming.cosine, coming.sine)
+    after = arc_from(p, arc.side, time, p.brace_angle, -speed)
+    mode = FLIGHT
+    if speed == 0.0:
+        if stays_leaning(p, arc.side, after.psi) or time == arc.start:
+            mode = LEAN
+    elif p.brace_restitution < 1.0:
+        settled = brace_settling_time(p, after.cosine, after.sine, speed)
+        if settled <= quiet or (settled < math.inf and speed < SLOWEST):
+            mode = LEAN
+    if mode == LEAN:
+        after = arc_from(p, arc.side, time, p.brace_angle, 0.0)
+    return mode, after
+
+
+@njit(**INLINED)
+def after_event(p, arc, time, coming, quiet):
+    """(mode, arc) after the coming event."""
+    if coming.event == IMPACT:
+        return after_impact(p, arc, time, coming, quiet)
+    if coming.event == BRACE:
+        return after_brace(p, arc, time, coming, quiet)
+    if coming.event == LIFT_OFF:
+        return FLIGHT, arc_from(p, coming.side, time, 0.0, 0.0)
+    if coming.event == LEAVE:
+        return FLIGHT, arc_from(p, arc.side, time, p.brace_angle, 0.0)
+    return FLIGHT, arc_from(p, arc.side, time, coming.angle, coming.velocity)

@@ -1,0 +1,136 @@
+"""Which event comes next: impact, brace hit, lift-off, leaving a brace, or none for ever."""
+
+import math
+from typing import NamedTuple
+
+from numba import njit
+
+from rocking.kernels.arc.bracket import MARGIN, ZERO
+from rocking.kernels.arc.bracket import NEVER as NEVER_MORE
+from rocking.kernels.arc.fast_path import likely_event, likely_impact
+from rocking.kernels.arc.first_zero import CROSSING, LONGEST, NEVER, base_watch, brace_watch, first_zero
+from rocking.kernels.arc.solution import NONE_YET, evaluate, recall
+from rocking.kernels.compile_options import COMPILED, INLINED, WITHIN
+from rocking.kernels.event_kinds import BRACE, FLIGHT, IMPACT, LEAN, LEAVE, LIFT_OFF, NONE, REST
+from rocking.kernels.forcing.harmonic import first_cut, next_cut
+
+
+class Next(NamedTuple):
+    """The coming event of an arc, a rest or a lean: after how long, what, and the instant itself."""
+
+    wait: float
+    event: int
+    side: int
+    angle: float
+    velocity: float
+    cosine: float
+    sine: float
+    sinh: float
+    versinh: float
+
+
+@njit(**INLINED)
+def until_window(p, side, psi, half, inside):
+    """Time until eta next enters |eta| < half (``inside``) or leaves it: 0 in the first half of that window.
+
+    Who is still held in the second half of a window, having come back at its very end before the clock moved, waits
+    for the next.
+    """
+    cut, now_inside = first_cut(p, side, psi, 0.0, half)
+    if now_inside != inside:
+        return cut
+    return 0.0 if cut > 0.5 * next_cut(p, half, inside) else cut + next_cut(p, half, not inside)
+
+
+@njit(**WITHIN)
+def wait_at_rest(p, psi):
+    """(time until |A cos psi| rises through 1, side of the lift-off); infinite for A <= 1."""
+    if p.base_half == math.inf:
+        return math.inf, 1
+    right = until_window(p, 1, psi, p.base_half, False)
+    left = until_window(p, -1, psi, p.base_half, False)
+    return (right, 1) if right < left else (left, -1)
+
+
+@njit(**WITHIN)
+def wait_leaning(p, side, psi):
+    """Time until the brace is no longer pressed, brace_angle + f falling through 0; infinite where it always is."""
+    if p.brace_half == math.inf:
+        return math.inf
+    return until_window(p, side, psi, p.brace_half, True)
+
+
+@njit(**WITHIN)
+def side_to_lift(p, psi):
+    """The side to which a block standing still at the base lifts now: where f > 0; 0 where it stays."""
+    if p.base_half < math.inf:
+        for side in (1, -1):
+            if not first_cut(p, side, psi, 0.0, p.base_half)[1]:
+                return side
+    return 0
+
+
+@njit(**COMPILED)
+def stays_leaning(p, side, psi):
+    """Whether a block standing still at the brace is pressed against it: brace_angle + f > 0."""
+    if p.brace_half == math.inf:
+        return p.brace_angle > 1.0
+    return not first_cut(p, side, psi, 0.0, p.brace_half)[1]
+
+
+@njit(**INLINED)
+def grazes(p, arc, t, velocity):
+    """Whether an arc arrives so slowly that the last digits tell whether it arrives at all."""
+    pull = p.amplitude + 1.0
+    return velocity * velocity <= MARGIN * pull * (arc.angle + t * (abs(arc.velocity) + t * pull))
+
+
+@njit(**INLINED)
+def next_event(p, mode, arc, guess):
+    """(what comes next and when, the lapse to guess from next time), from the lapse until the coming event as it is guessed.
+
+    Between braces none is. NONE after a finite wait only renews an arc grown long.
+    """
+    if mode == FLIGHT and p.base_half < math.inf:
+        at_brace, lapse = False, NONE_YET
+        if p.brace_angle == math.inf:
+            answer, t, now, lapse = likely_impact(p, arc, guess)
+        else:
+            answer, at_brace, t, now = likely_event(p, arc)
+        if answer == NEVER_MORE:
+            return Next(math.inf, NONE, arc.side, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0), guess
+        if answer == ZERO and not grazes(p, arc, t, now.velocity):
+            event, angle = (BRACE, p.brace_angle) if at_brace else (IMPACT, 0.0)
+            return Next(
+                t, event, arc.side, angle, now.velocity, now.cosine, now.sine, now.sinh, now.versinh
+            ), lapse
+    coming = any_event(p, mode, arc)
+    if mode != FLIGHT or p.brace_angle < math.inf:
+        return coming, guess
+    return coming, recall(p, min(coming.wait, LONGEST))
+
+
+@njit(**COMPILED)
+def any_event(p, mode, arc):
+    """What comes next, and when, without a guess."""
+    if mode == REST:
+        wait, side = wait_at_rest(p, arc.psi)
+        return Next(wait, LIFT_OFF if wait < math.inf else NONE, side, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    if mode == LEAN:
+        wait = wait_leaning(p, arc.side, arc.psi)
+        return Next(
+            wait, LEAVE if wait < math.inf else NONE, arc.side, p.brace_angle, 0.0, 0.0, 0.0, 0.0, 0.0
+        )
+    event = IMPACT
+    found, t, now = first_zero(p, arc, base_watch(p), 0.0, LONGEST)
+    if found != CROSSING:
+        event, t = NONE, LONGEST
+    if p.brace_angle < math.inf:
+        hit, t_hit, now_hit = first_zero(p, arc, brace_watch(p), 0.0, t)
+        if hit == CROSSING:
+            event, t, now = BRACE, t_hit, now_hit
+    elif found == NEVER:
+        return Next(math.inf, NONE, arc.side, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    if event == NONE:
+        now = evaluate(p, arc, t)
+    return Next(t, event, arc.side, now.angle, now.velocity, now.cosine, now.sine, now.sinh, now.versinh)

@@ -1,0 +1,131 @@
+"""The few elementary functions of an arc, each to full relative accuracy however short the arc is.
+
+``cosh t - 1``, ``sinh t - t``, ``1 - cos x`` and ``x - sin x`` cancel for short arcs when formed from the
+library's functions; here short arguments go through their Taylor series, which loses nothing, and long ones
+through exponentials and a sine and cosine of an argument reduced by pi/2 in three parts.
+"""
+
+import math
+
+import numpy as np
+from numba import njit, types
+from numba.extending import intrinsic
+
+from rocking.kernels.compile_options import INLINED
+
+# Coefficients by increasing power of the squared argument: 1/3!, 1/5!, ... and 1/4!, 1/6!, ...; the first
+# dropped term is below 2**-55 of the sum at 2.
+ODD = tuple(1.0 / math.factorial(k) for k in range(3, 27, 2))
+EVEN = tuple(1.0 / math.factorial(k) for k in range(4, 28, 2))
+SHORT = 2.0
+
+# pi/2 in three parts; the first two have 33 bits, so their products with the quadrant number are exact up
+# to 2**20 quadrants.
+HALF_PI = (1.5707963267341256, 6.077100506303966e-11, 2.0222662487959506e-21)
+TWO_OVER_PI = 2.0 / math.pi
+
+
+@intrinsic
+def fma(typingctx, a, b, c):
+    """``a*b + c`` with one rounding."""
+
+    def generate(context, builder, signature, arguments):
+        return builder.fma(*arguments)
+
+    return types.float64(types.float64, types.float64, types.float64), generate
+
+
+@njit(**INLINED)
+def series(q, c):
+    """Sum of c[k] q**k for 12 coefficients, two interleaved chains (half the latency of one)."""
+    q2 = q * q
+    even = c[10]
+    odd = c[11]
+    for k in range(8, -1, -2):
+        even = fma(even, q2, c[k])
+        odd = fma(odd, q2, c[k + 1])
+    return fma(odd, q, even)
+
+
+@njit(**INLINED)
+def short_series(q, c):
+    """The first 8 terms, enough for |argument| <= pi/4."""
+    q2 = q * q
+    even = fma(fma(fma(c[6], q2, c[4]), q2, c[2]), q2, c[0])
+    odd = fma(fma(fma(c[7], q2, c[5]), q2, c[3]), q2, c[1])
+    return fma(odd, q, even)
+
+
+@njit(**INLINED)
+def size(x, y):
+    """The length of (x, y), of numbers whose squares are numbers: a third of the cost of ``math.hypot``."""
+    return math.sqrt(x * x + y * y)
+
+
+@njit(**INLINED)
+def hyperbolic(t):
+    """(sinh t, cosh t - 1, sinh t - t, cosh t - 1 - t**2/2) for t >= 0."""
+    q = t * t
+    if t < SHORT:
+        excess = q * t * series(q, ODD)
+        higher = q * q * series(q, EVEN)
+        return t + excess, fma(0.5, q, higher), excess, higher
+    grown = 0.5 * math.exp(t)
+    shrunk = 0.25 / grown
+    sinh = grown - shrunk
+    versinh = (grown - 1.0) + shrunk
+    return sinh, versinh, sinh - t, fma(-0.5, q, versinh)
+
+
+@njit(**INLINED)
+def quarter_turn(x, correction):
+    """(sin, cos, 1 - |cos|, quadrant) of ``x + correction``, 0 <= x up to 10**6, ``correction`` an ulp of x or so.
+
+    1 - |cos| keeps its relative accuracy in the even quadrants, those about the multiples of pi.
+    """
+    # ``math.floor`` goes through an integer and back
+    quadrant = np.floor(x * TWO_OVER_PI + 0.5)
+    high = fma(-quadrant, HALF_PI[0], x)
+    tail = fma(-quadrant, HALF_PI[1], correction)
+    r = high + tail
+    tail = fma(-quadrant, HALF_PI[2], tail - (r - high))
+    q = r * r
+    excess = r * q * short_series(-q, ODD)
+    versine = q * fma(-q, short_series(-q, EVEN), 0.5)
+    sine = r + (tail * (1.0 - versine) - excess)
+    versine += r * tail
+    cosine = 1.0 - versine
+    k = np.int64(quadrant) & 3
+    if k & 1:
+        sine, cosine = cosine, sine
+        versine = 1.0 - abs(cosine)
+    if k & 2:
+        sine = -sine
+    if (k + 1) & 2:
+        cosine = -cosine
+    return sine, cosine, versine, k
+
+
+@njit(**INLINED)
+def circular(rate, t):
+    """(sin x, 1 - cos x, x - sin x, for short x also x**2/2 - 1 + cos x) of x = rate * t >= 0.
+
+    The product is kept to twice double precision.
+    """
+    x = rate * t
+    if x < SHORT:
+        q = x * x
+        lag = q * x * series(-q, ODD)
+        higher = q * q * series(-q, EVEN)
+        return x - lag, fma(0.5, q, -higher), lag, higher
+    sine, cosine, versine, k = quarter_turn(x, fma(rate, t, -x))
+    if k != 0:
+        versine = 1.0 - cosine
+    return sine, versine, x - sine, 0.0
+
+
+@njit(**INLINED)
+def direction(angle):
+    """(sin, cos, 1 - |cos|, whether that is accurate however small) of an angle of either sign."""
+    sine, cosine, versine, k = quarter_turn(abs(angle), 0.0)
+    return (-sine if angle < 0.0 else sine), cosine, versine, k & 1 == 0

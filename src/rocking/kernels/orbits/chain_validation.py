@@ -1,0 +1,76 @@
+"""Whether the motion is what a closed chain of arcs says: every arc marched to its first event, and how near it comes to others."""
+
+import math
+
+from numba import njit
+
+from rocking.kernels.arc.extrema import peak_with
+from rocking.kernels.arc.solution import evaluate, recall
+from rocking.kernels.compile_options import WITHIN
+from rocking.kernels.event_kinds import BRACE, FLIGHT, IMPACT, NONE
+from rocking.kernels.forcing.harmonic import forcing_term
+from rocking.kernels.march.impact_law import after_event
+from rocking.kernels.march.next_event import next_event
+from rocking.kernels.orbits.event_chain import arc_at, place_of
+
+# Events as far apart as this, in time, are not the same.
+APART = 1e-6
+# A motion that all but touches meets what it touches this near to the turn, if at all.
+NEAR_TOUCH = 1e-3
+MOST_TURNS = 20
+# One arc is renewed so often at most.
+LONG_ARCS = 64
+
+
+@njit(**WITHIN)
+def certify(p, chain, y, links, touched, touches):
+    """(whether the motion is the chain's own, its largest angle): every arc is marched to its first event.
+
+    An arc that meets something before its end, or leaves an event into the base or the brace, is not; arc ``touched`` (-1:
+    none) may meet what it touches a time ``touches`` after its start.
+    """
+    k = chain.kinds.shape[0]
+    side, peak = chain.side, 0.0
+    for j in range(k):
+        after = j + 1 if j + 1 < k else 0
+        kind, leaves, t = chain.kinds[j], links[j, 0], links[j, 6]
+        if not (leaves > 0.0 if kind == IMPACT else leaves < 0.0):
+            return False, peak
+        arc = arc_at(p, side, y[j], place_of(p, kind), leaves)
+        waited = 0.0
+        for _ in range(LONG_ARCS):
+            coming, _ = next_event(p, FLIGHT, arc, recall(p, max(t - waited, 0.0)))
+            if coming.wait == math.inf:
+                return False, peak
+            peak = peak_with(p, arc, coming, peak)
+            waited += coming.wait
+            if coming.event != NONE:
+                break
+            _, arc = after_event(p, arc, arc.start + coming.wait, coming, 0.0)
+        met = coming.event == chain.kinds[after] and abs(waited - t) <= APART
+        if not met and not (j == touched and abs(waited - touches) <= NEAR_TOUCH):
+            return False, peak
+        if chain.kinds[after] == IMPACT:
+            side = -side
+    return True, peak
+
+
+@njit(**WITHIN)
+def clearance(p, chain, y, links, touched, level, touches):
+    """(distance left to the base, or to the brace, where arc ``touched`` turns, time of that): by Newton's method from a time near."""
+    side = chain.side
+    for j in range(touched):
+        if chain.kinds[j + 1] == IMPACT:
+            side = -side
+    arc = arc_at(p, side, y[touched], place_of(p, chain.kinds[touched]), links[touched, 0])
+    t, now = touches, evaluate(p, arc, touches)
+    for _ in range(MOST_TURNS):
+        pull = now.angle + forcing_term(p, now.cosine)
+        step = -now.velocity / pull
+        if not 0.0 < t + step < links[touched, 6]:
+            return math.nan, t
+        t += step
+        now = evaluate(p, arc, t)
+        if abs(step) <= 1e-12:
+            break
+    return (p.brace_angle - now.angle if level == BRACE else now.angle), t

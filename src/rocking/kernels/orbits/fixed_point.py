@@ -1,0 +1,195 @@
+"""Periodic orbits: fixed points of the map over so many forcing cycles, by Newton's method with the exact Jacobian."""
+
+import math
+from typing import NamedTuple
+
+from numba import njit
+
+from rocking.kernels.compile_options import ENTRY, WITHIN, WRITTEN_IN
+from rocking.kernels.march.march import DONE, begin, march_on
+from rocking.kernels.march.tangent import Tangent, read_tangent
+from rocking.kernels.numerics.elementary import size
+
+RESIDUAL = 1e-12
+# Near a fold Newton's method converges linearly, by halves.
+MOST_STEPS = 40
+UNBOUNDED = 1 << 62
+
+
+class Patience(NamedTuple):
+    """How far Newton's method is followed."""
+
+    failures: int  # steps in all that do not lower the residual by a tenth
+    worse: float  # a step that makes the residual grow by more is halved, as one that overturns the block or leads too far
+    halvings: int  # so often
+    reach: float  # of the angle, where no brace is nearer, and of the velocity
+
+
+# From what a motion approaches; from anywhere.
+NEARBY = Patience(1, math.inf, 0, 10.0)
+ANYWHERE = Patience(MOST_STEPS, 2.0, 4, 1e3)
+
+
+class Image(NamedTuple):
+    """Where a state is after a while."""
+
+    certain: bool  # neither overturned nor with too many events on the way
+    angle: float
+    velocity: float
+    tangent: Tangent
+    impacts: int
+    brace_hits: int
+    peak: float
+    waits: tuple[float, float]  # from the image to the first event and on to the next, about
+
+
+class Found(NamedTuple):
+    """A fixed point, or how far one got."""
+
+    converged: bool
+    angle: float
+    velocity: float
+    image: Image
+    residual: float
+    error: float  # what Newton's method would still move it by
+    work: int  # events computed
+
+
+@njit(**WITHIN)
+def image_after(
+    p, angle, velocity, cycles, section_time, section, nothing, columns, want_peak, waits, start=0.0
+):
+    """The image, at the end of cycle ``cycles``, of a state at the time ``start`` within the first.
+
+    ``section`` as in ``march_on``, ``columns`` (2, 2) or none.
+    """
+    progress, _ = begin(p, angle, velocity, waits, start)
+    if columns.shape[0] > 0:
+        columns[0, 0], columns[0, 1], columns[1, 0], columns[1, 1] = 1.0, 0.0, 0.0, 1.0
+    status, progress, _, _ = march_on(
+        p, progress, cycles, section_time, section, nothing.events, columns, nothing.growth, want_peak, False
+    )
+    arc = progress.arc
+    tangent = read_tangent(columns) if columns.shape[0] > 0 else Tangent(0.0, 0.0, 0.0, 0.0)
+    return Image(
+        status == DONE,
+        arc.side * arc.angle,
+        arc.side * arc.velocity,
+        tangent,
+        progress.impacts,
+        progress.brace_hits,
+        progress.peak,
+        (progress.wait_before, progress.last_wait),
+    )
+
+
+@njit(**WRITTEN_IN)
+def find_fixed_point(p, angle, velocity, cycles, most_work, nothing, columns, waits, patience, start, sign):
+    """Newton's method on the map of ``image_after`` times ``sign``, until the residual is at most RESIDUAL; ``waits`` as for ``begin``.
+
+    ``sign`` is -1 where the image is mirrored, else 1. Where none is found, the state is the last one accepted.
+    """
+    reach = min(p.brace_angle, patience.reach)
+    work, failures, steps, halvings, converged, inside = 0, 0, 0, 0, False, True
+    residual, best, error, share, to_angle, to_velocity = math.inf, math.inf, math.inf, 1.0, 0.0, 0.0
+    at_angle, at_velocity = angle, velocity
+    while True:
+        accepted = False
+        if inside:
+            image = image_after(
+                p, at_angle, at_velocity, cycles, 0.0, nothing.section, nothing, columns, False, waits, start
+            )
+            waits = image.waits
+            work += image.impacts + image.brace_hits
+            miss, miss_rate = sign * image.angle - at_angle, sign * image.velocity - at_velocity
+            missed = max(abs(miss), abs(miss_rate))
+            accepted = image.certain and missed <= patience.worse * residual
+        if accepted:
+            angle, velocity, residual = at_angle, at_velocity, missed
+            tangent = image.tangent
+            a, b, c, d = sign * tangent.a, sign * tangent.b, sign * tangent.c, sign * tangent.d
+            converged = residual <= RESIDUAL * max(1.0, abs(a), abs(b), abs(c), abs(d))
+            steps += 1
+            failures += not residual < 0.9 * best
+            best = min(best, residual)
+            # x + (I - J)^-1 (P(x) - x), with J = [[a, c], [b, d]]
+            determinant = (1.0 - a) * (1.0 - d) - b * c
+            to_angle = ((1.0 - d) * miss + c * miss_rate) / determinant
+            to_velocity = (b * miss + (1.0 - a) * miss_rate) / determinant
+            error = size(to_angle, to_velocity)
+            lost = failures > patience.failures or work > most_work or not error < math.inf
+            if converged or lost or steps > MOST_STEPS:
+                break
+            share, halvings = 1.0, 0
+        elif halvings == patience.halvings:
+            break
+        else:
+            share, halvings = 0.5 * share, halvings + 1
+        at_angle, at_velocity = angle + share * to_angle, velocity + share * to_velocity
+        inside = abs(at_angle) <= reach and abs(at_velocity) <= patience.reach
+    return Found(converged, angle, velocity, image, residual, error, work)
+
+
+@njit(**WITHIN)
+def eigenvalues(middle, square, determinant):
+    """Both eigenvalues of a real matrix, the larger first, or that above the real axis: (real, imaginary, real, imaginary).
+
+    ``middle`` is half its trace, ``square`` the square of half their difference, which who knows more than the trace and
+    the determinant has without cancellation.
+    """
+    if square < 0.0:
+        root = math.sqrt(-square)
+        return middle, root, middle, -root
+    root = math.sqrt(square)
+    large = middle + root if middle >= 0.0 else middle - root
+    small = determinant / large if large != 0.0 else 0.0
+    return large, 0.0, small, 0.0
+
+
+@njit(**WITHIN)
+def multipliers(tangent):
+    """The ``eigenvalues`` of a tangent."""
+    apart = 0.5 * (tangent.a - tangent.d)
+    return eigenvalues(
+        0.5 * (tangent.a + tangent.d),
+        apart * apart + tangent.b * tangent.c,
+        tangent.a * tangent.d - tangent.b * tangent.c,
+    )
+
+
+@njit(**ENTRY)
+def multipliers_plain(middle, square, determinant, mirrored):
+    """``eigenvalues`` for Python, as two complex numbers; ``mirrored``: their squares, of a map over half a period."""
+    real, above, other, below = eigenvalues(middle, square, determinant)
+    if mirrored:
+        turned = 2.0 * abs(real * above)
+        real, other = real * real - above * above, other * other - below * below
+        above, below = (turned, -turned) if turned > 0.0 else (0.0, 0.0)
+    return complex(real, above), complex(other, below)
+
+
+@njit(**WITHIN)
+def adapted_norm(tangent, radius):
+    """(q11, q12, q22) of a norm in which a matrix with spectral radius < ``radius`` shrinks by ``radius`` at least.
+
+    Q = sum over k of N^kT N^k with N = M/radius, by doubling; without eigenvectors, which coincide where the multipliers do.
+    """
+    q11, q12, q22 = 1.0, 0.0, 1.0
+    # the columns of N are (a, b) and (c, d)
+    a, b, c, d = tangent.a / radius, tangent.b / radius, tangent.c / radius, tangent.d / radius
+    for _ in range(60):
+        # Q N, then N^T of it
+        t11, t12 = q11 * a + q12 * b, q11 * c + q12 * d
+        t21, t22 = q12 * a + q22 * b, q12 * c + q22 * d
+        q11, q12, q22 = q11 + a * t11 + b * t21, q12 + a * t12 + b * t22, q22 + c * t12 + d * t22
+        a, b, c, d = a * a + c * b, b * a + d * b, a * c + c * d, b * c + d * d
+        if max(abs(a), abs(b), abs(c), abs(d)) < 1e-9:
+            break
+    return q11, q12, q22
+
+
+@njit(**WITHIN)
+def length(norm, x, y):
+    """Length of (x, y) in an adapted norm."""
+    q11, q12, q22 = norm
+    return math.sqrt(q11 * x * x + 2.0 * q12 * x * y + q22 * y * y)

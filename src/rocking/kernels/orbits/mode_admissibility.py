@@ -1,0 +1,61 @@
+"""Whether the closed form of a symmetric mode keeps its side for half a response, eq. (8) of Yim & Lin (1991).
+
+On the positive side, from one impact to the next a time ``length`` = n pi/Omega later,
+
+    u = a e^-t + b e^-(length - t) + 1 + beta cos(phi + Omega t),
+
+written with what decays from either end, so that nothing grows however long it lasts. It is followed from both ends
+to the middle, in pieces that each begin from this form: rounding never grows by more than e^PIECE, and the impact
+at the far end is never a question of how near is near enough.
+"""
+
+import math
+
+from numba import njit
+
+from rocking.kernels.arc.extrema import arc_peak
+from rocking.kernels.arc.first_zero import CROSSING, base_watch, first_zero
+from rocking.kernels.arc.solution import arc_from
+from rocking.kernels.compile_options import ENTRY, WITHIN
+from rocking.kernels.forcing.harmonic import particular
+from rocking.kernels.numerics.elementary import direction
+from rocking.kernels.parameters import at_phase
+
+PIECE = 4.0
+
+
+@njit(**WITHIN)
+def first_half(p, speed, near, far, length):
+    """(whether u > 0 up to the middle, its largest value), from u = 0 with ``speed``; near, far are a, b above."""
+    middle, peak = 0.5 * length, 0.0
+    pieces = math.ceil(middle / PIECE)
+    step = middle / pieces
+    angle, velocity = 0.0, speed
+    for k in range(pieces):
+        arc = arc_from(p, 1, k * step, angle, velocity)
+        found, _, _ = first_zero(p, arc, base_watch(p), 0.0, step)
+        if found == CROSSING:
+            return False, peak
+        peak = arc_peak(p, arc, step, peak)
+        t = (k + 1) * step
+        sine, cosine, _, _ = direction(p.frequency * t + p.phase)
+        place, rate = particular(p, cosine, sine)
+        leaving, coming = near * math.exp(-t), far * math.exp(t - length)
+        angle, velocity = leaving + coming + 1.0 + place, coming - leaving + rate
+        if angle <= 0.0:
+            return False, peak
+    return True, peak
+
+
+@njit(**ENTRY)
+def half_cycle(p, speed, near, far, length):
+    """(whether u > 0 inside the half cycle, its largest value) of a mode that leaves the base with ``speed`` at phase ``p.phase``.
+
+    Seen from its end, backwards in time, a half cycle is one that begins at phase pi - phi with the speed before the impact.
+    """
+    up, peak = first_half(p, speed, near, far, length)
+    if not up:
+        return False, peak
+    backwards = at_phase(p, math.pi - p.phase)
+    up, other = first_half(backwards, speed / p.restitution, far, near, length)
+    return up, max(peak, other)

@@ -1,0 +1,83 @@
+"""Where the motions go that leave the saddle orbits 1 + beta cos psi and its mirror image inwards, along exact lines.
+
+On its side of the base every motion that comes from the saddle orbit is s = (u, u')_saddle - c e^t (1, 1); it has not
+touched the base before as long as c e^t < 1 - beta. So the lines need no smallness, and rounding is not magnified by
+time spent near the saddle.
+"""
+
+import math
+
+from numba import njit
+
+from rocking.kernels.arc.solution import earlier
+from rocking.kernels.compile_options import ENTRY, WITHIN
+from rocking.kernels.event_kinds import FLIGHT, IMPACT
+from rocking.kernels.forcing.harmonic import particular
+from rocking.kernels.march.event_rows import state_at
+from rocking.kernels.march.impact_law import after_event
+from rocking.kernels.march.march import MOST_EVENTS, UNKNOWN, begin
+from rocking.kernels.march.next_event import any_event
+from rocking.kernels.parameters import later, make
+
+# Distance from the saddle orbit, over 1 - beta, at which a motion is taken up.
+NEAR = 0.5
+
+
+@njit(**ENTRY)
+def swings(amplitudes, frequencies, phases, out):
+    """Write (beta cos psi, its derivative) into ``out`` (n, 2): how far saddle orbits are from their corners at phases psi."""
+    for k in range(out.shape[0]):
+        frequency = frequencies[k]
+        p = make(amplitudes[k], frequency, 2.0 * math.pi / frequency, phases[k], 1.0, math.inf, 1.0)
+        out[k, 0], out[k, 1] = particular(p, math.cos(phases[k]), math.sin(phases[k]))
+
+
+@njit(**WITHIN)
+def leaving(p, side):
+    """(Theta, Theta') at the start of the clock of the motion that is NEAR (1 - beta) from the saddle orbit just then."""
+    place, rate = particular(p, side * math.cos(p.phase), side * math.sin(p.phase))
+    distance = NEAR * (1.0 - p.response)
+    return side * (1.0 + place - distance), side * (rate - distance)
+
+
+@njit(**ENTRY)
+def images(p, side, times, out):
+    """Write (Theta, Theta') into ``out`` (n, 2), at the section psi = phase, a time ``times[k]`` after ``leaving``.
+
+    Returns False if one is crowded with events.
+    """
+    for k in range(times.shape[0]):
+        cycles = math.floor(times[k] / p.period)
+        wait = min(max(times[k] - cycles * p.period, 0.0), p.period)
+        q = later(p, -wait)
+        angle, velocity = leaving(q, side)
+        progress, _ = begin(q, angle, velocity, UNKNOWN)
+        mode, arc, crowd = progress.mode, progress.arc, 0
+        while True:
+            end = cycles * q.period + wait
+            coming = any_event(q, mode, arc)
+            at = arc.start + coming.wait
+            if at > end:
+                break
+            crowd += 1
+            if crowd > MOST_EVENTS:
+                return False
+            mode, arc = after_event(q, arc, at, coming, end - at)
+            while cycles > 0 and arc.start > q.period:
+                arc, cycles = earlier(arc, q.period), cycles - 1
+        out[k, 0], out[k, 1] = state_at(q, mode, arc, end - arc.start)
+    return True
+
+
+@njit(**ENTRY)
+def first_impacts(p, side, waits, out):
+    """Write (psi, speed just before) of the first impact into ``out`` (n, 2) of motions ``leaving`` at ``waits[k]``; NaN without."""
+    for k in range(waits.shape[0]):
+        q = later(p, waits[k])
+        angle, velocity = leaving(q, side)
+        arc = begin(q, angle, velocity, UNKNOWN)[0].arc
+        coming = any_event(q, FLIGHT, arc)
+        out[k] = math.nan
+        if coming.event == IMPACT:
+            out[k, 0] = p.phase + p.frequency * (waits[k] + coming.wait)
+            out[k, 1] = -coming.velocity

@@ -1,0 +1,92 @@
+"""Symmetric (1, n) modes in closed form, eqs (8)-(10) of Yim & Lin (1991), and where one is when a section is due.
+
+With h = nπ/Ω, half a response, t = tanh(h/2), k∓ = (1 ∓ e)/2e and a = Ω²t²k₋² + k₊², the speed V after an impact and the phase φ
+there obey
+
+    β cos φ = −t V k₋,   βΩ sin φ = t − V k₊,   so that   aV² − 2t k₊ V + t² − Ω²β² = 0.
+
+Written with the distance of V from V_E = t k₊/a, where both roots meet, nothing cancels and nothing overflows:
+(V − V_E)² = (Ω/a)² (√a β − t²k₋)(√a β + t²k₋), and the trace of the half-cycle map is 1 + e² + e(1+e) sinh h (1/V − 1/V_E).
+"""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+
+from rocking.kernels.arc.solution import Arc, arc_from, evaluate
+from rocking.kernels.compile_options import ENTRY, INNER, WITHIN
+from rocking.kernels.forcing.harmonic import TURN
+from rocking.kernels.numerics.elementary import size
+
+# Beyond it sinh is infinite.
+LARGEST_ARGUMENT = 700.0
+# The arc of no mode.
+NOWHERE = Arc(1, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0)
+
+
+class Nearest(NamedTuple):
+    """Of the states of a mode on a section the one nearest to a given state."""
+
+    distance: float  # infinite where there is no stable mode
+    order: int
+    angle: float
+    velocity: float
+    arc: Arc  # on which it lies; it began so long ago
+    since: float
+    half: float  # how long every arc of the mode takes
+
+
+@njit(**INNER)
+def closed_form(frequency, response, restitution, order, faster):
+    """(speed after an impact, phase there, trace of the half-cycle map) of the faster or slower mode; NaN where there is none."""
+    e, h = restitution, order * math.pi / frequency
+    t, lost, kept, twice = math.tanh(0.5 * h), 1.0 - e, 1.0 + e, 2.0 * e
+    swept = frequency * t * lost
+    # a, the root and k-+ times (2e)**2 or 2e
+    a = swept * swept + kept * kept
+    fold, width = twice * t * kept / a, math.sqrt(a) * response
+    root = math.sqrt((width - t * t * lost) * (width + t * t * lost))
+    root = root if faster else -root
+    fast = fold + twice * frequency * abs(root) / a
+    slow = (t - frequency * response) * (t + frequency * response) * twice * (twice / fast) / a
+    # at the fold both are one
+    speed = fast if faster else (slow if root < 0.0 else math.nan)
+    # (t - V k+)/Omega without the cancellation where e is near 1
+    sine = (frequency * t * t * t * lost * lost - root * kept) / a
+    apart = -frequency * root * (twice / speed) / (a * fold)
+    steep = math.sinh(h) if h < LARGEST_ARGUMENT else math.inf
+    trace = 1.0 + e * e + (e * kept * steep * apart if apart != 0.0 else 0.0)
+    return speed, math.atan2(sine, -t * lost * (speed / twice)), trace
+
+
+@njit(**ENTRY)
+def closed_form_plain(frequency, response, restitution, order, faster):
+    """``closed_form`` for Python."""
+    return closed_form(frequency, response, restitution, order, faster)
+
+
+@njit(**WITHIN)
+def nearest(p, order, angle, velocity):
+    """Of the faster (1, ``order``) mode, if that is stable, the state at the start of a cycle nearest to (angle, velocity)."""
+    half = order * math.pi * p.per_frequency
+    best = Nearest(math.inf, order, math.nan, math.nan, NOWHERE, 0.0, half)
+    if order % 2 == 0 or p.restitution == 0.0:
+        return best
+    speed, phase, trace = closed_form(p.frequency, p.response, p.restitution, order, True)
+    if not (speed > 0.0 and abs(trace) < 1.0 + p.restitution * p.restitution):
+        return best
+    first = p.phase - phase
+    first -= TURN * np.floor(first / TURN)
+    for k in range(order):
+        since, side = (first + k * TURN) * p.per_frequency, 1
+        if since >= half:
+            since, side = since - half, -1
+        arc = arc_from(p, side, -since, 0.0, speed)
+        now = evaluate(p, arc, since)
+        place, rate = side * now.angle, side * now.velocity
+        distance = size(place - angle, rate - velocity)
+        if distance < best.distance:
+            best = Nearest(distance, order, place, rate, arc, since, half)
+    return best
