@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from rocking.papers.yim_lin_1991.cases import PERIODIC
-from rocking.plot.kinds import LOOKS
+from rocking.plot.parts.legend import LOOKS
 
 PICTURES = ("history", "portrait", "section", "spectrum", "basin")
 # amplitude, period, restitution: THEORY's cases

@@ -40,7 +40,7 @@ async def opened(address):
     while link is None:
         frame = await connection.read_message()
         if isinstance(frame, str):
-            link = re.search(r'"name":"rocking.explorer.link.Link","id":"(p\d+)"', frame)
+            link = re.search(r'"name":"rocking.explorer.page_channel.Link","id":"(p\d+)"', frame)
     return connection, link[1]
 
 

@@ -7,7 +7,7 @@ import re
 import numpy as np
 
 import rocking as rk
-from rocking.papers.yim_lin_1991 import figure11, surveys
+from rocking.papers.yim_lin_1991 import cached_surveys, figure11
 from rocking.papers.yim_lin_1991.beyond import chaos, coexistence, crisis, zoom
 
 
@@ -79,7 +79,7 @@ def test_enlarged_boundary_is_as_finely_divided_as_its_title_says(monkeypatch):
 
 
 def test_caption_of_the_share_of_chaos_says_what_is_drawn(reproduced):
-    shares = dict(zip(surveys.RESTITUTIONS, surveys.chaos().shares, strict=True))
+    shares = dict(zip(cached_surveys.RESTITUTIONS, cached_surveys.chaos().shares, strict=True))
     text = caption(chaos)
     assert "about every fifth system is chaotic at e = 0.2" in text
     assert shares[0.2].low <= 0.2 <= shares[0.2].high
@@ -94,7 +94,7 @@ def test_caption_of_the_share_of_chaos_says_what_is_drawn(reproduced):
 
 
 def test_caption_of_figure_11_says_what_lies_beyond_the_first_curve(reproduced):
-    found = surveys.damped().transpose("amplitude", "period")
+    found = cached_surveys.damped().transpose("amplitude", "period")
     breaking = rk.theory.symmetry_breaking_amplitude(found.period.values, 0.925, 1)
     beyond = found.amplitude.values[:, None] > breaking
     stay = beyond & (found.kind.values != 4)

@@ -7,7 +7,7 @@ from types import SimpleNamespace
 import pytest
 
 import rocking as rk
-from rocking.papers.yim_lin_1991 import claim, surveys
+from rocking.papers.yim_lin_1991 import cached_surveys, claim
 from rocking.papers.yim_lin_1991.claim import Chapter, Finding, Standing
 from rocking.papers.yim_lin_1991.claims import CHAPTERS
 
@@ -177,8 +177,8 @@ def test_what_is_said_of_the_share_of_chaos_stands_only_with_the_numbers_of_its_
     monkeypatch, compute, other
 ):
     def judged(counts):
-        found = SimpleNamespace(shares=[rk.Share(counts[e], 400) for e in surveys.RESTITUTIONS])
-        monkeypatch.setattr(surveys, "chaos", lambda: found)
+        found = SimpleNamespace(shares=[rk.Share(counts[e], 400) for e in cached_surveys.RESTITUTIONS])
+        monkeypatch.setattr(cached_surveys, "chaos", lambda: found)
         return one(compute).judged()
 
     assert judged(COUNTS).standing is one(compute).otherwise

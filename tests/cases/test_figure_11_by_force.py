@@ -10,7 +10,7 @@ import pytest
 
 import rocking as rk
 from oracles import brute
-from rocking.papers.yim_lin_1991 import surveys
+from rocking.papers.yim_lin_1991 import cached_surveys
 
 RESTITUTION = 0.925
 KINDS = [str(kind) for kind in rk.Kind]
@@ -54,7 +54,7 @@ def check(axes, places, cycles):
 
 
 def axes_of(count):
-    return [surveys.axes(count)[name] for name in ("amplitude", "period")]
+    return [cached_surveys.axes(count)[name] for name in ("amplitude", "period")]
 
 
 def test_points_of_figure_11_are_what_brute_force_finds(thin):

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import rocking as rk
-from rocking.papers.yim_lin_1991 import figure11, surveys
+from rocking.papers.yim_lin_1991 import cached_surveys, figure11
 
 KINDS = {kind: number for number, kind in enumerate(rk.Kind)}
 
@@ -13,7 +13,7 @@ def a_map(count, **asked):
     # values between those of the figures' grids
     period, amplitude = (
         low + (np.arange(count) + 0.5) / count * (high - low)
-        for low, high in (surveys.PERIODS, surveys.AMPLITUDES)
+        for low, high in (cached_surveys.PERIODS, cached_surveys.AMPLITUDES)
     )
     return rk.parametric_map(period=period, amplitude=amplitude, **asked)
 
@@ -78,9 +78,9 @@ def test_braced_map_followed_for_less_has_nothing_chaotic_and_what_is_open_is_un
 @pytest.mark.parametrize(
     "figure, fixed",
     [
-        (surveys.undamped, {"restitution": 1.0}),
-        (surveys.damped, {"restitution": 0.925}),
-        (surveys.braced, {"restitution": 0.925, "brace_angle": 1.0, "max_cycles": 100_000}),
+        (cached_surveys.undamped, {"restitution": 1.0}),
+        (cached_surveys.damped, {"restitution": 0.925}),
+        (cached_surveys.braced, {"restitution": 0.925, "brace_angle": 1.0, "max_cycles": 100_000}),
     ],
 )
 def test_figures_ask_for_what_their_captions_say(monkeypatch, figure, fixed):
@@ -89,7 +89,10 @@ def test_figures_ask_for_what_their_captions_say(monkeypatch, figure, fixed):
     period, amplitude = asked.pop("period"), asked.pop("amplitude")
     assert asked == fixed
     assert min(period.size, amplitude.size) >= 40
-    assert (period[0], period[-1], amplitude[0], amplitude[-1]) == (*surveys.PERIODS, *surveys.AMPLITUDES)
+    assert (period[0], period[-1], amplitude[0], amplitude[-1]) == (
+        *cached_surveys.PERIODS,
+        *cached_surveys.AMPLITUDES,
+    )
 
 
 def test_figure_11_is_drawn_with_its_three_curves():

@@ -17,8 +17,8 @@ import pytest
 import xarray as xr
 
 import rocking as rk
-from rocking.survey.guard import undisturbed
-from rocking.survey.run import Pending, _settle
+from rocking.survey.engine.tile_loop import Pending, _settle
+from rocking.survey.store.locking import undisturbed
 
 SIZE = 150
 ASKED = {

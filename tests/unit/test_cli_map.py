@@ -10,9 +10,9 @@ import pytest
 import xarray as xr
 
 import rocking as rk
+from rocking.cli.input.map_request import WRITERS
 from rocking.cli.main import run
-from rocking.cli.map_summary import OPEN
-from rocking.cli.maps import WRITERS
+from rocking.cli.reports.map import OPEN
 from rocking.kernels.classify.verdict_record import Ground
 
 LINE = "map --amplitude 0:16:20 --period 0.2:3:18 --restitution 0.9 --max-cycles 100"
@@ -158,7 +158,7 @@ def test_curves_and_symbols_are_drawn_into_the_picture(rocking, monkeypatch):
     ],
 )
 def test_what_cannot_be_drawn_is_refused_before_the_map_is_computed(rocking, monkeypatch, options, message):
-    monkeypatch.setattr("rocking.cli.maps.compute", lambda _: pytest.fail("computed"))
+    monkeypatch.setattr("rocking.cli.input.map_request.compute", lambda _: pytest.fail("computed"))
     code, told, _ = rocking(f"{LINE} --store a.zarr {options}")
     assert code == 2
     assert told.startswith(message)
@@ -166,7 +166,7 @@ def test_what_cannot_be_drawn_is_refused_before_the_map_is_computed(rocking, mon
 
 
 def test_curves_of_no_map_of_theirs_are_refused_before_it_is_computed(rocking, monkeypatch):
-    monkeypatch.setattr("rocking.cli.maps.compute", lambda _: pytest.fail("computed"))
+    monkeypatch.setattr("rocking.cli.input.map_request.compute", lambda _: pytest.fail("computed"))
     line = "map --amplitude 1:2 --angle=-1:1 --period 1 --restitution 0.9 --curves melnikov --plot a.png"
     code, told, _ = rocking(line)
     assert (code, told.split(" lie over ")[0]) == (2, "--curves must")

@@ -18,18 +18,19 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import rocking as rk
-from rocking.explorer import figures, gallery, pictures, planes, told
-from rocking.explorer.app import GROUNDS, LEVELS
-from rocking.explorer.fields import READ, Refused, address, changed, from_address, in_metres, written
-from rocking.explorer.link import message
-from rocking.explorer.orbits import Orbits
-from rocking.explorer.refine import AHEAD, START, UNDETERMINED, WHITE, Picture, Plane, Refinement
-from rocking.explorer.state import DEFAULT, POINTS, Shown, Span, closest, nearby
-from rocking.explorer.visit import Visit
-from rocking.explorer.work import Jobs, Workers
+from rocking.explorer import bokeh_figures, figure_data, plane_axes, presets, texts
+from rocking.explorer.application import GROUNDS, LEVELS
+from rocking.explorer.attractor_labels import Orbits
+from rocking.explorer.form_fields import READ, Refused, address, changed, from_address, in_metres, written
+from rocking.explorer.page_channel import message
+from rocking.explorer.progressive_map import AHEAD, START, UNDETERMINED, WHITE, Picture, Plane, Refinement
+from rocking.explorer.session import Visit
+from rocking.explorer.view_state import DEFAULT, POINTS, Shown, Span, closest, nearby
+from rocking.explorer.worker_pools import Jobs, Workers
 from rocking.model import percent
-from rocking.plot.kinds import LOOKS, NONE, looks
-from rocking.survey import attractors, cores
+from rocking.plot.parts.legend import LOOKS, NONE, looks
+from rocking.survey import cores
+from rocking.survey.measures import attractors
 
 numbers = st.floats(allow_nan=False, allow_infinity=False)
 
@@ -156,7 +157,7 @@ def test_block_in_metres_is_refused_in_the_words_of_its_fields(typed, field, sen
 def test_block_in_metres_stays_in_the_commands(rocking):
     shown = in_metres(DEFAULT, METRES | {"acceleration": "0.3", "unit": "g", "frequency_hz": "1.9"})
     forced = "--height 2 --width 0.5 --acceleration 2.941995 --frequency-hz 1.9"
-    point, motion, plane = told.commands(shown).splitlines()
+    point, motion, plane = texts.commands(shown).splitlines()
     assert point == f"rocking classify {forced}"
     assert motion == f"rocking simulate {forced} --cycles 30 --plot motion.png"
     assert plane.startswith("rocking map --height 2 --width 0.5 --acceleration 0:")
@@ -165,7 +166,9 @@ def test_block_in_metres_stays_in_the_commands(rocking):
         assert (code, message) == (0, "")
         assert "m/s²" in out
     other = attrs.evolve(shown, restitution=0.9, angle=-0.1)
-    assert told.commands(other).splitlines()[0] == f"rocking classify {forced} --restitution=0.9 --angle=-0.1"
+    assert (
+        texts.commands(other).splitlines()[0] == f"rocking classify {forced} --restitution=0.9 --angle=-0.1"
+    )
 
 
 def option(line, name):
@@ -176,7 +179,7 @@ def option(line, name):
 def test_commands_in_si_are_of_the_system_shown(height, width, amplitude, period):
     """To the last places: no quantity is rounded more than eight times on its way out and back."""
     shown = attrs.evolve(DEFAULT, height=height, width=width, amplitude=amplitude, period=period)
-    point, _, plane = told.commands(shown).splitlines()
+    point, _, plane = texts.commands(shown).splitlines()
     acceleration, hertz = (float(option(point, name)) for name in ("acceleration", "frequency-hz"))
     block = shown.block
     near = partial(pytest.approx, rel=8 * 2**-53, abs=0.0)
@@ -193,11 +196,11 @@ def test_commands_in_si_are_of_the_system_shown(height, width, amplitude, period
 def test_verdict_on_a_block_says_in_si_what_the_units_are():
     shown = in_metres(DEFAULT, METRES | {"acceleration": "4", "frequency_hz": "2.5"})
     verdict = rk.classify(shown.system)
-    facts = dict(told.verdict(verdict, shown.block)["facts"])
+    facts = dict(texts.verdict(verdict, shown.block)["facts"])
     assert facts["base"] == "4 m/s² (0.4079 g), 0.4 s (2.5 Hz)"
     assert facts["units"] == "A 2.402 m/s², τ 0.3744 s, Θ 14.04°"
     assert facts["period"].endswith(f"symmetric ({0.4 * verdict.period:.4g} s)")
-    assert "base" not in dict(told.verdict(verdict, None)["facts"])
+    assert "base" not in dict(texts.verdict(verdict, None)["facts"])
 
 
 @pytest.mark.parametrize(
@@ -205,7 +208,7 @@ def test_verdict_on_a_block_says_in_si_what_the_units_are():
 )
 def test_deep_views_are_drawn_as_differences_without_loss(middle, width):
     span = Span(middle, middle + width)
-    base = planes.base_of(span)
+    base = plane_axes.base_of(span)
     low, high = span.low - base, span.high - base
     # what the browser adds again are the ends themselves
     assert (base + low, base + high) == (span.low, span.high)
@@ -217,7 +220,7 @@ def test_points_of_a_picture_are_the_middles_of_its_cells():
     across, up = Span(0.2, 3.0), Span(0.0, 16.0)
     nothing = {"look": np.zeros((5, 5), int), "orbit": np.zeros((5, 5), int)}
     picture = Picture(nothing, points=5, settled=0, of=0, done=True)
-    drawn = planes.image(picture, planes.Corner(0.0, 0.0), across, up)
+    drawn = plane_axes.image(picture, plane_axes.Corner(0.0, 0.0), across, up)
     for begin, length, span in (("x", "w", across), ("y", "h", up)):
         middles = drawn[begin][0] + (np.arange(5) + 0.5) * drawn[length][0] / 5
         np.testing.assert_allclose(middles, np.linspace(span.low, span.high, 5), atol=1e-14)
@@ -319,9 +322,9 @@ def test_mirror_images_have_shades_of_their_own():
         set(last.colours()[twins & (last.fields["orbit"] == number)].tolist()) - {WHITE} for number in (0, 1)
     ]
     assert [len(shade) for shade in shades] == [1, 1]
-    colours = {figures.PALETTE[number] for shade in shades for number in shade}
+    colours = {bokeh_figures.PALETTE[number] for shade in shades for number in shade}
     assert len(colours) == 2
-    entries = told.attractors(last.counts())
+    entries = texts.attractors(last.counts())
     assert [each["name"] for each in entries] == ["1, unsymmetric", "another", "overturned"]
     assert {each["colour"] for each in entries[:2]} == colours
     assert sorted(each["share"] for each in entries) == sorted(
@@ -361,7 +364,7 @@ def test_start_far_beyond_return_is_drawn_as_far_as_doubles_hold():
         "cycles": "1",
     }
     shown = changed(DEFAULT, typed)
-    drawn = pictures.response(shown)
+    drawn = figure_data.response(shown)
     assert np.isfinite([*drawn.spans["history"], *drawn.spans["portrait"]]).all()
     assert drawn.history["angle"][0] == -1000.0
 
@@ -376,15 +379,15 @@ def test_motion_that_becomes_faster_than_any_start_is_drawn():
         "first": "100",
     }
     shown = changed(DEFAULT, typed)
-    assert len(pictures.response(shown).history["time"]) > 2
-    section = pictures.Section(shown)
+    assert len(figure_data.response(shown).history["time"]) > 2
+    section = figure_data.Section(shown)
     section.grow(100)
     assert section.ended == "too fast"
 
 
 def test_names_of_a_spectrum_do_not_run_into_each_other():
     """Lines at thirds of the forcing's frequency, of much the same height."""
-    names = pictures.spectrum(Shown(amplitude=10.103037, period=1.721328, restitution=0.8)).names
+    names = figure_data.spectrum(Shown(amplitude=10.103037, period=1.721328, restitution=0.8)).names
     places = list(zip(names["frequency"], np.log10(names["density"]), strict=True))
     assert names["name"][:2] == ["f", "f/3"]
     for (across, up), (other_across, other_up) in itertools.combinations(places, 2):
@@ -392,13 +395,13 @@ def test_names_of_a_spectrum_do_not_run_into_each_other():
 
 
 def test_motion_of_too_many_events_has_no_pictures(monkeypatch):
-    monkeypatch.setattr(pictures, "SOON_HITS", 5.0)
+    monkeypatch.setattr(figure_data, "SOON_HITS", 5.0)
     shown = changed(DEFAULT, {"amplitude": "2.0078125", "restitution": "0.98", "brace_angle": "0.01"})
-    assert pictures.crowded(shown)
-    assert pictures.spectrum(shown).why == pictures.NO_SPECTRUM
+    assert figure_data.crowded(shown)
+    assert figure_data.spectrum(shown).why == figure_data.NO_SPECTRUM
     assert (
-        len(pictures.response(shown).history["time"])
-        == len(pictures.diagram(shown, np.zeros(1, np.int64))[0]["angle"])
+        len(figure_data.response(shown).history["time"])
+        == len(figure_data.diagram(shown, np.zeros(1, np.int64))[0]["angle"])
         == 0
     )
 
@@ -478,12 +481,12 @@ def test_diagram_that_is_no_longer_wanted_ends_midway(monkeypatch):
         done.append(len(values))
         return rk.orbit_diagram(system, parameter, values, *rest)
 
-    monkeypatch.setattr(pictures, "orbit_diagram", piece)
-    monkeypatch.setattr(pictures, "PIECE_HITS", 5e3)
+    monkeypatch.setattr(figure_data, "orbit_diagram", piece)
+    monkeypatch.setattr(figure_data, "PIECE_HITS", 5e3)
     with pytest.raises(asyncio.CancelledError):
-        pictures.diagram(DEFAULT, stop)
+        figure_data.diagram(DEFAULT, stop)
     assert len(done) == 1
-    assert done[0] < pictures.VALUES
+    assert done[0] < figure_data.VALUES
 
 
 def test_diagram_that_is_no_longer_wanted_ends_while_its_cost_is_looked_for(monkeypatch):
@@ -495,9 +498,9 @@ def test_diagram_that_is_no_longer_wanted_ends_while_its_cost_is_looked_for(monk
         looked.append(system)
         return 1.0
 
-    monkeypatch.setattr(pictures, "hits_per_cycle", hits)
+    monkeypatch.setattr(figure_data, "hits_per_cycle", hits)
     with pytest.raises(asyncio.CancelledError):
-        pictures.diagram(DEFAULT, stop)
+        figure_data.diagram(DEFAULT, stop)
     assert len(looked) == 1
 
 
@@ -505,19 +508,19 @@ def test_diagram_costs_what_its_dearest_values_cost(monkeypatch):
     """The one selected may be cheap."""
     asked = []
     monkeypatch.setattr(
-        pictures, "orbit_diagram", lambda *given: asked.append(given) or rk.orbit_diagram(*given)
+        figure_data, "orbit_diagram", lambda *given: asked.append(given) or rk.orbit_diagram(*given)
     )
-    monkeypatch.setattr(pictures, "SOON_HITS", 5.0)
+    monkeypatch.setattr(figure_data, "SOON_HITS", 5.0)
     shown = changed(DEFAULT, {"amplitude": "0", "restitution": "0.98", "brace_angle": "0.01"})
-    assert not pictures.crowded(shown)
-    assert len(pictures.diagram(shown, np.zeros(1, np.int64))[0]["angle"]) == len(asked) == 0
+    assert not figure_data.crowded(shown)
+    assert len(figure_data.diagram(shown, np.zeros(1, np.int64))[0]["angle"]) == len(asked) == 0
 
 
 def test_pieces_of_a_diagram_are_the_whole(monkeypatch):
     stop = np.zeros(1, np.int64)
-    whole = pictures.diagram(DEFAULT, stop)[0]
-    monkeypatch.setattr(pictures, "PIECE_HITS", 5e3)
-    pieces = pictures.diagram(DEFAULT, stop)[0]
+    whole = figure_data.diagram(DEFAULT, stop)[0]
+    monkeypatch.setattr(figure_data, "PIECE_HITS", 5e3)
+    pieces = figure_data.diagram(DEFAULT, stop)[0]
     assert all((whole[name] == pieces[name]).all() for name in ("value", "angle"))
 
 
@@ -533,8 +536,12 @@ def test_click_selects_a_short_number_nearer_than_the_next_point(low, power, sha
 
 def test_curve_of_a_mode_is_dotted_on_the_page_where_the_mode_is_not_admissible():
     shown = changed(DEFAULT, {"curves": "symmetry-breaking-3,melnikov"})
-    drawn = planes.curves(shown, planes.Corner(0.0, 0.0))
-    assert drawn["dash"] == [planes.DASHES["symmetry-breaking-3"], planes.DOTTED, planes.DASHES["melnikov"]]
+    drawn = plane_axes.curves(shown, plane_axes.Corner(0.0, 0.0))
+    assert drawn["dash"] == [
+        plane_axes.DASHES["symmetry-breaking-3"],
+        plane_axes.DOTTED,
+        plane_axes.DASHES["melnikov"],
+    ]
     for periods, heights, holds in zip(drawn["xs"][:2], drawn["ys"][:2], (True, False), strict=True):
         inner = np.flatnonzero(np.isfinite(heights))[1:-1]
         modes = [rk.theory.symmetric_modes(heights[k] * (1 + 1e-12), periods[k], 0.925, 3)[0] for k in inner]
@@ -543,7 +550,7 @@ def test_curve_of_a_mode_is_dotted_on_the_page_where_the_mode_is_not_admissible(
 
 def test_curves_of_a_block_without_braces_are_not_drawn_over_the_map_of_one_between_them():
     shown = changed(DEFAULT, {"curves": "melnikov", "brace_angle": "1"})
-    assert planes.curves(shown, planes.Corner(0.0, 0.0))["xs"] == []
+    assert plane_axes.curves(shown, plane_axes.Corner(0.0, 0.0))["xs"] == []
 
 
 KINDS = {
@@ -555,7 +562,7 @@ KINDS = {
 }  # fmt: skip
 
 
-CASES = pytest.mark.parametrize("case", gallery.CASES, ids=lambda case: case.name)
+CASES = pytest.mark.parametrize("case", presets.CASES, ids=lambda case: case.name)
 
 
 @CASES
@@ -570,7 +577,7 @@ def test_case_of_the_gallery_is_what_it_says(case):
 @CASES
 def test_case_of_the_gallery_has_an_address_and_lines_of_python(case):
     assert from_address(address(case.shown)) == (case.shown, {})
-    compile(told.python(case.shown), case.name, "exec")
+    compile(texts.python(case.shown), case.name, "exec")
 
 
 def test_every_ground_of_the_cascade_has_its_words_and_its_level():
@@ -588,7 +595,7 @@ def test_every_ground_of_the_cascade_has_its_words_and_its_level():
 def test_multipliers_are_told_as_a_pair():
     def told_of(amplitude, period):
         verdict = rk.classify(rk.System(rk.Harmonic(amplitude, period=period), 0.925))
-        return verdict.multipliers, dict(told.verdict(verdict, None)["facts"])["multipliers"]
+        return verdict.multipliers, dict(texts.verdict(verdict, None)["facts"])["multipliers"]
 
     (complex_one, _), text = told_of(2.0, 1.0)
     assert text == f"−{-complex_one.real:.4g} ± {abs(complex_one.imag):.4g}i"
@@ -598,7 +605,7 @@ def test_multipliers_are_told_as_a_pair():
 def test_response_that_forgets_is_told_in_the_words_of_the_command_line(rocking):
     code, _, out = rocking("classify --amplitude 0.5 --period 1 --restitution 0.925")
     verdict = rk.classify(rk.System(rk.Harmonic(0.5, period=1.0), 0.925))
-    facts = dict(told.verdict(verdict, None)["facts"])
+    facts = dict(texts.verdict(verdict, None)["facts"])
     assert (code, facts["exponent λ₁"]) == (0, "−∞ (forgets every small difference)")
     assert facts["exponent λ₁"] in out
 

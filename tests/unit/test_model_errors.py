@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 
 import rocking as rk
-from rocking.cli.options import YourInput
-from rocking.explorer.fields import Refused
+from rocking.cli.option_names import YourInput
+from rocking.explorer.form_fields import Refused
 from rocking.model import WriteError
-from rocking.model.errors import WAYS, NoOrbit, TooManyEvents, TooShort, one_of, reals, shown, whole
-from rocking.survey.guard import StoreError
+from rocking.model.validation import WAYS, NoOrbit, TooManyEvents, TooShort, one_of, reals, shown, whole
+from rocking.survey.store.locking import StoreError
 
 
 @pytest.mark.parametrize("value", [5, 5.0, np.int64(5), np.float64(5)])

@@ -5,7 +5,7 @@ import re
 
 import pytest
 
-from rocking.model.files import (
+from rocking.model.atomic_files import (
     Made,
     WriteError,
     check_folder,
@@ -133,7 +133,7 @@ def test_folder_that_takes_no_files_is_refused_whatever_its_permissions_say(tmp_
     def refuse(**where):
         raise OSError(30, "Read-only file system", str(where))
 
-    monkeypatch.setattr("rocking.model.files.TemporaryFile", refuse)
+    monkeypatch.setattr("rocking.model.atomic_files.TemporaryFile", refuse)
     with pytest.raises(PermissionError, match=r"^--csv must be writable; got .*a\.csv', which is not$"):
         check_writable("--csv", tmp_path / "a.csv", (".csv",))
     with pytest.raises(OSError, match=r"^--output must be a folder that can be written; got '"):

@@ -7,7 +7,7 @@ import pytest
 from matplotlib.colors import to_rgb
 
 import rocking as rk
-from rocking.plot.kinds import COLOURS, LOOKS, looks
+from rocking.plot.parts.legend import COLOURS, LOOKS, looks
 
 # Machado, Oliveira and Fernandes (2009), IEEE Trans. Vis. Comput. Graph. 15: at full severity, on linear RGB.
 SEEN = {

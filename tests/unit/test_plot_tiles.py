@@ -10,8 +10,8 @@ from matplotlib.colors import to_rgb
 from PIL import Image
 
 import rocking as rk
-from rocking.plot.kinds import LOOKS, NONE, looks
-from rocking.plot.tiles import Pyramid
+from rocking.plot.parts.legend import LOOKS, NONE, looks
+from rocking.plot.zoomable_map import Pyramid
 
 UP, ACROSS = 700, 300
 EDGE = 256

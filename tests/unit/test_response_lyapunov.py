@@ -8,7 +8,7 @@ import pytest
 from attrs import evolve
 
 import rocking as rk
-from rocking.response.batches import batch_mean
+from rocking.response.batch_means import batch_mean
 
 BRACED = rk.System(rk.Harmonic(15.0, period=2.0), 0.925, rk.Braces(1.0, 1.0))
 

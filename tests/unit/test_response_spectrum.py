@@ -11,7 +11,7 @@ from scipy.integrate import quad
 from scipy.signal import get_window, lfilter
 
 import rocking as rk
-from rocking.response import combinations, lines, record, spectrum
+from rocking.response import line_names, spectral_lines, uniform_samples, welch_spectrum
 
 MODE = rk.System(rk.Harmonic(amplitude=6.5, period=0.4), restitution=0.925)
 FREE = rk.System(rk.Harmonic(amplitude=0.0, period=1.3), restitution=1.0)
@@ -34,10 +34,12 @@ def signal_of(cycles, samples, tones, mean=0.0):
 
 
 def lines_in(values, segment, window="blackmanharris", period=None):
-    taper = lines.Taper(get_window(window, segment * values.shape[1]))
-    _, density, segments = record.welch(values, segment, segment // 2, taper)
+    taper = spectral_lines.Taper(get_window(window, segment * values.shape[1]))
+    _, density, segments = uniform_samples.welch(values, segment, segment // 2, taper)
     worth = taper.independent(segments, (segment - segment // 2) * values.shape[1])
-    return lines.find_lines(values, density, segment, taper, worth, values.shape[1] / 16, period), density
+    return spectral_lines.find_lines(
+        values, density, segment, taper, worth, values.shape[1] / 16, period
+    ), density
 
 
 TONES = ((0.1751949705, 0.03, 0.3), (1.0, 0.02, 1.0), (1 / 3, 0.04, -2.0), (math.sqrt(2), 0.001, 0.5))
@@ -58,7 +60,7 @@ def test_tones_of_known_frequency_and_amplitude_are_found_and_nothing_else():
 def test_frequency_of_a_single_tone_is_refined_to_rounding(cycles, off):
     frequency = (round(0.37 * cycles) + off) / cycles
     tone = signal_of(cycles, 32, [(frequency, 0.1, 1.0)])
-    found, amplitude = lines.refined(tone, round(0.37 * cycles) / cycles)
+    found, amplitude = spectral_lines.refined(tone, round(0.37 * cycles) / cycles)
     # the tone's image at −f is 2·0.37·cycles resolutions away: its share falls as the cube of that
     tolerance = 1 / (0.74 * cycles) ** 3
     assert abs(found - frequency) < tolerance / cycles + 1e-14
@@ -68,7 +70,7 @@ def test_frequency_of_a_single_tone_is_refined_to_rounding(cycles, off):
 @pytest.mark.parametrize("cycles", [64, 1_000, 3_000])
 def test_integrals_near_a_frequency_are_those_of_the_record(cycles):
     values = np.random.default_rng(5).standard_normal((cycles, 16))
-    near = lines.Near.of(values, 0.41)
+    near = spectral_lines.Near.of(values, 0.41)
     time = np.arange(values.size) / 16
     offsets = np.array([0.0, 2.3, -3.4]) / cycles
     for offset, found in zip(offsets, near.windowed(offsets), strict=True):
@@ -105,7 +107,7 @@ def test_narrow_resonance_is_no_line(monkeypatch):
         values = lfilter([1.0], filtered, noise).reshape(4_000, 32)
         assert lines_in(values, 250)[0] == []
         with monkeypatch.context() as lax:
-            lax.setattr(lines, "COHERENCE", 0.0)
+            lax.setattr(spectral_lines, "COHERENCE", 0.0)
             assert len(lines_in(values, 250)[0]) >= 1
 
 
@@ -120,7 +122,7 @@ def test_tone_in_noise_is_a_line_and_alone():
 
 def test_segments_worth_are_fewer_the_more_they_overlap():
     """Welch 1967: neighbours under a Hann window that share half have a correlation of 1/6, so 8 are worth 8/(1 + 2·7/8/36)."""
-    hann = lines.Taper(get_window("hann", 1_000))
+    hann = spectral_lines.Taper(get_window("hann", 1_000))
     assert math.isclose(hann.independent(8, 1_000), 8.0)
     assert math.isclose(hann.independent(8, 500), 8 / (1 + 2 * 7 / 8 / 36), rel_tol=1e-3)
 
@@ -136,7 +138,7 @@ def test_segments_worth_are_fewer_the_more_they_overlap():
 )
 def test_windows_have_their_known_lobes(window, lobe, side_lobes, bandwidth):
     """Harris 1978, Proc. IEEE 66, 51, table 1; the flat top of SciPy, from its coefficients: 1 + Σ aₖ²/2, and −93 dB."""
-    taper = lines.Taper(get_window(window, 4_096))
+    taper = spectral_lines.Taper(get_window(window, 4_096))
     assert taper.lobe == lobe
     assert math.isclose(10 * math.log10(taper.side_lobes), side_lobes, abs_tol=0.2)
     assert math.isclose(taper.bandwidth, bandwidth, abs_tol=0.01)
@@ -154,33 +156,33 @@ def test_windows_have_their_known_lobes(window, lobe, side_lobes, bandwidth):
     ],
 )
 def test_names_read_as_combinations(forcing, rotation, name):
-    assert combinations.Combination(forcing, rotation, 0.0).name == name
+    assert line_names.Combination(forcing, rotation, 0.0).name == name
 
 
 def test_simplest_combination_is_named_and_an_ambiguous_one_is_not():
     rotation = (math.sqrt(5) - 1) / 2
-    assert combinations.combination(2 - 3 * rotation, 1, rotation, 1e-4).name == "2f − 3f_r"
-    assert combinations.combination(0.123456, 1, rotation, 1e-4) is None
+    assert line_names.combination(2 - 3 * rotation, 1, rotation, 1e-4).name == "2f − 3f_r"
+    assert line_names.combination(0.123456, 1, rotation, 1e-4) is None
     # 3/5: two rotations less a forcing, or one forcing less three rotations more, are nearly the same
     near = 0.6 + 1e-6
-    assert combinations.combination(2 * near, 1, near, 1e-4) is None
-    assert combinations.combination(2 * near, 1, near, 1e-7).name == "2f_r"
+    assert line_names.combination(2 * near, 1, near, 1e-4) is None
+    assert line_names.combination(2 * near, 1, near, 1e-7).name == "2f_r"
 
 
 def test_short_records_name_only_what_chance_would_not():
     rotation, line = (math.sqrt(5) - 1) / 2, 7 - 9 * (math.sqrt(5) - 1) / 2
-    assert combinations.combination(line, 1, rotation, 1 / 1_000).name == "7f − 9f_r"
+    assert line_names.combination(line, 1, rotation, 1 / 1_000).name == "7f − 9f_r"
     # at 100 cycles ±9 rotations cover 19/50 of all frequencies
-    assert combinations.combination(line, 1, rotation, 1 / 100) is None
+    assert line_names.combination(line, 1, rotation, 1 / 100) is None
 
 
 def test_islands_and_rotation_are_found_from_the_lines():
     third, turn = 1 / 3, 0.1751949705
     telling = [third, turn, 1.0, 2 / 3 - turn, 2 * turn - third, 2 / 3 + turn]
-    assert combinations.parts_and_rotation(telling, None, None, 1e-4) == (3, turn)
-    assert combinations.parts_and_rotation(telling, None, third - turn, 1e-4) == (3, third - turn)
+    assert line_names.parts_and_rotation(telling, None, None, 1e-4) == (3, turn)
+    assert line_names.parts_and_rotation(telling, None, third - turn, 1e-4) == (3, third - turn)
     # a line that explains only itself is no rotation
-    assert combinations.parts_and_rotation([1.0, 0.1237], None, None, 1e-4) == (1, None)
+    assert line_names.parts_and_rotation([1.0, 0.1237], None, None, 1e-4) == (1, None)
 
 
 def test_power_of_a_periodic_response_is_its_variance(settled):
@@ -271,10 +273,10 @@ def test_jerky_motion_is_sampled_more_finely():
 
 def test_in_a_broad_band_no_rotation_is_sought():
     """Four lines that a rotation names, with all of the variance between them or with a third of it."""
-    found = [lines.Line(f, 0.1, 1.0) for f in (1.0, 0.3819, 2 * 0.3819, 1 - 0.3819)]
+    found = [spectral_lines.Line(f, 0.1, 1.0) for f in (1.0, 0.3819, 2 * 0.3819, 1 - 0.3819)]
     carried = 4 * 0.1**2 / 2
-    assert spectrum._parts_and_rotation(found, carried, None, None, 1e-3) == (1, 0.3819)
-    assert spectrum._parts_and_rotation(found, 3 * carried, None, None, 1e-3) == (1, None)
+    assert welch_spectrum._parts_and_rotation(found, carried, None, None, 1e-3) == (1, 0.3819)
+    assert welch_spectrum._parts_and_rotation(found, 3 * carried, None, None, 1e-3) == (1, None)
 
 
 def test_segment_overlap_window_and_samples_are_used_and_told(settled):

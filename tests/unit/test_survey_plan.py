@@ -6,9 +6,9 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from rocking.survey.axes import Question
-from rocking.survey.cost import Cost, duration
-from rocking.survey.plan import COARSEST, MOST_IN_A_TILE, levels, tile_edges
+from rocking.survey.engine.cost import Cost, duration
+from rocking.survey.spec import Question
+from rocking.survey.tiling import COARSEST, MOST_IN_A_TILE, levels, tile_edges
 
 SHAPES = [(2, 2), (64, 64), (65, 64), (130, 131), (1000, 1000), (7, 100_000), (3, 200, 150), (1_000_000,)]
 

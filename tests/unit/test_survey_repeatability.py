@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 import rocking as rk
-from rocking.survey.axes import SYSTEM
-from rocking.survey.basins import points_of
-from rocking.survey.disturbed import disturbed as inputs_off
-from rocking.survey.disturbed import spread
+from rocking.survey.basin_map import points_of
+from rocking.survey.sampling.perturbation import disturbed as inputs_off
+from rocking.survey.sampling.perturbation import spread
+from rocking.survey.spec import SYSTEM
 
 EDGE = rk.System(rk.Harmonic(amplitude=1.75, period=2.0), 0.95)
 

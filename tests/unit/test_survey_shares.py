@@ -5,7 +5,7 @@ import pytest
 
 import rocking as rk
 from rocking.model import Share, wilson
-from rocking.survey.boundary import distances, exponent, trios
+from rocking.survey.sampling.uncertainty_exponent import distances, exponent, trios
 
 Z = 1.959963984540054
 REPEATS = 2_000

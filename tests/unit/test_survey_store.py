@@ -16,9 +16,10 @@ import zarr
 
 import rocking as rk
 from rocking.kernels.batch import METHOD
-from rocking.survey import run, store
-from rocking.survey.files import Files
-from rocking.survey.layout import check_same
+from rocking.survey.engine import tile_loop
+from rocking.survey.store import store
+from rocking.survey.store.layout import check_same
+from rocking.survey.store.zarr_files import Files
 
 SIZE = 130
 ASKED = {
@@ -53,9 +54,9 @@ def copied(made, tmp_path):
 def computed(monkeypatch):
     """Points computed from here on."""
     count = []
-    compute = run.compute
+    compute = tile_loop.compute
     monkeypatch.setattr(
-        run, "compute", lambda batch, stop: count.append(batch.wanted.size) or compute(batch, stop)
+        tile_loop, "compute", lambda batch, stop: count.append(batch.wanted.size) or compute(batch, stop)
     )
     return lambda: sum(count)
 

@@ -5,11 +5,11 @@ import math
 import numpy as np
 import pytest
 
-from rocking.survey import tiles
-from rocking.survey.axes import Question
-from rocking.survey.plan import levels
-from rocking.survey.responses import response
-from rocking.survey.tiles import Batch, batches, compute
+from rocking.survey import measurement
+from rocking.survey.measurement import Batch, batches, compute
+from rocking.survey.measures.response import response
+from rocking.survey.spec import Question
+from rocking.survey.tiling import levels
 
 MEASURE = response(200, 64, "A map")
 AXES = {"amplitude": np.linspace(0.0, 16.0, 24), "period": np.linspace(0.2, 3.0, 24)}
@@ -35,7 +35,7 @@ def test_what_is_said_of_a_point_depends_on_nobody_beside_it(fixed):
 
 @pytest.mark.parametrize("points", [50, 100, 199])
 def test_the_work_of_a_survey_is_its_points_each_once(points, monkeypatch):
-    monkeypatch.setattr(tiles, "BATCH", 500)
+    monkeypatch.setattr(measurement, "BATCH", 500)
     axes = {"amplitude": np.linspace(0.0, 16.0, points), "period": np.linspace(0.2, 3.0, points)}
     asked = Question(axes, {"restitution": 0.9})
     met, pieces, needed = np.zeros((points, points), int), 0, 0

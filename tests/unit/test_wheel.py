@@ -43,4 +43,4 @@ def test_the_wheel_alone_draws_the_paper(tmp_path):
         "figure-02.png",
     ]
     assert (installed / "rocking" / "py.typed").exists()
-    assert {"report.html", "tiles.html"} <= {path.name for path in installed.rglob("*.html")}
+    assert {"report.html", "zoomable_map.html"} <= {path.name for path in installed.rglob("*.html")}

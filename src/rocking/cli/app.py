@@ -6,8 +6,18 @@ from typing import Annotated
 
 import typer
 
-from rocking.cli import basins, cite, classify, explore, modes, orbit_diagram, overturning, paper, simulate
-from rocking.cli import map as map_
+from rocking.cli.commands import (
+    basins,
+    cite,
+    classify,
+    explore,
+    modes,
+    orbit_diagram,
+    overturning,
+    paper,
+    simulate,
+)
+from rocking.cli.commands import map as map_
 
 VERSION = typer.Option("--version", help="Show the version and stop.")
 

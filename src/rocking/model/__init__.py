@@ -3,12 +3,39 @@
 With them goes what every room shares: the one-line refusals, files that are whole or not there, notebook pictures.
 """
 
-from rocking.model import pictures
+from rocking.model import notebook_renderers
 from rocking.model.arrays import ReadOnlyArrays, read_only
-from rocking.model.basins import Attractor, BasinMap, UncertaintyExponent
+from rocking.model.atomic_files import (
+    FULL,
+    TILES,
+    WriteError,
+    check_folder,
+    check_replaceable,
+    check_writable,
+    replacing,
+    replacing_folder,
+    replacing_hdf5,
+    resolve_path,
+)
+from rocking.model.basin_map import Attractor, BasinMap, UncertaintyExponent
 from rocking.model.block import GRAVITY, Block
 from rocking.model.citation import cite
-from rocking.model.errors import (
+from rocking.model.forcing import FREQUENCIES, LARGEST_AMPLITUDE, LARGEST_PHASE, PERIODS, Harmonic
+from rocking.model.formatting import counted, ordinal, percent, plus_minus
+from rocking.model.outcome import Outcome, Overturning
+from rocking.model.proportion import LEVEL, Share, wilson
+from rocking.model.si_units import PHYSICAL, block_attributes
+from rocking.model.stability import Stability, stability_of
+from rocking.model.survey_results import (
+    ChaosShare,
+    OverturningCurve,
+    Repeatability,
+    RepeatabilityMap,
+    SafeBasin,
+)
+from rocking.model.symmetric_mode import Mode
+from rocking.model.system import BRACE_ANGLES, LARGEST_START, Braces, State, System, check_start
+from rocking.model.validation import (
     NoOrbit,
     TooManyEvents,
     TooShort,
@@ -24,29 +51,8 @@ from rocking.model.errors import (
     whole,
     within,
 )
-from rocking.model.files import (
-    FULL,
-    TILES,
-    WriteError,
-    check_folder,
-    check_replaceable,
-    check_writable,
-    replacing,
-    replacing_folder,
-    replacing_hdf5,
-    resolve_path,
-)
-from rocking.model.forcing import FREQUENCIES, LARGEST_AMPLITUDE, LARGEST_PHASE, PERIODS, Harmonic
-from rocking.model.mode import Mode
-from rocking.model.outcome import Outcome, Overturning
-from rocking.model.physical import PHYSICAL, block_attributes
-from rocking.model.share import LEVEL, Share, wilson
-from rocking.model.stability import Stability, stability_of
-from rocking.model.surveys import ChaosShare, OverturningCurve, Repeatability, RepeatabilityMap, SafeBasin
-from rocking.model.system import BRACE_ANGLES, LARGEST_START, Braces, State, System, check_start
 from rocking.model.verdict import Evidence, Kind, Orbit, Verdict
 from rocking.model.version import VERSION
-from rocking.model.words import counted, ordinal, percent, plus_minus
 
 __all__ = [
     "BRACE_ANGLES",
@@ -99,11 +105,11 @@ __all__ = [
     "finite",
     "instance",
     "members",
+    "notebook_renderers",
     "one_of",
     "ordinal",
     "pair",
     "percent",
-    "pictures",
     "plus_minus",
     "read_only",
     "reals",

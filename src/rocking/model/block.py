@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 from attrs import field, frozen
 
-from rocking.model.errors import exactly_one, reals, refusal, within
 from rocking.model.forcing import FREQUENCIES, LARGEST_AMPLITUDE, Harmonic
 from rocking.model.system import Braces, System
+from rocking.model.validation import exactly_one, reals, refusal, within
 
 GRAVITY = 9.80665
 SIZES = (1e-3, 1e3)

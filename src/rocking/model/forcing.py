@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from attrs import field, frozen
 
-from rocking.model.errors import exactly_one, reals, within
+from rocking.model.validation import exactly_one, reals, within
 
 LARGEST_AMPLITUDE = 1e3
 FREQUENCIES = (1e-3, 1e3)

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from attrs import field, frozen
 
-from rocking.model.errors import finite, instance, refusal, within
 from rocking.model.forcing import Harmonic
+from rocking.model.validation import finite, instance, refusal, within
 
 BRACE_ANGLES = (1e-3, 1e3)
 LARGEST_STATE = 1e9

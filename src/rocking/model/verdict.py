@@ -9,12 +9,12 @@ from typing import Any
 
 from attrs import evolve, field, frozen
 
-from rocking.model import pictures
-from rocking.model.errors import within
+from rocking.model import notebook_renderers
 from rocking.model.forcing import LARGEST_PHASE
+from rocking.model.formatting import counted
 from rocking.model.stability import Stability, stability_of
 from rocking.model.system import State, System
-from rocking.model.words import counted
+from rocking.model.validation import within
 
 # An event this near after an instant, in forcing periods, is at that instant: rounding must not put it on the other side.
 SAME_INSTANT = 1e-12
@@ -287,4 +287,4 @@ class Verdict:
         return f"{self.kind}: {self.evidence}"
 
     def _repr_html_(self) -> str | None:
-        return pictures.html(self)
+        return notebook_renderers.html(self)

@@ -1,10 +1,10 @@
 """Simulating one block, and what it did."""
 
 from rocking.motion.fall import FALLEN, end_shown, time_of_fall
+from rocking.motion.march_loop import begin, march_on
+from rocking.motion.model_warnings import block_warnings
 from rocking.motion.motion import Motion
-from rocking.motion.run import begin, march_on
 from rocking.motion.simulate import kept_events, simulate
-from rocking.motion.slender import block_warnings
 from rocking.motion.validity import Validity, validity
 
 __all__ = [

@@ -19,14 +19,14 @@ from rocking.model import (
     State,
     System,
     counted,
-    pictures,
+    notebook_renderers,
     read_only,
     reals,
     refusal,
     within,
 )
-from rocking.motion.events import absolute, events_of
-from rocking.motion.run import parameters, section_of
+from rocking.motion.event_table import absolute, events_of
+from rocking.motion.march_loop import parameters, section_of
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -234,7 +234,7 @@ class Motion(ReadOnlyArrays):
         return f"{how}; {', '.join(counts)}, peak |Θ| {self.peak:.4g}"
 
     def _repr_html_(self) -> str | None:
-        return pictures.html(self)
+        return notebook_renderers.html(self)
 
     @cached_property
     def _numbers(self) -> Any:

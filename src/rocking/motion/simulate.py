@@ -10,9 +10,9 @@ import numpy as np
 from rocking.kernels.march import event_rows
 from rocking.kernels.march import march as kernel
 from rocking.model import Overturning, State, System, check_start, one_of, whole
-from rocking.motion.events import events_of
+from rocking.motion.event_table import events_of
+from rocking.motion.march_loop import begin, outcome_of, parameters, run, state_of
 from rocking.motion.motion import Motion
-from rocking.motion.run import begin, outcome_of, parameters, run, state_of
 
 MOST_CYCLES = 1_000_000_000
 MOST_SECTION_CYCLES = 100_000_000

@@ -10,8 +10,8 @@ import numpy as np
 from attrs import evolve, frozen
 
 from rocking.model import Block, instance
-from rocking.motion.extremes import NOTHING, Arcs, Array, Extreme, least
-from rocking.motion.slender import block_warnings, degrees_too, slender_errors
+from rocking.motion.arc_minimum import NOTHING, Arcs, Array, Extreme, least
+from rocking.motion.model_warnings import block_warnings, degrees_too, slender_errors
 
 if TYPE_CHECKING:
     from rocking.motion.motion import Motion

@@ -1,16 +1,16 @@
 """Periodic orbits, found and followed through parameters; diagrams; the saddles' manifolds: how responses change with the system."""
 
-from rocking.orbits.branches import Branch, SpecialPoint
+from rocking.orbits.bifurcation_curve import BifurcationCurve, bifurcation_curve
+from rocking.orbits.branch import Branch, SpecialPoint
 from rocking.orbits.continuation import continue_orbit, switch_branch
-from rocking.orbits.curves import BifurcationCurve, bifurcation_curve
-from rocking.orbits.diagram import orbit_diagram
-from rocking.orbits.find import find_orbit
+from rocking.orbits.find_orbit import find_orbit
+from rocking.orbits.find_orbits import Orbits, find_orbits
 from rocking.orbits.frequency_response import frequency_response
-from rocking.orbits.manifolds import Manifold, SaddleManifolds, saddle_manifolds
-from rocking.orbits.peaks import FrequencyResponse
-from rocking.orbits.search import Orbits, find_orbits
-from rocking.orbits.swept import OrbitDiagram
-from rocking.orbits.tangency import manifold_gap, tangency_amplitude
+from rocking.orbits.frequency_response_result import FrequencyResponse
+from rocking.orbits.manifold_tangency import manifold_gap, tangency_amplitude
+from rocking.orbits.orbit_diagram import orbit_diagram
+from rocking.orbits.orbit_diagram_result import OrbitDiagram
+from rocking.orbits.saddle_manifolds import Manifold, SaddleManifolds, saddle_manifolds
 
 __all__ = [
     "BifurcationCurve",

@@ -11,8 +11,8 @@ from rocking.kernels.orbits import branch_point as codes
 from rocking.kernels.orbits import continuation as kernel
 from rocking.model import Orbit, instance, one_of, refusal, whole, within
 from rocking.motion import simulate
-from rocking.orbits.branches import Branch, SpecialPoint, table
-from rocking.orbits.chains import (
+from rocking.orbits.branch import Branch, SpecialPoint, table
+from rocking.orbits.event_chain import (
     NAMES,
     Chain,
     chain_of,
@@ -25,7 +25,7 @@ from rocking.orbits.chains import (
     value_of,
 )
 from rocking.orbits.grazing import grazing_at
-from rocking.orbits.vary import checked_range
+from rocking.orbits.parameter import checked_range
 
 KINDS = {
     codes.FOLD: "fold",

@@ -23,11 +23,11 @@ from rocking.model import (
     whole,
     within,
 )
-from rocking.orbits.branches import Branch
-from rocking.orbits.chains import IMPACT, Chain, chain_of, orbit_of, solved
+from rocking.orbits.branch import Branch
 from rocking.orbits.continuation import continue_orbit, switch_branch
-from rocking.orbits.peaks import FrequencyResponse
-from rocking.orbits.vary import checked_range
+from rocking.orbits.event_chain import IMPACT, Chain, chain_of, orbit_of, solved
+from rocking.orbits.frequency_response_result import FrequencyResponse
+from rocking.orbits.parameter import checked_range
 from rocking.response import classify
 from rocking.theory import symmetric_modes
 

@@ -16,7 +16,7 @@ from rocking.kernels.orbits import branch_point as codes
 from rocking.kernels.orbits import continuation_codim1 as kernel
 from rocking.model import Orbit, State
 from rocking.motion import simulate
-from rocking.orbits.chains import (
+from rocking.orbits.event_chain import (
     BRACE,
     IMPACT,
     NAMES,
@@ -27,8 +27,8 @@ from rocking.orbits.chains import (
     parameters,
     value_of,
 )
-from rocking.orbits.saddles import response, saddle
-from rocking.orbits.vary import with_value
+from rocking.orbits.parameter import with_value
+from rocking.orbits.saddle_orbits import response, saddle
 
 # An event this slow is the one that grazes.
 SLOW = 1e-4

@@ -11,7 +11,7 @@ from rocking.model import (
     RepeatabilityMap,
     SafeBasin,
     Verdict,
-    pictures,
+    notebook_renderers,
 )
 from rocking.motion import Motion
 from rocking.orbits import Branch, FrequencyResponse, OrbitDiagram, SaddleManifolds
@@ -21,29 +21,29 @@ from rocking.plot.bifurcation_curve import bifurcation_curve
 from rocking.plot.branch import branch
 from rocking.plot.chaos_share import chaos_share
 from rocking.plot.convergence import convergence
-from rocking.plot.dimension import dimension
+from rocking.plot.correlation_dimension import dimension
 from rocking.plot.frequency_response import frequency_response
 from rocking.plot.impact_section import impact_section
 from rocking.plot.manifolds import manifolds
 from rocking.plot.melnikov import heteroclinic, melnikov
 from rocking.plot.modes import modes
-from rocking.plot.notebook import picture
 from rocking.plot.orbit_diagram import orbit_diagram
 from rocking.plot.overturning import overturning
 from rocking.plot.overview import overview
 from rocking.plot.parametric_map import parametric_map
+from rocking.plot.parts.notebook import picture
+from rocking.plot.parts.save import save
+from rocking.plot.parts.style import panels, title
 from rocking.plot.phase_portrait import phase_portrait
 from rocking.plot.repeatability import repeatability, repeatability_map
 from rocking.plot.safe_basin import safe_basin
-from rocking.plot.save import save
 from rocking.plot.schematic import schematic
 from rocking.plot.section import section
 from rocking.plot.spectrum import spectrum
-from rocking.plot.style import panels, title
 from rocking.plot.thresholds import thresholds
-from rocking.plot.tiles import tiles
 from rocking.plot.time_history import time_history
 from rocking.plot.verdict import verdict
+from rocking.plot.zoomable_map import tiles
 
 __all__ = [
     "animation",
@@ -94,4 +94,4 @@ for kind, draw in (
     (RepeatabilityMap, repeatability_map),
     ("map", parametric_map),
 ):
-    pictures.hang(kind, picture(draw))
+    notebook_renderers.hang(kind, picture(draw))

@@ -15,12 +15,12 @@ from numpy.typing import NDArray
 
 from rocking.model import Block, Outcome, System, instance, within
 from rocking.motion import Motion, time_of_fall
-from rocking.plot import style
-from rocking.plot.film import check_film, write_film
-from rocking.plot.quantities import quantities
-from rocking.plot.scene import Scene
+from rocking.plot.parts import style
+from rocking.plot.parts.axis_units import quantities
+from rocking.plot.parts.sample_times import settled, window
+from rocking.plot.parts.scene import Scene
+from rocking.plot.parts.video import check_film, write_film
 from rocking.plot.time_history import draw_history
-from rocking.plot.trace import settled, window
 
 NOMINAL = Block(height=2.0, width=0.5)
 CYCLES_SHOWN, DECAY_SHOWN = 10, 30

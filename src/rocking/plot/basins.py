@@ -10,10 +10,10 @@ from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.patches import Patch
 
 from rocking.model import Attractor, BasinMap, Block, Kind, instance, percent
-from rocking.plot import style
-from rocking.plot.kinds import COLOURS, paler
 from rocking.plot.parametric_map import MOST_DRAWN
-from rocking.plot.quantities import parameter
+from rocking.plot.parts import style
+from rocking.plot.parts.axis_units import parameter
+from rocking.plot.parts.legend import COLOURS, paler
 
 # For the orbits, the largest basin first: those of Okabe and Ito that no other kind has, then paler ones.
 ORBITS = (style.MOTION, "#56B4E9", "#E69F00", "#CC79A7", "#8C6D31", "#B5A0D8", "#7FC8A9", "#F2B8A0")

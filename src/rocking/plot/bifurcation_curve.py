@@ -7,9 +7,9 @@ from matplotlib.axes import Axes
 
 from rocking.model import Block, refusal
 from rocking.orbits import BifurcationCurve
-from rocking.plot import style
-from rocking.plot.curves import several, unless_there
-from rocking.plot.quantities import parameter
+from rocking.plot.parts import style
+from rocking.plot.parts.axis_units import parameter
+from rocking.plot.parts.branch_lines import several, unless_there
 
 LOOKS: dict[str, tuple[str, Any]] = {
     "fold": (style.MOTION, "-"),

@@ -14,8 +14,8 @@ from rocking.model import (
     within,
 )
 from rocking.orbits import Branch
-from rocking.plot import curves, style
-from rocking.plot.quantities import parameter, quantities
+from rocking.plot.parts import branch_lines, style
+from rocking.plot.parts.axis_units import parameter, quantities
 
 # By kind: marker, filled or not, name.
 MARKERS = {
@@ -69,27 +69,27 @@ def branch(
     ['symmetric, stable', 'symmetric, unstable', 'unsymmetric, stable']
     """
     branches = _branches(result)
-    quantity = one_of("quantity", quantity, curves.QUANTITIES)
+    quantity = one_of("quantity", quantity, branch_lines.QUANTITIES)
     phase = within("phase", phase, -LARGEST_PHASE, LARGEST_PHASE)
     shown = quantities(block)
     across, x_label = parameter(branches[0].name, block)
     upright = shown.velocity if quantity == "velocity" else shown.angle
     ax = style.own(ax, height=3.0)
     for one in sorted(branches, key=lambda one: not one.symmetric):
-        line = curves.line(one, quantity, phase).shown(across, upright)
+        line = branch_lines.line(one, quantity, phase).shown(across, upright)
         for stability in Stability:
             name = f"{'' if one.symmetric else 'un'}symmetric, {stability}"
-            curves.part(
+            branch_lines.part(
                 ax, line, stability, name, color=COLOURS[one.symmetric], linewidth=style.LINE, gid=name
             )
-    _marks(ax, branches, lambda orbit: upright(curves.heights_of(orbit, quantity, phase)), across)
-    style.label(ax, x_label, curves.height_label(quantity, shown))
+    _marks(ax, branches, lambda orbit: upright(branch_lines.heights_of(orbit, quantity, phase)), across)
+    style.label(ax, x_label, branch_lines.height_label(quantity, shown))
     style.key(ax)
     return ax
 
 
 def _branches(result: Branch | Sequence[Branch]) -> list[Branch]:
-    branches = curves.several(result, Branch)
+    branches = branch_lines.several(result, Branch)
     for one in branches:
         if one.name != branches[0].name:
             raise ValueError(

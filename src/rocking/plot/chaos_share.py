@@ -5,9 +5,9 @@ from __future__ import annotations
 from matplotlib.axes import Axes
 
 from rocking.model import ChaosShare, Kind, instance
-from rocking.plot import style
-from rocking.plot.kinds import COLOURS
-from rocking.plot.quantities import PARAMETERS
+from rocking.plot.parts import style
+from rocking.plot.parts.axis_units import PARAMETERS
+from rocking.plot.parts.legend import COLOURS
 
 
 def chaos_share(found: ChaosShare, ax: Axes | None = None) -> Axes:

@@ -6,7 +6,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from rocking.model import instance, plus_minus, refusal, whole
-from rocking.plot import style
+from rocking.plot.parts import style
 from rocking.response import LyapunovSpectrum
 
 

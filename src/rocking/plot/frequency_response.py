@@ -5,9 +5,9 @@ from matplotlib.axes import Axes
 
 from rocking.model import Block, Kind, Stability, instance
 from rocking.orbits import FrequencyResponse
-from rocking.plot import curves, style
-from rocking.plot.kinds import COLOURS
-from rocking.plot.quantities import parameter, quantities
+from rocking.plot.parts import branch_lines, style
+from rocking.plot.parts.axis_units import parameter, quantities
+from rocking.plot.parts.legend import COLOURS
 
 # One for each n, in turn: the colours of Okabe and Ito that no kind of response has.
 LINES = ("#E69F00", "#CC79A7", "#56B4E9", style.GUIDE)
@@ -57,10 +57,10 @@ def frequency_response(result: FrequencyResponse, ax: Axes | None = None, block:
         for stability in Stability:
             name = f"(1,{n}), {stability}"
             for branch in result.of(n):
-                line = curves.line(branch, "peak", 0.0).shown(across, shown.angle)
-                curves.part(ax, line, stability, name, color=colour, linewidth=style.LINE, gid=name)
+                line = branch_lines.line(branch, "peak", 0.0).shown(across, shown.angle)
+                branch_lines.part(ax, line, stability, name, color=colour, linewidth=style.LINE, gid=name)
     _from_rest(ax, result, across, shown.angle)
-    style.label(ax, x_label, curves.height_label("peak", shown))
+    style.label(ax, x_label, branch_lines.height_label("peak", shown))
     low, high = ax.get_ylim()
     ax.set_ylim(min(low, 0.0) - ROOM * (high - low), high)
     style.key(ax)
@@ -94,7 +94,7 @@ def _from_rest(ax: Axes, result: FrequencyResponse, across, upright) -> None:
         )
     fell = rest["kind"] == Kind.OVERTURNED.value
     if fell.any():
-        ends = curves.spans(values, fell)
+        ends = branch_lines.spans(values, fell)
         ax.plot(
             across(ends),
             np.full(len(ends), BAR),

@@ -8,8 +8,8 @@ from matplotlib.ticker import FixedLocator
 
 from rocking.model import Block, refusal, whole
 from rocking.motion import Motion
-from rocking.plot import style
-from rocking.plot.quantities import quantities
+from rocking.plot.parts import style
+from rocking.plot.parts.axis_units import quantities
 from rocking.response import impact_section as impacts_of
 
 SIDES = ((1, r"onto $\Theta > 0$", style.MOTION), (-1, r"onto $\Theta < 0$", style.IMPACT))

@@ -5,8 +5,8 @@ from matplotlib.axes import Axes
 
 from rocking.model import Block, instance
 from rocking.orbits import SaddleManifolds
-from rocking.plot import style
-from rocking.plot.quantities import quantities
+from rocking.plot.parts import style
+from rocking.plot.parts.axis_units import quantities
 from rocking.plot.section import at_phase
 
 UNSTABLE, STABLE = style.IMPACT, style.MOTION

@@ -6,8 +6,8 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from rocking.model import LARGEST_AMPLITUDE, PERIODS, Block, within
-from rocking.plot import style
-from rocking.plot.quantities import quantities
+from rocking.plot.parts import style
+from rocking.plot.parts.axis_units import quantities
 from rocking.theory import (
     energy,
     heteroclinic_amplitude,

@@ -8,8 +8,8 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
 from rocking.model import LARGEST_AMPLITUDE, Block, Mode, one_of, within
-from rocking.plot import curves, style
-from rocking.plot.quantities import parameter, quantities
+from rocking.plot.parts import branch_lines, style
+from rocking.plot.parts.axis_units import parameter, quantities
 from rocking.theory import (
     existence_amplitude,
     slower_mode_amplitude,
@@ -23,7 +23,7 @@ NEAR = 1e-9
 # The picture goes on this much beyond where symmetry breaks.
 BEYOND = 1.25
 DASHES: dict[str, Any] = {
-    **{str(name): dashes for name, dashes in curves.DASHES.items()},
+    **{str(name): dashes for name, dashes in branch_lines.DASHES.items()},
     "inadmissible": (0, (1, 1.5)),
 }
 

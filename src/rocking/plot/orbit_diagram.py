@@ -7,8 +7,8 @@ from matplotlib.axes import Axes
 
 from rocking.model import Block, Stability, instance, members, one_of, refusal
 from rocking.orbits import Branch, OrbitDiagram
-from rocking.plot import curves, style
-from rocking.plot.quantities import parameter, quantities
+from rocking.plot.parts import branch_lines, style
+from rocking.plot.parts.axis_units import parameter, quantities
 
 WAYS = {
     "up": ("swept up", style.MOTION),
@@ -74,20 +74,22 @@ def orbit_diagram(
     ('amplitude $A$ (–)', True)
     """
     instance("result", result, OrbitDiagram)
-    quantity = one_of("quantity", quantity, curves.QUANTITIES)
+    quantity = one_of("quantity", quantity, branch_lines.QUANTITIES)
     followed = [
         _checked(result, branch) for branch in members("branches", branches, "be a sequence of Branch")
     ]
     shown = quantities(block)
     across, x_label = parameter(result.parameter, block)
     upright = shown.velocity if quantity == "velocity" else shown.angle
-    lines = [curves.line(one, quantity, result.section_phase).shown(across, upright) for one in followed]
+    lines = [
+        branch_lines.line(one, quantity, result.section_phase).shown(across, upright) for one in followed
+    ]
     ax = style.own(ax, height=3.0)
     for row, way in enumerate(result.sweeps):
         _points(ax, result, row, way, quantity, across, upright)
     for stability in Stability:
         _branches(ax, lines, stability)
-    style.label(ax, x_label, curves.height_label(quantity, shown))
+    style.label(ax, x_label, branch_lines.height_label(quantity, shown))
     _bars(ax, result, across)
     ends = across(result.values[[0, -1]])
     if ends[1] > ends[0]:  # where all overturned there are no points; branches may lead farther
@@ -102,7 +104,7 @@ def _points(ax: Axes, result: OrbitDiagram, row: int, way: str, quantity: str, a
     heights = (
         result.peak[row][:, None]
         if quantity == "peak"
-        else result.points[row, :, :, curves.COLUMNS[quantity]]
+        else result.points[row, :, :, branch_lines.COLUMNS[quantity]]
     )
     values, heights = _distinct(result.values, heights)
     count = len(values)
@@ -141,11 +143,11 @@ def _checked(result: OrbitDiagram, branch: Branch) -> Branch:
     return branch
 
 
-def _branches(ax: Axes, lines: Sequence[curves.Line], stability: Stability) -> None:
+def _branches(ax: Axes, lines: Sequence[branch_lines.Line], stability: Stability) -> None:
     """The parts of branches that have one stability."""
     width = style.THIN if stability is Stability.UNSTABLE else OUTLINE
     for line in lines:
-        curves.part(
+        branch_lines.part(
             ax,
             line,
             stability,
@@ -164,7 +166,7 @@ def _bars(ax: Axes, result: OrbitDiagram, across) -> None:
     for row, way in enumerate(result.sweeps):
         if not result.overturned[row].any():
             continue
-        ends = curves.spans(result.values, result.overturned[row])
+        ends = branch_lines.spans(result.values, result.overturned[row])
         ax.plot(
             across(ends),
             np.full(len(ends), BAR * (row + 0.6)),

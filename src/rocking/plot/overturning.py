@@ -6,8 +6,8 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from rocking.model import Block, OverturningCurve, instance, refusal
-from rocking.plot import style
-from rocking.plot.quantities import parameter
+from rocking.plot.parts import style
+from rocking.plot.parts.axis_units import parameter
 
 
 def overturning(found: OverturningCurve, ax: Axes | None = None, block: Block | None = None) -> Axes:

@@ -6,11 +6,11 @@ from matplotlib.figure import Figure
 
 from rocking.model import Block, Outcome, instance
 from rocking.motion import Motion
-from rocking.plot import style
+from rocking.plot.parts import style
+from rocking.plot.parts.sample_times import settled
 from rocking.plot.phase_portrait import phase_portrait
 from rocking.plot.section import section
 from rocking.plot.time_history import time_history
-from rocking.plot.trace import settled
 
 CYCLES_SHOWN = 30
 

@@ -13,10 +13,10 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from rocking.model import Block, one_of, percent
-from rocking.plot import map_curves, style
-from rocking.plot.kinds import LOOKS, NONE, PAPER, Symbol
-from rocking.plot.quantities import parameter
-from rocking.plot.responses import Responses, edges
+from rocking.plot.parts import style, theory_curves
+from rocking.plot.parts.axis_units import parameter
+from rocking.plot.parts.legend import LOOKS, NONE, PAPER, Symbol
+from rocking.plot.parts.map_levels import Responses, edges
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -86,7 +86,7 @@ def parametric_map(
     """
     if symbols is not None:
         one_of("symbols", symbols, ("kinds", *PAPER))
-    curves = map_curves.check(curves)
+    curves = theory_curves.check(curves)
     read = Responses(found)
     codes, up, across, counts = _thinned(read, MOST_DRAWN if symbols is None else MOST_SYMBOLS)
     (turn_up, y_label), (turn_across, x_label) = (parameter(name, block) for name in read.names)
@@ -98,7 +98,7 @@ def parametric_map(
         _cells(ax, codes, *corners)
     else:
         _marks(ax, codes, turn_across(across), turn_up(up), symbols)
-    lines = map_curves.draw(
+    lines = theory_curves.draw(
         ax,
         curves,
         dict(zip(read.names, (read.up, read.across), strict=True)),

@@ -8,9 +8,9 @@ from numpy.typing import NDArray
 
 from rocking.model import Block
 from rocking.motion import Motion
-from rocking.plot import style
-from rocking.plot.quantities import Quantities, quantities
-from rocking.plot.trace import inside, trace, window
+from rocking.plot.parts import style
+from rocking.plot.parts.axis_units import Quantities, quantities
+from rocking.plot.parts.sample_times import inside, trace, window
 
 STRIKES = {"impact": (style.IMPACT, "o"), "brace": (style.BRACE, "s")}
 NAMES = {"impact": "impact", "brace": "brace hit"}

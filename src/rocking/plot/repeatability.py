@@ -8,9 +8,9 @@ from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.patches import Patch
 
 from rocking.model import Kind, Repeatability, RepeatabilityMap, instance, percent
-from rocking.plot import style
-from rocking.plot.kinds import COLOURS
-from rocking.plot.quantities import PARAMETERS
+from rocking.plot.parts import style
+from rocking.plot.parts.axis_units import PARAMETERS
+from rocking.plot.parts.legend import COLOURS
 
 SHOWN = 12
 UNCERTAIN = "#CC79A7"

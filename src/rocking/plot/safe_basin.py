@@ -6,8 +6,8 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from rocking.model import SafeBasin, instance
-from rocking.plot import style
-from rocking.plot.quantities import PARAMETERS
+from rocking.plot.parts import style
+from rocking.plot.parts.axis_units import PARAMETERS
 
 
 def safe_basin(found: SafeBasin, ax: Axes | None = None) -> Axes:

@@ -8,8 +8,8 @@ from matplotlib.patches import Arc, Polygon, Rectangle
 from numpy.typing import NDArray
 
 from rocking.model import Block, instance, within
-from rocking.plot import style
-from rocking.plot.geometry import corners
+from rocking.plot.parts import style
+from rocking.plot.parts.scene import corners
 
 STOUT = Block(height=2.0, width=1.0)
 

@@ -15,8 +15,8 @@ from rocking.model import (
     within,
 )
 from rocking.motion import Motion
-from rocking.plot import style
-from rocking.plot.quantities import quantities
+from rocking.plot.parts import style
+from rocking.plot.parts.axis_units import quantities
 
 
 def section(

@@ -7,8 +7,8 @@ from matplotlib.axes import Axes
 from matplotlib.ticker import LogLocator, NullLocator
 
 from rocking.model import Block, instance, whole, within
-from rocking.plot import style
-from rocking.plot.quantities import quantities
+from rocking.plot.parts import style
+from rocking.plot.parts.axis_units import quantities
 from rocking.response import Peak, SpectralDensity
 
 DECADES = 10

@@ -7,10 +7,9 @@ from matplotlib.axes import Axes
 from numpy.typing import ArrayLike
 
 from rocking.model import Block, reals, refusal
-from rocking.plot import style
-from rocking.plot.quantities import parameter
+from rocking.plot.parts import style
+from rocking.plot.parts.axis_units import parameter
 
-DOTTED = (0, (1, 1.5))
 # Colours, and dashes that tell them apart without colours.
 LINES = (
     (style.MOTION, "-"),
@@ -75,7 +74,7 @@ def thresholds(
                 refusal("curves", f"have one amplitude a period, {across.size}", f"{name}: {values.size}")
             )
         up = turn_up(values)
-        for part, how, label in ((holds, dashes, name), (~holds, DOTTED, None)):
+        for part, how, label in ((holds, dashes, name), (~holds, style.DOTTED, None)):
             if part.any():
                 # one point more, so that no gap is left where the dots begin
                 drawn = part | np.concatenate(([False], part[:-1]))

@@ -7,9 +7,9 @@ from matplotlib.axes import Axes
 
 from rocking.model import Block, System
 from rocking.motion import Motion
-from rocking.plot import style
-from rocking.plot.quantities import Quantities, quantities
-from rocking.plot.trace import trace, window
+from rocking.plot.parts import style
+from rocking.plot.parts.axis_units import Quantities, quantities
+from rocking.plot.parts.sample_times import trace, window
 
 
 def time_history(

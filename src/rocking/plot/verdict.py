@@ -15,13 +15,13 @@ from numpy.typing import NDArray
 
 from rocking.model import Block, Kind, Orbit, Outcome, State, TooManyEvents, Verdict, instance
 from rocking.motion import simulate
-from rocking.plot import style
-from rocking.plot.kinds import COLOURS
+from rocking.plot.parts import style
+from rocking.plot.parts.axis_units import quantities
+from rocking.plot.parts.legend import COLOURS
+from rocking.plot.parts.sample_times import settled
 from rocking.plot.phase_portrait import phase_portrait
-from rocking.plot.quantities import quantities
 from rocking.plot.section import section
 from rocking.plot.time_history import time_history
-from rocking.plot.trace import settled
 
 ENDS = (Kind.OVERTURNED, Kind.REST)
 # Cycles in the time history, of a periodic one at least a period, and points in the section.

@@ -1,13 +1,13 @@
 """What a response is: its section, spectrum, exponents, dimension and frequencies, and a verdict with its evidence."""
 
-from rocking.response.birkhoff import RotationNumber, rotation_number
 from rocking.response.classify import KINDS, MOST_CYCLES, MOST_PERIOD, budget, classify
-from rocking.response.density import Peak, SpectralDensity
-from rocking.response.dimension import CorrelationDimension, correlation_dimension
-from rocking.response.exponents import LyapunovSpectrum
+from rocking.response.correlation_dimension import CorrelationDimension, correlation_dimension
+from rocking.response.impact_section import impact_section
 from rocking.response.lyapunov import lyapunov
-from rocking.response.section import impact_section
-from rocking.response.spectrum import spectral_density
+from rocking.response.lyapunov_spectrum import LyapunovSpectrum
+from rocking.response.rotation_number import RotationNumber, rotation_number
+from rocking.response.spectral_density import Peak, SpectralDensity
+from rocking.response.welch_spectrum import spectral_density
 
 __all__ = [
     "KINDS",

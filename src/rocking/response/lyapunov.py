@@ -8,8 +8,8 @@ import numpy as np
 
 from rocking.model import Outcome, State, System, TooShort, check_start, whole
 from rocking.motion import begin, march_on
-from rocking.response.batches import FEWEST_BATCHES, MOST_BATCHES
-from rocking.response.exponents import LyapunovSpectrum, means_of
+from rocking.response.batch_means import FEWEST_BATCHES, MOST_BATCHES
+from rocking.response.lyapunov_spectrum import LyapunovSpectrum, means_of
 
 MOST_CYCLES = 1_000_000_000
 # Relative rounding of one event's two logarithms, with room.

@@ -1,19 +1,19 @@
 """Surveys: one question asked at every point of a grid, on all cores or a cluster, in memory or in a store."""
 
 from rocking.survey import notebook
-from rocking.survey.attractors import alike, lead
-from rocking.survey.axes import check_quantity
-from rocking.survey.basins import basin_map
-from rocking.survey.chaos import chaos_share
-from rocking.survey.export import counts, tables, to_netcdf
-from rocking.survey.maps import parametric_map
-from rocking.survey.overturning import MOST_PHASES, overturning_amplitude
+from rocking.survey.basin_map import basin_map
+from rocking.survey.chaos_share import chaos_share
+from rocking.survey.engine.tile_loop import cores
+from rocking.survey.measures.attractors import alike, lead
+from rocking.survey.measures.response import respond
+from rocking.survey.overturning_amplitude import MOST_PHASES, overturning_amplitude
+from rocking.survey.parametric_map import parametric_map
 from rocking.survey.repeatability import repeatability
 from rocking.survey.repeatability_map import repeatability_map
-from rocking.survey.responses import respond
-from rocking.survey.run import cores
-from rocking.survey.safe import safe_basin
-from rocking.survey.samples import MOST_SAMPLES, MOST_SEED
+from rocking.survey.safe_basin import safe_basin
+from rocking.survey.sampling.random_points import MOST_SAMPLES, MOST_SEED
+from rocking.survey.spec import check_quantity
+from rocking.survey.store.export import counts, tables, to_netcdf
 
 __all__ = [
     "MOST_PHASES",

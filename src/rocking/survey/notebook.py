@@ -5,8 +5,8 @@ from __future__ import annotations
 import sys
 from typing import TYPE_CHECKING
 
-from rocking.model import percent, pictures
-from rocking.survey.export import counts
+from rocking.model import notebook_renderers, percent
+from rocking.survey.store.export import counts
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -33,7 +33,7 @@ def html(found: xr.Dataset) -> str:
         or "flag_meanings" not in found["kind"].attrs
     ):
         return shown
-    return (pictures.html(found, KIND, line(found)) or "") + shown
+    return (notebook_renderers.html(found, KIND, line(found)) or "") + shown
 
 
 def line(found: xr.Dataset) -> str:

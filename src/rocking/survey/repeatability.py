@@ -12,10 +12,10 @@ import numpy as np
 from rocking.kernels.classify import verdict_record as kernel
 from rocking.model import Kind, Repeatability, Share, State, System, check_start, counted, whole, within
 from rocking.response import KINDS
-from rocking.survey.basins import points_of
-from rocking.survey.disturbed import INPUTS, LARGEST_RELATIVE, TITLE, disturbed
-from rocking.survey.responses import response
-from rocking.survey.samples import MOST_SAMPLES, generator, sampled
+from rocking.survey.basin_map import points_of
+from rocking.survey.measures.response import response
+from rocking.survey.sampling.perturbation import INPUTS, LARGEST_RELATIVE, TITLE, disturbed
+from rocking.survey.sampling.random_points import MOST_SAMPLES, generator, sampled
 
 Name = TypeVar("Name", bound=str)
 

@@ -13,11 +13,11 @@ from rocking.kernels import batch
 from rocking.kernels.classify import verdict_record as kernel
 from rocking.model import RepeatabilityMap, Share, whole, within
 from rocking.response import KINDS, budget
-from rocking.survey.ask import ask
-from rocking.survey.axes import Points, question
-from rocking.survey.disturbed import LARGEST_RELATIVE, TITLE, disturbed, spread
-from rocking.survey.outcomes import KIND
-from rocking.survey.tiles import Arrays, Measure, Variable
+from rocking.survey.engine.run_survey import ask
+from rocking.survey.measurement import Arrays, Measure, Variable
+from rocking.survey.measures.kind import KIND
+from rocking.survey.sampling.perturbation import LARGEST_RELATIVE, TITLE, disturbed, spread
+from rocking.survey.spec import Points, question
 
 MILLIONTH = 1e-6
 MOST_AT_A_POINT = 1_000

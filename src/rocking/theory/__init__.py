@@ -1,6 +1,13 @@
 """What is known without running anything: modes, Melnikov's function, the exact tangency, free rocking; arrays in, arrays out."""
 
-from rocking.theory.free import free_impact_speed, free_peaks, free_quarter_period, free_time_to_rest
+from rocking.theory.dimensional import (
+    physical_acceleration,
+    physical_critical_energy,
+    physical_damping,
+    physical_energy,
+    physical_heteroclinic_orbit,
+)
+from rocking.theory.free_rocking import free_impact_speed, free_peaks, free_quarter_period, free_time_to_rest
 from rocking.theory.heteroclinic import (
     heteroclinic_amplitude,
     manifold_gap,
@@ -17,18 +24,11 @@ from rocking.theory.melnikov import (
     melnikov_function,
     melnikov_integral,
 )
-from rocking.theory.modes import (
+from rocking.theory.symmetric_modes import (
     existence_amplitude,
     slower_mode_amplitude,
     symmetric_modes,
     symmetry_breaking_amplitude,
-)
-from rocking.theory.physical import (
-    physical_acceleration,
-    physical_critical_energy,
-    physical_damping,
-    physical_energy,
-    physical_heteroclinic_orbit,
 )
 
 __all__ = [

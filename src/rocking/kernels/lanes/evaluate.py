@@ -58,7 +58,7 @@ def halved(factor):
 
 @njit(**EXACT_INNER)
 def instant_of(s, i, above):
-    """(u - u0, u', cos eta, sin eta) of lane i where it looks, eq. (5) as in ``harmonic.respond`` and ``solution.after``; u0 = 1 + ``above``."""
+    """(u - u0, u', cos eta, sin eta) of lane i where it looks, eq. (5) as in ``respond`` and ``after``; u0 = 1 + ``above``."""
     frequency, response = of(s, i, FREQUENCY), of(s, i, RESPONSE)
     velocity, cosine, sine = of(s, i, VELOCITY), of(s, i, COSINE), of(s, i, SINE)
     sinh, versinh, excess = of(s, i, SINH), of(s, i, VERSINH), of(s, i, EXCESS)

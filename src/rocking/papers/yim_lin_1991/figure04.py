@@ -6,7 +6,7 @@ After four impacts, in its sixth cycle, the block is past return. Ours follows i
 from matplotlib.figure import Figure
 
 from rocking.papers.yim_lin_1991.cases import OVERTURNING
-from rocking.papers.yim_lin_1991.pair import draw_pair
+from rocking.papers.yim_lin_1991.history_and_portrait import draw_pair
 
 
 def draw() -> Figure:

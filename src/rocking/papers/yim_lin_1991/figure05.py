@@ -8,7 +8,7 @@ the marks before and after it coincide.
 from matplotlib.figure import Figure
 
 from rocking.papers.yim_lin_1991.cases import QUASI_PERIODIC
-from rocking.papers.yim_lin_1991.pair import draw_pair
+from rocking.papers.yim_lin_1991.history_and_portrait import draw_pair
 
 
 def draw() -> Figure:

@@ -7,7 +7,7 @@ factor e in some seven cycles: these 120 do not yet depend on rounding, cycles a
 from matplotlib.figure import Figure
 
 from rocking.papers.yim_lin_1991.cases import CHAOTIC
-from rocking.papers.yim_lin_1991.pair import draw_pair
+from rocking.papers.yim_lin_1991.history_and_portrait import draw_pair
 
 
 def draw() -> Figure:

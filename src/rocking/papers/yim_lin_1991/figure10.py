@@ -10,10 +10,10 @@ edges for longer than they were followed.
 
 from matplotlib.figure import Figure
 
-from rocking.papers.yim_lin_1991 import surveys
-from rocking.papers.yim_lin_1991.maps import draw_map
+from rocking.papers.yim_lin_1991 import cached_surveys
+from rocking.papers.yim_lin_1991.map_layout import draw_map
 
 
 def draw() -> Figure:
     """Draws figure 10."""
-    return draw_map(surveys.undamped(), "10", "$e = 1$")
+    return draw_map(cached_surveys.undamped(), "10", "$e = 1$")

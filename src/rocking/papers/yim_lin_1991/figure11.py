@@ -12,12 +12,12 @@ chaotic (see figure 12).
 
 from matplotlib.figure import Figure
 
-from rocking.papers.yim_lin_1991 import surveys
-from rocking.papers.yim_lin_1991.maps import draw_map
+from rocking.papers.yim_lin_1991 import cached_surveys
+from rocking.papers.yim_lin_1991.map_layout import draw_map
 
 CURVES = ("symmetry-breaking-1", "symmetry-breaking-3", "melnikov")
 
 
 def draw() -> Figure:
     """Draws figure 11."""
-    return draw_map(surveys.damped(), "11", "$e = 0.925$", CURVES)
+    return draw_map(cached_surveys.damped(), "11", "$e = 0.925$", CURVES)

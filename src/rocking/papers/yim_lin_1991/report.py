@@ -14,7 +14,7 @@ from PIL import Image
 
 from rocking.model import VERSION, replacing
 from rocking.papers.yim_lin_1991.claim import Chapter, Judged, Standing
-from rocking.papers.yim_lin_1991.tables import write_table
+from rocking.papers.yim_lin_1991.table_files import write_table
 
 PAGE, TWIN = "index.html", "index.pdf"
 DOTS_PER_INCH = 200

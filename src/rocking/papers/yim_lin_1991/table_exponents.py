@@ -18,7 +18,7 @@ from attrs import asdict, fields, frozen
 import rocking as rk
 from rocking.model import plus_minus
 from rocking.papers.yim_lin_1991.cases import BRACED, CHAOTIC, PERIODIC, QUASI_PERIODIC
-from rocking.papers.yim_lin_1991.tables import write_table
+from rocking.papers.yim_lin_1991.table_files import write_table
 
 # Runs of the length of 1991, from phases that no experiment tells apart.
 SEA_STARTS, SEA_CYCLES, SEA_PHASES = 100, 2_000, 1e-7

@@ -8,11 +8,11 @@ Here about every fifth system is chaotic at e = 0.2. The share falls as e grows 
 from matplotlib.figure import Figure
 
 import rocking as rk
-from rocking.papers.yim_lin_1991 import surveys
+from rocking.papers.yim_lin_1991 import cached_surveys
 
 
 def draw() -> Figure:
     """Draw the share over e."""
     figure, (ax,) = rk.plot.panels(height=3.0)
-    rk.plot.chaos_share(surveys.chaos(), ax)
+    rk.plot.chaos_share(cached_surveys.chaos(), ax)
     return figure

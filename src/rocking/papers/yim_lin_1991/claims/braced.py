@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 import rocking as rk
-from rocking.papers.yim_lin_1991 import surveys
+from rocking.papers.yim_lin_1991 import cached_surveys
 from rocking.papers.yim_lin_1991.cases import BRACED
 from rocking.papers.yim_lin_1991.claim import Chapter, Finding
 
@@ -16,7 +16,7 @@ HITS_PER_CYCLE = 1.0
 @CHAPTER.claim("Braced system")
 def unfelt() -> Finding:
     """Responses below the angle of the braces do not feel them."""
-    axes = surveys.axes(30)
+    axes = cached_surveys.axes(30)
     free = rk.parametric_map(**axes, restitution=0.925)
     braced = rk.parametric_map(**axes, restitution=0.925, brace_angle=1.0, max_cycles=1_000)
     below = (free.peak.values < 1.0) & (free.kind.values != 4)
@@ -50,7 +50,7 @@ def figure_13a() -> Finding:
 )
 def frequent_hits() -> Finding:
     """With frequent brace hits chaos dominates."""
-    found = surveys.braced()
+    found = cached_surveys.braced()
     amplitude, period = np.meshgrid(found.amplitude.values, found.period.values, indexing="ij")
     kinds = found.kind.transpose("amplitude", "period").values
     peaks = found.peak.transpose("amplitude", "period").values
@@ -76,7 +76,7 @@ def _hits_per_cycle(amplitude: float, period: float) -> float:
 @CHAPTER.claim("Fig. 13b")
 def scattered() -> Finding:
     """Chaotic responses appear often, but scattered."""
-    found = surveys.braced()
+    found = cached_surveys.braced()
     kind = found.kind.transpose("amplitude", "period").values
     share = rk.Share(int((kind == 3).sum()), kind.size)
     padded = np.pad(kind, 1)
@@ -93,7 +93,7 @@ def scattered() -> Finding:
 @CHAPTER.claim("Fig. 13b")
 def dominant() -> Finding:
     """The (1,1) mode dominates, with unsymmetric modes of even order."""
-    found = surveys.braced()
+    found = cached_surveys.braced()
     periodic = found.kind == 1
     first = rk.Share(int((periodic & (found.response_period == 1)).sum()), int(periodic.sum()))
     even = int((periodic & (found.response_period % 2 == 0)).sum())
@@ -106,11 +106,11 @@ def dominant() -> Finding:
 def enlarged() -> Finding:
     """Braces enlarge the region of chaos."""
     maps = [
-        rk.Share(surveys.count(found, rk.Kind.CHAOTIC), found.kind.size)
-        for found in (surveys.damped(), surveys.braced())
+        rk.Share(cached_surveys.count(found, rk.Kind.CHAOTIC), found.kind.size)
+        for found in (cached_surveys.damped(), cached_surveys.braced())
     ]
-    free = dict(zip(surveys.RESTITUTIONS, surveys.chaos().shares, strict=True))
-    braced = dict(zip(surveys.BRACED_RESTITUTIONS, surveys.braced_chaos().shares, strict=True))
+    free = dict(zip(cached_surveys.RESTITUTIONS, cached_surveys.chaos().shares, strict=True))
+    braced = dict(zip(cached_surveys.BRACED_RESTITUTIONS, cached_surveys.braced_chaos().shares, strict=True))
     text = "; ".join(f"{e:g}: {free[e]} and {share}" for e, share in braced.items())
     return Finding(
         maps[1].low > maps[0].high and all(share.high >= free[e].low for e, share in braced.items()),
@@ -121,7 +121,7 @@ def enlarged() -> Finding:
 @CHAPTER.claim("Conclusion 3")
 def more_sensitive() -> Finding:
     """Braces make responses more sensitive."""
-    without, with_ = surveys.responses_uncertain(), surveys.responses_uncertain(1.0)
+    without, with_ = cached_surveys.responses_uncertain(), cached_surveys.responses_uncertain(1.0)
     return Finding(
         with_.low > without.high,
         f"share of {without.of} random systems, e = 0.925, in which inputs off by 1 % lead to responses of different kind, period or "

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 import rocking as rk
-from rocking.papers.yim_lin_1991 import surveys
+from rocking.papers.yim_lin_1991 import cached_surveys
 from rocking.papers.yim_lin_1991.claim import Chapter, Finding
 
 CHAPTER = Chapter("Abstract and conclusions")
@@ -14,8 +14,8 @@ CHAPTER = Chapter("Abstract and conclusions")
 @CHAPTER.claim("Abstract; conclusion 1")
 def two_new_kinds() -> Finding:
     """Besides periodic and overturning responses there are quasi-periodic and chaotic ones."""
-    found = surveys.undamped()
-    counts = {kind: surveys.count(found, kind) for kind in (rk.Kind.QUASI_PERIODIC, rk.Kind.CHAOTIC)}
+    found = cached_surveys.undamped()
+    counts = {kind: cached_surveys.count(found, kind) for kind in (rk.Kind.QUASI_PERIODIC, rk.Kind.CHAOTIC)}
     return Finding(
         all(counts.values()),
         ", ".join(f"{count} {kind}" for kind, count in counts.items()) + " points of the map at e = 1",
@@ -25,8 +25,8 @@ def two_new_kinds() -> Finding:
 @CHAPTER.claim("Conclusion 1")
 def coexist() -> Finding:
     """For some systems chaotic and periodic responses coexist."""
-    found = surveys.starts(10.103037, 1.721328, 0.8)
-    kinds = {kind.value: surveys.count(found, kind) for kind in rk.Kind}
+    found = cached_surveys.starts(10.103037, 1.721328, 0.8)
+    kinds = {kind.value: cached_surveys.count(found, kind) for kind in rk.Kind}
     present = {name: count for name, count in kinds.items() if count}
     return Finding(
         kinds["chaotic"] > 0 and kinds["periodic"] > 0,
@@ -38,7 +38,7 @@ def coexist() -> Finding:
 @CHAPTER.claim("Introduction")
 def unrepeatable() -> Finding:
     """Experiments with the same set-up do not repeat themselves."""
-    told = {e: surveys.repeatable(e) for e in (0.8, 0.925, 1.0)}
+    told = {e: cached_surveys.repeatable(e) for e in (0.8, 0.925, 1.0)}
     text = "; ".join(
         f"{e:g}: {found.uncertain}, overturning {found.overturning_uncertain}" for e, found in told.items()
     )

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 import rocking as rk
-from rocking.papers.yim_lin_1991 import surveys
+from rocking.papers.yim_lin_1991 import cached_surveys
 from rocking.papers.yim_lin_1991.claim import Chapter, Finding, small
 
 CHAPTER = Chapter("Response of damped systems")
@@ -13,7 +13,7 @@ CHAPTER = Chapter("Response of damped systems")
 
 def _grid() -> tuple[np.ndarray, ...]:
     """Of the map of figure 11: kind, period, symmetric, period and amplitude of the base at each point, flat."""
-    found = surveys.damped().transpose("amplitude", "period")
+    found = cached_surveys.damped().transpose("amplitude", "period")
     amplitude, period = np.meshgrid(found.amplitude.values, found.period.values, indexing="ij")
     names = ("kind", "response_period", "symmetric")
     return tuple(array.ravel() for array in (*(found[name].values for name in names), period, amplitude))
@@ -213,8 +213,8 @@ def damped_quasi_periodic() -> Finding:
     """Other starts and parameters give damped quasi-periodic responses."""
     counted, runs = 0, 0
     for e in (0.2, 0.5, 0.8, 0.925, 0.97, 0.99):
-        found = surveys.starts(4.0, 0.4, e)
-        counted += surveys.count(found, rk.Kind.QUASI_PERIODIC)
+        found = cached_surveys.starts(4.0, 0.4, e)
+        counted += cached_surveys.count(found, rk.Kind.QUASI_PERIODIC)
         runs += found.kind.size
     contracting = max(
         float(rk.lyapunov(rk.System(rk.Harmonic(4.0, period=0.4), e), cycles=5_000).values.sum())

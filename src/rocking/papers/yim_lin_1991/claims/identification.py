@@ -9,7 +9,7 @@ import numpy as np
 
 import rocking as rk
 from rocking.model import percent
-from rocking.papers.yim_lin_1991 import surveys, table_exponents
+from rocking.papers.yim_lin_1991 import cached_surveys, table_exponents
 from rocking.papers.yim_lin_1991.cases import CHAOTIC, PERIODIC, QUASI_PERIODIC
 from rocking.papers.yim_lin_1991.claim import Chapter, Finding, small
 
@@ -45,7 +45,7 @@ def figure_7a() -> Finding:
 @CHAPTER.claim("Fig. 7b", slips="three closed curves, visited in turn: a torus is what they are sections of")
 def figure_7b() -> Finding:
     """The Poincaré map of the quasi-periodic response forms three tori."""
-    turns = surveys.torus_turns()
+    turns = cached_surveys.torus_turns()
     low, high = _dimension(QUASI_PERIODIC.system, 20_000).interval
     curves = turns.period == 3 and low < 1.0 < high
     return Finding(
@@ -90,7 +90,7 @@ def figure_8a() -> Finding:
 @CHAPTER.claim("Fig. 8b")
 def figure_8b() -> Finding:
     """That of the quasi-periodic response has a finite number of incommensurate frequencies."""
-    density = surveys.torus_spectrum()
+    density = cached_surveys.torus_spectrum()
     unnamed = sum(1 for line in density.peaks if not line.name)
     return Finding(
         unnamed == 0 and len(density.peaks) > 2 and density.line_share > 0.99,

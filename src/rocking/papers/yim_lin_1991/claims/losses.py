@@ -7,7 +7,7 @@ import itertools
 import numpy as np
 
 import rocking as rk
-from rocking.papers.yim_lin_1991 import surveys
+from rocking.papers.yim_lin_1991 import cached_surveys
 from rocking.papers.yim_lin_1991.claim import Chapter, Finding
 
 CHAPTER = Chapter("What damping does")
@@ -16,7 +16,7 @@ CHAPTER = Chapter("What damping does")
 @CHAPTER.claim("Fig. 12")
 def region_grows() -> Finding:
     """The region between the (1,1) mode's bound and Melnikov's grows as e grows."""
-    low, high = surveys.PERIODS
+    low, high = cached_surveys.PERIODS
     periods = np.linspace(low, high, 561)
     areas = []
     for e in (0.5, 0.6, 0.7, 0.8, 0.9, 0.925, 0.95):
@@ -31,7 +31,7 @@ def region_grows() -> Finding:
 
 
 def _shares() -> dict[float, rk.Share]:
-    return dict(zip(surveys.RESTITUTIONS, surveys.chaos().shares, strict=True))
+    return dict(zip(cached_surveys.RESTITUTIONS, cached_surveys.chaos().shares, strict=True))
 
 
 def _falls(shares: dict[float, rk.Share], highest: float) -> bool:
@@ -100,8 +100,8 @@ def rare() -> Finding:
 def region_periodic() -> Finding:
     """Damping makes a large region periodic."""
     with_, without = (
-        rk.Share(surveys.count(found, rk.Kind.PERIODIC), found.kind.size)
-        for found in (surveys.damped(), surveys.undamped())
+        rk.Share(cached_surveys.count(found, rk.Kind.PERIODIC), found.kind.size)
+        for found in (cached_surveys.damped(), cached_surveys.undamped())
     )
     return Finding(
         with_.low > 0.2 and without.count == 0, f"periodic: {with_} at e = 0.925, {without} at e = 1"
@@ -111,12 +111,14 @@ def region_periodic() -> Finding:
 @CHAPTER.claim("Figs. 10, 11", slips="it was never the whole: at e = 1 most of the map overturns")
 def region_chaotic() -> Finding:
     """Damping reduces chaos from the whole parametric space to scattered spots."""
-    found = surveys.undamped()
+    found = cached_surveys.undamped()
     chaotic, over = (
-        rk.Share(surveys.count(found, kind), found.kind.size)
+        rk.Share(cached_surveys.count(found, kind), found.kind.size)
         for kind in (rk.Kind.CHAOTIC, rk.Kind.OVERTURNED)
     )
-    damped = rk.Share(surveys.count(surveys.damped(), rk.Kind.CHAOTIC), surveys.damped().kind.size)
+    damped = rk.Share(
+        cached_surveys.count(cached_surveys.damped(), rk.Kind.CHAOTIC), cached_surveys.damped().kind.size
+    )
     return Finding(
         chaotic.value > 0.5,
         f"e = 1: chaotic {chaotic}, overturned {over}; e = 0.925: chaotic {damped}",
@@ -127,7 +129,7 @@ def region_chaotic() -> Finding:
 @CHAPTER.claim("Numerical results; conclusion 4")
 def sensitivity() -> Finding:
     """Damping lowers the sensitivity of the response."""
-    told = {e: surveys.repeatable(e).uncertain for e in (1.0, 0.97, 0.925, 0.8, 0.5, 0.2)}
+    told = {e: cached_surveys.repeatable(e).uncertain for e in (1.0, 0.97, 0.925, 0.8, 0.5, 0.2)}
     text = "; ".join(f"{e:g}: {share}" for e, share in told.items())
     return Finding(
         all(told[e].high < told[1.0].low for e in told if e < 1.0),

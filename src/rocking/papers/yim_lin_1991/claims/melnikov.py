@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 import rocking as rk
-from rocking.papers.yim_lin_1991 import surveys
+from rocking.papers.yim_lin_1991 import cached_surveys
 from rocking.papers.yim_lin_1991.claim import Chapter, Finding, agreement, small
 
 CHAPTER = Chapter("Condition for the existence of chaotic response")
@@ -249,7 +249,7 @@ def no_zeros() -> Finding:
     rng = np.random.default_rng(22)
     below, chaotic, untouched, most = 0, 0, 0, 16.0
     for e in (0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8):
-        periods = rng.uniform(*surveys.PERIODS, 100)
+        periods = rng.uniform(*cached_surveys.PERIODS, 100)
         ceilings = np.minimum(rk.theory.melnikov_amplitude(periods, e), most)
         tangencies = rk.theory.heteroclinic_amplitude(periods, e)
         amplitudes = rng.uniform(0.0, ceilings)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 import rocking as rk
-from rocking.papers.yim_lin_1991 import surveys
+from rocking.papers.yim_lin_1991 import cached_surveys
 from rocking.papers.yim_lin_1991.cases import PERIODIC
 from rocking.papers.yim_lin_1991.claim import Chapter, Finding, small
 
@@ -17,7 +17,7 @@ DRAWN = 2_000
 def _drawn() -> list[list[rk.Mode]]:
     """Modes (1, n) of random systems, e from 0.2 to 1."""
     rng = np.random.default_rng(1991)
-    low, high = surveys.PERIODS
+    low, high = cached_surveys.PERIODS
     return [
         rk.theory.symmetric_modes(
             rng.uniform(0.0, 16.0), rng.uniform(low, high), rng.uniform(0.2, 0.999), int(rng.choice(MODES))
@@ -147,7 +147,7 @@ def equation_10() -> Finding:
 def mode_number() -> Finding:
     """The stability of modes decreases with their number."""
     rows, falling = [], True
-    low, high = surveys.PERIODS
+    low, high = cached_surveys.PERIODS
     periods = np.linspace(low, high, 57)
     for e in (0.2, 0.4, 0.6, 0.8, 0.925):
         widths = []

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 import rocking as rk
-from rocking.papers.yim_lin_1991 import surveys, table_exponents
+from rocking.papers.yim_lin_1991 import cached_surveys, table_exponents
 from rocking.papers.yim_lin_1991.cases import CHAOTIC, OVERTURNING, PERIODIC, QUASI_PERIODIC, Case
 from rocking.papers.yim_lin_1991.claim import Chapter, Finding, agreement
 
@@ -42,7 +42,7 @@ def equation_6() -> Finding:
 @CHAPTER.claim("Eq. (7)")
 def equation_7() -> Finding:
     """A quasi-periodic response combines two or more incommensurate frequencies."""
-    density, turns = surveys.torus_spectrum(), surveys.torus_turns()
+    density, turns = cached_surveys.torus_spectrum(), cached_surveys.torus_turns()
     named = [line for line in density.peaks if line.name]
     rotation, free = density.rotation or 0.0, turns.free or 0.0
     # f_r and the turns about the island's centre are one frequency, up to multiples of f/3
@@ -132,7 +132,7 @@ def figure_6() -> Finding:
 @CHAPTER.claim("Overturning response")
 def overturning_amplitudes() -> Finding:
     """Overturning goes with large amplitudes of the base."""
-    found = surveys.damped()
+    found = cached_surveys.damped()
     overturned = (found.kind == 4).transpose("period", "amplitude").values
     quarters = [float(part.mean()) for part in np.array_split(overturned, 4, axis=1)]
     shares = ", ".join(f"{100 * share:.1f} %" for share in quarters)

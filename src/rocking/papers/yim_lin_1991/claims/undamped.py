@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 import rocking as rk
-from rocking.papers.yim_lin_1991 import surveys, table_exponents
+from rocking.papers.yim_lin_1991 import cached_surveys, table_exponents
 from rocking.papers.yim_lin_1991.claim import Chapter, Finding, small
 
 CHAPTER = Chapter("Response of undamped systems")
@@ -18,7 +18,7 @@ CHAPTER = Chapter("Response of undamped systems")
 def eigenvalues() -> Finding:
     """With e = 1 one eigenvalue is infinite and the other one, whatever the parameters: unstable, or neutrally stable at best."""
     rng = np.random.default_rng(10)
-    low, high = surveys.PERIODS
+    low, high = cached_surveys.PERIODS
     modes = [
         mode
         for _ in range(600)
@@ -74,8 +74,8 @@ def always_zeros() -> Finding:
 @CHAPTER.claim("Fig. 10")
 def figure_10() -> Finding:
     """Over period and amplitude: quasi-periodic, chaotic, none and overturning, nothing else."""
-    found = surveys.undamped()
-    shares = {kind.value: rk.Share(surveys.count(found, kind), found.kind.size) for kind in rk.Kind}
+    found = cached_surveys.undamped()
+    shares = {kind.value: rk.Share(cached_surveys.count(found, kind), found.kind.size) for kind in rk.Kind}
     text = ", ".join(f"{name} {share}" for name, share in shares.items())
     met = all(shares[kind].count > 0 for kind in ("rest", "quasi-periodic", "chaotic", "overturned"))
     return Finding(shares["periodic"].count == 0 and met, text)
@@ -102,7 +102,7 @@ def no_periodic() -> Finding:
 @CHAPTER.claim("Numerical results", differs="often, but more of them lie in wide regions without any chaos")
 def neighbours() -> Finding:
     """Quasi-periodic responses usually appear together with chaotic ones."""
-    kind = surveys.undamped().kind.values
+    kind = cached_surveys.undamped().kind.values
     quasi = kind == 2
     restless = np.pad((kind == 3) | (kind == 5), 2)
     rows, columns = np.nonzero(quasi)
@@ -118,8 +118,8 @@ def neighbours() -> Finding:
 @CHAPTER.claim("Numerical results; conclusion 2")
 def bounded() -> Finding:
     """Without a stable periodic response the block need not overturn."""
-    found = surveys.undamped()
-    count = sum(surveys.count(found, kind) for kind in (rk.Kind.QUASI_PERIODIC, rk.Kind.CHAOTIC))
+    found = cached_surveys.undamped()
+    count = sum(cached_surveys.count(found, kind) for kind in (rk.Kind.QUASI_PERIODIC, rk.Kind.CHAOTIC))
     share = rk.Share(count, found.kind.size)
     return Finding(count > 0, f"e = 1: {share} of the map is quasi-periodic or chaotic")
 

@@ -1,0 +1,37 @@
+"""`rocking classify`."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import typer
+
+from rocking.cli.input import options as ask
+from rocking.cli.option_names import ARGUMENTS, START, SYSTEM, your_input
+
+EXAMPLES = """\
+rocking classify --amplitude 6.5 --period 0.4 --restitution 0.925 --plot verdict.png
+rocking classify --height 2 --width 0.5 --acceleration 4 --frequency-hz 1.2"""
+
+
+@ask.asks(*SYSTEM, *START, phase=0.0, angle=0.0, velocity=0.0)
+def classify(
+    context: typer.Context,
+    max_cycles: ask.MaxCycles = 100_000,
+    max_period: ask.MaxPeriod = 64,
+    plot: ask.VerdictPlot = None,
+    json: ask.Json = False,
+    **shared: Any,
+) -> None:
+    """Tell what a response is, and how that is known."""
+    from rocking.cli.output import motion_files
+    from rocking.cli.reports import classify as report
+    from rocking.response import classify as judge
+
+    motion_files.check_picture(plot)
+    system, start, block = ask.question(context.params)
+    with your_input(ARGUMENTS):
+        verdict = judge(system, start, max_cycles, max_period)
+    if plot is not None:
+        motion_files.write_verdict(verdict, block, plot)
+    report.show(verdict, block, plot, as_json=json)

@@ -1,0 +1,38 @@
+"""`rocking modes`."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import typer
+
+from rocking.cli.input import options as ask
+from rocking.cli.option_names import ARGUMENTS, FORCED, your_input
+
+EXAMPLES = """\
+rocking modes --amplitude 6.5 --period 0.4 --restitution 0.925 -n 3 --plot modes.png
+rocking modes --height 2 --width 0.5 --acceleration 4 --frequency-hz 1.2"""
+
+
+@ask.asks(*FORCED)
+def modes(
+    context: typer.Context,
+    n: ask.ModeCycles = 1,
+    plot: ask.ModesPlot = None,
+    json: ask.Json = False,
+    **shared: Any,
+) -> None:
+    """Give the symmetric (1, n) modes in closed form.
+
+    With their speed, phase and stability, and whether they exist.
+    """
+    from rocking.cli.output import motion_files
+    from rocking.cli.reports import modes as report
+
+    motion_files.check_picture(plot)
+    system, _, block = ask.question(context.params)
+    with your_input(ARGUMENTS):
+        answer = report.find(system, n)
+    if plot is not None:
+        motion_files.write_modes(system, answer.n, block, plot)
+    report.show(answer, block, plot, as_json=json)

@@ -1,0 +1,1 @@
+"""What is typed, made into the arguments of public functions."""

@@ -1,0 +1,149 @@
+"""Numbers and axes that surveys ask for, typed or in a study file, and what they are when normalised."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from rocking.cli.input.axis import FORM, VARIES, Axis
+from rocking.cli.input.options import question
+from rocking.cli.input.study_file import Check, quantity
+from rocking.cli.option_names import SI, YourInput, option
+from rocking.model import instance, reals, refusal, whole
+
+if TYPE_CHECKING:
+    from rocking.model import Block
+
+TOLD = (
+    "amplitude",
+    "period",
+    "frequency",
+    "restitution",
+    "phase",
+    "brace_angle",
+    "brace_restitution",
+    "angle",
+    "velocity",
+)
+"""What a survey is told by, in this order."""
+
+
+def normalised(given: Mapping[str, Any]) -> dict[str, Any]:
+    """Numbers and arrays, normalised, of quantities given as numbers, axes and lists."""
+    import numpy as np
+
+    spans = {name: each if isinstance(each, Axis) else None for name, each in given.items()}
+    lists = {name: each for name, each in given.items() if np.ndim(each) > 0 and spans[name] is None}
+    if any(name in SI for name in lists):
+        raise YourInput(f"{option(next(iter(lists)))} in SI must be a number or {FORM}; got a list")
+    varied = [name for name, span in spans.items() if span is not None]
+    if "displacement" in given and any(name in ("frequency_hz", "period_s") for name in varied):
+        raise YourInput(
+            "--displacement with an axis of the frequency varies two things: give --acceleration instead"
+        )
+    # Ranges are intervals: what both ends pass, all between them do.
+    ends = []
+    for end in ("start", "stop"):
+        at = {name: getattr(each, end) if isinstance(each, Axis) else each for name, each in given.items()}
+        at |= {name: each[0 if end == "start" else -1] for name, each in lists.items()}
+        ends.append(_numbers(at))
+    first, last = ends
+    asked: dict[str, Any] = {}
+    for name in TOLD:
+        if name not in first:
+            continue
+        source = next((each for each in varied if VARIES.get(each, each) == name), None)
+        span = None if source is None else spans[source]
+        asked[name] = first[name] if span is None else np.linspace(first[name], last[name], span.points)
+    return asked | lists
+
+
+def _numbers(given: Mapping[str, Any]) -> dict[str, Any]:
+    """A system and a start as `parametric_map` has them."""
+    system, start, _ = question(given)
+    forcing, by_frequency = system.forcing, "frequency" in given or "frequency_hz" in given
+    told = {
+        "amplitude": forcing.amplitude,
+        "frequency" if by_frequency else "period": forcing.frequency if by_frequency else forcing.period,
+        "restitution": system.restitution,
+        "phase": forcing.phase,
+        "angle": start.angle,
+        "velocity": start.velocity,
+    }
+    if system.braces is not None:
+        told |= {"brace_angle": system.braces.angle, "brace_restitution": system.braces.restitution}
+    return told
+
+
+def block_of(given: Mapping[str, Any]) -> Block | None:
+    """The block of what is asked in SI; where the restitution varies, with the first."""
+    from rocking.model import Block
+
+    if "height" not in given:
+        return None
+    for name in ("height", "width"):
+        if isinstance(given[name], Axis | list):
+            raise YourInput(f"{option(name)} must be one number of metres: a survey is of one block")
+    restitution = given.get("restitution")
+    first = restitution.start if isinstance(restitution, Axis) else restitution
+    return Block(given["height"], given["width"], first[0] if isinstance(first, list) else first)
+
+
+def values(asked: Any) -> Any:
+    """A number or a list as it is, an axis as its values."""
+    import numpy as np
+
+    return np.linspace(asked.start, asked.stop, asked.points) if isinstance(asked, Axis) else asked
+
+
+def varying(*names: str) -> dict[str, Check]:
+    """How entries of a study file are read that are numbers, axes or lists."""
+    return {name: partial(quantity, name) if name in SI else partial(_in_range, name) for name in names}
+
+
+def fixed(*names: str) -> dict[str, Check]:
+    """How entries are read that are numbers."""
+    return {name: partial(_number, name) for name in names}
+
+
+def counts(limits: Mapping[str, tuple[int, int]]) -> dict[str, Check]:
+    """How entries are read that are whole numbers between limits."""
+    return {name: partial(_whole, name, ends) for name, ends in limits.items()}
+
+
+def places(*names: str) -> dict[str, Check]:
+    """How entries are read that are paths; and `repair`, which goes with a store."""
+    return {name: partial(_path, name) for name in names} | {"repair": _repair}
+
+
+def _in_range(name: str, entry: Any) -> Any:
+    from rocking.survey import check_quantity
+
+    read = quantity(name, entry)
+    for each in read[:2] if isinstance(read, Axis) else (read,):
+        check_quantity(name, each)
+    return read
+
+
+def _number(name: str, entry: Any) -> Any:
+    from rocking.survey import check_quantity
+
+    if not isinstance(entry, int | float):
+        raise TypeError(refusal(name, "be a number", entry))
+    return reals(name, entry) if name in SI else check_quantity(name, entry)
+
+
+def _whole(name: str, ends: tuple[int, int], entry: Any) -> int:
+    return whole(name, entry, *ends)
+
+
+def _path(name: str, entry: Any) -> Path:
+    if not isinstance(entry, str):
+        raise TypeError(refusal(name, "be a path", entry))
+    return Path(entry)
+
+
+def _repair(entry: Any) -> bool:
+    return instance("repair", entry, bool)

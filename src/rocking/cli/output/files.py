@@ -1,0 +1,93 @@
+"""What commands write: refused before anything is run, written whole or not at all."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from rocking.cli.option_names import YourInput, option, your_input
+from rocking.model import PHYSICAL, block_attributes, check_writable, replacing, replacing_hdf5, resolve_path
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from rocking.model import Block
+
+PICTURES = (".png", ".svg", ".pdf")
+SUFFIXES = {"plot": PICTURES, "csv": (".csv",), "netcdf": (".nc",)}
+
+
+def check_files(
+    paths: Mapping[str, Path | None], suffixes: Mapping[str, tuple[str, ...]] = SUFFIXES
+) -> dict[str, Path]:
+    """The files asked for, by the names of their options; `YourInput` for one that cannot be written."""
+    asked = {name: path for name, path in paths.items() if path is not None}
+    for name, path in asked.items():
+        with your_input():
+            check_writable(option(name), path, suffixes[name])
+    return asked
+
+
+def check_apart(paths: Mapping[str, Path | None]) -> None:
+    """`YourInput` for two outputs at one place, or one inside another, which is written as a whole."""
+    taken: dict[Path, str] = {}
+    for name, path in paths.items():
+        if path is None:
+            continue
+        with your_input():
+            place = resolve_path(option(name), path)
+        for there, other in taken.items():
+            if place == there:
+                raise YourInput(f"{option(other)} and {option(name)} must differ; got {str(path)!r} for both")
+            if place.is_relative_to(there) or there.is_relative_to(place):
+                raise YourInput(
+                    f"{option(other)} and {option(name)} must lie beside each other; got {str(path)!r} for {option(name)}"
+                )
+        taken[place] = name
+
+
+def write_csv(tables: Iterable[Mapping[str, Any]], path: Path) -> None:
+    """Tables with the same headings as one: columns, each an array, by their headings."""
+    import csv
+
+    with replacing(path) as temporary, temporary.open("w", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file)
+        for number, table in enumerate(tables):
+            if number == 0:
+                writer.writerow(table)
+            writer.writerows(zip(*(column.tolist() for column in table.values()), strict=True))
+
+
+def columns(table: Mapping[str, Any], block: Block | None) -> dict[str, Any]:
+    """Normalised columns with their units in the headings; those of a block are repeated in SI."""
+    known = {name: PHYSICAL[name] for name in table if name in PHYSICAL}
+    told = {
+        f"{name} [{known[name].normalised}]" if name in known else name: column
+        for name, column in table.items()
+    }
+    if block is None:
+        return told
+    return told | {each.heading: each.turn(block, table[name]) for name, each in known.items()}
+
+
+def with_block(data: xr.Dataset, block: Block | None) -> xr.Dataset:
+    """The dataset with its block: coordinates in SI beside the normalised ones, and what block it is."""
+    if block is None:
+        return data
+    beside = {
+        each.key: (
+            data[name].dims,
+            each.turn(block, data[name].values),
+            {"long_name": f"{each.name} in SI", "units": each.cf},
+        )
+        for name, each in PHYSICAL.items()
+        if name in data.coords
+    }
+    return data.assign_coords(beside).assign_attrs(block_attributes(block))
+
+
+def write_dataset(data: xr.Dataset, path: Path) -> None:
+    """A dataset that is in memory, as netCDF."""
+    with replacing_hdf5(path) as file:
+        data.to_netcdf(file, engine="h5netcdf")

@@ -1,0 +1,83 @@
+"""What the commands of surveys share: how they are carried out, and what they write."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from rocking.cli.option_names import ARGUMENTS as SYSTEM_ARGUMENTS
+from rocking.cli.option_names import NORMALISED, as_typed, option, options, your_input
+from rocking.cli.output.files import check_apart, check_files, with_block, write_dataset
+
+if TYPE_CHECKING:
+    from rocking.model import BasinMap, Block, OverturningCurve, Share
+
+OWN = ("samples", "seed", "boundary_runs", "phases", "store", "repair", "brace_angle", "brace_restitution")
+ARGUMENTS = SYSTEM_ARGUMENTS | options(*OWN)
+FILES = ("plot", "netcdf")
+MOST_ROWS = 20
+
+
+def carried_out(survey: Callable[..., Any], arguments: Mapping[str, Any], block: Block | None = None) -> Any:
+    """What a survey finds, with a bar where somebody watches; interrupted, it says how to go on.
+
+    What a block in SI was made into is not named by options, for none of them was typed.
+    """
+    with your_input(ARGUMENTS | _made_of(block)):
+        try:
+            return survey(**arguments, progress=sys.stderr.isatty())
+        except KeyboardInterrupt as error:
+            for note in getattr(error, "__notes__", ()):
+                print(f"rocking: {as_typed(note, ARGUMENTS)}", file=sys.stderr)
+            raise
+
+
+def _made_of(block: Block | None) -> dict[str, str]:
+    if block is None:
+        return {}
+    shaken = {name: f"the normalised {name}" for name in NORMALISED}
+    follows = {"restitution": "restitution, which follows from the block,"}
+    return shaken | follows if block.has_housner_restitution else shaken
+
+
+@contextmanager
+def complete(store: Path | None) -> Iterator[None]:
+    """Say to who interrupts what is written after the survey that its store is complete."""
+    try:
+        yield
+    except KeyboardInterrupt:
+        if store is not None:
+            told = f"{option('store')} {str(store)!r} is complete; the same command makes what was not yet written"
+            print(f"rocking: {told}", file=sys.stderr)
+        raise
+
+
+def files_of(asked: Mapping[str, Any]) -> dict[str, Path]:
+    """The files asked for; refused where they cannot be written."""
+    check_apart({name: asked.get(name) for name in ("store", *FILES)})
+    return check_files({name: asked.get(name) for name in FILES})
+
+
+def write(
+    found: BasinMap | OverturningCurve, picture: str, files: Mapping[str, Path], block: Block | None
+) -> None:
+    """Write a picture and the dataset, with SI axes if there is a block."""
+    if "plot" in files:
+        from rocking import plot
+
+        plot.save(getattr(plot, picture)(found, block=block), files["plot"])
+    if "netcdf" in files:
+        write_dataset(with_block(found.dataset, block), files["netcdf"])
+
+
+def written(asked: Mapping[str, Any], files: Mapping[str, Path]) -> list[Path]:
+    """Where all that was found is."""
+    return [*([asked["store"]] if "store" in asked else []), *files.values()]
+
+
+def share_record(share: Share) -> dict[str, Any]:
+    """A share with its interval."""
+    return {name: getattr(share, name) for name in ("value", "low", "high", "count", "of", "unknown")}

@@ -1,0 +1,149 @@
+"""The basins that a command asks for: from options and a study file to what is shown."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import attrs
+
+from rocking.cli.input import study_file, survey_quantities
+from rocking.cli.input.axis import Axis
+from rocking.cli.input.options import question as system_of
+from rocking.cli.option_names import START, SYSTEM
+from rocking.cli.output.console import Row, print_json, print_table
+from rocking.cli.output.survey_run import FILES, MOST_ROWS, carried_out, share_record
+from rocking.cli.reports.motion import asked_of, physical_of, question_of
+from rocking.cli.reports.validity import warned, warnings
+from rocking.model import counted
+
+if TYPE_CHECKING:
+    from rocking.model import BasinMap, Block, System, UncertaintyExponent
+
+USUAL = 200
+"""Starts along an axis from -1 to 1, or from brace to brace."""
+
+
+def question(typed: Mapping[str, Any], file: Path | None) -> dict[str, Any]:
+    """What options and study file ask for; what is typed wins."""
+    return study_file.asked(typed, file, _checks())
+
+
+def _checks() -> dict[str, study_file.Check]:
+    """How each entry of a study file is read."""
+    from rocking.response import MOST_CYCLES, MOST_PERIOD
+    from rocking.survey import MOST_SAMPLES, MOST_SEED
+
+    limits = {
+        "samples": (1, MOST_SAMPLES),
+        "seed": (0, MOST_SEED),
+        "max_cycles": (1, MOST_CYCLES),
+        "max_period": (1, MOST_PERIOD),
+        "boundary_runs": (0, MOST_SAMPLES),
+    }
+    return {
+        **survey_quantities.fixed(*SYSTEM),
+        **survey_quantities.varying(*START),
+        **survey_quantities.counts(limits),
+        **survey_quantities.places("store", *FILES),
+    }
+
+
+def compute(given: Mapping[str, Any]) -> tuple[BasinMap, Block | None]:
+    """The basins, and the block if they are in SI."""
+    from rocking.survey import basin_map
+
+    asked = {name: each for name, each in given.items() if name not in FILES}
+    shaken = {name: asked.pop(name) for name in SYSTEM if name in asked}
+    system, _, block = system_of(shaken)
+    reach = 1.0 if system.braces is None else min(system.braces.angle, 1.0)
+    usual = {"angle": Axis(-reach, reach, USUAL), "velocity": Axis(-1.0, 1.0, USUAL)}
+    for name, axis in usual.items():
+        asked[name] = _starts(asked.get(name, axis), random="samples" in asked)
+    return carried_out(basin_map, {"system": system} | asked, block), block
+
+
+def _starts(asked: Any, *, random: bool) -> Any:
+    """The axis of a grid of starts, or the ends of it where starts are drawn at random."""
+    return (
+        [asked.start, asked.stop] if random and isinstance(asked, Axis) else survey_quantities.values(asked)
+    )
+
+
+def show(found: BasinMap, block: Block | None, files: list[Path], *, as_json: bool) -> None:
+    """Print the attractors, their shares and the exponents of the boundaries."""
+    doubts = warnings(block, found.system.forcing.amplitude, found.system.restitution)
+    if as_json:
+        told = {} if block is None else {"block": physical_of(found.system, block), "warnings": doubts}
+        print_json(record(found, files) | told)
+        return
+    responses = counted(len(found.attractors), "response")
+    starts = f"{found.fractions[0].of:,} starts"
+    if "sample" in found.dataset.dims:
+        starts += " at random between the ends of both ranges"
+    title = f"basins, {starts}: {responses} to be told apart"
+    print_table(title, [*asked_of(found.system, block), *rows(found)], files, warned(doubts))
+
+
+def rows(found: BasinMap) -> Iterator[Row]:
+    """A row an attractor, then the exponents."""
+    for each, share in list(zip(found.attractors, found.fractions, strict=True))[:MOST_ROWS]:
+        yield (
+            each.name,
+            str(share),
+            f"e.g. from Θ = {each.verdict.start.angle:.6g}, Θ' = {each.verdict.start.velocity:.6g}",
+        )
+    if len(found.attractors) > MOST_ROWS:
+        yield "and others", f"{len(found.attractors) - MOST_ROWS}", ""
+    names = {
+        "boundary of overturning": found.uncertainty_exponent,
+        "all boundaries": found.attractor_exponent,
+    }
+    for name, exponent in names.items():
+        if exponent is not None:
+            yield name, f"uncertainty exponent {exponent}", exponent.meaning
+    if tangency := tangled_from(found.system):
+        yield "boundary by theory", f"fractal above A* = {tangency:.6g}", "the saddles' manifolds cross"
+
+
+def tangled_from(system: System) -> float | None:
+    """A*, where theory proves that the boundary of overturning is fractal at this amplitude: A* < A < √(1 + Ω²); else None."""
+    from rocking.theory import heteroclinic_amplitude
+
+    forcing = system.forcing
+    if system.braces is not None or not 0.0 < system.restitution < 1.0:
+        return None
+    tangency = float(heteroclinic_amplitude(forcing.period, system.restitution))
+    return tangency if tangency < forcing.amplitude < math.hypot(1.0, forcing.frequency) else None
+
+
+def record(found: BasinMap, files: list[Path]) -> dict[str, Any]:
+    """The same for a program to read."""
+    return {
+        **question_of(found.system),
+        "starts": found.fractions[0].of,
+        "attractors": [
+            {
+                "name": each.name,
+                "kind": str(each.kind),
+                "fraction": share_record(share),
+                "response_period": each.verdict.period,
+                "impacts_per_period": each.verdict.impacts_per_period,
+                "symmetric": each.verdict.symmetric,
+                "start": attrs.asdict(each.verdict.start),
+            }
+            for each, share in zip(found.attractors, found.fractions, strict=True)
+        ],
+        "uncertainty_exponent": exponent_record(found.uncertainty_exponent),
+        "attractor_exponent": exponent_record(found.attractor_exponent),
+        "files": [str(path) for path in files],
+    }
+
+
+def exponent_record(exponent: UncertaintyExponent | None) -> dict[str, Any] | None:
+    """An exponent with its interval."""
+    if exponent is None:
+        return None
+    return {name: getattr(exponent, name) for name in ("value", "low", "high", "misfit", "meaning")}

@@ -1,0 +1,116 @@
+"""What a response is, on one screen or as JSON."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import attrs
+
+from rocking.cli.option_names import as_typed, options
+from rocking.cli.output.console import Row, print_json, print_table
+from rocking.cli.reports import validity
+from rocking.cli.reports.motion import asked, beyond, physical, question, reach
+from rocking.model import counted, plus_minus
+
+if TYPE_CHECKING:
+    from rocking.model import Block, Verdict
+
+
+BUDGET = options("max_cycles", "max_period")
+
+
+def show(verdict: Verdict, block: Block | None, file: Path | None, *, as_json: bool) -> None:
+    """Print the verdict on stdout, and where its picture is."""
+    if as_json:
+        print_json(record(verdict, block, file))
+        return
+    rows = [*asked(verdict, block), *found(verdict, block)]
+    more = list(beyond(verdict.start.angle, block))
+    if block is not None:
+        over, motion = validity.shown_by(verdict)
+        more += [over, *validity.lines(motion, block)]
+    print_table(as_typed(str(verdict), BUDGET), rows, [] if file is None else [file], more)
+
+
+def found(verdict: Verdict, block: Block | None) -> Iterator[Row]:
+    """Rows that answer the question; none for what does not apply."""
+    orbit, exponent = verdict.orbit, verdict.exponent
+    if orbit is not None:
+        time = orbit.period * verdict.system.forcing.period
+        seconds = "" if block is None else f"{block.seconds(time):.4g} s"
+        yield "period", f"{counted(orbit.period, 'cycle')}, τ = {time:.6g}", seconds
+        yield "impacts per period", _count(orbit.impacts), ""
+        if verdict.system.braces is not None:
+            yield "brace hits per period", _count(orbit.brace_hits), ""
+        yield "multipliers", _pair(*orbit.multipliers), ""
+    if exponent is not None:
+        yield "largest exponent", *_exponent(exponent, verdict.exponent_error, block)
+    peak = "largest |Θ| until the proof" if verdict.kind == "overturned" else "largest |Θ|"
+    yield peak, f"{verdict.peak:.6g}", reach(verdict.peak, block)
+    if verdict.steady_peak is not None:
+        yield "after the transient", f"{verdict.steady_peak:.6g}", reach(verdict.steady_peak, block)
+    if verdict.transient and verdict.kind != "overturned":
+        yield "transient", f"at most {counted(verdict.transient, 'cycle')}", ""
+    yield (
+        "followed",
+        f"{counted(verdict.cycles, 'cycle')}, {counted(verdict.impacts, 'event')} computed",
+        "",
+    )
+
+
+def record(verdict: Verdict, block: Block | None, file: Path | None) -> dict[str, Any]:
+    """The same for a program to read; multipliers are pairs [real, imaginary]."""
+    orbit = verdict.orbit
+    told = {
+        "kind": str(verdict.kind),
+        "evidence": attrs.asdict(verdict.evidence),
+        **question(verdict),
+        "response_period": verdict.period,
+        "impacts_per_period": verdict.impacts_per_period,
+        "brace_hits_per_period": verdict.brace_hits_per_period,
+        "symmetric": verdict.symmetric,
+        "multipliers": None if orbit is None else _parts(orbit.multipliers),
+        "exponent": verdict.exponent,
+        "exponent_error": verdict.exponent_error,
+        "superstable": verdict.superstable,
+        "peak": verdict.peak,
+        "steady_peak": verdict.steady_peak,
+        "transient": verdict.transient,
+        "cycles": verdict.cycles,
+        "events_computed": verdict.impacts,
+        "orbit": None
+        if orbit is None
+        else {"phase": orbit.phase, "residual": orbit.residual} | attrs.asdict(orbit.state),
+        "files": [] if file is None else [str(file)],
+    }
+    if block is None:
+        return told
+    over, motion = validity.shown_by(verdict)
+    record = validity.record(motion, block)
+    return told | {"block": physical(verdict, block), "judged": over, "validity": record}
+
+
+def _count(hits: int | None) -> str:
+    return "infinitely many, before rest or leaning" if hits is None else f"{hits}"
+
+
+def _parts(multipliers: tuple[complex, complex]) -> list[list[float]]:
+    return [[value.real, value.imag] for value in multipliers]
+
+
+def _pair(larger: complex, smaller: complex) -> str:
+    if larger.imag:
+        return f"{larger.real:.6g} ± {abs(larger.imag):.6g}i"
+    return f"{larger.real:.6g}, {smaller.real:.6g}"
+
+
+def _exponent(value: float, error: float | None, block: Block | None) -> tuple[str, str]:
+    """The exponent per τ, and per second."""
+    if value == -math.inf:
+        return "−∞ (forgets every small difference)", ""
+    shown = plus_minus(value, error) if error else f"{value:.6g}"
+    physical = "" if block is None else f"{value * block.frequency_parameter:.4g} per s"
+    return f"{shown} per τ", physical

@@ -1,0 +1,156 @@
+"""The modes of a system, on one screen or as JSON."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from attrs import frozen
+
+from rocking.cli.output.console import aligned, print_json, print_table
+from rocking.cli.reports.motion import asked_of, in_si, physical_of, reach
+from rocking.cli.reports.validity import warned, warnings
+from rocking.model import counted
+
+if TYPE_CHECKING:
+    from rocking.model import Block, Mode, System
+
+
+@frozen
+class Answer:
+    """The modes that there are, and the amplitudes that bound them."""
+
+    system: System
+    n: int
+    modes: list[Mode]
+    amplitudes: dict[str, float]
+
+    def __str__(self) -> str:
+        name, amplitude, begins = f"symmetric (1,{self.n}) mode", self.amplitude, self.amplitudes["existence"]
+        count = len(self.modes)
+        if count == 0 and amplitude == 0.0:
+            return f"no {name} at A = 0: without forcing there is none whose phase is determined"
+        if count == 0:
+            below = f"A = {amplitude:.6g} lies {begins - amplitude:.3g} below A_E = {begins:.6g}"
+            return f"no {name}: {below}, where they begin"
+        real = [mode for mode in self.modes if mode.admissible]
+        word = "neutral" if self.system.restitution == 1.0 else "stable"
+        found = [mode for mode in real if mode.stability == word]
+        return f"{counted(count, name)}, {len(real)} admissible, {len(found)} of them {word}"
+
+    @property
+    def amplitude(self) -> float:
+        """A of the forcing."""
+        return self.system.forcing.amplitude
+
+
+LABELS = {
+    "existence": "modes exist from A_E",
+    "symmetry_breaking": "stable up to A_SB",
+    "melnikov": "Melnikov's A_M",
+    "heteroclinic": "exact tangency A*",
+}
+
+
+def find(system: System, n: int) -> Answer:
+    """The closed forms of a system; errors as `theory` has them."""
+    from rocking import theory
+
+    forcing, e = system.forcing, system.restitution
+    modes = theory.symmetric_modes(forcing.amplitude, forcing.period, e, n)
+    values = {
+        "existence": theory.existence_amplitude(forcing.period, e, n),
+        "symmetry_breaking": theory.symmetry_breaking_amplitude(forcing.period, e, n),
+        "melnikov": theory.melnikov_amplitude(forcing.period, e),
+        "heteroclinic": theory.heteroclinic_amplitude(forcing.period, e),
+    }
+    return Answer(system, int(n), modes, values)
+
+
+def show(answer: Answer, block: Block | None, file: Path | None, *, as_json: bool) -> None:
+    """Print the modes on stdout, and where their picture is."""
+    if as_json:
+        print_json(record(answer, block, file))
+        return
+    rows = [*asked_of(answer.system, block), *bounds(answer, block)]
+    columns = ["", *aligned(list(zip(*table(answer.modes, block), strict=True)))] if answer.modes else []
+    more = [*columns, *warned(warnings(block, answer.amplitude, answer.system.restitution))]
+    print_table(str(answer), rows, [] if file is None else [file], more)
+
+
+def bounds(answer: Answer, block: Block | None) -> Iterator[tuple[str, str, str]]:
+    """Rows of the amplitudes that bound the modes, and of the two for crossing manifolds."""
+    for name, label in LABELS.items():
+        value = answer.amplitudes[name]
+        yield label, f"A = {value:.6g}", in_si("amplitude", value, block)
+
+
+def table(modes: list[Mode], block: Block | None) -> Iterator[tuple[str, ...]]:
+    """A column of names, then one a mode."""
+    yield (
+        "mode",
+        "speed V after impact",
+        "phase φ there",
+        "trace of half a cycle",
+        f"multipliers over {counted(modes[0].n, 'cycle')}",
+        "",
+        "largest |Θ|",
+        "stability",
+        "keeps its side",
+    )
+    for name, mode in zip(("faster", "slower"), modes, strict=False):
+        yield (
+            name,
+            f"{mode.velocity:.6g}{_degrees_per_second(mode.velocity, block)}",
+            f"{mode.phase:.6g} rad",
+            f"{mode.trace:.6g}",
+            *(_complex(value) for value in mode.multipliers),
+            "–" if mode.peak is None else f"{mode.peak:.6g}{_reach(mode.peak, block)}",
+            mode.stability,
+            "yes, admissible" if mode.admissible else "no, inadmissible",
+        )
+
+
+def record(answer: Answer, block: Block | None, file: Path | None) -> dict[str, Any]:
+    """The same for a program to read; multipliers are pairs [real, imaginary], infinite numbers null."""
+    forcing = answer.system.forcing
+    told: dict[str, Any] = {
+        "amplitude": forcing.amplitude,
+        "period": forcing.period,
+        "frequency": forcing.frequency,
+        "restitution": answer.system.restitution,
+        "n": answer.n,
+        **{f"{name}_amplitude": value for name, value in answer.amplitudes.items()},
+        "modes": [
+            {
+                "velocity": mode.velocity,
+                "phase": mode.phase,
+                "trace": mode.trace,
+                "multipliers": [[value.real, value.imag] for value in mode.multipliers],
+                "stability": mode.stability,
+                "stable": mode.stable,
+                "admissible": mode.admissible,
+                "peak": mode.peak,
+            }
+            for mode in answer.modes
+        ],
+        "files": [] if file is None else [str(file)],
+    }
+    if block is None:
+        return told
+    found = warnings(block, answer.amplitude, answer.system.restitution)
+    return told | {"block": physical_of(answer.system, block), "warnings": found}
+
+
+def _complex(value: complex) -> str:
+    return f"{value.real:.6g}" if value.imag == 0.0 else f"{value.real:.6g} {value.imag:+.6g}i"
+
+
+def _degrees_per_second(velocity: float, block: Block | None) -> str:
+    return "" if block is None else f" = {math.degrees(block.radians_per_second(velocity)):.4g}°/s"
+
+
+def _reach(angle: float, block: Block | None) -> str:
+    return "" if block is None else f" = {reach(angle, block)}"

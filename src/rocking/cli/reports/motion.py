@@ -1,0 +1,226 @@
+"""What a motion did, on one screen or as JSON."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import attrs
+import numpy as np
+
+from rocking.cli.output.console import WARNING, Row, print_json, print_table
+from rocking.cli.reports import validity
+from rocking.model import GRAVITY, PHYSICAL, Block, counted, ordinal
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from rocking.model import System, Verdict
+    from rocking.motion import Motion
+
+
+def show(motion: Motion, block: Block | None, files: Sequence[Path], *, as_json: bool) -> None:
+    """Print the summary on stdout, and where its files are."""
+    if as_json:
+        print_json(record(motion, block, files))
+        return
+    more = [*beyond(motion.start.angle, block), *validity.lines(motion, block)]
+    print_table(verdict(motion), [*asked(motion, block), *found(motion, block)], files, more)
+
+
+def verdict(motion: Motion) -> str:
+    """The outcome in a sentence."""
+    overturning = motion.overturning
+    if overturning is not None:
+        cycle = ordinal(overturning.cycle + 1)
+        return f"overturned: proved at τ = {overturning.time:.6g}, in the {cycle} cycle, never to return"
+    if motion.outcome == "at-rest":
+        return "at rest, and stays so"
+    return f"bounded over {counted(motion.cycles, 'cycle')} (neither rest nor overturning was proved)"
+
+
+def asked(result: Motion | Verdict, block: Block | None) -> Iterator[Row]:
+    """Rows that repeat the question, normalised and in SI."""
+    yield from asked_of(result.system, block)
+    yield (
+        "start",
+        f"Θ = {result.start.angle:.6g}, Θ' = {result.start.velocity:.6g}",
+        _state(result.start, block),
+    )
+
+
+def asked_of(system: System, block: Block | None) -> Iterator[Row]:
+    """The rows of the system alone."""
+    forcing, restitution, braces = system.forcing, system.restitution, system.braces
+    if block is None:
+        yield "forcing", f"A = {forcing.amplitude:.6g}, T = {forcing.period:.6g}, φ = {forcing.phase:.6g}", ""
+        yield "restitution", f"e = {restitution:.6g}", ""
+    else:
+        yield "", "normalised", "in SI"
+        yield "critical angle", "1", f"{block.degrees(1.0):.4g}°"
+        yield "time unit 1/α", "1", f"{block.seconds(1.0):.4g} s"
+        yield "amplitude", f"A = {forcing.amplitude:.6g}", in_si("amplitude", forcing.amplitude, block)
+        yield "period", f"T = {forcing.period:.6g}", in_si("period", forcing.period, block)
+        yield "phase", f"φ = {forcing.phase:.6g}", f"{math.degrees(forcing.phase):.4g}°"
+        chosen = "Housner's for this block" if block.has_housner_restitution else "as chosen"
+        yield "restitution", f"e = {restitution:.6g}", chosen
+    if braces is not None:
+        at = "" if block is None else f"{block.degrees(braces.angle):.4g}°"
+        yield "braces", f"Θb = {braces.angle:.6g}, r = {braces.restitution:.6g}", at
+
+
+def in_si(name: str, values: Any, block: Block | None) -> str:
+    """What a block makes of a quantity, or of the ends of a range of it; of an acceleration in m/s² and in g."""
+    if block is None or name not in SHOWN:
+        return ""
+    turn, unit = SHOWN[name]
+    shown = f"{_range(turn(block, values))}{unit}"
+    return f"{shown} = {_range(block.acceleration(values) / GRAVITY)} g" if name == "amplitude" else shown
+
+
+def _range(values: Any) -> str:
+    return " to ".join(f"{value:.4g}" for value in np.atleast_1d(values))
+
+
+def _degrees_per_second(block: Block, velocities: Any) -> Any:
+    return np.degrees(block.radians_per_second(velocities))
+
+
+SHOWN: dict[str, tuple[Callable[[Block, Any], Any], str]] = {
+    "amplitude": (Block.acceleration, " m/s²"),
+    "period": (Block.seconds, " s"),
+    "frequency": (Block.hertz, " Hz"),
+    "angle": (Block.degrees, "°"),
+    "velocity": (_degrees_per_second, "°/s"),
+    "brace_angle": (Block.degrees, "°"),
+}
+"""What a block makes of each, and in which unit it is read."""
+
+
+def beyond(angle: float, block: Block | None) -> Iterator[str]:
+    """A hint where the block starts beyond the angle at which it falls by itself: degrees may have been meant."""
+    if abs(angle) <= 1.0:
+        return
+    meant = "" if block is None else f"; {angle:.6g}° is --angle {block.angle(degrees=angle):.4g}"
+    at = "" if block is None else f" = {block.degrees(angle):.4g}°"
+    yield (
+        f"{WARNING}--angle {angle:.6g} is {angle:.6g} θcr{at}, beyond the critical angle θcr, from which the block falls by its own "
+        f"weight: it is in units of θcr, not in degrees{meant}"
+    )
+
+
+def found(motion: Motion, block: Block | None) -> Iterator[Row]:
+    """Rows that answer it."""
+    time = "" if block is None else f"{block.seconds(motion.duration):.4g} s"
+    yield "run", f"{counted(motion.cycles, 'cycle')}, τ = {motion.duration:.6g}", time
+    yield "impacts", f"{motion.impacts}{_cut(motion, 'rest')}", ""
+    if motion.system.braces is not None:
+        yield "brace hits", f"{motion.brace_hits}{_cut(motion, 'leaning')}", ""
+    proved = motion.overturning is not None
+    yield (
+        "largest |Θ| until the proof" if proved else "largest |Θ|",
+        f"{motion.peak:.6g}",
+        reach(motion.peak, block),
+    )
+    yield (
+        "state at the proof" if proved else "end",
+        f"Θ = {motion.final.angle:.6g}, Θ' = {motion.final.velocity:.6g}",
+        _state(motion.final, block),
+    )
+
+
+def reach(angle: float, block: Block | None) -> str:
+    """An angle of a block in degrees, and how far its top is out."""
+    return "" if block is None else f"{block.degrees(angle):.4g}°, top {block.top_displacement(angle):.4g} m"
+
+
+def _cut(motion: Motion, end: str) -> str:
+    """What a count leaves out."""
+    return "" if motion.record == "all" else f" (any that accumulate are cut short at {end})"
+
+
+def _state(state: Any, block: Block | None) -> str:
+    if block is None:
+        return ""
+    return f"{in_si('angle', state.angle, block)}, {in_si('velocity', state.velocity, block)}"
+
+
+def record(motion: Motion, block: Block | None, files: Sequence[Path]) -> dict[str, Any]:
+    """The same for a program to read."""
+    summary: dict[str, Any] = {
+        "outcome": str(motion.outcome),
+        "overturning": None if motion.overturning is None else attrs.asdict(motion.overturning),
+        **question(motion),
+        "cycles": motion.cycles,
+        "duration": motion.duration,
+        "impacts": motion.impacts,
+        "brace_hits": motion.brace_hits,
+        "impacts_cut_short": motion.record != "all",
+        "peak": motion.peak,
+        "final": attrs.asdict(motion.final),
+        "files": [str(path) for path in files],
+    }
+    if block is not None:
+        summary["block"] = physical(motion, block)
+        summary["validity"] = validity.record(motion, block)
+    return summary
+
+
+def question(result: Motion | Verdict) -> dict[str, Any]:
+    """The system and the start, for a program."""
+    return question_of(result.system) | {"start": attrs.asdict(result.start)}
+
+
+def question_of(system: System) -> dict[str, Any]:
+    """The system alone."""
+    forcing, braces = system.forcing, system.braces
+    return {
+        "amplitude": forcing.amplitude,
+        "period": forcing.period,
+        "frequency": forcing.frequency,
+        "phase": forcing.phase,
+        "restitution": system.restitution,
+        "braces": None if braces is None else attrs.asdict(braces),
+    }
+
+
+def physical(result: Motion | Verdict, block: Block) -> dict[str, Any]:
+    """The block, its base and its largest angle in SI, for a program."""
+    return physical_of(result.system, block) | {
+        "peak_deg": float(block.degrees(result.peak)),
+        "peak_top_displacement_m": float(block.top_displacement(result.peak)),
+    }
+
+
+def size_of(block: Block) -> dict[str, float]:
+    """The block alone."""
+    return {
+        "height_m": block.height,
+        "width_m": block.width,
+        "critical_angle_deg": float(block.degrees(1.0)),
+        "time_unit_s": block.seconds(1.0),
+    }
+
+
+def asked_in_si(data: xr.Dataset, block: Block) -> dict[str, Any]:
+    """The block, and what its survey varies or keeps, in SI."""
+    asked: dict[str, Any] = {}
+    for name, each in PHYSICAL.items():
+        if name in data.coords:
+            start, stop = each.turn(block, data[name].values[[0, -1]]).tolist()
+            asked[each.key] = {"start": start, "stop": stop, "count": data.sizes[name]}
+        elif name in data.attrs:
+            asked[each.key] = float(each.turn(block, data.attrs[name]))
+    return size_of(block) | asked
+
+
+def physical_of(system: System, block: Block) -> dict[str, Any]:
+    """The block and its base alone."""
+    forcing = system.forcing
+    return size_of(block) | {
+        "acceleration_m_per_s2": block.acceleration(forcing.amplitude),
+        "period_s": block.seconds(forcing.period),
+        "restitution_is_housners": block.has_housner_restitution,
+    }

@@ -1,0 +1,204 @@
+"""The lowest overturning amplitudes that a command asks for: from options and a study file to what is shown."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from rocking.cli.input import study_file, survey_quantities
+from rocking.cli.input.axis import FORM, Axis
+from rocking.cli.input.options import kinds, require
+from rocking.cli.option_names import SI, YourInput, option
+from rocking.cli.output import survey_run
+from rocking.cli.output.console import Row, print_json, print_table
+from rocking.cli.output.survey_run import FILES, MOST_ROWS, carried_out
+from rocking.cli.reports.motion import asked_in_si, in_si
+from rocking.cli.reports.validity import warned, warnings
+from rocking.model import GRAVITY, PHYSICAL, OverturningCurve
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from rocking.model import Block
+
+SCANNED_SI = tuple(name for name in SI if name != "displacement")
+"""One displacement is another acceleration at each frequency."""
+ASKED = ("period", "frequency", "restitution", "amplitude")
+LEVELS = ("lowest", "resolution", "survived_up_to")
+"""What is an amplitude of the answer."""
+
+
+def question(typed: Mapping[str, Any], file: Path | None) -> dict[str, Any]:
+    """What options and study file ask for; what is typed wins."""
+    given = study_file.asked(typed, file, _checks())
+    _, physical = kinds(given)
+    if physical:
+        needs = "--height, --width and --frequency-hz (or --period-s)"
+        require(given, (("height",), ("width",), SI[5:]), needs)
+    else:
+        needs = "--period (or --frequency) and --restitution"
+        require(given, (("period", "frequency"), ("restitution",)), needs)
+    varied = [
+        name
+        for name, each in given.items()
+        if name in (*ASKED, *SCANNED_SI)
+        and name not in ("amplitude", "acceleration", "acceleration_g")
+        and not isinstance(each, int | float)
+    ]
+    if "plot" in given and len(varied) > 1:
+        raise YourInput(f"--plot draws over one axis; got {' and '.join(map(option, varied))}")
+    return given
+
+
+def _checks() -> dict[str, study_file.Check]:
+    """How each entry of a study file is read."""
+    from rocking.response import MOST_CYCLES, MOST_PERIOD
+    from rocking.survey import MOST_PHASES
+
+    limits = {"phases": (1, MOST_PHASES), "max_cycles": (1, MOST_CYCLES), "max_period": (1, MOST_PERIOD)}
+    return {
+        **survey_quantities.varying(*ASKED, *SCANNED_SI),
+        **survey_quantities.counts(limits),
+        **survey_quantities.places("store", *FILES),
+    }
+
+
+def compute(given: Mapping[str, Any]) -> tuple[OverturningCurve, Block | None]:
+    """The curve, and the block if it is in SI."""
+    from rocking.survey import overturning_amplitude
+
+    shaken = {name: each for name, each in given.items() if name in (*ASKED, *SCANNED_SI)}
+    others = {name: each for name, each in given.items() if name not in (*shaken, *FILES)}
+    if shaken.keys() & set(SCANNED_SI):
+        asked = _normalised(shaken)
+    else:
+        asked = {name: survey_quantities.values(each) for name, each in shaken.items()}
+    block = survey_quantities.block_of(given)
+    return carried_out(overturning_amplitude, asked | others, block), block
+
+
+def _normalised(given: Mapping[str, Any]) -> dict[str, Any]:
+    """What is asked in SI; of accelerations nothing unless they are given."""
+    levels = [name for name in ("acceleration", "acceleration_g") if name in given]
+    for name in levels:
+        if not isinstance(given[name], Axis):
+            raise YourInput(f"{option(name)} must be an axis, {FORM}, of what is scanned; got {given[name]}")
+    asked = survey_quantities.normalised(given if levels else {**given, "acceleration": 0.0})
+    return {name: asked[name] for name in ASKED if name in asked and (levels or name != "amplitude")}
+
+
+def write(found: OverturningCurve, files: Mapping[str, Path], block: Block | None) -> None:
+    """Write the picture and the dataset, of a block with the levels in SI as well."""
+    data = found.dataset
+    if block is not None:
+        levels = {_key(name): block.acceleration(data[name].values) for name in LEVELS}
+        told = {"units": PHYSICAL["amplitude"].cf}
+        data = data.assign({name: (data.lowest.dims, each, told) for name, each in levels.items()})
+    survey_run.write(OverturningCurve(data), "overturning", files, block)
+
+
+def _key(level: str) -> str:
+    return f"{level}_{PHYSICAL['amplitude'].key}"
+
+
+def show(found: OverturningCurve, block: Block | None, files: list[Path], *, as_json: bool) -> None:
+    """Print the lowest overturning amplitudes."""
+    doubts = _warnings(found, block)
+    if as_json:
+        told = {} if block is None else {"block": asked_in_si(found.dataset, block), "warnings": doubts}
+        print_json(record(found, block, files) | told)
+        return
+    print_table(title(found, block), rows(found, block), files, warned(doubts))
+
+
+def title(found: OverturningCurve, block: Block | None) -> str:
+    """The least of all, of a block first in SI."""
+    lowest = found.dataset.lowest
+    if block is None:
+        return str(found)
+    if lowest.isnull().all():
+        return f"{found}: {in_si('amplitude', found.dataset.amplitude.values[[0, -1]], block)}"
+    where = lowest.isel({} if lowest.ndim == 0 else lowest.argmin(...))
+    at = [in_si(str(name), float(where[name]), block) for name in lowest.dims]
+    told = " and ".join([in_si("amplitude", float(where), block), *filter(None, at)])
+    return f"a block of {block.size} overturns from rest at {told}; normalised: {found}"
+
+
+def _warnings(found: OverturningCurve, block: Block | None) -> list[str]:
+    data = found.dataset
+    lowest = data.lowest.values[data.lowest.notnull().values]
+    restitution = data.restitution.values if "restitution" in data.coords else data.attrs["restitution"]
+    return warnings(block, lowest, restitution)
+
+
+COLUMNS = (*LEVELS, "surviving_above")
+
+
+def rows(found: OverturningCurve, block: Block | None) -> Iterator[Row]:
+    """A row a value of what varies, then the same in SI."""
+    data = found.dataset
+    over = [str(name) for name in data.lowest.dims]
+    known = [] if block is None else [name for name in over if name in PHYSICAL]
+    heading = (*over, "lowest A", "scanned at steps of", "all survive up to", "survive above")
+    in_units = () if block is None else ("m/s²", "g", "steps, m/s²", "up to, m/s²")
+    yield (*heading, *(PHYSICAL[name].unit for name in known), *in_units)
+    for index in list(_places(data))[:MOST_ROWS]:
+        at = {name: data[name].values[k] for name, k in zip(over, index, strict=True)}
+        low, step, up_to, above = (float(data[name].values[index]) for name in COLUMNS)
+        told = [
+            *(f"{value:.6g}" for value in at.values()),
+            "none" if math.isnan(low) else f"{low:.6g}",
+            _number(step),
+            _number(up_to),
+            "–" if math.isnan(above) else f"{100 * above:.3g} %",
+        ]
+        if block is not None:
+            told += [f"{PHYSICAL[name].turn(block, at[name]):.4g}" for name in known]
+            levels = [block.acceleration(level) for level in (low, step, up_to)]
+            told += [_number(level, 4) for level in (levels[0], levels[0] / GRAVITY, *levels[1:])]
+        yield tuple(told)
+    left = data.lowest.size - MOST_ROWS
+    if left > 0:
+        rest = len(heading) + len(known) + len(in_units) - 1
+        yield (f"and {left} more (--json, --netcdf and --plot have all)", *[""] * rest)
+
+
+def record(found: OverturningCurve, block: Block | None, files: list[Path]) -> dict[str, Any]:
+    """The same for a program to read."""
+    data = found.dataset
+    over = [str(name) for name in data.lowest.dims]
+    amplitudes = data.amplitude.values
+    rows = [
+        {name: float(data[name].values[k]) for name, k in zip(over, index, strict=True)}
+        | {name: float(data[name].values[index]) for name in (*COLUMNS, "lowest_phase", "undetermined")}
+        for index in _places(data)
+    ]
+    if block is not None:
+        for row in rows:
+            row |= {
+                PHYSICAL[name].key: float(PHYSICAL[name].turn(block, row[name]))
+                for name in over
+                if name in PHYSICAL
+            }
+            row |= {_key(name): float(block.acceleration(row[name])) for name in LEVELS}
+    fixed = {name: data.attrs[name] for name in ("period", "frequency", "restitution") if name in data.attrs}
+    scanned = {"start": float(amplitudes[0]), "stop": float(amplitudes[-1]), "count": int(amplitudes.size)}
+    return {
+        **fixed,
+        "amplitude": scanned,
+        "phases": int(data.phase.size),
+        "curve": rows,
+        "files": [str(path) for path in files],
+    }
+
+
+def _places(data: xr.Dataset) -> Iterator[tuple[int, ...]]:
+    import numpy as np
+
+    yield from np.ndindex(*data.lowest.shape)
+
+
+def _number(number: float, digits: int = 6) -> str:
+    return "–" if math.isnan(number) else f"{number:.{digits}g}"

@@ -1,0 +1,147 @@
+"""Cases worth seeing: the paper's, and what lies beyond it. THEORY tells them; each opens with one click."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import attrs
+from attrs import field, frozen
+
+from rocking.explorer.view_state import DEFAULT, Shown, Span
+
+
+@frozen
+class Case:
+    """A case by its name, with one line on what there is to see."""
+
+    name: str
+    group: str
+    title: str
+    line: str
+    fields: dict[str, Any] = field(factory=dict)
+
+    @property
+    def shown(self) -> Shown:
+        """What it shows."""
+        return attrs.evolve(DEFAULT, **self.fields)
+
+
+PAPER, BEYOND = "Yim & Lin 1991", "Beyond the paper"
+
+
+def _system(amplitude: float, period: float, restitution: float, **more: Any) -> dict[str, Any]:
+    return {"amplitude": amplitude, "period": period, "restitution": restitution, **more}
+
+
+CASES = (
+    Case(
+        "figure-2a",
+        PAPER,
+        "2a, 3a: mode (1,1)",
+        "Symmetric, two impacts a cycle.",
+        _system(2.0, 1.0, 0.925, first=200, cycles=10),
+    ),
+    Case(
+        "figure-2b",
+        PAPER,
+        "2b, 3b: mode (1,3)",
+        "Symmetric, repeats after three cycles.",
+        _system(6.5, 0.4, 0.925, first=600, cycles=24),
+    ),
+    Case(
+        "figure-2c",
+        PAPER,
+        "2c, 3c: mode (2,10)",
+        "Unsymmetric, four impacts in ten cycles.",
+        _system(5.5, 0.5, 0.925, velocity=0.15, phase=1.8, first=600, cycles=30),
+    ),
+    Case(
+        "figure-4",
+        PAPER,
+        "4: overturning",
+        "Falls in the sixth cycle, after four impacts.",
+        _system(1.75, 2.0, 0.95, cycles=20),
+    ),
+    Case(
+        "figure-5",
+        PAPER,
+        "5: quasi-periodic",
+        "Three islands around the (1,3) mode.",
+        _system(4.0, 0.4, 1.0, cycles=60),
+    ),
+    Case(
+        "figure-6",
+        PAPER,
+        "6: chaotic, e = 1",
+        "Nothing is lost: a sticky sea, no attractor.",
+        _system(2.0, 0.4, 1.0, cycles=60),
+    ),
+    Case(
+        "figure-11",
+        PAPER,
+        "11: the map, e = .925",
+        "With the curves of the theory.",
+        _system(2.0, 1.0, 0.925, curves=("symmetry-breaking-1", "symmetry-breaking-3", "melnikov")),
+    ),
+    Case(
+        "figure-13a",
+        PAPER,
+        "13a: between braces",
+        "Chaotic: braces at Θ = 1 that lose nothing.",
+        _system(
+            15.0,
+            2.0,
+            0.925,
+            brace_angle=1.0,
+            first=100,
+            cycles=30,
+            angles=Span(-1.0, 1.0),
+            velocities=Span(-3.0, 3.0),
+        ),
+    ),
+    Case(
+        "coexisting",
+        BEYOND,
+        "Coexisting attractors",
+        "Period 1 and period 3 share the starts; the rest falls.",
+        _system(3.5, 1.0, 0.8, angles=Span(-1.0, 1.0), velocities=Span(-1.0, 1.0)),
+    ),
+    Case(
+        "fractal",
+        BEYOND,
+        "A fractal boundary",
+        "Above A* the boundary of overturning has no end of detail.",
+        _system(
+            5.0,
+            1.0,
+            0.8,
+            curves=("melnikov", "heteroclinic"),
+            angles=Span(-1.2, 1.2),
+            velocities=Span(-1.2, 1.2),
+            amplitudes=Span(2.0, 10.0),
+            periods=Span(0.6, 1.4),
+        ),
+    ),
+    Case(
+        "cascade",
+        BEYOND,
+        "Doublings to chaos",
+        "The diagram over A: 1, 2, 4, … and a period-3 branch beside it.",
+        _system(10.103037, 1.721328, 0.8, first=200, amplitudes=Span(9.8, 10.9), periods=Span(1.6, 1.85)),
+    ),
+    Case(
+        "chaos-more-loss",
+        BEYOND,
+        "Chaos at e = .3",
+        "Where much is lost chaos is commoner than where little is.",
+        _system(7.0, 1.15, 0.3, first=200),
+    ),
+    Case(
+        "crisis",
+        BEYOND,
+        "A crisis at e = .99",
+        "At A = 4.86 chaos ends, often after 10⁴ cycles or more; at 4.88 no end was seen.",
+        _system(4.88, 0.33, 0.99, amplitudes=Span(4.7, 5.0), periods=Span(0.3, 0.36)),
+    ),
+)
+BY_NAME = {case.name: case for case in CASES}

@@ -1,0 +1,248 @@
+"""The figures of one visitor, and how they are filled: at once with what a click asks for, then finer and finer."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Callable
+from functools import partial
+from typing import Any
+
+import numpy as np
+from bokeh.document import Document
+
+from rocking.explorer import bokeh_figures, figure_data, plane_axes, texts
+from rocking.explorer.form_fields import PERIODS
+from rocking.explorer.page_channel import Link
+from rocking.explorer.progressive_map import FIRST, Picture, Plane, Refinement
+from rocking.explorer.view_state import POINTS, Shown, Span
+from rocking.explorer.worker_pools import Jobs, Workers
+from rocking.model import LARGEST_AMPLITUDE, LARGEST_START, Kind, Verdict
+
+BASIN_POINTS = 257
+FIRST_HITS = 3e3
+"""Impacts and brace hits that a point of a first picture may take."""
+GROWTH = (1_000, 2_000, 7_000, 20_000, 30_000, 40_000)
+"""Cycles that a section grows by, one step after another: 10⁵ in all."""
+BREATH = 0.2
+"""Seconds between two steps of it, so that it is seen to grow, and before a basin is refined."""
+MAP_FIRST = 1.0
+"""Seconds at most for which a basin leaves all cores to a map that refines."""
+MAP_LIMITS = Span(*PERIODS), Span(0.0, LARGEST_AMPLITUDE)
+BASIN_LIMITS = Span(-LARGEST_START, LARGEST_START), Span(-LARGEST_START, LARGEST_START)
+BASIN_LABELS = "angle at the start Θ₀", "velocity at the start Θ′₀"
+VARIED = {"amplitude": "amplitude A", "period": "period T"}
+
+
+def _first(shown: Shown) -> int:
+    """Cycles a point of a first picture: all its points take no more than a click may wait for, if they are like this one."""
+    return figure_data.affordable(shown, FIRST, FIRST_HITS)
+
+
+class Painter:
+    """All figures of a document, and the jobs that fill them. What is no longer shown is not drawn."""
+
+    def __init__(self, document: Document, link: Link, workers: Workers) -> None:
+        self.document, self.link, self.workers = document, link, workers
+        self.jobs = Jobs()
+        self.map, self.basin, self.diagram = (
+            bokeh_figures.plane_of_systems(),
+            bokeh_figures.plane_of_starts(),
+            bokeh_figures.diagram(),
+        )
+        self.corner = self.basin_corner = plane_axes.Corner(0.0, 0.0)
+
+    def attach(self) -> None:
+        """Put the figures into the document; it hears only of events that were listened to before."""
+        others = (
+            bokeh_figures.history(),
+            bokeh_figures.portrait(),
+            bokeh_figures.section(),
+            bokeh_figures.spectrum(),
+        )
+        with self.document.models.freeze():  # else it goes through all of them once a root
+            for root in (self.map, self.basin, self.diagram, *others, self.link):
+                self.document.add_root(root)
+
+    # what stands still
+
+    def place_map(self, shown: Shown) -> None:
+        """Move the map to where it is looked at."""
+        self.corner = plane_axes.corner_of(shown.periods, shown.amplitudes)
+        plane_axes.place(self.map, self.corner, shown.periods, shown.amplitudes, MAP_LIMITS)
+        plane_axes.label(self.map, self.corner, ("period T", "amplitude A"))
+        plane_axes.metres(self.map, self.corner, shown, shown.block)
+
+    def place_basin(self, shown: Shown) -> None:
+        """Move the basin to where it is looked at."""
+        self.basin_corner = plane_axes.corner_of(shown.angles, shown.velocities)
+        plane_axes.place(self.basin, self.basin_corner, shown.angles, shown.velocities, BASIN_LIMITS)
+        plane_axes.label(self.basin, self.basin_corner, BASIN_LABELS)
+
+    def mark(self, shown: Shown) -> None:
+        """Ring what is selected, and draw the curves asked for."""
+        system = plane_axes.point(self.corner, shown.period, shown.amplitude)
+        self.link.draw(
+            map={"point": system, "curves": plane_axes.curves(shown, self.corner)},
+            basin={"point": plane_axes.point(self.basin_corner, shown.angle, shown.velocity)},
+            diagram={"here": getattr(shown, shown.vary)},
+        )
+
+    async def _draw(self, change: Callable[[], None]) -> None:
+        """Change the document in its own time, with its lock held."""
+        done = asyncio.get_running_loop().create_future()
+
+        def act() -> None:
+            if self._alone():
+                self.jobs.end_all()
+            if done.cancelled():
+                return
+            try:
+                change()
+            except Exception as error:  # noqa: BLE001 (it is raised where it is waited for)
+                done.set_exception(error)
+            else:
+                done.set_result(None)
+
+        self.document.add_next_tick_callback(act)
+        await done
+
+    def _alone(self) -> bool:
+        """Whether the visitor's connection is closed: the session lives on for a while, in case he comes back."""
+        session = getattr(self.document.session_context, "session", None)
+        return session is not None and session.connection_count == 0
+
+    # the map
+
+    async def refine_map(self, shown: Shown, stop: np.ndarray) -> None:
+        """The map, from coarse to fine."""
+        plane = Plane(
+            ("period", shown.periods),
+            ("amplitude", shown.amplitudes),
+            shown.fixed,
+            POINTS,
+            first=await self.workers.soon(partial(_first, shown)),
+        )
+        refinement = Refinement(plane, self.workers, stop)
+        picture = await self.workers.soon(refinement.coarse)
+        await self._draw(partial(self._draw_map, shown, picture))
+        async for finer in refinement.finer():
+            await self._draw(partial(self._draw_map, shown, finer))
+
+    def _draw_map(self, shown: Shown, picture: Picture) -> None:
+        drawn = {"image": plane_axes.image(picture, self.corner, shown.periods, shown.amplitudes)}
+        if picture.settled == picture.of:
+            drawn["answers"] = plane_axes.answers(picture)
+        self.link.draw(map=drawn)
+        self.link.tell("legend", {"legend": texts.legend(picture.counts().sum(axis=0))})
+        self.link.tell("progress", texts.progress(picture))
+
+    # one system
+
+    async def respond(self, shown: Shown, stop: np.ndarray) -> None:
+        """All pictures of one system at once; then what refines."""
+        section = figure_data.Section(shown)
+        found, spectrum, _, (basin, picture) = await asyncio.gather(
+            self.workers.soon(partial(figure_data.response, shown)),
+            self.workers.soon(partial(figure_data.spectrum, shown)),
+            self.workers.soon(partial(section.grow, GROWTH[0])),
+            self.workers.soon(partial(self._first_basin, shown, stop)),
+        )
+        period = found.verdict.period
+        drawn = await self.workers.soon(partial(section.drawn, period))
+
+        def change() -> None:
+            self.link.draw(
+                history={"ranges": found.spans["history"], "line": found.history},
+                portrait={"ranges": found.spans["portrait"], "line": found.portrait, "hits": found.hits},
+                spectrum={"ranges": spectrum.ranges, "line": spectrum.line, "names": spectrum.names},
+                section=_section(drawn, section),
+                basin=self._basin(shown, picture),
+            )
+            self._tell_attractors(picture)
+            self._tell_verdict(shown, found.verdict, spectrum.why)
+
+        await self._draw(change)
+        self.jobs.start("section", partial(self._grow, section, period))
+        self.jobs.start("basin", partial(self._finish_basin, shown, basin))
+        if found.verdict.kind is Kind.UNDETERMINED and not figure_data.crowded(shown):
+            self.jobs.start("judge", partial(self._judge_longer, shown, spectrum.why))
+
+    def _tell_verdict(self, shown: Shown, verdict: Verdict, why: str) -> None:
+        words = texts.verdict(verdict, shown.block)
+        self.link.tell("verdict", words | {"spectrum": why})
+
+    def _draw_section(self, drawn: figure_data.Drawn, grown: figure_data.Section) -> None:
+        self.link.draw(section=_section(drawn, grown))
+
+    async def _grow(self, section: figure_data.Section, period: int | None, stop: np.ndarray) -> None:
+        for cycles in GROWTH[1:]:
+            if section.ended or stop[0]:
+                return
+            await asyncio.sleep(BREATH)
+            await self.workers.later(partial(section.grow, cycles))
+            drawn = await self.workers.later(partial(section.drawn, period))
+            await self._draw(partial(self._draw_section, drawn, section))
+
+    async def _judge_longer(self, shown: Shown, why: str, stop: np.ndarray) -> None:
+        found = await self.workers.later(partial(figure_data.judge_longer, shown))
+        await self._draw(partial(self._tell_verdict, shown, found, why))
+
+    # the basin
+
+    def _first_basin(self, shown: Shown, stop: np.ndarray) -> tuple[Refinement, Picture]:
+        """The basin, to be refined, with its first picture."""
+        fixed = shown.fixed | {"amplitude": shown.amplitude, "period": shown.period}
+        del fixed["angle"], fixed["velocity"]
+        reach = np.inf if shown.brace_angle is None else shown.brace_angle
+        if figure_data.crowded(shown):
+            reach = -1.0  # no start can be afforded
+        plane = Plane(
+            ("angle", shown.angles),
+            ("velocity", shown.velocities),
+            fixed,
+            BASIN_POINTS,
+            reach,
+            _first(shown),
+            apart=shown.restitution < 1.0,  # else nothing attracts
+        )
+        basin = Refinement(plane, self.workers, stop)
+        return basin, basin.coarse()
+
+    async def refine_basin(self, shown: Shown, stop: np.ndarray) -> None:
+        """The basin alone, from coarse to fine."""
+        basin, picture = await self.workers.soon(partial(self._first_basin, shown, stop))
+        await self._draw(partial(self._draw_basin, shown, picture))
+        await self._finish_basin(shown, basin, stop)
+
+    async def _finish_basin(self, shown: Shown, basin: Refinement, stop: np.ndarray) -> None:
+        basin.stop = stop
+        await asyncio.sleep(BREATH)  # what there is is painted before all cores are taken
+        await self.jobs.over("map", MAP_FIRST)
+        async for picture in basin.finer():
+            await self._draw(partial(self._draw_basin, shown, picture))
+
+    def _basin(self, shown: Shown, picture: Picture) -> dict[str, Any]:
+        return {"image": plane_axes.image(picture, self.basin_corner, shown.angles, shown.velocities)}
+
+    def _draw_basin(self, shown: Shown, picture: Picture) -> None:
+        self.link.draw(basin=self._basin(shown, picture))
+        self._tell_attractors(picture)
+
+    def _tell_attractors(self, picture: Picture) -> None:
+        self.link.tell("basin", {"legend": texts.attractors(picture.counts())})
+
+    # the diagram
+
+    async def draw_diagram(self, shown: Shown, stop: np.ndarray) -> None:
+        """The orbit diagram along the map's axis; what a click asks for comes first."""
+        await self.jobs.over("response")
+        columns, ranges = await self.workers.later(partial(figure_data.diagram, shown, stop))
+        drawn = {"ranges": ranges, "label": VARIED[shown.vary], "points": columns}
+        await self._draw(partial(self.link.draw, diagram=drawn))
+
+
+def _section(drawn: figure_data.Drawn, grown: figure_data.Section) -> dict[str, Any]:
+    ended = f", then {grown.ended.replace('-', ' ')}" if grown.ended else ""
+    label = f"angle Θ ({len(grown.points):,} cycles{ended})"
+    columns = {"points": drawn.points, "dense": drawn.dense, "orbit": drawn.orbit}
+    return {"ranges": drawn.ranges, "label": label, **columns}

@@ -1,0 +1,134 @@
+"""One visitor: what he looks at, what he asks for next, and what has to be computed anew for that."""
+
+from __future__ import annotations
+
+import json
+from functools import partial
+from typing import Any
+
+import attrs
+from bokeh.document import Document
+from bokeh.events import Tap
+
+from rocking.explorer import plane_axes, presets, texts
+from rocking.explorer.form_fields import Refused, address, changed, from_address, in_metres, written
+from rocking.explorer.page_channel import STRANGE, Link, message
+from rocking.explorer.renderer import Painter
+from rocking.explorer.view_state import DEFAULT, Shown, Span, closest, nearby
+from rocking.explorer.worker_pools import Workers
+
+SHAKEN = ("restitution", "phase", "angle", "velocity", "brace_angle", "brace_restitution")
+SYSTEM = ("amplitude", "period", *SHAKEN)
+
+
+class Visit:
+    """A document, and what is shown in it."""
+
+    def __init__(self, document: Document, workers: Workers) -> None:
+        self.link = Link(name="link")
+        self.painter = Painter(document, self.link, workers)
+        self.shown, self.opened = DEFAULT, False
+        self.link.on_change("asked", lambda _name, _before, text: self.hear(text))
+        self.painter.map.on_event(Tap, self._tapped_map)
+        self.painter.basin.on_event(Tap, self._tapped_basin)
+        self.painter.diagram.on_event(Tap, self._tapped_diagram)
+        self.painter.attach()
+        document.on_session_destroyed(lambda _context: self.painter.jobs.end_all())
+
+    def hear(self, text: str) -> None:
+        """Do what the page asks for; refuse in a sentence what cannot be done, and leave what is shown as it is."""
+        try:
+            asked = message(text)
+            new, refused = self._asked(asked["what"], asked["fields"])
+        except Refused as refusal:
+            self.link.tell("refused", {"fields": refusal.fields})
+            return
+        self.link.tell("refused", {"fields": refused})
+        self.show(new, push=asked.get("push") == "yes")
+
+    def _asked(self, what: str, typed: dict[str, str]) -> tuple[Shown, dict[str, str]]:
+        """What shall be shown, and a sentence for each parameter of an address that cannot be."""
+        if what == "open":
+            return from_address(typed.get("address", ""))
+        if what == "fields":
+            return changed(self.shown, typed), {}
+        if what == "metres":
+            return in_metres(self.shown, typed), {}
+        if what == "case" and typed.get("name") in presets.BY_NAME:
+            return presets.BY_NAME[typed["name"]].shown, {}
+        raise Refused({"page": STRANGE})
+
+    def _tapped_map(self, event: Tap) -> None:
+        corner = self.painter.corner
+        self._choose(
+            period=(event.x, corner.across, self.shown.periods),
+            amplitude=(event.y, corner.up, self.shown.amplitudes),
+        )
+
+    def _tapped_basin(self, event: Tap) -> None:
+        corner = self.painter.basin_corner
+        self._choose(
+            angle=(event.x, corner.across, self.shown.angles),
+            velocity=(event.y, corner.up, self.shown.velocities),
+        )
+
+    def _tapped_diagram(self, event: Tap) -> None:
+        self._choose(**{self.shown.vary: (event.x, 0.0, self.shown.varied)})
+
+    def _choose(self, **taps: tuple[Any, float, Span]) -> None:
+        """A click: a place in a picture, counted from the number that its axis counts from."""
+        try:
+            fields = {
+                name: written(nearby(base + float(at), span)) for name, (at, base, span) in taps.items()
+            }
+        except (TypeError, ValueError):
+            return  # no number: not from our page
+        self.hear(json.dumps({"what": "fields", "fields": fields, "push": "yes"}))
+
+    def show(self, new: Shown, *, push: bool) -> None:
+        """Show something else, and compute what differs."""
+        old, first = self.shown, not self.opened
+        self.shown, self.opened = new, True
+
+        def differs(*names: str) -> bool:
+            return first or any(getattr(old, name) != getattr(new, name) for name in names)
+
+        painter, jobs = self.painter, self.painter.jobs
+        if differs("periods", "amplitudes", "height", "width", "restitution"):
+            painter.place_map(new)
+        if differs("angles", "velocities"):
+            painter.place_basin(new)
+        painter.mark(new)
+        moved = differs(*SYSTEM, "first", "cycles", "height", "width")
+        self.link.tell("shown", self._told() | {"push": push, "moved": moved})
+        if differs("periods", "amplitudes", *SHAKEN):
+            jobs.start("map", partial(painter.refine_map, new))
+        if moved:
+            for name in ("basin", "section", "judge"):
+                jobs.end(name)
+            jobs.start("response", partial(painter.respond, new))
+        elif differs("angles", "velocities"):
+            jobs.start("basin", partial(painter.refine_basin, new))
+        others = [name for name in SYSTEM if name != new.vary]
+        if differs("vary", "varied", *others):
+            jobs.start("diagram", partial(painter.draw_diagram, new))
+
+    def _told(self) -> dict[str, Any]:
+        new, painter = self.shown, self.painter
+        return {
+            "address": address(new),
+            "fields": {each.name: written(getattr(new, each.name)) for each in attrs.fields(Shown)},
+            "planes": {
+                "map": _plane(painter.corner, new.periods, new.amplitudes),
+                "basin": _plane(painter.basin_corner, new.angles, new.velocities),
+            },
+            "slider": [new.varied.low, new.varied.high, getattr(new, new.vary)],
+            "python": texts.python(new),
+            "commands": texts.commands(new),
+        }
+
+
+def _plane(corner: plane_axes.Corner, across: Span, up: Span) -> dict[str, Any]:
+    """Where a plane lies, and whether one can look no deeper."""
+    deepest = any(span.width <= closest(span) * 1.01 for span in (across, up))
+    return {"base": [corner.across, corner.up], "ranges": list(corner.ranges(across, up)), "deepest": deepest}

@@ -1,0 +1,203 @@
+"""Between an orbit, as users have it, and the closed chain of its events, as the kernels follow it."""
+
+from __future__ import annotations
+
+import math
+from typing import Any, NamedTuple
+
+import numpy as np
+from attrs import evolve
+
+from rocking.kernels import event_kinds
+from rocking.kernels import parameters as numbers
+from rocking.kernels.orbits import arclength, chain_queries
+from rocking.kernels.orbits import continuation as following
+from rocking.kernels.orbits import event_chain as kernel
+from rocking.kernels.orbits import fixed_point as fixed_points
+from rocking.model import Orbit, State, System, refusal
+from rocking.motion import simulate
+from rocking.orbits.parameter import with_value
+
+IMPACT, BRACE = event_kinds.IMPACT, event_kinds.BRACE
+NAMES = {
+    "amplitude": kernel.AMPLITUDE,
+    "frequency": kernel.FREQUENCY,
+    "period": kernel.PERIOD,
+    "restitution": kernel.RESTITUTION,
+    "brace_angle": kernel.BRACE_ANGLE,
+    "brace_restitution": kernel.BRACE_RESTITUTION,
+}
+
+
+class Chain(NamedTuple):
+    """The events of an orbit; of a symmetric one those of half a period."""
+
+    system: System  # at some value of the parameter followed
+    period: int
+    mirrored: bool
+    kinds: np.ndarray
+    side: int
+    phases: np.ndarray
+
+    @property
+    def turn(self) -> float:
+        """Forcing phase between the first event and its repetition."""
+        return math.tau * self.period * (0.5 if self.mirrored else 1.0)
+
+    @property
+    def fixed(self) -> tuple[np.ndarray, int, float]:
+        """What does not change along a branch, as the kernels take it."""
+        return self.kinds, self.side, self.turn
+
+    def counts(self) -> tuple[int, int]:
+        """Impacts and brace hits in a period."""
+        times = 2 if self.mirrored else 1
+        return times * int((self.kinds == IMPACT).sum()), times * int((self.kinds == BRACE).sum())
+
+
+class Solved(NamedTuple):
+    """An orbit at one value of a parameter."""
+
+    found: bool
+    phases: np.ndarray  # and the value, last
+    trace: float
+    determinant: float
+    peak: float
+
+
+def value_of(system: System, parameter: str) -> float:
+    """The value of a parameter of a system."""
+    if parameter.startswith("brace_"):
+        if system.braces is None:
+            raise ValueError(
+                f"{parameter} needs a system with braces; got one without (give it braces=Braces(…))"
+            )
+        return float(getattr(system.braces, parameter.removeprefix("brace_")))
+    if parameter == "restitution":
+        return system.restitution
+    return float(getattr(system.forcing, parameter))
+
+
+def parameters(system: System) -> Any:
+    """A system as the kernels read it, its clock at the phase 0."""
+    forcing, braces = system.forcing, system.braces
+    return numbers.harmonic_parameters(
+        forcing.amplitude,
+        forcing.frequency,
+        forcing.period,
+        0.0,
+        system.restitution,
+        math.inf if braces is None else braces.angle,
+        1.0 if braces is None else braces.restitution,
+    )
+
+
+def clocked(system: System, phase: float) -> System:
+    """The same system with its clock at 0 when the forcing has a phase."""
+    return evolve(system, forcing=evolve(system.forcing, phase=phase))
+
+
+def chain_of(orbit: Orbit) -> Chain:
+    """The events of an orbit; ValueError in one line where it has none, or rests or leans in between."""
+    if orbit.superstable:
+        raise ValueError(
+            refusal(
+                "orbit",
+                "neither rest nor lean",
+                orbit.period,
+                "sweep the parameter with classify",
+            ).replace("got", "got one that does, of period")
+        )
+    motion = simulate(clocked(orbit.system, orbit.phase), orbit.state, cycles=orbit.period)
+    events = motion.events
+    events = events[np.isin(events["kind"], ("impact", "brace"))]
+    if not len(events):
+        raise ValueError(
+            "orbit must have an impact or a brace hit; got one without (it is ±1 + β cos ψ: see THEORY)"
+        )
+    psi = orbit.phase + orbit.system.forcing.frequency * events["time"]
+    kinds = np.where(events["kind"] == "impact", IMPACT, BRACE).astype(np.int64)
+    # the side that the block is on after an event
+    first = events[0]
+    side = 1 if (first["after"] > 0.0) == (kinds[0] == IMPACT) else -1
+    count = len(events) // 2 if orbit.symmetric else len(events)
+    return Chain(orbit.system, orbit.period, orbit.symmetric, kinds[:count], side, np.asarray(psi[:count]))
+
+
+def solved(chain: Chain, parameter: str, value: float, phases: np.ndarray) -> Solved:
+    """The orbit at one value of a parameter, by Newton's method from near phases; not found too where it is no motion of the block."""
+    k = len(chain.kinds)
+    row, facts = np.empty((2, k + 1)), np.empty((2, 4))
+    y, fixed = np.append(phases[:k], value), np.append(np.zeros(k), 1.0)
+    scale = 1e-3 * max(abs(value), 1e-3)
+    count, _, _ = following.follow(
+        parameters(chain.system), NAMES[parameter], *chain.fixed, chain.mirrored, y, fixed,
+        (value - scale, value + scale), 0.1, row[:1], facts[:1], row[1:], np.empty((1, 2), np.int64),
+        arclength.desk(k, scale),
+    )  # fmt: skip
+    return Solved(count == 1, row[0], *facts[0, :3])
+
+
+def equations(chain: Chain, parameter: str, row: np.ndarray) -> tuple[np.ndarray, np.ndarray, float, float]:
+    """(derivatives, what is known of each arc, trace, determinant) at a point of a branch."""
+    k = len(chain.kinds)
+    jacobian, misses, links = np.zeros((k, k + 1)), np.zeros(k), np.zeros((k, 7))
+    trace, determinant = chain_queries.equations(
+        parameters(chain.system), NAMES[parameter], *chain.fixed, row, jacobian, misses, links
+    )
+    return jacobian, links, trace, determinant
+
+
+def null_direction(chain: Chain, parameter: str, row: np.ndarray) -> np.ndarray:
+    """The direction of the phases, of mean square 1, in which an orbit may move at a special point."""
+    jacobian, *_ = equations(chain, parameter, row)
+    direction = np.linalg.svd(jacobian[:, :-1])[2][-1]
+    return direction / math.sqrt(np.mean(direction**2))
+
+
+def multipliers_of(trace: float, determinant: float, mirrored: bool) -> tuple[complex, complex]:
+    """Floquet multipliers over a period, the larger first, or that above the real axis."""
+    trace, determinant = float(trace), float(determinant)
+    first, second = fixed_points.multipliers_plain(
+        0.5 * trace, 0.25 * trace * trace - determinant, determinant, mirrored
+    )
+    return first, second
+
+
+def orbit_of(chain: Chain, parameter: str, row: np.ndarray, trace: float, determinant: float) -> Orbit:
+    """The orbit at a point of a branch: ``row`` holds its phases and the value of the parameter."""
+    system = with_value(chain.system, parameter, float(row[-1]))
+    phase = quiet_phase(np.append(row[:-1], row[:-1] + math.pi if chain.mirrored else []))
+    state = states(chain, parameter, row[None], phase, 1)[0, 0]
+    start = State(float(state[0]), float(state[1]))
+    final = simulate(clocked(system, phase), start, cycles=chain.period, record="none").final
+    impacts, brace_hits = chain.counts()
+    return Orbit(
+        system=system,
+        state=start,
+        phase=phase,
+        period=chain.period,
+        symmetric=chain.mirrored,
+        impacts=impacts,
+        brace_hits=brace_hits,
+        multipliers=multipliers_of(trace, determinant, chain.mirrored),
+        residual=math.hypot(final.angle - start.angle, final.velocity - start.velocity),
+        simulate=simulate,
+    )
+
+
+def states(chain: Chain, parameter: str, rows: np.ndarray, phase: float, count: int) -> np.ndarray:
+    """(Θ, Θ') of orbits at a phase of the forcing, in as many successive cycles: (rows, count, 2)."""
+    out = np.empty((len(rows), count, 2))
+    chain_queries.states_at(
+        parameters(chain.system), NAMES[parameter], *chain.fixed, np.ascontiguousarray(rows), phase, out
+    )
+    return out
+
+
+def quiet_phase(phases: np.ndarray) -> float:
+    """The phase farthest from all events, in [0, 2π): a section there has sides, impacts and derivatives without doubt."""
+    around = np.sort(np.mod(phases, math.tau))
+    gaps = np.diff(around, append=around[0] + math.tau)
+    widest = int(np.argmax(gaps > gaps.max() * (1.0 - 1e-9)))
+    return float((around[widest] + 0.5 * gaps[widest]) % math.tau)

@@ -1,0 +1,125 @@
+"""Periodic orbits found: one near a guess."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from rocking.kernels.classify import periodicity
+from rocking.kernels.classify import workspace as memory
+from rocking.kernels.orbits import newton_search as kernel
+from rocking.model import NoOrbit, Orbit, Outcome, State, System, check_start, refusal, whole
+from rocking.motion import begin, simulate
+from rocking.orbits.event_chain import chain_of, clocked, orbit_of, quiet_phase, solved
+
+MOST_PERIOD = 1000
+# States of an orbit as near as this are one.
+SAME = 1e-8
+# Events of a block that rests at the base, and of one that leans on a brace.
+RESTING, LEANING = ("rest", "lift-off"), ("lean", "leave")
+
+
+def find_orbit(system: System, guess: State, period: int) -> Orbit:
+    """Find a periodic orbit, stable or not, near a guess: Newton's method with the exact Jacobian on the map over `period` cycles.
+
+    The section is moved to the forcing phase farthest from all events of the guess's motion; what is found is solved once
+    more as a closed chain of arcs, to rounding.
+
+    Parameters
+    ----------
+    system : System
+        The block, its forcing and its braces.
+    guess : State
+        Θ and Θ' at τ = 0, at the forcing's own phase.
+    period : int
+        Forcing cycles, 1 to 1000.
+
+    Returns
+    -------
+    Orbit
+        With its least period, a divisor of `period`.
+
+    Raises
+    ------
+    TypeError, ValueError
+        In one line, for arguments of the wrong type or outside their range and for a guess that overturns.
+    NoOrbit
+        A ValueError, where Newton's method ends without an orbit; it carries the `state` reached and its `residual`.
+
+    Notes
+    -----
+    Not guaranteed: that it is the orbit nearest to the guess.
+
+    Examples
+    --------
+    >>> import rocking as rk
+    >>> system = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925)
+    >>> orbit = rk.find_orbit(system, rk.State(angle=0.18, velocity=-0.1), 1)
+    >>> print(orbit)
+    symmetric orbit of period 1 with 2 impacts
+    >>> round(abs(orbit.multipliers[0]), 6)  # e², for they are complex
+    0.855625
+    """
+    check_start(system, guess)
+    period = whole("period", period, 1, MOST_PERIOD)
+    motion = simulate(system, guess, cycles=period + 1)
+    if motion.outcome is Outcome.OVERTURNED:
+        raise ValueError(
+            refusal("guess", f"not overturn within {period + 1} cycles", guess, "start nearer to the orbit")
+        )
+    frequency, own = system.forcing.frequency, system.forcing.phase
+    phase = quiet_phase(own + frequency * motion.events["time"]) if len(motion.events) else own
+    wait = ((phase - own) % math.tau) / frequency
+    angle, velocity = (float(value) for value in motion.at(wait))
+    out = hunted(clocked(system, phase), period, False, np.array([[angle, velocity]]))[0]
+    reached = State(float(out[1]), float(out[2]))
+    if not out[0]:
+        raise NoOrbit(
+            f"no orbit of period {period} was found from {guess}: Newton's method ends at {reached}, "
+            f"{out[3]:.3g} off a period later (start nearer, or try another period)",
+            phase,
+            reached,
+            float(out[3]),
+        )
+    return orbit_from(system, phase, reached, period)
+
+
+def hunted(system: System, period: int, mirrored: bool, starts: np.ndarray) -> np.ndarray:
+    """What Newton's method made of every start, (found, Θ, Θ', residual): on the map over a period, or half of one and mirrored."""
+    p, _ = begin(system, State())
+    out = np.empty((len(starts), 4))
+    desk = memory.desk(1, 1)
+    kernel.hunt(p, period, mirrored, starts, desk.nothing, desk.trial, out)
+    return out
+
+
+def orbit_from(system: System, phase: float, state: State, period: int) -> Orbit:
+    """The orbit through a state at a forcing phase that repeats itself after `period` cycles: its least period, symmetry and events."""
+    motion = simulate(clocked(system, phase), state, cycles=period)
+    rows = motion.section()
+    halves = np.column_stack(motion.at((np.arange(period) + 0.5) * system.forcing.period))
+    least, symmetric = periodicity.repetition_plain(rows, halves, state.angle, state.velocity, period, SAME)
+    events = motion.events[motion.events["time"] <= least * system.forcing.period]
+    rested, leaned = (bool(np.isin(events["kind"], kinds).any()) for kinds in (RESTING, LEANING))
+    impacts, brace_hits = (int((events["kind"] == kind).sum()) for kind in ("impact", "brace"))
+    grown = math.exp(least * system.forcing.period)
+    orbit = Orbit(
+        system=system,
+        state=state,
+        phase=phase % math.tau,
+        period=least,
+        symmetric=symmetric,
+        impacts=None if rested and system.restitution > 0.0 else impacts,
+        brace_hits=None if leaned and system.braces and system.braces.restitution > 0.0 else brace_hits,
+        multipliers=(0j, 0j) if rested or leaned else (complex(grown), complex(1.0 / grown)),
+        residual=float(np.hypot(*(rows[least] - rows[0]))),
+        simulate=simulate,
+    )
+    if orbit.superstable or impacts + brace_hits == 0:
+        return orbit
+    chain = chain_of(orbit)
+    found = solved(chain, "amplitude", system.forcing.amplitude, chain.phases)
+    if not found.found:
+        return orbit
+    return orbit_of(chain, "amplitude", found.phases, found.trace, found.determinant)

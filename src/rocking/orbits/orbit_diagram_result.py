@@ -1,0 +1,132 @@
+"""An orbit diagram: the points that sweeps left."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from attrs import field, frozen
+from numpy.typing import NDArray
+
+from rocking.model import ReadOnlyArrays, State, System, notebook_renderers, read_only
+from rocking.orbits.dataset_attributes import LONG_NAMES, described, named
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+
+@frozen(eq=False)
+class OrbitDiagram(ReadOnlyArrays):
+    """Stroboscopic points over a parameter; made by `orbit_diagram`.
+
+    Attributes
+    ----------
+    system : System
+        The system of which one parameter is varied.
+    parameter : str
+        Its name.
+    values : ndarray, shape (n,)
+        Its values, ascending.
+    sweeps : tuple of str
+        "up", "down" or both, or "rest": a row each of what follows.
+    points : ndarray, shape (sweeps, n, m, 2)
+        (Θ, Θ') at the section, cycle after cycle; NaN where the block overturned.
+    overturned : ndarray of bool, shape (sweeps, n)
+        Where it was proved that it does not return.
+    peak : ndarray, shape (sweeps, n)
+        Largest |Θ| over the m cycles after the transient; NaN where it overturned.
+    start : State
+        Where the first motion began, or each.
+    transient : int
+        Cycles left out before.
+    section_phase : float
+        Forcing phase ψ of the section, rad.
+    """
+
+    system: System
+    parameter: str
+    values: NDArray[np.float64] = field(repr=False, converter=read_only)
+    sweeps: tuple[str, ...]
+    points: NDArray[np.float64] = field(repr=False, converter=read_only)
+    overturned: NDArray[np.bool_] = field(repr=False, converter=read_only)
+    peak: NDArray[np.float64] = field(repr=False, converter=read_only)
+    start: State
+    transient: int
+    section_phase: float
+
+    @property
+    def cycles(self) -> int:
+        """How many points each value has."""
+        return self.points.shape[2]
+
+    @property
+    def fixed(self) -> dict[str, float]:
+        """The parameters that were not varied, by name."""
+        forcing, braces = self.system.forcing, self.system.braces
+        values = {"amplitude": forcing.amplitude, "period": forcing.period, "phase": forcing.phase}
+        values["restitution"] = self.system.restitution
+        if braces is not None:
+            values |= {"brace_angle": braces.angle, "brace_restitution": braces.restitution}
+        varied = "period" if self.parameter == "frequency" else self.parameter
+        return {name: value for name, value in values.items() if name != varied}
+
+    def to_xarray(self) -> xr.Dataset:
+        """The diagram as a dataset whose coordinates are `sweep`, the parameter and `cycle`.
+
+        `angle` and `velocity` lie along all three, `overturned` and `peak` along the first two.
+        """
+        import xarray as xr
+
+        name = self.parameter
+        each, all_cycles = ("sweep", name), ("sweep", name, "cycle")
+        variables = {
+            "angle": (all_cycles, self.points[..., 0], named("angle at the section")),
+            "velocity": (all_cycles, self.points[..., 1], named("angular velocity at the section")),
+            "peak": (each, self.peak, named("largest size of the angle after the transient")),
+            "overturned": (
+                each,
+                self.overturned.astype(np.int8),
+                {"long_name": "whether it was proved that the block does not return", "flag_values": [0, 1]}
+                | {"flag_meanings": "bounded overturned"},
+            ),
+        }
+        unit = "rad" if name == "phase" else "1"
+        coordinates = {
+            "sweep": ("sweep", np.array(self.sweeps), {"long_name": "order of the values"}),
+            name: (name, self.values, {"long_name": LONG_NAMES[name], "units": unit}),
+            "cycle": ("cycle", np.arange(self.cycles), {"long_name": "forcing cycles since the transient"}),
+        }
+        attributes = described("Orbit diagram") | {
+            "start_angle": self.start.angle,
+            "start_velocity": self.start.velocity,
+            "transient": self.transient,
+            "section_phase": self.section_phase,
+            **self.fixed,
+        }
+        return xr.Dataset(variables, coordinates, attributes)
+
+    def __str__(self) -> str:
+        values = self.values
+        span = (
+            f"{values[0]:.6g} to {values[-1]:.6g}, {len(values):,} values"
+            if len(values) > 1
+            else f"{values[0]:.6g}"
+        )
+        told = "; ".join(
+            _overturnings(way, fell, values) for way, fell in zip(self.sweeps, self.overturned, strict=True)
+        )
+        return f"orbit diagram over {self.parameter} {span}, {self.cycles:,} points each after {self.transient:,} cycles: {told}"
+
+    def _repr_html_(self) -> str | None:
+        return notebook_renderers.html(self)
+
+
+def _overturnings(way: str, fell: np.ndarray, values: np.ndarray) -> str:
+    how = {"up": "swept up", "down": "swept down", "rest": "each from its start"}[way]
+    if not fell.any():
+        return f"{how}, never overturned"
+    found = values[fell]
+    where = f"at {found[0]:.6g}" if len(found) == 1 else f"from {found[0]:.6g} to {found[-1]:.6g}"
+    return (
+        f"{how}, overturned at {len(found):,} ({where})" if len(found) > 1 else f"{how}, overturned {where}"
+    )

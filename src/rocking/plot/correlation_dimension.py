@@ -1,0 +1,89 @@
+"""The correlation sum, its local slopes and the scaling region."""
+
+from matplotlib.axes import Axes
+
+from rocking.model import counted, instance, refusal
+from rocking.plot.parts import style
+from rocking.response import CorrelationDimension
+
+
+def dimension(result: CorrelationDimension, ax: Axes | None = None) -> Axes:
+    """Draws the correlation sum against the radius, its local slopes on an axis at the right, and the scaling region.
+
+    Parameters
+    ----------
+    result : CorrelationDimension
+        From `correlation_dimension`; not of isolated points, whose pairs do not scale.
+    ax : matplotlib Axes, optional
+        Drawn into; a new figure, a column wide, if not given.
+
+    Returns
+    -------
+    matplotlib Axes
+
+    Raises
+    ------
+    TypeError, ValueError
+        If `result` is none, or of isolated points, or an argument is of another kind.
+
+    Notes
+    -----
+    Bars are standard errors of the slopes. The band across the scaling region is the interval of the dimension.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import rocking as rk
+    >>> points = np.random.default_rng(1).random((6_000, 2))
+    >>> ax = rk.plot.dimension(rk.correlation_dimension(points))
+    >>> ax.get_xscale(), ax.get_yscale()
+    ('log', 'log')
+    """
+    instance("result", result, CorrelationDimension)
+    if result.isolated:
+        raise ValueError(
+            refusal(
+                "result",
+                "hold pairs that scale",
+                counted(result.isolated, "isolated point"),
+            )
+        )
+    ax = style.own(ax, height=2.8)
+    ax.set(xscale="log", yscale="log")
+    ax.axvspan(*result.scaling_region, color=style.TABLE, alpha=0.4, linewidth=0, gid="scaling-region")
+    ax.plot(
+        result.radii,
+        result.sums,
+        color=style.MOTION,
+        linewidth=style.LINE,
+        label=r"$C(r)$",
+        gid="correlation-sum",
+    )
+    right = ax.twinx()
+    right.errorbar(
+        (result.radii[1:] * result.radii[:-1]) ** 0.5,
+        result.slopes,
+        result.slope_errors,
+        color=style.IMPACT,
+        linestyle="none",
+        marker="o",
+        markersize=2.0,
+        elinewidth=style.THIN,
+        label=r"local slope",
+        gid="slopes",
+    )
+    low, high = result.interval
+    right.fill_between(
+        result.scaling_region, low, high, color=style.IMPACT, alpha=0.25, linewidth=0, gid="interval"
+    )
+    right.set_ylim(0.0, 1.25 * max(high, float(result.slopes.max())))
+    style.label(ax, r"radius $r$ / standard deviation", r"correlation sum $C(r)$")
+    ax.yaxis.label.set_color(style.MOTION)
+    style.label(right, "", r"$\mathrm{d} \ln C / \mathrm{d} \ln r$")
+    for axis in (ax.xaxis, ax.yaxis):
+        style.logarithmic(axis)
+    right.spines["right"].set(visible=True)
+    right.spines["left"].set(visible=False)
+    right.yaxis.label.set_color(style.IMPACT)
+    style.note(ax, f"dimension {result.value:.2f}, in [{low:.2f}, {high:.2f}]")
+    return ax

@@ -1,0 +1,1 @@
+"""Parts of pictures: styles, axes, legends, scenes and files."""

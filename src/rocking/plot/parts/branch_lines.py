@@ -1,0 +1,115 @@
+"""What pictures over a parameter share: its axis, and branches of orbits as lines, in a dash for each stability."""
+
+from collections.abc import Callable
+from typing import Any, NamedTuple, TypeVar
+
+import numpy as np
+from matplotlib.axes import Axes
+
+from rocking.model import Orbit, Stability, refusal
+from rocking.orbits import Branch
+from rocking.plot.parts.axis_units import Quantities
+
+Drawn = TypeVar("Drawn")
+
+COLUMNS = {"angle": 0, "velocity": 1}
+QUANTITIES = (*COLUMNS, "peak")
+BORN = "born"
+DASHES: dict[Stability, Any] = {
+    Stability.STABLE: "-",
+    Stability.NEUTRAL: (0, (5, 1.5, 1, 1.5)),
+    Stability.UNSTABLE: (0, (4, 2)),
+}
+
+
+def height_label(quantity: str, shown: Quantities) -> str:
+    """The label of the upright axis for what is drawn of an orbit."""
+    if quantity == "peak":
+        unit = shown.angle_label.rpartition(" ")[2]
+        symbol = shown.angle_label.partition("$")[2].split(" = ")[0].rstrip("$ ").split("$")[0]
+        return f"largest $|{symbol}|$ {unit}"
+    return shown.velocity_label if quantity == "velocity" else shown.angle_label
+
+
+class Line(NamedTuple):
+    """A branch as it is drawn: a row an orbit, and one more wherever something changes: ``between`` two stabilities."""
+
+    values: np.ndarray
+    stability: np.ndarray
+    heights: np.ndarray
+    between: np.ndarray
+
+    def shown(self, across: Callable[[Any], Any], upright: Callable[[Any], Any]) -> "Line":
+        """The same in the units of the axes."""
+        return self._replace(values=across(self.values), heights=upright(self.heights))
+
+
+def line(branch: Branch, quantity: str, phase: float) -> Line:
+    """A branch as a line a cycle of its period, or one of its peaks."""
+    points = branch.points
+    values, stability = points["parameter"], points["stability"]
+    heights = (
+        points["peak"][:, None] if quantity == "peak" else branch.section(phase)[:, :, COLUMNS[quantity]]
+    )
+    inner = [one for one in branch.special if one.kind != "grazing" and 0 < one.index < len(values)]
+    places = np.array([one.index for one in inner], int)
+    added = np.array([one.parameter for one in inner], float)
+    start, span = values[places - 1], values[places] - values[places - 1]
+    share = np.divide(added - start, span, out=np.full(len(inner), 0.5), where=span != 0.0)
+    share[(share < 0.0) | (share > 1.0)] = 0.5  # a fold lies beyond both of its neighbours
+    tips = heights[places - 1] + share[:, None] * (heights[places] - heights[places - 1])
+    between = np.zeros(len(values), bool)
+    between[0] = BORN in branch.ends[0]  # at a multiplier of 1
+    return Line(
+        np.insert(values, places, added),
+        np.insert(stability, places, Stability.UNSTABLE),
+        np.insert(heights, places, tips, axis=0),
+        np.insert(between, places, True),
+    )
+
+
+def heights_of(orbit: Orbit, quantity: str, phase: float) -> np.ndarray:
+    """The same of one orbit."""
+    if quantity == "peak":
+        return np.array([orbit.motion().peak])
+    states = [orbit.at(phase + 2.0 * np.pi * cycle) for cycle in range(orbit.period)]
+    return np.array([getattr(state, quantity) for state in states])
+
+
+def part(ax: Axes, drawn: Line, stability: Stability, label: str, **look: Any) -> None:
+    """The parts of a branch that have one stability, a line a column; they reach to where it becomes another.
+
+    Of all that have a label the first is in the legend.
+    """
+    here = (drawn.stability == stability) & ~drawn.between
+    near = np.zeros(len(here), bool)
+    near[1:] |= here[:-1]
+    near[:-1] |= here[1:]
+    # where the change itself is not among the special points, the unstable part fills the gap
+    own = here | (near & (drawn.between | (stability is Stability.UNSTABLE)))
+    if not here.any():
+        return
+    heights = np.where(own[:, None], drawn.heights, np.nan)
+    lines = ax.plot(drawn.values, heights, linestyle=DASHES[stability], **look)
+    lines[0].set_label(unless_there(ax, label))
+
+
+def unless_there(ax: Axes, label: str) -> str:
+    """A label, or none where something drawn has it already."""
+    return "_" if label in ax.get_legend_handles_labels()[1] else label
+
+
+def spans(values: np.ndarray, where: np.ndarray) -> np.ndarray:
+    """The ends of all runs of values that are chosen, NaN after each pair: half-way to the values beside, or at the last one."""
+    edges = np.concatenate([values[:1], 0.5 * (values[1:] + values[:-1]), values[-1:]])
+    chosen = np.concatenate([[False], where, [False]])
+    begins, ends = np.flatnonzero(~chosen[:-1] & chosen[1:]), np.flatnonzero(chosen[:-1] & ~chosen[1:])
+    return np.column_stack([edges[begins], edges[ends], np.full(len(begins), np.nan)]).ravel()
+
+
+def several(result: Any, kind: type[Drawn]) -> list[Drawn]:
+    """One or several results of a kind; TypeError otherwise."""
+    each = [result] if isinstance(result, kind) else list(result) if np.iterable(result) else []
+    if not each or not all(isinstance(one, kind) for one in each):
+        raise TypeError(refusal("result", f"be a {kind.__name__} or a sequence of them", result))
+    return each

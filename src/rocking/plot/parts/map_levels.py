@@ -1,0 +1,127 @@
+"""Maps as they are drawn: read a few rows at a time, what is not yet computed taken from coarser levels."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from rocking.model import refusal
+from rocking.plot.parts.legend import NONE, looks
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+AT_ONCE = 1 << 20
+"""Points in memory at a time, about."""
+NEEDED = ("kind", "response_period", "symmetric")
+
+
+class Responses:
+    """The responses over two axes, from a dataset or from the levels of a store, coarse to fine.
+
+    Attributes
+    ----------
+    names : (str, str)
+        Of the axes, the upward one first.
+    up, across : array
+        Their values, on the finest level.
+    told : dict
+        The attributes of the map.
+    """
+
+    def __init__(self, found: Any) -> None:
+        self.folder = Path(found) if isinstance(found, str | os.PathLike) else None
+        self.levels = _levels(found)
+        finest = self.levels[-1]
+        first, second = map(str, finest.kind.dims)
+        self.names = first, second
+        self.up, self.across = (np.asarray(finest[name].values) for name in self.names)
+        self.told = dict(finest.attrs)
+        self._below: Responses | None = None
+
+    def rows(self, begin: int, end: int) -> np.ndarray:
+        """The looks of some rows; `NONE` where no level has anything."""
+        part = self.levels[-1][list(NEEDED)].isel({self.names[0]: slice(begin, end)})
+        with _reading(self.folder):
+            part = part.load()
+        found = looks(*(part[name].values for name in NEEDED))
+        missing = found == NONE
+        if missing.any() and len(self.levels) > 1:
+            found[missing] = self._coarser(begin, end)[missing]
+        return found
+
+    def parts(self) -> Iterator[tuple[int, np.ndarray]]:
+        """All rows, some at a time: the first one's number, and their looks."""
+        step = max(AT_ONCE // self.across.size, 1)
+        for begin in range(0, self.up.size, step):
+            yield begin, self.rows(begin, min(begin + step, self.up.size))
+
+    def _coarser(self, begin: int, end: int) -> np.ndarray:
+        """What the nearest points of the level before are like."""
+        if self._below is None:
+            self._below = Responses(self.levels[:-1])
+            self._below.folder = self.folder
+        below = self._below
+        rows, columns = nearest(below.up, self.up[begin:end]), nearest(below.across, self.across)
+        read = below.rows(rows[0], rows[-1] + 1)
+        return read[np.ix_(rows - rows[0], columns)]
+
+
+def edges(values: np.ndarray) -> np.ndarray:
+    """Where cells around the values end: half-way between them."""
+    middles = 0.5 * (values[1:] + values[:-1])
+    return np.concatenate(
+        [[1.5 * values[0] - 0.5 * values[1]], middles, [1.5 * values[-1] - 0.5 * values[-2]]]
+    )
+
+
+def nearest(values: np.ndarray, places: np.ndarray) -> np.ndarray:
+    """The numbers of the values nearest to places."""
+    return np.searchsorted(0.5 * (values[1:] + values[:-1]), places)
+
+
+def _levels(found: Any) -> list[xr.Dataset]:
+    if isinstance(found, str | os.PathLike):
+        found = _opened(Path(found))
+    levels = list(found) if isinstance(found, Sequence) else [found]
+    allowed = "be a map over two axes, as parametric_map gives it, or the folder of its store"
+    for level in levels:
+        kinds = getattr(level, "kind", None)
+        if getattr(kinds, "ndim", 0) != 2 or not all(hasattr(level, name) for name in NEEDED):
+            raise TypeError(refusal("found", allowed, found))
+    if not levels:
+        raise ValueError(refusal("found", allowed, found))
+    return levels
+
+
+def _opened(folder: Path) -> list[xr.Dataset]:
+    """The levels of a store, coarse to fine, read as they are used."""
+    import xarray as xr
+
+    count = sum(1 for each in folder.glob("level-*") if each.is_dir())
+    if not count:
+        raise ValueError(refusal("found", "be the folder of a map's store", str(folder)))
+    with _reading(folder):
+        return [
+            xr.open_zarr(folder, group=f"level-{number}", chunks=None, consolidated=False)
+            for number in range(count)
+        ]
+
+
+@contextmanager
+def _reading(folder: Path | None) -> Iterator[None]:
+    """Say of a store that cannot be read which it is, and how it is mended."""
+    try:
+        yield
+    except Exception as error:
+        if folder is None:
+            raise
+        raise OSError(
+            f"found must be the folder of a store that can be read; got {str(folder)!r}, which is damaged: "
+            "the survey that made it says where, and mends it with repair"
+        ) from error

@@ -1,0 +1,96 @@
+"""Frames into a GIF or an MP4: whole or not at all."""
+
+import errno
+from collections.abc import Iterator
+from contextlib import suppress
+from itertools import combinations
+from pathlib import Path
+
+import numpy as np
+from matplotlib.colors import to_rgb
+from numpy.typing import NDArray
+from PIL import Image
+
+from rocking.model import replacing
+from rocking.plot.parts import style
+from rocking.plot.parts.save import check_path
+
+COLOURS = (
+    "white",
+    style.INK,
+    style.TABLE,
+    style.BLOCK,
+    style.IMPACT,
+    style.BRACE,
+    style.MOTION,
+    style.GUIDE,
+)
+
+
+def check_film(path: str | Path) -> Path:
+    """Refuses, in one line and before any work, a path that cannot become a film."""
+    return check_path(path, tuple(WRITERS))
+
+
+def write_film(path: Path, frames: Iterator[NDArray], fps: float) -> Path:
+    """Writes RGB frames (height, width, 3; both multiples of 16) to `path`, whose suffix chooses between .gif and .mp4.
+
+    A GIF counts time in hundredths of a second, so it runs at exactly `fps` only if that divides 100.
+    """
+    with replacing(path) as partial:
+        WRITERS[path.suffix.lower()](partial, frames, fps)
+    return path
+
+
+def _gif(path: Path, frames: Iterator[NDArray], fps: float) -> None:
+    # One palette for all frames: nothing flickers, and what does not move costs nothing.
+    palette = _palette()
+    images = (Image.fromarray(frame).quantize(palette=palette, dither=Image.Dither.NONE) for frame in frames)
+    # Opened here, because Pillow leaves a file open when it is interrupted.
+    with path.open("wb") as file:
+        next(images).save(
+            file, format="GIF", save_all=True, append_images=images, duration=10 * round(100 / fps), loop=0
+        )
+
+
+def _palette() -> Image.Image:
+    """The colours of a film, each exact, and the blends of any two of them, as at the edge of one before the other.
+
+    Pillow looks for the nearest only after it has rounded red, green and blue down to multiples of 4, so is off by up
+    to 3 in each. Blends that are more than twice as far from every colour leave the colours exact.
+    """
+    colours = [np.round(255 * np.array(to_rgb(colour))) for colour in COLOURS]
+    exact = np.array(colours)
+    for one, other in combinations(exact, 2):
+        blends = (np.round(one + share * (other - one)) for share in np.linspace(0, 1, 9)[1:-1])
+        colours += [blend for blend in blends if np.linalg.norm(exact - blend, axis=1).min() > 11]
+    palette = Image.new("P", (1, 1))
+    palette.putpalette(np.array(colours, dtype=np.uint8).tobytes())
+    return palette
+
+
+def _mp4(path: Path, frames: Iterator[NDArray], fps: float) -> None:
+    from imageio_ffmpeg import count_frames_and_secs, write_frames
+
+    first = next(frames)
+    height, width, _ = first.shape
+    writer = write_frames(str(path), (width, height), fps=fps, quality=7, ffmpeg_log_level="fatal")
+    sent = 1
+    try:
+        writer.send(None)
+        writer.send(first.tobytes())
+        for frame in frames:
+            writer.send(frame.tobytes())
+            sent += 1
+    except OSError as error:
+        raise OSError(errno.EIO, "ffmpeg has ended") from error
+    finally:
+        writer.close()
+    # nobody is told how ffmpeg ended: on a full disk it leaves half a film
+    with suppress(RuntimeError):
+        if count_frames_and_secs(str(path))[0] == sent:
+            return
+    raise OSError(errno.EIO, "ffmpeg has not written every frame")
+
+
+WRITERS = {".gif": _gif, ".mp4": _mp4}

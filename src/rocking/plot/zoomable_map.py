@@ -1,0 +1,207 @@
+"""Maps of any size to look into: image tiles in a pyramid, and one page that pans and zooms them without a server."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator, Sequence
+from importlib.resources import files
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from matplotlib.colors import to_rgb
+from PIL import Image
+
+from rocking.model import TILES, VERSION, Block, percent, replacing_folder
+from rocking.plot.parts import style
+from rocking.plot.parts.axis_units import parameter
+from rocking.plot.parts.legend import LOOKS, NONE
+from rocking.plot.parts.map_levels import Responses
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+EDGE = 256
+"""Dots along an edge of a tile."""
+HATCHED = {
+    name: [number for number, look in enumerate(LOOKS) if look.hatch == colour]
+    for name, colour in (("white", "white"), ("dark", style.INK))
+}
+"""Looks with stripes, by what the images of their masks are called."""
+
+
+def tiles(
+    found: xr.Dataset | str | os.PathLike[str] | Sequence[xr.Dataset],
+    folder: str | os.PathLike[str],
+    block: Block | None = None,
+) -> Path:
+    """Writes a map as image tiles, a dot a point, and a page that pans and zooms them: a browser opens it from the disk.
+
+    Parameters
+    ----------
+    found : xarray.Dataset, path, or sequence of xarray.Dataset
+        As in `parametric_map`; it need not fit in memory.
+    folder : path
+        A new one, an empty one, or one that holds just what this has written before, which is then replaced as a whole.
+    block : Block, optional
+        Gives SI axes; otherwise they are the map's own, normalised.
+
+    Returns
+    -------
+    Path
+        The page, `index.html`, in the folder; it needs nothing but the folder, and no other host.
+
+    Raises
+    ------
+    TypeError, ValueError, OSError
+        If it is no map over two axes, or the folder holds something else or cannot be written.
+
+    Notes
+    -----
+    Dots are points, also in the coarser images, which have every second, fourth, … of them: nothing is blended, so what is
+    rarer than that shows when one zooms in. Colours and hatches are those of `parametric_map`; the images are
+    named `tiles/LEVEL/ROW-COLUMN.png`, level 0 in one tile, rows from the top, with a mask beside those that have hatches.
+
+    Examples
+    --------
+    >>> import numpy as np, tempfile
+    >>> import rocking as rk
+    >>> found = rk.parametric_map(
+    ...     amplitude=np.linspace(0, 16, 20), period=np.linspace(0.2, 3, 20), restitution=0.925
+    ... )
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     page = rk.plot.tiles(found, f"{folder}/map")
+    ...     sorted(path.name for path in page.parent.iterdir())
+    ['index.html', 'tiles']
+    """
+    read = Responses(found)
+    with replacing_folder("folder", folder, TILES) as partial:
+        pyramid = Pyramid(partial / "tiles", read.up.size, read.across.size)
+        counts = np.zeros(NONE + 1, np.int64)
+        for codes in _from_the_top(read):
+            counts += np.bincount(codes.ravel(), minlength=NONE + 1)
+            pyramid.add(codes)
+        pyramid.finish()
+        (partial / TILES.page).write_text(_page(read, counts, pyramid, block), encoding="utf-8")
+    return Path(folder) / TILES.page
+
+
+def _from_the_top(read: Responses) -> Iterator[np.ndarray]:
+    """Rows of tiles as they lie in an image, the largest value uppermost."""
+    for top in range(read.up.size, 0, -EDGE):
+        yield read.rows(max(top - EDGE, 0), top)[::-1]
+
+
+class Pyramid:
+    """Images of every level, written while rows come in from the top: each level keeps no more than one row of tiles."""
+
+    def __init__(self, folder: Path, rows: int, columns: int) -> None:
+        self.folder = folder
+        self.deepest = max(-(-max(rows, columns) // EDGE) - 1, 0).bit_length()
+        self.waiting: list[list[np.ndarray]] = [[] for _ in range(self.deepest + 1)]
+        self.taken = [0] * (self.deepest + 1)
+        self.written = [0] * (self.deepest + 1)
+        self.hatched: dict[str, list[str]] = {colour: [] for colour in HATCHED}
+        self.palette = [round(255 * part) for look in LOOKS for part in to_rgb(look.colour)]
+
+    def add(self, codes: np.ndarray) -> None:
+        """Take rows of the deepest level."""
+        self._add(self.deepest, codes)
+
+    def finish(self) -> None:
+        """Write what is left of each level."""
+        for level in range(self.deepest, -1, -1):
+            if self.waiting[level]:
+                self._write(level, np.concatenate(self.waiting[level]))
+
+    def _add(self, level: int, codes: np.ndarray) -> None:
+        if level > 0 and len(codes):
+            self._add(level - 1, codes[self.taken[level] % 2 :: 2, ::2])
+        self.taken[level] += len(codes)
+        self.waiting[level].append(codes)
+        rows = np.concatenate(self.waiting[level])
+        while len(rows) >= EDGE:
+            self._write(level, rows[:EDGE])
+            rows = rows[EDGE:]
+        self.waiting[level] = [rows] if len(rows) else []
+
+    def _write(self, level: int, rows: np.ndarray) -> None:
+        folder = self.folder / str(level)
+        folder.mkdir(parents=True, exist_ok=True)
+        for column in range(-(-rows.shape[1] // EDGE)):
+            part = np.ascontiguousarray(rows[:, column * EDGE : (column + 1) * EDGE])
+            name = f"{level}/{self.written[level]}-{column}"
+            self._image(name, part, self.palette, transparency=NONE)
+            for colour, numbers in HATCHED.items():
+                mask = np.isin(part, numbers)
+                if mask.any():
+                    self.hatched[colour].append(name)
+                    self._image(f"{name}-{colour}", mask.astype(np.uint8), [0, 0, 0], transparency=0)
+        self.written[level] += 1
+
+    def _image(self, name: str, values: np.ndarray, palette: list[int], transparency: int) -> None:
+        image = Image.fromarray(values)
+        image.putpalette(palette + [255] * (3 * 256 - len(palette)))
+        image.save(self.folder / f"{name}.png", transparency=transparency, optimize=True)
+
+
+def _page(read: Responses, counts: np.ndarray, pyramid: Pyramid, block: Block | None) -> str:
+    """The page, all of its style and script inside."""
+    from jinja2 import Environment, StrictUndefined
+
+    (turn_up, up), (turn_across, across) = (parameter(name, block) for name in read.names)
+    template = files("rocking.plot").joinpath("zoomable_map.html").read_text(encoding="utf-8")
+    legend = [
+        {
+            "name": look.name,
+            "colour": look.colour,
+            "hatch": look.hatch or "",
+            "share": percent(count / counts.sum()),
+        }
+        for look, count in zip(LOOKS, counts[: len(LOOKS)], strict=True)
+        if count
+    ]
+    if counts[NONE]:
+        legend.append(
+            {
+                "name": "not computed",
+                "colour": "#FFFFFF",
+                "hatch": "",
+                "share": percent(counts[NONE] / counts.sum()),
+            }
+        )
+    view = {
+        "edge": EDGE,
+        "deepest": pyramid.deepest,
+        "hatched": pyramid.hatched,
+        "across": {"values": _told(turn_across(read.across)), "name": _plain(across)},
+        "up": {"values": _told(turn_up(read.up)), "name": _plain(up)},
+    }
+    environment = Environment(autoescape=True, undefined=StrictUndefined)
+    return environment.from_string(template).render(
+        view=view,
+        legend=legend,
+        fixed=({} if block is None else {"block": block.size})
+        | {name: f"{read.told[name]:.6g}" for name in FIXED if name in read.told},
+        points=f"{read.up.size:,} × {read.across.size:,}",
+        version=VERSION,
+    )
+
+
+FIXED = (
+    "amplitude", "period", "frequency", "restitution", "phase", "angle", "velocity", "brace_angle", "brace_restitution", "max_cycles",
+)  # fmt: skip
+TEX = {r"\tau": "τ", r"\Omega": "Ω", r"\varphi": "φ", r"\Theta": "Θ", r"\theta": "θ", r"\dot": "", r"\mathrm": "", "_0": "₀",
+       "_x": "ₓ", "_{b}": "b", "$": "", "(–)": ""}  # fmt: skip
+
+
+def _plain(label: str) -> str:
+    """A label of an axis without TeX."""
+    for tex, sign in TEX.items():
+        label = label.replace(tex, sign)
+    return label.strip()
+
+
+def _told(values: Any) -> list[float]:
+    """Values to the nine digits that anybody reads off a page."""
+    return [float(f"{value:.9g}") for value in np.asarray(values).tolist()]

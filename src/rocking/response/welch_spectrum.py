@@ -1,0 +1,223 @@
+"""The spectral density of a motion: exact samples, Welch's average, and its lines, found and named."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from rocking.model import Outcome, instance, refusal, whole, within
+from rocking.motion import Motion
+from rocking.response import uniform_samples
+from rocking.response.line_names import combination, parts_and_rotation
+from rocking.response.spectral_density import SHARE_OF_LINES, SHOWN, Peak, SpectralDensity
+from rocking.response.spectral_lines import Line, Taper, find_lines
+
+SEGMENTS = 8
+LEAST_SEGMENT = 8
+FEWEST, MOST = 16, 4096
+MOST_VALUES = 2**24
+# As power. What stands above ten times the side lobes is a line: from here on nothing would.
+HIGHEST_SIDE_LOBES = 0.1
+
+
+def spectral_density(
+    motion: Motion,
+    transient: int = 0,
+    segment: int | None = None,
+    overlap: float = 0.5,
+    window: str | tuple = "blackmanharris",
+    samples: int | None = None,
+    period: int | None = None,
+    rotation: float | None = None,
+) -> SpectralDensity:
+    """Estimate the spectral density of Θ from exact samples of a motion (Welch 1967), and name its lines.
+
+    Parameters
+    ----------
+    motion : Motion
+        Recorded with ``record="all"``, and still moving at its end.
+    transient : int
+        Forcing cycles left out at the beginning.
+    segment : int, optional
+        Forcing cycles in a segment, a multiple of the period of a periodic motion, so that its lines lie on bins;
+        an eighth of the record unless given.
+    overlap : float
+        Share of a segment that the next one uses again, in [0, 0.95].
+    window : str or tuple
+        As `scipy.signal.get_window` knows it. The one of Blackman and Harris shows lines down to 10⁻⁸ of the strongest
+        (−92 dB side lobes), at four bins on either side; "hann" is narrower and shows those down to 10⁻² only.
+    samples : int, optional
+        Samples in a forcing cycle, even; lines are sought up to a sixteenth of them, in forcing frequencies. By default 64,
+        doubled up to 1,024 until less than 10⁻⁷ of the variance is aliased.
+    period : int, optional
+        n of the multiples of f/n in names. By default that of the motion, if it repeats itself; else the least
+        n ≤ 16 that names most of the ten strongest lines.
+    rotation : float, optional
+        Rotation frequency f_r, in cycles per forcing cycle; of a motion that does not repeat itself by default the
+        strongest line that is no multiple of f/n, if it names another line too.
+
+    Returns
+    -------
+    SpectralDensity
+
+    Raises
+    ------
+    TypeError, ValueError
+        In one line: an overturned motion, one that comes to rest or never moves, one of less than 64 cycles after the
+        transient, or than 64 periods of a periodic motion; arguments outside their range.
+
+    Notes
+    -----
+    A motion is periodic here if all its samples repeat to 10⁻⁸ of its range after n ≤ 64 cycles; then its lines lie on
+    known bins. Otherwise a peak is a line if it stands out of its surroundings as noise does not, and keeps four
+    fifths of its height under a window over the whole record. Frequencies are refined by Laskar's method: each maximises the
+    Fourier integral of the whole record under a Hann window.
+
+    A name p·f + q·f_r (eq. 7 of Yim and Lin 1991) is given to a line within one resolution of that combination, if no
+    other is about as simple. q goes up to 32; in short records only so far that names cover a tenth of all
+    frequencies. In a broad band, where lines carry less than nine tenths of the variance, no rotation is sought. Whole samples
+    in a cycle fold each combination on another: aliasing shifts power, but adds no line that is none.
+
+    What is not promised: lines nearer to each other than the window's main lobe are not told apart; a torus whose
+    frequencies are nearly commensurate within the record is named as if they were.
+
+    Examples
+    --------
+    >>> import rocking as rk
+    >>> system = rk.System(rk.Harmonic(amplitude=6.5, period=0.4), restitution=0.925)
+    >>> density = rk.spectral_density(rk.simulate(system, cycles=1200), transient=600)
+    >>> [peak.name for peak in density.peaks[:4]], density.symmetric
+    (['f/3', 'f', '5f/3', '7f/3'], True)
+    """
+    cycles = _check_motion(motion, transient)
+    if samples is not None:
+        samples = whole("samples", samples, FEWEST, MOST)
+        if samples % 2:
+            raise ValueError(refusal("samples", "be even", samples))
+    if rotation is not None:
+        rotation = within("rotation", rotation, 1e-6, 1e3)
+    if period is not None:
+        period = whole("period", period, 1, cycles)
+    samples, aliased = uniform_samples.sampling(motion, transient, samples)
+    most = MOST_VALUES // samples
+    if cycles > most:
+        raise ValueError(
+            f"motion must have at most {most} cycles after its transient for {samples} samples in each; it has {cycles}"
+        )
+    values = uniform_samples.sampled(motion, transient, samples)
+    mean = float(values.mean())
+    values -= mean
+    if not np.ptp(values):
+        raise ValueError(f"motion must move for a spectrum; its angle is {mean:.6g} throughout")
+    repeats = uniform_samples.recurrence(values)
+    segment = _segment(segment, cycles, repeats)
+    taper = _taper(window, segment * samples)
+    shared = int(within("overlap", overlap, 0.0, 0.95) * segment)
+    frequency, density, segments = uniform_samples.welch(values, segment, shared, taper)
+    lines = find_lines(
+        values,
+        density,
+        segment,
+        taper,
+        taper.independent(segments, (segment - shared) * samples),
+        samples / SHOWN,
+        repeats,
+    )
+    parts, rotation = _parts_and_rotation(lines, values.var(), period or repeats, rotation, 1 / cycles)
+    unit = motion.system.forcing.period
+    return SpectralDensity(
+        system=motion.system,
+        frequency=frequency / unit,
+        density=density * unit,
+        window=window,
+        segment=segment,
+        overlap=shared,
+        segments=segments,
+        transient=transient,
+        cycles=cycles,
+        samples=samples,
+        aliased=aliased,
+        mean=mean,
+        variance=float(values.var()),
+        bandwidth=taper.bandwidth / segment / unit,
+        resolution=1 / cycles / unit,
+        period=repeats,
+        symmetric=uniform_samples.is_mirrored(values, repeats) if repeats else None,
+        parts=parts,
+        rotation=rotation,
+        peaks=tuple(_peak(line, parts, rotation, 1 / cycles, unit) for line in lines),
+    )
+
+
+def _check_motion(motion: Motion, transient: int) -> int:
+    """The cycles left after the transient of a motion that can have a spectrum."""
+    instance("motion", motion, Motion)
+    if motion.overturning is not None:
+        raise ValueError(
+            f"motion must stay up for a spectrum; it overturned in cycle {motion.overturning.cycle}"
+        )
+    if motion.outcome is not Outcome.BOUNDED:
+        raise ValueError("motion must go on moving for a spectrum; it is at rest at its end")
+    cycles = motion.cycles - whole("transient", transient, 0, motion.cycles - 1)
+    if cycles < SEGMENTS * LEAST_SEGMENT:
+        raise _too_short(cycles, SEGMENTS * LEAST_SEGMENT, "")
+    return cycles
+
+
+def _segment(segment: int | None, cycles: int, repeats: int | None) -> int:
+    """Cycles in a segment: those asked for, or an eighth of the record; whole periods, enough of them."""
+    period = repeats or 1
+    if segment is None:
+        segment = cycles // SEGMENTS // period * period
+        if segment < LEAST_SEGMENT * period:
+            raise _too_short(cycles, SEGMENTS * LEAST_SEGMENT * period, f" of period {period}")
+        return segment
+    segment = whole("segment", segment, LEAST_SEGMENT, cycles)
+    if segment % period or segment < LEAST_SEGMENT * period:
+        least = f"be a multiple of the response's {period} cycles, {LEAST_SEGMENT * period} at least"
+        raise ValueError(refusal("segment", least, segment))
+    return segment
+
+
+def _taper(window: str | tuple, length: int) -> Taper:
+    from scipy.signal import get_window
+
+    try:
+        with np.errstate(all="ignore"):
+            weights = get_window(window, length)
+    except (TypeError, ValueError):
+        raise ValueError(refusal("window", "be one that scipy.signal.get_window knows", window)) from None
+    if not np.isfinite(weights).all():
+        raise ValueError(refusal("window", "have finite weights", window))
+    taper = Taper(weights)
+    if taper.side_lobes > HIGHEST_SIDE_LOBES:
+        raise ValueError(refusal("window", "have side lobes below a tenth of its main lobe", window))
+    return taper
+
+
+def _parts_and_rotation(
+    lines: list[Line], variance: float, parts: int | None, rotation: float | None, resolution: float
+) -> tuple[int, float | None]:
+    """What names the lines; in a broad band none of them is sought, for some combination lies near any line."""
+    if sum(line.amplitude**2 / 2 for line in lines) < SHARE_OF_LINES * variance:
+        return parts or 1, rotation
+    return parts_and_rotation([line.frequency for line in lines], parts, rotation, resolution)
+
+
+def _peak(line: Line, parts: int, rotation: float | None, resolution: float, unit: float) -> Peak:
+    found = combination(line.frequency, parts, rotation, resolution)
+    return Peak(
+        frequency=line.frequency / unit,
+        height=line.height * unit,
+        amplitude=line.amplitude,
+        name=found.name if found else "",
+        forcing_multiple=found.forcing if found else None,
+        rotation_multiple=found.rotation if found else None,
+        offset=found.offset / unit if found else None,
+    )
+
+
+def _too_short(cycles: int, needed: int, why: str) -> ValueError:
+    return ValueError(
+        f"motion must last {needed} cycles after its transient for a spectrum{why}; it lasts {cycles} "
+        "(simulate more cycles)"
+    )

@@ -1,0 +1,130 @@
+"""How common chaos is: its share among random periods and amplitudes."""
+
+from __future__ import annotations
+
+from concurrent.futures import Executor
+from typing import Any
+
+import numpy as np
+
+from rocking.kernels.classify import verdict_record as kernel
+from rocking.model import ChaosShare, Share, refusal, whole, within
+from rocking.response import KINDS
+from rocking.survey.measures.kind import interval_variables, outcome
+from rocking.survey.sampling.random_points import MOST_SAMPLES, generator, sampled, span
+from rocking.survey.spec import Question, axis, points
+from rocking.survey.store.dataset import attributes, coordinate
+
+TITLE = "Share of chaotic responses of a free-standing block on a shaking base"
+
+
+def chaos_share(
+    *,
+    restitution: Any,
+    period: Any = (0.2, 3.0),
+    amplitude: Any = (0.0, 16.0),
+    brace_angle: float | None = None,
+    brace_restitution: float = 1.0,
+    samples: int = 3_000,
+    seed: int = 0,
+    max_cycles: int = 20_000,
+    max_period: int = 64,
+    executor: Executor | None = None,
+) -> ChaosShare:
+    """Tell which share of responses from rest is chaotic, over the restitution, from random periods and amplitudes.
+
+    Parameters
+    ----------
+    restitution : float or array (n,)
+        e, ascending.
+    period, amplitude : pair
+        Ranges (low, high) of T and A, from which they are drawn evenly.
+    brace_angle, brace_restitution : float
+        As in `Braces`; none by default.
+    samples : int
+        Responses at each restitution, 1 to 10⁷; drawn anew for each.
+    seed : int
+        Of the draw, 0 to 2³² − 1.
+    max_cycles, max_period : int
+        As in `classify`. Nothing is called chaotic before 10⁴ cycles (with braces 10⁵).
+    executor : concurrent.futures.Executor, optional
+        Who computes: threads on all cores unless given.
+
+    Returns
+    -------
+    ChaosShare
+        `.dataset` and `.shares`; `print` shows one line.
+
+    Raises
+    ------
+    TypeError, ValueError
+        In one line, for arguments of the wrong type or outside their range.
+
+    Notes
+    -----
+    The intervals are Wilson's at 95 %, and cover that all that is undetermined is chaotic. Not guaranteed: that chaos
+    lasts; a longer run may find an end to it.
+
+    There is no store: a thousand responses take seconds, and a seed gives them again.
+
+    Examples
+    --------
+    >>> import rocking as rk
+    >>> found = rk.chaos_share(restitution=[0.5, 0.9], samples=20)
+    >>> found.dataset.share.dims
+    ('restitution', 'response')
+    """
+    measure = outcome(max_cycles, max_period, TITLE)
+    plain = np.ndim(restitution) == 0
+    values = (
+        np.array([within("restitution", restitution, 0, 1)]) if plain else axis("restitution", restitution)
+    )
+    spans = {"period": span("period", period), "amplitude": span("amplitude", amplitude)}
+    fixed = {}
+    if brace_angle is not None:
+        from rocking.model import Braces
+
+        braces = Braces(brace_angle, brace_restitution)
+        fixed = {"brace_angle": braces.angle, "brace_restitution": braces.restitution}
+    elif brace_restitution != 1.0:
+        raise TypeError(refusal("brace_restitution", "come with brace_angle", brace_restitution))
+    count = whole("samples", samples, 1, MOST_SAMPLES)
+    random = generator(seed)
+    counts = []
+    for each in values.tolist():
+        drawn = {name: random.uniform(*ends, count) for name, ends in spans.items()}
+        kinds = sampled(points(drawn, {"restitution": each, **fixed}), measure, executor)["kind"]
+        counts.append(np.bincount(kinds, minlength=len(KINDS)))
+    return _summed_up(values, spans, fixed, measure, np.array(counts), seed)
+
+
+def _summed_up(
+    restitutions: np.ndarray,
+    spans: dict[str, tuple[float, float]],
+    fixed: Any,
+    measure: Any,
+    counts: np.ndarray,
+    seed: int,
+) -> ChaosShare:
+    import xarray as xr
+
+    of = int(counts[0].sum())
+    shares = tuple(Share(each[kernel.CHAOTIC], of, each[kernel.UNDETERMINED]) for each in counts)
+    variables: dict[str, Any] = dict(
+        interval_variables("chaotic", shares, "restitution", "share of chaotic responses")
+    )
+    variables["share"] = (
+        ("restitution", "response"),
+        counts / of,
+        {"long_name": "share of the responses of each kind", "units": "1"},
+    )
+    coordinates = {
+        "restitution": ("restitution", restitutions, coordinate("restitution")),
+        "response": ("response", [str(kind) for kind in KINDS], {"long_name": "kind of response"}),
+    }
+    told = attributes(Question({}, dict(fixed)), measure) | {
+        "samples": of,
+        "seed": seed,
+        **{f"{name}_range": list(ends) for name, ends in spans.items()},
+    }
+    return ChaosShare(xr.Dataset(variables, coordinates, told), shares)

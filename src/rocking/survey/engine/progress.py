@@ -1,0 +1,84 @@
+"""How far a survey is: a bar with the rate, the time left, and the shares of what was found."""
+
+from __future__ import annotations
+
+from types import TracebackType
+
+import numpy as np
+from rich.console import Console
+from rich.progress import (
+    BarColumn,
+    Progress,
+    ProgressColumn,
+    Task,
+    TaskProgressColumn,
+    TextColumn,
+    TimeRemainingColumn,
+)
+from rich.table import Column
+from rich.text import Text
+
+from rocking.model import percent
+from rocking.survey.engine.cost import Cost
+from rocking.survey.measurement import Measure
+from rocking.survey.store.export import flags
+
+
+class Rate(ProgressColumn):
+    """Points a second, of this run."""
+
+    def render(self, task: Task) -> Text:
+        """The rate, once there is one."""
+        return Text(f"{task.speed:,.0f}/s" if task.speed else "")
+
+
+class Bar:
+    """A bar on stderr, which says first what the survey will cost; to be entered before it runs."""
+
+    def __init__(self, cost: Cost, measure: Measure, workers: int | None) -> None:
+        self.cost, self.workers = cost, workers
+        told = next(each for each in measure.variables if each.name == measure.shares)
+        self.meanings = flags(told.attributes)
+        self.counts = dict.fromkeys(self.meanings, 0)
+        self.settled_points = 0
+        fixed = Column(no_wrap=True)
+        console = Console(stderr=True, highlight=False)
+        shares = Column(no_wrap=True, overflow="ellipsis", ratio=1)
+        columns = (
+            BarColumn(12),
+            TaskProgressColumn(table_column=fixed),
+            Rate(fixed.copy()),
+            TimeRemainingColumn(table_column=fixed.copy()),
+            TextColumn("{task.fields[shares]}", table_column=shares),
+        )
+        self.bar = Progress(*columns, console=console, expand=True)
+        self.before = 0
+
+    def __enter__(self) -> Bar:
+        self.bar.console.print(self.cost.told(self.workers))
+        self.task = self.bar.add_task("", total=self.cost.points, shares="")
+        self.bar.start()
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, at: TracebackType | None
+    ) -> None:
+        self.bar.stop()
+
+    def settled(self, found: np.ndarray, *, before: bool) -> None:
+        """Points were settled: these; the rate leaves out those of an earlier run."""
+        values, counts = np.unique(found, return_counts=True)
+        for value, count in zip(values.tolist(), counts.tolist(), strict=True):
+            self.counts[value] += count
+        self.settled_points += found.size
+        if before:
+            self.before += found.size
+            self.bar.reset(self.task, completed=self.before, total=self.cost.points, start=True)
+        self.bar.update(self.task, completed=self.settled_points, shares=self.shares())
+
+    def shares(self) -> str:
+        """The shares of what was found so far, the largest first."""
+        largest = sorted(
+            ((count, self.meanings[value]) for value, count in self.counts.items() if count), reverse=True
+        )
+        return ", ".join(f"{meaning} {percent(count / self.settled_points)}" for count, meaning in largest)

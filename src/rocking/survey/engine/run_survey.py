@@ -1,0 +1,74 @@
+"""A survey from its question to its answer, in memory or in a store."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from concurrent.futures import Executor
+from contextlib import contextmanager
+from typing import TYPE_CHECKING
+
+from rocking.model import instance, refusal
+from rocking.survey.engine.cost import cost
+from rocking.survey.engine.tile_loop import Results, cores, run
+from rocking.survey.measurement import Measure
+from rocking.survey.spec import Question
+from rocking.survey.store.memory import Memory, check_fits
+from rocking.survey.store.store import opened
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+
+def ask(
+    asked: Question,
+    measure: Measure,
+    store: str | os.PathLike[str] | None = None,
+    executor: Executor | None = None,
+    *,
+    progress: bool = False,
+    repair: bool = False,
+) -> xr.Dataset:
+    """Carry a survey out, or go on with one in a store."""
+    if executor is not None:
+        instance("executor", executor, Executor)
+    if store is None and repair:
+        raise ValueError(refusal("repair", "go with store, whose damaged tiles it computes again", repair))
+    if store is None:
+        check_fits(asked, measure)
+        results = Memory(asked, measure)
+        _carry_out(
+            results, executor, progress, "nothing of it is kept (with store, the same call would go on)"
+        )
+        return results.dataset()
+    with opened(store, asked, measure, repair=repair) as kept:
+        _carry_out(
+            kept, executor, progress, f"what is done is in {str(store)!r}, and the same call goes on with it"
+        )
+    with _noted(f"The survey is complete in {str(store)!r}, and the same call reads it."):
+        return kept.dataset()
+
+
+def _carry_out(results: Results, executor: Executor | None, progress: bool, interrupted: str) -> None:
+    # Before other threads begin: a process that ends while one of them compiles may crash.
+    results.measure.compile(results.asked.may_last)
+    with _noted(f"The survey was interrupted; {interrupted}."):
+        if not progress:
+            run(results, executor)
+            return
+        from rocking.survey.engine.progress import Bar
+
+        workers = cores() if executor is None else None
+        planned = cost(results.asked, results.measure, results.levels, results.done)
+        with Bar(planned, results.measure, workers) as bar:
+            run(results, executor, bar)
+
+
+@contextmanager
+def _noted(note: str) -> Iterator[None]:
+    """Tell who types Ctrl-C what it means for the survey."""
+    try:
+        yield
+    except KeyboardInterrupt as error:
+        error.add_note(note)
+        raise

@@ -1,0 +1,145 @@
+"""The loop: tiles from coarse to fine, their batches on any executor, their results kept in the order of the plan."""
+
+from __future__ import annotations
+
+import os
+from collections import deque
+from collections.abc import Iterator
+from concurrent.futures import FIRST_EXCEPTION, Executor, Future, ThreadPoolExecutor, wait
+from contextlib import contextmanager
+from typing import Protocol
+
+import numpy as np
+from attrs import frozen
+
+from rocking.survey.measurement import Arrays, Measure, batches, compute
+from rocking.survey.spec import Question
+from rocking.survey.store.locking import undisturbed
+from rocking.survey.tiling import Level, Tile
+
+MOST_UNDER_WAY = 512
+"""Batches under way or waiting for an earlier tile, at most: what they answer takes some 0.2 GB."""
+
+
+class Results(Protocol):
+    """Where results are kept: in memory, or in a store."""
+
+    asked: Question
+    measure: Measure
+    levels: list[Level]
+    done: int  # points that an earlier run has left
+
+    def known(self, tile: Tile) -> np.ndarray:
+        """Which points of a tile are there."""
+        ...
+
+    def read(self, tile: Tile, names: tuple[str, ...] = ()) -> Arrays:
+        """What is there of a tile, of all variables unless some are named."""
+        ...
+
+    def coarser(self, tile: Tile) -> Arrays:
+        """Of the level before, the points that a tile shares."""
+        ...
+
+    def write(self, tile: Tile, answers: Arrays) -> None:
+        """Keep a tile."""
+        ...
+
+
+class Watcher(Protocol):
+    """Who is told how far it is."""
+
+    def settled(self, found: np.ndarray, *, before: bool) -> None:
+        """Points were settled, with these values of the variable whose shares are told; `before`: by an earlier run."""
+        ...
+
+
+@frozen(eq=False)
+class Pending:
+    """A tile under way."""
+
+    tile: Tile
+    known: np.ndarray
+    wanted: list[np.ndarray]
+    futures: list[Future]
+
+
+def run(results: Results, executor: Executor | None = None, watcher: Watcher | None = None) -> None:
+    """Compute what is not there yet; on Ctrl-C, and whatever else happens, what is kept stays good."""
+    with engine(executor) as (pool, stop):
+        pending: deque[Pending] = deque()
+        under_way = 0
+        try:
+            for tile in (tile for level in results.levels for tile in level.tiles()):
+                known = results.known(tile)
+                if known.any():
+                    there = results.read(tile, (results.measure.shares,))
+                    _tell(watcher, results, tile, there, known, before=True)
+                if known.all():
+                    continue
+                pending.append(_submit(pool, stop, results, tile, known))
+                under_way += len(pending[-1].futures)
+                while under_way > MOST_UNDER_WAY:
+                    under_way -= _settle(pending, results, watcher)
+            while pending:
+                _settle(pending, results, watcher)
+        finally:
+            for future in (future for each in pending for future in each.futures):
+                future.cancel()
+
+
+def _submit(pool: Executor, stop: np.ndarray, results: Results, tile: Tile, known: np.ndarray) -> Pending:
+    """Send off what neither an earlier run nor a coarser level has found."""
+    wanted = np.flatnonzero(tile.own(~known)).astype(np.int32)
+    work = list(batches(tile, results.asked.fixed, wanted, results.measure))
+    return Pending(
+        tile, known, [each.wanted for each in work], [pool.submit(compute, each, stop) for each in work]
+    )
+
+
+def _settle(pending: deque[Pending], results: Results, watcher: Watcher | None) -> int:
+    """Wait for the first tile under way and keep it; how many batches it had. Tiles are kept in the order of the plan."""
+    first = pending[0]
+    wait(first.futures, return_when=FIRST_EXCEPTION)
+    tile, shared = first.tile, first.tile.shared()
+    found = [future.result() for future in first.futures]
+    with undisturbed():
+        answers = results.read(tile) if first.known.any() else results.measure.blank(tile.shape)
+        if shared is not None:
+            for name, values in results.coarser(tile).items():
+                answers[name][shared[0]] = values
+        for wanted, new in zip(first.wanted, found, strict=True):
+            for name, values in new.items():
+                answers[name].reshape(-1)[wanted] = values
+        results.write(tile, answers)
+    _tell(watcher, results, tile, answers, ~first.known, before=False)
+    pending.popleft()
+    return len(first.futures)
+
+
+def _tell(
+    watcher: Watcher | None, results: Results, tile: Tile, answers: Arrays, which: np.ndarray, *, before: bool
+) -> None:
+    """Tell who watches what was found at the points that are in no coarser level."""
+    if watcher is not None:
+        watcher.settled(answers[results.measure.shares][tile.own(which)], before=before)
+
+
+@contextmanager
+def engine(executor: Executor | None) -> Iterator[tuple[Executor, np.ndarray]]:
+    """The executor, with a flag that ends the work of threads soon; one's own threads, one a core, unless given."""
+    stop = np.zeros(1, np.int64)
+    own = ThreadPoolExecutor(cores(), "survey") if executor is None else None
+    try:
+        yield own or executor, stop  # type: ignore[misc]
+    except BaseException:
+        stop[0] = 1
+        raise
+    finally:
+        if own is not None:
+            own.shutdown(cancel_futures=True)
+
+
+def cores() -> int:
+    """Cores that this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1

@@ -1,0 +1,1 @@
+"""What is computed at the points of a survey."""

@@ -1,0 +1,221 @@
+"""What starts lead to: the attractors told apart by their orbits, not only by their periods."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from rocking.kernels import batch
+from rocking.kernels.classify import attractor_anchor as kernel
+from rocking.kernels.classify import results, verdict_record
+from rocking.model import (
+    Attractor,
+    Harmonic,
+    Kind,
+    State,
+    System,
+    Verdict,
+)
+from rocking.motion import simulate
+from rocking.response import budget, classify
+from rocking.survey.measurement import Arrays, Measure, Variable
+from rocking.survey.measures.chaotic_means import averages, grouped
+from rocking.survey.measures.response import VARIABLES, judged
+from rocking.survey.spec import Points, points
+
+SAME = 1e-6
+"""Orbits that come as near as this to each other on the section count as one."""
+KEPT = ("kind", "evidence", "response_period", "impacts_per_period", "brace_hits_per_period", "symmetric")
+ANCHORS = tuple(
+    Variable(
+        f"orbit_{what}",
+        "float64",
+        math.inf,
+        {
+            "long_name": f"{what} of the state that stands for the attractor in units of {unit}",
+            "units": "1",
+            "comment": f"at {kernel.SECTION:.6g} of a forcing cycle; NaN: neither periodic nor at rest",
+        },
+    )
+    for what, unit in (("angle", "theta_cr"), ("velocity", "alpha theta_cr"))
+)
+AVERAGES = (
+    Variable(
+        "mean_angle",
+        "float64",
+        math.inf,
+        {
+            "long_name": "mean angle on the section in units of theta_cr",
+            "units": "1",
+            "comment": "NaN: not chaotic, or lossless",
+        },
+    ),
+    Variable(
+        "mean_angle_error",
+        "float64",
+        math.inf,
+        {"long_name": "standard error of the mean angle", "units": "1", "comment": "NaN: none"},
+    ),
+)
+CLASS = ("kind", "response_period", "impacts_per_period", "brace_hits_per_period", "symmetric")
+"""What differs between two attractors, if anything but their states does."""
+
+
+def destination(max_cycles: int, max_period: int, title: str) -> Measure:
+    """What the cascade of `classify` says at each start, and a state that stands for where it leads."""
+    by_name = {each.name: each for each in VARIABLES}
+    variables = (
+        *(by_name[name] for name in KEPT),
+        *ANCHORS,
+        *AVERAGES,
+        by_name["transient"],
+        by_name["cycles"],
+    )
+    options = budget(max_cycles, max_period)
+    return Measure(title, judge, compile_both, variables, options, batch.METHOD, shares="kind")
+
+
+def compile_both(may_last: bool) -> None:
+    """Compile the cascade, and what follows orbits."""
+    batch.compile_many(may_last)
+    still = np.array([[0.0, 1.0, math.tau, 0.0, 0.0, math.inf, 1.0]])
+    kernel.anchors_of(still, np.zeros((1, 2)), results.no_answers(1))
+    simulate(System(Harmonic(0.0, period=1.0), 0.0), cycles=1, record="section")
+
+
+def lead(
+    values: Mapping[str, np.ndarray],
+    fixed: Mapping[str, float],
+    max_cycles: int,
+    max_period: int,
+    stop: np.ndarray,
+) -> Arrays | None:
+    """What `respond` says, with the state that stands for each orbit: `orbit_angle` and `orbit_velocity`."""
+    asked = points(values, fixed)
+    told = batch.judge_many(*asked, max_cycles, max_period, stop)
+    if told is None:
+        return None
+    angles, velocities = kernel.anchors_of(*asked, told).T
+    return judged(told) | {"orbit_angle": angles, "orbit_velocity": velocities}
+
+
+def judge(points: Points, options: Mapping[str, int], stop: np.ndarray) -> Arrays | None:
+    """The cascade's answers, with the state that stands for each orbit."""
+    told = batch.judge_many(*points, options["max_cycles"], options["max_period"], stop)
+    if told is None:
+        return None
+    anchors = kernel.anchors_of(*points, told)
+    # without losses there is no attractor, and a mean takes for ever to settle
+    means = averages(
+        points, (told.kind == verdict_record.CHAOTIC) & ~points.lossless, options["max_cycles"], stop
+    )
+    if stop[0]:
+        return None
+    answers = judged(told)
+    columns = zip((*ANCHORS, *AVERAGES), (*anchors.T, *means.T), strict=True)
+    return {name: answers[name] for name in (*KEPT, "transient", "cycles")} | {
+        each.name: np.ascontiguousarray(column) for each, column in columns
+    }
+
+
+def told_apart(system: System, answers: Mapping[str, Any]) -> tuple[np.ndarray, np.ndarray]:
+    """(labels (n,), first (m,)): which attractor each of n starts leads to, the largest share first, and a start of each.
+
+    Orbits of one class (kind, period, impacts, symmetry) are one where the states that stand for them are, or where one's
+    state is any of the other's. Chaotic responses are one where their means are, to within their errors.
+    """
+    named_by = (*CLASS, *(each.name for each in (*ANCHORS, *AVERAGES)))
+    flat = {name: np.asarray(answers[name]).ravel() for name in named_by}
+    columns = [flat[name].astype(float) for name in CLASS]
+    anchors = np.column_stack([flat["orbit_angle"], flat["orbit_velocity"]])
+    unanchored = np.isnan(anchors).any(axis=1)
+    # + 0.0: no negative zeros, which differ in their bytes
+    rounded = np.where(unanchored[:, None], 0.0, np.round(anchors / SAME)) + 0.0
+    means = grouped(flat["mean_angle"], flat["mean_angle_error"])
+    keys = np.column_stack([*columns, unanchored, means, rounded])
+    distinct, first, groups = np.unique(keys, axis=0, return_index=True, return_inverse=True)
+    joined = _joined(system, distinct, anchors[first])[groups.ravel()]
+    _, first, labels, counts = np.unique(joined, return_index=True, return_inverse=True, return_counts=True)
+    order = np.argsort(-counts, kind="stable")
+    ranks = np.empty_like(order)
+    ranks[order] = np.arange(order.size)
+    return ranks[labels.ravel()], first[order]
+
+
+def _joined(system: System, distinct: np.ndarray, anchors: np.ndarray) -> np.ndarray:
+    """A number for each distinct row, the same for rows of one attractor."""
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import connected_components
+
+    classes = np.unique(distinct[:, : len(CLASS) + 1], axis=0, return_inverse=True)[1].ravel()
+    pairs = [np.empty((0, 2), int)]
+    for number in range(classes.max() + 1):
+        members = np.flatnonzero(classes == number)
+        if members.size < 2 or np.isnan(anchors[members]).any():
+            continue
+        pairs.append(members[alike(anchors[members], anchors[members])])
+        period = int(distinct[members[0], 1])
+        # a class of thousands is no list of attractors, but near a torus
+        if period > 1 and members.size <= 1000:
+            pairs.append(_shared(system, members, anchors, period))
+    links = np.concatenate(pairs)
+    graph = coo_array((np.ones(len(links)), (links[:, 0], links[:, 1])), shape=(len(distinct),) * 2)
+    return connected_components(graph, directed=False)[1]
+
+
+def _shared(system: System, members: np.ndarray, anchors: np.ndarray, period: int) -> np.ndarray:
+    """Pairs of orbits of one period of which one's state is any of the other's."""
+    states = np.concatenate([section_of(system, anchors[each], period) for each in members])
+    rows, others = alike(states, anchors[members]).T
+    return np.column_stack([np.repeat(members, period)[rows], members[others]])
+
+
+def alike(states: np.ndarray, others: np.ndarray) -> np.ndarray:
+    """Pairs (m, 2) of rows of `states` (n, 2) and of `others` (k, 2) that stand for one attractor: as near as SAME to each other."""
+    from scipy.spatial import cKDTree
+
+    near = cKDTree(states).query_ball_point(others, SAME)
+    counts = [len(found) for found in near]
+    rows = np.concatenate([np.empty(0, int), *near]).astype(int)
+    return np.column_stack([rows, np.repeat(np.arange(len(others)), counts)])
+
+
+def section_of(system: System, anchor: np.ndarray, period: int) -> np.ndarray:
+    """The states (n, 2) of an orbit on the section, from the one that stands for it."""
+    forcing = system.forcing
+    phase = forcing.phase + math.tau * kernel.SECTION
+    clocked = System(
+        Harmonic(forcing.amplitude, period=forcing.period, phase=phase), system.restitution, system.braces
+    )
+    motion = simulate(clocked, State(*anchor), cycles=period, record="section")
+    return np.asarray(motion.section()[:period])
+
+
+def named(
+    system: System, starts: np.ndarray, first: np.ndarray, max_cycles: int, max_period: int
+) -> tuple[Attractor, ...]:
+    """The attractors to which these of the starts lead, each with a name of its own."""
+    verdicts = [classify(system, State(*starts[k]), max_cycles, max_period) for k in first]
+    plain = [_name(each) for each in verdicts]
+    names, seen = [], dict.fromkeys(plain, 0)
+    for name in plain:
+        letter = f" ({_letters(seen[name])})" if plain.count(name) > 1 else ""
+        seen[name] += 1
+        names.append(name + letter)
+    return tuple(Attractor(name, verdict) for name, verdict in zip(names, verdicts, strict=True))
+
+
+def _name(verdict: Verdict) -> str:
+    if verdict.orbit is None:
+        leans = verdict.kind is Kind.REST and verdict.steady_peak
+        return "leaning" if leans else str(verdict.kind)
+    return f"period {verdict.period}, {'symmetric' if verdict.symmetric else 'unsymmetric'}"
+
+
+def _letters(number: int) -> str:
+    """a, b, …, z, aa, ab, …."""
+    before, last = divmod(number, 26)
+    return (_letters(before - 1) if before else "") + "abcdefghijklmnopqrstuvwxyz"[last]

@@ -1,0 +1,43 @@
+"""What surveys that only count need to know of a point: the kind of its response, in a byte."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from rocking.kernels import batch
+from rocking.model import Share
+from rocking.response import budget
+from rocking.survey.measurement import Arrays, Measure
+from rocking.survey.measures.response import VARIABLES
+from rocking.survey.spec import Points
+
+KIND = VARIABLES[0]
+
+
+def outcome(max_cycles: int, max_period: int, title: str) -> Measure:
+    """The kind of each response, by the cascade of `classify`."""
+    options = budget(max_cycles, max_period)
+    return Measure(title, judge, batch.compile_many, (KIND,), options, batch.METHOD, shares="kind")
+
+
+def judge(points: Points, options: Mapping[str, int], stop: np.ndarray) -> Arrays | None:
+    """The cascade's answers, of which only the kind is kept."""
+    told = batch.judge_many(*points, options["max_cycles"], options["max_period"], stop)
+    return None if told is None else {"kind": told.kind}
+
+
+def interval_variables(
+    name: str, shares: Sequence[Share], dimension: str, meaning: str
+) -> dict[str, tuple[str, np.ndarray, dict[str, str]]]:
+    """Shares along a dimension as three variables of a dataset: the share, and both ends of its interval."""
+    parts = {
+        name: ([each.value for each in shares], meaning),
+        f"{name}_low": ([each.low for each in shares], f"{meaning}, lower end of its 95 % interval"),
+        f"{name}_high": ([each.high for each in shares], f"{meaning}, upper end of its 95 % interval"),
+    }
+    return {
+        part: (dimension, np.array(values), {"long_name": told, "units": "1"})
+        for part, (values, told) in parts.items()
+    }

@@ -1,0 +1,136 @@
+"""What every map finds at a point: the response, the evidence for it, and the numbers that go with it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+
+import numpy as np
+
+from rocking.kernels import batch
+from rocking.kernels.classify import results
+from rocking.kernels.classify import verdict_record as kernel
+from rocking.response import budget
+from rocking.survey.measurement import Arrays, Measure, Variable
+from rocking.survey.spec import Points, points
+
+
+def meanings(enum: type[kernel.Kind] | type[kernel.Ground]) -> dict[str, object]:
+    """The CF attributes of a variable whose values are those of an enum."""
+    words = (each.name.lower().replace("_", "-") for each in enum)
+    return {"flag_values": np.array(list(enum), np.uint8), "flag_meanings": " ".join(words)}
+
+
+SYMMETRY = {
+    "flag_values": np.arange(3, dtype=np.uint8),
+    "flag_meanings": "unsymmetric symmetric not-periodic",
+}
+NOT_PERIODIC = 2
+
+VARIABLES = (
+    Variable("kind", "uint8", 255, {"long_name": "kind of response", **meanings(kernel.Kind)}),
+    Variable("evidence", "uint8", 255, {"long_name": "ground of the label", **meanings(kernel.Ground)}),
+    Variable(
+        "response_period",
+        "int32",
+        -1,
+        {"long_name": "period of the response in forcing cycles", "comment": "0: not periodic"},
+    ),
+    Variable(
+        "impacts_per_period",
+        "int32",
+        -2,
+        {
+            "long_name": "impacts in a period of the response",
+            "comment": "-1: not periodic, or infinitely many before rest or leaning",
+        },
+    ),
+    Variable(
+        "brace_hits_per_period",
+        "int32",
+        -2,
+        {
+            "long_name": "brace hits in a period of the response",
+            "comment": "-1: not periodic, or infinitely many before rest or leaning",
+        },
+    ),
+    Variable("symmetric", "uint8", 255, {"long_name": "symmetry of the response", **SYMMETRY}),
+    Variable(
+        "exponent",
+        "float64",
+        math.inf,
+        {
+            "long_name": "largest Lyapunov exponent per normalised time",
+            "units": "1",
+            "comment": "-inf: superstable; NaN: none, or not weighed",
+        },
+    ),
+    Variable(
+        "exponent_error",
+        "float64",
+        math.inf,
+        {
+            "long_name": "standard error of the exponent",
+            "units": "1",
+            "comment": "0: from the multipliers; NaN: none",
+        },
+    ),
+    Variable(
+        "peak",
+        "float64",
+        -1.0,
+        {"long_name": "largest angle from the start in units of theta_cr", "units": "1"},
+    ),
+    Variable(
+        "transient",
+        "int32",
+        -2,
+        {"long_name": "forcing cycles before the response was reached, at most", "comment": "-1: not known"},
+    ),
+    Variable("cycles", "int32", -1, {"long_name": "forcing cycles followed"}),
+)
+
+
+def response(max_cycles: int, max_period: int, title: str) -> Measure:
+    """What the cascade of `classify` says at each point."""
+    options = budget(max_cycles, max_period)
+    return Measure(title, judge, batch.compile_many, VARIABLES, options, batch.METHOD, shares="kind")
+
+
+def judge(points: Points, options: Mapping[str, int], stop: np.ndarray) -> Arrays | None:
+    """The cascade's answers, told as `classify` tells them."""
+    told = batch.judge_many(*points, options["max_cycles"], options["max_period"], stop)
+    return None if told is None else judged(told)
+
+
+def respond(
+    values: Mapping[str, np.ndarray],
+    fixed: Mapping[str, float],
+    max_cycles: int,
+    max_period: int,
+    stop: np.ndarray,
+) -> Arrays | None:
+    """What a map says at n points: `values` (n,) and the `fixed` ones by the names of the quantities, all in range.
+
+    None where another thread set `stop` (1,) on the way. A survey has checked, and compiled, before it comes to this.
+    """
+    return judge(points(values, fixed), {"max_cycles": max_cycles, "max_period": max_period}, stop)
+
+
+def judged(told: results.Answers) -> Arrays:
+    """The cascade's answers by the names of the variables."""
+    unweighed = (told.kind == kernel.UNDETERMINED) & ~np.isin(told.ground, kernel.WEIGHED)
+    overturns, periodic = told.kind == kernel.OVERTURNS, told.kind == kernel.PERIODIC
+    return {
+        "kind": told.kind,
+        "evidence": told.ground,
+        "response_period": told.period,
+        "impacts_per_period": told.impacts,
+        "brace_hits_per_period": told.brace_hits,
+        "symmetric": np.where(periodic, told.symmetric, NOT_PERIODIC).astype(np.uint8),
+        "exponent": np.where(unweighed, math.nan, told.exponent),
+        "exponent_error": np.where(unweighed, math.nan, told.error),
+        "peak": told.peak,
+        "transient": np.where(overturns, np.maximum(told.cycles - 1, 0), told.transient).astype(np.int32),
+        "cycles": told.cycles,
+    }

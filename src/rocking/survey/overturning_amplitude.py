@@ -1,0 +1,184 @@
+"""How hard the base must shake to overturn a block from rest, over periods and restitutions."""
+
+from __future__ import annotations
+
+import os
+from concurrent.futures import Executor
+from typing import Any
+
+import numpy as np
+
+from rocking.kernels.classify import verdict_record as kernel
+from rocking.model import OverturningCurve, refusal, whole
+from rocking.survey.engine.run_survey import ask
+from rocking.survey.measures.kind import outcome
+from rocking.survey.sampling.overturning_scan import Scan, refined
+from rocking.survey.spec import question
+from rocking.survey.store.dataset import attributes, coordinate
+from rocking.theory import heteroclinic_amplitude
+
+MOST_PHASES = 100_000
+TITLE = "Overturning of a free-standing block from rest on a shaking base"
+SCANNED = np.linspace(1.0, 16.0, 301)
+"""Amplitudes scanned unless others are given; up to 1 nothing moves from rest."""
+
+
+def overturning_amplitude(
+    *,
+    period: Any = None,
+    frequency: Any = None,
+    restitution: Any,
+    amplitude: Any = None,
+    phases: int = 16,
+    max_cycles: int = 1_000,
+    max_period: int = 64,
+    store: str | os.PathLike[str] | None = None,
+    executor: Executor | None = None,
+    progress: bool = False,
+    repair: bool = False,
+) -> OverturningCurve:
+    """Find the lowest amplitude that overturns a block from rest, over all phases at which the shaking may begin.
+
+    Overturning is not monotone in the amplitude: a block may survive far above the lowest one. So amplitudes are scanned, at
+    every phase; between the last one up to which everything survived and the first that overturns the block at some
+    phase, the change is refined by bisection.
+
+    Parameters
+    ----------
+    period, frequency : float or array (n,)
+        T or Ω (exactly one of them), ascending if several.
+    restitution : float or array (n,)
+        e, likewise.
+    amplitude : array (n,), optional
+        The amplitudes to scan, ascending; 301 from 1 to 16 unless given.
+    phases : int
+        How many phases φ, evenly over half a turn: from rest those of the other half only swap left and right.
+    max_cycles, max_period : int
+        As in `classify`; what has not overturned in so many cycles survived.
+    store, executor, progress, repair
+        As in `parametric_map`, for the scan.
+
+    Returns
+    -------
+    OverturningCurve
+        `.dataset` with `lowest`, `resolution`, `lowest_phase`, `survived_up_to`, `surviving_above`, `overturning_share` and
+        `changes`; `print` shows one line.
+
+    Raises
+    ------
+    TypeError, ValueError, OSError
+        In one line, as in `parametric_map`.
+
+    Notes
+    -----
+    Not guaranteed: that nothing overturns below `lowest`, between two amplitudes or two phases of the scan; `resolution` is
+    how far apart the amplitudes are there. Where it lies in a fractal set, and not at a plain edge, the last digits of the
+    system move it: for one cabinet at 1 Hz by 1e-5. Where the lowest amplitude scanned overturns
+    already, it is `lowest`, and `survived_up_to` is NaN.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import rocking as rk
+    >>> found = rk.overturning_amplitude(
+    ...     period=[1.5, 2.0], restitution=0.925, amplitude=np.linspace(1, 4, 31), phases=2
+    ... )
+    >>> found.dataset.lowest.dims, found.dataset.overturning_share.shape
+    (('period',), (2, 31))
+    """
+    count = whole("phases", phases, 1, MOST_PHASES)
+    amplitude = SCANNED if amplitude is None else amplitude
+    if np.ndim(amplitude) != 1:
+        raise TypeError(refusal("amplitude", "be an axis of amplitudes to scan, ascending", amplitude))
+    measure = outcome(max_cycles, max_period, TITLE)
+    turned = np.arange(count) * (np.pi / count)
+    given = {
+        "amplitude": amplitude,
+        "restitution": restitution,
+        "phase": turned if count > 1 else 0.0,
+        "frequency": frequency,
+        "period": period,
+    }
+    varying = sum(np.ndim(value) > 0 for value in given.values())
+    asked = question(given, varying, "an overturning amplitude")
+    found = ask(asked, measure, store, executor, progress=progress, repair=repair)
+    kinds = found.kind if count > 1 else found.kind.expand_dims(phase=turned)
+    over = [name for name in ("restitution", "frequency", "period") if name in asked.axes]
+    kinds = kinds.transpose(*over, "phase", "amplitude").load()
+    scan = Scan(asked, measure, tuple(over), kinds)
+    return _summed_up(scan, *refined(scan, executor))
+
+
+def _summed_up(scan: Scan, lowest: np.ndarray, phase: np.ndarray) -> OverturningCurve:
+    """The curve as a dataset."""
+    import xarray as xr
+
+    cells, first, amplitudes, over = scan.cells, scan.first, scan.amplitudes, scan.over
+    steps = np.concatenate([[np.nan], np.diff(amplitudes), [np.nan]])
+    before = np.concatenate([[np.nan], amplitudes])
+    scanned_above = (amplitudes.size - first) * scan.phases.size
+    fell_above = cells.sum(axis=(1, 2))
+    surviving = np.where(scanned_above > 0, 1.0 - fell_above / np.maximum(scanned_above, 1), np.nan)
+    changes = (cells[..., 1:] != cells[..., :-1]).sum(axis=-1)
+    undetermined = (scan.kinds.values == kernel.UNDETERMINED).mean(axis=(-2, -1))
+    none = "NaN: none"
+    columns: dict[str, tuple[tuple[str, ...], np.ndarray, str, str, str]] = {
+        "lowest": (over, lowest, "lowest overturning amplitude found", "1", none),
+        "resolution": (over, steps[first], "distance of the amplitudes scanned there", "1", none),
+        "lowest_phase": (over, phase, "phase at which it overturns", "rad", none),
+        "survived_up_to": (
+            over,
+            before[first],
+            "highest amplitude scanned up to which all survived",
+            "1",
+            none,
+        ),
+        "surviving_above": (
+            over,
+            surviving,
+            "share of what was scanned from there on that survives",
+            "1",
+            none,
+        ),
+        "overturning_share": (
+            (*over, "amplitude"),
+            cells.mean(axis=1),
+            "share of the phases at which the block overturns",
+            "1",
+            "",
+        ),
+        "changes": (
+            (*over, "phase"),
+            changes,
+            "changes along the scanned amplitudes between overturning and not",
+            "1",
+            "",
+        ),
+        "heteroclinic_amplitude": (over, _thresholds(scan), "exact tangency A*", "1", ""),
+        "undetermined": (
+            over,
+            undetermined,
+            "share of what was scanned whose response is undetermined",
+            "1",
+            "",
+        ),
+    }
+    sizes = {str(name): size for name, size in scan.kinds.sizes.items()}
+    variables = {
+        name: (
+            dims,
+            np.reshape(values, tuple(sizes[each] for each in dims)),
+            {"long_name": told, "units": unit} | ({"comment": note} if note else {}),
+        )
+        for name, (dims, values, told, unit, note) in columns.items()
+    }
+    coordinates = {name: (name, scan.kinds[name].values, coordinate(name)) for name in sizes}
+    return OverturningCurve(xr.Dataset(variables, coordinates, attributes(scan.asked, scan.measure)))
+
+
+def _thresholds(scan: Scan) -> np.ndarray:
+    """A* of each cell."""
+    grids = np.meshgrid(*(scan.kinds[name].values for name in scan.over), indexing="ij")
+    at: dict[str, Any] = scan.asked.fixed | dict(zip(scan.over, grids, strict=True))
+    period = at["period"] if "period" in at else 2.0 * np.pi / at["frequency"]
+    return np.asarray(heteroclinic_amplitude(period, at["restitution"]))

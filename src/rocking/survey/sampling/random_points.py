@@ -1,0 +1,63 @@
+"""Points that lie on no grid: drawn at random, or refined one by one."""
+
+from __future__ import annotations
+
+from concurrent.futures import CancelledError, Executor
+from typing import Any
+
+import numpy as np
+
+from rocking.model import instance, reals, refusal, shown, whole
+from rocking.survey.engine.tile_loop import engine
+from rocking.survey.measurement import Arrays, Measure
+from rocking.survey.spec import RANGES, Points
+
+AT_ONCE = 2048
+"""Points of one piece of work."""
+MOST_SAMPLES = 10_000_000
+MOST_SEED = 2**32 - 1
+
+
+def sampled(points: Points, measure: Measure, executor: Executor | None = None) -> Arrays:
+    """The answers of a measure at points, in their order."""
+    if executor is not None:
+        instance("executor", executor, Executor)
+    measure.compile(bool(points.may_last.any()))
+    total = len(points.systems)
+    with engine(executor) as (pool, stop):
+        futures = []
+        try:
+            for first in range(0, total, AT_ONCE):
+                part = Points(*(array[first : first + AT_ONCE] for array in points))
+                futures.append(pool.submit(measure.judge, part, measure.options, stop))
+            answers = [told for told in (future.result() for future in futures) if told is not None]
+        finally:
+            for future in futures:
+                future.cancel()
+    if len(answers) < len(futures):
+        raise CancelledError("told to stop")
+    return {name: np.concatenate([each[name] for each in answers]) for name in answers[0]}
+
+
+def generator(seed: int) -> np.random.Generator:
+    """Random numbers, the same for the same seed."""
+    return np.random.default_rng(whole("seed", seed, 0, MOST_SEED))
+
+
+def span(name: str, values: Any, widest: tuple[float, float] | None = None) -> tuple[float, float]:
+    """Check a range to draw from: (low, high), low < high, within what the quantity may be."""
+    low, high = widest or RANGES[name]
+    allowed = f"be a pair (low, high) in [{low:.6g}, {high:.6g}], low below high"
+    try:
+        pair = np.asarray(reals(name, values))
+    except TypeError:
+        raise TypeError(refusal(name, allowed, values)) from None
+    if pair.shape != (2,):
+        raise ValueError(f"{name} must {allowed}; got {_kind_of(pair)}")
+    if not low <= pair[0] < pair[1] <= high:
+        raise ValueError(f"{name} must {allowed}; got ({shown(pair[0])}, {shown(pair[1])})")
+    return float(pair[0]), float(pair[1])
+
+
+def _kind_of(array: np.ndarray) -> str:
+    return f"the number {array.item():.6g}" if array.ndim == 0 else f"an array of shape {array.shape}"

@@ -1,0 +1,1 @@
+"""Where the results of a survey are kept: in memory, in a Zarr store, or exported."""

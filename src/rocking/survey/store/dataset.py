@@ -1,0 +1,44 @@
+"""A survey as an xarray dataset, which names its parameters, its flags, and the package and method that made it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from rocking.model import VERSION
+from rocking.survey.measurement import Arrays, Measure
+from rocking.survey.spec import SYMBOLS, Question, described
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+
+def dataset(asked: Question, measure: Measure, arrays: Arrays) -> xr.Dataset:
+    """The arrays, each over all axes, with their coordinates and attributes."""
+    import xarray as xr
+
+    names = tuple(asked.axes)
+    variables = {each.name: (names, arrays[each.name], each.attributes) for each in measure.variables}
+    coordinates = {name: (name, values, coordinate(name)) for name, values in asked.axes.items()}
+    return xr.Dataset(variables, coordinates, attributes(asked, measure))
+
+
+def coordinate(name: str) -> dict[str, str]:
+    """The attributes of a coordinate."""
+    symbol, long_name = SYMBOLS[name]
+    return {"long_name": long_name, "symbol": symbol, "units": "rad" if name == "phase" else "1"}
+
+
+def attributes(asked: Question, measure: Measure) -> dict[str, Any]:
+    """What the survey is: every parameter that does not vary, the options, and who made it."""
+    return {
+        "Conventions": "CF-1.11",
+        "title": measure.title,
+        "source": f"rocking {VERSION}",
+        "method": measure.method,
+        "comment": (
+            "Attributes and coordinates are normalised as in Yim and Lin (1991), eqs. 1-4; "
+            "the base's acceleration is amplitude cos(frequency time + phase)."
+        ),
+        **described(asked),
+        **measure.options,
+    }

@@ -1,0 +1,232 @@
+"""Results of a survey in a folder, in Zarr's third format: written while it runs, gone on with after any interruption."""
+
+from __future__ import annotations
+
+import math
+import os
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from rocking.survey.measurement import Arrays, Measure
+from rocking.survey.spec import Question
+from rocking.survey.store import zarr_arrays
+from rocking.survey.store.layout import (
+    Layout,
+    check_described,
+    check_same,
+    described_layout,
+    fingerprint,
+    joined,
+    new_layout,
+    read_layout,
+)
+from rocking.survey.store.locking import (
+    ROOT,
+    StoreError,
+    alone,
+    check_store,
+    reading,
+    remove_unfinished,
+    something_else,
+    undisturbed,
+    writing,
+)
+from rocking.survey.tiling import Level, Slices, Tile
+
+if TYPE_CHECKING:
+    import xarray as xr
+    import zarr
+
+NAME = "rocking_survey"
+"""The attribute of the root group that tells a survey's store from other folders."""
+MOST_NAMED = 5
+MOST_HELD = 1 << 20
+"""Points of a level, some 50 MB, that is held in memory for the next one's sake; all of them together are less than twice that."""
+
+
+class Store:
+    """A store that is open for this run alone; made by `opened`.
+
+    Only the last step of a tile marks it done: its chunk of the last variable. So whatever is marked is whole, and
+    whatever is not is computed again. Every file is written under another name and renamed.
+    """
+
+    def __init__(self, path: Path, asked: Question, measure: Measure, *, repair: bool) -> None:
+        from rocking.survey.store.zarr_files import Files
+
+        self.path, self.measure = path, measure
+        self.files = Files(path)
+        with undisturbed(), writing(path):
+            self.layout, self.root = self._agreed(asked)
+            self.asked = Question(self.layout.axes, asked.fixed)
+            self.levels: list[Level] = self.layout.levels()
+            remove_unfinished(path, [*self.layout.axes, *(each.name for each in measure.variables)])
+            self.arrays = self._arranged()
+        self.done = 0
+        self.begun: set[tuple[int, tuple[int, ...]]] = set()  # tiles of which something sound is there
+        self.held: dict[int, Arrays] = {}  # small levels that others follow, by their number
+        self.check(repair=repair)
+
+    def known(self, tile: Tile) -> np.ndarray:
+        """Which points of a tile are there."""
+        if (tile.level.number, tile.index) not in self.begun:
+            return np.zeros(tile.shape, bool)
+        marker = self.measure.marker
+        return self._read(tile.level, marker.name, tile.region) != marker.fill
+
+    def read(self, tile: Tile, names: tuple[str, ...] = ()) -> Arrays:
+        """What is there of a tile, of all variables unless some are named."""
+        wanted = names or tuple(self.arrays[tile.level.number])
+        return {name: self._read(tile.level, name, tile.region) for name in wanted}
+
+    def coarser(self, tile: Tile) -> Arrays:
+        """Of the level before, the points that a tile shares."""
+        level, shared = self.levels[tile.level.number - 1], tile.shared()
+        assert shared is not None
+        held = self._held(level)
+        if held is None:
+            return {name: self._read(level, name, shared[1]) for name in self.arrays[level.number]}
+        return {name: values[shared[1]] for name, values in held.items()}
+
+    def write(self, tile: Tile, answers: Arrays) -> None:
+        """Keep a tile; its last variable, which marks it done, last."""
+        from rocking.survey.store.zarr_files import encoded
+
+        held = self._held(tile.level)
+        with writing(self.path):
+            for each in self.measure.variables:
+                content = encoded(answers[each.name], tile.level.tile, each.fill)
+                self.files.keep(self._chunk(tile, each.name), content)
+        if held is not None:
+            for name, values in answers.items():
+                held[name][tile.region] = values
+
+    def _held(self, level: Level) -> Arrays | None:
+        """What is there of a small level that another one follows; None of others."""
+        if level is self.levels[-1] or math.prod(level.shape) > MOST_HELD:
+            return None
+        if level.number not in self.held:
+            self.held[level.number] = held = self.measure.blank(level.shape)
+            for tile in (tile for tile in level.tiles() if (level.number, tile.index) in self.begun):
+                for name, values in self.read(tile).items():
+                    held[name][tile.region] = values
+        return self.held[level.number]
+
+    def dataset(self) -> xr.Dataset:
+        """The finest level, read when it is used."""
+        found = open_level(self.path, self.levels[-1].number)
+        return found[[each.name for each in self.measure.variables]]
+
+    def check(self, *, repair: bool) -> None:
+        """Read all that is marked done: damage is refused by name, or with `repair` computed again."""
+        found: list[str] = []
+        for tile in (tile for level in self.levels for tile in self._marked(level)):
+            known, damaged = self._inspected(tile)
+            found += [repr(str(self.path / self._chunk(tile, name))) for name in damaged]
+            if known.any() and not damaged:
+                self.begun.add((tile.level.number, tile.index))
+                self.done += int(tile.own(known).sum())
+        if found and not repair:
+            more = f" and {len(found) - MOST_NAMED} more" if len(found) > MOST_NAMED else ""
+            raise StoreError(
+                f"store {str(self.path)!r} is damaged at {', '.join(found[:MOST_NAMED])}{more}; with repair these tiles are computed again"
+            )
+
+    def _marked(self, level: Level) -> list[Tile]:
+        """The tiles of a level whose marker is there: of many that are not, nobody asks one by one."""
+        folder = self.path / self._chunks(level, self.measure.marker.name)
+        found = (path.relative_to(folder).parts for path in folder.glob("/".join("*" * len(level.shape))))
+        numbered = (tuple(map(int, parts)) for parts in found if all(map(str.isdecimal, parts)))
+        return [level.at(index) for index in sorted(numbered)]
+
+    def _inspected(self, tile: Tile) -> tuple[np.ndarray, list[str]]:
+        """Which points of a tile are there; the variables that cannot be read, or miss what the marker says is there."""
+        marker, known, damaged = self.measure.marker, np.zeros(tile.shape, bool), []
+        for variable in reversed(self.measure.variables):
+            try:
+                there = self._read(tile.level, variable.name, tile.region) != variable.fill
+            except Exception:  # noqa: BLE001 (a broken chunk is met in many ways)
+                damaged.append(variable.name)
+                continue
+            if variable is marker:
+                known = there
+                if not known.any():
+                    break
+            elif not there[known].all():
+                damaged.append(variable.name)
+        return known, damaged
+
+    def _chunk(self, tile: Tile, name: str) -> str:
+        """The file of a tile's variable, below the store's folder."""
+        return "/".join((self._chunks(tile.level, name), *map(str, tile.index)))
+
+    def _chunks(self, level: Level, name: str) -> str:
+        """The folder of a variable's files, below the store's."""
+        return f"{level.name}/{name}/c"
+
+    def _read(self, level: Level, name: str, region: Slices) -> np.ndarray:
+        return np.asarray(self.arrays[level.number][name].get_basic_selection(region))
+
+    def _agreed(self, asked: Question) -> tuple[Layout, zarr.Group]:
+        """What the store holds together with what is asked, as its root says; refused if they do not go together."""
+        import zarr
+
+        mine = fingerprint(asked, self.measure)
+        if not (self.path / ROOT).exists():
+            layout = new_layout(asked)
+            told = {NAME: mine | described_layout(layout)}
+            return layout, zarr.create_group(self.files, zarr_format=3, attributes=told)
+        with reading(self.path):
+            root = zarr.open_group(self.files, mode="r+", zarr_format=3, use_consolidated=False)
+        stored: Any = root.attrs.get(NAME)
+        if stored is None:
+            raise StoreError(something_else(self.path, "a Zarr store of something else"))
+        with reading(self.path):
+            check_described(stored)
+        check_same(str(self.path), stored, mine)
+        with reading(self.path):
+            held = read_layout(stored)
+        layout = joined(str(self.path), held, asked)
+        if stored | described_layout(layout) != stored:
+            root.attrs[NAME] = stored | described_layout(layout)
+        return layout, root
+
+    def _arranged(self) -> list[dict[str, zarr.Array]]:
+        """The arrays of each level, made or made larger where need be."""
+        with reading(self.path):
+            known = {level.name: self.root.get(level.name) for level in self.levels}
+        groups = zarr_arrays.make_groups(self.files, self.asked, self.measure, self.levels, known)
+        with reading(self.path):
+            there: list[dict[str, Any]] = [dict(group.arrays()) for group in groups]
+        return zarr_arrays.make_arrays(self.files, self.measure, self.levels, there)
+
+
+@contextmanager
+def opened(
+    path: str | os.PathLike[str], asked: Question, measure: Measure, *, repair: bool
+) -> Iterator[Store]:
+    """A store for this run alone, made if it is not there.
+
+    Raises
+    ------
+    ValueError
+        It holds another survey; the message says what differs.
+    OSError
+        It is no folder, holds something else, is written by another run, cannot be written, or is damaged.
+    """
+    folder = check_store(path)
+    with writing(folder):
+        folder.resolve().mkdir(parents=True, exist_ok=True)
+    with alone(folder):
+        yield Store(folder, asked, measure, repair=repair)
+
+
+def open_level(path: Path, number: int) -> xr.Dataset:
+    """A level of a store, read when it is used."""
+    import xarray as xr
+
+    return xr.open_zarr(path, group=f"level-{number}", chunks=None, consolidated=False)

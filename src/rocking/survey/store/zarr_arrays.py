@@ -1,0 +1,139 @@
+"""The groups and arrays of a store, as Zarr's third format describes them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from rocking.survey.measurement import Measure
+from rocking.survey.spec import Question
+from rocking.survey.store.dataset import attributes, coordinate
+from rocking.survey.tiling import Level
+
+if TYPE_CHECKING:
+    import zarr
+
+    from rocking.survey.store.zarr_files import Files
+
+
+def make_groups(
+    files: Files, asked: Question, measure: Measure, levels: list[Level], there: dict[str, Any]
+) -> list[zarr.Group]:
+    """A group a level, each of which says what the survey is; made where it is not ``there``."""
+    from zarr.core.group import GroupMetadata
+
+    told = _plain(attributes(asked, measure))
+    wanted = {level.name: GroupMetadata(told) for level in levels}
+    found = _made(files, wanted, there)
+    for group in found.values():
+        if group.attrs.asdict() != told:
+            group.attrs.put(told)
+    return list(found.values())
+
+
+def make_arrays(
+    files: Files, measure: Measure, levels: list[Level], there: list[dict[str, Any]]
+) -> list[dict[str, zarr.Array]]:
+    """The variables of each level by name, beside its coordinates: made, or made larger, where need be.
+
+    ``there`` are the arrays that each level has already.
+    """
+    wanted = {
+        f"{level.name}/{name}": description
+        for level in levels
+        for name, description in _descriptions(level, measure).items()
+    }
+    known = {
+        f"{level.name}/{name}": array
+        for level, those in zip(levels, there, strict=True)
+        for name, array in those.items()
+    }
+    found = _made(files, wanted, known)
+    for level in levels:
+        for name, values in level.axes.items():
+            array = _sized(found[f"{level.name}/{name}"], values.shape)
+            for key, content in _chunks(array, values):
+                if files.kept(key) != content:  # not there, or damaged: what it must hold is known
+                    files.keep(key, content)
+    return [
+        {each.name: _sized(found[f"{level.name}/{each.name}"], level.shape) for each in measure.variables}
+        for level in levels
+    ]
+
+
+def _made(files: Files, wanted: Mapping[str, Any], there: Mapping[str, Any]) -> dict[str, Any]:
+    """What is wanted, by its path: as it is there, else made as described.
+
+    One at a time: of several that fail together, Zarr would report all but the first to stderr.
+    """
+    from zarr import create_hierarchy
+
+    found = {path: there.get(path) for path in wanted}
+    for path in [path for path, known in found.items() if known is None]:
+        found |= create_hierarchy(store=files, nodes={path: wanted[path]})
+    return found
+
+
+def _descriptions(level: Level, measure: Measure) -> dict[str, Any]:
+    """The coordinates and variables of a level: a coordinate in one chunk, a variable in one a tile."""
+    names = list(level.axes)
+    along = {
+        name: _array(values.shape, values.shape, "float64", math.nan, [name], coordinate(name))
+        for name, values in level.axes.items()
+    }
+    return along | {
+        each.name: _array(level.shape, level.tile, each.dtype, each.fill, names, each.attributes)
+        for each in measure.variables
+    }
+
+
+def _array(
+    shape: Sequence[int],
+    chunk: Sequence[int],
+    dtype: str,
+    fill: float,
+    names: list[str],
+    told: dict[str, Any],
+) -> Any:
+    from zarr.core.metadata import ArrayV3Metadata
+
+    from rocking.survey.store.zarr_files import codecs
+
+    return ArrayV3Metadata.from_dict(
+        {
+            "zarr_format": 3,
+            "node_type": "array",
+            "shape": list(shape),
+            "data_type": dtype,
+            "chunk_grid": {"name": "regular", "configuration": {"chunk_shape": list(chunk)}},
+            "chunk_key_encoding": {"name": "default", "configuration": {"separator": "/"}},
+            "fill_value": "NaN" if math.isnan(fill) else fill,
+            "codecs": codecs(dtype),
+            "dimension_names": names,
+            "attributes": _plain(told),
+        }
+    )
+
+
+def _sized(array: zarr.Array, shape: tuple[int, ...]) -> zarr.Array:
+    """The same array, made larger where need be."""
+    if array.shape != shape:
+        array.resize(shape)
+    return array
+
+
+def _chunks(array: zarr.Array, values: np.ndarray) -> Iterator[tuple[str, bytes]]:
+    """The files of a coordinate, which an axis made longer has several of: (key, what it holds)."""
+    from rocking.survey.store.zarr_files import encoded
+
+    (edge,) = array.chunks
+    for number, first in enumerate(range(0, values.size, edge)):
+        yield f"{array.path}/c/{number}", encoded(values[first : first + edge], (edge,), math.nan)
+
+
+def _plain(told: dict[str, Any]) -> dict[str, Any]:
+    """The same with lists for arrays, as JSON has them."""
+    return {name: value.tolist() if isinstance(value, np.ndarray) else value for name, value in told.items()}
