@@ -9,8 +9,8 @@ from benchmarks import marching
 from benchmarks.clock import quickest
 from benchmarks.table import Figure
 from rocking.kernels import batch
-from rocking.kernels.classify.results import no_answers
-from rocking.kernels.classify.workspace import desk
+from rocking.kernels.classify.results import empty_results
+from rocking.kernels.classify.workspace import make_workspace
 
 POINTS, FINER = 100, 200
 PERIODS, AMPLITUDES = (0.2, 3.0), (0.0, 16.0)
@@ -21,15 +21,19 @@ STILL_OPEN = (3, 5)
 
 def one_by_one(systems, cycles=CYCLES):
     """Every point judged alone."""
-    answers = no_answers(len(systems))
+    answers = empty_results(len(systems))
     starts, go_on = np.zeros((len(systems), 2)), np.zeros(1, np.int64)
-    batch.judge_each(systems, starts, cycles, MAX_PERIOD, desk(cycles, MAX_PERIOD), answers, go_on)
+    batch.classify_batch_scalar(
+        systems, starts, cycles, MAX_PERIOD, make_workspace(cycles, MAX_PERIOD), answers, go_on
+    )
     return answers
 
 
 def in_lanes(systems, cycles=CYCLES):
     """What a survey does."""
-    return batch.judge_many(systems, np.zeros((len(systems), 2)), cycles, MAX_PERIOD, np.zeros(1, np.int64))
+    return batch.classify_batch(
+        systems, np.zeros((len(systems), 2)), cycles, MAX_PERIOD, np.zeros(1, np.int64)
+    )
 
 
 def systems_of(points, restitution=1.0, brace_angle=math.inf):
@@ -57,7 +61,7 @@ def against_one():
         "×",
         1,
         least=True,
-        note="" if batch.vectors() else "no vectors here",
+        note="" if batch.has_simd() else "no vectors here",
     )
     share = 100.0 * np.mean(answers.kind != told.kind)
     yield Figure(

@@ -19,10 +19,10 @@ from benchmarks.lanes import MAX_PERIOD, systems_of
 from benchmarks.table import Figure
 from rocking.kernels import batch
 from rocking.kernels.classify import cascade, classifier_state
-from rocking.kernels.classify.results import answer, no_answers
-from rocking.kernels.classify.results import asked as asked_of
-from rocking.kernels.classify.workspace import desk
-from rocking.kernels.compile_options import COMPILED
+from rocking.kernels.classify.results import empty_results, store_result
+from rocking.kernels.classify.results import parameters_from_row as asked_of
+from rocking.kernels.classify.workspace import make_workspace
+from rocking.kernels.compile_options import KERNEL
 from rocking.kernels.march import march
 
 POINTS = 1000
@@ -149,19 +149,19 @@ def engines():
             )
 
 
-@njit(**COMPILED)
+@njit(**KERNEL)
 def judge_late(systems, cycles, memory, answers):
     """The cascade of a map without its early looks: the first comes after so many cycles."""
     for k in range(systems.shape[0]):
         p = asked_of(systems[k])
         case = classifier_state.opened(p, 0.0, 0.0, cycles)
-        case = classifier_state.Case(*case[:3], np.int64(cycles), cycles + 1, *case[5:])
-        status, run = cascade.leg(p, case.run, cycles, cycles, memory)
-        told, _ = cascade.look(p, case, status, run, cycles, MAX_PERIOD, memory)
-        answer(answers, k, told)
+        case = classifier_state.ClassifierState(*case[:3], np.int64(cycles), cycles + 1, *case[5:])
+        status, run = cascade.march_leg(p, case.run, cycles, cycles, memory)
+        told, _ = cascade.evaluate_checkpoint(p, case, status, run, cycles, MAX_PERIOD, memory)
+        store_result(answers, k, told)
 
 
-@njit(**COMPILED)
+@njit(**KERNEL)
 def march_all(systems, cycles, memory, answers):
     """Every point from rest to the end of its cycles, unless it overturns or rests for ever before."""
     nothing = memory.nothing
@@ -186,11 +186,11 @@ def march_all(systems, cycles, memory, answers):
 
 def kernels():
     """Seconds of one thread for every tenth point of the map along either axis: by the cascade, by it without early looks, marched."""
-    systems, memory = systems_of(POINTS // 10, 0.925), desk(10_000, MAX_PERIOD)
-    starts, go_on, answers = np.zeros((len(systems), 2)), np.zeros(1, np.int64), no_answers(len(systems))
+    systems, memory = systems_of(POINTS // 10, 0.925), make_workspace(10_000, MAX_PERIOD)
+    starts, go_on, answers = np.zeros((len(systems), 2)), np.zeros(1, np.int64), empty_results(len(systems))
 
     def early():
-        batch.judge_each(systems, starts, 10_000, MAX_PERIOD, memory, answers, go_on)
+        batch.classify_batch_scalar(systems, starts, 10_000, MAX_PERIOD, memory, answers, go_on)
 
     def late():
         judge_late(systems, MARCHED, memory, answers)

@@ -10,8 +10,8 @@ from numba import njit
 
 from benchmarks.table import Figure
 from rocking.kernels.classify import cascade, verdict_record
-from rocking.kernels.classify.workspace import desk
-from rocking.kernels.compile_options import COMPILED
+from rocking.kernels.classify.workspace import make_workspace
+from rocking.kernels.compile_options import KERNEL
 from rocking.kernels.parameters import make
 
 POINTS = 200
@@ -31,7 +31,7 @@ print(seconds, int(most[0] if most else resource.getrusage(resource.RUSAGE_SELF)
 """
 
 
-@njit(**COMPILED)
+@njit(**KERNEL)
 def judge_all(amplitudes, periods, restitution, max_cycles, memory, kinds, grounds, work):
     """Every point from rest, phase 0."""
     for k in range(amplitudes.shape[0]):
@@ -46,7 +46,7 @@ def judged(restitution, max_cycles):
     grid = np.meshgrid(np.linspace(*AMPLITUDES, POINTS), np.linspace(*PERIODS, POINTS))
     amplitudes, periods = (axis.ravel() for axis in grid)
     kinds, grounds, work = (np.zeros(amplitudes.size, np.int64) for _ in range(3))
-    memory, best = desk(max_cycles, 64), math.inf
+    memory, best = make_workspace(max_cycles, 64), math.inf
     for _ in range(RUNS):
         begun = time.thread_time()
         judge_all(amplitudes, periods, restitution, max_cycles, memory, kinds, grounds, work)
@@ -56,7 +56,7 @@ def judged(restitution, max_cycles):
 
 def maps():
     """The map of figure 11 (e = .925) and of figure 10 (e = 1)."""
-    judge_all(np.ones(1), np.ones(1), 0.9, 100, desk(100, 64), *np.zeros((3, 1), np.int64))
+    judge_all(np.ones(1), np.ones(1), 0.9, 100, make_workspace(100, 64), *np.zeros((3, 1), np.int64))
     kinds, grounds, work, seconds = judged(0.925, 100_000)
     undetermined, resets = kinds == verdict_record.UNDETERMINED, grounds == verdict_record.UNRESOLVED_RESET
     yield Figure("e = .925, impacts a point, all work", work.mean(), "", 40)

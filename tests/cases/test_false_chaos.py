@@ -67,7 +67,7 @@ def row(amplitude, period, phase, restitution, brace=None, brace_restitution=Non
 def verdicts(cases):
     """Return the kinds of many cases, with their systems and starts."""
     systems, starts = (np.array(part) for part in zip(*cases, strict=True))
-    return batch.judge_many(systems, starts, CYCLES, 64, np.zeros(1, np.int64)), systems, starts
+    return batch.classify_batch(systems, starts, CYCLES, 64, np.zeros(1, np.int64)), systems, starts
 
 
 def is_chaotic(system, start):

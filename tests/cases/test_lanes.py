@@ -10,8 +10,8 @@ import pytest
 import rocking as rk
 from oracles import lanes as oracle
 from rocking.kernels import batch
-from rocking.kernels.classify.results import no_answers
-from rocking.kernels.classify.workspace import desk
+from rocking.kernels.classify.results import empty_results
+from rocking.kernels.classify.workspace import make_workspace
 from rocking.kernels.lanes.rows import LANES
 from rocking.kernels.parameters import harmonic_parameters
 
@@ -110,13 +110,15 @@ def asked(count, phase=0.0, brace=math.inf):
 
 def one_by_one(systems, starts, cycles):
     """The kind of each point, judged alone."""
-    answers, go_on = no_answers(len(systems)), np.zeros(1, np.int64)
-    assert batch.judge_each(systems, starts, cycles, 64, desk(cycles, 64), answers, go_on)
+    answers, go_on = empty_results(len(systems)), np.zeros(1, np.int64)
+    assert batch.classify_batch_scalar(
+        systems, starts, cycles, 64, make_workspace(cycles, 64), answers, go_on
+    )
     return answers.kind
 
 
 def together(systems, starts, cycles):
-    return batch.judge_many(systems, starts, cycles, 64, np.zeros(1, np.int64))
+    return batch.classify_batch(systems, starts, cycles, 64, np.zeros(1, np.int64))
 
 
 def stands_firm(system, kind, count, cycles, random):
@@ -180,9 +182,11 @@ def test_differences_grow_in_lanes_as_they_do_alone(amplitude, period, restituti
             for phase in 1e-9 * np.arange(8)
         ]
     )
-    starts, alone = np.zeros((8, 2)), no_answers(8)
+    starts, alone = np.zeros((8, 2)), empty_results(8)
     found = together(systems, starts, 10_000)
-    batch.judge_each(systems, starts, 10_000, 64, desk(10_000, 64), alone, np.zeros(1, np.int64))
+    batch.classify_batch_scalar(
+        systems, starts, 10_000, 64, make_workspace(10_000, 64), alone, np.zeros(1, np.int64)
+    )
     spread = np.hypot(found.exponent.std(), alone.exponent.std()) / math.sqrt(7)
     assert np.all(found.exponent > 0)
     assert abs(found.exponent.mean() - alone.exponent.mean()) <= 5 * spread
@@ -217,8 +221,10 @@ def test_what_differences_forget_is_told_alike_between_braces(case):
     amplitude, period, phase, restitution, brace, returned, cycles, longest = case
     systems = np.array([[amplitude, math.tau / period, period, phase, restitution, brace, returned]])
     starts, go_on = np.zeros((1, 2)), np.zeros(1, np.int64)
-    alone, found = no_answers(1), batch.judge_many(systems, starts, cycles, longest, go_on)
-    batch.judge_each(systems, starts, cycles, longest, desk(cycles, longest), alone, go_on)
+    alone, found = empty_results(1), batch.classify_batch(systems, starts, cycles, longest, go_on)
+    batch.classify_batch_scalar(
+        systems, starts, cycles, longest, make_workspace(cycles, longest), alone, go_on
+    )
     for name in ("kind", "ground", "period", "symmetric", "impacts", "brace_hits", "transient", "cycles"):
         assert getattr(found, name) == getattr(alone, name), name
     for name in ("exponent", "peak"):

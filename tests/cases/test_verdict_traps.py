@@ -185,7 +185,7 @@ def drawn(count, seed):
 
 def judged(systems, cycles):
     """Return the verdicts on systems from rest within a budget."""
-    return batch.judge_many(systems, np.zeros((len(systems), 2)), cycles, 64, np.zeros(1, np.int64))
+    return batch.classify_batch(systems, np.zeros((len(systems), 2)), cycles, 64, np.zeros(1, np.int64))
 
 
 def test_a_longer_budget_keeps_every_verdict_that_came_before_its_end():

@@ -52,7 +52,7 @@ def answers(cases):
     """A record a case: whole numbers, and floats with None for what there is not."""
     table = np.array(cases)
     systems = np.column_stack([table[:, 0], math.tau / table[:, 1], table[:, 1:6]])
-    told = batch.judge_many(systems, table[:, 6:8], MAX_CYCLES, MAX_PERIOD, np.zeros(1, np.int64))
+    told = batch.classify_batch(systems, table[:, 6:8], MAX_CYCLES, MAX_PERIOD, np.zeros(1, np.int64))
     return [
         {name: int(getattr(told, name)[k]) for name in WHOLE}
         | {name: _real(float(getattr(told, name)[k])) for name in REAL}

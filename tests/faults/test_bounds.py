@@ -10,8 +10,8 @@ JUDGED = """
 import math
 import numpy as np
 from rocking.kernels import batch
-from rocking.kernels.classify.results import no_answers
-from rocking.kernels.classify.workspace import desk
+from rocking.kernels.classify.results import empty_results
+from rocking.kernels.classify.workspace import make_workspace
 
 # chaos and tori without loss; a cycle, chaos, resets and overturning with losses; braces
 cases = [(2.0, 0.4, 1.0), (4.0, 0.4, 1.0), (1.75, 0.9, 1.0), (2.0, 1.0, 0.925), (10.103037, 1.721328, 0.8), (1.1, 0.7, 0.5),
@@ -19,21 +19,21 @@ cases = [(2.0, 0.4, 1.0), (4.0, 0.4, 1.0), (1.75, 0.9, 1.0), (2.0, 1.0, 0.925), 
 systems = np.array([(a, math.tau / t, t, 0.0, e, 1.0 if a == 15.0 else math.inf, 1.0) for a, t, e in cases])
 starts = np.zeros((len(systems), 2))
 for max_cycles, max_period in ((1, 1), (129, 1), (200, 64), (639, 64), (1_000, 300), (20_000, 2), (100_000, 1), (150_000, 64)):
-    answers, stop = no_answers(len(systems)), np.zeros(1, np.int64)
-    batch.judge_each(systems, starts, max_cycles, max_period, desk(max_cycles, max_period), answers, stop)
-    batch.judge_many(systems, starts, max_cycles, max_period, stop)
+    answers, stop = empty_results(len(systems)), np.zeros(1, np.int64)
+    batch.classify_batch_scalar(systems, starts, max_cycles, max_period, make_workspace(max_cycles, max_period), answers, stop)
+    batch.classify_batch(systems, starts, max_cycles, max_period, stop)
 print(*answers.kind)
 
 # of short periods, without loss: motions that stick to tori and leave them again, many flying less than once a cycle
 amplitude, period = (axis.ravel() for axis in np.meshgrid(np.linspace(1.01, 7.0, 24), np.linspace(0.1, 0.6, 24)))
 one = np.ones(period.size)
 systems = np.column_stack([amplitude, math.tau / period, period, 0.0 * one, one, math.inf * one, one])
-many.judge_many(systems, np.tile((0.0, 0.3), (len(systems), 1)), 20_000, 1, np.zeros(1, np.int64))
+batch.classify_batch(systems, np.tile((0.0, 0.3), (len(systems), 1)), 20_000, 1, np.zeros(1, np.int64))
 
 # between braces with hardly any loss: long legs of few events
 systems[:, 4], systems[:, 5], systems[:, 6] = 0.9999, 3.0, 0.9999
 for max_cycles, max_period in ((6_000, 1), (10_000, 64)):
-    batch.judge_many(systems[::3], np.tile((0.0, 0.3), (len(systems[::3]), 1)), max_cycles, max_period, np.zeros(1, np.int64))
+    batch.classify_batch(systems[::3], np.tile((0.0, 0.3), (len(systems[::3]), 1)), max_cycles, max_period, np.zeros(1, np.int64))
 """
 
 

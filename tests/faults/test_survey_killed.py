@@ -18,7 +18,7 @@ import xarray as xr
 
 import rocking as rk
 from rocking.survey.engine.tile_loop import Pending, _settle
-from rocking.survey.store.locking import undisturbed
+from rocking.survey.store.locking import defer_interrupt
 
 SIZE = 150
 ASKED = {
@@ -159,7 +159,7 @@ def test_second_run_on_a_store_is_refused_until_the_first_is_gone(running):
 def test_ctrl_c_waits_for_the_end_of_what_is_done_with_a_store():
     done = []
 
-    @undisturbed()
+    @defer_interrupt()
     def write():
         signal.raise_signal(signal.SIGINT)
         done.append("all of it")

@@ -3,7 +3,7 @@
 import math
 
 from rocking.kernels import event_kinds
-from rocking.kernels.arc.solution import arc_from, recall
+from rocking.kernels.arc.solution import arc_from, propagator_or_none
 from rocking.kernels.march import next_event
 from rocking.kernels.parameters import harmonic_parameters
 
@@ -21,7 +21,9 @@ def first_event(arc, guess=None):
         if guess is None:
             coming = next_event.any_event(system, event_kinds.FLIGHT, flight)
         else:
-            coming, _ = next_event.next_event(system, event_kinds.FLIGHT, flight, recall(system, guess))
+            coming, _ = next_event.next_event(
+                system, event_kinds.FLIGHT, flight, propagator_or_none(system, guess)
+            )
         if coming.event in KINDS:
             return KINDS[coming.event], elapsed + coming.wait, coming.velocity
         if coming.wait == math.inf:

@@ -5,8 +5,8 @@ import math
 import numpy as np
 from numba import njit
 
-from rocking.kernels.arc.solution import arc_from, earlier
-from rocking.kernels.compile_options import COMPILED
+from rocking.kernels.arc.solution import arc_from, shift_clock
+from rocking.kernels.compile_options import KERNEL
 from rocking.kernels.event_kinds import FLIGHT
 from rocking.kernels.lanes.root import step
 from rocking.kernels.lanes.rows import (  # fmt: skip
@@ -38,12 +38,12 @@ from rocking.kernels.lanes.rows import (  # fmt: skip
     VELOCITY,
     WAIT,
     WANTS,
-    of,
-    put,
+    load,
     set_system,
+    store,
 )
 from rocking.kernels.lanes.step import advance, advance_between, strike, strike_between
-from rocking.kernels.lanes.transfer import arc_of, find, over, seat, set_leg
+from rocking.kernels.lanes.transfer import arc_of, find_event_scalar, leg_done, load_block, set_leg
 from rocking.kernels.march.event_rows import state_at
 from rocking.kernels.march.march import Progress
 
@@ -51,16 +51,16 @@ EYE = np.eye(2)
 FIRST = (WAIT, SPEED, NEXT_COSINE, NEXT_SINE, NEXT_SINH, NEXT_VERSINH, AT_BRACE)
 
 
-@njit(**COMPILED)
+@njit(**KERNEL)
 def sit_down(s, i, p, side, start, velocity, columns, cycles, angle=0.0):
     """A block in lane i that leaves the base, or flies already."""
     arc = arc_from(p, side, start, angle, velocity)
     progress = Progress(FLIGHT, 0, arc, True, 0, 0, 0, 0.0, math.inf, 1.0, 0.0, -math.inf)
-    seat(s, i, p, progress, columns, 0)
+    load_block(s, i, p, progress, columns, 0)
     set_leg(s, i, cycles, False)
 
 
-@njit(**COMPILED)
+@njit(**KERNEL)
 def strike_all(s, braced):
     """The events of all lanes that have arrived."""
     if braced:
@@ -69,20 +69,20 @@ def strike_all(s, braced):
         strike(s)
 
 
-@njit(**COMPILED)
+@njit(**KERNEL)
 def advance_all(s, braced):
     """All lanes onward."""
     return advance_between(s) if braced else advance(s)
 
 
-@njit(**COMPILED)
+@njit(**KERNEL)
 def pass_on(s, passes):
     """So many passes without any attention."""
     for _ in range(passes):
         advance(s)
 
 
-@njit(**COMPILED)
+@njit(**KERNEL)
 def to_the_end(s, p, events):
     """March all lanes, of one system, to their targets; ``events`` (lanes, n, 4) takes (cycle, time, side, velocity) after each event."""
     moving, braced = LANES, p.brace_angle < math.inf
@@ -91,26 +91,26 @@ def to_the_end(s, p, events):
         advance_all(s, braced)
         moving = 0
         for i in range(LANES):
-            wants = of(s, i, WANTS)
+            wants = load(s, i, WANTS)
             if wants == CERTAINTY:
-                find(s, i, p)
-            if of(s, i, STAGE) == ARRIVED and over(s, i):
-                put(s, i, STAGE, IDLE)
-            moving += of(s, i, STAGE) != IDLE
+                find_event_scalar(s, i, p)
+            if load(s, i, STAGE) == ARRIVED and leg_done(s, i):
+                store(s, i, STAGE, IDLE)
+            moving += load(s, i, STAGE) != IDLE
         strike_all(s, braced)
         for i in range(LANES):
-            k = int(of(s, i, EVENTS)) - 1
+            k = int(load(s, i, EVENTS)) - 1
             if k >= 0:
-                events[i, k, 0], events[i, k, 1] = of(s, i, CYCLE), of(s, i, START)
-                events[i, k, 2], events[i, k, 3] = of(s, i, SIDE), of(s, i, VELOCITY)
+                events[i, k, 0], events[i, k, 1] = load(s, i, CYCLE), load(s, i, START)
+                events[i, k, 2], events[i, k, 3] = load(s, i, SIDE), load(s, i, VELOCITY)
 
 
-@njit(**COMPILED)
+@njit(**KERNEL)
 def states(s, p, out):
     """Where the blocks are at their targets."""
     for i in range(LANES):
-        cycles = of(s, i, TARGET) - of(s, i, CYCLE)
-        arc = earlier(arc_of(s, i, p), cycles * p.period)
+        cycles = load(s, i, TARGET) - load(s, i, CYCLE)
+        arc = shift_clock(arc_of(s, i, p), cycles * p.period)
         out[i, 0], out[i, 1] = state_at(p, FLIGHT, arc, -arc.start)
 
 
@@ -136,16 +136,16 @@ def first_events(systems, starts):
     return found, certain
 
 
-@njit(**COMPILED)
+@njit(**KERNEL)
 def step_from(s, p, instants):
     """A lane of the system for each (u, u', cos eta, sin eta), at the time 0 of its arc, and one step of each."""
     for i in range(len(instants)):
         set_system(s, i, p)
-        put(s, i, STAGE, REFINE)
-        put(s, i, ANGLE_THERE, instants[i, 0])
-        put(s, i, RATE_THERE, instants[i, 1])
-        put(s, i, COSINE_THERE, instants[i, 2])
-        put(s, i, SINE_THERE, instants[i, 3])
+        store(s, i, STAGE, REFINE)
+        store(s, i, ANGLE_THERE, instants[i, 0])
+        store(s, i, RATE_THERE, instants[i, 1])
+        store(s, i, COSINE_THERE, instants[i, 2])
+        store(s, i, SINE_THERE, instants[i, 3])
     step(s)
 
 
@@ -173,13 +173,13 @@ def may_exceed(systems, starts, peaks):
     return answers > 0.0
 
 
-@njit(**COMPILED)
+@njit(**KERNEL)
 def strike_now(s):
     """``strike`` for Python."""
     strike(s)
 
 
-@njit(**COMPILED)
+@njit(**KERNEL)
 def strike_and_pass(s, braced):
     """From the start of an arc as far as lanes go without attention."""
     strike_all(s, braced)
@@ -187,7 +187,7 @@ def strike_and_pass(s, braced):
         advance_all(s, braced)
         under_way = 0
         for i in range(LANES):
-            stage = of(s, i, STAGE)
+            stage = load(s, i, STAGE)
             under_way += stage != ARRIVED and stage != UNSURE and stage != IDLE
         if under_way == 0:
             break

@@ -12,9 +12,9 @@ from oracles.crossing import first_events
 from oracles.distance import Arc
 from rocking.kernels import event_kinds
 from rocking.kernels.arc import bracket
-from rocking.kernels.arc.solution import arc_from, recall
+from rocking.kernels.arc.solution import arc_from, propagator_or_none
 from rocking.kernels.classify import workspace
-from rocking.kernels.compile_options import COMPILED
+from rocking.kernels.compile_options import KERNEL
 from rocking.kernels.march import next_event
 from rocking.kernels.march.march import DONE, UNKNOWN, begin_march, march
 from rocking.kernels.orbits import fixed_point, newton_search
@@ -29,7 +29,7 @@ LONG = 16.0
 NO_COLUMNS, NO_GROWTH, NO_EVENTS = np.empty((0, 2)), np.empty(0), np.empty((0, 8))
 
 
-@njit(**COMPILED)
+@njit(**KERNEL)
 def images(systems, starts, periods, mirrored, nothing, columns, out):
     """(certain, Θ, Θ') of each state under the map of ``newton_search``, with the waits of a state nearby, as in Newton's method."""
     for k in range(len(systems)):
@@ -82,7 +82,7 @@ def test_map_of_the_search_is_that_of_the_plain_march(mirrored, braced):
     systems, starts = random_systems(STATES, braced, 33)
     random = np.random.default_rng(5)
     periods = random.choice([1, 3, 5, 7] if mirrored else [1, 2, 3, 4, 5, 6, 7], STATES)
-    memory, found = workspace.desk(1, 1), np.empty((STATES, 3))
+    memory, found = workspace.make_workspace(1, 1), np.empty((STATES, 3))
     images(systems, starts, periods, mirrored, memory.nothing, memory.trial, found)
     wrong, tight, stayed = [], 0, 0
     for k, (system, start, period) in enumerate(zip(systems, starts, periods.tolist(), strict=True)):
@@ -108,22 +108,22 @@ def test_map_of_the_search_is_that_of_the_plain_march(mirrored, braced):
     assert not wrong, f"{len(wrong)} of {stayed}; the first: {wrong[:2]}"
 
 
-@njit(**COMPILED)
+@njit(**KERNEL)
 def first_event(p, period, mirrored, side, angle, velocity, guess):
     """(ψ at the start, event, time) of the first event of an arc as the search computes it, from a guess of the time."""
     q, start, _, _ = newton_search.return_map(p, period, mirrored)
     arc = arc_from(q, side, start, angle, velocity)
-    coming, _ = next_event.next_event(q, event_kinds.FLIGHT, arc, recall(q, guess))
+    coming, _ = next_event.next_event(q, event_kinds.FLIGHT, arc, propagator_or_none(q, guess))
     return arc.psi, coming.event, coming.wait
 
 
-@njit(**COMPILED)
+@njit(**KERNEL)
 def is_certified(p, period, mirrored, arc, time, rate):
     """Whether the search would take a zero of u for the first."""
     q, start, _, _ = newton_search.return_map(p, period, mirrored)
     side, angle, velocity = arc
     flight = arc_from(q, side, start, angle, velocity)
-    return bracket.stays_clear(q, flight, bracket.Knot(time, 0.0, rate, 0.0, 0.0))
+    return bracket.stays_clear(q, flight, bracket.Jet(time, 0.0, rate, 0.0, 0.0))
 
 
 MAPS = [(1, False), (2, False), (3, False), (5, False), (1, True), (3, True), (5, True)]

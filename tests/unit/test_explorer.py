@@ -24,8 +24,8 @@ from rocking.explorer.attractor_labels import Orbits
 from rocking.explorer.form_fields import READ, Refused, address, changed, from_address, in_metres, written
 from rocking.explorer.page_channel import message
 from rocking.explorer.progressive_map import AHEAD, START, UNDETERMINED, WHITE, Picture, Plane, Refinement
-from rocking.explorer.session import Visit
-from rocking.explorer.view_state import DEFAULT, POINTS, Shown, Span, closest, nearby
+from rocking.explorer.session import Session
+from rocking.explorer.view_state import DEFAULT, POINTS, Span, ViewState, closest, nearby
 from rocking.explorer.worker_pools import Jobs, Workers
 from rocking.model import percent
 from rocking.plot.parts.legend import LOOKS, NONE, looks
@@ -45,7 +45,7 @@ def spans(low, high):
 
 
 SHOWN = st.builds(
-    Shown,
+    ViewState,
     amplitude=inside(0, 1000),
     period=inside(0.01, 6000),
     restitution=inside(0, 1),
@@ -83,7 +83,7 @@ def test_any_address_shows_something_that_can_be_shown(typed):
 
 @given(st.text(max_size=300))
 def test_any_text_is_an_address(text):
-    assert isinstance(from_address(text)[0], Shown)
+    assert isinstance(from_address(text)[0], ViewState)
 
 
 PART = st.none() | numbers | st.text(max_size=5) | st.lists(st.text(max_size=5))
@@ -351,7 +351,7 @@ def test_orbits_are_those_that_a_basin_map_tells_apart():
             "orbit_angle": states[:, 0], "orbit_velocity": states[:, 1],
             "mean_angle": np.full(2, np.nan), "mean_angle_error": np.full(2, np.nan),
         }  # fmt: skip
-        assert attractors.told_apart(DEFAULT.system, answers)[0].tolist() == numbers
+        assert attractors.label_attractors(DEFAULT.system, answers)[0].tolist() == numbers
 
 
 def test_start_far_beyond_return_is_drawn_as_far_as_doubles_hold():
@@ -387,7 +387,7 @@ def test_motion_that_becomes_faster_than_any_start_is_drawn():
 
 def test_names_of_a_spectrum_do_not_run_into_each_other():
     """Lines at thirds of the forcing's frequency, of much the same height."""
-    names = figure_data.spectrum(Shown(amplitude=10.103037, period=1.721328, restitution=0.8)).names
+    names = figure_data.spectrum(ViewState(amplitude=10.103037, period=1.721328, restitution=0.8)).names
     places = list(zip(names["frequency"], np.log10(names["density"]), strict=True))
     assert names["name"][:2] == ["f", "f/3"]
     for (across, up), (other_across, other_up) in itertools.combinations(places, 2):
@@ -428,7 +428,7 @@ def test_what_is_under_way_for_one_system_ends_when_another_is_chosen():
 
     async def run():
         stops, workers = {}, Workers()
-        visit = Visit(Document(), workers)
+        visit = Session(Document(), workers)
         visit.hear(json.dumps({"what": "open", "fields": {}}))
 
         async def endless(name, stop):
@@ -614,7 +614,7 @@ READY = """
 from rocking.explorer.app import warm_up
 warm_up()
 from rocking.kernels import batch
-print(bool(batch.judge_each.signatures and batch.judge_together.signatures))
+print(bool(batch.classify_batch_scalar.signatures and batch.classify_batch_lanes.signatures))
 """
 
 

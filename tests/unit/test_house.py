@@ -69,10 +69,12 @@ def body_length(function):
 
 @pytest.mark.parametrize("path", MODULES, ids=named)
 def test_rooms_are_entered_by_their_front_door(path):
-    """The modules of `kernels` lie a room deeper, and are named with that room."""
+    """The modules of `kernels` and the parts of pictures lie a room deeper, and are named with that room."""
     own = path.relative_to(ROOT / "src").parts[1]
     others = [module for module in imported_modules(path) if room_of(module) not in (None, own)]
-    assert [module for module in others if module.count(".") > 1 + (room_of(module) == "kernels")] == []
+    assert [
+        module for module in others if module.count(".") > 1 + (room_of(module) in {"kernels", "plot"})
+    ] == []
 
 
 def test_nothing_points_at_one_machine_or_is_left_to_do():

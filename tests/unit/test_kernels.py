@@ -328,7 +328,7 @@ def test_elementary_functions_keep_their_relative_accuracy_from_the_shortest_arc
 
 
 def test_modes_and_events_are_told_by_name():
-    assert [mode.name for mode in event_kinds.Mode] == ["FLIGHT", "REST", "LEAN"]
+    assert [mode.name for mode in event_kinds.MotionMode] == ["FLIGHT", "REST", "LEAN"]
     assert event_kinds.Event(event_kinds.LIFT_OFF).name == "LIFT_OFF"
 
 

@@ -72,9 +72,9 @@ def nearest(p, order, angle, velocity):
 
 @njit(error_model="numpy")
 def compare(p, section, row, period, angle, velocity, a, b, c, d, impacts):
-    image = fixed_point.Image(True, angle, velocity, Tangent(a, b, c, d), impacts, 0, 0.0, UNKNOWN)
+    image = fixed_point.MapImage(True, angle, velocity, Tangent(a, b, c, d), impacts, 0, 0.0, UNKNOWN)
     return periodicity.compare(
-        p, section, row, period, fixed_point.Found(True, angle, velocity, image, 0.0, 0.0, 0)
+        p, section, row, period, fixed_point.FixedPoint(True, angle, velocity, image, 0.0, 0.0, 0)
     )
 
 
@@ -197,7 +197,7 @@ def mode_1_1(amplitude, period, e):
 def test_newtons_method_finds_the_mode_of_the_closed_form_with_its_multipliers(amplitude, period, e):
     p, (angle, velocity), trace = mode_1_1(amplitude, period, e)
     converged, *state, residual, error, work, tangent, impacts = find_fixed_point(
-        p, angle + 3e-3, velocity - 2e-3, 1, workspace.desk(100, 8)
+        p, angle + 3e-3, velocity - 2e-3, 1, workspace.make_workspace(100, 8)
     )
     a, b, c, d = tangent
     assert converged
@@ -233,7 +233,9 @@ def test_of_the_three_states_of_a_mode_the_nearest_is_told(phase):
     system = rk.System(rk.Harmonic(6.5, period=0.4, phase=phase), 0.925)
     p = harmonic_parameters(6.5, 2 * math.pi / 0.4, 0.4, phase, 0.925)
     _, *state, _, _ = nearest(p, 3, 0.0, 0.0)
-    converged, *found, residual, _, _, _, impacts = find_fixed_point(p, *state, 3, workspace.desk(100, 8))
+    converged, *found, residual, _, _, _, impacts = find_fixed_point(
+        p, *state, 3, workspace.make_workspace(100, 8)
+    )
     assert converged
     assert found == state
     assert residual < 1e-14
@@ -316,7 +318,7 @@ def test_of_a_motion_that_comes_no_nearer_nothing_is_foretold():
 
 def test_newtons_method_gives_up_where_the_block_overturns():
     p = harmonic_parameters(1.75, math.pi, 2.0, 0.0, 0.95)
-    assert not find_fixed_point(p, 0.9, 0.5, 3, workspace.desk(100, 8))[0]
+    assert not find_fixed_point(p, 0.9, 0.5, 3, workspace.make_workspace(100, 8))[0]
 
 
 @pytest.mark.parametrize("mirrored", [False, True])

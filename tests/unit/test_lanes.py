@@ -10,7 +10,7 @@ from numba import njit
 from oracles import lanes as oracle
 from rocking.kernels import event_kinds
 from rocking.kernels.arc.solution import arc_from
-from rocking.kernels.compile_options import COMPILED
+from rocking.kernels.compile_options import KERNEL
 from rocking.kernels.lanes import rows
 from rocking.kernels.march import next_event
 from rocking.kernels.numerics import simd
@@ -19,17 +19,17 @@ from rocking.kernels.parameters import harmonic_parameters
 ULP = 2.0**-52
 
 
-@njit(**COMPILED)
+@njit(**KERNEL)
 def elementary(rate, t):
     return simd.both_exponentials(t), simd.hyperbolic(t), simd.circular(rate, t)
 
 
-@njit(**COMPILED)
+@njit(**KERNEL)
 def logarithms_of_ratios(a, b, c, d):
     return simd.logarithms_of_ratios(a, b, c, d)
 
 
-@njit(**COMPILED)
+@njit(**KERNEL)
 def alone(p, side, start, velocity, angle=0.0):
     """The first event of an arc, as the functions for one block find it."""
     return next_event.any_event(p, event_kinds.FLIGHT, arc_from(p, side, start, angle, velocity))

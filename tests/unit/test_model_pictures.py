@@ -27,7 +27,7 @@ def test_registry_is_filled_once_and_only_when_a_result_is_shown():
 
     def fill():
         filled.append(1)
-        notebook_renderers.hang(Result, lambda result: b"png")
+        notebook_renderers.register(Result, lambda result: b"png")
 
     notebook_renderers.fill_at_first_use(fill)
     assert not filled

@@ -9,20 +9,20 @@ from numba import njit
 from rocking.kernels import event_kinds
 from rocking.kernels.arc import bracket, enclosure, fast_path
 from rocking.kernels.arc.solution import NONE_YET, arc_from
-from rocking.kernels.compile_options import COMPILED
+from rocking.kernels.compile_options import KERNEL
 from rocking.kernels.march import next_event
 from rocking.kernels.parameters import harmonic_parameters, make
 
 SAMPLES = np.linspace(0.0, 1.0, 300)
 
 
-@njit(**COMPILED)
+@njit(**KERNEL)
 def stays_between(p, t, angle, velocity, end, arrival):
     system = p.amplitude, p.frequency, p.brace_angle
     return enclosure.stays_between(system, t, (angle, velocity), (end, arrival))
 
 
-@njit(**COMPILED)
+@njit(**KERNEL)
 def misread(systems, starts, told):
     """How many first events are not those of the search; ``told`` (n,) takes whether the search was not asked."""
     count = 0
@@ -31,7 +31,7 @@ def misread(systems, starts, told):
         frequency = 2.0 * math.pi / period
         p = make(amplitude, frequency, period, 0.0, 0.9, brace, 1.0)
         arc = arc_from(p, 1, starts[k, 0], starts[k, 1], starts[k, 2])
-        told[k] = fast_path.likely_event(p, arc)[0] == bracket.ZERO
+        told[k] = fast_path.fast_first_event(p, arc)[0] == bracket.ZERO
         likely, _ = next_event.next_event(p, event_kinds.FLIGHT, arc, NONE_YET)
         sure = next_event.any_event(p, event_kinds.FLIGHT, arc)
         # a rounding of u moves the time by its ratio to the speed
@@ -40,7 +40,7 @@ def misread(systems, starts, told):
     return count
 
 
-@njit(**COMPILED)
+@njit(**KERNEL)
 def first_events(p, start, angle, velocity):
     """(event, time) of the first event: without a search where that is certain; by the search."""
     arc = arc_from(p, 1, start, angle, velocity)

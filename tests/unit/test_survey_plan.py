@@ -7,14 +7,14 @@ import numpy as np
 import pytest
 
 from rocking.survey.engine.cost import Cost, duration
-from rocking.survey.spec import Question
+from rocking.survey.spec import SurveySpec
 from rocking.survey.tiling import COARSEST, MOST_IN_A_TILE, levels, tile_edges
 
 SHAPES = [(2, 2), (64, 64), (65, 64), (130, 131), (1000, 1000), (7, 100_000), (3, 200, 150), (1_000_000,)]
 
 
 def asked(shape):
-    return Question({f"axis {k}": np.arange(float(count)) for k, count in enumerate(shape)})
+    return SurveySpec({f"axis {k}": np.arange(float(count)) for k, count in enumerate(shape)})
 
 
 @pytest.mark.parametrize("shape", SHAPES)

@@ -8,7 +8,7 @@ import pytest
 
 import rocking as rk
 from rocking.survey.basin_map import points_of
-from rocking.survey.sampling.perturbation import disturbed as inputs_off
+from rocking.survey.sampling.perturbation import perturbed as inputs_off
 from rocking.survey.sampling.perturbation import spread
 from rocking.survey.spec import SYSTEM
 

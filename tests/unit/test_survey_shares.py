@@ -5,7 +5,7 @@ import pytest
 
 import rocking as rk
 from rocking.model import Share, wilson
-from rocking.survey.sampling.uncertainty_exponent import distances, exponent, trios
+from rocking.survey.sampling.uncertainty_exponent import distances, exponent, perturbed_triples
 
 Z = 1.959963984540054
 REPEATS = 2_000
@@ -65,7 +65,7 @@ def test_intervals_of_basin_fractions_cover():
 
 
 def test_two_starts_lie_beside_each_in_opposite_directions_at_the_distances_tried():
-    tried = trios((-1.0, -2.0), (1.0, 2.0), 2_400, np.random.default_rng(5))
+    tried = perturbed_triples((-1.0, -2.0), (1.0, 2.0), 2_400, np.random.default_rng(5))
     middle, one, other = np.moveaxis(tried, 2, 0)
     np.testing.assert_allclose(one + other, 2.0 * middle, rtol=0, atol=1e-15)
     away = np.hypot(*np.moveaxis(one - middle, -1, 0))

@@ -8,7 +8,7 @@ import pytest
 from rocking.survey import measurement
 from rocking.survey.measurement import Batch, batches, compute
 from rocking.survey.measures.response import response
-from rocking.survey.spec import Question
+from rocking.survey.spec import SurveySpec
 from rocking.survey.tiling import levels
 
 MEASURE = response(200, 64, "A map")
@@ -37,7 +37,7 @@ def test_what_is_said_of_a_point_depends_on_nobody_beside_it(fixed):
 def test_the_work_of_a_survey_is_its_points_each_once(points, monkeypatch):
     monkeypatch.setattr(measurement, "BATCH", 500)
     axes = {"amplitude": np.linspace(0.0, 16.0, points), "period": np.linspace(0.2, 3.0, points)}
-    asked = Question(axes, {"restitution": 0.9})
+    asked = SurveySpec(axes, {"restitution": 0.9})
     met, pieces, needed = np.zeros((points, points), int), 0, 0
     for level in levels(asked):
         step = (points - 1) // (level.shape[0] - 1)

@@ -16,7 +16,7 @@ from rocking.explorer import figure_data, plane_axes, presets
 from rocking.explorer.form_fields import WORDS
 from rocking.explorer.progressive_map import COARSEST, Plane, Refinement
 from rocking.explorer.server import local_server
-from rocking.explorer.session import Visit
+from rocking.explorer.session import Session
 from rocking.explorer.view_state import DEFAULT
 from rocking.explorer.worker_pools import Workers
 from rocking.model import VERSION
@@ -55,7 +55,7 @@ def serve(port: int = 0) -> BaseServer:
         document.title = "rocking explorer"
         document.template = _text("page.html")  # type: ignore[assignment]  # its hint forgets the text that its setter takes
         document.template_variables.update(_page())
-        Visit(document, workers)
+        Session(document, workers)
 
     server = local_server(Application(FunctionHandler(open_visit)), port)
     warm_up()

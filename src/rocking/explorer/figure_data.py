@@ -11,7 +11,7 @@ import numpy as np
 from attrs import frozen
 
 from rocking.explorer.bokeh_figures import no_image
-from rocking.explorer.view_state import Shown, Span
+from rocking.explorer.view_state import Span, ViewState
 from rocking.model import LARGEST_START, Outcome, State, System, TooManyEvents, Verdict
 from rocking.motion import Motion, simulate
 from rocking.orbits import orbit_diagram
@@ -63,12 +63,12 @@ def hits_per_cycle(system: System, start: State) -> float:
     return max(hits, 1.0)
 
 
-def crowded(shown: Shown) -> bool:
+def crowded(shown: ViewState) -> bool:
     """Whether a cycle has more events than a picture can follow."""
     return math.isinf(hits_per_cycle(shown.system, shown.start))
 
 
-def affordable(shown: Shown, cycles: int, hits: float = SOON_HITS) -> int:
+def affordable(shown: ViewState, cycles: int, hits: float = SOON_HITS) -> int:
     """So many cycles, or as many as may be computed for one picture."""
     return int(max(min(cycles, hits / hits_per_cycle(shown.system, shown.start)), 1))
 
@@ -104,7 +104,7 @@ class Drawn:
     ranges: Ranges
 
 
-def response(shown: Shown) -> Response:
+def response(shown: ViewState) -> Response:
     """The motion over the cycles shown, and what it is."""
     found = classify(shown.system, shown.start, affordable(shown, SOON), PERIOD)
     try:
@@ -135,7 +135,7 @@ def response(shown: Shown) -> Response:
     )
 
 
-def _motion(shown: Shown) -> tuple[Motion, float]:
+def _motion(shown: ViewState) -> tuple[Motion, float]:
     """The cycles shown with all their events, and the time at which they begin; those before it leave no trace."""
     system, start, before = shown.system, shown.start, 0
     if shown.first:
@@ -164,7 +164,7 @@ def _around(values: np.ndarray) -> tuple[float, float]:
     return low - room, high + room
 
 
-def spectrum(shown: Shown) -> Spectrum:
+def spectrum(shown: ViewState) -> Spectrum:
     """The spectral density after the transient, in units of the base's frequency."""
     try:
         if crowded(shown):
@@ -196,7 +196,7 @@ def spectrum(shown: Shown) -> Spectrum:
 class Section:
     """A section that grows: the motion goes on from where it was."""
 
-    def __init__(self, shown: Shown) -> None:
+    def __init__(self, shown: ViewState) -> None:
         self.shown, self.last = shown, shown.start
         self.points = np.empty((0, 2))
         self.ended = ""
@@ -244,7 +244,7 @@ def _cells(points: np.ndarray, spans: Ranges) -> np.ndarray:
     return rows * CELLS + columns
 
 
-def diagram(shown: Shown, stop: np.ndarray) -> tuple[Columns, Ranges]:
+def diagram(shown: ViewState, stop: np.ndarray) -> tuple[Columns, Ranges]:
     """What is left of the motion after a transient, at values all along the map's axis, each from the start.
 
     CancelledError once another thread has set `stop[0]`.
@@ -278,6 +278,6 @@ def diagram(shown: Shown, stop: np.ndarray) -> tuple[Columns, Ranges]:
     return columns, (span.low, span.high, *_around(columns["angle"]))
 
 
-def judge_longer(shown: Shown) -> Verdict:
+def judge_longer(shown: ViewState) -> Verdict:
     """What is open after `SOON` cycles, after `LATER`."""
     return classify(shown.system, shown.start, affordable(shown, LATER, LATER_HITS), PERIOD)

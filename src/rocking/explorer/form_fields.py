@@ -9,7 +9,7 @@ from urllib.parse import parse_qsl, urlencode
 
 import attrs
 
-from rocking.explorer.view_state import DEFAULT, Shown, Span, closest
+from rocking.explorer.view_state import DEFAULT, Span, ViewState, closest
 from rocking.model import (
     BRACE_ANGLES,
     FREQUENCIES,
@@ -151,7 +151,7 @@ PHYSICAL = {
 }
 
 
-def changed(shown: Shown, typed: Mapping[str, str]) -> Shown:
+def changed(shown: ViewState, typed: Mapping[str, str]) -> ViewState:
     """The same with some fields as they are typed.
 
     Raises
@@ -170,7 +170,7 @@ def changed(shown: Shown, typed: Mapping[str, str]) -> Shown:
     return wanted
 
 
-def in_metres(shown: Shown, typed: Mapping[str, str]) -> Shown:
+def in_metres(shown: ViewState, typed: Mapping[str, str]) -> ViewState:
     """The same with the block and the shaking in SI: height, width, acceleration (`unit` "g" or "m/s²"), frequency_hz.
 
     Raises Refused as `changed` does.
@@ -228,11 +228,11 @@ def _read(
     return read, refused
 
 
-def address(shown: Shown) -> str:
+def address(shown: ViewState) -> str:
     """The parameters of an address that shows the same: the system, and whatever is not as at the beginning."""
     system = ("amplitude", "period", "restitution")
     parts = {"version": str(VERSION)}
-    for each in attrs.fields(Shown):
+    for each in attrs.fields(ViewState):
         value = getattr(shown, each.name)
         if each.name in system or value != each.default:
             parts[each.name] = written(value)
@@ -250,7 +250,7 @@ def written(value: Any) -> str:
     return repr(value).removesuffix(".0") if isinstance(value, float) else str(value)
 
 
-def from_address(text: str) -> tuple[Shown, dict[str, str]]:
+def from_address(text: str) -> tuple[ViewState, dict[str, str]]:
     """What the parameters of an address show, and a sentence for each that cannot be: it is left as at the beginning."""
     if len(text) > LONGEST_ADDRESS:
         return DEFAULT, {"page": f"address must have at most {LONGEST_ADDRESS} signs; got {len(text)}"}

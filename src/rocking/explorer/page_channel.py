@@ -31,7 +31,7 @@ class Link(DataModel):
     basin = String(default="")
     refused = String(default="")
 
-    def tell(self, name: str, message: dict[str, Any]) -> None:
+    def send(self, name: str, message: dict[str, Any]) -> None:
         """Tell the page, which hears only of what differs: hence the number."""
         numbered = {"n": next(_numbers), **message}
         setattr(self, name, json.dumps(numbered, ensure_ascii=False, allow_nan=False))

@@ -10,7 +10,7 @@ import numpy as np
 from attrs import frozen
 
 from rocking.explorer.progressive_map import Picture
-from rocking.explorer.view_state import Shown, Span, closest
+from rocking.explorer.view_state import Span, ViewState, closest
 from rocking.model import Block
 from rocking.plot.parts import theory_curves
 
@@ -120,7 +120,7 @@ def answers(picture: Picture) -> dict[str, np.ndarray]:
     }
 
 
-def curves(shown: Shown, corner: Corner) -> dict[str, Any]:
+def curves(shown: ViewState, corner: Corner) -> dict[str, Any]:
     """The curves asked for, as far as they are seen, none between braces; dotted where the mode is not admissible."""
     columns: dict[str, Any] = {"xs": [], "ys": [], "dash": []}
     for name in shown.curves if shown.brace_angle is None else ():
@@ -143,7 +143,7 @@ def _curve(name: str, across: Span, up: Span, restitution: float) -> tuple[np.nd
     )
 
 
-def metres(made: Any, corner: Corner, shown: Shown, block: Block | None) -> None:
+def metres(made: Any, corner: Corner, shown: ViewState, block: Block | None) -> None:
     """The axes at the other sides: the same in SI where there is a block."""
     above, right = made.above[0], made.right[0]
     for axis in (above, right):

@@ -7,7 +7,7 @@ from typing import Any
 import attrs
 from attrs import field, frozen
 
-from rocking.explorer.view_state import DEFAULT, Shown, Span
+from rocking.explorer.view_state import DEFAULT, Span, ViewState
 
 
 @frozen
@@ -21,7 +21,7 @@ class Case:
     fields: dict[str, Any] = field(factory=dict)
 
     @property
-    def shown(self) -> Shown:
+    def shown(self) -> ViewState:
         """What it shows."""
         return attrs.evolve(DEFAULT, **self.fields)
 

@@ -15,7 +15,7 @@ from rocking.explorer.view_state import Span
 from rocking.explorer.worker_pools import Workers
 from rocking.model import Kind
 from rocking.plot.parts import legend
-from rocking.survey import lead, respond
+from rocking.survey import classify_points, classify_with_anchor
 
 PERIOD = 64
 FIELDS = {
@@ -198,7 +198,7 @@ class Refinement:
         return self._judge(places, ALL), time.thread_time() - begun
 
     def _judge(self, places: np.ndarray, cycles: int) -> dict[str, np.ndarray]:
-        ask = lead if self.plane.apart else respond
+        ask = classify_with_anchor if self.plane.apart else classify_points
         answers = ask(self.plane.values(places, self.side), self.plane.fixed, cycles, PERIOD, self.stop)
         if answers is None:
             raise asyncio.CancelledError

@@ -14,7 +14,7 @@ from rocking.explorer import bokeh_figures, figure_data, plane_axes, texts
 from rocking.explorer.form_fields import PERIODS
 from rocking.explorer.page_channel import Link
 from rocking.explorer.progressive_map import FIRST, Picture, Plane, Refinement
-from rocking.explorer.view_state import POINTS, Shown, Span
+from rocking.explorer.view_state import POINTS, Span, ViewState
 from rocking.explorer.worker_pools import Jobs, Workers
 from rocking.model import LARGEST_AMPLITUDE, LARGEST_START, Kind, Verdict
 
@@ -33,12 +33,12 @@ BASIN_LABELS = "angle at the start Θ₀", "velocity at the start Θ′₀"
 VARIED = {"amplitude": "amplitude A", "period": "period T"}
 
 
-def _first(shown: Shown) -> int:
+def _first(shown: ViewState) -> int:
     """Cycles a point of a first picture: all its points take no more than a click may wait for, if they are like this one."""
     return figure_data.affordable(shown, FIRST, FIRST_HITS)
 
 
-class Painter:
+class SessionRenderer:
     """All figures of a document, and the jobs that fill them. What is no longer shown is not drawn."""
 
     def __init__(self, document: Document, link: Link, workers: Workers) -> None:
@@ -65,20 +65,20 @@ class Painter:
 
     # what stands still
 
-    def place_map(self, shown: Shown) -> None:
+    def place_map(self, shown: ViewState) -> None:
         """Move the map to where it is looked at."""
         self.corner = plane_axes.corner_of(shown.periods, shown.amplitudes)
         plane_axes.place(self.map, self.corner, shown.periods, shown.amplitudes, MAP_LIMITS)
         plane_axes.label(self.map, self.corner, ("period T", "amplitude A"))
         plane_axes.metres(self.map, self.corner, shown, shown.block)
 
-    def place_basin(self, shown: Shown) -> None:
+    def place_basin(self, shown: ViewState) -> None:
         """Move the basin to where it is looked at."""
         self.basin_corner = plane_axes.corner_of(shown.angles, shown.velocities)
         plane_axes.place(self.basin, self.basin_corner, shown.angles, shown.velocities, BASIN_LIMITS)
         plane_axes.label(self.basin, self.basin_corner, BASIN_LABELS)
 
-    def mark(self, shown: Shown) -> None:
+    def mark(self, shown: ViewState) -> None:
         """Ring what is selected, and draw the curves asked for."""
         system = plane_axes.point(self.corner, shown.period, shown.amplitude)
         self.link.draw(
@@ -113,7 +113,7 @@ class Painter:
 
     # the map
 
-    async def refine_map(self, shown: Shown, stop: np.ndarray) -> None:
+    async def refine_map(self, shown: ViewState, stop: np.ndarray) -> None:
         """The map, from coarse to fine."""
         plane = Plane(
             ("period", shown.periods),
@@ -128,17 +128,17 @@ class Painter:
         async for finer in refinement.finer():
             await self._draw(partial(self._draw_map, shown, finer))
 
-    def _draw_map(self, shown: Shown, picture: Picture) -> None:
+    def _draw_map(self, shown: ViewState, picture: Picture) -> None:
         drawn = {"image": plane_axes.image(picture, self.corner, shown.periods, shown.amplitudes)}
         if picture.settled == picture.of:
             drawn["answers"] = plane_axes.answers(picture)
         self.link.draw(map=drawn)
-        self.link.tell("legend", {"legend": texts.legend(picture.counts().sum(axis=0))})
-        self.link.tell("progress", texts.progress(picture))
+        self.link.send("legend", {"legend": texts.legend(picture.counts().sum(axis=0))})
+        self.link.send("progress", texts.progress(picture))
 
     # one system
 
-    async def respond(self, shown: Shown, stop: np.ndarray) -> None:
+    async def respond(self, shown: ViewState, stop: np.ndarray) -> None:
         """All pictures of one system at once; then what refines."""
         section = figure_data.Section(shown)
         found, spectrum, _, (basin, picture) = await asyncio.gather(
@@ -167,9 +167,9 @@ class Painter:
         if found.verdict.kind is Kind.UNDETERMINED and not figure_data.crowded(shown):
             self.jobs.start("judge", partial(self._judge_longer, shown, spectrum.why))
 
-    def _tell_verdict(self, shown: Shown, verdict: Verdict, why: str) -> None:
+    def _tell_verdict(self, shown: ViewState, verdict: Verdict, why: str) -> None:
         words = texts.verdict(verdict, shown.block)
-        self.link.tell("verdict", words | {"spectrum": why})
+        self.link.send("verdict", words | {"spectrum": why})
 
     def _draw_section(self, drawn: figure_data.Drawn, grown: figure_data.Section) -> None:
         self.link.draw(section=_section(drawn, grown))
@@ -183,13 +183,13 @@ class Painter:
             drawn = await self.workers.later(partial(section.drawn, period))
             await self._draw(partial(self._draw_section, drawn, section))
 
-    async def _judge_longer(self, shown: Shown, why: str, stop: np.ndarray) -> None:
+    async def _judge_longer(self, shown: ViewState, why: str, stop: np.ndarray) -> None:
         found = await self.workers.later(partial(figure_data.judge_longer, shown))
         await self._draw(partial(self._tell_verdict, shown, found, why))
 
     # the basin
 
-    def _first_basin(self, shown: Shown, stop: np.ndarray) -> tuple[Refinement, Picture]:
+    def _first_basin(self, shown: ViewState, stop: np.ndarray) -> tuple[Refinement, Picture]:
         """The basin, to be refined, with its first picture."""
         fixed = shown.fixed | {"amplitude": shown.amplitude, "period": shown.period}
         del fixed["angle"], fixed["velocity"]
@@ -208,32 +208,32 @@ class Painter:
         basin = Refinement(plane, self.workers, stop)
         return basin, basin.coarse()
 
-    async def refine_basin(self, shown: Shown, stop: np.ndarray) -> None:
+    async def refine_basin(self, shown: ViewState, stop: np.ndarray) -> None:
         """The basin alone, from coarse to fine."""
         basin, picture = await self.workers.soon(partial(self._first_basin, shown, stop))
         await self._draw(partial(self._draw_basin, shown, picture))
         await self._finish_basin(shown, basin, stop)
 
-    async def _finish_basin(self, shown: Shown, basin: Refinement, stop: np.ndarray) -> None:
+    async def _finish_basin(self, shown: ViewState, basin: Refinement, stop: np.ndarray) -> None:
         basin.stop = stop
         await asyncio.sleep(BREATH)  # what there is is painted before all cores are taken
         await self.jobs.over("map", MAP_FIRST)
         async for picture in basin.finer():
             await self._draw(partial(self._draw_basin, shown, picture))
 
-    def _basin(self, shown: Shown, picture: Picture) -> dict[str, Any]:
+    def _basin(self, shown: ViewState, picture: Picture) -> dict[str, Any]:
         return {"image": plane_axes.image(picture, self.basin_corner, shown.angles, shown.velocities)}
 
-    def _draw_basin(self, shown: Shown, picture: Picture) -> None:
+    def _draw_basin(self, shown: ViewState, picture: Picture) -> None:
         self.link.draw(basin=self._basin(shown, picture))
         self._tell_attractors(picture)
 
     def _tell_attractors(self, picture: Picture) -> None:
-        self.link.tell("basin", {"legend": texts.attractors(picture.counts())})
+        self.link.send("basin", {"legend": texts.attractors(picture.counts())})
 
     # the diagram
 
-    async def draw_diagram(self, shown: Shown, stop: np.ndarray) -> None:
+    async def draw_diagram(self, shown: ViewState, stop: np.ndarray) -> None:
         """The orbit diagram along the map's axis; what a click asks for comes first."""
         await self.jobs.over("response")
         columns, ranges = await self.workers.later(partial(figure_data.diagram, shown, stop))

@@ -13,20 +13,20 @@ from bokeh.events import Tap
 from rocking.explorer import plane_axes, presets, texts
 from rocking.explorer.form_fields import Refused, address, changed, from_address, in_metres, written
 from rocking.explorer.page_channel import STRANGE, Link, message
-from rocking.explorer.renderer import Painter
-from rocking.explorer.view_state import DEFAULT, Shown, Span, closest, nearby
+from rocking.explorer.renderer import SessionRenderer
+from rocking.explorer.view_state import DEFAULT, Span, ViewState, closest, nearby
 from rocking.explorer.worker_pools import Workers
 
 SHAKEN = ("restitution", "phase", "angle", "velocity", "brace_angle", "brace_restitution")
 SYSTEM = ("amplitude", "period", *SHAKEN)
 
 
-class Visit:
+class Session:
     """A document, and what is shown in it."""
 
     def __init__(self, document: Document, workers: Workers) -> None:
         self.link = Link(name="link")
-        self.painter = Painter(document, self.link, workers)
+        self.painter = SessionRenderer(document, self.link, workers)
         self.shown, self.opened = DEFAULT, False
         self.link.on_change("asked", lambda _name, _before, text: self.hear(text))
         self.painter.map.on_event(Tap, self._tapped_map)
@@ -41,12 +41,12 @@ class Visit:
             asked = message(text)
             new, refused = self._asked(asked["what"], asked["fields"])
         except Refused as refusal:
-            self.link.tell("refused", {"fields": refusal.fields})
+            self.link.send("refused", {"fields": refusal.fields})
             return
-        self.link.tell("refused", {"fields": refused})
+        self.link.send("refused", {"fields": refused})
         self.show(new, push=asked.get("push") == "yes")
 
-    def _asked(self, what: str, typed: dict[str, str]) -> tuple[Shown, dict[str, str]]:
+    def _asked(self, what: str, typed: dict[str, str]) -> tuple[ViewState, dict[str, str]]:
         """What shall be shown, and a sentence for each parameter of an address that cannot be."""
         if what == "open":
             return from_address(typed.get("address", ""))
@@ -85,7 +85,7 @@ class Visit:
             return  # no number: not from our page
         self.hear(json.dumps({"what": "fields", "fields": fields, "push": "yes"}))
 
-    def show(self, new: Shown, *, push: bool) -> None:
+    def show(self, new: ViewState, *, push: bool) -> None:
         """Show something else, and compute what differs."""
         old, first = self.shown, not self.opened
         self.shown, self.opened = new, True
@@ -100,7 +100,7 @@ class Visit:
             painter.place_basin(new)
         painter.mark(new)
         moved = differs(*SYSTEM, "first", "cycles", "height", "width")
-        self.link.tell("shown", self._told() | {"push": push, "moved": moved})
+        self.link.send("shown", self._told() | {"push": push, "moved": moved})
         if differs("periods", "amplitudes", *SHAKEN):
             jobs.start("map", partial(painter.refine_map, new))
         if moved:
@@ -117,7 +117,7 @@ class Visit:
         new, painter = self.shown, self.painter
         return {
             "address": address(new),
-            "fields": {each.name: written(getattr(new, each.name)) for each in attrs.fields(Shown)},
+            "fields": {each.name: written(getattr(new, each.name)) for each in attrs.fields(ViewState)},
             "planes": {
                 "map": _plane(painter.corner, new.periods, new.amplitudes),
                 "basin": _plane(painter.basin_corner, new.angles, new.velocities),

@@ -11,7 +11,7 @@ import numpy as np
 from rocking.explorer.bokeh_figures import SHADED
 from rocking.explorer.form_fields import written
 from rocking.explorer.progressive_map import Picture
-from rocking.explorer.view_state import DEFAULT, Shown
+from rocking.explorer.view_state import DEFAULT, ViewState
 from rocking.model import GRAVITY, Block, Harmonic, Verdict, counted, percent
 from rocking.plot.parts import legend as looks
 
@@ -124,7 +124,7 @@ def progress(picture: Picture) -> dict[str, Any]:
     return {"text": f"map of {side} × {side} points", "share": share, "side": side, "done": picture.done}
 
 
-def python(shown: Shown) -> str:
+def python(shown: ViewState) -> str:
     """The lines of Python that give what is shown."""
     lines = ["import numpy as np", "import rocking as rk", ""]
     phase = "" if shown.phase == 0.0 else f", phase={shown.phase!r}"
@@ -154,11 +154,11 @@ def _axis(span: Any) -> str:
     return f"np.linspace({span.low!r}, {span.high!r}, 101)"
 
 
-def _block(shown: Shown) -> str:
+def _block(shown: ViewState) -> str:
     return f"rk.Block({shown.height!r}, {shown.width!r}, restitution={shown.restitution!r})"
 
 
-def commands(shown: Shown) -> str:
+def commands(shown: ViewState) -> str:
     """The same at a prompt, in SI where there is a block: what the response is, its motion, and the map."""
     usual = ("phase", "angle", "velocity", "brace_angle", "brace_restitution")
     named = [name for name in usual if name in shown.fixed and getattr(shown, name) != getattr(DEFAULT, name)]
@@ -174,7 +174,7 @@ def commands(shown: Shown) -> str:
     )
 
 
-def _normalised(shown: Shown) -> tuple[str, str]:
+def _normalised(shown: ViewState) -> tuple[str, str]:
     """Options of the forcing selected, and of those of the map."""
     return (
         f"--amplitude {written(shown.amplitude)} --period {written(shown.period)}",
@@ -182,7 +182,7 @@ def _normalised(shown: Shown) -> tuple[str, str]:
     )
 
 
-def _in_metres(shown: Shown, block: Block) -> tuple[str, str]:
+def _in_metres(shown: ViewState, block: Block) -> tuple[str, str]:
     """The same of a block in SI; the map over seconds, for even steps of the frequency are not even ones of the period."""
 
     def acceleration(amplitude: float) -> str:

@@ -39,7 +39,7 @@ def nearby(value: float, span: Span) -> float:
 
 
 @frozen
-class Shown:
+class ViewState:
     """What a visitor looks at: a system and its start, the map around it, its basin, and how they are drawn.
 
     Names and units are those of `Harmonic`, `System`, `Braces` and `State`.
@@ -97,9 +97,9 @@ class Shown:
         """The values of the orbit diagram: those of the map along that axis."""
         return self.amplitudes if self.vary == "amplitude" else self.periods
 
-    def at(self, value: float) -> Shown:
+    def at(self, value: float) -> ViewState:
         """The same at another place of the orbit diagram."""
         return evolve(self, amplitude=value) if self.vary == "amplitude" else evolve(self, period=value)
 
 
-DEFAULT = Shown()
+DEFAULT = ViewState()

@@ -4,7 +4,7 @@ from rocking.kernels.compiler import WholeCompiler
 from rocking.kernels.machine_code import FOLDER
 
 # Kernels borrow arrays. Reference counting at every call took a fifth of the time of a map, so it is off.
-COMPILED = dict(
+KERNEL = dict(
     nogil=True,
     error_model="numpy",
     fastmath={"contract", "nsz"},
@@ -15,22 +15,22 @@ COMPILED = dict(
 # Entry points are what Python calls. Each is cached on disk with private copies of all that it calls. A cached function
 # is not inlined into compiled callers: speed and last digits would then depend on the state of the cache. So no kernel
 # calls an entry point. Without a folder of our own nothing is cached: the compiler would write beside the sources.
-KEPT = dict(cache=FOLDER is not None, pipeline_class=WholeCompiler)
-ENTRY = dict(COMPILED, **KEPT)
+CACHED = dict(cache=FOLDER is not None, pipeline_class=WholeCompiler)
+ENTRY_POINT = dict(KERNEL, **CACHED)
 # Kernels that only kernels call have no wrapper for Python, which takes as long to compile as the kernel itself.
 # A call from Python would end the process.
-WITHIN = dict(COMPILED, no_cpython_wrapper=True)
+INTERNAL = dict(KERNEL, no_cpython_wrapper=True)
 # Kernels that allocate arrays or lists need reference counting.
-MAKING = dict(COMPILED, _nrt=True)
-MAKING_ENTRY = dict(MAKING, **KEPT)
-INLINED = dict(COMPILED, forceinline=True)
-INNER = dict(WITHIN, forceinline=True)
+ALLOCATING = dict(KERNEL, _nrt=True)
+ALLOCATING_ENTRY = dict(ALLOCATING, **CACHED)
+KERNEL_INLINE = dict(KERNEL, forceinline=True)
+INTERNAL_INLINE = dict(INTERNAL, forceinline=True)
 # The compiler optimises a callee once more with every caller. A short kernel between a caller and the march is
 # inlined as syntax instead, before that.
-WRITTEN_IN = dict(WITHIN, inline="always")
+AST_INLINE = dict(INTERNAL, inline="always")
 # Kernels for vectors. The compiler may not choose which product it fuses with a sum, so that results depend neither
 # on the width of the vectors nor on what else is compiled. A fused product is written as such.
-EXACT = dict(
+SIMD = dict(
     nogil=True,
     error_model="numpy",
     fastmath={"nsz"},
@@ -38,4 +38,4 @@ EXACT = dict(
     no_cpython_wrapper=True,
     _nrt=False,
 )
-EXACT_INNER = dict(EXACT, forceinline=True)
+SIMD_INLINE = dict(SIMD, forceinline=True)

@@ -10,7 +10,7 @@ from numba.core.codegen import JITCodeLibrary
 from numba.core.compiler import Compiler
 
 
-class Whole(JITCodeLibrary):
+class SelfContainedLibrary(JITCodeLibrary):
     """Machine code that takes no function from elsewhere."""
 
     def _optimize_final_module(self):
@@ -29,6 +29,6 @@ class WholeCompiler(Compiler):
 
     def compile_extra(self, func):
         """Compile a function."""
-        self.state.library = Whole(self.state.targetctx.codegen(), func.__qualname__)
+        self.state.library = SelfContainedLibrary(self.state.targetctx.codegen(), func.__qualname__)
         self.state.library.enable_object_caching()
         return super().compile_extra(func)

@@ -3,7 +3,7 @@
 from enum import IntEnum
 
 
-class Mode(IntEnum):
+class MotionMode(IntEnum):
     """What the block does between events."""
 
     FLIGHT = 0
@@ -13,7 +13,7 @@ class Mode(IntEnum):
 
 # Kernels compute with plain integers: an enum member would give every function a second type to be compiled
 # for.
-FLIGHT, REST, LEAN = (int(mode) for mode in Mode)
+FLIGHT, REST, LEAN = (int(mode) for mode in MotionMode)
 
 
 class Event(IntEnum):

@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 from numba import njit
 
-from rocking.kernels.compile_options import ENTRY, WITHIN
+from rocking.kernels.compile_options import ENTRY_POINT, INTERNAL
 from rocking.kernels.numerics.elementary import fma
 
 TURN = Fraction("6.28318530717958647692528676655900576839433879875021")
@@ -45,7 +45,7 @@ class HarmonicParameters(NamedTuple):
     base_outside_tanh: float
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def stiffness(frequency):
     """1 + Omega**2 in two parts, the second what the first leaves out by rounding."""
     square = frequency * frequency
@@ -54,14 +54,14 @@ def stiffness(frequency):
     return total, (small - (total - large)) + fma(frequency, frequency, -square)
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def share(numerator, whole, rest):
     """numerator/(whole + rest), rounded once but for a rare last place."""
     quotient = numerator / whole
     return quotient + (fma(-quotient, whole, numerator) - quotient * rest) / whole
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def make(amplitude, frequency, period, phase, restitution, brace_angle, brace_restitution):
     """The parameters of a system; beta and 1/(1 + Omega**2) rounded once, since every term of an arc carries them."""
     whole, rest = stiffness(frequency)
@@ -98,7 +98,7 @@ def make(amplitude, frequency, period, phase, restitution, brace_angle, brace_re
     )
 
 
-@njit(**ENTRY)
+@njit(**ENTRY_POINT)
 def make_plain(amplitude, frequency, period, phase, restitution, brace_angle, brace_restitution):
     """``make`` for Python: a plain tuple, as ``march.plain`` has it."""
     p = make(amplitude, frequency, period, phase, restitution, brace_angle, brace_restitution)
@@ -124,14 +124,14 @@ def within_a_turn(phase: float) -> float:
     return phase if abs(phase) <= TURN else float(Fraction(phase) - round(Fraction(phase) / TURN) * TURN)
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def later(p, time):
     """The same system with its clock set to 0 a time (within a period) later."""
     phase = p.phase + p.frequency * time
     return at_phase(p, phase - 2.0 * math.pi * round(phase / (2.0 * math.pi)))
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def at_phase(p, phase):
     """The same system with another forcing phase at time 0."""
     return make(

@@ -13,7 +13,7 @@ _draws: dict[type | str, Draw] = {}
 _fills: list[Callable[[], object]] = []
 
 
-def hang(kind: type | str, draw: Draw) -> None:
+def register(kind: type | str, draw: Draw) -> None:
     """Let results of this `kind`, their type or the name that they are shown by, be shown by `draw`, which returns the bytes of a PNG."""
     _draws[kind] = draw
 

@@ -1,7 +1,7 @@
 """Simulating one block, and what it did."""
 
 from rocking.motion.fall import FALLEN, end_shown, time_of_fall
-from rocking.motion.march_loop import begin, march_on
+from rocking.motion.march_loop import march_on, start_march
 from rocking.motion.model_warnings import block_warnings
 from rocking.motion.motion import Motion
 from rocking.motion.simulate import kept_events, simulate
@@ -11,12 +11,12 @@ __all__ = [
     "FALLEN",
     "Motion",
     "Validity",
-    "begin",
     "block_warnings",
     "end_shown",
     "kept_events",
     "march_on",
     "simulate",
+    "start_march",
     "time_of_fall",
     "validity",
 ]

@@ -38,7 +38,7 @@ class Extreme(NamedTuple):
 NOTHING = Extreme(math.inf, 0.0)
 
 
-def least(measure: Measure, arcs: Arcs, scale: float) -> Extreme:
+def global_minimum(measure: Measure, arcs: Arcs, scale: float) -> Extreme:
     """Least value of a `measure` of times and sides over all `arcs`, on which it varies over times of `scale`.
 
     The least value can lie beside a grid point that is no higher than its neighbours, and no deeper below it than they

@@ -30,7 +30,7 @@ def parameters(system: System) -> numbers.HarmonicParameters:
     )
 
 
-def begin(system: System, start: State) -> tuple[numbers.HarmonicParameters, Any]:
+def start_march(system: System, start: State) -> tuple[numbers.HarmonicParameters, Any]:
     """Give the system as the kernels read it and the block at its start, for `march_on`."""
     p = parameters(system)
     return p, kernel.begin_march(p, start.angle, start.velocity)[0]
@@ -97,7 +97,7 @@ def section_of(system: System, start: State, cycles: int, phase: float) -> np.nd
     """Run a motion again for its section at another forcing phase."""
     forcing = system.forcing
     time = math.fmod(phase - forcing.phase, 2.0 * math.pi) / forcing.frequency
-    p, progress = begin(system, start)
+    p, progress = start_march(system, start)
     return run(p, progress, cycles, time % forcing.period, "section", want_peak=False)[2]
 
 

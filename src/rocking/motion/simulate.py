@@ -11,7 +11,7 @@ from rocking.kernels.march import event_rows
 from rocking.kernels.march import march as kernel
 from rocking.model import Overturning, State, System, check_start, one_of, whole
 from rocking.motion.event_table import events_of
-from rocking.motion.march_loop import begin, outcome_of, parameters, run, state_of
+from rocking.motion.march_loop import outcome_of, parameters, run, start_march, state_of
 from rocking.motion.motion import Motion
 
 MOST_CYCLES = 1_000_000_000
@@ -102,7 +102,9 @@ def kept_events(
     def of_rows(rows: np.ndarray) -> np.ndarray:
         return keep(events_of(system, rows, duration))
 
-    return np.concatenate(run(*begin(system, start), cycles, 0.0, "all", want_peak=False, keep=of_rows)[3])
+    return np.concatenate(
+        run(*start_march(system, start), cycles, 0.0, "all", want_peak=False, keep=of_rows)[3]
+    )
 
 
 def _first_rows(progress: Any, start: State, hit: bool) -> np.ndarray:

@@ -10,7 +10,7 @@ import numpy as np
 from attrs import evolve, frozen
 
 from rocking.model import Block, instance
-from rocking.motion.arc_minimum import NOTHING, Arcs, Array, Extreme, least
+from rocking.motion.arc_minimum import NOTHING, Arcs, Array, Extreme, global_minimum
 from rocking.motion.model_warnings import block_warnings, degrees_too, slender_errors
 
 if TYPE_CHECKING:
@@ -139,12 +139,12 @@ def validity(motion: Motion, block: Block) -> Validity:
         sideways, up = base_reaction(motion, block, times, sides)
         return np.divide(-np.abs(sideways), up, out=np.full_like(up, -math.inf), where=up > 0)
 
-    reaction = min(least(upward, moving, min(period, 1)), least(upward, resting, period))
+    reaction = min(global_minimum(upward, moving, min(period, 1)), global_minimum(upward, resting, period))
     pulled = Extreme(-math.inf, reaction.time)
     slides = {
-        "motion": least(hold, moving, min(period, 1)) if reaction.value > 0 else pulled,
+        "motion": global_minimum(hold, moving, min(period, 1)) if reaction.value > 0 else pulled,
         "impact": impact_friction(motion, block),
-        "rest": least(hold, resting, period),
+        "rest": global_minimum(hold, resting, period),
     }
     source = min(slides, key=lambda name: slides[name].value)
     friction = slides[source]

@@ -148,12 +148,12 @@ def _half(
 ) -> tuple[np.ndarray, int]:
     """The curve one way: its points, and why it ends."""
     k = len(chain.kinds)
-    desk = arclength.desk(k, limits[1] - limits[0], limits[3] - limits[2])
+    workspace = arclength.make_newton_workspace(k, limits[1] - limits[0], limits[3] - limits[2])
     direction = np.zeros(k + 2)
     direction[k] = sense
     out = np.empty((most, k + 2))
     count, end = kernel.follow_curve(
-        parameters(chain.system), *chain.fixed, condition, touches, y, direction, limits, step, out, desk,
+        parameters(chain.system), *chain.fixed, condition, touches, y, direction, limits, step, out, workspace,
         np.zeros((k + 2, k + 2)), np.zeros(k + 2),
     )  # fmt: skip
     return out[:count].copy(), end

@@ -158,7 +158,7 @@ def switch_branch(
     for sense in senses:
         off = _beside(chain, special.name, row, sense * direction, (low, high), step)
         half = _follow(chain, special.name, off, sense * direction, (low, high), step, most)
-        branches.append(_born(chain, special, row, half))
+        branches.append(_branch_from_special(chain, special, row, half))
     return tuple(branches)
 
 
@@ -225,7 +225,7 @@ def _follow(
         facts,
         specials,
         changes,
-        arclength.desk(k, bounds[1] - bounds[0]),
+        arclength.make_newton_workspace(k, bounds[1] - bounds[0]),
     )
     return _Half(out[:count].copy(), facts[:count].copy(), specials[:found], changes[:found], end)
 
@@ -244,7 +244,7 @@ def _joined(chain: Chain, parameter: str, back: _Half, on: _Half) -> Branch:
     return _branch(chain, parameter, rows, facts, (specials, changes[:, 0], indices), (back.end, on.end))
 
 
-def _born(chain: Chain, special: SpecialPoint, row: np.ndarray, half: _Half) -> Branch:
+def _branch_from_special(chain: Chain, special: SpecialPoint, row: np.ndarray, half: _Half) -> Branch:
     """A branch that begins at a special point."""
     _, links, trace, determinant = equations(chain, special.name, row)
     orbit = special.orbit

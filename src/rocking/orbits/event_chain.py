@@ -133,7 +133,7 @@ def solved(chain: Chain, parameter: str, value: float, phases: np.ndarray) -> So
     count, _, _ = following.follow(
         parameters(chain.system), NAMES[parameter], *chain.fixed, chain.mirrored, y, fixed,
         (value - scale, value + scale), 0.1, row[:1], facts[:1], row[1:], np.empty((1, 2), np.int64),
-        arclength.desk(k, scale),
+        arclength.make_newton_workspace(k, scale),
     )  # fmt: skip
     return Solved(count == 1, row[0], *facts[0, :3])
 

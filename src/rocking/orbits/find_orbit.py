@@ -10,7 +10,7 @@ from rocking.kernels.classify import periodicity
 from rocking.kernels.classify import workspace as memory
 from rocking.kernels.orbits import newton_search as kernel
 from rocking.model import NoOrbit, Orbit, Outcome, State, System, check_start, refusal, whole
-from rocking.motion import begin, simulate
+from rocking.motion import simulate, start_march
 from rocking.orbits.event_chain import chain_of, clocked, orbit_of, quiet_phase, solved
 
 MOST_PERIOD = 1000
@@ -72,7 +72,7 @@ def find_orbit(system: System, guess: State, period: int) -> Orbit:
     phase = quiet_phase(own + frequency * motion.events["time"]) if len(motion.events) else own
     wait = ((phase - own) % math.tau) / frequency
     angle, velocity = (float(value) for value in motion.at(wait))
-    out = hunted(clocked(system, phase), period, False, np.array([[angle, velocity]]))[0]
+    out = newton_from_starts(clocked(system, phase), period, False, np.array([[angle, velocity]]))[0]
     reached = State(float(out[1]), float(out[2]))
     if not out[0]:
         raise NoOrbit(
@@ -85,12 +85,12 @@ def find_orbit(system: System, guess: State, period: int) -> Orbit:
     return orbit_from(system, phase, reached, period)
 
 
-def hunted(system: System, period: int, mirrored: bool, starts: np.ndarray) -> np.ndarray:
+def newton_from_starts(system: System, period: int, mirrored: bool, starts: np.ndarray) -> np.ndarray:
     """What Newton's method made of every start, (found, Θ, Θ', residual): on the map over a period, or half of one and mirrored."""
-    p, _ = begin(system, State())
+    p, _ = start_march(system, State())
     out = np.empty((len(starts), 4))
-    desk = memory.desk(1, 1)
-    kernel.hunt(p, period, mirrored, starts, desk.nothing, desk.trial, out)
+    workspace = memory.make_workspace(1, 1)
+    kernel.newton_from_starts(p, period, mirrored, starts, workspace.nothing, workspace.trial, out)
     return out
 
 

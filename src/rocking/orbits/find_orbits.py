@@ -13,8 +13,8 @@ from attrs import field, frozen
 
 from rocking.model import Orbit, Stability, System, instance, pair, refusal, whole, within
 from rocking.orbits.event_chain import clocked
-from rocking.orbits.find_orbit import hunted
-from rocking.orbits.orbit_registry import Known
+from rocking.orbits.find_orbit import newton_from_starts
+from rocking.orbits.orbit_registry import OrbitRegistry
 from rocking.orbits.saddle_orbits import response
 
 MOST_PERIOD = 64
@@ -153,7 +153,7 @@ def find_orbits(
     box = _box(system, angles, velocities)
     forcing = system.forcing
     there = clocked(system, (forcing.phase + math.tau * SECTION) % math.tau)
-    known, used = Known(system, there.forcing.phase), 0
+    known, used = OrbitRegistry(system, there.forcing.phase), 0
     jobs = [(n, False) for n in range(1, max_period + 1)] + [(n, True) for n in range(1, max_period + 1, 2)]
     settled = False
     with ThreadPoolExecutor() as pool:
@@ -161,9 +161,11 @@ def find_orbits(
             count = max(round(effort * FIRST_ROUND * 2 ** max(number - 1, 0)), 1)
             before = len(known.orbits)
             batches = [_starts(there, box, count, used + seed + 7919 * j) for j, _ in enumerate(jobs)]
-            outcomes = pool.map(lambda job, starts: hunted(there, job[0], job[1], starts), jobs, batches)
+            outcomes = pool.map(
+                lambda job, starts: newton_from_starts(there, job[0], job[1], starts), jobs, batches
+            )
             for (period, _), out in zip(jobs, outcomes, strict=True):
-                known.take(out[out[:, 0] == 1.0, 1:3], period)
+                known.add_states(out[out[:, 0] == 1.0, 1:3], period)
             used += count
             if number and len(known.orbits) == before:
                 settled = True

@@ -142,7 +142,7 @@ def _solved(touch: Touch, parameter: str) -> tuple[Touch, np.ndarray] | None:
     direction[k] = 1.0
     count, _ = kernel.follow_curve(
         parameters(chain.system), *chain.fixed, condition, touch.time, np.append(chain.phases, here), direction,
-        limits, 0.1, out, arclength.desk(k, *here), np.zeros((k + 2, k + 2)), np.zeros(k + 2),
+        limits, 0.1, out, arclength.make_newton_workspace(k, *here), np.zeros((k + 2, k + 2)), np.zeros(k + 2),
     )  # fmt: skip
     if count == 0 or not abs(out[0, -1] - here[1]) <= NEAR * abs(here[1]):
         return None

@@ -27,7 +27,7 @@ from rocking.model import (
     whole,
     within,
 )
-from rocking.motion import begin
+from rocking.motion import start_march
 from rocking.orbits.orbit_diagram_result import OrbitDiagram
 from rocking.orbits.parameter import PARAMETERS, with_value
 
@@ -149,7 +149,7 @@ def _values(values: ArrayLike) -> NDArray[np.float64]:
 def _row(system: System, start: State) -> tuple[float, ...]:
     """What the kernel needs of a system; refused if it cannot begin at `start`."""
     check_start(system, start)
-    return begin(system, start)[0][:7]
+    return start_march(system, start)[0][:7]
 
 
 class _Lane(NamedTuple):
@@ -183,7 +183,7 @@ def _run(
     progress: Callable[[int], object] | None,
 ) -> None:
     """Fill the lanes, each in a thread, in batches so short that Ctrl-C and progress do not wait long."""
-    nothing = workspace.Nothing(np.empty((0, 4)), np.empty((0, 8)), np.empty((0, 2)), np.empty(0))
+    nothing = workspace.NoRecording(np.empty((0, 4)), np.empty((0, 8)), np.empty((0, 2)), np.empty(0))
     batch = max(BREATH // (transient + lanes[0].section.shape[1]), 1)
     states = [(start.angle, start.velocity)] * len(lanes)
 

@@ -22,7 +22,7 @@ def mirrored(orbit: Orbit) -> Orbit:
     return evolve(orbit, state=state, phase=(orbit.phase + math.pi) % math.tau)
 
 
-class Known:
+class OrbitRegistry:
     """The orbits found so far, with all their states on the section at a forcing phase."""
 
     def __init__(self, system: System, phase: float) -> None:
@@ -32,7 +32,7 @@ class Known:
         self.rows = np.empty((0, 2))
         self.owner = np.empty(0, int)
 
-    def take(self, states: np.ndarray, period: int) -> None:
+    def add_states(self, states: np.ndarray, period: int) -> None:
         """Count the states that belong to known orbits; add the orbits of the others, with their mirror images."""
         states = states[~self._counted(states)]
         while len(states):

@@ -6,7 +6,7 @@ import math
 from typing import Any
 
 from rocking.model import State, System, instance, refusal
-from rocking.motion import begin
+from rocking.motion import start_march
 from rocking.theory import saddle_orbit
 
 
@@ -27,7 +27,7 @@ def check(system: System) -> None:
 
 def response(system: System) -> float:
     """β = A/(1 + Ω²)."""
-    return float(begin(system, State())[0].response)
+    return float(start_march(system, State())[0].response)
 
 
 def saddle(system: System, phase: float, side: int) -> tuple[float, float]:
@@ -39,6 +39,6 @@ def saddle(system: System, phase: float, side: int) -> tuple[float, float]:
 
 def parameters(system: System, phase: float, backward: bool) -> Any:
     """What the kernels read, the clock at 0 at a forcing phase; backward in time, where Θ' and φ are negated and e is 1/e."""
-    p = begin(system, State())[0]
+    p = start_march(system, State())[0]
     phase = math.remainder(phase, math.tau)
     return p._replace(phase=-phase, restitution=1.0 / p.restitution) if backward else p._replace(phase=phase)

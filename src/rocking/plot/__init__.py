@@ -94,4 +94,4 @@ for kind, draw in (
     (RepeatabilityMap, repeatability_map),
     ("map", parametric_map),
 ):
-    notebook_renderers.hang(kind, picture(draw))
+    notebook_renderers.register(kind, picture(draw))

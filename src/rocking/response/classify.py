@@ -13,7 +13,7 @@ from rocking.kernels import parameters as numbers
 from rocking.kernels.classify import cascade, workspace
 from rocking.kernels.classify import verdict_record as kernel
 from rocking.model import Kind, Orbit, Outcome, State, System, Verdict, check_start, whole
-from rocking.motion import Motion, begin, simulate
+from rocking.motion import Motion, simulate, start_march
 from rocking.response.evidence import Case, evidence_of
 
 MOST_CYCLES = 100_000_000
@@ -111,12 +111,12 @@ def _judged(system: System, start: State, max_cycles: int, max_period: int) -> k
     A thread that is no longer waited for goes on to its end, but keeps no process alive.
     """
     _compile()
-    p, _ = begin(system, start)
+    p, _ = start_march(system, start)
     answer: Future[Any] = Future()
 
     def work() -> None:
         try:
-            memory = workspace.desk(max_cycles, max_period)
+            memory = workspace.make_workspace(max_cycles, max_period)
             answer.set_result(
                 cascade.judge_plain(p, start.angle, start.velocity, max_cycles, max_period, memory)
             )
@@ -133,7 +133,7 @@ def _judged(system: System, start: State, max_cycles: int, max_period: int) -> k
 def _compile() -> None:
     """Compile the cascade, or load it, before a thread needs it: a process that ends while another thread compiles may crash."""
     still = numbers.harmonic_parameters(0.0, 1.0, math.tau, 0.0, 0.0)
-    cascade.judge_plain(still, 0.0, 0.0, 1, 1, workspace.desk(1, 1))
+    cascade.judge_plain(still, 0.0, 0.0, 1, 1, workspace.make_workspace(1, 1))
 
 
 def _to_its_end(system: System, start: State, judgement: kernel.Judgement) -> Motion | None:

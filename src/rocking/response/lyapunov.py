@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from rocking.model import Outcome, State, System, TooShort, check_start, whole
-from rocking.motion import begin, march_on
+from rocking.motion import march_on, start_march
 from rocking.response.batch_means import FEWEST_BATCHES, MOST_BATCHES
 from rocking.response.lyapunov_spectrum import LyapunovSpectrum, means_of
 
@@ -97,7 +97,7 @@ class _Carried:
 
     def __init__(self, system: System, start: State) -> None:
         self.period = system.forcing.period
-        self.p, self.progress = begin(system, start)
+        self.p, self.progress = start_march(system, start)
         self.columns = np.eye(2)
 
     @property

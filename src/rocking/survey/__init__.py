@@ -4,8 +4,8 @@ from rocking.survey import notebook
 from rocking.survey.basin_map import basin_map
 from rocking.survey.chaos_share import chaos_share
 from rocking.survey.engine.tile_loop import cores
-from rocking.survey.measures.attractors import alike, lead
-from rocking.survey.measures.response import respond
+from rocking.survey.measures.attractors import alike, classify_with_anchor
+from rocking.survey.measures.response import classify_points
 from rocking.survey.overturning_amplitude import MOST_PHASES, overturning_amplitude
 from rocking.survey.parametric_map import parametric_map
 from rocking.survey.repeatability import repeatability
@@ -23,14 +23,14 @@ __all__ = [
     "basin_map",
     "chaos_share",
     "check_quantity",
+    "classify_points",
+    "classify_with_anchor",
     "cores",
     "counts",
-    "lead",
     "overturning_amplitude",
     "parametric_map",
     "repeatability",
     "repeatability_map",
-    "respond",
     "safe_basin",
     "tables",
     "to_netcdf",

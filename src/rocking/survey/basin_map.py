@@ -21,12 +21,12 @@ from rocking.model import (
     refusal,
     whole,
 )
-from rocking.survey.engine.run_survey import ask
-from rocking.survey.measurement import Measure
-from rocking.survey.measures.attractors import destination, named, told_apart
+from rocking.survey.engine.run_survey import run_survey
+from rocking.survey.measurement import Measurement
+from rocking.survey.measures.attractors import destination, label_attractors, make_attractors
 from rocking.survey.sampling.random_points import MOST_SAMPLES, generator, sampled, span
-from rocking.survey.sampling.uncertainty_exponent import distances, exponent, trios
-from rocking.survey.spec import Points, Question, points, question
+from rocking.survey.sampling.uncertainty_exponent import distances, exponent, perturbed_triples
+from rocking.survey.spec import Points, SurveySpec, points, question
 from rocking.survey.store.dataset import attributes, coordinate
 
 if TYPE_CHECKING:
@@ -113,7 +113,7 @@ def basin_map(
     random = generator(seed)
     if samples is None:
         asked = question({**asked_of(system), "angle": angle, "velocity": velocity}, 2, "a basin map")
-        found = ask(asked, measure, store, executor, progress=progress, repair=repair).load()
+        found = run_survey(asked, measure, store, executor, progress=progress, repair=repair).load()
         ends = {name: (values[0], values[-1]) for name, values in asked.axes.items()}
         starts = grid_starts(asked)
     else:
@@ -124,8 +124,8 @@ def basin_map(
         count = whole("samples", samples, 1, MOST_SAMPLES)
         starts = random.uniform(*_corners(ends), (count, 2))
         found = _random_dataset(system, starts, measure, executor).assign_attrs(seed=seed)
-    labels, first = told_apart(system, {str(name): found[name].values for name in found.data_vars})
-    attractors = named(system, starts, first, max_cycles, max_period)
+    labels, first = label_attractors(system, {str(name): found[name].values for name in found.data_vars})
+    attractors = make_attractors(system, starts, first, max_cycles, max_period)
     _attach(found, labels, [each.name for each in attractors])
     fractions = _fractions(np.bincount(labels), attractors)
     exponents = _exponents(system, ends, runs, random, measure, executor) if runs else (None, None)
@@ -161,7 +161,7 @@ def points_of(system: System, starts: np.ndarray) -> Points:
     return points({"angle": starts[:, 0], "velocity": starts[:, 1]}, asked_of(system))
 
 
-def grid_starts(asked: Question) -> np.ndarray:
+def grid_starts(asked: SurveySpec) -> np.ndarray:
     """The starts (n, 2) of a grid, in C order."""
     grid = dict(zip(asked.axes, np.meshgrid(*asked.axes.values(), indexing="ij"), strict=True))
     return np.column_stack([grid["angle"].ravel(), grid["velocity"].ravel()])
@@ -182,7 +182,7 @@ def _corners(ends: dict[str, tuple[float, float]]) -> tuple[tuple[float, float],
 
 
 def _random_dataset(
-    system: System, starts: np.ndarray, measure: Measure, executor: Executor | None
+    system: System, starts: np.ndarray, measure: Measurement, executor: Executor | None
 ) -> xr.Dataset:
     """What random starts lead to, start by start."""
     import xarray as xr
@@ -194,7 +194,7 @@ def _random_dataset(
             name: ("sample", starts[:, column], coordinate(name))
             for column, name in enumerate(("angle", "velocity"))
         },
-        attributes(Question({}, asked_of(system)), measure),
+        attributes(SurveySpec({}, asked_of(system)), measure),
     )
 
 
@@ -214,17 +214,17 @@ def _exponents(
     ends: dict[str, tuple[float, float]],
     runs: int,
     random: np.random.Generator,
-    measure: Measure,
+    measure: Measurement,
     executor: Executor | None,
 ) -> tuple[UncertaintyExponent | None, UncertaintyExponent | None]:
     """(of the boundary of overturning, of all boundaries)."""
     low, high = _corners(ends)
-    tried = trios(low, high, runs, random)
+    tried = perturbed_triples(low, high, runs, random)
     starts = tried.reshape(-1, 2)
     if system.braces is not None:
         starts[:, 0] = np.clip(starts[:, 0], -system.braces.angle, system.braces.angle)
     answers = sampled(points_of(system, starts), measure, executor)
-    labels, _ = told_apart(system, answers)
+    labels, _ = label_attractors(system, answers)
     reach = distances((high[0] - low[0], high[1] - low[1]))
     overturned = (answers["kind"] == kernel.OVERTURNS).reshape(tried.shape[:3])
     return exponent(reach, overturned), exponent(reach, labels.reshape(tried.shape[:3]))

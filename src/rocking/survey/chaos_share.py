@@ -12,7 +12,7 @@ from rocking.model import ChaosShare, Share, refusal, whole, within
 from rocking.response import KINDS
 from rocking.survey.measures.kind import interval_variables, outcome
 from rocking.survey.sampling.random_points import MOST_SAMPLES, generator, sampled, span
-from rocking.survey.spec import Question, axis, points
+from rocking.survey.spec import SurveySpec, axis, points
 from rocking.survey.store.dataset import attributes, coordinate
 
 TITLE = "Share of chaotic responses of a free-standing block on a shaking base"
@@ -122,7 +122,7 @@ def _summed_up(
         "restitution": ("restitution", restitutions, coordinate("restitution")),
         "response": ("response", [str(kind) for kind in KINDS], {"long_name": "kind of response"}),
     }
-    told = attributes(Question({}, dict(fixed)), measure) | {
+    told = attributes(SurveySpec({}, dict(fixed)), measure) | {
         "samples": of,
         "seed": seed,
         **{f"{name}_range": list(ends) for name, ends in spans.items()},

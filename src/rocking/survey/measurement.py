@@ -41,7 +41,7 @@ class Variable:
 
 
 @frozen(eq=False)
-class Measure:
+class Measurement:
     """What a survey finds at each point.
 
     Attributes
@@ -92,7 +92,7 @@ class Batch:
     options: dict[str, int]
 
 
-def batches(tile: Tile, fixed: dict[str, float], wanted: np.ndarray, measure: Measure) -> Iterator[Batch]:
+def batches(tile: Tile, fixed: dict[str, float], wanted: np.ndarray, measure: Measurement) -> Iterator[Batch]:
     """The work of a tile, in pieces that each reach all over it: then none is much dearer than the others."""
     parts = -(-wanted.size // BATCH)
     for part in range(parts):

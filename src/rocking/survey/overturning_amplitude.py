@@ -10,7 +10,7 @@ import numpy as np
 
 from rocking.kernels.classify import verdict_record as kernel
 from rocking.model import OverturningCurve, refusal, whole
-from rocking.survey.engine.run_survey import ask
+from rocking.survey.engine.run_survey import run_survey
 from rocking.survey.measures.kind import outcome
 from rocking.survey.sampling.overturning_scan import Scan, refined
 from rocking.survey.spec import question
@@ -101,7 +101,7 @@ def overturning_amplitude(
     }
     varying = sum(np.ndim(value) > 0 for value in given.values())
     asked = question(given, varying, "an overturning amplitude")
-    found = ask(asked, measure, store, executor, progress=progress, repair=repair)
+    found = run_survey(asked, measure, store, executor, progress=progress, repair=repair)
     kinds = found.kind if count > 1 else found.kind.expand_dims(phase=turned)
     over = [name for name in ("restitution", "frequency", "period") if name in asked.axes]
     kinds = kinds.transpose(*over, "phase", "amplitude").load()

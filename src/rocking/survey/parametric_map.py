@@ -6,7 +6,7 @@ import os
 from concurrent.futures import Executor
 from typing import TYPE_CHECKING, Any
 
-from rocking.survey.engine.run_survey import ask
+from rocking.survey.engine.run_survey import run_survey
 from rocking.survey.measures.response import response
 from rocking.survey.spec import question
 
@@ -105,4 +105,4 @@ def parametric_map(
     )
     title = "Parametric map of a free-standing block on a shaking base"
     measure = response(max_cycles, max_period, title)
-    return ask(asked, measure, store, executor, progress=progress, repair=repair)
+    return run_survey(asked, measure, store, executor, progress=progress, repair=repair)

@@ -14,7 +14,7 @@ from rocking.model import Kind, Repeatability, Share, State, System, check_start
 from rocking.response import KINDS
 from rocking.survey.basin_map import points_of
 from rocking.survey.measures.response import response
-from rocking.survey.sampling.perturbation import INPUTS, LARGEST_RELATIVE, TITLE, disturbed
+from rocking.survey.sampling.perturbation import INPUTS, LARGEST_RELATIVE, TITLE, perturbed
 from rocking.survey.sampling.random_points import MOST_SAMPLES, generator, sampled
 
 Name = TypeVar("Name", bound=str)
@@ -85,7 +85,7 @@ def repeatability(
     measure = response(max_cycles, max_period, TITLE)
     random = generator(seed)
     meant = points_of(system, np.tile([start.angle, start.velocity], (count, 1)))
-    answers = sampled(disturbed(meant, random.uniform(-1.0, 1.0, (count, INPUTS)), off), measure, executor)
+    answers = sampled(perturbed(meant, random.uniform(-1.0, 1.0, (count, INPUTS)), off), measure, executor)
     kinds = Counter(KINDS[k] for k in answers["kind"].tolist())
     unknown = kinds[Kind.UNDETERMINED]
     columns = (

@@ -13,10 +13,10 @@ from rocking.kernels import batch
 from rocking.kernels.classify import verdict_record as kernel
 from rocking.model import RepeatabilityMap, Share, whole, within
 from rocking.response import KINDS, budget
-from rocking.survey.engine.run_survey import ask
-from rocking.survey.measurement import Arrays, Measure, Variable
+from rocking.survey.engine.run_survey import run_survey
+from rocking.survey.measurement import Arrays, Measurement, Variable
 from rocking.survey.measures.kind import KIND
-from rocking.survey.sampling.perturbation import LARGEST_RELATIVE, TITLE, disturbed, spread
+from rocking.survey.sampling.perturbation import LARGEST_RELATIVE, TITLE, perturbed, spread
 from rocking.survey.spec import Points, question
 
 MILLIONTH = 1e-6
@@ -99,8 +99,8 @@ def repeatability_map(
         "samples": whole("samples", samples, 2, MOST_AT_A_POINT),
         "relative_millionths": off,
     }
-    measure = Measure(TITLE, judge, batch.compile_many, VARIABLES, options, batch.METHOD, shares="kind")
-    found = ask(asked, measure, store, executor, progress=progress, repair=repair).load()
+    measure = Measurement(TITLE, judge, batch.compile_many, VARIABLES, options, batch.METHOD, shares="kind")
+    found = run_survey(asked, measure, store, executor, progress=progress, repair=repair).load()
     found.attrs["relative"] = off * MILLIONTH
     runs = {
         name: np.rint(found[name].values * options["samples"]).astype(int)
@@ -145,10 +145,10 @@ def judge(at: Points, options: Mapping[str, int], stop: np.ndarray) -> Arrays | 
     """How many of the experiments at each point end in each kind of response."""
     counts = np.zeros((len(at.systems), len(KINDS)), np.int64)
     for units in spread(options["samples"]):
-        tried = disturbed(
+        tried = perturbed(
             at, np.tile(units, (len(at.systems), 1)), options["relative_millionths"] * MILLIONTH
         )
-        told = batch.judge_many(*tried, options["max_cycles"], options["max_period"], stop)
+        told = batch.classify_batch(*tried, options["max_cycles"], options["max_period"], stop)
         if told is None:
             return None
         counts[np.arange(len(counts)), told.kind] += 1

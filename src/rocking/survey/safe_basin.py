@@ -11,7 +11,7 @@ from rocking.kernels.classify import verdict_record as kernel
 from rocking.model import SafeBasin, Share, refusal, whole
 from rocking.survey.measures.kind import interval_variables, outcome
 from rocking.survey.sampling.random_points import MOST_SAMPLES, generator, sampled, span
-from rocking.survey.spec import RANGES, Points, Question, points, question
+from rocking.survey.spec import RANGES, Points, SurveySpec, points, question
 from rocking.survey.store.dataset import attributes, coordinate
 from rocking.theory import heteroclinic_amplitude, melnikov_amplitude
 
@@ -107,11 +107,11 @@ def safe_basin(
     return _summed_up(asked, measure, kinds, drawn)
 
 
-def _placed(asked: Question, amplitude: float, starts: np.ndarray) -> Points:
+def _placed(asked: SurveySpec, amplitude: float, starts: np.ndarray) -> Points:
     return points({"angle": starts[:, 0], "velocity": starts[:, 1]}, asked.fixed | {"amplitude": amplitude})
 
 
-def _summed_up(asked: Question, measure: Any, kinds: list[np.ndarray], drawn: dict[str, Any]) -> SafeBasin:
+def _summed_up(asked: SurveySpec, measure: Any, kinds: list[np.ndarray], drawn: dict[str, Any]) -> SafeBasin:
     import xarray as xr
 
     shares = tuple(Share(np.count_nonzero(each != kernel.OVERTURNS), each.size) for each in kinds)

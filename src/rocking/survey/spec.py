@@ -74,7 +74,7 @@ class Points(NamedTuple):
 
 
 @frozen(eq=False)
-class Question:
+class SurveySpec:
     """A survey's axes, by name in the order of its dimensions, and the values of all that does not vary.
 
     Without braces there is neither `brace_angle` nor `brace_restitution`; of `period` and `frequency` there is one.
@@ -102,7 +102,7 @@ class Question:
         )
 
 
-def question(asked: Mapping[str, Any], count: int, what: str) -> Question:
+def question(asked: Mapping[str, Any], count: int, what: str) -> SurveySpec:
     """Check what is asked: `count` of the quantities are arrays, their axes, and the others numbers (None: not given).
 
     Raises
@@ -125,7 +125,7 @@ def question(asked: Mapping[str, Any], count: int, what: str) -> Question:
         got, more = " and ".join(axes) or "none", len(axes) - count
         way_out = f" (give {'one' if more == 1 else more} of them a single number)" if more > 0 else ""
         raise TypeError(f"{what} needs {_counted(count)} to vary, given as axes; got {got}{way_out}")
-    asked_for = Question(axes, fixed)
+    asked_for = SurveySpec(axes, fixed)
     _check_braces(asked_for)
     return asked_for
 
@@ -181,7 +181,7 @@ def _counted(count: int) -> str:
     return words.get(count, f"{count} quantities")
 
 
-def _check_braces(asked: Question) -> None:
+def _check_braces(asked: SurveySpec) -> None:
     """Refuse starts beyond the braces."""
     if "brace_angle" not in asked.axes and "brace_angle" not in asked.fixed:
         return
@@ -192,7 +192,7 @@ def _check_braces(asked: Question) -> None:
         raise ValueError(refusal("angle", allowed, far))
 
 
-def _values(asked: Question, name: str) -> list[float]:
+def _values(asked: SurveySpec, name: str) -> list[float]:
     return asked.axes[name].tolist() if name in asked.axes else [asked.fixed.get(name, 0.0)]
 
 
@@ -218,6 +218,6 @@ def _within_a_turn(phases: np.ndarray) -> np.ndarray:
     return np.array([numbers.within_a_turn(phase) for phase in distinct.tolist()])[places]
 
 
-def described(asked: Question) -> dict[str, float]:
+def described(asked: SurveySpec) -> dict[str, float]:
     """What does not vary, by name, in the order in which it is told."""
     return {name: asked.fixed[name] for name in RANGES if name in asked.fixed}

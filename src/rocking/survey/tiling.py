@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 from attrs import frozen
 
-from rocking.survey.spec import Question
+from rocking.survey.spec import SurveySpec
 
 COARSEST = 64
 """A grid with more points than this along an axis has a coarser one before it."""
@@ -104,7 +104,7 @@ class Tile:
         return left
 
 
-def levels(asked: Question) -> list[Level]:
+def levels(asked: SurveySpec) -> list[Level]:
     """The grids of a survey that begins, the coarsest first: each next one has half the spacing along the long axes."""
     grids = [asked.axes]
     halvings: list[tuple[bool, ...]] = []
@@ -124,7 +124,7 @@ def thinned(axes: dict[str, np.ndarray], halved: tuple[bool, ...]) -> dict[str, 
     return {name: values[::2] if half else values for (name, values), half in pairs}
 
 
-def finest(asked: Question) -> list[Level]:
+def finest(asked: SurveySpec) -> list[Level]:
     """The one grid of a survey of which nobody sees a part."""
     return [Level(0, asked.axes, None, even_edges(asked.axes, tile_edges(asked.shape)))]
 

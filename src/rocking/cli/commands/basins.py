@@ -38,7 +38,7 @@ Plot = Annotated[
 ]
 
 
-@ask.asks(*SYSTEM)
+@ask.with_options(*SYSTEM)
 def basins(
     context: typer.Context,
     angle: Angle = None,

@@ -14,7 +14,7 @@ rocking classify --amplitude 6.5 --period 0.4 --restitution 0.925 --plot verdict
 rocking classify --height 2 --width 0.5 --acceleration 4 --frequency-hz 1.2"""
 
 
-@ask.asks(*SYSTEM, *START, phase=0.0, angle=0.0, velocity=0.0)
+@ask.with_options(*SYSTEM, *START, phase=0.0, angle=0.0, velocity=0.0)
 def classify(
     context: typer.Context,
     max_cycles: ask.MaxCycles = 100_000,

@@ -39,7 +39,7 @@ Symbols = Annotated[
 Csv = Annotated[Path | None, ask.file_option("--csv", "A row a point (.csv).")]
 
 
-@ask.asks(*SYSTEM, *START, declare=axis.value_option)
+@ask.with_options(*SYSTEM, *START, declare=axis.value_option)
 def map_(
     context: typer.Context,
     max_cycles: ask.SurveyCycles = None,

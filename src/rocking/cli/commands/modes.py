@@ -14,7 +14,7 @@ rocking modes --amplitude 6.5 --period 0.4 --restitution 0.925 -n 3 --plot modes
 rocking modes --height 2 --width 0.5 --acceleration 4 --frequency-hz 1.2"""
 
 
-@ask.asks(*FORCED)
+@ask.with_options(*FORCED)
 def modes(
     context: typer.Context,
     n: ask.ModeCycles = 1,

@@ -33,8 +33,8 @@ Plot = Annotated[Path | None, ask.file_option("--plot", "Points over the paramet
 Csv = Annotated[Path | None, ask.file_option("--csv", "A row a point, and a row where it overturned (.csv).")]
 
 
-@ask.asks(*SYSTEM, declare=axis.value_option, phase=0.0)
-@ask.asks(*START, angle=0.0, velocity=0.0)
+@ask.with_options(*SYSTEM, declare=axis.value_option, phase=0.0)
+@ask.with_options(*START, angle=0.0, velocity=0.0)
 def orbit_diagram(
     context: typer.Context,
     sweep: Sweep = "both",

@@ -45,7 +45,7 @@ Plot = Annotated[
 ]
 
 
-@ask.asks(*SHAKEN, declare=axis.value_option)
+@ask.with_options(*SHAKEN, declare=axis.value_option)
 def overturning(
     context: typer.Context,
     amplitude: Amplitude = None,

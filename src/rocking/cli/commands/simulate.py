@@ -14,7 +14,7 @@ rocking simulate --amplitude 2 --period 1 --restitution 0.925 --plot motion.png
 rocking simulate --height 2 --width 0.5 --acceleration 3 --frequency-hz 1.2"""
 
 
-@ask.asks(*SYSTEM, *START, phase=0.0, angle=0.0, velocity=0.0)
+@ask.with_options(*SYSTEM, *START, phase=0.0, angle=0.0, velocity=0.0)
 def simulate(
     context: typer.Context,
     cycles: ask.Cycles = 200,

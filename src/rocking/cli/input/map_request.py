@@ -67,7 +67,7 @@ def _checks() -> dict[str, study_file.Check]:
         **survey_quantities.counts({"max_cycles": (1, MOST_CYCLES), "max_period": (1, MOST_PERIOD)}),
         "curves": _names,
         "symbols": lambda entry: instance("symbols", entry, str),
-        **survey_quantities.places(*(name for name in PLACES if name != "repair")),
+        **survey_quantities.path_checks(*(name for name in PLACES if name != "repair")),
     }
 
 

@@ -78,7 +78,7 @@ ZERO = ("phase", *START)
 """What is 0 unless given, where nothing else is said of it."""
 
 
-def asks(
+def with_options(
     *names: str, declare: Callable[[str, str], Any] = number_option, **usual: float
 ) -> Callable[[Command], Command]:
     """Give a command these options before its own; it takes them as ``**shared``, and all are in its context.

@@ -113,7 +113,7 @@ def counts(limits: Mapping[str, tuple[int, int]]) -> dict[str, Check]:
     return {name: partial(_whole, name, ends) for name, ends in limits.items()}
 
 
-def places(*names: str) -> dict[str, Check]:
+def path_checks(*names: str) -> dict[str, Check]:
     """How entries are read that are paths; and `repair`, which goes with a store."""
     return {name: partial(_path, name) for name in names} | {"repair": _repair}
 

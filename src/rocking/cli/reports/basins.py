@@ -47,7 +47,7 @@ def _checks() -> dict[str, study_file.Check]:
         **survey_quantities.fixed(*SYSTEM),
         **survey_quantities.varying(*START),
         **survey_quantities.counts(limits),
-        **survey_quantities.places("store", *FILES),
+        **survey_quantities.path_checks("store", *FILES),
     }
 
 

@@ -30,7 +30,7 @@ def show(verdict: Verdict, block: Block | None, file: Path | None, *, as_json: b
     rows = [*asked(verdict, block), *found(verdict, block)]
     more = list(beyond(verdict.start.angle, block))
     if block is not None:
-        over, motion = validity.shown_by(verdict)
+        over, motion = validity.validity_motion(verdict)
         more += [over, *validity.lines(motion, block)]
     print_table(as_typed(str(verdict), BUDGET), rows, [] if file is None else [file], more)
 
@@ -88,7 +88,7 @@ def record(verdict: Verdict, block: Block | None, file: Path | None) -> dict[str
     }
     if block is None:
         return told
-    over, motion = validity.shown_by(verdict)
+    over, motion = validity.validity_motion(verdict)
     record = validity.record(motion, block)
     return told | {"block": physical(verdict, block), "judged": over, "validity": record}
 

@@ -61,7 +61,7 @@ def _checks() -> dict[str, study_file.Check]:
     return {
         **survey_quantities.varying(*ASKED, *SCANNED_SI),
         **survey_quantities.counts(limits),
-        **survey_quantities.places("store", *FILES),
+        **survey_quantities.path_checks("store", *FILES),
     }
 
 

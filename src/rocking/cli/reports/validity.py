@@ -34,7 +34,7 @@ def record(motion: Motion, block: Block) -> dict[str, Any] | None:
     return attrs.asdict(motion.validity(block)) if motion.record == "all" else None
 
 
-def shown_by(verdict: Verdict) -> tuple[str, Motion]:
+def validity_motion(verdict: Verdict) -> tuple[str, Motion]:
     """The motion by which a response is judged, and what it is: a period of its orbit, else how it begins."""
     system, orbit = verdict.system, verdict.orbit
     if orbit is None:

@@ -11,8 +11,8 @@ from typing import NamedTuple
 from numba import njit
 
 from rocking.kernels.arc.solution import after, exponentials, lapse_of
-from rocking.kernels.compile_options import INNER, WITHIN
-from rocking.kernels.forcing.harmonic import first_cut, forcing_rates, forcing_term
+from rocking.kernels.compile_options import INTERNAL, INTERNAL_INLINE
+from rocking.kernels.forcing.harmonic import first_sign_change, forcing_rates, forcing_term
 
 MOST_TURNS = 64
 # Knots of a dip that are looked at.
@@ -25,7 +25,7 @@ WIDE = 16.0
 ZERO, NEVER, UNSURE = range(3)
 
 
-class Knot(NamedTuple):
+class Jet(NamedTuple):
     """w at one time, with what gives all its derivatives: w'' = w + f, w''' = w' + df."""
 
     time: float
@@ -39,46 +39,46 @@ class Walk(NamedTuple):
     """How a walk ended; the bracket of ZERO."""
 
     answer: int
-    low: Knot
-    high: Knot
+    low: Jet
+    high: Jet
 
 
-@njit(**INNER)
+@njit(**INTERNAL_INLINE)
 def knot(p, arc, constant, s, time, now):
     """The knot of w = constant + s u at an instant; w from its change since the start, so that it is accurate near a brace too."""
     f = forcing_term(p, now.cosine)
     df, _ = forcing_rates(p, now.cosine, now.sine)
-    return Knot(time, (constant + s * arc.angle) + s * now.risen, s * now.velocity, s * f - constant, s * df)
+    return Jet(time, (constant + s * arc.angle) + s * now.risen, s * now.velocity, s * f - constant, s * df)
 
 
-@njit(**INNER)
+@njit(**INTERNAL_INLINE)
 def start_knot(p, arc, constant, s):
     """The knot of w = constant + s u at the arc's start."""
     f = forcing_term(p, arc.cosine)
     df, _ = forcing_rates(p, arc.cosine, arc.sine)
-    return Knot(0.0, constant + s * arc.angle, s * arc.velocity, s * f - constant, s * df)
+    return Jet(0.0, constant + s * arc.angle, s * arc.velocity, s * f - constant, s * df)
 
 
-@njit(**INNER)
+@njit(**INTERNAL_INLINE)
 def first_stretch(p, arc):
     """(when the first stretch ends, whether it is convex)."""
-    cut, concave = first_cut(p, arc.side, arc.psi, 0.0, p.base_half)
+    cut, concave = first_sign_change(p, arc.side, arc.psi, 0.0, p.base_half)
     return cut, not concave
 
 
-@njit(**INNER)
-def rises(w, dw):
+@njit(**INTERNAL_INLINE)
+def positive_ahead(w, dw):
     """Whether w, positive here, stays so as long as f > 0 lasts from here on: it lies above the free motion (w'' = w)."""
     return w + dw >= 0.0
 
 
-@njit(**INNER)
-def lasts(here, doubt):
+@njit(**INTERNAL_INLINE)
+def positive_throughout(here, doubt):
     """Whether w is positive in all of a convex stretch, by one knot in it: it lies above the free motion through that, either way."""
     return here.w - abs(here.dw) > doubt
 
 
-@njit(**INNER)
+@njit(**INTERNAL_INLINE)
 def may_dip(p, left, right, left_doubt, right_doubt):
     """Whether w, positive at both ends of a convex stretch, may reach zero within.
 
@@ -86,13 +86,13 @@ def may_dip(p, left, right, left_doubt, right_doubt):
     """
     w, dw = left.w - left_doubt, left.dw - left_doubt
     w_right, dw_right = right.w - right_doubt, right.dw + right_doubt
-    if rises(w, dw) or rises(w_right, -dw_right):
+    if positive_ahead(w, dw) or positive_ahead(w_right, -dw_right):
         return False
     crossed = w * dw_right - w_right * dw
     return not crossed >= p.base_outside_tanh * (w * w_right - dw * dw_right) * (1.0 + MARGIN)
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def bottom(p, arc, left, right, doubt):
     """A knot of a dip that tells whether it reaches zero, or, after some tries, a knot near its bottom.
 
@@ -110,20 +110,20 @@ def bottom(p, arc, left, right, doubt):
     for _ in range(MOST_DIPS):
         now = after(p, arc, lapse_of(p, time))
         here = knot(p, arc, 0.0, 1.0, time, now)
-        if here.w < -doubt or lasts(here, doubt):
+        if here.w < -doubt or positive_throughout(here, doubt):
             break
         time = min(max(time - here.dw / (here.w + here.f), left.time), right.time)
     return here
 
 
-@njit(**INNER)
+@njit(**INTERNAL_INLINE)
 def at_cut(p, time, growing, shrinking, turned):
     """The knot at the beginning (``turned`` = -1) or end (1) of a convex stretch, from c+ e^t and c- e^-t."""
     angle, rate = growing + shrinking + p.cut_place, growing - shrinking + turned * p.cut_rate
-    return Knot(time, angle, rate, 0.0, -turned * p.cut_rate * (1.0 + p.frequency * p.frequency))
+    return Jet(time, angle, rate, 0.0, -turned * p.cut_rate * (1.0 + p.frequency * p.frequency))
 
 
-@njit(**INNER)
+@njit(**INTERNAL_INLINE)
 def stays_clear(p, arc, end):
     """Whether w certainly stays positive on (0, end), where it does not fall below zero.
 
@@ -131,7 +131,7 @@ def stays_clear(p, arc, end):
     and those in which it begins falling or ends rising.
     """
     start, (cut, convex) = start_knot(p, arc, 0.0, 1.0), first_stretch(p, arc)
-    begins_well, ends_well = rises(start.w, start.dw), rises(end.w, -end.dw)
+    begins_well, ends_well = positive_ahead(start.w, start.dw), positive_ahead(end.w, -end.dw)
     time = cut + p.base_inside if convex else cut
     if not (start.w > 0.0 or start.dw > 0.0):
         return False
@@ -160,8 +160,8 @@ def stays_clear(p, arc, end):
     return False
 
 
-@njit(**INNER)
-def walk(p, arc):
+@njit(**INTERNAL_INLINE)
+def bracket_first_zero(p, arc):
     """From turn to turn to the first zero of u.
 
     A concave stretch that begins with u >= 0 holds one zero if it ends with u < 0, else none; a convex one that begins
@@ -173,7 +173,7 @@ def walk(p, arc):
     lifts = before.w == 0.0 == before.dw
     if not (before.w > 0.0 or before.dw > 0.0 or (convex and lifts)):
         return Walk(UNSURE, before, before)
-    under_way = convex and (lifts or not rises(before.w, before.dw))
+    under_way = convex and (lifts or not positive_ahead(before.w, before.dw))
     time = 0.0 if under_way else cut + p.base_inside if convex else cut
     length, growth, decay = p.base_outside, p.base_outside_growth, p.base_outside_decay
     grow, shrink, error = exponentials(p, arc)
@@ -208,7 +208,7 @@ def walk(p, arc):
             middle = bottom(p, arc, left, right, right_doubt)
             if middle.w < -right_doubt:
                 return Walk(ZERO, left, middle)
-            if not lasts(middle, right_doubt):
+            if not positive_throughout(middle, right_doubt):
                 return Walk(UNSURE, left, right)
         if min(growing, growing - abs(shrinking) + (1.0 - p.response)) > right_doubt:
             return Walk(NEVER, left, right)

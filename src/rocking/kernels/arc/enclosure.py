@@ -3,18 +3,18 @@
 from numba import njit
 
 from rocking.kernels.arc.bracket import MARGIN
-from rocking.kernels.compile_options import EXACT_INNER
+from rocking.kernels.compile_options import SIMD_INLINE
 from rocking.kernels.numerics.elementary import fma
 
 
-@njit(**EXACT_INNER)
+@njit(**SIMD_INLINE)
 def outweighs(first, last, off):
     """Whether first s (1 - s)^2 + last s^2 (1 - s) > off s^2 (1 - s)^2 for every share s of the way."""
     least = min(first, last)
     return (least > 0.0) & (first + last + 2.0 * least > off)
 
 
-@njit(**EXACT_INNER)
+@njit(**SIMD_INLINE)
 def stays_between(system, t, first, last):
     """Whether a flight certainly meets neither the base nor a brace within a time t, by (u, u') at its ends.
 

@@ -5,9 +5,9 @@ import math
 import numpy as np
 from numba import njit
 
-from rocking.kernels.arc.first_zero import CROSSING, LATER, Watch, first_zero, step_to_zero
+from rocking.kernels.arc.first_zero import CROSSING, LATER, EventFunction, first_zero, step_to_zero
 from rocking.kernels.arc.solution import evaluate, exponentials, within_reach
-from rocking.kernels.compile_options import INLINED, INNER, WITHIN
+from rocking.kernels.compile_options import INTERNAL, INTERNAL_INLINE, KERNEL_INLINE
 from rocking.kernels.event_kinds import BRACE, IMPACT
 from rocking.kernels.forcing.harmonic import TURN, forcing_rates, forcing_term
 
@@ -19,14 +19,14 @@ KNOWN, TIED = 1e-6, 1e-3
 NEAR, TRIES = 1e-3, 6
 
 
-@njit(**INLINED)
+@njit(**KERNEL_INLINE)
 def turn_watch(p, sign):
     """A turn of the motion: w = sign u', f_w = sign A Omega sin eta."""
     half = 0.5 * math.pi if p.amplitude > 0.0 else math.inf
-    return Watch(0.0, 0.0, sign, sign * 0.5 * math.pi, half, p.amplitude > 0.0)
+    return EventFunction(0.0, 0.0, sign, sign * 0.5 * math.pi, half, p.amplitude > 0.0)
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def first_turn_sign(p, arc):
     """The sign of u' just after an arc's start; positive where all of u', u'' vanish (lift-off)."""
     if arc.velocity != 0.0:
@@ -34,7 +34,7 @@ def first_turn_sign(p, arc):
     return -1.0 if arc.angle + forcing_term(p, arc.cosine) < 0.0 else 1.0
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def next_turn(p, arc, sign, t, until):
     """(Found, time, instant) of the next turn after t, where sign u' falls through zero."""
     start, passed = t, PASSED * (1.0 + t)
@@ -48,7 +48,7 @@ def next_turn(p, arc, sign, t, until):
             return LATER, until, now
 
 
-@njit(**INNER)
+@njit(**INTERNAL_INLINE)
 def may_exceed(p, arc, coming, peak):
     """Whether an arc up to an impact may reach beyond ``peak``.
 
@@ -63,7 +63,7 @@ def may_exceed(p, arc, coming, peak):
     return not (nearest > 0.0 and 1.0 + p.response - nearest / math.sqrt(1.0 + 0.5 * coming.versinh) <= peak)
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def arc_peak(p, arc, until, peak):
     """The largest of ``peak`` and the angles on the arc up to ``until``."""
     now = evaluate(p, arc, until)
@@ -78,8 +78,8 @@ def arc_peak(p, arc, until, peak):
         sign = -sign
 
 
-@njit(**INNER)
-def crest(p, arc, until, peak):
+@njit(**INTERNAL_INLINE)
+def closed_form_peak(p, arc, until, peak):
     """(certain, the largest of ``peak`` and the angles on the arc up to ``until``), where it is certain without a search.
 
     Where c+ and c- are negative, u = 1 - m cosh(t - middle) + beta cos eta, m = 2 sqrt(c+ c-), is largest between the middle
@@ -137,14 +137,14 @@ def crest(p, arc, until, peak):
     return False, peak
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def largest_on(p, arc, until, peak):
     """``arc_peak``, without a search where that is certain."""
-    certain, largest = crest(p, arc, until, peak)
+    certain, largest = closed_form_peak(p, arc, until, peak)
     return largest if certain else arc_peak(p, arc, until, peak)
 
 
-@njit(**INNER)
+@njit(**INTERNAL_INLINE)
 def peak_with(p, arc, coming, peak):
     """The largest of ``peak`` and the angles of an arc up to the event that ends it."""
     if coming.event == BRACE:

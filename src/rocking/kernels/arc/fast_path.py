@@ -13,11 +13,11 @@ import math
 
 from numba import njit
 
-from rocking.kernels.arc.bracket import UNSURE, ZERO, Knot, knot, start_knot, stays_clear, walk
+from rocking.kernels.arc.bracket import UNSURE, ZERO, Jet, bracket_first_zero, knot, start_knot, stays_clear
 from rocking.kernels.arc.enclosure import stays_between
 from rocking.kernels.arc.first_zero import LONGEST, reversion, step_to_zero
 from rocking.kernels.arc.solution import Instant, after, lapse_of
-from rocking.kernels.compile_options import INNER
+from rocking.kernels.compile_options import INTERNAL_INLINE
 from rocking.kernels.forcing.harmonic import forcing_rates, forcing_term
 
 TRIES = 6
@@ -35,8 +35,8 @@ NEAR = 0.25
 I2, I3, I4, I5, I6, I7, I8 = (1.0 / math.factorial(k) for k in range(2, 9))
 
 
-@njit(**INNER)
-def advance(p, now, step):
+@njit(**INTERNAL_INLINE)
+def taylor_step(p, now, step):
     """An instant carried on by a small step: Taylor series with all its derivatives from u'' = u + f; the angle is the caller's."""
     f = forcing_term(p, now.cosine)
     df, ddf = forcing_rates(p, now.cosine, now.sine)
@@ -59,7 +59,7 @@ def advance(p, now, step):
     return Instant(0.0, 0.0, velocity, cosine, sine, sinh, versinh)
 
 
-@njit(**INNER)
+@njit(**INTERNAL_INLINE)
 def close(p, now):
     """Whether the zero of w is so near that one step of the series reaches it."""
     w, v = abs(now.w), -now.dw
@@ -69,8 +69,8 @@ def close(p, now):
     )
 
 
-@njit(**INNER)
-def stride(now):
+@njit(**INTERNAL_INLINE)
+def parabola_step(now):
     """A step towards the zero of w from further off: to where the parabola comes down, infinity where it does not."""
     fall = now.w + now.f
     under = now.dw * now.dw - 2.0 * now.w * fall
@@ -79,13 +79,13 @@ def stride(now):
     return -now.w / now.dw if now.dw < 0.0 else math.inf
 
 
-@njit(**INNER)
+@njit(**INTERNAL_INLINE)
 def turned(p, steady, now):
     """f'' at a knot; f = -steady and a part that turns with the forcing."""
     return -p.frequency * p.frequency * (now.f + steady)
 
 
-@njit(**INNER)
+@njit(**INTERNAL_INLINE)
 def polished(p, steady, now, rough):
     """(whether w falls there, a step to its zero): a rough one corrected by the Taylor series about ``now``, no new elementary functions.
 
@@ -117,8 +117,8 @@ def polished(p, steady, now, rough):
     return True, s
 
 
-@njit(**INNER)
-def leap(p, steady, here):
+@njit(**INTERNAL_INLINE)
+def taylor_zero(p, steady, here):
     """(whether the series about a knot tells where w has its zero, the step there)."""
     scale, rough = max(1.0, p.frequency), math.inf
     if abs(here.w * (here.w + here.f)) < BEND * here.dw * here.dw and here.dw < 0.0:
@@ -126,14 +126,14 @@ def leap(p, steady, here):
         if scale * abs(rough) < NEAR:
             return True, rough
     else:
-        rough = stride(here)
+        rough = parabola_step(here)
     if scale * abs(rough) <= REACH:
         return True, polished(p, steady, here, rough)[1]
     return False, rough
 
 
-@njit(**INNER)
-def seek(p, arc, constant, s, lapse, low, high):
+@njit(**INTERNAL_INLINE)
+def refine_prediction(p, arc, constant, s, lapse, low, high):
     """(reached, time, instant, lapse close by) of a zero of w = constant + s u between two times, from a lapse not far from it."""
     now = after(p, arc, lapse)
     for _ in range(TRIES):
@@ -142,8 +142,8 @@ def seek(p, arc, constant, s, lapse, low, high):
             y, correction = reversion(here.w, here.dw, (here.f, here.df, turned(p, constant + s, here)))
             step = y * correction
             t = lapse.time + step
-            return low < t < high, t, advance(p, now, step), lapse
-        told, step = leap(p, constant + s, here)
+            return low < t < high, t, taylor_step(p, now, step), lapse
+        told, step = taylor_zero(p, constant + s, here)
         t = lapse.time + step
         if not (told and low < t < high):
             break
@@ -152,39 +152,39 @@ def seek(p, arc, constant, s, lapse, low, high):
     return False, lapse.time, now, lapse
 
 
-@njit(**INNER)
+@njit(**INTERNAL_INLINE)
 def seek_in(p, arc, bracket):
-    """``seek`` for the zero of u in a bracket: from where the series about its nearer end has the zero, or the middle."""
+    """``refine_prediction`` for the zero of u in a bracket: from where the series about its nearer end has the zero, or the middle."""
     low, high = bracket.low, bracket.high
-    told, step = leap(p, 1.0, low)
+    told, step = taylor_zero(p, 1.0, low)
     t = low.time + step
     if not (told and low.time < t < high.time):
-        told, step = leap(p, 1.0, high)
+        told, step = taylor_zero(p, 1.0, high)
         t = high.time + step
         if not (told and low.time < t < high.time):
             t = 0.5 * (low.time + high.time)
-    return seek(p, arc, 0.0, 1.0, lapse_of(p, t), low.time, min(high.time, LONGEST))
+    return refine_prediction(p, arc, 0.0, 1.0, lapse_of(p, t), low.time, min(high.time, LONGEST))
 
 
-@njit(**INNER)
-def likely_impact(p, arc, guess):
+@njit(**INTERNAL_INLINE)
+def fast_first_impact(p, arc, guess):
     """(answer, time, instant, lapse close by) of the first event of a flight without braces: ZERO, NEVER, or UNSURE.
 
     From the lapse that is guessed, if it leads to an impact that is certainly the first; else from a walk.
     """
     if guess.time > 0.0:
-        reached, t, now, lapse = seek(p, arc, 0.0, 1.0, guess, 0.0, LONGEST)
-        if reached and stays_clear(p, arc, Knot(t, 0.0, now.velocity, 0.0, 0.0)):
+        reached, t, now, lapse = refine_prediction(p, arc, 0.0, 1.0, guess, 0.0, LONGEST)
+        if reached and stays_clear(p, arc, Jet(t, 0.0, now.velocity, 0.0, 0.0)):
             return ZERO, t, now, lapse
-    bracket = walk(p, arc)
+    bracket = bracket_first_zero(p, arc)
     reached, t, now, lapse = seek_in(p, arc, bracket)
     return (bracket.answer if bracket.answer != ZERO or reached else UNSURE), t, now, lapse
 
 
-@njit(**INNER)
-def ahead(p, base, brace):
+@njit(**INTERNAL_INLINE)
+def predict_next_event(p, base, brace):
     """(whether the series about an instant tells where an event is, whether at a brace, after how long); else how far it leads."""
-    to_base, to_brace = stride(base), stride(brace)
+    to_base, to_brace = parabola_step(base), parabola_step(brace)
     at_brace = to_brace < to_base
     here, rough = (brace, to_brace) if at_brace else (base, to_base)
     farthest = REACH / max(1.0, p.frequency)
@@ -194,8 +194,8 @@ def ahead(p, base, brace):
     return told, at_brace, step if told else rough
 
 
-@njit(**INNER)
-def likely_event(p, arc):
+@njit(**INTERNAL_INLINE)
+def fast_first_event(p, arc):
     """(answer, whether at a brace, time, instant) of the first event of a flight between braces: ZERO, or UNSURE.
 
     It is guessed from the start of the arc, not from an earlier one: in chaos that is seldom like it. Where the series tells
@@ -204,7 +204,7 @@ def likely_event(p, arc):
     """
     system = p.amplitude, p.frequency, p.brace_angle
     base, brace = start_knot(p, arc, 0.0, 1.0), start_knot(p, arc, p.brace_angle, -1.0)
-    told, at_brace, step = ahead(p, base, brace)
+    told, at_brace, step = predict_next_event(p, base, brace)
     for _ in range(LOOKS):
         lapse = lapse_of(p, base.time + step)
         now = after(p, arc, lapse)
@@ -214,13 +214,13 @@ def likely_event(p, arc):
                     knot(p, arc, 0.0, 1.0, lapse.time, now),
                     knot(p, arc, p.brace_angle, -1.0, lapse.time, now),
                 )
-                told, at_brace, step = ahead(p, base, brace)
+                told, at_brace, step = predict_next_event(p, base, brace)
                 continue
             at_brace = now.angle > p.brace_angle
             told = at_brace or now.angle < 0.0
         if told:
             place, s = (p.brace_angle, -1.0) if at_brace else (0.0, 1.0)
-            reached, t, now, _ = seek(p, arc, place, s, lapse, base.time, LONGEST)
+            reached, t, now, _ = refine_prediction(p, arc, place, s, lapse, base.time, LONGEST)
             if reached and stays_between(system, t - base.time, (base.w, base.dw), (place, now.velocity)):
                 return ZERO, at_brace, t, now
         told, step = False, 0.5 * step

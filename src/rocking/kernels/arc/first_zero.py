@@ -18,9 +18,9 @@ from typing import NamedTuple
 
 from numba import njit
 
-from rocking.kernels.arc.solution import after, evaluate, exponentials, recall
-from rocking.kernels.compile_options import COMPILED, INLINED, WITHIN
-from rocking.kernels.forcing.harmonic import first_cut, forcing_rates, forcing_term, next_cut
+from rocking.kernels.arc.solution import after, evaluate, exponentials, propagator_or_none
+from rocking.kernels.compile_options import INTERNAL, KERNEL, KERNEL_INLINE
+from rocking.kernels.forcing.harmonic import first_sign_change, forcing_rates, forcing_term, next_sign_change
 
 # An arc is renewed from its own state after this long: e^32 is where the closed form has used up double
 # precision.
@@ -41,7 +41,7 @@ class Found(IntEnum):
 CROSSING, NEVER, LATER = (int(found) for found in Found)
 
 
-class Watch(NamedTuple):
+class EventFunction(NamedTuple):
     """What is followed to its first zero, and where the sign of its forcing term changes."""
 
     constant: float
@@ -52,19 +52,21 @@ class Watch(NamedTuple):
     convex_inside: bool  # f_w > 0 for |eta - centre| < half (everywhere, where half is infinite)
 
 
-@njit(**INLINED)
+@njit(**KERNEL_INLINE)
 def base_watch(p):
     """The base: w = u, f_w = -1 - A cos eta."""
-    return Watch(0.0, 1.0, 0.0, 0.0, p.base_half, False)
+    return EventFunction(0.0, 1.0, 0.0, 0.0, p.base_half, False)
 
 
-@njit(**INLINED)
+@njit(**KERNEL_INLINE)
 def brace_watch(p):
     """The brace: w = brace_angle - u, f_w = 1 - brace_angle + A cos eta."""
-    return Watch(p.brace_angle, -1.0, 0.0, 0.0, p.brace_half, p.brace_half < math.inf or p.brace_angle < 1.0)
+    return EventFunction(
+        p.brace_angle, -1.0, 0.0, 0.0, p.brace_half, p.brace_half < math.inf or p.brace_angle < 1.0
+    )
 
 
-@njit(**INLINED)
+@njit(**KERNEL_INLINE)
 def watched(p, arc, watch, now):
     """(w, w') at an instant; w from its change since the start, so that it is accurate near a brace too."""
     acceleration = now.angle + forcing_term(p, now.cosine)
@@ -75,7 +77,7 @@ def watched(p, arc, watch, now):
     )
 
 
-@njit(**INLINED)
+@njit(**KERNEL_INLINE)
 def watched_forcing(p, watch, now):
     """(f_w, f_w', f_w'') at an instant."""
     f = forcing_term(p, now.cosine)
@@ -88,7 +90,7 @@ def watched_forcing(p, watch, now):
     )
 
 
-@njit(**INLINED)
+@njit(**KERNEL_INLINE)
 def reversion(w, dw, forcing):
     """(y, correction): y * correction leads to the nearest zero of w's Taylor series, to fifth order; y is Newton's step."""
     f, df, ddf = forcing
@@ -101,14 +103,14 @@ def reversion(w, dw, forcing):
     return y, 1.0 + y * (-a + y * (2.0 * a * a - b + y * (5.0 * a * (b - a * a) - c)))
 
 
-@njit(**INLINED)
+@njit(**KERNEL_INLINE)
 def step_to_zero(w, dw, forcing):
     """A step towards the zero; a correction near 0 would stop where there is none, so that far away only Newton's is taken."""
     y, correction = reversion(w, dw, forcing)
     return y * correction if 0.5 < correction < 2.0 else y
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def refine(p, arc, watch, low, high, t):
     """(time, instant) of the one zero in [low, high], w > 0 just after low and w <= 0 at high, from the guess t."""
     now = evaluate(p, arc, t)
@@ -130,8 +132,8 @@ def refine(p, arc, watch, low, high, t):
     return t, now
 
 
-@njit(**WITHIN)
-def dip(p, arc, watch, left, w, dw, right, w_right, dw_right):
+@njit(**INTERNAL)
+def time_below_zero(p, arc, watch, left, w, dw, right, w_right, dw_right):
     """A time in a convex stretch at which w <= 0, or infinity where w stays positive; w > 0 at both ends.
 
     The bottom of y = w e^t is where w + w' = 0, whose left side times e^-t only grows: one safeguarded
@@ -162,7 +164,7 @@ def dip(p, arc, watch, left, w, dw, right, w_right, dw_right):
     return math.inf
 
 
-@njit(**INLINED)
+@njit(**KERNEL_INLINE)
 def first_guess(p, watch, now, w, dw, low, high):
     """Where to begin in (low, high), ``now`` at low: the parabola's return for a hop that starts at w = 0, else the middle."""
     middle = 0.5 * (low + high)
@@ -171,8 +173,8 @@ def first_guess(p, watch, now, w, dw, low, high):
     return low - hop / f if w == 0.0 and hop > 0.0 and hop < -f * (middle - low) else middle
 
 
-@njit(**WITHIN)
-def clear_until(p, arc, watch, t):
+@njit(**INTERNAL)
+def earliest_possible_zero(p, arc, watch, t):
     """How long w certainly stays positive from t on: t where nothing is certain, infinity for ever.
 
     w lies within ``swing`` of m + a e^t + b e^-t; the earliest time after t at which that curve, lowered by
@@ -202,7 +204,7 @@ def clear_until(p, arc, watch, t):
     return max(t, math.log(nearest) * (1.0 - 1e-12)) if nearest < math.inf else math.inf
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def no_return_time(p, arc):
     """When an arc that never comes back first proves it: c+ e^t - |c-| e^-t + 1 - beta > 0 from then on."""
     grow, shrink, _ = exponentials(p, arc)
@@ -213,24 +215,24 @@ def no_return_time(p, arc):
     return math.log(z) if z > 1.0 else 0.0
 
 
-@njit(**COMPILED)
+@njit(**KERNEL)
 def first_zero(p, arc, watch, t, limit):
     """(Found, time, instant): the first time after t, by ``limit``, at which w falls through zero.
 
     w >= 0 at t. Where w = w' = 0 at t (lift-off, leaving a brace) the first convex stretch begins there,
     and w rises through all of it.
     """
-    now = after(p, arc, recall(p, t))
+    now = after(p, arc, propagator_or_none(p, t))
     w, dw = watched(p, arc, watch, now)
     at_rest = w == 0.0 and dw == 0.0
     cut, inside = (
-        first_cut(p, arc.side, arc.psi, watch.centre, watch.half)
+        first_sign_change(p, arc.side, arc.psi, watch.centre, watch.half)
         if watch.half < math.inf
         else (math.inf, True)
     )
     while cut <= t:
         inside = not inside
-        cut += next_cut(p, watch.half, inside)
+        cut += next_sign_change(p, watch.half, inside)
     while True:
         right = min(cut, limit)
         then = evaluate(p, arc, right)
@@ -240,19 +242,19 @@ def first_zero(p, arc, watch, t, limit):
         if at_rest:
             low_end = math.inf
         elif convex and w_right >= 0.0:
-            low_end = dip(p, arc, watch, t, w, dw, right, w_right, dw_right)
+            low_end = time_below_zero(p, arc, watch, t, w, dw, right, w_right, dw_right)
         if low_end < math.inf:
             t, now = refine(p, arc, watch, t, low_end, first_guess(p, watch, now, w, dw, t, low_end))
             return CROSSING, t, now
         at_rest = at_rest and not convex
         t, w, dw, now = right, w_right, dw_right, then
-        clear = clear_until(p, arc, watch, t)
+        clear = earliest_possible_zero(p, arc, watch, t)
         if clear == math.inf:
             return NEVER, t, then
         if t >= limit:
             return LATER, limit, then
         inside = not inside
-        cut += next_cut(p, watch.half, inside)
+        cut += next_sign_change(p, watch.half, inside)
         if clear >= limit:
             return LATER, limit, evaluate(p, arc, limit)
         if clear > cut:

@@ -12,8 +12,15 @@ from typing import NamedTuple
 
 from numba import njit
 
-from rocking.kernels.compile_options import COMPILED, INLINED, INNER
-from rocking.kernels.forcing.harmonic import Swing, begin, forcing_term, particular, respond, swing
+from rocking.kernels.compile_options import INTERNAL_INLINE, KERNEL, KERNEL_INLINE
+from rocking.kernels.forcing.harmonic import (
+    ForcedStep,
+    forced_response,
+    forced_step,
+    forcing_at,
+    forcing_term,
+    particular,
+)
 from rocking.kernels.numerics.elementary import hyperbolic
 
 ROUNDING = 2.0**-53
@@ -44,77 +51,77 @@ class Instant(NamedTuple):
     versinh: float  # cosh t - 1
 
 
-class Lapse(NamedTuple):
+class Propagator(NamedTuple):
     """A time, and what carries an arc on by it: the same for every arc, so that a motion which repeats itself needs it but once."""
 
     time: float
     sinh: float
     versinh: float
-    swing: Swing
+    forced_step: ForcedStep
 
 
 # No time.
-NONE_YET = Lapse(0.0, 0.0, 0.0, Swing(True, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0))
+NONE_YET = Propagator(0.0, 0.0, 0.0, ForcedStep(True, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0))
 
 
-@njit(**INLINED)
+@njit(**KERNEL_INLINE)
 def arc_from(p, side, start, angle, velocity):
     """The arc that leaves (u, u') = (angle, velocity) on ``side`` at time ``start`` within the cycle."""
-    cosine, sine, psi, pull = begin(p, side, start, angle)
+    cosine, sine, psi, pull = forcing_at(p, side, start, angle)
     return Arc(side, start, angle, velocity, cosine, sine, psi, pull)
 
 
-@njit(**INNER)
+@njit(**INTERNAL_INLINE)
 def arc_after(p, side, start, angle, velocity, cosine, sine):
     """``arc_from`` where the forcing is known already."""
     pull = angle + forcing_term(p, cosine)
     return Arc(side, start, angle, velocity, cosine, sine, p.frequency * start + p.phase, pull)
 
 
-@njit(**INNER)
-def earlier(arc, time):
+@njit(**INTERNAL_INLINE)
+def shift_clock(arc, time):
     """The same arc as seen from ``time`` later: its start lies so much earlier."""
     return Arc(arc.side, arc.start - time, arc.angle, arc.velocity, arc.cosine, arc.sine, arc.psi, arc.pull)
 
 
-@njit(**INNER)
+@njit(**INTERNAL_INLINE)
 def lapse_of(p, t):
     """The lapse of a time t >= 0."""
     sinh, versinh, excess, higher = hyperbolic(t)
-    return Lapse(t, sinh, versinh, swing(p, t, sinh, versinh, excess, higher))
+    return Propagator(t, sinh, versinh, forced_step(p, t, sinh, versinh, excess, higher))
 
 
-@njit(**COMPILED)
-def recall(p, t):
+@njit(**KERNEL)
+def propagator_or_none(p, t):
     """``lapse_of`` where it is rarely needed."""
     return lapse_of(p, t) if t > 0.0 else NONE_YET
 
 
-@njit(**INNER)
+@njit(**INTERNAL_INLINE)
 def evaluate(p, arc, t):
     """The arc a time t >= 0 after its start."""
     return after(p, arc, lapse_of(p, t))
 
 
-@njit(**INNER)
+@njit(**INTERNAL_INLINE)
 def after(p, arc, lapse):
     """The arc a lapse after its start: eq. (5)."""
-    _, sinh, versinh, swing = lapse
-    steady, displaced, moved, cosine, sine = respond(
-        p, arc.cosine, arc.sine, arc.angle - 1.0, arc.pull, swing
+    _, sinh, versinh, forced_step = lapse
+    steady, displaced, moved, cosine, sine = forced_response(
+        p, arc.cosine, arc.sine, arc.angle - 1.0, arc.pull, forced_step
     )
     risen = arc.velocity * sinh + steady * versinh + displaced
     velocity = arc.velocity + (arc.velocity * versinh + steady * sinh + moved)
     return Instant(arc.angle + risen, risen, velocity, cosine, sine, sinh, versinh)
 
 
-@njit(**INNER)
+@njit(**INTERNAL_INLINE)
 def within_reach(p, angle):
     """An angle as the base and the braces allow it: near an event rounding may put it beyond."""
     return min(max(angle, 0.0), p.brace_angle)
 
 
-@njit(**INNER)
+@njit(**INTERNAL_INLINE)
 def exponentials(p, arc):
     """(c+, c-, a bound on the rounding error of either): u = c+ e^t + c- e^-t + 1 + beta cos eta."""
     place, rate = particular(p, arc.cosine, arc.sine)

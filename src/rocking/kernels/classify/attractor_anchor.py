@@ -6,8 +6,8 @@ import numpy as np
 from numba import njit
 
 from rocking.kernels.classify.verdict_record import PERIODIC, REST
-from rocking.kernels.classify.workspace import desk
-from rocking.kernels.compile_options import MAKING_ENTRY, WITHIN
+from rocking.kernels.classify.workspace import make_workspace
+from rocking.kernels.compile_options import ALLOCATING_ENTRY, INTERNAL
 from rocking.kernels.march.march import DONE, PAUSED, STILL, UNKNOWN, begin, march_on
 from rocking.kernels.parameters import later, make
 
@@ -19,7 +19,7 @@ TIED = 1e-7
 LONGER = 10
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def follow_plainly(p, angle, velocity, cycles, section_time, section, nothing):
     """(status, progress) after so many cycles, with the states at ``section_time`` as ``section`` has room for."""
     progress, _ = begin(p, angle, velocity, UNKNOWN)
@@ -42,7 +42,7 @@ def follow_plainly(p, angle, velocity, cycles, section_time, section, nothing):
             return status, progress
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def rest_angle(p, angle, velocity, cycles, nothing):
     """Where a motion that is known to end at rest does so: 0, or on a brace."""
     if p.brace_angle == math.inf:
@@ -53,7 +53,7 @@ def rest_angle(p, angle, velocity, cycles, nothing):
     return arc.side * arc.angle if status == STILL else math.nan
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def foremost(states, first):
     """The row of the largest angle, of those tied the one of the largest velocity."""
     best = first
@@ -64,7 +64,7 @@ def foremost(states, first):
     return best
 
 
-@njit(**MAKING_ENTRY)
+@njit(**ALLOCATING_ENTRY)
 def anchor_each(systems, starts, kind, period, cycles, orbit, nothing, anchors):
     """Write for each of n points the state (angle, velocity) that stands for what it ends up on; NaN where nothing does.
 
@@ -108,7 +108,7 @@ def anchors_of(systems, starts, answers):
         answers.period,
         answers.cycles,
         answers.orbit,
-        desk(1, 1).nothing,
+        make_workspace(1, 1).nothing,
         anchors,
     )
     return anchors

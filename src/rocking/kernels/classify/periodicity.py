@@ -7,15 +7,15 @@ from numba import njit
 
 from rocking.kernels.arc.extrema import largest_on
 from rocking.kernels.classify.recurrence import apart, approached, closest_return
-from rocking.kernels.compile_options import ENTRY, WITHIN, WRITTEN_IN
+from rocking.kernels.compile_options import AST_INLINE, ENTRY_POINT, INTERNAL
 from rocking.kernels.march.march import UNKNOWN
 from rocking.kernels.march.tangent import Tangent
 from rocking.kernels.numerics.elementary import size
 from rocking.kernels.orbits.fixed_point import (
     NEARBY,
     UNBOUNDED,
-    Found,
-    Image,
+    FixedPoint,
+    MapImage,
     adapted_norm,
     find_fixed_point,
     image_after,
@@ -54,26 +54,26 @@ ROUNDING = 1e-12
 NOT_YET, REACHED, ON_EVENT = range(3)
 
 
-class Cycle(NamedTuple):
+class PeriodicityCheck(NamedTuple):
     """A periodic orbit that a motion was compared with."""
 
     answer: int  # NOT_YET, REACHED, or ON_EVENT: the section must move
     period: int
     symmetric: bool
-    found: Found
+    found: FixedPoint
     peak: float  # NaN where it was not asked for
     distance: float  # from the orbit, a period before the last return
     coming: int  # cycles until it may be reached, as far as that can be foretold; 0 where it cannot
     work: int
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def loses(p, impacts, brace_hits):
     """Whether so many events lose energy."""
     return (p.restitution < 1.0 and impacts > 0) or (p.brace_restitution < 1.0 and brace_hits > 0)
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def on_event(p, section, row):
     """Whether an impact or a brace hit lies within CLEARANCE of a row of the section."""
     near = CLEARANCE * p.period
@@ -82,8 +82,8 @@ def on_event(p, section, row):
     return angle <= reach or abs(angle - p.brace_angle) <= reach
 
 
-@njit(**WRITTEN_IN)
-def find_cycle(p, section_time, desk, count, most_lag, most_work, known, since, neutral):
+@njit(**AST_INLINE)
+def check_periodicity(p, section_time, workspace, count, most_lag, most_work, known, since, neutral):
     """Compare a motion with the periodic orbit that its last ``count`` states approach.
 
     First with the ``known`` one, found ``since`` cycles ago, and with no other while the motion comes nearer to
@@ -91,7 +91,12 @@ def find_cycle(p, section_time, desk, count, most_lag, most_work, known, since, 
     symmetric mode beside it; then, if they have none, with what is nearest to a close return. A ``neutral`` orbit
     attracts nothing: the motion must be on it.
     """
-    section, nothing, columns, scratch = desk.section, desk.nothing, desk.trial, desk.scratch
+    section, nothing, columns, scratch = (
+        workspace.section,
+        workspace.nothing,
+        workspace.trial,
+        workspace.scratch,
+    )
     clocked, row, work, candidate, seen = later(p, section_time), count - 1, 0, KNOWN, no_cycle(0)
     angle, velocity, lag, found, enough = 0.0, 0.0, 0, known.found, UNBOUNDED
     symmetric, peak, waits, mode = known.symmetric, known.peak, UNKNOWN, nearest(clocked, 0, 0.0, 0.0)
@@ -130,52 +135,39 @@ def find_cycle(p, section_time, desk, count, most_lag, most_work, known, since, 
             coming = max(coming - (count - 1 - row), 0)
             nearer = away < known.distance * (1.0 if attracts(p, found.image) else MUCH_NEARER)
             if trying == KNOWN and answer == NOT_YET and nearer:
-                return Cycle(NOT_YET, lag, symmetric, found, peak, away, coming, work)
+                return PeriodicityCheck(NOT_YET, lag, symmetric, found, peak, away, coming, work)
             # Of what is found time and again somewhere else nothing is foretold.
             coming = coming if trying == APPROACHED and known.period == 0 else 0
             if trying != KNOWN or answer == ON_EVENT:
-                seen = Cycle(answer, lag, symmetric, found, peak, away, coming, work)
+                seen = PeriodicityCheck(answer, lag, symmetric, found, peak, away, coming, work)
             if answer == ON_EVENT or trying == APPROACHED:
                 break
             continue
         if symmetric:
-            return Cycle(REACHED, lag, True, found, peak, away, 0, work)
-        whole = image_after(
-            clocked,
-            found.angle,
-            found.velocity,
-            lag,
-            0.5 * p.period,
-            scratch,
-            nothing,
-            nothing.columns,
-            True,
-            found.image.waits,
-        )
+            return PeriodicityCheck(REACHED, lag, True, found, peak, away, 0, work)
+        period, mirrored, whole = least_period(p, clocked, found, lag, scratch, nothing)
         work += whole.impacts + whole.brace_hits
-        same = max(SAME, 100.0 * found.error)
-        period, mirrored = repetition(scratch, scratch, found.angle, found.velocity, lag, same)
         if period == lag:
-            return Cycle(REACHED, period, mirrored, found, whole.peak, away, 0, work)
+            return PeriodicityCheck(REACHED, period, mirrored, found, whole.peak, away, 0, work)
         angle, velocity, lag, enough, candidate = found.angle, found.velocity, period, UNBOUNDED, REFINED
-    return Cycle(*seen[:7], work)
+    return PeriodicityCheck(*seen[:7], work)
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def constant_image(impacts, brace_hits):
     """An image that does not depend on the state: its derivative, and so both multipliers, are zero."""
     nothing = Tangent(0.0, 0.0, 0.0, 0.0)
-    return Image(False, math.nan, math.nan, nothing, impacts, brace_hits, math.nan, UNKNOWN)
+    return MapImage(False, math.nan, math.nan, nothing, impacts, brace_hits, math.nan, UNKNOWN)
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def no_cycle(work):
     """No orbit."""
-    nothing = Found(False, math.nan, math.nan, constant_image(-1, -1), math.nan, math.nan, 0)
-    return Cycle(NOT_YET, 0, False, nothing, math.nan, math.nan, 0, work)
+    nothing = FixedPoint(False, math.nan, math.nan, constant_image(-1, -1), math.nan, math.nan, 0)
+    return PeriodicityCheck(NOT_YET, 0, False, nothing, math.nan, math.nan, 0, work)
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def repetition(rows, halves, angle, velocity, lag, same):
     """(least period, whether it is its own mirror image half of that later) of an orbit of ``lag`` cycles through a state.
 
@@ -192,26 +184,46 @@ def repetition(rows, halves, angle, velocity, lag, same):
     return period, mirrored
 
 
-@njit(**ENTRY)
+@njit(**ENTRY_POINT)
 def repetition_plain(rows, halves, angle, velocity, lag, same):
     """``repetition`` for Python."""
     return repetition(rows, halves, angle, velocity, lag, same)
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def spectral_radius(tangent):
     """The size of the largest multiplier."""
     real, imaginary, _, _ = multipliers(tangent)
     return size(real, imaginary)
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def attracts(p, image):
     """Whether an orbit is stable, and loses something: else both its multipliers may be inside the unit circle by rounding alone."""
     return spectral_radius(image.tangent) < 1.0 and loses(p, image.impacts, image.brace_hits)
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
+def least_period(p, clocked, found, lag, scratch, nothing):
+    """Return (least period, whether the orbit is its own mirror image, its image) of an orbit that closes after ``lag`` cycles."""
+    image = image_after(
+        clocked,
+        found.angle,
+        found.velocity,
+        lag,
+        0.5 * p.period,
+        scratch,
+        nothing,
+        nothing.columns,
+        True,
+        found.image.waits,
+    )
+    same = max(SAME, 100.0 * found.error)
+    period, mirrored = repetition(scratch, scratch, found.angle, found.velocity, lag, same)
+    return period, mirrored, image
+
+
+@njit(**INTERNAL)
 def compare(p, section, row, period, found):
     """(answer, distance from the orbit a period before the row, cycles until it may be reached, 0 where nobody knows): the Floquet stop.
 

@@ -6,7 +6,7 @@ from typing import NamedTuple
 from numba import njit
 
 from rocking.kernels.arc.solution import arc_from
-from rocking.kernels.compile_options import WITHIN, WRITTEN_IN
+from rocking.kernels.compile_options import AST_INLINE, INTERNAL
 from rocking.kernels.event_kinds import BRACE, FLIGHT, IMPACT, NONE
 from rocking.kernels.march.event_rows import state_at
 from rocking.kernels.march.march import PAUSED, RELEASED, march_on
@@ -23,7 +23,7 @@ SHEAR = 5.0
 # Near the rim of an island the shear is large, and sticky chaos looks the same. Such motion needs this many flights.
 SHEARED_FLIGHTS = 8192
 SMALL_SHEAR = 1.0
-# More than ``agreement`` allows of as many flights as are kept (``desk``).
+# More than ``agreement`` allows of as many flights as are kept (``workspace``).
 OUTGROWN = 20.0
 
 
@@ -37,13 +37,13 @@ class Flights(NamedTuple):
     count: int
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def no_flights():
     """Before the first event."""
     return Flights(NONE, 0, 0.0, 0, 0)
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def under_way(progress):
     """Before the event to come, which ends the first flight if an impact began it."""
     arc = progress.arc
@@ -52,7 +52,7 @@ def under_way(progress):
     return no_flights()
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def collect(p, flights, rows, events, values):
     """Add recorded events: ``values`` (n, 2) takes how long each flight lasted, and the square of the speed it ended with."""
     event, cycle, time, first_cycle, count = flights
@@ -70,12 +70,12 @@ def collect(p, flights, rows, events, values):
     return Flights(event, cycle, time, first_cycle, count)
 
 
-@njit(**WITHIN)
-def sketch(p, before, events, written, after, section_time, section, count):
+@njit(**INTERNAL)
+def append_lazy_rows(p, before, events, written, after, section_time, section, count):
     """How many rows ``section`` (n, 8) has when the instants from ``before`` to ``after`` are added to its ``count``.
 
     Of each is noted the arc on which it lies, (side, angle, velocity) at its start and how long ago that was: few of
-    the states themselves are ever asked for (``work_out``).
+    the states themselves are ever asked for (``evaluate_lazy_rows``).
     """
     mode, arc = before.mode, before.arc
     side, start, angle, velocity, begun = float(arc.side), arc.start, arc.angle, arc.velocity, before.cycle
@@ -100,8 +100,8 @@ def sketch(p, before, events, written, after, section_time, section, count):
     return count
 
 
-@njit(**WITHIN)
-def work_out(p, section, first, count, section_time):
+@njit(**INTERNAL)
+def evaluate_lazy_rows(p, section, first, count, section_time):
     """The states of all rows from ``first`` on that were only sketched."""
     for k in range(max(first, 0), count):
         if math.isnan(section[k, 0]):
@@ -110,8 +110,8 @@ def work_out(p, section, first, count, section_time):
             section[k, 0], section[k, 1] = state_at(p, FLIGHT, arc, elapsed)
 
 
-@njit(**WITHIN)
-def may_be_asked_for(growth, target, max_cycles, rows):
+@njit(**INTERNAL)
+def section_needed(growth, target, max_cycles, rows):
     """Whether the states of a leg to ``target`` may be asked for: on a torus, and of every motion the last ones, ``rows`` at most.
 
     On a torus differences never grow by more than ``agreement`` would allow at the end.
@@ -119,8 +119,8 @@ def may_be_asked_for(growth, target, max_cycles, rows):
     return growth <= max(OUTGROWN, math.log(max_cycles) + SHEAR) or target > max_cycles - rows
 
 
-@njit(**WRITTEN_IN)
-def follow_flights(p, progress, flights, target, most_events, section_time, count, desk, wanted):
+@njit(**AST_INLINE)
+def follow_flights(p, progress, flights, target, most_events, section_time, count, workspace, wanted):
     """(status, progress, flights, rows of the section, if they are ``wanted``) at the end of cycle ``target``."""
     while True:
         before = progress
@@ -129,22 +129,24 @@ def follow_flights(p, progress, flights, target, most_events, section_time, coun
             before,
             target,
             section_time,
-            desk.nothing.section,
-            desk.events,
-            desk.columns,
-            desk.growth,
+            workspace.nothing.section,
+            workspace.events,
+            workspace.columns,
+            workspace.growth,
             True,
             True,
         )
-        flights = collect(p, flights, written, desk.events, desk.flights)
+        flights = collect(p, flights, written, workspace.events, workspace.flights)
         if wanted:
-            count = sketch(p, before, desk.events, written, progress, section_time, desk.section, count)
+            count = append_lazy_rows(
+                p, before, workspace.events, written, progress, section_time, workspace.section, count
+            )
         on = status in (PAUSED, RELEASED)
         if not on or progress.impacts + progress.brace_hits > most_events:
             return status, progress, flights, count
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def agreement(flights, values, weights, growth):
     """(digits to which the averages over both halves agree, whether all is as on a torus).
 
@@ -164,13 +166,13 @@ def agreement(flights, values, weights, growth):
     return digits, digits >= needed and digits_with(values[:count, 0], weights) >= ENOUGH_DIGITS
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def too_few(flights):
     """Whether there are too few flights to tell."""
     return flights.count < FEWEST_FLIGHTS or flights.cycle - flights.first_cycle < FEWEST_CYCLES
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def digits_of_speeds(flights, values, weights):
     """The digits of ``agreement``, however much differences have grown."""
     if too_few(flights):

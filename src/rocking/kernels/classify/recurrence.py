@@ -4,7 +4,7 @@ import math
 
 from numba import njit
 
-from rocking.kernels.compile_options import WITHIN
+from rocking.kernels.compile_options import INTERNAL
 from rocking.kernels.march.tangent import Tangent
 from rocking.kernels.numerics.elementary import size
 from rocking.kernels.orbits.fixed_point import multipliers
@@ -19,13 +19,13 @@ NEARER = 0.95
 ALIGNED = 1e-5
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def apart(section, first, second):
     """Distance of two rows."""
     return size(section[first, 0] - section[second, 0], section[first, 1] - section[second, 1])
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def closest_return(section, count, most_lag):
     """(lag, distance) of the closest return of the last row."""
     lag, closest = 0, math.inf
@@ -36,7 +36,7 @@ def closest_return(section, count, most_lag):
     return lag, closest
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def approached(section, count, most_lag):
     """(lag, angle, velocity) of the fixed point that the last returns approach, by the least lag; lag 0 where none do.
 
@@ -55,7 +55,7 @@ def approached(section, count, most_lag):
     return 0, 0.0, 0.0
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def limit(section, row, lag):
     """(whether the returns are linear, their limit's angle and velocity)."""
     x0, y0 = difference(section, row, lag)
@@ -83,7 +83,7 @@ def limit(section, row, lag):
     return linear, angle, velocity
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def difference(section, row, lag):
     """A row less the row ``lag`` cycles before."""
     return section[row, 0] - section[row - lag, 0], section[row, 1] - section[row - lag, 1]

@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 from numba import njit
 
-from rocking.kernels.compile_options import WITHIN, WRITTEN_IN
+from rocking.kernels.compile_options import AST_INLINE, INTERNAL
 from rocking.kernels.event_kinds import FLIGHT
 from rocking.kernels.march.march import PAUSED, RELEASED, Progress, march_on
 from rocking.kernels.march.tangent import normalised, read_tangent, write_tangent
@@ -14,7 +14,7 @@ from rocking.kernels.march.tangent import normalised, read_tangent, write_tangen
 LARGEST_STRAIN = math.log(1e8)
 
 
-class Visit(NamedTuple):
+class ResetRecord(NamedTuple):
     """The last release of one kind, and what happened since."""
 
     seen: bool
@@ -27,7 +27,7 @@ class Visit(NamedTuple):
     peak: float
 
 
-class Watch(NamedTuple):
+class ResetTracker(NamedTuple):
     """A motion under way, with its releases.
 
     ``half_periods`` is the number of half forcing cycles between the last two releases of one kind, if they prove an
@@ -36,8 +36,8 @@ class Watch(NamedTuple):
     """
 
     progress: Progress
-    base: Visit
-    brace: Visit
+    base: ResetRecord
+    brace: ResetRecord
     half_periods: int
     impacts: int
     brace_hits: int
@@ -45,33 +45,33 @@ class Watch(NamedTuple):
     peak: float
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def watched(progress):
     """A motion at its start."""
-    never = Visit(False, 0, 0.0, 0, 0, False, -math.inf, 0.0)
-    return Watch(progress, never, never, 0, -1, -1, 0.0, progress.peak)
+    never = ResetRecord(False, 0, 0.0, 0, 0, False, -math.inf, 0.0)
+    return ResetTracker(progress, never, never, 0, -1, -1, 0.0, progress.peak)
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def moved_on(watch, progress):
     """The watch of a motion that has gone on to ``progress`` without a release that proves an orbit."""
-    return Watch(progress, watch.base, watch.brace, 0, -1, -1, 0.0, watch.peak)
+    return ResetTracker(progress, watch.base, watch.brace, 0, -1, -1, 0.0, watch.peak)
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def unvisited(watch):
     """The same motion, its releases forgotten: what differences have grown to since is no longer known."""
     fresh = watched(watch.progress)
-    return Watch(watch.progress, fresh.base, fresh.brace, 0, -1, -1, 0.0, watch.peak)
+    return ResetTracker(watch.progress, fresh.base, fresh.brace, 0, -1, -1, 0.0, watch.peak)
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def largest_angle(watch):
     """Largest angle since the start."""
     return max(watch.peak, watch.progress.peak)
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def released_since(watch, cycle):
     """Whether the block was released in ``cycle`` or later."""
     return (watch.base.seen and watch.base.cycle >= cycle) or (
@@ -79,10 +79,10 @@ def released_since(watch, cycle):
     )
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def after_flight(visit, strain, peak, otherwise):
     """A visit after one more flight that ended in rest or leaning, with a release of the other kind if ``otherwise``."""
-    return Visit(
+    return ResetRecord(
         visit.seen,
         visit.cycle,
         visit.time,
@@ -94,7 +94,7 @@ def after_flight(visit, strain, peak, otherwise):
     )
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def hits_between(p, progress, visit, lifts):
     """(impacts, brace hits) from a visit to the present release of the same kind; -1 where infinitely many occur.
 
@@ -110,7 +110,7 @@ def hits_between(p, progress, visit, lifts):
     return impacts, brace_hits
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def at_release(p, watch, progress):
     """The watch at a release, from the base (the arc begins there) or from a brace."""
     arc = progress.arc
@@ -125,7 +125,9 @@ def at_release(p, watch, progress):
         half_periods = round(2.0 * cycles)
         if not visit.strain < LARGEST_STRAIN:
             half_periods = -half_periods
-    now = Visit(True, progress.cycle, arc.start, progress.impacts, progress.brace_hits, False, -math.inf, 0.0)
+    now = ResetRecord(
+        True, progress.cycle, arc.start, progress.impacts, progress.brace_hits, False, -math.inf, 0.0
+    )
     anew = Progress(
         progress.mode,
         progress.cycle,
@@ -142,10 +144,10 @@ def at_release(p, watch, progress):
     )
     peak = max(watch.peak, progress.peak)
     base, brace = (now, brace) if lifts else (base, now)
-    return Watch(anew, base, brace, half_periods, impacts, brace_hits, visit.peak, peak)
+    return ResetTracker(anew, base, brace, half_periods, impacts, brace_hits, visit.peak, peak)
 
 
-@njit(**WRITTEN_IN)
+@njit(**AST_INLINE)
 def follow(p, watch, target, most_events, section_time, section, nothing, columns, growth):
     """(status, watch) at the end of cycle ``target``, or at the release that decides; RELEASED only then.
 
@@ -180,14 +182,14 @@ def follow(p, watch, target, most_events, section_time, section, nothing, column
             return status, watch
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def begin_tangent(columns, growth):
     """Differences of size 1 along both axes."""
     columns[0, 0], columns[0, 1], columns[1, 0], columns[1, 1] = 1.0, 0.0, 0.0, 1.0
     growth[:] = 0.0
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def begin_measuring(watch, columns, growth):
     """From here on growth is measured; what differences have grown to since the last release stays in it."""
     if watch.progress.mode == FLIGHT and (watch.base.seen or watch.brace.seen):

@@ -5,11 +5,11 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
-from rocking.kernels.compile_options import WITHIN
+from rocking.kernels.compile_options import INTERNAL
 from rocking.kernels.parameters import make
 
 
-class Answers(NamedTuple):
+class ResultArrays(NamedTuple):
     """What the cascade says of each of n points, one flat array a question; as in ``Judgement``."""
 
     kind: np.ndarray  # (n,), Kind
@@ -28,9 +28,9 @@ class Answers(NamedTuple):
     )  # (n, 3): a state of the orbit, (time within the cycle, angle, velocity); NaN where none
 
 
-def no_answers(count):
+def empty_results(count):
     """Room for the answers of ``count`` points."""
-    return Answers(
+    return ResultArrays(
         *(np.zeros(count, np.uint8) for _ in range(2)),
         np.zeros(count, np.int32),
         np.zeros(count, np.uint8),
@@ -41,14 +41,14 @@ def no_answers(count):
     )
 
 
-@njit(**WITHIN)
-def asked(row):
+@njit(**INTERNAL)
+def parameters_from_row(row):
     """The system of a row of what ``make`` takes."""
     return make(row[0], row[1], row[2], row[3], row[4], row[5], row[6])
 
 
-@njit(**WITHIN)
-def answer(answers, k, told):
+@njit(**INTERNAL)
+def store_result(answers, k, told):
     """Write what was judged of point k."""
     answers.kind[k], answers.ground[k] = told[0], told[1]
     answers.period[k], answers.symmetric[k] = told[2], told[3]

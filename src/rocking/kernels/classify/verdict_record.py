@@ -6,14 +6,14 @@ from typing import NamedTuple
 
 from numba import njit
 
-from rocking.kernels.classify.periodicity import REACHED, Cycle, constant_image, no_cycle
+from rocking.kernels.classify.periodicity import REACHED, PeriodicityCheck, constant_image, no_cycle
 from rocking.kernels.classify.quasi_periodicity import CHAOTIC_DIGITS
 from rocking.kernels.classify.reset import largest_angle
 from rocking.kernels.classify.workspace import BATCHES
-from rocking.kernels.compile_options import WITHIN
+from rocking.kernels.compile_options import INTERNAL
 from rocking.kernels.march.march import OVERTURNED, RELEASED, STILL
 from rocking.kernels.numerics.averages import batch_error
-from rocking.kernels.orbits.fixed_point import Found, multipliers
+from rocking.kernels.orbits.fixed_point import FixedPoint, multipliers
 
 CLEARLY = 6.0  # standard errors
 CHAOS_NEEDS = 10_000
@@ -100,8 +100,8 @@ class Judgement(NamedTuple):
     digits: float
 
 
-@njit(**WITHIN)
-def judged(kind, ground, watch, work, exponent, error, transient, cycle, section_time, digits):
+@njit(**INTERNAL)
+def pack_verdict(kind, ground, watch, work, exponent, error, transient, cycle, section_time, digits):
     """A judgement as nested numbers: what a kernel hands to Python."""
     progress, peak = watch.progress, largest_angle(watch)
     real, imaginary, other_real, other_imaginary = multipliers(cycle.found.image.tangent)
@@ -135,29 +135,31 @@ def judged(kind, ground, watch, work, exponent, error, transient, cycle, section
     )
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def undecided(watch):
     """No judgement yet."""
-    return judged(OPEN, UNWATCHED, watch, 0, math.nan, math.nan, -1, no_cycle(0), 0.0, math.nan)
+    return pack_verdict(OPEN, UNWATCHED, watch, 0, math.nan, math.nan, -1, no_cycle(0), 0.0, math.nan)
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def ended(status, watch, work):
     """The judgement of a motion whose end is proved, by no return, rest for ever or a release like an earlier one, or too dear."""
     progress, none = watch.progress, no_cycle(work)
     if status == OVERTURNED:
-        return judged(
+        return pack_verdict(
             OVERTURNS, NO_RETURN, watch, work, math.nan, math.nan, progress.cycle, none, 0.0, math.nan
         )
     if status == STILL:
-        return judged(REST, STILL_FOR_EVER, watch, work, -math.inf, 0.0, progress.cycle, none, 0.0, math.nan)
+        return pack_verdict(
+            REST, STILL_FOR_EVER, watch, work, -math.inf, 0.0, progress.cycle, none, 0.0, math.nan
+        )
     if status == RELEASED and watch.half_periods > 0:
         return released(watch, work)
     ground = UNRESOLVED_RESET if status == RELEASED else CROWDED
-    return judged(UNDETERMINED, ground, watch, work, math.nan, math.nan, -1, none, 0.0, math.nan)
+    return pack_verdict(UNDETERMINED, ground, watch, work, math.nan, math.nan, -1, none, 0.0, math.nan)
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def released(watch, work):
     """The judgement of a motion that was released as it was before: superstable, and symmetric after an odd number of half cycles.
 
@@ -169,13 +171,13 @@ def released(watch, work):
     impacts = halves * watch.impacts if watch.impacts >= 0 else -1
     brace_hits = halves * watch.brace_hits if watch.brace_hits >= 0 else -1
     image = constant_image(impacts, brace_hits)
-    release = Found(True, arc.side * arc.angle, 0.0, image, 0.0, 0.0, 0)
-    orbit = Cycle(REACHED, period, symmetric, release, watch.orbit_peak, 0.0, 0, 0)
+    release = FixedPoint(True, arc.side * arc.angle, 0.0, image, 0.0, 0.0, 0)
+    orbit = PeriodicityCheck(REACHED, period, symmetric, release, watch.orbit_peak, 0.0, 0, 0)
     transient = max(watch.progress.cycle - (half_periods + 1) // 2, 0)
-    return judged(PERIODIC, RESET, watch, work, -math.inf, 0.0, transient, orbit, arc.start, math.nan)
+    return pack_verdict(PERIODIC, RESET, watch, work, -math.inf, 0.0, transient, orbit, arc.start, math.nan)
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def periodic(p, ground, watch, work, cycle, section_time):
     """The judgement of a motion on a periodic orbit."""
     real, imaginary, _, _ = multipliers(cycle.found.image.tangent)
@@ -184,16 +186,20 @@ def periodic(p, ground, watch, work, cycle, section_time):
         # the multipliers' product is 1, and differences were seen to grow no faster than linearly
         exponent, error = 0.0, math.nan
     transient = max(watch.progress.cycle - cycle.period, 0)
-    return judged(PERIODIC, ground, watch, work, exponent, error, transient, cycle, section_time, math.nan)
+    return pack_verdict(
+        PERIODIC, ground, watch, work, exponent, error, transient, cycle, section_time, math.nan
+    )
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def torus(watch, work, section_time, digits):
     """The judgement of a motion whose averages converge as on a torus."""
-    return judged(QUASI_PERIODIC, TORUS, watch, work, 0.0, math.nan, 0, no_cycle(work), section_time, digits)
+    return pack_verdict(
+        QUASI_PERIODIC, TORUS, watch, work, 0.0, math.nan, 0, no_cycle(work), section_time, digits
+    )
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def unsettled(p, watch, work, max_cycles, batch_time, measured, lossless, digits, batches, stands, lingers):
     """The judgement at the end of the budget: chaotic if all of this shows it, else undetermined.
 
@@ -219,4 +225,4 @@ def unsettled(p, watch, work, max_cycles, batch_time, measured, lossless, digits
         ground = CORRELATED
     else:
         kind = CHAOTIC
-    return judged(kind, ground, watch, work, mean, error, -1, no_cycle(work), 0.0, digits)
+    return pack_verdict(kind, ground, watch, work, mean, error, -1, no_cycle(work), 0.0, digits)

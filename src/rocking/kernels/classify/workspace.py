@@ -12,7 +12,7 @@ SPARE = 3
 BATCHES = 64
 
 
-class Nothing(NamedTuple):
+class NoRecording(NamedTuple):
     """Arrays without rows, for what is not recorded: made once, since to make one costs as much as half an impact."""
 
     section: np.ndarray  # (0, 4)
@@ -21,7 +21,7 @@ class Nothing(NamedTuple):
     growth: np.ndarray  # (0,)
 
 
-class Desk(NamedTuple):
+class Workspace(NamedTuple):
     """Working memory, for one system after another."""
 
     section: np.ndarray  # (n, 8), the last cycles: ``note_state``, then ``quasi_periodicity.sketch``
@@ -33,10 +33,10 @@ class Desk(NamedTuple):
     columns: np.ndarray  # (2, 2)
     trial: np.ndarray  # (2, 2)
     growth: np.ndarray  # (1,)
-    nothing: Nothing
+    nothing: NoRecording
 
 
-def apart(count):
+def padded_row_length(count):
     """So many numbers, or a few more, that of rows of them not all begin on the same line of the fast memory's pages.
 
     Lanes write into all their rows in turn; where those compete for a few lines each write waits.
@@ -44,11 +44,11 @@ def apart(count):
     return count + (8 - count) % 512
 
 
-def desk(max_cycles, max_period):
+def make_workspace(max_cycles, max_period):
     """Working memory for runs of up to ``max_cycles`` and orbits of up to ``max_period``."""
     rows = max(4 * max_period, LEG) + 1
-    flights = apart(min(max(4 * max_cycles, 1024), 1 << 18))
-    return Desk(
+    flights = padded_row_length(min(max(4 * max_cycles, 1024), 1 << 18))
+    return Workspace(
         np.empty((rows + SPARE * LEG, 8)),
         np.empty((rows, 4)),
         np.empty((512, 8)),
@@ -58,5 +58,5 @@ def desk(max_cycles, max_period):
         np.empty((2, 2)),
         np.empty((2, 2)),
         np.empty(1),
-        Nothing(np.empty((0, 4)), np.empty((0, 8)), np.empty((0, 2)), np.empty(0)),
+        NoRecording(np.empty((0, 4)), np.empty((0, 8)), np.empty((0, 2)), np.empty(0)),
     )

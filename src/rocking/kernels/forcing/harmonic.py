@@ -12,13 +12,13 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
-from rocking.kernels.compile_options import INNER
+from rocking.kernels.compile_options import INTERNAL_INLINE
 from rocking.kernels.numerics.elementary import SHORT, circular, direction, fma
 
 TURN = 2.0 * math.pi
 
 
-class Swing(NamedTuple):
+class ForcedStep(NamedTuple):
     """What the forcing does to any arc within a time, for unit amplitude and each of cos eta, sin eta at its start."""
 
     near: bool  # within a third of a turn
@@ -30,7 +30,7 @@ class Swing(NamedTuple):
     rate: float
 
 
-@njit(**INNER)
+@njit(**INTERNAL_INLINE)
 def clock(frequency, phase, side, time):
     """(cosine, sine, psi, 1 - |cosine|, whether that is accurate however small) at a time within the cycle."""
     psi = frequency * time + phase
@@ -38,8 +38,8 @@ def clock(frequency, phase, side, time):
     return side * cosine, side * sine, psi, versine, exact
 
 
-@njit(**INNER)
-def begin(p, side, time, angle):
+@njit(**INTERNAL_INLINE)
+def forcing_at(p, side, time, angle):
     """(cosine, sine, psi, pull) at a time within the cycle; pull = u - 1 - A cosine = u'', exact however close to 0."""
     cosine, sine, psi, versine, exact = clock(p.frequency, p.phase, side, time)
     above = angle - 1.0
@@ -50,20 +50,20 @@ def begin(p, side, time, angle):
     return cosine, sine, psi, pull
 
 
-@njit(**INNER)
+@njit(**INTERNAL_INLINE)
 def forcing_term(p, cosine):
     """f = u'' - u = -1 - A cos eta on one side of the base: eq. (4)."""
     return -1.0 - p.amplitude * cosine
 
 
-@njit(**INNER)
+@njit(**INTERNAL_INLINE)
 def forcing_rates(p, cosine, sine):
     """(f', f'') of ``forcing_term``; each higher derivative is -Omega**2 times the last but one."""
     return p.amplitude * p.frequency * sine, p.amplitude * p.frequency * p.frequency * cosine
 
 
-@njit(**INNER)
-def swing(p, t, sinh, versinh, excess, higher):
+@njit(**INTERNAL_INLINE)
+def forced_step(p, t, sinh, versinh, excess, higher):
     """The swing of a time t."""
     sin_x, versine, lag, deficit = circular(p.frequency, t)
     in_phase = versinh + versine
@@ -73,18 +73,18 @@ def swing(p, t, sinh, versinh, excess, higher):
     if near:
         place = -(p.frequency * p.frequency * higher + deficit)
         rate = -p.frequency * lateness
-    return Swing(near, sin_x, versine, in_phase, lateness, place, rate)
+    return ForcedStep(near, sin_x, versine, in_phase, lateness, place, rate)
 
 
-@njit(**INNER)
-def respond(p, cosine, sine, above, pull, swing):
+@njit(**INTERNAL_INLINE)
+def forced_response(p, cosine, sine, above, pull, forced_step):
     """(steady, G, G', cos eta, sin eta) a time later: u'' - u is split into a steady part and a rest, which moves u by G.
 
     G'' - G = u0 - 1 - A cos eta - steady, G = G' = 0 at t = 0. Within a third of a turn ``steady`` is the ``pull`` at
     the start, later u0 - 1 (``above``): either way G is made of sums of positive functions, and no larger parts
     cancel.
     """
-    near, sin_x, versine, in_phase, lateness, place, rate = swing
+    near, sin_x, versine, in_phase, lateness, place, rate = forced_step
     displaced = p.response * (sine * lateness - cosine * place)
     moved = p.response * (p.frequency * sine * in_phase - cosine * rate)
     return (
@@ -96,14 +96,14 @@ def respond(p, cosine, sine, above, pull, swing):
     )
 
 
-@njit(**INNER)
+@njit(**INTERNAL_INLINE)
 def particular(p, cosine, sine):
     """(beta cos eta, its derivative): the bounded particular solution of u'' - u = -A cos eta."""
     return p.response * cosine, -p.response * p.frequency * sine
 
 
-@njit(**INNER)
-def first_cut(p, side, psi, centre, half):
+@njit(**INTERNAL_INLINE)
+def first_sign_change(p, side, psi, centre, half):
     """(time to the first eta = centre +- half at or after now, whether eta lies within half of the centre until then)."""
     zeta = psi - centre + half
     if side < 0:
@@ -115,20 +115,20 @@ def first_cut(p, side, psi, centre, half):
     return ((2.0 * half if inside else TURN) - zeta) * p.per_frequency, inside
 
 
-@njit(**INNER)
-def next_cut(p, half, inside):
+@njit(**INTERNAL_INLINE)
+def next_sign_change(p, half, inside):
     """Time from one cut to the next, ``inside`` telling the stretch between them."""
     return (2.0 * half if inside else TURN - 2.0 * half) * p.per_frequency
 
 
-@njit(**INNER)
-def drift(p, cosine, sine, time):
+@njit(**INTERNAL_INLINE)
+def acceleration_change_bound(p, cosine, sine, time):
     """A bound on how far the base acceleration moves within the coming ``time``."""
     x = p.frequency * time
     return p.amplitude * (abs(sine) * x + 0.5 * x * x)
 
 
-@njit(**INNER)
+@njit(**INTERNAL_INLINE)
 def sensitivities(p, cosine, sine, t, sinh, versinh, excess):
     """(F_A, F'_A, F_psi, F'_psi, F_Omega, F'_Omega): the response differentiated by amplitude, starting phase, frequency."""
     sin_x, versine, lag, _ = circular(p.frequency, t)

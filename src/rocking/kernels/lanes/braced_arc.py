@@ -12,7 +12,7 @@ from numba import njit
 from rocking.kernels.arc.bracket import MARGIN
 from rocking.kernels.arc.enclosure import stays_between
 from rocking.kernels.arc.fast_path import I2, I3, I4, I5, I6, I7, I8, REACH
-from rocking.kernels.compile_options import EXACT_INNER
+from rocking.kernels.compile_options import SIMD_INLINE
 from rocking.kernels.lanes.evaluate import correction, derivatives, elements, halved, instant_of, onward
 from rocking.kernels.lanes.rows import (  # fmt: skip
     ABOUT,
@@ -45,8 +45,8 @@ from rocking.kernels.lanes.rows import (  # fmt: skip
     VERSINH,
     WAIT,
     WALK,
-    of,
-    put,
+    load,
+    store,
 )
 from rocking.kernels.numerics.elementary import fma
 from rocking.kernels.numerics.simd import choose
@@ -56,7 +56,7 @@ MOST_TRIES, ROUNDS = 8, 2
 NEAR = 1e-3
 
 
-@njit(**EXACT_INNER)
+@njit(**SIMD_INLINE)
 def parabola(u, v, second, brace_angle):
     """(whether at a brace, when) the event is where the parabola comes, or, against the pull, the tangent; ``fast_path.stride``."""
     falls = second < 0.0
@@ -71,23 +71,23 @@ def parabola(u, v, second, brace_angle):
     return falls == turns, choose(turns, against, ahead)
 
 
-@njit(**EXACT_INNER)
-def aim(s):
+@njit(**SIMD_INLINE)
+def predict_event(s):
     """When each lane looks next: where the series has its event, or, where that tells none, further on."""
     for i in range(LANES):
-        stage, time, about = of(s, i, STAGE), of(s, i, TIME), of(s, i, ABOUT)
-        at_brace, frequency = of(s, i, AT_BRACE), of(s, i, FREQUENCY)
-        brace_angle = of(s, i, BRACE_ANGLE)
+        stage, time, about = load(s, i, STAGE), load(s, i, TIME), load(s, i, ABOUT)
+        at_brace, frequency = load(s, i, AT_BRACE), load(s, i, FREQUENCY)
+        brace_angle = load(s, i, BRACE_ANGLE)
         u, v, cosine, sine = (
-            of(s, i, KNOT_ANGLE),
-            of(s, i, KNOT_RATE),
-            of(s, i, KNOT_COSINE),
-            of(s, i, KNOT_SINE),
+            load(s, i, KNOT_ANGLE),
+            load(s, i, KNOT_RATE),
+            load(s, i, KNOT_COSINE),
+            load(s, i, KNOT_SINE),
         )
         c = derivatives(s, i, (u, v, cosine, sine))
-        square = of(s, i, FREQUENCY_SQUARE)
-        c7 = fma(square * square, of(s, i, AMPLITUDE_RATE) * sine, c[5])
-        c8 = fma(square * square, square * of(s, i, AMPLITUDE) * cosine, c[6])
+        square = load(s, i, FREQUENCY_SQUARE)
+        c7 = fma(square * square, load(s, i, AMPLITUDE_RATE) * sine, c[5])
+        c8 = fma(square * square, square * load(s, i, AMPLITUDE) * cosine, c[6])
         brace_next, rough = parabola(u, v, c[2], brace_angle)
         sign = choose(brace_next, -1.0, 1.0)
         c0, c1, c2, c3 = choose(brace_next, brace_angle - u, u), sign * v, sign * c[2], sign * c[3]
@@ -112,28 +112,28 @@ def aim(s):
             x += y * halved(correction(y, w2, w3, w4, per))
         told = told & (x > 0.0) & (x <= farthest)
         aims = stage == WALK
-        put(
+        store(
             s,
             i,
             TIME,
             choose(aims, about + choose(told, x, choose(rough <= farthest, rough, farthest)), time),
         )
-        put(s, i, AT_BRACE, choose(aims, choose(brace_next, 1.0, 0.0), at_brace))
-        put(s, i, STAGE, choose(aims, choose(told, REFINE, FURTHER), stage))
+        store(s, i, AT_BRACE, choose(aims, choose(brace_next, 1.0, 0.0), at_brace))
+        store(s, i, STAGE, choose(aims, choose(told, REFINE, FURTHER), stage))
 
 
-@njit(**EXACT_INNER)
-def step(s):
+@njit(**SIMD_INLINE)
+def correct_event(s):
     """From the time looked at to the event, or nearer to it; or on from there, where that is too far."""
     elements(s)
     for i in range(LANES):
-        stage, t, about, tries = of(s, i, STAGE), of(s, i, TIME), of(s, i, ABOUT), of(s, i, TRIES)
-        wait, at_brace = of(s, i, WAIT), of(s, i, AT_BRACE) > 0.0
-        angle, velocity, brace_angle = of(s, i, ANGLE), of(s, i, VELOCITY), of(s, i, BRACE_ANGLE)
-        sinh, versinh = of(s, i, SINH), of(s, i, VERSINH)
-        amplitude, frequency = of(s, i, AMPLITUDE), of(s, i, FREQUENCY)
-        knot_angle, knot_rate = of(s, i, KNOT_ANGLE), of(s, i, KNOT_RATE)
-        knot_cosine, knot_sine = of(s, i, KNOT_COSINE), of(s, i, KNOT_SINE)
+        stage, t, about, tries = load(s, i, STAGE), load(s, i, TIME), load(s, i, ABOUT), load(s, i, TRIES)
+        wait, at_brace = load(s, i, WAIT), load(s, i, AT_BRACE) > 0.0
+        angle, velocity, brace_angle = load(s, i, ANGLE), load(s, i, VELOCITY), load(s, i, BRACE_ANGLE)
+        sinh, versinh = load(s, i, SINH), load(s, i, VERSINH)
+        amplitude, frequency = load(s, i, AMPLITUDE), load(s, i, FREQUENCY)
+        knot_angle, knot_rate = load(s, i, KNOT_ANGLE), load(s, i, KNOT_RATE)
+        knot_cosine, knot_sine = load(s, i, KNOT_COSINE), load(s, i, KNOT_SINE)
         risen, v, cosine, sine = instant_of(s, i, angle - 1.0)
         u = angle + risen
         _, _, second, third, fourth, fifth, _ = derivatives(s, i, (u, v, cosine, sine))
@@ -167,23 +167,23 @@ def step(s):
         above, beneath = goes_on & (u > brace_angle), goes_on & (u < 0.0)
 
         next_cosine, next_sine, next_sinh, next_versinh = onward(x, frequency, cosine, sine, sinh, versinh)
-        put(s, i, WAIT, choose(arrived, later, wait))
+        store(s, i, WAIT, choose(arrived, later, wait))
         # of a lane that has not arrived nobody asks for these
-        put(s, i, SPEED, abs(slope))
-        put(s, i, NEXT_COSINE, next_cosine)
-        put(s, i, NEXT_SINE, next_sine)
-        put(s, i, NEXT_SINH, next_sinh)
-        put(s, i, NEXT_VERSINH, next_versinh)
-        put(s, i, KNOT_ANGLE, choose(further, u, knot_angle))
-        put(s, i, KNOT_RATE, choose(further, v, knot_rate))
-        put(s, i, KNOT_COSINE, choose(further, cosine, knot_cosine))
-        put(s, i, KNOT_SINE, choose(further, sine, knot_sine))
-        put(s, i, ABOUT, choose(further, t, about))
+        store(s, i, SPEED, abs(slope))
+        store(s, i, NEXT_COSINE, next_cosine)
+        store(s, i, NEXT_SINE, next_sine)
+        store(s, i, NEXT_SINH, next_sinh)
+        store(s, i, NEXT_VERSINH, next_versinh)
+        store(s, i, KNOT_ANGLE, choose(further, u, knot_angle))
+        store(s, i, KNOT_RATE, choose(further, v, knot_rate))
+        store(s, i, KNOT_COSINE, choose(further, cosine, knot_cosine))
+        store(s, i, KNOT_SINE, choose(further, sine, knot_sine))
+        store(s, i, ABOUT, choose(further, t, about))
         moves, beyond = heads | goes_on, above | beneath
         back = moves & ((arrived | nears | further | beyond) == False)  # noqa: E712
-        put(s, i, AT_BRACE, choose(above, 1.0, choose(beneath, 0.0, choose(at_brace, 1.0, 0.0))))
-        put(s, i, TIME, choose(nears, ahead, choose(back, fma(0.5, t - about, about), t)))
-        put(s, i, TRIES, choose(moves, tries + 1.0, tries))
+        store(s, i, AT_BRACE, choose(above, 1.0, choose(beneath, 0.0, choose(at_brace, 1.0, 0.0))))
+        store(s, i, TIME, choose(nears, ahead, choose(back, fma(0.5, t - about, about), t)))
+        store(s, i, TRIES, choose(moves, tries + 1.0, tries))
         on = choose(arrived, ARRIVED, choose(nears | beyond, REFINE, choose(further, WALK, FURTHER)))
         on = choose(arrived | (tries < MOST_TRIES), on, UNSURE)
-        put(s, i, STAGE, choose(heads | goes_on, on, stage))
+        store(s, i, STAGE, choose(heads | goes_on, on, stage))

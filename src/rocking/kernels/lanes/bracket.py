@@ -8,7 +8,7 @@ from numba import njit
 
 from rocking.kernels.arc.bracket import MARGIN
 from rocking.kernels.arc.first_zero import LONGEST
-from rocking.kernels.compile_options import EXACT_INNER
+from rocking.kernels.compile_options import SIMD_INLINE
 from rocking.kernels.lanes.rows import (  # fmt: skip
     BOTTOM,
     CLEARED,
@@ -37,21 +37,21 @@ from rocking.kernels.lanes.rows import (  # fmt: skip
     UNSURE,
     WALK,
     Z,
-    of,
-    put,
+    load,
+    store,
 )
 from rocking.kernels.numerics.elementary import fma
 from rocking.kernels.numerics.simd import choose
 
 
-@njit(**EXACT_INNER)
+@njit(**SIMD_INLINE)
 def may_dip(u, du, u_right, du_right, tanh):
     """``arc.bracket.may_dip`` on a part of a convex stretch, ``tanh`` of its length."""
     crossed = fma(u, du_right, -u_right * du)
     return (u + du < 0.0) & (du_right > u_right) & (crossed < tanh * fma(u, u_right, -du * du_right))
 
 
-@njit(**EXACT_INNER)
+@njit(**SIMD_INLINE)
 def stretch(grow, shrink, forcing, half_grow, half_decay, tanh, z, per_z, end, cleared):
     """Of a convex stretch: (u at its start, halfway and end; errors at start and end; whether no zero is there; or in a dip only)."""
     place, rate, response = forcing
@@ -71,50 +71,52 @@ def stretch(grow, shrink, forcing, half_grow, half_decay, tanh, z, per_z, end, c
     return u, u_half, u_right, error, error_right, passed & (doubt == False), passed & doubt  # noqa: E712
 
 
-@njit(**EXACT_INNER)
-def ahead(s, i, end, z, per_z, cleared):
+@njit(**SIMD_INLINE)
+def next_sign_interval(s, i, end, z, per_z, cleared):
     """The convex stretch of lane i that begins at ``end``: what ``stretch`` says of it."""
-    forcing = of(s, i, CUT_PLACE), of(s, i, CUT_RATE), of(s, i, RESPONSE)
-    half_grow, half_decay, tanh = of(s, i, HALF_GROWTH), of(s, i, HALF_DECAY), of(s, i, HALF_TANH)
-    grow, shrink = of(s, i, GROWING), of(s, i, SHRINKING)
+    forcing = load(s, i, CUT_PLACE), load(s, i, CUT_RATE), load(s, i, RESPONSE)
+    half_grow, half_decay, tanh = load(s, i, HALF_GROWTH), load(s, i, HALF_DECAY), load(s, i, HALF_TANH)
+    grow, shrink = load(s, i, GROWING), load(s, i, SHRINKING)
     return stretch(grow, shrink, forcing, half_grow, half_decay, tanh, z, per_z, end, cleared)
 
 
-@njit(**EXACT_INNER)
-def stride(s):
+@njit(**SIMD_INLINE)
+def skip_clear_periods(s):
     """A turn of the forcing further, where certainly no zero lies in the next stretches."""
     for i in range(LANES):
-        stage, low, cleared = of(s, i, STAGE), of(s, i, LOW), of(s, i, CLEARED)
-        end, z, per_z = of(s, i, END), of(s, i, Z), of(s, i, PER_Z)
-        outside, period = of(s, i, OUTSIDE), of(s, i, PERIOD)
-        turn_growth, turn_decay = of(s, i, TURN_GROWTH), of(s, i, TURN_DECAY)
-        passed = ahead(s, i, end, z, per_z, cleared)[5] & (stage == WALK)
-        put(s, i, LOW, choose(passed, end + outside, low))
-        put(s, i, CLEARED, choose(passed, 0.0, cleared))
-        put(s, i, END, choose(passed, end + period, end))
-        put(s, i, Z, choose(passed, z * turn_growth, z))
-        put(s, i, PER_Z, choose(passed, per_z * turn_decay, per_z))
+        stage, low, cleared = load(s, i, STAGE), load(s, i, LOW), load(s, i, CLEARED)
+        end, z, per_z = load(s, i, END), load(s, i, Z), load(s, i, PER_Z)
+        outside, period = load(s, i, OUTSIDE), load(s, i, PERIOD)
+        turn_growth, turn_decay = load(s, i, TURN_GROWTH), load(s, i, TURN_DECAY)
+        passed = next_sign_interval(s, i, end, z, per_z, cleared)[5] & (stage == WALK)
+        store(s, i, LOW, choose(passed, end + outside, low))
+        store(s, i, CLEARED, choose(passed, 0.0, cleared))
+        store(s, i, END, choose(passed, end + period, end))
+        store(s, i, Z, choose(passed, z * turn_growth, z))
+        store(s, i, PER_Z, choose(passed, per_z * turn_decay, per_z))
 
 
-@njit(**EXACT_INNER)
+@njit(**SIMD_INLINE)
 def walk(s):
     """The next convex stretch and the concave one before it: past them, or to the zero in one of them.
 
-    ``stride`` before it does not look for the zero: most often only the last of two turns holds it.
+    ``skip_clear_periods`` before it does not look for the zero: most often only the last of two turns holds it.
     """
     for i in range(LANES):
         stage, low, end, z, per_z = (
-            of(s, i, STAGE),
-            of(s, i, LOW),
-            of(s, i, END),
-            of(s, i, Z),
-            of(s, i, PER_Z),
+            load(s, i, STAGE),
+            load(s, i, LOW),
+            load(s, i, END),
+            load(s, i, Z),
+            load(s, i, PER_Z),
         )
-        cleared, concave, high = of(s, i, CLEARED), of(s, i, CONCAVE), of(s, i, HIGH)
-        time, tries = of(s, i, TIME), of(s, i, TRIES)
-        outside, period = of(s, i, OUTSIDE), of(s, i, PERIOD)
-        turn_growth, turn_decay = of(s, i, TURN_GROWTH), of(s, i, TURN_DECAY)
-        u, u_half, u_right, error, error_right, passed, looks = ahead(s, i, end, z, per_z, cleared)
+        cleared, concave, high = load(s, i, CLEARED), load(s, i, CONCAVE), load(s, i, HIGH)
+        time, tries = load(s, i, TIME), load(s, i, TRIES)
+        outside, period = load(s, i, OUTSIDE), load(s, i, PERIOD)
+        turn_growth, turn_decay = load(s, i, TURN_GROWTH), load(s, i, TURN_DECAY)
+        u, u_half, u_right, error, error_right, passed, looks = next_sign_interval(
+            s, i, end, z, per_z, cleared
+        )
         above, found_in = u > error, u < -error
         dips = above & (u_half < -error_right)
         found = found_in | dips | (above & (u_right < -error_right) & (u_half > error_right))
@@ -123,14 +125,14 @@ def walk(s):
         next_high = choose(found_in, end, choose(dips, halfway, end + outside))
         next_low = choose(found_in, low, choose(passed, end + outside, end))
         walking = stage == WALK
-        put(s, i, STAGE, choose(walking, next_stage, stage))
-        put(s, i, CONCAVE, choose(walking, choose(found_in, 1.0, -1.0), concave))
-        put(s, i, LOW, choose(walking, next_low, low))
-        put(s, i, HIGH, choose(walking, next_high, high))
-        put(s, i, TIME, choose(walking, halfway, time))
-        put(s, i, TRIES, choose(walking, 0.0, tries))
-        put(s, i, CLEARED, choose(walking, 0.0, cleared))
+        store(s, i, STAGE, choose(walking, next_stage, stage))
+        store(s, i, CONCAVE, choose(walking, choose(found_in, 1.0, -1.0), concave))
+        store(s, i, LOW, choose(walking, next_low, low))
+        store(s, i, HIGH, choose(walking, next_high, high))
+        store(s, i, TIME, choose(walking, halfway, time))
+        store(s, i, TRIES, choose(walking, 0.0, tries))
+        store(s, i, CLEARED, choose(walking, 0.0, cleared))
         passed = passed & walking
-        put(s, i, END, choose(passed, end + period, end))
-        put(s, i, Z, choose(passed, z * turn_growth, z))
-        put(s, i, PER_Z, choose(passed, per_z * turn_decay, per_z))
+        store(s, i, END, choose(passed, end + period, end))
+        store(s, i, Z, choose(passed, z * turn_growth, z))
+        store(s, i, PER_Z, choose(passed, per_z * turn_decay, per_z))

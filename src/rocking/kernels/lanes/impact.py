@@ -6,7 +6,7 @@ import numpy as np
 from numba import njit
 
 from rocking.kernels.arc.fast_path import I2, I4, I6, I8
-from rocking.kernels.compile_options import EXACT_INNER
+from rocking.kernels.compile_options import SIMD_INLINE
 from rocking.kernels.lanes.rows import (  # fmt: skip
     ACROSS,
     ALONE,
@@ -65,8 +65,8 @@ from rocking.kernels.lanes.rows import (  # fmt: skip
     WALK,
     WANTS,
     Z,
-    of,
-    put,
+    load,
+    store,
     trail_is_full,
 )
 from rocking.kernels.numerics.elementary import fma
@@ -77,47 +77,47 @@ TOLD = -1e-5
 RIGHT_ANGLE = 0.5 * math.pi
 
 
-@njit(**EXACT_INNER)
-def heed(s, i, wants, returned):
+@njit(**SIMD_INLINE)
+def set_request(s, i, wants, returned):
     """Whether lane i wants anything before its event, which gives back the speed ``returned``: what that ``wants``, or what comes first."""
-    stage, start, wait, cycle = of(s, i, STAGE), of(s, i, START), of(s, i, WAIT), of(s, i, CYCLE)
-    target, period = of(s, i, TARGET), of(s, i, PERIOD)
-    full = trail_is_full(of(s, i, TRAILS), of(s, i, EVENTS), of(s, i, COUNTED))
+    stage, start, wait, cycle = load(s, i, STAGE), load(s, i, START), load(s, i, WAIT), load(s, i, CYCLE)
+    target, period = load(s, i, TARGET), load(s, i, PERIOD)
+    full = trail_is_full(load(s, i, TRAILS), load(s, i, EVENTS), load(s, i, COUNTED))
     wants = choose(full, READING, wants)
     wants = choose(returned < SLOWEST, ALONE, wants)
     wants = choose(start + wait > (target - cycle) * period, LEG_END, wants)
     wants = choose(stage == ARRIVED, wants, choose(stage == UNSURE, CERTAINTY, CONTENT))
-    put(s, i, WANTS, wants)
+    store(s, i, WANTS, wants)
     return wants != CONTENT
 
 
-@njit(**EXACT_INNER)
-def attend(s):
+@njit(**SIMD_INLINE)
+def set_requests(s):
     """What each lane wants before its impact; whether any wants anything."""
     any_wants = False
     for i in range(LANES):
-        wants = choose(of(s, i, EXCEEDS) == 0.0, CONTENT, PEAK_SEEN)
-        any_wants |= heed(s, i, wants, of(s, i, RESTITUTION) * of(s, i, SPEED))
+        wants = choose(load(s, i, EXCEEDS) == 0.0, CONTENT, PEAK_SEEN)
+        any_wants |= set_request(s, i, wants, load(s, i, RESTITUTION) * load(s, i, SPEED))
     return any_wants
 
 
-@njit(**EXACT_INNER)
-def sheared(s, i):
+@njit(**SIMD_INLINE)
+def saltation_shear(s, i):
     """Of an impact in lane i the shear times the speed, as ``tangent.event_map`` has it."""
-    restitution, next_cosine = of(s, i, RESTITUTION), of(s, i, NEXT_COSINE)
-    return fma((1.0 - restitution) * of(s, i, AMPLITUDE), next_cosine, -(1.0 + restitution))
+    restitution, next_cosine = load(s, i, RESTITUTION), load(s, i, NEXT_COSINE)
+    return fma((1.0 - restitution) * load(s, i, AMPLITUDE), next_cosine, -(1.0 + restitution))
 
 
-@njit(**EXACT_INNER)
-def carry(s, i, factor, shear):
+@njit(**SIMD_INLINE)
+def propagate_tangent(s, i, factor, shear):
     """What an event, [[factor, 0], [shear, factor]], makes of the difference in lane i, where that has arrived."""
     stage, across, along, doublings = (
-        of(s, i, STAGE),
-        of(s, i, ACROSS),
-        of(s, i, ALONG),
-        of(s, i, DOUBLINGS),
+        load(s, i, STAGE),
+        load(s, i, ACROSS),
+        load(s, i, ALONG),
+        load(s, i, DOUBLINGS),
     )
-    sinh, cosh, events = of(s, i, NEXT_SINH), 1.0 + of(s, i, NEXT_VERSINH), of(s, i, EVENTS)
+    sinh, cosh, events = load(s, i, NEXT_SINH), 1.0 + load(s, i, NEXT_VERSINH), load(s, i, EVENTS)
     a, b = fma(cosh, across, sinh * along), fma(sinh, across, cosh * along)
     a, b = factor * a, fma(shear, a, factor * b)
     size = abs(a) + abs(b)
@@ -125,39 +125,39 @@ def carry(s, i, factor, shear):
     scale = choose(large, 1.0 / LARGE, choose(little, LARGE, 1.0))
     times = choose(large, 64.0, choose(little, -64.0, 0.0))
     arrived = stage == ARRIVED
-    put(s, i, ACROSS, choose(arrived, a * scale, across))
-    put(s, i, ALONG, choose(arrived, b * scale, along))
-    put(s, i, DOUBLINGS, choose(arrived, doublings + times, doublings))
-    put(s, i, EVENTS, choose(arrived, events + 1.0, events))
+    store(s, i, ACROSS, choose(arrived, a * scale, across))
+    store(s, i, ALONG, choose(arrived, b * scale, along))
+    store(s, i, DOUBLINGS, choose(arrived, doublings + times, doublings))
+    store(s, i, EVENTS, choose(arrived, events + 1.0, events))
 
 
-@njit(**EXACT_INNER)
+@njit(**SIMD_INLINE)
 def turn_clock(s, i):
     """The cycle of the event in lane i, and the time within it, where that has arrived."""
-    stage, start, cycle, wait = of(s, i, STAGE), of(s, i, START), of(s, i, CYCLE), of(s, i, WAIT)
-    turns, arrived = np.floor((start + wait) * of(s, i, PER_PERIOD)), stage == ARRIVED
-    put(s, i, START, choose(arrived, fma(-turns, of(s, i, PERIOD), start) + wait, start))
-    put(s, i, CYCLE, choose(arrived, cycle + turns, cycle))
+    stage, start, cycle, wait = load(s, i, STAGE), load(s, i, START), load(s, i, CYCLE), load(s, i, WAIT)
+    turns, arrived = np.floor((start + wait) * load(s, i, PER_PERIOD)), stage == ARRIVED
+    store(s, i, START, choose(arrived, fma(-turns, load(s, i, PERIOD), start) + wait, start))
+    store(s, i, CYCLE, choose(arrived, cycle + turns, cycle))
 
 
-@njit(**EXACT_INNER)
-def strike(s):
+@njit(**SIMD_INLINE)
+def apply_impacts(s):
     """Impacts: where a lane has arrived, eq. (2) and the next arc."""
     for i in range(LANES):
-        carry(s, i, of(s, i, RESTITUTION), sheared(s, i) / of(s, i, SPEED))
+        propagate_tangent(s, i, load(s, i, RESTITUTION), saltation_shear(s, i) / load(s, i, SPEED))
     for i in range(LANES):
         turn_clock(s, i)
-        stage, side, velocity = of(s, i, STAGE), of(s, i, SIDE), of(s, i, VELOCITY)
-        cosine, sine = of(s, i, COSINE), of(s, i, SINE)
-        speed, next_cosine, next_sine = of(s, i, SPEED), of(s, i, NEXT_COSINE), of(s, i, NEXT_SINE)
-        restitution, arrived = of(s, i, RESTITUTION), stage == ARRIVED
-        put(s, i, SIDE, choose(arrived, -side, side))
-        put(s, i, VELOCITY, choose(arrived, restitution * speed, velocity))
-        put(s, i, COSINE, choose(arrived, -next_cosine, cosine))
-        put(s, i, SINE, choose(arrived, -next_sine, sine))
+        stage, side, velocity = load(s, i, STAGE), load(s, i, SIDE), load(s, i, VELOCITY)
+        cosine, sine = load(s, i, COSINE), load(s, i, SINE)
+        speed, next_cosine, next_sine = load(s, i, SPEED), load(s, i, NEXT_COSINE), load(s, i, NEXT_SINE)
+        restitution, arrived = load(s, i, RESTITUTION), stage == ARRIVED
+        store(s, i, SIDE, choose(arrived, -side, side))
+        store(s, i, VELOCITY, choose(arrived, restitution * speed, velocity))
+        store(s, i, COSINE, choose(arrived, -next_cosine, cosine))
+        store(s, i, SINE, choose(arrived, -next_sine, sine))
 
 
-@njit(**EXACT_INNER)
+@njit(**SIMD_INLINE)
 def begin(s):
     """The arc that begins where a lane has arrived, or its block has just come: its c+ and c-, and where the walk along it starts.
 
@@ -167,16 +167,21 @@ def begin(s):
     for the lanes before: the machine works on several of them at once.
     """
     for i in range(LANES):
-        stage, start, side, velocity = of(s, i, STAGE), of(s, i, START), of(s, i, SIDE), of(s, i, VELOCITY)
-        cosine, sine, response, response_rate = (
-            of(s, i, COSINE),
-            of(s, i, SINE),
-            of(s, i, RESPONSE),
-            of(s, i, RESPONSE_RATE),
+        stage, start, side, velocity = (
+            load(s, i, STAGE),
+            load(s, i, START),
+            load(s, i, SIDE),
+            load(s, i, VELOCITY),
         )
-        period, per_period = of(s, i, PERIOD), of(s, i, PER_PERIOD)
-        right, left = of(s, i, CUT_RIGHT), of(s, i, CUT_LEFT)
-        growing, shrinking = of(s, i, GROWING), of(s, i, SHRINKING)
+        cosine, sine, response, response_rate = (
+            load(s, i, COSINE),
+            load(s, i, SINE),
+            load(s, i, RESPONSE),
+            load(s, i, RESPONSE_RATE),
+        )
+        period, per_period = load(s, i, PERIOD), load(s, i, PER_PERIOD)
+        right, left = load(s, i, CUT_RIGHT), load(s, i, CUT_LEFT)
+        growing, shrinking = load(s, i, GROWING), load(s, i, SHRINKING)
         mean, half = fma(-response, cosine, -1.0), fma(response_rate, sine, velocity)
         # 2 c+ and 2 c-
         grow, shrink, q = mean + half, mean - half, 1.0 - response
@@ -184,18 +189,18 @@ def begin(s):
         late, twice = logarithms_of_ratios(q + root, -grow, -shrink, -grow)
         to_cut = choose(side > 0.0, right, left) - start
         begins = stage >= BEGUN
-        put(s, i, GROWING, choose(begins, 0.5 * grow, growing))
-        put(s, i, SHRINKING, choose(begins, 0.5 * shrink, shrinking))
-        put(s, i, DEEP, m)
-        put(s, i, TWICE, twice)
-        put(s, i, LATE, choose(q > m, late, -math.inf))
-        put(s, i, CUT, fma(-np.floor(to_cut * per_period), period, to_cut))
+        store(s, i, GROWING, choose(begins, 0.5 * grow, growing))
+        store(s, i, SHRINKING, choose(begins, 0.5 * shrink, shrinking))
+        store(s, i, DEEP, m)
+        store(s, i, TWICE, twice)
+        store(s, i, LATE, choose(q > m, late, -math.inf))
+        store(s, i, CUT, fma(-np.floor(to_cut * per_period), period, to_cut))
     for i in range(LANES):
-        stage, grow, shrink = of(s, i, STAGE), of(s, i, GROWING), of(s, i, SHRINKING)
-        m, twice, late, cut = of(s, i, DEEP), of(s, i, TWICE), of(s, i, LATE), of(s, i, CUT)
-        square, response, inside = of(s, i, FREQUENCY_SQUARE), of(s, i, RESPONSE), of(s, i, INSIDE)
-        period, per_period = of(s, i, PERIOD), of(s, i, PER_PERIOD)
-        low, end, exceeds, peak = of(s, i, LOW), of(s, i, END), of(s, i, EXCEEDS), of(s, i, PEAK)
+        stage, grow, shrink = load(s, i, STAGE), load(s, i, GROWING), load(s, i, SHRINKING)
+        m, twice, late, cut = load(s, i, DEEP), load(s, i, TWICE), load(s, i, LATE), load(s, i, CUT)
+        square, response, inside = load(s, i, FREQUENCY_SQUARE), load(s, i, RESPONSE), load(s, i, INSIDE)
+        period, per_period = load(s, i, PERIOD), load(s, i, PER_PERIOD)
+        low, end, exceeds, peak = load(s, i, LOW), load(s, i, END), load(s, i, EXCEEDS), load(s, i, PEAK)
         told = max(grow, shrink) < TOLD
         away = fma(-0.5, inside + twice, cut)
         away = fma(-np.floor(fma(away, per_period, 0.5)), period, away)
@@ -203,7 +208,7 @@ def begin(s):
         # 1 - cos y >= y**2 (1/2 - a**2/4! + a**4/6! - a**6/8!) for y up to a, and at least 1 from a = pi/2 to pi
         away_2 = away * away
         a = min(square * away_2, RIGHT_ANGLE * RIGHT_ANGLE)
-        bowl = of(s, i, BOWL) * fma(-a, fma(-a, fma(-a, I8, I6), I4), I2)
+        bowl = load(s, i, BOWL) * fma(-a, fma(-a, fma(-a, I8, I6), I4), I2)
         above = 1.0 - m + response - peak
         may_exceed = (above > response) | (above * (m + bowl) > 0.5 * away_2 * bowl * m)
         early, late = twice - late + 2.0 * ROUGHLY, late - 2.0 * ROUGHLY
@@ -211,13 +216,13 @@ def begin(s):
         turns = choose(leaps, np.floor((late - cut) * per_period), 0.0)
         cut = fma(turns, period, cut)
         begins = stage >= BEGUN
-        put(s, i, EXCEEDS, choose(begins, choose(told & (may_exceed == False), 0.0, 1.0), exceeds))  # noqa: E712
-        put(s, i, LOW, choose(begins, max(cut - inside, 0.0), low))
-        put(s, i, END, choose(begins, cut, end))
+        store(s, i, EXCEEDS, choose(begins, choose(told & (may_exceed == False), 0.0, 1.0), exceeds))  # noqa: E712
+        store(s, i, LOW, choose(begins, max(cut - inside, 0.0), low))
+        store(s, i, END, choose(begins, cut, end))
     for i in range(LANES):
-        stage, end, z, per_z = of(s, i, STAGE), of(s, i, END), of(s, i, Z), of(s, i, PER_Z)
+        stage, end, z, per_z = load(s, i, STAGE), load(s, i, END), load(s, i, Z), load(s, i, PER_Z)
         new_z, new_per_z = both_exponentials(end)
         begins = stage >= BEGUN
-        put(s, i, Z, choose(begins, new_z, z))
-        put(s, i, PER_Z, choose(begins, new_per_z, per_z))
-        put(s, i, STAGE, choose(begins, WALK, stage))
+        store(s, i, Z, choose(begins, new_z, z))
+        store(s, i, PER_Z, choose(begins, new_per_z, per_z))
+        store(s, i, STAGE, choose(begins, WALK, stage))

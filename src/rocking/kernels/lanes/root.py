@@ -6,7 +6,7 @@ from numba import njit
 
 from rocking.kernels.arc.bracket import MARGIN
 from rocking.kernels.arc.fast_path import I2, I3, I4, I5, I6
-from rocking.kernels.compile_options import EXACT_INNER
+from rocking.kernels.compile_options import SIMD_INLINE
 from rocking.kernels.lanes.evaluate import correction, derivatives, elements, halved, instant_of, onward
 from rocking.kernels.lanes.rows import (  # fmt: skip
     ABOUT,
@@ -59,8 +59,8 @@ from rocking.kernels.lanes.rows import (  # fmt: skip
     WAIT,
     WALK,
     Z,
-    of,
-    put,
+    load,
+    store,
 )
 from rocking.kernels.numerics.elementary import fma
 from rocking.kernels.numerics.simd import choose
@@ -70,7 +70,7 @@ MOST_TRIES = 12
 NEAR = 1e-3
 
 
-@njit(**EXACT_INNER)
+@njit(**SIMD_INLINE)
 def taylor(c, x):
     """(w, w', w''/2) a time x later by their Taylor series, of which c are the coefficients: by Horner's rule, thrice."""
     c0, c1, c2, c3, c4, c5, c6 = c
@@ -91,23 +91,23 @@ def taylor(c, x):
     return fma(x, w, c0), dw, bend
 
 
-@njit(**EXACT_INNER)
-def aim(s):
+@njit(**SIMD_INLINE)
+def initial_guess(s):
     """The middle of the half of its stretch that holds the zero, u and its derivatives there, and where a parabola comes down."""
     for i in range(LANES):
-        concave, end, low, high = of(s, i, CONCAVE), of(s, i, END), of(s, i, LOW), of(s, i, HIGH)
+        concave, end, low, high = load(s, i, CONCAVE), load(s, i, END), load(s, i, LOW), load(s, i, HIGH)
         z, per_z, grow, shrink = (
-            of(s, i, Z),
-            of(s, i, PER_Z),
-            of(s, i, GROWING),
-            of(s, i, SHRINKING),
+            load(s, i, Z),
+            load(s, i, PER_Z),
+            load(s, i, GROWING),
+            load(s, i, SHRINKING),
         )
-        amplitude, frequency, response = of(s, i, AMPLITUDE), of(s, i, FREQUENCY), of(s, i, RESPONSE)
-        inside, cosine_in, sine_in = of(s, i, INSIDE), of(s, i, COSINE_IN), of(s, i, SINE_IN)
-        outside, cosine_out, sine_out = of(s, i, OUTSIDE), of(s, i, COSINE_OUT), of(s, i, SINE_OUT)
-        grow_in, decay_in = of(s, i, GROW_IN), of(s, i, DECAY_IN)
-        grow_out, decay_out = of(s, i, GROW_OUT), of(s, i, DECAY_OUT)
-        velocity, cosine_0, sine_0 = of(s, i, VELOCITY), of(s, i, COSINE), of(s, i, SINE)
+        amplitude, frequency, response = load(s, i, AMPLITUDE), load(s, i, FREQUENCY), load(s, i, RESPONSE)
+        inside, cosine_in, sine_in = load(s, i, INSIDE), load(s, i, COSINE_IN), load(s, i, SINE_IN)
+        outside, cosine_out, sine_out = load(s, i, OUTSIDE), load(s, i, COSINE_OUT), load(s, i, SINE_OUT)
+        grow_in, decay_in = load(s, i, GROW_IN), load(s, i, DECAY_IN)
+        grow_out, decay_out = load(s, i, GROW_OUT), load(s, i, DECAY_OUT)
+        velocity, cosine_0, sine_0 = load(s, i, VELOCITY), load(s, i, COSINE), load(s, i, SINE)
         within = concave > 0.0
         # of the concave stretch, which ends at ``end``, or of the convex one, which begins there
         more, less = choose(within, grow_in, grow_out), choose(within, decay_in, decay_out)
@@ -121,7 +121,7 @@ def aim(s):
         cosine, sine = choose(within, cosine_in, cosine_out), choose(within, sine_in, sine_out)
         sine = choose(late, sine, -sine)
         u = growing + shrinking + fma(response, cosine, 1.0)
-        v = fma(-of(s, i, RESPONSE_RATE), sine, growing - shrinking)
+        v = fma(-load(s, i, RESPONSE_RATE), sine, growing - shrinking)
         about = middle + choose(late, quarter, -quarter)
         # A short hop comes down about where the parabola from its start does.
         fall = fma(amplitude, cosine_0, 1.0)
@@ -134,21 +134,26 @@ def aim(s):
         root = math.sqrt(max(under, 0.0))
         x = choose(v > 0.0, v + root, 2.0 * u) / choose(v > 0.0, -second, root - v)
         near = hops | ((under > 0.0) & (abs(x) < quarter))
-        put(s, i, ANGLE_THERE, u)
-        put(s, i, RATE_THERE, v)
-        put(s, i, COSINE_THERE, cosine)
-        put(s, i, SINE_THERE, sine)
-        put(s, i, ABOUT, choose(hops, 0.0, about))
-        put(s, i, OFF, choose(near, x, choose(u > 0.0, 0.5, -0.5) * quarter))
+        store(s, i, ANGLE_THERE, u)
+        store(s, i, RATE_THERE, v)
+        store(s, i, COSINE_THERE, cosine)
+        store(s, i, SINE_THERE, sine)
+        store(s, i, ABOUT, choose(hops, 0.0, about))
+        store(s, i, OFF, choose(near, x, choose(u > 0.0, 0.5, -0.5) * quarter))
 
 
-@njit(**EXACT_INNER)
+@njit(**SIMD_INLINE)
 def guess(s):
-    """Where the zero lies, to some six digits: two steps on the Taylor series about where ``aim`` has it."""
+    """Where the zero lies, to some six digits: two steps on the Taylor series about where ``initial_guess`` has it."""
     for i in range(LANES):
-        stage, time, low, high = of(s, i, STAGE), of(s, i, TIME), of(s, i, LOW), of(s, i, HIGH)
-        about, x = of(s, i, ABOUT), of(s, i, OFF)
-        there = of(s, i, ANGLE_THERE), of(s, i, RATE_THERE), of(s, i, COSINE_THERE), of(s, i, SINE_THERE)
+        stage, time, low, high = load(s, i, STAGE), load(s, i, TIME), load(s, i, LOW), load(s, i, HIGH)
+        about, x = load(s, i, ABOUT), load(s, i, OFF)
+        there = (
+            load(s, i, ANGLE_THERE),
+            load(s, i, RATE_THERE),
+            load(s, i, COSINE_THERE),
+            load(s, i, SINE_THERE),
+        )
         c0, c1, c2, c3, c4, c5, c6 = derivatives(s, i, there)
         c = c0, c1, I2 * c2, I3 * c3, I4 * c4, I5 * c5, I6 * c6
         w, dw, half_ddw = taylor(c, x)
@@ -160,24 +165,24 @@ def guess(s):
         found = about + x - w / dw
         found = choose((dw < 0.0) & (found > low) & (found < high), found, 0.5 * (low + high))
         guessing = stage == GUESS
-        put(s, i, TIME, choose(guessing, found, time))
-        put(s, i, STAGE, choose(guessing, REFINE, stage))
+        store(s, i, TIME, choose(guessing, found, time))
+        store(s, i, STAGE, choose(guessing, REFINE, stage))
 
 
-@njit(**EXACT_INNER)
-def look(s):
+@njit(**SIMD_INLINE)
+def evaluate_trial(s):
     """The instant at the time that each lane looks at, on arcs from the base."""
     elements(s)
     for i in range(LANES):
         u, v, cosine, sine = instant_of(s, i, -1.0)
-        put(s, i, ANGLE_THERE, u)
-        put(s, i, RATE_THERE, v)
-        put(s, i, COSINE_THERE, cosine)
-        put(s, i, SINE_THERE, sine)
+        store(s, i, ANGLE_THERE, u)
+        store(s, i, RATE_THERE, v)
+        store(s, i, COSINE_THERE, cosine)
+        store(s, i, SINE_THERE, sine)
 
 
-@njit(**EXACT_INNER)
-def above_tangent(u, fall, t, low, high):
+@njit(**SIMD_INLINE)
+def positive_by_tangent(u, fall, t, low, high):
     """Whether u is certainly positive on [low, high], in a convex stretch, by its value at t and fall = u + u' there.
 
     y = u e^t, convex in e^2t, lies above its tangent; (e^2d - 1)/2d <= 1 + 8d up to d = 2.
@@ -187,19 +192,19 @@ def above_tangent(u, fall, t, low, high):
     return u - choose(fall > 0.0, fall * (t - low), down) > MARGIN
 
 
-@njit(**EXACT_INNER)
+@njit(**SIMD_INLINE)
 def step(s):
     """From the time looked at to the zero, or nearer to it; or to the bottom of a dip, which shows that there is none."""
     for i in range(LANES):
-        stage, t, low, high = of(s, i, STAGE), of(s, i, TIME), of(s, i, LOW), of(s, i, HIGH)
-        tries, wait, cleared = of(s, i, TRIES), of(s, i, WAIT), of(s, i, CLEARED)
-        sinh, versinh = of(s, i, SINH), of(s, i, VERSINH)
-        frequency = of(s, i, FREQUENCY)
+        stage, t, low, high = load(s, i, STAGE), load(s, i, TIME), load(s, i, LOW), load(s, i, HIGH)
+        tries, wait, cleared = load(s, i, TRIES), load(s, i, WAIT), load(s, i, CLEARED)
+        sinh, versinh = load(s, i, SINH), load(s, i, VERSINH)
+        frequency = load(s, i, FREQUENCY)
         u, v, cosine, sine = (
-            of(s, i, ANGLE_THERE),
-            of(s, i, RATE_THERE),
-            of(s, i, COSINE_THERE),
-            of(s, i, SINE_THERE),
+            load(s, i, ANGLE_THERE),
+            load(s, i, RATE_THERE),
+            load(s, i, COSINE_THERE),
+            load(s, i, SINE_THERE),
         )
         _, _, second, third, fourth, fifth, _ = derivatives(s, i, (u, v, cosine, sine))
         diving, fall = stage == BOTTOM, u + v
@@ -214,27 +219,27 @@ def step(s):
         arrived, x = (stage == REFINE) & close, y * factor
         slope = fma(x, fma(x, fma(x, fma(x, I4 * fifth, I3 * fourth), I2 * third), second), v)
         cosine, sine, sinh, versinh = onward(x, frequency, cosine, sine, sinh, versinh)
-        put(s, i, WAIT, choose(arrived, t + x, wait))
+        store(s, i, WAIT, choose(arrived, t + x, wait))
         # of a lane that has not arrived nobody asks for these
-        put(s, i, SPEED, -slope)
-        put(s, i, NEXT_COSINE, cosine)
-        put(s, i, NEXT_SINE, sine)
-        put(s, i, NEXT_SINH, sinh)
-        put(s, i, NEXT_VERSINH, versinh)
+        store(s, i, SPEED, -slope)
+        store(s, i, NEXT_COSINE, cosine)
+        store(s, i, NEXT_SINE, sine)
+        store(s, i, NEXT_SINH, sinh)
+        store(s, i, NEXT_VERSINH, versinh)
 
         # the bottom of a dip, where u + u' = 0, as ``first_zero.dip``
         held, through = diving | (stage == REFINE), diving & (u < 0.0)
-        above = diving & above_tangent(u, fall, t, low, high)
+        above = diving & positive_by_tangent(u, fall, t, low, high)
         beyond = choose(diving, through | (fall > 0.0), u <= 0.0)
         low, high = choose(held & (beyond == False), t, low), choose(held & beyond, t, high)  # noqa: E712
         ahead = t + choose(diving, -fall * per, y * halved(factor))
         # A step that would leave what holds the zero, or the bottom, goes to its middle.
         inside = (ahead >= low) & (ahead <= high) & (diving | (v < 0.0))
-        put(s, i, TIME, choose(held, choose(inside, ahead, 0.5 * (low + high)), t))
-        put(s, i, LOW, low)
-        put(s, i, HIGH, high)
-        put(s, i, TRIES, choose(held, tries + 1.0, tries))
-        put(s, i, CLEARED, choose(above, 1.0, cleared))
+        store(s, i, TIME, choose(held, choose(inside, ahead, 0.5 * (low + high)), t))
+        store(s, i, LOW, low)
+        store(s, i, HIGH, high)
+        store(s, i, TRIES, choose(held, tries + 1.0, tries))
+        store(s, i, CLEARED, choose(above, 1.0, cleared))
         tired = choose(held & (tries > MOST_TRIES), UNSURE, stage)
         on = choose(above, WALK, choose(through, REFINE, tired))
-        put(s, i, STAGE, choose(arrived, ARRIVED, on))
+        store(s, i, STAGE, choose(arrived, ARRIVED, on))

@@ -12,7 +12,7 @@ import math
 from numba import njit
 
 from rocking.kernels.arc.bracket import MARGIN
-from rocking.kernels.compile_options import EXACT_INNER
+from rocking.kernels.compile_options import SIMD_INLINE
 from rocking.kernels.numerics.simd import SHORT_ANGLE, SHORT_TIME
 
 LANES = 48
@@ -75,59 +75,59 @@ TRAIL = 385
 LARGE = 2.0**64
 
 
-@njit(**EXACT_INNER)
-def of(s, i, row):
+@njit(**SIMD_INLINE)
+def load(s, i, row):
     """A number of lane i."""
     return s[row * LANES + i]
 
 
-@njit(**EXACT_INNER)
-def put(s, i, row, value):
+@njit(**SIMD_INLINE)
+def store(s, i, row, value):
     """Set a number of lane i."""
     s[row * LANES + i] = value
 
 
-@njit(**EXACT_INNER)
+@njit(**SIMD_INLINE)
 def trail_is_full(trails, events, counted):
     """Whether a trail must be read before another arc is written into it: where none is asked for (``trails`` 0) never."""
     return trails * (events - counted) > TRAIL - 3.0
 
 
-@njit(**EXACT_INNER)
+@njit(**SIMD_INLINE)
 def set_system(s, i, p):
     """What lane i must know of its system."""
-    put(s, i, AMPLITUDE, p.amplitude)
-    put(s, i, FREQUENCY, p.frequency)
-    put(s, i, PHASE, p.phase)
-    put(s, i, RESPONSE, p.response)
-    put(s, i, RESTITUTION, p.restitution)
-    put(s, i, PERIOD, p.period)
-    put(s, i, PER_PERIOD, 1.0 / p.period)
-    put(s, i, AMPLITUDE_RATE, p.amplitude * p.frequency)
-    put(s, i, FREQUENCY_SQUARE, p.frequency * p.frequency)
-    put(s, i, RESPONSE_RATE, p.response * p.frequency)
-    put(s, i, BOWL, 2.0 * p.response * p.frequency * p.frequency)
-    put(s, i, BRIEF, min(SHORT_TIME, SHORT_ANGLE / p.frequency))
-    put(s, i, BRACE_ANGLE, p.brace_angle)
-    put(s, i, BRACE_RESTITUTION, p.brace_restitution)
+    store(s, i, AMPLITUDE, p.amplitude)
+    store(s, i, FREQUENCY, p.frequency)
+    store(s, i, PHASE, p.phase)
+    store(s, i, RESPONSE, p.response)
+    store(s, i, RESTITUTION, p.restitution)
+    store(s, i, PERIOD, p.period)
+    store(s, i, PER_PERIOD, 1.0 / p.period)
+    store(s, i, AMPLITUDE_RATE, p.amplitude * p.frequency)
+    store(s, i, FREQUENCY_SQUARE, p.frequency * p.frequency)
+    store(s, i, RESPONSE_RATE, p.response * p.frequency)
+    store(s, i, BOWL, 2.0 * p.response * p.frequency * p.frequency)
+    store(s, i, BRIEF, min(SHORT_TIME, SHORT_ANGLE / p.frequency))
+    store(s, i, BRACE_ANGLE, p.brace_angle)
+    store(s, i, BRACE_RESTITUTION, p.brace_restitution)
     cut = p.base_half - p.phase
     for row, eta in ((CUT_RIGHT, cut), (CUT_LEFT, cut - math.pi)):
-        put(s, i, row, (eta - 2.0 * math.pi * math.floor(eta / (2.0 * math.pi))) * p.per_frequency)
-    put(s, i, CUT_PLACE, p.cut_place)
-    put(s, i, CUT_RATE, p.cut_rate)
-    put(s, i, INSIDE, p.base_inside)
-    put(s, i, OUTSIDE, p.base_outside)
-    put(s, i, TURN_GROWTH, p.turn_growth)
-    put(s, i, TURN_DECAY, p.turn_decay)
-    put(s, i, HALF_GROWTH, math.exp(0.5 * p.base_outside))
-    put(s, i, HALF_DECAY, math.exp(-0.5 * p.base_outside))
-    put(s, i, HALF_TANH, math.tanh(0.5 * p.base_outside) * (1.0 + MARGIN))
+        store(s, i, row, (eta - 2.0 * math.pi * math.floor(eta / (2.0 * math.pi))) * p.per_frequency)
+    store(s, i, CUT_PLACE, p.cut_place)
+    store(s, i, CUT_RATE, p.cut_rate)
+    store(s, i, INSIDE, p.base_inside)
+    store(s, i, OUTSIDE, p.base_outside)
+    store(s, i, TURN_GROWTH, p.turn_growth)
+    store(s, i, TURN_DECAY, p.turn_decay)
+    store(s, i, HALF_GROWTH, math.exp(0.5 * p.base_outside))
+    store(s, i, HALF_DECAY, math.exp(-0.5 * p.base_outside))
+    store(s, i, HALF_TANH, math.tanh(0.5 * p.base_outside) * (1.0 + MARGIN))
     cosine, sine = math.cos(0.5 * p.base_half), math.sin(0.5 * p.base_half)
-    put(s, i, COSINE_IN, cosine)
-    put(s, i, SINE_IN, sine)
-    put(s, i, GROW_IN, math.exp(0.25 * p.base_inside))
-    put(s, i, DECAY_IN, math.exp(-0.25 * p.base_inside))
-    put(s, i, COSINE_OUT, -sine)
-    put(s, i, SINE_OUT, -cosine)
-    put(s, i, GROW_OUT, math.exp(0.25 * p.base_outside))
-    put(s, i, DECAY_OUT, math.exp(-0.25 * p.base_outside))
+    store(s, i, COSINE_IN, cosine)
+    store(s, i, SINE_IN, sine)
+    store(s, i, GROW_IN, math.exp(0.25 * p.base_inside))
+    store(s, i, DECAY_IN, math.exp(-0.25 * p.base_inside))
+    store(s, i, COSINE_OUT, -sine)
+    store(s, i, SINE_OUT, -cosine)
+    store(s, i, GROW_OUT, math.exp(0.25 * p.base_outside))
+    store(s, i, DECAY_OUT, math.exp(-0.25 * p.base_outside))

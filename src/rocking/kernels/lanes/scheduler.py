@@ -9,14 +9,14 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
-from rocking.kernels.classify.cascade import leg, look, outgrown, over_batch
-from rocking.kernels.classify.classifier_state import Case, next_look, opened
-from rocking.kernels.classify.quasi_periodicity import may_be_asked_for
+from rocking.kernels.classify.cascade import checkpoint_unstable, evaluate_checkpoint, march_leg, over_batch
+from rocking.kernels.classify.classifier_state import ClassifierState, next_look, opened
+from rocking.kernels.classify.quasi_periodicity import section_needed
 from rocking.kernels.classify.reset import begin_tangent
-from rocking.kernels.classify.results import Answers, answer, asked
+from rocking.kernels.classify.results import ResultArrays, parameters_from_row, store_result
 from rocking.kernels.classify.verdict_record import OPEN, undecided
 from rocking.kernels.classify.workspace import LEG
-from rocking.kernels.compile_options import INNER, MAKING_ENTRY, WITHIN
+from rocking.kernels.compile_options import ALLOCATING_ENTRY, INTERNAL, INTERNAL_INLINE
 from rocking.kernels.event_kinds import FLIGHT, IMPACT
 from rocking.kernels.lanes.rows import (  # fmt: skip
     ALONE,
@@ -35,23 +35,23 @@ from rocking.kernels.lanes.rows import (  # fmt: skip
     TARGET,
     TRAILS,
     WANTS,
-    of,
-    put,
+    load,
+    store,
 )
 from rocking.kernels.lanes.step import advance, advance_between, strike, strike_between
 from rocking.kernels.lanes.transfer import (
-    find,
+    find_event_scalar,
     flights_by_now,
     growth_since,
-    note,
-    read,
-    seat,
-    see_peak,
+    lane_request,
+    load_block,
+    log_arcs,
     set_difference,
     set_leg,
-    wanted,
+    unload_block,
+    update_peak,
 )
-from rocking.kernels.lanes.workspace import place
+from rocking.kernels.lanes.workspace import lane_workspace
 from rocking.kernels.march.march import DONE
 from rocking.kernels.parameters import HarmonicParameters
 
@@ -59,26 +59,26 @@ from rocking.kernels.parameters import HarmonicParameters
 SHORTEST = 0.1
 
 
-class Guest(NamedTuple):
+class LaneWork(NamedTuple):
     """Who is in a lane: which point, -1 if none."""
 
     point: int
     p: HarmonicParameters
-    case: Case
+    case: ClassifierState
 
 
-class Asking(NamedTuple):
+class BatchRequest(NamedTuple):
     """What is asked, of whom, and where the answers go."""
 
     systems: np.ndarray
     starts: np.ndarray
     max_cycles: int
     max_period: int
-    answers: Answers
+    answers: ResultArrays
 
 
-@njit(**WITHIN)
-def fits(p, case):
+@njit(**INTERNAL)
+def lane_eligible(p, case):
     """Whether plain marching is all that is left: between braces from event to event, or without any where nothing is lost."""
     run, watch = case.run, case.run.watch
     progress, arc = watch.progress, watch.progress.arc
@@ -90,125 +90,127 @@ def fits(p, case):
     return plain and run.lossless and run.flights.event == IMPACT
 
 
-@njit(**WITHIN)
-def with_run(case, run):
+@njit(**INTERNAL)
+def replace_run(case, run):
     """The case with its motion further on."""
-    return Case(run, *case[1:])
+    return ClassifierState(run, *case[1:])
 
 
-@njit(**INNER)
-def passed(s, i, guest, max_cycles, bench):
+@njit(**INTERNAL_INLINE)
+def try_skip_readback(s, i, guest, max_cycles, bench):
     """(whether a lane at the end of its leg was sent on without being read, its block): if its motion has outgrown any torus.
 
     What differences have grown by is read in any case.
     """
     point, p, case = guest
     target, most = next_look(case, max_cycles), bench.flights.shape[1]
-    if not case.run.lossless or of(s, i, TRAILS) > 0.0 or case.converged or target == max_cycles:
+    if not case.run.lossless or load(s, i, TRAILS) > 0.0 or case.converged or target == max_cycles:
         return False, guest
     grown, bench.columns[i, 0, 0], bench.columns[i, 0, 1] = growth_since(s, i)
     growth = bench.growth[i, 0] + grown
     bench.growth[i, 0] = growth
-    further = outgrown(case, flights_by_now(s, i, case.run.flights, most), max_cycles, growth)
+    further = checkpoint_unstable(case, flights_by_now(s, i, case.run.flights, most), max_cycles, growth)
     ahead = next_look(further, max_cycles)
-    if may_be_asked_for(growth, ahead, max_cycles, bench.scratch.shape[0]):
+    if section_needed(growth, ahead, max_cycles, bench.scratch.shape[0]):
         return False, guest
     if further.measured > case.measured:
         exponent = over_batch(p, case.run.watch, target, max_cycles, growth - case.grown)
         bench.batches[i, case.measured] = exponent
     set_leg(s, i, ahead, False)
-    return True, Guest(point, p, further)
+    return True, LaneWork(point, p, further)
 
 
-@njit(**INNER)
-def onward(s, i, wants, guest, queue, asking, bench):
+@njit(**INTERNAL_INLINE)
+def service_lane(s, i, wants, guest, queue, asking, bench):
     """(who is in a lane, how many were let in) after a leg, or part of one: its block again, or the next that comes to plain marching."""
     point, p, case = guest
-    desk, trail = place(bench, i), bench.trail[i]
+    workspace, trail = lane_workspace(bench, i), bench.trail[i]
     systems, starts, max_cycles, max_period, answers = asking
     told, settled, ended = undecided(case.run.watch), wants == BLOCK, wants == LEG_END
-    marched = ended and of(s, i, TARGET) == next_look(case, max_cycles)
+    marched = ended and load(s, i, TARGET) == next_look(case, max_cycles)
     stays, due = wants < BLOCK or ended, marched or wants == ALONE
     status, run = np.int64(DONE), case.run
     if not settled:
-        status, run = read(s, i, wants, p, run, max_cycles, desk, trail)
-        case = with_run(case, run)
-    while due or settled or not fits(p, case):
+        status, run = unload_block(s, i, wants, p, run, max_cycles, workspace, trail)
+        case = replace_run(case, run)
+    while due or settled or not lane_eligible(p, case):
         if settled:
             if point >= 0:
-                answer(answers, point, told)
+                store_result(answers, point, told)
             if queue == systems.shape[0]:
-                put(s, i, STAGE, IDLE)
-                return Guest(-1, p, case), queue
+                store(s, i, STAGE, IDLE)
+                return LaneWork(-1, p, case), queue
             point, queue = queue, queue + 1
-            p = asked(systems[point])
+            p = parameters_from_row(systems[point])
             case, told = opened(p, starts[point, 0], starts[point, 1], max_cycles), undecided(case.run.watch)
             settled = stays = False
-            if fits(p, case):
-                begin_tangent(desk.columns, desk.growth)
+            if lane_eligible(p, case):
+                begin_tangent(workspace.columns, workspace.growth)
                 break
         if not marched:
             stays = False
-            status, run = leg(p, case.run, max_cycles, next_look(case, max_cycles), desk)
-        told, case = look(p, case, status, run, max_cycles, max_period, desk)
+            status, run = march_leg(p, case.run, max_cycles, next_look(case, max_cycles), workspace)
+        told, case = evaluate_checkpoint(p, case, status, run, max_cycles, max_period, workspace)
         due, marched, settled = False, False, told[0] != OPEN
     if stays:
-        set_difference(s, i, desk.columns)
+        set_difference(s, i, workspace.columns)
     else:
-        seat(s, i, p, case.run.watch.progress, desk.columns, case.run.flights.count)
+        load_block(s, i, p, case.run.watch.progress, workspace.columns, case.run.flights.count)
     # no more cycles at a time than the section has room for
     target = min(next_look(case, max_cycles), case.run.watch.progress.cycle + LEG)
-    asked_for = not case.run.lossless or may_be_asked_for(
-        desk.growth[0], target, max_cycles, desk.scratch.shape[0]
+    asked_for = not case.run.lossless or section_needed(
+        workspace.growth[0], target, max_cycles, workspace.scratch.shape[0]
     )
     set_leg(s, i, target, asked_for)
-    return Guest(point, p, case), queue
+    return LaneWork(point, p, case), queue
 
 
-@njit(**WITHIN)
-def until_wanted(s, flights, trail, braced, stop):
+@njit(**INTERNAL)
+def run_lanes(s, flights, trail, braced, stop):
     """All lanes onward until one of them wants attention."""
     while stop[0] == 0:
         if braced:
             strike_between(s)
         else:
             strike(s)
-        note(s, flights, trail, braced)
+        log_arcs(s, flights, trail, braced)
         if advance_between(s) if braced else advance(s):
             return
 
 
-@njit(**MAKING_ENTRY)
-def judge_together(systems, starts, max_cycles, max_period, bench, answers, stop):
+@njit(**ALLOCATING_ENTRY)
+def classify_batch_lanes(systems, starts, max_cycles, max_period, bench, answers, stop):
     """Whether all points were judged, and ``stop[0]`` not set on the way; arguments as for ``batch.judge_each``."""
-    s, p, queue, blocks = bench.state, asked(systems[0]), np.int64(0), LANES
+    s, p, queue, blocks = bench.state, parameters_from_row(systems[0]), np.int64(0), LANES
     braced = p.brace_angle < math.inf
-    asking = Asking(systems, starts, max_cycles, max_period, answers)
-    guests = [Guest(-1, p, opened(p, 0.0, 0.0, max_cycles))] * LANES
+    asking = BatchRequest(systems, starts, max_cycles, max_period, answers)
+    guests = [LaneWork(-1, p, opened(p, 0.0, 0.0, max_cycles))] * LANES
     for i in range(LANES):
-        put(s, i, STAGE, IDLE)
-        put(s, i, WANTS, BLOCK)
+        store(s, i, STAGE, IDLE)
+        store(s, i, WANTS, BLOCK)
     while stop[0] == 0:
         for i in range(LANES):
-            wants = of(s, i, WANTS)
+            wants = load(s, i, WANTS)
             if wants == CONTENT:
                 continue
             if wants == CERTAINTY:
-                wants = find(s, i, guests[i].p)
+                wants = find_event_scalar(s, i, guests[i].p)
             elif wants == SLOW_SEEN:
-                wants = wanted(s, i, guests[i].p)
+                wants = lane_request(s, i, guests[i].p)
             while wants != CONTENT and wants != PEAK_SEEN:
                 on, guest = (
-                    passed(s, i, guests[i], max_cycles, bench) if wants == LEG_END else (False, guests[i])
+                    try_skip_readback(s, i, guests[i], max_cycles, bench)
+                    if wants == LEG_END
+                    else (False, guests[i])
                 )
                 if not on:
-                    guest, queue = onward(s, i, wants, guest, queue, asking, bench)
+                    guest, queue = service_lane(s, i, wants, guest, queue, asking, bench)
                     blocks -= guest.point < 0
                 guests[i] = guest
-                wants = wanted(s, i, guests[i].p)
-            if of(s, i, STAGE) == ARRIVED and of(s, i, EXCEEDS) > 0.0:
-                see_peak(s, i, guests[i].p)
+                wants = lane_request(s, i, guests[i].p)
+            if load(s, i, STAGE) == ARRIVED and load(s, i, EXCEEDS) > 0.0:
+                update_peak(s, i, guests[i].p)
         if blocks == 0:
             break
-        until_wanted(s, bench.flights, bench.trail, braced, stop)
+        run_lanes(s, bench.flights, bench.trail, braced, stop)
     return blocks == 0

@@ -7,13 +7,13 @@ from llvmlite import ir
 from numba import njit, types
 from numba.extending import intrinsic
 
-from rocking.kernels.classify.workspace import Desk, Nothing, desk
-from rocking.kernels.compile_options import WITHIN
+from rocking.kernels.classify.workspace import NoRecording, Workspace, make_workspace
+from rocking.kernels.compile_options import INTERNAL
 from rocking.kernels.lanes.rows import LANES, ROWS, TRAIL
 
 
 @intrinsic
-def fetch(typingctx, address):
+def prefetch_for_write(typingctx, address):
     """Have the line of memory at an address brought near: it is about to be written. An address beyond all arrays does no harm."""
 
     def generate(context, builder, signature, arguments):
@@ -27,8 +27,8 @@ def fetch(typingctx, address):
     return types.void(types.intp), generate
 
 
-class Bench(NamedTuple):
-    """Working memory: for each lane what its desk must keep from leg to leg."""
+class LaneWorkspace(NamedTuple):
+    """Working memory: for each lane what its workspace must keep from leg to leg."""
 
     state: np.ndarray
     trail: np.ndarray  # (lanes, n, 8), the arcs since they were last read, as ``event_rows.note`` has them
@@ -41,18 +41,18 @@ class Bench(NamedTuple):
     columns: np.ndarray
     trial: np.ndarray
     growth: np.ndarray
-    nothing: Nothing
+    nothing: NoRecording
 
 
-def bench(max_cycles, max_period):
-    """Working memory as ``desk`` makes it; the state begins where a vector of the machine may."""
-    one, room = desk(max_cycles, max_period), np.zeros(ROWS * LANES + 8)
+def make_lane_workspace(max_cycles, max_period):
+    """Working memory as ``make_workspace`` makes it; the state begins where a vector of the machine may."""
+    one, room = make_workspace(max_cycles, max_period), np.zeros(ROWS * LANES + 8)
     first = -(room.ctypes.data // 8) % 8
     section, flights, batches, columns, growth = (
         np.zeros((LANES, *part.shape))
         for part in (one.section, one.flights, one.batches, one.columns, one.growth)
     )
-    return Bench(
+    return LaneWorkspace(
         room[first : first + ROWS * LANES],
         np.zeros((LANES, TRAIL, 8)),
         section,
@@ -68,18 +68,18 @@ def bench(max_cycles, max_period):
     )
 
 
-@njit(**WITHIN)
-def place(bench, lane):
-    """The desk of a lane."""
-    return Desk(
-        bench.section[lane],
-        bench.scratch,
-        bench.events,
-        bench.flights[lane],
-        bench.weights,
-        bench.batches[lane],
-        bench.columns[lane],
-        bench.trial,
-        bench.growth[lane],
-        bench.nothing,
+@njit(**INTERNAL)
+def lane_workspace(workspace, lane):
+    """The workspace of a lane."""
+    return Workspace(
+        workspace.section[lane],
+        workspace.scratch,
+        workspace.events,
+        workspace.flights[lane],
+        workspace.weights,
+        workspace.batches[lane],
+        workspace.columns[lane],
+        workspace.trial,
+        workspace.growth[lane],
+        workspace.nothing,
     )

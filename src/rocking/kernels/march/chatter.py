@@ -4,11 +4,11 @@ import math
 
 from numba import njit
 
-from rocking.kernels.compile_options import COMPILED, WITHIN
-from rocking.kernels.forcing.harmonic import drift, forcing_term
+from rocking.kernels.compile_options import INTERNAL, KERNEL
+from rocking.kernels.forcing.harmonic import acceleration_change_bound, forcing_term
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def settling_time(speed, restitution, weakest, strongest, room):
     """A bound on how long impacts go on, from one that leaves at ``speed``.
 
@@ -29,7 +29,7 @@ def settling_time(speed, restitution, weakest, strongest, room):
     return speed * (1.0 + ratio) / (press * (1.0 - fall))
 
 
-@njit(**COMPILED)
+@njit(**KERNEL)
 def base_settling_time(p, cosine, sine, speed):
     """A bound on the time from an impact to rest (Zeno limit at the base), infinite where not certain.
 
@@ -40,18 +40,18 @@ def base_settling_time(p, cosine, sine, speed):
     if p.restitution >= 1.0 or swing >= 1.0:
         return math.inf
     window = 5.0 * speed / ((1.0 - swing) * (1.0 - p.restitution))
-    moved = drift(p, cosine, sine, window)
+    moved = acceleration_change_bound(p, cosine, sine, window)
     bound = settling_time(speed, p.restitution, 1.0 - swing - moved, 1.0 - swing + moved, p.brace_angle)
     return bound if bound <= window else math.inf
 
 
-@njit(**COMPILED)
+@njit(**KERNEL)
 def brace_settling_time(p, cosine, sine, speed):
     """A bound on the time from a hit to leaning, infinite where it is not certain; the brace is pressed with brace_angle + f."""
     press = p.brace_angle + forcing_term(p, cosine)
     if p.brace_restitution >= 1.0 or press <= 0.0:
         return math.inf
     window = 5.0 * speed / (press * (1.0 - p.brace_restitution))
-    moved = drift(p, cosine, sine, window)
+    moved = acceleration_change_bound(p, cosine, sine, window)
     bound = settling_time(speed, p.brace_restitution, press - moved, press + moved, p.brace_angle)
     return bound if bound <= window else math.inf

@@ -3,11 +3,11 @@
 from numba import njit
 
 from rocking.kernels.arc.solution import evaluate, within_reach
-from rocking.kernels.compile_options import ENTRY, WITHIN
+from rocking.kernels.compile_options import ENTRY_POINT, INTERNAL
 from rocking.kernels.event_kinds import BRACE, FLIGHT, LEAN, LEANS, NONE, REST, RESTS
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def state_at(p, mode, arc, t):
     """(Theta, Theta') a time t into an arc, a rest or a lean."""
     if mode == REST:
@@ -18,7 +18,7 @@ def state_at(p, mode, arc, t):
     return arc.side * within_reach(p, now.angle), arc.side * now.velocity
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def note_state(p, row, mode, arc, t, impacts, brace_hits):
     """Write a row of the section, a time t into an arc, a rest or a lean."""
     row[0], row[1] = state_at(p, mode, arc, t)
@@ -26,7 +26,7 @@ def note_state(p, row, mode, arc, t, impacts, brace_hits):
         row[2], row[3] = impacts, brace_hits
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def note(events, count, cycle, mode, arc, event, before):
     """Write one event, with the arc that follows it and the velocity before it."""
     row = events[count]
@@ -41,7 +41,7 @@ def note(events, count, cycle, mode, arc, event, before):
     return count + 1
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def note_event(events, count, cycle, mode, arc, event, before):
     """Write an event; rest or leaning that begins with it is an event of its own at the same instant."""
     count = note(events, count, cycle, mode, arc, event, before)
@@ -50,7 +50,7 @@ def note_event(events, count, cycle, mode, arc, event, before):
     return note(events, count, cycle, mode, arc, RESTS if mode == REST else LEANS, 0.0)
 
 
-@njit(**ENTRY)
+@njit(**ENTRY_POINT)
 def note_start(events, progress, hit, velocity):
     """Write what a motion begins with: its first arc, after a hit on a brace (and leaning there) where it starts with one."""
     mode, arc = progress.mode, progress.arc

@@ -5,7 +5,7 @@ import math
 from numba import njit
 
 from rocking.kernels.arc.solution import arc_after, arc_from
-from rocking.kernels.compile_options import INLINED, WITHIN
+from rocking.kernels.compile_options import INTERNAL, KERNEL_INLINE
 from rocking.kernels.event_kinds import BRACE, FLIGHT, IMPACT, LEAN, LEAVE, LIFT_OFF, REST
 from rocking.kernels.march.chatter import base_settling_time, brace_settling_time
 from rocking.kernels.march.next_event import side_to_lift, stays_leaning
@@ -18,7 +18,7 @@ NEGLIGIBLE = 1e-30
 SLOW = 0.1
 
 
-@njit(**INLINED)
+@njit(**KERNEL_INLINE)
 def after_impact(p, arc, time, coming, quiet):
     """(mode, arc) after an impact at the base.
 
@@ -44,7 +44,7 @@ def after_impact(p, arc, time, coming, quiet):
     return mode, after
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def after_brace(p, arc, time, coming, quiet):
     """(mode, arc) after a hit on a brace."""
     speed = p.brace_restitution * max(coming.velocity, 0.0)
@@ -67,7 +67,7 @@ def after_brace(p, arc, time, coming, quiet):
     return mode, after
 
 
-@njit(**INLINED)
+@njit(**KERNEL_INLINE)
 def after_event(p, arc, time, coming, quiet):
     """(mode, arc) after the coming event."""
     if coming.event == IMPACT:

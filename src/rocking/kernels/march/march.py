@@ -12,8 +12,15 @@ from numba import njit
 
 from rocking.kernels.arc.extrema import largest_on, peak_with
 from rocking.kernels.arc.first_zero import LONGEST, no_return_time
-from rocking.kernels.arc.solution import Arc, arc_from, earlier, evaluate, recall, within_reach
-from rocking.kernels.compile_options import ENTRY, INLINED, WITHIN
+from rocking.kernels.arc.solution import (
+    Arc,
+    arc_from,
+    evaluate,
+    propagator_or_none,
+    shift_clock,
+    within_reach,
+)
+from rocking.kernels.compile_options import ENTRY_POINT, INTERNAL, KERNEL_INLINE
 from rocking.kernels.event_kinds import BRACE, FLIGHT, IMPACT, LEAN, REST
 from rocking.kernels.march.event_rows import note_event, note_state
 from rocking.kernels.march.impact_law import after_event
@@ -74,8 +81,8 @@ class Progress(NamedTuple):
     strain: float  # logarithm of what differences had grown to when the block last came to rest or leaned
 
 
-@njit(**INLINED)
-def plain(progress):
+@njit(**KERNEL_INLINE)
+def to_tuple(progress):
     """A progress as nested tuples: what a kernel hands to Python.
 
     A named tuple is made by calling its class, and an interrupt (Ctrl-C) that strikes there, on the way out of compiled code,
@@ -98,12 +105,12 @@ def plain(progress):
     )
 
 
-def named(fields):
-    """The progress that ``plain`` took apart."""
+def from_tuple(fields):
+    """The progress that ``to_tuple`` took apart."""
     return Progress(*fields[:2], Arc(*fields[2]), *fields[3:])
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def begin(p, angle, velocity, waits, start=0.0):
     """The block just after any event at the time ``start`` within its first cycle, and whether a brace was hit there.
 
@@ -128,14 +135,14 @@ def begin(p, angle, velocity, waits, start=0.0):
     ), hit
 
 
-@njit(**ENTRY)
+@njit(**ENTRY_POINT)
 def begin_plain(p, angle, velocity):
     """``begin`` as Python may have it."""
     progress, hit = begin(p, angle, velocity, UNKNOWN)
-    return plain(progress), hit
+    return to_tuple(progress), hit
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def finish(p, reached, coming, columns, growth, want_peak):
     """(status, progress) at the end of a march: differences, peak and arc are brought there.
 
@@ -164,7 +171,7 @@ def finish(p, reached, coming, columns, growth, want_peak):
     )
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def march_on(p, progress, cycles, section_time, section, events, columns, growth, want_peak, want_release):
     """March to the end of cycle ``cycles``: (status, progress, section rows written, event rows written).
 
@@ -189,7 +196,7 @@ def march_on(p, progress, cycles, section_time, section, events, columns, growth
     light, measured = columns.shape[0] == TANGENT and growth.shape[0] < TANGENT, growth.shape[0] == 1
     tangent = read_tangent(columns) if light else Tangent(0.0, 0.0, 0.0, 0.0)
     written, rows, breath, ended, paused, released = 0, 0, 0, False, False, False
-    last_lapse, lapse_before = recall(p, last_wait), recall(p, wait_before)
+    last_lapse, lapse_before = propagator_or_none(p, last_wait), propagator_or_none(p, wait_before)
     while True:
         coming, lapse = next_event(p, mode, arc, lapse_before)
         at = arc.start + coming.wait
@@ -203,7 +210,7 @@ def march_on(p, progress, cycles, section_time, section, events, columns, growth
                     rows += 1
                 continue
             cycle, crowd, pending = cycle + 1, 0, True
-            arc, no_return = earlier(arc, p.period), no_return - p.period
+            arc, no_return = shift_clock(arc, p.period), no_return - p.period
             at = arc.start + coming.wait
             ended = cycle >= cycles or no_return <= 0.0
             if ended:
@@ -253,19 +260,19 @@ def march_on(p, progress, cycles, section_time, section, events, columns, growth
     return status, reached, rows, written
 
 
-@njit(**ENTRY)
+@njit(**ENTRY_POINT)
 def march_plain(p, progress, cycles, section_time, section, events, columns, growth, want_peak):
     """``march_on`` to the end of cycle ``cycles`` as Python may have it."""
     status, reached, rows, written = march_on(
         p, progress, cycles, section_time, section, events, columns, growth, want_peak, False
     )
-    return status, plain(reached), rows, written
+    return status, to_tuple(reached), rows, written
 
 
 def begin_march(p, angle, velocity):
     """``begin_plain`` for Python: (progress, whether a brace was hit)."""
     fields, hit = begin_plain(p, angle, velocity)
-    return named(fields), hit
+    return from_tuple(fields), hit
 
 
 def march(p, progress, cycles, section_time, section, events, columns, growth, want_peak):
@@ -273,4 +280,4 @@ def march(p, progress, cycles, section_time, section, events, columns, growth, w
     status, fields, rows, written = march_plain(
         p, progress, cycles, section_time, section, events, columns, growth, want_peak
     )
-    return status, named(fields), rows, written
+    return status, from_tuple(fields), rows, written

@@ -7,12 +7,12 @@ from numba import njit
 
 from rocking.kernels.arc.bracket import MARGIN, ZERO
 from rocking.kernels.arc.bracket import NEVER as NEVER_MORE
-from rocking.kernels.arc.fast_path import likely_event, likely_impact
+from rocking.kernels.arc.fast_path import fast_first_event, fast_first_impact
 from rocking.kernels.arc.first_zero import CROSSING, LONGEST, NEVER, base_watch, brace_watch, first_zero
-from rocking.kernels.arc.solution import NONE_YET, evaluate, recall
-from rocking.kernels.compile_options import COMPILED, INLINED, WITHIN
+from rocking.kernels.arc.solution import NONE_YET, evaluate, propagator_or_none
+from rocking.kernels.compile_options import INTERNAL, KERNEL, KERNEL_INLINE
 from rocking.kernels.event_kinds import BRACE, FLIGHT, IMPACT, LEAN, LEAVE, LIFT_OFF, NONE, REST
-from rocking.kernels.forcing.harmonic import first_cut, next_cut
+from rocking.kernels.forcing.harmonic import first_sign_change, next_sign_change
 
 
 class Next(NamedTuple):
@@ -29,20 +29,22 @@ class Next(NamedTuple):
     versinh: float
 
 
-@njit(**INLINED)
+@njit(**KERNEL_INLINE)
 def until_window(p, side, psi, half, inside):
     """Time until eta next enters |eta| < half (``inside``) or leaves it: 0 in the first half of that window.
 
     Who is still held in the second half of a window, having come back at its very end before the clock moved, waits
     for the next.
     """
-    cut, now_inside = first_cut(p, side, psi, 0.0, half)
+    cut, now_inside = first_sign_change(p, side, psi, 0.0, half)
     if now_inside != inside:
         return cut
-    return 0.0 if cut > 0.5 * next_cut(p, half, inside) else cut + next_cut(p, half, not inside)
+    return (
+        0.0 if cut > 0.5 * next_sign_change(p, half, inside) else cut + next_sign_change(p, half, not inside)
+    )
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def wait_at_rest(p, psi):
     """(time until |A cos psi| rises through 1, side of the lift-off); infinite for A <= 1."""
     if p.base_half == math.inf:
@@ -52,7 +54,7 @@ def wait_at_rest(p, psi):
     return (right, 1) if right < left else (left, -1)
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def wait_leaning(p, side, psi):
     """Time until the brace is no longer pressed, brace_angle + f falling through 0; infinite where it always is."""
     if p.brace_half == math.inf:
@@ -60,32 +62,32 @@ def wait_leaning(p, side, psi):
     return until_window(p, side, psi, p.brace_half, True)
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def side_to_lift(p, psi):
     """The side to which a block standing still at the base lifts now: where f > 0; 0 where it stays."""
     if p.base_half < math.inf:
         for side in (1, -1):
-            if not first_cut(p, side, psi, 0.0, p.base_half)[1]:
+            if not first_sign_change(p, side, psi, 0.0, p.base_half)[1]:
                 return side
     return 0
 
 
-@njit(**COMPILED)
+@njit(**KERNEL)
 def stays_leaning(p, side, psi):
     """Whether a block standing still at the brace is pressed against it: brace_angle + f > 0."""
     if p.brace_half == math.inf:
         return p.brace_angle > 1.0
-    return not first_cut(p, side, psi, 0.0, p.brace_half)[1]
+    return not first_sign_change(p, side, psi, 0.0, p.brace_half)[1]
 
 
-@njit(**INLINED)
+@njit(**KERNEL_INLINE)
 def grazes(p, arc, t, velocity):
     """Whether an arc arrives so slowly that the last digits tell whether it arrives at all."""
     pull = p.amplitude + 1.0
     return velocity * velocity <= MARGIN * pull * (arc.angle + t * (abs(arc.velocity) + t * pull))
 
 
-@njit(**INLINED)
+@njit(**KERNEL_INLINE)
 def next_event(p, mode, arc, guess):
     """(what comes next and when, the lapse to guess from next time), from the lapse until the coming event as it is guessed.
 
@@ -94,9 +96,9 @@ def next_event(p, mode, arc, guess):
     if mode == FLIGHT and p.base_half < math.inf:
         at_brace, lapse = False, NONE_YET
         if p.brace_angle == math.inf:
-            answer, t, now, lapse = likely_impact(p, arc, guess)
+            answer, t, now, lapse = fast_first_impact(p, arc, guess)
         else:
-            answer, at_brace, t, now = likely_event(p, arc)
+            answer, at_brace, t, now = fast_first_event(p, arc)
         if answer == NEVER_MORE:
             return Next(math.inf, NONE, arc.side, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0), guess
         if answer == ZERO and not grazes(p, arc, t, now.velocity):
@@ -107,10 +109,10 @@ def next_event(p, mode, arc, guess):
     coming = any_event(p, mode, arc)
     if mode != FLIGHT or p.brace_angle < math.inf:
         return coming, guess
-    return coming, recall(p, min(coming.wait, LONGEST))
+    return coming, propagator_or_none(p, min(coming.wait, LONGEST))
 
 
-@njit(**COMPILED)
+@njit(**KERNEL)
 def any_event(p, mode, arc):
     """What comes next, and when, without a guess."""
     if mode == REST:

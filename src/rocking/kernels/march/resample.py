@@ -7,18 +7,18 @@ from numba import njit
 from rocking.kernels.arc.extrema import first_turn_sign, next_turn
 from rocking.kernels.arc.first_zero import CROSSING
 from rocking.kernels.arc.solution import arc_from, evaluate, within_reach
-from rocking.kernels.compile_options import ENTRY, WITHIN
+from rocking.kernels.compile_options import ENTRY_POINT, INTERNAL
 from rocking.kernels.event_kinds import FLIGHT
 from rocking.kernels.forcing.harmonic import forcing_term
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def arc_of(p, row):
     """The arc that an event row (``event_rows.note``) began."""
     return arc_from(p, int(row[4]), row[1], row[5], row[6])
 
 
-@njit(**ENTRY)
+@njit(**ENTRY_POINT)
 def sample(p, rows, index, elapsed, out):
     """Write (Theta, Theta', Theta'') into ``out`` (n, 3), a time ``elapsed[k]`` into the arc, rest or lean of row ``index[k]``."""
     for k in range(index.shape[0]):
@@ -34,7 +34,7 @@ def sample(p, rows, index, elapsed, out):
                 out[k, :] = side * math.inf
 
 
-@njit(**ENTRY)
+@njit(**ENTRY_POINT)
 def turns(p, rows, until, out):
     """Write (row, time into its arc, Theta) of every local extreme of the flights.
 

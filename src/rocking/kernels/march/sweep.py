@@ -4,12 +4,12 @@ import math
 
 from numba import njit
 
-from rocking.kernels.compile_options import ENTRY, WITHIN
+from rocking.kernels.compile_options import ENTRY_POINT, INTERNAL
 from rocking.kernels.march.march import CROWDED, DONE, OVERTURNED, PAUSED, UNKNOWN, begin, march_on
 from rocking.kernels.parameters import make
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def marched(p, angle, velocity, cycles, section_time, section, nothing, want_peak):
     """(status, Theta, Theta', peak) after whole cycles; ``section`` takes the states at ``section_time``."""
     progress, _ = begin(p, angle, velocity, UNKNOWN)
@@ -32,7 +32,7 @@ def marched(p, angle, velocity, cycles, section_time, section, nothing, want_pea
     return status, arc.side * arc.angle + 0.0, arc.side * arc.velocity + 0.0, progress.peak
 
 
-@njit(**ENTRY)
+@njit(**ENTRY_POINT)
 def sweep(systems, angle, velocity, carry, transient, section_phase, section, peaks, statuses, nothing):
     """(Theta, Theta') with which the next system would begin, when all of ``systems`` (n, 7) have had their turn.
 

@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 from numba import njit
 
-from rocking.kernels.compile_options import INLINED, WITHIN
+from rocking.kernels.compile_options import INTERNAL, KERNEL_INLINE
 from rocking.kernels.event_kinds import BRACE, FLIGHT, IMPACT, LEAVE, NONE
 from rocking.kernels.forcing.harmonic import forcing_term, sensitivities
 from rocking.kernels.numerics.elementary import hyperbolic
@@ -42,33 +42,33 @@ class Tangent(NamedTuple):
     d: float
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def read_tangent(columns):
     """The first two rows."""
     return Tangent(columns[0, 0], columns[0, 1], columns[1, 0], columns[1, 1])
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def write_tangent(columns, tangent):
     """Back into the first two rows."""
     columns[0, 0], columns[0, 1] = tangent.a, tangent.b
     columns[1, 0], columns[1, 1] = tangent.c, tangent.d
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def log_strain(tangent):
     """Logarithm of what a difference in velocity has grown to; a release fixes the angle."""
     return math.log(max(abs(tangent.c), abs(tangent.d)))
 
 
-@njit(**INLINED)
+@njit(**KERNEL_INLINE)
 def out_of_scale(tangent):
     """Whether the first difference must be brought back to size 1; one that is forgotten stays forgotten."""
     size = max(abs(tangent.a), abs(tangent.b))
     return size > LARGE or 0.0 < size < SMALL
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def normalised(tangent, growth):
     """The tangent with its first difference at size 1; the logarithm of what that takes out is added to ``growth`` (1,)."""
     size = math.hypot(tangent.a, tangent.b)
@@ -78,27 +78,27 @@ def normalised(tangent, growth):
     return Tangent(tangent.a / size, tangent.b / size, tangent.c / size, tangent.d / size)
 
 
-@njit(**INLINED)
+@njit(**KERNEL_INLINE)
 def mapped(tangent, aa, ab, ba, bb):
     """Both differences by one matrix."""
     a, b, c, d = tangent
     return Tangent(aa * a + ab * b, ba * a + bb * b, aa * c + ab * d, ba * c + bb * d)
 
 
-@njit(**INLINED)
+@njit(**KERNEL_INLINE)
 def along(tangent, sinh, versinh):
     """Along an arc: [[cosh t, sinh t], [sinh t, cosh t]]."""
     return mapped(tangent, 1.0 + versinh, sinh, sinh, 1.0 + versinh)
 
 
-@njit(**INLINED)
+@njit(**KERNEL_INLINE)
 def through(tangent, event):
     """Through an event: [[factor, 0], [shear, factor]], as ``event_map`` gives them."""
     factor, shear = event
     return mapped(tangent, factor, 0.0, shear, factor)
 
 
-@njit(**INLINED)
+@njit(**KERNEL_INLINE)
 def event_map(p, arc, coming, mode_after, side_after):
     """(factor, shear) of an event: e and (Theta''+ - e Theta''-)/Theta'- of an impact, e replaced by -r at a brace.
 
@@ -117,13 +117,13 @@ def event_map(p, arc, coming, mode_after, side_after):
     return (1.0 if coming.event == NONE else 0.0), 0.0
 
 
-@njit(**INLINED)
+@njit(**KERNEL_INLINE)
 def shear_of(gained, velocity):
     """What an event adds to delta Theta' for each delta Theta: it comes so much later; none where it only touches."""
     return gained / velocity if velocity != 0.0 else 0.0
 
 
-@njit(**INLINED)
+@njit(**KERNEL_INLINE)
 def carried(p, tangent, mode, arc, coming, mode_after, side_after):
     """The tangent along an arc (at rest and leaning it stays) and through the event that ends it."""
     if mode == FLIGHT:
@@ -131,7 +131,7 @@ def carried(p, tangent, mode, arc, coming, mode_after, side_after):
     return through(tangent, event_map(p, arc, coming, mode_after, side_after))
 
 
-@njit(**INLINED)
+@njit(**KERNEL_INLINE)
 def map_rows(columns, aa, ab, ba, bb):
     """Every row by one matrix."""
     for k in range(columns.shape[0]):
@@ -140,7 +140,7 @@ def map_rows(columns, aa, ab, ba, bb):
         columns[k, 1] = ba * a + bb * b
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def carry_arc(p, arc, columns, growth, t, elapsed):
     """All rows along an arc of length t that began ``elapsed`` after the start of the march.
 
@@ -157,7 +157,7 @@ def carry_arc(p, arc, columns, growth, t, elapsed):
         carry_forcing(p, arc, columns, t, elapsed)
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def carry_rows(p, columns, growth, mode, arc, coming, mode_after, side_after, elapsed):
     """All rows along an arc and through its event, with what the restitutions and the place of the brace add."""
     if mode == FLIGHT:
@@ -179,7 +179,7 @@ def carry_rows(p, columns, growth, mode, arc, coming, mode_after, side_after, el
         orthonormalise(columns, growth)
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def carry_forcing(p, arc, columns, t, elapsed):
     """The forcing's own share in the parameter rows of an arc that began ``elapsed`` after the start of the march."""
     sinh, versinh, excess, _ = hyperbolic(t)
@@ -195,7 +195,7 @@ def carry_forcing(p, arc, columns, t, elapsed):
     columns[Row.FREQUENCY, 1] -= side * (rate_f + elapsed * rate_psi)
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def orthonormalise(columns, growth):
     """Gram-Schmidt on the two tangent rows; the logarithms of what it takes out are added to ``growth``."""
     a, b = columns[0, 0], columns[0, 1]

@@ -5,14 +5,14 @@ import math
 import numpy as np
 from numba import njit
 
-from rocking.kernels.compile_options import COMPILED, ENTRY, EXACT, MAKING, MAKING_ENTRY, WITHIN
+from rocking.kernels.compile_options import ALLOCATING, ALLOCATING_ENTRY, ENTRY_POINT, INTERNAL, KERNEL, SIMD
 from rocking.kernels.numerics.simd import both_exponentials
 
 # Of a weight below e to minus this nothing is seen in a sum.
 UNSEEN = 700.0
 
 
-@njit(**EXACT)
+@njit(**SIMD)
 def bumps(count, weights):
     """The weights of the first half of ``count`` values, several at a time; the other half has the same from its end.
 
@@ -26,7 +26,7 @@ def bumps(count, weights):
         weights[half - 1] *= 0.5
 
 
-@njit(**MAKING)
+@njit(**ALLOCATING)
 def weighted_mean(values):
     """Birkhoff average with the weight exp(-1/(x(1 - x))), x from 0 to 1 along ``values``.
 
@@ -41,14 +41,14 @@ def weighted_mean(values):
     return total / (2.0 * weights.sum())
 
 
-@njit(**MAKING)
+@njit(**ALLOCATING)
 def digits_of_agreement(values):
     """To how many decimal digits the weighted means of both halves of ``values`` agree, relative to their size."""
     half = values.shape[0] // 2
     return digits_alike(weighted_mean(values[:half]), weighted_mean(values[half : 2 * half]))
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def digits_with(values, weights):
     """``digits_of_agreement`` by the weights that ``bumps`` gives half as many values."""
     half, first, second = values.shape[0] // 2, 0.0, 0.0
@@ -59,7 +59,7 @@ def digits_with(values, weights):
     return digits_alike(first, second)
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def digits_alike(first, second):
     """To how many decimal digits two numbers agree, relative to their size."""
     scale = max(abs(first), abs(second))
@@ -68,7 +68,7 @@ def digits_alike(first, second):
     return -math.log10(abs(first - second) / scale)
 
 
-@njit(**COMPILED)
+@njit(**KERNEL)
 def error_of_sum(departures, width):
     """Standard error of a sum, from how far its terms depart from their mean, ``width`` neighbours taken together."""
     groups = departures.shape[0] // width
@@ -79,7 +79,7 @@ def error_of_sum(departures, width):
     return math.sqrt(spread * groups / (groups - 1))
 
 
-@njit(**MAKING)
+@njit(**ALLOCATING)
 def batch_error(batches):
     """(mean, standard error, correlation) of a series from batch means: the largest error of all, half and a quarter as many.
 
@@ -96,19 +96,19 @@ def batch_error(batches):
     return mean, largest / batches.shape[0], correlation
 
 
-@njit(**MAKING_ENTRY)
+@njit(**ALLOCATING_ENTRY)
 def weighted_mean_plain(values):
     """``weighted_mean`` for Python."""
     return weighted_mean(values)
 
 
-@njit(**MAKING_ENTRY)
+@njit(**ALLOCATING_ENTRY)
 def digits_of_agreement_plain(values):
     """``digits_of_agreement`` for Python."""
     return digits_of_agreement(values)
 
 
-@njit(**ENTRY)
+@njit(**ENTRY_POINT)
 def error_of_sum_plain(departures, width):
     """``error_of_sum`` for Python."""
     return error_of_sum(departures, width)

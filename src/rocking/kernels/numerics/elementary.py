@@ -11,7 +11,7 @@ import numpy as np
 from numba import njit, types
 from numba.extending import intrinsic
 
-from rocking.kernels.compile_options import INLINED
+from rocking.kernels.compile_options import KERNEL_INLINE
 
 # Coefficients by increasing power of the squared argument: 1/3!, 1/5!, ... and 1/4!, 1/6!, ...; the first
 # dropped term is below 2**-55 of the sum at 2.
@@ -35,7 +35,7 @@ def fma(typingctx, a, b, c):
     return types.float64(types.float64, types.float64, types.float64), generate
 
 
-@njit(**INLINED)
+@njit(**KERNEL_INLINE)
 def series(q, c):
     """Sum of c[k] q**k for 12 coefficients, two interleaved chains (half the latency of one)."""
     q2 = q * q
@@ -47,7 +47,7 @@ def series(q, c):
     return fma(odd, q, even)
 
 
-@njit(**INLINED)
+@njit(**KERNEL_INLINE)
 def short_series(q, c):
     """The first 8 terms, enough for |argument| <= pi/4."""
     q2 = q * q
@@ -56,13 +56,13 @@ def short_series(q, c):
     return fma(odd, q, even)
 
 
-@njit(**INLINED)
+@njit(**KERNEL_INLINE)
 def size(x, y):
     """The length of (x, y), of numbers whose squares are numbers: a third of the cost of ``math.hypot``."""
     return math.sqrt(x * x + y * y)
 
 
-@njit(**INLINED)
+@njit(**KERNEL_INLINE)
 def hyperbolic(t):
     """(sinh t, cosh t - 1, sinh t - t, cosh t - 1 - t**2/2) for t >= 0."""
     q = t * t
@@ -77,7 +77,7 @@ def hyperbolic(t):
     return sinh, versinh, sinh - t, fma(-0.5, q, versinh)
 
 
-@njit(**INLINED)
+@njit(**KERNEL_INLINE)
 def quarter_turn(x, correction):
     """(sin, cos, 1 - |cos|, quadrant) of ``x + correction``, 0 <= x up to 10**6, ``correction`` an ulp of x or so.
 
@@ -106,7 +106,7 @@ def quarter_turn(x, correction):
     return sine, cosine, versine, k
 
 
-@njit(**INLINED)
+@njit(**KERNEL_INLINE)
 def circular(rate, t):
     """(sin x, 1 - cos x, x - sin x, for short x also x**2/2 - 1 + cos x) of x = rate * t >= 0.
 
@@ -124,7 +124,7 @@ def circular(rate, t):
     return sine, versine, x - sine, 0.0
 
 
-@njit(**INLINED)
+@njit(**KERNEL_INLINE)
 def direction(angle):
     """(sin, cos, 1 - |cos|, whether that is accurate however small) of an angle of either sign."""
     sine, cosine, versine, k = quarter_turn(abs(angle), 0.0)

@@ -2,10 +2,10 @@
 
 from numba import njit
 
-from rocking.kernels.compile_options import WITHIN
+from rocking.kernels.compile_options import INTERNAL
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def solve(matrix, right, n):
     """Solve the leading n x n system by elimination with row pivots; ``right`` becomes the solution. False where it is singular."""
     for k in range(n):

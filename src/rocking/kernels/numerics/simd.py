@@ -11,7 +11,7 @@ from llvmlite import ir
 from numba import njit, types
 from numba.extending import intrinsic
 
-from rocking.kernels.compile_options import EXACT_INNER
+from rocking.kernels.compile_options import SIMD_INLINE
 from rocking.kernels.numerics.economised import economised
 from rocking.kernels.numerics.elementary import EVEN, HALF_PI, ODD, TWO_OVER_PI, fma
 
@@ -69,21 +69,21 @@ def from_bits(typingctx, n):
     return types.float64(types.int64), generate
 
 
-@njit(**EXACT_INNER)
+@njit(**SIMD_INLINE)
 def five_terms(q, c):
     """Sum of c[k] q**k, in two chains of which neither waits for the other."""
     q2 = q * q
     return fma(fma(c[3], q2, c[1]), q, fma(fma(c[4], q2, c[2]), q2, c[0]))
 
 
-@njit(**EXACT_INNER)
+@njit(**SIMD_INLINE)
 def six_terms(q, c):
     """``five_terms`` with one more."""
     q2 = q * q
     return fma(fma(fma(c[5], q2, c[3]), q2, c[1]), q, fma(fma(c[4], q2, c[2]), q2, c[0]))
 
 
-@njit(**EXACT_INNER)
+@njit(**SIMD_INLINE)
 def reduced_exponential(t, one):
     """(sinh r, cosh r - 1, sinh r - r, cosh r - 1 - r**2/2, k, 2**k, 2**-k) of t = r + k ln 2, abs(r) <= ln 2 / 2.
 
@@ -98,14 +98,14 @@ def reduced_exponential(t, one):
     return r + excess, fma(0.5, q, higher), excess, higher, k, from_bits(one + power), from_bits(one - power)
 
 
-@njit(**EXACT_INNER)
+@njit(**SIMD_INLINE)
 def both_exponentials(t):
     """(e^t, e^-t) for abs(t) < 700: even and odd part of the reduced argument serve both."""
     odd, even, _, _, _, up, down = reduced_exponential(t, ONE)
     return (1.0 + (even + odd)) * up, (1.0 + (even - odd)) * down
 
 
-@njit(**EXACT_INNER)
+@njit(**SIMD_INLINE)
 def hyperbolic(t):
     """(sinh t, cosh t - 1, sinh t - t, for short t also cosh t - 1 - t**2/2) for t >= 0."""
     odd, even, excess, higher, k, up, down = reduced_exponential(t, HALF)
@@ -114,7 +114,7 @@ def hyperbolic(t):
     return choose(short, odd, sinh), choose(short, even, versinh), choose(short, excess, sinh - t), higher
 
 
-@njit(**EXACT_INNER)
+@njit(**SIMD_INLINE)
 def circular(rate, t):
     """(sin x, 1 - cos x, x - sin x, for short x also x**2/2 - 1 + cos x) of x = rate * t, 0 <= x up to 10**4."""
     x = rate * t
@@ -140,7 +140,7 @@ def circular(rate, t):
     return sine, choose(short, versine, 1.0 - cosine), choose(short, excess, x - sine), higher
 
 
-@njit(**EXACT_INNER)
+@njit(**SIMD_INLINE)
 def parts(x):
     """(m, k) with x = m * 2**k of a normal x > 0; m lies between 2**-1/2 and 2**1/2 whatever x is, NaN too."""
     bits = bits_of(x)
@@ -148,7 +148,7 @@ def parts(x):
     return from_bits(bits - (exponent << EXPONENT)), from_bits(exponent + INTEGER) - ROUNDER
 
 
-@njit(**EXACT_INNER)
+@njit(**SIMD_INLINE)
 def logarithms_of_ratios(a, b, c, d):
     """ln(a/b) and ln(c/d) of normal numbers above 0, to 5.4e-6 (``ROUGHLY``); one division, the slowest step, serves both.
 
@@ -160,7 +160,7 @@ def logarithms_of_ratios(a, b, c, d):
     return logarithm(i - j, (a - b) * (c + d) * per), logarithm(k - n, (c - d) * (a + b) * per)
 
 
-@njit(**EXACT_INNER)
+@njit(**SIMD_INLINE)
 def logarithm(power, s):
     """power ln 2 + 2 artanh s for |s| <= 1/3."""
     q = s * s

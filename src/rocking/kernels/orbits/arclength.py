@@ -6,11 +6,11 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
-from rocking.kernels.compile_options import WITHIN
+from rocking.kernels.compile_options import INTERNAL
 from rocking.kernels.numerics.linear_solve import solve
 
 
-class Desk(NamedTuple):
+class NewtonWorkspace(NamedTuple):
     """Working memory for n unknowns."""
 
     weights: np.ndarray  # of the square of each unknown in the square of a length
@@ -24,18 +24,18 @@ class Desk(NamedTuple):
     kept: np.ndarray
 
 
-def desk(phases, *scales):
+def make_newton_workspace(phases, *scales):
     """Working memory for so many phases, which count as one, and for parameters, each in its own scale."""
     n = phases + len(scales)
     weights = np.append(np.full(phases, 1.0 / phases), [1.0 / scale**2 for scale in scales])
     vectors = (np.zeros(n) for _ in range(5))
     right, misses, aim, trial, kept = vectors
-    return Desk(
+    return NewtonWorkspace(
         weights, np.zeros((n, n)), np.zeros((n, n)), right, misses, np.zeros((n, 7)), aim, trial, kept
     )
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def along(direction, y, origin, weights):
     """How far y lies from ``origin`` along a direction."""
     total = 0.0
@@ -44,7 +44,7 @@ def along(direction, y, origin, weights):
     return total
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def norm(v, weights):
     """Length of a direction."""
     total = 0.0
@@ -53,47 +53,47 @@ def norm(v, weights):
     return math.sqrt(total)
 
 
-@njit(**WITHIN)
-def border(desk, direction):
+@njit(**INTERNAL)
+def border(workspace, direction):
     """The equations with the direction as the last row, ready to be solved."""
     n = direction.shape[0]
     for i in range(n - 1):
         for j in range(n):
-            desk.matrix[i, j] = desk.jacobian[i, j]
+            workspace.matrix[i, j] = workspace.jacobian[i, j]
     for j in range(n):
-        desk.matrix[n - 1, j] = desk.weights[j] * direction[j]
+        workspace.matrix[n - 1, j] = workspace.weights[j] * direction[j]
 
 
-@njit(**WITHIN)
-def newton_step(desk, y, direction):
-    """One step of Newton's method, in place, on the equations and on the plane through ``desk.aim`` across a direction: its size."""
+@njit(**INTERNAL)
+def newton_step(workspace, y, direction):
+    """One step of Newton's method, in place, on the equations and on the plane through ``workspace.aim`` across a direction: its size."""
     n = direction.shape[0]
-    border(desk, direction)
+    border(workspace, direction)
     for j in range(n - 1):
-        desk.right[j] = -desk.misses[j]
-    desk.right[n - 1] = -along(direction, y, desk.aim, desk.weights)
-    if not solve(desk.matrix, desk.right, n):
+        workspace.right[j] = -workspace.misses[j]
+    workspace.right[n - 1] = -along(direction, y, workspace.aim, workspace.weights)
+    if not solve(workspace.matrix, workspace.right, n):
         return math.inf
     size = 0.0
     for j in range(n):
-        y[j] += desk.right[j]
+        y[j] += workspace.right[j]
         # a phase counts in full however many there are
-        size = max(size, abs(desk.right[j]) * min(1.0, math.sqrt(desk.weights[j] * n)))
+        size = max(size, abs(workspace.right[j]) * min(1.0, math.sqrt(workspace.weights[j] * n)))
     return size
 
 
-@njit(**WITHIN)
-def turn_direction(direction, desk):
+@njit(**INTERNAL)
+def turn_direction(direction, workspace):
     """The curve's direction where the equations were last assembled, to the same side as before: in place; False where it has none."""
     n = direction.shape[0]
-    border(desk, direction)
-    desk.right[:] = 0.0
-    desk.right[n - 1] = 1.0
-    if not solve(desk.matrix, desk.right, n):
+    border(workspace, direction)
+    workspace.right[:] = 0.0
+    workspace.right[n - 1] = 1.0
+    if not solve(workspace.matrix, workspace.right, n):
         return False
-    size = norm(desk.right, desk.weights)
+    size = norm(workspace.right, workspace.weights)
     if not 0.0 < size < math.inf:
         return False
     for j in range(n):
-        direction[j] = desk.right[j] / size
+        direction[j] = workspace.right[j] / size
     return True

@@ -6,9 +6,9 @@ from typing import NamedTuple
 
 from numba import njit
 
-from rocking.kernels.compile_options import WITHIN
+from rocking.kernels.compile_options import INTERNAL
 from rocking.kernels.orbits.arclength import newton_step
-from rocking.kernels.orbits.chain_validation import certify
+from rocking.kernels.orbits.chain_validation import verify_chain
 from rocking.kernels.orbits.event_chain import assemble, monodromy, with_value
 
 MOST_CORRECTIONS = 10
@@ -82,13 +82,13 @@ class Step(NamedTuple):
     peak: float
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def multiplier_angle(trace, determinant):
     """Where the multipliers stand, as an angle: pi/4 at a fold, -pi/4 at a flip, within pi/2 however large they are."""
     return math.atan(trace / (1.0 + determinant))
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def passes_and_returns(earlier, length_before, start, stop, length):
     """Whether multipliers that go from ``start`` to ``stop`` seem to pass a fold or a flip and come back in between.
 
@@ -107,23 +107,23 @@ def passes_and_returns(earlier, length_before, start, stop, length):
     return fold or flip
 
 
-@njit(**WITHIN)
-def correct(p, which, chain, y, direction, low, high, desk):
-    """Newton's method from ``y``, in place, on the chain's equations and on the plane through ``desk.aim`` across a direction."""
+@njit(**INTERNAL)
+def correct(p, which, chain, y, direction, low, high, workspace):
+    """Newton's method from ``y``, in place, on the chain's equations and on the plane through ``workspace.aim`` across a direction."""
     k = chain.kinds.shape[0]
     before, converged = math.inf, False
     for corrections in range(MOST_CORRECTIONS):
         if not low <= y[k] <= high:
             break
         q = with_value(p, which, y[k])
-        if not assemble(q, which, chain, y, desk.jacobian, desk.misses, desk.links):
+        if not assemble(q, which, chain, y, workspace.jacobian, workspace.misses, workspace.links):
             break
         if converged:
-            trace, determinant = monodromy(q, chain, desk.links)
+            trace, determinant = monodromy(q, chain, workspace.links)
             return Point(
                 True, corrections, 1.0 - trace + determinant, 1.0 + trace + determinant, trace, determinant
             )
-        size = newton_step(desk, y, direction)
+        size = newton_step(workspace, y, direction)
         if not size < math.inf:
             break
         converged = size <= CONVERGED or (size <= 100.0 * CONVERGED and size >= 0.5 * before)
@@ -131,16 +131,16 @@ def correct(p, which, chain, y, direction, low, high, desk):
     return Point(False, MOST_CORRECTIONS, 0.0, 0.0, 0.0, 0.0)
 
 
-@njit(**WITHIN)
-def step_to(p, which, chain, origin, direction, length, bounds, desk):
-    """The point of the branch a length further along a direction, left in ``desk.trial``."""
+@njit(**INTERNAL)
+def step_to(p, which, chain, origin, direction, length, bounds, workspace):
+    """The point of the branch a length further along a direction, left in ``workspace.trial``."""
     for j in range(direction.shape[0]):
-        desk.aim[j] = origin[j] + length * direction[j]
-        desk.trial[j] = desk.aim[j]
-    return correct(p, which, chain, desk.trial, direction, bounds[0], bounds[1], desk)
+        workspace.aim[j] = origin[j] + length * direction[j]
+        workspace.trial[j] = workspace.aim[j]
+    return correct(p, which, chain, workspace.trial, direction, bounds[0], bounds[1], workspace)
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def test_value(what, point, y, level):
     """What vanishes at a special point, or at the end of the range."""
     if what == FOLD:
@@ -150,8 +150,8 @@ def test_value(what, point, y, level):
     return y[y.shape[0] - 1] - level
 
 
-@njit(**WITHIN)
-def locate(p, which, chain, origin, direction, length, bounds, what, level, at_start, at_end, desk):
+@njit(**INTERNAL)
+def locate(p, which, chain, origin, direction, length, bounds, what, level, at_start, at_end, workspace):
     """The length at which a test vanishes between 0 and ``length``, by false position with halvings; NaN where it is lost."""
     a, b, f, g = 0.0, length, at_start, at_end
     middle, last = 0.5 * length, 0
@@ -159,10 +159,10 @@ def locate(p, which, chain, origin, direction, length, bounds, what, level, at_s
         middle = b - g * (b - a) / (g - f)
         if not a < middle < b:
             middle = 0.5 * (a + b)
-        point = step_to(p, which, chain, origin, direction, middle, bounds, desk)
+        point = step_to(p, which, chain, origin, direction, middle, bounds, workspace)
         if not point.found:
             return math.nan
-        value = test_value(what, point, desk.trial[: origin.shape[0]], level)
+        value = test_value(what, point, workspace.trial[: origin.shape[0]], level)
         if value == 0.0 or b - a <= ROOT * length:
             return middle
         # Illinois: an end that stays counts half
@@ -177,27 +177,27 @@ def locate(p, which, chain, origin, direction, length, bounds, what, level, at_s
     return middle
 
 
-@njit(**WITHIN)
-def own_at(p, which, chain, origin, direction, length, bounds, desk):
+@njit(**INTERNAL)
+def validated_point_at(p, which, chain, origin, direction, length, bounds, workspace):
     """(whether the point a length further is the block's own motion, the point, its peak)."""
-    point = step_to(p, which, chain, origin, direction, length, bounds, desk)
+    point = step_to(p, which, chain, origin, direction, length, bounds, workspace)
     if not point.found:
         return False, point, 0.0
     k = chain.kinds.shape[0]
-    q = with_value(p, which, desk.trial[k])
-    own, peak = certify(q, chain, desk.trial, desk.links, -1, 0.0)
+    q = with_value(p, which, workspace.trial[k])
+    own, peak = verify_chain(q, chain, workspace.trial, workspace.links, -1, 0.0)
     return own, point, peak
 
 
-@njit(**WITHIN)
-def last_own(p, which, chain, origin, direction, length, bounds, desk):
+@njit(**INTERNAL)
+def last_valid_length(p, which, chain, origin, direction, length, bounds, workspace):
     """The greatest length up to which the points are the block's own motion, by halving."""
     a, b = 0.0, length
     for _ in range(MOST_HALVINGS):
         if b - a <= ROOT * length:
             break
         middle = 0.5 * (a + b)
-        if own_at(p, which, chain, origin, direction, middle, bounds, desk)[0]:
+        if validated_point_at(p, which, chain, origin, direction, middle, bounds, workspace)[0]:
             a = middle
         else:
             b = middle

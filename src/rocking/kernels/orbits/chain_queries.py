@@ -5,12 +5,12 @@ import math
 from numba import njit
 
 from rocking.kernels.arc.solution import evaluate, within_reach
-from rocking.kernels.compile_options import ENTRY, WITHIN
+from rocking.kernels.compile_options import ENTRY_POINT, INTERNAL
 from rocking.kernels.event_kinds import IMPACT
 from rocking.kernels.orbits.event_chain import Chain, arc_at, assemble, link, monodromy, place_of, with_value
 
 
-@njit(**ENTRY)
+@njit(**ENTRY_POINT)
 def states_at(p, which, kinds, side, turn, rows, psi, out):
     """Write (Theta, Theta') of each of the orbits ``rows`` (n, k + 1) at every phase ``psi`` + 2 pi m of its chain into ``out`` (n, m, 2).
 
@@ -49,7 +49,7 @@ def states_at(p, which, kinds, side, turn, rows, psi, out):
             out[i, m, 1] = mirror * arc_side * now.velocity
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def turned_over(kinds):
     """Whether a chain ends on the side opposite to where it began."""
     impacts = 0
@@ -58,7 +58,7 @@ def turned_over(kinds):
     return impacts % 2 == 1
 
 
-@njit(**ENTRY)
+@njit(**ENTRY_POINT)
 def equations(p, which, kinds, side, turn, y, jacobian, misses, links):
     """(trace, determinant) once round the chain with ``assemble``; the parameter is the last of ``y``."""
     q, chain = with_value(p, which, y[-1]), Chain(kinds, side, turn)

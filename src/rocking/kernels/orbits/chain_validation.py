@@ -5,8 +5,8 @@ import math
 from numba import njit
 
 from rocking.kernels.arc.extrema import peak_with
-from rocking.kernels.arc.solution import evaluate, recall
-from rocking.kernels.compile_options import WITHIN
+from rocking.kernels.arc.solution import evaluate, propagator_or_none
+from rocking.kernels.compile_options import INTERNAL
 from rocking.kernels.event_kinds import BRACE, FLIGHT, IMPACT, NONE
 from rocking.kernels.forcing.harmonic import forcing_term
 from rocking.kernels.march.impact_law import after_event
@@ -22,8 +22,8 @@ MOST_TURNS = 20
 LONG_ARCS = 64
 
 
-@njit(**WITHIN)
-def certify(p, chain, y, links, touched, touches):
+@njit(**INTERNAL)
+def verify_chain(p, chain, y, links, touched, touches):
     """(whether the motion is the chain's own, its largest angle): every arc is marched to its first event.
 
     An arc that meets something before its end, or leaves an event into the base or the brace, is not; arc ``touched`` (-1:
@@ -39,7 +39,7 @@ def certify(p, chain, y, links, touched, touches):
         arc = arc_at(p, side, y[j], place_of(p, kind), leaves)
         waited = 0.0
         for _ in range(LONG_ARCS):
-            coming, _ = next_event(p, FLIGHT, arc, recall(p, max(t - waited, 0.0)))
+            coming, _ = next_event(p, FLIGHT, arc, propagator_or_none(p, max(t - waited, 0.0)))
             if coming.wait == math.inf:
                 return False, peak
             peak = peak_with(p, arc, coming, peak)
@@ -55,7 +55,7 @@ def certify(p, chain, y, links, touched, touches):
     return True, peak
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def clearance(p, chain, y, links, touched, level, touches):
     """(distance left to the base, or to the brace, where arc ``touched`` turns, time of that): by Newton's method from a time near."""
     side = chain.side

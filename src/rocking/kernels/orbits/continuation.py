@@ -5,7 +5,7 @@ import math
 import numpy as np
 from numba import njit
 
-from rocking.kernels.compile_options import MAKING, MAKING_ENTRY, WITHIN
+from rocking.kernels.compile_options import ALLOCATING, ALLOCATING_ENTRY, INTERNAL
 from rocking.kernels.orbits.arclength import along, norm, turn_direction
 from rocking.kernels.orbits.branch_point import (  # fmt: skip
     CALM,
@@ -32,18 +32,18 @@ from rocking.kernels.orbits.branch_point import (  # fmt: skip
     TINY,
     Point,
     Step,
-    last_own,
+    last_valid_length,
     locate,
     multiplier_angle,
-    own_at,
     passes_and_returns,
     step_to,
     test_value,
+    validated_point_at,
 )
 from rocking.kernels.orbits.event_chain import Chain
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def repeats_sooner(chain, y):
     """Whether an orbit repeats itself, or its mirror image, after half its chain."""
     k = chain.kinds.shape[0]
@@ -58,7 +58,7 @@ def repeats_sooner(chain, y):
     return True
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def kind_of(what, chain, mirrored, y):
     """The kind of a special point: at a flip or a fold of an orbit more symmetrical there, that of where it came from."""
     if what == PERIOD_DOUBLING:
@@ -69,16 +69,16 @@ def kind_of(what, chain, mirrored, y):
     return (PERIOD_DOUBLING if half_turns % 2 == 0 else SYMMETRY_BREAKING), True
 
 
-@njit(**WITHIN)
-def keep_point(desk, k, row, point, peak, out, facts):
+@njit(**INTERNAL)
+def keep_point(workspace, k, row, point, peak, out, facts):
     """Write a point: its phases and parameter, then (trace, determinant, peak, speed of the first event)."""
     for j in range(k + 1):
-        out[row, j] = desk.trial[j]
+        out[row, j] = workspace.trial[j]
     facts[row, 0], facts[row, 1], facts[row, 2] = point.trace, point.determinant, peak
-    facts[row, 3] = desk.links[0, 0]
+    facts[row, 3] = workspace.links[0, 0]
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def is_calm(earlier, before, point, length, longest):
     """Whether the multipliers change little in a step, so that none passes a special point unseen."""
     start = multiplier_angle(before.trace, before.determinant)
@@ -89,19 +89,21 @@ def is_calm(earlier, before, point, length, longest):
     return length <= CLOSE * longest or not passes_and_returns(first, earlier.length, start, stop, length)
 
 
-@njit(**MAKING)
-def next_step(p, which, chain, y, direction, ahead, length, longest, limits, bounds, before, earlier, desk):
-    """The next point, left in ``desk.trial``, and the direction there, ``ahead``: with shorter steps where the branch bends.
+@njit(**ALLOCATING)
+def next_step(
+    p, which, chain, y, direction, ahead, length, longest, limits, bounds, before, earlier, workspace
+):
+    """The next point, left in ``workspace.trial``, and the direction there, ``ahead``: with shorter steps where the branch bends.
 
     Steps are shorter too where the multipliers change fast; ``earlier`` is the step before. At a grazing and at the end of
     the range the step ends on it.
     """
     k = chain.kinds.shape[0]
     while True:
-        own, point, peak = own_at(p, which, chain, y, direction, length, bounds, desk)
+        own, point, peak = validated_point_at(p, which, chain, y, direction, length, bounds, workspace)
         ahead[:] = direction
-        near = point.found and turn_direction(ahead, desk)
-        near = near and along(ahead, direction, np.zeros(k + 1), desk.weights) > STRAIGHT
+        near = point.found and turn_direction(ahead, workspace)
+        near = near and along(ahead, direction, np.zeros(k + 1), workspace.weights) > STRAIGHT
         near = near and (length <= TINY * longest or is_calm(earlier, before, point, length, longest))
         if near and (own or length <= CLOSE * longest):
             break
@@ -110,30 +112,41 @@ def next_step(p, which, chain, y, direction, ahead, length, longest, limits, bou
             return Step(LOST, length, point, peak)
     end, within = GOING, length
     if not own:
-        within = last_own(p, which, chain, y, direction, length, bounds, desk)
+        within = last_valid_length(p, which, chain, y, direction, length, bounds, workspace)
         end = GRAZED
-        _, point, peak = own_at(p, which, chain, y, direction, within, bounds, desk)
-    value = desk.trial[k]
+        _, point, peak = validated_point_at(p, which, chain, y, direction, within, bounds, workspace)
+    value = workspace.trial[k]
     if not limits[0] <= value <= limits[1]:
         level = limits[0] if value < limits[0] else limits[1]
         start = y[k] - level
         if start != 0.0:
             within = locate(
-                p, which, chain, y, direction, within, bounds, PARAMETER, level, start, value - level, desk
+                p,
+                which,
+                chain,
+                y,
+                direction,
+                within,
+                bounds,
+                PARAMETER,
+                level,
+                start,
+                value - level,
+                workspace,
             )
         else:
             within = 0.0
         if math.isnan(within):
             return Step(LOST, length, before, peak)
-        _, point, peak = own_at(p, which, chain, y, direction, within, bounds, desk)
-        desk.trial[k] = level
+        _, point, peak = validated_point_at(p, which, chain, y, direction, within, bounds, workspace)
+        workspace.trial[k] = level
         end = RANGE
     return Step(end, within, point, peak)
 
 
-@njit(**MAKING)
+@njit(**ALLOCATING)
 def note_specials(
-    p, which, chain, mirrored, y, direction, step, before, bounds, count, found, specials, changes, desk
+    p, which, chain, mirrored, y, direction, step, before, bounds, count, found, specials, changes, workspace
 ):
     """(special points so far, length of the step at which the branch merges with a more symmetrical one, NaN where it does not)."""
     k = chain.kinds.shape[0]
@@ -142,12 +155,12 @@ def note_specials(
         stop = test_value(what, step.point, y, 0.0)
         if (start > 0.0) == (stop > 0.0) or found >= specials.shape[0]:
             continue
-        at = locate(p, which, chain, y, direction, step.length, bounds, what, 0.0, start, stop, desk)
+        at = locate(p, which, chain, y, direction, step.length, bounds, what, 0.0, start, stop, workspace)
         if math.isnan(at):
             continue
-        step_to(p, which, chain, y, direction, at, bounds, desk)
-        kind, merged = kind_of(what, chain, mirrored, desk.trial)
-        specials[found] = desk.trial[: k + 1]
+        step_to(p, which, chain, y, direction, at, bounds, workspace)
+        kind, merged = kind_of(what, chain, mirrored, workspace.trial)
+        specials[found] = workspace.trial[: k + 1]
         changes[found, 0], changes[found, 1] = kind, count
         found += 1
         if merged:
@@ -155,9 +168,9 @@ def note_specials(
     return found, math.nan
 
 
-@njit(**MAKING_ENTRY)
+@njit(**ALLOCATING_ENTRY)
 def follow(
-    p, which, kinds, side, turn, mirrored, y, direction, limits, longest, out, facts, specials, changes, desk
+    p, which, kinds, side, turn, mirrored, y, direction, limits, longest, out, facts, specials, changes, workspace
 ):  # fmt: skip
     """(points, special points, why it ended): a branch from the orbit ``y`` along ``direction``, both changed in place.
 
@@ -169,24 +182,24 @@ def follow(
     beyond = 2.0 * longest * (limits[1] - limits[0])
     bounds = max(limits[0] - beyond, 0.5 * limits[0]), limits[1] + beyond
     count, found, length, was = 0, 0, 0.1 * longest, 0.0
-    own, before, peak = own_at(p, which, chain, y, direction, 0.0, bounds, desk)
+    own, before, peak = validated_point_at(p, which, chain, y, direction, 0.0, bounds, workspace)
     if not own:
         return count, found, GRAZED if before.found else LOST
-    y[:] = desk.trial
-    keep_point(desk, k, count, before, peak, out, facts)
+    y[:] = workspace.trial
+    keep_point(workspace, k, count, before, peak, out, facts)
     count += 1
-    if count == out.shape[0] or not turn_direction(direction, desk):
+    if count == out.shape[0] or not turn_direction(direction, workspace):
         return count, found, MANY if count == out.shape[0] else LOST
     first, first_direction, ahead = y.copy(), direction.copy(), direction.copy()
     none = Point(False, 0, math.nan, math.nan, math.nan, math.nan)
     earlier = Step(GOING, 1.0, none, 0.0)
     while count < out.shape[0]:
         step = next_step(
-            p, which, chain, y, direction, ahead, length, longest, limits, bounds, before, earlier, desk
+            p, which, chain, y, direction, ahead, length, longest, limits, bounds, before, earlier, workspace
         )
         if step.end == LOST or (step.end == RANGE and step.length == 0.0):
             return count, found, step.end
-        keep_point(desk, k, count, step.point, step.peak, out, facts)
+        keep_point(workspace, k, count, step.point, step.peak, out, facts)
         found, merges = note_specials(
             p,
             which,
@@ -201,11 +214,11 @@ def follow(
             found,
             specials,
             changes,
-            desk,
+            workspace,
         )
         if not math.isnan(merges):
-            _, point, peak = own_at(p, which, chain, y, direction, merges, bounds, desk)
-            keep_point(desk, k, count, point, peak, out, facts)
+            _, point, peak = validated_point_at(p, which, chain, y, direction, merges, bounds, workspace)
+            keep_point(workspace, k, count, point, peak, out, facts)
             return count + 1, found, MERGED
         if step.end == GRAZED and found < specials.shape[0]:
             specials[found] = out[count]
@@ -216,8 +229,8 @@ def follow(
         if step.end != GOING:
             return count, found, step.end
         direction[:] = ahead
-        now = along(first_direction, y, first, desk.weights)
-        if count > LOOP and was < 0.0 <= now and norm(y - first, desk.weights) < 2.0 * longest:
+        now = along(first_direction, y, first, workspace.weights)
+        if count > LOOP and was < 0.0 <= now and norm(y - first, workspace.weights) < 2.0 * longest:
             return count, found, CLOSED
         was = now
         length = min(step.length * (GROW if before.corrections <= EASY else 1.0), longest)

@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
-from rocking.kernels.compile_options import MAKING, MAKING_ENTRY, WITHIN
+from rocking.kernels.compile_options import ALLOCATING, ALLOCATING_ENTRY, INTERNAL
 from rocking.kernels.orbits.arclength import along, newton_step, norm, turn_direction
 from rocking.kernels.orbits.branch_point import (
     CLOSED,
@@ -29,7 +29,7 @@ from rocking.kernels.orbits.branch_point import (
     SMALLEST_STEP,
     STRAIGHT,
 )
-from rocking.kernels.orbits.chain_validation import certify, clearance
+from rocking.kernels.orbits.chain_validation import clearance, verify_chain
 from rocking.kernels.orbits.event_chain import Chain, assemble, monodromy, with_value
 
 DIFFERENCE = 1e-6
@@ -46,14 +46,14 @@ class Condition(NamedTuple):
     second: int
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def with_both(p, condition, y):
     """The system at a point."""
     k = y.shape[0] - 2
     return with_value(with_value(p, condition.first, y[k]), condition.second, y[k + 1])
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def condition_at(p, chain, condition, y, touches, spare, misses, links):
     """(what vanishes, when the arc touches); NaN where the chain breaks."""
     q = with_both(p, condition, y)
@@ -65,31 +65,31 @@ def condition_at(p, chain, condition, y, touches, spare, misses, links):
     return (1.0 - trace + determinant if condition.kind == FOLD else 1.0 + trace + determinant), touches
 
 
-@njit(**WITHIN)
-def assemble_all(p, chain, condition, y, touches, spare, spent, desk):
+@njit(**INTERNAL)
+def assemble_all(p, chain, condition, y, touches, spare, spent, workspace):
     """The chain's equations and the condition with their derivatives: the condition, and when the arc touches."""
     k = chain.kinds.shape[0]
     n = k + 2
     for j in range(n):
-        kept, step = y[j], DIFFERENCE / math.sqrt(desk.weights[j] * (k if j < k else 1))
+        kept, step = y[j], DIFFERENCE / math.sqrt(workspace.weights[j] * (k if j < k else 1))
         y[j] = kept + step
-        more, _ = condition_at(p, chain, condition, y, touches, spare, spent, desk.links)
+        more, _ = condition_at(p, chain, condition, y, touches, spare, spent, workspace.links)
         y[j] = kept - step
-        less, _ = condition_at(p, chain, condition, y, touches, spare, spent, desk.links)
+        less, _ = condition_at(p, chain, condition, y, touches, spare, spent, workspace.links)
         y[j] = kept
-        desk.jacobian[k, j] = (more - less) / (2.0 * step)
+        workspace.jacobian[k, j] = (more - less) / (2.0 * step)
     q = with_both(p, condition, y)
-    assemble(q, condition.second, chain, y, desk.jacobian, desk.misses, desk.links)
+    assemble(q, condition.second, chain, y, workspace.jacobian, workspace.misses, workspace.links)
     for i in range(k):
-        desk.jacobian[i, k + 1] = desk.jacobian[i, k]
-    value, touches = condition_at(p, chain, condition, y, touches, spare, spent, desk.links)
-    assemble(q, condition.first, chain, y, desk.jacobian, desk.misses, desk.links)
-    desk.misses[k] = value
+        workspace.jacobian[i, k + 1] = workspace.jacobian[i, k]
+    value, touches = condition_at(p, chain, condition, y, touches, spare, spent, workspace.links)
+    assemble(q, condition.first, chain, y, workspace.jacobian, workspace.misses, workspace.links)
+    workspace.misses[k] = value
     return value, touches
 
 
-@njit(**WITHIN)
-def correct_both(p, chain, condition, y, direction, bounds, touches, spare, spent, desk):
+@njit(**INTERNAL)
+def correct_both(p, chain, condition, y, direction, bounds, touches, spare, spent, workspace):
     """(corrections, -1 where it fails; when the arc touches): Newton's method, in place, across a direction."""
     k = chain.kinds.shape[0]
     before, converged = math.inf, False
@@ -97,12 +97,12 @@ def correct_both(p, chain, condition, y, direction, bounds, touches, spare, spen
         within = bounds[0] <= y[k] <= bounds[1] and bounds[2] <= y[k + 1] <= bounds[3]
         if not within:
             break
-        value, touches = assemble_all(p, chain, condition, y, touches, spare, spent, desk)
+        value, touches = assemble_all(p, chain, condition, y, touches, spare, spent, workspace)
         if not abs(value) < math.inf:
             break
         if converged:
             return corrections, touches
-        size = newton_step(desk, y, direction)
+        size = newton_step(workspace, y, direction)
         if not size < math.inf:
             break
         converged = size <= CONVERGED or (size <= 100.0 * CONVERGED and size >= 0.5 * before)
@@ -110,23 +110,23 @@ def correct_both(p, chain, condition, y, direction, bounds, touches, spare, spen
     return -1, touches
 
 
-@njit(**MAKING)
+@njit(**ALLOCATING)
 def next_point(
-    p, chain, condition, y, direction, turned, length, longest, bounds, touches, spare, spent, desk
+    p, chain, condition, y, direction, turned, length, longest, bounds, touches, spare, spent, workspace
 ):
-    """(GOING or why it ends, length, corrections, when the arc touches); the point is left in ``desk.trial``."""
+    """(GOING or why it ends, length, corrections, when the arc touches); the point is left in ``workspace.trial``."""
     while True:
-        desk.aim[:] = y + length * direction
-        desk.trial[:] = desk.aim
+        workspace.aim[:] = y + length * direction
+        workspace.trial[:] = workspace.aim
         corrections, moved = correct_both(
-            p, chain, condition, desk.trial, direction, bounds, touches, spare, spent, desk
+            p, chain, condition, workspace.trial, direction, bounds, touches, spare, spent, workspace
         )
         turned[:] = direction
-        near = corrections >= 0 and turn_direction(turned, desk)
-        near = near and along(turned, direction, np.zeros(y.shape[0]), desk.weights) > STRAIGHT
+        near = corrections >= 0 and turn_direction(turned, workspace)
+        near = near and along(turned, direction, np.zeros(y.shape[0]), workspace.weights) > STRAIGHT
         if near:
-            q = with_both(p, condition, desk.trial)
-            if certify(q, chain, desk.trial, desk.links, condition.touched, moved)[0]:
+            q = with_both(p, condition, workspace.trial)
+            if verify_chain(q, chain, workspace.trial, workspace.links, condition.touched, moved)[0]:
                 return GOING, length, corrections, moved
             if length <= TIGHT * longest:
                 return GRAZED, length, corrections, moved
@@ -135,25 +135,25 @@ def next_point(
             return LOST, length, corrections, moved
 
 
-@njit(**MAKING)
-def land(p, chain, condition, y, over, limits, bounds, touches, spare, spent, desk):
-    """Whether the curve's point at the end of a range was found: between ``y`` and ``desk.trial``, in whose place it is left."""
+@njit(**ALLOCATING)
+def converge_to_bound(p, chain, condition, y, over, limits, bounds, touches, spare, spent, workspace):
+    """Whether the curve's point at the end of a range was found: between ``y`` and ``workspace.trial``, in whose place it is left."""
     index = chain.kinds.shape[0] + over // 2
     across = np.zeros(y.shape[0])
     across[index] = 1.0
-    share = (limits[over] - y[index]) / (desk.trial[index] - y[index])
-    desk.trial[:] = y + share * (desk.trial - y)
-    desk.aim[:] = desk.trial
-    desk.aim[index] = limits[over]
+    share = (limits[over] - y[index]) / (workspace.trial[index] - y[index])
+    workspace.trial[:] = y + share * (workspace.trial - y)
+    workspace.aim[:] = workspace.trial
+    workspace.aim[index] = limits[over]
     corrections, _ = correct_both(
-        p, chain, condition, desk.trial, across, bounds, touches, spare, spent, desk
+        p, chain, condition, workspace.trial, across, bounds, touches, spare, spent, workspace
     )
     return corrections >= 0
 
 
-@njit(**MAKING_ENTRY)
+@njit(**ALLOCATING_ENTRY)
 def follow_curve(
-    p, kinds, side, turn, condition, touches, y, direction, limits, longest, out, desk, spare, spent
+    p, kinds, side, turn, condition, touches, y, direction, limits, longest, out, workspace, spare, spent
 ):  # fmt: skip
     """(points, why it ended): a curve of special points from ``y`` along ``direction``, both changed in place.
 
@@ -171,40 +171,54 @@ def follow_curve(
         max(limits[2] - second_beyond, 0.5 * limits[2]),
         limits[3] + second_beyond,
     )
-    desk.aim[:] = y
+    workspace.aim[:] = y
     corrections, touches = correct_both(
-        p, chain, condition, y, direction, bounds, touches, spare, spent, desk
+        p, chain, condition, y, direction, bounds, touches, spare, spent, workspace
     )
-    if corrections < 0 or not turn_direction(direction, desk):
+    if corrections < 0 or not turn_direction(direction, workspace):
         return 0, LOST
     out[0] = y
     count, length, was = 1, 0.1 * longest, 0.0
     first, first_direction, turned = y.copy(), direction.copy(), direction.copy()
     while count < out.shape[0]:
         end, length, corrections, moved = next_point(
-            p, chain, condition, y, direction, turned, length, longest, bounds, touches, spare, spent, desk
+            p,
+            chain,
+            condition,
+            y,
+            direction,
+            turned,
+            length,
+            longest,
+            bounds,
+            touches,
+            spare,
+            spent,
+            workspace,
         )
         if end != GOING:
             return count, end
-        over = beyond(desk.trial, limits)
+        over = beyond(workspace.trial, limits)
         if over >= 0:
-            if land(p, chain, condition, y, over, limits, bounds, touches, spare, spent, desk):
-                out[count] = desk.trial
+            if converge_to_bound(
+                p, chain, condition, y, over, limits, bounds, touches, spare, spent, workspace
+            ):
+                out[count] = workspace.trial
                 count += 1
             return count, RANGE
-        y[:], touches = desk.trial, moved
+        y[:], touches = workspace.trial, moved
         direction[:] = turned
         out[count] = y
         count += 1
-        now = along(first_direction, y, first, desk.weights)
-        if count > LOOP and was < 0.0 <= now and norm(y - first, desk.weights) < 2.0 * longest:
+        now = along(first_direction, y, first, workspace.weights)
+        if count > LOOP and was < 0.0 <= now and norm(y - first, workspace.weights) < 2.0 * longest:
             return count, CLOSED
         was = now
         length = min(length * (GROW if corrections <= EASY else 1.0), longest)
     return count, MANY
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def beyond(y, limits):
     """Which end of which range a point lies beyond: its place in ``limits``, -1 for none."""
     k = y.shape[0] - 2

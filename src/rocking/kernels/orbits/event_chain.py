@@ -13,7 +13,7 @@ import numpy as np
 from numba import njit
 
 from rocking.kernels.arc.solution import arc_from, evaluate
-from rocking.kernels.compile_options import INLINED, WITHIN
+from rocking.kernels.compile_options import INTERNAL, KERNEL_INLINE
 from rocking.kernels.event_kinds import BRACE, IMPACT
 from rocking.kernels.forcing.harmonic import forcing_term, sensitivities
 from rocking.kernels.parameters import make
@@ -48,7 +48,7 @@ class Link(NamedTuple):
     time: float
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def with_value(p, which, value):
     """The same system with one parameter changed; its clock starts at the phase 0."""
     amplitude, frequency, period = p.amplitude, p.frequency, p.period
@@ -68,26 +68,26 @@ def with_value(p, which, value):
     return make(amplitude, frequency, period, 0.0, restitution, brace_angle, brace_restitution)
 
 
-@njit(**INLINED)
+@njit(**KERNEL_INLINE)
 def place_of(p, kind):
     """The angle at which an event happens."""
     return p.brace_angle if kind == BRACE else 0.0
 
 
-@njit(**INLINED)
+@njit(**KERNEL_INLINE)
 def law(p, kind):
     """Speed away from an event over speed towards it."""
     return p.brace_restitution if kind == BRACE else p.restitution
 
 
-@njit(**INLINED)
+@njit(**KERNEL_INLINE)
 def arc_at(p, side, psi, place, velocity):
     """The arc that leaves at a forcing phase, which is brought near 0 first."""
     psi -= 2.0 * math.pi * round(psi / (2.0 * math.pi))
     return arc_from(p, side, psi * p.per_frequency, place, velocity)
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def link(p, side, first, last, psi, t):
     """The arc of length t > 0 from an event of one kind at the phase ``psi`` to one of another: eq. (5) solved for its speed."""
     start, end = place_of(p, first), place_of(p, last)
@@ -124,7 +124,7 @@ def link(p, side, first, last, psi, t):
     )
 
 
-@njit(**INLINED)
+@njit(**KERNEL_INLINE)
 def excess_of(t):
     """sinh t - t for t up to 1."""
     q = t * t
@@ -134,7 +134,7 @@ def excess_of(t):
     return q * t / 6.0 * total
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def assemble(p, which, chain, y, jacobian, misses, links):
     """The equations of a chain and their derivatives by the k phases and by one parameter, column k; False where events change places.
 
@@ -173,7 +173,7 @@ def assemble(p, which, chain, y, jacobian, misses, links):
     return True
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def by_parameter(p, which, one):
     """The derivatives of an arc's speeds by the parameter, the phases kept."""
     if which == AMPLITUDE:
@@ -188,7 +188,7 @@ def by_parameter(p, which, one):
     return 0.0, 0.0
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def monodromy(p, chain, links):
     """(trace, determinant) of the tangent once round the chain, mirrored where the chain is half an orbit.
 

@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 from numba import njit
 
-from rocking.kernels.compile_options import ENTRY, WITHIN, WRITTEN_IN
+from rocking.kernels.compile_options import AST_INLINE, ENTRY_POINT, INTERNAL
 from rocking.kernels.march.march import DONE, begin, march_on
 from rocking.kernels.march.tangent import Tangent, read_tangent
 from rocking.kernels.numerics.elementary import size
@@ -30,7 +30,7 @@ NEARBY = Patience(1, math.inf, 0, 10.0)
 ANYWHERE = Patience(MOST_STEPS, 2.0, 4, 1e3)
 
 
-class Image(NamedTuple):
+class MapImage(NamedTuple):
     """Where a state is after a while."""
 
     certain: bool  # neither overturned nor with too many events on the way
@@ -43,19 +43,19 @@ class Image(NamedTuple):
     waits: tuple[float, float]  # from the image to the first event and on to the next, about
 
 
-class Found(NamedTuple):
+class FixedPoint(NamedTuple):
     """A fixed point, or how far one got."""
 
     converged: bool
     angle: float
     velocity: float
-    image: Image
+    image: MapImage
     residual: float
     error: float  # what Newton's method would still move it by
     work: int  # events computed
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def image_after(
     p, angle, velocity, cycles, section_time, section, nothing, columns, want_peak, waits, start=0.0
 ):
@@ -71,7 +71,7 @@ def image_after(
     )
     arc = progress.arc
     tangent = read_tangent(columns) if columns.shape[0] > 0 else Tangent(0.0, 0.0, 0.0, 0.0)
-    return Image(
+    return MapImage(
         status == DONE,
         arc.side * arc.angle,
         arc.side * arc.velocity,
@@ -83,7 +83,7 @@ def image_after(
     )
 
 
-@njit(**WRITTEN_IN)
+@njit(**AST_INLINE)
 def find_fixed_point(p, angle, velocity, cycles, most_work, nothing, columns, waits, patience, start, sign):
     """Newton's method on the map of ``image_after`` times ``sign``, until the residual is at most RESIDUAL; ``waits`` as for ``begin``.
 
@@ -127,10 +127,10 @@ def find_fixed_point(p, angle, velocity, cycles, most_work, nothing, columns, wa
             share, halvings = 0.5 * share, halvings + 1
         at_angle, at_velocity = angle + share * to_angle, velocity + share * to_velocity
         inside = abs(at_angle) <= reach and abs(at_velocity) <= patience.reach
-    return Found(converged, angle, velocity, image, residual, error, work)
+    return FixedPoint(converged, angle, velocity, image, residual, error, work)
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def eigenvalues(middle, square, determinant):
     """Both eigenvalues of a real matrix, the larger first, or that above the real axis: (real, imaginary, real, imaginary).
 
@@ -146,7 +146,7 @@ def eigenvalues(middle, square, determinant):
     return large, 0.0, small, 0.0
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def multipliers(tangent):
     """The ``eigenvalues`` of a tangent."""
     apart = 0.5 * (tangent.a - tangent.d)
@@ -157,7 +157,7 @@ def multipliers(tangent):
     )
 
 
-@njit(**ENTRY)
+@njit(**ENTRY_POINT)
 def multipliers_plain(middle, square, determinant, mirrored):
     """``eigenvalues`` for Python, as two complex numbers; ``mirrored``: their squares, of a map over half a period."""
     real, above, other, below = eigenvalues(middle, square, determinant)
@@ -168,7 +168,7 @@ def multipliers_plain(middle, square, determinant, mirrored):
     return complex(real, above), complex(other, below)
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def adapted_norm(tangent, radius):
     """(q11, q12, q22) of a norm in which a matrix with spectral radius < ``radius`` shrinks by ``radius`` at least.
 
@@ -188,7 +188,7 @@ def adapted_norm(tangent, radius):
     return q11, q12, q22
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def length(norm, x, y):
     """Length of (x, y) in an adapted norm."""
     q11, q12, q22 = norm

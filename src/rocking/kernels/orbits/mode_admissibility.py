@@ -16,7 +16,7 @@ from numba import njit
 from rocking.kernels.arc.extrema import arc_peak
 from rocking.kernels.arc.first_zero import CROSSING, base_watch, first_zero
 from rocking.kernels.arc.solution import arc_from
-from rocking.kernels.compile_options import ENTRY, WITHIN
+from rocking.kernels.compile_options import ENTRY_POINT, INTERNAL
 from rocking.kernels.forcing.harmonic import particular
 from rocking.kernels.numerics.elementary import direction
 from rocking.kernels.parameters import at_phase
@@ -24,7 +24,7 @@ from rocking.kernels.parameters import at_phase
 PIECE = 4.0
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def first_half(p, speed, near, far, length):
     """(whether u > 0 up to the middle, its largest value), from u = 0 with ``speed``; near, far are a, b above."""
     middle, peak = 0.5 * length, 0.0
@@ -47,7 +47,7 @@ def first_half(p, speed, near, far, length):
     return True, peak
 
 
-@njit(**ENTRY)
+@njit(**ENTRY_POINT)
 def half_cycle(p, speed, near, far, length):
     """(whether u > 0 inside the half cycle, its largest value) of a mode that leaves the base with ``speed`` at phase ``p.phase``.
 

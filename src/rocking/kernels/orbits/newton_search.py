@@ -4,13 +4,13 @@ import math
 
 from numba import njit
 
-from rocking.kernels.compile_options import ENTRY, WITHIN
+from rocking.kernels.compile_options import ENTRY_POINT, INTERNAL
 from rocking.kernels.march.march import UNKNOWN
 from rocking.kernels.orbits.fixed_point import ANYWHERE, UNBOUNDED, find_fixed_point
 from rocking.kernels.parameters import later
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def return_map(p, period, mirrored):
     """(system, start, cycles, sign) of the map over ``period`` cycles, or over half an odd number of them and mirrored.
 
@@ -23,8 +23,8 @@ def return_map(p, period, mirrored):
     return later(p, -half), half, (period + 1) // 2, -1.0
 
 
-@njit(**ENTRY)
-def hunt(p, period, mirrored, starts, nothing, columns, out):
+@njit(**ENTRY_POINT)
+def newton_from_starts(p, period, mirrored, starts, nothing, columns, out):
     """Newton's method on ``return_map`` from every start; ``out`` (n, 4) takes (found, angle, velocity, residual).
 
     Starts beyond a brace lead nowhere. How many were found.

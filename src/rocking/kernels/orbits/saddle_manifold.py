@@ -9,8 +9,8 @@ import math
 
 from numba import njit
 
-from rocking.kernels.arc.solution import earlier
-from rocking.kernels.compile_options import ENTRY, WITHIN
+from rocking.kernels.arc.solution import shift_clock
+from rocking.kernels.compile_options import ENTRY_POINT, INTERNAL
 from rocking.kernels.event_kinds import FLIGHT, IMPACT
 from rocking.kernels.forcing.harmonic import particular
 from rocking.kernels.march.event_rows import state_at
@@ -23,7 +23,7 @@ from rocking.kernels.parameters import later, make
 NEAR = 0.5
 
 
-@njit(**ENTRY)
+@njit(**ENTRY_POINT)
 def swings(amplitudes, frequencies, phases, out):
     """Write (beta cos psi, its derivative) into ``out`` (n, 2): how far saddle orbits are from their corners at phases psi."""
     for k in range(out.shape[0]):
@@ -32,7 +32,7 @@ def swings(amplitudes, frequencies, phases, out):
         out[k, 0], out[k, 1] = particular(p, math.cos(phases[k]), math.sin(phases[k]))
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def leaving(p, side):
     """(Theta, Theta') at the start of the clock of the motion that is NEAR (1 - beta) from the saddle orbit just then."""
     place, rate = particular(p, side * math.cos(p.phase), side * math.sin(p.phase))
@@ -40,7 +40,7 @@ def leaving(p, side):
     return side * (1.0 + place - distance), side * (rate - distance)
 
 
-@njit(**ENTRY)
+@njit(**ENTRY_POINT)
 def images(p, side, times, out):
     """Write (Theta, Theta') into ``out`` (n, 2), at the section psi = phase, a time ``times[k]`` after ``leaving``.
 
@@ -64,12 +64,12 @@ def images(p, side, times, out):
                 return False
             mode, arc = after_event(q, arc, at, coming, end - at)
             while cycles > 0 and arc.start > q.period:
-                arc, cycles = earlier(arc, q.period), cycles - 1
+                arc, cycles = shift_clock(arc, q.period), cycles - 1
         out[k, 0], out[k, 1] = state_at(q, mode, arc, end - arc.start)
     return True
 
 
-@njit(**ENTRY)
+@njit(**ENTRY_POINT)
 def first_impacts(p, side, waits, out):
     """Write (psi, speed just before) of the first impact into ``out`` (n, 2) of motions ``leaving`` at ``waits[k]``; NaN without."""
     for k in range(waits.shape[0]):

@@ -16,7 +16,7 @@ import numpy as np
 from numba import njit
 
 from rocking.kernels.arc.solution import Arc, arc_from, evaluate
-from rocking.kernels.compile_options import ENTRY, INNER, WITHIN
+from rocking.kernels.compile_options import ENTRY_POINT, INTERNAL, INTERNAL_INLINE
 from rocking.kernels.forcing.harmonic import TURN
 from rocking.kernels.numerics.elementary import size
 
@@ -38,7 +38,7 @@ class Nearest(NamedTuple):
     half: float  # how long every arc of the mode takes
 
 
-@njit(**INNER)
+@njit(**INTERNAL_INLINE)
 def closed_form(frequency, response, restitution, order, faster):
     """(speed after an impact, phase there, trace of the half-cycle map) of the faster or slower mode; NaN where there is none."""
     e, h = restitution, order * math.pi / frequency
@@ -61,13 +61,13 @@ def closed_form(frequency, response, restitution, order, faster):
     return speed, math.atan2(sine, -t * lost * (speed / twice)), trace
 
 
-@njit(**ENTRY)
+@njit(**ENTRY_POINT)
 def closed_form_plain(frequency, response, restitution, order, faster):
     """``closed_form`` for Python."""
     return closed_form(frequency, response, restitution, order, faster)
 
 
-@njit(**WITHIN)
+@njit(**INTERNAL)
 def nearest(p, order, angle, velocity):
     """Of the faster (1, ``order``) mode, if that is stable, the state at the start of a cycle nearest to (angle, velocity)."""
     half = order * math.pi * p.per_frequency

@@ -9,8 +9,8 @@ import numpy as np
 from attrs import frozen
 
 from rocking.model import counted
-from rocking.survey.measurement import Batch, Measure, compute
-from rocking.survey.spec import Question
+from rocking.survey.measurement import Batch, Measurement, compute
+from rocking.survey.spec import SurveySpec
 from rocking.survey.tiling import Level
 
 PILOTS, AT_ONCE = 512, 16
@@ -48,7 +48,7 @@ class Cost:
         return f"{what}, about {duration(self.seconds / workers)} on {counted(workers, 'core')}"
 
 
-def cost(asked: Question, measure: Measure, levels: list[Level], there: int) -> Cost:
+def cost(asked: SurveySpec, measure: Measurement, levels: list[Level], there: int) -> Cost:
     """The cost of a survey of which so many points are there, from a few of its points."""
     tiles = sum(math.prod(level.tile_counts) for level in levels)
     # multiples of the golden section, as whole numbers prime to the count, are spread evenly over the points

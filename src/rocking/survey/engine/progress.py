@@ -20,7 +20,7 @@ from rich.text import Text
 
 from rocking.model import percent
 from rocking.survey.engine.cost import Cost
-from rocking.survey.measurement import Measure
+from rocking.survey.measurement import Measurement
 from rocking.survey.store.export import flags
 
 
@@ -35,7 +35,7 @@ class Rate(ProgressColumn):
 class Bar:
     """A bar on stderr, which says first what the survey will cost; to be entered before it runs."""
 
-    def __init__(self, cost: Cost, measure: Measure, workers: int | None) -> None:
+    def __init__(self, cost: Cost, measure: Measurement, workers: int | None) -> None:
         self.cost, self.workers = cost, workers
         told = next(each for each in measure.variables if each.name == measure.shares)
         self.meanings = flags(told.attributes)

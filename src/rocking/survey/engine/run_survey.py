@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING
 from rocking.model import instance, refusal
 from rocking.survey.engine.cost import cost
 from rocking.survey.engine.tile_loop import Results, cores, run
-from rocking.survey.measurement import Measure
-from rocking.survey.spec import Question
+from rocking.survey.measurement import Measurement
+from rocking.survey.spec import SurveySpec
 from rocking.survey.store.memory import Memory, check_fits
 from rocking.survey.store.store import opened
 
@@ -20,9 +20,9 @@ if TYPE_CHECKING:
     import xarray as xr
 
 
-def ask(
-    asked: Question,
-    measure: Measure,
+def run_survey(
+    asked: SurveySpec,
+    measure: Measurement,
     store: str | os.PathLike[str] | None = None,
     executor: Executor | None = None,
     *,

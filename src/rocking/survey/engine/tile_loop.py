@@ -12,9 +12,9 @@ from typing import Protocol
 import numpy as np
 from attrs import frozen
 
-from rocking.survey.measurement import Arrays, Measure, batches, compute
-from rocking.survey.spec import Question
-from rocking.survey.store.locking import undisturbed
+from rocking.survey.measurement import Arrays, Measurement, batches, compute
+from rocking.survey.spec import SurveySpec
+from rocking.survey.store.locking import defer_interrupt
 from rocking.survey.tiling import Level, Tile
 
 MOST_UNDER_WAY = 512
@@ -24,8 +24,8 @@ MOST_UNDER_WAY = 512
 class Results(Protocol):
     """Where results are kept: in memory, or in a store."""
 
-    asked: Question
-    measure: Measure
+    asked: SurveySpec
+    measure: Measurement
     levels: list[Level]
     done: int  # points that an earlier run has left
 
@@ -103,7 +103,7 @@ def _settle(pending: deque[Pending], results: Results, watcher: Watcher | None) 
     wait(first.futures, return_when=FIRST_EXCEPTION)
     tile, shared = first.tile, first.tile.shared()
     found = [future.result() for future in first.futures]
-    with undisturbed():
+    with defer_interrupt():
         answers = results.read(tile) if first.known.any() else results.measure.blank(tile.shape)
         if shared is not None:
             for name, values in results.coarser(tile).items():

@@ -21,7 +21,7 @@ from rocking.model import (
 )
 from rocking.motion import simulate
 from rocking.response import budget, classify
-from rocking.survey.measurement import Arrays, Measure, Variable
+from rocking.survey.measurement import Arrays, Measurement, Variable
 from rocking.survey.measures.chaotic_means import averages, grouped
 from rocking.survey.measures.response import VARIABLES, judged
 from rocking.survey.spec import Points, points
@@ -64,7 +64,7 @@ CLASS = ("kind", "response_period", "impacts_per_period", "brace_hits_per_period
 """What differs between two attractors, if anything but their states does."""
 
 
-def destination(max_cycles: int, max_period: int, title: str) -> Measure:
+def destination(max_cycles: int, max_period: int, title: str) -> Measurement:
     """What the cascade of `classify` says at each start, and a state that stands for where it leads."""
     by_name = {each.name: each for each in VARIABLES}
     variables = (
@@ -75,18 +75,18 @@ def destination(max_cycles: int, max_period: int, title: str) -> Measure:
         by_name["cycles"],
     )
     options = budget(max_cycles, max_period)
-    return Measure(title, judge, compile_both, variables, options, batch.METHOD, shares="kind")
+    return Measurement(title, judge, compile_both, variables, options, batch.METHOD, shares="kind")
 
 
 def compile_both(may_last: bool) -> None:
     """Compile the cascade, and what follows orbits."""
     batch.compile_many(may_last)
     still = np.array([[0.0, 1.0, math.tau, 0.0, 0.0, math.inf, 1.0]])
-    kernel.anchors_of(still, np.zeros((1, 2)), results.no_answers(1))
+    kernel.anchors_of(still, np.zeros((1, 2)), results.empty_results(1))
     simulate(System(Harmonic(0.0, period=1.0), 0.0), cycles=1, record="section")
 
 
-def lead(
+def classify_with_anchor(
     values: Mapping[str, np.ndarray],
     fixed: Mapping[str, float],
     max_cycles: int,
@@ -95,7 +95,7 @@ def lead(
 ) -> Arrays | None:
     """What `respond` says, with the state that stands for each orbit: `orbit_angle` and `orbit_velocity`."""
     asked = points(values, fixed)
-    told = batch.judge_many(*asked, max_cycles, max_period, stop)
+    told = batch.classify_batch(*asked, max_cycles, max_period, stop)
     if told is None:
         return None
     angles, velocities = kernel.anchors_of(*asked, told).T
@@ -104,7 +104,7 @@ def lead(
 
 def judge(points: Points, options: Mapping[str, int], stop: np.ndarray) -> Arrays | None:
     """The cascade's answers, with the state that stands for each orbit."""
-    told = batch.judge_many(*points, options["max_cycles"], options["max_period"], stop)
+    told = batch.classify_batch(*points, options["max_cycles"], options["max_period"], stop)
     if told is None:
         return None
     anchors = kernel.anchors_of(*points, told)
@@ -121,7 +121,7 @@ def judge(points: Points, options: Mapping[str, int], stop: np.ndarray) -> Array
     }
 
 
-def told_apart(system: System, answers: Mapping[str, Any]) -> tuple[np.ndarray, np.ndarray]:
+def label_attractors(system: System, answers: Mapping[str, Any]) -> tuple[np.ndarray, np.ndarray]:
     """(labels (n,), first (m,)): which attractor each of n starts leads to, the largest share first, and a start of each.
 
     Orbits of one class (kind, period, impacts, symmetry) are one where the states that stand for them are, or where one's
@@ -194,7 +194,7 @@ def section_of(system: System, anchor: np.ndarray, period: int) -> np.ndarray:
     return np.asarray(motion.section()[:period])
 
 
-def named(
+def make_attractors(
     system: System, starts: np.ndarray, first: np.ndarray, max_cycles: int, max_period: int
 ) -> tuple[Attractor, ...]:
     """The attractors to which these of the starts lead, each with a name of its own."""

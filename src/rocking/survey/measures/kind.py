@@ -9,22 +9,22 @@ import numpy as np
 from rocking.kernels import batch
 from rocking.model import Share
 from rocking.response import budget
-from rocking.survey.measurement import Arrays, Measure
+from rocking.survey.measurement import Arrays, Measurement
 from rocking.survey.measures.response import VARIABLES
 from rocking.survey.spec import Points
 
 KIND = VARIABLES[0]
 
 
-def outcome(max_cycles: int, max_period: int, title: str) -> Measure:
+def outcome(max_cycles: int, max_period: int, title: str) -> Measurement:
     """The kind of each response, by the cascade of `classify`."""
     options = budget(max_cycles, max_period)
-    return Measure(title, judge, batch.compile_many, (KIND,), options, batch.METHOD, shares="kind")
+    return Measurement(title, judge, batch.compile_many, (KIND,), options, batch.METHOD, shares="kind")
 
 
 def judge(points: Points, options: Mapping[str, int], stop: np.ndarray) -> Arrays | None:
     """The cascade's answers, of which only the kind is kept."""
-    told = batch.judge_many(*points, options["max_cycles"], options["max_period"], stop)
+    told = batch.classify_batch(*points, options["max_cycles"], options["max_period"], stop)
     return None if told is None else {"kind": told.kind}
 
 

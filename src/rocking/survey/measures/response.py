@@ -11,7 +11,7 @@ from rocking.kernels import batch
 from rocking.kernels.classify import results
 from rocking.kernels.classify import verdict_record as kernel
 from rocking.response import budget
-from rocking.survey.measurement import Arrays, Measure, Variable
+from rocking.survey.measurement import Arrays, Measurement, Variable
 from rocking.survey.spec import Points, points
 
 
@@ -91,19 +91,19 @@ VARIABLES = (
 )
 
 
-def response(max_cycles: int, max_period: int, title: str) -> Measure:
+def response(max_cycles: int, max_period: int, title: str) -> Measurement:
     """What the cascade of `classify` says at each point."""
     options = budget(max_cycles, max_period)
-    return Measure(title, judge, batch.compile_many, VARIABLES, options, batch.METHOD, shares="kind")
+    return Measurement(title, judge, batch.compile_many, VARIABLES, options, batch.METHOD, shares="kind")
 
 
 def judge(points: Points, options: Mapping[str, int], stop: np.ndarray) -> Arrays | None:
     """The cascade's answers, told as `classify` tells them."""
-    told = batch.judge_many(*points, options["max_cycles"], options["max_period"], stop)
+    told = batch.classify_batch(*points, options["max_cycles"], options["max_period"], stop)
     return None if told is None else judged(told)
 
 
-def respond(
+def classify_points(
     values: Mapping[str, np.ndarray],
     fixed: Mapping[str, float],
     max_cycles: int,
@@ -117,7 +117,7 @@ def respond(
     return judge(points(values, fixed), {"max_cycles": max_cycles, "max_period": max_period}, stop)
 
 
-def judged(told: results.Answers) -> Arrays:
+def judged(told: results.ResultArrays) -> Arrays:
     """The cascade's answers by the names of the variables."""
     unweighed = (told.kind == kernel.UNDETERMINED) & ~np.isin(told.ground, kernel.WEIGHED)
     overturns, periodic = told.kind == kernel.OVERTURNS, told.kind == kernel.PERIODIC

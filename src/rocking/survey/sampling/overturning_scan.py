@@ -9,9 +9,9 @@ import numpy as np
 from attrs import frozen
 
 from rocking.kernels.classify import verdict_record as kernel
-from rocking.survey.measurement import Measure
+from rocking.survey.measurement import Measurement
 from rocking.survey.sampling.random_points import sampled
-from rocking.survey.spec import Question, points
+from rocking.survey.spec import SurveySpec, points
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -25,8 +25,8 @@ SETTLED = 1e-12
 class Scan:
     """What was found at each amplitude and phase (the last two dimensions) of each cell (those before, `over`)."""
 
-    asked: Question
-    measure: Measure
+    asked: SurveySpec
+    measure: Measurement
     over: tuple[str, ...]
     kinds: xr.DataArray
 

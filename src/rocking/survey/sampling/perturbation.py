@@ -22,7 +22,7 @@ def spread(count: int) -> np.ndarray:
     return 2.0 * ((0.5 + np.arange(count)[:, None] * steps) % 1.0) - 1.0
 
 
-def disturbed(meant: Points, units: np.ndarray, off: float) -> Points:
+def perturbed(meant: Points, units: np.ndarray, off: float) -> Points:
     """Points (n) with A, T, e, Θ and Θ' off by that share of themselves times `units` (n, INPUTS), which lie in [-1, 1]."""
     factors = 1.0 + off * units
     systems, starts = meant.systems.copy(), meant.starts.copy()

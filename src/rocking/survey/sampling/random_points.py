@@ -9,7 +9,7 @@ import numpy as np
 
 from rocking.model import instance, reals, refusal, shown, whole
 from rocking.survey.engine.tile_loop import engine
-from rocking.survey.measurement import Arrays, Measure
+from rocking.survey.measurement import Arrays, Measurement
 from rocking.survey.spec import RANGES, Points
 
 AT_ONCE = 2048
@@ -18,7 +18,7 @@ MOST_SAMPLES = 10_000_000
 MOST_SEED = 2**32 - 1
 
 
-def sampled(points: Points, measure: Measure, executor: Executor | None = None) -> Arrays:
+def sampled(points: Points, measure: Measurement, executor: Executor | None = None) -> Arrays:
     """The answers of a measure at points, in their order."""
     if executor is not None:
         instance("executor", executor, Executor)

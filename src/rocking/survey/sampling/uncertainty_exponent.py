@@ -20,7 +20,7 @@ def distances(widths: tuple[float, float]) -> np.ndarray:
     return np.sqrt(widths[0] * widths[1]) * 0.5 ** np.arange(COARSEST, FINEST + 1)
 
 
-def trios(
+def perturbed_triples(
     low: tuple[float, float], high: tuple[float, float], runs: int, random: np.random.Generator
 ) -> np.ndarray:
     """Starts (distances, n, 3, 2): random ones anew at each distance, and two beside each, in opposite directions."""

@@ -5,14 +5,14 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from rocking.model import VERSION
-from rocking.survey.measurement import Arrays, Measure
-from rocking.survey.spec import SYMBOLS, Question, described
+from rocking.survey.measurement import Arrays, Measurement
+from rocking.survey.spec import SYMBOLS, SurveySpec, described
 
 if TYPE_CHECKING:
     import xarray as xr
 
 
-def dataset(asked: Question, measure: Measure, arrays: Arrays) -> xr.Dataset:
+def dataset(asked: SurveySpec, measure: Measurement, arrays: Arrays) -> xr.Dataset:
     """The arrays, each over all axes, with their coordinates and attributes."""
     import xarray as xr
 
@@ -28,7 +28,7 @@ def coordinate(name: str) -> dict[str, str]:
     return {"long_name": long_name, "symbol": symbol, "units": "rad" if name == "phase" else "1"}
 
 
-def attributes(asked: Question, measure: Measure) -> dict[str, Any]:
+def attributes(asked: SurveySpec, measure: Measurement) -> dict[str, Any]:
     """What the survey is: every parameter that does not vary, the options, and who made it."""
     return {
         "Conventions": "CF-1.11",

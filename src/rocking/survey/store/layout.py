@@ -9,8 +9,8 @@ import numpy as np
 from attrs import frozen
 
 from rocking.model import VERSION, shown
-from rocking.survey.measurement import Measure
-from rocking.survey.spec import Question, described
+from rocking.survey.measurement import Measurement
+from rocking.survey.spec import SurveySpec, described
 from rocking.survey.tiling import Level, even_edges, levels, thinned, tile_edges
 
 SAME = 1e-9
@@ -39,7 +39,7 @@ class Layout:
         return [Level(number, *part) for number, part in enumerate(parts)]
 
 
-def new_layout(asked: Question) -> Layout:
+def new_layout(asked: SurveySpec) -> Layout:
     """The layout of a store that begins."""
     grids = levels(asked)
     halved = [each.halved for each in grids if each.halved is not None]
@@ -84,7 +84,7 @@ def described_layout(layout: Layout) -> dict[str, Any]:
     }
 
 
-def fingerprint(asked: Question, measure: Measure) -> dict[str, Any]:
+def fingerprint(asked: SurveySpec, measure: Measurement) -> dict[str, Any]:
     """What must be the same for a store to be gone on with, and who made it."""
     import llvmlite.binding as llvm
 
@@ -124,7 +124,7 @@ def check_same(path: str, stored: Mapping[str, Any], mine: Mapping[str, Any]) ->
         )
 
 
-def joined(path: str, stored: Layout, asked: Question) -> Layout:
+def joined(path: str, stored: Layout, asked: SurveySpec) -> Layout:
     """What a store holds together with what is asked: the same axes, longer ones, or ones of half the spacing (or a quarter, …).
 
     Raises ValueError for axes that leave out or move what is there.

@@ -43,7 +43,7 @@ def something_else(folder: Path, what: str) -> str:
 
 
 @contextmanager
-def alone(folder: Path) -> Iterator[None]:
+def exclusive_lock(folder: Path) -> Iterator[None]:
     """Refuse a second run on one store. The system ends the lock with the process, however that ends."""
     try:
         import fcntl
@@ -64,7 +64,7 @@ def alone(folder: Path) -> Iterator[None]:
 
 
 @contextmanager
-def undisturbed() -> Iterator[None]:
+def defer_interrupt() -> Iterator[None]:
     """Ctrl-C waits for the end of what is done with a store: in the midst of it zarr would leave a warning behind."""
     # Ctrl-C is the main thread's; None: its handler is not Python's
     if current_thread() is not main_thread() or signal.getsignal(signal.SIGINT) is None:
@@ -81,7 +81,7 @@ def undisturbed() -> Iterator[None]:
 
 
 @contextmanager
-def writing(folder: Path) -> Iterator[None]:
+def wrap_write_errors(folder: Path) -> Iterator[None]:
     """Say of a write that failed which store it was, and how to go on."""
     try:
         yield

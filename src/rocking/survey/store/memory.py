@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from rocking.survey.measurement import Arrays, Measure
-from rocking.survey.spec import Question
+from rocking.survey.measurement import Arrays, Measurement
+from rocking.survey.spec import SurveySpec
 from rocking.survey.store.dataset import dataset
 from rocking.survey.tiling import Level, Tile, finest
 
@@ -24,7 +24,7 @@ SHARE = 0.5
 class Memory:
     """Arrays of the whole survey; only its finest grid, since nobody sees it before it is done."""
 
-    def __init__(self, asked: Question, measure: Measure) -> None:
+    def __init__(self, asked: SurveySpec, measure: Measurement) -> None:
         self.asked, self.measure = asked, measure
         self.levels: list[Level] = finest(asked)
         self.done = 0
@@ -52,7 +52,7 @@ class Memory:
         return dataset(self.asked, self.measure, self.arrays)
 
 
-def check_fits(asked: Question, measure: Measure) -> None:
+def check_fits(asked: SurveySpec, measure: Measurement) -> None:
     """Refuse a survey that memory does not hold; ValueError with the way out."""
     needed = asked.points * sum(np.dtype(each.dtype).itemsize for each in measure.variables)
     if needed > SHARE * memory_size():

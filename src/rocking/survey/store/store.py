@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from rocking.survey.measurement import Arrays, Measure
-from rocking.survey.spec import Question
+from rocking.survey.measurement import Arrays, Measurement
+from rocking.survey.spec import SurveySpec
 from rocking.survey.store import zarr_arrays
 from rocking.survey.store.layout import (
     Layout,
@@ -27,13 +27,13 @@ from rocking.survey.store.layout import (
 from rocking.survey.store.locking import (
     ROOT,
     StoreError,
-    alone,
     check_store,
+    defer_interrupt,
+    exclusive_lock,
     reading,
     remove_unfinished,
     something_else,
-    undisturbed,
-    writing,
+    wrap_write_errors,
 )
 from rocking.survey.tiling import Level, Slices, Tile
 
@@ -55,14 +55,14 @@ class Store:
     whatever is not is computed again. Every file is written under another name and renamed.
     """
 
-    def __init__(self, path: Path, asked: Question, measure: Measure, *, repair: bool) -> None:
+    def __init__(self, path: Path, asked: SurveySpec, measure: Measurement, *, repair: bool) -> None:
         from rocking.survey.store.zarr_files import Files
 
         self.path, self.measure = path, measure
         self.files = Files(path)
-        with undisturbed(), writing(path):
+        with defer_interrupt(), wrap_write_errors(path):
             self.layout, self.root = self._agreed(asked)
-            self.asked = Question(self.layout.axes, asked.fixed)
+            self.asked = SurveySpec(self.layout.axes, asked.fixed)
             self.levels: list[Level] = self.layout.levels()
             remove_unfinished(path, [*self.layout.axes, *(each.name for each in measure.variables)])
             self.arrays = self._arranged()
@@ -97,7 +97,7 @@ class Store:
         from rocking.survey.store.zarr_files import encoded
 
         held = self._held(tile.level)
-        with writing(self.path):
+        with wrap_write_errors(self.path):
             for each in self.measure.variables:
                 content = encoded(answers[each.name], tile.level.tile, each.fill)
                 self.files.keep(self._chunk(tile, each.name), content)
@@ -171,7 +171,7 @@ class Store:
     def _read(self, level: Level, name: str, region: Slices) -> np.ndarray:
         return np.asarray(self.arrays[level.number][name].get_basic_selection(region))
 
-    def _agreed(self, asked: Question) -> tuple[Layout, zarr.Group]:
+    def _agreed(self, asked: SurveySpec) -> tuple[Layout, zarr.Group]:
         """What the store holds together with what is asked, as its root says; refused if they do not go together."""
         import zarr
 
@@ -207,7 +207,7 @@ class Store:
 
 @contextmanager
 def opened(
-    path: str | os.PathLike[str], asked: Question, measure: Measure, *, repair: bool
+    path: str | os.PathLike[str], asked: SurveySpec, measure: Measurement, *, repair: bool
 ) -> Iterator[Store]:
     """A store for this run alone, made if it is not there.
 
@@ -219,9 +219,9 @@ def opened(
         It is no folder, holds something else, is written by another run, cannot be written, or is damaged.
     """
     folder = check_store(path)
-    with writing(folder):
+    with wrap_write_errors(folder):
         folder.resolve().mkdir(parents=True, exist_ok=True)
-    with alone(folder):
+    with exclusive_lock(folder):
         yield Store(folder, asked, measure, repair=repair)
 
 

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from rocking.survey.measurement import Measure
-from rocking.survey.spec import Question
+from rocking.survey.measurement import Measurement
+from rocking.survey.spec import SurveySpec
 from rocking.survey.store.dataset import attributes, coordinate
 from rocking.survey.tiling import Level
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 def make_groups(
-    files: Files, asked: Question, measure: Measure, levels: list[Level], there: dict[str, Any]
+    files: Files, asked: SurveySpec, measure: Measurement, levels: list[Level], there: dict[str, Any]
 ) -> list[zarr.Group]:
     """A group a level, each of which says what the survey is; made where it is not ``there``."""
     from zarr.core.group import GroupMetadata
@@ -35,7 +35,7 @@ def make_groups(
 
 
 def make_arrays(
-    files: Files, measure: Measure, levels: list[Level], there: list[dict[str, Any]]
+    files: Files, measure: Measurement, levels: list[Level], there: list[dict[str, Any]]
 ) -> list[dict[str, zarr.Array]]:
     """The variables of each level by name, beside its coordinates: made, or made larger, where need be.
 
@@ -77,7 +77,7 @@ def _made(files: Files, wanted: Mapping[str, Any], there: Mapping[str, Any]) -> 
     return found
 
 
-def _descriptions(level: Level, measure: Measure) -> dict[str, Any]:
+def _descriptions(level: Level, measure: Measurement) -> dict[str, Any]:
     """The coordinates and variables of a level: a coordinate in one chunk, a variable in one a tile."""
     names = list(level.axes)
     along = {
