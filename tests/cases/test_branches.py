@@ -1,6 +1,7 @@
 """Branches of periodic orbits against closed forms, published cases and each other."""
 
 import math
+import re
 import runpy
 from pathlib import Path
 
@@ -53,6 +54,11 @@ def test_what_is_printed_of_a_branch_says_where_it_is_stable():
     first = born.points["parameter"][np.flatnonzero(born.points["stable"])[0]]
     doubling = special(born, "period-doubling")[0].parameter
     assert f" points, stable from {first:.6g} to {doubling:.6g}: " in str(born)
+    # the same branch to both sides of where it is born: it comes back along its mirror image
+    whole = rk.continue_orbit(born.at(8.0)[0], "amplitude", (5.0, 9.0))
+    low, high = re.search(r" points, stable from (\S+) to (\S+): ", str(whole)).groups()
+    assert float(low) == pytest.approx(breaking, rel=1e-4)
+    assert float(high) == 9.0
     beyond = rk.continue_orbit(mode_orbit(8.0, 1.721328, 0.8, 1), "amplitude", (7.5, 9.0))
     assert " points, nowhere stable: " in str(beyond)
 

@@ -1,6 +1,7 @@
 """Special points of branches: none is lost at the default step, and grazings are located to rounding."""
 
 import math
+from collections import Counter
 
 import numpy as np
 import pytest
@@ -123,6 +124,18 @@ def test_the_grazing_of_the_period_8_branch_does_not_depend_on_the_step():
         found.append(special(branch, "grazing")[0].parameter)
     assert np.ptp(found) <= 1e-13 * found[0]
     assert found[0] == pytest.approx(11.86655712, abs=1e-7)
+
+
+def test_a_branch_ends_at_its_grazing_wherever_it_is_begun():
+    """Very near a grazing the multipliers are beyond 10⁸, and no step is short enough: that is the end, and nothing is lost."""
+    ends, found = Counter(), []
+    for amplitude in (7.758823529411765, 8.818181818181818, *np.linspace(7.45, 10.4, 13)):
+        system = rk.System(rk.Harmonic(amplitude, period=1.721328), 0.8)
+        branch = rk.continue_orbit(rk.classify(system).orbit, "amplitude", (5.0, 14.5))
+        ends.update(branch.ends)
+        found += [point.parameter for point in special(branch, "grazing")]
+    assert ends == {"grazing": 30}
+    assert np.ptp(found) <= 1e-13 * found[0]
 
 
 def test_a_grazing_with_a_brace_is_where_the_brace_is_the_peak():

@@ -18,7 +18,7 @@ from rocking.kernels.parameters import harmonic_parameters
 PEAK = """
 import math, sys
 import numpy as np
-from rocking.kernels import march
+from rocking.kernels.march import march
 from rocking.kernels.parameters import harmonic_parameters
 period = 1.5788944723618088
 p = harmonic_parameters(13.266331658291458, 2 * math.pi / period, period, 2.3999632297286526, 0.925)

@@ -611,7 +611,7 @@ def test_response_that_forgets_is_told_in_the_words_of_the_command_line(rocking)
 
 
 READY = """
-from rocking.explorer.app import warm_up
+from rocking.explorer.application import warm_up
 warm_up()
 from rocking.kernels import batch
 print(bool(batch.classify_batch_scalar.signatures and batch.classify_batch_lanes.signatures))

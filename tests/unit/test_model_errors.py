@@ -56,7 +56,9 @@ def test_reals_refuses_everything_else_in_one_line(value):
 MASKED = np.ma.array([1.0, 9e99], mask=[False, True])
 
 
-@pytest.mark.parametrize("value", [np.ma.masked, MASKED, [MASKED, MASKED], (1.0, np.ma.masked), MASKED[1:]])
+@pytest.mark.parametrize(
+    "value", [np.ma.masked, MASKED, [MASKED, MASKED], (1.0, np.ma.masked), MASKED[1:], [[MASKED]]]
+)
 def test_masked_values_are_refused(value):
     with pytest.raises(
         ValueError, match=r"^times must hold no masked values; got .*\(leave them out, or fill them\)$"

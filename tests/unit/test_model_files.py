@@ -153,7 +153,7 @@ def test_folder_inside_a_file_is_refused(tmp_path):
             check_folder("--output", path)
 
 
-MADE = Made("mark", others="", sign="")
+MADE = Made("mark", others="", folders="", sign="")
 
 
 def write_folder(target, text):
@@ -196,3 +196,16 @@ def test_folder_that_was_not_written_here_is_refused_and_an_empty_one_taken(tmp_
     ):
         write_folder(tmp_path / "other", "new")
     assert names(tmp_path / "other") == ["notes"]
+
+
+def test_a_page_beside_a_link_or_a_folder_of_the_user_is_not_replaced(tmp_path):
+    for name, put in (
+        ("link", lambda place: place.symlink_to(tmp_path)),
+        ("folder", lambda place: place.mkdir()),
+    ):
+        page = tmp_path / name
+        write_folder(page, "old")
+        put(page / "own")
+        with pytest.raises(OSError, match="folder must be new, empty, or hold just an earlier mark"):
+            write_folder(page, "new")
+        assert names(page) == ["mark", "own"]

@@ -141,3 +141,11 @@ def test_the_boundary_of_overturning_is_smooth_up_to_the_tangency_and_fractal_ab
         assert one.low <= 1.0 <= one.high
         assert not one.fractal
     assert found[2].high < 0.7
+
+
+@pytest.mark.parametrize(("count", "of", "unknown"), [(5, 10, 6), (11, 10, 0), (-1, 10, 0), (0, 10, -1)])
+def test_impossible_counts_are_refused(count, of, unknown):
+    with pytest.raises(
+        ValueError, match=r"^count, of and unknown must be at least 0, and count \+ unknown at most of; got"
+    ):
+        rk.Share(count, of, unknown)

@@ -175,24 +175,34 @@ def replacing_hdf5(path: str | os.PathLike[str]) -> Iterator[io.FileIO]:
 
 @frozen
 class Made:
-    """How a folder that was written here is known: by a page with a sign in it, and by the paths of all other files."""
+    """How a folder that was written here is known: by a page with a sign in it, and by the paths of all other files and folders."""
 
     page: str
     others: str
+    folders: str
     sign: str
 
     def is_in(self, folder: Path) -> bool:
-        """Whether the folder holds just that; `others` is a regular expression."""
+        """Whether the folder holds just that, and no link; `others` and `folders` are regular expressions."""
         page = folder / self.page
         if not page.is_file() or self.sign not in page.read_text(encoding="utf-8", errors="replace"):
             return False
-        held = (each.relative_to(folder).as_posix() for each in folder.rglob("*") if not each.is_dir())
-        return all(name == self.page or re.fullmatch(self.others, name) for name in held)
+        return all(self._is_own(each, each.relative_to(folder).as_posix()) for each in folder.rglob("*"))
+
+    def _is_own(self, path: Path, name: str) -> bool:
+        if path.is_symlink():
+            return False
+        if path.is_dir():
+            return re.fullmatch(self.folders, name) is not None
+        return name == self.page or re.fullmatch(self.others, name) is not None
 
 
 # The page of a map in tiles: one room writes it, another asks before the work whether it may be written.
 TILES = Made(
-    "index.html", others=r"tiles/\d+/\d+-\d+(-[a-z]+)?\.png", sign='<meta name="generator" content="rocking'
+    "index.html",
+    others=r"tiles/\d+/\d+-\d+(-[a-z]+)?\.png",
+    folders=r"tiles(/\d+)?",
+    sign='<meta name="generator" content="rocking',
 )
 
 
@@ -225,7 +235,7 @@ def replacing_folder(name: str, path: str | os.PathLike[str], made: Made) -> Ite
     --------
     >>> from tempfile import TemporaryDirectory
     >>> with TemporaryDirectory() as folder:
-    ...     made = Made("index.html", others="", sign="a page")
+    ...     made = Made("index.html", others="", folders="", sign="a page")
     ...     with replacing_folder("folder", Path(folder) / "map", made) as partial:
     ...         _ = (partial / "index.html").write_text("a page")
     ...     [file.name for file in Path(folder).rglob("*")]

@@ -9,6 +9,8 @@ from typing import Any
 import numpy as np
 from attrs import field, frozen
 
+from rocking.model.validation import refusal
+
 LEVEL = 0.95
 """How often an interval covers what it is of, about."""
 
@@ -73,6 +75,13 @@ class Share:
     count: int = field(converter=int)
     of: int = field(converter=int)
     unknown: int = field(default=0, converter=int)
+
+    def __attrs_post_init__(self) -> None:
+        if min(self.count, self.of, self.unknown) < 0 or self.count + self.unknown > self.of:
+            told = (self.count, self.of, self.unknown)
+            raise ValueError(
+                refusal("count, of and unknown", "be at least 0, and count + unknown at most of", told)
+            )
 
     @property
     def value(self) -> float:

@@ -139,8 +139,7 @@ def reals(name: str, values: Any) -> Any:
         except OverflowError:
             largest = np.finfo(float).max
             raise ValueError(refusal(name, f"be a real number of size up to {largest:.6g}", values)) from None
-    arrays = values if isinstance(values, list | tuple) else [values]
-    if any(isinstance(each, np.ma.MaskedArray) and np.ma.is_masked(each) for each in arrays):
+    if _is_masked(values):
         raise ValueError(refusal(name, "hold no masked values", values, "leave them out, or fill them"))
     try:
         array = np.asarray(values)
@@ -149,6 +148,13 @@ def reals(name: str, values: Any) -> Any:
     if array.dtype.kind not in "fiu":
         raise TypeError(refusal(name, "be a real number or an array of real numbers", values))
     return array.astype(float)
+
+
+def _is_masked(values: Any) -> bool:
+    """Return whether a value is masked in an array, or in a list of arrays however deep."""
+    if isinstance(values, list | tuple):
+        return any(map(_is_masked, values))
+    return isinstance(values, np.ma.MaskedArray) and bool(np.ma.is_masked(values))
 
 
 def members(name: str, values: Any, allowed: str) -> tuple[Any, ...]:

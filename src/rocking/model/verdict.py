@@ -108,7 +108,7 @@ class Orbit:
         return self.at(self.system.forcing.phase)
 
     def at(self, phase: float) -> State:
-        """Give the state of the orbit at a forcing phase, exactly.
+        """Give the state of the orbit at a forcing phase: `state`, marched to there.
 
         Parameters
         ----------

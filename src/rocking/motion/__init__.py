@@ -1,6 +1,6 @@
 """Simulating one block, and what it did."""
 
-from rocking.motion.fall import FALLEN, end_shown, time_of_fall
+from rocking.motion.fall import FALLEN, end_shown, sample_step, time_of_fall
 from rocking.motion.march_loop import march_on, start_march
 from rocking.motion.model_warnings import block_warnings
 from rocking.motion.motion import Motion
@@ -15,6 +15,7 @@ __all__ = [
     "end_shown",
     "kept_events",
     "march_on",
+    "sample_step",
     "simulate",
     "start_march",
     "time_of_fall",

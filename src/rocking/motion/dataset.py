@@ -7,14 +7,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from rocking.model import VERSION, Block, block_attributes, instance, refusal, within
-from rocking.motion.fall import end_shown
+from rocking.motion.fall import end_shown, sample_step
 
 if TYPE_CHECKING:
     import xarray as xr
 
     from rocking.motion.motion import Motion
 
-STEPS_PER_PERIOD = 100
 MOST_STEPS = 100_000_000
 
 Unit = tuple[float, str]
@@ -42,7 +41,7 @@ def to_dataset(motion: Motion, step: float | None = None, block: Block | None = 
     step : float, optional
         Between the samples, in τ, or in seconds with a block; a hundredth of the forcing period unless given. The
         samples start at 0 and end at the last whole step of the run; those of an overturned block go on past the proof,
-        until |Θ| = 3.
+        until |Θ| = 3, or for one unit of time where it starts beyond.
     block : Block, optional
         Gives everything in s, rad, m, and adds the displacement of the block's top; normalised without.
 
@@ -97,7 +96,7 @@ def _times(motion: Motion, step: float | None, units: dict[str, Unit]) -> np.nda
     """Normalised times of the samples."""
     second, unit = units["time"]
     if step is None:
-        spacing = motion.system.forcing.period / STEPS_PER_PERIOD
+        spacing = sample_step(motion)
     else:
         longest = motion.cycles * motion.system.forcing.period * second
         spacing = within("step", step, longest / MOST_STEPS, longest, "" if unit == "1" else unit) / second

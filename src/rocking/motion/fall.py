@@ -9,6 +9,8 @@ from rocking.model import Overturning
 if TYPE_CHECKING:
     from rocking.motion.motion import Motion
 
+STEPS = 100
+"""Samples of a period."""
 FALLEN = 3.0
 """|Θ| up to which a fall is followed."""
 
@@ -18,6 +20,11 @@ def end_shown(motion: Motion) -> float:
     if motion.overturning is None:
         return motion.duration
     return time_of_fall(motion, motion.overturning, FALLEN)
+
+
+def sample_step(motion: Motion) -> float:
+    """Time τ between samples unless one is given: a hundredth of a period, or of a motion that ends before."""
+    return min(motion.system.forcing.period, end_shown(motion)) / STEPS
 
 
 def time_of_fall(motion: Motion, overturning: Overturning, angle: float) -> float:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -250,7 +249,7 @@ class Motion(ReadOnlyArrays):
     def _sampled(self, times: Any) -> np.ndarray:
         rows = self._rows()
         times = np.asarray(reals("times", times), dtype=float)
-        last = self.duration if self.outcome is Outcome.BOUNDED else math.inf
+        last = self.duration if self.outcome is Outcome.BOUNDED else np.finfo(float).max
         if times.size and not (times.min() >= 0.0 and times.max() <= last):
             outside = times[~((times >= 0.0) & (times <= last))].flat[0]
             raise ValueError(refusal("times", f"lie in the run, [0, {last:.6g}]", float(outside)))

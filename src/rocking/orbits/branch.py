@@ -158,13 +158,18 @@ class Branch(ReadOnlyArrays):
         return ", ".join(said) or "nowhere stable"
 
     def _ranges_of(self, stability: Stability) -> list[tuple[float, float]]:
-        """Return the ranges of the parameter with one stability; a range ends at the special point beside it, if any."""
+        """Return the ranges of the parameter with one stability; a range ends at the special point beside it, if any.
+
+        The parameter may turn back within a range: what is told is how far it goes.
+        """
         values, changes = self.points["parameter"], {one.index: one.parameter for one in self.special}
         edges = np.flatnonzero(np.diff(self.points["stability"] == stability, prepend=False, append=False))
-        return [
-            (changes.get(first, values[first]), changes.get(after, values[after - 1]))
-            for first, after in edges.reshape(-1, 2).tolist()
-        ]
+        ranges = []
+        for first, after in edges.reshape(-1, 2).tolist():
+            ends = changes.get(first, values[first]), changes.get(after, values[after - 1])
+            within = values[first:after]
+            ranges.append((min(*ends, within.min()), max(*ends, within.max())))
+        return list(dict.fromkeys(ranges))
 
     def _repr_html_(self) -> str | None:
         return notebook_renderers.html(self)

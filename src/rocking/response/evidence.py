@@ -122,6 +122,7 @@ def _torus(case: Case) -> Shown:
         "flight digits": quasi_periodicity.ENOUGH_DIGITS,
         "speed digits": quasi_periodicity.CHAOTIC_DIGITS,
         "log shear": quasi_periodicity.SHEAR,
+        f"log shear below {quasi_periodicity.SHEARED_FLIGHTS} flights": quasi_periodicity.SMALL_SHEAR,
     }
     remark = f"statistical, over {spent(case)}: a motion that stays near a torus for long may leave it later"
     return Shown("statistical", what, remark, tolerances)

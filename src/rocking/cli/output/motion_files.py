@@ -15,7 +15,6 @@ if TYPE_CHECKING:
     from rocking.motion import Motion
 
 FILMS = (".gif", ".mp4")
-STEPS_PER_CYCLE = 100
 ROWS_AT_ONCE = 100_000
 MOST_CYCLES_KEPT = 100_000
 """Of a longer run only the counters, the peak and the end are kept."""
@@ -86,7 +85,7 @@ def write_plot(motion: Motion, block: Block | None, path: Path) -> None:
 
 
 def write_csv(motion: Motion, block: Block | None, path: Path) -> None:
-    """A hundred rows a cycle, normalised, then in SI if there is a block; the header names the units."""
+    """A hundred rows a cycle, or a motion that ends sooner, normalised, then in SI if there is a block; the header names the units."""
     files.write_csv(tables(motion, block), path)
 
 
@@ -94,10 +93,9 @@ def tables(motion: Motion, block: Block | None) -> Iterator[dict[str, Any]]:
     """Columns by their heading, so many rows at once that a long motion needs no more memory than a short one."""
     import numpy as np
 
-    from rocking.motion import end_shown
+    from rocking.motion import end_shown, sample_step
 
-    step = motion.system.forcing.period / STEPS_PER_CYCLE
-    end = end_shown(motion)
+    step, end = sample_step(motion), end_shown(motion)
     count = 1 + int(end / step * (1 + 1e-12))
     for first in range(0, count, ROWS_AT_ONCE):
         time = np.minimum(np.arange(first, min(first + ROWS_AT_ONCE, count)) * step, end)

@@ -21,6 +21,8 @@ ROOT = 1e-14
 MOST_HALVINGS = 200
 # Steps this short against the longest end on a grazing.
 CLOSE = 1e-3
+# An event reached more slowly than this grazes, to rounding: the depth of a touch goes like the square of the speed.
+SLOWEST = 1e-8
 # A branch that returns to its start has more points than this.
 LOOP = 8
 # What vanishes at the end of the range.
@@ -29,6 +31,8 @@ PARAMETER = -1
 STRAIGHT = 0.97
 # The multipliers turn by no more than this in a step, as ``multiplier_angle`` measures them: a fold and a flip are pi/2 apart.
 CALM = 0.3
+# Beyond this on one side the multipliers are far from a fold and from a flip. Towards a grazing they grow without bound.
+FAR = 1.2
 # A step as short as this, against the longest, is taken however the multipliers change in it.
 TINY = 1e-6
 # Phases half a chain apart that differ by half its turn to this: the orbit repeats itself sooner.

@@ -12,6 +12,7 @@ from rocking.kernels.orbits.branch_point import (  # fmt: skip
     CLOSE,
     CLOSED,
     EASY,
+    FAR,
     FOLD,
     GOING,
     GRAZED,
@@ -26,6 +27,7 @@ from rocking.kernels.orbits.branch_point import (  # fmt: skip
     RANGE,
     SHORTER,
     SHRINK,
+    SLOWEST,
     SMALLEST_STEP,
     STRAIGHT,
     SYMMETRY_BREAKING,
@@ -79,10 +81,21 @@ def keep_point(workspace, k, row, point, peak, out, facts):
 
 
 @njit(**INTERNAL)
+def slowest_arrival(workspace, k):
+    """The least speed at which an event of the orbit last solved is reached."""
+    slowest = math.inf
+    for j in range(k):
+        slowest = min(slowest, abs(workspace.links[j, 1]))
+    return slowest
+
+
+@njit(**INTERNAL)
 def is_calm(earlier, before, point, length, longest):
     """Whether the multipliers change little in a step, so that none passes a special point unseen."""
     start = multiplier_angle(before.trace, before.determinant)
     stop = multiplier_angle(point.trace, point.determinant)
+    if min(start, stop) > FAR or max(start, stop) < -FAR:
+        return True
     if not abs(stop - start) <= CALM:
         return False
     first = multiplier_angle(earlier.point.trace, earlier.point.determinant)
@@ -96,7 +109,7 @@ def next_step(
     """The next point, left in ``workspace.trial``, and the direction there, ``ahead``: with shorter steps where the branch bends.
 
     Steps are shorter too where the multipliers change fast; ``earlier`` is the step before. At a grazing and at the end of
-    the range the step ends on it.
+    the range the step ends on it. Its length is 0 where the last point lies on the grazing, to rounding.
     """
     k = chain.kinds.shape[0]
     while True:
@@ -109,7 +122,8 @@ def next_step(
             break
         length *= SHRINK
         if length < SMALLEST_STEP * longest:
-            return Step(LOST, length, point, peak)
+            _, point, peak = validated_point_at(p, which, chain, y, direction, 0.0, bounds, workspace)
+            return Step(GRAZED if slowest_arrival(workspace, k) < SLOWEST else LOST, 0.0, point, peak)
     end, within = GOING, length
     if not own:
         within = last_valid_length(p, which, chain, y, direction, length, bounds, workspace)
@@ -137,7 +151,7 @@ def next_step(
         else:
             within = 0.0
         if math.isnan(within):
-            return Step(LOST, length, before, peak)
+            return Step(LOST, 0.0, before, peak)
         _, point, peak = validated_point_at(p, which, chain, y, direction, within, bounds, workspace)
         workspace.trial[k] = level
         end = RANGE
@@ -197,7 +211,11 @@ def follow(
         step = next_step(
             p, which, chain, y, direction, ahead, length, longest, limits, bounds, before, earlier, workspace
         )
-        if step.end == LOST or (step.end == RANGE and step.length == 0.0):
+        if step.length == 0.0:
+            if step.end == GRAZED and found < specials.shape[0]:
+                specials[found] = y
+                changes[found, 0], changes[found, 1] = GRAZING, count - 1
+                found += 1
             return count, found, step.end
         keep_point(workspace, k, count, step.point, step.peak, out, facts)
         found, merges = note_specials(
