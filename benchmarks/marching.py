@@ -13,26 +13,26 @@ from rocking.kernels.classify.reset import begin_tangent
 from rocking.kernels.classify.results import parameters_from_row
 from rocking.kernels.classify.workspace import make_workspace
 from rocking.kernels.compile_options import ALLOCATING, KERNEL
+from rocking.kernels.lanes.load_unload import find_event_scalar, load_block, log_arcs, set_leg, update_peak
 from rocking.kernels.lanes.rows import (
-    ARRIVED,
-    BLOCK,
-    CERTAINTY,
-    CONTENT,
+    AT_EVENT,
     COUNTED,
     EVENTS,
     EXCEEDS,
+    FIND_EVENT,
     IDLE,
     LANES,
-    PEAK_SEEN,
+    LOAD_NEXT,
+    NO_REQUEST,
+    REQUEST,
     STAGE,
-    WANTS,
+    UPDATE_PEAK,
     load,
     store,
 )
 from rocking.kernels.lanes.step import advance, strike
-from rocking.kernels.lanes.transfer import find_event_scalar, load_block, log_arcs, set_leg, update_peak
 from rocking.kernels.lanes.workspace import make_lane_workspace
-from rocking.kernels.march.march import MOST_EVENTS, UNKNOWN, begin
+from rocking.kernels.march.march import MAX_EVENTS, UNKNOWN, begin
 
 CYCLES, BEFORE = 3000, 30
 BLOCKS = 20 * LANES
@@ -47,7 +47,7 @@ def last_impacts(systems, cycles, memory, phases, speeds):
         progress = begin(p, 0.0, 0.0, UNKNOWN)[0]
         begin_tangent(memory.columns, memory.growth)
         _, after, _, _ = follow_flights(
-            p, progress, under_way(progress), cycles, MOST_EVENTS, 0.0, 0, memory, False
+            p, progress, under_way(progress), cycles, MAX_EVENTS, 0.0, 0, memory, False
         )
         phases[k], speeds[k] = math.atan2(after.arc.sine, after.arc.cosine), after.arc.velocity
 
@@ -61,7 +61,7 @@ def alone(systems, speeds, cycles, memory):
         progress = begin(p, 0.0, speeds[k], UNKNOWN)[0]
         begin_tangent(memory.columns, memory.growth)
         _, after, _, _ = follow_flights(
-            p, progress, under_way(progress), cycles, MOST_EVENTS, 0.0, 0, memory, False
+            p, progress, under_way(progress), cycles, MAX_EVENTS, 0.0, 0, memory, False
         )
         impacts += after.impacts
     return impacts
@@ -74,15 +74,15 @@ def in_lanes(systems, speeds, cycles, memory):
     guests = [parameters_from_row(systems[0])] * LANES
     for i in range(LANES):
         store(s, i, STAGE, IDLE)
-        store(s, i, WANTS, BLOCK)
+        store(s, i, REQUEST, LOAD_NEXT)
     while True:
         for i in range(LANES):
-            wants = load(s, i, WANTS)
-            if wants == CERTAINTY:
+            wants = load(s, i, REQUEST)
+            if wants == FIND_EVENT:
                 wants = find_event_scalar(s, i, guests[i])
-            if wants != CONTENT and wants != PEAK_SEEN:
-                impacts += load(s, i, EVENTS) - load(s, i, COUNTED) if wants != BLOCK else 0.0
-                store(s, i, WANTS, CONTENT)
+            if wants != NO_REQUEST and wants != UPDATE_PEAK:
+                impacts += load(s, i, EVENTS) - load(s, i, COUNTED) if wants != LOAD_NEXT else 0.0
+                store(s, i, REQUEST, NO_REQUEST)
                 store(s, i, STAGE, IDLE)
                 blocks -= queue >= systems.shape[0]
                 if queue < systems.shape[0]:
@@ -91,13 +91,13 @@ def in_lanes(systems, speeds, cycles, memory):
                     load_block(s, i, p, begin(p, 0.0, speeds[queue], UNKNOWN)[0], memory.columns[i], 0)
                     set_leg(s, i, cycles, False)
                     guests[i], queue = p, queue + 1
-            elif load(s, i, STAGE) == ARRIVED and load(s, i, EXCEEDS) > 0.0:
+            elif load(s, i, STAGE) == AT_EVENT and load(s, i, EXCEEDS) > 0.0:
                 update_peak(s, i, guests[i])
         if blocks == 0:
             return impacts
         while True:
             strike(s)
-            log_arcs(s, memory.flights, memory.trail, False)
+            log_arcs(s, memory.flights, memory.log, False)
             if advance(s):
                 break
 

@@ -18,7 +18,7 @@ from benchmarks.clock import quickest_in_turn
 from benchmarks.lanes import MAX_PERIOD, systems_of
 from benchmarks.table import Figure
 from rocking.kernels import batch
-from rocking.kernels.classify import cascade, classifier_state
+from rocking.kernels.classify import classifier_state, decision_cascade
 from rocking.kernels.classify.results import empty_results, store_result
 from rocking.kernels.classify.results import parameters_from_row as asked_of
 from rocking.kernels.classify.workspace import make_workspace
@@ -156,8 +156,8 @@ def judge_late(systems, cycles, memory, answers):
         p = asked_of(systems[k])
         case = classifier_state.opened(p, 0.0, 0.0, cycles)
         case = classifier_state.ClassifierState(*case[:3], np.int64(cycles), cycles + 1, *case[5:])
-        status, run = cascade.march_leg(p, case.run, cycles, cycles, memory)
-        told, _ = cascade.evaluate_checkpoint(p, case, status, run, cycles, MAX_PERIOD, memory)
+        status, run = decision_cascade.march_leg(p, case.run, cycles, cycles, memory)
+        told, _ = decision_cascade.evaluate_checkpoint(p, case, status, run, cycles, MAX_PERIOD, memory)
         store_result(answers, k, told)
 
 

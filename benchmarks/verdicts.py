@@ -9,7 +9,7 @@ import numpy as np
 from numba import njit
 
 from benchmarks.table import Figure
-from rocking.kernels.classify import cascade, verdict_record
+from rocking.kernels.classify import decision_cascade, verdict_record
 from rocking.kernels.classify.workspace import make_workspace
 from rocking.kernels.compile_options import KERNEL
 from rocking.kernels.parameters import make
@@ -37,7 +37,7 @@ def judge_all(amplitudes, periods, restitution, max_cycles, memory, kinds, groun
     for k in range(amplitudes.shape[0]):
         frequency = 2.0 * math.pi / periods[k]
         p = make(amplitudes[k], frequency, periods[k], 0.0, restitution, math.inf, 1.0)
-        answer = cascade.judge(p, 0.0, 0.0, max_cycles, 64, memory)
+        answer = decision_cascade.judge(p, 0.0, 0.0, max_cycles, 64, memory)
         kinds[k], grounds[k], work[k] = answer[0], answer[1], answer[16]
 
 

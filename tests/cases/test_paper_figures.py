@@ -8,7 +8,7 @@ import pytest
 import rocking as rk
 
 SETTLING = 2_000  # cycles after which the damped motions repeat to 1e-10
-LONGEST_PERIOD = 64
+MAX_FORCING_PERIOD = 64
 
 
 def _system(amplitude, period, restitution, phase=0.0, braces=None):
@@ -17,7 +17,7 @@ def _system(amplitude, period, restitution, phase=0.0, braces=None):
 
 def _period(section):
     """The least number of cycles after which the last section point comes back to 1e-10."""
-    returns = np.abs(section[-1] - section[-2 : -2 - LONGEST_PERIOD : -1]).max(axis=1)
+    returns = np.abs(section[-1] - section[-2 : -2 - MAX_FORCING_PERIOD : -1]).max(axis=1)
     return int(np.argmax(returns < 1e-10)) + 1 if (returns < 1e-10).any() else None
 
 

@@ -15,7 +15,7 @@ import numpy as np
 import rocking as rk
 
 SEED = 5
-MOST_SYSTEMS = 5_000
+MAX_SYSTEMS = 5_000
 OF_EACH = 10  # of a kind, with braces and without
 TO_START_WITH = 3_000  # cycles
 RANGE = (0.5, 20.0)
@@ -58,7 +58,7 @@ def row(point):
 
 def main():
     random, taken, rows = np.random.default_rng(SEED), Counter(), []
-    for number in range(MOST_SYSTEMS):
+    for number in range(MAX_SYSTEMS):
         if len(rows) == 2 * len(KINDS) * OF_EACH:
             break
         braced = number % 2 == 1

@@ -24,7 +24,7 @@ COUNTS = {
     "lean": "leans",
     "leave": "leaves",
 }
-MOST_GROWTH = 1e6
+MAX_GROWTH = 1e6
 
 
 def case(kind, A, T, e, N, phi=0.0, start=(0.0, 0.0), brace=None, r=None):
@@ -153,8 +153,8 @@ def settle(numbers):
 def main():
     motions = [
         *chosen(),
-        *drawn("random", 16, 1, False, MOST_GROWTH, (0.3, 0.5, 0.8, 0.925, 0.95, 1.0)),
-        *drawn("random, braced", 16, 2, True, MOST_GROWTH, (0.3, 0.5, 0.8, 0.925, 1.0)),
+        *drawn("random", 16, 1, False, MAX_GROWTH, (0.3, 0.5, 0.8, 0.925, 0.95, 1.0)),
+        *drawn("random, braced", 16, 2, True, MAX_GROWTH, (0.3, 0.5, 0.8, 0.925, 1.0)),
         *drawn("random, sensitive", 4, 3, True, 1e10, (0.8, 0.925, 1.0)),
     ]
     with ProcessPoolExecutor() as pool:

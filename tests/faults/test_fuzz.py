@@ -12,8 +12,8 @@ from rocking import Braces, Harmonic, Outcome, State, System, TooManyEvents, sim
 
 LONGEST = 100.0  # τ
 SYSTEMS = 10_000
-MOST_CROWDED = 1  # of so many
-MOST_FLOWN = 20_000  # events
+MAX_CROWDED = 1  # of so many
+MAX_FLOWN = 20_000  # events
 
 
 def check(system, start, cycles):
@@ -51,7 +51,7 @@ def recorded(motion):
         motion.start.velocity,
         motion.system.forcing.phase,
     )
-    flown(motion.system, np.concatenate([begin, events[:MOST_FLOWN]]))
+    flown(motion.system, np.concatenate([begin, events[:MAX_FLOWN]]))
     times = np.linspace(0, motion.duration, 50)
     angle, velocity = motion.at(times)
     assert np.all(np.isfinite(angle))
@@ -149,7 +149,7 @@ def run_many(seed, systems):
 
 @pytest.mark.parametrize("seed", range(2))
 def test_random_systems_run_to_the_end_of_their_budget(seed):
-    assert run_many(seed, SYSTEMS // 4) <= MOST_CROWDED
+    assert run_many(seed, SYSTEMS // 4) <= MAX_CROWDED
 
 
 @pytest.mark.long
@@ -158,7 +158,7 @@ def test_a_million_random_systems_run_to_the_end_of_their_budget(tenth, thin):
     """Three in ten of them, unless all are wanted."""
     seeds = range(2 + 10 * tenth, 12 + 10 * tenth)
     for seed in thin(seeds, 3, seed=tenth):
-        assert run_many(seed, SYSTEMS) <= MOST_CROWDED
+        assert run_many(seed, SYSTEMS) <= MAX_CROWDED
 
 
 ONCE_WRONG = {

@@ -12,7 +12,7 @@ from flint import arb
 
 from oracles.distance import AMBIGUOUS, ZERO, Distance
 
-MOST_PIECES = 100_000
+MAX_PIECES = 100_000
 
 
 class Event(NamedTuple):
@@ -78,7 +78,7 @@ def _event(distance, time, depth, definite):
 
 def _fall(distance, zero, left, step):
     """(Event, time): a zero known, w falling at left: followed down until it lies beyond rounding, or to the bottom of its dip."""
-    for _ in range(MOST_PIECES):
+    for _ in range(MAX_PIECES):
         right = (left + step).mid()
         _, first, second = distance.enclose(left, right)
         if first < 0:
@@ -96,7 +96,7 @@ def _fall(distance, zero, left, step):
 
 def _resurface(distance, left, step):
     """(time, False) once w > 0 again after a dip lost in rounding; (time, True) where it sinks below rounding first."""
-    for _ in range(MOST_PIECES):
+    for _ in range(MAX_PIECES):
         value = distance.at(left)[0]
         if value > 0:
             return left, False
@@ -122,7 +122,7 @@ def _first_step(arc):
 def _zeros(distance, arc, limit):
     """Events of one distance up to a limit, in order; the last is definite unless none is left."""
     left, step, events, grow = ZERO, _first_step(arc), [], True
-    for _ in range(MOST_PIECES):
+    for _ in range(MAX_PIECES):
         right = (left + step).mid()
         found = _inspect(distance, left, right)
         if found == UNDECIDED:

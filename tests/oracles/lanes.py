@@ -8,16 +8,18 @@ from numba import njit
 from rocking.kernels.arc.solution import arc_from, shift_clock
 from rocking.kernels.compile_options import KERNEL
 from rocking.kernels.event_kinds import FLIGHT
+from rocking.kernels.lanes.load_unload import arc_of, find_event_scalar, leg_done, load_block, set_leg
 from rocking.kernels.lanes.root import step
 from rocking.kernels.lanes.rows import (  # fmt: skip
     ANGLE_THERE,
-    ARRIVED,
     AT_BRACE,
-    CERTAINTY,
+    AT_EVENT,
     COSINE_THERE,
     CYCLE,
     EVENTS,
     EXCEEDS,
+    FAILED,
+    FIND_EVENT,
     IDLE,
     LANES,
     NEXT_COSINE,
@@ -27,6 +29,7 @@ from rocking.kernels.lanes.rows import (  # fmt: skip
     PEAK,
     RATE_THERE,
     REFINE,
+    REQUEST,
     ROWS,
     SIDE,
     SINE_THERE,
@@ -34,16 +37,13 @@ from rocking.kernels.lanes.rows import (  # fmt: skip
     STAGE,
     START,
     TARGET,
-    UNSURE,
     VELOCITY,
     WAIT,
-    WANTS,
     load,
     set_system,
     store,
 )
 from rocking.kernels.lanes.step import advance, advance_between, strike, strike_between
-from rocking.kernels.lanes.transfer import arc_of, find_event_scalar, leg_done, load_block, set_leg
 from rocking.kernels.march.event_rows import state_at
 from rocking.kernels.march.march import Progress
 
@@ -91,10 +91,10 @@ def to_the_end(s, p, events):
         advance_all(s, braced)
         moving = 0
         for i in range(LANES):
-            wants = load(s, i, WANTS)
-            if wants == CERTAINTY:
+            wants = load(s, i, REQUEST)
+            if wants == FIND_EVENT:
                 find_event_scalar(s, i, p)
-            if load(s, i, STAGE) == ARRIVED and leg_done(s, i):
+            if load(s, i, STAGE) == AT_EVENT and leg_done(s, i):
                 store(s, i, STAGE, IDLE)
             moving += load(s, i, STAGE) != IDLE
         strike_all(s, braced)
@@ -132,7 +132,7 @@ def first_events(systems, starts):
         strike_and_pass(s, systems[0].brace_angle < math.inf)
         rows = s.reshape(ROWS, LANES)
         for i, k in enumerate(here):
-            found[k], certain[k] = rows[list(FIRST), i], rows[STAGE, i] == ARRIVED
+            found[k], certain[k] = rows[list(FIRST), i], rows[STAGE, i] == AT_EVENT
     return found, certain
 
 
@@ -156,7 +156,7 @@ def steps_to_zero(p, instants):
         s, part = empty(), instants[first : first + LANES]
         step_from(s, p, part)
         rows, here = s.reshape(ROWS, LANES)[:, : len(part)], slice(first, first + len(part))
-        found[here], arrived[here] = rows[[WAIT, SPEED]].T, rows[STAGE] == ARRIVED
+        found[here], arrived[here] = rows[[WAIT, SPEED]].T, rows[STAGE] == AT_EVENT
     return found, arrived
 
 
@@ -188,6 +188,6 @@ def strike_and_pass(s, braced):
         under_way = 0
         for i in range(LANES):
             stage = load(s, i, STAGE)
-            under_way += stage != ARRIVED and stage != UNSURE and stage != IDLE
+            under_way += stage != AT_EVENT and stage != FAILED and stage != IDLE
         if under_way == 0:
             break

@@ -124,7 +124,7 @@ def test_longest_run_that_is_kept_counts_every_impact_and_a_longer_one_says_that
 
 
 def test_more_events_than_are_kept_are_counted_and_refused_only_to_a_file(rocking, monkeypatch):
-    monkeypatch.setattr("rocking.motion.march_loop.MOST_RECORDED", 30)
+    monkeypatch.setattr("rocking.motion.march_loop.MAX_RECORDED", 30)
     code, message, out = rocking(f"simulate {SI} --cycles 50")
     assert (code, message) == (0, "")
     assert "warning: whether the block slides or jumps is not judged: more events than are kept" in out

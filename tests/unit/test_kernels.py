@@ -22,12 +22,12 @@ from rocking.kernels import event_kinds, parameters
 from rocking.kernels.march import march as kernel
 from rocking.kernels.numerics import elementary
 
-SOURCES = Path(kernel.__file__).parents[2]
+SOURCES = Path(kernels.__file__).parents[2]
 COPY = shutil.ignore_patterns("__pycache__", "*.egg-info")
 NOTHING = np.empty((0, 2))
 NO_EVENTS = np.empty((0, 8))
 PRINT_IMPACT_SPEED = (
-    "from rocking.kernels import march, parameters; import numpy as np; nothing = np.empty((0, 2));"
+    "from rocking.kernels import parameters; from rocking.kernels.march import march; import numpy as np; nothing = np.empty((0, 2));"
     "p = parameters.harmonic_parameters(2.0, 6.28, 1.0, 0.0, 0.925); s, _ = march.begin_march(p, 0.1, 0.0);"
     "print(march.march(p, s, 3, 0.0, nothing, np.empty((0, 8)), nothing, nothing[:, 0], False)[1].arc.velocity)"
 )
@@ -82,9 +82,9 @@ print(json.dumps(paths))
 
 ENTRY_SOURCE = """
 from numba import njit
-from rocking.kernels.compile_options import ENTRY
+from rocking.kernels.compile_options import ENTRY_POINT
 
-@njit(**ENTRY)
+@njit(**ENTRY_POINT)
 def entry():
     return 1
 """
@@ -109,7 +109,7 @@ def test_an_edit_of_any_source_moves_the_machine_code_of_every_entry(tmp_path):
     (inner / "callee.py").write_text("VALUE = 1")
     (inner / "entry.py").write_text(ENTRY_SOURCE)
     found = [cache_paths(source, home)]
-    for callee in (package / "impact.py", inner / "callee.py"):
+    for callee in (package / "march/impact_law.py", inner / "callee.py"):
         callee.write_text(callee.read_text() + "\n")
         found.append(cache_paths(source, home))
     assert {
@@ -234,7 +234,8 @@ def test_other_compiled_code_of_the_process_keeps_its_own_cache_folder():
 COUNT_ALLOCATIONS = """
 import numpy as np
 from numba.core.runtime import rtsys
-from rocking.kernels import march, parameters
+from rocking.kernels import parameters
+from rocking.kernels.march import march
 
 nothing = np.empty((0, 2))
 for numbers in ((2.0, 6.283185307179586, 1.0, 0.0, 0.925), (15.0, 3.141592653589793, 2.0, 0.0, 0.925, 1.0, 0.9)):

@@ -10,7 +10,7 @@ import rocking as rk
 from rocking.kernels.classify import periodicity, recurrence, workspace
 from rocking.kernels.march.march import UNKNOWN
 from rocking.kernels.march.tangent import Tangent
-from rocking.kernels.orbits import fixed_point, symmetric_mode
+from rocking.kernels.orbits import fixed_point, floquet, symmetric_mode
 from rocking.kernels.parameters import harmonic_parameters
 
 RANDOM = np.random.default_rng(1991)
@@ -35,12 +35,12 @@ def approached(section, most_lag):
 
 @njit
 def multipliers(a, b, c, d):
-    return fixed_point.multipliers(Tangent(a, b, c, d))
+    return floquet.multipliers(Tangent(a, b, c, d))
 
 
 @njit
 def adapted_norm(a, b, c, d, radius):
-    return fixed_point.adapted_norm(Tangent(a, b, c, d), radius)
+    return floquet.adapted_norm(Tangent(a, b, c, d), radius)
 
 
 @njit(error_model="numpy")
@@ -329,7 +329,7 @@ def test_multipliers_by_trace_and_determinant_are_the_eigenvalues(mirrored):
     for _ in range(300):
         matrix = random.normal(size=(2, 2))
         half, determinant = 0.5 * float(np.trace(matrix)), float(np.linalg.det(matrix))
-        found = fixed_point.multipliers_plain(half, half * half - determinant, determinant, mirrored)
+        found = floquet.multipliers_plain(half, half * half - determinant, determinant, mirrored)
         expected = np.linalg.eigvals(matrix @ matrix if mirrored else matrix)
         order = (lambda value: -value.imag) if np.iscomplexobj(expected) else (lambda value: -abs(value))
         assert found == pytest.approx(

@@ -10,7 +10,7 @@ import pytest
 from PIL import Image, ImageSequence
 
 import rocking as rk
-from rocking.plot.parts.scene import Scene, corners
+from rocking.plot.parts.film_scene import Scene, corners
 
 SYSTEM = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925)
 BRACED = rk.System(rk.Harmonic(amplitude=15.0, period=2.0), restitution=0.925, braces=rk.Braces(angle=1.0))

@@ -119,7 +119,7 @@ def test_block_gives_si_axes():
 
 def test_motion_with_too_many_events_is_named_instead_of_drawn(monkeypatch):
     verdict = verdict_of("periodic")
-    monkeypatch.setattr("rocking.motion.march_loop.MOST_RECORDED", 3)
+    monkeypatch.setattr("rocking.motion.march_loop.MAX_RECORDED", 3)
     figure = rk.plot.verdict(verdict)
     assert [ax.texts[0].get_text() for ax in figure.axes[:2]] == ["too many events to draw"] * 2
 

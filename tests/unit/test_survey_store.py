@@ -18,8 +18,8 @@ import rocking as rk
 from rocking.kernels.batch import METHOD
 from rocking.survey.engine import tile_loop
 from rocking.survey.store import store
+from rocking.survey.store.chunk_files import Files
 from rocking.survey.store.layout import check_same
-from rocking.survey.store.zarr_files import Files
 
 SIZE = 130
 ASKED = {

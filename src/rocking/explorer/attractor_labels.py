@@ -6,7 +6,7 @@ import numpy as np
 
 from rocking.survey import alike
 
-MOST = 16
+MAX_ATTRACTORS = 16
 """Orbits of one look that are told apart: more are no list of attractors."""
 
 
@@ -27,7 +27,7 @@ class Orbits:
         return found
 
     def _number(self, found: np.ndarray, left: np.ndarray, states: np.ndarray, met: list[np.ndarray]) -> None:
-        for number in range(MOST):
+        for number in range(MAX_ATTRACTORS):
             if not left.size:
                 return
             if number == len(met):

@@ -12,7 +12,7 @@ from attrs import frozen
 
 from rocking.explorer.bokeh_figures import no_image
 from rocking.explorer.view_state import Span, ViewState
-from rocking.model import LARGEST_START, Outcome, State, System, TooManyEvents, Verdict
+from rocking.model import MAX_START, Outcome, State, System, TooManyEvents, Verdict
 from rocking.motion import Motion, simulate
 from rocking.orbits import orbit_diagram
 from rocking.plot.parts import sample_times as instants
@@ -38,7 +38,7 @@ NO_SPECTRUM = "no spectrum: the motion ends, or has too many events"
 SINGLE = 1_500
 """Places in a section that are drawn as points; of more it is shown how dense they lie."""
 CELLS = 360
-MOST_RINGS = 64
+MAX_RINGS = 64
 VALUES, TRANSIENT, KEPT = 240, 200, 32
 PIECE_HITS = 3e5
 """Impacts and brace hits of a piece of a diagram, about: it cannot end before a piece does."""
@@ -147,7 +147,7 @@ def _motion(shown: ViewState) -> tuple[Motion, float]:
 
 def _is_start(state: State) -> bool:
     """Whether a motion can begin there: what a long one reaches may lie beyond."""
-    return max(abs(state.angle), abs(state.velocity)) <= LARGEST_START
+    return max(abs(state.angle), abs(state.velocity)) <= MAX_START
 
 
 def _shown_of(motion: Motion) -> tuple[float, float]:
@@ -218,7 +218,7 @@ class Section:
         """What is there of it, with the orbit of that period that it comes to."""
         points, last = self.points, self.points[len(self.points) - (period or 0) :]
         spans = *_around(points[:, 0]), *_around(points[:, 1])
-        orbit = {"angle": last[:MOST_RINGS, 0], "velocity": last[:MOST_RINGS, 1]}
+        orbit = {"angle": last[:MAX_RINGS, 0], "velocity": last[:MAX_RINGS, 1]}
         places, first, counts = np.unique(_cells(points, spans), return_index=True, return_counts=True)
         if len(places) <= SINGLE:
             single = {"angle": points[first, 0], "velocity": points[first, 1]}

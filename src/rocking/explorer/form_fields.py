@@ -13,9 +13,9 @@ from rocking.explorer.view_state import DEFAULT, Span, ViewState, closest
 from rocking.model import (
     BRACE_ANGLES,
     FREQUENCIES,
-    LARGEST_AMPLITUDE,
-    LARGEST_PHASE,
-    LARGEST_START,
+    MAX_AMPLITUDE,
+    MAX_PHASE,
+    MAX_START,
     Block,
     check_start,
     refusal,
@@ -24,11 +24,11 @@ from rocking.plot.parts import theory_curves
 
 VERSION = 1
 """Of an address: raised when one of before would show something else."""
-LONGEST = 40
+MAX_LENGTH = 40
 """Signs in a number that is typed."""
-LONGEST_ADDRESS = 2000
+MAX_ADDRESS = 2000
 PERIODS = math.tau / FREQUENCIES[1], math.tau / FREQUENCIES[0]
-LATEST, MOST_SHOWN = 100_000, 200
+LATEST, MAX_SHOWN = 100_000, 200
 WORDS = {
     "brace_angle": "brace angle",
     "brace_restitution": "brace restitution",
@@ -62,7 +62,7 @@ def _number(low: float, high: float) -> Callable[[str, str], float]:
         _given(name, text)
         allowed = f"be a number in [{low:.6g}, {high:.6g}]"
         try:
-            value = float(text) if len(text) <= LONGEST else math.nan
+            value = float(text) if len(text) <= MAX_LENGTH else math.nan
         except ValueError:
             value = math.nan
         if not low <= value <= high:
@@ -121,23 +121,23 @@ def _words(*allowed: str) -> Callable[[str, str], tuple[str, ...]]:
     return read
 
 
-START = -LARGEST_START, LARGEST_START
+START = -MAX_START, MAX_START
 READ: dict[str, Callable[[str, str], Any]] = {
-    "amplitude": _number(0.0, LARGEST_AMPLITUDE),
+    "amplitude": _number(0.0, MAX_AMPLITUDE),
     "period": _number(*PERIODS),
     "restitution": _number(0.0, 1.0),
-    "phase": _number(-LARGEST_PHASE, LARGEST_PHASE),
+    "phase": _number(-MAX_PHASE, MAX_PHASE),
     "angle": _number(*START),
     "velocity": _number(*START),
     "brace_angle": _optional(_number(*BRACE_ANGLES)),
     "brace_restitution": _number(0.0, 1.0),
-    "amplitudes": _span(0.0, LARGEST_AMPLITUDE),
+    "amplitudes": _span(0.0, MAX_AMPLITUDE),
     "periods": _span(*PERIODS),
     "angles": _span(*START),
     "velocities": _span(*START),
     "vary": _word("amplitude", "period"),
     "first": _count(0, LATEST),
-    "cycles": _count(1, MOST_SHOWN),
+    "cycles": _count(1, MAX_SHOWN),
     "curves": _words(*theory_curves.CURVES),
     "height": _optional(_number(1e-3, 1e3)),
     "width": _optional(_number(1e-3, 1e3)),
@@ -192,7 +192,7 @@ def in_metres(shown: ViewState, typed: Mapping[str, str]) -> ViewState:
         restitution=system.restitution,
         height=block.height,
         width=block.width,
-        amplitudes=_reaching(shown.amplitudes, forcing.amplitude, LARGEST_AMPLITUDE),
+        amplitudes=_reaching(shown.amplitudes, forcing.amplitude, MAX_AMPLITUDE),
         periods=_reaching(shown.periods, forcing.period, PERIODS[1]),
     )
 
@@ -252,8 +252,8 @@ def written(value: Any) -> str:
 
 def from_address(text: str) -> tuple[ViewState, dict[str, str]]:
     """What the parameters of an address show, and a sentence for each that cannot be: it is left as at the beginning."""
-    if len(text) > LONGEST_ADDRESS:
-        return DEFAULT, {"page": f"address must have at most {LONGEST_ADDRESS} signs; got {len(text)}"}
+    if len(text) > MAX_ADDRESS:
+        return DEFAULT, {"page": f"address must have at most {MAX_ADDRESS} signs; got {len(text)}"}
     typed = dict(parse_qsl(text.removeprefix("?"), keep_blank_values=True, max_num_fields=None))
     version = typed.pop("version", str(VERSION))
     if version != str(VERSION):

@@ -12,7 +12,7 @@ from bokeh.model import DataModel
 
 from rocking.explorer.form_fields import Refused
 
-LONGEST = 4_000
+MAX_LENGTH = 4_000
 STRANGE = "the page asked for something that is not known here: load it again"
 
 
@@ -47,7 +47,7 @@ class Link(DataModel):
 def message(text: str) -> dict[str, Any]:
     """A message of the page: `what` it asks for, and `fields` as they are typed; anything else is refused."""
     try:
-        asked = json.loads(text) if len(text) <= LONGEST else {}
+        asked = json.loads(text) if len(text) <= MAX_LENGTH else {}
         whole = isinstance(asked["what"], str) and all(
             isinstance(each, str) for each in asked["fields"].values()
         )

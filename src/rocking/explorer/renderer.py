@@ -16,7 +16,7 @@ from rocking.explorer.page_channel import Link
 from rocking.explorer.progressive_map import FIRST, Picture, Plane, Refinement
 from rocking.explorer.view_state import POINTS, Span, ViewState
 from rocking.explorer.worker_pools import Jobs, Workers
-from rocking.model import LARGEST_AMPLITUDE, LARGEST_START, Kind, Verdict
+from rocking.model import MAX_AMPLITUDE, MAX_START, Kind, Verdict
 
 BASIN_POINTS = 257
 FIRST_HITS = 3e3
@@ -27,8 +27,8 @@ BREATH = 0.2
 """Seconds between two steps of it, so that it is seen to grow, and before a basin is refined."""
 MAP_FIRST = 1.0
 """Seconds at most for which a basin leaves all cores to a map that refines."""
-MAP_LIMITS = Span(*PERIODS), Span(0.0, LARGEST_AMPLITUDE)
-BASIN_LIMITS = Span(-LARGEST_START, LARGEST_START), Span(-LARGEST_START, LARGEST_START)
+MAP_LIMITS = Span(*PERIODS), Span(0.0, MAX_AMPLITUDE)
+BASIN_LIMITS = Span(-MAX_START, MAX_START), Span(-MAX_START, MAX_START)
 BASIN_LABELS = "angle at the start Θ₀", "velocity at the start Θ′₀"
 VARIED = {"amplitude": "amplitude A", "period": "period T"}
 

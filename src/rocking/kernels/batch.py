@@ -8,11 +8,11 @@ import numba
 import numpy as np
 from numba import njit
 
-from rocking.kernels.classify.cascade import judge
+from rocking.kernels.classify.decision_cascade import judge
 from rocking.kernels.classify.results import empty_results, parameters_from_row, store_result
 from rocking.kernels.classify.workspace import make_workspace
 from rocking.kernels.compile_options import ENTRY_POINT
-from rocking.kernels.lanes.scheduler import SHORTEST, classify_batch_lanes
+from rocking.kernels.lanes.scheduler import MIN_LANE_PERIOD, classify_batch_lanes
 from rocking.kernels.lanes.workspace import make_lane_workspace
 
 # The version of what is answered: raised whenever an answer to the same question may change, so that a store never mixes two.
@@ -47,7 +47,7 @@ def lane_masks(systems):
     Where much plain marching is likely: without loss, or in what braces make of it.
     """
     amplitude, _, period, _, restitution, brace_angle, _ = systems.T
-    may, braced = (amplitude > 1.0) & (period >= SHORTEST) & has_simd(), brace_angle < math.inf
+    may, braced = (amplitude > 1.0) & (period >= MIN_LANE_PERIOD) & has_simd(), brace_angle < math.inf
     return may & (restitution == 1.0) & ~braced, may & braced
 
 

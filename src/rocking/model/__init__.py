@@ -20,12 +20,12 @@ from rocking.model.atomic_files import (
 from rocking.model.basin_map import Attractor, BasinMap, UncertaintyExponent
 from rocking.model.block import GRAVITY, Block
 from rocking.model.citation import cite
-from rocking.model.forcing import FREQUENCIES, LARGEST_AMPLITUDE, LARGEST_PHASE, PERIODS, Harmonic
+from rocking.model.forcing import FREQUENCIES, MAX_AMPLITUDE, MAX_PHASE, PERIODS, Harmonic
 from rocking.model.formatting import counted, ordinal, percent, plus_minus
+from rocking.model.orbit_stability import Stability, stability_of
 from rocking.model.outcome import Outcome, Overturning
 from rocking.model.proportion import LEVEL, Share, wilson
 from rocking.model.si_units import PHYSICAL, block_attributes
-from rocking.model.stability import Stability, stability_of
 from rocking.model.survey_results import (
     ChaosShare,
     OverturningCurve,
@@ -34,7 +34,7 @@ from rocking.model.survey_results import (
     SafeBasin,
 )
 from rocking.model.symmetric_mode import Mode
-from rocking.model.system import BRACE_ANGLES, LARGEST_START, Braces, State, System, check_start
+from rocking.model.system import BRACE_ANGLES, MAX_START, Braces, State, System, check_start
 from rocking.model.validation import (
     NoOrbit,
     TooManyEvents,
@@ -59,10 +59,10 @@ __all__ = [
     "FREQUENCIES",
     "FULL",
     "GRAVITY",
-    "LARGEST_AMPLITUDE",
-    "LARGEST_PHASE",
-    "LARGEST_START",
     "LEVEL",
+    "MAX_AMPLITUDE",
+    "MAX_PHASE",
+    "MAX_START",
     "PERIODS",
     "PHYSICAL",
     "TILES",

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from attrs import field, frozen
 
-from rocking.model.forcing import FREQUENCIES, LARGEST_AMPLITUDE, Harmonic
+from rocking.model.forcing import FREQUENCIES, MAX_AMPLITUDE, Harmonic
 from rocking.model.system import Braces, System
 from rocking.model.validation import exactly_one, reals, refusal, within
 
@@ -168,9 +168,9 @@ class Block:
             "acceleration_g": (acceleration_g, GRAVITY, "g"),
             "displacement": (displacement, (frequency * self.frequency_parameter) ** 2, "m"),
         }[given]
-        largest = self.acceleration(LARGEST_AMPLITUDE) / per_unit
+        largest = self.acceleration(MAX_AMPLITUDE) / per_unit
         amplitude = self.amplitude(within(given, size, 0, largest, unit) * per_unit)  # type: ignore[arg-type]
-        forcing = Harmonic(min(amplitude, LARGEST_AMPLITUDE), frequency=frequency, phase=phase)
+        forcing = Harmonic(min(amplitude, MAX_AMPLITUDE), frequency=frequency, phase=phase)
         return System(forcing, self.restitution, braces)
 
     def _forcing_frequency(self, frequency_hz: float | None, period_s: float | None) -> float:

@@ -10,15 +10,15 @@ from attrs import field, frozen
 
 from rocking.model.validation import exactly_one, reals, within
 
-LARGEST_AMPLITUDE = 1e3
+MAX_AMPLITUDE = 1e3
 FREQUENCIES = (1e-3, 1e3)
 PERIODS = (math.tau / FREQUENCIES[1], math.tau / FREQUENCIES[0])
-LARGEST_PHASE = 1e3
+MAX_PHASE = 1e3
 
 
 def _amplitude(value: float) -> float:
     way_out = "for the opposite direction add π to phase"
-    return within("amplitude", value, 0, LARGEST_AMPLITUDE, if_below=way_out)
+    return within("amplitude", value, 0, MAX_AMPLITUDE, if_below=way_out)
 
 
 def _period(value: float | None) -> float | None:
@@ -30,7 +30,7 @@ def _frequency(value: float | None) -> float | None:
 
 
 def _phase(value: float) -> float:
-    return within("phase", value, -LARGEST_PHASE, LARGEST_PHASE)
+    return within("phase", value, -MAX_PHASE, MAX_PHASE)
 
 
 @frozen(repr=False)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 # Beyond it a double has no more digits to tell.
-MOST_DECIMALS = 15
+MAX_DECIMALS = 15
 
 
 def counted(number: int, thing: str) -> str:
@@ -43,9 +43,9 @@ def plus_minus(value: float, error: float) -> str:
         return "−∞" if value < 0.0 else str(value)
     if math.isinf(error):
         return f"{value:.3g} (error unknown)"
-    if error < 10.0**-MOST_DECIMALS:
-        return f"{value:.{MOST_DECIMALS}g}"
-    places = min(max(1 - math.floor(math.log10(error)), 0), MOST_DECIMALS)
+    if error < 10.0**-MAX_DECIMALS:
+        return f"{value:.{MAX_DECIMALS}g}"
+    places = min(max(1 - math.floor(math.log10(error)), 0), MAX_DECIMALS)
     return f"{value:.{places}f} ± {error:.{places}f}"
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from attrs import frozen
 
 from rocking.model.forcing import Harmonic
-from rocking.model.stability import Stability, stability_of
+from rocking.model.orbit_stability import Stability, stability_of
 from rocking.model.system import State, System
 
 

@@ -8,8 +8,8 @@ from rocking.model.forcing import Harmonic
 from rocking.model.validation import finite, instance, refusal, within
 
 BRACE_ANGLES = (1e-3, 1e3)
-LARGEST_STATE = 1e9
-LARGEST_START = 1e3
+MAX_STATE = 1e9
+MAX_START = 1e3
 
 
 def _restitution(value: float) -> float:
@@ -21,11 +21,11 @@ def _brace_angle(value: float) -> float:
 
 
 def _angle(value: float) -> float:
-    return finite("angle", value, LARGEST_STATE)
+    return finite("angle", value, MAX_STATE)
 
 
 def _velocity(value: float) -> float:
-    return finite("velocity", value, LARGEST_STATE)
+    return finite("velocity", value, MAX_STATE)
 
 
 def _forcing(value: Harmonic) -> Harmonic:
@@ -121,8 +121,8 @@ def check_start(system: System, start: State) -> None:
     """Refuse a start that is no state of this system: TypeError for other values, ValueError far off or beyond a brace."""
     instance("system", system, System)
     instance("start", start, State)
-    within("angle", start.angle, -LARGEST_START, LARGEST_START)
-    within("velocity", start.velocity, -LARGEST_START, LARGEST_START)
+    within("angle", start.angle, -MAX_START, MAX_START)
+    within("velocity", start.velocity, -MAX_START, MAX_START)
     if system.braces is not None and abs(start.angle) > system.braces.angle:
         reach = system.braces.angle
         raise ValueError(

@@ -11,7 +11,7 @@ import numpy as np
 
 Value = TypeVar("Value")
 
-LONGEST_SHOWN = 60
+MAX_SHOWN_LENGTH = 60
 WAYS = {
     "State": "make one: rk.State(angle=0.1, velocity=0.0)",
     "Harmonic": "make one: rk.Harmonic(amplitude=2.0, period=1.0)",
@@ -60,7 +60,7 @@ def shown(value: object) -> str:
         text = " ".join(repr(value).split())
     except ValueError:  # a whole number of more digits than Python writes
         text = "a number of too many digits"
-    return text if len(text) <= LONGEST_SHOWN else text[: LONGEST_SHOWN - 1] + "…"
+    return text if len(text) <= MAX_SHOWN_LENGTH else text[: MAX_SHOWN_LENGTH - 1] + "…"
 
 
 def refusal(name: str, allowed: str, value: object, remedy: str = "") -> str:

@@ -10,9 +10,9 @@ from typing import Any
 from attrs import evolve, field, frozen
 
 from rocking.model import notebook_renderers
-from rocking.model.forcing import LARGEST_PHASE
+from rocking.model.forcing import MAX_PHASE
 from rocking.model.formatting import counted
-from rocking.model.stability import Stability, stability_of
+from rocking.model.orbit_stability import Stability, stability_of
 from rocking.model.system import State, System
 from rocking.model.validation import within
 
@@ -135,7 +135,7 @@ class Orbit:
         True
         """
         forcing = self.system.forcing
-        phase = within("phase", phase, -LARGEST_PHASE, LARGEST_PHASE)
+        phase = within("phase", phase, -MAX_PHASE, MAX_PHASE)
         whole = math.tau * self.period
         turned = (forcing.phase - self.phase) % math.tau + (phase - forcing.phase) % whole
         time = turned % whole / forcing.frequency

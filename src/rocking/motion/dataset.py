@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
     from rocking.motion.motion import Motion
 
-MOST_STEPS = 100_000_000
+MAX_STEPS = 100_000_000
 
 Unit = tuple[float, str]
 """The size of the normalised unit, and the name of the unit that a quantity is given in."""
@@ -99,7 +99,7 @@ def _times(motion: Motion, step: float | None, units: dict[str, Unit]) -> np.nda
         spacing = sample_step(motion)
     else:
         longest = motion.cycles * motion.system.forcing.period * second
-        spacing = within("step", step, longest / MOST_STEPS, longest, "" if unit == "1" else unit) / second
+        spacing = within("step", step, longest / MAX_STEPS, longest, "" if unit == "1" else unit) / second
     end = end_shown(motion)
     count = int(end / spacing * (1 + 1e-12))
     return np.minimum(spacing * np.arange(count + 1), end)

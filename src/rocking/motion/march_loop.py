@@ -12,7 +12,7 @@ from rocking.kernels import parameters as numbers
 from rocking.kernels.march import march as kernel
 from rocking.model import Outcome, State, System, TooManyEvents
 
-MOST_RECORDED = 10_000_000
+MAX_RECORDED = 10_000_000
 NOTHING = np.empty((0, 2))
 
 
@@ -74,7 +74,7 @@ def run(
         done += taken
         kept.append(keep(events[:written]))
         recorded += len(kept[-1])
-        if status == kernel.CROWDED or recorded > MOST_RECORDED:
+        if status == kernel.CROWDED or recorded > MAX_RECORDED:
             raise TooManyEvents(_crowded(status))
         if status == kernel.PAUSED and 0 < len(events) < 1_000_000:
             events = np.empty((4 * len(events), 8))
@@ -87,10 +87,10 @@ def run(
 def _crowded(status: int) -> str:
     if status == kernel.CROWDED:
         return (
-            f"more than {kernel.MOST_EVENTS:,} events in one forcing cycle: the block chatters almost without loss "
+            f"more than {kernel.MAX_EVENTS:,} events in one forcing cycle: the block chatters almost without loss "
             "(start it faster, or take a smaller restitution)"
         )
-    return f'more than {MOST_RECORDED:,} events to keep (run fewer cycles, or record="section" or "none")'
+    return f'more than {MAX_RECORDED:,} events to keep (run fewer cycles, or record="section" or "none")'
 
 
 def section_of(system: System, start: State, cycles: int, phase: float) -> np.ndarray:

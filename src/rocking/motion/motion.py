@@ -10,7 +10,7 @@ from attrs import field, frozen
 
 from rocking.kernels.march import resample
 from rocking.model import (
-    LARGEST_PHASE,
+    MAX_PHASE,
     Block,
     Outcome,
     Overturning,
@@ -190,7 +190,7 @@ class Motion(ReadOnlyArrays):
             if self.record == "section":
                 return self._section_rows
             phase = self.system.forcing.phase
-        at = within("phase", phase, -LARGEST_PHASE, LARGEST_PHASE)
+        at = within("phase", phase, -MAX_PHASE, MAX_PHASE)
         return section_of(self.system, self.start, self.cycles, at)
 
     def to_xarray(self, step: float | None = None, block: Block | None = None) -> xr.Dataset:

@@ -14,8 +14,8 @@ from rocking.motion.event_table import events_of
 from rocking.motion.march_loop import outcome_of, parameters, run, start_march, state_of
 from rocking.motion.motion import Motion
 
-MOST_CYCLES = 1_000_000_000
-MOST_SECTION_CYCLES = 100_000_000
+MAX_CYCLES = 1_000_000_000
+MAX_SECTION_CYCLES = 100_000_000
 
 
 def simulate(system: System, start: State | None = None, cycles: int = 200, record: str = "all") -> Motion:
@@ -65,7 +65,7 @@ def simulate(system: System, start: State | None = None, cycles: int = 200, reco
     start = State() if start is None else start
     check_start(system, start)
     record = one_of("record", record, ("all", "section", "none"))
-    cycles = whole("cycles", cycles, 1, MOST_SECTION_CYCLES if record == "section" else MOST_CYCLES)
+    cycles = whole("cycles", cycles, 1, MAX_SECTION_CYCLES if record == "section" else MAX_CYCLES)
     p = parameters(system)
     progress, hit = kernel.begin_march(p, start.angle, start.velocity)
     first = _first_rows(progress, start, hit)
@@ -96,7 +96,7 @@ def kept_events(
     """
     start = State() if start is None else start
     check_start(system, start)
-    cycles = whole("cycles", cycles, 1, MOST_CYCLES)
+    cycles = whole("cycles", cycles, 1, MAX_CYCLES)
     duration = cycles * system.forcing.period
 
     def of_rows(rows: np.ndarray) -> np.ndarray:

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 ORDINARY_FRICTION = 0.5
 """Dry stone, concrete or steel seldom offers less: a motion that needs more is warned of."""
-SHORTEST_ARC = 1e-10
+MIN_ARC = 1e-10
 """In τ. The reaction on the shorter arcs of a chatter is that of their longer neighbours, to as many digits."""
 
 
@@ -220,7 +220,7 @@ def split(motion: Motion, until: float) -> tuple[Arcs, Arcs, Arcs]:
     """The arcs up to a time on which the block moves, rests (a period of each: the base repeats itself), leans on a brace."""
     events = motion.events["time"]
     edges = np.unique(np.concatenate(([0.0], events[events < until], [until])))
-    long = np.diff(edges) > SHORTEST_ARC
+    long = np.diff(edges) > MIN_ARC
     starts, ends = edges[:-1][long], edges[1:][long]
     middles = (starts + ends) / 2
     angle, velocity = motion.at(middles)

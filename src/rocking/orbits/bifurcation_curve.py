@@ -7,8 +7,8 @@ from attrs import field, frozen
 from numpy.typing import NDArray
 
 from rocking.kernels.orbits import arclength
+from rocking.kernels.orbits import bifurcation_curve as kernel
 from rocking.kernels.orbits import branch_point as codes
-from rocking.kernels.orbits import continuation_codim1 as kernel
 from rocking.model import ReadOnlyArrays, instance, one_of, pair, read_only, refusal, whole, within
 from rocking.orbits.branch import SpecialPoint
 from rocking.orbits.continuation import ENDS

@@ -33,7 +33,7 @@ KINDS = {
     codes.PERIOD_DOUBLING: "period-doubling",
     codes.GRAZING: "grazing",
 }
-MOST_SPECIAL = 1000
+MAX_SPECIAL = 1000
 BORN = -1
 ENDS = {
     BORN: "born at a special point",
@@ -47,7 +47,7 @@ ENDS = {
 # How far from a special point the first point of another branch lies, in steps.
 OFF = 0.1
 # How often that distance is halved at most.
-MOST_HALVINGS = 20
+MAX_HALVINGS = 20
 
 
 def continue_orbit(
@@ -171,7 +171,7 @@ def _beside(
     step: float,
 ) -> np.ndarray:
     """A first point of a branch born at ``row``, so near that its multipliers are still almost those there."""
-    for halving in range(MOST_HALVINGS):
+    for halving in range(MAX_HALVINGS):
         off = row + OFF * step * 0.5**halving * direction
         first = _follow(chain, parameter, off, direction, bounds, step, 1)
         # at the special point a multiplier is 1: the angle is π/4
@@ -211,7 +211,7 @@ def _follow(
     """Follow a branch one way from an orbit."""
     k = len(chain.kinds)
     out, facts = np.empty((most, k + 1)), np.empty((most, 4))
-    specials, changes = np.empty((MOST_SPECIAL, k + 1)), np.empty((MOST_SPECIAL, 2), np.int64)
+    specials, changes = np.empty((MAX_SPECIAL, k + 1)), np.empty((MAX_SPECIAL, 2), np.int64)
     count, found, end = kernel.follow(
         parameters(chain.system),
         NAMES[parameter],

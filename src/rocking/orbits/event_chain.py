@@ -10,10 +10,9 @@ from attrs import evolve
 
 from rocking.kernels import event_kinds
 from rocking.kernels import parameters as numbers
-from rocking.kernels.orbits import arclength, chain_queries
+from rocking.kernels.orbits import arclength, chain_queries, floquet
 from rocking.kernels.orbits import continuation as following
 from rocking.kernels.orbits import event_chain as kernel
-from rocking.kernels.orbits import fixed_point as fixed_points
 from rocking.model import Orbit, State, System, refusal
 from rocking.motion import simulate
 from rocking.orbits.parameter import with_value
@@ -158,7 +157,7 @@ def null_direction(chain: Chain, parameter: str, row: np.ndarray) -> np.ndarray:
 def multipliers_of(trace: float, determinant: float, mirrored: bool) -> tuple[complex, complex]:
     """Floquet multipliers over a period, the larger first, or that above the real axis."""
     trace, determinant = float(trace), float(determinant)
-    first, second = fixed_points.multipliers_plain(
+    first, second = floquet.multipliers_plain(
         0.5 * trace, 0.25 * trace * trace - determinant, determinant, mirrored
     )
     return first, second

@@ -13,7 +13,7 @@ from rocking.model import NoOrbit, Orbit, Outcome, State, System, check_start, r
 from rocking.motion import simulate, start_march
 from rocking.orbits.event_chain import chain_of, clocked, orbit_of, quiet_phase, solved
 
-MOST_PERIOD = 1000
+MAX_PERIOD = 1000
 # States of an orbit as near as this are one.
 SAME = 1e-8
 # Events of a block that rests at the base, and of one that leans on a brace.
@@ -62,7 +62,7 @@ def find_orbit(system: System, guess: State, period: int) -> Orbit:
     0.855625
     """
     check_start(system, guess)
-    period = whole("period", period, 1, MOST_PERIOD)
+    period = whole("period", period, 1, MAX_PERIOD)
     motion = simulate(system, guess, cycles=period + 1)
     if motion.outcome is Outcome.OVERTURNED:
         raise ValueError(

@@ -17,12 +17,12 @@ from rocking.orbits.find_orbit import newton_from_starts
 from rocking.orbits.orbit_registry import OrbitRegistry
 from rocking.orbits.saddle_orbits import response
 
-MOST_PERIOD = 64
+MAX_PERIOD = 64
 # Away from the phase of any likely start.
 SECTION = 0.3819660112501051
 # The first round's starts a map, then twice as many, and so on.
 FIRST_ROUND = 2048
-MOST_ROUNDS = 6
+MAX_ROUNDS = 6
 # How much faster than unforced a block between braces may be.
 FASTER = 2.0
 # The plane's own golden ratio: multiples of its powers fill a square evenly however many there are.
@@ -147,7 +147,7 @@ def find_orbits(
     unstable unsymmetric orbit of period 1 with 0 impacts
     """
     instance("system", system, System)
-    max_period = whole("max_period", max_period, 1, MOST_PERIOD)
+    max_period = whole("max_period", max_period, 1, MAX_PERIOD)
     effort = within("effort", effort, 0.01, 1000.0)
     seed = whole("seed", seed, 0, 2**32 - 1)
     box = _box(system, angles, velocities)
@@ -157,7 +157,7 @@ def find_orbits(
     jobs = [(n, False) for n in range(1, max_period + 1)] + [(n, True) for n in range(1, max_period + 1, 2)]
     settled = False
     with ThreadPoolExecutor() as pool:
-        for number in range(MOST_ROUNDS):
+        for number in range(MAX_ROUNDS):
             count = max(round(effort * FIRST_ROUND * 2 ** max(number - 1, 0)), 1)
             before = len(known.orbits)
             batches = [_starts(there, box, count, used + seed + 7919 * j) for j, _ in enumerate(jobs)]

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from rocking.model import (
-    LARGEST_AMPLITUDE,
+    MAX_AMPLITUDE,
     Harmonic,
     Kind,
     Mode,
@@ -31,8 +31,8 @@ from rocking.orbits.parameter import checked_range
 from rocking.response import classify
 from rocking.theory import symmetric_modes
 
-MOST_VALUES = 100_000
-MOST_CYCLES_IN_MODE = 99
+MAX_VALUES = 100_000
+MAX_CYCLES_IN_MODE = 99
 # Phases as near as this are one; so are the values of two special points.
 SAME = 1e-6
 
@@ -92,7 +92,7 @@ def frequency_response(
     """
     parameter = exactly_one(period=period, frequency=frequency)
     values = _values(parameter, period if frequency is None else frequency)
-    amplitude = within("amplitude", amplitude, 0.0, LARGEST_AMPLITUDE)
+    amplitude = within("amplitude", amplitude, 0.0, MAX_AMPLITUDE)
     if amplitude == 0.0:
         raise ValueError(refusal("amplitude", "be above 0: an unshaken block has no (1, n) orbit", amplitude))
     restitution = _lossy(restitution)
@@ -114,8 +114,8 @@ def frequency_response(
 
 def _values(name: str, values: Any) -> NDArray[np.float64]:
     ordered = np.unique(reals(name, values))
-    if not 2 <= len(ordered) <= MOST_VALUES or not np.isfinite(ordered).all():
-        raise ValueError(refusal(name, f"be 2 to {MOST_VALUES:,} different finite numbers", values))
+    if not 2 <= len(ordered) <= MAX_VALUES or not np.isfinite(ordered).all():
+        raise ValueError(refusal(name, f"be 2 to {MAX_VALUES:,} different finite numbers", values))
     checked_range(name, (float(ordered[0]), float(ordered[-1])))
     return ordered
 
@@ -135,7 +135,7 @@ def _sequence(modes: Any) -> tuple[int, ...]:
 
 
 def _odd(n: int) -> int:
-    n = whole("modes", n, 1, MOST_CYCLES_IN_MODE)
+    n = whole("modes", n, 1, MAX_CYCLES_IN_MODE)
     if n % 2 == 0:
         raise ValueError(
             refusal("modes", "be odd: no symmetric orbit repeats after an even number of cycles", n)

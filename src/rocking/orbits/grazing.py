@@ -12,8 +12,8 @@ from typing import NamedTuple
 import numpy as np
 
 from rocking.kernels.orbits import arclength
+from rocking.kernels.orbits import bifurcation_curve as kernel
 from rocking.kernels.orbits import branch_point as codes
-from rocking.kernels.orbits import continuation_codim1 as kernel
 from rocking.model import Orbit, State
 from rocking.motion import simulate
 from rocking.orbits.event_chain import (

@@ -15,7 +15,7 @@ from rocking.kernels.classify import workspace
 from rocking.kernels.march import march
 from rocking.kernels.march import sweep as kernel
 from rocking.model import (
-    LARGEST_PHASE,
+    MAX_PHASE,
     State,
     System,
     TooManyEvents,
@@ -32,9 +32,9 @@ from rocking.orbits.orbit_diagram_result import OrbitDiagram
 from rocking.orbits.parameter import PARAMETERS, with_value
 
 SWEEPS = {"up": ("up",), "down": ("down",), "both": ("up", "down"), "rest": ("rest",)}
-MOST_CYCLES = 1_000_000
+MAX_CYCLES = 1_000_000
 # Two numbers each: half a gibibyte.
-MOST_POINTS = 2**25
+MAX_POINTS = 2**25
 # Compiled code cannot be interrupted: it comes up for air after so many cycles, or one value.
 BREATH = 1_000_000
 
@@ -109,10 +109,10 @@ def orbit_diagram(
     ordered = _values(values)
     start = State() if start is None else start
     ways = SWEEPS[one_of("sweep", sweep, tuple(SWEEPS))]
-    transient = whole("transient", transient, 0, MOST_CYCLES)
-    cycles = whole("cycles", cycles, 1, max(MOST_POINTS // (len(ways) * len(ordered)), 1))
+    transient = whole("transient", transient, 0, MAX_CYCLES)
+    cycles = whole("cycles", cycles, 1, max(MAX_POINTS // (len(ways) * len(ordered)), 1))
     section_phase = system.forcing.phase if section_phase is None else section_phase
-    section_phase = within("section_phase", section_phase, -LARGEST_PHASE, LARGEST_PHASE)
+    section_phase = within("section_phase", section_phase, -MAX_PHASE, MAX_PHASE)
     rows = np.array([_row(with_value(system, parameter, value), start) for value in ordered.tolist()])
     lanes = _lanes(rows, ways, cycles)
     _run(lanes, start, "rest" not in ways, transient, section_phase, progress)
@@ -122,7 +122,7 @@ def orbit_diagram(
     if (statuses == march.CROWDED).any():
         value = ordered[(statuses == march.CROWDED).any(axis=0)][0]
         raise TooManyEvents(
-            f"more than {march.MOST_EVENTS:,} events in one forcing cycle at {parameter} {value:.6g}: the block chatters "
+            f"more than {march.MAX_EVENTS:,} events in one forcing cycle at {parameter} {value:.6g}: the block chatters "
             "almost without loss (leave that value out)"
         )
     return OrbitDiagram(
@@ -141,8 +141,8 @@ def orbit_diagram(
 
 def _values(values: ArrayLike) -> NDArray[np.float64]:
     ordered = np.unique(reals("values", values))
-    if not 0 < len(ordered) <= MOST_POINTS or not np.isfinite(ordered).all():
-        raise ValueError(refusal("values", f"be 1 to {MOST_POINTS:,} finite numbers", values))
+    if not 0 < len(ordered) <= MAX_POINTS or not np.isfinite(ordered).all():
+        raise ValueError(refusal("values", f"be 1 to {MAX_POINTS:,} finite numbers", values))
     return ordered
 
 

@@ -7,7 +7,7 @@ from attrs import evolve
 from rocking.model import (
     BRACE_ANGLES,
     FREQUENCIES,
-    LARGEST_AMPLITUDE,
+    MAX_AMPLITUDE,
     PERIODS,
     Braces,
     Harmonic,
@@ -28,7 +28,7 @@ PARAMETERS = (
 )
 # A model's own ranges; towards 0 nothing is left of a restitution to follow.
 ALLOWED = {
-    "amplitude": (0.0, LARGEST_AMPLITUDE),
+    "amplitude": (0.0, MAX_AMPLITUDE),
     "frequency": FREQUENCIES,
     "period": PERIODS,
     "restitution": (1e-3, 1.0),

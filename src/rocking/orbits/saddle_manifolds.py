@@ -11,7 +11,7 @@ from attrs import field, frozen
 from rocking.kernels.march import march
 from rocking.kernels.orbits import saddle_manifold as kernel
 from rocking.model import (
-    LARGEST_PHASE,
+    MAX_PHASE,
     ReadOnlyArrays,
     System,
     TooManyEvents,
@@ -25,12 +25,12 @@ from rocking.orbits.saddle_orbits import check, parameters, response, saddle
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-MOST_CYCLES = 100
+MAX_CYCLES = 100
 SPACINGS = (1e-5, 1.0)
 # Neighbouring pieces of a curve longer than this share of the spacing bend by no more than this angle, rad.
 BEND, SHORT = 0.2, 1e-2
 FIRST_POINTS = 64
-MOST_POINTS = 400_000
+MAX_POINTS = 400_000
 # Times of leaving nearer than this, in periods, are one to rounding.
 FINEST = 1e-13
 # Around all that is bounded.
@@ -158,8 +158,8 @@ def saddle_manifolds(
     True
     """
     check(system)
-    phase = system.forcing.phase if phase is None else within("phase", phase, -LARGEST_PHASE, LARGEST_PHASE)
-    cycles = whole("cycles", cycles, 1, MOST_CYCLES)
+    phase = system.forcing.phase if phase is None else within("phase", phase, -MAX_PHASE, MAX_PHASE)
+    cycles = whole("cycles", cycles, 1, MAX_CYCLES)
     spacing = within("spacing", spacing, *SPACINGS)
     unstable, stable = (
         tuple(_manifold(system, phase, cycles, spacing, side, backward) for side in (1, -1))
@@ -216,7 +216,7 @@ def _grown(
         wide &= np.diff(times) > FINEST * cycles * p.period
         if not wide.any():
             return times, points, True
-        if len(times) + wide.sum() > MOST_POINTS:
+        if len(times) + wide.sum() > MAX_POINTS:
             return times, points, False
         new = 0.5 * (times[:-1] + times[1:])[wide]
         where = np.flatnonzero(wide) + 1
@@ -228,7 +228,7 @@ def _images(p: Any, side: int, times: np.ndarray) -> np.ndarray:
     out = np.empty((len(times), 2))
     if not kernel.images(p, side, times, out):
         raise TooManyEvents(
-            f"more than {march.MOST_EVENTS:,} impacts on the way to one point: the block chatters almost without loss "
+            f"more than {march.MAX_EVENTS:,} impacts on the way to one point: the block chatters almost without loss "
             "(take a smaller restitution, or fewer cycles)"
         )
     return out

@@ -17,8 +17,8 @@ from rocking.model import Block, Outcome, System, instance, within
 from rocking.motion import Motion, time_of_fall
 from rocking.plot.parts import style
 from rocking.plot.parts.axis_units import quantities
+from rocking.plot.parts.film_scene import Scene
 from rocking.plot.parts.sample_times import settled, window
-from rocking.plot.parts.scene import Scene
 from rocking.plot.parts.video import check_film, write_film
 from rocking.plot.time_history import draw_history
 

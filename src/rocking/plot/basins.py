@@ -10,7 +10,7 @@ from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.patches import Patch
 
 from rocking.model import Attractor, BasinMap, Block, Kind, instance, percent
-from rocking.plot.parametric_map import MOST_DRAWN
+from rocking.plot.parametric_map import MAX_DRAWN
 from rocking.plot.parts import style
 from rocking.plot.parts.axis_units import parameter
 from rocking.plot.parts.legend import COLOURS, paler
@@ -19,7 +19,7 @@ from rocking.plot.parts.legend import COLOURS, paler
 ORBITS = (style.MOTION, "#56B4E9", "#E69F00", "#CC79A7", "#8C6D31", "#B5A0D8", "#7FC8A9", "#F2B8A0")
 NAMED = 8
 """Attractors in the legend; what is left is drawn too."""
-LONGEST = 12
+MAX_LENGTH = 12
 """Letters of a name of which two fit side by side."""
 
 HATCH = "////"
@@ -69,7 +69,7 @@ def basins(found: BasinMap, ax: Axes | None = None, block: Block | None = None) 
     map_ = ListedColormap(hues)
     norm = BoundaryNorm(np.arange(len(hues) + 1) - 0.5, len(hues))
     if places.ndim == 2:
-        steps = {name: slice(None, None, -(-size // MOST_DRAWN)) for name, size in places.sizes.items()}
+        steps = {name: slice(None, None, -(-size // MAX_DRAWN)) for name, size in places.sizes.items()}
         drawn = places.isel(steps).transpose("velocity", "angle")
         across, up = turn_across(drawn.angle.values), turn_up(drawn.velocity.values)
         ax.pcolormesh(
@@ -88,7 +88,7 @@ def basins(found: BasinMap, ax: Axes | None = None, block: Block | None = None) 
             norm=norm,
             s=style.point_size(places.size) ** 2,
             linewidths=0,
-            rasterized=places.size > style.MOST_MARKS,
+            rasterized=places.size > style.MAX_MARKS,
             gid="basins",
         )
     style.label(ax, x_label, y_label)
@@ -123,4 +123,4 @@ def _legend(ax: Axes, found: BasinMap, hues: list) -> None:
         )
         for each, share, hue in named
     ]
-    style.patches(ax, handles, 1 if max(len(each.name) for each, _, _ in named) > LONGEST else 2)
+    style.patches(ax, handles, 1 if max(len(each.name) for each, _, _ in named) > MAX_LENGTH else 2)

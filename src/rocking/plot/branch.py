@@ -6,7 +6,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from rocking.model import (
-    LARGEST_PHASE,
+    MAX_PHASE,
     Block,
     Stability,
     one_of,
@@ -70,7 +70,7 @@ def branch(
     """
     branches = _branches(result)
     quantity = one_of("quantity", quantity, branch_lines.QUANTITIES)
-    phase = within("phase", phase, -LARGEST_PHASE, LARGEST_PHASE)
+    phase = within("phase", phase, -MAX_PHASE, MAX_PHASE)
     shown = quantities(block)
     across, x_label = parameter(branches[0].name, block)
     upright = shown.velocity if quantity == "velocity" else shown.angle

@@ -70,7 +70,7 @@ def impact_section(
             markersize=size,
             markeredgewidth=0,
             color=colour,
-            rasterized=len(impacts) > style.MOST_MARKS,
+            rasterized=len(impacts) > style.MAX_MARKS,
             label=name,
             gid=f"impact section {side:+d}",
         )

@@ -58,7 +58,7 @@ def manifolds(result: SaddleManifolds, ax: Axes | None = None, block: Block | No
                 color=colour,
                 linewidth=style.THIN,
                 linestyle="-" if one.side > 0 else (0, (4, 1.2)),
-                rasterized=len(one.points) > style.MOST_CORNERS,
+                rasterized=len(one.points) > style.MAX_CORNERS,
                 label=f"{name}, Θ ≈ {one.side:+d}".replace("-", "−"),
                 gid=f"{name} {one.side:+d}",
             )

@@ -5,7 +5,7 @@ import math
 import numpy as np
 from matplotlib.axes import Axes
 
-from rocking.model import LARGEST_AMPLITUDE, PERIODS, Block, within
+from rocking.model import MAX_AMPLITUDE, PERIODS, Block, within
 from rocking.plot.parts import style
 from rocking.plot.parts.axis_units import quantities
 from rocking.theory import (
@@ -19,7 +19,7 @@ from rocking.theory import (
 
 POINTS = 401
 # The heteroclinic orbits are shown until they are this near their ends.
-LONGEST = 6.0
+MAX_TIME = 6.0
 INNER = (0.2, 0.4, 0.6, 0.8)
 
 
@@ -54,7 +54,7 @@ def melnikov(amplitude: float, period: float, restitution: float, ax: Axes | Non
     >>> [line.get_label() for line in ax.lines][:3]
     ['$M^+$', '$M^-$', 'exact gap']
     """
-    amplitude = within("amplitude", amplitude, 0.0, LARGEST_AMPLITUDE)
+    amplitude = within("amplitude", amplitude, 0.0, MAX_AMPLITUDE)
     period, restitution = within("period", period, *PERIODS), within("restitution", restitution, 0.0, 1.0)
     turns = np.linspace(0.0, 1.0, POINTS)
     times = turns * period
@@ -99,7 +99,7 @@ def heteroclinic(ax: Axes | None = None, block: Block | None = None) -> Axes:
     """
     shown = quantities(block)
     ax = style.own(ax, height=2.9)
-    times = np.linspace(-LONGEST, LONGEST, POINTS)
+    times = np.linspace(-MAX_TIME, MAX_TIME, POINTS)
     for orbit, label in (("upper", "heteroclinic orbits"), ("lower", None)):
         angle, velocity = heteroclinic_orbit(times, orbit)
         ax.plot(

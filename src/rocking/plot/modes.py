@@ -7,7 +7,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
-from rocking.model import LARGEST_AMPLITUDE, Block, Mode, one_of, within
+from rocking.model import MAX_AMPLITUDE, Block, Mode, one_of, within
 from rocking.plot.parts import branch_lines, style
 from rocking.plot.parts.axis_units import parameter, quantities
 from rocking.theory import (
@@ -76,11 +76,11 @@ def modes(
     '(1,1) modes, $T = 1$, $e = 0.925$'
     """
     one_of("quantity", quantity, ("velocity", "phase"))
-    marked = 0.0 if amplitude is None else within("amplitude", amplitude, 0.0, LARGEST_AMPLITUDE)
+    marked = 0.0 if amplitude is None else within("amplitude", amplitude, 0.0, MAX_AMPLITUDE)
     here = symmetric_modes(marked, period, restitution, n)
     begins = existence_amplitude(period, restitution, n)
     breaks = symmetry_breaking_amplitude(period, restitution, n)
-    most = min(max(BEYOND * breaks, 1.1 * marked, 1.1 * begins), LARGEST_AMPLITUDE)
+    most = min(max(BEYOND * breaks, 1.1 * marked, 1.1 * begins), MAX_AMPLITUDE)
     least = begins * (1.0 + NEAR) + NEAR
     ends = (most, min(slower_mode_amplitude(period, n) * (1.0 - NEAR), most))
     shown = quantities(block)

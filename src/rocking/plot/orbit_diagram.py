@@ -116,7 +116,7 @@ def _points(ax: Axes, result: OrbitDiagram, row: int, way: str, quantity: str, a
         markersize=MARK * style.point_size(count) * (HALO if way == "down" else 1.0),
         markeredgewidth=0,
         color=colour,
-        rasterized=count > style.MOST_MARKS,
+        rasterized=count > style.MAX_MARKS,
         label=name,
         gid=way,
         zorder=2.0 - 0.1 * row,

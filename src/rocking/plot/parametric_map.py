@@ -21,9 +21,9 @@ from rocking.plot.parts.map_levels import Responses, edges
 if TYPE_CHECKING:
     import xarray as xr
 
-MOST_DRAWN = 2_000
+MAX_DRAWN = 2_000
 """Cells along an axis; of more, every second, third, … point is drawn."""
-MOST_SYMBOLS = 30
+MAX_SYMBOLS = 30
 HATCHED = 1_100
 """Dots along each axis of the layer of hatches, some two to a dot of the picture."""
 STRIPES, STRIPE = 30, 5
@@ -88,7 +88,7 @@ def parametric_map(
         one_of("symbols", symbols, ("kinds", *PAPER))
     curves = theory_curves.check(curves)
     read = Responses(found)
-    codes, up, across, counts = _thinned(read, MOST_DRAWN if symbols is None else MOST_SYMBOLS)
+    codes, up, across, counts = _thinned(read, MAX_DRAWN if symbols is None else MAX_SYMBOLS)
     (turn_up, y_label), (turn_across, x_label) = (parameter(name, block) for name in read.names)
     keys = _cell_keys(counts) if symbols is None else _symbol_keys(counts, _symbols(symbols))
     rows = len(keys) + len(curves)

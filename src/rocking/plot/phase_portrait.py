@@ -73,7 +73,7 @@ def phase_portrait(
         linewidth=style.line_width(len(events)),
         marker="o" if never_moves else "none",
         markersize=style.MARK,
-        rasterized=len(time) > style.MOST_CORNERS,
+        rasterized=len(time) > style.MAX_CORNERS,
         gid="motion",
     )
     for kind, (colour, marker) in STRIKES.items():
@@ -92,7 +92,7 @@ def _strikes(ax: Axes, shown: Quantities, hits: NDArray, kind: str, colour: str,
         shown.velocity(hits["before"]),
         shown.velocity(hits["after"]),
     )
-    size, dense = 0.8 * style.point_size(len(hits)), len(hits) > style.MOST_MARKS
+    size, dense = 0.8 * style.point_size(len(hits)), len(hits) > style.MAX_MARKS
     ax.vlines(
         angle, before, after, colors=colour, linewidth=style.LINE, rasterized=dense, gid=f"{kind} strokes"
     )

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from rocking.model import Block, instance, within
 from rocking.plot.parts import style
-from rocking.plot.parts.scene import corners
+from rocking.plot.parts.film_scene import corners
 
 STOUT = Block(height=2.0, width=1.0)
 

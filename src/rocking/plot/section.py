@@ -7,7 +7,7 @@ from matplotlib.axes import Axes
 from numpy.typing import ArrayLike, NDArray
 
 from rocking.model import (
-    LARGEST_PHASE,
+    MAX_PHASE,
     Block,
     reals,
     refusal,
@@ -64,7 +64,7 @@ def section(
     301
     """
     if phase is not None:
-        phase = within("phase", phase, -LARGEST_PHASE, LARGEST_PHASE)
+        phase = within("phase", phase, -MAX_PHASE, MAX_PHASE)
     points = result.section(phase) if isinstance(result, Motion) else _points(result)
     points = points[whole("transient", transient, 0, len(points) - 1) :]
     if isinstance(result, Motion) and phase is None:
@@ -79,7 +79,7 @@ def section(
         markersize=style.point_size(style.places(*points.T)),
         markeredgewidth=0,
         color=style.MOTION,
-        rasterized=len(points) > style.MOST_MARKS,
+        rasterized=len(points) > style.MAX_MARKS,
         gid="section",
     )
     style.label(ax, shown.angle_label, shown.velocity_label)

@@ -13,7 +13,7 @@ from rocking.response import Peak, SpectralDensity
 
 DECADES = 10
 ROOM_FOR_NAMES = 0.3
-MOST_NAMES = 100
+MAX_NAMES = 100
 
 
 def spectrum(
@@ -62,7 +62,7 @@ def spectrum(
     """
     instance("density", density, SpectralDensity)
     highest = within("highest", highest, 0.1, 1000.0)
-    names = whole("names", names, 0, MOST_NAMES)
+    names = whole("names", names, 0, MAX_NAMES)
     shown = quantities(block)
     ax = style.own(ax, height=2.6)
     last = min(highest * (1 + 1e-9), density.forcing_multiples[-1])
@@ -74,7 +74,7 @@ def spectrum(
         heights,
         color=style.MOTION,
         linewidth=0.8 * style.LINE,
-        rasterized=int(drawn.sum()) > style.MOST_CORNERS,
+        rasterized=int(drawn.sum()) > style.MAX_CORNERS,
         gid="spectrum",
     )
     forcing = shown.frequency(1 / density.system.forcing.period)

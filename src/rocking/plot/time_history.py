@@ -67,7 +67,7 @@ def draw_history(ax: Axes, motion: Motion, start: float, stop: float, block: Blo
         shown.angle(angle),
         color=style.MOTION,
         linewidth=style.LINE,
-        rasterized=len(time) > style.MOST_CORNERS,
+        rasterized=len(time) > style.MAX_CORNERS,
         gid="motion",
     )
     ax.set_xlim(shown.time(start), shown.time(stop))

@@ -1,6 +1,6 @@
 """What a response is: its section, spectrum, exponents, dimension and frequencies, and a verdict with its evidence."""
 
-from rocking.response.classify import KINDS, MOST_CYCLES, MOST_PERIOD, budget, classify
+from rocking.response.classify import KINDS, MAX_CYCLES, MAX_PERIOD, budget, classify
 from rocking.response.correlation_dimension import CorrelationDimension, correlation_dimension
 from rocking.response.impact_section import impact_section
 from rocking.response.lyapunov import lyapunov
@@ -11,8 +11,8 @@ from rocking.response.welch_spectrum import spectral_density
 
 __all__ = [
     "KINDS",
-    "MOST_CYCLES",
-    "MOST_PERIOD",
+    "MAX_CYCLES",
+    "MAX_PERIOD",
     "CorrelationDimension",
     "LyapunovSpectrum",
     "Peak",

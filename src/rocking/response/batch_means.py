@@ -11,11 +11,11 @@ from numpy.typing import ArrayLike, NDArray
 from rocking.kernels.numerics import averages
 from rocking.model import reals, refusal
 
-MOST_BATCHES = 256
-FEWEST_BATCHES = 32
-FEWEST_GROUPS = 16
+MAX_BATCHES = 256
+MIN_BATCHES = 32
+MIN_GROUPS = 16
 # Neighbouring groups of eight of the 256 batches are still bound to each other beyond this.
-LONGEST_CORRELATION = 4.0
+MAX_CORRELATION_TIME = 4.0
 
 
 @frozen
@@ -84,7 +84,7 @@ def batch_mean(sums: ArrayLike, lengths: ArrayLike | None = None) -> BatchMean:
     spans = np.ones_like(terms) if lengths is None else _terms("lengths", lengths)
     if spans.shape != terms.shape or not (spans > 0.0).all():
         raise ValueError(refusal("lengths", f"be {len(terms)} positive numbers, one for each sum", lengths))
-    batches = 2 ** int(math.log2(min(len(terms), MOST_BATCHES)))
+    batches = 2 ** int(math.log2(min(len(terms), MAX_BATCHES)))
     edges = np.linspace(0, len(terms), batches + 1).astype(int)[:-1]
     return _judged(np.add.reduceat(terms, edges), np.add.reduceat(spans, edges))
 
@@ -98,7 +98,7 @@ def _terms(name: str, values: ArrayLike) -> NDArray[np.float64]:
 
 def _judged(sums: NDArray[np.float64], lengths: NDArray[np.float64]) -> BatchMean:
     batches, value = len(sums), float(sums.sum() / lengths.sum())
-    if batches < FEWEST_BATCHES:
+    if batches < MIN_BATCHES:
         return BatchMean(value, math.inf, math.nan, bounded=False, batches=batches)
     departures = sums - value * lengths
     errors = _errors(departures) / lengths.sum()
@@ -110,7 +110,7 @@ def _judged(sums: NDArray[np.float64], lengths: NDArray[np.float64]) -> BatchMea
     if bounded:
         error = _drift(sums, lengths)
     else:
-        error = float(largest) if correlation <= LONGEST_CORRELATION else math.inf
+        error = float(largest) if correlation <= MAX_CORRELATION_TIME else math.inf
     return BatchMean(value, error, correlation, bounded, batches)
 
 
@@ -118,7 +118,7 @@ def _errors(departures: NDArray[np.float64]) -> NDArray[np.float64]:
     """Standard error of the sum with batches joined to 1, 2, 4, … at a time, as long as 16 groups remain."""
     errors = []
     size = 1
-    while len(departures) >= FEWEST_GROUPS * size:
+    while len(departures) >= MIN_GROUPS * size:
         errors.append(averages.error_of_sum_plain(departures, size))
         size *= 2
     return np.array(errors)

@@ -10,14 +10,14 @@ from threading import Thread
 from typing import Any
 
 from rocking.kernels import parameters as numbers
-from rocking.kernels.classify import cascade, workspace
+from rocking.kernels.classify import decision_cascade, workspace
 from rocking.kernels.classify import verdict_record as kernel
 from rocking.model import Kind, Orbit, Outcome, State, System, Verdict, check_start, whole
 from rocking.motion import Motion, simulate, start_march
 from rocking.response.evidence import Case, evidence_of
 
-MOST_CYCLES = 100_000_000
-MOST_PERIOD = 10_000
+MAX_CYCLES = 100_000_000
+MAX_PERIOD = 10_000
 # Rest is certain long before its last impact.
 LONGER = 10
 # Two runs whose largest angles differ by more are not one motion.
@@ -100,8 +100,8 @@ def classify(
 def budget(max_cycles: int, max_period: int) -> dict[str, int]:
     """For how many cycles a motion is followed at most, and up to which period an orbit is looked for; by name, checked."""
     return {
-        "max_cycles": whole("max_cycles", max_cycles, 1, MOST_CYCLES),
-        "max_period": whole("max_period", max_period, 1, MOST_PERIOD),
+        "max_cycles": whole("max_cycles", max_cycles, 1, MAX_CYCLES),
+        "max_period": whole("max_period", max_period, 1, MAX_PERIOD),
     }
 
 
@@ -118,7 +118,7 @@ def _judged(system: System, start: State, max_cycles: int, max_period: int) -> k
         try:
             memory = workspace.make_workspace(max_cycles, max_period)
             answer.set_result(
-                cascade.judge_plain(p, start.angle, start.velocity, max_cycles, max_period, memory)
+                decision_cascade.judge_plain(p, start.angle, start.velocity, max_cycles, max_period, memory)
             )
         except BaseException as error:  # noqa: BLE001 (it is raised where it is waited for)
             answer.set_exception(error)
@@ -133,7 +133,7 @@ def _judged(system: System, start: State, max_cycles: int, max_period: int) -> k
 def _compile() -> None:
     """Compile the cascade, or load it, before a thread needs it: a process that ends while another thread compiles may crash."""
     still = numbers.harmonic_parameters(0.0, 1.0, math.tau, 0.0, 0.0)
-    cascade.judge_plain(still, 0.0, 0.0, 1, 1, workspace.make_workspace(1, 1))
+    decision_cascade.judge_plain(still, 0.0, 0.0, 1, 1, workspace.make_workspace(1, 1))
 
 
 def _to_its_end(system: System, start: State, judgement: kernel.Judgement) -> Motion | None:

@@ -15,8 +15,8 @@ from rocking.response.scaling_region import Scaling, scaling_region
 
 Array = NDArray[np.float64]
 
-FEWEST_POINTS = 1_000
-MOST_POINTS = 10_000_000
+MIN_POINTS = 1_000
+MAX_POINTS = 10_000_000
 # Points closer than this share of the whole spread are one: converged orbits repeat to rounding.
 SAME = 1e-9
 # A coordinate of size 1 that spreads by no more is constant.
@@ -202,9 +202,9 @@ def _cloud(points: ArrayLike) -> Array:
         cloud = cloud[:, None]
     if cloud.ndim != 2 or cloud.shape[1] == 0:
         raise ValueError(refusal("points", allowed, points))
-    if len(cloud) < FEWEST_POINTS or len(cloud) > MOST_POINTS:
+    if len(cloud) < MIN_POINTS or len(cloud) > MAX_POINTS:
         raise ValueError(
-            f"points must be {FEWEST_POINTS:,} at least and {MOST_POINTS:,} at most; got {len(cloud):,} "
+            f"points must be {MIN_POINTS:,} at least and {MAX_POINTS:,} at most; got {len(cloud):,} "
             "(a section has one a cycle, as long as the block stays up)"
         )
     if not np.isfinite(cloud).all():

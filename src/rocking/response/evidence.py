@@ -8,13 +8,13 @@ from decimal import ROUND_UP, Context, Decimal
 
 from attrs import field, frozen
 
-from rocking.kernels.classify import cascade, periodicity, quasi_periodicity, reset, workspace
+from rocking.kernels.classify import decision_cascade, periodicity, quasi_periodicity, reset, workspace
 from rocking.kernels.classify import verdict_record as kernel
 from rocking.kernels.orbits import fixed_point
 from rocking.model import Evidence, System, counted, plus_minus
 from rocking.motion import Motion
 
-MOST_GROWTH = f"{math.exp(reset.LARGEST_STRAIN):.0e}".replace("e+0", "e")
+MAX_GROWTH = f"{math.exp(reset.MAX_STRAIN):.0e}".replace("e+0", "e")
 
 OTHERWISE = "but so sensitive until then that another rounding ends otherwise"
 
@@ -74,9 +74,9 @@ def _reset(case: Case) -> Shown:
     apart = counted(judged.period, "half cycle") if judged.symmetric else counted(judged.period, "cycle")
     what = (
         f"{_periodic(judged)}: every {which} is the same state{' but for its side' * judged.symmetric}, two of them are "
-        f"{apart} of the forcing apart, and differences grew less than {MOST_GROWTH}-fold between them"
+        f"{apart} of the forcing apart, and differences grew less than {MAX_GROWTH}-fold between them"
     )
-    return Shown("verified", what, f"verified, {_when(case)}", {"growth": float(MOST_GROWTH)})
+    return Shown("verified", what, f"verified, {_when(case)}", {"growth": float(MAX_GROWTH)})
 
 
 def _orbit(case: Case) -> Shown:
@@ -99,13 +99,13 @@ def _orbit(case: Case) -> Shown:
 
 def _neutral_orbit(case: Case) -> Shown:
     what = (
-        f"{_periodic(case.judgement)}: the motion comes back to within {cascade.UNMOVED:.0e} of where it was, its averages over "
+        f"{_periodic(case.judgement)}: the motion comes back to within {decision_cascade.UNMOVED:.0e} of where it was, its averages over "
         f"both halves of the run agree to {quasi_periodicity.ENOUGH_DIGITS:.0f} digits or more, and nothing is lost, so that neighbours "
         "stay neighbours and need not approach"
     )
     tolerances = {
         "residual": fixed_point.RESIDUAL,
-        "distance": cascade.UNMOVED,
+        "distance": decision_cascade.UNMOVED,
         "digits": quasi_periodicity.ENOUGH_DIGITS,
     }
     return Shown("verified", what, f"verified, {_when(case)}", tolerances)
@@ -116,7 +116,7 @@ def _torus(case: Case) -> Shown:
         f"nothing is lost; the averages over both halves of the run agree as on a torus, to "
         f"{quasi_periodicity.ENOUGH_DIGITS:.0f} digits or more "
         f"for the flight times and {math.floor(case.judgement.digits)} for the squared speeds; neighbours part no faster than "
-        f"linearly; and it does not return to within {cascade.UNMOVED:.0e} in {case.max_period} cycles"
+        f"linearly; and it does not return to within {decision_cascade.UNMOVED:.0e} in {case.max_period} cycles"
     )
     tolerances = {
         "flight digits": quasi_periodicity.ENOUGH_DIGITS,
@@ -157,16 +157,16 @@ def _correlated(case: Case) -> Shown:
 
 def _lingering(case: Case) -> Shown:
     what = (
-        f"{_seems_chaotic(case)}, but in its last cycles the motion stays within {cascade.NEAR:.0e} of an unstable "
+        f"{_seems_chaotic(case)}, but in its last cycles the motion stays within {decision_cascade.NEAR:.0e} of an unstable "
         "orbit"
     )
-    return Shown("none", what, f"{_longer(case)}, or start elsewhere", {"distance": cascade.NEAR})
+    return Shown("none", what, f"{_longer(case)}, or start elsewhere", {"distance": decision_cascade.NEAR})
 
 
 def _unresolved_reset(case: Case) -> Shown:
     what = (
         f"it comes to rest or leans and is released again, but between two releases differences grow more than "
-        f"{MOST_GROWTH}-fold: after how many cycles it repeats itself is not known in double precision"
+        f"{MAX_GROWTH}-fold: after how many cycles it repeats itself is not known in double precision"
     )
     return Shown("none", what, "no longer run can tell; a slightly different system may")
 
@@ -205,7 +205,7 @@ def _between(case: Case) -> Shown:
 
 def _crowded(case: Case) -> Shown:
     what = (
-        f"more impacts than are followed, over {cascade.MOST_EVENTS_A_CYCLE} a cycle: it chatters almost without loss; given up "
+        f"more impacts than are followed, over {decision_cascade.MAX_EVENTS_A_CYCLE} a cycle: it chatters almost without loss; given up "
         f"after {spent(case)}"
     )
     return Shown("none", what, "start it faster, or take a smaller restitution")
@@ -213,7 +213,7 @@ def _crowded(case: Case) -> Shown:
 
 def _standing(case: Case) -> Shown:
     what = (
-        f"it comes back to within {cascade.UNMOVED:.0e} of where it was in {spent(case)}, and differences grow by "
+        f"it comes back to within {decision_cascade.UNMOVED:.0e} of where it was in {spent(case)}, and differences grow by "
         f"{case.judgement.exponent:.4g} per τ: it stands on an unstable orbit"
     )
     return Shown("none", what, "start it a little beside")

@@ -8,7 +8,7 @@ from rocking.model import State, System, refusal, whole
 from rocking.motion import Motion, kept_events
 
 IMPACT = np.dtype([("time", "f8"), ("cycle", "i8"), ("phase", "f8"), ("before", "f8"), ("after", "f8")])
-USUAL_CYCLES = 1000
+DEFAULT_CYCLES = 1000
 
 
 def impact_section(
@@ -65,7 +65,7 @@ def impact_section(
         return _impacts(source.events, transient)
     if not isinstance(source, System):
         raise TypeError(refusal("source", "be a System or a Motion", source))
-    cycles = USUAL_CYCLES if cycles is None else cycles
+    cycles = DEFAULT_CYCLES if cycles is None else cycles
     transient = whole("transient", transient, 0, max(whole("cycles", cycles, 1, 10**9) - 1, 0))
     return kept_events(source, start, cycles, lambda events: _impacts(events, transient))
 

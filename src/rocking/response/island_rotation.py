@@ -12,11 +12,11 @@ from rocking.kernels.numerics import averages
 
 Array = NDArray[np.float64]
 
-FEWEST_TURNS = 64
+MIN_TURNS = 64
 # Digits in which both halves of a regular motion agree.
 REGULAR_DIGITS = 9
-MOST_DIGITS = 15
-LONGEST_LOCK = 500
+MAX_DIGITS = 15
+MAX_LOCK = 500
 # An island this small, against speeds and phases of order one, turns by rounding: it counts as its centre.
 # More digits than this an average over some ten thousand flights, each rounded, does not have, however well its halves agree.
 CERTAIN_DIGITS = 14
@@ -30,13 +30,13 @@ def average(values: Array) -> tuple[float, int]:
     """The weighted Birkhoff average of a sequence, and to how many digits, 15 at most, those of its halves agree."""
     values = np.ascontiguousarray(values)
     digits = math.floor(averages.digits_of_agreement_plain(values))
-    return averages.weighted_mean_plain(values), min(max(digits, 0), MOST_DIGITS)
+    return averages.weighted_mean_plain(values), min(max(digits, 0), MAX_DIGITS)
 
 
 def fraction_of(value: float, digits: int) -> Fraction | None:
     """The fraction that a number is to all its digits, or None."""
-    near = Fraction(value).limit_denominator(LONGEST_LOCK)
-    off = 10.0 ** (1 - min(digits, CERTAIN_DIGITS)) * max(abs(value), 1.0 / LONGEST_LOCK)
+    near = Fraction(value).limit_denominator(MAX_LOCK)
+    off = 10.0 ** (1 - min(digits, CERTAIN_DIGITS)) * max(abs(value), 1.0 / MAX_LOCK)
     return near if abs(value - near) <= off else None
 
 

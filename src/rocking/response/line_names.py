@@ -10,9 +10,9 @@ from fractions import Fraction
 
 from attrs import frozen
 
-MOST_ROTATIONS = 32
+MAX_ROTATIONS = 32
 CHANCE = 0.1
-MOST_SUBHARMONIC = 16
+MAX_SUBHARMONIC = 16
 TELLING_LINES = 10
 
 
@@ -49,7 +49,7 @@ def combination(line: float, parts: int, rotation: float | None, resolution: flo
     where another has no more than 2|q| + 1. Only so many rotations are tried, 32 at most, that the combinations cover a
     tenth of all frequencies: more would find one near any line.
     """
-    most = min(MOST_ROTATIONS, int((CHANCE / (2 * resolution * parts) - 1) / 2)) if rotation else 0
+    most = min(MAX_ROTATIONS, int((CHANCE / (2 * resolution * parts) - 1) / 2)) if rotation else 0
     found = None
     for turns in sorted(range(-most, most + 1), key=abs):
         if found is not None and abs(turns) > 2 * abs(found.rotation) + 1:
@@ -85,7 +85,7 @@ def parts_and_rotation(
     """
     telling = lines[:TELLING_LINES]
     best: tuple[int, int, float | None] = (-1, parts or 1, rotation)
-    for n in [parts] if parts else range(1, MOST_SUBHARMONIC + 1):
+    for n in [parts] if parts else range(1, MAX_SUBHARMONIC + 1):
         free = rotation or _free(telling, n, resolution)
         named = [combination(line, n, free, resolution) for line in telling]
         turning = sum(one is not None and one.rotation != 0 for one in named)

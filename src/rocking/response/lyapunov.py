@@ -8,10 +8,10 @@ import numpy as np
 
 from rocking.model import Outcome, State, System, TooShort, check_start, whole
 from rocking.motion import march_on, start_march
-from rocking.response.batch_means import FEWEST_BATCHES, MOST_BATCHES
+from rocking.response.batch_means import MAX_BATCHES, MIN_BATCHES
 from rocking.response.lyapunov_spectrum import LyapunovSpectrum, means_of
 
-MOST_CYCLES = 1_000_000_000
+MAX_CYCLES = 1_000_000_000
 # Relative rounding of one event's two logarithms, with room.
 ROUNDING = 4.0 * np.finfo(float).eps
 
@@ -80,13 +80,13 @@ def lyapunov(
     """
     start = State() if start is None else start
     check_start(system, start)
-    cycles = whole("cycles", cycles, 1, MOST_CYCLES)
-    transient = cycles // 10 if transient is None else whole("transient", transient, 0, MOST_CYCLES)
+    cycles = whole("cycles", cycles, 1, MAX_CYCLES)
+    transient = cycles // 10 if transient is None else whole("transient", transient, 0, MAX_CYCLES)
     motion = _Carried(system, start)
     motion.to(transient)
     impacts, brace_hits = motion.events
     motion.begin_average()
-    edges = np.linspace(0, cycles, min(MOST_BATCHES, cycles) + 1).astype(int)
+    edges = np.linspace(0, cycles, min(MAX_BATCHES, cycles) + 1).astype(int)
     growths = np.array([motion.to(transient + edge) for edge in edges[1:].tolist()])
     counted = (motion.events[0] - impacts, motion.events[1] - brace_hits)
     return _spectrum(system, start, cycles, transient, growths, np.diff(edges), counted)
@@ -178,8 +178,8 @@ def _sum_rule_error(system: System, growths: np.ndarray, counted: tuple[int, int
 
 def _too_short(spectrum: LyapunovSpectrum) -> str:
     value = f"λ₁ = {spectrum.values[0]:.3g} per τ"
-    if len(spectrum.lengths) < FEWEST_BATCHES:
-        return f"cycles must be {FEWEST_BATCHES} at least for an exponent with an error; got {spectrum.cycles} ({value})"
+    if len(spectrum.lengths) < MIN_BATCHES:
+        return f"cycles must be {MIN_BATCHES} at least for an exponent with an error; got {spectrum.cycles} ({value})"
     return (
         f"{spectrum.cycles} cycles are too few for an exponent with an error: {len(spectrum.lengths)} batches of them still "
         f"hang together ({value}; take more cycles, or a longer transient)"

@@ -13,13 +13,13 @@ Places = NDArray[np.intp]
 
 STEPS_PER_OCTAVE = 4
 # Beyond the spread of the points themselves pairs only saturate.
-LARGEST_RADIUS = 0.5
+MAX_RADIUS = 0.5
 BLOCKS = 16
 # Fewer close pairs in a block than this, and its logarithm is noise.
-FEWEST_PAIRS = 64
+MIN_PAIRS = 64
 REFERENCES = 2_000
 # Pairs listed one by one, which takes some 100 bytes each.
-MOST_PAIRS = 3e6
+MAX_PAIRS = 3e6
 
 
 def pairs_within(scaled: Array, theiler: int, same: float) -> tuple[Array, Array, Array]:
@@ -31,16 +31,16 @@ def pairs_within(scaled: Array, theiler: int, same: float) -> tuple[Array, Array
 
     tree = cKDTree(scaled)
     nearest = np.sort(tree.query(scaled, k=2)[0][:, 1])
-    smallest = max(float(nearest[FEWEST_PAIRS]), same)
-    octaves = max(math.log2(LARGEST_RADIUS / smallest), 0.0)
-    radii = LARGEST_RADIUS * 2.0 ** (-np.arange(int(octaves * STEPS_PER_OCTAVE), -1, -1) / STEPS_PER_OCTAVE)
+    smallest = max(float(nearest[MIN_PAIRS]), same)
+    octaves = max(math.log2(MAX_RADIUS / smallest), 0.0)
+    radii = MAX_RADIUS * 2.0 ** (-np.arange(int(octaves * STEPS_PER_OCTAVE), -1, -1) / STEPS_PER_OCTAVE)
     # A few reference points serve the large radii; the small ones take all.
     few = np.sort(np.random.default_rng(0).permutation(len(scaled))[:REFERENCES])
     counts, pairs = _counted(tree, few, theiler, radii)
-    near = int(np.searchsorted(0.5 * counts.sum(axis=0) * len(scaled) / len(few), MOST_PAIRS))
+    near = int(np.searchsorted(0.5 * counts.sum(axis=0) * len(scaled) / len(few), MAX_PAIRS))
     if near and len(few) < len(scaled):
         counts[:, :near], pairs[:, :near] = _listed(tree, theiler, radii[:near])
-    scarce = np.flatnonzero(counts.min(axis=0) < FEWEST_PAIRS)
+    scarce = np.flatnonzero(counts.min(axis=0) < MIN_PAIRS)
     first = int(scarce[-1]) + 1 if scarce.size else 0
     return radii[first:], counts[:, first:], pairs[:, first:]
 

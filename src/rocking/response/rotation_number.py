@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from rocking.model import Outcome, State, System, TooShort, counted, ordinal, refusal, whole
 from rocking.motion import Motion, simulate
 from rocking.response.island_rotation import (
-    FEWEST_TURNS,
+    MIN_TURNS,
     REGULAR_DIGITS,
     average,
     deviations,
@@ -21,7 +21,7 @@ from rocking.response.island_rotation import (
 
 Array = NDArray[np.float64]
 
-MOST_CYCLES = 1_000_000
+MAX_CYCLES = 1_000_000
 # Chaotic motions do not agree in as many.
 CHAOTIC_DIGITS = 6
 ISLANDS_WITHIN = 4
@@ -126,7 +126,7 @@ def rotation_number(system: System, start: State | None = None, cycles: int = 20
     >>> turning.locked, turning.period, round(turning.free, 10)
     ((2, 3), 3, 0.4744150886)
     """
-    motion = simulate(system, start, cycles=whole("cycles", cycles, 1, MOST_CYCLES), record="all")
+    motion = simulate(system, start, cycles=whole("cycles", cycles, 1, MAX_CYCLES), record="all")
     section, phases, speeds = _strikes(motion)
     flights = _flights(motion, section)
     mean, digits = average(flights)
@@ -211,7 +211,7 @@ def _about_the_centre(locked: RotationNumber, phases: Array, speeds: Array) -> R
         points = deviations(phases[::stride], speeds[::stride])
         if points is None:
             return found
-        if len(points) < FEWEST_TURNS:
+        if len(points) < MIN_TURNS:
             raise TooShort(
                 f"{found.cycles} cycles are {len(points)} periods of the island: too few for a rotation number (take more cycles)",
                 found,

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 
 DECADE = math.log(10.0)
-SHORTEST = 0.5 * DECADE
+MIN_LENGTH = 0.5 * DECADE
 # How wide the interval may be: the longest region within the first of these that leaves a decade is taken.
 WIDTHS = (0.08, 0.12, 0.2, 0.4)
 # Overlapping halves of a region whose slopes are compared.
@@ -46,7 +46,7 @@ def scaling_region(radii: Array, counts: Array, pairs: Array) -> Scaling | None:
     counts, pairs : ndarray, shape (blocks, n)
         Pairs within each radius, and all pairs, for reference points in blocks.
     """
-    if len(radii) < 3 or math.log(radii[-1] / radii[0]) < SHORTEST:
+    if len(radii) < 3 or math.log(radii[-1] / radii[0]) < MIN_LENGTH:
         return None
     x = np.log(radii)
     y = np.log(counts.sum(axis=0) / pairs.sum(axis=0))
@@ -103,7 +103,7 @@ def _longest(fits: _Fits) -> tuple[int, int, bool]:
     x = fits.x
     regions = []
     for first in range(len(x)):
-        for last in range(int(np.searchsorted(x, x[first] + SHORTEST - 1e-9)), len(x)):
+        for last in range(int(np.searchsorted(x, x[first] + MIN_LENGTH - 1e-9)), len(x)):
             low, high = fits.interval(first, last)
             regions.append((first, last, float(x[last] - x[first]), high - low))
     for widest in WIDTHS:

@@ -11,7 +11,7 @@ from functools import cached_property
 import numpy as np
 from attrs import frozen
 
-MOST_LINES = 40
+MAX_LINES = 40
 CHANCE = 1e-3
 COHERENCE = 0.8
 SURROUNDINGS = 24
@@ -132,7 +132,7 @@ def _refined_lines(
     whole = np.abs(np.fft.rfft(record.ravel() * _hann(cycles * samples))) / record.size
     lines: list[Line] = []
     for k in bins:
-        if len(lines) == MOST_LINES:
+        if len(lines) == MAX_LINES:
             break
         low, high = (math.floor((k + side) * cycles / segment) for side in (-1, 1))
         start = low + int(np.argmax(whole[low : high + 2]))

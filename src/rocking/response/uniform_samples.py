@@ -9,11 +9,11 @@ import numpy as np
 from rocking.motion import Motion
 from rocking.response.spectral_lines import Taper
 
-FEWEST_SAMPLES, MOST_SAMPLES = 64, 1024
+MIN_SAMPLES, MAX_SAMPLES = 64, 1024
 ALIASED = 1e-7
 WATCHED = 256
 BREATH = 2**18
-LONGEST_PERIOD = 64
+MAX_FORCING_PERIOD = 64
 RECURRENCE = 1e-8
 
 
@@ -37,10 +37,10 @@ def sampling(motion: Motion, transient: int, samples: int | None) -> tuple[int, 
     Unless the number is given, it is doubled until the share is small.
     """
     cycles = min(motion.cycles - transient, WATCHED)
-    chosen = samples or FEWEST_SAMPLES
+    chosen = samples or MIN_SAMPLES
     while True:
         share = _share_above(sampled(motion, transient, 4 * chosen, cycles), chosen / 2)
-        if samples or share <= ALIASED or chosen >= MOST_SAMPLES:
+        if samples or share <= ALIASED or chosen >= MAX_SAMPLES:
             return chosen, share
         chosen *= 2
 
@@ -62,7 +62,7 @@ def _taper(values: int) -> np.ndarray:
 def recurrence(record: np.ndarray) -> int | None:
     """The least number of cycles, up to 64, after which all samples repeat to 10⁻⁸ of their range."""
     allowed = RECURRENCE * np.ptp(record)
-    for period in range(1, min(LONGEST_PERIOD, len(record) // 2) + 1):
+    for period in range(1, min(MAX_FORCING_PERIOD, len(record) // 2) + 1):
         if np.abs(record[-1] - record[-1 - period]).max() > allowed:
             continue
         if np.abs(record[period:] - record[:-period]).max() <= allowed:

@@ -13,8 +13,8 @@ from rocking.response.spectral_lines import Line, Taper, find_lines
 
 SEGMENTS = 8
 LEAST_SEGMENT = 8
-FEWEST, MOST = 16, 4096
-MOST_VALUES = 2**24
+MIN_SAMPLES, MAX_SAMPLES = 16, 4096
+MAX_VALUES = 2**24
 # As power. What stands above ten times the side lobes is a line: from here on nothing would.
 HIGHEST_SIDE_LOBES = 0.1
 
@@ -90,7 +90,7 @@ def spectral_density(
     """
     cycles = _check_motion(motion, transient)
     if samples is not None:
-        samples = whole("samples", samples, FEWEST, MOST)
+        samples = whole("samples", samples, MIN_SAMPLES, MAX_SAMPLES)
         if samples % 2:
             raise ValueError(refusal("samples", "be even", samples))
     if rotation is not None:
@@ -98,7 +98,7 @@ def spectral_density(
     if period is not None:
         period = whole("period", period, 1, cycles)
     samples, aliased = uniform_samples.sampling(motion, transient, samples)
-    most = MOST_VALUES // samples
+    most = MAX_VALUES // samples
     if cycles > most:
         raise ValueError(
             f"motion must have at most {most} cycles after its transient for {samples} samples in each; it has {cycles}"

@@ -6,19 +6,19 @@ from rocking.survey.chaos_share import chaos_share
 from rocking.survey.engine.tile_loop import cores
 from rocking.survey.measures.attractors import alike, classify_with_anchor
 from rocking.survey.measures.response import classify_points
-from rocking.survey.overturning_amplitude import MOST_PHASES, overturning_amplitude
+from rocking.survey.overturning_amplitude import MAX_PHASES, overturning_amplitude
 from rocking.survey.parametric_map import parametric_map
 from rocking.survey.repeatability import repeatability
 from rocking.survey.repeatability_map import repeatability_map
 from rocking.survey.safe_basin import safe_basin
-from rocking.survey.sampling.random_points import MOST_SAMPLES, MOST_SEED
+from rocking.survey.sampling.random_points import MAX_SAMPLES, MAX_SEED
 from rocking.survey.spec import check_quantity
 from rocking.survey.store.export import counts, tables, to_netcdf
 
 __all__ = [
-    "MOST_PHASES",
-    "MOST_SAMPLES",
-    "MOST_SEED",
+    "MAX_PHASES",
+    "MAX_SAMPLES",
+    "MAX_SEED",
     "alike",
     "basin_map",
     "chaos_share",

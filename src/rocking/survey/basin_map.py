@@ -10,7 +10,7 @@ import numpy as np
 
 from rocking.kernels.classify import verdict_record as kernel
 from rocking.model import (
-    LARGEST_START,
+    MAX_START,
     Attractor,
     BasinMap,
     Kind,
@@ -24,7 +24,7 @@ from rocking.model import (
 from rocking.survey.engine.run_survey import run_survey
 from rocking.survey.measurement import Measurement
 from rocking.survey.measures.attractors import destination, label_attractors, make_attractors
-from rocking.survey.sampling.random_points import MOST_SAMPLES, generator, sampled, span
+from rocking.survey.sampling.random_points import MAX_SAMPLES, generator, sampled, span
 from rocking.survey.sampling.uncertainty_exponent import distances, exponent, perturbed_triples
 from rocking.survey.spec import Points, SurveySpec, points, question
 from rocking.survey.store.dataset import attributes, coordinate
@@ -109,7 +109,7 @@ def basin_map(
     """
     instance("system", system, System)
     measure = destination(max_cycles, max_period, TITLE)
-    runs = whole("boundary_runs", boundary_runs, 0, MOST_SAMPLES)
+    runs = whole("boundary_runs", boundary_runs, 0, MAX_SAMPLES)
     random = generator(seed)
     if samples is None:
         asked = question({**asked_of(system), "angle": angle, "velocity": velocity}, 2, "a basin map")
@@ -121,7 +121,7 @@ def basin_map(
             raise TypeError(refusal("store", "come without samples: it holds a grid", str(store)))
         ends = {name: span(name, v) for name, v in (("velocity", velocity), ("angle", angle))}
         check_reach(system, ends["angle"])
-        count = whole("samples", samples, 1, MOST_SAMPLES)
+        count = whole("samples", samples, 1, MAX_SAMPLES)
         starts = random.uniform(*_corners(ends), (count, 2))
         found = _random_dataset(system, starts, measure, executor).assign_attrs(seed=seed)
     labels, first = label_attractors(system, {str(name): found[name].values for name in found.data_vars})
@@ -169,7 +169,7 @@ def grid_starts(asked: SurveySpec) -> np.ndarray:
 
 def check_reach(system: System, angles: tuple[float, float]) -> None:
     """Refuse ranges of starts beyond the braces."""
-    reach = LARGEST_START if system.braces is None else system.braces.angle
+    reach = MAX_START if system.braces is None else system.braces.angle
     far = max(angles, key=abs)
     if abs(far) > reach:
         raise ValueError(refusal("angle", f"lie between the braces, in [{-reach:.6g}, {reach:.6g}]", far))

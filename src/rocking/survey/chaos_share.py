@@ -11,7 +11,7 @@ from rocking.kernels.classify import verdict_record as kernel
 from rocking.model import ChaosShare, Share, refusal, whole, within
 from rocking.response import KINDS
 from rocking.survey.measures.kind import interval_variables, outcome
-from rocking.survey.sampling.random_points import MOST_SAMPLES, generator, sampled, span
+from rocking.survey.sampling.random_points import MAX_SAMPLES, generator, sampled, span
 from rocking.survey.spec import SurveySpec, axis, points
 from rocking.survey.store.dataset import attributes, coordinate
 
@@ -88,7 +88,7 @@ def chaos_share(
         fixed = {"brace_angle": braces.angle, "brace_restitution": braces.restitution}
     elif brace_restitution != 1.0:
         raise TypeError(refusal("brace_restitution", "come with brace_angle", brace_restitution))
-    count = whole("samples", samples, 1, MOST_SAMPLES)
+    count = whole("samples", samples, 1, MAX_SAMPLES)
     random = generator(seed)
     counts = []
     for each in values.tolist():

@@ -17,7 +17,7 @@ from rocking.survey.spec import question
 from rocking.survey.store.dataset import attributes, coordinate
 from rocking.theory import heteroclinic_amplitude
 
-MOST_PHASES = 100_000
+MAX_PHASES = 100_000
 TITLE = "Overturning of a free-standing block from rest on a shaking base"
 SCANNED = np.linspace(1.0, 16.0, 301)
 """Amplitudes scanned unless others are given; up to 1 nothing moves from rest."""
@@ -86,7 +86,7 @@ def overturning_amplitude(
     >>> found.dataset.lowest.dims, found.dataset.overturning_share.shape
     (('period',), (2, 31))
     """
-    count = whole("phases", phases, 1, MOST_PHASES)
+    count = whole("phases", phases, 1, MAX_PHASES)
     amplitude = SCANNED if amplitude is None else amplitude
     if np.ndim(amplitude) != 1:
         raise TypeError(refusal("amplitude", "be an axis of amplitudes to scan, ascending", amplitude))

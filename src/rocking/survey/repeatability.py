@@ -14,8 +14,8 @@ from rocking.model import Kind, Repeatability, Share, State, System, check_start
 from rocking.response import KINDS
 from rocking.survey.basin_map import points_of
 from rocking.survey.measures.response import response
-from rocking.survey.sampling.perturbation import INPUTS, LARGEST_RELATIVE, TITLE, perturbed
-from rocking.survey.sampling.random_points import MOST_SAMPLES, generator, sampled
+from rocking.survey.sampling.perturbation import INPUTS, MAX_RELATIVE, TITLE, perturbed
+from rocking.survey.sampling.random_points import MAX_SAMPLES, generator, sampled
 
 Name = TypeVar("Name", bound=str)
 
@@ -80,8 +80,8 @@ def repeatability(
     """
     start = State() if start is None else start
     check_start(system, start)
-    off = within("relative", relative, 0, LARGEST_RELATIVE)
-    count = whole("samples", samples, 1, MOST_SAMPLES)
+    off = within("relative", relative, 0, MAX_RELATIVE)
+    count = whole("samples", samples, 1, MAX_SAMPLES)
     measure = response(max_cycles, max_period, TITLE)
     random = generator(seed)
     meant = points_of(system, np.tile([start.angle, start.velocity], (count, 1)))

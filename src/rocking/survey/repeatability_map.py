@@ -16,11 +16,11 @@ from rocking.response import KINDS, budget
 from rocking.survey.engine.run_survey import run_survey
 from rocking.survey.measurement import Arrays, Measurement, Variable
 from rocking.survey.measures.kind import KIND
-from rocking.survey.sampling.perturbation import LARGEST_RELATIVE, TITLE, perturbed, spread
+from rocking.survey.sampling.perturbation import MAX_RELATIVE, TITLE, perturbed, spread
 from rocking.survey.spec import Points, question
 
 MILLIONTH = 1e-6
-MOST_AT_A_POINT = 1_000
+MAX_AT_A_POINT = 1_000
 
 
 def repeatability_map(
@@ -94,9 +94,9 @@ def repeatability_map(
         "brace_restitution": brace_restitution,
     }
     asked = question(given, 2, "a map of repeatability")
-    off = round(within("relative", relative, 0, LARGEST_RELATIVE) / MILLIONTH)
+    off = round(within("relative", relative, 0, MAX_RELATIVE) / MILLIONTH)
     options = budget(max_cycles, max_period) | {
-        "samples": whole("samples", samples, 2, MOST_AT_A_POINT),
+        "samples": whole("samples", samples, 2, MAX_AT_A_POINT),
         "relative_millionths": off,
     }
     measure = Measurement(TITLE, judge, batch.compile_many, VARIABLES, options, batch.METHOD, shares="kind")

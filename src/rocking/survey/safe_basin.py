@@ -10,7 +10,7 @@ import numpy as np
 from rocking.kernels.classify import verdict_record as kernel
 from rocking.model import SafeBasin, Share, refusal, whole
 from rocking.survey.measures.kind import interval_variables, outcome
-from rocking.survey.sampling.random_points import MOST_SAMPLES, generator, sampled, span
+from rocking.survey.sampling.random_points import MAX_SAMPLES, generator, sampled, span
 from rocking.survey.spec import RANGES, Points, SurveySpec, points, question
 from rocking.survey.store.dataset import attributes, coordinate
 from rocking.theory import heteroclinic_amplitude, melnikov_amplitude
@@ -97,7 +97,7 @@ def safe_basin(
         RANGES["angle"] if brace_angle is None else (-asked.fixed["brace_angle"], asked.fixed["brace_angle"])
     )
     low, high = zip(span("angle", angle, reach), span("velocity", velocity), strict=True)
-    count = whole("samples", samples, 1, MOST_SAMPLES)
+    count = whole("samples", samples, 1, MAX_SAMPLES)
     starts = generator(seed).uniform(low, high, (count, 2))
     amplitudes = asked.axes["amplitude"]
     kinds = [

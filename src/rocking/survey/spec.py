@@ -14,9 +14,9 @@ from rocking.kernels import parameters as numbers
 from rocking.model import (
     BRACE_ANGLES,
     FREQUENCIES,
-    LARGEST_AMPLITUDE,
-    LARGEST_PHASE,
-    LARGEST_START,
+    MAX_AMPLITUDE,
+    MAX_PHASE,
+    MAX_START,
     PERIODS,
     exactly_one,
     reals,
@@ -28,13 +28,13 @@ from rocking.model import (
 Values = Mapping[str, np.ndarray]
 
 RANGES = {
-    "amplitude": (0.0, LARGEST_AMPLITUDE),
-    "velocity": (-LARGEST_START, LARGEST_START),
+    "amplitude": (0.0, MAX_AMPLITUDE),
+    "velocity": (-MAX_START, MAX_START),
     "restitution": (0.0, 1.0),
     "brace_angle": BRACE_ANGLES,
     "brace_restitution": (0.0, 1.0),
-    "phase": (-LARGEST_PHASE, LARGEST_PHASE),
-    "angle": (-LARGEST_START, LARGEST_START),
+    "phase": (-MAX_PHASE, MAX_PHASE),
+    "angle": (-MAX_START, MAX_START),
     "frequency": FREQUENCIES,
     "period": PERIODS,
 }

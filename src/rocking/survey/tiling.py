@@ -11,10 +11,10 @@ from rocking.survey.spec import SurveySpec
 
 COARSEST = 64
 """A grid with more points than this along an axis has a coarser one before it."""
-MOST_IN_A_TILE = 1 << 16
-FEWEST_TILES = 4
+MAX_IN_A_TILE = 1 << 16
+MIN_TILES = 4
 """Along an axis of the finest grid, so that a run stopped in the middle has something to keep."""
-SMALLEST_EDGE = 32
+MIN_EDGE = 32
 
 Slices = tuple[slice, ...]
 
@@ -131,10 +131,10 @@ def finest(asked: SurveySpec) -> list[Level]:
 
 def tile_edges(shape: Sequence[int]) -> tuple[int, ...]:
     """Edges of the tiles of a grid: short axes whole, the others shared out evenly, a tile no larger than it may be."""
-    edges, room = [0] * len(shape), MOST_IN_A_TILE
+    edges, room = [0] * len(shape), MAX_IN_A_TILE
     for left, place in enumerate(sorted(range(len(shape)), key=lambda place: shape[place])):
         most = int(room ** (1 / (len(shape) - left)) + 1e-9)
-        wanted = max(-(-shape[place] // FEWEST_TILES), SMALLEST_EDGE)
+        wanted = max(-(-shape[place] // MIN_TILES), MIN_EDGE)
         edges[place] = min(shape[place], wanted, most)
         room //= edges[place]
     return tuple(edges)

@@ -8,14 +8,14 @@ from typing import Any
 import numpy as np
 
 from rocking.model import (
-    LARGEST_AMPLITUDE,
+    MAX_AMPLITUDE,
     PERIODS,
     one_of,
     reals,
     refusal,
 )
 
-MOST_CYCLES = 9_999
+MAX_CYCLES = 9_999
 ORBITS = {"upper": 1.0, "lower": -1.0}
 
 
@@ -31,7 +31,7 @@ def between(name: str, values: Any, low: float, high: float) -> Any:
 
 def amplitudes(values: Any) -> Any:
     """A."""
-    return between("amplitude", values, 0.0, LARGEST_AMPLITUDE)
+    return between("amplitude", values, 0.0, MAX_AMPLITUDE)
 
 
 def frequencies(period: Any) -> Any:
@@ -47,10 +47,10 @@ def restitutions(values: Any) -> Any:
 def odd(values: Any) -> Any:
     """The forcing cycles n of symmetric modes, which are odd."""
     array = np.asarray(reals("n", values))
-    wrong = ~((array >= 1) & (array <= MOST_CYCLES) & (array % 2 == 1))
+    wrong = ~((array >= 1) & (array <= MAX_CYCLES) & (array % 2 == 1))
     if wrong.any():
         first = array[wrong].flat[0] if array.ndim else values
-        allowed = f"be an odd whole number in [1, {MOST_CYCLES}]"
+        allowed = f"be an odd whole number in [1, {MAX_CYCLES}]"
         remedy = (
             "no mode of even n is symmetric: half a response later the forcing is as before, not reversed"
         )

@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 from scipy.integrate import quad
 
-from rocking.model import LARGEST_AMPLITUDE, PERIODS, finite, reals, within
+from rocking.model import MAX_AMPLITUDE, PERIODS, finite, reals, within
 from rocking.theory.arguments import (
     amplitudes,
     between,
@@ -28,7 +28,7 @@ from rocking.theory.arguments import (
 
 CRITICAL_ENERGY = 0.5
 WIDTHS = (1e-12, 1.0)
-LARGEST_TIME = 1e9
+MAX_TIME = 1e9
 
 
 def energy(angle: Any, velocity: Any) -> Any:
@@ -179,8 +179,8 @@ def melnikov_integral(
     >>> abs(melnikov_integral(0.3, 4.0, 1.0, 0.8) - closed) < 1e-6
     True
     """
-    time = finite("time", time, LARGEST_TIME)
-    amplitude = within("amplitude", amplitude, 0.0, LARGEST_AMPLITUDE)
+    time = finite("time", time, MAX_TIME)
+    amplitude = within("amplitude", amplitude, 0.0, MAX_AMPLITUDE)
     omega = math.tau / within("period", period, *PERIODS)
     restitution, width = within("restitution", restitution, 0.0, 1.0), within("width", width, *WIDTHS)
 

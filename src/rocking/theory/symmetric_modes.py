@@ -11,16 +11,16 @@ from typing import Any
 import numpy as np
 
 from rocking.kernels import parameters as numbers
-from rocking.kernels.orbits import fixed_point, mode_admissibility, symmetric_mode
+from rocking.kernels.orbits import floquet, mode_admissibility, symmetric_mode
 from rocking.model import (
-    LARGEST_AMPLITUDE,
+    MAX_AMPLITUDE,
     PERIODS,
     Mode,
     refusal,
     whole,
     within,
 )
-from rocking.theory.arguments import MOST_CYCLES, frequencies, odd, plain, restitutions
+from rocking.theory.arguments import MAX_CYCLES, frequencies, odd, plain, restitutions
 
 
 def existence_amplitude(period: Any, restitution: Any, n: Any) -> Any:
@@ -167,13 +167,13 @@ def symmetric_modes(amplitude: float, period: float, restitution: float, n: int)
     >>> rk.theory.symmetric_modes(0.2, 1.0, 0.8, 1)
     []
     """
-    amplitude = within("amplitude", amplitude, 0.0, LARGEST_AMPLITUDE)
+    amplitude = within("amplitude", amplitude, 0.0, MAX_AMPLITUDE)
     omega = math.tau / within("period", period, *PERIODS)
     e = within("restitution", restitution, 0.0, 1.0)
     if e == 0.0:
         remedy = "an impact that stops the block leaves no mode"
         raise ValueError(refusal("restitution", "lie in (0, 1] for symmetric modes", restitution, remedy))
-    odd(whole("n", n, 1, MOST_CYCLES))
+    odd(whole("n", n, 1, MAX_CYCLES))
     beta = numbers.harmonic_parameters(amplitude, omega, period, 0.0, e).response
     modes = []
     for faster in (True, False):
@@ -202,8 +202,8 @@ def _mode(
         velocity=speed,
         phase=phase,
         trace=trace,
-        half_multipliers=fixed_point.multipliers_plain(*known, False),
-        multipliers=fixed_point.multipliers_plain(*known, True),
+        half_multipliers=floquet.multipliers_plain(*known, False),
+        multipliers=floquet.multipliers_plain(*known, True),
         admissible=bool(up),
         peak=peak if up else None,
     )

@@ -14,15 +14,15 @@ if TYPE_CHECKING:
     from tornado.ioloop import IOLoop
 
 PORT = 5006
-MOST_PORT = 65_535
+MAX_PORT = 65_535
 
 
 def port_number(text: str | int) -> int:
     """A port as it is typed."""
     with suppress(ValueError):
-        if 0 <= int(text) <= MOST_PORT:
+        if 0 <= int(text) <= MAX_PORT:
             return int(text)
-    raise YourInput(f"--port must be a whole number in [0, {MOST_PORT}]; got {text}")
+    raise YourInput(f"--port must be a whole number in [0, {MAX_PORT}]; got {text}")
 
 
 def explore(

@@ -16,8 +16,8 @@ if TYPE_CHECKING:
 
     from rocking.model import Block, State, System
 
-USUAL_COUNT = 200
-MOST = 1_000_000
+DEFAULT_COUNT = 200
+MAX_POINTS = 1_000_000
 FORM = "START:STOP:COUNT"
 
 
@@ -36,12 +36,12 @@ def number_or_axis(text: str) -> float | Axis:
     with suppress(typer.BadParameter):
         return number(text)
     with suppress(ValueError):
-        start, stop, count = (text if text.count(":") == 2 else f"{text}:{USUAL_COUNT}").split(":")
+        start, stop, count = (text if text.count(":") == 2 else f"{text}:{DEFAULT_COUNT}").split(":")
         axis = Axis(float(start), float(stop), int(count))
-        if axis.start != axis.stop and 2 <= axis.points <= MOST:
+        if axis.start != axis.stop and 2 <= axis.points <= MAX_POINTS:
             return axis
     raise typer.BadParameter(
-        f"must be a number or {FORM}, two different numbers and a whole one from 2 to {MOST:,}; got {text!r}"
+        f"must be a number or {FORM}, two different numbers and a whole one from 2 to {MAX_POINTS:,}; got {text!r}"
     )
 
 

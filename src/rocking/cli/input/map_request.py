@@ -60,11 +60,11 @@ def question(typed: Mapping[str, Any], file: Path | None) -> Question:
 
 def _checks() -> dict[str, study_file.Check]:
     """How each entry of a study file is read."""
-    from rocking.response import MOST_CYCLES, MOST_PERIOD
+    from rocking.response import MAX_CYCLES, MAX_PERIOD
 
     return {
         **survey_quantities.varying(*SYSTEM, *START),
-        **survey_quantities.counts({"max_cycles": (1, MOST_CYCLES), "max_period": (1, MOST_PERIOD)}),
+        **survey_quantities.counts({"max_cycles": (1, MAX_CYCLES), "max_period": (1, MAX_PERIOD)}),
         "curves": _names,
         "symbols": lambda entry: instance("symbols", entry, str),
         **survey_quantities.path_checks(*(name for name in PLACES if name != "repair")),

@@ -153,7 +153,7 @@ Json = Annotated[bool, typer.Option("--json", help="Print the summary as JSON.")
 
 
 IN_SI = {"amplitude": "acceleration", "period": "period_s", "frequency": "frequency_hz"}
-USUAL: dict[str, Any] = dict.fromkeys((*SYSTEM, *START)) | dict.fromkeys(ZERO, 0.0)
+DEFAULTS: dict[str, Any] = dict.fromkeys((*SYSTEM, *START)) | dict.fromkeys(ZERO, 0.0)
 """What is meant where nothing is said."""
 BRACES = {"angle": option("brace_angle"), "restitution": option("brace_restitution")}
 NORMALISED_NEEDS = "--amplitude, --period (or --frequency) and --restitution"
@@ -175,9 +175,9 @@ def kinds(given: Mapping[str, Any]) -> tuple[list[str], list[str]]:
 
 def question(given: Mapping[str, Any]) -> tuple[System, State, Block | None]:
     """The system and the start that the options ask for, and the block if they are in SI; refused as `YourInput`."""
-    from rocking.model import LARGEST_START, Block, Harmonic, State, System, within
+    from rocking.model import MAX_START, Block, Harmonic, State, System, within
 
-    given = USUAL | dict(given)
+    given = DEFAULTS | dict(given)
     normalised, physical = kinds(given)
     if not normalised and not physical:
         raise YourInput(f"give {NORMALISED_NEEDS}, or in SI {SI_NEEDS}")
@@ -187,7 +187,7 @@ def question(given: Mapping[str, Any]) -> tuple[System, State, Block | None]:
         require(given, (("height",), ("width",), SI[2:5], SI[5:]), SI_NEEDS)
     braces = _braces(given)
     with your_input(ARGUMENTS):
-        state = (within(name, given[name], -LARGEST_START, LARGEST_START) for name in ("angle", "velocity"))
+        state = (within(name, given[name], -MAX_START, MAX_START) for name in ("angle", "velocity"))
         start = State(*state)
         if normalised:
             forcing = Harmonic(**{name: given[name] for name in (*NORMALISED, "phase")})

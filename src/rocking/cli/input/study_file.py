@@ -9,7 +9,7 @@ from typing import Annotated, Any
 
 import typer
 
-from rocking.cli.input.axis import FORM, MOST, USUAL_COUNT, Axis, number_or_axis
+from rocking.cli.input.axis import DEFAULT_COUNT, FORM, MAX_POINTS, Axis, number_or_axis
 from rocking.cli.option_names import YourInput
 
 STUDY = (
@@ -20,7 +20,7 @@ Study = Annotated[
     Path | None,
     typer.Option("--study", metavar="FILE", help=STUDY),
 ]
-MOST_BYTES = 1_000_000
+MAX_BYTES = 1_000_000
 """In a study file, which has some ten lines."""
 Check = Callable[[Any], Any]
 
@@ -41,7 +41,7 @@ def quantity(name: str, given: Any) -> Any:
             f"{name} must be a number, {FORM}, or hold start, stop and perhaps count; got {', '.join(given) or 'nothing'}"
         )
     start, stop = (float(reals(f"{part} of {name}", given[part])) for part in ("start", "stop"))
-    return Axis(start, stop, whole(f"count of {name}", given.get("count", USUAL_COUNT), 2, MOST))
+    return Axis(start, stop, whole(f"count of {name}", given.get("count", DEFAULT_COUNT), 2, MAX_POINTS))
 
 
 def asked(typed: Mapping[str, Any], file: Path | None, checks: Mapping[str, Check]) -> dict[str, Any]:
@@ -87,9 +87,9 @@ def _text(path: Path) -> str:
     if path.exists() and not path.is_file() and not path.is_dir():
         raise ValueError("it is no file but a device, a pipe or a socket")
     with path.open("rb") as file:
-        content = file.read(MOST_BYTES + 1)
-    if len(content) > MOST_BYTES:
-        raise ValueError(f"it has more than {MOST_BYTES:,} bytes")
+        content = file.read(MAX_BYTES + 1)
+    if len(content) > MAX_BYTES:
+        raise ValueError(f"it has more than {MAX_BYTES:,} bytes")
     return content.decode("utf-8-sig")
 
 

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 FILMS = (".gif", ".mp4")
 ROWS_AT_ONCE = 100_000
-MOST_CYCLES_KEPT = 100_000
+MAX_CYCLES_KEPT = 100_000
 """Of a longer run only the counters, the peak and the end are kept."""
 
 
@@ -28,9 +28,9 @@ def run(system: System, start: State, cycles: int, wanted: tuple[str, ...]) -> M
     from rocking.model import TooManyEvents
     from rocking.motion import simulate as march
 
-    if not cycles <= MOST_CYCLES_KEPT:
+    if not cycles <= MAX_CYCLES_KEPT:
         counted = march(system, start, cycles=cycles, record="none")
-        if counted.cycles > MOST_CYCLES_KEPT:
+        if counted.cycles > MAX_CYCLES_KEPT:
             return counted
         cycles = counted.cycles  # it overturned long before
     try:
@@ -45,9 +45,9 @@ def run(system: System, start: State, cycles: int, wanted: tuple[str, ...]) -> M
 def check(cycles: float, **paths: Path | None) -> dict[str, Path]:
     """The outputs asked for; `YourInput` for one that cannot be written, or for more cycles than are kept for it."""
     asked = check_files(paths, SUFFIXES | {"plot": PICTURES + FILMS})
-    if asked and cycles > MOST_CYCLES_KEPT:
+    if asked and cycles > MAX_CYCLES_KEPT:
         wanted = ", ".join(map(option, asked))
-        raise YourInput(f"--cycles must be at most {MOST_CYCLES_KEPT} with {wanted}; got {cycles}")
+        raise YourInput(f"--cycles must be at most {MAX_CYCLES_KEPT} with {wanted}; got {cycles}")
     return asked
 
 

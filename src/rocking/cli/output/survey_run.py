@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 OWN = ("samples", "seed", "boundary_runs", "phases", "store", "repair", "brace_angle", "brace_restitution")
 ARGUMENTS = SYSTEM_ARGUMENTS | options(*OWN)
 FILES = ("plot", "netcdf")
-MOST_ROWS = 20
+MAX_ROWS = 20
 
 
 def carried_out(survey: Callable[..., Any], arguments: Mapping[str, Any], block: Block | None = None) -> Any:

@@ -14,7 +14,7 @@ from rocking.cli.input.axis import Axis
 from rocking.cli.input.options import question as system_of
 from rocking.cli.option_names import START, SYSTEM
 from rocking.cli.output.console import Row, print_json, print_table
-from rocking.cli.output.survey_run import FILES, MOST_ROWS, carried_out, share_record
+from rocking.cli.output.survey_run import FILES, MAX_ROWS, carried_out, share_record
 from rocking.cli.reports.motion import asked_of, physical_of, question_of
 from rocking.cli.reports.validity import warned, warnings
 from rocking.model import counted
@@ -22,7 +22,7 @@ from rocking.model import counted
 if TYPE_CHECKING:
     from rocking.model import BasinMap, Block, System, UncertaintyExponent
 
-USUAL = 200
+DEFAULT_STARTS = 200
 """Starts along an axis from -1 to 1, or from brace to brace."""
 
 
@@ -33,15 +33,15 @@ def question(typed: Mapping[str, Any], file: Path | None) -> dict[str, Any]:
 
 def _checks() -> dict[str, study_file.Check]:
     """How each entry of a study file is read."""
-    from rocking.response import MOST_CYCLES, MOST_PERIOD
-    from rocking.survey import MOST_SAMPLES, MOST_SEED
+    from rocking.response import MAX_CYCLES, MAX_PERIOD
+    from rocking.survey import MAX_SAMPLES, MAX_SEED
 
     limits = {
-        "samples": (1, MOST_SAMPLES),
-        "seed": (0, MOST_SEED),
-        "max_cycles": (1, MOST_CYCLES),
-        "max_period": (1, MOST_PERIOD),
-        "boundary_runs": (0, MOST_SAMPLES),
+        "samples": (1, MAX_SAMPLES),
+        "seed": (0, MAX_SEED),
+        "max_cycles": (1, MAX_CYCLES),
+        "max_period": (1, MAX_PERIOD),
+        "boundary_runs": (0, MAX_SAMPLES),
     }
     return {
         **survey_quantities.fixed(*SYSTEM),
@@ -59,7 +59,7 @@ def compute(given: Mapping[str, Any]) -> tuple[BasinMap, Block | None]:
     shaken = {name: asked.pop(name) for name in SYSTEM if name in asked}
     system, _, block = system_of(shaken)
     reach = 1.0 if system.braces is None else min(system.braces.angle, 1.0)
-    usual = {"angle": Axis(-reach, reach, USUAL), "velocity": Axis(-1.0, 1.0, USUAL)}
+    usual = {"angle": Axis(-reach, reach, DEFAULT_STARTS), "velocity": Axis(-1.0, 1.0, DEFAULT_STARTS)}
     for name, axis in usual.items():
         asked[name] = _starts(asked.get(name, axis), random="samples" in asked)
     return carried_out(basin_map, {"system": system} | asked, block), block
@@ -89,14 +89,14 @@ def show(found: BasinMap, block: Block | None, files: list[Path], *, as_json: bo
 
 def rows(found: BasinMap) -> Iterator[Row]:
     """A row an attractor, then the exponents."""
-    for each, share in list(zip(found.attractors, found.fractions, strict=True))[:MOST_ROWS]:
+    for each, share in list(zip(found.attractors, found.fractions, strict=True))[:MAX_ROWS]:
         yield (
             each.name,
             str(share),
             f"e.g. from Θ = {each.verdict.start.angle:.6g}, Θ' = {each.verdict.start.velocity:.6g}",
         )
-    if len(found.attractors) > MOST_ROWS:
-        yield "and others", f"{len(found.attractors) - MOST_ROWS}", ""
+    if len(found.attractors) > MAX_ROWS:
+        yield "and others", f"{len(found.attractors) - MAX_ROWS}", ""
     names = {
         "boundary of overturning": found.uncertainty_exponent,
         "all boundaries": found.attractor_exponent,

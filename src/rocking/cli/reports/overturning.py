@@ -13,7 +13,7 @@ from rocking.cli.input.options import kinds, require
 from rocking.cli.option_names import SI, YourInput, option
 from rocking.cli.output import survey_run
 from rocking.cli.output.console import Row, print_json, print_table
-from rocking.cli.output.survey_run import FILES, MOST_ROWS, carried_out
+from rocking.cli.output.survey_run import FILES, MAX_ROWS, carried_out
 from rocking.cli.reports.motion import asked_in_si, in_si
 from rocking.cli.reports.validity import warned, warnings
 from rocking.model import GRAVITY, PHYSICAL, OverturningCurve
@@ -54,10 +54,10 @@ def question(typed: Mapping[str, Any], file: Path | None) -> dict[str, Any]:
 
 def _checks() -> dict[str, study_file.Check]:
     """How each entry of a study file is read."""
-    from rocking.response import MOST_CYCLES, MOST_PERIOD
-    from rocking.survey import MOST_PHASES
+    from rocking.response import MAX_CYCLES, MAX_PERIOD
+    from rocking.survey import MAX_PHASES
 
-    limits = {"phases": (1, MOST_PHASES), "max_cycles": (1, MOST_CYCLES), "max_period": (1, MOST_PERIOD)}
+    limits = {"phases": (1, MAX_PHASES), "max_cycles": (1, MAX_CYCLES), "max_period": (1, MAX_PERIOD)}
     return {
         **survey_quantities.varying(*ASKED, *SCANNED_SI),
         **survey_quantities.counts(limits),
@@ -144,7 +144,7 @@ def rows(found: OverturningCurve, block: Block | None) -> Iterator[Row]:
     heading = (*over, "lowest A", "scanned at steps of", "all survive up to", "survive above")
     in_units = () if block is None else ("m/s²", "g", "steps, m/s²", "up to, m/s²")
     yield (*heading, *(PHYSICAL[name].unit for name in known), *in_units)
-    for index in list(_places(data))[:MOST_ROWS]:
+    for index in list(_places(data))[:MAX_ROWS]:
         at = {name: data[name].values[k] for name, k in zip(over, index, strict=True)}
         low, step, up_to, above = (float(data[name].values[index]) for name in COLUMNS)
         told = [
@@ -159,7 +159,7 @@ def rows(found: OverturningCurve, block: Block | None) -> Iterator[Row]:
             levels = [block.acceleration(level) for level in (low, step, up_to)]
             told += [_number(level, 4) for level in (levels[0], levels[0] / GRAVITY, *levels[1:])]
         yield tuple(told)
-    left = data.lowest.size - MOST_ROWS
+    left = data.lowest.size - MAX_ROWS
     if left > 0:
         rest = len(heading) + len(known) + len(in_units) - 1
         yield (f"and {left} more (--json, --netcdf and --plot have all)", *[""] * rest)

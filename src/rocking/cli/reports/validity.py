@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import attrs
 
 from rocking.cli.output.console import WARNING
-from rocking.cli.output.motion_files import MOST_CYCLES_KEPT, run
+from rocking.cli.output.motion_files import MAX_CYCLES_KEPT, run
 from rocking.model import counted
 
 if TYPE_CHECKING:
@@ -23,8 +23,8 @@ def lines(motion: Motion, block: Block | None) -> list[str]:
     if block is None:
         return []
     if motion.record != "all":
-        long = motion.cycles > MOST_CYCLES_KEPT
-        why = f"more than {MOST_CYCLES_KEPT:,} cycles" if long else "more events than are kept"
+        long = motion.cycles > MAX_CYCLES_KEPT
+        why = f"more than {MAX_CYCLES_KEPT:,} cycles" if long else "more events than are kept"
         return [f"{WARNING}whether the block slides or jumps is not judged: {why}"]
     return str(motion.validity(block)).splitlines()
 

@@ -14,9 +14,9 @@ from rocking.kernels.arc.solution import after, exponentials, lapse_of
 from rocking.kernels.compile_options import INTERNAL, INTERNAL_INLINE
 from rocking.kernels.forcing.harmonic import first_sign_change, forcing_rates, forcing_term
 
-MOST_TURNS = 64
+MAX_TURNS = 64
 # Knots of a dip that are looked at.
-MOST_DIPS = 4
+MAX_DIPS = 4
 MARGIN = 1e-11
 # In units of the rounding error of c+ and c-.
 WIDE = 16.0
@@ -107,7 +107,7 @@ def bottom(p, arc, left, right, doubt):
         x -= (a + x * (da + x * (c2 + x * c3))) / (da + x * (2.0 * c2 + x * 3.0 * c3))
     x = min(max(x, 0.0), 1.0)
     time, here = left.time + x * width, left
-    for _ in range(MOST_DIPS):
+    for _ in range(MAX_DIPS):
         now = after(p, arc, lapse_of(p, time))
         here = knot(p, arc, 0.0, 1.0, time, now)
         if here.w < -doubt or positive_throughout(here, doubt):
@@ -143,7 +143,7 @@ def stays_clear(p, arc, end):
     error *= WIDE
     z = math.exp(time)
     per_z = 1.0 / z
-    for _ in range(MOST_TURNS):
+    for _ in range(MAX_TURNS):
         growing, shrinking = grow * z, shrink * per_z
         left = at_cut(p, time, growing, shrinking, -1.0)
         doubt = MARGIN * (abs(growing) + abs(shrinking) + 1.0) + error * (z + per_z)
@@ -185,7 +185,7 @@ def bracket_first_zero(p, arc):
     else:
         z = math.exp(time)
         per_z = 1.0 / z
-    for k in range(MOST_TURNS):
+    for k in range(MAX_TURNS):
         if k > 0 or not under_way:
             growing, shrinking = grow * z, shrink * per_z
             left = at_cut(p, time, growing, shrinking, -1.0)

@@ -109,8 +109,8 @@ def closed_form_peak(p, arc, until, peak):
     low, high = max(min(middle, other), 0.0), min(max(middle, other), until)
     if low >= high:
         return False, peak
-    pull = p.response * p.frequency * p.frequency
-    t = min(max(middle + ahead * p.per_frequency * (pull / (pull + m)), low), high)
+    acceleration = p.response * p.frequency * p.frequency
+    t = min(max(middle + ahead * p.per_frequency * (acceleration / (acceleration + m)), low), high)
     near = NEAR / max(1.0, p.frequency)
     for _ in range(TRIES):
         now = evaluate(p, arc, t)

@@ -15,7 +15,7 @@ from numba import njit
 
 from rocking.kernels.arc.bracket import UNSURE, ZERO, Jet, bracket_first_zero, knot, start_knot, stays_clear
 from rocking.kernels.arc.enclosure import stays_between
-from rocking.kernels.arc.first_zero import LONGEST, reversion, step_to_zero
+from rocking.kernels.arc.first_zero import MAX_ARC_TIME, reversion, step_to_zero
 from rocking.kernels.arc.solution import Instant, after, lapse_of
 from rocking.kernels.compile_options import INTERNAL_INLINE
 from rocking.kernels.forcing.harmonic import forcing_rates, forcing_term
@@ -163,7 +163,7 @@ def seek_in(p, arc, bracket):
         t = high.time + step
         if not (told and low.time < t < high.time):
             t = 0.5 * (low.time + high.time)
-    return refine_prediction(p, arc, 0.0, 1.0, lapse_of(p, t), low.time, min(high.time, LONGEST))
+    return refine_prediction(p, arc, 0.0, 1.0, lapse_of(p, t), low.time, min(high.time, MAX_ARC_TIME))
 
 
 @njit(**INTERNAL_INLINE)
@@ -173,7 +173,7 @@ def fast_first_impact(p, arc, guess):
     From the lapse that is guessed, if it leads to an impact that is certainly the first; else from a walk.
     """
     if guess.time > 0.0:
-        reached, t, now, lapse = refine_prediction(p, arc, 0.0, 1.0, guess, 0.0, LONGEST)
+        reached, t, now, lapse = refine_prediction(p, arc, 0.0, 1.0, guess, 0.0, MAX_ARC_TIME)
         if reached and stays_clear(p, arc, Jet(t, 0.0, now.velocity, 0.0, 0.0)):
             return ZERO, t, now, lapse
     bracket = bracket_first_zero(p, arc)
@@ -220,7 +220,7 @@ def fast_first_event(p, arc):
             told = at_brace or now.angle < 0.0
         if told:
             place, s = (p.brace_angle, -1.0) if at_brace else (0.0, 1.0)
-            reached, t, now, _ = refine_prediction(p, arc, place, s, lapse, base.time, LONGEST)
+            reached, t, now, _ = refine_prediction(p, arc, place, s, lapse, base.time, MAX_ARC_TIME)
             if reached and stays_between(system, t - base.time, (base.w, base.dw), (place, now.velocity)):
                 return ZERO, at_brace, t, now
         told, step = False, 0.5 * step

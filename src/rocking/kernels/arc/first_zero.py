@@ -24,10 +24,10 @@ from rocking.kernels.forcing.harmonic import first_sign_change, forcing_rates, f
 
 # An arc is renewed from its own state after this long: e^32 is where the closed form has used up double
 # precision.
-LONGEST = 32.0
+MAX_ARC_TIME = 32.0
 ITERATIONS = 200
 # A zero not reached in so many steps is halved in on as well.
-MOST_STEPS = 10
+MAX_STEPS = 10
 
 
 class Found(IntEnum):
@@ -121,7 +121,7 @@ def refine(p, arc, watch, low, high, t):
         else:
             high = t
         ahead = t + step_to_zero(w, dw, watched_forcing(p, watch, now))
-        stuck = k > MOST_STEPS and k % 2 == 0
+        stuck = k > MAX_STEPS and k % 2 == 0
         if stuck or not (dw < 0.0 and low <= ahead <= high):
             ahead = 0.5 * (low + high)
         converged = abs(ahead - t) <= 4.0 * 2.0**-53 * ahead

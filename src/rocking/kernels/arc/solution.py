@@ -36,7 +36,7 @@ class Arc(NamedTuple):
     cosine: float
     sine: float
     psi: float
-    pull: float  # u''
+    acceleration: float  # u''
 
 
 class Instant(NamedTuple):
@@ -67,21 +67,23 @@ NONE_YET = Propagator(0.0, 0.0, 0.0, ForcedStep(True, 0.0, 0.0, 0.0, 0.0, 0.0, 0
 @njit(**KERNEL_INLINE)
 def arc_from(p, side, start, angle, velocity):
     """The arc that leaves (u, u') = (angle, velocity) on ``side`` at time ``start`` within the cycle."""
-    cosine, sine, psi, pull = forcing_at(p, side, start, angle)
-    return Arc(side, start, angle, velocity, cosine, sine, psi, pull)
+    cosine, sine, psi, acceleration = forcing_at(p, side, start, angle)
+    return Arc(side, start, angle, velocity, cosine, sine, psi, acceleration)
 
 
 @njit(**INTERNAL_INLINE)
 def arc_after(p, side, start, angle, velocity, cosine, sine):
     """``arc_from`` where the forcing is known already."""
-    pull = angle + forcing_term(p, cosine)
-    return Arc(side, start, angle, velocity, cosine, sine, p.frequency * start + p.phase, pull)
+    acceleration = angle + forcing_term(p, cosine)
+    return Arc(side, start, angle, velocity, cosine, sine, p.frequency * start + p.phase, acceleration)
 
 
 @njit(**INTERNAL_INLINE)
 def shift_clock(arc, time):
     """The same arc as seen from ``time`` later: its start lies so much earlier."""
-    return Arc(arc.side, arc.start - time, arc.angle, arc.velocity, arc.cosine, arc.sine, arc.psi, arc.pull)
+    return Arc(
+        arc.side, arc.start - time, arc.angle, arc.velocity, arc.cosine, arc.sine, arc.psi, arc.acceleration
+    )
 
 
 @njit(**INTERNAL_INLINE)
@@ -108,7 +110,7 @@ def after(p, arc, lapse):
     """The arc a lapse after its start: eq. (5)."""
     _, sinh, versinh, forced_step = lapse
     steady, displaced, moved, cosine, sine = forced_response(
-        p, arc.cosine, arc.sine, arc.angle - 1.0, arc.pull, forced_step
+        p, arc.cosine, arc.sine, arc.angle - 1.0, arc.acceleration, forced_step
     )
     risen = arc.velocity * sinh + steady * versinh + displaced
     velocity = arc.velocity + (arc.velocity * versinh + steady * sinh + moved)

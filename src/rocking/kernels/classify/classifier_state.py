@@ -5,7 +5,7 @@ from typing import NamedTuple
 from numba import njit
 
 from rocking.kernels.classify.periodicity import PeriodicityCheck, no_cycle
-from rocking.kernels.classify.quasi_periodicity import FEWEST_FLIGHTS, Flights, no_flights
+from rocking.kernels.classify.quasi_periodicity import MIN_FLIGHTS, Flights, no_flights
 from rocking.kernels.classify.reset import ResetTracker, watched
 from rocking.kernels.classify.workspace import BATCHES
 from rocking.kernels.compile_options import INTERNAL, INTERNAL_INLINE
@@ -60,7 +60,7 @@ def opened(p, angle, velocity, max_cycles):
     batch_end = (max_cycles - BATCHES * batch) if batch > 0 else max_cycles + 1
     hits = watch.progress.brace_hits
     return ClassifierState(
-        run, 0, hits, FIRST_CHECKPOINT, batch_end, 0, 0.0, 0, FEWEST_FLIGHTS, 0.0, False, no_cycle(0), 0, 0
+        run, 0, hits, FIRST_CHECKPOINT, batch_end, 0, 0.0, 0, MIN_FLIGHTS, 0.0, False, no_cycle(0), 0, 0
     )
 
 

@@ -16,12 +16,10 @@ from rocking.kernels.orbits.fixed_point import (
     UNBOUNDED,
     FixedPoint,
     MapImage,
-    adapted_norm,
     find_fixed_point,
     image_after,
-    length,
-    multipliers,
 )
+from rocking.kernels.orbits.floquet import adapted_norm, length, spectral_radius
 from rocking.kernels.orbits.symmetric_mode import nearest
 from rocking.kernels.parameters import later
 
@@ -41,7 +39,7 @@ NONLINEAR = 0.2
 # small of second order cannot turn that round on the rest of the way.
 BENT, APPROACH = 0.01, 0.3
 RETURNS = 3
-MOST_FORETOLD = 1 << 20
+MAX_FORETOLD = 1 << 20
 # States of an orbit as near as this are one.
 SAME = 1e-9
 # A motion as near as this to a neutral orbit is on it.
@@ -191,13 +189,6 @@ def repetition_plain(rows, halves, angle, velocity, lag, same):
 
 
 @njit(**INTERNAL)
-def spectral_radius(tangent):
-    """The size of the largest multiplier."""
-    real, imaginary, _, _ = multipliers(tangent)
-    return size(real, imaginary)
-
-
-@njit(**INTERNAL)
 def attracts(p, image):
     """Whether an orbit is stable, and loses something: else both its multipliers may be inside the unit circle by rounding alone."""
     return spectral_radius(image.tangent) < 1.0 and loses(p, image.impacts, image.brace_hits)
@@ -261,6 +252,6 @@ def compare(p, section, row, period, found):
         near = (comes and off <= 1.0) or size(x, y) <= ROUNDING
         if not near or impacts != image.impacts or brace_hits != image.brace_hits:
             more = math.log(off) / -math.log(radius) - 1.0 if k == 0 and off > 1.0 else -float(k)
-            coming = period * math.ceil(min(RETURNS + more, MOST_FORETOLD))
+            coming = period * math.ceil(min(RETURNS + more, MAX_FORETOLD))
             return NOT_YET, distance, coming if comes else 0
     return REACHED, distance, 0

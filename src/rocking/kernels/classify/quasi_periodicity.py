@@ -12,8 +12,8 @@ from rocking.kernels.march.event_rows import state_at
 from rocking.kernels.march.march import PAUSED, RELEASED, march_on
 from rocking.kernels.numerics.averages import bumps, digits_with
 
-FEWEST_FLIGHTS = 192
-FEWEST_CYCLES = 128
+MIN_FLIGHTS = 192
+MIN_CYCLES = 128
 ENOUGH_DIGITS = 9.0
 CHAOTIC_DIGITS = 6.0
 # From so many flights on a torus gains a digit with each doubling at least; motion that sticks to one for long does not.
@@ -169,7 +169,7 @@ def agreement(flights, values, weights, growth):
 @njit(**INTERNAL)
 def too_few(flights):
     """Whether there are too few flights to tell."""
-    return flights.count < FEWEST_FLIGHTS or flights.cycle - flights.first_cycle < FEWEST_CYCLES
+    return flights.count < MIN_FLIGHTS or flights.cycle - flights.first_cycle < MIN_CYCLES
 
 
 @njit(**INTERNAL)

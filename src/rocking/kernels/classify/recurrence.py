@@ -7,7 +7,7 @@ from numba import njit
 from rocking.kernels.compile_options import INTERNAL
 from rocking.kernels.march.tangent import Tangent
 from rocking.kernels.numerics.elementary import size
-from rocking.kernels.orbits.fixed_point import multipliers
+from rocking.kernels.orbits.floquet import multipliers
 
 # Returns as near as this are the orbit itself.
 ARRIVED = 1e-9

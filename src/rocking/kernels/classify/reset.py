@@ -11,7 +11,7 @@ from rocking.kernels.march.march import PAUSED, RELEASED, Progress, march_on
 from rocking.kernels.march.tangent import normalised, read_tangent, write_tangent
 
 # Differences that grow by less between two releases leave the later one certain in double precision.
-LARGEST_STRAIN = math.log(1e8)
+MAX_STRAIN = math.log(1e8)
 
 
 class ResetRecord(NamedTuple):
@@ -123,7 +123,7 @@ def at_release(p, watch, progress):
         impacts, brace_hits = hits_between(p, progress, visit, lifts)
         cycles = progress.cycle - visit.cycle + (arc.start - visit.time) / p.period
         half_periods = round(2.0 * cycles)
-        if not visit.strain < LARGEST_STRAIN:
+        if not visit.strain < MAX_STRAIN:
             half_periods = -half_periods
     now = ResetRecord(
         True, progress.cycle, arc.start, progress.impacts, progress.brace_hits, False, -math.inf, 0.0

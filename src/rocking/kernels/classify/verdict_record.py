@@ -13,7 +13,8 @@ from rocking.kernels.classify.workspace import BATCHES
 from rocking.kernels.compile_options import INTERNAL
 from rocking.kernels.march.march import OVERTURNED, RELEASED, STILL
 from rocking.kernels.numerics.averages import batch_error
-from rocking.kernels.orbits.fixed_point import FixedPoint, multipliers
+from rocking.kernels.orbits.fixed_point import FixedPoint
+from rocking.kernels.orbits.floquet import multipliers
 
 CLEARLY = 6.0  # standard errors
 CHAOS_NEEDS = 10_000

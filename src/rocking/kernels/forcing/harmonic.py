@@ -43,11 +43,11 @@ def forcing_at(p, side, time, angle):
     """(cosine, sine, psi, pull) at a time within the cycle; pull = u - 1 - A cosine = u'', exact however close to 0."""
     cosine, sine, psi, versine, exact = clock(p.frequency, p.phase, side, time)
     above = angle - 1.0
-    pull = fma(-p.amplitude, cosine, above)
+    acceleration = fma(-p.amplitude, cosine, above)
     if exact:
         most = math.copysign(p.amplitude, cosine)
-        pull = fma(most, versine, above - most)
-    return cosine, sine, psi, pull
+        acceleration = fma(most, versine, above - most)
+    return cosine, sine, psi, acceleration
 
 
 @njit(**INTERNAL_INLINE)
@@ -77,10 +77,10 @@ def forced_step(p, t, sinh, versinh, excess, higher):
 
 
 @njit(**INTERNAL_INLINE)
-def forced_response(p, cosine, sine, above, pull, forced_step):
+def forced_response(p, cosine, sine, above, acceleration, forced_step):
     """(steady, G, G', cos eta, sin eta) a time later: u'' - u is split into a steady part and a rest, which moves u by G.
 
-    G'' - G = u0 - 1 - A cos eta - steady, G = G' = 0 at t = 0. Within a third of a turn ``steady`` is the ``pull`` at
+    G'' - G = u0 - 1 - A cos eta - steady, G = G' = 0 at t = 0. Within a third of a turn ``steady`` is the ``acceleration`` at
     the start, later u0 - 1 (``above``): either way G is made of sums of positive functions, and no larger parts
     cancel.
     """
@@ -88,7 +88,7 @@ def forced_response(p, cosine, sine, above, pull, forced_step):
     displaced = p.response * (sine * lateness - cosine * place)
     moved = p.response * (p.frequency * sine * in_phase - cosine * rate)
     return (
-        pull if near else above,
+        acceleration if near else above,
         displaced,
         moved,
         cosine - (cosine * versine + sine * sin_x),

@@ -19,12 +19,14 @@ from rocking.kernels.lanes.rows import (  # fmt: skip
     AMPLITUDE,
     AMPLITUDE_RATE,
     ANGLE,
-    ARRIVED,
     AT_BRACE,
+    AT_EVENT,
     BRACE_ANGLE,
+    BRACKET,
+    EXTEND,
+    FAILED,
     FREQUENCY,
     FREQUENCY_SQUARE,
-    FURTHER,
     KNOT_ANGLE,
     KNOT_COSINE,
     KNOT_RATE,
@@ -40,18 +42,16 @@ from rocking.kernels.lanes.rows import (  # fmt: skip
     STAGE,
     TIME,
     TRIES,
-    UNSURE,
     VELOCITY,
     VERSINH,
     WAIT,
-    WALK,
     load,
     store,
 )
 from rocking.kernels.numerics.elementary import fma
 from rocking.kernels.numerics.simd import choose
 
-MOST_TRIES, ROUNDS = 8, 2
+MAX_TRIES, ROUNDS = 8, 2
 # As near as this the step of fifth order leaves less than rounding, and so do the series that follow it.
 NEAR = 1e-3
 
@@ -111,7 +111,7 @@ def predict_event(s):
             told = told & (w1 < 0.0)
             x += y * halved(correction(y, w2, w3, w4, per))
         told = told & (x > 0.0) & (x <= farthest)
-        aims = stage == WALK
+        aims = stage == BRACKET
         store(
             s,
             i,
@@ -119,7 +119,7 @@ def predict_event(s):
             choose(aims, about + choose(told, x, choose(rough <= farthest, rough, farthest)), time),
         )
         store(s, i, AT_BRACE, choose(aims, choose(brace_next, 1.0, 0.0), at_brace))
-        store(s, i, STAGE, choose(aims, choose(told, REFINE, FURTHER), stage))
+        store(s, i, STAGE, choose(aims, choose(told, REFINE, EXTEND), stage))
 
 
 @njit(**SIMD_INLINE)
@@ -148,7 +148,7 @@ def correct_event(s):
         close = (abs(left) * max(1.0, frequency) < NEAR * towards) & (abs(left * second) < NEAR * v * v)
         close = close & (left * left * abs(third) < NEAR * NEAR * towards * v * v)
 
-        heads, goes_on = stage == REFINE, stage == FURTHER
+        heads, goes_on = stage == REFINE, stage == EXTEND
         place = choose(at_brace, brace_angle, 0.0)
         span, end, arrival = (
             choose(heads, t + x, t) - about,
@@ -158,8 +158,10 @@ def correct_event(s):
         system = amplitude, frequency, brace_angle
         free = stays_between(system, span, (knot_angle, knot_rate), (end, arrival))
         # ``next_event.grazes``
-        pull, later = amplitude + 1.0, t + x
-        touches = slope * slope <= MARGIN * pull * (angle + later * (abs(velocity) + later * pull))
+        acceleration, later = amplitude + 1.0, t + x
+        touches = slope * slope <= MARGIN * acceleration * (
+            angle + later * (abs(velocity) + later * acceleration)
+        )
         arrived, further = heads & close & free & (touches == False), goes_on & free  # noqa: E712
         ahead = t + y * halved(factor)
         nears = heads & (close == False) & (towards > 0.0) & (ahead > about)  # noqa: E712
@@ -184,6 +186,6 @@ def correct_event(s):
         store(s, i, AT_BRACE, choose(above, 1.0, choose(beneath, 0.0, choose(at_brace, 1.0, 0.0))))
         store(s, i, TIME, choose(nears, ahead, choose(back, fma(0.5, t - about, about), t)))
         store(s, i, TRIES, choose(moves, tries + 1.0, tries))
-        on = choose(arrived, ARRIVED, choose(nears | beyond, REFINE, choose(further, WALK, FURTHER)))
-        on = choose(arrived | (tries < MOST_TRIES), on, UNSURE)
+        on = choose(arrived, AT_EVENT, choose(nears | beyond, REFINE, choose(further, BRACKET, EXTEND)))
+        on = choose(arrived | (tries < MAX_TRIES), on, FAILED)
         store(s, i, STAGE, choose(heads | goes_on, on, stage))

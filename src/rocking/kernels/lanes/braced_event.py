@@ -8,13 +8,13 @@ from rocking.kernels.lanes.rows import (  # fmt: skip
     ABOUT,
     AMPLITUDE,
     ANGLE,
-    ARRIVED,
     AT_BRACE,
-    BEGUN,
+    AT_EVENT,
     BRACE_ANGLE,
     BRACE_HITS,
     BRACE_RESTITUTION,
-    CONTENT,
+    BRACKET,
+    CHECK_ZENO,
     COSINE,
     EXCEEDS,
     KNOT_ANGLE,
@@ -22,19 +22,19 @@ from rocking.kernels.lanes.rows import (  # fmt: skip
     KNOT_RATE,
     KNOT_SINE,
     LANES,
+    NEW_ARC,
     NEXT_COSINE,
     NEXT_SINE,
+    NO_REQUEST,
     PEAK,
-    PEAK_SEEN,
     RESTITUTION,
     SIDE,
     SINE,
-    SLOW_SEEN,
     SPEED,
     STAGE,
     TRIES,
+    UPDATE_PEAK,
     VELOCITY,
-    WALK,
     load,
     store,
 )
@@ -51,8 +51,8 @@ def set_requests(s):
         at_brace, exceeds = load(s, i, AT_BRACE) > 0.0, load(s, i, EXCEEDS) > 0.0
         restitution = choose(at_brace, load(s, i, BRACE_RESTITUTION), load(s, i, RESTITUTION))
         returned = restitution * load(s, i, SPEED)
-        wants = choose(exceeds & (at_brace == False), PEAK_SEEN, CONTENT)  # noqa: E712
-        wants = choose((restitution < 1.0) & (returned < SLOW), SLOW_SEEN, wants)
+        wants = choose(exceeds & (at_brace == False), UPDATE_PEAK, NO_REQUEST)  # noqa: E712
+        wants = choose((restitution < 1.0) & (returned < SLOW), CHECK_ZENO, wants)
         any_wants |= set_request(s, i, wants, returned)
     return any_wants
 
@@ -81,8 +81,8 @@ def apply_events(s):
         tries, about = load(s, i, TRIES), load(s, i, ABOUT)
         knot_angle, knot_rate = load(s, i, KNOT_ANGLE), load(s, i, KNOT_RATE)
         knot_cosine, knot_sine = load(s, i, KNOT_COSINE), load(s, i, KNOT_SINE)
-        hit, arrived = load(s, i, AT_BRACE) > 0.0, stage == ARRIVED
-        begins = stage >= BEGUN
+        hit, arrived = load(s, i, AT_BRACE) > 0.0, stage == AT_EVENT
+        begins = stage >= NEW_ARC
         turned = choose(hit, 1.0, -1.0)
         angle = choose(arrived, choose(hit, brace_angle, 0.0), angle)
         velocity = choose(arrived, choose(hit, -brace_restitution, restitution) * speed, velocity)
@@ -105,4 +105,4 @@ def apply_events(s):
         store(s, i, KNOT_SINE, choose(begins, sine, knot_sine))
         store(s, i, ABOUT, choose(begins, 0.0, about))
         store(s, i, TRIES, choose(begins, 0.0, tries))
-        store(s, i, STAGE, choose(begins, WALK, stage))
+        store(s, i, STAGE, choose(begins, BRACKET, stage))

@@ -7,15 +7,16 @@ beta cos eta costs no elementary function. The proof is that of ``arc.bracket``.
 from numba import njit
 
 from rocking.kernels.arc.bracket import MARGIN
-from rocking.kernels.arc.first_zero import LONGEST
+from rocking.kernels.arc.first_zero import MAX_ARC_TIME
 from rocking.kernels.compile_options import SIMD_INLINE
 from rocking.kernels.lanes.rows import (  # fmt: skip
-    BOTTOM,
+    BRACKET,
     CLEARED,
     CONCAVE,
     CUT_PLACE,
     CUT_RATE,
     END,
+    FAILED,
     GROWING,
     GUESS,
     HALF_DECAY,
@@ -24,6 +25,7 @@ from rocking.kernels.lanes.rows import (  # fmt: skip
     HIGH,
     LANES,
     LOW,
+    MINIMUM,
     OUTSIDE,
     PER_Z,
     PERIOD,
@@ -34,8 +36,6 @@ from rocking.kernels.lanes.rows import (  # fmt: skip
     TRIES,
     TURN_DECAY,
     TURN_GROWTH,
-    UNSURE,
-    WALK,
     Z,
     load,
     store,
@@ -65,7 +65,7 @@ def stretch(grow, shrink, forcing, half_grow, half_decay, tanh, z, per_z, end, c
     error_right = error + MARGIN * (abs(growing) + abs(shrinking))
     for_ever = (growing > 0.0) & (growing - abs(shrinking) + 1.0 - response > error_right)
     passed = (u > error) & (u_half > error_right) & (u_right > error_right)
-    passed = passed & (end < LONGEST) & (for_ever == False)  # noqa: E712
+    passed = passed & (end < MAX_ARC_TIME) & (for_ever == False)  # noqa: E712
     doubt = may_dip(u, du, u_half, du_half, tanh) | may_dip(u_half, du_half, u_right, du_right, tanh)
     doubt = doubt & (cleared == 0.0)
     return u, u_half, u_right, error, error_right, passed & (doubt == False), passed & doubt  # noqa: E712
@@ -88,7 +88,7 @@ def skip_clear_periods(s):
         end, z, per_z = load(s, i, END), load(s, i, Z), load(s, i, PER_Z)
         outside, period = load(s, i, OUTSIDE), load(s, i, PERIOD)
         turn_growth, turn_decay = load(s, i, TURN_GROWTH), load(s, i, TURN_DECAY)
-        passed = next_sign_interval(s, i, end, z, per_z, cleared)[5] & (stage == WALK)
+        passed = next_sign_interval(s, i, end, z, per_z, cleared)[5] & (stage == BRACKET)
         store(s, i, LOW, choose(passed, end + outside, low))
         store(s, i, CLEARED, choose(passed, 0.0, cleared))
         store(s, i, END, choose(passed, end + period, end))
@@ -120,11 +120,11 @@ def walk(s):
         above, found_in = u > error, u < -error
         dips = above & (u_half < -error_right)
         found = found_in | dips | (above & (u_right < -error_right) & (u_half > error_right))
-        next_stage = choose(found, GUESS, choose(passed, WALK, choose(looks, BOTTOM, UNSURE)))
+        next_stage = choose(found, GUESS, choose(passed, BRACKET, choose(looks, MINIMUM, FAILED)))
         halfway = fma(0.5, outside, end)
         next_high = choose(found_in, end, choose(dips, halfway, end + outside))
         next_low = choose(found_in, low, choose(passed, end + outside, end))
-        walking = stage == WALK
+        walking = stage == BRACKET
         store(s, i, STAGE, choose(walking, next_stage, stage))
         store(s, i, CONCAVE, choose(walking, choose(found_in, 1.0, -1.0), concave))
         store(s, i, LOW, choose(walking, next_low, low))

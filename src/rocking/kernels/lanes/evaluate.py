@@ -7,7 +7,6 @@ from rocking.kernels.compile_options import SIMD_INLINE
 from rocking.kernels.lanes.rows import (  # fmt: skip
     AMPLITUDE,
     AMPLITUDE_RATE,
-    BRIEF,
     COSINE,
     DEFICIT,
     EXCESS,
@@ -18,6 +17,7 @@ from rocking.kernels.lanes.rows import (  # fmt: skip
     LANES,
     RESPONSE,
     RESPONSE_RATE,
+    SHORT_TIME_LIMIT,
     SIN_X,
     SINE,
     SINH,
@@ -43,9 +43,9 @@ def correction(y, second, third, fourth, per):
 def derivatives(s, i, there):
     """u and its first six derivatives at an instant (u, u', cos eta, sin eta) in lane i, from u'' = u + f."""
     u, v, cosine, sine = there
-    square, pull = load(s, i, FREQUENCY_SQUARE), load(s, i, AMPLITUDE) * cosine
-    df, ddf = load(s, i, AMPLITUDE_RATE) * sine, square * pull
-    c2, c3 = u - (1.0 + pull), v + df
+    square, acceleration = load(s, i, FREQUENCY_SQUARE), load(s, i, AMPLITUDE) * cosine
+    df, ddf = load(s, i, AMPLITUDE_RATE) * sine, square * acceleration
+    c2, c3 = u - (1.0 + acceleration), v + df
     c4, c5 = c2 + ddf, fma(-square, df, c3)
     return u, v, c2, c3, c4, c5, fma(-square, ddf, c4)
 
@@ -63,15 +63,15 @@ def instant_of(s, i, above):
     velocity, cosine, sine = load(s, i, VELOCITY), load(s, i, COSINE), load(s, i, SINE)
     sinh, versinh, excess = load(s, i, SINH), load(s, i, VERSINH), load(s, i, EXCESS)
     sin_x, versine, lag = load(s, i, SIN_X), load(s, i, VERSINE), load(s, i, LAG)
-    near = load(s, i, TIME) < load(s, i, BRIEF)
-    in_phase, lateness = versinh + versine, fma(frequency, excess, lag)
+    near = load(s, i, TIME) < load(s, i, SHORT_TIME_LIMIT)
+    in_phase, quadrature = versinh + versine, fma(frequency, excess, lag)
     place = choose(
         near, -fma(load(s, i, FREQUENCY_SQUARE), load(s, i, HIGHER), load(s, i, DEFICIT)), in_phase
     )
-    rate = choose(near, -frequency * lateness, fma(frequency, sin_x, sinh))
+    rate = choose(near, -frequency * quadrature, fma(frequency, sin_x, sinh))
     steady = choose(near, fma(-load(s, i, AMPLITUDE), cosine, above), above)
     response_cosine = response * cosine
-    displaced = fma(response * sine, lateness, -response_cosine * place)
+    displaced = fma(response * sine, quadrature, -response_cosine * place)
     moved = fma(load(s, i, RESPONSE_RATE) * sine, in_phase, -response_cosine * rate)
     return (
         fma(velocity, sinh, fma(steady, versinh, displaced)),

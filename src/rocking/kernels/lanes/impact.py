@@ -8,44 +8,46 @@ from numba import njit
 from rocking.kernels.arc.fast_path import I2, I4, I6, I8
 from rocking.kernels.compile_options import SIMD_INLINE
 from rocking.kernels.lanes.rows import (  # fmt: skip
-    ACROSS,
-    ALONE,
-    ALONG,
     AMPLITUDE,
-    ARRIVED,
-    BEGUN,
-    BOWL,
-    CERTAINTY,
-    CONTENT,
+    AT_EVENT,
+    BRACKET,
     COSINE,
     COUNTED,
+    CREST_CURVATURE,
     CUT,
     CUT_LEFT,
     CUT_RIGHT,
     CYCLE,
     DEEP,
+    DELTA_ANGLE,
+    DELTA_VELOCITY,
     DOUBLINGS,
     END,
+    END_LEG,
     EVENTS,
     EXCEEDS,
+    FAILED,
+    FIND_EVENT,
+    FLUSH_LOG,
     FREQUENCY_SQUARE,
     GROWING,
     INSIDE,
     LANES,
     LARGE,
     LATE,
-    LEG_END,
+    LOG_ON,
     LOW,
+    NEW_ARC,
     NEXT_COSINE,
     NEXT_SINE,
     NEXT_SINH,
     NEXT_VERSINH,
+    NO_REQUEST,
     PEAK,
-    PEAK_SEEN,
     PER_PERIOD,
     PER_Z,
     PERIOD,
-    READING,
+    REQUEST,
     RESPONSE,
     RESPONSE_RATE,
     RESTITUTION,
@@ -57,13 +59,11 @@ from rocking.kernels.lanes.rows import (  # fmt: skip
     STAGE,
     START,
     TARGET,
-    TRAILS,
+    TO_SCALAR,
     TWICE,
-    UNSURE,
+    UPDATE_PEAK,
     VELOCITY,
     WAIT,
-    WALK,
-    WANTS,
     Z,
     load,
     store,
@@ -82,13 +82,13 @@ def set_request(s, i, wants, returned):
     """Whether lane i wants anything before its event, which gives back the speed ``returned``: what that ``wants``, or what comes first."""
     stage, start, wait, cycle = load(s, i, STAGE), load(s, i, START), load(s, i, WAIT), load(s, i, CYCLE)
     target, period = load(s, i, TARGET), load(s, i, PERIOD)
-    full = trail_is_full(load(s, i, TRAILS), load(s, i, EVENTS), load(s, i, COUNTED))
-    wants = choose(full, READING, wants)
-    wants = choose(returned < SLOWEST, ALONE, wants)
-    wants = choose(start + wait > (target - cycle) * period, LEG_END, wants)
-    wants = choose(stage == ARRIVED, wants, choose(stage == UNSURE, CERTAINTY, CONTENT))
-    store(s, i, WANTS, wants)
-    return wants != CONTENT
+    full = trail_is_full(load(s, i, LOG_ON), load(s, i, EVENTS), load(s, i, COUNTED))
+    wants = choose(full, FLUSH_LOG, wants)
+    wants = choose(returned < SLOWEST, TO_SCALAR, wants)
+    wants = choose(start + wait > (target - cycle) * period, END_LEG, wants)
+    wants = choose(stage == AT_EVENT, wants, choose(stage == FAILED, FIND_EVENT, NO_REQUEST))
+    store(s, i, REQUEST, wants)
+    return wants != NO_REQUEST
 
 
 @njit(**SIMD_INLINE)
@@ -96,7 +96,7 @@ def set_requests(s):
     """What each lane wants before its impact; whether any wants anything."""
     any_wants = False
     for i in range(LANES):
-        wants = choose(load(s, i, EXCEEDS) == 0.0, CONTENT, PEAK_SEEN)
+        wants = choose(load(s, i, EXCEEDS) == 0.0, NO_REQUEST, UPDATE_PEAK)
         any_wants |= set_request(s, i, wants, load(s, i, RESTITUTION) * load(s, i, SPEED))
     return any_wants
 
@@ -113,8 +113,8 @@ def propagate_tangent(s, i, factor, shear):
     """What an event, [[factor, 0], [shear, factor]], makes of the difference in lane i, where that has arrived."""
     stage, across, along, doublings = (
         load(s, i, STAGE),
-        load(s, i, ACROSS),
-        load(s, i, ALONG),
+        load(s, i, DELTA_ANGLE),
+        load(s, i, DELTA_VELOCITY),
         load(s, i, DOUBLINGS),
     )
     sinh, cosh, events = load(s, i, NEXT_SINH), 1.0 + load(s, i, NEXT_VERSINH), load(s, i, EVENTS)
@@ -124,9 +124,9 @@ def propagate_tangent(s, i, factor, shear):
     large, little = size > LARGE, size < 1.0 / LARGE
     scale = choose(large, 1.0 / LARGE, choose(little, LARGE, 1.0))
     times = choose(large, 64.0, choose(little, -64.0, 0.0))
-    arrived = stage == ARRIVED
-    store(s, i, ACROSS, choose(arrived, a * scale, across))
-    store(s, i, ALONG, choose(arrived, b * scale, along))
+    arrived = stage == AT_EVENT
+    store(s, i, DELTA_ANGLE, choose(arrived, a * scale, across))
+    store(s, i, DELTA_VELOCITY, choose(arrived, b * scale, along))
     store(s, i, DOUBLINGS, choose(arrived, doublings + times, doublings))
     store(s, i, EVENTS, choose(arrived, events + 1.0, events))
 
@@ -135,7 +135,7 @@ def propagate_tangent(s, i, factor, shear):
 def turn_clock(s, i):
     """The cycle of the event in lane i, and the time within it, where that has arrived."""
     stage, start, cycle, wait = load(s, i, STAGE), load(s, i, START), load(s, i, CYCLE), load(s, i, WAIT)
-    turns, arrived = np.floor((start + wait) * load(s, i, PER_PERIOD)), stage == ARRIVED
+    turns, arrived = np.floor((start + wait) * load(s, i, PER_PERIOD)), stage == AT_EVENT
     store(s, i, START, choose(arrived, fma(-turns, load(s, i, PERIOD), start) + wait, start))
     store(s, i, CYCLE, choose(arrived, cycle + turns, cycle))
 
@@ -150,7 +150,7 @@ def apply_impacts(s):
         stage, side, velocity = load(s, i, STAGE), load(s, i, SIDE), load(s, i, VELOCITY)
         cosine, sine = load(s, i, COSINE), load(s, i, SINE)
         speed, next_cosine, next_sine = load(s, i, SPEED), load(s, i, NEXT_COSINE), load(s, i, NEXT_SINE)
-        restitution, arrived = load(s, i, RESTITUTION), stage == ARRIVED
+        restitution, arrived = load(s, i, RESTITUTION), stage == AT_EVENT
         store(s, i, SIDE, choose(arrived, -side, side))
         store(s, i, VELOCITY, choose(arrived, restitution * speed, velocity))
         store(s, i, COSINE, choose(arrived, -next_cosine, cosine))
@@ -188,7 +188,7 @@ def begin(s):
         m, root = math.sqrt(grow * shrink), math.sqrt(fma(q, q, -grow * shrink))
         late, twice = logarithms_of_ratios(q + root, -grow, -shrink, -grow)
         to_cut = choose(side > 0.0, right, left) - start
-        begins = stage >= BEGUN
+        begins = stage >= NEW_ARC
         store(s, i, GROWING, choose(begins, 0.5 * grow, growing))
         store(s, i, SHRINKING, choose(begins, 0.5 * shrink, shrinking))
         store(s, i, DEEP, m)
@@ -208,21 +208,21 @@ def begin(s):
         # 1 - cos y >= y**2 (1/2 - a**2/4! + a**4/6! - a**6/8!) for y up to a, and at least 1 from a = pi/2 to pi
         away_2 = away * away
         a = min(square * away_2, RIGHT_ANGLE * RIGHT_ANGLE)
-        bowl = load(s, i, BOWL) * fma(-a, fma(-a, fma(-a, I8, I6), I4), I2)
+        bowl = load(s, i, CREST_CURVATURE) * fma(-a, fma(-a, fma(-a, I8, I6), I4), I2)
         above = 1.0 - m + response - peak
         may_exceed = (above > response) | (above * (m + bowl) > 0.5 * away_2 * bowl * m)
         early, late = twice - late + 2.0 * ROUGHLY, late - 2.0 * ROUGHLY
         leaps = told & (cut > early) & (cut < late)
         turns = choose(leaps, np.floor((late - cut) * per_period), 0.0)
         cut = fma(turns, period, cut)
-        begins = stage >= BEGUN
+        begins = stage >= NEW_ARC
         store(s, i, EXCEEDS, choose(begins, choose(told & (may_exceed == False), 0.0, 1.0), exceeds))  # noqa: E712
         store(s, i, LOW, choose(begins, max(cut - inside, 0.0), low))
         store(s, i, END, choose(begins, cut, end))
     for i in range(LANES):
         stage, end, z, per_z = load(s, i, STAGE), load(s, i, END), load(s, i, Z), load(s, i, PER_Z)
         new_z, new_per_z = both_exponentials(end)
-        begins = stage >= BEGUN
+        begins = stage >= NEW_ARC
         store(s, i, Z, choose(begins, new_z, z))
         store(s, i, PER_Z, choose(begins, new_per_z, per_z))
-        store(s, i, STAGE, choose(begins, WALK, stage))
+        store(s, i, STAGE, choose(begins, BRACKET, stage))

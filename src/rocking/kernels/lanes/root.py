@@ -12,8 +12,8 @@ from rocking.kernels.lanes.rows import (  # fmt: skip
     ABOUT,
     AMPLITUDE,
     ANGLE_THERE,
-    ARRIVED,
-    BOTTOM,
+    AT_EVENT,
+    BRACKET,
     CLEARED,
     CONCAVE,
     COSINE,
@@ -23,20 +23,22 @@ from rocking.kernels.lanes.rows import (  # fmt: skip
     DECAY_IN,
     DECAY_OUT,
     END,
+    FAILED,
     FREQUENCY,
     GROW_IN,
     GROW_OUT,
     GROWING,
     GUESS,
+    GUESS_OFFSET,
     HIGH,
     INSIDE,
     LANES,
     LOW,
+    MINIMUM,
     NEXT_COSINE,
     NEXT_SINE,
     NEXT_SINH,
     NEXT_VERSINH,
-    OFF,
     OUTSIDE,
     PER_Z,
     RATE_THERE,
@@ -53,11 +55,9 @@ from rocking.kernels.lanes.rows import (  # fmt: skip
     STAGE,
     TIME,
     TRIES,
-    UNSURE,
     VELOCITY,
     VERSINH,
     WAIT,
-    WALK,
     Z,
     load,
     store,
@@ -65,7 +65,7 @@ from rocking.kernels.lanes.rows import (  # fmt: skip
 from rocking.kernels.numerics.elementary import fma
 from rocking.kernels.numerics.simd import choose
 
-MOST_TRIES = 12
+MAX_TRIES = 12
 # As near as this the step of fifth order leaves of u less than rounding does, and so do the series that follow it.
 NEAR = 1e-3
 
@@ -139,7 +139,7 @@ def initial_guess(s):
         store(s, i, COSINE_THERE, cosine)
         store(s, i, SINE_THERE, sine)
         store(s, i, ABOUT, choose(hops, 0.0, about))
-        store(s, i, OFF, choose(near, x, choose(u > 0.0, 0.5, -0.5) * quarter))
+        store(s, i, GUESS_OFFSET, choose(near, x, choose(u > 0.0, 0.5, -0.5) * quarter))
 
 
 @njit(**SIMD_INLINE)
@@ -147,7 +147,7 @@ def guess(s):
     """Where the zero lies, to some six digits: two steps on the Taylor series about where ``initial_guess`` has it."""
     for i in range(LANES):
         stage, time, low, high = load(s, i, STAGE), load(s, i, TIME), load(s, i, LOW), load(s, i, HIGH)
-        about, x = load(s, i, ABOUT), load(s, i, OFF)
+        about, x = load(s, i, ABOUT), load(s, i, GUESS_OFFSET)
         there = (
             load(s, i, ANGLE_THERE),
             load(s, i, RATE_THERE),
@@ -207,7 +207,7 @@ def step(s):
             load(s, i, SINE_THERE),
         )
         _, _, second, third, fourth, fifth, _ = derivatives(s, i, (u, v, cosine, sine))
-        diving, fall = stage == BOTTOM, u + v
+        diving, fall = stage == MINIMUM, u + v
         per = 1.0 / choose(diving, v + second, v)
         y = -u * per
         factor = correction(y, second, third, fourth, per)
@@ -240,6 +240,6 @@ def step(s):
         store(s, i, HIGH, high)
         store(s, i, TRIES, choose(held, tries + 1.0, tries))
         store(s, i, CLEARED, choose(above, 1.0, cleared))
-        tired = choose(held & (tries > MOST_TRIES), UNSURE, stage)
-        on = choose(above, WALK, choose(through, REFINE, tired))
-        store(s, i, STAGE, choose(arrived, ARRIVED, on))
+        tired = choose(held & (tries > MAX_TRIES), FAILED, stage)
+        on = choose(above, BRACKET, choose(through, REFINE, tired))
+        store(s, i, STAGE, choose(arrived, AT_EVENT, on))

@@ -20,7 +20,7 @@ LANES = 48
 (
     # the system; A Omega, Omega**2, beta Omega, 2 beta Omega**2; up to when the elementary functions are those of a short time
     AMPLITUDE, FREQUENCY, PHASE, RESPONSE, RESTITUTION, PERIOD, PER_PERIOD,
-    AMPLITUDE_RATE, FREQUENCY_SQUARE, RESPONSE_RATE, BOWL, BRIEF,
+    AMPLITUDE_RATE, FREQUENCY_SQUARE, RESPONSE_RATE, CREST_CURVATURE, SHORT_TIME_LIMIT,
     # when, within the cycle, a convex stretch begins on either side
     CUT_RIGHT, CUT_LEFT,
     # 1 + beta cos eta and the size of its rate at the cuts; lengths of the concave and the convex stretches; e^+-length
@@ -39,14 +39,14 @@ LANES = 48
     TIME, TRIES, SINH, VERSINH, EXCESS, HIGHER, SIN_X, VERSINE, LAG, DEFICIT,
     # u, u', cos eta and sin eta there, and before that where the series that guesses the time is about; when that is, and
     # how much later it is entered
-    ANGLE_THERE, RATE_THERE, COSINE_THERE, SINE_THERE, ABOUT, OFF,
+    ANGLE_THERE, RATE_THERE, COSINE_THERE, SINE_THERE, ABOUT, GUESS_OFFSET,
     # the event to come
-    WAIT, SPEED, NEXT_COSINE, NEXT_SINE, NEXT_SINH, NEXT_VERSINH, WANTS,
+    WAIT, SPEED, NEXT_COSINE, NEXT_SINE, NEXT_SINH, NEXT_VERSINH, REQUEST,
     # the end of the leg; whether its arcs are asked for; the events counted before it began, those of no flight that was
     # collected, all; the largest angle
-    TARGET, TRAILS, COUNTED, UNCOLLECTED, EVENTS, PEAK,
+    TARGET, LOG_ON, COUNTED, UNCOLLECTED, EVENTS, PEAK,
     # a difference in (Theta, Theta'), to be doubled so often
-    ACROSS, ALONG, DOUBLINGS,
+    DELTA_ANGLE, DELTA_VELOCITY, DOUBLINGS,
     # where braces stand and what they give back; the angle where the arc starts; whether a brace is met next; hits by now
     BRACE_ANGLE, BRACE_RESTITUTION, ANGLE, AT_BRACE, BRACE_HITS,
     # between braces: (u, u', cos eta, sin eta) at the time ABOUT, up to which nothing is met
@@ -62,15 +62,19 @@ SLOT, SQUARE, DUE = SIN_X, VERSINE, LAG
 
 # What is next for a lane: nothing; to walk; to guess the zero in its stretch; to look for the bottom of a dip; to step to the
 # zero; what none of these can do; to look from further on; an arc, of a block that has just come; the event, once it was
-# attended to, and then an arc: from BEGUN on an arc begins.
-IDLE, WALK, GUESS, BOTTOM, REFINE, UNSURE, FURTHER, BEGUN, ARRIVED = (float(stage) for stage in range(9))
-# What a lane wants: nothing; that its peak be looked at; that its trail be read; a block; that its leg be ended; that its block
+# attended to, and then an arc: from NEW_ARC on an arc begins.
+IDLE, BRACKET, GUESS, MINIMUM, REFINE, FAILED, EXTEND, NEW_ARC, AT_EVENT = (
+    float(stage) for stage in range(9)
+)
+# What a lane wants: nothing; that its peak be looked at; that its log be read; a block; that its leg be ended; that its block
 # be marched alone; that the coming event be found; that it be asked whether what follows a slow event accumulates.
-CONTENT, PEAK_SEEN, READING, BLOCK, LEG_END, ALONE, CERTAINTY, SLOW_SEEN = (float(want) for want in range(8))
+NO_REQUEST, UPDATE_PEAK, FLUSH_LOG, LOAD_NEXT, END_LEG, TO_SCALAR, FIND_EVENT, CHECK_ZENO = (
+    float(want) for want in range(8)
+)
 # An event slower than this is marched alone.
 SLOWEST = 1e-6
-# Arcs since the trail was last read; odd, as ``workspace.apart`` would have it.
-TRAIL = 385
+# Arcs since the log was last read; odd, as ``workspace.apart`` would have it.
+LOG_ROWS = 385
 # Differences are brought back to size 1 from here.
 LARGE = 2.0**64
 
@@ -89,8 +93,8 @@ def store(s, i, row, value):
 
 @njit(**SIMD_INLINE)
 def trail_is_full(trails, events, counted):
-    """Whether a trail must be read before another arc is written into it: where none is asked for (``trails`` 0) never."""
-    return trails * (events - counted) > TRAIL - 3.0
+    """Whether a log must be read before another arc is written into it: where none is asked for (``trails`` 0) never."""
+    return trails * (events - counted) > LOG_ROWS - 3.0
 
 
 @njit(**SIMD_INLINE)
@@ -106,8 +110,8 @@ def set_system(s, i, p):
     store(s, i, AMPLITUDE_RATE, p.amplitude * p.frequency)
     store(s, i, FREQUENCY_SQUARE, p.frequency * p.frequency)
     store(s, i, RESPONSE_RATE, p.response * p.frequency)
-    store(s, i, BOWL, 2.0 * p.response * p.frequency * p.frequency)
-    store(s, i, BRIEF, min(SHORT_TIME, SHORT_ANGLE / p.frequency))
+    store(s, i, CREST_CURVATURE, 2.0 * p.response * p.frequency * p.frequency)
+    store(s, i, SHORT_TIME_LIMIT, min(SHORT_TIME, SHORT_ANGLE / p.frequency))
     store(s, i, BRACE_ANGLE, p.brace_angle)
     store(s, i, BRACE_RESTITUTION, p.brace_restitution)
     cut = p.base_half - p.phase

@@ -9,8 +9,13 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
-from rocking.kernels.classify.cascade import checkpoint_unstable, evaluate_checkpoint, march_leg, over_batch
 from rocking.kernels.classify.classifier_state import ClassifierState, next_look, opened
+from rocking.kernels.classify.decision_cascade import (
+    checkpoint_unstable,
+    evaluate_checkpoint,
+    march_leg,
+    over_batch,
+)
 from rocking.kernels.classify.quasi_periodicity import section_needed
 from rocking.kernels.classify.reset import begin_tangent
 from rocking.kernels.classify.results import ResultArrays, parameters_from_row, store_result
@@ -18,28 +23,7 @@ from rocking.kernels.classify.verdict_record import OPEN, undecided
 from rocking.kernels.classify.workspace import LEG
 from rocking.kernels.compile_options import ALLOCATING_ENTRY, INTERNAL, INTERNAL_INLINE
 from rocking.kernels.event_kinds import FLIGHT, IMPACT
-from rocking.kernels.lanes.rows import (  # fmt: skip
-    ALONE,
-    ARRIVED,
-    BLOCK,
-    CERTAINTY,
-    CONTENT,
-    EXCEEDS,
-    IDLE,
-    LANES,
-    LEG_END,
-    PEAK_SEEN,
-    SLOW_SEEN,
-    SLOWEST,
-    STAGE,
-    TARGET,
-    TRAILS,
-    WANTS,
-    load,
-    store,
-)
-from rocking.kernels.lanes.step import advance, advance_between, strike, strike_between
-from rocking.kernels.lanes.transfer import (
+from rocking.kernels.lanes.load_unload import (
     find_event_scalar,
     flights_by_now,
     growth_since,
@@ -51,12 +35,33 @@ from rocking.kernels.lanes.transfer import (
     unload_block,
     update_peak,
 )
+from rocking.kernels.lanes.rows import (  # fmt: skip
+    AT_EVENT,
+    CHECK_ZENO,
+    END_LEG,
+    EXCEEDS,
+    FIND_EVENT,
+    IDLE,
+    LANES,
+    LOAD_NEXT,
+    LOG_ON,
+    NO_REQUEST,
+    REQUEST,
+    SLOWEST,
+    STAGE,
+    TARGET,
+    TO_SCALAR,
+    UPDATE_PEAK,
+    load,
+    store,
+)
+from rocking.kernels.lanes.step import advance, advance_between, strike, strike_between
 from rocking.kernels.lanes.workspace import lane_workspace
 from rocking.kernels.march.march import DONE
 from rocking.kernels.parameters import HarmonicParameters
 
 # Of a quicker forcing an arc has too many stretches to be walked along in step with others.
-SHORTEST = 0.1
+MIN_LANE_PERIOD = 0.1
 
 
 class LaneWork(NamedTuple):
@@ -82,7 +87,7 @@ def lane_eligible(p, case):
     """Whether plain marching is all that is left: between braces from event to event, or without any where nothing is lost."""
     run, watch = case.run, case.run.watch
     progress, arc = watch.progress, watch.progress.arc
-    if progress.mode != FLIGHT or not (p.amplitude > 1.0 and p.period >= SHORTEST):
+    if progress.mode != FLIGHT or not (p.amplitude > 1.0 and p.period >= MIN_LANE_PERIOD):
         return False
     if p.brace_angle < math.inf:
         return not (run.lossless or watch.base.seen or watch.brace.seen)
@@ -104,7 +109,7 @@ def try_skip_readback(s, i, guest, max_cycles, bench):
     """
     point, p, case = guest
     target, most = next_look(case, max_cycles), bench.flights.shape[1]
-    if not case.run.lossless or load(s, i, TRAILS) > 0.0 or case.converged or target == max_cycles:
+    if not case.run.lossless or load(s, i, LOG_ON) > 0.0 or case.converged or target == max_cycles:
         return False, guest
     grown, bench.columns[i, 0, 0], bench.columns[i, 0, 1] = growth_since(s, i)
     growth = bench.growth[i, 0] + grown
@@ -124,14 +129,14 @@ def try_skip_readback(s, i, guest, max_cycles, bench):
 def service_lane(s, i, wants, guest, queue, asking, bench):
     """(who is in a lane, how many were let in) after a leg, or part of one: its block again, or the next that comes to plain marching."""
     point, p, case = guest
-    workspace, trail = lane_workspace(bench, i), bench.trail[i]
+    workspace, log = lane_workspace(bench, i), bench.log[i]
     systems, starts, max_cycles, max_period, answers = asking
-    told, settled, ended = undecided(case.run.watch), wants == BLOCK, wants == LEG_END
+    told, settled, ended = undecided(case.run.watch), wants == LOAD_NEXT, wants == END_LEG
     marched = ended and load(s, i, TARGET) == next_look(case, max_cycles)
-    stays, due = wants < BLOCK or ended, marched or wants == ALONE
+    stays, due = wants < LOAD_NEXT or ended, marched or wants == TO_SCALAR
     status, run = np.int64(DONE), case.run
     if not settled:
-        status, run = unload_block(s, i, wants, p, run, max_cycles, workspace, trail)
+        status, run = unload_block(s, i, wants, p, run, max_cycles, workspace, log)
         case = replace_run(case, run)
     while due or settled or not lane_eligible(p, case):
         if settled:
@@ -166,14 +171,14 @@ def service_lane(s, i, wants, guest, queue, asking, bench):
 
 
 @njit(**INTERNAL)
-def run_lanes(s, flights, trail, braced, stop):
+def run_lanes(s, flights, log, braced, stop):
     """All lanes onward until one of them wants attention."""
     while stop[0] == 0:
         if braced:
             strike_between(s)
         else:
             strike(s)
-        log_arcs(s, flights, trail, braced)
+        log_arcs(s, flights, log, braced)
         if advance_between(s) if braced else advance(s):
             return
 
@@ -187,20 +192,20 @@ def classify_batch_lanes(systems, starts, max_cycles, max_period, bench, answers
     guests = [LaneWork(-1, p, opened(p, 0.0, 0.0, max_cycles))] * LANES
     for i in range(LANES):
         store(s, i, STAGE, IDLE)
-        store(s, i, WANTS, BLOCK)
+        store(s, i, REQUEST, LOAD_NEXT)
     while stop[0] == 0:
         for i in range(LANES):
-            wants = load(s, i, WANTS)
-            if wants == CONTENT:
+            wants = load(s, i, REQUEST)
+            if wants == NO_REQUEST:
                 continue
-            if wants == CERTAINTY:
+            if wants == FIND_EVENT:
                 wants = find_event_scalar(s, i, guests[i].p)
-            elif wants == SLOW_SEEN:
+            elif wants == CHECK_ZENO:
                 wants = lane_request(s, i, guests[i].p)
-            while wants != CONTENT and wants != PEAK_SEEN:
+            while wants != NO_REQUEST and wants != UPDATE_PEAK:
                 on, guest = (
                     try_skip_readback(s, i, guests[i], max_cycles, bench)
-                    if wants == LEG_END
+                    if wants == END_LEG
                     else (False, guests[i])
                 )
                 if not on:
@@ -208,9 +213,9 @@ def classify_batch_lanes(systems, starts, max_cycles, max_period, bench, answers
                     blocks -= guest.point < 0
                 guests[i] = guest
                 wants = lane_request(s, i, guests[i].p)
-            if load(s, i, STAGE) == ARRIVED and load(s, i, EXCEEDS) > 0.0:
+            if load(s, i, STAGE) == AT_EVENT and load(s, i, EXCEEDS) > 0.0:
                 update_peak(s, i, guests[i].p)
         if blocks == 0:
             break
-        run_lanes(s, bench.flights, bench.trail, braced, stop)
+        run_lanes(s, bench.flights, bench.log, braced, stop)
     return blocks == 0

@@ -9,7 +9,7 @@ from numba.extending import intrinsic
 
 from rocking.kernels.classify.workspace import NoRecording, Workspace, make_workspace
 from rocking.kernels.compile_options import INTERNAL
-from rocking.kernels.lanes.rows import LANES, ROWS, TRAIL
+from rocking.kernels.lanes.rows import LANES, LOG_ROWS, ROWS
 
 
 @intrinsic
@@ -31,7 +31,7 @@ class LaneWorkspace(NamedTuple):
     """Working memory: for each lane what its workspace must keep from leg to leg."""
 
     state: np.ndarray
-    trail: np.ndarray  # (lanes, n, 8), the arcs since they were last read, as ``event_rows.note`` has them
+    log: np.ndarray  # (lanes, n, 8), the arcs since they were last read, as ``event_rows.note`` has them
     section: np.ndarray
     scratch: np.ndarray
     events: np.ndarray
@@ -54,7 +54,7 @@ def make_lane_workspace(max_cycles, max_period):
     )
     return LaneWorkspace(
         room[first : first + ROWS * LANES],
-        np.zeros((LANES, TRAIL, 8)),
+        np.zeros((LANES, LOG_ROWS, 8)),
         section,
         one.scratch,
         one.events,

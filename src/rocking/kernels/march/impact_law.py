@@ -19,10 +19,10 @@ SLOW = 0.1
 
 
 @njit(**KERNEL_INLINE)
-def after_impact(p, arc, time, coming, quiet):
+def after_impact(p, arc, time, coming, horizon):
     """(mode, arc) after an impact at the base.
 
-    ``quiet`` is the time in which nothing is asked for, so that accumulating impacts may be cut short. A block
+    ``horizon`` is the time in which nothing is asked for, so that accumulating impacts may be cut short. A block
     that comes back before the clock has moved has not left: so at a brace too.
     """
     speed = p.restitution * max(-coming.velocity, 0.0)
@@ -37,7 +37,7 @@ def after_impact(p, arc, time, coming, quiet):
     after = arc_after(p, side, time, 0.0, speed, turned * coming.cosine, turned * coming.sine)
     if mode == FLIGHT and 0.0 < speed < SLOW and p.restitution < 1.0:
         settled = base_settling_time(p, after.cosine, after.sine, speed)
-        if settled <= quiet or (settled < math.inf and speed < SLOWEST):
+        if settled <= horizon or (settled < math.inf and speed < SLOWEST):
             mode = REST
     if mode == REST:
         after = arc_from(p, side, time, 0.0, 0.0)
@@ -45,7 +45,7 @@ def after_impact(p, arc, time, coming, quiet):
 
 
 @njit(**INTERNAL)
-def after_brace(p, arc, time, coming, quiet):
+def after_brace(p, arc, time, coming, horizon):
     """(mode, arc) after a hit on a brace."""
     speed = p.brace_restitution * max(coming.velocity, 0.0)
     if speed < NEGLIGIBLE and p.brace_restitution < 1.0:
@@ -60,7 +60,7 @@ def after_brace(p, arc, time, coming, quiet):
             mode = LEAN
     elif p.brace_restitution < 1.0:
         settled = brace_settling_time(p, after.cosine, after.sine, speed)
-        if settled <= quiet or (settled < math.inf and speed < SLOWEST):
+        if settled <= horizon or (settled < math.inf and speed < SLOWEST):
             mode = LEAN
     if mode == LEAN:
         after = arc_from(p, arc.side, time, p.brace_angle, 0.0)
@@ -68,12 +68,12 @@ def after_brace(p, arc, time, coming, quiet):
 
 
 @njit(**KERNEL_INLINE)
-def after_event(p, arc, time, coming, quiet):
+def after_event(p, arc, time, coming, horizon):
     """(mode, arc) after the coming event."""
     if coming.event == IMPACT:
-        return after_impact(p, arc, time, coming, quiet)
+        return after_impact(p, arc, time, coming, horizon)
     if coming.event == BRACE:
-        return after_brace(p, arc, time, coming, quiet)
+        return after_brace(p, arc, time, coming, horizon)
     if coming.event == LIFT_OFF:
         return FLIGHT, arc_from(p, coming.side, time, 0.0, 0.0)
     if coming.event == LEAVE:

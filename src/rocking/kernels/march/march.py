@@ -11,7 +11,7 @@ from typing import NamedTuple
 from numba import njit
 
 from rocking.kernels.arc.extrema import largest_on, peak_with
-from rocking.kernels.arc.first_zero import LONGEST, no_return_time
+from rocking.kernels.arc.first_zero import MAX_ARC_TIME, no_return_time
 from rocking.kernels.arc.solution import (
     Arc,
     arc_from,
@@ -38,7 +38,7 @@ from rocking.kernels.march.tangent import (
     write_tangent,
 )
 
-MOST_EVENTS = 10_000_000
+MAX_EVENTS = 10_000_000
 # Compiled code cannot be interrupted: it comes up for air after this many events.
 BREATH = 2_000_000
 # No guesses of the first two waits.
@@ -55,7 +55,7 @@ class Status(IntEnum):
     OVERTURNED = 1
     STILL = 2  # at rest, or leaning, for ever
     PAUSED = 3  # the event buffer is full, or it is time to look up: go on
-    CROWDED = 4  # more than MOST_EVENTS events in one cycle
+    CROWDED = 4  # more than MAX_EVENTS events in one cycle
     RELEASED = 5  # the block has just lifted off or left a brace, and that was waited for: go on
 
 
@@ -92,7 +92,7 @@ def to_tuple(progress):
     return (
         progress.mode,
         progress.cycle,
-        (arc.side, arc.start, arc.angle, arc.velocity, arc.cosine, arc.sine, arc.psi, arc.pull),
+        (arc.side, arc.start, arc.angle, arc.velocity, arc.cosine, arc.sine, arc.psi, arc.acceleration),
         progress.pending,
         progress.crowd,
         progress.impacts,
@@ -192,10 +192,10 @@ def march_on(p, progress, cycles, section_time, section, events, columns, growth
     mode, cycle, arc, pending, crowd, impacts, brace_hits, peak, no_return, last_wait, wait_before, strain = (
         progress
     )
-    hasty = section.shape[0] == 0 and events.shape[0] == 0 and not want_release
+    skip_zeno = section.shape[0] == 0 and events.shape[0] == 0 and not want_release
     light, measured = columns.shape[0] == TANGENT and growth.shape[0] < TANGENT, growth.shape[0] == 1
     tangent = read_tangent(columns) if light else Tangent(0.0, 0.0, 0.0, 0.0)
-    written, rows, breath, ended, paused, released = 0, 0, 0, False, False, False
+    written, rows, events_since_return, ended, paused, released = 0, 0, 0, False, False, False
     last_lapse, lapse_before = propagator_or_none(p, last_wait), propagator_or_none(p, wait_before)
     while True:
         coming, lapse = next_event(p, mode, arc, lapse_before)
@@ -215,19 +215,19 @@ def march_on(p, progress, cycles, section_time, section, events, columns, growth
             ended = cycle >= cycles or no_return <= 0.0
             if ended:
                 break
-        paused = breath >= BREATH or (events.shape[0] > 0 and written + 2 > events.shape[0])
-        if ended or paused or crowd >= MOST_EVENTS:
+        paused = events_since_return >= BREATH or (events.shape[0] > 0 and written + 2 > events.shape[0])
+        if ended or paused or crowd >= MAX_EVENTS:
             break
         crowd += 1
-        breath += 1
+        events_since_return += 1
         if want_peak and mode == FLIGHT:
             peak = peak_with(p, arc, coming, peak)
         # What is left of an arc entered on its way says nothing about whole ones.
         lapse_before, last_lapse = last_lapse, lapse if arc.angle in (0.0, p.brace_angle) else last_lapse
         impacts += coming.event == IMPACT
         brace_hits += coming.event == BRACE
-        quiet = (cycles - cycle) * p.period - at if hasty else LONGEST if want_release else 0.0
-        mode_after, after = after_event(p, arc, at, coming, quiet)
+        horizon = (cycles - cycle) * p.period - at if skip_zeno else MAX_ARC_TIME if want_release else 0.0
+        mode_after, after = after_event(p, arc, at, coming, horizon)
         if mode_after != FLIGHT:
             tangent = normalised(tangent, growth) if measured else tangent
             strain = growth[0] if growth.shape[0] > 0 else (log_strain(tangent) if light else math.inf)
@@ -247,7 +247,7 @@ def march_on(p, progress, cycles, section_time, section, events, columns, growth
             break
     if light:
         write_tangent(columns, normalised(tangent, growth) if measured else tangent)
-    left = lapse.time if want_release else min(at, LONGEST)
+    left = lapse.time if want_release else min(at, MAX_ARC_TIME)
     last_wait, wait_before = last_lapse.time, left if ended else lapse_before.time
     reached = Progress(
         mode, cycle, arc, pending, crowd, impacts, brace_hits, peak, no_return, last_wait, wait_before, strain

@@ -8,7 +8,7 @@ from numba import njit
 from rocking.kernels.arc.bracket import MARGIN, ZERO
 from rocking.kernels.arc.bracket import NEVER as NEVER_MORE
 from rocking.kernels.arc.fast_path import fast_first_event, fast_first_impact
-from rocking.kernels.arc.first_zero import CROSSING, LONGEST, NEVER, base_watch, brace_watch, first_zero
+from rocking.kernels.arc.first_zero import CROSSING, MAX_ARC_TIME, NEVER, base_watch, brace_watch, first_zero
 from rocking.kernels.arc.solution import NONE_YET, evaluate, propagator_or_none
 from rocking.kernels.compile_options import INTERNAL, KERNEL, KERNEL_INLINE
 from rocking.kernels.event_kinds import BRACE, FLIGHT, IMPACT, LEAN, LEAVE, LIFT_OFF, NONE, REST
@@ -83,8 +83,10 @@ def stays_leaning(p, side, psi):
 @njit(**KERNEL_INLINE)
 def grazes(p, arc, t, velocity):
     """Whether an arc arrives so slowly that the last digits tell whether it arrives at all."""
-    pull = p.amplitude + 1.0
-    return velocity * velocity <= MARGIN * pull * (arc.angle + t * (abs(arc.velocity) + t * pull))
+    acceleration = p.amplitude + 1.0
+    return velocity * velocity <= MARGIN * acceleration * (
+        arc.angle + t * (abs(arc.velocity) + t * acceleration)
+    )
 
 
 @njit(**KERNEL_INLINE)
@@ -109,7 +111,7 @@ def next_event(p, mode, arc, guess):
     coming = any_event(p, mode, arc)
     if mode != FLIGHT or p.brace_angle < math.inf:
         return coming, guess
-    return coming, propagator_or_none(p, min(coming.wait, LONGEST))
+    return coming, propagator_or_none(p, min(coming.wait, MAX_ARC_TIME))
 
 
 @njit(**KERNEL)
@@ -124,9 +126,9 @@ def any_event(p, mode, arc):
             wait, LEAVE if wait < math.inf else NONE, arc.side, p.brace_angle, 0.0, 0.0, 0.0, 0.0, 0.0
         )
     event = IMPACT
-    found, t, now = first_zero(p, arc, base_watch(p), 0.0, LONGEST)
+    found, t, now = first_zero(p, arc, base_watch(p), 0.0, MAX_ARC_TIME)
     if found != CROSSING:
-        event, t = NONE, LONGEST
+        event, t = NONE, MAX_ARC_TIME
     if p.brace_angle < math.inf:
         hit, t_hit, now_hit = first_zero(p, arc, brace_watch(p), 0.0, t)
         if hit == CROSSING:

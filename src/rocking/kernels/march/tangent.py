@@ -107,8 +107,8 @@ def event_map(p, arc, coming, mode_after, side_after):
     if mode_after != FLIGHT:
         return 0.0, 0.0
     if coming.event == IMPACT:
-        pull = arc.side * (1.0 + forcing_term(p, coming.cosine))
-        gained = (pull - side_after) - p.restitution * (pull - arc.side)
+        acceleration = arc.side * (1.0 + forcing_term(p, coming.cosine))
+        gained = (acceleration - side_after) - p.restitution * (acceleration - arc.side)
         return p.restitution, shear_of(gained, arc.side * coming.velocity)
     if coming.event == BRACE:
         r = p.brace_restitution

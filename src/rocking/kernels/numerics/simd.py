@@ -12,7 +12,7 @@ from numba import njit, types
 from numba.extending import intrinsic
 
 from rocking.kernels.compile_options import SIMD_INLINE
-from rocking.kernels.numerics.economised import economised
+from rocking.kernels.numerics.economised_series import economised
 from rocking.kernels.numerics.elementary import EVEN, HALF_PI, ODD, TWO_OVER_PI, fma
 
 # Added to a number and taken off again it rounds to an integer, which its last bits hold.

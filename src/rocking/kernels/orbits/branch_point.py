@@ -11,14 +11,14 @@ from rocking.kernels.orbits.arclength import newton_step
 from rocking.kernels.orbits.chain_validation import verify_chain
 from rocking.kernels.orbits.event_chain import assemble, monodromy, with_value
 
-MOST_CORRECTIONS = 10
+MAX_CORRECTIONS = 10
 EASY = 4
 CONVERGED = 1e-11
-SMALLEST_STEP = 1e-12
+MIN_STEP = 1e-12
 GROW, SHRINK = 1.4, 0.5
 # A root along a step is sought to this share of it.
 ROOT = 1e-14
-MOST_HALVINGS = 200
+MAX_HALVINGS = 200
 # Steps this short against the longest end on a grazing.
 CLOSE = 1e-3
 # An event reached more slowly than this grazes, to rounding: the depth of a touch goes like the square of the speed.
@@ -116,7 +116,7 @@ def correct(p, which, chain, y, direction, low, high, workspace):
     """Newton's method from ``y``, in place, on the chain's equations and on the plane through ``workspace.aim`` across a direction."""
     k = chain.kinds.shape[0]
     before, converged = math.inf, False
-    for corrections in range(MOST_CORRECTIONS):
+    for corrections in range(MAX_CORRECTIONS):
         if not low <= y[k] <= high:
             break
         q = with_value(p, which, y[k])
@@ -132,7 +132,7 @@ def correct(p, which, chain, y, direction, low, high, workspace):
             break
         converged = size <= CONVERGED or (size <= 100.0 * CONVERGED and size >= 0.5 * before)
         before = size
-    return Point(False, MOST_CORRECTIONS, 0.0, 0.0, 0.0, 0.0)
+    return Point(False, MAX_CORRECTIONS, 0.0, 0.0, 0.0, 0.0)
 
 
 @njit(**INTERNAL)
@@ -159,7 +159,7 @@ def locate(p, which, chain, origin, direction, length, bounds, what, level, at_s
     """The length at which a test vanishes between 0 and ``length``, by false position with halvings; NaN where it is lost."""
     a, b, f, g = 0.0, length, at_start, at_end
     middle, last = 0.5 * length, 0
-    for _ in range(MOST_HALVINGS):
+    for _ in range(MAX_HALVINGS):
         middle = b - g * (b - a) / (g - f)
         if not a < middle < b:
             middle = 0.5 * (a + b)
@@ -197,7 +197,7 @@ def validated_point_at(p, which, chain, origin, direction, length, bounds, works
 def last_valid_length(p, which, chain, origin, direction, length, bounds, workspace):
     """The greatest length up to which the points are the block's own motion, by halving."""
     a, b = 0.0, length
-    for _ in range(MOST_HALVINGS):
+    for _ in range(MAX_HALVINGS):
         if b - a <= ROOT * length:
             break
         middle = 0.5 * (a + b)

@@ -17,7 +17,7 @@ from rocking.kernels.orbits.event_chain import arc_at, place_of
 APART = 1e-6
 # A motion that all but touches meets what it touches this near to the turn, if at all.
 NEAR_TOUCH = 1e-3
-MOST_TURNS = 20
+MAX_TURNS = 20
 # One arc is renewed so often at most.
 LONG_ARCS = 64
 
@@ -64,9 +64,9 @@ def clearance(p, chain, y, links, touched, level, touches):
             side = -side
     arc = arc_at(p, side, y[touched], place_of(p, chain.kinds[touched]), links[touched, 0])
     t, now = touches, evaluate(p, arc, touches)
-    for _ in range(MOST_TURNS):
-        pull = now.angle + forcing_term(p, now.cosine)
-        step = -now.velocity / pull
+    for _ in range(MAX_TURNS):
+        acceleration = now.angle + forcing_term(p, now.cosine)
+        step = -now.velocity / acceleration
         if not 0.0 < t + step < links[touched, 6]:
             return math.nan, t
         t += step

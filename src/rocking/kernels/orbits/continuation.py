@@ -22,13 +22,13 @@ from rocking.kernels.orbits.branch_point import (  # fmt: skip
     LOST,
     MANY,
     MERGED,
+    MIN_STEP,
     PARAMETER,
     PERIOD_DOUBLING,
     RANGE,
     SHORTER,
     SHRINK,
     SLOWEST,
-    SMALLEST_STEP,
     STRAIGHT,
     SYMMETRY_BREAKING,
     TINY,
@@ -121,7 +121,7 @@ def next_step(
         if near and (own or length <= CLOSE * longest):
             break
         length *= SHRINK
-        if length < SMALLEST_STEP * longest:
+        if length < MIN_STEP * longest:
             _, point, peak = validated_point_at(p, which, chain, y, direction, 0.0, bounds, workspace)
             return Step(GRAZED if slowest_arrival(workspace, k) < SLOWEST else LOST, 0.0, point, peak)
     end, within = GOING, length

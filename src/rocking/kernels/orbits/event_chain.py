@@ -43,7 +43,7 @@ class Link(NamedTuple):
     by_brace: tuple
     sinh: float
     cosh: float
-    pull: float  # u'' at its start
+    acceleration: float  # u'' at its start
     push: float  # u'' at its end
     time: float
 
@@ -118,7 +118,7 @@ def link(p, side, first, last, psi, t):
         (brace, held * sinh + brace * cosh),
         sinh,
         cosh,
-        arc.pull,
+        arc.acceleration,
         push,
         t,
     )
@@ -154,7 +154,7 @@ def assemble(p, which, chain, y, jacobian, misses, links):
         one = link(p, side, chain.kinds[j], chain.kinds[after], y[j], t)
         row = links[j]
         row[0], row[1], row[2], row[3] = one.leaves, one.arrives, one.sinh, one.cosh
-        row[4], row[5], row[6] = one.pull, one.push, one.time
+        row[4], row[5], row[6] = one.acceleration, one.push, one.time
         kept = -law(p, chain.kinds[after])
         misses[j] -= one.leaves
         misses[after] += kept * one.arrives

@@ -15,7 +15,7 @@ from rocking.kernels.event_kinds import FLIGHT, IMPACT
 from rocking.kernels.forcing.harmonic import particular
 from rocking.kernels.march.event_rows import state_at
 from rocking.kernels.march.impact_law import after_event
-from rocking.kernels.march.march import MOST_EVENTS, UNKNOWN, begin
+from rocking.kernels.march.march import MAX_EVENTS, UNKNOWN, begin
 from rocking.kernels.march.next_event import any_event
 from rocking.kernels.parameters import later, make
 
@@ -60,7 +60,7 @@ def images(p, side, times, out):
             if at > end:
                 break
             crowd += 1
-            if crowd > MOST_EVENTS:
+            if crowd > MAX_EVENTS:
                 return False
             mode, arc = after_event(q, arc, at, coming, end - at)
             while cycles > 0 and arc.start > q.period:

@@ -21,7 +21,7 @@ from rocking.kernels.forcing.harmonic import TURN
 from rocking.kernels.numerics.elementary import size
 
 # Beyond it sinh is infinite.
-LARGEST_ARGUMENT = 700.0
+MAX_ARGUMENT = 700.0
 # The arc of no mode.
 NOWHERE = Arc(1, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0)
 
@@ -56,7 +56,7 @@ def closed_form(frequency, response, restitution, order, faster):
     # (t - V k+)/Omega without the cancellation where e is near 1
     sine = (frequency * t * t * t * lost * lost - root * kept) / a
     apart = -frequency * root * (twice / speed) / (a * fold)
-    steep = math.sinh(h) if h < LARGEST_ARGUMENT else math.inf
+    steep = math.sinh(h) if h < MAX_ARGUMENT else math.inf
     trace = 1.0 + e * e + (e * kept * steep * apart if apart != 0.0 else 0.0)
     return speed, math.atan2(sine, -t * lost * (speed / twice)), trace
 

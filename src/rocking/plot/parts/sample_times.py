@@ -10,7 +10,7 @@ from rocking.motion import FALLEN, Motion, end_shown
 
 SAMPLES_PER_TIME = 64
 SAMPLES_PER_PICTURE = 1000
-MOST_SAMPLES = 500_000
+MAX_SAMPLES = 500_000
 STILLNESS_SHOWN = 0.15
 
 
@@ -74,7 +74,7 @@ def _grid(motion: Motion, start: float, stop: float, events: NDArray) -> NDArray
     finest = min(
         min(motion.system.forcing.period, 1.0) / SAMPLES_PER_TIME, (stop - start) / SAMPLES_PER_PICTURE
     )
-    step = max(finest, float(lengths[moves].sum()) / MOST_SAMPLES)
+    step = max(finest, float(lengths[moves].sum()) / MAX_SAMPLES)
     steps = np.where(moves, np.ceil(lengths / step), 1).astype(int)
     arc = np.repeat(np.arange(len(steps)), steps - 1)
     number = 1 + np.arange(len(arc)) - np.repeat(np.cumsum(steps - 1) - (steps - 1), steps - 1)

@@ -23,11 +23,11 @@ LINE = 1.0
 THIN = 0.6
 MARK = 4.0
 # More than these become an image inside a vector file, which would grow without end.
-MOST_PANELS = 100
-MOST_MARKS = 2_000
+MAX_PANELS = 100
+MAX_MARKS = 2_000
 CELLS = 4096
 ROUNDING = 1e-9
-MOST_CORNERS = 50_000
+MAX_CORNERS = 50_000
 
 MOTION = "#0072B2"
 IMPACT = "#D55E00"
@@ -87,7 +87,7 @@ def panels(rows: int = 1, columns: int = 1, height: float = 2.4, ratios: tuple[f
     >>> left.get_title(loc="left"), right.get_title(loc="left")
     ('(a)', '(b)')
     """
-    rows, columns = whole("rows", rows, 1, MOST_PANELS), whole("columns", columns, 1, MOST_PANELS)
+    rows, columns = whole("rows", rows, 1, MAX_PANELS), whole("columns", columns, 1, MAX_PANELS)
     height = within("height", height, 0.1, 100.0)
     if ratios is not None:
         allowed = f"be {columns} positive numbers, one a column"

@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 from matplotlib.patheffects import withStroke
 
-from rocking.model import LARGEST_AMPLITUDE, members, one_of, refusal
+from rocking.model import MAX_AMPLITUDE, members, one_of, refusal
 from rocking.plot.parts import style
 from rocking.plot.parts.style import DOTTED
 from rocking.theory import (
@@ -126,7 +126,7 @@ def lines_of(
     seen[1:] |= seen[:-1].copy()
     seen[:-1] |= seen[1:].copy()
     # a neighbour may have no such amplitude, or one beyond all that may be asked for
-    seen &= amplitudes <= LARGEST_AMPLITUDE
+    seen &= amplitudes <= MAX_AMPLITUDE
     sure = _admissible(curve, amplitudes, period, restitution, seen)
 
     def line(part: np.ndarray) -> np.ndarray:

@@ -14,7 +14,7 @@ from rocking.survey.spec import SurveySpec
 from rocking.survey.tiling import Level
 
 PILOTS, AT_ONCE = 512, 16
-LONGEST = 0.5
+MAX_SECONDS = 0.5
 """Seconds that the estimate itself may take, about."""
 GOLDEN = (math.sqrt(5.0) - 1.0) / 2.0
 
@@ -55,7 +55,7 @@ def cost(asked: SurveySpec, measure: Measurement, levels: list[Level], there: in
     stride = round(GOLDEN * asked.points)
     places = (np.arange(min(PILOTS, asked.points), dtype=object) * stride % asked.points).astype(np.int64)
     begun, done = time.perf_counter(), 0
-    while done < places.size and time.perf_counter() - begun < LONGEST:
+    while done < places.size and time.perf_counter() - begun < MAX_SECONDS:
         wanted = places[done : done + AT_ONCE]
         compute(Batch(asked.axes, asked.fixed, wanted, measure.judge, measure.options), np.zeros(1, np.int64))
         done += wanted.size

@@ -17,7 +17,7 @@ from rocking.survey.spec import SurveySpec
 from rocking.survey.store.locking import defer_interrupt
 from rocking.survey.tiling import Level, Tile
 
-MOST_UNDER_WAY = 512
+MAX_UNDER_WAY = 512
 """Batches under way or waiting for an earlier tile, at most: what they answer takes some 0.2 GB."""
 
 
@@ -79,7 +79,7 @@ def run(results: Results, executor: Executor | None = None, watcher: Watcher | N
                     continue
                 pending.append(_submit(pool, stop, results, tile, known))
                 under_way += len(pending[-1].futures)
-                while under_way > MOST_UNDER_WAY:
+                while under_way > MAX_UNDER_WAY:
                     under_way -= _settle(pending, results, watcher)
             while pending:
                 _settle(pending, results, watcher)

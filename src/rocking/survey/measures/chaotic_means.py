@@ -10,10 +10,10 @@ from rocking.model import Braces, Harmonic, State, System
 from rocking.motion import simulate
 from rocking.survey.spec import SYSTEM, Points
 
-MOST_FOLLOWED = 20_000
+MAX_FOLLOWED = 20_000
 """Cycles, of which the second half is averaged."""
 BATCHES = 20
-MOST_NUDGES, NUDGE = 100, 1e-15
+MAX_NUDGES, NUDGE = 100, 1e-15
 """A start that rounding decides may overturn when it is followed again; one beside it is taken then."""
 APART = 10.0
 """Standard errors between two averages that are not of one attractor."""
@@ -25,7 +25,7 @@ def averages(points: Points, chaotic: np.ndarray, cycles: int, stop: np.ndarray)
     The error is that of the means of long batches. Once another thread sets `stop[0]` no more of them are followed.
     """
     found = np.full((len(points.systems), 2), math.nan)
-    count = min(cycles, MOST_FOLLOWED)
+    count = min(cycles, MAX_FOLLOWED)
     for k in np.flatnonzero(chaotic):
         if stop[0]:
             break
@@ -37,7 +37,7 @@ def averages(points: Points, chaotic: np.ndarray, cycles: int, stop: np.ndarray)
 
 def _late_angles(system: System, start: State, cycles: int) -> np.ndarray:
     """Θ on the section in the second half of so many cycles; NaN if nothing stays that begins there, but for rounding."""
-    for nudge in range(MOST_NUDGES):
+    for nudge in range(MAX_NUDGES):
         beside = State(start.angle, start.velocity + nudge * NUDGE)
         motion = simulate(system, beside, cycles=cycles, record="section")
         if motion.outcome == "bounded":

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from rocking.model import LARGEST_AMPLITUDE, PERIODS
+from rocking.model import MAX_AMPLITUDE, PERIODS
 from rocking.survey.spec import SYSTEM, Points
 
 TITLE = "Repeatability of the response of a free-standing block on a shaking base"
-LARGEST_RELATIVE = 0.5
+MAX_RELATIVE = 0.5
 INPUTS = 5
 """A, T, e, Θ and Θ' at the start."""
 
@@ -30,7 +30,7 @@ def perturbed(meant: Points, units: np.ndarray, off: float) -> Points:
     amplitude, period, restitution = (
         systems[:, place[name]] for name in ("amplitude", "period", "restitution")
     )
-    np.minimum(amplitude * factors[:, 0], LARGEST_AMPLITUDE, out=amplitude)
+    np.minimum(amplitude * factors[:, 0], MAX_AMPLITUDE, out=amplitude)
     np.clip(period * factors[:, 1], *PERIODS, out=period)
     systems[:, place["frequency"]] = 2.0 * np.pi / period
     # drawn evenly from what is possible

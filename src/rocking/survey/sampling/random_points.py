@@ -14,8 +14,8 @@ from rocking.survey.spec import RANGES, Points
 
 AT_ONCE = 2048
 """Points of one piece of work."""
-MOST_SAMPLES = 10_000_000
-MOST_SEED = 2**32 - 1
+MAX_SAMPLES = 10_000_000
+MAX_SEED = 2**32 - 1
 
 
 def sampled(points: Points, measure: Measurement, executor: Executor | None = None) -> Arrays:
@@ -41,7 +41,7 @@ def sampled(points: Points, measure: Measurement, executor: Executor | None = No
 
 def generator(seed: int) -> np.random.Generator:
     """Random numbers, the same for the same seed."""
-    return np.random.default_rng(whole("seed", seed, 0, MOST_SEED))
+    return np.random.default_rng(whole("seed", seed, 0, MAX_SEED))
 
 
 def span(name: str, values: Any, widest: tuple[float, float] | None = None) -> tuple[float, float]:

@@ -10,9 +10,9 @@ from rocking.model import LEVEL, Share, UncertaintyExponent
 
 FINEST, COARSEST = 13, 6
 """Distances are the mean width of the starts times 2⁻ᵏ for k between these."""
-FEWEST = 10
+MIN_BOUNDARY = 10
 """Uncertain starts at several distances together; fewer tell no exponent."""
-MOST_STEPS = 50
+MAX_STEPS = 50
 
 
 def distances(widths: tuple[float, float]) -> np.ndarray:
@@ -41,7 +41,7 @@ def exponent(reach: np.ndarray, labels: np.ndarray) -> UncertaintyExponent | Non
     elsewhere = (labels[..., 1:] != labels[..., :1]).any(axis=-1)
     counts, each = elsewhere.sum(axis=1), elsewhere.shape[1]
     told = counts < each
-    if counts[told].sum() < FEWEST or np.count_nonzero(counts[told]) < 3:
+    if counts[told].sum() < MIN_BOUNDARY or np.count_nonzero(counts[told]) < 3:
         return None
     logs = np.log(reach[told])
     design = np.column_stack([np.ones(logs.size), logs - logs.mean()])
@@ -61,7 +61,7 @@ def _scored(design: np.ndarray, counts: np.ndarray, each: float) -> tuple[np.nda
     weights = counts + 0.5
     start = np.log(weights / (each + 1.0))
     fitted = np.linalg.lstsq(design * np.sqrt(weights)[:, None], start * np.sqrt(weights), rcond=None)[0]
-    for _ in range(MOST_STEPS):
+    for _ in range(MAX_STEPS):
         shares = np.clip(np.exp(design @ fitted), 1e-12, 1.0 - 1e-6)
         weights = each * shares / (1.0 - shares)
         information = design.T @ (design * weights[:, None])

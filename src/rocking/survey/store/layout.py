@@ -18,7 +18,7 @@ SAME = 1e-9
 
 FORMAT = 2
 """Of the files: raised when what is written is no longer what a store made before says of its arrays."""
-USUAL_DIGITS, ALL_DIGITS = 6, 17
+DEFAULT_DIGITS, ALL_DIGITS = 6, 17
 """Of numbers that differ as many are told as tell them apart."""
 
 
@@ -173,7 +173,7 @@ def _difference(name: str, there: Any, here: Any) -> str:
             [each for each in there if each not in here],
             [each for each in here if each not in there],
         )
-    pairs = ((_told(there, digits), _told(here, digits)) for digits in range(USUAL_DIGITS, ALL_DIGITS + 1))
+    pairs = ((_told(there, digits), _told(here, digits)) for digits in range(DEFAULT_DIGITS, ALL_DIGITS + 1))
     one, other = next((pair for pair in pairs if pair[0] != pair[1]), ("one", "another"))
     return f"{name} is {one} there and {other} here"
 

@@ -13,7 +13,7 @@ import numpy as np
 
 from rocking.survey.measurement import Arrays, Measurement
 from rocking.survey.spec import SurveySpec
-from rocking.survey.store import zarr_arrays
+from rocking.survey.store import zarr_metadata
 from rocking.survey.store.layout import (
     Layout,
     check_described,
@@ -43,8 +43,8 @@ if TYPE_CHECKING:
 
 NAME = "rocking_survey"
 """The attribute of the root group that tells a survey's store from other folders."""
-MOST_NAMED = 5
-MOST_HELD = 1 << 20
+MAX_NAMED = 5
+MAX_HELD = 1 << 20
 """Points of a level, some 50 MB, that is held in memory for the next one's sake; all of them together are less than twice that."""
 
 
@@ -56,7 +56,7 @@ class Store:
     """
 
     def __init__(self, path: Path, asked: SurveySpec, measure: Measurement, *, repair: bool) -> None:
-        from rocking.survey.store.zarr_files import Files
+        from rocking.survey.store.chunk_files import Files
 
         self.path, self.measure = path, measure
         self.files = Files(path)
@@ -94,7 +94,7 @@ class Store:
 
     def write(self, tile: Tile, answers: Arrays) -> None:
         """Keep a tile; its last variable, which marks it done, last."""
-        from rocking.survey.store.zarr_files import encoded
+        from rocking.survey.store.chunk_files import encoded
 
         held = self._held(tile.level)
         with wrap_write_errors(self.path):
@@ -107,7 +107,7 @@ class Store:
 
     def _held(self, level: Level) -> Arrays | None:
         """What is there of a small level that another one follows; None of others."""
-        if level is self.levels[-1] or math.prod(level.shape) > MOST_HELD:
+        if level is self.levels[-1] or math.prod(level.shape) > MAX_HELD:
             return None
         if level.number not in self.held:
             self.held[level.number] = held = self.measure.blank(level.shape)
@@ -131,9 +131,9 @@ class Store:
                 self.begun.add((tile.level.number, tile.index))
                 self.done += int(tile.own(known).sum())
         if found and not repair:
-            more = f" and {len(found) - MOST_NAMED} more" if len(found) > MOST_NAMED else ""
+            more = f" and {len(found) - MAX_NAMED} more" if len(found) > MAX_NAMED else ""
             raise StoreError(
-                f"store {str(self.path)!r} is damaged at {', '.join(found[:MOST_NAMED])}{more}; with repair these tiles are computed again"
+                f"store {str(self.path)!r} is damaged at {', '.join(found[:MAX_NAMED])}{more}; with repair these tiles are computed again"
             )
 
     def _marked(self, level: Level) -> list[Tile]:
@@ -199,10 +199,10 @@ class Store:
         """The arrays of each level, made or made larger where need be."""
         with reading(self.path):
             known = {level.name: self.root.get(level.name) for level in self.levels}
-        groups = zarr_arrays.make_groups(self.files, self.asked, self.measure, self.levels, known)
+        groups = zarr_metadata.make_groups(self.files, self.asked, self.measure, self.levels, known)
         with reading(self.path):
             there: list[dict[str, Any]] = [dict(group.arrays()) for group in groups]
-        return zarr_arrays.make_arrays(self.files, self.measure, self.levels, there)
+        return zarr_metadata.make_arrays(self.files, self.measure, self.levels, there)
 
 
 @contextmanager

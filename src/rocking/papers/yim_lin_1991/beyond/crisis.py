@@ -12,7 +12,7 @@ import rocking as rk
 
 AMPLITUDES = (4.86, 4.88)
 CYCLES, LEFT_OUT = 20_000, 100
-LONGEST_PERIOD = 16
+MAX_FORCING_PERIOD = 16
 NEAR = 1e-3
 """Points of the section that are nearer to each other than this count as the same."""
 
@@ -46,7 +46,7 @@ def settled(points: np.ndarray) -> tuple[int, int]:
 
     At least half of LEFT_OUT cycles must repeat themselves.
     """
-    for period in range(1, LONGEST_PERIOD + 1):
+    for period in range(1, MAX_FORCING_PERIOD + 1):
         apart = np.hypot(*(points[period:] - points[:-period]).T)
         cycle = int(np.flatnonzero(np.append(True, apart > NEAR))[-1])
         if cycle < len(apart) - LEFT_OUT // 2:

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from rocking.kernels.numerics import simd
-from rocking.kernels.numerics.economised import chebyshev, economised
+from rocking.kernels.numerics.economised_series import chebyshev, economised
 
 TIME, ANGLE = (0.5 * math.log(2.0)) ** 2, (0.25 * math.pi) ** 2
 

@@ -53,7 +53,7 @@ UNMOVED = 1e-11
 # A motion that stays as near as this to an unstable orbit has not left it.
 NEAR = 1e-3
 # A motion with more events a cycle than this on average is not judged to its end.
-MOST_EVENTS_A_CYCLE = 200
+MAX_EVENTS_A_CYCLE = 200
 FREE_EVENTS = 1_000_000
 
 
@@ -73,7 +73,7 @@ def room(section, count, coming, looked_at):
 @njit(**INTERNAL_INLINE)
 def most_events(max_cycles):
     """A motion with more events is not judged to its end."""
-    return MOST_EVENTS_A_CYCLE * max_cycles + FREE_EVENTS
+    return MAX_EVENTS_A_CYCLE * max_cycles + FREE_EVENTS
 
 
 @njit(**AST_INLINE)

@@ -6,43 +6,43 @@ import numpy as np
 from numba import njit
 
 from rocking.kernels.arc.extrema import largest_on
-from rocking.kernels.arc.first_zero import LONGEST
+from rocking.kernels.arc.first_zero import MAX_ARC_TIME
 from rocking.kernels.arc.solution import NONE_YET, arc_after, shift_clock
-from rocking.kernels.classify.cascade import most_events, room
 from rocking.kernels.classify.classifier_state import Run
+from rocking.kernels.classify.decision_cascade import most_events, room
 from rocking.kernels.classify.quasi_periodicity import Flights, append_lazy_rows
 from rocking.kernels.classify.reset import moved_on
 from rocking.kernels.compile_options import INTERNAL, INTERNAL_INLINE, SIMD_INLINE
 from rocking.kernels.event_kinds import BRACE, FLIGHT, IMPACT
 from rocking.kernels.forcing.harmonic import clock
 from rocking.kernels.lanes.rows import (  # fmt: skip
-    ACROSS,
-    ALONE,
-    ALONG,
     ANGLE,
-    ARRIVED,
     AT_BRACE,
-    BEGUN,
+    AT_EVENT,
     BRACE_HITS,
-    CONTENT,
+    BRACKET,
     COSINE,
     COUNTED,
     CYCLE,
+    DELTA_ANGLE,
+    DELTA_VELOCITY,
     DOUBLINGS,
     DUE,
+    END_LEG,
     EVENTS,
+    FLUSH_LOG,
     FREQUENCY,
     LANES,
-    LEG_END,
+    LOG_ON,
+    NEW_ARC,
     NEXT_COSINE,
     NEXT_SINE,
     NEXT_SINH,
     NEXT_VERSINH,
+    NO_REQUEST,
     PEAK,
-    PEAK_SEEN,
     PERIOD,
     PHASE,
-    READING,
     SIDE,
     SINE,
     SLOT,
@@ -52,11 +52,11 @@ from rocking.kernels.lanes.rows import (  # fmt: skip
     STAGE,
     START,
     TARGET,
-    TRAILS,
+    TO_SCALAR,
     UNCOLLECTED,
+    UPDATE_PEAK,
     VELOCITY,
     WAIT,
-    WALK,
     load,
     set_system,
     store,
@@ -92,15 +92,15 @@ def load_block(s, i, p, progress, columns, collected):
     store(s, i, UNCOLLECTED, events - collected)
     store(s, i, BRACE_HITS, progress.brace_hits)
     store(s, i, PEAK, progress.peak)
-    store(s, i, STAGE, BEGUN)
+    store(s, i, STAGE, NEW_ARC)
     set_difference(s, i, columns)
 
 
 @njit(**INTERNAL_INLINE)
 def set_difference(s, i, columns):
     """The difference that a lane carries from here on."""
-    store(s, i, ACROSS, columns[0, 0])
-    store(s, i, ALONG, columns[0, 1])
+    store(s, i, DELTA_ANGLE, columns[0, 0])
+    store(s, i, DELTA_VELOCITY, columns[0, 1])
     store(s, i, DOUBLINGS, 0.0)
 
 
@@ -108,7 +108,7 @@ def set_difference(s, i, columns):
 def set_leg(s, i, target, trails):
     """Where the leg of a lane ends, and whether its arcs are asked for."""
     store(s, i, TARGET, target)
-    store(s, i, TRAILS, trails)
+    store(s, i, LOG_ON, trails)
 
 
 @njit(**INTERNAL)
@@ -123,11 +123,11 @@ def arc_of(s, i, p):
 @njit(**INTERNAL_INLINE)
 def growth_since(s, i):
     """(the logarithm of what differences have grown by since that was last read, the difference, of size 1)."""
-    a, b = load(s, i, ACROSS), load(s, i, ALONG)
+    a, b = load(s, i, DELTA_ANGLE), load(s, i, DELTA_VELOCITY)
     size = math.hypot(a, b)
     grown = math.log(size) + load(s, i, DOUBLINGS) * LN2
-    store(s, i, ACROSS, a / size)
-    store(s, i, ALONG, b / size)
+    store(s, i, DELTA_ANGLE, a / size)
+    store(s, i, DELTA_VELOCITY, b / size)
     store(s, i, DOUBLINGS, 0.0)
     return grown, a / size, b / size
 
@@ -139,7 +139,7 @@ def flights_by_now(s, i, flights, most):
 
 
 @njit(**INTERNAL)
-def unload_block(s, i, wants, p, run, max_cycles, workspace, trail):
+def unload_block(s, i, wants, p, run, max_cycles, workspace, log):
     """(status, run) of a lane, with what happened since it was last read: at the end of the leg if it wants that."""
     watch, flights, section_time, count, lossless, measuring = run
     before, arc, cycle, target = (
@@ -152,7 +152,7 @@ def unload_block(s, i, wants, p, run, max_cycles, workspace, trail):
     if lossless and written > 0:
         collected = flights_by_now(s, i, flights, workspace.flights.shape[0])
         flights = Flights(IMPACT, cycle, arc.start, flights.first_cycle, collected)
-    if wants == LEG_END:
+    if wants == END_LEG:
         arc, cycle, pending = shift_clock(arc, (target - cycle) * p.period), target, True
     elif cycle < before.cycle:
         # the arc under way began before the lane was last read
@@ -162,7 +162,7 @@ def unload_block(s, i, wants, p, run, max_cycles, workspace, trail):
             before.pending,
         )
     events, hits, peak = int(load(s, i, EVENTS)), int(load(s, i, BRACE_HITS)), load(s, i, PEAK)
-    wait = load(s, i, WAIT) if load(s, i, STAGE) == ARRIVED else UNKNOWN[0]
+    wait = load(s, i, WAIT) if load(s, i, STAGE) == AT_EVENT else UNKNOWN[0]
     after = Progress(
         FLIGHT,
         cycle,
@@ -177,9 +177,9 @@ def unload_block(s, i, wants, p, run, max_cycles, workspace, trail):
         wait,
         -math.inf,
     )
-    if load(s, i, TRAILS) > 0.0:
+    if load(s, i, LOG_ON) > 0.0:
         count = room(workspace.section, count, cycle + 1 - before.cycle, workspace.scratch.shape[0])
-        count = append_lazy_rows(p, before, trail[1:], written, after, section_time, workspace.section, count)
+        count = append_lazy_rows(p, before, log[1:], written, after, section_time, workspace.section, count)
     else:
         count = 0
     store(s, i, COUNTED, events)
@@ -206,16 +206,16 @@ def settles(s, i, p):
     if not (restitution < 1.0 and speed < SLOW):
         return False
     if hits:
-        return brace_settling_time(p, cosine, sine, speed) <= LONGEST
-    return base_settling_time(p, -cosine, -sine, speed) <= LONGEST
+        return brace_settling_time(p, cosine, sine, speed) <= MAX_ARC_TIME
+    return base_settling_time(p, -cosine, -sine, speed) <= MAX_ARC_TIME
 
 
 @njit(**INTERNAL)
 def lane_request(s, i, p):
     """What a lane wants that may have arrived: the end of its leg, to be marched alone, or nothing."""
-    if load(s, i, STAGE) != ARRIVED:
-        return CONTENT
-    return LEG_END if leg_done(s, i) else ALONE if settles(s, i, p) else CONTENT
+    if load(s, i, STAGE) != AT_EVENT:
+        return NO_REQUEST
+    return END_LEG if leg_done(s, i) else TO_SCALAR if settles(s, i, p) else NO_REQUEST
 
 
 @njit(**INTERNAL)
@@ -225,7 +225,7 @@ def find_event_scalar(s, i, p):
     hits, speed = coming.event == BRACE, abs(coming.velocity)
     returned = (p.brace_restitution if hits else p.restitution) * speed
     if not ((hits or coming.event == IMPACT) and returned >= SLOWEST):
-        return ALONE
+        return TO_SCALAR
     store(s, i, WAIT, coming.wait)
     store(s, i, SPEED, speed)
     store(s, i, AT_BRACE, hits)
@@ -233,12 +233,12 @@ def find_event_scalar(s, i, p):
     store(s, i, NEXT_SINE, coming.sine)
     store(s, i, NEXT_SINH, coming.sinh)
     store(s, i, NEXT_VERSINH, coming.versinh)
-    store(s, i, STAGE, ARRIVED)
+    store(s, i, STAGE, AT_EVENT)
     wants = lane_request(s, i, p)
-    if wants != CONTENT:
+    if wants != NO_REQUEST:
         return wants
-    full = trail_is_full(load(s, i, TRAILS), load(s, i, EVENTS), load(s, i, COUNTED))
-    return READING if full else PEAK_SEEN
+    full = trail_is_full(load(s, i, LOG_ON), load(s, i, EVENTS), load(s, i, COUNTED))
+    return FLUSH_LOG if full else UPDATE_PEAK
 
 
 @njit(**INTERNAL)
@@ -255,33 +255,33 @@ def mark_pending_logs(s, most, braced):
         slot, rounds = events - load(s, i, UNCOLLECTED) - 1.0, events * (1.0 / (RESYNCHRONISE + 1))
         kept = (events > load(s, i, COUNTED)) & (slot < most) & (braced == False)  # noqa: E712
         # every so many events as in ``note_arc``, exactly: RESYNCHRONISE + 1 is a power of two
-        due = (load(s, i, TRAILS) > 0.0) | ((np.floor(rounds) == rounds) & (stage == WALK))
+        due = (load(s, i, LOG_ON) > 0.0) | ((np.floor(rounds) == rounds) & (stage == BRACKET))
         store(s, i, SLOT, choose(kept, slot, -1.0))
         store(s, i, SQUARE, velocity * velocity)
         store(s, i, DUE, choose(due, 1.0, 0.0))
 
 
 @njit(**INTERNAL_INLINE)
-def note_arc(s, i, trail):
-    """Into the trail of a lane, if it is asked for, the arc under way; now and then the forcing is taken from the clock."""
+def note_arc(s, i, log):
+    """Into the log of a lane, if it is asked for, the arc under way; now and then the forcing is taken from the clock."""
     events, start, side, angle = (
         int(load(s, i, EVENTS)),
         load(s, i, START),
         load(s, i, SIDE),
         load(s, i, ANGLE),
     )
-    if load(s, i, TRAILS) > 0.0:
+    if load(s, i, LOG_ON) > 0.0:
         k, event = events - int(load(s, i, COUNTED)), BRACE if angle > 0.0 else IMPACT
-        trail[i, k, 0], trail[i, k, 1], trail[i, k, 2] = load(s, i, CYCLE), start, event
-        trail[i, k, 4], trail[i, k, 5], trail[i, k, 6] = side, angle, load(s, i, VELOCITY)
-    if events & RESYNCHRONISE == 0 and load(s, i, STAGE) == WALK:
+        log[i, k, 0], log[i, k, 1], log[i, k, 2] = load(s, i, CYCLE), start, event
+        log[i, k, 4], log[i, k, 5], log[i, k, 6] = side, angle, load(s, i, VELOCITY)
+    if events & RESYNCHRONISE == 0 and load(s, i, STAGE) == BRACKET:
         cosine, sine, _, _, _ = clock(load(s, i, FREQUENCY), load(s, i, PHASE), side, start)
         store(s, i, COSINE, cosine)
         store(s, i, SINE, sine)
 
 
 @njit(**INTERNAL)
-def log_arcs(s, flights, trail, braced):
+def log_arcs(s, flights, log, braced):
     """Write down of each lane what its last flight was, where there are no braces: how long, and the square of its speed.
 
     So again and again until the next impact; and ``note_arc`` where that is due.
@@ -296,4 +296,4 @@ def log_arcs(s, flights, trail, braced):
                 flights.ctypes.data + flights.itemsize * 2 * (i * flights.shape[1] + slot + AHEAD)
             )
         if load(s, i, DUE) > 0.0:
-            note_arc(s, i, trail)
+            note_arc(s, i, log)

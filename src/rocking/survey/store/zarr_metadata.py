@@ -16,7 +16,7 @@ from rocking.survey.tiling import Level
 if TYPE_CHECKING:
     import zarr
 
-    from rocking.survey.store.zarr_files import Files
+    from rocking.survey.store.chunk_files import Files
 
 
 def make_groups(
@@ -100,7 +100,7 @@ def _array(
 ) -> Any:
     from zarr.core.metadata import ArrayV3Metadata
 
-    from rocking.survey.store.zarr_files import codecs
+    from rocking.survey.store.chunk_files import codecs
 
     return ArrayV3Metadata.from_dict(
         {
@@ -127,7 +127,7 @@ def _sized(array: zarr.Array, shape: tuple[int, ...]) -> zarr.Array:
 
 def _chunks(array: zarr.Array, values: np.ndarray) -> Iterator[tuple[str, bytes]]:
     """The files of a coordinate, which an axis made longer has several of: (key, what it holds)."""
-    from rocking.survey.store.zarr_files import encoded
+    from rocking.survey.store.chunk_files import encoded
 
     (edge,) = array.chunks
     for number, first in enumerate(range(0, values.size, edge)):

@@ -23,10 +23,10 @@ from rocking.kernels.orbits.branch_point import (
     LOOP,
     LOST,
     MANY,
-    MOST_CORRECTIONS,
+    MAX_CORRECTIONS,
+    MIN_STEP,
     RANGE,
     SHRINK,
-    SMALLEST_STEP,
     STRAIGHT,
 )
 from rocking.kernels.orbits.chain_validation import clearance, verify_chain
@@ -93,7 +93,7 @@ def correct_both(p, chain, condition, y, direction, bounds, touches, spare, spen
     """(corrections, -1 where it fails; when the arc touches): Newton's method, in place, across a direction."""
     k = chain.kinds.shape[0]
     before, converged = math.inf, False
-    for corrections in range(MOST_CORRECTIONS):
+    for corrections in range(MAX_CORRECTIONS):
         within = bounds[0] <= y[k] <= bounds[1] and bounds[2] <= y[k + 1] <= bounds[3]
         if not within:
             break
@@ -131,7 +131,7 @@ def next_point(
             if length <= TIGHT * longest:
                 return GRAZED, length, corrections, moved
         length *= SHRINK
-        if length < SMALLEST_STEP * longest:
+        if length < MIN_STEP * longest:
             return LOST, length, corrections, moved
 
 

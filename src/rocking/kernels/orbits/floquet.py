@@ -1,0 +1,83 @@
+"""Floquet multipliers of a periodic orbit, and a norm in which it attracts.
+
+The multipliers are the eigenvalues of the tangent of the return map. An orbit is stable where both lie inside the unit circle.
+"""
+
+import math
+
+from numba import njit
+
+from rocking.kernels.compile_options import ENTRY_POINT, INTERNAL
+from rocking.kernels.numerics.elementary import size
+
+
+@njit(**INTERNAL)
+def eigenvalues(middle, square, determinant):
+    """Both eigenvalues of a real matrix, the larger first, or that above the real axis: (real, imaginary, real, imaginary).
+
+    ``middle`` is half its trace, ``square`` the square of half their difference, which who knows more than the trace and
+    the determinant has without cancellation.
+    """
+    if square < 0.0:
+        root = math.sqrt(-square)
+        return middle, root, middle, -root
+    root = math.sqrt(square)
+    large = middle + root if middle >= 0.0 else middle - root
+    small = determinant / large if large != 0.0 else 0.0
+    return large, 0.0, small, 0.0
+
+
+@njit(**INTERNAL)
+def multipliers(tangent):
+    """The ``eigenvalues`` of a tangent."""
+    apart = 0.5 * (tangent.a - tangent.d)
+    return eigenvalues(
+        0.5 * (tangent.a + tangent.d),
+        apart * apart + tangent.b * tangent.c,
+        tangent.a * tangent.d - tangent.b * tangent.c,
+    )
+
+
+@njit(**ENTRY_POINT)
+def multipliers_plain(middle, square, determinant, mirrored):
+    """``eigenvalues`` for Python, as two complex numbers; ``mirrored``: their squares, of a map over half a period."""
+    real, above, other, below = eigenvalues(middle, square, determinant)
+    if mirrored:
+        turned = 2.0 * abs(real * above)
+        real, other = real * real - above * above, other * other - below * below
+        above, below = (turned, -turned) if turned > 0.0 else (0.0, 0.0)
+    return complex(real, above), complex(other, below)
+
+
+@njit(**INTERNAL)
+def adapted_norm(tangent, radius):
+    """(q11, q12, q22) of a norm in which a matrix with spectral radius < ``radius`` shrinks by ``radius`` at least.
+
+    Q = sum over k of N^kT N^k with N = M/radius, by doubling; without eigenvectors, which coincide where the multipliers do.
+    """
+    q11, q12, q22 = 1.0, 0.0, 1.0
+    # the columns of N are (a, b) and (c, d)
+    a, b, c, d = tangent.a / radius, tangent.b / radius, tangent.c / radius, tangent.d / radius
+    for _ in range(60):
+        # Q N, then N^T of it
+        t11, t12 = q11 * a + q12 * b, q11 * c + q12 * d
+        t21, t22 = q12 * a + q22 * b, q12 * c + q22 * d
+        q11, q12, q22 = q11 + a * t11 + b * t21, q12 + a * t12 + b * t22, q22 + c * t12 + d * t22
+        a, b, c, d = a * a + c * b, b * a + d * b, a * c + c * d, b * c + d * d
+        if max(abs(a), abs(b), abs(c), abs(d)) < 1e-9:
+            break
+    return q11, q12, q22
+
+
+@njit(**INTERNAL)
+def length(norm, x, y):
+    """Length of (x, y) in an adapted norm."""
+    q11, q12, q22 = norm
+    return math.sqrt(q11 * x * x + 2.0 * q12 * x * y + q22 * y * y)
+
+
+@njit(**INTERNAL)
+def spectral_radius(tangent):
+    """The size of the largest multiplier."""
+    real, imaginary, _, _ = multipliers(tangent)
+    return size(real, imaginary)
