@@ -18,13 +18,13 @@ from rocking.model.atomic_files import (
     resolve_path,
 )
 from rocking.model.basin_map import Attractor, BasinMap, UncertaintyExponent
+from rocking.model.binomial_share import LEVEL, Share, wilson
 from rocking.model.block import GRAVITY, Block
 from rocking.model.citation import cite
 from rocking.model.forcing import FREQUENCIES, MAX_AMPLITUDE, MAX_PHASE, PERIODS, Harmonic
 from rocking.model.formatting import counted, ordinal, percent, plus_minus
 from rocking.model.orbit_stability import Stability, stability_of
 from rocking.model.outcome import Outcome, Overturning
-from rocking.model.proportion import LEVEL, Share, wilson
 from rocking.model.si_units import PHYSICAL, block_attributes
 from rocking.model.survey_results import (
     ChaosShare,

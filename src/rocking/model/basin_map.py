@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from attrs import field, frozen
 
 from rocking.model import notebook_renderers
-from rocking.model.proportion import Share
+from rocking.model.binomial_share import Share
 from rocking.model.system import System
 from rocking.model.verdict import Kind, Orbit, Verdict
 

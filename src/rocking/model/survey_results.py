@@ -8,7 +8,7 @@ import numpy as np
 from attrs import field, frozen
 
 from rocking.model import notebook_renderers
-from rocking.model.proportion import Share
+from rocking.model.binomial_share import Share
 from rocking.model.system import State, System
 from rocking.model.verdict import Kind
 

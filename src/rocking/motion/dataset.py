@@ -12,7 +12,7 @@ from rocking.motion.fall import end_shown, sample_step
 if TYPE_CHECKING:
     import xarray as xr
 
-    from rocking.motion.motion import Motion
+    from rocking.motion.trajectory import Trajectory
 
 MAX_STEPS = 100_000_000
 
@@ -31,7 +31,7 @@ EVENTS = {
 }
 
 
-def to_dataset(motion: Motion, step: float | None = None, block: Block | None = None) -> xr.Dataset:
+def to_dataset(motion: Trajectory, step: float | None = None, block: Block | None = None) -> xr.Dataset:
     """A motion sampled in time, with its events; of record="section" the section.
 
     Parameters
@@ -92,7 +92,7 @@ def _units(block: Block | None) -> dict[str, Unit]:
     }
 
 
-def _times(motion: Motion, step: float | None, units: dict[str, Unit]) -> np.ndarray:
+def _times(motion: Trajectory, step: float | None, units: dict[str, Unit]) -> np.ndarray:
     """Normalised times of the samples."""
     second, unit = units["time"]
     if step is None:
@@ -111,7 +111,7 @@ def _variable(along: str, values: Any, unit: Unit, long_name: str) -> tuple[str,
 
 
 def _samples(
-    motion: Motion, times: np.ndarray, units: dict[str, Unit], block: Block | None
+    motion: Trajectory, times: np.ndarray, units: dict[str, Unit], block: Block | None
 ) -> tuple[Variables, Variables]:
     angle, velocity = motion.at(times)
     turning, base = motion.acceleration(times), motion.system.forcing.acceleration(times)
@@ -129,7 +129,7 @@ def _samples(
     return variables, {"time": _variable("time", times, units["time"], "time")}
 
 
-def _events(motion: Motion, units: dict[str, Unit]) -> Variables:
+def _events(motion: Trajectory, units: dict[str, Unit]) -> Variables:
     units = units | {"phase": (1.0, "rad")}
     variables: Variables = {}
     for name, (quantity, long_name) in EVENTS.items():
@@ -141,7 +141,7 @@ def _events(motion: Motion, units: dict[str, Unit]) -> Variables:
     return variables
 
 
-def _section(motion: Motion, units: dict[str, Unit]) -> tuple[Variables, Variables]:
+def _section(motion: Trajectory, units: dict[str, Unit]) -> tuple[Variables, Variables]:
     angle, velocity = motion.section().T
     cycles = np.arange(angle.size)
     variables = {
@@ -157,7 +157,7 @@ def _section(motion: Motion, units: dict[str, Unit]) -> tuple[Variables, Variabl
     }
 
 
-def _attributes(motion: Motion, block: Block | None) -> dict[str, Any]:
+def _attributes(motion: Trajectory, block: Block | None) -> dict[str, Any]:
     """What the motion is, in normalised values, and the block where there is one."""
     forcing, braces, start = motion.system.forcing, motion.system.braces, motion.start
     attributes = {

@@ -14,7 +14,7 @@ from rocking.motion.arc_minimum import NOTHING, Arcs, Array, Extreme, global_min
 from rocking.motion.model_warnings import block_warnings, degrees_too, slender_errors
 
 if TYPE_CHECKING:
-    from rocking.motion.motion import Motion
+    from rocking.motion.trajectory import Trajectory
 
 ORDINARY_FRICTION = 0.5
 """Dry stone, concrete or steel seldom offers less: a motion that needs more is warned of."""
@@ -113,7 +113,7 @@ class Validity:
         return "" if time is None else f"t = {time * self.time_unit:.4g} s, τ = {time:.6g}"
 
 
-def validity(motion: Motion, block: Block) -> Validity:
+def validity(motion: Trajectory, block: Block) -> Validity:
     """Say whether `block` can perform `motion` as the model has it; `Validity` tells what is measured.
 
     The extremes are those of the exact motion: a grid on every arc, refined around each point that can be the extreme.
@@ -167,7 +167,7 @@ def validity(motion: Motion, block: Block) -> Validity:
     return evolve(found, warnings=tuple(warnings(found, motion, block, leaning)))
 
 
-def base_reaction(motion: Motion, block: Block, times: Array, sides: Array) -> tuple[Array, Array]:
+def base_reaction(motion: Trajectory, block: Block, times: Array, sides: Array) -> tuple[Array, Array]:
     """(H/Mg, N/Mg) from the base while the block turns about one corner or rests; positive H pushes to +x.
 
     With δ = θcr − |θ| the centre of mass has x'' = R (cos δ θ'' ± sin δ θ'²), y'' = R (± sin δ θ'' − cos δ θ'²) relative
@@ -182,7 +182,7 @@ def base_reaction(motion: Motion, block: Block, times: Array, sides: Array) -> t
     return sideways, 1 + sides * np.sin(lean) * turning - np.cos(lean) * centripetal
 
 
-def impact_friction(motion: Motion, block: Block) -> Extreme:
+def impact_friction(motion: Trajectory, block: Block) -> Extreme:
     """−|J_x|/J_y = −(1 − e)/((1 + e) tan θcr) of an impact, whatever its speed, and the time of the first one."""
     impacts = motion.events["time"][motion.events["kind"] == "impact"]
     if impacts.size == 0:
@@ -191,14 +191,14 @@ def impact_friction(motion: Motion, block: Block) -> Extreme:
     return Extreme(-(1 - e) / ((1 + e) * math.tan(block.critical_angle)), float(impacts[0]))
 
 
-def largest_angle(motion: Motion, block: Block, until: float) -> float:
+def largest_angle(motion: Trajectory, block: Block, until: float) -> float:
     """Largest |θ| up to a time: at a turn, at an event, at either end."""
     angles = [motion.at([0.0, until])[0]]
     angles += [table["angle"][table["time"] <= until] for table in (motion.peaks, motion.events)]
     return float(np.max(np.abs(np.concatenate(angles)))) * block.critical_angle
 
 
-def warnings(found: Validity, motion: Motion, block: Block, leaning: Arcs) -> Iterator[str]:
+def warnings(found: Validity, motion: Trajectory, block: Block, leaning: Arcs) -> Iterator[str]:
     """One sentence for each assumption that fails, and for each thing that is left out."""
     if found.overturned and found.reaction is None:
         yield "not judged: whether the block slides or jumps, for it is past return from the start"
@@ -216,7 +216,7 @@ def warnings(found: Validity, motion: Motion, block: Block, leaning: Arcs) -> It
         yield f"leaning: the base reactions during {share:.1%} of the time depend on where the brace acts and are left out"
 
 
-def split(motion: Motion, until: float) -> tuple[Arcs, Arcs, Arcs]:
+def split(motion: Trajectory, until: float) -> tuple[Arcs, Arcs, Arcs]:
     """The arcs up to a time on which the block moves, rests (a period of each: the base repeats itself), leans on a brace."""
     events = motion.events["time"]
     edges = np.unique(np.concatenate(([0.0], events[events < until], [until])))

@@ -7,8 +7,8 @@ import numpy as np
 from rocking.model import Outcome, instance, refusal, whole, within
 from rocking.motion import Motion
 from rocking.response import uniform_samples
-from rocking.response.line_names import combination, parts_and_rotation
 from rocking.response.spectral_density import SHARE_OF_LINES, SHOWN, Peak, SpectralDensity
+from rocking.response.spectral_line_names import combination, parts_and_rotation
 from rocking.response.spectral_lines import Line, Taper, find_lines
 
 SEGMENTS = 8

@@ -1,0 +1,189 @@
+"""The trajectory of one simulated block: its events and its state at any time, exactly."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from attrs import field, frozen
+
+from rocking.kernels.march import resample
+from rocking.model import (
+    MAX_PHASE,
+    Outcome,
+    Overturning,
+    ReadOnlyArrays,
+    State,
+    System,
+    read_only,
+    reals,
+    refusal,
+    within,
+)
+from rocking.motion.event_table import absolute, events_of
+from rocking.motion.march_loop import parameters, section_of
+
+TURN = np.dtype([("time", "f8"), ("angle", "f8")])
+
+
+@frozen(eq=False, slots=False)
+class Trajectory(ReadOnlyArrays):
+    """The fields of a `Motion`, and the states between its events."""
+
+    system: System
+    start: State
+    record: str
+    cycles: int
+    final: State
+    outcome: Outcome
+    overturning: Overturning | None
+    impacts: int
+    brace_hits: int
+    peak: float
+    _section_rows: np.ndarray = field(repr=False, converter=read_only)
+    _event_rows: np.ndarray = field(repr=False, converter=read_only)
+
+    @property
+    def duration(self) -> float:
+        """Length of the run, in τ: to the end of its cycles, or to the proof in the last of them that the block overturns."""
+        end = self.cycles * self.system.forcing.period
+        return end if self.overturning is None else min(end, self.overturning.time)
+
+    @cached_property
+    def events(self) -> np.ndarray:
+        """Every event in order, a structured array.
+
+        Its fields are time (τ), cycle (from 0), phase (ψ in [0, 2π)), angle, the velocities before and after, and
+        kind. The kinds are "impact", "brace", "rest", "lift-off", "lean" and "leave". Needs
+        ``record="all"``, as `at` does.
+        """
+        return read_only(events_of(self.system, self._rows(), self.duration))
+
+    @cached_property
+    def peaks(self) -> np.ndarray:
+        """Every local extreme of Θ between events, a structured array: time (τ), angle."""
+        rows = self._rows()
+        begins = absolute(rows, self.system.forcing.period, self.duration)
+        lasts = np.append(
+            np.diff(rows[:, 0]) * self.system.forcing.period + np.diff(rows[:, 1]), self.duration - begins[-1]
+        )
+        found = np.empty((4 * len(rows) + 16, 3))
+        count = resample.turns(self._numbers, rows, lasts, found)
+        if count > len(found):
+            found = np.empty((count, 3))
+            resample.turns(self._numbers, rows, lasts, found)
+        peaks = np.empty(count, TURN)
+        peaks["time"] = begins[found[:count, 0].astype(int)] + found[:count, 1]
+        peaks["angle"] = found[:count, 2]
+        return read_only(peaks)
+
+    def at(self, times: Any) -> tuple[Any, Any]:
+        """Give Θ and Θ' at any times, exactly: the closed form (5) of Yim & Lin (1991) from the event before.
+
+        Parameters
+        ----------
+        times : float or array_like
+            τ, from 0 to `duration`; later too where nothing more can happen: at rest, or overturned while
+            the angle, which grows like e^τ, is within the range of floats.
+
+        Returns
+        -------
+        angle, velocity : float or ndarray
+            Shape of `times`; just after an event at the event's instant.
+
+        Raises
+        ------
+        ValueError
+            Outside these times, or where the motion was not recorded with ``record="all"``.
+
+        Examples
+        --------
+        >>> import rocking as rk
+        >>> free = rk.System(rk.Harmonic(amplitude=0.0, period=1.0), restitution=0.9)
+        >>> angle, velocity = rk.simulate(free, rk.State(angle=0.5), cycles=1).at([0.0, 1.0])
+        >>> angle.round(6).tolist()  # 1 − ½ cosh τ
+        [0.5, 0.22846]
+        """
+        values = self._sampled(times)
+        return values[..., 0][()], values[..., 1][()]
+
+    def acceleration(self, times: Any) -> Any:
+        """Give Θ'' at any times, as `at` gives Θ and Θ', eq. (4) of Yim & Lin (1991); 0 at rest and leaning.
+
+        Examples
+        --------
+        >>> import rocking as rk
+        >>> free = rk.System(rk.Harmonic(amplitude=0.0, period=1.0), restitution=0.9)
+        >>> float(rk.simulate(free, rk.State(angle=0.5), cycles=1).acceleration(0.0))
+        -0.5
+        """
+        return self._sampled(times)[..., 2][()]
+
+    def section(self, phase: float | None = None) -> np.ndarray:
+        """Give the stroboscopic section: Θ, Θ' at every instant with ψ ≡ ``phase`` (mod 2π).
+
+        Parameters
+        ----------
+        phase : float, optional
+            The forcing's own by default: then the first of ``cycles + 1`` rows is the start (a block that
+            overturns has no rows past the proof). For another phase, or where no section was kept, the
+            motion is run again.
+
+        Returns
+        -------
+        ndarray, shape (n, 2)
+            Just after any event at that instant.
+
+        Raises
+        ------
+        TypeError, ValueError
+            For a phase that is no number in [-1000, 1000].
+
+        Examples
+        --------
+        >>> import rocking as rk
+        >>> system = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925)
+        >>> motion = rk.simulate(system, cycles=300, record="section")
+        >>> motion.section().shape, bool(abs(motion.section()[-1] - motion.section()[-2]).max() < 1e-12)
+        ((301, 2), True)
+        """
+        if phase is None:
+            if self.record == "section":
+                return self._section_rows
+            phase = self.system.forcing.phase
+        at = within("phase", phase, -MAX_PHASE, MAX_PHASE)
+        return section_of(self.system, self.start, self.cycles, at)
+
+    @cached_property
+    def _numbers(self) -> Any:
+        return parameters(self.system)
+
+    def _rows(self) -> np.ndarray:
+        if self.record != "all":
+            raise ValueError(
+                refusal("record", "be 'all' for events, peaks and states at any time", self.record)
+            )
+        return self._event_rows
+
+    def _sampled(self, times: Any) -> np.ndarray:
+        rows = self._rows()
+        times = np.asarray(reals("times", times), dtype=float)
+        last = self.duration if self.outcome is Outcome.BOUNDED else np.finfo(float).max
+        if times.size and not (times.min() >= 0.0 and times.max() <= last):
+            outside = times[~((times >= 0.0) & (times <= last))].flat[0]
+            raise ValueError(refusal("times", f"lie in the run, [0, {last:.6g}]", float(outside)))
+        flat = times.ravel()
+        period = self.system.forcing.period
+        begins = absolute(rows, self.system.forcing.period, self.duration)
+        index = np.searchsorted(begins, flat, side="right") - 1
+        cycle = np.floor(flat / period)
+        elapsed = (cycle - rows[index, 0]) * period + ((flat - cycle * period) - rows[index, 1])
+        out = np.empty((flat.size, 3))
+        elapsed = np.where(flat > begins[index], np.maximum(elapsed, 0.0), 0.0)
+        resample.sample(self._numbers, rows, index, elapsed, out)
+        if not np.isfinite(out).all():
+            first = float(flat[np.flatnonzero(~np.isfinite(out).all(axis=1))[0]])
+            allowed = f"lie in the run, [0, {self.duration:.6g}], or so soon after it that the angle is within the range of floats"
+            raise ValueError(refusal("times", allowed, first))
+        return out.reshape(*times.shape, 3) + 0.0
