@@ -209,6 +209,9 @@ def test_a_quasi_periodic_verdict_is_statistical_and_says_over_how_many_cycles()
     torus = rk.classify(rk.System(rk.Harmonic(4.0, period=0.4), 1.0))
     assert (torus.kind, torus.evidence.level) == ("quasi-periodic", "statistical")
     assert f"over {torus.cycles} cycles" in str(torus)
+    limits = {name: value for name, value in torus.evidence.tolerances.items() if "log shear" in name}
+    assert len(limits) == 2
+    assert limits["log shear below 8192 flights"] < limits["log shear"]
 
 
 def agreement_of_halves(values):

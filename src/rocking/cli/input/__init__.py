@@ -1,1 +1,1 @@
-"""What is typed, made into the arguments of public functions."""
+"""Options and study files, made into the arguments of public functions."""

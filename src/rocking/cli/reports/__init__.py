@@ -1,1 +1,1 @@
-"""What is printed of a result."""
+"""Printed results."""

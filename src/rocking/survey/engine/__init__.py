@@ -1,1 +1,1 @@
-"""How a survey is run: its tiles, their cost, progress, and the loop over them."""
+"""The run of a survey: its tiles, their cost, progress, and the loop over them."""

@@ -1,1 +1,1 @@
-"""What is computed at the points of a survey."""
+"""Measurements at the points of a survey."""

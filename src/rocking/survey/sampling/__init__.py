@@ -1,1 +1,1 @@
-"""Where the points of a survey lie, when they are not on a grid."""
+"""Points of a survey that are not on a grid."""

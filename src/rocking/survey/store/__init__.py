@@ -1,1 +1,1 @@
-"""Where the results of a survey are kept: in memory, in a Zarr store, or exported."""
+"""Results of a survey: in memory, in a Zarr store, or exported."""
