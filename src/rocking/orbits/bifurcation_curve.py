@@ -8,14 +8,14 @@ from numpy.typing import NDArray
 
 from rocking.kernels.orbits import arclength
 from rocking.kernels.orbits import bifurcation_curve as kernel
-from rocking.kernels.orbits import branch_point as codes
+from rocking.kernels.orbits.arclength import End
+from rocking.kernels.orbits.branch_point import Special
+from rocking.kernels.orbits.chain_validation import Condition
 from rocking.model import ReadOnlyArrays, instance, one_of, pair, read_only, refusal, whole, within
 from rocking.orbits.branch import SpecialPoint
 from rocking.orbits.continuation import ENDS
-from rocking.orbits.event_chain import IMPACT, NAMES, Chain, parameters, value_of
+from rocking.orbits.event_chain import IMPACT, NAMES, Chain, problem_of, value_of
 from rocking.orbits.parameter import checked_range
-
-KINDS = {"fold": codes.FOLD, "grazing": codes.GRAZING}
 
 
 @frozen(eq=False)
@@ -106,24 +106,19 @@ def bifurcation_curve(
     if first == second or {first, second} == {"period", "frequency"}:
         raise ValueError(refusal("second", f"be another parameter than {first}", second))
     ranges = pair("bounds", bounds, f"be two pairs (lowest, highest), of {first} and of {second}")
-    limits = (*checked_range(first, ranges[0]), *checked_range(second, ranges[1]))
+    limits = [checked_range(name, bounds) for name, bounds in zip((first, second), ranges, strict=True)]
     step = within("step", step, 1e-6, 0.1)
     most = whole("max_points", max_points, 2, 1_000_000)
     here = [value_of(special.orbit.system, name) for name in (first, second)]
-    if not (limits[0] <= here[0] <= limits[1] and limits[2] <= here[1] <= limits[3]):
+    if not all(low <= value <= high for value, (low, high) in zip(here, limits, strict=True)):
         raise ValueError(refusal("bounds", f"hold the special point's own {first} and {second}", bounds))
-    chain, phases, touched, level, touches = _condition(special)
-    condition = kernel.Condition(
-        KINDS.get(special.kind, codes.PERIOD_DOUBLING), touched, level, NAMES[first], NAMES[second]
-    )
-    halves = []
-    for sense in (-1.0, 1.0):
-        y = np.concatenate([phases, here])
-        halves.append(_half(chain, condition, touches, y, sense, limits, step, most))
-    (back, start), (on, end) = halves
+    chain, condition = _condition(special)
+    problem = problem_of(chain, (first, second), limits, step, [high - low for low, high in limits])
+    y = np.append(chain.phases, here)
+    (back, start), (on, end) = (_half(problem, condition, y, sense, most) for sense in (-1.0, 1.0))
     if not len(back):
         raise ValueError(f"special must be a point to follow from; got one that is not met again: {special}")
-    if start == codes.CLOSED:
+    if start == End.CLOSED:
         back, on, end = back[::-1], back[:1], start
     impacts, _ = chain.counts()
     return BifurcationCurve(
@@ -137,36 +132,23 @@ def bifurcation_curve(
 
 
 def _half(
-    chain: Chain,
-    condition: kernel.Condition,
-    touches: float,
-    y: np.ndarray,
-    sense: float,
-    limits: tuple[float, ...],
-    step: float,
-    most: int,
-) -> tuple[np.ndarray, int]:
+    problem: arclength.Problem, condition: Condition, y: np.ndarray, sense: float, most: int
+) -> tuple[np.ndarray, End]:
     """The curve one way: its points, and why it ends."""
-    k = len(chain.kinds)
-    workspace = arclength.make_newton_workspace(k, limits[1] - limits[0], limits[3] - limits[2])
-    direction = np.zeros(k + 2)
-    direction[k] = sense
-    out = np.empty((most, k + 2))
-    count, end = kernel.follow_curve(
-        parameters(chain.system), *chain.fixed, condition, touches, y, direction, limits, step, out, workspace,
-        np.zeros((k + 2, k + 2)), np.zeros(k + 2),
-    )  # fmt: skip
-    return out[:count].copy(), end
+    points, direction = np.empty((most, len(y))), np.zeros(len(y))
+    direction[-2] = sense
+    count, end = kernel.follow_curve(problem, arclength.Tangent(y, direction), condition, points)
+    return points[:count].copy(), end
 
 
-def _condition(special: SpecialPoint) -> tuple[Chain, np.ndarray, int, int, float]:
-    """(chain, phases, arc that touches, what it touches, when): of a grazing without the event that grazes."""
+def _condition(special: SpecialPoint) -> tuple[Chain, Condition]:
+    """What is followed: of a grazing the chain without the event that grazes."""
     if special.kind != "grazing":
-        chain = special._chain._replace(system=special.orbit.system)
-        return chain, special._row[:-1], -1, IMPACT, 0.0
-    touch = special._touch
-    if touch is None:
+        kind = Special.FOLD if special.kind == "fold" else Special.PERIOD_DOUBLING
+        chain = special._chain._replace(system=special.orbit.system, phases=special._row[:-1])
+        return chain, Condition(kind, -1, IMPACT, 0.0)
+    if special._touch is None:
         raise ValueError(
             "special must have an event beside the one that grazes to be followed; got one without"
         )
-    return touch.chain, touch.chain.phases, touch.arc, touch.level, touch.time
+    return special._touch

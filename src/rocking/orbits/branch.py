@@ -112,7 +112,8 @@ class Branch(ReadOnlyArrays):
 
     def orbit(self, index: int) -> Orbit:
         """The orbit of a point, by its index."""
-        return orbit_of(self._chain, self.name, self._rows[index], *self._facts[index, :2])
+        facts = self._facts[index]
+        return orbit_of(self._chain, self.name, self._rows[index], facts["trace"], facts["determinant"])
 
     def at(self, value: float) -> list[Orbit]:
         """Every orbit of the branch at a value of the parameter, in order along it, corrected there by Newton's method."""
@@ -180,10 +181,11 @@ def table(rows: np.ndarray, facts: np.ndarray, mirrored: bool) -> NDArray[np.voi
     points = np.empty(len(rows), POINT)
     points["parameter"] = rows[:, -1]
     points["phase"] = np.mod(rows[:, 0], math.tau)
-    points["velocity"] = facts[:, 3]
-    points["multipliers"] = [multipliers_of(trace, det, mirrored) for trace, det in facts[:, :2]]
-    points["stability"] = [stability_of(trace, det) for trace, det in facts[:, :2]]
+    points["velocity"] = facts["velocity"]
+    traces = facts[["trace", "determinant"]].tolist()
+    points["multipliers"] = [multipliers_of(trace, determinant, mirrored) for trace, determinant in traces]
+    points["stability"] = [stability_of(trace, determinant) for trace, determinant in traces]
     points["stable"] = points["stability"] == Stability.STABLE
-    points["peak"] = facts[:, 2]
+    points["peak"] = facts["peak"]
     points.flags.writeable = False
     return points

@@ -7,20 +7,22 @@ from typing import NamedTuple
 import numpy as np
 
 from rocking.kernels.orbits import arclength
-from rocking.kernels.orbits import branch_point as codes
 from rocking.kernels.orbits import continuation as kernel
+from rocking.kernels.orbits.arclength import End
+from rocking.kernels.orbits.branch_point import Special, multiplier_angle
 from rocking.model import Orbit, instance, one_of, refusal, whole, within
 from rocking.motion import simulate
 from rocking.orbits.branch import Branch, SpecialPoint, table
 from rocking.orbits.event_chain import (
     NAMES,
     Chain,
+    branch_table,
     chain_of,
     clocked,
     equations,
     null_direction,
     orbit_of,
-    parameters,
+    problem_of,
     solved,
     value_of,
 )
@@ -28,21 +30,20 @@ from rocking.orbits.grazing import grazing_at
 from rocking.orbits.parameter import checked_range
 
 KINDS = {
-    codes.FOLD: "fold",
-    codes.SYMMETRY_BREAKING: "symmetry-breaking",
-    codes.PERIOD_DOUBLING: "period-doubling",
-    codes.GRAZING: "grazing",
+    Special.FOLD: "fold",
+    Special.SYMMETRY_BREAKING: "symmetry-breaking",
+    Special.PERIOD_DOUBLING: "period-doubling",
+    Special.GRAZING: "grazing",
 }
 MAX_SPECIAL = 1000
-BORN = -1
+BORN = "born at a special point"
 ENDS = {
-    BORN: "born at a special point",
-    codes.RANGE: "end of the range",
-    codes.GRAZED: "grazing",
-    codes.MERGED: "merges with the branch it was born from",
-    codes.CLOSED: "closed loop",
-    codes.MANY: "as many points as allowed",
-    codes.LOST: "lost: no further point was found, however near",
+    End.RANGE: "end of the range",
+    End.GRAZED: "grazing",
+    End.MERGED: "merges with the branch it was born from",
+    End.CLOSED: "closed loop",
+    End.MANY: "as many points as allowed",
+    End.LOST: "lost: no further point was found, however near",
 }
 # How far from a special point the first point of another branch lies, in steps.
 OFF = 0.1
@@ -113,10 +114,10 @@ def continue_orbit(
     there = solved(chain, parameter, here, chain.phases)
     if not there.found:
         raise ValueError("orbit must be a motion of its own system; got one whose events do not close")
-    halves = [
-        _follow(chain, parameter, there.phases, _upward(len(chain.kinds), sense), (low, high), step, most)
-        for sense in (-1.0, 1.0)
-    ]
+    problem = problem_of(chain, [parameter], [(low, high)], step, [high - low])
+    # the parameter alone changes at first
+    direction = np.append(np.zeros(len(chain.kinds)), 1.0)
+    halves = [_follow(problem, there.phases, sense * direction, most) for sense in (-1.0, 1.0)]
     return _joined(chain, parameter, *halves)
 
 
@@ -152,96 +153,57 @@ def switch_branch(
     step = within("step", step, 1e-6, 0.1)
     most = whole("max_points", max_points, 2, 1_000_000)
     chain, row = _twice(special)
+    problem = problem_of(chain, [special.name], [(low, high)], step, [high - low])
     direction = np.append(null_direction(chain, special.name, row), 0.0)
     senses = (1.0, -1.0) if special.kind == "symmetry-breaking" else (1.0,)
     branches = []
     for sense in senses:
-        off = _beside(chain, special.name, row, sense * direction, (low, high), step)
-        half = _follow(chain, special.name, off, sense * direction, (low, high), step, most)
+        half = _follow(problem, _beside(problem, row, sense * direction), sense * direction, most)
         branches.append(_branch_from_special(chain, special, row, half))
     return tuple(branches)
 
 
-def _beside(
-    chain: Chain,
-    parameter: str,
-    row: np.ndarray,
-    direction: np.ndarray,
-    bounds: tuple[float, float],
-    step: float,
-) -> np.ndarray:
+def _beside(problem: arclength.Problem, row: np.ndarray, direction: np.ndarray) -> np.ndarray:
     """A first point of a branch born at ``row``, so near that its multipliers are still almost those there."""
     for halving in range(MAX_HALVINGS):
-        off = row + OFF * step * 0.5**halving * direction
-        first = _follow(chain, parameter, off, direction, bounds, step, 1)
+        off = row + OFF * problem.longest * 0.5**halving * direction
+        facts = _follow(problem, off, direction, 1).table.facts
         # at the special point a multiplier is 1: the angle is π/4
-        if len(first.facts):
-            angle = codes.multiplier_angle.py_func(*first.facts[0, :2])
-            if abs(angle - 0.25 * np.pi) <= codes.CALM:
+        if len(facts):
+            angle = multiplier_angle.py_func(facts["trace"][0], facts["determinant"][0])
+            if abs(angle - 0.25 * np.pi) <= kernel.CALM:
                 return off
-    return row + OFF * step * direction
+    return row + OFF * problem.longest * direction
 
 
 class _Half(NamedTuple):
-    """A branch one way: what the kernel wrote."""
+    """A branch one way."""
 
-    rows: np.ndarray
-    facts: np.ndarray
-    specials: np.ndarray
-    changes: np.ndarray
-    end: int
+    table: kernel.BranchTable
+    end: End
 
 
-def _upward(k: int, sense: float) -> np.ndarray:
-    """The direction in which the parameter alone changes."""
-    direction = np.zeros(k + 1)
-    direction[k] = sense
-    return direction
-
-
-def _follow(
-    chain: Chain,
-    parameter: str,
-    y: np.ndarray,
-    direction: np.ndarray,
-    bounds: tuple[float, float],
-    step: float,
-    most: int,
-) -> _Half:
+def _follow(problem: arclength.Problem, y: np.ndarray, direction: np.ndarray, most: int) -> _Half:
     """Follow a branch one way from an orbit."""
-    k = len(chain.kinds)
-    out, facts = np.empty((most, k + 1)), np.empty((most, 4))
-    specials, changes = np.empty((MAX_SPECIAL, k + 1)), np.empty((MAX_SPECIAL, 2), np.int64)
-    count, found, end = kernel.follow(
-        parameters(chain.system),
-        NAMES[parameter],
-        *chain.fixed,
-        chain.mirrored,
-        y.copy(),
-        direction.copy(),
-        bounds,
-        step,
-        out,
-        facts,
-        specials,
-        changes,
-        arclength.make_newton_workspace(k, bounds[1] - bounds[0]),
-    )
-    return _Half(out[:count].copy(), facts[:count].copy(), specials[:found], changes[:found], end)
+    table = branch_table(len(y), most, MAX_SPECIAL)
+    count, found, end = kernel.follow(problem, arclength.Tangent(y, direction), table)
+    counts = count, count, found, found
+    return _Half(kernel.BranchTable(*(part[:n].copy() for part, n in zip(table, counts, strict=True))), end)
 
 
 def _joined(chain: Chain, parameter: str, back: _Half, on: _Half) -> Branch:
     """One branch of two halves that begin at the same orbit; of a closed one the first half is the whole."""
-    if back.end == codes.CLOSED:
-        on = _Half(back.rows[-1:], back.facts[-1:], back.specials[:0], back.changes[:0], codes.CLOSED)
-        back = _Half(back.rows[::-1], back.facts[::-1], back.specials[::-1], back.changes[::-1], codes.CLOSED)
-    first = len(back.rows) - 1
-    rows = np.concatenate([back.rows[::-1], on.rows[1:]])
-    facts = np.concatenate([back.facts[::-1], on.facts[1:]])
-    specials = np.concatenate([back.specials[::-1], on.specials])
-    changes = np.concatenate([back.changes[::-1], on.changes])
-    indices = np.concatenate([first + 1 - back.changes[::-1, 1], first + on.changes[:, 1]])
-    return _branch(chain, parameter, rows, facts, (specials, changes[:, 0], indices), (back.end, on.end))
+    if back.end == End.CLOSED:
+        on = _Half(kernel.BranchTable(*(part[:0] for part in back.table)), End.CLOSED)
+        before = back.table
+    else:
+        before = kernel.BranchTable(*(part[::-1] for part in back.table))
+    first = len(before.rows) - 1
+    before.changes["index"] = first + 1 - before.changes["index"]
+    on.table.changes["index"] += first
+    after = on.table._replace(rows=on.table.rows[1:], facts=on.table.facts[1:])
+    joined = kernel.BranchTable(*(np.concatenate(parts) for parts in zip(before, after, strict=True)))
+    return _branch(chain, parameter, joined, (ENDS[back.end], ENDS[on.end]))
 
 
 def _branch_from_special(chain: Chain, special: SpecialPoint, row: np.ndarray, half: _Half) -> Branch:
@@ -249,25 +211,20 @@ def _branch_from_special(chain: Chain, special: SpecialPoint, row: np.ndarray, h
     _, links, trace, determinant = equations(chain, special.name, row)
     orbit = special.orbit
     peak = simulate(clocked(orbit.system, orbit.phase), orbit.state, cycles=orbit.period, record="none").peak
-    rows = np.concatenate([row[None], half.rows])
-    facts = np.concatenate([[[trace, determinant, peak, links[0, 0]]], half.facts])
-    found = half.specials, half.changes[:, 0], half.changes[:, 1] + 1
-    return _branch(chain, special.name, rows, facts, found, (BORN, half.end))
+    first = np.array([(trace, determinant, peak, links["leaves"][0])], kernel.FACTS)
+    half.table.changes["index"] += 1
+    joined = half.table._replace(
+        rows=np.concatenate([row[None], half.table.rows]), facts=np.concatenate([first, half.table.facts])
+    )
+    return _branch(chain, special.name, joined, (BORN, ENDS[half.end]))
 
 
-def _branch(
-    chain: Chain,
-    parameter: str,
-    rows: np.ndarray,
-    facts: np.ndarray,
-    found: tuple[np.ndarray, np.ndarray, np.ndarray],
-    ends: tuple[int, int],
-) -> Branch:
+def _branch(chain: Chain, parameter: str, joined: kernel.BranchTable, ends: tuple[str, str]) -> Branch:
     """The value that users get."""
     impacts, brace_hits = chain.counts()
     special = tuple(
-        _special(chain, parameter, row, int(kind), int(index))
-        for row, kind, index in zip(*found, strict=True)
+        _special(chain, parameter, row, Special(kind), index)
+        for row, (kind, index) in zip(joined.specials, joined.changes.tolist(), strict=True)
     )
     return Branch(
         name=parameter,
@@ -275,19 +232,19 @@ def _branch(
         symmetric=chain.mirrored,
         impacts=impacts,
         brace_hits=brace_hits,
-        points=table(rows, facts, chain.mirrored),
+        points=table(joined.rows, joined.facts, chain.mirrored),
         special=special,
-        ends=(ENDS[ends[0]], ENDS[ends[1]]),
+        ends=ends,
         chain=chain,
-        rows=rows,
-        facts=facts,
+        rows=joined.rows,
+        facts=joined.facts,
     )
 
 
-def _special(chain: Chain, parameter: str, row: np.ndarray, kind: int, index: int) -> SpecialPoint:
+def _special(chain: Chain, parameter: str, row: np.ndarray, kind: Special, index: int) -> SpecialPoint:
     """A special point with its orbit."""
     touch = None
-    if kind == codes.GRAZING:
+    if kind == Special.GRAZING:
         orbit, chain, row, touch = grazing_at(chain, parameter, row)
     else:
         *_, trace, determinant = equations(chain, parameter, row)

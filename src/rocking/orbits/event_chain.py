@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -44,9 +45,9 @@ class Chain(NamedTuple):
         return math.tau * self.period * (0.5 if self.mirrored else 1.0)
 
     @property
-    def fixed(self) -> tuple[np.ndarray, int, float]:
+    def fixed(self) -> kernel.Chain:
         """What does not change along a branch, as the kernels take it."""
-        return self.kinds, self.side, self.turn
+        return kernel.Chain(self.kinds, self.side, self.turn, self.mirrored)
 
     def counts(self) -> tuple[int, int]:
         """Impacts and brace hits in a period."""
@@ -126,25 +127,51 @@ def chain_of(orbit: Orbit) -> Chain:
 def solved(chain: Chain, parameter: str, value: float, phases: np.ndarray) -> Solved:
     """The orbit at one value of a parameter, by Newton's method from near phases; not found too where it is no motion of the block."""
     k = len(chain.kinds)
-    row, facts = np.empty((2, k + 1)), np.empty((2, 4))
-    y, fixed = np.append(phases[:k], value), np.append(np.zeros(k), 1.0)
+    y, alone = np.append(phases[:k], value), np.append(np.zeros(k), 1.0)
     scale = 1e-3 * max(abs(value), 1e-3)
-    count, _, _ = following.follow(
-        parameters(chain.system), NAMES[parameter], *chain.fixed, chain.mirrored, y, fixed,
-        (value - scale, value + scale), 0.1, row[:1], facts[:1], row[1:], np.empty((1, 2), np.int64),
-        arclength.make_newton_workspace(k, scale),
-    )  # fmt: skip
-    return Solved(count == 1, row[0], *facts[0, :3])
+    problem = problem_of(chain, [parameter], [(value - scale, value + scale)], 0.1, [scale])
+    table = branch_table(k + 1, 1, 0)
+    count, *_ = following.follow(problem, arclength.Tangent(y, alone), table)
+    trace, determinant, peak, _ = table.facts[0]
+    return Solved(count == 1, table.rows[0], trace, determinant, peak)
+
+
+def problem_of(
+    chain: Chain,
+    names: Sequence[str],
+    limits: Sequence[tuple[float, float]],
+    longest: float,
+    scales: Sequence[float],
+) -> arclength.Problem:
+    """The problem of following a chain through one or two parameters within limits, each measured in its own scale."""
+    return arclength.Problem(
+        parameters(chain.system),
+        chain.fixed,
+        tuple(NAMES[name] for name in names),
+        tuple(limits),
+        longest,
+        arclength.make_workspace(len(chain.kinds), scales),
+    )
+
+
+def branch_table(n: int, points: int, specials: int) -> following.BranchTable:
+    """Room for so many points and special points of a branch with n unknowns."""
+    return following.BranchTable(
+        np.empty((points, n)),
+        np.empty(points, following.FACTS),
+        np.empty((specials, n)),
+        np.empty(specials, following.CHANGE),
+    )
 
 
 def equations(chain: Chain, parameter: str, row: np.ndarray) -> tuple[np.ndarray, np.ndarray, float, float]:
     """(derivatives, what is known of each arc, trace, determinant) at a point of a branch."""
     k = len(chain.kinds)
-    jacobian, misses, links = np.zeros((k, k + 1)), np.zeros(k), np.zeros((k, 7))
-    trace, determinant = chain_queries.equations(
-        parameters(chain.system), NAMES[parameter], *chain.fixed, row, jacobian, misses, links
+    there = kernel.make_equations(k + 1)
+    trace, determinant = chain_queries.equations_at(
+        parameters(chain.system), NAMES[parameter], chain.fixed, row, there
     )
-    return jacobian, links, trace, determinant
+    return there.jacobian[:k], there.links[:k], trace, determinant
 
 
 def null_direction(chain: Chain, parameter: str, row: np.ndarray) -> np.ndarray:
@@ -189,7 +216,7 @@ def states(chain: Chain, parameter: str, rows: np.ndarray, phase: float, count: 
     """(Θ, Θ') of orbits at a phase of the forcing, in as many successive cycles: (rows, count, 2)."""
     out = np.empty((len(rows), count, 2))
     chain_queries.states_at(
-        parameters(chain.system), NAMES[parameter], *chain.fixed, np.ascontiguousarray(rows), phase, out
+        parameters(chain.system), NAMES[parameter], chain.fixed, np.ascontiguousarray(rows), phase, out
     )
     return out
 

@@ -13,18 +13,18 @@ import numpy as np
 
 from rocking.kernels.orbits import arclength
 from rocking.kernels.orbits import bifurcation_curve as kernel
-from rocking.kernels.orbits import branch_point as codes
+from rocking.kernels.orbits.branch_point import Special
+from rocking.kernels.orbits.chain_validation import Condition
 from rocking.model import Orbit, State
 from rocking.motion import simulate
 from rocking.orbits.event_chain import (
     BRACE,
     IMPACT,
-    NAMES,
     Chain,
     clocked,
     equations,
     orbit_of,
-    parameters,
+    problem_of,
     value_of,
 )
 from rocking.orbits.parameter import with_value
@@ -41,9 +41,7 @@ class Touch(NamedTuple):
     """An orbit without the events that graze, and where it touches instead."""
 
     chain: Chain
-    arc: int
-    level: int  # IMPACT for the base, or BRACE
-    time: float  # from the arc's start to the touch
+    condition: Condition
 
 
 class Grazing(NamedTuple):
@@ -73,8 +71,8 @@ def _touch_of(chain: Chain, parameter: str, row: np.ndarray) -> Touch | None:
     """What an orbit all but touches at the end of its branch; None where nothing is found, or where no event is left."""
     chain = chain._replace(system=with_value(chain.system, parameter, float(row[-1])), phases=row[:-1])
     links = equations(chain, parameter, row)[1]
-    arrives, times, k = np.abs(links[:, 1]), links[:, 6], len(chain.phases)
-    slowest = int(arrives[:k].argmin())
+    arrives, times, k = np.abs(links["arrives"]), links["time"], len(chain.phases)
+    slowest = int(arrives.argmin())
     event = (slowest + 1) % k
     if arrives[slowest] > SLOW:
         return _nearest(chain, orbit_of(chain, parameter, row, math.nan, math.nan))
@@ -87,7 +85,7 @@ def _touch_of(chain: Chain, parameter: str, row: np.ndarray) -> Touch | None:
     chain = _rotated(chain, (event + lost) % k)
     time = (chain.phases[k - lost] - chain.phases[k - lost - 1]) / chain.system.forcing.frequency
     kept = chain._replace(kinds=chain.kinds[: k - lost].copy(), phases=chain.phases[: k - lost])
-    return Touch(kept, k - lost - 1, level, float(time))
+    return Touch(kept, Condition(Special.GRAZING, k - lost - 1, level, float(time)))
 
 
 def _rotated(chain: Chain, by: int) -> Chain:
@@ -125,7 +123,8 @@ def _nearest(chain: Chain, orbit: Orbit) -> Touch | None:
     psi = orbit.phase + math.tau * math.ceil((start - orbit.phase) / math.tau) + forcing.frequency * time
     psi = start + (psi - start) % chain.turn
     arc = int(np.searchsorted(phases, psi, side="right")) - 1
-    return Touch(chain, arc, int(level), float((psi - phases[arc]) / forcing.frequency))
+    time = float((psi - phases[arc]) / forcing.frequency)
+    return Touch(chain, Condition(Special.GRAZING, arc, int(level), time))
 
 
 def _solved(touch: Touch, parameter: str) -> tuple[Touch, np.ndarray] | None:
@@ -136,14 +135,12 @@ def _solved(touch: Touch, parameter: str) -> tuple[Touch, np.ndarray] | None:
     chain, k = touch.chain, len(touch.chain.phases)
     kept = "amplitude" if parameter in ("period", "frequency") else "frequency"
     here = [value_of(chain.system, name) for name in (kept, parameter)]
-    condition = kernel.Condition(codes.GRAZING, touch.arc, touch.level, NAMES[kept], NAMES[parameter])
-    limits = tuple(value * factor for value in here for factor in (1.0 - NEAR, 1.0 + NEAR))
+    limits = [(value * (1.0 - NEAR), value * (1.0 + NEAR)) for value in here]
     out, direction = np.empty((1, k + 2)), np.zeros(k + 2)
     direction[k] = 1.0
-    count, _ = kernel.follow_curve(
-        parameters(chain.system), *chain.fixed, condition, touch.time, np.append(chain.phases, here), direction,
-        limits, 0.1, out, arclength.make_newton_workspace(k, *here), np.zeros((k + 2, k + 2)), np.zeros(k + 2),
-    )  # fmt: skip
+    problem = problem_of(chain, (kept, parameter), limits, 0.1, here)
+    start = arclength.Tangent(np.append(chain.phases, here), direction)
+    count, _ = kernel.follow_curve(problem, start, touch.condition, out)
     if count == 0 or not abs(out[0, -1] - here[1]) <= NEAR * abs(here[1]):
         return None
     row = np.append(out[0, :k], out[0, -1])
@@ -165,7 +162,7 @@ def _eventless(chain: Chain, parameter: str, row: np.ndarray) -> Orbit | None:
         return None
     value = float(brentq(clear, *ends, xtol=1e-300, rtol=8.9e-16))
     system = with_value(chain.system, parameter, value)
-    times = equations(chain, parameter, row)[1][: len(chain.kinds), 6]
+    times = equations(chain, parameter, row)[1]["time"]
     longest = _rotated(chain._replace(phases=row[:-1]), int(times.argmax()))
     # half a forcing period away from the touch
     phase = 0.0 if longest.side > 0 else math.pi

@@ -1,56 +1,122 @@
-"""Steps along a curve of solutions: length, direction and plane of a pseudo-arclength step, in unknowns of unlike kinds."""
+"""Pseudo-arclength continuation of closed chains of arcs through one parameter or two: predictor, corrector, direction, length."""
 
 import math
+from enum import IntEnum
 from typing import NamedTuple
 
 import numpy as np
 from numba import njit
 
-from rocking.kernels.compile_options import INTERNAL
+from rocking.kernels.compile_options import ALLOCATING, INTERNAL
 from rocking.kernels.numerics.linear_solve import solve
+from rocking.kernels.orbits.event_chain import Chain, Equations, make_equations, with_value
+from rocking.kernels.parameters import HarmonicParameters
+
+MAX_CORRECTIONS = 10
+CONVERGED = 1e-11
+# A point that took no more corrections than this is followed by a longer step.
+EASY = 4
+GROW, SHRINK = 1.4, 0.5
+# The shortest step against the longest.
+MIN_STEP = 1e-12
+# The cosine of the angle between the directions of two neighbouring points is greater than this.
+STRAIGHT = 0.97
+# A curve that returns to its start has more points than this.
+LOOP = 8
 
 
-class NewtonWorkspace(NamedTuple):
-    """Working memory for n unknowns."""
+class End(IntEnum):
+    """Why a curve ends."""
+
+    GOING = -1  # it does not
+    RANGE = 0
+    GRAZED = 1
+    MERGED = 2
+    CLOSED = 3
+    MANY = 4  # as many points as were asked for
+    LOST = 5
+
+
+class Workspace(NamedTuple):
+    """Working memory for n unknowns, the phases and the parameters of a chain."""
 
     weights: np.ndarray  # of the square of each unknown in the square of a length
-    jacobian: np.ndarray
+    equations: Equations
+    differences: Equations  # at points nearby
     matrix: np.ndarray
     right: np.ndarray
-    misses: np.ndarray
-    links: np.ndarray
-    aim: np.ndarray
-    trial: np.ndarray
-    kept: np.ndarray
+    aim: np.ndarray  # the point predicted
+    trial: np.ndarray  # the point corrected
+    ahead: np.ndarray  # the curve's direction there
 
 
-def make_newton_workspace(phases, *scales):
-    """Working memory for so many phases, which count as one, and for parameters, each in its own scale."""
+class Problem(NamedTuple):
+    """What does not change along a curve of chains of k events; a point y has k phases, then one or two parameters."""
+
+    p: HarmonicParameters
+    chain: Chain
+    which: tuple  # the parameters
+    limits: tuple  # (lowest, highest) of each
+    longest: float  # length of a step
+    workspace: Workspace
+
+
+class Tangent(NamedTuple):
+    """A point of a curve and the curve's direction there, of length 1."""
+
+    point: np.ndarray
+    direction: np.ndarray
+
+
+def make_workspace(phases, scales):
+    """Return working memory for so many phases, which count as one, and for parameters, each in its own scale."""
     n = phases + len(scales)
     weights = np.append(np.full(phases, 1.0 / phases), [1.0 / scale**2 for scale in scales])
-    vectors = (np.zeros(n) for _ in range(5))
-    right, misses, aim, trial, kept = vectors
-    return NewtonWorkspace(
-        weights, np.zeros((n, n)), np.zeros((n, n)), right, misses, np.zeros((n, 7)), aim, trial, kept
-    )
+    vectors = (np.zeros(n) for _ in range(4))
+    return Workspace(weights, make_equations(n), make_equations(n), np.zeros((n, n)), *vectors)
 
 
 @njit(**INTERNAL)
-def along(direction, y, origin, weights):
-    """How far y lies from ``origin`` along a direction."""
+def system_at(problem, y):
+    """The system at a point."""
+    system, k = problem.p, problem.chain.kinds.shape[0]
+    for i in range(len(problem.which)):
+        system = with_value(system, problem.which[i], y[k + i])
+    return system
+
+
+@njit(**INTERNAL)
+def crossed_limit(problem, y):
+    """(index of the unknown, its limit) where a parameter lies outside its range; index -1 where none does."""
+    k = problem.chain.kinds.shape[0]
+    for i in range(len(problem.limits)):
+        low, high = problem.limits[i]
+        if y[k + i] < low:
+            return k + i, low
+        if y[k + i] > high:
+            return k + i, high
+    return -1, 0.0
+
+
+@njit(**INTERNAL)
+def within_bounds(problem, y):
+    """Whether a point lies beyond no range by more than two steps, so that its end is found from both sides."""
+    k = problem.chain.kinds.shape[0]
+    for i in range(len(problem.limits)):
+        low, high = problem.limits[i]
+        beyond = 2.0 * problem.longest * (high - low)
+        if not max(low - beyond, 0.5 * low) <= y[k + i] <= high + beyond:
+            return False
+    return True
+
+
+@njit(**INTERNAL)
+def inner(a, b, weights):
+    """The scalar product of two directions."""
     total = 0.0
-    for j in range(direction.shape[0]):
-        total += weights[j] * direction[j] * (y[j] - origin[j])
+    for j in range(a.shape[0]):
+        total += weights[j] * a[j] * b[j]
     return total
-
-
-@njit(**INTERNAL)
-def norm(v, weights):
-    """Length of a direction."""
-    total = 0.0
-    for j in range(v.shape[0]):
-        total += weights[j] * v[j] * v[j]
-    return math.sqrt(total)
 
 
 @njit(**INTERNAL)
@@ -59,7 +125,7 @@ def border(workspace, direction):
     n = direction.shape[0]
     for i in range(n - 1):
         for j in range(n):
-            workspace.matrix[i, j] = workspace.jacobian[i, j]
+            workspace.matrix[i, j] = workspace.equations.jacobian[i, j]
     for j in range(n):
         workspace.matrix[n - 1, j] = workspace.weights[j] * direction[j]
 
@@ -67,33 +133,91 @@ def border(workspace, direction):
 @njit(**INTERNAL)
 def newton_step(workspace, y, direction):
     """One step of Newton's method, in place, on the equations and on the plane through ``workspace.aim`` across a direction: its size."""
-    n = direction.shape[0]
+    n, right = direction.shape[0], workspace.right
     border(workspace, direction)
+    for j in range(n):
+        right[j] = y[j] - workspace.aim[j]
+    right[n - 1] = -inner(direction, right, workspace.weights)
     for j in range(n - 1):
-        workspace.right[j] = -workspace.misses[j]
-    workspace.right[n - 1] = -along(direction, y, workspace.aim, workspace.weights)
-    if not solve(workspace.matrix, workspace.right, n):
+        right[j] = -workspace.equations.misses[j]
+    if not solve(workspace.matrix, right, n):
         return math.inf
     size = 0.0
     for j in range(n):
-        y[j] += workspace.right[j]
+        y[j] += right[j]
         # a phase counts in full however many there are
-        size = max(size, abs(workspace.right[j]) * min(1.0, math.sqrt(workspace.weights[j] * n)))
+        size = max(size, abs(right[j]) * min(1.0, math.sqrt(workspace.weights[j] * n)))
     return size
 
 
 @njit(**INTERNAL)
+def correct(assemble, problem, y, direction, condition):
+    """(corrections, the condition there): Newton's method from ``y``, in place, across a direction; -1 corrections where it fails.
+
+    ``assemble`` (problem, y, condition) writes the equations into the workspace and returns whether they hold a meaning there,
+    and the condition with the time of its touch.
+    """
+    before, converged = math.inf, False
+    for corrections in range(MAX_CORRECTIONS):
+        if not within_bounds(problem, y):
+            break
+        valid, condition = assemble(problem, y, condition)
+        if not valid:
+            break
+        if converged:
+            return corrections, condition
+        size = newton_step(problem.workspace, y, direction)
+        if not size < math.inf:
+            break
+        converged = size <= CONVERGED or (size <= 100.0 * CONVERGED and size >= 0.5 * before)
+        before = size
+    return -1, condition
+
+
+@njit(**INTERNAL)
+def predict(tangent, length, workspace):
+    """Write the point a length further along a tangent into ``workspace.aim`` and ``workspace.trial``."""
+    for j in range(tangent.point.shape[0]):
+        workspace.aim[j] = tangent.point[j] + length * tangent.direction[j]
+        workspace.trial[j] = workspace.aim[j]
+
+
+@njit(**INTERNAL)
 def turn_direction(direction, workspace):
-    """The curve's direction where the equations were last assembled, to the same side as before: in place; False where it has none."""
-    n = direction.shape[0]
+    """Write the curve's direction at the point last assembled into ``workspace.ahead``, to the side of ``direction``; False for none."""
+    n, right = direction.shape[0], workspace.right
     border(workspace, direction)
-    workspace.right[:] = 0.0
-    workspace.right[n - 1] = 1.0
-    if not solve(workspace.matrix, workspace.right, n):
+    right[:] = 0.0
+    right[n - 1] = 1.0
+    if not solve(workspace.matrix, right, n):
         return False
-    size = norm(workspace.right, workspace.weights)
-    if not 0.0 < size < math.inf:
-        return False
+    size = math.sqrt(inner(right, right, workspace.weights))
     for j in range(n):
-        direction[j] = workspace.right[j] / size
-    return True
+        workspace.ahead[j] = right[j] / size
+    return 0.0 < size < math.inf
+
+
+@njit(**INTERNAL)
+def bends_little(direction, workspace):
+    """Whether the direction at the point last assembled, left in ``workspace.ahead``, is close to ``direction``."""
+    return (
+        turn_direction(direction, workspace)
+        and inner(workspace.ahead, direction, workspace.weights) > STRAIGHT
+    )
+
+
+@njit(**ALLOCATING)
+def has_closed(start, points, count, problem):
+    """Whether a curve has returned to its start between the last two of so many points."""
+    if count <= LOOP:
+        return False
+    weights = problem.workspace.weights
+    before, now = points[count - 2] - start.point, points[count - 1] - start.point
+    passes = inner(start.direction, before, weights) < 0.0 <= inner(start.direction, now, weights)
+    return passes and math.sqrt(inner(now, now, weights)) < 2.0 * problem.longest
+
+
+@njit(**INTERNAL)
+def next_length(problem, length, corrections):
+    """The length of the next step after one that took so many corrections."""
+    return min(length * (GROW if corrections <= EASY else 1.0), problem.longest)

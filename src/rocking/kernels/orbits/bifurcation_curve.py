@@ -10,221 +10,128 @@ import numpy as np
 from numba import njit
 
 from rocking.kernels.compile_options import ALLOCATING, ALLOCATING_ENTRY, INTERNAL
-from rocking.kernels.orbits.arclength import along, newton_step, norm, turn_direction
-from rocking.kernels.orbits.branch_point import (
-    CLOSED,
-    CONVERGED,
-    EASY,
-    FOLD,
-    GOING,
-    GRAZED,
-    GRAZING,
-    GROW,
-    LOOP,
-    LOST,
-    MANY,
-    MAX_CORRECTIONS,
+from rocking.kernels.orbits.arclength import (
     MIN_STEP,
-    RANGE,
     SHRINK,
-    STRAIGHT,
+    End,
+    Tangent,
+    bends_little,
+    correct,
+    crossed_limit,
+    has_closed,
+    next_length,
+    predict,
+    system_at,
+    turn_direction,
 )
-from rocking.kernels.orbits.chain_validation import clearance, verify_chain
-from rocking.kernels.orbits.event_chain import Chain, assemble, monodromy, with_value
+from rocking.kernels.orbits.branch_point import Special, special_value
+from rocking.kernels.orbits.chain_validation import Condition, clearance, verify_chain
+from rocking.kernels.orbits.event_chain import assemble, monodromy
 
 DIFFERENCE = 1e-6
+# Steps this short against the longest end on another grazing.
 TIGHT = 1e-3
 
 
-class Condition(NamedTuple):
-    """What makes a point special."""
+class CurveStep(NamedTuple):
+    """A step along a curve of special points."""
 
-    kind: int  # FOLD, GRAZING or, for both flips, any other
-    touched: int  # the arc that touches, -1 where none does
-    level: int  # what it touches: IMPACT for the base, BRACE
-    first: int  # the parameters
-    second: int
-
-
-@njit(**INTERNAL)
-def with_both(p, condition, y):
-    """The system at a point."""
-    k = y.shape[0] - 2
-    return with_value(with_value(p, condition.first, y[k]), condition.second, y[k + 1])
+    end: int  # an ``End``
+    length: float
+    corrections: int
+    condition: Condition  # at its end
 
 
 @njit(**INTERNAL)
-def condition_at(p, chain, condition, y, touches, spare, misses, links):
-    """(what vanishes, when the arc touches); NaN where the chain breaks."""
-    q = with_both(p, condition, y)
-    if not assemble(q, condition.first, chain, y, spare, misses, links):
-        return math.nan, touches
-    if condition.kind == GRAZING:
-        return clearance(q, chain, y, links, condition.touched, condition.level, touches)
-    trace, determinant = monodromy(q, chain, links)
-    return (1.0 - trace + determinant if condition.kind == FOLD else 1.0 + trace + determinant), touches
+def condition_at(problem, y, condition, equations):
+    """(what vanishes, when the arc touches), and the ``equations``; NaN where the chain breaks."""
+    q = system_at(problem, y)
+    if not assemble(q, problem.which[0], problem.chain, y, equations):
+        return math.nan, condition.time
+    if condition.kind == Special.GRAZING:
+        return clearance(q, problem.chain, y, equations.links, condition)
+    trace, determinant = monodromy(q, problem.chain, equations.links)
+    return special_value(condition.kind, trace, determinant), condition.time
 
 
 @njit(**INTERNAL)
-def assemble_all(p, chain, condition, y, touches, spare, spent, workspace):
-    """The chain's equations and the condition with their derivatives: the condition, and when the arc touches."""
-    k = chain.kinds.shape[0]
-    n = k + 2
-    for j in range(n):
-        kept, step = y[j], DIFFERENCE / math.sqrt(workspace.weights[j] * (k if j < k else 1))
+def assemble_curve(problem, y, condition):
+    """(whether the condition holds a value, the condition): the chain's equations and the condition with their derivatives."""
+    k, weights = problem.chain.kinds.shape[0], problem.workspace.weights
+    equations, nearby = problem.workspace.equations, problem.workspace.differences
+    for j in range(k + 2):
+        kept, step = y[j], DIFFERENCE / math.sqrt(weights[j] * (k if j < k else 1))
         y[j] = kept + step
-        more, _ = condition_at(p, chain, condition, y, touches, spare, spent, workspace.links)
+        more, _ = condition_at(problem, y, condition, nearby)
         y[j] = kept - step
-        less, _ = condition_at(p, chain, condition, y, touches, spare, spent, workspace.links)
+        less, _ = condition_at(problem, y, condition, nearby)
         y[j] = kept
-        workspace.jacobian[k, j] = (more - less) / (2.0 * step)
-    q = with_both(p, condition, y)
-    assemble(q, condition.second, chain, y, workspace.jacobian, workspace.misses, workspace.links)
+        equations.jacobian[k, j] = (more - less) / (2.0 * step)
+    assemble(system_at(problem, y), problem.which[1], problem.chain, y, equations)
     for i in range(k):
-        workspace.jacobian[i, k + 1] = workspace.jacobian[i, k]
-    value, touches = condition_at(p, chain, condition, y, touches, spare, spent, workspace.links)
-    assemble(q, condition.first, chain, y, workspace.jacobian, workspace.misses, workspace.links)
-    workspace.misses[k] = value
-    return value, touches
+        equations.jacobian[i, k + 1] = equations.jacobian[i, k]
+    value, time = condition_at(problem, y, condition, equations)
+    equations.misses[k] = value
+    return abs(value) < math.inf, Condition(condition.kind, condition.arc, condition.level, time)
 
 
 @njit(**INTERNAL)
-def correct_both(p, chain, condition, y, direction, bounds, touches, spare, spent, workspace):
-    """(corrections, -1 where it fails; when the arc touches): Newton's method, in place, across a direction."""
-    k = chain.kinds.shape[0]
-    before, converged = math.inf, False
-    for corrections in range(MAX_CORRECTIONS):
-        within = bounds[0] <= y[k] <= bounds[1] and bounds[2] <= y[k + 1] <= bounds[3]
-        if not within:
-            break
-        value, touches = assemble_all(p, chain, condition, y, touches, spare, spent, workspace)
-        if not abs(value) < math.inf:
-            break
-        if converged:
-            return corrections, touches
-        size = newton_step(workspace, y, direction)
-        if not size < math.inf:
-            break
-        converged = size <= CONVERGED or (size <= 100.0 * CONVERGED and size >= 0.5 * before)
-        before = size
-    return -1, touches
-
-
-@njit(**ALLOCATING)
-def next_point(
-    p, chain, condition, y, direction, turned, length, longest, bounds, touches, spare, spent, workspace
-):
-    """(GOING or why it ends, length, corrections, when the arc touches); the point is left in ``workspace.trial``."""
+def next_point(problem, tangent, length, condition):
+    """The step to the next point, left in ``workspace.trial``, and the direction there: shorter where the curve bends."""
+    y, links = problem.workspace.trial, problem.workspace.equations.links
     while True:
-        workspace.aim[:] = y + length * direction
-        workspace.trial[:] = workspace.aim
-        corrections, moved = correct_both(
-            p, chain, condition, workspace.trial, direction, bounds, touches, spare, spent, workspace
-        )
-        turned[:] = direction
-        near = corrections >= 0 and turn_direction(turned, workspace)
-        near = near and along(turned, direction, np.zeros(y.shape[0]), workspace.weights) > STRAIGHT
-        if near:
-            q = with_both(p, condition, workspace.trial)
-            if verify_chain(q, chain, workspace.trial, workspace.links, condition.touched, moved)[0]:
-                return GOING, length, corrections, moved
-            if length <= TIGHT * longest:
-                return GRAZED, length, corrections, moved
+        predict(tangent, length, problem.workspace)
+        corrections, moved = correct(assemble_curve, problem, y, tangent.direction, condition)
+        if corrections >= 0 and bends_little(tangent.direction, problem.workspace):
+            if verify_chain(system_at(problem, y), problem.chain, y, links, moved)[0]:
+                return CurveStep(End.GOING, length, corrections, moved)
+            if length <= TIGHT * problem.longest:
+                return CurveStep(End.GRAZED, length, corrections, moved)
         length *= SHRINK
-        if length < MIN_STEP * longest:
-            return LOST, length, corrections, moved
+        if length < MIN_STEP * problem.longest:
+            return CurveStep(End.LOST, length, corrections, moved)
 
 
 @njit(**ALLOCATING)
-def converge_to_bound(p, chain, condition, y, over, limits, bounds, touches, spare, spent, workspace):
+def converge_to_limit(problem, y, index, limit, condition):
     """Whether the curve's point at the end of a range was found: between ``y`` and ``workspace.trial``, in whose place it is left."""
-    index = chain.kinds.shape[0] + over // 2
+    trial, aim = problem.workspace.trial, problem.workspace.aim
     across = np.zeros(y.shape[0])
     across[index] = 1.0
-    share = (limits[over] - y[index]) / (workspace.trial[index] - y[index])
-    workspace.trial[:] = y + share * (workspace.trial - y)
-    workspace.aim[:] = workspace.trial
-    workspace.aim[index] = limits[over]
-    corrections, _ = correct_both(
-        p, chain, condition, workspace.trial, across, bounds, touches, spare, spent, workspace
-    )
-    return corrections >= 0
+    share = (limit - y[index]) / (trial[index] - y[index])
+    trial[:] = y + share * (trial - y)
+    aim[:] = trial
+    aim[index] = limit
+    return correct(assemble_curve, problem, trial, across, condition)[0] >= 0
 
 
 @njit(**ALLOCATING_ENTRY)
-def follow_curve(
-    p, kinds, side, turn, condition, touches, y, direction, limits, longest, out, workspace, spare, spent
-):  # fmt: skip
-    """(points, why it ended): a curve of special points from ``y`` along ``direction``, both changed in place.
+def follow_curve(problem, start, condition, points):
+    """(points, why it ended): a curve of special points from near ``start``, a tangent, along its direction.
 
-    ``out`` (n, k + 2) takes the phases and both parameters; ``limits`` their ranges. ``spare`` and ``spent`` are
-    as large as the Jacobian and a vector.
+    ``points`` (n, k + 2) takes the phases and both parameters.
     """
-    chain = Chain(kinds, side, turn)
-    first_beyond, second_beyond = (
-        2.0 * longest * (limits[1] - limits[0]),
-        2.0 * longest * (limits[3] - limits[2]),
-    )
-    bounds = (
-        max(limits[0] - first_beyond, 0.5 * limits[0]),
-        limits[1] + first_beyond,
-        max(limits[2] - second_beyond, 0.5 * limits[2]),
-        limits[3] + second_beyond,
-    )
-    workspace.aim[:] = y
-    corrections, touches = correct_both(
-        p, chain, condition, y, direction, bounds, touches, spare, spent, workspace
-    )
-    if corrections < 0 or not turn_direction(direction, workspace):
-        return 0, LOST
-    out[0] = y
-    count, length, was = 1, 0.1 * longest, 0.0
-    first, first_direction, turned = y.copy(), direction.copy(), direction.copy()
-    while count < out.shape[0]:
-        end, length, corrections, moved = next_point(
-            p,
-            chain,
-            condition,
-            y,
-            direction,
-            turned,
-            length,
-            longest,
-            bounds,
-            touches,
-            spare,
-            spent,
-            workspace,
-        )
-        if end != GOING:
-            return count, end
-        over = beyond(workspace.trial, limits)
-        if over >= 0:
-            if converge_to_bound(
-                p, chain, condition, y, over, limits, bounds, touches, spare, spent, workspace
-            ):
-                out[count] = workspace.trial
-                count += 1
-            return count, RANGE
-        y[:], touches = workspace.trial, moved
-        direction[:] = turned
-        out[count] = y
-        count += 1
-        now = along(first_direction, y, first, workspace.weights)
-        if count > LOOP and was < 0.0 <= now and norm(y - first, workspace.weights) < 2.0 * longest:
-            return count, CLOSED
-        was = now
-        length = min(length * (GROW if corrections <= EASY else 1.0), longest)
-    return count, MANY
-
-
-@njit(**INTERNAL)
-def beyond(y, limits):
-    """Which end of which range a point lies beyond: its place in ``limits``, -1 for none."""
-    k = y.shape[0] - 2
-    for i in range(2):
-        if y[k + i] < limits[2 * i]:
-            return 2 * i
-        if y[k + i] > limits[2 * i + 1]:
-            return 2 * i + 1
-    return -1
+    workspace = problem.workspace
+    predict(start, 0.0, workspace)
+    corrections, condition = correct(assemble_curve, problem, workspace.trial, start.direction, condition)
+    if corrections < 0 or not turn_direction(start.direction, workspace):
+        return 0, End.LOST
+    points[0] = workspace.trial
+    first = Tangent(points[0], workspace.ahead.copy())
+    tangent, length = first, 0.1 * problem.longest
+    for count in range(1, points.shape[0]):
+        step = next_point(problem, tangent, length, condition)
+        if step.end != End.GOING:
+            return count, step.end
+        index, limit = crossed_limit(problem, workspace.trial)
+        if index >= 0:
+            found = converge_to_limit(problem, tangent.point, index, limit, condition)
+            if found:
+                points[count] = workspace.trial
+            return count + found, End.RANGE
+        points[count], condition = workspace.trial, step.condition
+        if has_closed(first, points, count + 1, problem):
+            return count + 1, End.CLOSED
+        tangent = Tangent(points[count], workspace.ahead.copy())
+        length = next_length(problem, step.length, step.corrections)
+    return points.shape[0], End.MANY

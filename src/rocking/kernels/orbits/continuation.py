@@ -1,48 +1,77 @@
 """A branch of periodic orbits followed through a parameter: pseudo-arclength steps, and the points where something changes."""
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 from numba import njit
 
 from rocking.kernels.compile_options import ALLOCATING, ALLOCATING_ENTRY, INTERNAL
-from rocking.kernels.orbits.arclength import along, norm, turn_direction
-from rocking.kernels.orbits.branch_point import (  # fmt: skip
-    CALM,
-    CLOSE,
-    CLOSED,
-    EASY,
-    FAR,
-    FOLD,
-    GOING,
-    GRAZED,
-    GRAZING,
-    GROW,
-    LOOP,
-    LOST,
-    MANY,
-    MERGED,
+from rocking.kernels.orbits.arclength import (
     MIN_STEP,
-    PARAMETER,
-    PERIOD_DOUBLING,
-    RANGE,
-    SHORTER,
     SHRINK,
-    SLOWEST,
-    STRAIGHT,
-    SYMMETRY_BREAKING,
-    TINY,
+    End,
+    Tangent,
+    bends_little,
+    crossed_limit,
+    has_closed,
+    next_length,
+    turn_direction,
+)
+from rocking.kernels.orbits.branch_point import (
     Point,
-    Step,
+    Special,
     last_valid_length,
     locate,
     multiplier_angle,
     passes_and_returns,
-    step_to,
-    test_value,
+    point_at,
+    special_value,
     validated_point_at,
 )
-from rocking.kernels.orbits.event_chain import Chain
+
+# The multipliers turn by no more than this in a step, as ``multiplier_angle`` measures them: a fold and a flip are pi/2 apart.
+CALM = 0.3
+# Steps this short against the longest end on a grazing.
+CLOSE = 1e-3
+# An event reached more slowly than this grazes, to rounding: the depth of a touch goes like the square of the speed.
+SLOWEST = 1e-8
+# Beyond this on one side the multipliers are far from a fold and from a flip. Towards a grazing they grow without bound.
+FAR = 1.2
+# A step as short as this, against the longest, is taken however the multipliers change in it.
+TINY = 1e-6
+# Phases half a chain apart that differ by half its turn to this: the orbit repeats itself sooner.
+SHORTER = 1e-5
+
+FACTS = np.dtype([(name, float) for name in ("trace", "determinant", "peak", "velocity")])
+CHANGE = np.dtype([("kind", np.int64), ("index", np.int64)])
+
+
+class BranchTable(NamedTuple):
+    """Room for n points and m special points of a branch of chains of k events."""
+
+    rows: np.ndarray  # (n, k + 1): the phases and the parameter
+    facts: np.ndarray  # (n,) of FACTS; the velocity is that after the first event
+    specials: np.ndarray  # (m, k + 1)
+    changes: np.ndarray  # (m,) of CHANGE: a ``Special``, and the number of points before
+
+
+class State(NamedTuple):
+    """Where a branch has been followed to."""
+
+    tangent: Tangent
+    point: Point  # there
+    earlier: Point  # the point before
+    last: float  # length of the step between the two
+    length: float  # of the step to try next
+
+
+class Step(NamedTuple):
+    """A step along a branch."""
+
+    end: int  # an ``End``
+    length: float
+    point: Point
 
 
 @njit(**INTERNAL)
@@ -61,195 +90,150 @@ def repeats_sooner(chain, y):
 
 
 @njit(**INTERNAL)
-def kind_of(what, chain, mirrored, y):
-    """The kind of a special point: at a flip or a fold of an orbit more symmetrical there, that of where it came from."""
-    if what == PERIOD_DOUBLING:
-        return (SYMMETRY_BREAKING if mirrored else PERIOD_DOUBLING), False
+def kind_of(what, chain, y):
+    """(kind of a special point, whether the orbit is more symmetrical there: then the kind is that of where it came from)."""
+    if what == Special.PERIOD_DOUBLING:
+        return (Special.SYMMETRY_BREAKING if chain.mirrored else Special.PERIOD_DOUBLING), False
     if not repeats_sooner(chain, y):
-        return FOLD, False
+        return Special.FOLD, False
     half_turns = round(chain.turn / (2.0 * math.pi))
-    return (PERIOD_DOUBLING if half_turns % 2 == 0 else SYMMETRY_BREAKING), True
+    return (Special.PERIOD_DOUBLING if half_turns % 2 == 0 else Special.SYMMETRY_BREAKING), True
+
+
+@njit(**ALLOCATING)
+def store_point(table, row, point, workspace):
+    """Write the point in ``workspace.trial``."""
+    table.rows[row] = workspace.trial
+    facts = table.facts[row]
+    facts.trace, facts.determinant, facts.peak = point.trace, point.determinant, point.peak
+    facts.velocity = workspace.equations.links[0].leaves
+
+
+@njit(**ALLOCATING)
+def store_special(table, found, y, kind, index):
+    """Write a special point, if there is room: the number of special points then."""
+    if found == table.changes.shape[0]:
+        return found
+    table.specials[found] = y
+    table.changes[found].kind, table.changes[found].index = kind, index
+    return found + 1
 
 
 @njit(**INTERNAL)
-def keep_point(workspace, k, row, point, peak, out, facts):
-    """Write a point: its phases and parameter, then (trace, determinant, peak, speed of the first event)."""
-    for j in range(k + 1):
-        out[row, j] = workspace.trial[j]
-    facts[row, 0], facts[row, 1], facts[row, 2] = point.trace, point.determinant, peak
-    facts[row, 3] = workspace.links[0, 0]
-
-
-@njit(**INTERNAL)
-def slowest_arrival(workspace, k):
+def slowest_arrival(problem):
     """The least speed at which an event of the orbit last solved is reached."""
     slowest = math.inf
-    for j in range(k):
-        slowest = min(slowest, abs(workspace.links[j, 1]))
+    for j in range(problem.chain.kinds.shape[0]):
+        slowest = min(slowest, abs(problem.workspace.equations.links[j].arrives))
     return slowest
 
 
 @njit(**INTERNAL)
-def is_calm(earlier, before, point, length, longest):
+def is_calm(problem, state, point, length):
     """Whether the multipliers change little in a step, so that none passes a special point unseen."""
-    start = multiplier_angle(before.trace, before.determinant)
+    start = multiplier_angle(state.point.trace, state.point.determinant)
     stop = multiplier_angle(point.trace, point.determinant)
     if min(start, stop) > FAR or max(start, stop) < -FAR:
         return True
     if not abs(stop - start) <= CALM:
         return False
-    first = multiplier_angle(earlier.point.trace, earlier.point.determinant)
-    return length <= CLOSE * longest or not passes_and_returns(first, earlier.length, start, stop, length)
+    first = multiplier_angle(state.earlier.trace, state.earlier.determinant)
+    return length <= CLOSE * problem.longest or not passes_and_returns(first, state.last, start, stop, length)
 
 
-@njit(**ALLOCATING)
-def next_step(
-    p, which, chain, y, direction, ahead, length, longest, limits, bounds, before, earlier, workspace
-):
-    """The next point, left in ``workspace.trial``, and the direction there, ``ahead``: with shorter steps where the branch bends.
+@njit(**INTERNAL)
+def next_step(problem, state):
+    """The step to the next point, left in ``workspace.trial``, and the direction there: shorter where the branch bends.
 
-    Steps are shorter too where the multipliers change fast; ``earlier`` is the step before. At a grazing and at the end of
-    the range the step ends on it. Its length is 0 where the last point lies on the grazing, to rounding.
+    Steps are shorter too where the multipliers change fast. At a grazing and at the end of the range the step ends on it.
+    Its length is 0 where the last point lies on the grazing, to rounding.
     """
-    k = chain.kinds.shape[0]
+    workspace, tangent, length, longest = problem.workspace, state.tangent, state.length, problem.longest
     while True:
-        own, point, peak = validated_point_at(p, which, chain, y, direction, length, bounds, workspace)
-        ahead[:] = direction
-        near = point.found and turn_direction(ahead, workspace)
-        near = near and along(ahead, direction, np.zeros(k + 1), workspace.weights) > STRAIGHT
-        near = near and (length <= TINY * longest or is_calm(earlier, before, point, length, longest))
-        if near and (own or length <= CLOSE * longest):
+        point = validated_point_at(problem, tangent, length)
+        near = point.corrections >= 0 and bends_little(tangent.direction, workspace)
+        near = near and (length <= TINY * longest or is_calm(problem, state, point, length))
+        if near and (point.own or length <= CLOSE * longest):
             break
         length *= SHRINK
         if length < MIN_STEP * longest:
-            _, point, peak = validated_point_at(p, which, chain, y, direction, 0.0, bounds, workspace)
-            return Step(GRAZED if slowest_arrival(workspace, k) < SLOWEST else LOST, 0.0, point, peak)
-    end, within = GOING, length
-    if not own:
-        within = last_valid_length(p, which, chain, y, direction, length, bounds, workspace)
-        end = GRAZED
-        _, point, peak = validated_point_at(p, which, chain, y, direction, within, bounds, workspace)
-    value = workspace.trial[k]
-    if not limits[0] <= value <= limits[1]:
-        level = limits[0] if value < limits[0] else limits[1]
-        start = y[k] - level
-        if start != 0.0:
-            within = locate(
-                p,
-                which,
-                chain,
-                y,
-                direction,
-                within,
-                bounds,
-                PARAMETER,
-                level,
-                start,
-                value - level,
-                workspace,
-            )
-        else:
-            within = 0.0
-        if math.isnan(within):
-            return Step(LOST, 0.0, before, peak)
-        _, point, peak = validated_point_at(p, which, chain, y, direction, within, bounds, workspace)
-        workspace.trial[k] = level
-        end = RANGE
-    return Step(end, within, point, peak)
+            point = validated_point_at(problem, tangent, 0.0)
+            return Step(End.GRAZED if slowest_arrival(problem) < SLOWEST else End.LOST, 0.0, point)
+    end = End.GOING
+    if not point.own:
+        end, length = End.GRAZED, last_valid_length(problem, tangent, length)
+        point = validated_point_at(problem, tangent, length)
+    crossed, limit = crossed_limit(problem, workspace.trial)
+    if crossed >= 0:
+        end, length = End.RANGE, length_to_limit(problem, tangent, length, limit)
+        if math.isnan(length):
+            return Step(End.LOST, 0.0, point)
+        point = validated_point_at(problem, tangent, length)
+        workspace.trial[crossed] = limit
+    return Step(end, length, point)
+
+
+@njit(**INTERNAL)
+def length_to_limit(problem, tangent, length, limit):
+    """The length at which the parameter takes the value ``limit`` on the way to ``workspace.trial``; NaN where it is lost."""
+    start = tangent.point[-1] - limit
+    if start == 0.0:
+        return 0.0
+    stop = problem.workspace.trial[-1] - limit
+    return locate(problem, tangent, length, Special.PARAMETER, limit, start, stop)
 
 
 @njit(**ALLOCATING)
-def note_specials(
-    p, which, chain, mirrored, y, direction, step, before, bounds, count, found, specials, changes, workspace
-):
+def store_specials(problem, state, step, table, found, count):
     """(special points so far, length of the step at which the branch merges with a more symmetrical one, NaN where it does not)."""
-    k = chain.kinds.shape[0]
-    for what in (FOLD, PERIOD_DOUBLING):
-        start = test_value(what, before, y, 0.0)
-        stop = test_value(what, step.point, y, 0.0)
-        if (start > 0.0) == (stop > 0.0) or found >= specials.shape[0]:
+    before, after, y = state.point, step.point, problem.workspace.trial
+    for what in (Special.FOLD, Special.PERIOD_DOUBLING):
+        start = special_value(what, before.trace, before.determinant)
+        stop = special_value(what, after.trace, after.determinant)
+        if (start > 0.0) == (stop > 0.0) or found == table.changes.shape[0]:
             continue
-        at = locate(p, which, chain, y, direction, step.length, bounds, what, 0.0, start, stop, workspace)
+        at = locate(problem, state.tangent, step.length, what, 0.0, start, stop)
         if math.isnan(at):
             continue
-        step_to(p, which, chain, y, direction, at, bounds, workspace)
-        kind, merged = kind_of(what, chain, mirrored, workspace.trial)
-        specials[found] = workspace.trial[: k + 1]
-        changes[found, 0], changes[found, 1] = kind, count
-        found += 1
+        point_at(problem, state.tangent, at)
+        kind, merged = kind_of(what, problem.chain, y)
+        found = store_special(table, found, y, kind, count)
         if merged:
             return found, at
     return found, math.nan
 
 
 @njit(**ALLOCATING_ENTRY)
-def follow(
-    p, which, kinds, side, turn, mirrored, y, direction, limits, longest, out, facts, specials, changes, workspace
-):  # fmt: skip
-    """(points, special points, why it ended): a branch from the orbit ``y`` along ``direction``, both changed in place.
-
-    ``out`` (n, k + 1) takes the phases and the parameter of each point, ``facts`` (n, 4) what else is known of
-    it; ``specials`` (m, k + 1) and ``changes`` (m, 2) the special points, their kind and the number of points before.
-    """
-    chain, k = Chain(kinds, side, turn), kinds.shape[0]
-    # beyond the range by a step, to find its end from both sides
-    beyond = 2.0 * longest * (limits[1] - limits[0])
-    bounds = max(limits[0] - beyond, 0.5 * limits[0]), limits[1] + beyond
-    count, found, length, was = 0, 0, 0.1 * longest, 0.0
-    own, before, peak = validated_point_at(p, which, chain, y, direction, 0.0, bounds, workspace)
-    if not own:
-        return count, found, GRAZED if before.found else LOST
-    y[:] = workspace.trial
-    keep_point(workspace, k, count, before, peak, out, facts)
-    count += 1
-    if count == out.shape[0] or not turn_direction(direction, workspace):
-        return count, found, MANY if count == out.shape[0] else LOST
-    first, first_direction, ahead = y.copy(), direction.copy(), direction.copy()
-    none = Point(False, 0, math.nan, math.nan, math.nan, math.nan)
-    earlier = Step(GOING, 1.0, none, 0.0)
-    while count < out.shape[0]:
-        step = next_step(
-            p, which, chain, y, direction, ahead, length, longest, limits, bounds, before, earlier, workspace
-        )
+def follow(problem, start, table):
+    """(points, special points, why it ended): a branch from the orbit near ``start``, a tangent, along its direction."""
+    workspace, rows, found = problem.workspace, table.rows, 0
+    point = validated_point_at(problem, start, 0.0)
+    if not point.own:
+        return 0, found, (End.GRAZED if point.corrections >= 0 else End.LOST)
+    store_point(table, 0, point, workspace)
+    if rows.shape[0] > 1 and not turn_direction(start.direction, workspace):
+        return 1, found, End.LOST
+    first = Tangent(rows[0], workspace.ahead.copy())
+    none = Point(-1, math.nan, math.nan, False, math.nan)
+    state = State(first, point, none, 1.0, 0.1 * problem.longest)
+    for count in range(1, rows.shape[0]):
+        step = next_step(problem, state)
         if step.length == 0.0:
-            if step.end == GRAZED and found < specials.shape[0]:
-                specials[found] = y
-                changes[found, 0], changes[found, 1] = GRAZING, count - 1
-                found += 1
+            if step.end == End.GRAZED:
+                found = store_special(table, found, rows[count - 1], Special.GRAZING, count - 1)
             return count, found, step.end
-        keep_point(workspace, k, count, step.point, step.peak, out, facts)
-        found, merges = note_specials(
-            p,
-            which,
-            chain,
-            mirrored,
-            y,
-            direction,
-            step,
-            before,
-            bounds,
-            count,
-            found,
-            specials,
-            changes,
-            workspace,
-        )
+        store_point(table, count, step.point, workspace)
+        found, merges = store_specials(problem, state, step, table, found, count)
         if not math.isnan(merges):
-            _, point, peak = validated_point_at(p, which, chain, y, direction, merges, bounds, workspace)
-            keep_point(workspace, k, count, point, peak, out, facts)
-            return count + 1, found, MERGED
-        if step.end == GRAZED and found < specials.shape[0]:
-            specials[found] = out[count]
-            changes[found, 0], changes[found, 1] = GRAZING, count
-            found += 1
-        y[:], before, earlier = out[count], step.point, Step(GOING, step.length, before, 0.0)
-        count += 1
-        if step.end != GOING:
-            return count, found, step.end
-        direction[:] = ahead
-        now = along(first_direction, y, first, workspace.weights)
-        if count > LOOP and was < 0.0 <= now and norm(y - first, workspace.weights) < 2.0 * longest:
-            return count, found, CLOSED
-        was = now
-        length = min(step.length * (GROW if before.corrections <= EASY else 1.0), longest)
-    return count, found, MANY
+            store_point(table, count, validated_point_at(problem, state.tangent, merges), workspace)
+            return count + 1, found, End.MERGED
+        if step.end == End.GRAZED:
+            found = store_special(table, found, rows[count], Special.GRAZING, count)
+        if step.end != End.GOING:
+            return count + 1, found, step.end
+        if has_closed(first, rows, count + 1, problem):
+            return count + 1, found, End.CLOSED
+        length = next_length(problem, step.length, step.point.corrections)
+        tangent = Tangent(rows[count], workspace.ahead.copy())
+        state = State(tangent, step.point, state.point, step.length, length)
+    return rows.shape[0], found, End.MANY

@@ -3,7 +3,7 @@
 Between two events at known phases an arc is known outright, eq. (5) of Yim & Lin (1991): the speed it must leave with
 is linear in what it must reach. What is left to satisfy is the impact law, eq. (2), at every event. These equations
 have no crossing to be found and no case to be told apart, so they are smooth through a grazing, where the return map
-itself is not; whether an arc of their solution meets anything on its way is asked afterwards (``certify``).
+itself is not; whether an arc of their solution meets anything on its way is asked afterwards (``verify_chain``).
 """
 
 import math
@@ -13,12 +13,16 @@ import numpy as np
 from numba import njit
 
 from rocking.kernels.arc.solution import arc_from, evaluate
-from rocking.kernels.compile_options import INTERNAL, KERNEL_INLINE
+from rocking.kernels.compile_options import INTERNAL, INTERNAL_INLINE, KERNEL_INLINE
 from rocking.kernels.event_kinds import BRACE, IMPACT
 from rocking.kernels.forcing.harmonic import forcing_term, sensitivities
 from rocking.kernels.parameters import make
 
 AMPLITUDE, FREQUENCY, PERIOD, RESTITUTION, BRACE_ANGLE, BRACE_RESTITUTION = range(6)
+# What is kept of each arc of a chain, as ``Link`` names it.
+LINK = np.dtype(
+    [(name, float) for name in ("leaves", "arrives", "sinh", "cosh", "acceleration", "push", "time")]
+)
 
 
 class Chain(NamedTuple):
@@ -26,9 +30,16 @@ class Chain(NamedTuple):
 
     kinds: np.ndarray  # IMPACT or BRACE: event j, at which arc j begins
     side: int  # of arc 0
-    turn: (
-        float  # forcing phase between event 0 and its repetition, half a period where that is a mirror image
-    )
+    turn: float  # forcing phase between event 0 and its repetition
+    mirrored: bool  # whether that repetition is a mirror image, half a period later
+
+
+class Equations(NamedTuple):
+    """The equations of a chain of k events at a point, and its arcs: what ``assemble`` writes."""
+
+    jacobian: np.ndarray  # (k, k + 1): derivatives by the phases and by one parameter
+    misses: np.ndarray  # (k,): what each equation leaves
+    links: np.ndarray  # (k,) of LINK
 
 
 class Link(NamedTuple):
@@ -48,24 +59,28 @@ class Link(NamedTuple):
     time: float
 
 
+def make_equations(n):
+    """Return arrays for n unknowns: phases and parameters."""
+    return Equations(np.zeros((n, n)), np.zeros(n), np.zeros(n, LINK))
+
+
 @njit(**INTERNAL)
 def with_value(p, which, value):
     """The same system with one parameter changed; its clock starts at the phase 0."""
-    amplitude, frequency, period = p.amplitude, p.frequency, p.period
-    restitution, brace_angle, brace_restitution = p.restitution, p.brace_angle, p.brace_restitution
-    if which == AMPLITUDE:
-        amplitude = value
-    elif which == FREQUENCY:
+    frequency, period = p.frequency, p.period
+    if which == FREQUENCY:
         frequency, period = value, 2.0 * math.pi / value
     elif which == PERIOD:
         frequency, period = 2.0 * math.pi / value, value
-    elif which == RESTITUTION:
-        restitution = value
-    elif which == BRACE_ANGLE:
-        brace_angle = value
-    elif which == BRACE_RESTITUTION:
-        brace_restitution = value
-    return make(amplitude, frequency, period, 0.0, restitution, brace_angle, brace_restitution)
+    return make(
+        value if which == AMPLITUDE else p.amplitude,
+        frequency,
+        period,
+        0.0,
+        value if which == RESTITUTION else p.restitution,
+        value if which == BRACE_ANGLE else p.brace_angle,
+        value if which == BRACE_RESTITUTION else p.brace_restitution,
+    )
 
 
 @njit(**KERNEL_INLINE)
@@ -78,6 +93,25 @@ def place_of(p, kind):
 def law(p, kind):
     """Speed away from an event over speed towards it."""
     return p.brace_restitution if kind == BRACE else p.restitution
+
+
+@njit(**INTERNAL_INLINE)
+def event_after(chain, j):
+    """The event at which arc j ends."""
+    return j + 1 if j + 1 < chain.kinds.shape[0] else 0
+
+
+@njit(**INTERNAL_INLINE)
+def side_after(side, kind):
+    """The side of the arc after an event."""
+    return -side if kind == IMPACT else side
+
+
+@njit(**INTERNAL_INLINE)
+def duration(p, chain, y, j):
+    """Time from event j to the next one, at the phases ``y``."""
+    after = event_after(chain, j)
+    return (y[after] + (chain.turn if after == 0 else 0.0) - y[j]) * p.per_frequency
 
 
 @njit(**KERNEL_INLINE)
@@ -135,26 +169,23 @@ def excess_of(t):
 
 
 @njit(**INTERNAL)
-def assemble(p, which, chain, y, jacobian, misses, links):
-    """The equations of a chain and their derivatives by the k phases and by one parameter, column k; False where events change places.
+def assemble(p, which, chain, y, equations):
+    """Write the equations of a chain at the phases ``y``, and their derivatives; False where events change places.
 
-    Row j: what event j makes of the speed of arc j - 1, less what arc j must leave with. Row j of ``links`` takes
-    (leaves, arrives, sinh, cosh, pull, push, time) of arc j.
+    Row j: what event j makes of the speed of arc j - 1, less what arc j must leave with. Column k of the derivatives is that
+    by the parameter ``which``.
     """
+    jacobian, misses, links = equations
     k = chain.kinds.shape[0]
     jacobian[:k, : k + 1] = 0.0
     misses[:k] = 0.0
     side = chain.side
     for j in range(k):
-        after = j + 1 if j + 1 < k else 0
-        end = y[after] + (chain.turn if after == 0 else 0.0)
-        t = (end - y[j]) * p.per_frequency
+        after, t = event_after(chain, j), duration(p, chain, y, j)
         if not t > 0.0:
             return False
         one = link(p, side, chain.kinds[j], chain.kinds[after], y[j], t)
-        row = links[j]
-        row[0], row[1], row[2], row[3] = one.leaves, one.arrives, one.sinh, one.cosh
-        row[4], row[5], row[6] = one.acceleration, one.push, one.time
+        store_link(links[j], one)
         kept = -law(p, chain.kinds[after])
         misses[j] -= one.leaves
         misses[after] += kept * one.arrives
@@ -165,12 +196,17 @@ def assemble(p, which, chain, y, jacobian, misses, links):
         by = by_parameter(p, which, one)
         jacobian[j, k] -= by[0]
         jacobian[after, k] += kept * by[1]
-        lossy = RESTITUTION if chain.kinds[after] == IMPACT else BRACE_RESTITUTION
-        if which == lossy:
+        if which == (RESTITUTION if chain.kinds[after] == IMPACT else BRACE_RESTITUTION):
             jacobian[after, k] -= one.arrives
-        if chain.kinds[after] == IMPACT:
-            side = -side
+        side = side_after(side, chain.kinds[after])
     return True
+
+
+@njit(**INTERNAL_INLINE)
+def store_link(row, one):
+    """Keep an arc in a row of LINK."""
+    row.leaves, row.arrives, row.sinh, row.cosh = one.leaves, one.arrives, one.sinh, one.cosh
+    row.acceleration, row.push, row.time = one.acceleration, one.push, one.time
 
 
 @njit(**INTERNAL)
@@ -194,15 +230,14 @@ def monodromy(p, chain, links):
 
     In (u, u') of the side the block is on: an event is [[-e, 0], [(u''+ + e u''-)/u'-, -e]].
     """
-    k = chain.kinds.shape[0]
     aa, ab, ba, bb, determinant = 1.0, 0.0, 0.0, 1.0, 1.0
-    for j in range(k):
-        after = j + 1 if j + 1 < k else 0
-        sinh, cosh = links[j, 2], links[j, 3]
+    for j in range(chain.kinds.shape[0]):
+        after, arc = event_after(chain, j), links[j]
+        sinh, cosh = arc.sinh, arc.cosh
         aa, ba = cosh * aa + sinh * ba, sinh * aa + cosh * ba
         ab, bb = cosh * ab + sinh * bb, sinh * ab + cosh * bb
         kept = law(p, chain.kinds[after])
-        shear = (links[after, 4] + kept * links[j, 5]) / links[j, 1]
+        shear = (links[after].acceleration + kept * arc.push) / arc.arrives
         aa, ba = -kept * aa, shear * aa - kept * ba
         ab, bb = -kept * ab, shear * ab - kept * bb
         determinant *= kept * kept
