@@ -171,7 +171,7 @@ def _beside(problem: arclength.Problem, row: np.ndarray, direction: np.ndarray) 
         # at the special point a multiplier is 1: the angle is π/4
         if len(facts):
             angle = multiplier_angle.py_func(facts["trace"][0], facts["determinant"][0])
-            if abs(angle - 0.25 * np.pi) <= kernel.CALM:
+            if abs(angle - 0.25 * np.pi) <= kernel.MAX_TURN:
                 return off
     return row + OFF * problem.longest * direction
 

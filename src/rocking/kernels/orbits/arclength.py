@@ -15,14 +15,16 @@ from rocking.kernels.parameters import HarmonicParameters
 MAX_CORRECTIONS = 10
 CONVERGED = 1e-11
 # A point that took no more corrections than this is followed by a longer step.
-EASY = 4
+FEW_CORRECTIONS = 4
 GROW, SHRINK = 1.4, 0.5
 # The shortest step against the longest.
 MIN_STEP = 1e-12
 # The cosine of the angle between the directions of two neighbouring points is greater than this.
-STRAIGHT = 0.97
+MIN_COSINE = 0.97
+# Steps this short against the longest end on a grazing.
+GRAZING_STEP = 1e-3
 # A curve that returns to its start has more points than this.
-LOOP = 8
+MIN_LOOP = 8
 
 
 class End(IntEnum):
@@ -45,9 +47,9 @@ class Workspace(NamedTuple):
     differences: Equations  # at points nearby
     matrix: np.ndarray
     right: np.ndarray
-    aim: np.ndarray  # the point predicted
-    trial: np.ndarray  # the point corrected
-    ahead: np.ndarray  # the curve's direction there
+    predicted: np.ndarray  # the point predicted
+    corrected: np.ndarray  # the point corrected
+    direction: np.ndarray  # the curve's direction there
 
 
 class Problem(NamedTuple):
@@ -91,16 +93,14 @@ def crossed_limit(problem, y):
     k = problem.chain.kinds.shape[0]
     for i in range(len(problem.limits)):
         low, high = problem.limits[i]
-        if y[k + i] < low:
-            return k + i, low
-        if y[k + i] > high:
-            return k + i, high
+        if not low <= y[k + i] <= high:
+            return k + i, (low if y[k + i] < low else high)
     return -1, 0.0
 
 
 @njit(**INTERNAL)
 def within_bounds(problem, y):
-    """Whether a point lies beyond no range by more than two steps, so that its end is found from both sides."""
+    """Whether no parameter lies beyond its range by more than two steps: a limit is found from both of its sides."""
     k = problem.chain.kinds.shape[0]
     for i in range(len(problem.limits)):
         low, high = problem.limits[i]
@@ -132,14 +132,17 @@ def border(workspace, direction):
 
 @njit(**INTERNAL)
 def newton_step(workspace, y, direction):
-    """One step of Newton's method, in place, on the equations and on the plane through ``workspace.aim`` across a direction: its size."""
+    """Make one step of Newton's method, in place, on the equations and on the plane across ``direction``; return its size.
+
+    The plane goes through ``workspace.predicted``.
+    """
     n, right = direction.shape[0], workspace.right
     border(workspace, direction)
     for j in range(n):
-        right[j] = y[j] - workspace.aim[j]
+        right[j] = y[j] - workspace.predicted[j]
     right[n - 1] = -inner(direction, right, workspace.weights)
     for j in range(n - 1):
-        right[j] = -workspace.equations.misses[j]
+        right[j] = -workspace.equations.residuals[j]
     if not solve(workspace.matrix, right, n):
         return math.inf
     size = 0.0
@@ -152,10 +155,10 @@ def newton_step(workspace, y, direction):
 
 @njit(**INTERNAL)
 def correct(assemble, problem, y, direction, condition):
-    """(corrections, the condition there): Newton's method from ``y``, in place, across a direction; -1 corrections where it fails.
+    """Correct ``y`` by Newton's method, in place, in the plane across ``direction``: (corrections, condition).
 
-    ``assemble`` (problem, y, condition) writes the equations into the workspace and returns whether they hold a meaning there,
-    and the condition with the time of its touch.
+    The number of corrections is -1 where the method fails. ``assemble`` (problem, y, condition) writes the equations into
+    the workspace. It returns whether they exist at y, and the condition with the time of its touch there.
     """
     before, converged = math.inf, False
     for corrections in range(MAX_CORRECTIONS):
@@ -176,15 +179,18 @@ def correct(assemble, problem, y, direction, condition):
 
 @njit(**INTERNAL)
 def predict(tangent, length, workspace):
-    """Write the point a length further along a tangent into ``workspace.aim`` and ``workspace.trial``."""
+    """Write the point a length further along a tangent into ``workspace.predicted`` and ``workspace.corrected``."""
     for j in range(tangent.point.shape[0]):
-        workspace.aim[j] = tangent.point[j] + length * tangent.direction[j]
-        workspace.trial[j] = workspace.aim[j]
+        workspace.predicted[j] = tangent.point[j] + length * tangent.direction[j]
+        workspace.corrected[j] = workspace.predicted[j]
 
 
 @njit(**INTERNAL)
-def turn_direction(direction, workspace):
-    """Write the curve's direction at the point last assembled into ``workspace.ahead``, to the side of ``direction``; False for none."""
+def find_direction(direction, workspace):
+    """Write the curve's direction at the point last assembled into ``workspace.direction``; False where there is none.
+
+    Of the two senses it has that of ``direction``.
+    """
     n, right = direction.shape[0], workspace.right
     border(workspace, direction)
     right[:] = 0.0
@@ -193,23 +199,23 @@ def turn_direction(direction, workspace):
         return False
     size = math.sqrt(inner(right, right, workspace.weights))
     for j in range(n):
-        workspace.ahead[j] = right[j] / size
+        workspace.direction[j] = right[j] / size
     return 0.0 < size < math.inf
 
 
 @njit(**INTERNAL)
 def bends_little(direction, workspace):
-    """Whether the direction at the point last assembled, left in ``workspace.ahead``, is close to ``direction``."""
+    """Whether the direction at the point last assembled, left in ``workspace.direction``, is close to ``direction``."""
     return (
-        turn_direction(direction, workspace)
-        and inner(workspace.ahead, direction, workspace.weights) > STRAIGHT
+        find_direction(direction, workspace)
+        and inner(workspace.direction, direction, workspace.weights) > MIN_COSINE
     )
 
 
 @njit(**ALLOCATING)
 def has_closed(start, points, count, problem):
     """Whether a curve has returned to its start between the last two of so many points."""
-    if count <= LOOP:
+    if count <= MIN_LOOP:
         return False
     weights = problem.workspace.weights
     before, now = points[count - 2] - start.point, points[count - 1] - start.point
@@ -220,4 +226,4 @@ def has_closed(start, points, count, problem):
 @njit(**INTERNAL)
 def next_length(problem, length, corrections):
     """The length of the next step after one that took so many corrections."""
-    return min(length * (GROW if corrections <= EASY else 1.0), problem.longest)
+    return min(length * (GROW if corrections <= FEW_CORRECTIONS else 1.0), problem.longest)

@@ -11,6 +11,7 @@ from numba import njit
 
 from rocking.kernels.compile_options import ALLOCATING, ALLOCATING_ENTRY, INTERNAL
 from rocking.kernels.orbits.arclength import (
+    GRAZING_STEP,
     MIN_STEP,
     SHRINK,
     End,
@@ -18,19 +19,17 @@ from rocking.kernels.orbits.arclength import (
     bends_little,
     correct,
     crossed_limit,
+    find_direction,
     has_closed,
     next_length,
     predict,
     system_at,
-    turn_direction,
 )
 from rocking.kernels.orbits.branch_point import Special, special_value
 from rocking.kernels.orbits.chain_validation import Condition, clearance, verify_chain
 from rocking.kernels.orbits.event_chain import assemble, monodromy
 
 DIFFERENCE = 1e-6
-# Steps this short against the longest end on another grazing.
-TIGHT = 1e-3
 
 
 class CurveStep(NamedTuple):
@@ -71,21 +70,21 @@ def assemble_curve(problem, y, condition):
     for i in range(k):
         equations.jacobian[i, k + 1] = equations.jacobian[i, k]
     value, time = condition_at(problem, y, condition, equations)
-    equations.misses[k] = value
+    equations.residuals[k] = value
     return abs(value) < math.inf, Condition(condition.kind, condition.arc, condition.level, time)
 
 
 @njit(**INTERNAL)
 def next_point(problem, tangent, length, condition):
-    """The step to the next point, left in ``workspace.trial``, and the direction there: shorter where the curve bends."""
-    y, links = problem.workspace.trial, problem.workspace.equations.links
+    """The step to the next point, left in ``workspace.corrected``, and the direction there: shorter where the curve bends."""
+    y, links = problem.workspace.corrected, problem.workspace.equations.links
     while True:
         predict(tangent, length, problem.workspace)
         corrections, moved = correct(assemble_curve, problem, y, tangent.direction, condition)
         if corrections >= 0 and bends_little(tangent.direction, problem.workspace):
             if verify_chain(system_at(problem, y), problem.chain, y, links, moved)[0]:
                 return CurveStep(End.GOING, length, corrections, moved)
-            if length <= TIGHT * problem.longest:
+            if length <= GRAZING_STEP * problem.longest:
                 return CurveStep(End.GRAZED, length, corrections, moved)
         length *= SHRINK
         if length < MIN_STEP * problem.longest:
@@ -94,15 +93,15 @@ def next_point(problem, tangent, length, condition):
 
 @njit(**ALLOCATING)
 def converge_to_limit(problem, y, index, limit, condition):
-    """Whether the curve's point at the end of a range was found: between ``y`` and ``workspace.trial``, in whose place it is left."""
-    trial, aim = problem.workspace.trial, problem.workspace.aim
+    """Whether the curve's point at a limit was found, between ``y`` and ``workspace.corrected``, where it is left."""
+    point, predicted = problem.workspace.corrected, problem.workspace.predicted
     across = np.zeros(y.shape[0])
     across[index] = 1.0
-    share = (limit - y[index]) / (trial[index] - y[index])
-    trial[:] = y + share * (trial - y)
-    aim[:] = trial
-    aim[index] = limit
-    return correct(assemble_curve, problem, trial, across, condition)[0] >= 0
+    share = (limit - y[index]) / (point[index] - y[index])
+    point[:] = y + share * (point - y)
+    predicted[:] = point
+    predicted[index] = limit
+    return correct(assemble_curve, problem, point, across, condition)[0] >= 0
 
 
 @njit(**ALLOCATING_ENTRY)
@@ -113,25 +112,25 @@ def follow_curve(problem, start, condition, points):
     """
     workspace = problem.workspace
     predict(start, 0.0, workspace)
-    corrections, condition = correct(assemble_curve, problem, workspace.trial, start.direction, condition)
-    if corrections < 0 or not turn_direction(start.direction, workspace):
+    corrections, condition = correct(assemble_curve, problem, workspace.corrected, start.direction, condition)
+    if corrections < 0 or not find_direction(start.direction, workspace):
         return 0, End.LOST
-    points[0] = workspace.trial
-    first = Tangent(points[0], workspace.ahead.copy())
+    points[0] = workspace.corrected
+    first = Tangent(points[0], workspace.direction.copy())
     tangent, length = first, 0.1 * problem.longest
     for count in range(1, points.shape[0]):
         step = next_point(problem, tangent, length, condition)
         if step.end != End.GOING:
             return count, step.end
-        index, limit = crossed_limit(problem, workspace.trial)
+        index, limit = crossed_limit(problem, workspace.corrected)
         if index >= 0:
             found = converge_to_limit(problem, tangent.point, index, limit, condition)
             if found:
-                points[count] = workspace.trial
+                points[count] = workspace.corrected
             return count + found, End.RANGE
-        points[count], condition = workspace.trial, step.condition
+        points[count], condition = workspace.corrected, step.condition
         if has_closed(first, points, count + 1, problem):
             return count + 1, End.CLOSED
-        tangent = Tangent(points[count], workspace.ahead.copy())
+        tangent = Tangent(points[count], workspace.direction.copy())
         length = next_length(problem, step.length, step.corrections)
     return points.shape[0], End.MANY

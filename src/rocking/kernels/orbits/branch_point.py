@@ -12,14 +12,14 @@ from rocking.kernels.orbits.chain_validation import UNCONDITIONAL, verify_chain
 from rocking.kernels.orbits.event_chain import assemble, monodromy
 
 # A root along a step is sought to this share of it.
-ROOT = 1e-14
+ROOT_TOLERANCE = 1e-14
 MAX_HALVINGS = 200
 
 
 class Special(IntEnum):
-    """What changes at a point of a branch, or else the end of the range."""
+    """What changes at a point of a branch."""
 
-    PARAMETER = -1
+    BOUND = -1  # nothing: the parameter takes a given value
     FOLD = 0
     SYMMETRY_BREAKING = 1
     PERIOD_DOUBLING = 2
@@ -32,7 +32,7 @@ class Point(NamedTuple):
     corrections: int  # -1 where Newton's method fails
     trace: float
     determinant: float
-    own: bool  # whether the block moves so by itself
+    valid: bool  # whether the block moves so by itself
     peak: float
 
 
@@ -70,13 +70,13 @@ def assemble_branch(problem, y, condition):
 
 @njit(**INTERNAL)
 def point_at(problem, tangent, length):
-    """The point of the branch a length further along a tangent, left in ``workspace.trial``; not certified."""
+    """The point of the branch a length further along a tangent, left in ``workspace.corrected``; not certified."""
     workspace = problem.workspace
     predict(tangent, length, workspace)
-    corrections, _ = correct(assemble_branch, problem, workspace.trial, tangent.direction, UNCONDITIONAL)
+    corrections, _ = correct(assemble_branch, problem, workspace.corrected, tangent.direction, UNCONDITIONAL)
     if corrections < 0:
         return Point(-1, 0.0, 0.0, False, 0.0)
-    q = system_at(problem, workspace.trial)
+    q = system_at(problem, workspace.corrected)
     trace, determinant = monodromy(q, problem.chain, workspace.equations.links)
     return Point(corrections, trace, determinant, False, 0.0)
 
@@ -87,7 +87,7 @@ def validated_point_at(problem, tangent, length):
     point, workspace = point_at(problem, tangent, length), problem.workspace
     if point.corrections < 0:
         return point
-    y, links = workspace.trial, workspace.equations.links
+    y, links = workspace.corrected, workspace.equations.links
     own, peak = verify_chain(system_at(problem, y), problem.chain, y, links, UNCONDITIONAL)
     return Point(point.corrections, point.trace, point.determinant, own, peak)
 
@@ -95,9 +95,7 @@ def validated_point_at(problem, tangent, length):
 @njit(**INTERNAL)
 def special_value(what, trace, determinant):
     """What vanishes at a fold, or at a flip."""
-    if what == Special.FOLD:
-        return 1.0 - trace + determinant
-    return 1.0 + trace + determinant
+    return 1.0 - trace + determinant if what == Special.FOLD else 1.0 + trace + determinant
 
 
 @njit(**INTERNAL)
@@ -107,7 +105,7 @@ def locate(problem, tangent, length, what, level, at_start, at_end):
     By false position with halvings, from the values at both ends.
     """
     a, b, f, g = 0.0, length, at_start, at_end
-    middle, last = 0.5 * length, 0
+    middle, last = length, 0
     for _ in range(MAX_HALVINGS):
         middle = b - g * (b - a) / (g - f)
         if not a < middle < b:
@@ -115,10 +113,10 @@ def locate(problem, tangent, length, what, level, at_start, at_end):
         point = point_at(problem, tangent, middle)
         if point.corrections < 0:
             return math.nan
-        value = problem.workspace.trial[-1] - level
-        if what != Special.PARAMETER:
+        value = problem.workspace.corrected[-1] - level
+        if what != Special.BOUND:
             value = special_value(what, point.trace, point.determinant)
-        if value == 0.0 or b - a <= ROOT * length:
+        if value == 0.0 or b - a <= ROOT_TOLERANCE * length:
             return middle
         # Illinois: an end that stays counts half
         if (value > 0.0) == (g > 0.0):
@@ -137,10 +135,10 @@ def last_valid_length(problem, tangent, length):
     """The greatest length up to which the points are the block's own motion, by halving."""
     a, b = 0.0, length
     for _ in range(MAX_HALVINGS):
-        if b - a <= ROOT * length:
+        if b - a <= ROOT_TOLERANCE * length:
             break
         middle = 0.5 * (a + b)
-        if validated_point_at(problem, tangent, middle).own:
+        if validated_point_at(problem, tangent, middle).valid:
             a = middle
         else:
             b = middle

@@ -24,7 +24,7 @@ LONG_ARCS = 64
 
 
 class Condition(NamedTuple):
-    """What makes a point special; the last three tell where the orbit touches the base or a brace."""
+    """What makes a point special: of a grazing also where the orbit touches the base or a brace."""
 
     kind: int  # a ``Special``
     arc: int  # the arc that touches, -1 where none does
@@ -39,8 +39,8 @@ UNCONDITIONAL = Condition(-1, -1, IMPACT, 0.0)
 def verify_chain(p, chain, y, links, condition):
     """(whether the motion is the chain's own, its largest angle): every arc is marched to its first event.
 
-    An arc that meets something before its end, or leaves an event into the base or the brace, is not; only the arc of the
-    condition may meet what it touches, at about the time of that.
+    An arc that meets something before its end is not, nor one that leaves an event into the base or the brace. Only the arc
+    of the condition may meet what it touches, at about the time of the touch.
     """
     side, peak = chain.side, 0.0
     for j in range(chain.kinds.shape[0]):

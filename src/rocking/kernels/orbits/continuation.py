@@ -8,15 +8,16 @@ from numba import njit
 
 from rocking.kernels.compile_options import ALLOCATING, ALLOCATING_ENTRY, INTERNAL
 from rocking.kernels.orbits.arclength import (
+    GRAZING_STEP,
     MIN_STEP,
     SHRINK,
     End,
     Tangent,
     bends_little,
     crossed_limit,
+    find_direction,
     has_closed,
     next_length,
-    turn_direction,
 )
 from rocking.kernels.orbits.branch_point import (
     Point,
@@ -31,17 +32,15 @@ from rocking.kernels.orbits.branch_point import (
 )
 
 # The multipliers turn by no more than this in a step, as ``multiplier_angle`` measures them: a fold and a flip are pi/2 apart.
-CALM = 0.3
-# Steps this short against the longest end on a grazing.
-CLOSE = 1e-3
+MAX_TURN = 0.3
 # An event reached more slowly than this grazes, to rounding: the depth of a touch goes like the square of the speed.
-SLOWEST = 1e-8
+GRAZING_SPEED = 1e-8
 # Beyond this on one side the multipliers are far from a fold and from a flip. Towards a grazing they grow without bound.
-FAR = 1.2
+FAR_ANGLE = 1.2
 # A step as short as this, against the longest, is taken however the multipliers change in it.
-TINY = 1e-6
+MIN_RESOLVED_STEP = 1e-6
 # Phases half a chain apart that differ by half its turn to this: the orbit repeats itself sooner.
-SHORTER = 1e-5
+SAME_PHASE = 1e-5
 
 FACTS = np.dtype([(name, float) for name in ("trace", "determinant", "peak", "velocity")])
 CHANGE = np.dtype([("kind", np.int64), ("index", np.int64)])
@@ -82,9 +81,8 @@ def repeats_sooner(chain, y):
         return False
     half = k // 2
     for j in range(half):
-        if chain.kinds[j] != chain.kinds[j + half]:
-            return False
-        if abs(y[j + half] - y[j] - 0.5 * chain.turn) > SHORTER:
+        apart = y[j + half] - y[j]
+        if chain.kinds[j] != chain.kinds[j + half] or abs(apart - 0.5 * chain.turn) > SAME_PHASE:
             return False
     return True
 
@@ -102,8 +100,8 @@ def kind_of(what, chain, y):
 
 @njit(**ALLOCATING)
 def store_point(table, row, point, workspace):
-    """Write the point in ``workspace.trial``."""
-    table.rows[row] = workspace.trial
+    """Write the point in ``workspace.corrected``."""
+    table.rows[row] = workspace.corrected
     facts = table.facts[row]
     facts.trace, facts.determinant, facts.peak = point.trace, point.determinant, point.peak
     facts.velocity = workspace.equations.links[0].leaves
@@ -129,21 +127,23 @@ def slowest_arrival(problem):
 
 
 @njit(**INTERNAL)
-def is_calm(problem, state, point, length):
+def resolves_multipliers(problem, state, point, length):
     """Whether the multipliers change little in a step, so that none passes a special point unseen."""
     start = multiplier_angle(state.point.trace, state.point.determinant)
     stop = multiplier_angle(point.trace, point.determinant)
-    if min(start, stop) > FAR or max(start, stop) < -FAR:
+    if min(start, stop) > FAR_ANGLE or max(start, stop) < -FAR_ANGLE:
         return True
-    if not abs(stop - start) <= CALM:
+    if not abs(stop - start) <= MAX_TURN:
         return False
     first = multiplier_angle(state.earlier.trace, state.earlier.determinant)
-    return length <= CLOSE * problem.longest or not passes_and_returns(first, state.last, start, stop, length)
+    return length <= GRAZING_STEP * problem.longest or not passes_and_returns(
+        first, state.last, start, stop, length
+    )
 
 
 @njit(**INTERNAL)
 def next_step(problem, state):
-    """The step to the next point, left in ``workspace.trial``, and the direction there: shorter where the branch bends.
+    """The step to the next point, left in ``workspace.corrected``, and the direction there: shorter where the branch bends.
 
     Steps are shorter too where the multipliers change fast. At a grazing and at the end of the range the step ends on it.
     Its length is 0 where the last point lies on the grazing, to rounding.
@@ -152,41 +152,46 @@ def next_step(problem, state):
     while True:
         point = validated_point_at(problem, tangent, length)
         near = point.corrections >= 0 and bends_little(tangent.direction, workspace)
-        near = near and (length <= TINY * longest or is_calm(problem, state, point, length))
-        if near and (point.own or length <= CLOSE * longest):
+        near = near and (
+            length <= MIN_RESOLVED_STEP * longest or resolves_multipliers(problem, state, point, length)
+        )
+        if near and (point.valid or length <= GRAZING_STEP * longest):
             break
         length *= SHRINK
         if length < MIN_STEP * longest:
             point = validated_point_at(problem, tangent, 0.0)
-            return Step(End.GRAZED if slowest_arrival(problem) < SLOWEST else End.LOST, 0.0, point)
+            return Step(End.GRAZED if slowest_arrival(problem) < GRAZING_SPEED else End.LOST, 0.0, point)
     end = End.GOING
-    if not point.own:
+    if not point.valid:
         end, length = End.GRAZED, last_valid_length(problem, tangent, length)
         point = validated_point_at(problem, tangent, length)
-    crossed, limit = crossed_limit(problem, workspace.trial)
+    crossed, limit = crossed_limit(problem, workspace.corrected)
     if crossed >= 0:
         end, length = End.RANGE, length_to_limit(problem, tangent, length, limit)
         if math.isnan(length):
             return Step(End.LOST, 0.0, point)
         point = validated_point_at(problem, tangent, length)
-        workspace.trial[crossed] = limit
+        workspace.corrected[crossed] = limit
     return Step(end, length, point)
 
 
 @njit(**INTERNAL)
 def length_to_limit(problem, tangent, length, limit):
-    """The length at which the parameter takes the value ``limit`` on the way to ``workspace.trial``; NaN where it is lost."""
+    """The length at which the parameter takes the value ``limit`` on the way to ``workspace.corrected``; NaN where it is lost."""
     start = tangent.point[-1] - limit
     if start == 0.0:
         return 0.0
-    stop = problem.workspace.trial[-1] - limit
-    return locate(problem, tangent, length, Special.PARAMETER, limit, start, stop)
+    stop = problem.workspace.corrected[-1] - limit
+    return locate(problem, tangent, length, Special.BOUND, limit, start, stop)
 
 
 @njit(**ALLOCATING)
 def store_specials(problem, state, step, table, found, count):
-    """(special points so far, length of the step at which the branch merges with a more symmetrical one, NaN where it does not)."""
-    before, after, y = state.point, step.point, problem.workspace.trial
+    """Write the special points along a step: (special points so far, length at which the branch merges).
+
+    It merges with a branch of orbits that are more symmetrical; the length is NaN where it does not.
+    """
+    before, after, y = state.point, step.point, problem.workspace.corrected
     for what in (Special.FOLD, Special.PERIOD_DOUBLING):
         start = special_value(what, before.trace, before.determinant)
         stop = special_value(what, after.trace, after.determinant)
@@ -208,12 +213,12 @@ def follow(problem, start, table):
     """(points, special points, why it ended): a branch from the orbit near ``start``, a tangent, along its direction."""
     workspace, rows, found = problem.workspace, table.rows, 0
     point = validated_point_at(problem, start, 0.0)
-    if not point.own:
+    if not point.valid:
         return 0, found, (End.GRAZED if point.corrections >= 0 else End.LOST)
     store_point(table, 0, point, workspace)
-    if rows.shape[0] > 1 and not turn_direction(start.direction, workspace):
+    if rows.shape[0] > 1 and not find_direction(start.direction, workspace):
         return 1, found, End.LOST
-    first = Tangent(rows[0], workspace.ahead.copy())
+    first = Tangent(rows[0], workspace.direction.copy())
     none = Point(-1, math.nan, math.nan, False, math.nan)
     state = State(first, point, none, 1.0, 0.1 * problem.longest)
     for count in range(1, rows.shape[0]):
@@ -234,6 +239,6 @@ def follow(problem, start, table):
         if has_closed(first, rows, count + 1, problem):
             return count + 1, found, End.CLOSED
         length = next_length(problem, step.length, step.point.corrections)
-        tangent = Tangent(rows[count], workspace.ahead.copy())
+        tangent = Tangent(rows[count], workspace.direction.copy())
         state = State(tangent, step.point, state.point, step.length, length)
     return rows.shape[0], found, End.MANY

@@ -38,7 +38,7 @@ class Equations(NamedTuple):
     """The equations of a chain of k events at a point, and its arcs: what ``assemble`` writes."""
 
     jacobian: np.ndarray  # (k, k + 1): derivatives by the phases and by one parameter
-    misses: np.ndarray  # (k,): what each equation leaves
+    residuals: np.ndarray  # (k,): what each equation leaves
     links: np.ndarray  # (k,) of LINK
 
 
@@ -49,9 +49,7 @@ class Link(NamedTuple):
     arrives: float
     by_place: tuple  # of both, by the phase at its start with the phase at its end kept
     by_end: tuple  # by the phase at its end
-    by_amplitude: tuple
-    by_frequency: tuple
-    by_brace: tuple
+    by_parameter: tuple  # by each of the parameters, the phases kept
     sinh: float
     cosh: float
     acceleration: float  # u'' at its start
@@ -141,15 +139,16 @@ def link(p, side, first, last, psi, t):
     by_f = place_f / sinh, place_f * cosh / sinh - rate_f
     held, met = 1.0 if first == BRACE else 0.0, 1.0 if last == BRACE else 0.0
     brace = (met - held * cosh) / sinh
-    k = p.per_frequency
+    by_brace, none = (brace, held * sinh + brace * cosh), (0.0, 0.0)
+    k, frequency_by_period = p.per_frequency, -p.frequency / p.period
+    by_frequency = by_f[0] - k * t * by_time[0], by_f[1] - k * t * by_time[1]
+    by_period = frequency_by_period * by_frequency[0], frequency_by_period * by_frequency[1]
     return Link(
         leaves,
         arrives,
         (by_psi[0] - k * by_time[0], by_psi[1] - k * by_time[1]),
         (k * by_time[0], k * by_time[1]),
-        by_amplitude,
-        (by_f[0] - k * t * by_time[0], by_f[1] - k * t * by_time[1]),
-        (brace, held * sinh + brace * cosh),
+        (by_amplitude, by_frequency, by_period, none, by_brace, none),
         sinh,
         cosh,
         arc.acceleration,
@@ -172,13 +171,13 @@ def excess_of(t):
 def assemble(p, which, chain, y, equations):
     """Write the equations of a chain at the phases ``y``, and their derivatives; False where events change places.
 
-    Row j: what event j makes of the speed of arc j - 1, less what arc j must leave with. Column k of the derivatives is that
-    by the parameter ``which``.
+    Row j: what event j makes of the speed of arc j - 1, less what arc j must leave with. Column k holds the derivatives by
+    the parameter ``which``.
     """
-    jacobian, misses, links = equations
+    jacobian, residuals, links = equations
     k = chain.kinds.shape[0]
     jacobian[:k, : k + 1] = 0.0
-    misses[:k] = 0.0
+    residuals[:k] = 0.0
     side = chain.side
     for j in range(k):
         after, t = event_after(chain, j), duration(p, chain, y, j)
@@ -187,13 +186,13 @@ def assemble(p, which, chain, y, equations):
         one = link(p, side, chain.kinds[j], chain.kinds[after], y[j], t)
         store_link(links[j], one)
         kept = -law(p, chain.kinds[after])
-        misses[j] -= one.leaves
-        misses[after] += kept * one.arrives
+        residuals[j] -= one.leaves
+        residuals[after] += kept * one.arrives
         jacobian[j, j] -= one.by_place[0]
         jacobian[j, after] -= one.by_end[0]
         jacobian[after, j] += kept * one.by_place[1]
         jacobian[after, after] += kept * one.by_end[1]
-        by = by_parameter(p, which, one)
+        by = one.by_parameter[which]
         jacobian[j, k] -= by[0]
         jacobian[after, k] += kept * by[1]
         if which == (RESTITUTION if chain.kinds[after] == IMPACT else BRACE_RESTITUTION):
@@ -207,21 +206,6 @@ def store_link(row, one):
     """Keep an arc in a row of LINK."""
     row.leaves, row.arrives, row.sinh, row.cosh = one.leaves, one.arrives, one.sinh, one.cosh
     row.acceleration, row.push, row.time = one.acceleration, one.push, one.time
-
-
-@njit(**INTERNAL)
-def by_parameter(p, which, one):
-    """The derivatives of an arc's speeds by the parameter, the phases kept."""
-    if which == AMPLITUDE:
-        return one.by_amplitude
-    if which == FREQUENCY:
-        return one.by_frequency
-    if which == PERIOD:
-        turned = -p.frequency / p.period
-        return turned * one.by_frequency[0], turned * one.by_frequency[1]
-    if which == BRACE_ANGLE:
-        return one.by_brace
-    return 0.0, 0.0
 
 
 @njit(**INTERNAL)
