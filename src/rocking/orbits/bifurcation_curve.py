@@ -8,13 +8,10 @@ from numpy.typing import NDArray
 
 from rocking.kernels.orbits import arclength
 from rocking.kernels.orbits import bifurcation_curve as kernel
-from rocking.kernels.orbits.arclength import End
-from rocking.kernels.orbits.branch_point import Special
-from rocking.kernels.orbits.chain_validation import Condition
 from rocking.model import ReadOnlyArrays, instance, one_of, pair, read_only, refusal, whole, within
 from rocking.orbits.branch import SpecialPoint
 from rocking.orbits.continuation import ENDS
-from rocking.orbits.event_chain import IMPACT, NAMES, Chain, problem_of, value_of
+from rocking.orbits.event_chain import IMPACT, NAMES, Chain, Condition, End, Special, problem_of, value_of
 from rocking.orbits.parameter import checked_range
 
 

@@ -6,16 +6,16 @@ from typing import NamedTuple
 
 import numpy as np
 
-from rocking.kernels.orbits import arclength
+from rocking.kernels.orbits import arclength, branch_point
 from rocking.kernels.orbits import continuation as kernel
-from rocking.kernels.orbits.arclength import End
-from rocking.kernels.orbits.branch_point import Special, multiplier_angle
 from rocking.model import Orbit, instance, one_of, refusal, whole, within
 from rocking.motion import simulate
 from rocking.orbits.branch import Branch, SpecialPoint, table
 from rocking.orbits.event_chain import (
     NAMES,
     Chain,
+    End,
+    Special,
     branch_table,
     chain_of,
     clocked,
@@ -170,7 +170,7 @@ def _beside(problem: arclength.Problem, row: np.ndarray, direction: np.ndarray) 
         facts = _follow(problem, off, direction, 1).table.facts
         # at the special point a multiplier is 1: the angle is π/4
         if len(facts):
-            angle = multiplier_angle.py_func(facts["trace"][0], facts["determinant"][0])
+            angle = branch_point.multiplier_angle.py_func(facts["trace"][0], facts["determinant"][0])
             if abs(angle - 0.25 * np.pi) <= kernel.MAX_TURN:
                 return off
     return row + OFF * problem.longest * direction

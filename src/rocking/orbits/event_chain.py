@@ -11,7 +11,7 @@ from attrs import evolve
 
 from rocking.kernels import event_kinds
 from rocking.kernels import parameters as numbers
-from rocking.kernels.orbits import arclength, chain_queries, floquet
+from rocking.kernels.orbits import arclength, branch_point, chain_queries, chain_validation, floquet
 from rocking.kernels.orbits import continuation as following
 from rocking.kernels.orbits import event_chain as kernel
 from rocking.model import Orbit, State, System, refusal
@@ -19,6 +19,9 @@ from rocking.motion import simulate
 from rocking.orbits.parameter import with_value
 
 IMPACT, BRACE = event_kinds.IMPACT, event_kinds.BRACE
+Condition = chain_validation.Condition
+End = arclength.End
+Special = branch_point.Special
 NAMES = {
     "amplitude": kernel.AMPLITUDE,
     "frequency": kernel.FREQUENCY,
@@ -127,7 +130,8 @@ def chain_of(orbit: Orbit) -> Chain:
 def solved(chain: Chain, parameter: str, value: float, phases: np.ndarray) -> Solved:
     """The orbit at one value of a parameter, by Newton's method from near phases; not found too where it is no motion of the block."""
     k = len(chain.kinds)
-    y, alone = np.append(phases[:k], value), np.append(np.zeros(k), 1.0)
+    y, alone = np.append(phases[:k], value), np.zeros(k + 1)
+    alone[k] = 1.0
     scale = 1e-3 * max(abs(value), 1e-3)
     problem = problem_of(chain, [parameter], [(value - scale, value + scale)], 0.1, [scale])
     table = branch_table(k + 1, 1, 0)

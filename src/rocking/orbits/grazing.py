@@ -13,14 +13,14 @@ import numpy as np
 
 from rocking.kernels.orbits import arclength
 from rocking.kernels.orbits import bifurcation_curve as kernel
-from rocking.kernels.orbits.branch_point import Special
-from rocking.kernels.orbits.chain_validation import Condition
 from rocking.model import Orbit, State
 from rocking.motion import simulate
 from rocking.orbits.event_chain import (
     BRACE,
     IMPACT,
     Chain,
+    Condition,
+    Special,
     clocked,
     equations,
     orbit_of,

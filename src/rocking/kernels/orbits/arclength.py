@@ -73,9 +73,9 @@ class Tangent(NamedTuple):
 def make_workspace(phases, scales):
     """Return working memory for so many phases, which count as one, and for parameters, each in its own scale."""
     n = phases + len(scales)
-    weights = np.append(np.full(phases, 1.0 / phases), [1.0 / scale**2 for scale in scales])
-    vectors = (np.zeros(n) for _ in range(4))
-    return Workspace(weights, make_equations(n), make_equations(n), np.zeros((n, n)), *vectors)
+    weights = np.full(n, 1.0 / phases)
+    weights[phases:] = [1.0 / scale**2 for scale in scales]
+    return Workspace(weights, make_equations(n), make_equations(n), np.zeros((n, n)), *np.zeros((4, n)))
 
 
 @njit(**INTERNAL)
