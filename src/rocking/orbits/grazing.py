@@ -28,7 +28,7 @@ from rocking.orbits.event_chain import (
     value_of,
 )
 from rocking.orbits.parameter import with_value
-from rocking.orbits.saddle_orbits import response, saddle
+from rocking.orbits.saddle_orbits import response, saddle, saddle_events
 
 # An event this slow is the one that grazes.
 SLOW = 1e-4
@@ -183,4 +183,5 @@ def _eventless(chain: Chain, parameter: str, row: np.ndarray) -> Orbit | None:
         multipliers=(complex(grown), complex(1.0 / grown)),
         residual=math.hypot(final.angle - start.angle, final.velocity - start.velocity),
         simulate=simulate,
+        events=saddle_events(system, phase, start),
     )
