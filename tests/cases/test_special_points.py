@@ -1,6 +1,7 @@
 """Special points of branches: none is lost at the default step, and grazings are located to rounding."""
 
 import math
+import pickle
 from collections import Counter
 
 import numpy as np
@@ -112,6 +113,24 @@ def test_the_unsymmetric_orbit_ends_where_the_saddle_orbit_touches_the_base(step
         for phase in np.linspace(0.1, 2.0, 7):
             psi = phase if side > 0 else phase + math.pi
             assert orbit.at(psi).angle == pytest.approx(side + math.cos(psi), abs=1e-12)
+
+
+def test_an_orbit_at_a_grazing_is_not_followed():
+    """Whether a run meets the impact that grazes is a matter of rounding: with it the orbit is another one."""
+    pair = rk.switch_branch(symmetry_breaking(*TUTORIAL), (7.0, 20.0))
+    mode = rk.theory.symmetric_modes(2.0, 1.0, 0.925, 1)[0]
+    braced = rk.System(mode.system.forcing, 0.925, rk.Braces(1.0, 0.9))
+    touching = rk.continue_orbit(rk.find_orbit(braced, mode.start, 1), "brace_angle", (0.05, 2.0))
+    grazings = [(branch, *special(branch, "grazing")) for branch in (*pair, touching)]
+    for branch, point in grazings:
+        bounds = 0.5 * point.parameter, 1.5 * point.parameter
+        for orbit in (point.orbit, pickle.loads(pickle.dumps(point.orbit))):
+            with pytest.raises(
+                ValueError, match=r"^orbit must not be that of a grazing, .*branch\.orbit\(index\)"
+            ):
+                rk.continue_orbit(orbit, branch.name, bounds)
+        beside = branch.orbit(point.index - 3 if point.index > 3 else 3)
+        assert len(rk.continue_orbit(beside, branch.name, bounds)) > 10
 
 
 def test_the_grazing_of_the_period_8_branch_does_not_depend_on_the_step():

@@ -104,6 +104,7 @@ class Orbit:
     residual: float
     _simulate: Callable[..., Any] = field(repr=False, eq=False)
     _events: tuple[OrbitEvent, ...] = field(default=(), repr=False, eq=False)
+    _grazes: bool = field(default=False, repr=False, eq=False)
 
     @property
     def start(self) -> State:

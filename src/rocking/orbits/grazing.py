@@ -10,6 +10,7 @@ import math
 from typing import NamedTuple
 
 import numpy as np
+from attrs import evolve
 
 from rocking.kernels.orbits import arclength
 from rocking.kernels.orbits import bifurcation_curve as kernel
@@ -57,6 +58,12 @@ class Grazing(NamedTuple):
 
 def grazing_at(chain: Chain, parameter: str, row: np.ndarray) -> Grazing:
     """The grazing at which a branch ends, located to rounding; where that fails, as near as the branch was followed."""
+    found = _located(chain, parameter, row)
+    return found._replace(orbit=evolve(found.orbit, grazes=True))
+
+
+def _located(chain: Chain, parameter: str, row: np.ndarray) -> Grazing:
+    """Return the grazing with the orbit as it was solved."""
     touch = _touch_of(chain, parameter, row)
     if touch is not None and (solved := _solved(touch, parameter)):
         touch, row = solved
