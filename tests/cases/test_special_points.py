@@ -140,9 +140,17 @@ def test_the_grazing_of_the_period_8_branch_does_not_depend_on_the_step():
         for _ in range(3):
             branch = rk.switch_branch(special(branch, "period-doubling")[0], (9.0, 12.0 + step), step)[0]
         assert branch.period == 8
-        found.append(special(branch, "grazing")[0].parameter)
+        (point,) = special(branch, "grazing")
+        found.append(point.parameter)
     assert np.ptp(found) <= 1e-13 * found[0]
     assert found[0] == pytest.approx(11.86655712, abs=1e-7)
+    # the orbit there lacks two impacts, and touches the base instead: Θ turns within half a sample of Θ = 0, where |Θ''| < 13
+    assert point.orbit.impacts == branch.impacts - 2
+    angles = np.array([point.orbit.at(phase).angle for phase in np.linspace(0.0, 16.0 * math.pi, 4001)])
+    before, size, after = angles[:-2], np.abs(angles[1:-1]), angles[2:]
+    turns = (size < np.abs(before)) & (size < np.abs(after)) & (np.sign(before) == np.sign(after))
+    half = 0.5 * 8 * TUTORIAL[0] / 4000
+    assert size[turns].min() < 0.5 * 13.0 * half**2
 
 
 def test_a_branch_ends_at_its_grazing_wherever_it_is_begun():
