@@ -353,7 +353,6 @@ def test_what_others_keep_in_a_store_is_passed_over_without_a_warning(copied, pl
         (place / "mine" / "notes.txt").write_text("mine")
         (place / "notes.txt").write_text("mine")
     assert rk.parametric_map(**ASKED, store=copied).load().equals(plain)
-    rk.plot.parametric_map(copied)
 
 
 def test_store_of_another_survey_is_left_as_a_killed_run_left_it(copied):

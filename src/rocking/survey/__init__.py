@@ -14,7 +14,6 @@ from rocking.survey.safe_basin import safe_basin
 from rocking.survey.sampling.random_points import MAX_SAMPLES, MAX_SEED
 from rocking.survey.spec import check_quantity
 from rocking.survey.store.export import counts, tables, to_netcdf
-from rocking.survey.store.store import open_level
 
 __all__ = [
     "MAX_PHASES",
@@ -28,7 +27,6 @@ __all__ = [
     "classify_with_anchor",
     "cores",
     "counts",
-    "open_level",
     "overturning_amplitude",
     "parametric_map",
     "repeatability",

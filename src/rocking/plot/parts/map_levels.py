@@ -101,13 +101,16 @@ def _levels(found: Any) -> list[xr.Dataset]:
 
 def _opened(folder: Path) -> list[xr.Dataset]:
     """The levels of a store, coarse to fine, read as they are used."""
-    from rocking.survey import open_level
+    import xarray as xr
 
     count = sum(1 for each in folder.glob("level-*") if each.is_dir())
     if not count:
         raise ValueError(refusal("found", "be the folder of a map's store", str(folder)))
     with _reading(folder):
-        return [open_level(folder, number) for number in range(count)]
+        return [
+            xr.open_zarr(folder, group=f"level-{number}", chunks=None, consolidated=False)
+            for number in range(count)
+        ]
 
 
 @contextmanager
