@@ -89,6 +89,24 @@ def test_a_motion_that_slowly_leaves_a_weakly_unstable_orbit_is_not_chaotic():
     assert "unstable orbit" in str(slow)
 
 
+@pytest.mark.parametrize(
+    "cycles, kind", [(20_000, "undetermined"), (200_000, "undetermined"), (400_000, "periodic")]
+)
+def test_the_verdict_stays_open_until_the_motion_has_arrived(cycles, kind):
+    verdict = rk.classify(SLOW, rk.State(velocity=0.7016686649447939), max_cycles=cycles)
+    assert verdict.kind == kind
+    if kind == "periodic":
+        assert (verdict.period, verdict.symmetric) == (1, False)
+
+
+def test_a_motion_from_an_unstable_mode_is_periodic_in_a_million_cycles_and_open_before():
+    amplitude = rk.theory.symmetry_breaking_amplitude(1.721328, 0.8, 1) * (1 + 3e-5)
+    modes = rk.theory.symmetric_modes(amplitude, 1.721328, 0.8, 1)
+    mode = max(modes, key=lambda each: each.velocity)
+    assert rk.classify(mode.system, mode.start).kind == "undetermined"
+    assert rk.classify(mode.system, mode.start, max_cycles=10**6).kind == "periodic"
+
+
 def test_none_of_252_motions_above_symmetry_breakings_is_chaotic():
     """Above a symmetry breaking a motion near the symmetric mode comes to one of two mirror images, however slowly."""
     cases = list(beside_breakings())

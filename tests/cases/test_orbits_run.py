@@ -3,6 +3,7 @@
 import math
 
 import attrs
+import mpmath
 import numpy as np
 import pytest
 
@@ -82,6 +83,115 @@ def test_states_at_phases_are_those_of_a_run_from_the_start(system):
         expected = motion.at(turned / forcing.frequency)
         np.testing.assert_allclose((state.angle, state.velocity), expected, rtol=0, atol=1e-12)
         assert apart(state, orbit.at(forcing.phase + turned - 2 * math.pi * orbit.period)) < 1e-12
+
+
+@pytest.mark.parametrize(
+    "system, period",
+    [(SYSTEM, 2), (SYSTEMS[4], 2), (system_of(15.0, 2.0, 0.925, phase=2.0, braces=rk.Braces(1.0, 0.5)), 2)],
+)
+def test_states_of_found_orbits_are_those_of_a_run(system, period):
+    """A run multiplies rounding by the multiplier."""
+    forcing = system.forcing
+    orbits = [orbit for orbit in rk.find_orbits(system, period, effort=0.1) if not orbit.superstable]
+    assert len(orbits) >= 3
+    for orbit in orbits:
+        reach = 1e-13 * max(abs(orbit.multipliers[0]), 1.0)
+        motion = rk.simulate(system, orbit.start, cycles=orbit.period + 1)
+        for turned in np.linspace(0.01, 2 * math.pi * orbit.period - 0.01, 29):
+            state = orbit.at(forcing.phase + turned)
+            expected = motion.at(turned / forcing.frequency)
+            np.testing.assert_allclose((state.angle, state.velocity), expected, rtol=0, atol=reach)
+
+
+def exact_mode(amplitude, period, restitution, phase):
+    """The (1, 1) mode near a phase of impact as a boundary-value problem in forty digits: its (Θ, Θ') at a forcing phase.
+
+    Between impacts Θ = 1 + β cos ψ + a e^(−t) + c e^(t − T/2) on the upper side, with Θ = 0 at both ends.
+    """
+    with mpmath.workdps(40):
+        frequency, half = 2 * mpmath.pi / period, mpmath.mpf(period) / 2
+        beta, decay = amplitude / (1 + frequency**2), mpmath.exp(-half)
+
+    def shares(psi):
+        first, last = -1 - beta * mpmath.cos(psi), -1 + beta * mpmath.cos(psi)
+        return (first - decay * last) / (1 - decay**2), (last - decay * first) / (1 - decay**2)
+
+    def missed(psi):
+        (a, c), swing = shares(psi), beta * frequency * mpmath.sin(psi)
+        return (c * decay - a - swing) + mpmath.mpf(restitution) * (c - a * decay + swing)
+
+    with mpmath.workdps(40):
+        phase = mpmath.findroot(missed, phase)
+        a, c = shares(phase)
+
+    def state(psi):
+        with mpmath.workdps(40):
+            turns, time = divmod((mpmath.mpf(psi) - phase) / frequency, half)
+            psi, side = phase + frequency * time, (-1) ** int(turns)
+            out, back = a * mpmath.exp(-time), c * mpmath.exp(time - half)
+            angle = 1 + beta * mpmath.cos(psi) + out + back
+            return float(side * angle), float(side * (back - out - beta * frequency * mpmath.sin(psi)))
+
+    return state
+
+
+@pytest.mark.parametrize("period, error", [(16.0, 1e-12), (20.0, 1e-11), (28.0, 1e-8)])
+def test_an_orbit_that_a_run_leaves_within_a_period_has_its_own_states(period, error):
+    """Its multipliers are 2·10⁶, 8·10⁷ and 2·10¹¹; the last is left so far that a run from its start overturns.
+
+    Its events are solved to what rounding makes of half a period, e^(T/2), and they bound its states.
+    """
+    short = rk.theory.symmetric_modes(3.0, 8.0, 0.9, 1)[0]
+    branch = rk.continue_orbit(rk.find_orbit(short.system, short.start, 1), "period", (7.9, period + 1.0))
+    (orbit,) = branch.at(period)
+    (mode,) = [one for one in rk.theory.symmetric_modes(3.0, period, 0.9, 1) if one.admissible]
+    exact = exact_mode(3.0, period, 0.9, mode.phase)
+    for phase in mode.phase + np.linspace(0.05, 0.05 + 2 * math.pi, 41):
+        state = orbit.at(float(phase))
+        np.testing.assert_allclose((state.angle, state.velocity), exact(phase), rtol=0, atol=error)
+
+
+@pytest.mark.parametrize("braces", [None, rk.Braces(3.0, 0.9)])
+def test_a_saddle_orbit_without_events_has_its_own_states(braces):
+    """Θ = 1 + β cos ψ, with a multiplier of e^18."""
+    beta = 0.5 / (1.0 + (2 * math.pi / 18.0) ** 2)
+    orbit = rk.find_orbit(system_of(0.5, 18.0, 0.9, braces=braces), rk.State(angle=1.0 + beta), 1)
+    assert (orbit.impacts, orbit.brace_hits) == (0, 0)
+    for phase in np.linspace(0.0, 6.2, 13):
+        assert orbit.at(float(phase)).angle == pytest.approx(1.0 + beta * math.cos(phase), abs=1e-13)
+
+
+def test_every_found_orbit_was_met_once_at_least_and_its_mirror_image_as_often():
+    system = system_of(2.0, 3.0, 0.9)
+    orbits = rk.find_orbits(system, 5, effort=0.1)
+    assert max(abs(orbit.multipliers[0]) for orbit in orbits) > 1e7
+    assert min(orbits.hits) >= 1
+    assert sum(not orbit.symmetric for orbit in orbits) >= 10
+    for orbit, number in zip(orbits, orbits.hits, strict=True):
+        if not orbit.symmetric:
+            pairs = zip(orbits, orbits.hits, strict=True)
+            assert [other for one, other in pairs if is_mirror_image(one, orbit)] == [number]
+
+
+def is_mirror_image(other, orbit):
+    """Whether some half-odd number of cycles on, one orbit is the other's start mirrored."""
+    phase = orbit.system.forcing.phase
+    states = (orbit.at(phase + math.pi * (2 * cycle + 1)) for cycle in range(orbit.period))
+    return other.period == orbit.period and any(
+        apart(other.start, rk.State(-state.angle, -state.velocity)) < 1e-7 for state in states
+    )
+
+
+def test_orbits_too_unstable_to_follow_are_left_out_and_none_is_listed_twice():
+    """A run from the start of one of period 12 overturns before its period is over."""
+    system = system_of(8.0, 1.72, 0.8)
+    orbits = rk.find_orbits(system, 12, effort=0.2)
+    assert min(orbits.hits) >= 1
+    for orbit in orbits:
+        phases = system.forcing.phase + 2 * math.pi * np.arange(orbit.period)
+        states = [orbit.at(float(phase)) for phase in phases]
+        same = [one for one in orbits if min(apart(one.start, state) for state in states) < 1e-10]
+        assert same == [orbit]
 
 
 def test_a_start_on_an_impact_is_the_state_after_it():

@@ -1,6 +1,7 @@
 """Special points of branches: none is lost at the default step, and grazings are located to rounding."""
 
 import math
+import pickle
 from collections import Counter
 
 import numpy as np
@@ -114,6 +115,24 @@ def test_the_unsymmetric_orbit_ends_where_the_saddle_orbit_touches_the_base(step
             assert orbit.at(psi).angle == pytest.approx(side + math.cos(psi), abs=1e-12)
 
 
+def test_an_orbit_at_a_grazing_is_not_followed():
+    """Whether a run meets the impact that grazes is a matter of rounding: with it the orbit is another one."""
+    pair = rk.switch_branch(symmetry_breaking(*TUTORIAL), (7.0, 20.0))
+    mode = rk.theory.symmetric_modes(2.0, 1.0, 0.925, 1)[0]
+    braced = rk.System(mode.system.forcing, 0.925, rk.Braces(1.0, 0.9))
+    touching = rk.continue_orbit(rk.find_orbit(braced, mode.start, 1), "brace_angle", (0.05, 2.0))
+    grazings = [(branch, *special(branch, "grazing")) for branch in (*pair, touching)]
+    for branch, point in grazings:
+        bounds = 0.5 * point.parameter, 1.5 * point.parameter
+        for orbit in (point.orbit, pickle.loads(pickle.dumps(point.orbit))):
+            with pytest.raises(
+                ValueError, match=r"^orbit must not be that of a grazing, .*branch\.orbit\(index\)"
+            ):
+                rk.continue_orbit(orbit, branch.name, bounds)
+        beside = branch.orbit(point.index - 3 if point.index > 3 else 3)
+        assert len(rk.continue_orbit(beside, branch.name, bounds)) > 10
+
+
 def test_the_grazing_of_the_period_8_branch_does_not_depend_on_the_step():
     found = []
     for step in (0.002, 0.004, 0.007, 0.01):
@@ -121,9 +140,17 @@ def test_the_grazing_of_the_period_8_branch_does_not_depend_on_the_step():
         for _ in range(3):
             branch = rk.switch_branch(special(branch, "period-doubling")[0], (9.0, 12.0 + step), step)[0]
         assert branch.period == 8
-        found.append(special(branch, "grazing")[0].parameter)
+        (point,) = special(branch, "grazing")
+        found.append(point.parameter)
     assert np.ptp(found) <= 1e-13 * found[0]
     assert found[0] == pytest.approx(11.86655712, abs=1e-7)
+    # the orbit there lacks two impacts, and touches the base instead: Θ turns within half a sample of Θ = 0, where |Θ''| < 13
+    assert point.orbit.impacts == branch.impacts - 2
+    angles = np.array([point.orbit.at(phase).angle for phase in np.linspace(0.0, 16.0 * math.pi, 4001)])
+    before, size, after = angles[:-2], np.abs(angles[1:-1]), angles[2:]
+    turns = (size < np.abs(before)) & (size < np.abs(after)) & (np.sign(before) == np.sign(after))
+    half = 0.5 * 8 * TUTORIAL[0] / 4000
+    assert size[turns].min() < 0.5 * 13.0 * half**2
 
 
 def test_a_branch_ends_at_its_grazing_wherever_it_is_begun():

@@ -50,7 +50,7 @@ def test_film_that_is_not_whole_is_refused(tmp_path):
 
 
 @pytest.mark.parametrize("unbuffered", ["", "1"])
-@pytest.mark.parametrize("line", ["cite", "map --help"])
+@pytest.mark.parametrize("line", ["cite", "map --help", SIMULATE])
 def test_stdout_that_finds_no_room_is_said(line, unbuffered, monkeypatch):
     monkeypatch.setenv("PYTHONUNBUFFERED", unbuffered)
     with Path("/dev/full").open("w") as full:

@@ -1,6 +1,7 @@
 """Checks shared by every room."""
 
 import copy
+import inspect
 import math
 import pickle
 from fractions import Fraction
@@ -92,6 +93,49 @@ def test_number_beyond_all_floats_is_refused(value):
     assert len(str(caught.value).splitlines()) == 1
     with pytest.raises(ValueError, match="^acceleration must be a real number of size up to"):
         rk.Block(2.0, 0.5).amplitude(value)
+
+
+BLOCK = rk.Block(2.0, 0.5)
+# One value that is allowed for each argument of the closed forms.
+ALLOWED = {
+    "amplitude": 2.0, "angle": 0.5, "base_acceleration": 1.0, "block": BLOCK, "impacts": 2, "n": 1, "orbit": "upper", "period": 1.0,
+    "phase": 0.5, "radians": 0.1, "radians_per_second": 0.1, "restitution": 0.8, "seconds": 0.5, "time": 0.5, "velocity": 0.5,
+    "width": 1e-3,
+}  # fmt: skip
+THEORY = [
+    (function, name)
+    for function in (getattr(rk.theory, name) for name in rk.theory.__all__)
+    if inspect.isfunction(function)
+    for name in inspect.signature(function).parameters
+    if name not in ("block", "orbit")
+]
+
+
+@pytest.mark.parametrize("value", [np.ma.masked, MASKED, 10**400], ids=["masked", "partly masked", "huge"])
+@pytest.mark.parametrize("function, name", THEORY, ids=lambda each: getattr(each, "__name__", each))
+def test_no_closed_form_takes_masked_values_or_numbers_beyond_all_floats(function, name, value):
+    given = {each: ALLOWED[each] for each in inspect.signature(function).parameters}
+    function(**given)
+    with pytest.raises((TypeError, ValueError), match=rf"^{name} must ") as caught:
+        function(**given | {name: value})
+    assert len(str(caught.value).splitlines()) == 1
+
+
+@pytest.mark.parametrize(
+    "call",
+    [
+        lambda value: rk.simulate(rk.System(rk.Harmonic(2.0, period=1.0), 0.9), cycles=1).at(value),
+        lambda value: rk.Harmonic(2.0, period=1.0).acceleration(value),
+        BLOCK.frequency,
+        lambda value: rk.plot.melnikov(value, 1.0, 0.9),
+        lambda value: rk.chaos_share(restitution=value, samples=5),
+    ],
+    ids=["at", "acceleration", "frequency", "melnikov", "chaos_share"],
+)
+def test_no_number_beyond_all_floats_is_taken(call):
+    with pytest.raises((TypeError, ValueError)) as caught:
+        call(10**400)
+    assert len(str(caught.value).splitlines()) == 1
 
 
 def test_one_of_names_the_choices():

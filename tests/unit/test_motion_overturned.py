@@ -75,6 +75,13 @@ def test_fall_after_the_proof_is_the_closed_form_while_it_is_a_float():
             ask([1.0, 900.0, 1000.0])
 
 
+@pytest.mark.parametrize("time", [-1.0, math.inf, -math.inf, math.nan])
+@pytest.mark.parametrize("system", [USUAL, rk.System(rk.Harmonic(amplitude=0.5, period=1.0), 0.9)])
+def test_times_of_a_motion_that_goes_on_after_its_run_are_refused_in_plain_words(system, time):
+    with pytest.raises(ValueError, match=rf"^times must be finite and at least 0; got {time}$"):
+        rk.simulate(system).at([1.0, time])
+
+
 def test_files_hold_the_run_and_no_infinity(rocking, tmp_path):
     for line in ("--period 1000", "--period 2 --amplitude 1.75 --restitution 0.95"):
         code, _, out = rocking(

@@ -329,7 +329,6 @@ OWN = ("notes.partial", "level-0/notes.partial", "level-0/peak/c/0/0.partial", f
 EMPTY = ("mine", "level-0/mine", "level-0/peak/mine", "level-0/x.partial", f"level-0/peak/c/0/0.{'0123' * 8}.partial")  # fmt: skip
 
 
-@pytest.mark.filterwarnings("ignore:Object at .* is not recognized as a component of a Zarr hierarchy")
 def test_what_others_keep_in_a_store_stays_and_what_a_killed_run_left_goes(copied, computed):
     for name in OWN:
         (copied / name).write_text("mine")
@@ -346,6 +345,14 @@ def test_what_others_keep_in_a_store_stays_and_what_a_killed_run_left_goes(copie
     assert (copied / "level-0" / "lost").is_symlink()
     assert not list(copied.rglob(f"*.{'89ab' * 8}.partial"))
     assert not (copied / "level-7").exists()
+
+
+def test_what_others_keep_in_a_store_is_passed_over_without_a_warning(copied, plain):
+    for place in (copied, copied / "level-0", copied / "level-2", copied / "level-2" / "peak"):
+        (place / "mine").mkdir()
+        (place / "mine" / "notes.txt").write_text("mine")
+        (place / "notes.txt").write_text("mine")
+    assert rk.parametric_map(**ASKED, store=copied).load().equals(plain)
 
 
 def test_store_of_another_survey_is_left_as_a_killed_run_left_it(copied):

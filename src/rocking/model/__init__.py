@@ -23,6 +23,7 @@ from rocking.model.block import GRAVITY, Block
 from rocking.model.citation import cite
 from rocking.model.forcing import FREQUENCIES, MAX_AMPLITUDE, MAX_PHASE, PERIODS, Harmonic
 from rocking.model.formatting import counted, ordinal, percent, plus_minus
+from rocking.model.orbit_event import OrbitEvent
 from rocking.model.orbit_stability import Stability, stability_of
 from rocking.model.outcome import Outcome, Overturning
 from rocking.model.si_units import PHYSICAL, block_attributes
@@ -78,6 +79,7 @@ __all__ = [
     "Mode",
     "NoOrbit",
     "Orbit",
+    "OrbitEvent",
     "Outcome",
     "Overturning",
     "OverturningCurve",

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from enum import StrEnum
+from operator import itemgetter
 from typing import Any
 
 from attrs import evolve, field, frozen
@@ -12,6 +13,7 @@ from attrs import evolve, field, frozen
 from rocking.model import notebook_renderers
 from rocking.model.forcing import MAX_PHASE
 from rocking.model.formatting import counted
+from rocking.model.orbit_event import OrbitEvent
 from rocking.model.orbit_stability import Stability, stability_of
 from rocking.model.system import State, System
 from rocking.model.validation import within
@@ -101,6 +103,8 @@ class Orbit:
     multipliers: tuple[complex, complex]
     residual: float
     _simulate: Callable[..., Any] = field(repr=False, eq=False)
+    _events: tuple[OrbitEvent, ...] = field(default=(), repr=False, eq=False)
+    _grazes: bool = field(default=False, repr=False, eq=False)
 
     @property
     def start(self) -> State:
@@ -108,7 +112,10 @@ class Orbit:
         return self.at(self.system.forcing.phase)
 
     def at(self, phase: float) -> State:
-        """Give the state of the orbit at a forcing phase: `state`, marched to there.
+        """Give the state of the orbit at a forcing phase.
+
+        It is marched from the nearest event of the orbit, forward or backward in time. So it lies on the orbit
+        even where a run leaves the orbit within one period.
 
         Parameters
         ----------
@@ -136,11 +143,31 @@ class Orbit:
         """
         forcing = self.system.forcing
         phase = within("phase", phase, -MAX_PHASE, MAX_PHASE)
-        whole = math.tau * self.period
-        turned = (forcing.phase - self.phase) % math.tau + (phase - forcing.phase) % whole
-        time = turned % whole / forcing.frequency
-        begun = evolve(self.system, forcing=evolve(forcing, phase=self.phase))
-        motion = self._simulate(begun, self.state, cycles=self.period)
+        whole, hair = math.tau * self.period, math.tau * SAME_INSTANT
+        turned = ((forcing.phase - self.phase) % math.tau + (phase - forcing.phase) % whole) % whole
+        if not self._events:
+            return self._marched(self.phase, self.state, turned)
+        since, last = min(
+            (((turned + hair - one.turned) % whole, one) for one in self._events), key=itemgetter(0)
+        )
+        until, following = min(
+            (((one.turned - turned - hair) % whole, one) for one in self._events), key=itemgetter(0)
+        )
+        if since <= until:
+            return self._marched(
+                self.phase + last.turned, State(last.angle, last.after), max(since - hair, 0.0)
+            )
+        # backward in time the base has the opposite phase, and velocities change their sign
+        there = State(following.angle, -following.before)
+        state = self._marched(-self.phase - following.turned, there, until + hair)
+        return State(state.angle, -state.velocity)
+
+    def _marched(self, phase: float, state: State, turned: float) -> State:
+        """Return what a state at one forcing phase becomes, that much of the phase later."""
+        forcing = self.system.forcing
+        time = turned / forcing.frequency
+        begun = evolve(self.system, forcing=evolve(forcing, phase=phase % math.tau))
+        motion = self._simulate(begun, state, cycles=int(turned // math.tau) + 1)
         events = motion.events["time"]
         there = events[(events > time) & (events <= time + SAME_INSTANT * forcing.period)]
         angle, velocity = motion.at(min(there[-1] if len(there) else time, motion.duration))
@@ -149,7 +176,8 @@ class Orbit:
     def motion(self, cycles: int | None = None, record: str = "all") -> Any:
         """Simulate the orbit from `start`.
 
-        A motion near an unstable orbit leaves it: rounding grows by |multiplier| in each period.
+        A motion near an unstable orbit leaves it: rounding grows by |multiplier| in each period. `at` gives the
+        states of the orbit itself.
 
         Parameters
         ----------

@@ -169,10 +169,12 @@ class Trajectory(ReadOnlyArrays):
     def _sampled(self, times: Any) -> np.ndarray:
         rows = self._rows()
         times = np.asarray(reals("times", times), dtype=float)
-        last = self.duration if self.outcome is Outcome.BOUNDED else np.finfo(float).max
+        ends = self.outcome is Outcome.BOUNDED
+        last = self.duration if ends else np.finfo(float).max
         if times.size and not (times.min() >= 0.0 and times.max() <= last):
             outside = times[~((times >= 0.0) & (times <= last))].flat[0]
-            raise ValueError(refusal("times", f"lie in the run, [0, {last:.6g}]", float(outside)))
+            allowed = f"lie in the run, [0, {last:.6g}]" if ends else "be finite and at least 0"
+            raise ValueError(refusal("times", allowed, float(outside)))
         flat = times.ravel()
         period = self.system.forcing.period
         begins = absolute(rows, self.system.forcing.period, self.duration)

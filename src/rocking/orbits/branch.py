@@ -51,7 +51,7 @@ class SpecialPoint:
     orbit : Orbit
         The orbit there. At a grazing it is the orbit without the impact that grazes, with which its multipliers would be infinite.
         Rounding decides whether a run meets that impact; where it does, at a speed of about 10⁻⁸, the run leaves the orbit, and
-        `residual` says how far.
+        `residual` says how far. So `continue_orbit` does not take it: take an orbit beside it, `branch.orbit(index)`.
     name : str
         The parameter's name.
     index : int
@@ -90,7 +90,8 @@ class Branch(ReadOnlyArrays):
         first event and the speed just after it; "multipliers" over a period, the larger first; "stability", see `Stability`,
         and "stable", whether it is that; "peak", the largest |Θ|.
     special : tuple of SpecialPoint
-        In order along the branch.
+        In order along the branch. A branch of unsymmetric orbits may pass a symmetry breaking and go on along their mirror
+        images. It then has each special point twice, once with either orbit.
     ends : tuple of two str
         Why the branch ends at its first and at its last point.
     """

@@ -86,7 +86,7 @@ def continue_orbit(
     ------
     TypeError, ValueError
         In one line: for an unknown parameter, an empty range, a range without the orbit's own value, a parameter of braces
-        of a system without, an orbit that rests or leans.
+        of a system without, an orbit that rests or leans, the orbit of a grazing.
 
     Notes
     -----
@@ -103,6 +103,9 @@ def continue_orbit(
     [('symmetry-breaking', 23.185055482)]
     """
     instance("orbit", orbit, Orbit)
+    if orbit._grazes:
+        allowed = "not be that of a grazing, where its branch ends"
+        raise ValueError(refusal("orbit", allowed, str(orbit), "take another one: branch.orbit(index)"))
     one_of("parameter", parameter, tuple(NAMES))
     here = value_of(orbit.system, parameter)
     low, high = checked_range(parameter, bounds)

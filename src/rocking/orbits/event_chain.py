@@ -14,7 +14,7 @@ from rocking.kernels import parameters as numbers
 from rocking.kernels.orbits import arclength, branch_point, chain_queries, chain_validation, floquet
 from rocking.kernels.orbits import continuation as following
 from rocking.kernels.orbits import event_chain as kernel
-from rocking.model import Orbit, State, System, refusal
+from rocking.model import Orbit, OrbitEvent, State, System, refusal
 from rocking.motion import simulate
 from rocking.orbits.parameter import with_value
 
@@ -213,7 +213,47 @@ def orbit_of(chain: Chain, parameter: str, row: np.ndarray, trace: float, determ
         multipliers=multipliers_of(trace, determinant, chain.mirrored),
         residual=math.hypot(final.angle - start.angle, final.velocity - start.velocity),
         simulate=simulate,
+        events=_events(chain, parameter, row, phase),
     )
+
+
+def _events(chain: Chain, parameter: str, row: np.ndarray, phase: float) -> tuple[OrbitEvent, ...]:
+    """Return the events of the orbit at a point of a branch, and how long after its state at a phase they come."""
+    braces = with_value(chain.system, parameter, float(row[-1])).braces
+    # the state is that of the first cycle after the chain's first event, as in `states`
+    begins, whole = phase + math.tau * math.ceil((row[0] - phase) / math.tau), math.tau * chain.period
+    _, links, trace, _ = equations(chain, parameter, row)
+    if math.isnan(trace):
+        return ()  # at the end of a branch two events may have changed places
+    flips = np.where(chain.kinds == IMPACT, -1, 1)
+    sides = chain.side * np.cumprod(np.append(1, flips[1:]))
+    before = -flips * sides * _arrivals(chain, parameter, row, int(sides[-1]))
+    after = sides * links["leaves"]
+    angles = [
+        0.0 if kind == IMPACT or braces is None else side * braces.angle
+        for kind, side in zip(chain.kinds, sides, strict=True)
+    ]
+    events = [
+        OrbitEvent(float(psi - begins) % whole, float(angle), float(one), float(other))
+        for psi, angle, one, other in zip(row[:-1], angles, before, after, strict=True)
+    ]
+    if chain.mirrored:
+        events += [
+            OrbitEvent((one.turned + chain.turn) % whole, -one.angle, -one.before, -one.after)
+            for one in events
+        ]
+    return tuple(events)
+
+
+def _arrivals(chain: Chain, parameter: str, row: np.ndarray, last_side: int) -> np.ndarray:
+    """Return the speeds towards the base or away from it at every event's end of the arc before, on the side of that arc.
+
+    Those are the speeds at which the arcs leave backward in time: along a long arc the speed at its start does not give them.
+    """
+    phases = np.append(-row[0] - chain.turn, -row[-2:0:-1])
+    backward = chain._replace(kinds=np.roll(chain.kinds[::-1], 1), side=last_side, phases=phases)
+    _, links, *_ = equations(backward, parameter, np.append(phases, row[-1]))
+    return np.append(links["leaves"][0], links["leaves"][:0:-1])
 
 
 def states(chain: Chain, parameter: str, rows: np.ndarray, phase: float, count: int) -> np.ndarray:

@@ -5,13 +5,15 @@ from __future__ import annotations
 import math
 
 import numpy as np
+from attrs import evolve
 
 from rocking.kernels.classify import periodicity
 from rocking.kernels.classify import workspace as memory
 from rocking.kernels.orbits import newton_search as kernel
 from rocking.model import NoOrbit, Orbit, Outcome, State, System, check_start, refusal, whole
 from rocking.motion import simulate, start_march
-from rocking.orbits.event_chain import chain_of, clocked, orbit_of, quiet_phase, solved
+from rocking.orbits.event_chain import IMPACT, Chain, chain_of, clocked, orbit_of, quiet_phase, solved
+from rocking.orbits.saddle_orbits import saddle_events
 
 MAX_PERIOD = 1000
 # States of an orbit as near as this are one.
@@ -74,7 +76,8 @@ def find_orbit(system: System, guess: State, period: int) -> Orbit:
     angle, velocity = (float(value) for value in motion.at(wait))
     out = newton_from_starts(clocked(system, phase), period, False, np.array([[angle, velocity]]))[0]
     reached = State(float(out[1]), float(out[2]))
-    if not out[0]:
+    orbit = orbit_from(system, phase, reached, period) if out[0] else None
+    if orbit is None:
         raise NoOrbit(
             f"no orbit of period {period} was found from {guess}: Newton's method ends at {reached}, "
             f"{out[3]:.3g} off a period later (start nearer, or try another period)",
@@ -82,7 +85,22 @@ def find_orbit(system: System, guess: State, period: int) -> Orbit:
             reached,
             float(out[3]),
         )
-    return orbit_from(system, phase, reached, period)
+    return orbit
+
+
+def _half(chain: Chain) -> Chain | None:
+    """Return the events of half a period where the other half is its mirror image: a run may leave the orbit too soon to show it."""
+    count = len(chain.kinds) // 2
+    if (
+        chain.mirrored
+        or chain.period % 2 == 0
+        or not np.array_equal(chain.kinds[:count], chain.kinds[count:])
+    ):
+        return None
+    later = chain.phases[count:] - chain.phases[:count]
+    if (chain.kinds[:count] == IMPACT).sum() % 2 == 0 or np.abs(later - 0.5 * chain.turn).max() > SAME:
+        return None
+    return chain._replace(mirrored=True, kinds=chain.kinds[:count].copy(), phases=chain.phases[:count].copy())
 
 
 def newton_from_starts(system: System, period: int, mirrored: bool, starts: np.ndarray) -> np.ndarray:
@@ -94,9 +112,14 @@ def newton_from_starts(system: System, period: int, mirrored: bool, starts: np.n
     return out
 
 
-def orbit_from(system: System, phase: float, state: State, period: int) -> Orbit:
-    """The orbit through a state at a forcing phase that repeats itself after `period` cycles: its least period, symmetry and events."""
+def orbit_from(system: System, phase: float, state: State, period: int) -> Orbit | None:
+    """The orbit through a state at a forcing phase that repeats itself after `period` cycles: its least period, symmetry and events.
+
+    None if a run from there overturns within a period: the orbit is then more unstable than floats can follow.
+    """
     motion = simulate(clocked(system, phase), state, cycles=period)
+    if motion.outcome is Outcome.OVERTURNED:
+        return None
     rows = motion.section()
     halves = np.column_stack(motion.at((np.arange(period) + 0.5) * system.forcing.period))
     least, symmetric = periodicity.repetition_plain(rows, halves, state.angle, state.velocity, period, SAME)
@@ -116,10 +139,17 @@ def orbit_from(system: System, phase: float, state: State, period: int) -> Orbit
         residual=float(np.hypot(*(rows[least] - rows[0]))),
         simulate=simulate,
     )
-    if orbit.superstable or impacts + brace_hits == 0:
+    if orbit.superstable:
         return orbit
+    if impacts + brace_hits == 0:
+        return evolve(orbit, events=saddle_events(system, orbit.phase, orbit.state))
     chain = chain_of(orbit)
     found = solved(chain, "amplitude", system.forcing.amplitude, chain.phases)
     if not found.found:
         return orbit
+    half = _half(chain._replace(phases=found.phases[:-1]))
+    if half is not None:
+        chain, found = half, solved(half, "amplitude", system.forcing.amplitude, half.phases)
+        if not found.found:
+            return orbit
     return orbit_of(chain, "amplitude", found.phases, found.trace, found.determinant)

@@ -134,7 +134,8 @@ def find_orbits(
 
     Notes
     -----
-    Not guaranteed: completeness, see `Orbits`.
+    Not guaranteed: completeness, see `Orbits`. An orbit is left out if it is so unstable that a run from it overturns
+    within one period.
 
     Examples
     --------

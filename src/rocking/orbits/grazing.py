@@ -10,6 +10,7 @@ import math
 from typing import NamedTuple
 
 import numpy as np
+from attrs import evolve
 
 from rocking.kernels.orbits import arclength
 from rocking.kernels.orbits import bifurcation_curve as kernel
@@ -28,7 +29,7 @@ from rocking.orbits.event_chain import (
     value_of,
 )
 from rocking.orbits.parameter import with_value
-from rocking.orbits.saddle_orbits import response, saddle
+from rocking.orbits.saddle_orbits import response, saddle, saddle_events
 
 # An event this slow is the one that grazes.
 SLOW = 1e-4
@@ -55,6 +56,12 @@ class Grazing(NamedTuple):
 
 def grazing_at(chain: Chain, parameter: str, row: np.ndarray) -> Grazing:
     """The grazing at which a branch ends, located to rounding; where that fails, as near as the branch was followed."""
+    found = _located(chain, parameter, row)
+    return found._replace(orbit=evolve(found.orbit, grazes=True))
+
+
+def _located(chain: Chain, parameter: str, row: np.ndarray) -> Grazing:
+    """Return the grazing with the orbit as it was solved."""
     touch = _touch_of(chain, parameter, row)
     if touch is not None and (solved := _solved(touch, parameter)):
         touch, row = solved
@@ -180,4 +187,5 @@ def _eventless(chain: Chain, parameter: str, row: np.ndarray) -> Orbit | None:
         multipliers=(complex(grown), complex(1.0 / grown)),
         residual=math.hypot(final.angle - start.angle, final.velocity - start.velocity),
         simulate=simulate,
+        events=saddle_events(system, phase, start),
     )

@@ -8,8 +8,6 @@ import numpy as np
 from attrs import evolve
 
 from rocking.model import Orbit, State, System
-from rocking.motion import simulate
-from rocking.orbits.event_chain import clocked
 from rocking.orbits.find_orbit import orbit_from
 
 # Starts that Newton's method leads this near to each other are one; orbits as near as this too.
@@ -19,7 +17,10 @@ SAME = 1e-6
 def mirrored(orbit: Orbit) -> Orbit:
     """The mirror image of an orbit, which the other half of the forcing period makes an orbit too."""
     state = State(-orbit.state.angle, -orbit.state.velocity)
-    return evolve(orbit, state=state, phase=(orbit.phase + math.pi) % math.tau)
+    events = tuple(
+        evolve(one, angle=-one.angle, before=-one.before, after=-one.after) for one in orbit._events
+    )
+    return evolve(orbit, state=state, phase=(orbit.phase + math.pi) % math.tau, events=events)
 
 
 class OrbitRegistry:
@@ -28,40 +29,62 @@ class OrbitRegistry:
     def __init__(self, system: System, phase: float) -> None:
         self.system, self.phase = system, phase
         self.orbits: list[Orbit] = []
-        self.hits: list[int] = []
+        self.pairs: list[int] = []
+        self.counts: list[int] = []
         self.rows = np.empty((0, 2))
         self.owner = np.empty(0, int)
+
+    @property
+    def hits(self) -> list[int]:
+        """How many states belong to each orbit or to its mirror image."""
+        return [self.counts[pair] for pair in self.pairs]
 
     def add_states(self, states: np.ndarray, period: int) -> None:
         """Count the states that belong to known orbits; add the orbits of the others, with their mirror images."""
         states = states[~self._counted(states)]
         while len(states):
             orbit = orbit_from(self.system, self.phase, State(*map(float, states[0])), period)
-            if orbit.impacts != 0 or orbit.brace_hits != 0 or abs(orbit.state.angle) > SAME:
-                self._add(orbit)
-                if not orbit.symmetric:
-                    self._add(mirrored(orbit))
             near = np.hypot(*(states - states[0]).T) <= SAME
-            near |= self._counted(states)
+            if orbit is not None and (
+                orbit.impacts != 0 or orbit.brace_hits != 0 or abs(orbit.state.angle) > SAME
+            ):
+                self.counts[self._pair(orbit)] += int(near.sum())
             states = states[~near]
+            states = states[~self._counted(states)]
 
     def _counted(self, states: np.ndarray) -> np.ndarray:
         """Which states belong to known orbits; their hits are counted."""
+        owners = self._owners(states)
+        for owner, number in zip(*np.unique(owners[owners >= 0], return_counts=True), strict=True):
+            self.counts[self.pairs[owner]] += int(number)
+        return owners >= 0
+
+    def _owners(self, states: np.ndarray) -> np.ndarray:
+        """Return the number of the known orbit that each state belongs to, -1 for none."""
         if not len(self.rows):
-            return np.zeros(len(states), bool)
+            return np.full(len(states), -1)
         apart = np.hypot(states[:, 0, None] - self.rows[:, 0], states[:, 1, None] - self.rows[:, 1])
         nearest = apart.argmin(axis=1)
-        close = apart[np.arange(len(states)), nearest] <= SAME
-        for owner, number in zip(*np.unique(self.owner[nearest[close]], return_counts=True), strict=True):
-            self.hits[owner] += int(number)
-        return close
+        return np.where(apart[np.arange(len(states)), nearest] <= SAME, self.owner[nearest], -1)
+
+    def _pair(self, orbit: Orbit) -> int:
+        """Return the number under which an orbit and its mirror image are counted; add them if they are new.
+
+        An orbit that is not new is one that Newton's method came near to, but not as near as `SAME`.
+        """
+        here = orbit.at(self.phase)
+        (owner,) = self._owners(np.array([[here.angle, here.velocity]]))
+        if owner >= 0:
+            return self.pairs[owner]
+        self.counts.append(0)
+        self._add(orbit)
+        if not orbit.symmetric:
+            self._add(mirrored(orbit))
+        return len(self.counts) - 1
 
     def _add(self, orbit: Orbit) -> None:
-        forcing = self.system.forcing
-        wait = ((self.phase - orbit.phase) % math.tau) / forcing.frequency
-        there = simulate(clocked(orbit.system, orbit.phase), orbit.state, cycles=orbit.period + 1)
-        rows = np.column_stack(there.at(wait + forcing.period * np.arange(orbit.period)))
-        self.rows = np.concatenate([self.rows, rows])
+        there = [orbit.at(self.phase + math.tau * cycle) for cycle in range(orbit.period)]
+        self.rows = np.concatenate([self.rows, [(state.angle, state.velocity) for state in there]])
         self.owner = np.concatenate([self.owner, np.full(orbit.period, len(self.orbits))])
         self.orbits.append(orbit)
-        self.hits.append(0)
+        self.pairs.append(len(self.counts) - 1)

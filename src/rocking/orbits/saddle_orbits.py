@@ -5,9 +5,14 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from rocking.model import State, System, instance, refusal
+import numpy as np
+
+from rocking.model import OrbitEvent, State, System, instance, refusal
 from rocking.motion import start_march
 from rocking.theory import saddle_orbit
+
+# A state as near as this to a saddle orbit is on it.
+ON_IT = 1e-8
 
 
 def check(system: System) -> None:
@@ -35,6 +40,19 @@ def saddle(system: System, phase: float, side: int) -> tuple[float, float]:
     forcing = system.forcing
     angle, velocity = saddle_orbit(phase, forcing.amplitude, forcing.period, "upper" if side > 0 else "lower")
     return angle, velocity
+
+
+def saddle_events(system: System, phase: float, state: State) -> tuple[OrbitEvent, ...]:
+    """Return the states of a saddle orbit once in every unit of τ, as its events; none if `state` does not lie on it at `phase`."""
+    side = 1 if state.angle > 0.0 else -1
+    angle, velocity = saddle(system, phase, side)
+    if math.hypot(state.angle - angle, state.velocity - velocity) > ON_IT:
+        return ()
+    events = []
+    for turned in np.linspace(0.0, math.tau, math.ceil(system.forcing.period) + 1)[:-1].tolist():
+        angle, velocity = saddle(system, phase + turned, side)
+        events.append(OrbitEvent(turned, angle, velocity, velocity))
+    return tuple(events)
 
 
 def parameters(system: System, phase: float, backward: bool) -> Any:

@@ -45,7 +45,8 @@ def physical_acceleration(block: Block, radians: Any, base_acceleration: Any) ->
     -1.0345
     """
     angle = np.asarray(instance("block", block, Block).angle(radians=radians))
-    normalised = angle - np.sign(angle) - np.asarray(block.amplitude(base_acceleration))
+    amplitude = block.amplitude(reals("base_acceleration", base_acceleration))
+    normalised = angle - np.sign(angle) - np.asarray(amplitude)
     return plain(_per_inertia(block) * normalised)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import AsyncIterator
 from typing import Any
 
 import numpy as np
@@ -11,6 +12,8 @@ from zarr.abc.buffer import Buffer, BufferPrototype
 from zarr.abc.store import ByteRequest
 from zarr.buffer import default_buffer_prototype
 from zarr.storage import LocalStore
+
+from rocking.survey.store.locking import ROOT
 
 SHRINK = Blosc("lz4", clevel=1, shuffle=Blosc.SHUFFLE)
 """A map takes a sixth of the room, and less time: to shrink a chunk takes a tenth of what writing the rest of it would."""
@@ -33,6 +36,13 @@ class Files(LocalStore):
     async def set(self, key: str, value: Buffer) -> None:
         """Write a file, under another name first."""
         self.set_sync(key, value)
+
+    async def list_dir(self, prefix: str) -> AsyncIterator[str]:
+        """Give the names of the groups and arrays in a folder. Zarr would warn of all that others keep there."""
+        folder = self.root / prefix
+        async for name in super().list_dir(prefix):
+            if (folder / name / ROOT).exists():
+                yield name
 
     def kept(self, key: str) -> bytes | None:
         """The bytes of a file, or None."""

@@ -109,7 +109,7 @@ def reading(folder: Path) -> Iterator[None]:
 def remove_unfinished(folder: Path, arrays: Iterable[str]) -> None:
     """Remove what a killed run left in a survey's store: unfinished files, and folders of its `arrays` that hold nothing.
 
-    Zarr warns of such a folder. All other names in the store are left alone.
+    All other names in the store are left alone.
     """
     own = re.compile(rf"\.|level-\d+(/({'|'.join(map(re.escape, arrays))})(/c(/\d+)*)?)?")
     for place, _, files in os.walk(folder, topdown=False):

@@ -229,4 +229,6 @@ def open_level(path: Path, number: int) -> xr.Dataset:
     """A level of a store, read when it is used."""
     import xarray as xr
 
-    return xr.open_zarr(path, group=f"level-{number}", chunks=None, consolidated=False)
+    from rocking.survey.store.chunk_files import Files
+
+    return xr.open_zarr(Files(path), group=f"level-{number}", chunks=None, consolidated=False)
