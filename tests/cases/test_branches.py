@@ -288,6 +288,21 @@ def test_a_branch_that_closes_on_itself_ends_where_it_began():
         assert len(branch.at(value)) > 0
 
 
+def test_special_points_of_a_closed_branch_lie_where_their_tests_change_sign():
+    """1 - trace + determinant at a fold, 1 + trace + determinant at a doubling; between them the orbits are stable."""
+    branch = rk.continue_orbit(isolated_orbit(), "restitution", (0.3, 1.0))
+    multipliers = branch.points["multipliers"]
+    trace, determinant = multipliers.sum(axis=1).real, multipliers.prod(axis=1).real
+    tests = {"fold": 1.0 - trace + determinant, "period-doubling": 1.0 + trace + determinant}
+    for kind, test in tests.items():
+        changes = 1 + np.flatnonzero(np.diff(test > 0.0))
+        assert len(changes) > 0
+        assert [point.index for point in special(branch, kind)] == changes.tolist()
+    found = np.reshape([point.parameter for point in branch.special], (-1, 2))
+    ranges = [f"{min(pair):.6g} to {max(pair):.6g}" for pair in found]
+    assert f" points, stable from {' and from '.join(ranges)}: " in str(branch)
+
+
 def isolated_orbit():
     """Of period 5 with 12 impacts at A = 15, T = 2, e = .925, braces at 1."""
     forcing = rk.Harmonic(amplitude=15.0, period=2.0, phase=1.9605848019)

@@ -197,10 +197,8 @@ def _follow(problem: arclength.Problem, y: np.ndarray, direction: np.ndarray, mo
 def _joined(chain: Chain, parameter: str, back: _Half, on: _Half) -> Branch:
     """One branch of two halves that begin at the same orbit; of a closed one the first half is the whole."""
     if back.end == End.CLOSED:
-        on = _Half(kernel.BranchTable(*(part[:0] for part in back.table)), End.CLOSED)
-        before = back.table
-    else:
-        before = kernel.BranchTable(*(part[::-1] for part in back.table))
+        return _branch(chain, parameter, back.table, (ENDS[End.CLOSED], ENDS[End.CLOSED]))
+    before = kernel.BranchTable(*(part[::-1] for part in back.table))
     first = len(before.rows) - 1
     before.changes["index"] = first + 1 - before.changes["index"]
     on.table.changes["index"] += first
