@@ -303,6 +303,16 @@ def test_special_points_of_a_closed_branch_lie_where_their_tests_change_sign():
     assert f" points, stable from {' and from '.join(ranges)}: " in str(branch)
 
 
+def test_a_closed_branch_has_each_special_point_once_wherever_it_starts():
+    """Its last step goes beyond its first orbit, and may pass a special point there again. Two of them lie 8e-9 apart."""
+    branch = rk.continue_orbit(isolated_orbit(), "restitution", (0.3, 1.0))
+    expected = sorted(point.parameter for point in branch.special)
+    for point in branch.special:
+        again = rk.continue_orbit(branch.orbit(point.index), "restitution", (0.3, 1.0))
+        assert again.ends == ("closed loop", "closed loop")
+        assert sorted(one.parameter for one in again.special) == pytest.approx(expected, abs=1e-10)
+
+
 def isolated_orbit():
     """Of period 5 with 12 impacts at A = 15, T = 2, e = .925, braces at 1."""
     forcing = rk.Harmonic(amplitude=15.0, period=2.0, phase=1.9605848019)

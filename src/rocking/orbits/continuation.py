@@ -45,6 +45,8 @@ ENDS = {
     End.MANY: "as many points as allowed",
     End.LOST: "lost: no further point was found, however near",
 }
+# A special point found again has the same phases and parameter to this.
+SAME_POINT = 1e-6
 # How far from a special point the first point of another branch lies, in steps.
 OFF = 0.1
 # How often that distance is halved at most.
@@ -197,7 +199,7 @@ def _follow(problem: arclength.Problem, y: np.ndarray, direction: np.ndarray, mo
 def _joined(chain: Chain, parameter: str, back: _Half, on: _Half) -> Branch:
     """One branch of two halves that begin at the same orbit; of a closed one the first half is the whole."""
     if back.end == End.CLOSED:
-        return _branch(chain, parameter, back.table, (ENDS[End.CLOSED], ENDS[End.CLOSED]))
+        return _branch(chain, parameter, _once(back.table), (ENDS[End.CLOSED], ENDS[End.CLOSED]))
     before = kernel.BranchTable(*(part[::-1] for part in back.table))
     first = len(before.rows) - 1
     before.changes["index"] = first + 1 - before.changes["index"]
@@ -205,6 +207,14 @@ def _joined(chain: Chain, parameter: str, back: _Half, on: _Half) -> Branch:
     after = on.table._replace(rows=on.table.rows[1:], facts=on.table.facts[1:])
     joined = kernel.BranchTable(*(np.concatenate(parts) for parts in zip(before, after, strict=True)))
     return _branch(chain, parameter, joined, (ENDS[back.end], ENDS[on.end]))
+
+
+def _once(table: kernel.BranchTable) -> kernel.BranchTable:
+    """Return the points of a closed branch with every special point once: its last step goes on beyond its first point."""
+    specials, last = table.specials, len(table.rows) - 1
+    met = [(np.abs(specials[:i] - specials[i]) <= SAME_POINT).all(axis=1).any() for i in range(len(specials))]
+    kept = (table.changes["index"] < last) | ~np.array(met, bool)
+    return table._replace(specials=specials[kept], changes=table.changes[kept])
 
 
 def _branch_from_special(chain: Chain, special: SpecialPoint, row: np.ndarray, half: _Half) -> Branch:
