@@ -133,6 +133,55 @@ def test_an_orbit_at_a_grazing_is_not_followed():
         assert len(rk.continue_orbit(beside, branch.name, bounds)) > 10
 
 
+@pytest.mark.parametrize("step", [3e-4, 1e-3, 3e-3, 1e-2, 5e-2])
+def test_an_orbit_just_beside_a_special_point_is_followed(step):
+    """Its phases are so sensitive to the parameter there that rounding keeps them from settling at a value of it."""
+    breaking = symmetry_breaking(*TUTORIAL)
+    born = rk.switch_branch(breaking, (7.0, 12.0))[0]
+    doubling = special(born, "period-doubling")[0]
+    for point in (breaking, doubling):
+        beside = rk.switch_branch(point, (7.0, 11.5), step, 4)[0]
+        for index in (1, 2):
+            orbit = beside.orbit(index)
+            own = orbit.system.forcing.amplitude
+            branch = rk.continue_orbit(orbit, "amplitude", (7.0, 11.5))
+            assert (branch.period, branch.impacts) == (orbit.period, orbit.impacts)
+            amplitudes = branch.points["parameter"]
+            # from the end of the range past the special point and back along the mirror image, or half a period later
+            assert amplitudes[[0, -1]].tolist() == [11.5, 11.5]
+            assert amplitudes.min() >= point.parameter - 1e-8
+            assert np.abs(amplitudes - own).min() <= 1e-8 * own
+            # also where the range ends at the orbit
+            assert rk.continue_orbit(orbit, "amplitude", (own, 11.5)).points["parameter"].min() >= own
+            assert rk.continue_orbit(orbit, "amplitude", (7.0, own)).points["parameter"].max() <= own
+            assert len(rk.continue_orbit(orbit, "restitution", (0.75, 0.85))) > 10
+
+
+def test_the_orbit_at_a_fold_is_followed_both_ways():
+    breaks = rk.theory.symmetry_breaking_amplitude(1.0, 0.9, 1)
+    mode = rk.theory.symmetric_modes(0.7 * breaks, 1.0, 0.9, 1)[0]
+    orbit = rk.find_orbit(mode.system, mode.start, 1)
+    branch = rk.continue_orbit(orbit, "amplitude", (1e-3 * breaks, 2.0 * breaks))
+    (fold,) = special(branch, "fold")
+    again = rk.continue_orbit(fold.orbit, "amplitude", (1e-3 * breaks, 2.0 * breaks))
+    assert again.ends == branch.ends
+    for one, other in zip(again.special, branch.special, strict=True):
+        assert one.kind == other.kind
+        assert one.parameter == pytest.approx(other.parameter, rel=1e-11, abs=0)
+
+
+def test_an_orbit_where_branches_cross_is_refused_in_one_line():
+    """The first orbit of a branch that is born at a special point lies on both branches there."""
+    breaking = symmetry_breaking(*TUTORIAL)
+    born = rk.switch_branch(breaking, (7.0, 12.0))[0]
+    twice = rk.switch_branch(special(born, "period-doubling")[0], (7.0, 11.5))[0]
+    for branch in (born, twice):
+        with pytest.raises(
+            ValueError, match=r"^orbit must .* lie on one branch alone; got .*branch\.orbit\(index\)"
+        ):
+            rk.continue_orbit(branch.orbit(0), "amplitude", (7.0, 12.0))
+
+
 def test_the_grazing_of_the_period_8_branch_does_not_depend_on_the_step():
     found = []
     for step in (0.002, 0.004, 0.007, 0.01):

@@ -45,6 +45,8 @@ ENDS = {
     End.MANY: "as many points as allowed",
     End.LOST: "lost: no further point was found, however near",
 }
+# The first point of a branch has the orbit's own value of the parameter to this, relatively.
+SAME_VALUE = 1e-8
 # A special point found again has the same phases and parameter to this.
 SAME_POINT = 1e-6
 # How far from a special point the first point of another branch lies, in steps.
@@ -88,7 +90,7 @@ def continue_orbit(
     ------
     TypeError, ValueError
         In one line: for an unknown parameter, an empty range, a range without the orbit's own value, a parameter of braces
-        of a system without, an orbit that rests or leans, the orbit of a grazing.
+        of a system without, an orbit that rests or leans, the orbit of a grazing, the orbit at which a branch is born.
 
     Notes
     -----
@@ -117,12 +119,17 @@ def continue_orbit(
     most = whole("max_points", max_points, 2, 1_000_000)
     chain = chain_of(orbit)
     there = solved(chain, parameter, here, chain.phases)
-    if not there.found:
-        raise ValueError("orbit must be a motion of its own system; got one whose events do not close")
+    row = there.phases if there.found else np.append(chain.phases, here)
     problem = problem_of(chain, [parameter], [(low, high)], step, [high - low])
-    # the parameter alone changes at first
-    direction = np.append(np.zeros(len(chain.kinds)), 1.0)
-    halves = [_follow(problem, there.phases, sense * direction, most) for sense in (-1.0, 1.0)]
+    direction = _first_direction(problem, row, equations(chain, parameter, row)[0])
+    if direction is None:
+        allowed = "close after its period and lie on one branch alone"
+        remedy = "take one beside it, branch.orbit(index), or find it again with find_orbit"
+        raise ValueError(refusal("orbit", allowed, str(orbit), remedy))
+    halves = [_follow(problem, row, sense * direction, most) for sense in (-1.0, 1.0)]
+    for half in halves:
+        # an orbit at an end of the range may lie beyond it by rounding
+        half.table.rows[0, -1] = min(max(half.table.rows[0, -1], low), high)
     return _joined(chain, parameter, *halves)
 
 
@@ -166,6 +173,21 @@ def switch_branch(
         half = _follow(problem, _beside(problem, row, sense * direction), sense * direction, most)
         branches.append(_branch_from_special(chain, special, row, half))
     return tuple(branches)
+
+
+def _first_direction(problem: arclength.Problem, row: np.ndarray, jacobian: np.ndarray) -> np.ndarray | None:
+    """Return a direction across which Newton's method finds the first point of a branch near ``row``; None for none.
+
+    If possible the parameter keeps its value. Near a special point the phases are too sensitive to it, and rounding keeps
+    Newton's method from settling. There the branch's own direction serves.
+    """
+    alone = np.append(np.zeros(len(row) - 1), 1.0)
+    along = np.linalg.svd(jacobian)[2][-1]
+    for direction in (alone, along if along[-1] >= 0.0 else -along):
+        first = _follow(problem, row, direction, 1).table.rows
+        if len(first) and abs(first[0, -1] - row[-1]) <= SAME_VALUE * abs(row[-1]):
+            return direction
+    return None
 
 
 def _beside(problem: arclength.Problem, row: np.ndarray, direction: np.ndarray) -> np.ndarray:
