@@ -34,7 +34,17 @@ from rocking.model.survey_results import (
     SafeBasin,
 )
 from rocking.model.symmetric_mode import Mode
-from rocking.model.system import BRACE_ANGLES, MAX_START, Braces, State, System, check_start
+from rocking.model.system import (
+    BRACE_ANGLES,
+    MAX_START,
+    NO_BRACES,
+    Braces,
+    State,
+    System,
+    check_start,
+    quantities,
+    system_of,
+)
 from rocking.model.validation import (
     NoOrbit,
     TooManyEvents,
@@ -63,6 +73,7 @@ __all__ = [
     "MAX_AMPLITUDE",
     "MAX_PHASE",
     "MAX_START",
+    "NO_BRACES",
     "PERIODS",
     "PHYSICAL",
     "TILES",
@@ -111,6 +122,7 @@ __all__ = [
     "pair",
     "percent",
     "plus_minus",
+    "quantities",
     "read_only",
     "reals",
     "refusal",
@@ -120,6 +132,7 @@ __all__ = [
     "resolve_path",
     "shown",
     "stability_of",
+    "system_of",
     "whole",
     "wilson",
     "within",

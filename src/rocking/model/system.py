@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Mapping
+
 from attrs import field, frozen
 
 from rocking.model.forcing import Harmonic
 from rocking.model.validation import finite, instance, refusal, within
 
 BRACE_ANGLES = (1e-3, 1e3)
+NO_BRACES = {"brace_angle": math.inf, "brace_restitution": 1.0}
+"""The quantities of braces, where there are none."""
 MAX_STATE = 1e9
 MAX_START = 1e3
 
@@ -89,6 +94,44 @@ class System:
     forcing: Harmonic = field(converter=_forcing)
     restitution: float = field(converter=_restitution)
     braces: Braces | None = field(default=None, converter=_braces)
+
+
+def quantities(system: System) -> dict[str, float]:
+    """Return the quantities of a system by name; those of braces only where it has braces.
+
+    Examples
+    --------
+    >>> list(quantities(System(Harmonic(amplitude=2.0, period=1.0), restitution=0.925, braces=Braces(1.5))))
+    ['amplitude', 'period', 'frequency', 'phase', 'restitution', 'brace_angle', 'brace_restitution']
+    """
+    forcing, braces = system.forcing, system.braces
+    found = {
+        "amplitude": forcing.amplitude,
+        "period": forcing.period,
+        "frequency": forcing.frequency,
+        "phase": forcing.phase,
+        "restitution": system.restitution,
+    }
+    if braces is not None:
+        found |= {"brace_angle": braces.angle, "brace_restitution": braces.restitution}
+    return found
+
+
+def system_of(given: Mapping[str, float]) -> System:
+    """Return the system of these quantities, its forcing given by the period; one without braces where their angle is infinite.
+
+    Examples
+    --------
+    >>> system_of({"amplitude": 2.0, "period": 1.0, "phase": 0.0, "restitution": 0.925} | NO_BRACES)
+    System(forcing=Harmonic(amplitude=2.0, period=1.0, phase=0.0), restitution=0.925, braces=None)
+    """
+    forcing = Harmonic(given["amplitude"], period=given["period"], phase=given["phase"])
+    braced = given["brace_angle"] < math.inf
+    return System(
+        forcing,
+        given["restitution"],
+        Braces(given["brace_angle"], given["brace_restitution"]) if braced else None,
+    )
 
 
 @frozen

@@ -13,7 +13,7 @@ from rocking.model import notebook_renderers
 from rocking.model.forcing import MAX_PHASE
 from rocking.model.formatting import counted
 from rocking.model.orbit_stability import Stability, stability_of
-from rocking.model.system import State, System
+from rocking.model.system import NO_BRACES, State, System, quantities
 from rocking.model.validation import within
 
 # An event this near after an instant, in forcing periods, is at that instant: rounding must not put it on the other side.
@@ -200,9 +200,10 @@ class Orbit:
         """The product of the multipliers, from the events alone: exactly 1 where nothing is lost."""
         if self.impacts is None or self.brace_hits is None or self.multipliers == (0j, 0j):
             return 0.0
-        braces = self.system.braces
-        kept = 1.0 if braces is None else braces.restitution
-        return float(self.system.restitution ** (2 * self.impacts) * kept ** (2 * self.brace_hits))
+        system = NO_BRACES | quantities(self.system)
+        return float(
+            system["restitution"] ** (2 * self.impacts) * system["brace_restitution"] ** (2 * self.brace_hits)
+        )
 
     def __str__(self) -> str:
         symmetry = "symmetric" if self.symmetric else "unsymmetric"

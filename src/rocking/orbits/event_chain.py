@@ -13,7 +13,7 @@ from rocking.kernels import parameters as numbers
 from rocking.kernels.orbits import arclength, chain_queries, floquet
 from rocking.kernels.orbits import continuation as following
 from rocking.kernels.orbits import event_chain as kernel
-from rocking.model import Orbit, State, System, refusal
+from rocking.model import NO_BRACES, Orbit, State, System, quantities, refusal
 from rocking.motion import simulate
 from rocking.orbits.parameter import with_value
 
@@ -66,29 +66,17 @@ class Solved(NamedTuple):
 
 def value_of(system: System, parameter: str) -> float:
     """The value of a parameter of a system."""
-    if parameter.startswith("brace_"):
-        if system.braces is None:
-            raise ValueError(
-                f"{parameter} needs a system with braces; got one without (give it braces=Braces(…))"
-            )
-        return float(getattr(system.braces, parameter.removeprefix("brace_")))
-    if parameter == "restitution":
-        return system.restitution
-    return float(getattr(system.forcing, parameter))
+    found = quantities(system)
+    if parameter not in found:
+        raise ValueError(
+            f"{parameter} needs a system with braces; got one without (give it braces=Braces(…))"
+        )
+    return found[parameter]
 
 
 def parameters(system: System) -> Any:
     """A system as the kernels read it, its clock at the phase 0."""
-    forcing, braces = system.forcing, system.braces
-    return numbers.harmonic_parameters(
-        forcing.amplitude,
-        forcing.frequency,
-        forcing.period,
-        0.0,
-        system.restitution,
-        math.inf if braces is None else braces.angle,
-        1.0 if braces is None else braces.restitution,
-    )
+    return numbers.harmonic_parameters(**NO_BRACES | quantities(system) | {"phase": 0.0})
 
 
 def clocked(system: System, phase: float) -> System:

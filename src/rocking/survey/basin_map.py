@@ -18,6 +18,7 @@ from rocking.model import (
     System,
     UncertaintyExponent,
     instance,
+    quantities,
     refusal,
     whole,
 )
@@ -143,17 +144,9 @@ def _fractions(counts: np.ndarray, attractors: tuple[Attractor, ...]) -> tuple[S
 
 
 def asked_of(system: System) -> dict[str, float]:
-    """A system by the names of its quantities."""
-    forcing, braces = system.forcing, system.braces
-    asked = {
-        "amplitude": forcing.amplitude,
-        "period": forcing.period,
-        "phase": forcing.phase,
-        "restitution": system.restitution,
-    }
-    if braces is not None:
-        asked |= {"brace_angle": braces.angle, "brace_restitution": braces.restitution}
-    return asked
+    """Return the quantities of a system as a survey takes them: of period and frequency the period."""
+    found = quantities(system)
+    return {name: found[name] for name in found if name != "frequency"}
 
 
 def points_of(system: System, starts: np.ndarray) -> Points:

@@ -17,6 +17,7 @@ from rocking.model import (
     MAX_AMPLITUDE,
     MAX_PHASE,
     MAX_START,
+    NO_BRACES,
     PERIODS,
     exactly_one,
     reals,
@@ -199,7 +200,7 @@ def _values(asked: SurveySpec, name: str) -> list[float]:
 def points(values: Values, fixed: Mapping[str, float]) -> Points:
     """Systems and starts of n points, `values` (n,) each, as exactly as `System` and `State` make them."""
     count = next(iter(values.values())).size
-    usual = {"phase": 0.0, "brace_angle": math.inf, "brace_restitution": 1.0, "angle": 0.0, "velocity": 0.0}
+    usual = {"phase": 0.0, **NO_BRACES, "angle": 0.0, "velocity": 0.0}
     given = {name: np.full(count, value) for name, value in (usual | dict(fixed)).items()} | dict(values)
     if "frequency" in given:
         given["period"] = math.tau / given["frequency"]

@@ -11,7 +11,7 @@ from rocking.cli.input.axis import FORM, VARIES, Axis
 from rocking.cli.input.options import question
 from rocking.cli.input.study_file import Check, quantity
 from rocking.cli.option_names import SI, YourInput, option
-from rocking.model import instance, reals, refusal, whole
+from rocking.model import instance, quantities, reals, refusal, whole
 
 if TYPE_CHECKING:
     from rocking.model import Block
@@ -63,17 +63,8 @@ def normalised(given: Mapping[str, Any]) -> dict[str, Any]:
 def _numbers(given: Mapping[str, Any]) -> dict[str, Any]:
     """A system and a start as `parametric_map` has them."""
     system, start, _ = question(given)
-    forcing, by_frequency = system.forcing, "frequency" in given or "frequency_hz" in given
-    told = {
-        "amplitude": forcing.amplitude,
-        "frequency" if by_frequency else "period": forcing.frequency if by_frequency else forcing.period,
-        "restitution": system.restitution,
-        "phase": forcing.phase,
-        "angle": start.angle,
-        "velocity": start.velocity,
-    }
-    if system.braces is not None:
-        told |= {"brace_angle": system.braces.angle, "brace_restitution": system.braces.restitution}
+    told = quantities(system) | {"angle": start.angle, "velocity": start.velocity}
+    del told["period" if "frequency" in given or "frequency_hz" in given else "frequency"]
     return told
 
 
