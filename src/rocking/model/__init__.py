@@ -21,6 +21,7 @@ from rocking.model.basin_map import Attractor, BasinMap, UncertaintyExponent
 from rocking.model.binomial_share import LEVEL, Share, wilson
 from rocking.model.block import GRAVITY, Block
 from rocking.model.citation import cite
+from rocking.model.criterion import Criterion
 from rocking.model.forcing import FREQUENCIES, MAX_AMPLITUDE, MAX_PHASE, PERIODS, Harmonic
 from rocking.model.formatting import counted, ordinal, percent, plus_minus
 from rocking.model.orbit_stability import Stability, stability_of
@@ -83,6 +84,7 @@ __all__ = [
     "Block",
     "Braces",
     "ChaosShare",
+    "Criterion",
     "Evidence",
     "Harmonic",
     "Kind",

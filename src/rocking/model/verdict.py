@@ -38,6 +38,19 @@ class Kind(StrEnum):
     OVERTURNED = "overturned"
     UNDETERMINED = "undetermined"
 
+    @property
+    def code(self) -> int:
+        """Number of the kind in maps.
+
+        Examples
+        --------
+        >>> import rocking as rk
+        >>> found = rk.parametric_map(amplitude=[0.5, 2.0], period=[1.0, 2.0], restitution=0.925)
+        >>> int((found.kind == rk.Kind.REST.code).sum())
+        2
+        """
+        return list(type(self)).index(self)
+
 
 @frozen
 class Evidence:

@@ -25,7 +25,7 @@ SAME_PEAK = 1e-6
 # How often, in seconds, it is looked whether Ctrl-C was pressed where waiting itself does not hear it.
 LISTENING = 0.1
 
-KINDS = tuple(Kind(each.name.lower().replace("_", "-")) for each in kernel.Kind)
+KINDS = tuple(Kind)
 """The kinds by their numbers."""
 
 

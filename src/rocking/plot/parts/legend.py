@@ -56,7 +56,6 @@ LOOKS = (
 """Their places are the numbers that `looks` gives."""
 NONE = 255
 """The number of a point that is not yet computed."""
-PERIODIC = list(Kind).index(Kind.PERIODIC)
 _OF_KIND = np.array([0, 1, 8, 9, 10, 11], np.uint8)  # in the order of `Kind`
 
 
@@ -103,7 +102,7 @@ def looks(kind: np.ndarray, period: np.ndarray, symmetric: np.ndarray) -> np.nda
     found = np.full(kind.shape, NONE, np.uint8)
     there = kind < len(_OF_KIND)
     found[there] = _OF_KIND[kind[there]]
-    periodic = kind == PERIODIC
+    periodic = kind == Kind.PERIODIC.code
     odd = np.select([period == 1, period == 3], [1, 3], 5) + (symmetric != 1)
     found[periodic] = np.where(period % 2 == 0, 7, odd)[periodic]
     return found
