@@ -80,20 +80,19 @@ def _names(entry: Any) -> tuple[str, ...]:
 
 
 def _check_theory(asked: Question) -> None:
-    """Refuse what cannot be drawn before the map is computed: over its corners."""
+    """Reject what cannot be drawn before the map is computed."""
     if not asked.drawn:
         return
     name = next(iter(asked.drawn))
     if asked.plot is None:
         raise YourInput(f"{option(name)} is drawn into a picture: give --plot FILE as well")
-    import numpy as np
+    from rocking.plot.parts import legend, theory_curves
+    from rocking.survey import question as spec_of
 
-    from rocking import plot
-    from rocking.survey import parametric_map
-
-    corners = {name: each[[0, -1]] if np.ndim(each) else each for name, each in asked.arguments.items()}
     with your_input(ARGUMENTS | options(*THEORY)):
-        plot.parametric_map(parametric_map(**corners | {"max_cycles": 1}), **asked.drawn)
+        spec = spec_of(asked.arguments, 2, "a parametric map")
+        legend.check_symbols(asked.drawn.get("symbols"))
+        theory_curves.check(asked.drawn.get("curves", ()), spec.axes, spec.fixed)
 
 
 def files_of(asked: Question) -> dict[str, Path]:

@@ -12,7 +12,7 @@ import numpy as np
 from attrs import frozen
 from matplotlib.colors import to_rgb
 
-from rocking.model import Kind
+from rocking.model import Kind, one_of
 from rocking.plot.parts import style
 
 # Those of Okabe and Ito for what goes on moving; greys for what stands and what has fallen.
@@ -57,6 +57,12 @@ LOOKS = (
 NONE = 255
 """The number of a point that is not yet computed."""
 _OF_KIND = np.array([0, 1, 8, 9, 10, 11], np.uint8)  # in the order of `Kind`
+
+
+def check_symbols(symbols: str | None) -> None:
+    """Raise TypeError or ValueError for a set of symbols that is unknown."""
+    if symbols is not None:
+        one_of("symbols", symbols, ("kinds", *PAPER))
 
 
 def paler(colour: str, times: int) -> tuple[float, float, float]:
