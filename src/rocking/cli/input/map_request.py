@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from attrs import field, frozen
 
 from rocking.cli.input import study_file, survey_quantities
-from rocking.cli.option_names import START, SYSTEM, YourInput, option, options, your_input
+from rocking.cli.option_names import COUNTS, START, SYSTEM, YourInput, option, options, your_input
 from rocking.cli.output import files
 from rocking.cli.output.files import SUFFIXES, check_apart, check_files
 from rocking.cli.output.survey_run import ARGUMENTS, carried_out
@@ -20,7 +20,6 @@ if TYPE_CHECKING:
 
     from rocking.model import Block
 
-COUNTS = ("max_cycles", "max_period")
 THEORY = ("curves", "symbols")
 PLACES = ("store", "repair", "tiles", *SUFFIXES)
 

@@ -10,24 +10,11 @@ from typing import TYPE_CHECKING, Any
 from rocking.cli.input.axis import FORM, VARIES, Axis
 from rocking.cli.input.options import question
 from rocking.cli.input.study_file import Check, quantity
-from rocking.cli.option_names import SI, YourInput, option
+from rocking.cli.option_names import SI, TOLD, YourInput, option
 from rocking.model import instance, quantities, reals, refusal, whole
 
 if TYPE_CHECKING:
     from rocking.model import Block
-
-TOLD = (
-    "amplitude",
-    "period",
-    "frequency",
-    "restitution",
-    "phase",
-    "brace_angle",
-    "brace_restitution",
-    "angle",
-    "velocity",
-)
-"""What a survey is told by, in this order."""
 
 
 def normalised(given: Mapping[str, Any]) -> dict[str, Any]:

@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from rocking.cli.input.map_request import COUNTS
-from rocking.cli.input.survey_quantities import TOLD
+from rocking.cli.option_names import COUNTS, TOLD
 from rocking.cli.output.console import Row, print_json, print_table
 from rocking.cli.reports.motion import asked_in_si, beyond, in_si
 from rocking.cli.reports.validity import warned, warnings
