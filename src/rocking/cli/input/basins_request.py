@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from rocking.cli.input import study_file, survey_quantities
 from rocking.cli.input.axis import Axis
 from rocking.cli.input.options import question as system_of
-from rocking.cli.option_names import START, SYSTEM
+from rocking.cli.option_names import COUNTS, START, SYSTEM
 from rocking.cli.output.survey_run import FILES, carried_out
 
 if TYPE_CHECKING:
@@ -21,27 +21,13 @@ DEFAULT_STARTS = 200
 
 def question(typed: Mapping[str, Any], file: Path | None) -> dict[str, Any]:
     """What options and study file ask for; what is typed wins."""
-    return study_file.asked(typed, file, _checks())
-
-
-def _checks() -> dict[str, study_file.Check]:
-    """How each entry of a study file is read."""
-    from rocking.response import MAX_CYCLES, MAX_PERIOD
-    from rocking.survey import MAX_SAMPLES, MAX_SEED
-
-    limits = {
-        "samples": (1, MAX_SAMPLES),
-        "seed": (0, MAX_SEED),
-        "max_cycles": (1, MAX_CYCLES),
-        "max_period": (1, MAX_PERIOD),
-        "boundary_runs": (0, MAX_SAMPLES),
-    }
-    return {
+    checks = {
         **survey_quantities.fixed(*SYSTEM),
         **survey_quantities.varying(*START),
-        **survey_quantities.counts(limits),
+        **survey_quantities.counts("samples", "seed", *COUNTS, "boundary_runs"),
         **survey_quantities.path_checks("store", *FILES),
     }
+    return study_file.asked(typed, file, checks)
 
 
 def compute(given: Mapping[str, Any]) -> tuple[BasinMap, Block | None]:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from rocking.cli.input import study_file, survey_quantities
 from rocking.cli.input.axis import FORM, Axis
 from rocking.cli.input.options import kinds, require
-from rocking.cli.option_names import SI, YourInput, option
+from rocking.cli.option_names import COUNTS, SI, YourInput, option
 from rocking.cli.output.survey_run import FILES, carried_out
 
 if TYPE_CHECKING:
@@ -22,7 +22,12 @@ ASKED = ("period", "frequency", "restitution", "amplitude")
 
 def question(typed: Mapping[str, Any], file: Path | None) -> dict[str, Any]:
     """What options and study file ask for; what is typed wins."""
-    given = study_file.asked(typed, file, _checks())
+    checks = {
+        **survey_quantities.varying(*ASKED, *SCANNED_SI),
+        **survey_quantities.counts("phases", *COUNTS),
+        **survey_quantities.path_checks("store", *FILES),
+    }
+    given = study_file.asked(typed, file, checks)
     _, physical = kinds(given)
     if physical:
         needs = "--height, --width and --frequency-hz (or --period-s)"
@@ -40,19 +45,6 @@ def question(typed: Mapping[str, Any], file: Path | None) -> dict[str, Any]:
     if "plot" in given and len(varied) > 1:
         raise YourInput(f"--plot draws over one axis; got {' and '.join(map(option, varied))}")
     return given
-
-
-def _checks() -> dict[str, study_file.Check]:
-    """How each entry of a study file is read."""
-    from rocking.response import MAX_CYCLES, MAX_PERIOD
-    from rocking.survey import MAX_PHASES
-
-    limits = {"phases": (1, MAX_PHASES), "max_cycles": (1, MAX_CYCLES), "max_period": (1, MAX_PERIOD)}
-    return {
-        **survey_quantities.varying(*ASKED, *SCANNED_SI),
-        **survey_quantities.counts(limits),
-        **survey_quantities.path_checks("store", *FILES),
-    }
 
 
 def compute(given: Mapping[str, Any]) -> tuple[OverturningCurve, Block | None]:

@@ -86,14 +86,28 @@ def fixed(*names: str) -> dict[str, Check]:
     return {name: partial(_number, name) for name in names}
 
 
-def counts(limits: Mapping[str, tuple[int, int]]) -> dict[str, Check]:
+def counts(*names: str) -> dict[str, Check]:
     """How entries are read that are whole numbers between limits."""
-    return {name: partial(_whole, name, ends) for name, ends in limits.items()}
+    from rocking.response import MAX_CYCLES, MAX_PERIOD
+    from rocking.survey import MAX_PHASES, MAX_SAMPLES, MAX_SEED
+
+    limits = {
+        "samples": (1, MAX_SAMPLES),
+        "seed": (0, MAX_SEED),
+        "phases": (1, MAX_PHASES),
+        "max_cycles": (1, MAX_CYCLES),
+        "max_period": (1, MAX_PERIOD),
+        "boundary_runs": (0, MAX_SAMPLES),
+    }
+    return {name: partial(whole, name, low=limits[name][0], high=limits[name][1]) for name in names}
 
 
 def path_checks(*names: str) -> dict[str, Check]:
     """How entries are read that are paths; and `repair`, which goes with a store."""
-    return {name: partial(_path, name) for name in names} | {"repair": _repair}
+    return {
+        **{name: partial(_path, name) for name in names},
+        "repair": partial(instance, "repair", kind=bool),
+    }
 
 
 def _in_range(name: str, entry: Any) -> Any:
@@ -113,15 +127,7 @@ def _number(name: str, entry: Any) -> Any:
     return reals(name, entry) if name in SI else check_quantity(name, entry)
 
 
-def _whole(name: str, ends: tuple[int, int], entry: Any) -> int:
-    return whole(name, entry, *ends)
-
-
 def _path(name: str, entry: Any) -> Path:
     if not isinstance(entry, str):
         raise TypeError(refusal(name, "be a path", entry))
     return Path(entry)
-
-
-def _repair(entry: Any) -> bool:
-    return instance("repair", entry, bool)
