@@ -166,8 +166,11 @@ def check_start(system: System, start: State) -> None:
     instance("start", start, State)
     within("angle", start.angle, -MAX_START, MAX_START)
     within("velocity", start.velocity, -MAX_START, MAX_START)
-    if system.braces is not None and abs(start.angle) > system.braces.angle:
-        reach = system.braces.angle
-        raise ValueError(
-            refusal("angle", f"lie between the braces, in [{-reach:.6g}, {reach:.6g}]", start.angle)
-        )
+    if system.braces is not None:
+        check_between(start.angle, system.braces.angle)
+
+
+def check_between(angle: float, reach: float) -> None:
+    """Raise ValueError for an angle beyond braces at ±`reach`."""
+    if abs(angle) > reach:
+        raise ValueError(refusal("angle", f"lie between the braces, in [{-reach:.6g}, {reach:.6g}]", angle))

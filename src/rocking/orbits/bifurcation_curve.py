@@ -12,8 +12,8 @@ from rocking.kernels.orbits import branch_point as codes
 from rocking.model import ReadOnlyArrays, instance, one_of, pair, read_only, refusal, whole, within
 from rocking.orbits.branch import SpecialPoint
 from rocking.orbits.continuation import ENDS
-from rocking.orbits.event_chain import IMPACT, NAMES, Chain, parameters, value_of
-from rocking.orbits.parameter import checked_range
+from rocking.orbits.event_chain import IMPACT, NAMES, Chain, parameters
+from rocking.orbits.parameter import checked_range, value_of
 
 KINDS = {"fold": codes.FOLD, "grazing": codes.GRAZING}
 

@@ -22,10 +22,9 @@ from rocking.orbits.event_chain import (
     orbit_of,
     parameters,
     solved,
-    value_of,
 )
 from rocking.orbits.grazing import grazing_at
-from rocking.orbits.parameter import checked_range
+from rocking.orbits.parameter import checked_range, value_of
 
 KINDS = {
     codes.FOLD: "fold",

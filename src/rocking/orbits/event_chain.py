@@ -64,16 +64,6 @@ class Solved(NamedTuple):
     peak: float
 
 
-def value_of(system: System, parameter: str) -> float:
-    """The value of a parameter of a system."""
-    found = quantities(system)
-    if parameter not in found:
-        raise ValueError(
-            f"{parameter} needs a system with braces; got one without (give it braces=Braces(…))"
-        )
-    return found[parameter]
-
-
 def parameters(system: System) -> Any:
     """A system as the kernels read it, its clock at the phase 0."""
     return numbers.harmonic_parameters(**NO_BRACES | quantities(system) | {"phase": 0.0})

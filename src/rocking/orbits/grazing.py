@@ -25,9 +25,8 @@ from rocking.orbits.event_chain import (
     equations,
     orbit_of,
     parameters,
-    value_of,
 )
-from rocking.orbits.parameter import with_value
+from rocking.orbits.parameter import value_of, with_value
 from rocking.orbits.saddle_orbits import response, saddle
 
 # An event this slow is the one that grazes.

@@ -13,6 +13,7 @@ from rocking.model import (
     Harmonic,
     System,
     pair,
+    quantities,
     refusal,
     within,
 )
@@ -37,12 +38,20 @@ ALLOWED = {
 }
 
 
+def value_of(system: System, parameter: str) -> float:
+    """The value of a parameter of a system."""
+    found = quantities(system)
+    if parameter not in found:
+        raise ValueError(
+            f"{parameter} needs a system with braces; got one without (give it braces=Braces(…))"
+        )
+    return found[parameter]
+
+
 def with_value(system: System, parameter: str, value: float) -> System:
     """The same system with one parameter changed; a brace angle puts braces where there are none."""
-    if parameter == "brace_restitution" and system.braces is None:
-        raise ValueError(
-            "brace_restitution needs a system with braces; got one without (give it braces=Braces(…))"
-        )
+    if parameter == "brace_restitution":
+        value_of(system, parameter)
     forcing = system.forcing
     if parameter in ("amplitude", "phase"):
         return evolve(system, forcing=evolve(forcing, **{parameter: value}))

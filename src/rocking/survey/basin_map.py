@@ -17,6 +17,7 @@ from rocking.model import (
     Share,
     System,
     UncertaintyExponent,
+    check_between,
     instance,
     quantities,
     refusal,
@@ -121,7 +122,8 @@ def basin_map(
         if store is not None:
             raise TypeError(refusal("store", "come without samples: it holds a grid", str(store)))
         ends = {name: span(name, v) for name, v in (("velocity", velocity), ("angle", angle))}
-        check_reach(system, ends["angle"])
+        reach = MAX_START if system.braces is None else system.braces.angle
+        check_between(max(ends["angle"], key=abs), reach)
         count = whole("samples", samples, 1, MAX_SAMPLES)
         starts = random.uniform(*_corners(ends), (count, 2))
         found = _random_dataset(system, starts, measure, executor).assign_attrs(seed=seed)
@@ -158,14 +160,6 @@ def grid_starts(asked: SurveySpec) -> np.ndarray:
     """The starts (n, 2) of a grid, in C order."""
     grid = dict(zip(asked.axes, np.meshgrid(*asked.axes.values(), indexing="ij"), strict=True))
     return np.column_stack([grid["angle"].ravel(), grid["velocity"].ravel()])
-
-
-def check_reach(system: System, angles: tuple[float, float]) -> None:
-    """Refuse ranges of starts beyond the braces."""
-    reach = MAX_START if system.braces is None else system.braces.angle
-    far = max(angles, key=abs)
-    if abs(far) > reach:
-        raise ValueError(refusal("angle", f"lie between the braces, in [{-reach:.6g}, {reach:.6g}]", far))
 
 
 def _corners(ends: dict[str, tuple[float, float]]) -> tuple[tuple[float, float], tuple[float, float]]:

@@ -19,6 +19,7 @@ from rocking.model import (
     MAX_START,
     NO_BRACES,
     PERIODS,
+    check_between,
     exactly_one,
     reals,
     refusal,
@@ -186,11 +187,7 @@ def _check_braces(asked: SurveySpec) -> None:
     """Refuse starts beyond the braces."""
     if "brace_angle" not in asked.axes and "brace_angle" not in asked.fixed:
         return
-    reach = min(_values(asked, "brace_angle"))
-    far = max(_values(asked, "angle"), key=abs)
-    if abs(far) > reach:
-        allowed = f"lie between the braces, in [{-reach:.6g}, {reach:.6g}]"
-        raise ValueError(refusal("angle", allowed, far))
+    check_between(max(_values(asked, "angle"), key=abs), min(_values(asked, "brace_angle")))
 
 
 def _values(asked: SurveySpec, name: str) -> list[float]:
