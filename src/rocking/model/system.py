@@ -160,14 +160,23 @@ class State:
     velocity: float = field(default=0.0, converter=_velocity)
 
 
-def check_start(system: System, start: State) -> None:
-    """Refuse a start that is no state of this system: TypeError for other values, ValueError far off or beyond a brace."""
+def check_start(system: System, start: State | None) -> State:
+    """Return the start of a motion, at rest by default.
+
+    Raises
+    ------
+    TypeError
+        If `system` is no System or `start` is no State.
+    ValueError
+        If the start is far off or beyond a brace.
+    """
     instance("system", system, System)
-    instance("start", start, State)
+    start = State() if start is None else instance("start", start, State)
     within("angle", start.angle, -MAX_START, MAX_START)
     within("velocity", start.velocity, -MAX_START, MAX_START)
     if system.braces is not None:
         check_between(start.angle, system.braces.angle)
+    return start
 
 
 def check_between(angle: float, reach: float) -> None:

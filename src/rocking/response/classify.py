@@ -88,8 +88,7 @@ def classify(
     >>> str(verdict.kind), verdict.period, verdict.impacts_per_period, verdict.symmetric
     ('periodic', 3, 2, True)
     """
-    start = State() if start is None else start
-    check_start(system, start)
+    start = check_start(system, start)
     max_cycles, max_period = budget(max_cycles, max_period).values()
     judgement = _judged(system, start, max_cycles, max_period)
     return _verdict(

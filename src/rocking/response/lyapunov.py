@@ -78,8 +78,7 @@ def lyapunov(
     >>> bool(abs(spectrum.values - 2 * math.log(0.925)).max() < spectrum.errors.max() < 1e-3)
     True
     """
-    start = State() if start is None else start
-    check_start(system, start)
+    start = check_start(system, start)
     cycles = whole("cycles", cycles, 1, MAX_CYCLES)
     transient = cycles // 10 if transient is None else whole("transient", transient, 0, MAX_CYCLES)
     motion = _Carried(system, start)
