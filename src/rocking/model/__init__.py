@@ -24,6 +24,7 @@ from rocking.model.citation import cite
 from rocking.model.criterion import Criterion
 from rocking.model.forcing import FREQUENCIES, MAX_AMPLITUDE, MAX_PHASE, PERIODS, Harmonic
 from rocking.model.formatting import counted, ordinal, percent, plus_minus
+from rocking.model.notebook_renderers import NotebookPicture
 from rocking.model.orbit_stability import Stability, stability_of
 from rocking.model.outcome import Outcome, Overturning
 from rocking.model.si_units import PHYSICAL, block_attributes
@@ -91,6 +92,7 @@ __all__ = [
     "Kind",
     "Mode",
     "NoOrbit",
+    "NotebookPicture",
     "Orbit",
     "Outcome",
     "Overturning",

@@ -9,9 +9,9 @@ from typing import Any
 
 from attrs import evolve, field, frozen
 
-from rocking.model import notebook_renderers
 from rocking.model.forcing import MAX_PHASE
 from rocking.model.formatting import counted
+from rocking.model.notebook_renderers import NotebookPicture
 from rocking.model.orbit_stability import Stability, stability_of
 from rocking.model.system import NO_BRACES, State, System, quantities
 from rocking.model.validation import within
@@ -225,7 +225,7 @@ class Orbit:
 
 
 @frozen
-class Verdict:
+class Verdict(NotebookPicture):
     """What a response is, with its evidence; made by `classify`.
 
     What does not apply is None. What describes an orbit (`period` to `multipliers`, `orbit`) is known of periodic responses
@@ -299,6 +299,3 @@ class Verdict:
 
     def __str__(self) -> str:
         return f"{self.kind}: {self.evidence}"
-
-    def _repr_html_(self) -> str | None:
-        return notebook_renderers.html(self)
