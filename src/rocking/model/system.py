@@ -7,7 +7,7 @@ from collections.abc import Mapping
 
 from attrs import field, frozen
 
-from rocking.model.forcing import Harmonic
+from rocking.model.forcing import FREQUENCIES, MAX_AMPLITUDE, MAX_PHASE, PERIODS, Harmonic
 from rocking.model.validation import finite, instance, refusal, within
 
 BRACE_ANGLES = (1e-3, 1e3)
@@ -15,6 +15,18 @@ NO_BRACES = {"brace_angle": math.inf, "brace_restitution": 1.0}
 """The quantities of braces, where there are none."""
 MAX_STATE = 1e9
 MAX_START = 1e3
+RANGES = {
+    "amplitude": (0.0, MAX_AMPLITUDE),
+    "velocity": (-MAX_START, MAX_START),
+    "restitution": (0.0, 1.0),
+    "brace_angle": BRACE_ANGLES,
+    "brace_restitution": (0.0, 1.0),
+    "phase": (-MAX_PHASE, MAX_PHASE),
+    "angle": (-MAX_START, MAX_START),
+    "frequency": FREQUENCIES,
+    "period": PERIODS,
+}
+"""Ranges of the quantities of a system and a start. Of two axes the first in this order is a picture's upward one."""
 
 
 def _restitution(value: float) -> float:

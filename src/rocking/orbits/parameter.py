@@ -5,10 +5,7 @@ from __future__ import annotations
 from attrs import evolve
 
 from rocking.model import (
-    BRACE_ANGLES,
-    FREQUENCIES,
-    MAX_AMPLITUDE,
-    PERIODS,
+    RANGES,
     Braces,
     Harmonic,
     System,
@@ -28,14 +25,7 @@ PARAMETERS = (
     "brace_restitution",
 )
 # A model's own ranges; towards 0 nothing is left of a restitution to follow.
-ALLOWED = {
-    "amplitude": (0.0, MAX_AMPLITUDE),
-    "frequency": FREQUENCIES,
-    "period": PERIODS,
-    "restitution": (1e-3, 1.0),
-    "brace_angle": BRACE_ANGLES,
-    "brace_restitution": (1e-3, 1.0),
-}
+ALLOWED = RANGES | dict.fromkeys(("restitution", "brace_restitution"), (1e-3, 1.0))
 
 
 def value_of(system: System, parameter: str) -> float:

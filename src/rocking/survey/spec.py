@@ -12,13 +12,8 @@ from attrs import field, frozen
 
 from rocking.kernels import parameters as numbers
 from rocking.model import (
-    BRACE_ANGLES,
-    FREQUENCIES,
-    MAX_AMPLITUDE,
-    MAX_PHASE,
-    MAX_START,
     NO_BRACES,
-    PERIODS,
+    RANGES,
     check_between,
     exactly_one,
     reals,
@@ -29,18 +24,6 @@ from rocking.model import (
 
 Values = Mapping[str, np.ndarray]
 
-RANGES = {
-    "amplitude": (0.0, MAX_AMPLITUDE),
-    "velocity": (-MAX_START, MAX_START),
-    "restitution": (0.0, 1.0),
-    "brace_angle": BRACE_ANGLES,
-    "brace_restitution": (0.0, 1.0),
-    "phase": (-MAX_PHASE, MAX_PHASE),
-    "angle": (-MAX_START, MAX_START),
-    "frequency": FREQUENCIES,
-    "period": PERIODS,
-}
-"""What may vary, with its limits. Of two axes the first in this order is a picture's upward one."""
 SYMBOLS = {
     "amplitude": ("A", "amplitude of the base's acceleration in units of g theta_cr"),
     "velocity": ("Θ'", "angular velocity at the start in units of alpha theta_cr"),
