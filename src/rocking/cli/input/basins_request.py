@@ -16,11 +16,11 @@ if TYPE_CHECKING:
     from rocking.model import BasinMap, Block
 
 DEFAULT_STARTS = 200
-"""Starts along an axis from -1 to 1, or from brace to brace."""
+"""Number of starts along an axis from -1 to 1, or from brace to brace."""
 
 
 def question(typed: Mapping[str, Any], file: Path | None) -> dict[str, Any]:
-    """What options and study file ask for; what is typed wins."""
+    """Return what options and study file request; options take precedence."""
     checks = {
         **survey_quantities.fixed(*SYSTEM),
         **survey_quantities.varying(*START),
@@ -31,7 +31,7 @@ def question(typed: Mapping[str, Any], file: Path | None) -> dict[str, Any]:
 
 
 def compute(given: Mapping[str, Any]) -> tuple[BasinMap, Block | None]:
-    """The basins, and the block if they are in SI."""
+    """Compute the basins; return them with the block if they are in SI."""
     from rocking.survey import basin_map
 
     asked = {name: each for name, each in given.items() if name not in FILES}
@@ -45,7 +45,7 @@ def compute(given: Mapping[str, Any]) -> tuple[BasinMap, Block | None]:
 
 
 def _starts(asked: Any, *, random: bool) -> Any:
-    """The axis of a grid of starts, or the ends of it where starts are drawn at random."""
+    """Return the starts along an axis of a grid, or the ends of the axis if starts are random."""
     return (
         [asked.start, asked.stop] if random and isinstance(asked, Axis) else survey_quantities.values(asked)
     )

@@ -38,7 +38,7 @@ class Question:
 
 
 def question(typed: Mapping[str, Any], file: Path | None) -> Question:
-    """What options and study file ask for; what is typed wins."""
+    """Return what options and study file request; options take precedence."""
     checks: dict[str, study_file.Check] = {
         **survey_quantities.varying(*SYSTEM, *START),
         **survey_quantities.counts(*COUNTS),

@@ -32,7 +32,7 @@ class Study(NamedTuple):
 
 
 def study(given: Mapping[str, Any]) -> Study:
-    """What the options ask for, exactly one of which is an axis; refused as `YourInput`."""
+    """Return the study that the options request; `YourInput` unless exactly one of them is an axis."""
     import numpy as np
 
     axes = [name for name, value in given.items() if isinstance(value, Axis)]
@@ -58,7 +58,7 @@ def study(given: Mapping[str, Any]) -> Study:
 def compute(
     study: Study, sweep: str, transient: int, cycles: int, section_phase: float | None
 ) -> OrbitDiagram:
-    """The diagram, with a bar on stderr while a long one is made."""
+    """Compute the diagram, with a progress bar on stderr if it takes long."""
     from rich.console import Console
     from rich.progress import Progress
 

@@ -16,12 +16,12 @@ if TYPE_CHECKING:
     from rocking.model import Block, OverturningCurve
 
 SCANNED_SI = tuple(name for name in SI if name != "displacement")
-"""One displacement is another acceleration at each frequency."""
+"""Options in SI except the displacement, whose acceleration depends on the frequency."""
 ASKED = ("period", "frequency", "restitution", "amplitude")
 
 
 def question(typed: Mapping[str, Any], file: Path | None) -> dict[str, Any]:
-    """What options and study file ask for; what is typed wins."""
+    """Return what options and study file request; options take precedence."""
     checks = {
         **survey_quantities.varying(*ASKED, *SCANNED_SI),
         **survey_quantities.counts("phases", *COUNTS),
@@ -48,7 +48,7 @@ def question(typed: Mapping[str, Any], file: Path | None) -> dict[str, Any]:
 
 
 def compute(given: Mapping[str, Any]) -> tuple[OverturningCurve, Block | None]:
-    """The curve, and the block if it is in SI."""
+    """Compute the curve; return it with the block if it is in SI."""
     from rocking.survey import overturning_amplitude
 
     shaken = {name: each for name, each in given.items() if name in (*ASKED, *SCANNED_SI)}
@@ -62,7 +62,7 @@ def compute(given: Mapping[str, Any]) -> tuple[OverturningCurve, Block | None]:
 
 
 def _normalised(given: Mapping[str, Any]) -> dict[str, Any]:
-    """What is asked in SI; of accelerations nothing unless they are given."""
+    """Return the normalised arguments of a request in SI; no amplitude unless accelerations are given."""
     levels = [name for name in ("acceleration", "acceleration_g") if name in given]
     for name in levels:
         if not isinstance(given[name], Axis):

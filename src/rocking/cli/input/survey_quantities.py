@@ -87,7 +87,7 @@ def fixed(*names: str) -> dict[str, Check]:
 
 
 def counts(*names: str) -> dict[str, Check]:
-    """How entries are read that are whole numbers between limits."""
+    """Return the checks of entries that are whole numbers between limits."""
     from rocking.response import MAX_CYCLES, MAX_PERIOD
     from rocking.survey import MAX_PHASES, MAX_SAMPLES, MAX_SEED
 
