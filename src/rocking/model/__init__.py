@@ -21,7 +21,7 @@ from rocking.model.basin_map import Attractor, BasinMap, UncertaintyExponent
 from rocking.model.binomial_share import LEVEL, Share, wilson
 from rocking.model.block import GRAVITY, Block
 from rocking.model.citation import cite
-from rocking.model.criterion import Criterion
+from rocking.model.classification import Criterion, Kind
 from rocking.model.forcing import FREQUENCIES, MAX_AMPLITUDE, MAX_PHASE, PERIODS, Harmonic
 from rocking.model.formatting import counted, ordinal, percent, plus_minus
 from rocking.model.notebook_renderers import NotebookPicture
@@ -65,7 +65,7 @@ from rocking.model.validation import (
     whole,
     within,
 )
-from rocking.model.verdict import Evidence, Kind, Orbit, Verdict
+from rocking.model.verdict import Evidence, Orbit, Verdict
 from rocking.model.version import VERSION
 
 __all__ = [

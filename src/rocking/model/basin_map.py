@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING
 from attrs import field, frozen
 
 from rocking.model.binomial_share import Share
+from rocking.model.classification import Kind
 from rocking.model.notebook_renderers import NotebookPicture
 from rocking.model.system import System
-from rocking.model.verdict import Kind, Orbit, Verdict
+from rocking.model.verdict import Orbit, Verdict
 
 if TYPE_CHECKING:
     import xarray as xr

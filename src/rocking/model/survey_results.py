@@ -8,9 +8,9 @@ import numpy as np
 from attrs import field, frozen
 
 from rocking.model.binomial_share import Share
+from rocking.model.classification import Kind
 from rocking.model.notebook_renderers import NotebookPicture
 from rocking.model.system import State, System
-from rocking.model.verdict import Kind
 
 if TYPE_CHECKING:
     import xarray as xr

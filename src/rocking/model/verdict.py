@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from enum import StrEnum
 from typing import Any
 
 from attrs import evolve, field, frozen
 
+from rocking.model.classification import Kind
 from rocking.model.forcing import MAX_PHASE
 from rocking.model.formatting import counted
 from rocking.model.notebook_renderers import NotebookPicture
@@ -18,38 +18,6 @@ from rocking.model.validation import within
 
 # An event this near after an instant, in forcing periods, is at that instant: rounding must not put it on the other side.
 SAME_INSTANT = 1e-12
-
-
-class Kind(StrEnum):
-    """What a response is: a plain string, and one of six; no kind is ever a default.
-
-    Examples
-    --------
-    >>> import rocking as rk
-    >>> system = rk.System(rk.Harmonic(amplitude=0.5, period=1.0), restitution=0.9)
-    >>> rk.classify(system).kind is rk.Kind.REST, rk.Kind.REST == "rest"
-    (True, True)
-    """
-
-    REST = "rest"
-    PERIODIC = "periodic"
-    QUASI_PERIODIC = "quasi-periodic"
-    CHAOTIC = "chaotic"
-    OVERTURNED = "overturned"
-    UNDETERMINED = "undetermined"
-
-    @property
-    def code(self) -> int:
-        """Number of the kind in maps.
-
-        Examples
-        --------
-        >>> import rocking as rk
-        >>> found = rk.parametric_map(amplitude=[0.5, 2.0], period=[1.0, 2.0], restitution=0.925)
-        >>> int((found.kind == rk.Kind.REST.code).sum())
-        2
-        """
-        return list(type(self)).index(self)
 
 
 @frozen

@@ -1,8 +1,40 @@
-"""Criterion: by which a response is classified, or because of which it stays undetermined."""
+"""Kinds of responses, and the criteria by which a response is classified or stays undetermined."""
 
 from __future__ import annotations
 
-from enum import IntEnum
+from enum import IntEnum, StrEnum
+
+
+class Kind(StrEnum):
+    """What a response is: a plain string, and one of six; no kind is ever a default.
+
+    Examples
+    --------
+    >>> import rocking as rk
+    >>> system = rk.System(rk.Harmonic(amplitude=0.5, period=1.0), restitution=0.9)
+    >>> rk.classify(system).kind is rk.Kind.REST, rk.Kind.REST == "rest"
+    (True, True)
+    """
+
+    REST = "rest"
+    PERIODIC = "periodic"
+    QUASI_PERIODIC = "quasi-periodic"
+    CHAOTIC = "chaotic"
+    OVERTURNED = "overturned"
+    UNDETERMINED = "undetermined"
+
+    @property
+    def code(self) -> int:
+        """Number of the kind in maps.
+
+        Examples
+        --------
+        >>> import rocking as rk
+        >>> found = rk.parametric_map(amplitude=[0.5, 2.0], period=[1.0, 2.0], restitution=0.925)
+        >>> int((found.kind == rk.Kind.REST.code).sum())
+        2
+        """
+        return list(type(self)).index(self)
 
 
 class Criterion(IntEnum):
