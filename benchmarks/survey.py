@@ -24,6 +24,7 @@ from rocking.kernels.classify.results import parameters_from_row as asked_of
 from rocking.kernels.classify.workspace import make_workspace
 from rocking.kernels.compile_options import KERNEL
 from rocking.kernels.march import march
+from rocking.model import Criterion
 
 POINTS = 1000
 PERIODS, AMPLITUDES = (0.2, 3.0), (0.0, 16.0)
@@ -90,8 +91,8 @@ def maps():
     note = f"the quickest of {TURNS}; {min(works):.3g} s of processors"
     yield Figure("10⁶ points, e = .925, ≤ 10,000 cycles", min(walls), "s", 3, note=note)
     _, _, found = taken(**asked(POINTS))
-    unresolved = found.evidence.values == 7
-    undetermined = (found.kind.values == 5) & ~unresolved
+    unresolved = found.evidence.values == Criterion.UNRESOLVED_RESET
+    undetermined = (found.kind.values == rk.Kind.UNDETERMINED.code) & ~unresolved
     yield Figure("  undetermined, resets left out", float(undetermined.sum()), "points", 0)
     yield Figure("  resets of unresolved period", 100.0 * unresolved.mean(), "%", 0.02)
     grown = median(works) / median(quarters) / 4.0
@@ -108,7 +109,7 @@ def maps():
     rk.parametric_map(**asked(20, 1.0), max_cycles=200)
     wall, work, found = taken(**asked(POINTS, 1.0))
     yield Figure("10⁶ points, e = 1, ≤ 10,000 cycles", wall, "s", 20, note=f"{work:.3g} s of processors")
-    open_share = 100.0 * np.isin(found.kind.values, (3, 5)).mean()
+    open_share = 100.0 * np.isin(found.kind.values, (rk.Kind.CHAOTIC.code, rk.Kind.UNDETERMINED.code)).mean()
     yield Figure("  still chaotic or undetermined", open_share, "%", 3.5)
     braced = asked(POINTS) | {"brace_angle": 1.0, "max_cycles": 1000}
     wall, work, _ = taken(**braced)

@@ -153,47 +153,24 @@ __all__ = [
     "theory",
 ]
 
-_ROOM = {
-    "basin_map": "rocking.survey",
-    "bifurcation_curve": "rocking.orbits",
-    "BifurcationCurve": "rocking.orbits",
-    "Branch": "rocking.orbits",
-    "chaos_share": "rocking.survey",
-    "classify": "rocking.response",
-    "continue_orbit": "rocking.orbits",
-    "correlation_dimension": "rocking.response",
-    "CorrelationDimension": "rocking.response",
-    "find_orbit": "rocking.orbits",
-    "find_orbits": "rocking.orbits",
-    "frequency_response": "rocking.orbits",
-    "FrequencyResponse": "rocking.orbits",
-    "impact_section": "rocking.response",
-    "lyapunov": "rocking.response",
-    "LyapunovSpectrum": "rocking.response",
-    "Manifold": "rocking.orbits",
-    "manifold_gap": "rocking.orbits",
-    "Motion": "rocking.motion",
-    "orbit_diagram": "rocking.orbits",
-    "OrbitDiagram": "rocking.orbits",
-    "Orbits": "rocking.orbits",
-    "overturning_amplitude": "rocking.survey",
-    "parametric_map": "rocking.survey",
-    "Peak": "rocking.response",
-    "repeatability": "rocking.survey",
-    "repeatability_map": "rocking.survey",
-    "rotation_number": "rocking.response",
-    "RotationNumber": "rocking.response",
-    "saddle_manifolds": "rocking.orbits",
-    "SaddleManifolds": "rocking.orbits",
-    "safe_basin": "rocking.survey",
-    "simulate": "rocking.motion",
-    "SpecialPoint": "rocking.orbits",
-    "spectral_density": "rocking.response",
-    "SpectralDensity": "rocking.response",
-    "switch_branch": "rocking.orbits",
-    "tangency_amplitude": "rocking.orbits",
+_NAMES = {
+    "motion": "Motion simulate",
+    "orbits": (
+        "BifurcationCurve Branch FrequencyResponse Manifold OrbitDiagram Orbits SaddleManifolds "
+        "SpecialPoint bifurcation_curve continue_orbit find_orbit find_orbits frequency_response "
+        "manifold_gap orbit_diagram saddle_manifolds switch_branch tangency_amplitude"
+    ),
+    "response": (
+        "CorrelationDimension LyapunovSpectrum Peak RotationNumber SpectralDensity classify "
+        "correlation_dimension impact_section lyapunov rotation_number spectral_density"
+    ),
+    "survey": (
+        "basin_map chaos_share overturning_amplitude parametric_map repeatability repeatability_map "
+        "safe_basin"
+    ),
 }
-_NAME = {"__version__": "VERSION"}
+"""Public names by room; all others are those of `model`."""
+_ALIAS = {"__version__": "VERSION"}
 _SUB_NAMESPACES = ("plot", "theory")
 
 
@@ -205,7 +182,8 @@ def __getattr__(name: str) -> Any:
     if name in _SUB_NAMESPACES:
         value = import_module(f"rocking.{name}")
     else:
-        value = getattr(import_module(_ROOM.get(name, "rocking.model")), _NAME.get(name, name))
+        room = next((room for room, names in _NAMES.items() if name in names.split()), "model")
+        value = getattr(import_module(f"rocking.{room}"), _ALIAS.get(name, name))
     globals()[name] = value
     return value
 

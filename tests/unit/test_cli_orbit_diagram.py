@@ -192,7 +192,7 @@ def test_failure_of_our_own_is_one_line_and_exit_code_1(rocking, monkeypatch):
 
 def test_long_run_in_a_terminal_shows_a_bar_that_leaves_nothing_behind(rocking, monkeypatch, capsys):
     monkeypatch.setenv("FORCE_COLOR", "1")
-    monkeypatch.setattr("rocking.cli.reports.orbit_diagram.LONG", 0)
+    monkeypatch.setattr("rocking.cli.input.orbit_diagram_request.LONG", 0)
     monkeypatch.setattr("sys.argv", ["rocking", "orbit-diagram", *LINE.split()])
     from rocking.cli.main import run
 

@@ -305,7 +305,7 @@ def test_basins_of_a_block_have_its_units_and_its_warnings(rocking, tmp_path):
 
 
 def test_a_picture_of_two_lists_in_a_study_file_is_refused_before_the_scan(rocking, monkeypatch):
-    monkeypatch.setattr("rocking.cli.reports.overturning.compute", lambda _: pytest.fail("computed"))
+    monkeypatch.setattr("rocking.cli.input.overturning_request.compute", lambda _: pytest.fail("computed"))
     Path("study.toml").write_text("period = [1, 2]\nrestitution = [0.8, 0.9]\nplot = 'b.png'\n")
     code, message, _ = rocking("overturning --study study.toml")
     assert (code, message) == (2, "--plot draws over one axis; got --period and --restitution")

@@ -19,7 +19,6 @@ from hypothesis import strategies as st
 
 import rocking as rk
 from rocking.explorer import bokeh_figures, figure_data, plane_axes, presets, texts
-from rocking.explorer.application import GROUNDS, LEVELS
 from rocking.explorer.attractor_labels import Orbits
 from rocking.explorer.form_fields import READ, Refused, address, changed, from_address, in_metres, written
 from rocking.explorer.page_channel import message
@@ -27,7 +26,7 @@ from rocking.explorer.progressive_map import AHEAD, START, UNDETERMINED, WHITE, 
 from rocking.explorer.session import Session
 from rocking.explorer.view_state import DEFAULT, POINTS, Span, ViewState, closest, nearby
 from rocking.explorer.worker_pools import Jobs, Workers
-from rocking.model import percent
+from rocking.model import Criterion, percent
 from rocking.plot.parts.legend import LOOKS, NONE, looks
 from rocking.survey import cores
 from rocking.survey.measures import attractors
@@ -580,16 +579,14 @@ def test_case_of_the_gallery_has_an_address_and_lines_of_python(case):
     compile(texts.python(case.shown), case.name, "exec")
 
 
-def test_every_ground_of_the_cascade_has_its_words_and_its_level():
-    """What a map keeps of the evidence is a number; the page tells it as `classify` does."""
+def test_codes_of_criteria_in_a_map_have_the_level_that_classify_gives():
     found = rk.parametric_map(amplitude=[0.5, 2.0], period=[1.0, 2.0], restitution=0.925)
-    assert GROUNDS[0] == "proved never to return"
-    # what sticks to an island for long may pass for a torus, and leave it later
-    assert LEVELS[GROUNDS.index("averages agree as on a torus")] == "statistical"
-    assert len(GROUNDS) == len(LEVELS) == len(found.evidence.attrs["flag_meanings"].split())
     for amplitude, period in ((0.5, 1.0), (2.0, 1.0), (2.0, 2.0)):
         verdict = rk.classify(rk.System(rk.Harmonic(amplitude, period=period), 0.925))
-        assert LEVELS[int(found.evidence.sel(amplitude=amplitude, period=period))] == verdict.evidence.level
+        assert (
+            Criterion(int(found.evidence.sel(amplitude=amplitude, period=period))).level
+            == verdict.evidence.level
+        )
 
 
 def test_multipliers_are_told_as_a_pair():

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import rocking as rk
-from rocking.model import check_start
+from rocking.model import NO_BRACES, check_start, quantities, system_of
 
 SYSTEM = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925)
 
@@ -197,3 +197,30 @@ def test_start_beyond_a_brace_is_refused_and_one_at_the_brace_is_not():
 def test_outcomes_are_plain_strings():
     assert [str(outcome) for outcome in rk.Outcome] == ["bounded", "at-rest", "overturned"]
     assert rk.Outcome.AT_REST == "at-rest"
+
+
+BRACED = rk.System(rk.Harmonic(2.0, period=1.3, phase=0.7), restitution=0.9, braces=rk.Braces(1.5, 0.8))
+
+
+@pytest.mark.parametrize("system", [SYSTEM, BRACED])
+def test_a_system_is_made_again_of_its_quantities(system):
+    assert system_of(NO_BRACES | quantities(system)) == system
+
+
+def test_quantities_have_the_names_of_kernel_parameters():
+    from rocking.kernels.parameters import HarmonicParameters
+
+    assert sorted(quantities(BRACED)) == sorted(HarmonicParameters._fields[:7])
+    assert quantities(BRACED) == dict(
+        amplitude=2.0,
+        period=1.3,
+        frequency=math.tau / 1.3,
+        phase=0.7,
+        restitution=0.9,
+        brace_angle=1.5,
+        brace_restitution=0.8,
+    )
+
+
+def test_a_system_without_braces_has_no_quantities_of_theirs():
+    assert not quantities(SYSTEM).keys() & NO_BRACES.keys()

@@ -13,7 +13,6 @@ import rocking
 
 HEAVY = {
     "attrs",
-    "cattrs",
     "distributed",
     "h5netcdf",
     "matplotlib",

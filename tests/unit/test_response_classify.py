@@ -13,6 +13,7 @@ import pytest
 
 import rocking as rk
 from rocking.kernels.classify import verdict_record as kernel
+from rocking.model import Criterion
 from rocking.response.evidence import SHOWN, at_most
 
 NOT_PERIODIC = (
@@ -199,9 +200,18 @@ def test_sentence_tells_what_was_shown(name):
     assert re.fullmatch(re.escape(said).replace("…", ".{1,15}?"), told), told
 
 
-def test_every_ground_has_a_sentence_and_every_kind_a_name():
-    assert set(SHOWN) == set(kernel.Ground)
-    assert [str(kind) for kind in rk.Kind] == [kind.name.lower().replace("_", "-") for kind in kernel.Kind]
+def test_every_criterion_has_a_sentence_and_says_why_where_it_decides_nothing():
+    assert list(SHOWN) == list(Criterion)
+    assert all(bool(each.why) == (each.level == "none") for each in Criterion)
+
+
+def test_criteria_and_kinds_have_the_codes_of_the_kernels():
+    assert [(each.name, each) for each in Criterion] == [(each.name, each) for each in kernel.Ground]
+    assert [(each.name, each.code) for each in rk.Kind] == [(each.name, each) for each in kernel.Kind]
+
+
+def test_what_sticks_to_an_island_for_long_may_leave_it_so_that_a_torus_is_statistical():
+    assert Criterion.TORUS.level == "statistical"
 
 
 @pytest.mark.parametrize(

@@ -13,6 +13,9 @@ SI = ("height", "width", "acceleration", "acceleration_g", "displacement", "freq
 FORCED = (*NORMALISED, *SI, "restitution")
 SYSTEM = (*FORCED, "phase", "brace_angle", "brace_restitution")
 START = ("angle", "velocity")
+TOLD = tuple(name for name in (*SYSTEM, *START) if name not in SI)
+"""Quantities of a survey, in the order in which they are listed."""
+COUNTS = ("max_cycles", "max_period")
 
 
 class YourInput(typer.TyperException):
@@ -29,8 +32,7 @@ def options(*names: str) -> dict[str, str]:
     return {name: option(name) for name in names}
 
 
-LENGTHS = ("cycles", "max_cycles", "max_period")
-ARGUMENTS = options(*FORCED, "phase", *START, *LENGTHS)
+ARGUMENTS = options(*FORCED, "phase", *START, "cycles", *COUNTS)
 
 
 @contextmanager

@@ -19,17 +19,9 @@ from rocking.explorer.server import local_server
 from rocking.explorer.session import Session
 from rocking.explorer.view_state import DEFAULT
 from rocking.explorer.worker_pools import Workers
-from rocking.model import VERSION
+from rocking.model import VERSION, Criterion
 from rocking.plot.parts import legend
 
-GROUNDS = (
-    "proved never to return", "proved to rest for ever", "released as before", "a stable orbit is reached", "a neutral orbit",
-    "averages agree as on a torus", "exponent clearly positive", "released, period unresolved", "too few cycles to tell",
-    "exponent not clear", "between torus and chaos", "too many events", "stands on an unstable orbit",
-    "differences grew little", "batches are correlated", "close to an unstable orbit",
-)  # fmt: skip
-"""Evidence in a map, in a few words each, in the order of the kernels' grounds."""
-LEVELS = ["exact"] * 2 + ["verified"] * 3 + ["statistical"] * 2 + ["none"] * 9
 FIELDS = (
     ("amplitude", "A", "amplitude of the base, in g θcr"),
     ("period", "T", "period of the base, in 1/α"),
@@ -89,8 +81,8 @@ def _page() -> dict[str, object]:
     given = {
         "looks": [look.name for look in legend.LOOKS],
         "colours": [look.colour for look in legend.LOOKS],
-        "grounds": GROUNDS,
-        "levels": LEVELS,
+        "grounds": [each.brief for each in Criterion],
+        "levels": [each.level for each in Criterion],
     }
     groups: dict[str, list[presets.Case]] = {}
     for case in presets.CASES:

@@ -12,10 +12,10 @@ import attrs
 from rocking.explorer.view_state import DEFAULT, Span, ViewState, closest
 from rocking.model import (
     BRACE_ANGLES,
-    FREQUENCIES,
     MAX_AMPLITUDE,
     MAX_PHASE,
     MAX_START,
+    PERIODS,
     Block,
     check_start,
     refusal,
@@ -27,7 +27,6 @@ VERSION = 1
 MAX_LENGTH = 40
 """Signs in a number that is typed."""
 MAX_ADDRESS = 2000
-PERIODS = math.tau / FREQUENCIES[1], math.tau / FREQUENCIES[0]
 LATEST, MAX_SHOWN = 100_000, 200
 WORDS = {
     "brace_angle": "brace angle",

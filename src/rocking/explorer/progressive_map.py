@@ -29,7 +29,7 @@ FIELDS = {
     "orbit": np.uint8,
 }
 """What is kept of each point: how it is drawn, and of the answers."""
-UNDETERMINED = list(Kind).index(Kind.UNDETERMINED)
+UNDETERMINED = Kind.UNDETERMINED.code
 FIRST, ALL = 60, 10_000
 """Cycles a point that stays open so long: of the first, coarse picture; of the finer ones."""
 COARSEST = 8

@@ -11,12 +11,11 @@ import numpy as np
 from bokeh.document import Document
 
 from rocking.explorer import bokeh_figures, figure_data, plane_axes, texts
-from rocking.explorer.form_fields import PERIODS
 from rocking.explorer.page_channel import Link
 from rocking.explorer.progressive_map import FIRST, Picture, Plane, Refinement
 from rocking.explorer.view_state import POINTS, Span, ViewState
 from rocking.explorer.worker_pools import Jobs, Workers
-from rocking.model import MAX_AMPLITUDE, MAX_START, Kind, Verdict
+from rocking.model import MAX_AMPLITUDE, MAX_START, PERIODS, Kind, Verdict
 
 BASIN_POINTS = 257
 FIRST_HITS = 3e3

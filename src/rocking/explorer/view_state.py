@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 
-from attrs import evolve, frozen
+from attrs import asdict, evolve, frozen
 
-from rocking.model import Block, Braces, Harmonic, State, System
+from rocking.model import NO_BRACES, Block, State, System, system_of
 
 POINTS = 513
 """Points along each side of a map in the end: 2⁹ + 1, so that each grid has every second point of the next."""
@@ -67,10 +67,7 @@ class ViewState:
     @property
     def system(self) -> System:
         """The system selected."""
-        braces = None if self.brace_angle is None else Braces(self.brace_angle, self.brace_restitution)
-        return System(
-            Harmonic(self.amplitude, period=self.period, phase=self.phase), self.restitution, braces
-        )
+        return system_of(asdict(self, recurse=False) | (NO_BRACES if self.brace_angle is None else {}))
 
     @property
     def start(self) -> State:

@@ -21,8 +21,10 @@ from rocking.model.basin_map import Attractor, BasinMap, UncertaintyExponent
 from rocking.model.binomial_share import LEVEL, Share, wilson
 from rocking.model.block import GRAVITY, Block
 from rocking.model.citation import cite
+from rocking.model.classification import Criterion, Kind
 from rocking.model.forcing import FREQUENCIES, MAX_AMPLITUDE, MAX_PHASE, PERIODS, Harmonic
 from rocking.model.formatting import counted, ordinal, percent, plus_minus
+from rocking.model.notebook_renderers import NotebookPicture
 from rocking.model.orbit_event import OrbitEvent
 from rocking.model.orbit_stability import Stability, stability_of
 from rocking.model.outcome import Outcome, Overturning
@@ -35,7 +37,19 @@ from rocking.model.survey_results import (
     SafeBasin,
 )
 from rocking.model.symmetric_mode import Mode
-from rocking.model.system import BRACE_ANGLES, MAX_START, Braces, State, System, check_start
+from rocking.model.system import (
+    BRACE_ANGLES,
+    MAX_START,
+    NO_BRACES,
+    RANGES,
+    Braces,
+    State,
+    System,
+    check_between,
+    check_start,
+    quantities,
+    system_of,
+)
 from rocking.model.validation import (
     NoOrbit,
     TooManyEvents,
@@ -52,7 +66,7 @@ from rocking.model.validation import (
     whole,
     within,
 )
-from rocking.model.verdict import Evidence, Kind, Orbit, Verdict
+from rocking.model.verdict import Evidence, Orbit, Verdict
 from rocking.model.version import VERSION
 
 __all__ = [
@@ -64,8 +78,10 @@ __all__ = [
     "MAX_AMPLITUDE",
     "MAX_PHASE",
     "MAX_START",
+    "NO_BRACES",
     "PERIODS",
     "PHYSICAL",
+    "RANGES",
     "TILES",
     "VERSION",
     "Attractor",
@@ -73,11 +89,13 @@ __all__ = [
     "Block",
     "Braces",
     "ChaosShare",
+    "Criterion",
     "Evidence",
     "Harmonic",
     "Kind",
     "Mode",
     "NoOrbit",
+    "NotebookPicture",
     "Orbit",
     "OrbitEvent",
     "Outcome",
@@ -97,6 +115,7 @@ __all__ = [
     "Verdict",
     "WriteError",
     "block_attributes",
+    "check_between",
     "check_folder",
     "check_replaceable",
     "check_start",
@@ -113,6 +132,7 @@ __all__ = [
     "pair",
     "percent",
     "plus_minus",
+    "quantities",
     "read_only",
     "reals",
     "refusal",
@@ -122,6 +142,7 @@ __all__ = [
     "resolve_path",
     "shown",
     "stability_of",
+    "system_of",
     "whole",
     "wilson",
     "within",

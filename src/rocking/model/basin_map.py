@@ -6,10 +6,11 @@ from typing import TYPE_CHECKING
 
 from attrs import field, frozen
 
-from rocking.model import notebook_renderers
 from rocking.model.binomial_share import Share
+from rocking.model.classification import Kind
+from rocking.model.notebook_renderers import NotebookPicture
 from rocking.model.system import System
-from rocking.model.verdict import Kind, Orbit, Verdict
+from rocking.model.verdict import Orbit, Verdict
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -100,7 +101,7 @@ class UncertaintyExponent:
 
 
 @frozen(eq=False)
-class BasinMap:
+class BasinMap(NotebookPicture):
     """Which start leads where; made by `basin_map`.
 
     Attributes
@@ -141,6 +142,3 @@ class BasinMap:
         text = f"{self.fractions[0].of:,} starts: {', '.join(parts)}"
         exponent = self.uncertainty_exponent
         return text if exponent is None else f"{text}; boundary of overturning: exponent {exponent}"
-
-    def _repr_html_(self) -> str | None:
-        return notebook_renderers.html(self)

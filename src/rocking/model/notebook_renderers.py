@@ -36,3 +36,12 @@ def html(result: object, kind: str | None = None, line: str | None = None) -> st
     picture = b64encode(draw(result)).decode()
     line = markup.escape(line or str(result))
     return f'<figure><img alt="{line}" src="data:image/png;base64,{picture}"><figcaption>{line}</figcaption></figure>'
+
+
+class NotebookPicture:
+    """Result that a notebook shows as a picture."""
+
+    __slots__ = ()
+
+    def _repr_html_(self) -> str | None:
+        return html(self)

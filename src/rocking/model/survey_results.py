@@ -7,17 +7,17 @@ from typing import TYPE_CHECKING
 import numpy as np
 from attrs import field, frozen
 
-from rocking.model import notebook_renderers
 from rocking.model.binomial_share import Share
+from rocking.model.classification import Kind
+from rocking.model.notebook_renderers import NotebookPicture
 from rocking.model.system import State, System
-from rocking.model.verdict import Kind
 
 if TYPE_CHECKING:
     import xarray as xr
 
 
 @frozen(eq=False)
-class SafeBasin:
+class SafeBasin(NotebookPicture):
     """The share of starts that do not overturn, over the amplitude; made by `safe_basin`.
 
     Attributes
@@ -49,12 +49,9 @@ class SafeBasin:
             return told
         return f"{told}; A* = {self.heteroclinic_amplitude:.6g}, A_M = {self.melnikov_amplitude:.6g}"
 
-    def _repr_html_(self) -> str | None:
-        return notebook_renderers.html(self)
-
 
 @frozen(eq=False)
-class OverturningCurve:
+class OverturningCurve(NotebookPicture):
     """The lowest amplitude that overturns the block from rest; made by `overturning_amplitude`.
 
     Attributes
@@ -86,12 +83,9 @@ class OverturningCurve:
             f"{100.0 * above:.1f} % of what was scanned above it survive"
         )
 
-    def _repr_html_(self) -> str | None:
-        return notebook_renderers.html(self)
-
 
 @frozen(eq=False)
-class ChaosShare:
+class ChaosShare(NotebookPicture):
     """The share of chaotic responses among random periods and amplitudes, over the restitution; made by `chaos_share`.
 
     Attributes
@@ -111,12 +105,9 @@ class ChaosShare:
         told = ", ".join(f"{share} at e = {restitution:.6g}" for restitution, share in pairs)
         return f"chaotic: {told}, of {self.shares[0].of:,} responses each"
 
-    def _repr_html_(self) -> str | None:
-        return notebook_renderers.html(self)
-
 
 @frozen
-class Repeatability:
+class Repeatability(NotebookPicture):
     """What comes of one experiment when its inputs are off by a little; made by `repeatability`.
 
     Attributes
@@ -153,12 +144,9 @@ class Repeatability:
         told = ", ".join(f"{name} {share}" for name, share in self.responses.items())
         return f"{self.repeats.of:,} runs off by up to {100.0 * self.relative:.3g} %: {told}"
 
-    def _repr_html_(self) -> str | None:
-        return notebook_renderers.html(self)
-
 
 @frozen(eq=False)
-class RepeatabilityMap:
+class RepeatabilityMap(NotebookPicture):
     """Where outcomes are certain and where not; made by `repeatability_map`.
 
     Attributes
@@ -182,6 +170,3 @@ class RepeatabilityMap:
             f"not certain when inputs are off by up to {off:.3g} %: the kind of response at {self.uncertain}, "
             f"whether it overturns at {self.overturning_uncertain}, of {self.uncertain.of:,} points"
         )
-
-    def _repr_html_(self) -> str | None:
-        return notebook_renderers.html(self)

@@ -4,41 +4,22 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from enum import StrEnum
 from operator import itemgetter
 from typing import Any
 
 from attrs import evolve, field, frozen
 
-from rocking.model import notebook_renderers
+from rocking.model.classification import Kind
 from rocking.model.forcing import MAX_PHASE
 from rocking.model.formatting import counted
+from rocking.model.notebook_renderers import NotebookPicture
 from rocking.model.orbit_event import OrbitEvent
 from rocking.model.orbit_stability import Stability, stability_of
-from rocking.model.system import State, System
+from rocking.model.system import NO_BRACES, State, System, quantities
 from rocking.model.validation import within
 
 # An event this near after an instant, in forcing periods, is at that instant: rounding must not put it on the other side.
 SAME_INSTANT = 1e-12
-
-
-class Kind(StrEnum):
-    """What a response is: a plain string, and one of six; no kind is ever a default.
-
-    Examples
-    --------
-    >>> import rocking as rk
-    >>> system = rk.System(rk.Harmonic(amplitude=0.5, period=1.0), restitution=0.9)
-    >>> rk.classify(system).kind is rk.Kind.REST, rk.Kind.REST == "rest"
-    (True, True)
-    """
-
-    REST = "rest"
-    PERIODIC = "periodic"
-    QUASI_PERIODIC = "quasi-periodic"
-    CHAOTIC = "chaotic"
-    OVERTURNED = "overturned"
-    UNDETERMINED = "undetermined"
 
 
 @frozen
@@ -228,9 +209,10 @@ class Orbit:
         """The product of the multipliers, from the events alone: exactly 1 where nothing is lost."""
         if self.impacts is None or self.brace_hits is None or self.multipliers == (0j, 0j):
             return 0.0
-        braces = self.system.braces
-        kept = 1.0 if braces is None else braces.restitution
-        return float(self.system.restitution ** (2 * self.impacts) * kept ** (2 * self.brace_hits))
+        system = NO_BRACES | quantities(self.system)
+        return float(
+            system["restitution"] ** (2 * self.impacts) * system["brace_restitution"] ** (2 * self.brace_hits)
+        )
 
     def __str__(self) -> str:
         symmetry = "symmetric" if self.symmetric else "unsymmetric"
@@ -239,7 +221,7 @@ class Orbit:
 
 
 @frozen
-class Verdict:
+class Verdict(NotebookPicture):
     """What a response is, with its evidence; made by `classify`.
 
     What does not apply is None. What describes an orbit (`period` to `multipliers`, `orbit`) is known of periodic responses
@@ -313,6 +295,3 @@ class Verdict:
 
     def __str__(self) -> str:
         return f"{self.kind}: {self.evidence}"
-
-    def _repr_html_(self) -> str | None:
-        return notebook_renderers.html(self)

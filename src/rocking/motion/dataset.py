@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from rocking.model import VERSION, Block, block_attributes, instance, refusal, within
+from rocking.model import VERSION, Block, block_attributes, instance, quantities, refusal, within
 from rocking.motion.fall import end_shown, sample_step
 
 if TYPE_CHECKING:
@@ -159,7 +159,6 @@ def _section(motion: Trajectory, units: dict[str, Unit]) -> tuple[Variables, Var
 
 def _attributes(motion: Trajectory, block: Block | None) -> dict[str, Any]:
     """What the motion is, in normalised values, and the block where there is one."""
-    forcing, braces, start = motion.system.forcing, motion.system.braces, motion.start
     attributes = {
         "Conventions": "CF-1.11",
         "title": "Motion of a free-standing block on a shaking base",
@@ -169,13 +168,9 @@ def _attributes(motion: Trajectory, block: Block | None) -> dict[str, Any]:
             "the base's acceleration is amplitude cos(frequency time + phase). "
             "Cycles are counted from 0, by event_cycle and overturning_cycle alike."
         ),
-        "amplitude": forcing.amplitude,
-        "period": forcing.period,
-        "frequency": forcing.frequency,
-        "phase": forcing.phase,
-        "restitution": motion.system.restitution,
-        "start_angle": start.angle,
-        "start_velocity": start.velocity,
+        **quantities(motion.system),
+        "start_angle": motion.start.angle,
+        "start_velocity": motion.start.velocity,
         "cycles": motion.cycles,
         "record": motion.record,
         "outcome": str(motion.outcome),
@@ -183,8 +178,6 @@ def _attributes(motion: Trajectory, block: Block | None) -> dict[str, Any]:
         "impacts": motion.impacts,
         "brace_hits": motion.brace_hits,
     }
-    if braces is not None:
-        attributes |= {"brace_angle": braces.angle, "brace_restitution": braces.restitution}
     if motion.overturning is not None:
         attributes |= {
             "overturning_time": motion.overturning.time,

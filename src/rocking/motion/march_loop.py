@@ -10,7 +10,7 @@ import numpy as np
 
 from rocking.kernels import parameters as numbers
 from rocking.kernels.march import march as kernel
-from rocking.model import Outcome, State, System, TooManyEvents
+from rocking.model import NO_BRACES, Outcome, State, System, TooManyEvents, quantities
 
 MAX_RECORDED = 10_000_000
 NOTHING = np.empty((0, 2))
@@ -18,16 +18,7 @@ NOTHING = np.empty((0, 2))
 
 def parameters(system: System) -> numbers.HarmonicParameters:
     """Return a system as the kernels read it."""
-    forcing, braces = system.forcing, system.braces
-    return numbers.harmonic_parameters(
-        forcing.amplitude,
-        forcing.frequency,
-        forcing.period,
-        forcing.phase,
-        system.restitution,
-        math.inf if braces is None else braces.angle,
-        1.0 if braces is None else braces.restitution,
-    )
+    return numbers.harmonic_parameters(**NO_BRACES | quantities(system))
 
 
 def start_march(system: System, start: State) -> tuple[numbers.HarmonicParameters, Any]:

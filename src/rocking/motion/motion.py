@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from attrs import frozen
 
-from rocking.model import Block, counted, notebook_renderers
+from rocking.model import Block, NotebookPicture, counted
 from rocking.motion.dataset import to_dataset
 from rocking.motion.trajectory import Trajectory
 from rocking.motion.validity import Validity, validity
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 @frozen(eq=False, slots=False)
-class Motion(Trajectory):
+class Motion(Trajectory, NotebookPicture):
     """What one simulated block did; made by `simulate`.
 
     Attributes
@@ -83,6 +83,3 @@ class Motion(Trajectory):
         else:
             how = f"overturned: proved at τ = {self.overturning.time:.6g} never to return"
         return f"{how}; {', '.join(counts)}, peak |Θ| {self.peak:.4g}"
-
-    def _repr_html_(self) -> str | None:
-        return notebook_renderers.html(self)

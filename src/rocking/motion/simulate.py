@@ -62,8 +62,7 @@ def simulate(system: System, start: State | None = None, cycles: int = 200, reco
     >>> motion.impacts, str(motion.outcome)
     (199, 'bounded')
     """
-    start = State() if start is None else start
-    check_start(system, start)
+    start = check_start(system, start)
     record = one_of("record", record, ("all", "section", "none"))
     cycles = whole("cycles", cycles, 1, MAX_SECTION_CYCLES if record == "section" else MAX_CYCLES)
     p = parameters(system)
@@ -94,8 +93,7 @@ def kept_events(
     `keep` is given events as `Motion.events` has them and returns an array; the arrays come back as one. Raises as
     `simulate` does.
     """
-    start = State() if start is None else start
-    check_start(system, start)
+    start = check_start(system, start)
     cycles = whole("cycles", cycles, 1, MAX_CYCLES)
     duration = cycles * system.forcing.period
 

@@ -9,10 +9,10 @@ import numpy as np
 from attrs import field, frozen
 
 from rocking.model import (
+    NotebookPicture,
     Orbit,
     ReadOnlyArrays,
     Stability,
-    notebook_renderers,
     read_only,
     stability_of,
     within,
@@ -72,7 +72,7 @@ class SpecialPoint:
 
 
 @frozen(eq=False)
-class Branch(ReadOnlyArrays):
+class Branch(ReadOnlyArrays, NotebookPicture):
     """Periodic orbits along a parameter; made by `continue_orbit` and `switch_branch`.
 
     Attributes
@@ -172,9 +172,6 @@ class Branch(ReadOnlyArrays):
             within = values[first:after]
             ranges.append((min(*ends, within.min()), max(*ends, within.max())))
         return list(dict.fromkeys(ranges))
-
-    def _repr_html_(self) -> str | None:
-        return notebook_renderers.html(self)
 
 
 def table(rows: np.ndarray, facts: np.ndarray, mirrored: bool) -> NDArray[np.void]:

@@ -24,10 +24,9 @@ from rocking.orbits.event_chain import (
     orbit_of,
     problem_of,
     solved,
-    value_of,
 )
 from rocking.orbits.grazing import grazing_at
-from rocking.orbits.parameter import checked_range
+from rocking.orbits.parameter import checked_range, value_of
 
 KINDS = {
     Special.FOLD: "fold",

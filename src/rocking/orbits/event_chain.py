@@ -14,7 +14,7 @@ from rocking.kernels import parameters as numbers
 from rocking.kernels.orbits import arclength, branch_point, chain_queries, chain_validation, floquet
 from rocking.kernels.orbits import continuation as following
 from rocking.kernels.orbits import event_chain as kernel
-from rocking.model import Orbit, OrbitEvent, State, System, refusal
+from rocking.model import NO_BRACES, Orbit, OrbitEvent, State, System, quantities, refusal
 from rocking.motion import simulate
 from rocking.orbits.parameter import with_value
 
@@ -68,31 +68,9 @@ class Solved(NamedTuple):
     peak: float
 
 
-def value_of(system: System, parameter: str) -> float:
-    """The value of a parameter of a system."""
-    if parameter.startswith("brace_"):
-        if system.braces is None:
-            raise ValueError(
-                f"{parameter} needs a system with braces; got one without (give it braces=Braces(…))"
-            )
-        return float(getattr(system.braces, parameter.removeprefix("brace_")))
-    if parameter == "restitution":
-        return system.restitution
-    return float(getattr(system.forcing, parameter))
-
-
 def parameters(system: System) -> Any:
     """A system as the kernels read it, its clock at the phase 0."""
-    forcing, braces = system.forcing, system.braces
-    return numbers.harmonic_parameters(
-        forcing.amplitude,
-        forcing.frequency,
-        forcing.period,
-        0.0,
-        system.restitution,
-        math.inf if braces is None else braces.angle,
-        1.0 if braces is None else braces.restitution,
-    )
+    return numbers.harmonic_parameters(**NO_BRACES | quantities(system) | {"phase": 0.0})
 
 
 def clocked(system: System, phase: float) -> System:

@@ -10,7 +10,7 @@ from attrs import evolve
 from rocking.kernels.classify import periodicity
 from rocking.kernels.classify import workspace as memory
 from rocking.kernels.orbits import newton_search as kernel
-from rocking.model import NoOrbit, Orbit, Outcome, State, System, check_start, refusal, whole
+from rocking.model import NoOrbit, Orbit, Outcome, State, System, check_start, instance, refusal, whole
 from rocking.motion import simulate, start_march
 from rocking.orbits.event_chain import IMPACT, Chain, chain_of, clocked, orbit_of, quiet_phase, solved
 from rocking.orbits.saddle_orbits import saddle_events
@@ -63,7 +63,7 @@ def find_orbit(system: System, guess: State, period: int) -> Orbit:
     >>> round(abs(orbit.multipliers[0]), 6)  # e², for they are complex
     0.855625
     """
-    check_start(system, guess)
+    check_start(system, instance("start", guess, State))
     period = whole("period", period, 1, MAX_PERIOD)
     motion = simulate(system, guess, cycles=period + 1)
     if motion.outcome is Outcome.OVERTURNED:

@@ -10,7 +10,7 @@ import numpy as np
 from attrs import field, frozen
 from numpy.typing import NDArray
 
-from rocking.model import Kind, ReadOnlyArrays, notebook_renderers, read_only
+from rocking.model import Kind, NotebookPicture, ReadOnlyArrays, read_only
 from rocking.orbits.branch import Branch
 from rocking.orbits.dataset_attributes import LONG_NAMES, described, named
 
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 @frozen(eq=False)
-class FrequencyResponse(ReadOnlyArrays):
+class FrequencyResponse(ReadOnlyArrays, NotebookPicture):
     """Peak rotation over the period or the frequency of the forcing; made by `frequency_response`.
 
     Attributes
@@ -114,9 +114,6 @@ class FrequencyResponse(ReadOnlyArrays):
             f"frequency response at amplitude {self.amplitude:.6g}, restitution {self.restitution:.6g}, {self.parameter} "
             f"{self.values[0]:.6g} to {self.values[-1]:.6g}: {found}; from rest {rest}"
         )
-
-    def _repr_html_(self) -> str | None:
-        return notebook_renderers.html(self)
 
 
 def _told(n: int, branches: Sequence[Branch]) -> str:

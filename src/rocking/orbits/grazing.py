@@ -26,9 +26,8 @@ from rocking.orbits.event_chain import (
     equations,
     orbit_of,
     problem_of,
-    value_of,
 )
-from rocking.orbits.parameter import with_value
+from rocking.orbits.parameter import value_of, with_value
 from rocking.orbits.saddle_orbits import response, saddle, saddle_events
 
 # An event this slow is the one that grazes.

@@ -8,7 +8,7 @@ import numpy as np
 from attrs import field, frozen
 from numpy.typing import NDArray
 
-from rocking.model import ReadOnlyArrays, State, System, notebook_renderers, read_only
+from rocking.model import NotebookPicture, ReadOnlyArrays, State, System, quantities, read_only
 from rocking.orbits.dataset_attributes import LONG_NAMES, described, named
 
 if TYPE_CHECKING:
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 @frozen(eq=False)
-class OrbitDiagram(ReadOnlyArrays):
+class OrbitDiagram(ReadOnlyArrays, NotebookPicture):
     """Stroboscopic points over a parameter; made by `orbit_diagram`.
 
     Attributes
@@ -62,13 +62,9 @@ class OrbitDiagram(ReadOnlyArrays):
     @property
     def fixed(self) -> dict[str, float]:
         """The parameters that were not varied, by name."""
-        forcing, braces = self.system.forcing, self.system.braces
-        values = {"amplitude": forcing.amplitude, "period": forcing.period, "phase": forcing.phase}
-        values["restitution"] = self.system.restitution
-        if braces is not None:
-            values |= {"brace_angle": braces.angle, "brace_restitution": braces.restitution}
         varied = "period" if self.parameter == "frequency" else self.parameter
-        return {name: value for name, value in values.items() if name != varied}
+        found = quantities(self.system)
+        return {name: found[name] for name in found if name not in ("frequency", varied)}
 
     def to_xarray(self) -> xr.Dataset:
         """The diagram as a dataset whose coordinates are `sweep`, the parameter and `cycle`.
@@ -116,9 +112,6 @@ class OrbitDiagram(ReadOnlyArrays):
             _overturnings(way, fell, values) for way, fell in zip(self.sweeps, self.overturned, strict=True)
         )
         return f"orbit diagram over {self.parameter} {span}, {self.cycles:,} points each after {self.transient:,} cycles: {told}"
-
-    def _repr_html_(self) -> str | None:
-        return notebook_renderers.html(self)
 
 
 def _overturnings(way: str, fell: np.ndarray, values: np.ndarray) -> str:

@@ -5,14 +5,12 @@ from __future__ import annotations
 from attrs import evolve
 
 from rocking.model import (
-    BRACE_ANGLES,
-    FREQUENCIES,
-    MAX_AMPLITUDE,
-    PERIODS,
+    RANGES,
     Braces,
     Harmonic,
     System,
     pair,
+    quantities,
     refusal,
     within,
 )
@@ -27,22 +25,23 @@ PARAMETERS = (
     "brace_restitution",
 )
 # A model's own ranges; towards 0 nothing is left of a restitution to follow.
-ALLOWED = {
-    "amplitude": (0.0, MAX_AMPLITUDE),
-    "frequency": FREQUENCIES,
-    "period": PERIODS,
-    "restitution": (1e-3, 1.0),
-    "brace_angle": BRACE_ANGLES,
-    "brace_restitution": (1e-3, 1.0),
-}
+ALLOWED = RANGES | dict.fromkeys(("restitution", "brace_restitution"), (1e-3, 1.0))
+
+
+def value_of(system: System, parameter: str) -> float:
+    """The value of a parameter of a system."""
+    found = quantities(system)
+    if parameter not in found:
+        raise ValueError(
+            f"{parameter} needs a system with braces; got one without (give it braces=Braces(…))"
+        )
+    return found[parameter]
 
 
 def with_value(system: System, parameter: str, value: float) -> System:
     """The same system with one parameter changed; a brace angle puts braces where there are none."""
-    if parameter == "brace_restitution" and system.braces is None:
-        raise ValueError(
-            "brace_restitution needs a system with braces; got one without (give it braces=Braces(…))"
-        )
+    if parameter == "brace_restitution":
+        value_of(system, parameter)
     forcing = system.forcing
     if parameter in ("amplitude", "phase"):
         return evolve(system, forcing=evolve(forcing, **{parameter: value}))

@@ -12,10 +12,10 @@ from rocking.kernels.march import march
 from rocking.kernels.orbits import saddle_manifold as kernel
 from rocking.model import (
     MAX_PHASE,
+    NotebookPicture,
     ReadOnlyArrays,
     System,
     TooManyEvents,
-    notebook_renderers,
     read_only,
     whole,
     within,
@@ -70,7 +70,7 @@ class Manifold(ReadOnlyArrays):
 
 
 @frozen(eq=False)
-class SaddleManifolds(ReadOnlyArrays):
+class SaddleManifolds(ReadOnlyArrays, NotebookPicture):
     """The manifolds of both saddle orbits on a section; made by `saddle_manifolds`.
 
     Attributes
@@ -103,9 +103,6 @@ class SaddleManifolds(ReadOnlyArrays):
             f"manifolds of the saddles at ψ = {self.phase:.4g}, {self.cycles} cycles long: unstable length {lengths[0]:.4g}, "
             f"stable {lengths[1]:.4g}, {sum(len(one.points) for one in curves):,} points{gaps}"
         )
-
-    def _repr_html_(self) -> str | None:
-        return notebook_renderers.html(self)
 
 
 def saddle_manifolds(

@@ -12,10 +12,10 @@ from matplotlib.colors import BoundaryNorm, ListedColormap, to_rgb
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from rocking.model import Block, one_of, percent
+from rocking.model import Block, percent
 from rocking.plot.parts import style, theory_curves
 from rocking.plot.parts.axis_units import parameter
-from rocking.plot.parts.legend import LOOKS, NONE, PAPER, Symbol
+from rocking.plot.parts.legend import LOOKS, NONE, PAPER, Symbol, check_symbols
 from rocking.plot.parts.map_levels import Responses, edges
 
 if TYPE_CHECKING:
@@ -84,10 +84,9 @@ def parametric_map(
     >>> ax.get_xlabel(), ax.get_ylabel()
     ('period $T$ (–)', 'amplitude $A$ (–)')
     """
-    if symbols is not None:
-        one_of("symbols", symbols, ("kinds", *PAPER))
-    curves = theory_curves.check(curves)
+    check_symbols(symbols)
     read = Responses(found)
+    curves = theory_curves.check(curves, read.names, read.told)
     codes, up, across, counts = _thinned(read, MAX_DRAWN if symbols is None else MAX_SYMBOLS)
     (turn_up, y_label), (turn_across, x_label) = (parameter(name, block) for name in read.names)
     keys = _cell_keys(counts) if symbols is None else _symbol_keys(counts, _symbols(symbols))

@@ -94,7 +94,7 @@ def repeatability_map(found: RepeatabilityMap, ax: Axes | None = None) -> Axes:
     data, count = found.dataset, len(Kind)
     up, across = (data[name].values for name in data.kind.dims)
     seen, unknown = data.agreeing.values, data.undetermined.values
-    values = np.where(unknown > 0.0, list(Kind).index(Kind.UNDETERMINED), data.kind.values)
+    values = np.where(unknown > 0.0, Kind.UNDETERMINED.code, data.kind.values)
     # half a run: shares are rounded
     values = np.where(seen + unknown < 1.0 - 0.5 / data.attrs["samples"], count, values)
     hues = [*(COLOURS[kind] for kind in Kind), UNCERTAIN]

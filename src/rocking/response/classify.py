@@ -25,7 +25,7 @@ SAME_PEAK = 1e-6
 # How often, in seconds, it is looked whether Ctrl-C was pressed where waiting itself does not hear it.
 LISTENING = 0.1
 
-KINDS = tuple(Kind(each.name.lower().replace("_", "-")) for each in kernel.Kind)
+KINDS = tuple(Kind)
 """The kinds by their numbers."""
 
 
@@ -88,8 +88,7 @@ def classify(
     >>> str(verdict.kind), verdict.period, verdict.impacts_per_period, verdict.symmetric
     ('periodic', 3, 2, True)
     """
-    start = State() if start is None else start
-    check_start(system, start)
+    start = check_start(system, start)
     max_cycles, max_period = budget(max_cycles, max_period).values()
     judgement = _judged(system, start, max_cycles, max_period)
     return _verdict(

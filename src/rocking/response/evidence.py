@@ -1,4 +1,4 @@
-"""Why a response is called what it is called: one sentence for every ground on which the compiled cascade decides."""
+"""Why a response is called what it is called: one sentence for each criterion of the compiled cascade."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from attrs import field, frozen
 from rocking.kernels.classify import decision_cascade, periodicity, quasi_periodicity, reset, workspace
 from rocking.kernels.classify import verdict_record as kernel
 from rocking.kernels.orbits import fixed_point
-from rocking.model import Evidence, System, counted, plus_minus
+from rocking.model import Criterion, Evidence, System, counted, plus_minus
 from rocking.motion import Motion
 
 MAX_GROWTH = f"{math.exp(reset.MAX_STRAIN):.0e}".replace("e+0", "e")
@@ -32,9 +32,8 @@ class Case:
 
 @frozen
 class Shown:
-    """What was shown, how well, and a way out where it did not suffice."""
+    """What was shown, and a way out where it did not suffice."""
 
-    level: str
     what: str
     remark: str
     tolerances: dict[str, float] = field(factory=dict)
@@ -42,22 +41,25 @@ class Shown:
 
 def evidence_of(case: Case) -> Evidence:
     """The evidence in one sentence."""
-    shown = SHOWN[kernel.Ground(case.judgement.ground)](case)
-    return Evidence(shown.level, f"{shown.what} ({shown.remark})", shown.tolerances, case.judgement.cycles)
+    criterion = Criterion(case.judgement.ground)
+    shown = SHOWN[criterion](case)
+    return Evidence(
+        criterion.level, f"{shown.what} ({shown.remark})", shown.tolerances, case.judgement.cycles
+    )
 
 
 def _no_return(case: Case) -> Shown:
     overturning = None if case.motion is None else case.motion.overturning
     undone = "the growing part of the motion can no longer be undone"
     if overturning is None:
-        return Shown("exact", f"proved after {spent(case)} never to return: {undone}", f"exact; {OTHERWISE}")
+        return Shown(f"proved after {spent(case)} never to return: {undone}", f"exact; {OTHERWISE}")
     when = f"after {counted(overturning.impacts, 'impact')}" if overturning.impacts else "without an impact"
-    return Shown("exact", f"proved {when}, at τ = {overturning.time:.6g}, never to return: {undone}", "exact")
+    return Shown(f"proved {when}, at τ = {overturning.time:.6g}, never to return: {undone}", "exact")
 
 
 def _still_for_ever(case: Case) -> Shown:
     if case.motion is None:
-        return Shown("exact", f"rests or leans for ever after {spent(case)}", f"exact; {OTHERWISE}")
+        return Shown(f"rests or leans for ever after {spent(case)}", f"exact; {OTHERWISE}")
     amplitude, angle, braces = case.system.forcing.amplitude, case.motion.final.angle, case.system.braces
     if angle != 0.0 and braces is not None:
         # f = −1 − σA cos ψ stays above −Θb
@@ -65,7 +67,7 @@ def _still_for_ever(case: Case) -> Shown:
     else:
         what = f"rests for ever: A = {amplitude:.6g} ≤ 1 never lifts it off"
     moved = case.motion.impacts + case.motion.brace_hits > 0
-    return Shown("exact", what, f"exact, within {spent(case)}" if moved else "exact")
+    return Shown(what, f"exact, within {spent(case)}" if moved else "exact")
 
 
 def _reset(case: Case) -> Shown:
@@ -76,7 +78,7 @@ def _reset(case: Case) -> Shown:
         f"{_periodic(judged)}: every {which} is the same state{' but for its side' * judged.symmetric}, two of them are "
         f"{apart} of the forcing apart, and differences grew less than {MAX_GROWTH}-fold between them"
     )
-    return Shown("verified", what, f"verified, {_when(case)}", {"growth": float(MAX_GROWTH)})
+    return Shown(what, f"verified, {_when(case)}", {"growth": float(MAX_GROWTH)})
 
 
 def _orbit(case: Case) -> Shown:
@@ -94,7 +96,7 @@ def _orbit(case: Case) -> Shown:
         "approach": periodicity.NONLINEAR,
         "distance": periodicity.ROUNDING,
     }
-    return Shown("verified", what, f"verified, {_when(case)}", tolerances)
+    return Shown(what, f"verified, {_when(case)}", tolerances)
 
 
 def _neutral_orbit(case: Case) -> Shown:
@@ -108,7 +110,7 @@ def _neutral_orbit(case: Case) -> Shown:
         "distance": decision_cascade.UNMOVED,
         "digits": quasi_periodicity.ENOUGH_DIGITS,
     }
-    return Shown("verified", what, f"verified, {_when(case)}", tolerances)
+    return Shown(what, f"verified, {_when(case)}", tolerances)
 
 
 def _torus(case: Case) -> Shown:
@@ -125,7 +127,7 @@ def _torus(case: Case) -> Shown:
         f"log shear below {quasi_periodicity.SHEARED_FLIGHTS} flights": quasi_periodicity.SMALL_SHEAR,
     }
     remark = f"statistical, over {spent(case)}: a motion that stays near a torus for long may leave it later"
-    return Shown("statistical", what, remark, tolerances)
+    return Shown(what, remark, tolerances)
 
 
 def _exponent(case: Case) -> Shown:
@@ -135,7 +137,7 @@ def _exponent(case: Case) -> Shown:
         f"errors above zero, watched for {spent(case)}"
     )
     remark = "statistical: a longer run may find an end to it"
-    return Shown("statistical", what, remark, {"standard errors": kernel.CLEARLY})
+    return Shown(what, remark, {"standard errors": kernel.CLEARLY})
 
 
 def _little_growth(case: Case) -> Shown:
@@ -144,7 +146,7 @@ def _little_growth(case: Case) -> Shown:
         f"{_seems_chaotic(case)}, but over the second half of the run differences grew by a factor of only e^{grown:.3g}: they "
         "do so too while a motion leaves an unstable orbit"
     )
-    return Shown("none", what, _longer(case), {"log growth": kernel.FAR})
+    return Shown(what, _longer(case), {"log growth": kernel.FAR})
 
 
 def _correlated(case: Case) -> Shown:
@@ -152,7 +154,7 @@ def _correlated(case: Case) -> Shown:
         f"{_seems_chaotic(case)}, but the {workspace.BATCHES} batches behind that error depend on each other: joined four to one "
         f"they raise its variance more than {kernel.MAX_CORRELATION:.0f}-fold"
     )
-    return Shown("none", what, _longer(case), {"correlation": kernel.MAX_CORRELATION})
+    return Shown(what, _longer(case), {"correlation": kernel.MAX_CORRELATION})
 
 
 def _lingering(case: Case) -> Shown:
@@ -160,7 +162,7 @@ def _lingering(case: Case) -> Shown:
         f"{_seems_chaotic(case)}, but in its last cycles the motion stays within {decision_cascade.NEAR:.0e} of an unstable "
         "orbit"
     )
-    return Shown("none", what, f"{_longer(case)}, or start elsewhere", {"distance": decision_cascade.NEAR})
+    return Shown(what, f"{_longer(case)}, or start elsewhere", {"distance": decision_cascade.NEAR})
 
 
 def _unresolved_reset(case: Case) -> Shown:
@@ -168,13 +170,12 @@ def _unresolved_reset(case: Case) -> Shown:
         f"it comes to rest or leans and is released again, but between two releases differences grow more than "
         f"{MAX_GROWTH}-fold: after how many cycles it repeats itself is not known in double precision"
     )
-    return Shown("none", what, "no longer run can tell; a slightly different system may")
+    return Shown(what, "no longer run can tell; a slightly different system may")
 
 
 def _unwatched(case: Case) -> Shown:
     needed = kernel.CHAOS_NEEDS if case.system.braces is None else kernel.CHAOS_NEEDS_WITH_BRACES
     return Shown(
-        "none",
         f"{_no_orbit(case)}, too few to call it chaotic",
         f"raise max_cycles to {needed:,} or more",
     )
@@ -184,15 +185,15 @@ def _indistinct(case: Case) -> Shown:
     judged, longer = case.judgement, _longer(case)
     if not 0.0 < judged.error < math.inf:
         return Shown(
-            "none", f"{_no_orbit(case)}, and its largest exponent has no error that could be trusted", longer
+            f"{_no_orbit(case)}, and its largest exponent has no error that could be trusted", longer
         )
     found = (
         f"{_no_orbit(case)}, and its largest exponent, {plus_minus(judged.exponent, judged.error)} per τ, is"
     )
     if judged.exponent < -kernel.CLEARLY * judged.error:
         longer = f"raise max_period above {case.max_period}, or max_cycles above {case.max_cycles:,}"
-        return Shown("none", f"{found} negative", longer)
-    return Shown("none", f"{found} less than {kernel.CLEARLY:.0f} standard errors above zero", longer)
+        return Shown(f"{found} negative", longer)
+    return Shown(f"{found} less than {kernel.CLEARLY:.0f} standard errors above zero", longer)
 
 
 def _between(case: Case) -> Shown:
@@ -200,7 +201,7 @@ def _between(case: Case) -> Shown:
         f"nothing is lost, and the averages over both halves of {spent(case)} agree to {case.judgement.digits:.1f} digits: better "
         f"than on chaotic motion (below {quasi_periodicity.CHAOTIC_DIGITS:.0f}), but not all is as on a torus"
     )
-    return Shown("none", what, _longer(case))
+    return Shown(what, _longer(case))
 
 
 def _crowded(case: Case) -> Shown:
@@ -208,7 +209,7 @@ def _crowded(case: Case) -> Shown:
         f"more impacts than are followed, over {decision_cascade.MAX_EVENTS_A_CYCLE} a cycle: it chatters almost without loss; given up "
         f"after {spent(case)}"
     )
-    return Shown("none", what, "start it faster, or take a smaller restitution")
+    return Shown(what, "start it faster, or take a smaller restitution")
 
 
 def _standing(case: Case) -> Shown:
@@ -216,26 +217,26 @@ def _standing(case: Case) -> Shown:
         f"it comes back to within {decision_cascade.UNMOVED:.0e} of where it was in {spent(case)}, and differences grow by "
         f"{case.judgement.exponent:.4g} per τ: it stands on an unstable orbit"
     )
-    return Shown("none", what, "start it a little beside")
+    return Shown(what, "start it a little beside")
 
 
-SHOWN: dict[kernel.Ground, Callable[[Case], Shown]] = {
-    kernel.Ground.NO_RETURN: _no_return,
-    kernel.Ground.STILL_FOR_EVER: _still_for_ever,
-    kernel.Ground.RESET: _reset,
-    kernel.Ground.ORBIT: _orbit,
-    kernel.Ground.NEUTRAL_ORBIT: _neutral_orbit,
-    kernel.Ground.TORUS: _torus,
-    kernel.Ground.EXPONENT: _exponent,
-    kernel.Ground.UNRESOLVED_RESET: _unresolved_reset,
-    kernel.Ground.UNWATCHED: _unwatched,
-    kernel.Ground.INDISTINCT: _indistinct,
-    kernel.Ground.BETWEEN: _between,
-    kernel.Ground.CROWDED: _crowded,
-    kernel.Ground.STANDING: _standing,
-    kernel.Ground.LITTLE_GROWTH: _little_growth,
-    kernel.Ground.CORRELATED: _correlated,
-    kernel.Ground.LINGERING: _lingering,
+SHOWN: dict[Criterion, Callable[[Case], Shown]] = {
+    Criterion.NO_RETURN: _no_return,
+    Criterion.STILL_FOR_EVER: _still_for_ever,
+    Criterion.RESET: _reset,
+    Criterion.ORBIT: _orbit,
+    Criterion.NEUTRAL_ORBIT: _neutral_orbit,
+    Criterion.TORUS: _torus,
+    Criterion.EXPONENT: _exponent,
+    Criterion.UNRESOLVED_RESET: _unresolved_reset,
+    Criterion.UNWATCHED: _unwatched,
+    Criterion.INDISTINCT: _indistinct,
+    Criterion.BETWEEN: _between,
+    Criterion.CROWDED: _crowded,
+    Criterion.STANDING: _standing,
+    Criterion.LITTLE_GROWTH: _little_growth,
+    Criterion.CORRELATED: _correlated,
+    Criterion.LINGERING: _lingering,
 }
 
 

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from rocking.model import Outcome, State, System, TooShort, check_start, whole
+from rocking.model import NO_BRACES, Outcome, State, System, TooShort, check_start, quantities, whole
 from rocking.motion import march_on, start_march
 from rocking.response.batch_means import MAX_BATCHES, MIN_BATCHES
 from rocking.response.lyapunov_spectrum import LyapunovSpectrum, means_of
@@ -78,8 +78,7 @@ def lyapunov(
     >>> bool(abs(spectrum.values - 2 * math.log(0.925)).max() < spectrum.errors.max() < 1e-3)
     True
     """
-    start = State() if start is None else start
-    check_start(system, start)
+    start = check_start(system, start)
     cycles = whole("cycles", cycles, 1, MAX_CYCLES)
     transient = cycles // 10 if transient is None else whole("transient", transient, 0, MAX_CYCLES)
     motion = _Carried(system, start)
@@ -165,12 +164,12 @@ def _spectrum(
 
 def _sum_rule_error(system: System, growths: np.ndarray, counted: tuple[int, int]) -> float:
     """λ₁ + λ₂ less what the events take, times the time; 0 where both are −∞."""
-    braces = 1.0 if system.braces is None else system.braces.restitution
     if np.isinf(growths).any():
         return 0.0
+    kept_by = NO_BRACES | quantities(system)
     taken = sum(
         2.0 * count * math.log(kept)
-        for count, kept in zip(counted, (system.restitution, braces), strict=True)
+        for count, kept in zip(counted, (kept_by["restitution"], kept_by["brace_restitution"]), strict=True)
         if count
     )
     return math.fsum(growths.flat) - taken

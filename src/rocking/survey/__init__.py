@@ -12,7 +12,7 @@ from rocking.survey.repeatability import repeatability
 from rocking.survey.repeatability_map import repeatability_map
 from rocking.survey.safe_basin import safe_basin
 from rocking.survey.sampling.random_points import MAX_SAMPLES, MAX_SEED
-from rocking.survey.spec import check_quantity
+from rocking.survey.spec import check_quantity, question
 from rocking.survey.store.export import counts, tables, to_netcdf
 
 __all__ = [
@@ -29,6 +29,7 @@ __all__ = [
     "counts",
     "overturning_amplitude",
     "parametric_map",
+    "question",
     "repeatability",
     "repeatability_map",
     "safe_basin",

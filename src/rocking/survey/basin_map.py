@@ -17,7 +17,9 @@ from rocking.model import (
     Share,
     System,
     UncertaintyExponent,
+    check_between,
     instance,
+    quantities,
     refusal,
     whole,
 )
@@ -120,7 +122,8 @@ def basin_map(
         if store is not None:
             raise TypeError(refusal("store", "come without samples: it holds a grid", str(store)))
         ends = {name: span(name, v) for name, v in (("velocity", velocity), ("angle", angle))}
-        check_reach(system, ends["angle"])
+        reach = MAX_START if system.braces is None else system.braces.angle
+        check_between(max(ends["angle"], key=abs), reach)
         count = whole("samples", samples, 1, MAX_SAMPLES)
         starts = random.uniform(*_corners(ends), (count, 2))
         found = _random_dataset(system, starts, measure, executor).assign_attrs(seed=seed)
@@ -143,17 +146,9 @@ def _fractions(counts: np.ndarray, attractors: tuple[Attractor, ...]) -> tuple[S
 
 
 def asked_of(system: System) -> dict[str, float]:
-    """A system by the names of its quantities."""
-    forcing, braces = system.forcing, system.braces
-    asked = {
-        "amplitude": forcing.amplitude,
-        "period": forcing.period,
-        "phase": forcing.phase,
-        "restitution": system.restitution,
-    }
-    if braces is not None:
-        asked |= {"brace_angle": braces.angle, "brace_restitution": braces.restitution}
-    return asked
+    """Return the quantities of a system as a survey takes them: of period and frequency the period."""
+    found = quantities(system)
+    return {name: found[name] for name in found if name != "frequency"}
 
 
 def points_of(system: System, starts: np.ndarray) -> Points:
@@ -165,14 +160,6 @@ def grid_starts(asked: SurveySpec) -> np.ndarray:
     """The starts (n, 2) of a grid, in C order."""
     grid = dict(zip(asked.axes, np.meshgrid(*asked.axes.values(), indexing="ij"), strict=True))
     return np.column_stack([grid["angle"].ravel(), grid["velocity"].ravel()])
-
-
-def check_reach(system: System, angles: tuple[float, float]) -> None:
-    """Refuse ranges of starts beyond the braces."""
-    reach = MAX_START if system.braces is None else system.braces.angle
-    far = max(angles, key=abs)
-    if abs(far) > reach:
-        raise ValueError(refusal("angle", f"lie between the braces, in [{-reach:.6g}, {reach:.6g}]", far))
 
 
 def _corners(ends: dict[str, tuple[float, float]]) -> tuple[tuple[float, float], tuple[float, float]]:

@@ -78,8 +78,7 @@ def repeatability(
     >>> print(rk.repeatability(system, samples=200))
     200 runs off by up to 1 %: period 1, symmetric, 2 impacts 100 % (98.1–100 %)
     """
-    start = State() if start is None else start
-    check_start(system, start)
+    start = check_start(system, start)
     off = within("relative", relative, 0, MAX_RELATIVE)
     count = whole("samples", samples, 1, MAX_SAMPLES)
     measure = response(max_cycles, max_period, TITLE)

@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 
 from rocking.kernels.classify import verdict_record as kernel
-from rocking.model import SafeBasin, Share, refusal, whole
+from rocking.model import RANGES, SafeBasin, Share, refusal, whole
 from rocking.survey.measures.kind import interval_variables, outcome
 from rocking.survey.sampling.random_points import MAX_SAMPLES, generator, sampled, span
-from rocking.survey.spec import RANGES, Points, SurveySpec, points, question
+from rocking.survey.spec import Points, SurveySpec, points, question
 from rocking.survey.store.dataset import attributes, coordinate
 from rocking.theory import heteroclinic_amplitude, melnikov_amplitude
 

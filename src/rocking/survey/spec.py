@@ -12,12 +12,9 @@ from attrs import field, frozen
 
 from rocking.kernels import parameters as numbers
 from rocking.model import (
-    BRACE_ANGLES,
-    FREQUENCIES,
-    MAX_AMPLITUDE,
-    MAX_PHASE,
-    MAX_START,
-    PERIODS,
+    NO_BRACES,
+    RANGES,
+    check_between,
     exactly_one,
     reals,
     refusal,
@@ -27,18 +24,6 @@ from rocking.model import (
 
 Values = Mapping[str, np.ndarray]
 
-RANGES = {
-    "amplitude": (0.0, MAX_AMPLITUDE),
-    "velocity": (-MAX_START, MAX_START),
-    "restitution": (0.0, 1.0),
-    "brace_angle": BRACE_ANGLES,
-    "brace_restitution": (0.0, 1.0),
-    "phase": (-MAX_PHASE, MAX_PHASE),
-    "angle": (-MAX_START, MAX_START),
-    "frequency": FREQUENCIES,
-    "period": PERIODS,
-}
-"""What may vary, with its limits. Of two axes the first in this order is a picture's upward one."""
 SYMBOLS = {
     "amplitude": ("A", "amplitude of the base's acceleration in units of g theta_cr"),
     "velocity": ("Θ'", "angular velocity at the start in units of alpha theta_cr"),
@@ -185,11 +170,7 @@ def _check_braces(asked: SurveySpec) -> None:
     """Refuse starts beyond the braces."""
     if "brace_angle" not in asked.axes and "brace_angle" not in asked.fixed:
         return
-    reach = min(_values(asked, "brace_angle"))
-    far = max(_values(asked, "angle"), key=abs)
-    if abs(far) > reach:
-        allowed = f"lie between the braces, in [{-reach:.6g}, {reach:.6g}]"
-        raise ValueError(refusal("angle", allowed, far))
+    check_between(max(_values(asked, "angle"), key=abs), min(_values(asked, "brace_angle")))
 
 
 def _values(asked: SurveySpec, name: str) -> list[float]:
@@ -199,7 +180,7 @@ def _values(asked: SurveySpec, name: str) -> list[float]:
 def points(values: Values, fixed: Mapping[str, float]) -> Points:
     """Systems and starts of n points, `values` (n,) each, as exactly as `System` and `State` make them."""
     count = next(iter(values.values())).size
-    usual = {"phase": 0.0, "brace_angle": math.inf, "brace_restitution": 1.0, "angle": 0.0, "velocity": 0.0}
+    usual = {"phase": 0.0, **NO_BRACES, "angle": 0.0, "velocity": 0.0}
     given = {name: np.full(count, value) for name, value in (usual | dict(fixed)).items()} | dict(values)
     if "frequency" in given:
         given["period"] = math.tau / given["frequency"]

@@ -60,12 +60,13 @@ def basins(
 
     And how sharp the boundaries between them are.
     """
+    from rocking.cli.input import basins_request
     from rocking.cli.output import survey_run
     from rocking.cli.reports import basins as report
 
-    asked = report.question(context.params, study)
+    asked = basins_request.question(context.params, study)
     files = survey_run.files_of(asked)
-    found, block = report.compute(asked)
+    found, block = basins_request.compute(asked)
     with survey_run.complete(asked.get("store")):
         survey_run.write(found, "basins", files, block)
     report.show(found, block, survey_run.written(asked, files), as_json=json)

@@ -67,8 +67,7 @@ def map_(
     question = map_request.question(context.params, study)
     files = map_request.files_of(question)
     found = map_request.compute(question)
-    with survey_run.complete(question.store):
+    with survey_run.complete(question.places.get("store")):
         for name, path in files.items():
             map_request.WRITERS[name](found, path, question)
-    written = [path for path in (question.store, *files.values()) if path is not None]
-    report.show(found, question.block, written, as_json=json)
+    report.show(found, question.block, survey_run.written(question.places, files), as_json=json)

@@ -9,7 +9,7 @@ import typer
 
 from rocking.cli.input import axis
 from rocking.cli.input import options as ask
-from rocking.cli.option_names import ARGUMENTS, START, SYSTEM, your_input
+from rocking.cli.option_names import START, SYSTEM
 
 EXAMPLES = """\
 rocking orbit-diagram --amplitude 7:10.9:1000 --period 1.721328 --restitution 0.8 --plot diagram.png
@@ -51,13 +51,13 @@ def orbit_diagram(
 
     It is given as START:STOP:COUNT; a transient is left out.
     """
+    from rocking.cli.input import orbit_diagram_request
     from rocking.cli.output.files import check_files
     from rocking.cli.reports import orbit_diagram as report
 
     files = check_files({"plot": plot, "csv": csv, "netcdf": netcdf})
-    study = axis.study(context.params)
-    with your_input(ARGUMENTS | report.ARGUMENTS):
-        diagram = report.run(study, sweep, transient, cycles, section_phase)
+    study = orbit_diagram_request.study(context.params)
+    diagram = orbit_diagram_request.compute(study, sweep, transient, cycles, section_phase)
     for name, path in files.items():
         report.WRITERS[name](diagram, study.block, path)
-    report.show(diagram, study, list(files.values()), as_json=json)
+    report.show(diagram, study.block, study.typed, list(files.values()), as_json=json)

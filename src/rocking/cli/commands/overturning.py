@@ -66,12 +66,13 @@ def overturning(
 
     It is the lowest over the phases at which the shaking may begin.
     """
+    from rocking.cli.input import overturning_request
     from rocking.cli.output import survey_run
     from rocking.cli.reports import overturning as report
 
-    asked = report.question(context.params, study)
+    asked = overturning_request.question(context.params, study)
     files = survey_run.files_of(asked)
-    found, block = report.compute(asked)
+    found, block = overturning_request.compute(asked)
     with survey_run.complete(asked.get("store")):
         report.write(found, files, block)
     report.show(found, block, survey_run.written(asked, files), as_json=json)

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from attrs import field, frozen
+from attrs import frozen
 
 from rocking.cli.input import study_file, survey_quantities
-from rocking.cli.option_names import START, SYSTEM, YourInput, option, options, your_input
+from rocking.cli.option_names import COUNTS, START, SYSTEM, YourInput, option, options, your_input
 from rocking.cli.output import files
 from rocking.cli.output.files import SUFFIXES, check_apart, check_files
 from rocking.cli.output.survey_run import ARGUMENTS, carried_out
@@ -20,9 +21,10 @@ if TYPE_CHECKING:
 
     from rocking.model import Block
 
-COUNTS = ("max_cycles", "max_period")
 THEORY = ("curves", "symbols")
-PLACES = ("store", "repair", "tiles", *SUFFIXES)
+PLACES = ("store", "tiles", *SUFFIXES)
+OWN = (*COUNTS, "repair")
+"""Arguments of `parametric_map` beside the quantities."""
 
 
 @frozen
@@ -30,45 +32,30 @@ class Question:
     """A map to be made: the arguments of `parametric_map`, what is drawn over it, and where it goes."""
 
     arguments: dict[str, Any]
-    drawn: dict[str, Any] = field(factory=dict)  # arguments of its picture
-    store: Path | None = None
-    repair: bool = False
-    plot: Path | None = None
-    netcdf: Path | None = None
-    csv: Path | None = None
-    tiles: Path | None = None
-    block: Block | None = None  # of a map in SI, whose pictures have SI axes
+    drawn: dict[str, Any]  # arguments of its picture
+    places: dict[str, Path]  # of its store and its files
+    block: Block | None  # of a map in SI, whose pictures have SI axes
 
 
 def question(typed: Mapping[str, Any], file: Path | None) -> Question:
-    """What options and study file ask for; what is typed wins."""
-    given = study_file.asked(typed, file, _checks())
-    counts, drawn, places = (
-        {name: given.pop(name) for name in names if name in given} for names in (COUNTS, THEORY, PLACES)
+    """Return what options and study file request; options take precedence."""
+    checks: dict[str, study_file.Check] = {
+        **survey_quantities.varying(*SYSTEM, *START),
+        **survey_quantities.counts(*COUNTS),
+        "curves": _names,
+        "symbols": partial(instance, "symbols", kind=str),
+        **survey_quantities.path_checks("store", "tiles", *SUFFIXES),
+    }
+    given = study_file.asked(typed, file, checks)
+    own, drawn, places = (
+        {name: given.pop(name) for name in names if name in given} for names in (OWN, THEORY, PLACES)
     )
     if "curves" in drawn:
         drawn["curves"] = _names(drawn["curves"])
-    asked = Question(
-        counts | survey_quantities.normalised(given),
-        drawn,
-        **places,
-        block=survey_quantities.block_of(given),
-    )
+    arguments = own | survey_quantities.normalised(given)
+    asked = Question(arguments, drawn, places, survey_quantities.block_of(given))
     _check_theory(asked)
     return asked
-
-
-def _checks() -> dict[str, study_file.Check]:
-    """How each entry of a study file is read."""
-    from rocking.response import MAX_CYCLES, MAX_PERIOD
-
-    return {
-        **survey_quantities.varying(*SYSTEM, *START),
-        **survey_quantities.counts({"max_cycles": (1, MAX_CYCLES), "max_period": (1, MAX_PERIOD)}),
-        "curves": _names,
-        "symbols": lambda entry: instance("symbols", entry, str),
-        **survey_quantities.path_checks(*(name for name in PLACES if name != "repair")),
-    }
 
 
 def _names(entry: Any) -> tuple[str, ...]:
@@ -80,30 +67,29 @@ def _names(entry: Any) -> tuple[str, ...]:
 
 
 def _check_theory(asked: Question) -> None:
-    """Refuse what cannot be drawn before the map is computed: over its corners."""
+    """Reject what cannot be drawn before the map is computed."""
     if not asked.drawn:
         return
     name = next(iter(asked.drawn))
-    if asked.plot is None:
+    if "plot" not in asked.places:
         raise YourInput(f"{option(name)} is drawn into a picture: give --plot FILE as well")
-    import numpy as np
+    from rocking.plot.parts import legend, theory_curves
+    from rocking.survey import question as spec_of
 
-    from rocking import plot
-    from rocking.survey import parametric_map
-
-    corners = {name: each[[0, -1]] if np.ndim(each) else each for name, each in asked.arguments.items()}
     with your_input(ARGUMENTS | options(*THEORY)):
-        plot.parametric_map(parametric_map(**corners | {"max_cycles": 1}), **asked.drawn)
+        spec = spec_of(asked.arguments, 2, "a parametric map")
+        legend.check_symbols(asked.drawn.get("symbols"))
+        theory_curves.check(asked.drawn.get("curves", ()), spec.axes, spec.fixed)
 
 
 def files_of(asked: Question) -> dict[str, Path]:
     """The files asked for, of tiles their page; refused where they cannot be written."""
-    check_apart({name: getattr(asked, name) for name in ("store", "tiles", *SUFFIXES)})
-    files = check_files({name: getattr(asked, name) for name in SUFFIXES})
-    if asked.tiles is not None:
+    check_apart({name: asked.places.get(name) for name in PLACES})
+    files = check_files({name: asked.places.get(name) for name in SUFFIXES})
+    if "tiles" in asked.places:
         with your_input():
-            check_replaceable(option("tiles"), asked.tiles, TILES)
-        files["tiles"] = asked.tiles / TILES.page
+            folder = check_replaceable(option("tiles"), asked.places["tiles"], TILES)
+        files["tiles"] = folder / TILES.page
     return files
 
 
@@ -111,9 +97,7 @@ def compute(asked: Question) -> xr.Dataset:
     """The map."""
     from rocking.survey import parametric_map
 
-    return carried_out(
-        parametric_map, asked.arguments | {"store": asked.store, "repair": asked.repair}, asked.block
-    )
+    return carried_out(parametric_map, asked.arguments | {"store": asked.places.get("store")}, asked.block)
 
 
 def write_plot(found: xr.Dataset, path: Path, asked: Question) -> None:

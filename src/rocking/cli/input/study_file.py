@@ -59,10 +59,6 @@ def read(path: Path, checks: Mapping[str, Check]) -> dict[str, Any]:
     """
     import tomllib
 
-    import attrs
-    import cattrs
-    from cattrs.gen import make_dict_structure_fn, override
-
     try:
         said = tomllib.loads(_text(path))
     except (OSError, ValueError, RecursionError) as error:
@@ -71,15 +67,18 @@ def read(path: Path, checks: Mapping[str, Check]) -> dict[str, Any]:
             why = "it is nested too deeply"
         raise YourInput(f"--study must name a TOML file; got {str(path)!r}: {why}") from error
     _check_once(path, said)
-    entries = attrs.make_class("Study", {name: attrs.field(default=None) for name in checks})
-    hooks: Any = {name: override(struct_hook=_hook(check)) for name, check in checks.items()}
-    converter = cattrs.Converter(forbid_extra_keys=True)
-    structure: Any = make_dict_structure_fn(entries, converter, _cattrs_forbid_extra_keys=True, **hooks)
-    try:
-        found = structure({key.replace("-", "_"): entry for key, entry in said.items()}, entries)
-    except cattrs.ClassValidationError as errors:
-        raise YourInput(f"study {str(path)!r}: " + "; ".join(_told(errors, checks))) from None
-    return {name: entry for name, entry in attrs.asdict(found).items() if entry is not None}
+    given = {key.replace("-", "_"): entry for key, entry in said.items()}
+    found: dict[str, Any] = {}
+    errors: list[str] = []
+    for name in filter(given.__contains__, checks):
+        try:
+            found[name] = checks[name](given[name])
+        except (TypeError, ValueError) as error:
+            errors.append(str(error))
+    errors += [_unknown(name, checks) for name in sorted(given.keys() - checks.keys())]
+    if errors:
+        raise YourInput(f"study {str(path)!r}: " + "; ".join(errors))
+    return found
 
 
 def _text(path: Path) -> str:
@@ -100,18 +99,8 @@ def _check_once(path: Path, said: Mapping[str, Any]) -> None:
         raise YourInput(f"study {str(path)!r}: {twice[0]!r} is said twice, once with underscores")
 
 
-def _hook(check: Check) -> Callable[[Any, Any], Any]:
-    return lambda entry, _: check(entry)
-
-
-def _told(errors: Any, checks: Mapping[str, Check]) -> list[str]:
-    """One sentence an error."""
-    told = []
-    for error in errors.exceptions:
-        for name in sorted(getattr(error, "extra_fields", ())):
-            close = difflib.get_close_matches(name, checks, 1)
-            meant = f"do you mean {close[0]!r}?" if close else "keys are the names of options"
-            told.append(f"unknown {name!r} ({meant})")
-        if not hasattr(error, "extra_fields"):
-            told.append(str(error))
-    return told
+def _unknown(name: str, checks: Mapping[str, Check]) -> str:
+    """Say of an unknown key which one may be meant."""
+    close = difflib.get_close_matches(name, checks, 1)
+    meant = f"do you mean {close[0]!r}?" if close else "keys are the names of options"
+    return f"unknown {name!r} ({meant})"

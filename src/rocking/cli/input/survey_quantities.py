@@ -10,24 +10,11 @@ from typing import TYPE_CHECKING, Any
 from rocking.cli.input.axis import FORM, VARIES, Axis
 from rocking.cli.input.options import question
 from rocking.cli.input.study_file import Check, quantity
-from rocking.cli.option_names import SI, YourInput, option
-from rocking.model import instance, reals, refusal, whole
+from rocking.cli.option_names import SI, TOLD, YourInput, option
+from rocking.model import instance, quantities, reals, refusal, whole
 
 if TYPE_CHECKING:
     from rocking.model import Block
-
-TOLD = (
-    "amplitude",
-    "period",
-    "frequency",
-    "restitution",
-    "phase",
-    "brace_angle",
-    "brace_restitution",
-    "angle",
-    "velocity",
-)
-"""What a survey is told by, in this order."""
 
 
 def normalised(given: Mapping[str, Any]) -> dict[str, Any]:
@@ -63,17 +50,8 @@ def normalised(given: Mapping[str, Any]) -> dict[str, Any]:
 def _numbers(given: Mapping[str, Any]) -> dict[str, Any]:
     """A system and a start as `parametric_map` has them."""
     system, start, _ = question(given)
-    forcing, by_frequency = system.forcing, "frequency" in given or "frequency_hz" in given
-    told = {
-        "amplitude": forcing.amplitude,
-        "frequency" if by_frequency else "period": forcing.frequency if by_frequency else forcing.period,
-        "restitution": system.restitution,
-        "phase": forcing.phase,
-        "angle": start.angle,
-        "velocity": start.velocity,
-    }
-    if system.braces is not None:
-        told |= {"brace_angle": system.braces.angle, "brace_restitution": system.braces.restitution}
+    told = quantities(system) | {"angle": start.angle, "velocity": start.velocity}
+    del told["period" if "frequency" in given or "frequency_hz" in given else "frequency"]
     return told
 
 
@@ -108,14 +86,28 @@ def fixed(*names: str) -> dict[str, Check]:
     return {name: partial(_number, name) for name in names}
 
 
-def counts(limits: Mapping[str, tuple[int, int]]) -> dict[str, Check]:
-    """How entries are read that are whole numbers between limits."""
-    return {name: partial(_whole, name, ends) for name, ends in limits.items()}
+def counts(*names: str) -> dict[str, Check]:
+    """Return the checks of entries that are whole numbers between limits."""
+    from rocking.response import MAX_CYCLES, MAX_PERIOD
+    from rocking.survey import MAX_PHASES, MAX_SAMPLES, MAX_SEED
+
+    limits = {
+        "samples": (1, MAX_SAMPLES),
+        "seed": (0, MAX_SEED),
+        "phases": (1, MAX_PHASES),
+        "max_cycles": (1, MAX_CYCLES),
+        "max_period": (1, MAX_PERIOD),
+        "boundary_runs": (0, MAX_SAMPLES),
+    }
+    return {name: partial(whole, name, low=limits[name][0], high=limits[name][1]) for name in names}
 
 
 def path_checks(*names: str) -> dict[str, Check]:
     """How entries are read that are paths; and `repair`, which goes with a store."""
-    return {name: partial(_path, name) for name in names} | {"repair": _repair}
+    return {
+        **{name: partial(_path, name) for name in names},
+        "repair": partial(instance, "repair", kind=bool),
+    }
 
 
 def _in_range(name: str, entry: Any) -> Any:
@@ -135,15 +127,7 @@ def _number(name: str, entry: Any) -> Any:
     return reals(name, entry) if name in SI else check_quantity(name, entry)
 
 
-def _whole(name: str, ends: tuple[int, int], entry: Any) -> int:
-    return whole(name, entry, *ends)
-
-
 def _path(name: str, entry: Any) -> Path:
     if not isinstance(entry, str):
         raise TypeError(refusal(name, "be a path", entry))
     return Path(entry)
-
-
-def _repair(entry: Any) -> bool:
-    return instance("repair", entry, bool)

@@ -1,75 +1,22 @@
-"""The basins that a command asks for: from options and a study file to what is shown."""
+"""Basins of attraction, in a few lines or as JSON."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import attrs
 
-from rocking.cli.input import study_file, survey_quantities
-from rocking.cli.input.axis import Axis
-from rocking.cli.input.options import question as system_of
-from rocking.cli.option_names import START, SYSTEM
 from rocking.cli.output.console import Row, print_json, print_table
-from rocking.cli.output.survey_run import FILES, MAX_ROWS, carried_out, share_record
+from rocking.cli.output.survey_run import MAX_ROWS, share_record
 from rocking.cli.reports.motion import asked_of, physical_of, question_of
 from rocking.cli.reports.validity import warned, warnings
 from rocking.model import counted
 
 if TYPE_CHECKING:
     from rocking.model import BasinMap, Block, System, UncertaintyExponent
-
-DEFAULT_STARTS = 200
-"""Starts along an axis from -1 to 1, or from brace to brace."""
-
-
-def question(typed: Mapping[str, Any], file: Path | None) -> dict[str, Any]:
-    """What options and study file ask for; what is typed wins."""
-    return study_file.asked(typed, file, _checks())
-
-
-def _checks() -> dict[str, study_file.Check]:
-    """How each entry of a study file is read."""
-    from rocking.response import MAX_CYCLES, MAX_PERIOD
-    from rocking.survey import MAX_SAMPLES, MAX_SEED
-
-    limits = {
-        "samples": (1, MAX_SAMPLES),
-        "seed": (0, MAX_SEED),
-        "max_cycles": (1, MAX_CYCLES),
-        "max_period": (1, MAX_PERIOD),
-        "boundary_runs": (0, MAX_SAMPLES),
-    }
-    return {
-        **survey_quantities.fixed(*SYSTEM),
-        **survey_quantities.varying(*START),
-        **survey_quantities.counts(limits),
-        **survey_quantities.path_checks("store", *FILES),
-    }
-
-
-def compute(given: Mapping[str, Any]) -> tuple[BasinMap, Block | None]:
-    """The basins, and the block if they are in SI."""
-    from rocking.survey import basin_map
-
-    asked = {name: each for name, each in given.items() if name not in FILES}
-    shaken = {name: asked.pop(name) for name in SYSTEM if name in asked}
-    system, _, block = system_of(shaken)
-    reach = 1.0 if system.braces is None else min(system.braces.angle, 1.0)
-    usual = {"angle": Axis(-reach, reach, DEFAULT_STARTS), "velocity": Axis(-1.0, 1.0, DEFAULT_STARTS)}
-    for name, axis in usual.items():
-        asked[name] = _starts(asked.get(name, axis), random="samples" in asked)
-    return carried_out(basin_map, {"system": system} | asked, block), block
-
-
-def _starts(asked: Any, *, random: bool) -> Any:
-    """The axis of a grid of starts, or the ends of it where starts are drawn at random."""
-    return (
-        [asked.start, asked.stop] if random and isinstance(asked, Axis) else survey_quantities.values(asked)
-    )
 
 
 def show(found: BasinMap, block: Block | None, files: list[Path], *, as_json: bool) -> None:

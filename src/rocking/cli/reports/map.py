@@ -8,44 +8,30 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from rocking.cli.input.map_request import COUNTS
-from rocking.cli.input.survey_quantities import TOLD
+from rocking.cli.option_names import COUNTS, TOLD
 from rocking.cli.output.console import Row, print_json, print_table
 from rocking.cli.reports.motion import asked_in_si, beyond, in_si
 from rocking.cli.reports.validity import warned, warnings
-from rocking.model import counted, percent
+from rocking.model import Criterion, counted, percent
 
 if TYPE_CHECKING:
     import xarray as xr
 
     from rocking.model import Block
 
-OPEN = {
-    "unresolved-reset": "rests or leans and is released again, too sensitive to tell its period",
-    "unwatched": "no orbit reached, in too few cycles to call it chaotic",
-    "indistinct": "no orbit reached, and an exponent not clearly above zero",
-    "between": "averages agree too well for chaos, not well enough for a torus",
-    "crowded": "chatters almost without loss, more impacts than are followed",
-    "standing": "stands on an unstable orbit",
-    "little-growth": "an exponent above zero, but differences grew as little as while a motion leaves an unstable orbit",
-    "correlated": "an exponent above zero, but from batches that depend on each other",
-    "lingering": "an exponent above zero, but close to an unstable orbit in the last cycles",
-}
-"""Why a response is undetermined."""
-
 
 def show(found: xr.Dataset, block: Block | None, files: list[Path], *, as_json: bool) -> None:
     """Print what was found on stdout, and where its files are."""
     from rocking.survey import counts
 
-    kinds, grounds = counts(found, "kind"), counts(found, "evidence")
+    kinds, criteria = counts(found, "kind"), counts(found, "evidence")
     doubts = warnings(block, _values(found, "amplitude"), _values(found, "restitution"))
     if as_json:
         told = {} if block is None else {"block": asked_in_si(found, block), "warnings": doubts}
-        print_json(record(found, kinds, grounds, files) | told)
+        print_json(record(found, kinds, criteria, files) | told)
         return
     size = " × ".join(f"{found.sizes[name]:,}" for name in found.kind.dims)
-    rows = [*_asked(found, block), *_found(kinds, grounds)]
+    rows = [*_asked(found, block), *_found(kinds, criteria)]
     more = [*beyond(_farthest(found), block), *warned(doubts)]
     print_table(f"parametric map, {size} points", rows, files, more)
 
@@ -70,19 +56,19 @@ def _asked(found: xr.Dataset, block: Block | None) -> Iterator[Row]:
             yield name.replace("_", " "), f"{value:.6g}", in_si(name, value, block)
 
 
-def _found(kinds: dict[str, int], grounds: dict[str, int]) -> Iterator[Row]:
+def _found(kinds: dict[str, int], criteria: dict[str, int]) -> Iterator[Row]:
     total = sum(kinds.values())
     for kind, count in kinds.items():
         if count:
             yield kind, percent(count / total), counted(count, "point")
-    for ground, why in OPEN.items():
-        if grounds[ground]:
-            many = counted(grounds[ground], "point")
-            yield f"  {ground}", percent(grounds[ground] / total), f"{many}: {why}"
+    for criterion in Criterion:
+        count = criteria[str(criterion)]
+        if criterion.why and count:
+            yield f"  {criterion}", percent(count / total), f"{counted(count, 'point')}: {criterion.why}"
 
 
 def record(
-    found: xr.Dataset, kinds: dict[str, int], grounds: dict[str, int], files: list[Path]
+    found: xr.Dataset, kinds: dict[str, int], criteria: dict[str, int], files: list[Path]
 ) -> dict[str, Any]:
     """The same for a program to read."""
     axes = {
@@ -99,6 +85,6 @@ def record(
         **fixed,
         "points": sum(kinds.values()),
         "kinds": kinds,
-        "evidence": grounds,
+        "evidence": criteria,
         "files": [str(path) for path in files],
     }

@@ -12,7 +12,7 @@ import numpy as np
 
 from rocking.cli.output.console import WARNING, Row, print_json, print_table
 from rocking.cli.reports import validity
-from rocking.model import GRAVITY, PHYSICAL, Block, counted, ordinal
+from rocking.model import GRAVITY, PHYSICAL, Block, counted, ordinal, quantities
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -175,15 +175,9 @@ def question(result: Motion | Verdict) -> dict[str, Any]:
 
 def question_of(system: System) -> dict[str, Any]:
     """The system alone."""
-    forcing, braces = system.forcing, system.braces
-    return {
-        "amplitude": forcing.amplitude,
-        "period": forcing.period,
-        "frequency": forcing.frequency,
-        "phase": forcing.phase,
-        "restitution": system.restitution,
-        "braces": None if braces is None else attrs.asdict(braces),
-    }
+    found = quantities(system)
+    alone = {name: found[name] for name in found if not name.startswith("brace_")}
+    return alone | {"braces": None if system.braces is None else attrs.asdict(system.braces)}
 
 
 def physical(result: Motion | Verdict, block: Block) -> dict[str, Any]:

@@ -1,4 +1,4 @@
-"""An orbit diagram as a command runs it, shows it and writes it."""
+"""An orbit diagram as a command shows it and writes it."""
 
 from __future__ import annotations
 
@@ -9,8 +9,6 @@ from typing import TYPE_CHECKING, Any
 import attrs
 import numpy as np
 
-from rocking.cli.input.axis import Study
-from rocking.cli.option_names import option, options
 from rocking.cli.output import files
 from rocking.cli.output.console import Row, print_json, print_table
 from rocking.cli.reports.motion import asked_in_si, beyond, in_si, reach
@@ -21,51 +19,24 @@ if TYPE_CHECKING:
     from rocking.model import Block
     from rocking.orbits import OrbitDiagram
 
-ARGUMENTS = options("sweep", "transient", "section_phase", "brace_angle", "brace_restitution")
-# Below about a second a bar would only flicker.
-LONG = 2_000_000
 
-
-def run(study: Study, sweep: str, transient: int, cycles: int, section_phase: float | None) -> OrbitDiagram:
-    """The diagram, with a bar on stderr while a long one is made."""
-    from rich.console import Console
-    from rich.progress import Progress
-
-    from rocking.orbits import orbit_diagram
-
-    total = len(study.values) * (2 if sweep == "both" else 1)
-    console = Console(stderr=True)
-    short = not console.is_terminal or total * (transient + cycles) < LONG
-    with Progress(console=console, transient=True, disable=short) as bar:
-        task = bar.add_task(option(study.parameter), total=total)
-        return orbit_diagram(
-            study.system,
-            study.parameter,
-            study.values,
-            study.start,
-            sweep,
-            transient,
-            cycles,
-            section_phase,
-            progress=lambda done: bar.advance(task, done),
-        )
-
-
-def show(diagram: OrbitDiagram, study: Study, files: Sequence[Path], *, as_json: bool) -> None:
+def show(
+    diagram: OrbitDiagram, block: Block | None, typed: str, files: Sequence[Path], *, as_json: bool
+) -> None:
     """Print what was found on stdout, and where its files are."""
     if as_json:
-        print_json(record(diagram, study.block, files))
+        print_json(record(diagram, block, files))
         return
     fixed = ", ".join(f"{name} {value:.6g}" for name, value in diagram.fixed.items())
-    in_units = (in_si(name, value, study.block) for name, value in diagram.fixed.items())
-    rows: list[Row] = [("varied", study.typed, ""), ("fixed", fixed, ", ".join(filter(None, in_units)))]
-    if study.block is not None:
-        rows += _in_si(diagram, study.block)
+    in_units = (in_si(name, value, block) for name, value in diagram.fixed.items())
+    rows: list[Row] = [("varied", typed, ""), ("fixed", fixed, ", ".join(filter(None, in_units)))]
+    if block is not None:
+        rows += _in_si(diagram, block)
     for way, fell, peaks in zip(diagram.sweeps, diagram.overturned, diagram.peak, strict=True):
         known = peaks[~fell]
         if known.size:
-            rows.append((f"largest |Θ|, {way}", f"{known.max():.6g}", reach(float(known.max()), study.block)))
-    more = [*beyond(diagram.start.angle, study.block), *warned(_warnings(diagram, study.block))]
+            rows.append((f"largest |Θ|, {way}", f"{known.max():.6g}", reach(float(known.max()), block)))
+    more = [*beyond(diagram.start.angle, block), *warned(_warnings(diagram, block))]
     print_table(str(diagram), rows, files, more)
 
 

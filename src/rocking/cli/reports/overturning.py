@@ -1,4 +1,4 @@
-"""The lowest overturning amplitudes that a command asks for: from options and a study file to what is shown."""
+"""Lowest overturning amplitudes, in a few lines or as JSON."""
 
 from __future__ import annotations
 
@@ -7,13 +7,9 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from rocking.cli.input import study_file, survey_quantities
-from rocking.cli.input.axis import FORM, Axis
-from rocking.cli.input.options import kinds, require
-from rocking.cli.option_names import SI, YourInput, option
 from rocking.cli.output import survey_run
 from rocking.cli.output.console import Row, print_json, print_table
-from rocking.cli.output.survey_run import FILES, MAX_ROWS, carried_out
+from rocking.cli.output.survey_run import MAX_ROWS
 from rocking.cli.reports.motion import asked_in_si, in_si
 from rocking.cli.reports.validity import warned, warnings
 from rocking.model import GRAVITY, PHYSICAL, OverturningCurve
@@ -23,70 +19,8 @@ if TYPE_CHECKING:
 
     from rocking.model import Block
 
-SCANNED_SI = tuple(name for name in SI if name != "displacement")
-"""One displacement is another acceleration at each frequency."""
-ASKED = ("period", "frequency", "restitution", "amplitude")
 LEVELS = ("lowest", "resolution", "survived_up_to")
 """What is an amplitude of the answer."""
-
-
-def question(typed: Mapping[str, Any], file: Path | None) -> dict[str, Any]:
-    """What options and study file ask for; what is typed wins."""
-    given = study_file.asked(typed, file, _checks())
-    _, physical = kinds(given)
-    if physical:
-        needs = "--height, --width and --frequency-hz (or --period-s)"
-        require(given, (("height",), ("width",), SI[5:]), needs)
-    else:
-        needs = "--period (or --frequency) and --restitution"
-        require(given, (("period", "frequency"), ("restitution",)), needs)
-    varied = [
-        name
-        for name, each in given.items()
-        if name in (*ASKED, *SCANNED_SI)
-        and name not in ("amplitude", "acceleration", "acceleration_g")
-        and not isinstance(each, int | float)
-    ]
-    if "plot" in given and len(varied) > 1:
-        raise YourInput(f"--plot draws over one axis; got {' and '.join(map(option, varied))}")
-    return given
-
-
-def _checks() -> dict[str, study_file.Check]:
-    """How each entry of a study file is read."""
-    from rocking.response import MAX_CYCLES, MAX_PERIOD
-    from rocking.survey import MAX_PHASES
-
-    limits = {"phases": (1, MAX_PHASES), "max_cycles": (1, MAX_CYCLES), "max_period": (1, MAX_PERIOD)}
-    return {
-        **survey_quantities.varying(*ASKED, *SCANNED_SI),
-        **survey_quantities.counts(limits),
-        **survey_quantities.path_checks("store", *FILES),
-    }
-
-
-def compute(given: Mapping[str, Any]) -> tuple[OverturningCurve, Block | None]:
-    """The curve, and the block if it is in SI."""
-    from rocking.survey import overturning_amplitude
-
-    shaken = {name: each for name, each in given.items() if name in (*ASKED, *SCANNED_SI)}
-    others = {name: each for name, each in given.items() if name not in (*shaken, *FILES)}
-    if shaken.keys() & set(SCANNED_SI):
-        asked = _normalised(shaken)
-    else:
-        asked = {name: survey_quantities.values(each) for name, each in shaken.items()}
-    block = survey_quantities.block_of(given)
-    return carried_out(overturning_amplitude, asked | others, block), block
-
-
-def _normalised(given: Mapping[str, Any]) -> dict[str, Any]:
-    """What is asked in SI; of accelerations nothing unless they are given."""
-    levels = [name for name in ("acceleration", "acceleration_g") if name in given]
-    for name in levels:
-        if not isinstance(given[name], Axis):
-            raise YourInput(f"{option(name)} must be an axis, {FORM}, of what is scanned; got {given[name]}")
-    asked = survey_quantities.normalised(given if levels else {**given, "acceleration": 0.0})
-    return {name: asked[name] for name in ASKED if name in asked and (levels or name != "amplitude")}
 
 
 def write(found: OverturningCurve, files: Mapping[str, Path], block: Block | None) -> None:

@@ -107,5 +107,4 @@ def torus_turns() -> rk.RotationNumber:
 
 def count(found: xr.Dataset, kind: rk.Kind) -> int:
     """Points of one kind."""
-    codes = dict(zip(found.kind.flag_meanings.split(), found.kind.flag_values, strict=True))
-    return int((found.kind == codes[kind.value]).sum())
+    return int((found.kind == kind.code).sum())

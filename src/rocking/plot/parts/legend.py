@@ -12,7 +12,7 @@ import numpy as np
 from attrs import frozen
 from matplotlib.colors import to_rgb
 
-from rocking.model import Kind
+from rocking.model import Kind, one_of
 from rocking.plot.parts import style
 
 # Those of Okabe and Ito for what goes on moving; greys for what stands and what has fallen.
@@ -56,8 +56,13 @@ LOOKS = (
 """Their places are the numbers that `looks` gives."""
 NONE = 255
 """The number of a point that is not yet computed."""
-PERIODIC = list(Kind).index(Kind.PERIODIC)
 _OF_KIND = np.array([0, 1, 8, 9, 10, 11], np.uint8)  # in the order of `Kind`
+
+
+def check_symbols(symbols: str | None) -> None:
+    """Raise TypeError or ValueError for a set of symbols that is unknown."""
+    if symbols is not None:
+        one_of("symbols", symbols, ("kinds", *PAPER))
 
 
 def paler(colour: str, times: int) -> tuple[float, float, float]:
@@ -103,7 +108,7 @@ def looks(kind: np.ndarray, period: np.ndarray, symmetric: np.ndarray) -> np.nda
     found = np.full(kind.shape, NONE, np.uint8)
     there = kind < len(_OF_KIND)
     found[there] = _OF_KIND[kind[there]]
-    periodic = kind == PERIODIC
+    periodic = kind == Kind.PERIODIC.code
     odd = np.select([period == 1, period == 3], [1, 3], 5) + (symmetric != 1)
     found[periodic] = np.where(period % 2 == 0, 7, odd)[periodic]
     return found

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from typing import Any, Protocol
 
 import numpy as np
@@ -59,18 +59,15 @@ CURVES = {
 }
 
 
-def check(names: Iterable[str]) -> tuple[str, ...]:
-    """The names of curves, unless one is unknown."""
+def check(names: Iterable[str], axes: Iterable[str], told: Mapping[str, Any]) -> tuple[str, ...]:
+    """Return the names of curves; TypeError or ValueError for a name that is unknown, and where the map admits no curve.
+
+    `axes` are the names of the map's axes, upward first; `told` are its attributes.
+    """
     if isinstance(names, str):
         names = (names,)
     allowed = f"be a sequence of {', '.join(map(repr, CURVES))}"
-    return tuple(one_of("curves", name, tuple(CURVES)) for name in members("curves", names, allowed))
-
-
-def draw(
-    ax: Axes, names: Iterable[str], axes: dict[str, np.ndarray], told: dict[str, Any], turns: dict[str, Any]
-) -> list[Line2D]:
-    """Draws curves over a map with these axes, by name, upward first, and the attributes `told`; the lines of a legend."""
+    names = tuple(one_of("curves", name, tuple(CURVES)) for name in members("curves", names, allowed))
     upward, across = axes
     if names and (upward != "amplitude" or across not in ("period", "frequency", "restitution")):
         raise ValueError(
@@ -86,6 +83,13 @@ def draw(
                 "curves", "lie over a map of a block without braces", f"brace_angle = {told['brace_angle']}"
             )
         )
+    return names
+
+
+def draw(
+    ax: Axes, names: Iterable[str], axes: dict[str, np.ndarray], told: dict[str, Any], turns: dict[str, Any]
+) -> list[Line2D]:
+    """Draw curves that were checked over a map; return the lines of a legend."""
     return [_line(ax, CURVES[name], axes, told, turns) for name in names]
 
 

@@ -12,12 +12,15 @@ from rocking.kernels import batch
 from rocking.kernels.classify import attractor_anchor as kernel
 from rocking.kernels.classify import results, verdict_record
 from rocking.model import (
+    NO_BRACES,
     Attractor,
     Harmonic,
     Kind,
     State,
     System,
     Verdict,
+    quantities,
+    system_of,
 )
 from rocking.motion import simulate
 from rocking.response import budget, classify
@@ -185,11 +188,8 @@ def alike(states: np.ndarray, others: np.ndarray) -> np.ndarray:
 
 def section_of(system: System, anchor: np.ndarray, period: int) -> np.ndarray:
     """The states (n, 2) of an orbit on the section, from the one that stands for it."""
-    forcing = system.forcing
-    phase = forcing.phase + math.tau * kernel.SECTION
-    clocked = System(
-        Harmonic(forcing.amplitude, period=forcing.period, phase=phase), system.restitution, system.braces
-    )
+    phase = system.forcing.phase + math.tau * kernel.SECTION
+    clocked = system_of(NO_BRACES | quantities(system) | {"phase": phase})
     motion = simulate(clocked, State(*anchor), cycles=period, record="section")
     return np.asarray(motion.section()[:period])
 

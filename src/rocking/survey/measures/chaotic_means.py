@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from rocking.model import Braces, Harmonic, State, System
+from rocking.model import State, System, system_of
 from rocking.motion import simulate
 from rocking.survey.spec import SYSTEM, Points
 
@@ -46,11 +46,7 @@ def _late_angles(system: System, start: State, cycles: int) -> np.ndarray:
 
 
 def _system(row: np.ndarray) -> System:
-    at = dict(zip(SYSTEM, row.tolist(), strict=True))
-    forcing = Harmonic(at["amplitude"], period=at["period"], phase=at["phase"])
-    braced = at["brace_angle"] < math.inf
-    braces = Braces(at["brace_angle"], at["brace_restitution"]) if braced else None
-    return System(forcing, at["restitution"], braces)
+    return system_of(dict(zip(SYSTEM, row.tolist(), strict=True)))
 
 
 def grouped(means: np.ndarray, errors: np.ndarray) -> np.ndarray:

@@ -10,15 +10,15 @@ import numpy as np
 from rocking.kernels import batch
 from rocking.kernels.classify import results
 from rocking.kernels.classify import verdict_record as kernel
+from rocking.model import Criterion, Kind
 from rocking.response import budget
 from rocking.survey.measurement import Arrays, Measurement, Variable
 from rocking.survey.spec import Points, points
 
 
-def meanings(enum: type[kernel.Kind] | type[kernel.Ground]) -> dict[str, object]:
-    """The CF attributes of a variable whose values are those of an enum."""
-    words = (each.name.lower().replace("_", "-") for each in enum)
-    return {"flag_values": np.array(list(enum), np.uint8), "flag_meanings": " ".join(words)}
+def meanings(enum: type[Kind] | type[Criterion]) -> dict[str, object]:
+    """Return the CF attributes of a variable whose values are the codes of an enum's members."""
+    return {"flag_values": np.arange(len(enum), dtype=np.uint8), "flag_meanings": " ".join(map(str, enum))}
 
 
 SYMMETRY = {
@@ -28,8 +28,8 @@ SYMMETRY = {
 NOT_PERIODIC = 2
 
 VARIABLES = (
-    Variable("kind", "uint8", 255, {"long_name": "kind of response", **meanings(kernel.Kind)}),
-    Variable("evidence", "uint8", 255, {"long_name": "ground of the label", **meanings(kernel.Ground)}),
+    Variable("kind", "uint8", 255, {"long_name": "kind of response", **meanings(Kind)}),
+    Variable("evidence", "uint8", 255, {"long_name": "ground of the label", **meanings(Criterion)}),
     Variable(
         "response_period",
         "int32",

@@ -7,10 +7,10 @@ from typing import Any
 
 import numpy as np
 
-from rocking.model import instance, reals, refusal, shown, whole
+from rocking.model import RANGES, instance, reals, refusal, shown, whole
 from rocking.survey.engine.tile_loop import engine
 from rocking.survey.measurement import Arrays, Measurement
-from rocking.survey.spec import RANGES, Points
+from rocking.survey.spec import Points
 
 AT_ONCE = 2048
 """Points of one piece of work."""

@@ -36,5 +36,5 @@ def draw() -> Figure:
 
 def divided(found: xr.Dataset) -> float:
     """The share of points next to each other in period of which one overturns and the other does not."""
-    over = found.kind.transpose("amplitude", "period").values == list(rk.Kind).index(rk.Kind.OVERTURNED)
+    over = found.kind.transpose("amplitude", "period").values == rk.Kind.OVERTURNED.code
     return float((over[:, 1:] != over[:, :-1]).mean())

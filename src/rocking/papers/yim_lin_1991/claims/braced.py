@@ -19,7 +19,7 @@ def unfelt() -> Finding:
     axes = cached_surveys.axes(30)
     free = rk.parametric_map(**axes, restitution=0.925)
     braced = rk.parametric_map(**axes, restitution=0.925, brace_angle=1.0, max_cycles=1_000)
-    below = (free.peak.values < 1.0) & (free.kind.values != 4)
+    below = (free.peak.values < 1.0) & (free.kind.values != rk.Kind.OVERTURNED.code)
     alike = all(
         np.array_equal(free[name].values[below], braced[name].values[below])
         for name in ("kind", "response_period", "symmetric")
@@ -59,8 +59,8 @@ def frequent_hits() -> Finding:
         for index in zip(*np.nonzero(peaks >= 1.0), strict=True)
         if _hits_per_cycle(float(amplitude[index]), float(period[index])) >= HITS_PER_CYCLE
     ]
-    chaotic = rk.Share(sum(kind == 3 for kind in frequent), len(frequent))
-    periodic = rk.Share(sum(kind == 1 for kind in frequent), len(frequent))
+    chaotic = rk.Share(sum(kind == rk.Kind.CHAOTIC.code for kind in frequent), len(frequent))
+    periodic = rk.Share(sum(kind == rk.Kind.PERIODIC.code for kind in frequent), len(frequent))
     return Finding(
         chaotic.value > 0.5,
         f"of {len(frequent)} points with a brace hit per cycle or more {periodic} are periodic, {chaotic} chaotic",
@@ -78,11 +78,12 @@ def scattered() -> Finding:
     """Chaotic responses appear often, but scattered."""
     found = cached_surveys.braced()
     kind = found.kind.transpose("amplitude", "period").values
-    share = rk.Share(int((kind == 3).sum()), kind.size)
+    share = rk.Share(int((kind == rk.Kind.CHAOTIC.code).sum()), kind.size)
     padded = np.pad(kind, 1)
-    rows, columns = np.nonzero(kind == 3)
+    rows, columns = np.nonzero(kind == rk.Kind.CHAOTIC.code)
     alone = sum(
-        int((padded[i : i + 3, j : j + 3] == 3).sum()) <= 5 for i, j in zip(rows, columns, strict=True)
+        int((padded[i : i + 3, j : j + 3] == rk.Kind.CHAOTIC.code).sum()) <= 5
+        for i, j in zip(rows, columns, strict=True)
     )
     return Finding(
         share.low > 0.01 and alone > len(rows) // 2,
@@ -94,7 +95,7 @@ def scattered() -> Finding:
 def dominant() -> Finding:
     """The (1,1) mode dominates, with unsymmetric modes of even order."""
     found = cached_surveys.braced()
-    periodic = found.kind == 1
+    periodic = found.kind == rk.Kind.PERIODIC.code
     first = rk.Share(int((periodic & (found.response_period == 1)).sum()), int(periodic.sum()))
     even = int((periodic & (found.response_period % 2 == 0)).sum())
     return Finding(

@@ -90,10 +90,10 @@ def figure_11() -> Finding:
     """From rest at e = 0.925: harmonic, one-third subharmonic, none and overturning."""
     kind, order, *_ = _grid()
     parts = {
-        "none": kind == 0,
-        "overturned": kind == 4,
-        "period 1": (kind == 1) & (order == 1),
-        "period 3": (kind == 1) & (order == 3),
+        "none": kind == rk.Kind.REST.code,
+        "overturned": kind == rk.Kind.OVERTURNED.code,
+        "period 1": (kind == rk.Kind.PERIODIC.code) & (order == 1),
+        "period 3": (kind == rk.Kind.PERIODIC.code) & (order == 3),
     }
     rest = 1.0 - sum(float(part.mean()) for part in parts.values())
     text = ", ".join(f"{name} {100 * part.mean():.1f} %" for name, part in parts.items())
@@ -106,7 +106,7 @@ def figure_11() -> Finding:
 def commonest() -> Finding:
     """The most common response is the (1,1) mode, the second the (1,3) mode."""
     kind, order, symmetric, *_ = _grid()
-    chosen = (kind == 1) & (symmetric == 1)
+    chosen = (kind == rk.Kind.PERIODIC.code) & (symmetric == 1)
     orders, counts = np.unique(order[chosen], return_counts=True)
     ranking = orders[np.argsort(-counts)]
     text = ", ".join(
@@ -120,7 +120,7 @@ def commonest() -> Finding:
 def even_orders() -> Finding:
     """Several unsymmetric modes of even order are found."""
     kind, order, symmetric, *_ = _grid()
-    even = np.unique(order[(kind == 1) & (order % 2 == 0) & (symmetric == 0)])
+    even = np.unique(order[(kind == rk.Kind.PERIODIC.code) & (order % 2 == 0) & (symmetric == 0)])
     return Finding(len(even) > 1, f"orders {', '.join(map(str, even))}, from rest")
 
 
@@ -154,7 +154,7 @@ def boundary() -> Finding:
     kind, order, symmetric, period, amplitude = _grid()
     shares = []
     for n in (1, 3):
-        chosen = (kind == 1) & (order == n) & (symmetric == 1)
+        chosen = (kind == rk.Kind.PERIODIC.code) & (order == n) & (symmetric == 1)
         within = amplitude[chosen] <= rk.theory.symmetry_breaking_amplitude(period[chosen], 0.925, n) + 1e-9
         above = amplitude[chosen] >= rk.theory.existence_amplitude(period[chosen], 0.925, n) - 1e-9
         shares.append(rk.Share(int((within & above).sum()), int(chosen.sum())))
@@ -169,7 +169,7 @@ def boundary() -> Finding:
 def odd_orders() -> Finding:
     """Symmetric modes of odd order dominate."""
     kind, order, symmetric, *_ = _grid()
-    periodic = kind == 1
+    periodic = kind == rk.Kind.PERIODIC.code
     share = rk.Share(int((periodic & (symmetric == 1) & (order % 2 == 1)).sum()), int(periodic.sum()))
     return Finding(share.low > 0.5, f"{share} of the periodic responses")
 
@@ -181,7 +181,7 @@ def unstable_not_overturned() -> Finding:
     beyond = np.ones_like(kind, bool)
     for n in (1, 3):
         beyond &= amplitude > rk.theory.symmetry_breaking_amplitude(period, 0.925, n)
-    share = rk.Share(int((kind[beyond] == 1).sum()), int(beyond.sum()))
+    share = rk.Share(int((kind[beyond] == rk.Kind.PERIODIC.code).sum()), int(beyond.sum()))
     return Finding(share.count > 0, f"beyond both stability curves {share} respond periodically")
 
 
@@ -196,7 +196,8 @@ def between_curves() -> Finding:
         amplitude <= rk.theory.symmetry_breaking_amplitude(period, 0.925, 1)
     )
     counts = {
-        name: int((kind[between] == code).sum()) for name, code in (("quasi-periodic", 2), ("chaotic", 3))
+        str(name): int((kind[between] == name.code).sum())
+        for name in (rk.Kind.QUASI_PERIODIC, rk.Kind.CHAOTIC)
     }
     return Finding(
         not any(counts.values()),
@@ -245,7 +246,7 @@ def sufficient() -> Finding:
     """(22) tells where chaotic responses exist."""
     kind, _, _, period, amplitude = _grid()
     above = amplitude >= rk.theory.melnikov_amplitude(period, 0.925)
-    share = rk.Share(int((kind[above] == 3).sum()), int(above.sum()))
+    share = rk.Share(int((kind[above] == rk.Kind.CHAOTIC.code).sum()), int(above.sum()))
     return Finding(
         share.value > 0.5, f"e = 0.925: {share} of the map above A_M is chaotic", shown=share.high < 0.01
     )

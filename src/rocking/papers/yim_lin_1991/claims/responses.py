@@ -133,7 +133,7 @@ def figure_6() -> Finding:
 def overturning_amplitudes() -> Finding:
     """Overturning goes with large amplitudes of the base."""
     found = cached_surveys.damped()
-    overturned = (found.kind == 4).transpose("period", "amplitude").values
+    overturned = (found.kind == rk.Kind.OVERTURNED.code).transpose("period", "amplitude").values
     quarters = [float(part.mean()) for part in np.array_split(overturned, 4, axis=1)]
     shares = ", ".join(f"{100 * share:.1f} %" for share in quarters)
     return Finding(

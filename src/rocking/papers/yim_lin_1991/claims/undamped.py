@@ -103,8 +103,8 @@ def no_periodic() -> Finding:
 def neighbours() -> Finding:
     """Quasi-periodic responses usually appear together with chaotic ones."""
     kind = cached_surveys.undamped().kind.values
-    quasi = kind == 2
-    restless = np.pad((kind == 3) | (kind == 5), 2)
+    quasi = kind == rk.Kind.QUASI_PERIODIC.code
+    restless = np.pad((kind == rk.Kind.CHAOTIC.code) | (kind == rk.Kind.UNDETERMINED.code), 2)
     rows, columns = np.nonzero(quasi)
     near = sum(bool(restless[i : i + 5, j : j + 5].any()) for i, j in zip(rows, columns, strict=True))
     share = rk.Share(near, len(rows))

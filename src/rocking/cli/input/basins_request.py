@@ -1,0 +1,51 @@
+"""Basins that a command requests: from options and a study file to the basins."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from rocking.cli.input import study_file, survey_quantities
+from rocking.cli.input.axis import Axis
+from rocking.cli.input.options import question as system_of
+from rocking.cli.option_names import COUNTS, START, SYSTEM
+from rocking.cli.output.survey_run import FILES, carried_out
+
+if TYPE_CHECKING:
+    from rocking.model import BasinMap, Block
+
+DEFAULT_STARTS = 200
+"""Number of starts along an axis from -1 to 1, or from brace to brace."""
+
+
+def question(typed: Mapping[str, Any], file: Path | None) -> dict[str, Any]:
+    """Return what options and study file request; options take precedence."""
+    checks = {
+        **survey_quantities.fixed(*SYSTEM),
+        **survey_quantities.varying(*START),
+        **survey_quantities.counts("samples", "seed", *COUNTS, "boundary_runs"),
+        **survey_quantities.path_checks("store", *FILES),
+    }
+    return study_file.asked(typed, file, checks)
+
+
+def compute(given: Mapping[str, Any]) -> tuple[BasinMap, Block | None]:
+    """Compute the basins; return them with the block if they are in SI."""
+    from rocking.survey import basin_map
+
+    asked = {name: each for name, each in given.items() if name not in FILES}
+    shaken = {name: asked.pop(name) for name in SYSTEM if name in asked}
+    system, _, block = system_of(shaken)
+    reach = 1.0 if system.braces is None else min(system.braces.angle, 1.0)
+    usual = {"angle": Axis(-reach, reach, DEFAULT_STARTS), "velocity": Axis(-1.0, 1.0, DEFAULT_STARTS)}
+    for name, axis in usual.items():
+        asked[name] = _starts(asked.get(name, axis), random="samples" in asked)
+    return carried_out(basin_map, {"system": system} | asked, block), block
+
+
+def _starts(asked: Any, *, random: bool) -> Any:
+    """Return the starts along an axis of a grid, or the ends of the axis if starts are random."""
+    return (
+        [asked.start, asked.stop] if random and isinstance(asked, Axis) else survey_quantities.values(asked)
+    )

@@ -1,0 +1,82 @@
+"""Orbit diagram that a command requests: from options, one of which is an axis, to the diagram."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from rocking.cli.input.axis import FORM, VARIES, Axis
+from rocking.cli.input.options import question
+from rocking.cli.option_names import ARGUMENTS, YourInput, option, options, your_input
+
+if TYPE_CHECKING:
+    import numpy as np
+
+    from rocking.model import Block, State, System
+    from rocking.orbits import OrbitDiagram
+
+OWN = options("sweep", "transient", "section_phase", "brace_angle", "brace_restitution")
+# Below about a second a bar would only flicker.
+LONG = 2_000_000
+
+
+class Study(NamedTuple):
+    """One parameter varied, all else fixed."""
+
+    system: System
+    start: State
+    block: Block | None
+    parameter: str
+    values: np.ndarray
+    typed: str
+
+
+def study(given: Mapping[str, Any]) -> Study:
+    """Return the study that the options request; `YourInput` unless exactly one of them is an axis."""
+    import numpy as np
+
+    axes = [name for name, value in given.items() if isinstance(value, Axis)]
+    if len(axes) != 1:
+        got = " and ".join(map(option, axes)) or "none"
+        raise YourInput(f"give exactly one option as an axis, {FORM}; got {got}")
+    name, axis = axes[0], given[axes[0]]
+    if given["displacement"] is not None and name in ("frequency_hz", "period_s"):
+        raise YourInput(f"--displacement with {option(name)} varies two things: give --acceleration instead")
+    values = np.linspace(axis.start, axis.stop, axis.points)
+    # Ranges are intervals: what both ends pass, all between them do.
+    system, start, block = question({**given, name: axis.start})
+    last, _, _ = question({**given, name: axis.stop})
+    typed = f"{option(name)} {axis.start:.6g} to {axis.stop:.6g}"
+    if name not in VARIES:
+        return Study(system, start, block, name, values, typed)
+    # Each is proportional to what it varies.
+    varied = VARIES[name]
+    first, final = (getattr(one.forcing, varied) for one in (system, last))
+    return Study(system, start, block, varied, np.linspace(first, final, axis.points), typed)
+
+
+def compute(
+    study: Study, sweep: str, transient: int, cycles: int, section_phase: float | None
+) -> OrbitDiagram:
+    """Compute the diagram, with a progress bar on stderr if it takes long."""
+    from rich.console import Console
+    from rich.progress import Progress
+
+    from rocking.orbits import orbit_diagram
+
+    total = len(study.values) * (2 if sweep == "both" else 1)
+    console = Console(stderr=True)
+    short = not console.is_terminal or total * (transient + cycles) < LONG
+    with your_input(ARGUMENTS | OWN), Progress(console=console, transient=True, disable=short) as bar:
+        task = bar.add_task(option(study.parameter), total=total)
+        return orbit_diagram(
+            study.system,
+            study.parameter,
+            study.values,
+            study.start,
+            sweep,
+            transient,
+            cycles,
+            section_phase,
+            progress=lambda done: bar.advance(task, done),
+        )

@@ -1,0 +1,71 @@
+"""Lowest overturning amplitudes that a command requests: from options and a study file to the curve."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from rocking.cli.input import study_file, survey_quantities
+from rocking.cli.input.axis import FORM, Axis
+from rocking.cli.input.options import kinds, require
+from rocking.cli.option_names import COUNTS, SI, YourInput, option
+from rocking.cli.output.survey_run import FILES, carried_out
+
+if TYPE_CHECKING:
+    from rocking.model import Block, OverturningCurve
+
+SCANNED_SI = tuple(name for name in SI if name != "displacement")
+"""Options in SI except the displacement, whose acceleration depends on the frequency."""
+ASKED = ("period", "frequency", "restitution", "amplitude")
+
+
+def question(typed: Mapping[str, Any], file: Path | None) -> dict[str, Any]:
+    """Return what options and study file request; options take precedence."""
+    checks = {
+        **survey_quantities.varying(*ASKED, *SCANNED_SI),
+        **survey_quantities.counts("phases", *COUNTS),
+        **survey_quantities.path_checks("store", *FILES),
+    }
+    given = study_file.asked(typed, file, checks)
+    _, physical = kinds(given)
+    if physical:
+        needs = "--height, --width and --frequency-hz (or --period-s)"
+        require(given, (("height",), ("width",), SI[5:]), needs)
+    else:
+        needs = "--period (or --frequency) and --restitution"
+        require(given, (("period", "frequency"), ("restitution",)), needs)
+    varied = [
+        name
+        for name, each in given.items()
+        if name in (*ASKED, *SCANNED_SI)
+        and name not in ("amplitude", "acceleration", "acceleration_g")
+        and not isinstance(each, int | float)
+    ]
+    if "plot" in given and len(varied) > 1:
+        raise YourInput(f"--plot draws over one axis; got {' and '.join(map(option, varied))}")
+    return given
+
+
+def compute(given: Mapping[str, Any]) -> tuple[OverturningCurve, Block | None]:
+    """Compute the curve; return it with the block if it is in SI."""
+    from rocking.survey import overturning_amplitude
+
+    shaken = {name: each for name, each in given.items() if name in (*ASKED, *SCANNED_SI)}
+    others = {name: each for name, each in given.items() if name not in (*shaken, *FILES)}
+    if shaken.keys() & set(SCANNED_SI):
+        asked = _normalised(shaken)
+    else:
+        asked = {name: survey_quantities.values(each) for name, each in shaken.items()}
+    block = survey_quantities.block_of(given)
+    return carried_out(overturning_amplitude, asked | others, block), block
+
+
+def _normalised(given: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the normalised arguments of a request in SI; no amplitude unless accelerations are given."""
+    levels = [name for name in ("acceleration", "acceleration_g") if name in given]
+    for name in levels:
+        if not isinstance(given[name], Axis):
+            raise YourInput(f"{option(name)} must be an axis, {FORM}, of what is scanned; got {given[name]}")
+    asked = survey_quantities.normalised(given if levels else {**given, "acceleration": 0.0})
+    return {name: asked[name] for name in ASKED if name in asked and (levels or name != "amplitude")}
