@@ -13,24 +13,11 @@ from rocking.kernels.classify.reset import begin_tangent
 from rocking.kernels.classify.results import parameters_from_row
 from rocking.kernels.classify.workspace import make_workspace
 from rocking.kernels.compile_options import ALLOCATING, KERNEL
-from rocking.kernels.lanes.load_unload import find_event_scalar, load_block, log_arcs, set_leg, update_peak
-from rocking.kernels.lanes.rows import (
-    AT_EVENT,
-    COUNTED,
-    EVENTS,
-    EXCEEDS,
-    FIND_EVENT,
-    IDLE,
-    LANES,
-    LOAD_NEXT,
-    NO_REQUEST,
-    REQUEST,
-    STAGE,
-    UPDATE_PEAK,
-    load,
-    store,
-)
+from rocking.kernels.lanes.log import log_arcs
+from rocking.kernels.lanes.scalar_fallback import find_event, update_peak
+from rocking.kernels.lanes.state import FIND_EVENT, IDLE, LANES, LOAD_NEXT, NO_REQUEST, UPDATE_PEAK
 from rocking.kernels.lanes.step import advance, strike
+from rocking.kernels.lanes.transfer import load_block, set_leg
 from rocking.kernels.lanes.workspace import make_lane_workspace
 from rocking.kernels.march.march import MAX_EVENTS, UNKNOWN, begin
 
@@ -70,20 +57,20 @@ def alone(systems, speeds, cycles, memory):
 @njit(**ALLOCATING)
 def in_lanes(systems, speeds, cycles, memory):
     """How many impacts there were; a lane that ends, or has to leave, takes the next block."""
-    s, queue, blocks, impacts = memory.state, 0, LANES, 0.0
+    s, queue, blocks, impacts = memory.state[0], 0, LANES, 0.0
     guests = [parameters_from_row(systems[0])] * LANES
     for i in range(LANES):
-        store(s, i, STAGE, IDLE)
-        store(s, i, REQUEST, LOAD_NEXT)
+        s.stage[i] = IDLE
+        s.request[i] = LOAD_NEXT
     while True:
         for i in range(LANES):
-            wants = load(s, i, REQUEST)
+            wants = s.request[i]
             if wants == FIND_EVENT:
-                wants = find_event_scalar(s, i, guests[i])
+                wants = find_event(s, i, guests[i])
             if wants != NO_REQUEST and wants != UPDATE_PEAK:
-                impacts += load(s, i, EVENTS) - load(s, i, COUNTED) if wants != LOAD_NEXT else 0.0
-                store(s, i, REQUEST, NO_REQUEST)
-                store(s, i, STAGE, IDLE)
+                impacts += s.events[i] - s.counted[i] if wants != LOAD_NEXT else 0.0
+                s.request[i] = NO_REQUEST
+                s.stage[i] = IDLE
                 blocks -= queue >= systems.shape[0]
                 if queue < systems.shape[0]:
                     p = parameters_from_row(systems[queue])
@@ -91,7 +78,7 @@ def in_lanes(systems, speeds, cycles, memory):
                     load_block(s, i, p, begin(p, 0.0, speeds[queue], UNKNOWN)[0], memory.columns[i], 0)
                     set_leg(s, i, cycles, False)
                     guests[i], queue = p, queue + 1
-            elif load(s, i, STAGE) == AT_EVENT and load(s, i, EXCEEDS) > 0.0:
+            else:
                 update_peak(s, i, guests[i])
         if blocks == 0:
             return impacts

@@ -8,47 +8,25 @@ from numba import njit
 from rocking.kernels.arc.solution import arc_from, shift_clock
 from rocking.kernels.compile_options import KERNEL
 from rocking.kernels.event_kinds import FLIGHT
-from rocking.kernels.lanes.load_unload import arc_of, find_event_scalar, leg_done, load_block, set_leg
 from rocking.kernels.lanes.root import step
-from rocking.kernels.lanes.rows import (  # fmt: skip
-    ANGLE_THERE,
-    AT_BRACE,
+from rocking.kernels.lanes.scalar_fallback import find_event, leg_done
+from rocking.kernels.lanes.state import (
     AT_EVENT,
-    COSINE_THERE,
-    CYCLE,
-    EVENTS,
-    EXCEEDS,
     FAILED,
     FIND_EVENT,
     IDLE,
+    LANE_STATE,
     LANES,
-    NEXT_COSINE,
-    NEXT_SINE,
-    NEXT_SINH,
-    NEXT_VERSINH,
-    PEAK,
-    RATE_THERE,
     REFINE,
-    REQUEST,
-    ROWS,
-    SIDE,
-    SINE_THERE,
-    SPEED,
-    STAGE,
-    START,
-    TARGET,
-    VELOCITY,
-    WAIT,
-    load,
     set_system,
-    store,
 )
 from rocking.kernels.lanes.step import advance, advance_between, strike, strike_between
+from rocking.kernels.lanes.transfer import arc_of, load_block, set_leg
 from rocking.kernels.march.event_rows import state_at
 from rocking.kernels.march.march import Progress
 
 EYE = np.eye(2)
-FIRST = (WAIT, SPEED, NEXT_COSINE, NEXT_SINE, NEXT_SINH, NEXT_VERSINH, AT_BRACE)
+FIRST = ["wait", "speed", "next_cosine", "next_sine", "next_sinh", "next_versinh", "at_brace"]
 
 
 @njit(**KERNEL)
@@ -91,32 +69,32 @@ def to_the_end(s, p, events):
         advance_all(s, braced)
         moving = 0
         for i in range(LANES):
-            wants = load(s, i, REQUEST)
+            wants = s.request[i]
             if wants == FIND_EVENT:
-                find_event_scalar(s, i, p)
-            if load(s, i, STAGE) == AT_EVENT and leg_done(s, i):
-                store(s, i, STAGE, IDLE)
-            moving += load(s, i, STAGE) != IDLE
+                find_event(s, i, p)
+            if s.stage[i] == AT_EVENT and leg_done(s, i):
+                s.stage[i] = IDLE
+            moving += s.stage[i] != IDLE
         strike_all(s, braced)
         for i in range(LANES):
-            k = int(load(s, i, EVENTS)) - 1
+            k = int(s.events[i]) - 1
             if k >= 0:
-                events[i, k, 0], events[i, k, 1] = load(s, i, CYCLE), load(s, i, START)
-                events[i, k, 2], events[i, k, 3] = load(s, i, SIDE), load(s, i, VELOCITY)
+                events[i, k, 0], events[i, k, 1] = s.cycle[i], s.start[i]
+                events[i, k, 2], events[i, k, 3] = s.side[i], s.velocity[i]
 
 
 @njit(**KERNEL)
 def states(s, p, out):
     """Where the blocks are at their targets."""
     for i in range(LANES):
-        cycles = load(s, i, TARGET) - load(s, i, CYCLE)
+        cycles = s.target[i] - s.cycle[i]
         arc = shift_clock(arc_of(s, i, p), cycles * p.period)
         out[i, 0], out[i, 1] = state_at(p, FLIGHT, arc, -arc.start)
 
 
 def empty():
     """Lanes without blocks."""
-    return np.zeros(ROWS * LANES)
+    return np.zeros(1, LANE_STATE)[0]
 
 
 def first_events(systems, starts):
@@ -130,9 +108,8 @@ def first_events(systems, starts):
         for i, k in enumerate(here):
             sit_down(s, i, systems[k], *starts[k][:3], EYE, 10**9, *starts[k][3:])
         strike_and_pass(s, systems[0].brace_angle < math.inf)
-        rows = s.reshape(ROWS, LANES)
         for i, k in enumerate(here):
-            found[k], certain[k] = rows[list(FIRST), i], rows[STAGE, i] == AT_EVENT
+            found[k], certain[k] = [s[name][i] for name in FIRST], s["stage"][i] == AT_EVENT
     return found, certain
 
 
@@ -141,12 +118,13 @@ def step_from(s, p, instants):
     """A lane of the system for each (u, u', cos eta, sin eta), at the time 0 of its arc, and one step of each."""
     for i in range(len(instants)):
         set_system(s, i, p)
-        store(s, i, STAGE, REFINE)
-        store(s, i, ANGLE_THERE, instants[i, 0])
-        store(s, i, RATE_THERE, instants[i, 1])
-        store(s, i, COSINE_THERE, instants[i, 2])
-        store(s, i, SINE_THERE, instants[i, 3])
-    step(s)
+        s.stage[i] = REFINE
+        s.angle_there[i] = instants[i, 0]
+        s.rate_there[i] = instants[i, 1]
+        s.cosine_there[i] = instants[i, 2]
+        s.sine_there[i] = instants[i, 3]
+    for i in range(LANES):
+        step(s, i)
 
 
 def steps_to_zero(p, instants):
@@ -155,8 +133,9 @@ def steps_to_zero(p, instants):
     for first in range(0, len(instants), LANES):
         s, part = empty(), instants[first : first + LANES]
         step_from(s, p, part)
-        rows, here = s.reshape(ROWS, LANES)[:, : len(part)], slice(first, first + len(part))
-        found[here], arrived[here] = rows[[WAIT, SPEED]].T, rows[STAGE] == AT_EVENT
+        here, stage = slice(first, first + len(part)), s["stage"][: len(part)]
+        found[here] = np.column_stack((s["wait"], s["speed"]))[: len(part)]
+        arrived[here] = stage == AT_EVENT
     return found, arrived
 
 
@@ -167,9 +146,9 @@ def may_exceed(systems, starts, peaks):
         s, here = empty(), range(first, min(first + LANES, len(systems)))
         for i, k in enumerate(here):
             sit_down(s, i, systems[k], *starts[k], EYE, 10**9)
-            s[PEAK * LANES + i] = peaks[k]
+            s["peak"][i] = peaks[k]
         strike_now(s)
-        answers[here] = s.reshape(ROWS, LANES)[EXCEEDS, : len(here)]
+        answers[here] = s["exceeds"][: len(here)]
     return answers > 0.0
 
 
@@ -187,7 +166,7 @@ def strike_and_pass(s, braced):
         advance_all(s, braced)
         under_way = 0
         for i in range(LANES):
-            stage = load(s, i, STAGE)
+            stage = s.stage[i]
             under_way += stage != AT_EVENT and stage != FAILED and stage != IDLE
         if under_way == 0:
             break

@@ -11,7 +11,7 @@ from oracles import lanes as oracle
 from rocking.kernels import event_kinds
 from rocking.kernels.arc.solution import arc_from
 from rocking.kernels.compile_options import KERNEL
-from rocking.kernels.lanes import rows
+from rocking.kernels.lanes import state
 from rocking.kernels.march import next_event
 from rocking.kernels.numerics import simd
 from rocking.kernels.parameters import harmonic_parameters
@@ -230,15 +230,15 @@ def test_what_a_lane_does_hangs_on_no_other(amplitude, period, restitution, brac
     p = harmonic_parameters(amplitude, math.tau / period, period, 0.3, restitution, brace, 0.8)
     random = np.random.default_rng(5)
     blocks = [
-        (1, float(random.uniform(0, period)), float(random.uniform(0.2, 0.6))) for _ in range(rows.LANES)
+        (1, float(random.uniform(0, period)), float(random.uniform(0.2, 0.6))) for _ in range(state.LANES)
     ]
 
     def marched(order):
-        s, noted = oracle.empty(), np.zeros((rows.LANES, 2000, 4))
+        s, noted = oracle.empty(), np.zeros((state.LANES, 2000, 4))
         for i, k in enumerate(order):
             oracle.sit_down(s, i, p, *blocks[k], oracle.EYE, 20)
         oracle.to_the_end(s, p, noted)
         return noted[np.argsort(order)]
 
-    order = random.permutation(rows.LANES)
-    assert np.array_equal(marched(np.arange(rows.LANES)), marched(order))
+    order = random.permutation(state.LANES)
+    assert np.array_equal(marched(np.arange(state.LANES)), marched(order))

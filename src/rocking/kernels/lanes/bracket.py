@@ -4,44 +4,28 @@ At the ends of the stretches, and halfway, cos eta is known and e^t follows by m
 beta cos eta costs no elementary function. The proof is that of ``arc.bracket``.
 """
 
+from typing import NamedTuple
+
 from numba import njit
 
 from rocking.kernels.arc.bracket import MARGIN
 from rocking.kernels.arc.first_zero import MAX_ARC_TIME
 from rocking.kernels.compile_options import SIMD_INLINE
-from rocking.kernels.lanes.rows import (  # fmt: skip
-    BRACKET,
-    CLEARED,
-    CONCAVE,
-    CUT_PLACE,
-    CUT_RATE,
-    END,
-    FAILED,
-    GROWING,
-    GUESS,
-    HALF_DECAY,
-    HALF_GROWTH,
-    HALF_TANH,
-    HIGH,
-    LANES,
-    LOW,
-    MINIMUM,
-    OUTSIDE,
-    PER_Z,
-    PERIOD,
-    RESPONSE,
-    SHRINKING,
-    STAGE,
-    TIME,
-    TRIES,
-    TURN_DECAY,
-    TURN_GROWTH,
-    Z,
-    load,
-    store,
-)
+from rocking.kernels.lanes.state import BRACKET, FAILED, GUESS, MINIMUM
 from rocking.kernels.numerics.elementary import fma
 from rocking.kernels.numerics.simd import choose
+
+
+class ConvexStretch(NamedTuple):
+    """u on a convex stretch: at its start, halfway and at its end, with bounds on the errors at start and end."""
+
+    u: float
+    u_half: float
+    u_right: float
+    error: float
+    error_right: float
+    passed: bool  # no zero is there
+    doubtful: bool  # only a dip may hold zeros
 
 
 @njit(**SIMD_INLINE)
@@ -52,87 +36,66 @@ def may_dip(u, du, u_right, du_right, tanh):
 
 
 @njit(**SIMD_INLINE)
-def stretch(grow, shrink, forcing, half_grow, half_decay, tanh, z, per_z, end, cleared):
-    """Of a convex stretch: (u at its start, halfway and end; errors at start and end; whether no zero is there; or in a dip only)."""
-    place, rate, response = forcing
-    growing, shrinking = grow * z, shrink * per_z
+def convex_stretch(s, i):
+    """Return the ``ConvexStretch`` of lane i that begins at ``end``."""
+    place, rate, response = s.cut_place[i], s.cut_rate[i], s.response[i]
+    growing, shrinking = s.growing[i] * s.z[i], s.shrinking[i] * s.per_z[i]
     u, du = growing + shrinking + place, growing - shrinking - rate
     error = MARGIN * (abs(growing) + abs(shrinking) + 1.0)
-    growing, shrinking = growing * half_grow, shrinking * half_decay
+    growing, shrinking = growing * s.half_growth[i], shrinking * s.half_decay[i]
     u_half, du_half = growing + shrinking + 1.0 - response, growing - shrinking
-    growing, shrinking = growing * half_grow, shrinking * half_decay
+    growing, shrinking = growing * s.half_growth[i], shrinking * s.half_decay[i]
     u_right, du_right = growing + shrinking + place, growing - shrinking + rate
     error_right = error + MARGIN * (abs(growing) + abs(shrinking))
     for_ever = (growing > 0.0) & (growing - abs(shrinking) + 1.0 - response > error_right)
     passed = (u > error) & (u_half > error_right) & (u_right > error_right)
-    passed = passed & (end < MAX_ARC_TIME) & (for_ever == False)  # noqa: E712
+    passed = passed & (s.end[i] < MAX_ARC_TIME) & (for_ever == False)  # noqa: E712
+    tanh = s.half_tanh[i]
     doubt = may_dip(u, du, u_half, du_half, tanh) | may_dip(u_half, du_half, u_right, du_right, tanh)
-    doubt = doubt & (cleared == 0.0)
-    return u, u_half, u_right, error, error_right, passed & (doubt == False), passed & doubt  # noqa: E712
+    doubt = doubt & (s.cleared[i] == 0.0)
+    return ConvexStretch(u, u_half, u_right, error, error_right, passed & (doubt == False), passed & doubt)  # noqa: E712
 
 
 @njit(**SIMD_INLINE)
-def next_sign_interval(s, i, end, z, per_z, cleared):
-    """The convex stretch of lane i that begins at ``end``: what ``stretch`` says of it."""
-    forcing = load(s, i, CUT_PLACE), load(s, i, CUT_RATE), load(s, i, RESPONSE)
-    half_grow, half_decay, tanh = load(s, i, HALF_GROWTH), load(s, i, HALF_DECAY), load(s, i, HALF_TANH)
-    grow, shrink = load(s, i, GROWING), load(s, i, SHRINKING)
-    return stretch(grow, shrink, forcing, half_grow, half_decay, tanh, z, per_z, end, cleared)
+def turn_forcing(s, i, turns):
+    """Move ``end`` of lane i on by a turn of the forcing, where it ``turns``."""
+    end, z, per_z = s.end[i], s.z[i], s.per_z[i]
+    s.end[i] = choose(turns, end + s.period[i], end)
+    s.z[i] = choose(turns, z * s.turn_growth[i], z)
+    s.per_z[i] = choose(turns, per_z * s.turn_decay[i], per_z)
 
 
 @njit(**SIMD_INLINE)
-def skip_clear_periods(s):
-    """A turn of the forcing further, where certainly no zero lies in the next stretches."""
-    for i in range(LANES):
-        stage, low, cleared = load(s, i, STAGE), load(s, i, LOW), load(s, i, CLEARED)
-        end, z, per_z = load(s, i, END), load(s, i, Z), load(s, i, PER_Z)
-        outside, period = load(s, i, OUTSIDE), load(s, i, PERIOD)
-        turn_growth, turn_decay = load(s, i, TURN_GROWTH), load(s, i, TURN_DECAY)
-        passed = next_sign_interval(s, i, end, z, per_z, cleared)[5] & (stage == BRACKET)
-        store(s, i, LOW, choose(passed, end + outside, low))
-        store(s, i, CLEARED, choose(passed, 0.0, cleared))
-        store(s, i, END, choose(passed, end + period, end))
-        store(s, i, Z, choose(passed, z * turn_growth, z))
-        store(s, i, PER_Z, choose(passed, per_z * turn_decay, per_z))
+def skip_clear_period(s, i):
+    """Go a turn of the forcing further, where certainly no zero lies in the next stretches."""
+    passed = convex_stretch(s, i).passed & (s.stage[i] == BRACKET)
+    s.low[i] = choose(passed, s.end[i] + s.outside[i], s.low[i])
+    s.cleared[i] = choose(passed, 0.0, s.cleared[i])
+    turn_forcing(s, i, passed)
 
 
 @njit(**SIMD_INLINE)
-def walk(s):
-    """The next convex stretch and the concave one before it: past them, or to the zero in one of them.
+def walk(s, i):
+    """Pass the next convex stretch and the concave one before it, or bracket the zero in one of them.
 
-    ``skip_clear_periods`` before it does not look for the zero: most often only the last of two turns holds it.
+    ``skip_clear_period`` before it does not look for the zero: most often only the last of two turns holds it.
     """
-    for i in range(LANES):
-        stage, low, end, z, per_z = (
-            load(s, i, STAGE),
-            load(s, i, LOW),
-            load(s, i, END),
-            load(s, i, Z),
-            load(s, i, PER_Z),
-        )
-        cleared, concave, high = load(s, i, CLEARED), load(s, i, CONCAVE), load(s, i, HIGH)
-        time, tries = load(s, i, TIME), load(s, i, TRIES)
-        outside, period = load(s, i, OUTSIDE), load(s, i, PERIOD)
-        turn_growth, turn_decay = load(s, i, TURN_GROWTH), load(s, i, TURN_DECAY)
-        u, u_half, u_right, error, error_right, passed, looks = next_sign_interval(
-            s, i, end, z, per_z, cleared
-        )
-        above, found_in = u > error, u < -error
-        dips = above & (u_half < -error_right)
-        found = found_in | dips | (above & (u_right < -error_right) & (u_half > error_right))
-        next_stage = choose(found, GUESS, choose(passed, BRACKET, choose(looks, MINIMUM, FAILED)))
-        halfway = fma(0.5, outside, end)
-        next_high = choose(found_in, end, choose(dips, halfway, end + outside))
-        next_low = choose(found_in, low, choose(passed, end + outside, end))
-        walking = stage == BRACKET
-        store(s, i, STAGE, choose(walking, next_stage, stage))
-        store(s, i, CONCAVE, choose(walking, choose(found_in, 1.0, -1.0), concave))
-        store(s, i, LOW, choose(walking, next_low, low))
-        store(s, i, HIGH, choose(walking, next_high, high))
-        store(s, i, TIME, choose(walking, halfway, time))
-        store(s, i, TRIES, choose(walking, 0.0, tries))
-        store(s, i, CLEARED, choose(walking, 0.0, cleared))
-        passed = passed & walking
-        store(s, i, END, choose(passed, end + period, end))
-        store(s, i, Z, choose(passed, z * turn_growth, z))
-        store(s, i, PER_Z, choose(passed, per_z * turn_decay, per_z))
+    stage, low, end, outside = s.stage[i], s.low[i], s.end[i], s.outside[i]
+    stretch = convex_stretch(s, i)
+    above, found_in = stretch.u > stretch.error, stretch.u < -stretch.error
+    dips = above & (stretch.u_half < -stretch.error_right)
+    falls = (stretch.u_right < -stretch.error_right) & (stretch.u_half > stretch.error_right)
+    found = found_in | dips | (above & falls)
+    on = choose(stretch.passed, BRACKET, choose(stretch.doubtful, MINIMUM, FAILED))
+    halfway = fma(0.5, outside, end)
+    high = choose(found_in, end, choose(dips, halfway, end + outside))
+    next_low = choose(found_in, low, choose(stretch.passed, end + outside, end))
+    walking = stage == BRACKET
+    s.stage[i] = choose(walking, choose(found, GUESS, on), stage)
+    s.concave[i] = choose(walking, choose(found_in, 1.0, -1.0), s.concave[i])
+    s.low[i] = choose(walking, next_low, low)
+    s.high[i] = choose(walking, high, s.high[i])
+    s.time[i] = choose(walking, halfway, s.time[i])
+    s.tries[i] = choose(walking, 0.0, s.tries[i])
+    s.cleared[i] = choose(walking, 0.0, s.cleared[i])
+    turn_forcing(s, i, stretch.passed & walking)

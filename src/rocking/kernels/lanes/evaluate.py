@@ -4,30 +4,6 @@ from numba import njit
 
 from rocking.kernels.arc.fast_path import I2, I3, I4
 from rocking.kernels.compile_options import SIMD_INLINE
-from rocking.kernels.lanes.rows import (  # fmt: skip
-    AMPLITUDE,
-    AMPLITUDE_RATE,
-    COSINE,
-    DEFICIT,
-    EXCESS,
-    FREQUENCY,
-    FREQUENCY_SQUARE,
-    HIGHER,
-    LAG,
-    LANES,
-    RESPONSE,
-    RESPONSE_RATE,
-    SHORT_TIME_LIMIT,
-    SIN_X,
-    SINE,
-    SINH,
-    TIME,
-    VELOCITY,
-    VERSINE,
-    VERSINH,
-    load,
-    store,
-)
 from rocking.kernels.numerics.elementary import fma
 from rocking.kernels.numerics.simd import choose, circular, hyperbolic
 
@@ -43,8 +19,8 @@ def correction(y, second, third, fourth, per):
 def derivatives(s, i, there):
     """u and its first six derivatives at an instant (u, u', cos eta, sin eta) in lane i, from u'' = u + f."""
     u, v, cosine, sine = there
-    square, acceleration = load(s, i, FREQUENCY_SQUARE), load(s, i, AMPLITUDE) * cosine
-    df, ddf = load(s, i, AMPLITUDE_RATE) * sine, square * acceleration
+    square, acceleration = s.frequency_square[i], s.amplitude[i] * cosine
+    df, ddf = s.amplitude_rate[i] * sine, square * acceleration
     c2, c3 = u - (1.0 + acceleration), v + df
     c4, c5 = c2 + ddf, fma(-square, df, c3)
     return u, v, c2, c3, c4, c5, fma(-square, ddf, c4)
@@ -59,20 +35,18 @@ def halved(factor):
 @njit(**SIMD_INLINE)
 def instant_of(s, i, above):
     """(u - u0, u', cos eta, sin eta) of lane i where it looks, eq. (5) as in ``respond`` and ``after``; u0 = 1 + ``above``."""
-    frequency, response = load(s, i, FREQUENCY), load(s, i, RESPONSE)
-    velocity, cosine, sine = load(s, i, VELOCITY), load(s, i, COSINE), load(s, i, SINE)
-    sinh, versinh, excess = load(s, i, SINH), load(s, i, VERSINH), load(s, i, EXCESS)
-    sin_x, versine, lag = load(s, i, SIN_X), load(s, i, VERSINE), load(s, i, LAG)
-    near = load(s, i, TIME) < load(s, i, SHORT_TIME_LIMIT)
+    frequency, response = s.frequency[i], s.response[i]
+    velocity, cosine, sine = s.velocity[i], s.cosine[i], s.sine[i]
+    sinh, versinh, excess = s.sinh[i], s.versinh[i], s.excess[i]
+    sin_x, versine, lag = s.sin_x[i], s.versine[i], s.lag[i]
+    near = s.time[i] < s.short_time_limit[i]
     in_phase, quadrature = versinh + versine, fma(frequency, excess, lag)
-    place = choose(
-        near, -fma(load(s, i, FREQUENCY_SQUARE), load(s, i, HIGHER), load(s, i, DEFICIT)), in_phase
-    )
+    place = choose(near, -fma(s.frequency_square[i], s.higher[i], s.deficit[i]), in_phase)
     rate = choose(near, -frequency * quadrature, fma(frequency, sin_x, sinh))
-    steady = choose(near, fma(-load(s, i, AMPLITUDE), cosine, above), above)
+    steady = choose(near, fma(-s.amplitude[i], cosine, above), above)
     response_cosine = response * cosine
     displaced = fma(response * sine, quadrature, -response_cosine * place)
-    moved = fma(load(s, i, RESPONSE_RATE) * sine, in_phase, -response_cosine * rate)
+    moved = fma(s.response_rate[i] * sine, in_phase, -response_cosine * rate)
     return (
         fma(velocity, sinh, fma(steady, versinh, displaced)),
         velocity + fma(velocity, versinh, fma(steady, sinh, moved)),
@@ -82,32 +56,32 @@ def instant_of(s, i, above):
 
 
 @njit(**SIMD_INLINE)
-def elements(s):
-    """The elementary functions at the time that each lane looks at."""
-    for i in range(LANES):
-        sinh, versinh, excess, higher = hyperbolic(load(s, i, TIME))
-        store(s, i, SINH, sinh)
-        store(s, i, VERSINH, versinh)
-        store(s, i, EXCESS, excess)
-        store(s, i, HIGHER, higher)
-    for i in range(LANES):
-        sin_x, versine, lag, deficit = circular(load(s, i, FREQUENCY), load(s, i, TIME))
-        store(s, i, SIN_X, sin_x)
-        store(s, i, VERSINE, versine)
-        store(s, i, LAG, lag)
-        store(s, i, DEFICIT, deficit)
+def evaluate_hyperbolic(s, i):
+    """Evaluate the hyperbolic functions of the trial time of lane i."""
+    s.sinh[i], s.versinh[i], s.excess[i], s.higher[i] = hyperbolic(s.time[i])
 
 
 @njit(**SIMD_INLINE)
-def onward(x, frequency, cosine, sine, sinh, versinh):
-    """(cos eta, sin eta, sinh, cosh - 1) a small time x later, as in ``fast_path.advance``."""
-    angle = frequency * x
+def evaluate_circular(s, i):
+    """Evaluate the circular functions of the trial time of lane i."""
+    s.sin_x[i], s.versine[i], s.lag[i], s.deficit[i] = circular(s.frequency[i], s.time[i])
+
+
+@njit(**SIMD_INLINE)
+def velocity_after(derivatives, x):
+    """Return u' a small time x later by its Taylor series, from (u', ..., the fifth derivative)."""
+    v, second, third, fourth, fifth = derivatives
+    return fma(x, fma(x, fma(x, fma(x, I4 * fifth, I3 * fourth), I2 * third), second), v)
+
+
+@njit(**SIMD_INLINE)
+def set_next(s, i, x, cosine, sine):
+    """Write the forcing and the hyperbolic functions a small time x after the trial time, as in ``fast_path.taylor_step``."""
+    sinh, versinh, angle = s.sinh[i], s.versinh[i], s.frequency[i] * x
     sin_x = angle * fma(-angle * angle, I3, 1.0)
     versine = angle * angle * fma(-angle * angle, I4, I2)
     sinh_x, versinh_x = x * fma(x * x, I3, 1.0), x * x * fma(x * x, I4, I2)
-    return (
-        cosine - fma(cosine, versine, sine * sin_x),
-        sine - fma(sine, versine, -cosine * sin_x),
-        sinh + fma(sinh, versinh_x, fma(versinh, sinh_x, sinh_x)),
-        versinh + fma(versinh, versinh_x, fma(sinh, sinh_x, versinh_x)),
-    )
+    s.next_cosine[i] = cosine - fma(cosine, versine, sine * sin_x)
+    s.next_sine[i] = sine - fma(sine, versine, -cosine * sin_x)
+    s.next_sinh[i] = sinh + fma(sinh, versinh_x, fma(versinh, sinh_x, sinh_x))
+    s.next_versinh[i] = versinh + fma(versinh, versinh_x, fma(sinh, sinh_x, versinh_x))

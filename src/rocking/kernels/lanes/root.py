@@ -7,61 +7,15 @@ from numba import njit
 from rocking.kernels.arc.bracket import MARGIN
 from rocking.kernels.arc.fast_path import I2, I3, I4, I5, I6
 from rocking.kernels.compile_options import SIMD_INLINE
-from rocking.kernels.lanes.evaluate import correction, derivatives, elements, halved, instant_of, onward
-from rocking.kernels.lanes.rows import (  # fmt: skip
-    ABOUT,
-    AMPLITUDE,
-    ANGLE_THERE,
-    AT_EVENT,
-    BRACKET,
-    CLEARED,
-    CONCAVE,
-    COSINE,
-    COSINE_IN,
-    COSINE_OUT,
-    COSINE_THERE,
-    DECAY_IN,
-    DECAY_OUT,
-    END,
-    FAILED,
-    FREQUENCY,
-    GROW_IN,
-    GROW_OUT,
-    GROWING,
-    GUESS,
-    GUESS_OFFSET,
-    HIGH,
-    INSIDE,
-    LANES,
-    LOW,
-    MINIMUM,
-    NEXT_COSINE,
-    NEXT_SINE,
-    NEXT_SINH,
-    NEXT_VERSINH,
-    OUTSIDE,
-    PER_Z,
-    RATE_THERE,
-    REFINE,
-    RESPONSE,
-    RESPONSE_RATE,
-    SHRINKING,
-    SINE,
-    SINE_IN,
-    SINE_OUT,
-    SINE_THERE,
-    SINH,
-    SPEED,
-    STAGE,
-    TIME,
-    TRIES,
-    VELOCITY,
-    VERSINH,
-    WAIT,
-    Z,
-    load,
-    store,
+from rocking.kernels.lanes.evaluate import (
+    correction,
+    derivatives,
+    halved,
+    instant_of,
+    set_next,
+    velocity_after,
 )
+from rocking.kernels.lanes.state import AT_EVENT, BRACKET, FAILED, GUESS, MINIMUM, REFINE
 from rocking.kernels.numerics.elementary import fma
 from rocking.kernels.numerics.simd import choose
 
@@ -92,93 +46,82 @@ def taylor(c, x):
 
 
 @njit(**SIMD_INLINE)
-def initial_guess(s):
-    """The middle of the half of its stretch that holds the zero, u and its derivatives there, and where a parabola comes down."""
-    for i in range(LANES):
-        concave, end, low, high = load(s, i, CONCAVE), load(s, i, END), load(s, i, LOW), load(s, i, HIGH)
-        z, per_z, grow, shrink = (
-            load(s, i, Z),
-            load(s, i, PER_Z),
-            load(s, i, GROWING),
-            load(s, i, SHRINKING),
-        )
-        amplitude, frequency, response = load(s, i, AMPLITUDE), load(s, i, FREQUENCY), load(s, i, RESPONSE)
-        inside, cosine_in, sine_in = load(s, i, INSIDE), load(s, i, COSINE_IN), load(s, i, SINE_IN)
-        outside, cosine_out, sine_out = load(s, i, OUTSIDE), load(s, i, COSINE_OUT), load(s, i, SINE_OUT)
-        grow_in, decay_in = load(s, i, GROW_IN), load(s, i, DECAY_IN)
-        grow_out, decay_out = load(s, i, GROW_OUT), load(s, i, DECAY_OUT)
-        velocity, cosine_0, sine_0 = load(s, i, VELOCITY), load(s, i, COSINE), load(s, i, SINE)
-        within = concave > 0.0
-        # of the concave stretch, which ends at ``end``, or of the convex one, which begins there
-        more, less = choose(within, grow_in, grow_out), choose(within, decay_in, decay_out)
-        # from ``end`` to the middle twice a quarter on, or back
-        on, back = choose(within, less, more), choose(within, more, less)
-        growing, shrinking = grow * (z * (on * on)), shrink * (per_z * (back * back))
-        quarter = 0.25 * choose(within, inside, outside)
-        middle = end + choose(within, -(quarter + quarter), quarter + quarter)
-        late = (fma(concave, response, growing + shrinking) > -1.0) | (middle <= low)
-        growing, shrinking = growing * choose(late, more, less), shrinking * choose(late, less, more)
-        cosine, sine = choose(within, cosine_in, cosine_out), choose(within, sine_in, sine_out)
-        sine = choose(late, sine, -sine)
-        u = growing + shrinking + fma(response, cosine, 1.0)
-        v = fma(-load(s, i, RESPONSE_RATE), sine, growing - shrinking)
-        about = middle + choose(late, quarter, -quarter)
-        # A short hop comes down about where the parabola from its start does.
-        fall = fma(amplitude, cosine_0, 1.0)
-        hops = (low == 0.0) & (2.0 * velocity * frequency < fall) & (4.0 * velocity < fall * high)
-        u, v = choose(hops, 0.0, u), choose(hops, velocity, v)
-        cosine, sine = choose(hops, cosine_0, cosine), choose(hops, sine_0, sine)
-        second = u + fma(-amplitude, cosine, -1.0)
-        # else half of a quarter further, on the zero's side
-        under = fma(v, v, -2.0 * u * second)
-        root = math.sqrt(max(under, 0.0))
-        x = choose(v > 0.0, v + root, 2.0 * u) / choose(v > 0.0, -second, root - v)
-        near = hops | ((under > 0.0) & (abs(x) < quarter))
-        store(s, i, ANGLE_THERE, u)
-        store(s, i, RATE_THERE, v)
-        store(s, i, COSINE_THERE, cosine)
-        store(s, i, SINE_THERE, sine)
-        store(s, i, ABOUT, choose(hops, 0.0, about))
-        store(s, i, GUESS_OFFSET, choose(near, x, choose(u > 0.0, 0.5, -0.5) * quarter))
+def middle_of_half(s, i):
+    """Return (time, u, u', cos eta, sin eta, a quarter of the stretch): the middle of the half of its stretch that holds the zero."""
+    within, end = s.concave[i] > 0.0, s.end[i]
+    # of the concave stretch, which ends at ``end``, or of the convex one, which begins there
+    more, less = choose(within, s.grow_in[i], s.grow_out[i]), choose(within, s.decay_in[i], s.decay_out[i])
+    # from ``end`` to the middle twice a quarter on, or back
+    on, back = choose(within, less, more), choose(within, more, less)
+    growing, shrinking = s.growing[i] * (s.z[i] * (on * on)), s.shrinking[i] * (s.per_z[i] * (back * back))
+    quarter = 0.25 * choose(within, s.inside[i], s.outside[i])
+    middle = end + choose(within, -(quarter + quarter), quarter + quarter)
+    late = (fma(s.concave[i], s.response[i], growing + shrinking) > -1.0) | (middle <= s.low[i])
+    growing, shrinking = growing * choose(late, more, less), shrinking * choose(late, less, more)
+    cosine = choose(within, s.cosine_in[i], s.cosine_out[i])
+    sine = choose(within, s.sine_in[i], s.sine_out[i])
+    sine = choose(late, sine, -sine)
+    u = growing + shrinking + fma(s.response[i], cosine, 1.0)
+    v = fma(-s.response_rate[i], sine, growing - shrinking)
+    return middle + choose(late, quarter, -quarter), u, v, cosine, sine, quarter
 
 
 @njit(**SIMD_INLINE)
-def guess(s):
-    """Where the zero lies, to some six digits: two steps on the Taylor series about where ``initial_guess`` has it."""
-    for i in range(LANES):
-        stage, time, low, high = load(s, i, STAGE), load(s, i, TIME), load(s, i, LOW), load(s, i, HIGH)
-        about, x = load(s, i, ABOUT), load(s, i, GUESS_OFFSET)
-        there = (
-            load(s, i, ANGLE_THERE),
-            load(s, i, RATE_THERE),
-            load(s, i, COSINE_THERE),
-            load(s, i, SINE_THERE),
-        )
-        c0, c1, c2, c3, c4, c5, c6 = derivatives(s, i, there)
-        c = c0, c1, I2 * c2, I3 * c3, I4 * c4, I5 * c5, I6 * c6
-        w, dw, half_ddw = taylor(c, x)
-        per = 1.0 / dw
-        y = -w * per
-        bend = y * half_ddw * per
-        x += y * halved(fma(bend, fma(2.0, bend, -1.0), 1.0))
-        w, dw, _ = taylor(c, x)
-        found = about + x - w / dw
-        found = choose((dw < 0.0) & (found > low) & (found < high), found, 0.5 * (low + high))
-        guessing = stage == GUESS
-        store(s, i, TIME, choose(guessing, found, time))
-        store(s, i, STAGE, choose(guessing, REFINE, stage))
+def initial_guess(s, i):
+    """Guess the zero by a parabola about the middle of a half of its stretch, or about the start of a short hop."""
+    about, u, v, cosine, sine, quarter = middle_of_half(s, i)
+    # A short hop comes down about where the parabola from its start does.
+    amplitude, velocity, fall = s.amplitude[i], s.velocity[i], fma(s.amplitude[i], s.cosine[i], 1.0)
+    short = 2.0 * velocity * s.frequency[i] < fall
+    hops = (s.low[i] == 0.0) & short & (4.0 * velocity < fall * s.high[i])
+    u, v = choose(hops, 0.0, u), choose(hops, velocity, v)
+    cosine, sine = choose(hops, s.cosine[i], cosine), choose(hops, s.sine[i], sine)
+    second = u + fma(-amplitude, cosine, -1.0)
+    # else half of a quarter further, on the zero's side
+    under = fma(v, v, -2.0 * u * second)
+    root = math.sqrt(max(under, 0.0))
+    x = choose(v > 0.0, v + root, 2.0 * u) / choose(v > 0.0, -second, root - v)
+    near = hops | ((under > 0.0) & (abs(x) < quarter))
+    s.angle_there[i] = u
+    s.rate_there[i] = v
+    s.cosine_there[i] = cosine
+    s.sine_there[i] = sine
+    s.about[i] = choose(hops, 0.0, about)
+    s.guess_offset[i] = choose(near, x, choose(u > 0.0, 0.5, -0.5) * quarter)
 
 
 @njit(**SIMD_INLINE)
-def evaluate_trial(s):
-    """The instant at the time that each lane looks at, on arcs from the base."""
-    elements(s)
-    for i in range(LANES):
-        u, v, cosine, sine = instant_of(s, i, -1.0)
-        store(s, i, ANGLE_THERE, u)
-        store(s, i, RATE_THERE, v)
-        store(s, i, COSINE_THERE, cosine)
-        store(s, i, SINE_THERE, sine)
+def guess(s, i):
+    """Find the zero to some six digits: two steps on the Taylor series about where ``initial_guess`` has it."""
+    low, high, x, guessing = s.low[i], s.high[i], s.guess_offset[i], s.stage[i] == GUESS
+    c0, c1, c2, c3, c4, c5, c6 = derivatives(s, i, there(s, i))
+    c = c0, c1, I2 * c2, I3 * c3, I4 * c4, I5 * c5, I6 * c6
+    w, dw, half_ddw = taylor(c, x)
+    per = 1.0 / dw
+    y = -w * per
+    bend = y * half_ddw * per
+    x += y * halved(fma(bend, fma(2.0, bend, -1.0), 1.0))
+    w, dw, _ = taylor(c, x)
+    found = s.about[i] + x - w / dw
+    found = choose((dw < 0.0) & (found > low) & (found < high), found, 0.5 * (low + high))
+    s.time[i] = choose(guessing, found, s.time[i])
+    s.stage[i] = choose(guessing, REFINE, s.stage[i])
+
+
+@njit(**SIMD_INLINE)
+def there(s, i):
+    """Return (u, u', cos eta, sin eta) where lane i was evaluated last."""
+    return s.angle_there[i], s.rate_there[i], s.cosine_there[i], s.sine_there[i]
+
+
+@njit(**SIMD_INLINE)
+def evaluate_trial(s, i):
+    """Evaluate the arc of lane i, from the base, at its trial time."""
+    u, v, cosine, sine = instant_of(s, i, -1.0)
+    s.angle_there[i] = u
+    s.rate_there[i] = v
+    s.cosine_there[i] = cosine
+    s.sine_there[i] = sine
 
 
 @njit(**SIMD_INLINE)
@@ -193,53 +136,47 @@ def positive_by_tangent(u, fall, t, low, high):
 
 
 @njit(**SIMD_INLINE)
-def step(s):
-    """From the time looked at to the zero, or nearer to it; or to the bottom of a dip, which shows that there is none."""
-    for i in range(LANES):
-        stage, t, low, high = load(s, i, STAGE), load(s, i, TIME), load(s, i, LOW), load(s, i, HIGH)
-        tries, wait, cleared = load(s, i, TRIES), load(s, i, WAIT), load(s, i, CLEARED)
-        sinh, versinh = load(s, i, SINH), load(s, i, VERSINH)
-        frequency = load(s, i, FREQUENCY)
-        u, v, cosine, sine = (
-            load(s, i, ANGLE_THERE),
-            load(s, i, RATE_THERE),
-            load(s, i, COSINE_THERE),
-            load(s, i, SINE_THERE),
-        )
-        _, _, second, third, fourth, fifth, _ = derivatives(s, i, (u, v, cosine, sine))
-        diving, fall = stage == MINIMUM, u + v
-        per = 1.0 / choose(diving, v + second, v)
-        y = -u * per
-        factor = correction(y, second, third, fourth, per)
+def step(s, i):
+    """Step from the trial time to the zero, or nearer to it; or to the bottom of a dip, which shows that there is none."""
+    u, v, cosine, sine = there(s, i)
+    _, _, second, third, fourth, fifth, _ = derivatives(s, i, (u, v, cosine, sine))
+    diving = s.stage[i] == MINIMUM
+    per = 1.0 / choose(diving, v + second, v)
+    y = -u * per
+    factor = correction(y, second, third, fourth, per)
+    # near enough, as ``fast_path.close``: the rest of the way by Taylor series
+    bend, twist = y * per * second, y * (y * per) * third
+    close = (v < 0.0) & (abs(y) * max(1.0, s.frequency[i]) < NEAR)
+    close &= (abs(bend) < NEAR) & (abs(twist) < NEAR * NEAR)
+    arrived, x = (s.stage[i] == REFINE) & close, y * factor
+    s.wait[i] = choose(arrived, s.time[i] + x, s.wait[i])
+    # of a lane that has not arrived nobody asks for these
+    s.speed[i] = -velocity_after((v, second, third, fourth, fifth), x)
+    set_next(s, i, x, cosine, sine)
+    narrow(s, i, arrived, choose(diving, -(u + v) * per, y * halved(factor)))
 
-        # near enough, as ``fast_path.close``: the rest of the way by Taylor series
-        bend, twist = y * per * second, y * (y * per) * third
-        close = (v < 0.0) & (abs(y) * max(1.0, frequency) < NEAR)
-        close &= (abs(bend) < NEAR) & (abs(twist) < NEAR * NEAR)
-        arrived, x = (stage == REFINE) & close, y * factor
-        slope = fma(x, fma(x, fma(x, fma(x, I4 * fifth, I3 * fourth), I2 * third), second), v)
-        cosine, sine, sinh, versinh = onward(x, frequency, cosine, sine, sinh, versinh)
-        store(s, i, WAIT, choose(arrived, t + x, wait))
-        # of a lane that has not arrived nobody asks for these
-        store(s, i, SPEED, -slope)
-        store(s, i, NEXT_COSINE, cosine)
-        store(s, i, NEXT_SINE, sine)
-        store(s, i, NEXT_SINH, sinh)
-        store(s, i, NEXT_VERSINH, versinh)
 
-        # the bottom of a dip, where u + u' = 0, as ``first_zero.dip``
-        held, through = diving | (stage == REFINE), diving & (u < 0.0)
-        above = diving & positive_by_tangent(u, fall, t, low, high)
-        beyond = choose(diving, through | (fall > 0.0), u <= 0.0)
-        low, high = choose(held & (beyond == False), t, low), choose(held & beyond, t, high)  # noqa: E712
-        ahead = t + choose(diving, -fall * per, y * halved(factor))
-        # A step that would leave what holds the zero, or the bottom, goes to its middle.
-        inside = (ahead >= low) & (ahead <= high) & (diving | (v < 0.0))
-        store(s, i, TIME, choose(held, choose(inside, ahead, 0.5 * (low + high)), t))
-        store(s, i, LOW, low)
-        store(s, i, HIGH, high)
-        store(s, i, TRIES, choose(held, tries + 1.0, tries))
-        store(s, i, CLEARED, choose(above, 1.0, cleared))
-        tired = choose(held & (tries > MAX_TRIES), FAILED, stage)
-        on = choose(above, BRACKET, choose(through, REFINE, tired))
-        store(s, i, STAGE, choose(arrived, AT_EVENT, on))
+@njit(**SIMD_INLINE)
+def narrow(s, i, arrived, ahead):
+    """Narrow the interval of the zero, or of the bottom of a dip, where u + u' = 0 (``first_zero.time_below_zero``); choose the next stage.
+
+    The next trial is ``ahead`` of the last one.
+    """
+    stage, t, low, high = s.stage[i], s.time[i], s.low[i], s.high[i]
+    u, v, diving, tries = s.angle_there[i], s.rate_there[i], stage == MINIMUM, s.tries[i]
+    fall = u + v
+    held, through = diving | (stage == REFINE), diving & (u < 0.0)
+    above = diving & positive_by_tangent(u, fall, t, low, high)
+    beyond = choose(diving, through | (fall > 0.0), u <= 0.0)
+    low, high = choose(held & (beyond == False), t, low), choose(held & beyond, t, high)  # noqa: E712
+    ahead = t + ahead
+    # A step that would leave what holds the zero, or the bottom, goes to its middle.
+    inside = (ahead >= low) & (ahead <= high) & (diving | (v < 0.0))
+    s.time[i] = choose(held, choose(inside, ahead, 0.5 * (low + high)), t)
+    s.low[i] = low
+    s.high[i] = high
+    s.tries[i] = choose(held, tries + 1.0, tries)
+    s.cleared[i] = choose(above, 1.0, s.cleared[i])
+    tired = choose(held & (tries > MAX_TRIES), FAILED, stage)
+    on = choose(above, BRACKET, choose(through, REFINE, tired))
+    s.stage[i] = choose(arrived, AT_EVENT, on)

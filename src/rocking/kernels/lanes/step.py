@@ -1,39 +1,85 @@
-"""A pass over all lanes: what is next for each."""
+"""A pass over all lanes: what is next for each. Each short loop is computed for several lanes at once."""
 
 from numba import njit
 
 from rocking.kernels.compile_options import SIMD
-from rocking.kernels.lanes import braced_arc, braced_event, bracket, impact, root
+from rocking.kernels.lanes.braced_arc import correct_event, predict_event
+from rocking.kernels.lanes.braced_event import apply_event, carry_through_event, request_before_event
+from rocking.kernels.lanes.bracket import skip_clear_period, walk
+from rocking.kernels.lanes.evaluate import evaluate_circular, evaluate_hyperbolic
+from rocking.kernels.lanes.impact import (
+    apply_impact,
+    begin_bracket,
+    begin_exponentials,
+    begin_walk,
+    carry_through_impact,
+    request_before_impact,
+)
+from rocking.kernels.lanes.root import evaluate_trial, guess, initial_guess, step
+from rocking.kernels.lanes.state import LANES
 
 
 @njit(**SIMD)
 def strike(s):
-    """The impacts of all lanes that have arrived, and the arcs that begin."""
-    impact.apply_impacts(s)
-    impact.begin(s)
+    """Apply the impacts of all lanes that have arrived, and begin their next arcs."""
+    for i in range(LANES):
+        carry_through_impact(s, i)
+    for i in range(LANES):
+        apply_impact(s, i)
+    for i in range(LANES):
+        begin_exponentials(s, i)
+    for i in range(LANES):
+        begin_walk(s, i)
+    for i in range(LANES):
+        begin_bracket(s, i)
 
 
 @njit(**SIMD)
 def advance(s):
-    """All lanes onward, to their impacts if those are near enough; whether any wants anything there."""
-    bracket.skip_clear_periods(s)
-    bracket.walk(s)
-    root.initial_guess(s)
-    root.guess(s)
-    root.evaluate_trial(s)
-    root.step(s)
-    return impact.set_requests(s)
+    """Advance all lanes, to their impacts if those are near enough; return whether any requests anything there."""
+    for i in range(LANES):
+        skip_clear_period(s, i)
+    for i in range(LANES):
+        walk(s, i)
+    for i in range(LANES):
+        initial_guess(s, i)
+    for i in range(LANES):
+        guess(s, i)
+    for i in range(LANES):
+        evaluate_hyperbolic(s, i)
+    for i in range(LANES):
+        evaluate_circular(s, i)
+    for i in range(LANES):
+        evaluate_trial(s, i)
+    for i in range(LANES):
+        step(s, i)
+    requested = False
+    for i in range(LANES):
+        requested |= request_before_impact(s, i)
+    return requested
 
 
 @njit(**SIMD)
 def strike_between(s):
     """``strike`` between braces."""
-    braced_event.apply_events(s)
+    for i in range(LANES):
+        carry_through_event(s, i)
+    for i in range(LANES):
+        apply_event(s, i)
 
 
 @njit(**SIMD)
 def advance_between(s):
     """``advance`` between braces."""
-    braced_arc.predict_event(s)
-    braced_arc.correct_event(s)
-    return braced_event.set_requests(s)
+    for i in range(LANES):
+        predict_event(s, i)
+    for i in range(LANES):
+        evaluate_hyperbolic(s, i)
+    for i in range(LANES):
+        evaluate_circular(s, i)
+    for i in range(LANES):
+        correct_event(s, i)
+    requested = False
+    for i in range(LANES):
+        requested |= request_before_event(s, i)
+    return requested

@@ -1,4 +1,4 @@
-"""Working memory of all lanes: made once, for one batch after another."""
+"""Workspace of all lanes: made once, for one batch after another."""
 
 from typing import NamedTuple
 
@@ -9,12 +9,12 @@ from numba.extending import intrinsic
 
 from rocking.kernels.classify.workspace import NoRecording, Workspace, make_workspace
 from rocking.kernels.compile_options import INTERNAL
-from rocking.kernels.lanes.rows import LANES, LOG_ROWS, ROWS
+from rocking.kernels.lanes.state import LANE_STATE, LANES, LOG_ROWS
 
 
 @intrinsic
 def prefetch_for_write(typingctx, address):
-    """Have the line of memory at an address brought near: it is about to be written. An address beyond all arrays does no harm."""
+    """Prefetch the cache line at an address for writing. The processor ignores an address beyond all arrays."""
 
     def generate(context, builder, signature, arguments):
         pointer, number = ir.IntType(8).as_pointer(), ir.IntType(32)
@@ -28,9 +28,9 @@ def prefetch_for_write(typingctx, address):
 
 
 class LaneWorkspace(NamedTuple):
-    """Working memory: for each lane what its workspace must keep from leg to leg."""
+    """Workspace of all lanes: for each what its own must keep from leg to leg."""
 
-    state: np.ndarray
+    state: np.ndarray  # (1,), LANE_STATE
     log: np.ndarray  # (lanes, n, 8), the arcs since they were last read, as ``event_rows.note`` has them
     section: np.ndarray
     scratch: np.ndarray
@@ -45,15 +45,15 @@ class LaneWorkspace(NamedTuple):
 
 
 def make_lane_workspace(max_cycles, max_period):
-    """Working memory as ``make_workspace`` makes it; the state begins where a vector of the machine may."""
-    one, room = make_workspace(max_cycles, max_period), np.zeros(ROWS * LANES + 8)
-    first = -(room.ctypes.data // 8) % 8
+    """Make the workspace of all lanes, as ``make_workspace`` does for one block; the state begins at a cache line."""
+    one, room = make_workspace(max_cycles, max_period), np.zeros(LANE_STATE.itemsize + 64, np.uint8)
+    first = -room.ctypes.data % 64
     section, flights, batches, columns, growth = (
         np.zeros((LANES, *part.shape))
         for part in (one.section, one.flights, one.batches, one.columns, one.growth)
     )
     return LaneWorkspace(
-        room[first : first + ROWS * LANES],
+        room[first : first + LANE_STATE.itemsize].view(LANE_STATE),
         np.zeros((LANES, LOG_ROWS, 8)),
         section,
         one.scratch,
@@ -70,7 +70,7 @@ def make_lane_workspace(max_cycles, max_period):
 
 @njit(**INTERNAL)
 def lane_workspace(workspace, lane):
-    """The workspace of a lane."""
+    """Return the workspace of one lane."""
     return Workspace(
         workspace.section[lane],
         workspace.scratch,

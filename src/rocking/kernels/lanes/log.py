@@ -1,0 +1,59 @@
+"""The log of each lane: its arcs where states may be needed, and the flights of a motion that loses nothing."""
+
+import numpy as np
+from numba import njit
+
+from rocking.kernels.compile_options import INTERNAL, INTERNAL_INLINE, SIMD_INLINE
+from rocking.kernels.event_kinds import BRACE, IMPACT
+from rocking.kernels.forcing.harmonic import clock
+from rocking.kernels.lanes.state import BRACKET, LANES
+from rocking.kernels.lanes.workspace import prefetch_for_write
+from rocking.kernels.march.march import RESYNCHRONISE
+from rocking.kernels.numerics.simd import choose
+
+# A cache line holds four flights: the next but one is prefetched.
+AHEAD = 8
+
+
+@njit(**SIMD_INLINE)
+def mark_pending(s, i, most, braced):
+    """Write where the last flight of a lane goes, -1 if nowhere; the square of its speed; whether ``log_arc`` is due."""
+    slot, rounds = s.events[i] - s.uncollected[i] - 1.0, s.events[i] * (1.0 / (RESYNCHRONISE + 1))
+    kept = (s.events[i] > s.counted[i]) & (slot < most) & (braced == False)  # noqa: E712
+    # every so many events as in ``log_arc``, exactly: RESYNCHRONISE + 1 is a power of two
+    due = (s.log_on[i] > 0.0) | ((np.floor(rounds) == rounds) & (s.stage[i] == BRACKET))
+    s.slot[i] = choose(kept, slot, -1.0)
+    s.square[i] = s.velocity[i] * s.velocity[i]
+    s.due[i] = choose(due, 1.0, 0.0)
+
+
+@njit(**INTERNAL_INLINE)
+def log_arc(s, i, log):
+    """Write the arc under way into the log of a lane, if that is kept; now and then take the forcing from the clock."""
+    events, start, side, angle = int(s.events[i]), s.start[i], s.side[i], s.angle[i]
+    if s.log_on[i] > 0.0:
+        k, event = events - int(s.counted[i]), BRACE if angle > 0.0 else IMPACT
+        log[i, k, 0], log[i, k, 1], log[i, k, 2] = s.cycle[i], start, event
+        log[i, k, 4], log[i, k, 5], log[i, k, 6] = side, angle, s.velocity[i]
+    if events & RESYNCHRONISE == 0 and s.stage[i] == BRACKET:
+        s.cosine[i], s.sine[i], _, _, _ = clock(s.frequency[i], s.phase[i], side, start)
+
+
+@njit(**INTERNAL)
+def log_arcs(s, flights, log, braced):
+    """Write the last flight of each lane, where there are no braces: its duration, and the square of its speed.
+
+    So again and again until the next impact; and ``log_arc`` where that is due.
+    """
+    for i in range(LANES):
+        mark_pending(s, i, flights.shape[1], braced)
+    for i in range(LANES):
+        slot = int(s.slot[i])
+        if slot >= 0:
+            flights[i, slot, 0], flights[i, slot, 1] = s.wait[i], s.square[i]
+            # No processor foresees where as many lanes write next.
+            prefetch_for_write(
+                flights.ctypes.data + flights.itemsize * 2 * (i * flights.shape[1] + slot + AHEAD)
+            )
+        if s.due[i] > 0.0:
+            log_arc(s, i, log)

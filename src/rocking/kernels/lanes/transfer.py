@@ -1,0 +1,129 @@
+"""A block moved into its lane, and read back."""
+
+import math
+
+from numba import njit
+
+from rocking.kernels.arc.solution import arc_after, shift_clock
+from rocking.kernels.classify.classifier_state import Run
+from rocking.kernels.classify.decision_cascade import most_events, room
+from rocking.kernels.classify.quasi_periodicity import Flights, append_lazy_rows
+from rocking.kernels.classify.reset import moved_on
+from rocking.kernels.compile_options import INTERNAL, INTERNAL_INLINE
+from rocking.kernels.event_kinds import FLIGHT, IMPACT
+from rocking.kernels.lanes.state import AT_EVENT, END_LEG, NEW_ARC, set_system
+from rocking.kernels.march.march import CROWDED, DONE, UNKNOWN, Progress
+
+LN2 = math.log(2.0)
+
+
+@njit(**INTERNAL)
+def load_block(s, i, p, progress, columns, collected):
+    """Put a block into a lane; ``collected`` of its flights are kept already."""
+    set_system(s, i, p)
+    arc, events = progress.arc, progress.impacts + progress.brace_hits
+    s.cycle[i] = progress.cycle
+    s.start[i] = arc.start
+    s.side[i] = arc.side
+    s.angle[i] = arc.angle
+    s.velocity[i] = arc.velocity
+    s.cosine[i] = arc.cosine
+    s.sine[i] = arc.sine
+    s.events[i] = events
+    s.counted[i] = events
+    s.uncollected[i] = events - collected
+    s.brace_hits[i] = progress.brace_hits
+    s.peak[i] = progress.peak
+    s.stage[i] = NEW_ARC
+    set_difference(s, i, columns)
+
+
+@njit(**INTERNAL_INLINE)
+def set_difference(s, i, columns):
+    """Set the difference that a lane carries from here on."""
+    s.delta_angle[i] = columns[0, 0]
+    s.delta_velocity[i] = columns[0, 1]
+    s.doublings[i] = 0.0
+
+
+@njit(**INTERNAL_INLINE)
+def set_leg(s, i, target, logged):
+    """Set where the leg of a lane ends, and whether its arcs are logged."""
+    s.target[i] = target
+    s.log_on[i] = logged
+
+
+@njit(**INTERNAL)
+def arc_of(s, i, p):
+    """Return the arc under way in a lane."""
+    side, start = int(s.side[i]), s.start[i]
+    return arc_after(p, side, start, s.angle[i], s.velocity[i], s.cosine[i], s.sine[i])
+
+
+@njit(**INTERNAL_INLINE)
+def read_growth(s, i, columns, growth):
+    """Add the logarithm of what the difference has grown by to ``growth``, and write the difference, of size 1, into ``columns``."""
+    a, b = s.delta_angle[i], s.delta_velocity[i]
+    size = math.hypot(a, b)
+    growth[0] += math.log(size) + s.doublings[i] * LN2
+    columns[0, 0], columns[0, 1] = a / size, b / size
+    set_difference(s, i, columns)
+
+
+@njit(**INTERNAL_INLINE)
+def flights_by_now(s, i, flights, most):
+    """Return how many flights are collected, with those since the lane was last read."""
+    return min(flights.count + int(s.events[i]) - int(s.counted[i]), most)
+
+
+@njit(**INTERNAL)
+def progress_of(s, i, p, before, ends, section_time):
+    """Return the ``Progress`` of a lane, which was ``before`` when it was last read; at the end of the leg if that ``ends``."""
+    arc, cycle, target = arc_of(s, i, p), int(s.cycle[i]), int(s.target[i])
+    pending = arc.start <= section_time
+    if ends:
+        arc, cycle, pending = shift_clock(arc, (target - cycle) * p.period), target, True
+    elif cycle < before.cycle:
+        # the arc under way began before the lane was last read
+        arc, cycle = shift_clock(arc, (before.cycle - cycle) * p.period), before.cycle
+        pending = before.pending
+    hits = int(s.brace_hits[i])
+    return Progress(
+        mode=FLIGHT,
+        cycle=cycle,
+        arc=arc,
+        pending=pending,
+        crowd=0,
+        impacts=int(s.events[i]) - hits,
+        brace_hits=hits,
+        peak=s.peak[i],
+        no_return=math.inf,
+        last_wait=UNKNOWN[1],
+        wait_before=s.wait[i] if s.stage[i] == AT_EVENT else UNKNOWN[0],
+        strain=-math.inf,
+    )
+
+
+@njit(**INTERNAL)
+def unload_block(s, i, request, p, run, workspace, log):
+    """Return the run of a lane, with what happened since it was last read; at the end of the leg if that is its request."""
+    watch, flights, section_time, count, lossless, measuring = run
+    before, written = watch.progress, int(s.events[i]) - int(s.counted[i])
+    if lossless and written > 0:
+        collected = flights_by_now(s, i, flights, workspace.flights.shape[0])
+        flights = Flights(IMPACT, int(s.cycle[i]), s.start[i], flights.first_cycle, collected)
+    after = progress_of(s, i, p, before, request == END_LEG, section_time)
+    if s.log_on[i] > 0.0:
+        count = room(workspace.section, count, after.cycle + 1 - before.cycle, workspace.scratch.shape[0])
+        count = append_lazy_rows(p, before, log[1:], written, after, section_time, workspace.section, count)
+    else:
+        count = 0
+    s.counted[i] = s.events[i]
+    read_growth(s, i, workspace.columns, workspace.growth)
+    return Run(moved_on(watch, after), flights, section_time, count, lossless, measuring)
+
+
+@njit(**INTERNAL)
+def status_of(s, i, max_cycles):
+    """Return the status of a lane's march: CROWDED after more events than a motion may have."""
+    return CROWDED if int(s.events[i]) > most_events(max_cycles) else DONE
