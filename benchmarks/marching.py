@@ -8,9 +8,10 @@ from numba import njit
 
 from benchmarks.clock import quickest_in_turn
 from benchmarks.table import Figure
-from rocking.kernels.classify.quasi_periodicity import follow_flights, under_way
-from rocking.kernels.classify.reset import begin_tangent
-from rocking.kernels.classify.results import parameters_from_row
+from rocking.kernels.classify.classifier_state import Run
+from rocking.kernels.classify.leg import follow_flights
+from rocking.kernels.classify.quasi_periodicity import under_way
+from rocking.kernels.classify.reset import begin_tangent, watched
 from rocking.kernels.classify.workspace import make_workspace
 from rocking.kernels.compile_options import ALLOCATING, KERNEL
 from rocking.kernels.lanes.log import log_arcs
@@ -20,10 +21,20 @@ from rocking.kernels.lanes.step import advance, strike
 from rocking.kernels.lanes.transfer import load_block, set_leg
 from rocking.kernels.lanes.workspace import make_lane_workspace
 from rocking.kernels.march.march import MAX_EVENTS, UNKNOWN, begin
+from rocking.kernels.march.tangent import TangentState
+from rocking.kernels.parameters import parameters_from_row
 
 CYCLES, BEFORE = 3000, 30
 BLOCKS = 20 * LANES
 TURNS = 7
+
+
+@njit(**KERNEL)
+def marched(p, progress, cycles, memory):
+    """The progress of a block that loses nothing after so many cycles."""
+    begin_tangent(memory.tangent)
+    run = Run(watched(progress), under_way(progress), 0.0, 0, True, True)
+    return follow_flights(p, run, cycles, MAX_EVENTS, memory, False)[1].watch.progress
 
 
 @njit(**KERNEL)
@@ -32,10 +43,7 @@ def last_impacts(systems, cycles, memory, phases, speeds):
     for k in range(systems.shape[0]):
         p = parameters_from_row(systems[k])
         progress = begin(p, 0.0, 0.0, UNKNOWN)[0]
-        begin_tangent(memory.columns, memory.growth)
-        _, after, _, _ = follow_flights(
-            p, progress, under_way(progress), cycles, MAX_EVENTS, 0.0, 0, memory, False
-        )
+        after = marched(p, progress, cycles, memory)
         phases[k], speeds[k] = math.atan2(after.arc.sine, after.arc.cosine), after.arc.velocity
 
 
@@ -46,11 +54,7 @@ def alone(systems, speeds, cycles, memory):
     for k in range(systems.shape[0]):
         p = parameters_from_row(systems[k])
         progress = begin(p, 0.0, speeds[k], UNKNOWN)[0]
-        begin_tangent(memory.columns, memory.growth)
-        _, after, _, _ = follow_flights(
-            p, progress, under_way(progress), cycles, MAX_EVENTS, 0.0, 0, memory, False
-        )
-        impacts += after.impacts
+        impacts += marched(p, progress, cycles, memory).impacts
     return impacts
 
 
@@ -74,8 +78,9 @@ def in_lanes(systems, speeds, cycles, memory):
                 blocks -= queue >= systems.shape[0]
                 if queue < systems.shape[0]:
                     p = parameters_from_row(systems[queue])
-                    begin_tangent(memory.columns[i], memory.growth[i])
-                    load_block(s, i, p, begin(p, 0.0, speeds[queue], UNKNOWN)[0], memory.columns[i], 0)
+                    columns = memory.tangent.columns[i]
+                    begin_tangent(TangentState(columns, memory.tangent.growth[i]))
+                    load_block(s, i, p, begin(p, 0.0, speeds[queue], UNKNOWN)[0], columns, 0)
                     set_leg(s, i, cycles, False)
                     guests[i], queue = p, queue + 1
             else:

@@ -14,6 +14,8 @@ from benchmarks.reference import DIGITS, state_at
 from benchmarks.table import Figure
 from rocking import Harmonic, State, System, simulate
 from rocking.kernels.march import march as kernel
+from rocking.kernels.march.progress import Recording
+from rocking.kernels.march.tangent import TangentState
 from rocking.kernels.parameters import harmonic_parameters
 
 CYCLES_OF_THE_KERNEL = 60_000
@@ -32,11 +34,13 @@ def march(case, cycles):
     """One block from rest with its tangent, the kernel alone; returns (impacts, final point), as the peers do."""
     p = harmonic_parameters(case.amplitude, case.frequency, case.period, 0.0, case.restitution)
     progress, _ = kernel.begin_march(p, 0.0, 0.0)
-    section, events, growth = np.empty((0, 2)), np.empty((0, 8)), np.empty(0)
     while progress.cycle < cycles:
         # The tangent begins anew every so often: it neither overflows nor fades into subnormal numbers.
-        tangent, until = np.eye(2), min(cycles, progress.cycle + case.tangent_cycles)
-        _, progress, _, _ = kernel.march(p, progress, until, 0.0, section, events, tangent, growth, False)
+        tangent, until = (
+            TangentState(np.eye(2), np.empty(0)),
+            min(cycles, progress.cycle + case.tangent_cycles),
+        )
+        _, progress, _, _ = kernel.march(p, progress, until, Recording(), tangent)
     arc = progress.arc
     return progress.impacts, Point(cycles * case.period, arc.side * arc.angle, arc.side * arc.velocity)
 

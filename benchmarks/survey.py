@@ -18,12 +18,14 @@ from benchmarks.clock import quickest_in_turn
 from benchmarks.lanes import MAX_PERIOD, systems_of
 from benchmarks.table import Figure
 from rocking.kernels import batch
-from rocking.kernels.classify import classifier_state, decision_cascade
+from rocking.kernels.classify import classifier_state, decision_cascade, leg
 from rocking.kernels.classify.results import empty_results, store_result
-from rocking.kernels.classify.results import parameters_from_row as asked_of
 from rocking.kernels.classify.workspace import make_workspace
 from rocking.kernels.compile_options import KERNEL
 from rocking.kernels.march import march
+from rocking.kernels.march.progress import Recording
+from rocking.kernels.numerics.replace_fields import replacing
+from rocking.kernels.parameters import parameters_from_row
 from rocking.model import Criterion
 
 POINTS = 1000
@@ -150,14 +152,17 @@ def engines():
             )
 
 
+at_the_end = replacing(classifier_state.ClassifierState, "checkpoint", "batches")
+
+
 @njit(**KERNEL)
 def judge_late(systems, cycles, memory, answers):
     """The cascade of a map without its early looks: the first comes after so many cycles."""
     for k in range(systems.shape[0]):
-        p = asked_of(systems[k])
+        p = parameters_from_row(systems[k])
         case = classifier_state.opened(p, 0.0, 0.0, cycles)
-        case = classifier_state.ClassifierState(*case[:3], np.int64(cycles), cycles + 1, *case[5:])
-        status, run = decision_cascade.march_leg(p, case.run, cycles, cycles, memory)
+        case = at_the_end(case, np.int64(cycles), classifier_state.Batches(cycles + 1, 0, 0.0))
+        status, run = leg.march_leg(p, case.run, cycles, cycles, memory)
         told, _ = decision_cascade.evaluate_checkpoint(p, case, status, run, cycles, MAX_PERIOD, memory)
         store_result(answers, k, told)
 
@@ -167,21 +172,10 @@ def march_all(systems, cycles, memory, answers):
     """Every point from rest to the end of its cycles, unless it overturns or rests for ever before."""
     nothing = memory.nothing
     for k in range(systems.shape[0]):
-        p = asked_of(systems[k])
-        progress, status = march.begin(p, 0.0, 0.0, march.UNKNOWN)[0], march.PAUSED
-        while status == march.PAUSED:
-            status, progress, _, _ = march.march_on(
-                p,
-                progress,
-                cycles,
-                0.0,
-                nothing.section,
-                nothing.events,
-                nothing.columns,
-                nothing.growth,
-                False,
-                False,
-            )
+        p = parameters_from_row(systems[k])
+        progress = march.begin(p, 0.0, 0.0, march.UNKNOWN)[0]
+        recording = Recording(0.0, nothing.section, nothing.events, False, False)
+        _, progress = march.march_through(p, progress, cycles, recording, nothing.tangent)
         answers.impacts[k] = progress.impacts
 
 

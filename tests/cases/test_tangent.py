@@ -8,6 +8,8 @@ import pytest
 from rocking.kernels import event_kinds as ev
 from rocking.kernels.march import march as kernel
 from rocking.kernels.march import tangent
+from rocking.kernels.march.progress import Recording
+from rocking.kernels.march.tangent import TangentState
 from rocking.kernels.parameters import harmonic_parameters
 
 NAMES = ("amplitude", "frequency", "phase", "restitution", "brace_angle", "brace_restitution")
@@ -31,9 +33,8 @@ def final(case, cycles, columns=NOTHING, growth=NOTHING[:, 0], room=10_000):
     p = numbers(case)
     progress, _ = kernel.begin_march(p, case["angle"], case["velocity"])
     events = np.empty((room, 8))
-    status, progress, _, written = kernel.march(
-        p, progress, cycles, 0.0, NOTHING, events, columns, growth, False
-    )
+    recording, tangent = Recording(events=events), TangentState(columns, growth)
+    status, progress, _, written = kernel.march(p, progress, cycles, recording, tangent)
     assert status in (kernel.DONE, kernel.STILL)
     arc = progress.arc
     return np.array([arc.side * arc.angle, arc.side * arc.velocity]), progress, events[:written]
@@ -219,9 +220,8 @@ def test_exponents_sum_to_the_loss_on_random_bounded_runs():
             case = {**case, **braces, "amplitude": random.uniform(0.0, 60.0)}
         p, columns, growth, cycles = numbers(case), np.eye(2), np.zeros(2), 200
         progress, _ = kernel.begin_march(p, case["angle"], case["velocity"])
-        status, progress, _, _ = kernel.march(
-            p, progress, cycles, 0.0, NOTHING, NO_EVENTS, columns, growth, False
-        )
+        tangent = TangentState(columns, growth)
+        status, progress, _, _ = kernel.march(p, progress, cycles, Recording(), tangent)
         if status != kernel.DONE or not np.isfinite(growth).all():
             continue  # overturned, or at rest for a while: no exponents
         time = cycles * p.period

@@ -13,18 +13,18 @@ from oracles import undamped
 from rocking.kernels import batch
 from rocking.kernels.classify import verdict_record
 from rocking.kernels.march import march
+from rocking.kernels.march.progress import Recording
+from rocking.kernels.march.tangent import TangentState
 from rocking.kernels.parameters import harmonic_parameters
 
 PEAK = """
 import math, sys
-import numpy as np
 from rocking.kernels.march import march
 from rocking.kernels.parameters import harmonic_parameters
 period = 1.5788944723618088
 p = harmonic_parameters(13.266331658291458, 2 * math.pi / period, period, 2.3999632297286526, 0.925)
 progress, _ = march.begin_march(p, -1.5810174541726596, -2.118118497481491)
-nothing = np.empty((0, 2))
-status, progress, _, _ = march.march(p, progress, 3, 0.0, nothing, np.empty((0, 8)), nothing, np.empty(0), True)
+status, progress, _, _ = march.march(p, progress, 3, march.Recording(peak=True))
 print(status == march.DONE, progress.cycle, progress.peak)
 """
 
@@ -232,7 +232,7 @@ def leaves_its_torus_in_doubles(system):
     amplitude, frequency, period = system[:3].tolist()
     p = harmonic_parameters(amplitude, frequency, period, 0.0, 1.0)
     progress, _ = march.begin_march(p, 0.0, 0.0)
-    columns, growth, none = np.eye(2), np.zeros(1), np.empty((0, 2))
+    tangent = TangentState(np.eye(2), np.zeros(1))
     motion = rk.simulate(rk.System(rk.Harmonic(amplitude, period=period), 1.0), cycles=30_000)
     if motion.outcome == "overturned":
         return True
@@ -240,10 +240,8 @@ def leaves_its_torus_in_doubles(system):
         return False
     status = march.PAUSED
     while status == march.PAUSED:
-        status, progress, _, _ = march.march(
-            p, progress, 300_000, 0.0, none, np.empty((0, 8)), columns, growth, False
-        )
-    return status == march.OVERTURNED or growth[0] >= 40.0
+        status, progress, _, _ = march.march(p, progress, 300_000, Recording(), tangent)
+    return status == march.OVERTURNED or tangent.growth[0] >= 40.0
 
 
 def leaves_its_torus(system):

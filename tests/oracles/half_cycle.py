@@ -80,5 +80,8 @@ def engine(mode, faster=0.0):
     coming = next_event.any_event(p, event_kinds.FLIGHT, arc)
     assert coming.event == event_kinds.IMPACT
     start = tangent.Tangent(1.0, 0.0, 0.0, 1.0)
-    a, b, c, d = tangent.carried(p, start, event_kinds.FLIGHT, arc, coming, event_kinds.FLIGHT, -1)
+    a, b, c, d = tangent.through(
+        tangent.along(start, coming.sinh, coming.versinh),
+        tangent.event_map(p, arc, coming, event_kinds.FLIGHT, -1),
+    )
     return coming.wait, -mode.restitution * coming.velocity, -np.array([[a, c], [b, d]])

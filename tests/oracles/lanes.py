@@ -23,7 +23,7 @@ from rocking.kernels.lanes.state import (
 from rocking.kernels.lanes.step import advance, advance_between, strike, strike_between
 from rocking.kernels.lanes.transfer import arc_of, load_block, set_leg
 from rocking.kernels.march.event_rows import state_at
-from rocking.kernels.march.march import Progress
+from rocking.kernels.march.progress import Progress
 
 EYE = np.eye(2)
 FIRST = ["wait", "speed", "next_cosine", "next_sine", "next_sinh", "next_versinh", "at_brace"]

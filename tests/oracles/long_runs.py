@@ -6,6 +6,8 @@ import numpy as np
 
 import rocking as rk
 from rocking.kernels.march import march as kernel
+from rocking.kernels.march.progress import Recording
+from rocking.kernels.march.tangent import TangentState
 from rocking.kernels.parameters import harmonic_parameters
 
 STAGES = (100_000, 1_000_000, 5_000_000)  # cycles run before a recurrence is looked for
@@ -38,9 +40,8 @@ def run(system, start, cycles, *, keep=False, place=0.0):
     progress, _ = kernel.begin_march(p, start.angle, start.velocity)
     rows, done, status = np.empty((cycles if keep else 0, 2)), 0, kernel.PAUSED
     while status == kernel.PAUSED:
-        status, progress, taken, _ = kernel.march(
-            p, progress, cycles, place * p.period, rows[done:], NO_EVENTS, NOTHING, NOTHING[:, 0], False
-        )
+        recording = Recording(place * p.period, rows[done:])
+        status, progress, taken, _ = kernel.march(p, progress, cycles, recording)
         done += taken
     if status == kernel.CROWDED:
         raise Unsettled("too many events in a cycle")
@@ -129,9 +130,8 @@ def growth_rate(system, start, cycles=CHAOS_CYCLES):
 def _onward(p, progress, cycles, columns, growth):
     status = kernel.PAUSED
     while status == kernel.PAUSED:
-        status, progress, _, _ = kernel.march(
-            p, progress, cycles, 0.0, NOTHING, NO_EVENTS, columns, growth, False
-        )
+        state = TangentState(columns, growth)
+        status, progress, _, _ = kernel.march(p, progress, cycles, Recording(), state)
     if status != kernel.DONE:
         raise Unsettled(f"ends with status {status} after more than {STAGES[0]} cycles")
     return progress

@@ -17,8 +17,10 @@ from rocking.kernels.classify import workspace
 from rocking.kernels.compile_options import KERNEL
 from rocking.kernels.march import next_event
 from rocking.kernels.march.march import DONE, UNKNOWN, begin_march, march
+from rocking.kernels.march.progress import Recording
+from rocking.kernels.march.tangent import TangentState
 from rocking.kernels.orbits import fixed_point, newton_search
-from rocking.kernels.parameters import harmonic_parameters, make
+from rocking.kernels.parameters import harmonic_parameters, parameters_from_row
 
 STATES = 10_000
 # Of the start, the phase and the amplitude; a march rounds each of its events by some 10^-15.
@@ -26,23 +28,25 @@ MOVED = 1e-12
 ROUNDING = 1e-13
 # Arcs that last longer are ill-conditioned: rounding grows by e^t.
 LONG = 16.0
-NO_COLUMNS, NO_GROWTH, NO_EVENTS = np.empty((0, 2)), np.empty(0), np.empty((0, 8))
 
 
 @njit(**KERNEL)
 def images(systems, starts, periods, mirrored, nothing, columns, out):
     """(certain, Θ, Θ') of each state under the map of ``newton_search``, with the waits of a state nearby, as in Newton's method."""
     for k in range(len(systems)):
-        row = systems[k]
-        p = make(row[0], row[1], row[2], row[3], row[4], row[5], row[6])
-        q, start, cycles, sign = newton_search.return_map(p, periods[k], mirrored)
+        mapping = newton_search.return_map(parameters_from_row(systems[k]), periods[k], mirrored)
+        recording = Recording(0.0, nothing.section, nothing.events, False, False)
         waits = UNKNOWN
         for beside in (0.5, 0.8, 1.0):
-            image = fixed_point.image_after(
-                q, beside * starts[k, 0], beside * starts[k, 1], cycles, 0.0, nothing.section, nothing, columns, False, waits, start,
-            )  # fmt: skip
+            guess = fixed_point.Guess(beside * starts[k, 0], beside * starts[k, 1], waits)
+            state = TangentState(columns, nothing.tangent.growth)
+            image = fixed_point.image_after(mapping, guess, recording, state)
             waits = image.waits
-        out[k, 0], out[k, 1], out[k, 2] = image.certain, sign * image.angle, sign * image.velocity
+        out[k, 0], out[k, 1], out[k, 2] = (
+            image.certain,
+            mapping.sign * image.angle,
+            mapping.sign * image.velocity,
+        )
 
 
 def plain_image(system, angle, velocity, period, mirrored):
@@ -50,13 +54,11 @@ def plain_image(system, angle, velocity, period, mirrored):
     p = harmonic_parameters(*system)
     progress, _ = begin_march(p, angle, velocity)
     if not mirrored:
-        status, progress, _, _ = march(
-            p, progress, period, 0.0, NO_COLUMNS, NO_EVENTS, NO_COLUMNS, NO_GROWTH, False
-        )
+        status, progress, _, _ = march(p, progress, period, Recording())
         arc = progress.arc
         return np.array([arc.side * arc.angle, arc.side * arc.velocity] if status == DONE else [math.nan] * 2)
     section = np.full(((period + 1) // 2, 2), math.nan)
-    march(p, progress, len(section), 0.5 * p.period, section, NO_EVENTS, NO_COLUMNS, NO_GROWTH, False)
+    march(p, progress, len(section), Recording(0.5 * p.period, section))
     return -section[-1]
 
 
@@ -111,7 +113,7 @@ def test_map_of_the_search_is_that_of_the_plain_march(mirrored, braced):
 @njit(**KERNEL)
 def first_event(p, period, mirrored, side, angle, velocity, guess):
     """(ψ at the start, event, time) of the first event of an arc as the search computes it, from a guess of the time."""
-    q, start, _, _ = newton_search.return_map(p, period, mirrored)
+    q, _, start, _ = newton_search.return_map(p, period, mirrored)
     arc = arc_from(q, side, start, angle, velocity)
     coming, _ = next_event.next_event(q, event_kinds.FLIGHT, arc, propagator_or_none(q, guess))
     return arc.psi, coming.event, coming.wait
@@ -120,7 +122,7 @@ def first_event(p, period, mirrored, side, angle, velocity, guess):
 @njit(**KERNEL)
 def is_certified(p, period, mirrored, arc, time, rate):
     """Whether the search would take a zero of u for the first."""
-    q, start, _, _ = newton_search.return_map(p, period, mirrored)
+    q, _, start, _ = newton_search.return_map(p, period, mirrored)
     side, angle, velocity = arc
     flight = arc_from(q, side, start, angle, velocity)
     return bracket.stays_clear(q, flight, bracket.Jet(time, 0.0, rate, 0.0, 0.0))

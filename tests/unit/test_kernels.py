@@ -20,6 +20,7 @@ from numba.core.dispatcher import Dispatcher
 from rocking import kernels
 from rocking.kernels import event_kinds, parameters
 from rocking.kernels.march import march as kernel
+from rocking.kernels.march.progress import Recording
 from rocking.kernels.numerics import elementary
 
 SOURCES = Path(kernels.__file__).parents[2]
@@ -27,9 +28,9 @@ COPY = shutil.ignore_patterns("__pycache__", "*.egg-info")
 NOTHING = np.empty((0, 2))
 NO_EVENTS = np.empty((0, 8))
 PRINT_IMPACT_SPEED = (
-    "from rocking.kernels import parameters; from rocking.kernels.march import march; import numpy as np; nothing = np.empty((0, 2));"
+    "from rocking.kernels import parameters; from rocking.kernels.march import march; "
     "p = parameters.harmonic_parameters(2.0, 6.28, 1.0, 0.0, 0.925); s, _ = march.begin_march(p, 0.1, 0.0);"
-    "print(march.march(p, s, 3, 0.0, nothing, np.empty((0, 8)), nothing, nothing[:, 0], False)[1].arc.velocity)"
+    "print(march.march(p, s, 3, march.Recording())[1].arc.velocity)"
 )
 
 
@@ -37,7 +38,7 @@ def march(p, cycles, angle=0.0, velocity=0.0):
     progress, _ = kernel.begin_march(p, angle, velocity)
     status = kernel.PAUSED
     while status == kernel.PAUSED:
-        found = kernel.march(p, progress, cycles, 0.0, NOTHING, NO_EVENTS, NOTHING, NOTHING[:, 0], False)
+        found = kernel.march(p, progress, cycles, Recording())
         status, progress, _, _ = found
     return found
 
@@ -244,7 +245,7 @@ for numbers in ((2.0, 6.283185307179586, 1.0, 0.0, 0.925), (15.0, 3.141592653589
     for cycles in (10, 10, 10_000):
         progress, _ = march.begin_march(p, 0.0, 0.0)
         before = rtsys.get_allocation_stats().alloc
-        _, progress, _, _ = march.march(p, progress, cycles, 0.0, nothing, np.empty((0, 8)), nothing, nothing[:, 0], True)
+        _, progress, _, _ = march.march(p, progress, cycles, march.Recording(peak=True))
         counts.append(rtsys.get_allocation_stats().alloc - before)
         assert progress.impacts > cycles
     print(counts[1], counts[2])
@@ -267,8 +268,8 @@ def test_marching_in_pieces_is_marching_in_one_go():
     whole = march(p, 300)[1]
     pieces, _ = kernel.begin_march(p, 0.0, 0.0)
     for until in range(7, 300, 7):
-        pieces = kernel.march(p, pieces, until, 0.0, NOTHING, NO_EVENTS, NOTHING, NOTHING[:, 0], False)[1]
-    pieces = kernel.march(p, pieces, 300, 0.0, NOTHING, NO_EVENTS, NOTHING, NOTHING[:, 0], False)[1]
+        pieces = kernel.march(p, pieces, until, Recording())[1]
+    pieces = kernel.march(p, pieces, 300, Recording())[1]
     assert (pieces.cycle, pieces.impacts) == (whole.cycle, whole.impacts)
     assert abs(pieces.arc.angle - whole.arc.angle) < 1e-14
     assert abs(pieces.arc.velocity - whole.arc.velocity) < 1e-14
@@ -282,9 +283,7 @@ def test_a_full_buffer_of_events_loses_none():
         found, status = [], kernel.PAUSED
         while status == kernel.PAUSED:
             rows = np.empty((room, 8))
-            status, progress, _, written = kernel.march(
-                p, progress, 40, 0.0, NOTHING, rows, NOTHING, NOTHING[:, 0], False
-            )
+            status, progress, _, written = kernel.march(p, progress, 40, Recording(events=rows))
             found.append(rows[:written])
         return np.concatenate(found)
 

@@ -46,17 +46,12 @@ def adapted_norm(a, b, c, d, radius):
 @njit(error_model="numpy")
 def find_fixed_point(p, angle, velocity, cycles, memory):
     found = fixed_point.find_fixed_point(
-        p,
-        angle,
-        velocity,
-        cycles,
+        fixed_point.ReturnMap(p, cycles, 0.0, 1.0),
+        fixed_point.Guess(angle, velocity, UNKNOWN),
         1 << 40,
-        memory.nothing,
-        memory.trial,
-        UNKNOWN,
         fixed_point.NEARBY,
-        0.0,
-        1.0,
+        memory.trial,
+        memory.nothing,
     )
     image = found.image
     return (

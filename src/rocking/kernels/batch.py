@@ -9,14 +9,15 @@ import numpy as np
 from numba import njit
 
 from rocking.kernels.classify.decision_cascade import judge
-from rocking.kernels.classify.results import empty_results, parameters_from_row, store_result
+from rocking.kernels.classify.results import empty_results, store_result
 from rocking.kernels.classify.workspace import make_workspace
 from rocking.kernels.compile_options import ENTRY_POINT
 from rocking.kernels.lanes.scheduler import MIN_LANE_PERIOD, classify_batch_lanes
 from rocking.kernels.lanes.workspace import make_lane_workspace
+from rocking.kernels.parameters import parameters_from_row
 
 # The version of what is answered: raised whenever an answer to the same question may change, so that a store never mixes two.
-METHOD = 18
+METHOD = 19
 
 
 @njit(**ENTRY_POINT)

@@ -98,6 +98,12 @@ def make(amplitude, frequency, period, phase, restitution, brace_angle, brace_re
     )
 
 
+@njit(**INTERNAL)
+def parameters_from_row(row):
+    """Return the parameters of a system from a row of what ``make`` takes."""
+    return make(row[0], row[1], row[2], row[3], row[4], row[5], row[6])
+
+
 @njit(**ENTRY_POINT)
 def make_plain(amplitude, frequency, period, phase, restitution, brace_angle, brace_restitution):
     """``make`` for Python: a plain tuple, as ``march.plain`` has it."""

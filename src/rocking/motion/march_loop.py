@@ -10,10 +10,11 @@ import numpy as np
 
 from rocking.kernels import parameters as numbers
 from rocking.kernels.march import march as kernel
+from rocking.kernels.march import progress as values
+from rocking.kernels.march import tangent as differences
 from rocking.model import NO_BRACES, Outcome, State, System, TooManyEvents, quantities
 
 MAX_RECORDED = 10_000_000
-NOTHING = np.empty((0, 2))
 
 
 def parameters(system: System) -> numbers.HarmonicParameters:
@@ -36,7 +37,7 @@ def march_on(
     the logarithms of what that takes out. Where the block rests or leans the rows become zero and both logarithms −∞.
     """
     status, progress, _, _ = run(
-        p, progress, cycles, 0.0, "none", want_peak=False, columns=columns, growth=growth
+        p, progress, cycles, 0.0, "none", want_peak=False, tangent=differences.TangentState(columns, growth)
     )
     return outcome_of(status), progress
 
@@ -50,8 +51,7 @@ def run(
     *,
     want_peak: bool,
     keep: Callable[[np.ndarray], np.ndarray] = np.copy,
-    columns: np.ndarray = NOTHING,
-    growth: np.ndarray = NOTHING[:, 0],
+    tangent: differences.TangentState = differences.NO_TANGENT,
 ) -> tuple[Any, ...]:
     """March to the end, in breaths: (status, progress, section, what `keep` made of the event rows of each breath)."""
     section = np.empty((cycles + 1 if record == "section" else 0, 2))
@@ -59,9 +59,8 @@ def run(
     kept: list[np.ndarray] = []
     status, recorded, done = kernel.PAUSED, 0, 0
     while status == kernel.PAUSED:
-        status, progress, taken, written = kernel.march(
-            p, progress, cycles, section_time, section[done:], events, columns, growth, want_peak
-        )
+        recording = values.Recording(section_time, section[done:], events, want_peak)
+        status, progress, taken, written = kernel.march(p, progress, cycles, recording, tangent)
         done += taken
         kept.append(keep(events[:written]))
         recorded += len(kept[-1])

@@ -183,7 +183,7 @@ def _run(
     progress: Callable[[int], object] | None,
 ) -> None:
     """Fill the lanes, each in a thread, in batches so short that Ctrl-C and progress do not wait long."""
-    nothing = workspace.NoRecording(np.empty((0, 4)), np.empty((0, 8)), np.empty((0, 2)), np.empty(0))
+    nothing = workspace.no_recording()
     batch = max(BREATH // (transient + lanes[0].section.shape[1]), 1)
     states = [(start.angle, start.velocity)] * len(lanes)
 

@@ -8,7 +8,7 @@ from decimal import ROUND_UP, Context, Decimal
 
 from attrs import field, frozen
 
-from rocking.kernels.classify import decision_cascade, periodicity, quasi_periodicity, reset, workspace
+from rocking.kernels.classify import decision_cascade, leg, periodicity, quasi_periodicity, reset, workspace
 from rocking.kernels.classify import verdict_record as kernel
 from rocking.kernels.orbits import fixed_point
 from rocking.model import Criterion, Evidence, System, counted, plus_minus
@@ -206,7 +206,7 @@ def _between(case: Case) -> Shown:
 
 def _crowded(case: Case) -> Shown:
     what = (
-        f"more impacts than are followed, over {decision_cascade.MAX_EVENTS_A_CYCLE} a cycle: it chatters almost without loss; given up "
+        f"more impacts than are followed, over {leg.MAX_EVENTS_A_CYCLE} a cycle: it chatters almost without loss; given up "
         f"after {spent(case)}"
     )
     return Shown(what, "start it faster, or take a smaller restitution")

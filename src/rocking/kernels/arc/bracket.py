@@ -11,8 +11,9 @@ from typing import NamedTuple
 from numba import njit
 
 from rocking.kernels.arc.solution import after, exponentials, lapse_of
-from rocking.kernels.compile_options import INTERNAL, INTERNAL_INLINE
+from rocking.kernels.compile_options import INTERNAL, INTERNAL_INLINE, SIMD_INLINE
 from rocking.kernels.forcing.harmonic import first_sign_change, forcing_rates, forcing_term
+from rocking.kernels.numerics.elementary import fma
 
 MAX_TURNS = 64
 # Knots of a dip that are looked at.
@@ -21,8 +22,8 @@ MARGIN = 1e-11
 # In units of the rounding error of c+ and c-.
 WIDE = 16.0
 
-# What a walk ends with: a bracket, none for ever, or a doubt.
-ZERO, NEVER, UNSURE = range(3)
+# What a walk ends with: a bracket, none for ever, or a doubt; or that it goes on.
+ZERO, NEVER, UNSURE, PASSED = range(4)
 
 
 class Jet(NamedTuple):
@@ -78,18 +79,23 @@ def positive_throughout(here, doubt):
     return here.w - abs(here.dw) > doubt
 
 
-@njit(**INTERNAL_INLINE)
-def may_dip(p, left, right, left_doubt, right_doubt):
-    """Whether w, positive at both ends of a convex stretch, may reach zero within.
+@njit(**SIMD_INLINE)
+def may_dip(w, dw, w_right, dw_right, tanh):
+    """Whether w, positive at both ends of a part of a convex stretch, may reach zero within; ``tanh`` of its length.
 
     It stays clear if the free motions through either end never reach zero, or only after passing each other.
     """
+    crossed, enough = fma(w, dw_right, -w_right * dw), tanh * fma(w, w_right, -dw * dw_right)
+    return (w + dw < 0.0) & (dw_right > w_right) & ((crossed >= enough) == False)  # noqa: E712
+
+
+@njit(**INTERNAL_INLINE)
+def may_dip_between(p, ends, doubts):
+    """``may_dip`` between two knots that are in doubt by so much."""
+    (left, right), (left_doubt, right_doubt) = ends, doubts
+    tanh = p.base_outside_tanh * (1.0 + MARGIN)
     w, dw = left.w - left_doubt, left.dw - left_doubt
-    w_right, dw_right = right.w - right_doubt, right.dw + right_doubt
-    if positive_ahead(w, dw) or positive_ahead(w_right, -dw_right):
-        return False
-    crossed = w * dw_right - w_right * dw
-    return not crossed >= p.base_outside_tanh * (w * w_right - dw * dw_right) * (1.0 + MARGIN)
+    return may_dip(w, dw, right.w - right_doubt, right.dw + right_doubt, tanh)
 
 
 @njit(**INTERNAL)
@@ -150,7 +156,7 @@ def stays_clear(p, arc, end):
         growing, shrinking = growing * p.base_outside_growth, shrinking * p.base_outside_decay
         right = at_cut(p, time, growing, shrinking, 1.0)
         doubt = p.base_outside_growth * doubt + MARGIN * abs(growing)
-        if not (left.w > doubt and right.w > doubt) or may_dip(p, left, right, doubt, doubt):
+        if not (left.w > doubt and right.w > doubt) or may_dip_between(p, (left, right), (doubt, doubt)):
             return False
         time += p.period
         if end.time <= time or (ends_well and end.time <= time + p.base_outside):
@@ -160,9 +166,47 @@ def stays_clear(p, arc, end):
     return False
 
 
+class CutKnot(NamedTuple):
+    """A knot, c+ e^t and c- e^-t there, and how much is in doubt of it."""
+
+    jet: Jet
+    growing: float
+    shrinking: float
+    doubt: float
+
+
+@njit(**INTERNAL_INLINE)
+def cut_knot(p, arc_exponentials, time, z, per_z, turned):
+    """Return the ``CutKnot`` at a time, e^t = z, as ``at_cut`` gives the knot."""
+    grow, shrink, error = arc_exponentials
+    growing, shrinking = grow * z, shrink * per_z
+    doubt = MARGIN * (abs(growing) + abs(shrinking) + 1.0) + (WIDE * error) * (z + per_z)
+    return CutKnot(at_cut(p, time, growing, shrinking, turned), growing, shrinking, doubt)
+
+
+@njit(**INTERNAL_INLINE)
+def cross(p, arc, start, end, lifts):
+    """Return how the walk across a convex stretch between two knots ends: PASSED where no zero is there.
+
+    ``lifts`` says that u rises through all of it.
+    """
+    left, right, doubt = start.jet, end.jet, end.doubt
+    if right.w < -doubt:
+        return Walk(ZERO, left, right)
+    if not right.w > doubt:
+        return Walk(UNSURE, left, right)
+    if not lifts and may_dip_between(p, (left, right), (start.doubt, doubt)):
+        middle = bottom(p, arc, left, right, doubt)
+        if middle.w < -doubt:
+            return Walk(ZERO, left, middle)
+        if not positive_throughout(middle, doubt):
+            return Walk(UNSURE, left, right)
+    return Walk(PASSED, left, right)
+
+
 @njit(**INTERNAL_INLINE)
 def bracket_first_zero(p, arc):
-    """From turn to turn to the first zero of u.
+    """Walk from turn to turn to the first zero of u.
 
     A concave stretch that begins with u >= 0 holds one zero if it ends with u < 0, else none; a convex one that begins
     with u > 0, or rising from 0, likewise, but for a dip. None will ever come as soon as what grows outweighs all else.
@@ -175,46 +219,34 @@ def bracket_first_zero(p, arc):
         return Walk(UNSURE, before, before)
     under_way = convex and (lifts or not positive_ahead(before.w, before.dw))
     time = 0.0 if under_way else cut + p.base_inside if convex else cut
-    length, growth, decay = p.base_outside, p.base_outside_growth, p.base_outside_decay
-    grow, shrink, error = exponentials(p, arc)
-    error *= WIDE
-    z, per_z, left, doubt = 1.0, 1.0, before, MARGIN
+    # how long the stretch is, and e^+-length
+    stretch = p.base_outside, p.base_outside_growth, p.base_outside_decay
+    z, per_z, left, c = 1.0, 1.0, CutKnot(before, 0.0, 0.0, MARGIN), exponentials(p, arc)
     if under_way:
-        length, growth = cut, math.exp(cut)
-        decay = 1.0 / growth
+        growth = math.exp(cut)
+        stretch = cut, growth, 1.0 / growth
     else:
         z = math.exp(time)
         per_z = 1.0 / z
     for k in range(MAX_TURNS):
         if k > 0 or not under_way:
-            growing, shrinking = grow * z, shrink * per_z
-            left = at_cut(p, time, growing, shrinking, -1.0)
-            doubt = MARGIN * (abs(growing) + abs(shrinking) + 1.0) + error * (z + per_z)
-            if left.w < -doubt:
-                return Walk(ZERO, before, left)
-            if not left.w > doubt:
-                return Walk(UNSURE, before, left)
-        time += length
-        z *= growth
-        per_z *= decay
-        growing, shrinking = grow * z, shrink * per_z
-        right = at_cut(p, time, growing, shrinking, 1.0)
-        right_doubt = MARGIN * (abs(growing) + abs(shrinking) + 1.0) + error * (z + per_z)
-        if right.w < -right_doubt:
-            return Walk(ZERO, left, right)
-        if not right.w > right_doubt:
-            return Walk(UNSURE, left, right)
-        if not (k == 0 and lifts) and may_dip(p, left, right, doubt, right_doubt):
-            middle = bottom(p, arc, left, right, right_doubt)
-            if middle.w < -right_doubt:
-                return Walk(ZERO, left, middle)
-            if not positive_throughout(middle, right_doubt):
-                return Walk(UNSURE, left, right)
-        if min(growing, growing - abs(shrinking) + (1.0 - p.response)) > right_doubt:
-            return Walk(NEVER, left, right)
-        before = right
+            left = cut_knot(p, c, time, z, per_z, -1.0)
+            if left.jet.w < -left.doubt:
+                return Walk(ZERO, before, left.jet)
+            if not left.jet.w > left.doubt:
+                return Walk(UNSURE, before, left.jet)
+        time += stretch[0]
+        z *= stretch[1]
+        per_z *= stretch[2]
+        right = cut_knot(p, c, time, z, per_z, 1.0)
+        end = cross(p, arc, left, right, k == 0 and lifts)
+        if end.answer != PASSED:
+            return end
+        if min(right.growing, right.growing - abs(right.shrinking) + (1.0 - p.response)) > right.doubt:
+            return Walk(NEVER, left.jet, right.jet)
+        before = right.jet
         time += p.base_inside
         z *= p.turn_growth * p.base_outside_decay
         per_z *= p.turn_decay * p.base_outside_growth
-        length, growth, decay = p.base_outside, p.base_outside_growth, p.base_outside_decay
-    return Walk(UNSURE, left, left)
+        stretch = p.base_outside, p.base_outside_growth, p.base_outside_decay
+    return Walk(UNSURE, left.jet, left.jet)

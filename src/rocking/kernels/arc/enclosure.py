@@ -1,10 +1,17 @@
-"""That nothing is met between two instants of an arc: the cubic with the same ends proves it; for one block and in lanes alike."""
+"""What is certain of an arc by its ends, for one block and in lanes alike: nothing is met between them; it does not graze."""
 
 from numba import njit
 
 from rocking.kernels.arc.bracket import MARGIN
 from rocking.kernels.compile_options import SIMD_INLINE
 from rocking.kernels.numerics.elementary import fma
+
+
+@njit(**SIMD_INLINE)
+def grazes(amplitude, start_angle, start_velocity, t, velocity):
+    """Whether an arc arrives after a time t so slowly that the last digits tell whether it arrives at all."""
+    most = amplitude + 1.0
+    return velocity * velocity <= MARGIN * most * fma(t, fma(t, most, abs(start_velocity)), start_angle)
 
 
 @njit(**SIMD_INLINE)

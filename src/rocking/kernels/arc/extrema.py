@@ -7,9 +7,11 @@ from numba import njit
 
 from rocking.kernels.arc.first_zero import CROSSING, LATER, EventFunction, first_zero, step_to_zero
 from rocking.kernels.arc.solution import evaluate, exponentials, within_reach
-from rocking.kernels.compile_options import INTERNAL, INTERNAL_INLINE, KERNEL_INLINE
+from rocking.kernels.arc.taylor import I2, I4, I6, I8
+from rocking.kernels.compile_options import INTERNAL, INTERNAL_INLINE, KERNEL_INLINE, SIMD_INLINE
 from rocking.kernels.event_kinds import BRACE, IMPACT
 from rocking.kernels.forcing.harmonic import TURN, forcing_rates, forcing_term
+from rocking.kernels.numerics.elementary import fma
 
 # A turn just found is not met again by rounding: it is passed by this share of the time, and ever more.
 PASSED = 2.0**-50
@@ -17,6 +19,7 @@ PASSED = 2.0**-50
 KNOWN, TIED = 1e-6, 1e-3
 # From this near, in units of 1/max(1, Omega), a Taylor series reaches the top of a crest to rounding; so many tries at it.
 NEAR, TRIES = 1e-3, 6
+RIGHT_ANGLE = 0.5 * math.pi
 
 
 @njit(**KERNEL_INLINE)
@@ -78,6 +81,20 @@ def arc_peak(p, arc, until, peak):
         sign = -sign
 
 
+@njit(**SIMD_INLINE)
+def may_rise_above(peak, m, away, frequency_square, response):
+    """Whether 1 - m cosh(t - middle) + beta cos eta may exceed ``peak``, with a crest of cos eta a time ``away`` from the middle.
+
+    It is at most 1 - m + beta - a**2 b m/2(m + b) with b the least curvature of the crest on the way, by what the best compromise
+    between the two costs: 1 - cos y >= y**2 (1/2 - a**2/4! + a**4/6! - a**6/8!) for y up to a, and at least 1 from a = pi/2 to pi.
+    """
+    away_2 = away * away
+    a = min(frequency_square * away_2, RIGHT_ANGLE * RIGHT_ANGLE)
+    bowl = 2.0 * response * frequency_square * fma(-a, fma(-a, fma(-a, I8, I6), I4), I2)
+    above = 1.0 - m + response - peak
+    return (above > response) | (above * (m + bowl) > 0.5 * away_2 * bowl * m)
+
+
 @njit(**INTERNAL_INLINE)
 def closed_form_peak(p, arc, until, peak):
     """(certain, the largest of ``peak`` and the angles on the arc up to ``until``), where it is certain without a search.
@@ -86,9 +103,7 @@ def closed_form_peak(p, arc, until, peak):
     and the nearest eta = 0 (mod 2 pi): by whole turns and by mirroring at either of the two any
     other time is brought between them, and u higher. There m sinh s - beta Omega sin(d - Omega s), s the time from
     the middle and d the phase to go, is convex, not above 0 at first and not below it at last: the crest is the only turn.
-    It is the arc's too if the arc reaches it.
-    As 1 - cos y >= 2 (y/pi)**2, it is lower than 1 - m + beta by what the best compromise between the two costs at least.
-    An arc that begins in the middle (a lift-off) has one of two equal crests before it.
+    It is the arc's too if the arc reaches it. An arc that begins in the middle (a lift-off) has one of two equal crests before it.
     """
     grow, shrink, error = exponentials(p, arc)
     if not (max(grow, shrink) < 0.0 and p.frequency * error < -KNOWN * max(grow, shrink)):
@@ -97,9 +112,7 @@ def closed_form_peak(p, arc, until, peak):
     middle = 0.5 * math.log(shrink / grow)
     eta = p.frequency * middle + arc.psi + (math.pi if arc.side < 0 else 0.0)
     ahead = TURN * np.floor(eta / TURN + 0.5) - eta
-    bowl = (0.5 * TURN) ** -2 * 4.0 * p.response
-    stiff = bowl * p.frequency * p.frequency
-    if 1.0 - m + p.response - 0.5 * ahead * ahead * bowl * m / (m + stiff) <= peak:
+    if not may_rise_above(peak, m, abs(ahead) * p.per_frequency, p.frequency * p.frequency, p.response):
         return True, peak
     if 0.5 * TURN - abs(ahead) < TIED:
         if middle * p.frequency > KNOWN:
@@ -111,7 +124,6 @@ def closed_form_peak(p, arc, until, peak):
         return False, peak
     acceleration = p.response * p.frequency * p.frequency
     t = min(max(middle + ahead * p.per_frequency * (acceleration / (acceleration + m)), low), high)
-    near = NEAR / max(1.0, p.frequency)
     for _ in range(TRIES):
         now = evaluate(p, arc, t)
         f = forcing_term(p, now.cosine)
@@ -125,7 +137,7 @@ def closed_form_peak(p, arc, until, peak):
         if now.angle + 0.5 * abs(now.velocity * rest) <= peak:
             return True, peak
         step = step_to_zero(now.velocity, second, (df, ddf, -p.frequency * p.frequency * df))
-        if abs(step) < near:
+        if abs(step) < NEAR / max(1.0, p.frequency):
             inside = 0.0 < t + step < until
             rise = now.velocity + step * (
                 0.5 * second + step * ((1.0 / 6.0) * third + step * ((1.0 / 24.0) * (second + ddf)))

@@ -15,8 +15,9 @@ from numba import njit
 
 from rocking.kernels.arc.bracket import UNSURE, ZERO, Jet, bracket_first_zero, knot, start_knot, stays_clear
 from rocking.kernels.arc.enclosure import stays_between
-from rocking.kernels.arc.first_zero import MAX_ARC_TIME, reversion, step_to_zero
+from rocking.kernels.arc.first_zero import MAX_ARC_TIME, corrected_step, step_to_zero
 from rocking.kernels.arc.solution import Instant, after, lapse_of
+from rocking.kernels.arc.taylor import series, velocity_after
 from rocking.kernels.compile_options import INTERNAL_INLINE
 from rocking.kernels.forcing.harmonic import forcing_rates, forcing_term
 
@@ -32,7 +33,6 @@ SMALL = 2e-4
 REACH, ROUNDS, BEND = 1.8, 3, 0.25
 # From so near, and such a bend, it needs no polish.
 NEAR = 0.25
-I2, I3, I4, I5, I6, I7, I8 = (1.0 / math.factorial(k) for k in range(2, 9))
 
 
 @njit(**INTERNAL_INLINE)
@@ -44,9 +44,7 @@ def taylor_step(p, now, step):
     third = now.velocity + df
     fourth = second + ddf
     fifth = third - p.frequency * p.frequency * df
-    velocity = now.velocity + step * (
-        second + step * (0.5 * third + step * ((1.0 / 6.0) * fourth + step * ((1.0 / 24.0) * fifth)))
-    )
+    velocity = velocity_after((now.velocity, second, third, fourth, fifth), step)
     x = p.frequency * step
     sin_x = x * (1.0 - x * x * (1.0 / 6.0 - x * x * (1.0 / 120.0)))
     versine = x * x * (0.5 - x * x * (1.0 / 24.0))
@@ -89,8 +87,7 @@ def turned(p, steady, now):
 def polished(p, steady, now, rough):
     """(whether w falls there, a step to its zero): a rough one corrected by the Taylor series about ``now``, no new elementary functions.
 
-    c_k are the derivatives of w there, w_k those at the end of the step. Only a guess: the series stops where it is
-    good to some three digits within REACH.
+    c_k are the derivatives of w there, w_k those at the end of the step.
     """
     square = -p.frequency * p.frequency
     df, ddf = now.df, turned(p, steady, now)
@@ -99,16 +96,9 @@ def polished(p, steady, now, rough):
     c4, c5 = c2 + ddf, c3 + square * df
     c6, c7 = c4 + square * ddf, c5 + square * square * df
     c8 = c6 + square * square * ddf
-    s = rough
+    c, s = (c0, c1, c2, c3, c4, c5, c6, c7, c8), rough
     for _ in range(ROUNDS):
-        q = s * s
-        h = q * q
-        w4 = (c4 + s * c5) + q * (I2 * c6)
-        w3 = (c3 + s * c4) + q * (I2 * c5 + s * (I3 * c6))
-        w2 = (c2 + s * c3) + q * (I2 * c4 + s * (I3 * c5)) + h * (I4 * c6 + s * (I5 * c7))
-        w1 = (c1 + s * c2) + q * (I2 * c3 + s * (I3 * c4)) + h * ((I4 * c5 + s * (I5 * c6)) + q * (I6 * c7))
-        w0 = (c0 + s * c1) + q * (I2 * c2 + s * (I3 * c3))
-        w0 += h * ((I4 * c4 + s * (I5 * c5)) + q * (I6 * c6 + s * (I7 * c7)) + h * (I8 * c8))
+        w0, w1, w2, w3, w4 = series(c, s)
         if not w1 < 0.0:
             return False, rough
         s += step_to_zero(w0, w1, (w2 - w0, w3 - w1, w4 - w2))
@@ -139,7 +129,7 @@ def refine_prediction(p, arc, constant, s, lapse, low, high):
     for _ in range(TRIES):
         here = knot(p, arc, constant, s, lapse.time, now)
         if close(p, here):
-            y, correction = reversion(here.w, here.dw, (here.f, here.df, turned(p, constant + s, here)))
+            y, correction = corrected_step(here.w, here.dw, (here.f, here.df, turned(p, constant + s, here)))
             step = y * correction
             t = lapse.time + step
             return low < t < high, t, taylor_step(p, now, step), lapse

@@ -19,6 +19,7 @@ from typing import NamedTuple
 from numba import njit
 
 from rocking.kernels.arc.solution import after, evaluate, exponentials, propagator_or_none
+from rocking.kernels.arc.taylor import reversion
 from rocking.kernels.compile_options import INTERNAL, KERNEL, KERNEL_INLINE
 from rocking.kernels.forcing.harmonic import first_sign_change, forcing_rates, forcing_term, next_sign_change
 
@@ -91,22 +92,19 @@ def watched_forcing(p, watch, now):
 
 
 @njit(**KERNEL_INLINE)
-def reversion(w, dw, forcing):
-    """(y, correction): y * correction leads to the nearest zero of w's Taylor series, to fifth order; y is Newton's step."""
+def corrected_step(w, dw, forcing):
+    """(y, correction): Newton's step y, times ``taylor.reversion``."""
     f, df, ddf = forcing
-    second = w + f
-    per = 1.0 / dw
+    second, per = w + f, 1.0 / dw
     y = -w * per
-    a = 0.5 * second * per
-    b = (1.0 / 6.0) * (dw + df) * per
-    c = (1.0 / 24.0) * (second + ddf) * per
-    return y, 1.0 + y * (-a + y * (2.0 * a * a - b + y * (5.0 * a * (b - a * a) - c)))
+    return y, reversion(y, second, dw + df, second + ddf, per)
 
 
 @njit(**KERNEL_INLINE)
 def step_to_zero(w, dw, forcing):
-    """A step towards the zero; a correction near 0 would stop where there is none, so that far away only Newton's is taken."""
-    y, correction = reversion(w, dw, forcing)
+    """Return a step towards the zero of w; far away it is Newton's."""
+    y, correction = corrected_step(w, dw, forcing)
+    # The product must not be fused with a time that it is added to: the last digits of every motion would change.
     return y * correction if 0.5 < correction < 2.0 else y
 
 
@@ -133,12 +131,14 @@ def refine(p, arc, watch, low, high, t):
 
 
 @njit(**INTERNAL)
-def time_below_zero(p, arc, watch, left, w, dw, right, w_right, dw_right):
-    """A time in a convex stretch at which w <= 0, or infinity where w stays positive; w > 0 at both ends.
+def time_below_zero(p, arc, watch, start, end):
+    """Return a time in a convex stretch at which w <= 0, or infinity where w stays positive.
 
+    ``start`` and ``end`` are (time, w, w') at its ends, where w > 0.
     The bottom of y = w e^t is where w + w' = 0, whose left side times e^-t only grows: one safeguarded
     Newton iteration finds it, and w there decides.
     """
+    (left, w, dw), (right, w_right, dw_right) = start, end
     if w + dw >= 0.0 or dw_right - w_right <= 0.0 or dw_right + w_right <= 0.0:
         return math.inf
     low, high = left, right
@@ -215,6 +215,18 @@ def no_return_time(p, arc):
     return math.log(z) if z > 1.0 else 0.0
 
 
+@njit(**KERNEL_INLINE)
+def interval_at(p, arc, watch, t):
+    """(when the stretch under way at the time t ends, whether it lies inside the window of ``EventFunction``)."""
+    if not watch.half < math.inf:
+        return math.inf, True
+    cut, inside = first_sign_change(p, arc.side, arc.psi, watch.centre, watch.half)
+    while cut <= t:
+        inside = not inside
+        cut += next_sign_change(p, watch.half, inside)
+    return cut, inside
+
+
 @njit(**KERNEL)
 def first_zero(p, arc, watch, t, limit):
     """(Found, time, instant): the first time after t, by ``limit``, at which w falls through zero.
@@ -225,14 +237,7 @@ def first_zero(p, arc, watch, t, limit):
     now = after(p, arc, propagator_or_none(p, t))
     w, dw = watched(p, arc, watch, now)
     at_rest = w == 0.0 and dw == 0.0
-    cut, inside = (
-        first_sign_change(p, arc.side, arc.psi, watch.centre, watch.half)
-        if watch.half < math.inf
-        else (math.inf, True)
-    )
-    while cut <= t:
-        inside = not inside
-        cut += next_sign_change(p, watch.half, inside)
+    cut, inside = interval_at(p, arc, watch, t)
     while True:
         right = min(cut, limit)
         then = evaluate(p, arc, right)
@@ -242,7 +247,7 @@ def first_zero(p, arc, watch, t, limit):
         if at_rest:
             low_end = math.inf
         elif convex and w_right >= 0.0:
-            low_end = time_below_zero(p, arc, watch, t, w, dw, right, w_right, dw_right)
+            low_end = time_below_zero(p, arc, watch, (t, w, dw), (right, w_right, dw_right))
         if low_end < math.inf:
             t, now = refine(p, arc, watch, t, low_end, first_guess(p, watch, now, w, dw, t, low_end))
             return CROSSING, t, now

@@ -6,10 +6,11 @@ import numpy as np
 from numba import njit
 
 from rocking.kernels.classify.verdict_record import PERIODIC, REST
-from rocking.kernels.classify.workspace import make_workspace
+from rocking.kernels.classify.workspace import no_recording
 from rocking.kernels.compile_options import ALLOCATING_ENTRY, INTERNAL
-from rocking.kernels.march.march import DONE, PAUSED, STILL, UNKNOWN, begin, march_on
-from rocking.kernels.parameters import later, make
+from rocking.kernels.march.march import DONE, STILL, UNKNOWN, begin, march_through
+from rocking.kernels.march.progress import Recording
+from rocking.kernels.parameters import later, parameters_from_row
 
 # The phase of the section on which attractors are compared, in cycles: on no event of any symmetric mode but by chance.
 SECTION = 0.3819660112501051
@@ -20,37 +21,14 @@ LONGER = 10
 
 
 @njit(**INTERNAL)
-def follow_plainly(p, angle, velocity, cycles, section_time, section, nothing):
-    """(status, progress) after so many cycles, with the states at ``section_time`` as ``section`` has room for."""
-    progress, _ = begin(p, angle, velocity, UNKNOWN)
-    rows = 0
-    while True:
-        status, progress, taken, _ = march_on(
-            p,
-            progress,
-            cycles,
-            section_time,
-            section if rows == 0 else section[rows:],
-            nothing.events,
-            nothing.columns,
-            nothing.growth,
-            False,
-            False,
-        )
-        rows += taken
-        if status != PAUSED:
-            return status, progress
-
-
-@njit(**INTERNAL)
 def rest_angle(p, angle, velocity, cycles, nothing):
-    """Where a motion that is known to end at rest does so: 0, or on a brace."""
+    """Return where a motion that is known to end at rest does so: 0, or on a brace."""
     if p.brace_angle == math.inf:
         return 0.0
-    most = LONGER * max(cycles, 1)
-    status, progress = follow_plainly(p, angle, velocity, most, 0.0, nothing.section, nothing)
-    arc = progress.arc
-    return arc.side * arc.angle if status == STILL else math.nan
+    recording = Recording(0.0, nothing.section, nothing.events, False, False)
+    progress = begin(p, angle, velocity, UNKNOWN)[0]
+    status, progress = march_through(p, progress, LONGER * max(cycles, 1), recording, nothing.tangent)
+    return progress.arc.side * progress.arc.angle if status == STILL else math.nan
 
 
 @njit(**INTERNAL)
@@ -75,24 +53,16 @@ def anchor_each(systems, starts, kind, period, cycles, orbit, nothing, anchors):
         anchors[k, 0], anchors[k, 1] = math.nan, math.nan
         if kind[k] != PERIODIC and kind[k] != REST:
             continue
-        p = make(
-            systems[k, 0],
-            systems[k, 1],
-            systems[k, 2],
-            systems[k, 3],
-            systems[k, 4],
-            systems[k, 5],
-            systems[k, 6],
-        )
+        p = parameters_from_row(systems[k])
         if kind[k] == REST:
             anchors[k, 0], anchors[k, 1] = rest_angle(p, starts[k, 0], starts[k, 1], cycles[k], nothing), 0.0
             continue
         # The second time round: an orbit that rests is known at a release, whose instant is rounded.
         states = np.empty((2 * period[k], 2))
         at = (SECTION * p.period - orbit[k, 0]) % p.period
-        status, _ = follow_plainly(
-            later(p, orbit[k, 0]), orbit[k, 1], orbit[k, 2], 2 * period[k], at, states, nothing
-        )
+        q, recording = later(p, orbit[k, 0]), Recording(at, states, nothing.events, False, False)
+        progress = begin(q, orbit[k, 1], orbit[k, 2], UNKNOWN)[0]
+        status, _ = march_through(q, progress, 2 * period[k], recording, nothing.tangent)
         if status == DONE:
             best = foremost(states, period[k])
             anchors[k, 0], anchors[k, 1] = states[best, 0], states[best, 1]
@@ -108,7 +78,7 @@ def anchors_of(systems, starts, answers):
         answers.period,
         answers.cycles,
         answers.orbit,
-        make_workspace(1, 1).nothing,
+        no_recording(),
         anchors,
     )
     return anchors

@@ -7,33 +7,49 @@ periodic orbit that the motion has reached (``periodicity``); where nothing is l
 
 import math
 
-import numpy as np
 from numba import njit
 
-from rocking.kernels.classify.classifier_state import ClassifierState, Run, batch_of, next_look, opened
-from rocking.kernels.classify.periodicity import ON_EVENT, REACHED, check_periodicity, loses, no_cycle
+from rocking.kernels.classify.classifier_state import (
+    Averages,
+    Batches,
+    KnownOrbit,
+    as_lossless,
+    as_lossy,
+    batch_of,
+    next_look,
+    opened,
+    with_averages,
+    with_batches,
+    with_checkpoint,
+    with_known,
+    with_losses,
+    with_measuring,
+    with_run,
+    with_section,
+)
+from rocking.kernels.classify.leg import march_leg
+from rocking.kernels.classify.periodicity import (
+    ON_EVENT,
+    REACHED,
+    check_periodicity,
+    loses,
+    no_cycle,
+    with_work,
+)
 from rocking.kernels.classify.quasi_periodicity import (
     agreement,
     digits_of_speeds,
     evaluate_lazy_rows,
-    follow_flights,
     no_flights,
-    section_needed,
     under_way,
 )
 from rocking.kernels.classify.recurrence import closest_return
-from rocking.kernels.classify.reset import (
-    begin_measuring,
-    begin_tangent,
-    follow,
-    moved_on,
-    released_since,
-    unvisited,
-)
+from rocking.kernels.classify.reset import begin_measuring, begin_tangent, released_since, unvisited
 from rocking.kernels.classify.verdict_record import (
     NEUTRAL_ORBIT,
     OPEN,
     ORBIT,
+    Findings,
     ended,
     periodic,
     torus,
@@ -52,57 +68,6 @@ FREE_WORK = 10
 UNMOVED = 1e-11
 # A motion that stays as near as this to an unstable orbit has not left it.
 NEAR = 1e-3
-# A motion with more events a cycle than this on average is not judged to its end.
-MAX_EVENTS_A_CYCLE = 200
-FREE_EVENTS = 1_000_000
-
-
-@njit(**INTERNAL)
-def room(section, count, coming, looked_at):
-    """How many rows stay when ``coming`` more are to follow: where they do not fit the last ones are moved to the front."""
-    if coming <= looked_at and count + coming <= section.shape[0]:
-        return count
-    kept = max(min(count, looked_at - coming), 0)
-    if kept < count:
-        for k in range(kept):
-            for column in range(section.shape[1]):
-                section[k, column] = section[count - kept + k, column]
-    return kept
-
-
-@njit(**INTERNAL_INLINE)
-def most_events(max_cycles):
-    """A motion with more events is not judged to its end."""
-    return MAX_EVENTS_A_CYCLE * max_cycles + FREE_EVENTS
-
-
-@njit(**AST_INLINE)
-def march_leg(p, run, max_cycles, target, workspace):
-    """(status, run): a motion followed to ``target`` with its last states."""
-    most = most_events(max_cycles)
-    watch, flights, section_time, count, lossless, measuring = run
-    cycle, rows = watch.progress.cycle, workspace.scratch.shape[0]
-    count = room(workspace.section, count, target - cycle, rows)
-    if lossless:
-        wanted = section_needed(workspace.growth[0], target, max_cycles, rows)
-        status, progress, flights, count = follow_flights(
-            p, watch.progress, flights, target, most, section_time, count if wanted else 0, workspace, wanted
-        )
-        watch = moved_on(watch, progress)
-        return status, Run(watch, flights, section_time, count, lossless, measuring)
-    growth = workspace.growth if measuring else workspace.nothing.growth
-    # the section of the cycle under way may be past
-    coming = target - cycle - (not watch.progress.pending)
-    total, status = count + min(coming, rows), np.int64(DONE)
-    while status == DONE and cycle < target:
-        # Of a long leg only the last states are kept.
-        until = target if target - cycle <= rows else target - rows
-        kept = workspace.section[count:total] if until == target else workspace.nothing.section
-        status, watch = follow(
-            p, watch, until, most, section_time, kept, workspace.nothing, workspace.columns, growth
-        )
-        cycle = watch.progress.cycle
-    return status, Run(watch, flights, section_time, total, lossless, measuring)
 
 
 @njit(**INTERNAL)
@@ -132,126 +97,165 @@ def next_checkpoint(cycle, coming):
 
 @njit(**INTERNAL_INLINE)
 def over_batch(p, watch, target, max_cycles, grown):
-    """The exponent over the batch that ends at ``target``, in which differences have ``grown``; a release forgets them all."""
+    """Return the exponent over the batch that ends at ``target``, in which differences have ``grown``; a release forgets them all."""
     batch = batch_of(max_cycles)
     return (-math.inf if released_since(watch, target - batch) else grown) / (batch * p.period)
 
 
 @njit(**INTERNAL_INLINE)
-def batch_after(target, max_cycles, batch_end, measured, measuring, grown, growth):
-    """(the end of the next batch, how many are measured, whether that has begun, the growth before it) after a leg to ``target``."""
-    if target != batch_end:
-        return batch_end, measured, measuring, grown
-    return batch_end + batch_of(max_cycles), measured + measuring, True, growth
+def next_batch(case, max_cycles, growth):
+    """Return the state in which the next batch begins."""
+    run, batches = case.run, case.batches
+    after = Batches(batches.end + batch_of(max_cycles), batches.measured + run.measuring, growth)
+    return with_batches(case, with_measuring(run, True), after)
 
 
-@njit(**INTERNAL_INLINE)
-def measure(p, watch, target, max_cycles, measured, measuring, grown, lossless, workspace):
-    """Write the exponent over the batch that ends, or begin to measure: with differences of size 1 unless nothing is lost."""
-    if measuring:
-        workspace.batches[measured] = over_batch(p, watch, target, max_cycles, workspace.growth[0] - grown)
-    elif not lossless:
-        begin_measuring(watch, workspace.columns, workspace.growth)
+@njit(**INTERNAL)
+def end_batch(p, case, target, max_cycles, workspace):
+    """Write the exponent over the batch that ends at ``target``, or begin to measure.
+
+    Where something is lost it begins with differences of size 1.
+    """
+    run, batches, growth = case.run, case.batches, workspace.tangent.growth
+    if run.measuring:
+        exponent = over_batch(p, run.watch, target, max_cycles, growth[0] - batches.grown)
+        workspace.batches[batches.measured] = exponent
+    elif not run.lossless:
+        begin_measuring(run.watch, workspace.tangent)
+    return next_batch(case, max_cycles, growth[0])
 
 
 @njit(**INTERNAL_INLINE)
 def enough_after(count):
-    """How many flights there must be for their averages to be compared again."""
+    """Return how many flights there must be for their averages to be compared again."""
     return count * 5 // 4
 
 
 @njit(**INTERNAL_INLINE)
 def checkpoint_unstable(case, flights, max_cycles, growth):
-    """What ``checkpoint`` makes of a case, before the end, of a motion without loss that has outgrown any torus, after so many flights.
+    """Return the state after a checkpoint, before the end, of a motion without loss that has outgrown any torus.
 
-    Only an exponent could be noted, if a batch has ended.
+    It has so many ``flights``. Only an exponent could be noted, if a batch has ended.
     """
-    run, target = case.run, next_look(case, max_cycles)
-    batch_end, measured, measuring, grown = batch_after(
-        target, max_cycles, case.batch_end, case.measured, run.measuring, case.grown, growth
-    )
-    run = Run(run.watch, run.flights, run.section_time, run.count, run.lossless, measuring)
+    target, averages = next_look(case, max_cycles), case.averages
     due = target == case.checkpoint
-    compared = due and flights >= case.enough
-    return ClassifierState(
-        run, case.impacts, case.brace_hits, target + LEG if due else case.checkpoint, batch_end, measured,
-        grown, case.lossy, enough_after(flights) if compared else case.enough,
-        0.0 if compared else case.digits, False, case.known, case.known_at, case.work
-    )  # fmt: skip
+    if target == case.batches.end:
+        case = next_batch(case, max_cycles, growth)
+    if due and flights >= averages.enough:
+        averages = Averages(enough_after(flights), 0.0, False)
+    else:
+        averages = Averages(averages.enough, averages.digits, False)
+    checkpoint = target + LEG if due else case.checkpoint
+    return with_checkpoint(with_averages(case, averages), case.impacts, case.brace_hits, checkpoint)
+
+
+@njit(**INTERNAL)
+def note_losses(p, case, target):
+    """Return the state of a motion that may have lost energy since the last checkpoint; then its flights are of no use."""
+    run, done = case.run, case.run.watch.progress
+    if not loses(p, done.impacts - case.impacts, done.brace_hits - case.brace_hits):
+        return case
+    watch = unvisited(run.watch) if run.lossless else run.watch
+    return with_losses(case, as_lossy(run, watch, no_flights(), False), target)
+
+
+@njit(**INTERNAL)
+def compare_averages(case, workspace):
+    """Return the state in which the averages over the flights have been compared."""
+    flights = case.run.flights
+    digits, converged = agreement(flights, workspace.flights, workspace.weights, workspace.tangent.growth[0])
+    return with_averages(case, Averages(enough_after(flights.count), digits, converged))
+
+
+@njit(**INTERNAL)
+def stands_still(p, case, over, max_period, workspace):
+    """Whether the averages converge because the motion came back to where it was: then it is no torus."""
+    run, converged = case.run, case.averages.converged
+    if converged or over:
+        evaluate_lazy_rows(p, workspace.section, run.count - 1 - max_period, run.count, run.section_time)
+    return converged and is_stationary(workspace.section, run.count, max_period)
+
+
+@njit(**AST_INLINE)
+def seek_orbit(p, case, target, max_period, workspace, still):
+    """(verdict, state, cycles until an orbit may be reached): whether the motion has reached a periodic orbit.
+
+    ``still`` says that it may be a neutral one.
+    """
+    run, known, done = case.run, case.known, case.run.watch.progress
+    events = done.impacts + done.brace_hits
+    most_work = events if still else FREE_WORK + events // 2 - case.work
+    evaluate_lazy_rows(p, workspace.section, 0, run.count, run.section_time)
+    since = target - known.cycle
+    check = check_periodicity(p, run, workspace, max_period, most_work, known.check, since, still)
+    work = case.work + check.work
+    if check.answer == REACHED:
+        ground = NEUTRAL_ORBIT if still else ORBIT
+        return periodic(p, ground, run.watch, with_work(check, work), run.section_time), case, 0
+    if check.period > 0:
+        known = KnownOrbit(check, target if check.work > 0 else known.cycle)
+    if check.answer == ON_EVENT:
+        run = with_section(run, (run.section_time + NEXT_SECTION * p.period) % p.period, 0)
+        known = KnownOrbit(no_cycle(0), known.cycle)
+    return undecided(run.watch), with_known(case, run, known, work), check.coming
+
+
+@njit(**INTERNAL)
+def expect_torus(case, workspace):
+    """Return the state of a motion that has lost nothing for long: from here on its flights are collected."""
+    run, batches = case.run, case.batches
+    begin_tangent(workspace.tangent)
+    run = as_lossless(run, under_way(run.watch.progress), True)
+    return with_batches(case, run, Batches(batches.end, batches.measured, 0.0))
+
+
+@njit(**INTERNAL)
+def end_of_budget(p, case, target, max_period, workspace):
+    """Return the verdict at the end of the budget."""
+    run, known, section = case.run, case.known, workspace.section
+    findings = Findings(
+        measured=case.batches.measured,
+        lossless=run.lossless,
+        digits=digits_of_speeds(run.flights, workspace.flights, workspace.weights),
+        stands=is_stationary(section, run.count, max_period),
+        lingers=lingers_near(section, run.count, target - known.cycle, known.check),
+    )
+    return unsettled(p, run.watch, case.work, target, workspace.batches, findings)
 
 
 @njit(**AST_INLINE)
 def evaluate_checkpoint(p, case, status, run, max_cycles, max_period, workspace):
-    """(judgement, case) after a leg that ended so: kind OPEN where nothing decides yet.
+    """(verdict, state) after a leg that ended so: kind OPEN where nothing decides yet.
 
     Legs end at checkpoints, which do not depend on the budget, and in its second half at the ends of equal batches. At a
     checkpoint averages are compared, there and at the end a periodic orbit is sought; a batch only adds to the exponent.
     """
-    impacts, brace_hits, checkpoint, batch_end, measured, grown, lossy = case[1:8]
-    enough, digits, converged, known, known_at, work = case[8:]
-    watch, flights, section_time, count, lossless, measuring = run
     if status != DONE:
-        return ended(status, watch, work), case
-    target, done = next_look(case, max_cycles), watch.progress
-    due, over = target == checkpoint, target == max_cycles
-    if (due or over) and loses(p, done.impacts - impacts, done.brace_hits - brace_hits):
-        watch = unvisited(watch) if lossless else watch
-        lossy, lossless, flights = target, False, no_flights()
-    if target == batch_end:
-        measure(p, watch, target, max_cycles, measured, measuring, grown, lossless, workspace)
-    batch_end, measured, measuring, grown = batch_after(
-        target, max_cycles, batch_end, measured, measuring, grown, workspace.growth[0]
-    )
+        return ended(status, run.watch, case.work), case
+    case, target, done = with_run(case, run), next_look(case, max_cycles), run.watch.progress
+    due, over, coming = target == case.checkpoint, target == max_cycles, 0
+    if due or over:
+        case = note_losses(p, case, target)
+    if target == case.batches.end:
+        case = end_batch(p, case, target, max_cycles, workspace)
     if not (due or over):
-        run = Run(watch, flights, section_time, count, lossless, measuring)
-        return undecided(watch), ClassifierState(
-            run, impacts, brace_hits, checkpoint, batch_end, measured, grown, lossy, enough, digits,
-            converged, known, known_at, work
-        )  # fmt: skip
-    if lossless and due and flights.count >= enough:
-        digits, converged = agreement(flights, workspace.flights, workspace.weights, workspace.growth[0])
-        enough = enough_after(flights.count)
-    coming = 0
-    if converged or over:
-        evaluate_lazy_rows(p, workspace.section, count - 1 - max_period, count, section_time)
-    still = converged and is_stationary(workspace.section, count, max_period)
-    if due and converged and not still:
-        return torus(watch, work, section_time, digits), case
-    if still or not lossless:
-        events = done.impacts + done.brace_hits
-        most_work = events if still else FREE_WORK + events // 2 - work
-        evaluate_lazy_rows(p, workspace.section, 0, count, section_time)
-        cycle = check_periodicity(
-            p, section_time, workspace, count, max_period, most_work, known, target - known_at, still
-        )
-        work, coming = work + cycle.work, cycle.coming
-        if cycle.answer == REACHED:
-            ground = NEUTRAL_ORBIT if still else ORBIT
-            return periodic(p, ground, watch, work, cycle, section_time), case
-        if cycle.period > 0:
-            known, known_at = cycle, (target if cycle.work > 0 else known_at)
-        if cycle.answer == ON_EVENT:
-            section_time, count = (section_time + NEXT_SECTION * p.period) % p.period, 0
-            known = no_cycle(0)
-    if not lossless and 2 * lossy <= target:
-        lossless, grown, flights = True, 0.0, under_way(done)
-        begin_tangent(workspace.columns, workspace.growth)
+        return undecided(run.watch), case
+    if case.run.lossless and due and case.run.flights.count >= case.averages.enough:
+        case = compare_averages(case, workspace)
+    still = stands_still(p, case, over, max_period, workspace)
+    if due and case.averages.converged and not still:
+        return torus(case.run.watch, case.work, case.run.section_time, case.averages.digits), case
+    if still or not case.run.lossless:
+        verdict, case, coming = seek_orbit(p, case, target, max_period, workspace, still)
+        if verdict[0] != OPEN:
+            return verdict, case
+    if not case.run.lossless and 2 * case.lossy <= target:
+        case = expect_torus(case, workspace)
     if over:
-        stands = is_stationary(workspace.section, count, max_period)
-        lingers = lingers_near(workspace.section, count, target - known_at, known)
-        digits = digits_of_speeds(flights, workspace.flights, workspace.weights)
-        told = unsettled(
-            p, watch, work, max_cycles, batch_of(max_cycles) * p.period, measured, lossless, digits,
-            workspace.batches, stands, lingers
-        )  # fmt: skip
-        return told, case
-    checkpoint = target + LEG if lossless else next_checkpoint(target, coming)
-    run = Run(watch, flights, section_time, count, lossless, measuring)
-    case = ClassifierState(
-        run, done.impacts, done.brace_hits, checkpoint, batch_end, measured, grown, lossy, enough, digits,
-        converged, known, known_at, work
-    )  # fmt: skip
-    return undecided(watch), case
+        return end_of_budget(p, case, target, max_period, workspace), case
+    checkpoint = target + LEG if case.run.lossless else next_checkpoint(target, coming)
+    case = with_checkpoint(case, done.impacts, done.brace_hits, checkpoint)
+    return undecided(case.run.watch), case
 
 
 @njit(**AST_INLINE)
@@ -260,9 +264,9 @@ def judge(p, angle, velocity, max_cycles, max_period, workspace):
     case = opened(p, angle, velocity, max_cycles)
     while True:
         status, run = march_leg(p, case.run, max_cycles, next_look(case, max_cycles), workspace)
-        told, case = evaluate_checkpoint(p, case, status, run, max_cycles, max_period, workspace)
-        if told[0] != OPEN:
-            return told
+        verdict, case = evaluate_checkpoint(p, case, status, run, max_cycles, max_period, workspace)
+        if verdict[0] != OPEN:
+            return verdict
 
 
 @njit(**ENTRY_POINT)

@@ -9,18 +9,22 @@ from rocking.kernels.arc.extrema import largest_on
 from rocking.kernels.classify.recurrence import apart, approached, closest_return
 from rocking.kernels.compile_options import AST_INLINE, ENTRY_POINT, INTERNAL
 from rocking.kernels.march.march import UNKNOWN
+from rocking.kernels.march.progress import Recording
 from rocking.kernels.march.tangent import Tangent
 from rocking.kernels.numerics.elementary import size
+from rocking.kernels.numerics.replace_fields import replacing
 from rocking.kernels.orbits.fixed_point import (
     NEARBY,
     UNBOUNDED,
     FixedPoint,
+    Guess,
     MapImage,
+    ReturnMap,
     find_fixed_point,
     image_after,
 )
 from rocking.kernels.orbits.floquet import adapted_norm, length, spectral_radius
-from rocking.kernels.orbits.symmetric_mode import nearest
+from rocking.kernels.orbits.symmetric_mode import Nearest, nearest
 from rocking.kernels.parameters import later
 
 # Where Newton's method starts, in this order; and once more with the least period of what it found.
@@ -80,75 +84,122 @@ def on_event(p, section, row):
     return angle <= reach or abs(angle - p.brace_angle) <= reach
 
 
+class Candidate(NamedTuple):
+    """Where Newton's method starts: a state whose image after ``lag`` cycles is itself, about."""
+
+    lag: int  # 0 where there is none
+    row: int  # of the section
+    guess: Guess
+    most_work: int  # events that may be computed
+    mode: Nearest  # the symmetric mode that may be the limit
+
+
+answered = replacing(PeriodicityCheck, "answer", "distance", "coming", "work")
+with_work = replacing(PeriodicityCheck, "work")
+
+
+@njit(**INTERNAL)
+def known_candidate(clocked, orbit, count, since):
+    """Return the candidate of the known orbit, found ``since`` cycles ago; a section too short has none."""
+    row = count - 1 - since % max(orbit.period, 1)
+    lag = orbit.period if row >= orbit.period else 0
+    return Candidate(lag, row, Guess(0.0, 0.0, UNKNOWN), UNBOUNDED, nearest(clocked, 0, 0.0, 0.0))
+
+
+@njit(**INTERNAL)
+def approached_candidate(clocked, section, count, most_lag):
+    """Return the limit of the last returns, or the symmetric mode beside it."""
+    row = count - 1
+    lag, angle, velocity = approached(section, count, most_lag)
+    mode, waits = nearest(clocked, lag, angle, velocity), UNKNOWN
+    left = size(section[row, 0] - angle, section[row, 1] - velocity)
+    if mode.distance <= max(BESIDE * left, SAME):
+        angle, velocity, waits = mode.angle, mode.velocity, (mode.half - mode.since, mode.half)
+    return Candidate(lag, row, Guess(angle, velocity, waits), UNBOUNDED, mode)
+
+
+@njit(**INTERNAL)
+def closest_candidate(section, count, most_lag, most_work, mode):
+    """Return the closest return of the last state, if it is close. Only far from an orbit does Newton's method need much work."""
+    row = count - 1
+    lag, away = closest_return(section, count, most_lag)
+    guess = Guess(section[row, 0], section[row, 1], UNKNOWN)
+    return Candidate(lag if away <= CLOSE else 0, row, guess, most_work, mode)
+
+
+@njit(**INTERNAL)
+def propose(clocked, section, count, most_lag, most_work, candidate, trying):
+    """Return the next candidate; the known one and the refined one stay as they are."""
+    if trying == APPROACHED:
+        return approached_candidate(clocked, section, count, most_lag)
+    if trying == CLOSEST:
+        return closest_candidate(section, count, most_lag, most_work, candidate.mode)
+    return candidate
+
+
+@njit(**INTERNAL)
+def refined_candidate(candidate, found, period):
+    """Return the fixed point that was found, over its least period."""
+    guess = Guess(found.angle, found.velocity, UNKNOWN)
+    return Candidate(period, candidate.row, guess, UNBOUNDED, candidate.mode)
+
+
 @njit(**AST_INLINE)
-def check_periodicity(p, section_time, workspace, count, most_lag, most_work, known, since, neutral):
-    """Compare a motion with the periodic orbit that its last ``count`` states approach.
+def orbit_near(clocked, candidate, workspace):
+    """Return the orbit that Newton's method finds from a candidate, as a check that is still to be made."""
+    lag, mode, symmetric, peak = candidate.lag, candidate.mode, False, math.nan
+    mapping = ReturnMap(clocked, lag, 0.0, 1.0)
+    found = find_fixed_point(
+        mapping, candidate.guess, candidate.most_work, NEARBY, workspace.trial, workspace.nothing
+    )
+    if lag == mode.order and size(found.angle - mode.angle, found.velocity - mode.velocity) <= SAME:
+        symmetric, peak = True, largest_on(clocked, mode.arc, mode.half, 0.0)
+    return PeriodicityCheck(NOT_YET, lag, symmetric, found, peak, math.nan, 0, found.work)
+
+
+@njit(**AST_INLINE)
+def check_periodicity(p, run, workspace, most_lag, most_work, known, since, neutral):
+    """Compare a motion with the periodic orbit that its last states approach.
 
     First with the ``known`` one, found ``since`` cycles ago, and with no other while the motion comes nearer to
     it, much nearer if it repels: what was born of it lies beside it; then with the limit of the returns, or the
     symmetric mode beside it; then, if they have none, with what is nearest to a close return. A ``neutral`` orbit
     attracts nothing: the motion must be on it.
     """
-    section, nothing, columns, scratch = (
-        workspace.section,
-        workspace.nothing,
-        workspace.trial,
-        workspace.scratch,
-    )
-    clocked, row, work, candidate, seen = later(p, section_time), count - 1, 0, KNOWN, no_cycle(0)
-    angle, velocity, lag, found, enough = 0.0, 0.0, 0, known.found, UNBOUNDED
-    symmetric, peak, waits, mode = known.symmetric, known.peak, UNKNOWN, nearest(clocked, 0, 0.0, 0.0)
-    while candidate < NO_MORE:
-        trying, candidate = candidate, (NO_MORE if candidate == REFINED else candidate + 1)
-        if trying == KNOWN:
-            lag, row = known.period, count - 1 - since % max(known.period, 1)
-            lag = lag if row >= lag else 0
-        elif trying == APPROACHED:
-            row = count - 1
-            lag, angle, velocity = approached(section, count, most_lag)
-            mode = nearest(clocked, lag, angle, velocity)
-            left = size(section[row, 0] - angle, section[row, 1] - velocity)
-            if mode.distance <= max(BESIDE * left, SAME):
-                angle, velocity, waits = mode.angle, mode.velocity, (mode.half - mode.since, mode.half)
-        elif trying == CLOSEST:
-            lag, away = closest_return(section, count, most_lag)
-            lag = lag if away <= CLOSE else 0
-            angle, velocity = section[row, 0], section[row, 1]
-            # Only far from an orbit is Newton's method dear.
-            enough = most_work - work
-        if lag == 0 or enough <= 0:
+    count, clocked = run.count, later(p, run.section_time)
+    trying, orbit, seen, work = KNOWN, known, no_cycle(0), 0
+    candidate = known_candidate(clocked, known, count, since)
+    while trying < NO_MORE:
+        candidate = propose(clocked, workspace.section, count, most_lag, most_work - work, candidate, trying)
+        now, trying = trying, (NO_MORE if trying == REFINED else trying + 1)
+        if candidate.lag == 0 or candidate.most_work <= 0:
             continue
-        if trying != KNOWN:
-            found = find_fixed_point(
-                clocked, angle, velocity, lag, enough, nothing, columns, waits, NEARBY, 0.0, 1.0
-            )
-            work += found.work
-            waits, symmetric, peak = UNKNOWN, False, math.nan
-            if not found.converged:
+        if now != KNOWN:
+            orbit = orbit_near(clocked, candidate, workspace)
+            work += orbit.work
+            if not orbit.found.converged:
                 continue
-            if lag == mode.order and size(found.angle - mode.angle, found.velocity - mode.velocity) <= SAME:
-                symmetric, peak = True, largest_on(clocked, mode.arc, mode.half, 0.0)
-        answer, away, coming = compare(p, section, row, lag, found)
+        answer, away, coming = compare(p, workspace.section, candidate.row, candidate.lag, orbit.found)
         if answer != REACHED and not (neutral and away <= NEUTRAL):
-            coming = max(coming - (count - 1 - row), 0)
-            nearer = away < known.distance * (1.0 if attracts(p, found.image) else MUCH_NEARER)
-            if trying == KNOWN and answer == NOT_YET and nearer:
-                return PeriodicityCheck(NOT_YET, lag, symmetric, found, peak, away, coming, work)
-            # Of what is found time and again somewhere else nothing is foretold.
-            coming = coming if trying == APPROACHED and known.period == 0 else 0
-            if trying != KNOWN or answer == ON_EVENT:
-                seen = PeriodicityCheck(answer, lag, symmetric, found, peak, away, coming, work)
-            if answer == ON_EVENT or trying == APPROACHED:
+            coming = max(coming - (count - 1 - candidate.row), 0)
+            nearer = away < known.distance * (1.0 if attracts(p, orbit.found.image) else MUCH_NEARER)
+            if now == KNOWN and answer == NOT_YET and nearer:
+                return answered(orbit, NOT_YET, away, coming, work)
+            # Of what is found time and again somewhere else nothing is predicted.
+            coming = coming if now == APPROACHED and known.period == 0 else 0
+            if now != KNOWN or answer == ON_EVENT:
+                seen = answered(orbit, answer, away, coming, work)
+            if answer == ON_EVENT or now == APPROACHED:
                 break
             continue
-        if symmetric:
-            return PeriodicityCheck(REACHED, lag, True, found, peak, away, 0, work)
-        period, mirrored, whole = least_period(p, clocked, found, lag, scratch, nothing)
+        if orbit.symmetric:
+            return answered(orbit, REACHED, away, 0, work)
+        period, mirrored, whole = least_period(p, clocked, orbit.found, candidate.lag, workspace)
         work += whole.impacts + whole.brace_hits
-        if period == lag:
-            return PeriodicityCheck(REACHED, period, mirrored, found, whole.peak, away, 0, work)
-        angle, velocity, lag, enough, candidate = found.angle, found.velocity, period, UNBOUNDED, REFINED
-    return PeriodicityCheck(*seen[:7], work)
+        if period == candidate.lag:
+            return PeriodicityCheck(REACHED, period, mirrored, orbit.found, whole.peak, away, 0, work)
+        candidate, trying = refined_candidate(candidate, orbit.found, period), REFINED
+    return with_work(seen, work)
 
 
 @njit(**INTERNAL)
@@ -195,20 +246,12 @@ def attracts(p, image):
 
 
 @njit(**INTERNAL)
-def least_period(p, clocked, found, lag, scratch, nothing):
+def least_period(p, clocked, found, lag, workspace):
     """Return (least period, whether the orbit is its own mirror image, its image) of an orbit that closes after ``lag`` cycles."""
-    image = image_after(
-        clocked,
-        found.angle,
-        found.velocity,
-        lag,
-        0.5 * p.period,
-        scratch,
-        nothing,
-        nothing.columns,
-        True,
-        found.image.waits,
-    )
+    scratch, nothing = workspace.scratch, workspace.nothing
+    guess = Guess(found.angle, found.velocity, found.image.waits)
+    recording = Recording(0.5 * p.period, scratch, nothing.events, True, False)
+    image = image_after(ReturnMap(clocked, lag, 0.0, 1.0), guess, recording, nothing.tangent)
     same = max(SAME, 100.0 * found.error)
     period, mirrored = repetition(scratch, scratch, found.angle, found.velocity, lag, same)
     return period, mirrored, image

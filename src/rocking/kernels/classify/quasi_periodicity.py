@@ -6,10 +6,9 @@ from typing import NamedTuple
 from numba import njit
 
 from rocking.kernels.arc.solution import arc_from
-from rocking.kernels.compile_options import AST_INLINE, INTERNAL
+from rocking.kernels.compile_options import INTERNAL
 from rocking.kernels.event_kinds import BRACE, FLIGHT, IMPACT, NONE
 from rocking.kernels.march.event_rows import state_at
-from rocking.kernels.march.march import PAUSED, RELEASED, march_on
 from rocking.kernels.numerics.averages import bumps, digits_with
 
 MIN_FLIGHTS = 192
@@ -117,33 +116,6 @@ def section_needed(growth, target, max_cycles, rows):
     On a torus differences never grow by more than ``agreement`` would allow at the end.
     """
     return growth <= max(OUTGROWN, math.log(max_cycles) + SHEAR) or target > max_cycles - rows
-
-
-@njit(**AST_INLINE)
-def follow_flights(p, progress, flights, target, most_events, section_time, count, workspace, wanted):
-    """(status, progress, flights, rows of the section, if they are ``wanted``) at the end of cycle ``target``."""
-    while True:
-        before = progress
-        status, progress, _, written = march_on(
-            p,
-            before,
-            target,
-            section_time,
-            workspace.nothing.section,
-            workspace.events,
-            workspace.columns,
-            workspace.growth,
-            True,
-            True,
-        )
-        flights = collect(p, flights, written, workspace.events, workspace.flights)
-        if wanted:
-            count = append_lazy_rows(
-                p, before, workspace.events, written, progress, section_time, workspace.section, count
-            )
-        on = status in (PAUSED, RELEASED)
-        if not on or progress.impacts + progress.brace_hits > most_events:
-            return status, progress, flights, count
 
 
 @njit(**INTERNAL)

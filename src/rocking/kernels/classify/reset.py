@@ -7,8 +7,16 @@ from numba import njit
 
 from rocking.kernels.compile_options import AST_INLINE, INTERNAL
 from rocking.kernels.event_kinds import FLIGHT
-from rocking.kernels.march.march import PAUSED, RELEASED, Progress, march_on
-from rocking.kernels.march.tangent import normalised, read_tangent, write_tangent
+from rocking.kernels.march.march import PAUSED, RELEASED, march_on
+from rocking.kernels.march.progress import Progress, Recording
+from rocking.kernels.march.tangent import (
+    Tangent,
+    TangentState,
+    read_tangent,
+    write_registers,
+    write_tangent,
+)
+from rocking.kernels.numerics.replace_fields import replacing
 
 # Differences that grow by less between two releases leave the later one certain in double precision.
 MAX_STRAIN = math.log(1e8)
@@ -43,6 +51,9 @@ class ResetTracker(NamedTuple):
     brace_hits: int
     orbit_peak: float
     peak: float
+
+
+from_release = replacing(Progress, "peak", "strain")
 
 
 @njit(**INTERNAL)
@@ -126,56 +137,44 @@ def at_release(p, watch, progress):
         if not visit.strain < MAX_STRAIN:
             half_periods = -half_periods
     now = ResetRecord(
-        True, progress.cycle, arc.start, progress.impacts, progress.brace_hits, False, -math.inf, 0.0
+        seen=True,
+        cycle=progress.cycle,
+        time=arc.start,
+        impacts=progress.impacts,
+        brace_hits=progress.brace_hits,
+        otherwise=False,
+        strain=-math.inf,
+        peak=0.0,
     )
-    anew = Progress(
-        progress.mode,
-        progress.cycle,
-        arc,
-        progress.pending,
-        progress.crowd,
-        progress.impacts,
-        progress.brace_hits,
-        arc.angle,
-        progress.no_return,
-        progress.last_wait,
-        progress.wait_before,
-        -math.inf,
-    )
+    anew = from_release(progress, arc.angle, -math.inf)
     peak = max(watch.peak, progress.peak)
     base, brace = (now, brace) if lifts else (base, now)
     return ResetTracker(anew, base, brace, half_periods, impacts, brace_hits, visit.peak, peak)
 
 
 @njit(**AST_INLINE)
-def follow(p, watch, target, most_events, section_time, section, nothing, columns, growth):
+def follow(p, watch, target, most_events, section_time, section, tangent, nothing):
     """(status, watch) at the end of cycle ``target``, or at the release that decides; RELEASED only then.
 
-    ``section`` must have a row for every cycle to come, or none. ``columns`` (2, 2) carries differences
-    since the last release; with ``growth`` (1,) from the start.
+    ``section`` must have a row for every cycle to come, or none. ``tangent`` carries differences since the last release;
+    where its growth is measured from the start.
     """
     rows = 0
-    tracked = columns if watch.base.seen or watch.brace.seen or growth.shape[0] > 0 else nothing.columns
+    seen = watch.base.seen or watch.brace.seen
+    tracked = tangent.columns if seen or tangent.growth.shape[0] > 0 else nothing.tangent.columns
     while True:
-        status, progress, taken, _ = march_on(
-            p,
-            watch.progress,
-            target,
-            section_time,
-            section if rows == 0 else section[rows:],
-            nothing.events,
-            tracked,
-            growth,
-            True,
-            True,
+        recording = Recording(
+            section_time, section if rows == 0 else section[rows:], nothing.events, True, True
         )
+        state = TangentState(tracked, tangent.growth)
+        status, progress, taken, _ = march_on(p, watch.progress, target, recording, state)
         rows += taken
         if status == RELEASED:
             watch = at_release(p, watch, progress)
             if watch.half_periods != 0:
                 return RELEASED, watch
-            tracked = columns
-            begin_tangent(columns, growth)
+            tracked = tangent.columns
+            begin_tangent(tangent)
             continue
         watch = moved_on(watch, progress)
         if status != PAUSED or progress.impacts + progress.brace_hits > most_events:
@@ -183,17 +182,17 @@ def follow(p, watch, target, most_events, section_time, section, nothing, column
 
 
 @njit(**INTERNAL)
-def begin_tangent(columns, growth):
-    """Differences of size 1 along both axes."""
-    columns[0, 0], columns[0, 1], columns[1, 0], columns[1, 1] = 1.0, 0.0, 0.0, 1.0
-    growth[:] = 0.0
+def begin_tangent(tangent):
+    """Begin with differences of size 1 along both axes."""
+    write_tangent(tangent.columns, Tangent(1.0, 0.0, 0.0, 1.0))
+    tangent.growth[:] = 0.0
 
 
 @njit(**INTERNAL)
-def begin_measuring(watch, columns, growth):
-    """From here on growth is measured; what differences have grown to since the last release stays in it."""
+def begin_measuring(watch, tangent):
+    """Measure growth from here on; what differences have grown to since the last release stays in it."""
     if watch.progress.mode == FLIGHT and (watch.base.seen or watch.brace.seen):
-        growth[:] = 0.0
-        write_tangent(columns, normalised(read_tangent(columns), growth))
+        tangent.growth[:] = 0.0
+        write_registers(read_tangent(tangent.columns), tangent)
     else:
-        begin_tangent(columns, growth)
+        begin_tangent(tangent)

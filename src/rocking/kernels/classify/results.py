@@ -6,7 +6,6 @@ import numpy as np
 from numba import njit
 
 from rocking.kernels.compile_options import INTERNAL
-from rocking.kernels.parameters import make
 
 
 class ResultArrays(NamedTuple):
@@ -39,12 +38,6 @@ def empty_results(count):
         *(np.zeros(count, np.int32) for _ in range(2)),
         np.zeros((count, 3)),
     )
-
-
-@njit(**INTERNAL)
-def parameters_from_row(row):
-    """The system of a row of what ``make`` takes."""
-    return make(row[0], row[1], row[2], row[3], row[4], row[5], row[6])
 
 
 @njit(**INTERNAL)

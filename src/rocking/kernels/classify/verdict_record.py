@@ -1,4 +1,4 @@
-"""The answers of the cascade: what a response is, on which ground, and the numbers that go with it."""
+"""The verdicts of the decision cascade: what a response is, on which ground, and the numbers that go with it."""
 
 import math
 from enum import IntEnum
@@ -6,6 +6,7 @@ from typing import NamedTuple
 
 from numba import njit
 
+from rocking.kernels.classify.classifier_state import batch_of
 from rocking.kernels.classify.periodicity import REACHED, PeriodicityCheck, constant_image, no_cycle
 from rocking.kernels.classify.quasi_periodicity import CHAOTIC_DIGITS
 from rocking.kernels.classify.reset import largest_angle
@@ -101,68 +102,77 @@ class Judgement(NamedTuple):
     digits: float
 
 
+class Findings(NamedTuple):
+    """What the end of the budget finds of a motion that nothing has decided."""
+
+    measured: int  # batches over which the exponent is measured
+    lossless: bool
+    digits: float  # to which averages agree
+    stands: bool  # on an unstable orbit
+    lingers: bool  # near one
+
+
+UNKNOWN_EXPONENT = math.nan, math.nan
+
+
 @njit(**INTERNAL)
-def pack_verdict(kind, ground, watch, work, exponent, error, transient, cycle, section_time, digits):
-    """A judgement as nested numbers: what a kernel hands to Python."""
-    progress, peak = watch.progress, largest_angle(watch)
-    real, imaginary, other_real, other_imaginary = multipliers(cycle.found.image.tangent)
-    if cycle.peak > peak:
+def pack_verdict(kind, ground, watch, exponent, transient, check, section_time, digits):
+    """Return the flat verdict that kernels hand to Python, in the order of ``Judgement``; ``exponent`` with its standard error."""
+    progress, peak, found = watch.progress, largest_angle(watch), check.found
+    real, imaginary, other_real, other_imaginary = multipliers(found.image.tangent)
+    if check.peak > peak:
         # an orbit approached from below
-        peak = cycle.peak
+        peak = check.peak
     return (
         kind,
         ground,
-        cycle.period,
-        cycle.symmetric,
-        cycle.found.image.impacts,
-        cycle.found.image.brace_hits,
+        check.period,
+        check.symmetric,
+        found.image.impacts,
+        found.image.brace_hits,
         real,
         imaginary,
         other_real,
         other_imaginary,
-        exponent,
-        error,
+        exponent[0],
+        exponent[1],
         peak,
-        cycle.peak,
+        check.peak,
         transient,
         progress.cycle,
-        work + progress.impacts + progress.brace_hits,
+        check.work + progress.impacts + progress.brace_hits,
         section_time,
-        cycle.found.angle,
-        cycle.found.velocity,
-        cycle.found.residual,
-        cycle.distance,
+        found.angle,
+        found.velocity,
+        found.residual,
+        check.distance,
         digits,
     )
 
 
 @njit(**INTERNAL)
 def undecided(watch):
-    """No judgement yet."""
-    return pack_verdict(OPEN, UNWATCHED, watch, 0, math.nan, math.nan, -1, no_cycle(0), 0.0, math.nan)
+    """Return no verdict yet."""
+    return pack_verdict(OPEN, UNWATCHED, watch, UNKNOWN_EXPONENT, -1, no_cycle(0), 0.0, math.nan)
 
 
 @njit(**INTERNAL)
 def ended(status, watch, work):
-    """The judgement of a motion whose end is proved, by no return, rest for ever or a release like an earlier one, or too dear."""
-    progress, none = watch.progress, no_cycle(work)
+    """Return the verdict on a run that stopped early: overturned, at rest, periodic by a release, or too many events."""
+    cycle, none = watch.progress.cycle, no_cycle(work)
     if status == OVERTURNED:
-        return pack_verdict(
-            OVERTURNS, NO_RETURN, watch, work, math.nan, math.nan, progress.cycle, none, 0.0, math.nan
-        )
+        return pack_verdict(OVERTURNS, NO_RETURN, watch, UNKNOWN_EXPONENT, cycle, none, 0.0, math.nan)
     if status == STILL:
-        return pack_verdict(
-            REST, STILL_FOR_EVER, watch, work, -math.inf, 0.0, progress.cycle, none, 0.0, math.nan
-        )
+        return pack_verdict(REST, STILL_FOR_EVER, watch, (-math.inf, 0.0), cycle, none, 0.0, math.nan)
     if status == RELEASED and watch.half_periods > 0:
         return released(watch, work)
     ground = UNRESOLVED_RESET if status == RELEASED else CROWDED
-    return pack_verdict(UNDETERMINED, ground, watch, work, math.nan, math.nan, -1, none, 0.0, math.nan)
+    return pack_verdict(UNDETERMINED, ground, watch, UNKNOWN_EXPONENT, -1, none, 0.0, math.nan)
 
 
 @njit(**INTERNAL)
 def released(watch, work):
-    """The judgement of a motion that was released as it was before: superstable, and symmetric after an odd number of half cycles.
+    """Return the verdict on a motion that was released as it was before: superstable, and symmetric after an odd number of half cycles.
 
     From one release to the next a symmetric motion goes through half of its period.
     """
@@ -173,57 +183,56 @@ def released(watch, work):
     brace_hits = halves * watch.brace_hits if watch.brace_hits >= 0 else -1
     image = constant_image(impacts, brace_hits)
     release = FixedPoint(True, arc.side * arc.angle, 0.0, image, 0.0, 0.0, 0)
-    orbit = PeriodicityCheck(REACHED, period, symmetric, release, watch.orbit_peak, 0.0, 0, 0)
+    orbit = PeriodicityCheck(REACHED, period, symmetric, release, watch.orbit_peak, 0.0, 0, work)
     transient = max(watch.progress.cycle - (half_periods + 1) // 2, 0)
-    return pack_verdict(PERIODIC, RESET, watch, work, -math.inf, 0.0, transient, orbit, arc.start, math.nan)
+    return pack_verdict(PERIODIC, RESET, watch, (-math.inf, 0.0), transient, orbit, arc.start, math.nan)
 
 
 @njit(**INTERNAL)
-def periodic(p, ground, watch, work, cycle, section_time):
-    """The judgement of a motion on a periodic orbit."""
-    real, imaginary, _, _ = multipliers(cycle.found.image.tangent)
-    exponent, error = math.log(math.hypot(real, imaginary)) / (cycle.period * p.period), 0.0
+def periodic(p, ground, watch, check, section_time):
+    """Return the verdict on a motion that has reached a periodic orbit."""
+    real, imaginary, _, _ = multipliers(check.found.image.tangent)
+    exponent = math.log(math.hypot(real, imaginary)) / (check.period * p.period), 0.0
     if ground == NEUTRAL_ORBIT:
         # the multipliers' product is 1, and differences were seen to grow no faster than linearly
-        exponent, error = 0.0, math.nan
-    transient = max(watch.progress.cycle - cycle.period, 0)
-    return pack_verdict(
-        PERIODIC, ground, watch, work, exponent, error, transient, cycle, section_time, math.nan
-    )
+        exponent = 0.0, math.nan
+    transient = max(watch.progress.cycle - check.period, 0)
+    return pack_verdict(PERIODIC, ground, watch, exponent, transient, check, section_time, math.nan)
 
 
 @njit(**INTERNAL)
 def torus(watch, work, section_time, digits):
-    """The judgement of a motion whose averages converge as on a torus."""
-    return pack_verdict(
-        QUASI_PERIODIC, TORUS, watch, work, 0.0, math.nan, 0, no_cycle(work), section_time, digits
-    )
+    """Return the verdict on a motion whose averages converge as on a torus."""
+    none = no_cycle(work)
+    return pack_verdict(QUASI_PERIODIC, TORUS, watch, (0.0, math.nan), 0, none, section_time, digits)
 
 
 @njit(**INTERNAL)
-def unsettled(p, watch, work, max_cycles, batch_time, measured, lossless, digits, batches, stands, lingers):
-    """The judgement at the end of the budget: chaotic if all of this shows it, else undetermined.
+def unsettled(p, watch, work, max_cycles, batches, findings):
+    """Return the verdict at the end of the budget: chaotic if all of this shows it, else undetermined.
 
-    The exponent is clearly positive; over the batches, each of ``batch_time``, differences grew far; the batches are
-    independent; and the motion neither ``stands`` on an unstable orbit nor ``lingers`` near one.
+    The exponent is clearly positive; over the batches differences grew far; the batches are independent; and the motion
+    neither stands on an unstable orbit nor lingers near one.
     """
-    mean, error, correlation = batch_error(batches) if measured == BATCHES else (math.nan, math.nan, math.nan)
+    mean, error, correlation = math.nan, math.nan, math.nan
+    if findings.measured == BATCHES:
+        mean, error, correlation = batch_error(batches)
     needed = CHAOS_NEEDS if p.brace_angle == math.inf else CHAOS_NEEDS_WITH_BRACES
     kind, ground = UNDETERMINED, EXPONENT
     if max_cycles < needed:
         ground = UNWATCHED
-    elif lossless and digits >= CHAOTIC_DIGITS:
+    elif findings.lossless and findings.digits >= CHAOTIC_DIGITS:
         ground = BETWEEN
     elif not (0.0 < error < math.inf and mean >= CLEARLY * error):
         ground = INDISTINCT
-    elif stands:
+    elif findings.stands:
         ground = STANDING
-    elif lingers:
+    elif findings.lingers:
         ground = LINGERING
-    elif mean * batch_time * BATCHES < FAR:
+    elif mean * (batch_of(max_cycles) * p.period) * BATCHES < FAR:
         ground = LITTLE_GROWTH
     elif correlation > MAX_CORRELATION:
         ground = CORRELATED
     else:
         kind = CHAOTIC
-    return pack_verdict(kind, ground, watch, work, mean, error, -1, no_cycle(work), 0.0, digits)
+    return pack_verdict(kind, ground, watch, (mean, error), -1, no_cycle(work), 0.0, findings.digits)

@@ -1,8 +1,10 @@
-"""Working memory of the cascade: made once, for one system after another."""
+"""Workspace of the decision cascade: made once, for one system after another."""
 
 from typing import NamedTuple
 
 import numpy as np
+
+from rocking.kernels.march.tangent import TangentState
 
 # Cycles between looks at a motion that loses nothing.
 LEG = 128
@@ -17,12 +19,11 @@ class NoRecording(NamedTuple):
 
     section: np.ndarray  # (0, 4)
     events: np.ndarray  # (0, 8)
-    columns: np.ndarray  # (0, 2)
-    growth: np.ndarray  # (0,)
+    tangent: TangentState  # (0, 2), (0,)
 
 
 class Workspace(NamedTuple):
-    """Working memory, for one system after another."""
+    """Workspace, for one system after another."""
 
     section: np.ndarray  # (n, 8), the last cycles: ``note_state``, then ``quasi_periodicity.sketch``
     scratch: np.ndarray  # (n, 4), a trial orbit's; as many of the last cycles are looked at
@@ -30,22 +31,21 @@ class Workspace(NamedTuple):
     flights: np.ndarray  # (n, 2)
     weights: np.ndarray  # (n/4 + 1,)
     batches: np.ndarray
-    columns: np.ndarray  # (2, 2)
-    trial: np.ndarray  # (2, 2)
-    growth: np.ndarray  # (1,)
+    tangent: TangentState  # (2, 2), (1,)
+    trial: np.ndarray  # (2, 2), differences of a trial orbit
     nothing: NoRecording
 
 
 def padded_row_length(count):
-    """So many numbers, or a few more, that of rows of them not all begin on the same line of the fast memory's pages.
+    """Return a row length of at least ``count``, padded so that consecutive rows start in different sets of the cache.
 
-    Lanes write into all their rows in turn; where those compete for a few lines each write waits.
+    Lanes write into all their rows in turn; equal alignment causes conflict misses.
     """
     return count + (8 - count) % 512
 
 
 def make_workspace(max_cycles, max_period):
-    """Working memory for runs of up to ``max_cycles`` and orbits of up to ``max_period``."""
+    """Make the workspace for runs of up to ``max_cycles`` and orbits of up to ``max_period``."""
     rows = max(4 * max_period, LEG) + 1
     flights = padded_row_length(min(max(4 * max_cycles, 1024), 1 << 18))
     return Workspace(
@@ -55,8 +55,12 @@ def make_workspace(max_cycles, max_period):
         np.empty((flights, 2)),
         np.empty(flights // 4 + 1),
         np.empty(BATCHES),
+        TangentState(np.empty((2, 2)), np.empty(1)),
         np.empty((2, 2)),
-        np.empty((2, 2)),
-        np.empty(1),
-        NoRecording(np.empty((0, 4)), np.empty((0, 8)), np.empty((0, 2)), np.empty(0)),
+        no_recording(),
     )
+
+
+def no_recording():
+    """Make the arrays of ``NoRecording``."""
+    return NoRecording(np.empty((0, 4)), np.empty((0, 8)), TangentState(np.empty((0, 2)), np.empty(0)))

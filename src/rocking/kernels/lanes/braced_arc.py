@@ -9,18 +9,11 @@ import math
 
 from numba import njit
 
-from rocking.kernels.arc.bracket import MARGIN
-from rocking.kernels.arc.enclosure import stays_between
-from rocking.kernels.arc.fast_path import I2, I3, I4, I5, I6, I7, I8, REACH
+from rocking.kernels.arc.enclosure import grazes, stays_between
+from rocking.kernels.arc.fast_path import REACH
+from rocking.kernels.arc.taylor import reversion, series, velocity_after, within_a_factor_of_two
 from rocking.kernels.compile_options import SIMD_INLINE
-from rocking.kernels.lanes.evaluate import (
-    correction,
-    derivatives,
-    halved,
-    instant_of,
-    set_next,
-    velocity_after,
-)
+from rocking.kernels.lanes.evaluate import derivatives, instant_of, set_next
 from rocking.kernels.lanes.state import AT_EVENT, BRACKET, EXTEND, FAILED, REFINE
 from rocking.kernels.numerics.elementary import fma
 from rocking.kernels.numerics.simd import choose
@@ -67,22 +60,6 @@ def coefficients(s, i, u, c, at_brace):
 
 
 @njit(**SIMD_INLINE)
-def series(c, x):
-    """Return w and its first four derivatives a time x later from its first nine derivatives, as in ``fast_path.polished``."""
-    c0, c1, c2, c3, c4, c5, c6, c7, c8 = c
-    q = x * x
-    h = q * q
-    w4 = fma(q, I2 * c6, fma(x, c5, c4))
-    w3 = fma(q, fma(x, I3 * c6, I2 * c5), fma(x, c4, c3))
-    w2 = fma(h, fma(x, I5 * c7, I4 * c6), fma(q, fma(x, I3 * c5, I2 * c4), fma(x, c3, c2)))
-    w1 = fma(q, I6 * c7, fma(x, I5 * c6, I4 * c5))
-    w1 = fma(h, w1, fma(q, fma(x, I3 * c4, I2 * c3), fma(x, c2, c1)))
-    w0 = fma(h, I8 * c8, fma(q, fma(x, I7 * c7, I6 * c6), fma(x, I5 * c5, I4 * c4)))
-    w0 = fma(h, w0, fma(q, fma(x, I3 * c3, I2 * c2), fma(x, c1, c0)))
-    return w0, w1, w2, w3, w4
-
-
-@njit(**SIMD_INLINE)
 def predict_event(s, i):
     """Write the next trial time of lane i: where the series has its event, or, where that tells none, further on."""
     u, v, aims = s.knot_angle[i], s.knot_rate[i], s.stage[i] == BRACKET
@@ -97,18 +74,11 @@ def predict_event(s, i):
         per = 1.0 / dw
         y = -w * per
         told = told & (dw < 0.0)
-        x += y * halved(correction(y, second, third, fourth, per))
+        x += y * within_a_factor_of_two(reversion(y, second, third, fourth, per))
     told = told & (x > 0.0) & (x <= farthest)
     s.time[i] = choose(aims, s.about[i] + choose(told, x, rough), s.time[i])
     s.at_brace[i] = choose(aims, choose(at_brace, 1.0, 0.0), s.at_brace[i])
     s.stage[i] = choose(aims, choose(told, REFINE, EXTEND), s.stage[i])
-
-
-@njit(**SIMD_INLINE)
-def grazes(s, i, t, slope):
-    """Whether the arc of lane i arrives so slowly that the last digits tell whether it arrives at all, as ``next_event.grazes``."""
-    acceleration = s.amplitude[i] + 1.0
-    return slope * slope <= MARGIN * acceleration * (s.angle[i] + t * (abs(s.velocity[i]) + t * acceleration))
 
 
 @njit(**SIMD_INLINE)
@@ -122,7 +92,7 @@ def correct_event(s, i):
     left = choose(at_brace, risen - (brace_angle - angle), u)
     per = 1.0 / v
     y = -left * per
-    factor = correction(y, second, third, fourth, per)
+    factor = reversion(y, second, third, fourth, per)
     x = y * factor
     slope = velocity_after((v, second, third, fourth, fifth), x)
     towards = choose(at_brace, v, -v)
@@ -137,13 +107,14 @@ def correct_event(s, i):
         (s.knot_angle[i], s.knot_rate[i]),
         end,
     )
-    arrived = heads & close & free & (grazes(s, i, t + x, slope) == False)  # noqa: E712
+    touches = grazes(s.amplitude[i], angle, s.velocity[i], t + x, slope)
+    arrived = heads & close & free & (touches == False)  # noqa: E712
     # of a lane that has not arrived nobody asks for these
     s.wait[i] = choose(arrived, t + x, s.wait[i])
     s.speed[i] = abs(slope)
     set_next(s, i, x, cosine, sine)
     nears = heads & (close == False) & (towards > 0.0)  # noqa: E712
-    choose_trial(s, i, (u, v, cosine, sine), arrived, free, nears, t + y * halved(factor))
+    choose_trial(s, i, (u, v, cosine, sine), arrived, free, nears, t + y * within_a_factor_of_two(factor))
 
 
 @njit(**SIMD_INLINE)

@@ -3,10 +3,10 @@
 from numba import njit
 
 from rocking.kernels.compile_options import SIMD_INLINE
-from rocking.kernels.lanes.impact import propagate_tangent, saltation_shear, set_request, turn_clock
+from rocking.kernels.lanes.impact import next_forcing_term, propagate_tangent, set_request, turn_clock
 from rocking.kernels.lanes.state import AT_EVENT, BRACKET, CHECK_ZENO, NEW_ARC, NO_REQUEST, UPDATE_PEAK
 from rocking.kernels.march.impact_law import SLOW
-from rocking.kernels.numerics.elementary import fma
+from rocking.kernels.march.tangent import brace_gain, impact_gain
 from rocking.kernels.numerics.simd import choose
 
 
@@ -23,11 +23,10 @@ def request_before_event(s, i):
 
 @njit(**SIMD_INLINE)
 def carry_through_event(s, i):
-    """Carry the difference in lane i through its event, as ``tangent.event_map`` does."""
-    hit, r = s.at_brace[i] > 0.0, s.brace_restitution[i]
-    pressed = (1.0 + r) * fma(-s.amplitude[i], s.next_cosine[i], s.brace_angle[i] - 1.0)
-    shear = choose(hit, pressed, saltation_shear(s, i)) / s.speed[i]
-    propagate_tangent(s, i, choose(hit, -r, s.restitution[i]), shear)
+    """Carry the difference in lane i through its event."""
+    hit, r, f = s.at_brace[i] > 0.0, s.brace_restitution[i], next_forcing_term(s, i)
+    pressed, pulled = brace_gain(r, s.brace_angle[i], f), impact_gain(s.restitution[i], f, -1.0)
+    propagate_tangent(s, i, choose(hit, -r, s.restitution[i]), choose(hit, pressed, pulled) / s.speed[i])
 
 
 @njit(**SIMD_INLINE)

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 from numba import njit
 
-from rocking.kernels.arc.bracket import MARGIN
+from rocking.kernels.arc.bracket import MARGIN, may_dip
 from rocking.kernels.arc.first_zero import MAX_ARC_TIME
 from rocking.kernels.compile_options import SIMD_INLINE
 from rocking.kernels.lanes.state import BRACKET, FAILED, GUESS, MINIMUM
@@ -26,13 +26,6 @@ class ConvexStretch(NamedTuple):
     error_right: float
     passed: bool  # no zero is there
     doubtful: bool  # only a dip may hold zeros
-
-
-@njit(**SIMD_INLINE)
-def may_dip(u, du, u_right, du_right, tanh):
-    """``arc.bracket.may_dip`` on a part of a convex stretch, ``tanh`` of its length."""
-    crossed = fma(u, du_right, -u_right * du)
-    return (u + du < 0.0) & (du_right > u_right) & (crossed < tanh * fma(u, u_right, -du * du_right))
 
 
 @njit(**SIMD_INLINE)

@@ -2,17 +2,10 @@
 
 from numba import njit
 
-from rocking.kernels.arc.fast_path import I2, I3, I4
+from rocking.kernels.arc.taylor import I2, I3, I4
 from rocking.kernels.compile_options import SIMD_INLINE
 from rocking.kernels.numerics.elementary import fma
 from rocking.kernels.numerics.simd import choose, circular, hyperbolic
-
-
-@njit(**SIMD_INLINE)
-def correction(y, second, third, fourth, per):
-    """``first_zero.reversion``: what a Newton step y must be multiplied by, given the higher derivatives and 1/u'."""
-    a, b, c = I2 * second * per, I3 * third * per, I4 * fourth * per
-    return fma(y, fma(y, fma(y, fma(5.0 * a, fma(-a, a, b), -c), fma(2.0 * a, a, -b)), -a), 1.0)
 
 
 @njit(**SIMD_INLINE)
@@ -24,12 +17,6 @@ def derivatives(s, i, there):
     c2, c3 = u - (1.0 + acceleration), v + df
     c4, c5 = c2 + ddf, fma(-square, df, c3)
     return u, v, c2, c3, c4, c5, fma(-square, ddf, c4)
-
-
-@njit(**SIMD_INLINE)
-def halved(factor):
-    """A factor between 1/2 and 2; 1 where it is not."""
-    return choose((factor > 0.5) & (factor < 2.0), factor, 1.0)
 
 
 @njit(**SIMD_INLINE)
@@ -65,13 +52,6 @@ def evaluate_hyperbolic(s, i):
 def evaluate_circular(s, i):
     """Evaluate the circular functions of the trial time of lane i."""
     s.sin_x[i], s.versine[i], s.lag[i], s.deficit[i] = circular(s.frequency[i], s.time[i])
-
-
-@njit(**SIMD_INLINE)
-def velocity_after(derivatives, x):
-    """Return u' a small time x later by its Taylor series, from (u', ..., the fifth derivative)."""
-    v, second, third, fourth, fifth = derivatives
-    return fma(x, fma(x, fma(x, fma(x, I4 * fifth, I3 * fourth), I2 * third), second), v)
 
 
 @njit(**SIMD_INLINE)

@@ -5,7 +5,7 @@ import math
 import numpy as np
 from numba import njit
 
-from rocking.kernels.arc.fast_path import I2, I4, I6, I8
+from rocking.kernels.arc.extrema import may_rise_above
 from rocking.kernels.compile_options import SIMD_INLINE
 from rocking.kernels.lanes.state import (
     AT_EVENT,
@@ -22,12 +22,12 @@ from rocking.kernels.lanes.state import (
     UPDATE_PEAK,
     log_is_full,
 )
+from rocking.kernels.march.tangent import carry_along, carry_through, impact_gain
 from rocking.kernels.numerics.elementary import fma
 from rocking.kernels.numerics.simd import ROUGHLY, both_exponentials, choose, logarithms_of_ratios
 
 # c+ and c- below this tell a crest and its time well enough.
 TOLD = -1e-5
-RIGHT_ANGLE = 0.5 * math.pi
 
 
 @njit(**SIMD_INLINE)
@@ -54,25 +54,23 @@ def request_before_impact(s, i):
 
 
 @njit(**SIMD_INLINE)
-def saltation_shear(s, i):
-    """Return the shear of an impact in lane i times the speed, as ``tangent.event_map`` has it."""
-    restitution = s.restitution[i]
-    return fma((1.0 - restitution) * s.amplitude[i], s.next_cosine[i], -(1.0 + restitution))
+def next_forcing_term(s, i):
+    """Return the forcing term f at the event of lane i: ``harmonic.forcing_term``."""
+    return fma(-s.amplitude[i], s.next_cosine[i], -1.0)
 
 
 @njit(**SIMD_INLINE)
 def propagate_tangent(s, i, factor, shear):
     """Carry the difference in lane i along the arc and through its event, [[factor, 0], [shear, factor]], where that has arrived."""
-    across, along, arrived = s.delta_angle[i], s.delta_velocity[i], s.stage[i] == AT_EVENT
-    sinh, cosh = s.next_sinh[i], 1.0 + s.next_versinh[i]
-    a, b = fma(cosh, across, sinh * along), fma(sinh, across, cosh * along)
-    a, b = factor * a, fma(shear, a, factor * b)
+    angle, velocity, arrived = s.delta_angle[i], s.delta_velocity[i], s.stage[i] == AT_EVENT
+    ahead = carry_along((angle, velocity), s.next_sinh[i], s.next_versinh[i])
+    a, b = carry_through(ahead, factor, shear)
     size = abs(a) + abs(b)
     large, little = size > LARGE, size < 1.0 / LARGE
     scale = choose(large, 1.0 / LARGE, choose(little, LARGE, 1.0))
     times = choose(large, 64.0, choose(little, -64.0, 0.0))
-    s.delta_angle[i] = choose(arrived, a * scale, across)
-    s.delta_velocity[i] = choose(arrived, b * scale, along)
+    s.delta_angle[i] = choose(arrived, a * scale, angle)
+    s.delta_velocity[i] = choose(arrived, b * scale, velocity)
     s.doublings[i] = choose(arrived, s.doublings[i] + times, s.doublings[i])
     s.events[i] = choose(arrived, s.events[i] + 1.0, s.events[i])
 
@@ -89,7 +87,8 @@ def turn_clock(s, i):
 @njit(**SIMD_INLINE)
 def carry_through_impact(s, i):
     """Carry the difference in lane i through its impact."""
-    propagate_tangent(s, i, s.restitution[i], saltation_shear(s, i) / s.speed[i])
+    gained = impact_gain(s.restitution[i], next_forcing_term(s, i), -1.0)
+    propagate_tangent(s, i, s.restitution[i], gained / s.speed[i])
 
 
 @njit(**SIMD_INLINE)
@@ -128,20 +127,11 @@ def begin_exponentials(s, i):
 
 @njit(**SIMD_INLINE)
 def crest_may_exceed(s, i):
-    """Whether a block in lane i may rise beyond its peak on the arc that begins.
-
-    Its angle is below 1 - m + beta, or less where no crest of the forcing is near the middle (``extrema.closed_form_peak``).
-    """
-    m, response = s.deep[i], s.response[i]
+    """Whether a block in lane i may rise beyond its peak on the arc that begins."""
     away = fma(-0.5, s.inside[i] + s.twice[i], s.cut[i])
     away = fma(-np.floor(fma(away, s.per_period[i], 0.5)), s.period[i], away)
     away = max(abs(away) - ROUGHLY, 0.0)
-    # 1 - cos y >= y**2 (1/2 - a**2/4! + a**4/6! - a**6/8!) for y up to a, and at least 1 from a = pi/2 to pi
-    away_2 = away * away
-    a = min(s.frequency_square[i] * away_2, RIGHT_ANGLE * RIGHT_ANGLE)
-    bowl = s.crest_curvature[i] * fma(-a, fma(-a, fma(-a, I8, I6), I4), I2)
-    above = 1.0 - m + response - s.peak[i]
-    return (above > response) | (above * (m + bowl) > 0.5 * away_2 * bowl * m)
+    return may_rise_above(s.peak[i], s.deep[i], away, s.frequency_square[i], s.response[i])
 
 
 @njit(**SIMD_INLINE)

@@ -5,16 +5,9 @@ import math
 from numba import njit
 
 from rocking.kernels.arc.bracket import MARGIN
-from rocking.kernels.arc.fast_path import I2, I3, I4, I5, I6
+from rocking.kernels.arc.taylor import I2, I3, I4, I5, I6, reversion, velocity_after, within_a_factor_of_two
 from rocking.kernels.compile_options import SIMD_INLINE
-from rocking.kernels.lanes.evaluate import (
-    correction,
-    derivatives,
-    halved,
-    instant_of,
-    set_next,
-    velocity_after,
-)
+from rocking.kernels.lanes.evaluate import derivatives, instant_of, set_next
 from rocking.kernels.lanes.state import AT_EVENT, BRACKET, FAILED, GUESS, MINIMUM, REFINE
 from rocking.kernels.numerics.elementary import fma
 from rocking.kernels.numerics.simd import choose
@@ -100,7 +93,7 @@ def guess(s, i):
     per = 1.0 / dw
     y = -w * per
     bend = y * half_ddw * per
-    x += y * halved(fma(bend, fma(2.0, bend, -1.0), 1.0))
+    x += y * within_a_factor_of_two(fma(bend, fma(2.0, bend, -1.0), 1.0))
     w, dw, _ = taylor(c, x)
     found = s.about[i] + x - w / dw
     found = choose((dw < 0.0) & (found > low) & (found < high), found, 0.5 * (low + high))
@@ -143,7 +136,7 @@ def step(s, i):
     diving = s.stage[i] == MINIMUM
     per = 1.0 / choose(diving, v + second, v)
     y = -u * per
-    factor = correction(y, second, third, fourth, per)
+    factor = reversion(y, second, third, fourth, per)
     # near enough, as ``fast_path.close``: the rest of the way by Taylor series
     bend, twist = y * per * second, y * (y * per) * third
     close = (v < 0.0) & (abs(y) * max(1.0, s.frequency[i]) < NEAR)
@@ -153,7 +146,7 @@ def step(s, i):
     # of a lane that has not arrived nobody asks for these
     s.speed[i] = -velocity_after((v, second, third, fourth, fifth), x)
     set_next(s, i, x, cosine, sine)
-    narrow(s, i, arrived, choose(diving, -(u + v) * per, y * halved(factor)))
+    narrow(s, i, arrived, choose(diving, -(u + v) * per, y * within_a_factor_of_two(factor)))
 
 
 @njit(**SIMD_INLINE)

@@ -9,16 +9,12 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
-from rocking.kernels.classify.classifier_state import ClassifierState, next_look, opened
-from rocking.kernels.classify.decision_cascade import (
-    checkpoint_unstable,
-    evaluate_checkpoint,
-    march_leg,
-    over_batch,
-)
+from rocking.kernels.classify.classifier_state import ClassifierState, next_look, opened, with_run
+from rocking.kernels.classify.decision_cascade import checkpoint_unstable, evaluate_checkpoint, over_batch
+from rocking.kernels.classify.leg import march_leg
 from rocking.kernels.classify.quasi_periodicity import section_needed
 from rocking.kernels.classify.reset import begin_tangent
-from rocking.kernels.classify.results import ResultArrays, parameters_from_row, store_result
+from rocking.kernels.classify.results import ResultArrays, store_result
 from rocking.kernels.classify.verdict_record import OPEN, undecided
 from rocking.kernels.classify.workspace import LEG
 from rocking.kernels.compile_options import ALLOCATING_ENTRY, INTERNAL, INTERNAL_INLINE
@@ -46,7 +42,7 @@ from rocking.kernels.lanes.transfer import (
     unload_block,
 )
 from rocking.kernels.lanes.workspace import lane_workspace
-from rocking.kernels.parameters import HarmonicParameters
+from rocking.kernels.parameters import HarmonicParameters, parameters_from_row
 
 # Of a quicker forcing an arc has too many stretches to be walked along in step with others.
 MIN_LANE_PERIOD = 0.1
@@ -91,17 +87,17 @@ def try_skip_readback(s, i, work, max_cycles, workspace):
     """
     point, p, case = work
     target, most = next_look(case, max_cycles), workspace.flights.shape[1]
-    if not case.run.lossless or s.log_on[i] > 0.0 or case.converged or target == max_cycles:
+    if not case.run.lossless or s.log_on[i] > 0.0 or case.averages.converged or target == max_cycles:
         return False, work
-    read_growth(s, i, workspace.columns[i], workspace.growth[i])
-    growth = workspace.growth[i, 0]
+    read_growth(s, i, workspace.tangent.columns[i], workspace.tangent.growth[i])
+    growth = workspace.tangent.growth[i, 0]
     further = checkpoint_unstable(case, flights_by_now(s, i, case.run.flights, most), max_cycles, growth)
     ahead = next_look(further, max_cycles)
     if section_needed(growth, ahead, max_cycles, workspace.scratch.shape[0]):
         return False, work
-    if further.measured > case.measured:
-        exponent = over_batch(p, case.run.watch, target, max_cycles, growth - case.grown)
-        workspace.batches[i, case.measured] = exponent
+    if further.batches.measured > case.batches.measured:
+        exponent = over_batch(p, case.run.watch, target, max_cycles, growth - case.batches.grown)
+        workspace.batches[i, case.batches.measured] = exponent
     set_leg(s, i, ahead, False)
     return True, LaneWork(point, p, further)
 
@@ -118,12 +114,12 @@ def start_leg(s, i, work, stays, max_cycles, own):
     """Start the next leg of a lane with its work item, whose block ``stays`` in the lane or is loaded."""
     case = work.case
     if stays:
-        set_difference(s, i, own.columns)
+        set_difference(s, i, own.tangent.columns)
     else:
-        load_block(s, i, work.p, case.run.watch.progress, own.columns, case.run.flights.count)
+        load_block(s, i, work.p, case.run.watch.progress, own.tangent.columns, case.run.flights.count)
     # no more cycles at a time than the section has rows for
     target = min(next_look(case, max_cycles), case.run.watch.progress.cycle + LEG)
-    needed = section_needed(own.growth[0], target, max_cycles, own.scratch.shape[0])
+    needed = section_needed(own.tangent.growth[0], target, max_cycles, own.scratch.shape[0])
     set_leg(s, i, target, not case.run.lossless or needed)
 
 
@@ -140,7 +136,7 @@ def service_lane(s, i, request, work, queue, batch, workspace):
     stays, due = request < LOAD_NEXT or ended, marched or request == TO_SCALAR
     if not settled:
         run = unload_block(s, i, request, work.p, work.case.run, own, workspace.log[i])
-        work = LaneWork(work.point, work.p, ClassifierState(run, *work.case[1:]))
+        work = LaneWork(work.point, work.p, with_run(work.case, run))
     while due or settled or not lane_eligible(work.p, work.case):
         if settled:
             if work.point >= 0:
@@ -150,7 +146,7 @@ def service_lane(s, i, request, work, queue, batch, workspace):
                 return LaneWork(-1, work.p, work.case), queue
             work, queue, stays = open_point(queue, batch), queue + 1, False
             if lane_eligible(work.p, work.case):
-                begin_tangent(own.columns, own.growth)
+                begin_tangent(own.tangent)
                 break
         point, p, case = work
         status, run = status_of(s, i, max_cycles), case.run

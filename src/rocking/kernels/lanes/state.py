@@ -23,9 +23,9 @@ from rocking.kernels.numerics.simd import SHORT_ANGLE, SHORT_TIME
 LANES = 48
 
 FIELDS = (
-    # the system; A Omega, Omega**2, beta Omega, 2 beta Omega**2; up to when the elementary functions are those of a short time
+    # the system; A Omega, Omega**2, beta Omega; up to when the elementary functions are those of a short time
     "amplitude", "frequency", "phase", "response", "restitution", "period", "per_period",
-    "amplitude_rate", "frequency_square", "response_rate", "crest_curvature", "short_time_limit",
+    "amplitude_rate", "frequency_square", "response_rate", "short_time_limit",
     # when, within the cycle, a convex stretch begins on either side
     "cut_right", "cut_left",
     # 1 + beta cos eta and the size of its rate at the cuts; lengths of the concave and the convex stretches; e^+-length
@@ -102,7 +102,6 @@ def set_system(s, i, p):
     s.amplitude_rate[i] = p.amplitude * p.frequency
     s.frequency_square[i] = p.frequency * p.frequency
     s.response_rate[i] = p.response * p.frequency
-    s.crest_curvature[i] = 2.0 * p.response * p.frequency * p.frequency
     s.short_time_limit[i] = min(SHORT_TIME, SHORT_ANGLE / p.frequency)
     s.brace_angle[i] = p.brace_angle
     s.brace_restitution[i] = p.brace_restitution

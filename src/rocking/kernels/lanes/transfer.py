@@ -6,13 +6,14 @@ from numba import njit
 
 from rocking.kernels.arc.solution import arc_after, shift_clock
 from rocking.kernels.classify.classifier_state import Run
-from rocking.kernels.classify.decision_cascade import most_events, room
+from rocking.kernels.classify.leg import make_room, most_events
 from rocking.kernels.classify.quasi_periodicity import Flights, append_lazy_rows
 from rocking.kernels.classify.reset import moved_on
 from rocking.kernels.compile_options import INTERNAL, INTERNAL_INLINE
 from rocking.kernels.event_kinds import FLIGHT, IMPACT
 from rocking.kernels.lanes.state import AT_EVENT, END_LEG, NEW_ARC, set_system
-from rocking.kernels.march.march import CROWDED, DONE, UNKNOWN, Progress
+from rocking.kernels.march.march import CROWDED, DONE, UNKNOWN
+from rocking.kernels.march.progress import Progress
 
 LN2 = math.log(2.0)
 
@@ -114,12 +115,14 @@ def unload_block(s, i, request, p, run, workspace, log):
         flights = Flights(IMPACT, int(s.cycle[i]), s.start[i], flights.first_cycle, collected)
     after = progress_of(s, i, p, before, request == END_LEG, section_time)
     if s.log_on[i] > 0.0:
-        count = room(workspace.section, count, after.cycle + 1 - before.cycle, workspace.scratch.shape[0])
+        count = make_room(
+            workspace.section, count, after.cycle + 1 - before.cycle, workspace.scratch.shape[0]
+        )
         count = append_lazy_rows(p, before, log[1:], written, after, section_time, workspace.section, count)
     else:
         count = 0
     s.counted[i] = s.events[i]
-    read_growth(s, i, workspace.columns, workspace.growth)
+    read_growth(s, i, workspace.tangent.columns, workspace.tangent.growth)
     return Run(moved_on(watch, after), flights, section_time, count, lossless, measuring)
 
 

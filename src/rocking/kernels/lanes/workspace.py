@@ -10,6 +10,7 @@ from numba.extending import intrinsic
 from rocking.kernels.classify.workspace import NoRecording, Workspace, make_workspace
 from rocking.kernels.compile_options import INTERNAL
 from rocking.kernels.lanes.state import LANE_STATE, LANES, LOG_ROWS
+from rocking.kernels.march.tangent import TangentState
 
 
 @intrinsic
@@ -38,9 +39,8 @@ class LaneWorkspace(NamedTuple):
     flights: np.ndarray
     weights: np.ndarray
     batches: np.ndarray
-    columns: np.ndarray
+    tangent: TangentState
     trial: np.ndarray
-    growth: np.ndarray
     nothing: NoRecording
 
 
@@ -49,8 +49,7 @@ def make_lane_workspace(max_cycles, max_period):
     one, room = make_workspace(max_cycles, max_period), np.zeros(LANE_STATE.itemsize + 64, np.uint8)
     first = -room.ctypes.data % 64
     section, flights, batches, columns, growth = (
-        np.zeros((LANES, *part.shape))
-        for part in (one.section, one.flights, one.batches, one.columns, one.growth)
+        np.zeros((LANES, *part.shape)) for part in (one.section, one.flights, one.batches, *one.tangent)
     )
     return LaneWorkspace(
         room[first : first + LANE_STATE.itemsize].view(LANE_STATE),
@@ -61,9 +60,8 @@ def make_lane_workspace(max_cycles, max_period):
         flights,
         one.weights,
         batches,
-        columns,
+        TangentState(columns, growth),
         one.trial,
-        growth,
         one.nothing,
     )
 
@@ -78,8 +76,7 @@ def lane_workspace(workspace, lane):
         workspace.flights[lane],
         workspace.weights,
         workspace.batches[lane],
-        workspace.columns[lane],
+        TangentState(workspace.tangent.columns[lane], workspace.tangent.growth[lane]),
         workspace.trial,
-        workspace.growth[lane],
         workspace.nothing,
     )

@@ -19,21 +19,21 @@ def state_at(p, mode, arc, t):
 
 
 @njit(**INTERNAL)
-def note_state(p, row, mode, arc, t, impacts, brace_hits):
+def note_state(p, row, progress, t):
     """Write a row of the section, a time t into an arc, a rest or a lean."""
-    row[0], row[1] = state_at(p, mode, arc, t)
+    row[0], row[1] = state_at(p, progress.mode, progress.arc, t)
     if row.shape[0] > 2:
-        row[2], row[3] = impacts, brace_hits
+        row[2], row[3] = progress.impacts, progress.brace_hits
 
 
 @njit(**INTERNAL)
-def note(events, count, cycle, mode, arc, event, before):
-    """Write one event, with the arc that follows it and the velocity before it."""
-    row = events[count]
-    row[0] = cycle
+def note(events, count, progress, event, before):
+    """Write one event, with the arc that follows it and the velocity before it; return how many are written."""
+    row, arc = events[count], progress.arc
+    row[0] = progress.cycle
     row[1] = arc.start
     row[2] = event
-    row[3] = mode
+    row[3] = progress.mode
     row[4] = arc.side
     row[5] = arc.angle
     row[6] = arc.velocity
@@ -42,18 +42,17 @@ def note(events, count, cycle, mode, arc, event, before):
 
 
 @njit(**INTERNAL)
-def note_event(events, count, cycle, mode, arc, event, before):
+def note_event(events, count, progress, event, before):
     """Write an event; rest or leaning that begins with it is an event of its own at the same instant."""
-    count = note(events, count, cycle, mode, arc, event, before)
-    if mode == FLIGHT:
+    count = note(events, count, progress, event, before)
+    if progress.mode == FLIGHT:
         return count
-    return note(events, count, cycle, mode, arc, RESTS if mode == REST else LEANS, 0.0)
+    return note(events, count, progress, RESTS if progress.mode == REST else LEANS, 0.0)
 
 
 @njit(**ENTRY_POINT)
 def note_start(events, progress, hit, velocity):
     """Write what a motion begins with: its first arc, after a hit on a brace (and leaning there) where it starts with one."""
-    mode, arc = progress.mode, progress.arc
     if hit:
-        return note_event(events, 0, 0, mode, arc, BRACE, velocity)
-    return note(events, 0, 0, mode, arc, NONE, velocity)
+        return note_event(events, 0, progress, BRACE, velocity)
+    return note(events, 0, progress, NONE, velocity)

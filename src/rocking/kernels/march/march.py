@@ -1,4 +1,4 @@
-"""The march of one block: from event to event, in constant memory, recording what is asked for.
+"""The march of one block: from event to event, in constant memory.
 
 Time is kept as an integer cycle and the time within it, so that no phase is lost however long the run.
 Sections lie inside arcs and do not break them.
@@ -6,108 +6,69 @@ Sections lie inside arcs and do not break them.
 
 import math
 from enum import IntEnum
-from typing import NamedTuple
 
 from numba import njit
 
 from rocking.kernels.arc.extrema import largest_on, peak_with
 from rocking.kernels.arc.first_zero import MAX_ARC_TIME, no_return_time
 from rocking.kernels.arc.solution import (
-    Arc,
     arc_from,
     evaluate,
     propagator_or_none,
     shift_clock,
     within_reach,
 )
-from rocking.kernels.compile_options import ENTRY_POINT, INTERNAL, KERNEL_INLINE
+from rocking.kernels.compile_options import ENTRY_POINT, INTERNAL, INTERNAL_INLINE
 from rocking.kernels.event_kinds import BRACE, FLIGHT, IMPACT, LEAN, REST
 from rocking.kernels.march.event_rows import note_event, note_state
 from rocking.kernels.march.impact_law import after_event
 from rocking.kernels.march.next_event import next_event, side_to_lift, stays_leaning
+from rocking.kernels.march.progress import (
+    Progress,
+    Recording,
+    from_tuple,
+    to_tuple,
+    with_arc,
+    with_clock,
+    with_no_return,
+    with_peak,
+    with_pending,
+    with_strain,
+    with_waits,
+)
 from rocking.kernels.march.tangent import (
-    TANGENT,
-    Tangent,
-    carried,
+    NO_TANGENT,
+    carry,
     carry_arc,
-    carry_rows,
-    log_strain,
-    normalised,
-    out_of_scale,
-    read_tangent,
-    write_tangent,
+    finish_tangent,
+    in_registers,
+    read_registers,
+    strain_of,
+    write_registers,
 )
 
 MAX_EVENTS = 10_000_000
-# Compiled code cannot be interrupted: it comes up for air after this many events.
+# Compiled code cannot be interrupted: it returns after this many events.
 BREATH = 2_000_000
 # No guesses of the first two waits.
 UNKNOWN = (0.0, 0.0)
 # From event to event the forcing is turned on with the arc; after this many (a power of two, less one) it
-# is taken from the clock anew.
+# is computed from the clock again.
 RESYNCHRONISE = 15
 
 
 class Status(IntEnum):
-    """How a march ended; the text of the last one is the remedy that the caller prints."""
+    """How a march ended."""
 
     DONE = 0
     OVERTURNED = 1
     STILL = 2  # at rest, or leaning, for ever
-    PAUSED = 3  # the event buffer is full, or it is time to look up: go on
+    PAUSED = 3  # the event buffer is full, or it is time to return: go on
     CROWDED = 4  # more than MAX_EVENTS events in one cycle
     RELEASED = 5  # the block has just lifted off or left a brace, and that was waited for: go on
 
 
 DONE, OVERTURNED, STILL, PAUSED, CROWDED, RELEASED = (int(status) for status in Status)
-
-
-class Progress(NamedTuple):
-    """A block under way, and what it has met so far."""
-
-    mode: int
-    cycle: int
-    arc: Arc
-    pending: bool  # this cycle's section is still to come
-    crowd: int  # events in this cycle
-    impacts: int
-    brace_hits: int
-    peak: float
-    no_return: float  # time within the cycle at which overturning was proved; infinite before
-    # about how long the last arc took, and how long the one under way will take from where it is entered, which is
-    # most often what the last on its side took; 0 where that is not known
-    last_wait: float
-    wait_before: float
-    strain: float  # logarithm of what differences had grown to when the block last came to rest or leaned
-
-
-@njit(**KERNEL_INLINE)
-def to_tuple(progress):
-    """A progress as nested tuples: what a kernel hands to Python.
-
-    A named tuple is made by calling its class, and an interrupt (Ctrl-C) that strikes there, on the way out of compiled code,
-    ends the whole process.
-    """
-    arc = progress.arc
-    return (
-        progress.mode,
-        progress.cycle,
-        (arc.side, arc.start, arc.angle, arc.velocity, arc.cosine, arc.sine, arc.psi, arc.acceleration),
-        progress.pending,
-        progress.crowd,
-        progress.impacts,
-        progress.brace_hits,
-        progress.peak,
-        progress.no_return,
-        progress.last_wait,
-        progress.wait_before,
-        progress.strain,
-    )
-
-
-def from_tuple(fields):
-    """The progress that ``to_tuple`` took apart."""
-    return Progress(*fields[:2], Arc(*fields[2]), *fields[3:])
 
 
 @njit(**INTERNAL)
@@ -116,7 +77,6 @@ def begin(p, angle, velocity, waits, start=0.0):
 
     ``waits`` guesses the time to the first event and that from there to the next.
     """
-    wait_before, last_wait = waits
     side = 1 if angle > 0.0 or (angle == 0.0 and velocity > 0.0) else -1
     hit = abs(angle) == p.brace_angle and side * velocity > 0.0
     u, v = abs(angle), side * velocity
@@ -131,7 +91,18 @@ def begin(p, angle, velocity, waits, start=0.0):
     elif u == p.brace_angle and v == 0.0 and stays_leaning(p, side, arc.psi):
         mode = LEAN
     return Progress(
-        mode, 0, arc, True, 0, 0, 1 if hit else 0, u, math.inf, last_wait, wait_before, -math.inf
+        mode=mode,
+        cycle=0,
+        arc=arc,
+        pending=True,
+        crowd=0,
+        impacts=0,
+        brace_hits=1 if hit else 0,
+        peak=u,
+        no_return=math.inf,
+        last_wait=waits[1],
+        wait_before=waits[0],
+        strain=-math.inf,
     ), hit
 
 
@@ -143,20 +114,19 @@ def begin_plain(p, angle, velocity):
 
 
 @njit(**INTERNAL)
-def finish(p, reached, coming, columns, growth, want_peak):
-    """(status, progress) at the end of a march: differences, peak and arc are brought there.
+def finish(p, reached, coming, state, want_peak):
+    """Return (status, progress) at the end of a march: differences, peak and arc are brought there.
 
     An overturned block is left at the moment of the proof: later its angle may be beyond all numbers.
     """
-    mode, cycle, arc, _, _, impacts, brace_hits, peak, no_return, last_wait, wait_before, strain = reached
-    end = min(no_return, 0.0)
+    arc, peak = reached.arc, reached.peak
+    end = min(reached.no_return, 0.0)
     t = end - arc.start
-    if mode == FLIGHT:
+    if reached.mode == FLIGHT:
         now = evaluate(p, arc, t)
-        if columns.shape[0] > 0:
-            carry_arc(p, arc, columns, growth, t, cycle * p.period + arc.start)
-        if growth.shape[0] == 1:
-            write_tangent(columns, normalised(read_tangent(columns), growth))
+        if state.columns.shape[0] > 0:
+            carry_arc(p, arc, state, t, reached.cycle * p.period + arc.start)
+        finish_tangent(state)
         angle = within_reach(p, now.angle)
         if want_peak:
             peak = max(largest_on(p, arc, t, peak), angle)
@@ -165,107 +135,153 @@ def finish(p, reached, coming, columns, growth, want_peak):
         arc = arc_from(p, arc.side, end, arc.angle, 0.0)
     status = DONE
     if coming.wait == math.inf:
-        status = OVERTURNED if mode == FLIGHT else STILL
-    return status, Progress(
-        mode, cycle, arc, True, 0, impacts, brace_hits, peak, no_return, last_wait, wait_before, strain
+        status = OVERTURNED if reached.mode == FLIGHT else STILL
+    return status, with_peak(with_clock(reached, reached.cycle, arc, True, 0, reached.no_return), peak)
+
+
+@njit(**INTERNAL_INLINE)
+def prove_no_return(p, progress, coming):
+    """Return the progress with the time of the proof, where the block never comes back."""
+    arc, no_return = progress.arc, progress.no_return
+    if coming.wait == math.inf and progress.mode == FLIGHT and no_return == math.inf:
+        no_return = arc.start + no_return_time(p, arc)
+    return with_no_return(progress, no_return)
+
+
+@njit(**INTERNAL_INLINE)
+def pass_boundaries(p, progress, wait, cycles, recording, rows):
+    """Pass the sections and the ends of cycles that lie before the coming event.
+
+    Returns (progress, section rows written, whether the march ends there).
+    """
+    section, section_time = recording.section, recording.section_time
+    while progress.arc.start + wait > (section_time if progress.pending else p.period):
+        arc = progress.arc
+        if progress.pending:
+            progress = with_pending(progress, False)
+            if rows < section.shape[0] and section_time <= progress.no_return:
+                note_state(p, section[rows], progress, section_time - arc.start)
+                rows += 1
+            continue
+        no_return = progress.no_return - p.period
+        progress = with_clock(progress, progress.cycle + 1, shift_clock(arc, p.period), True, 0, no_return)
+        if progress.cycle >= cycles or no_return <= 0.0:
+            return progress, rows, True
+    return progress, rows, False
+
+
+@njit(**INTERNAL_INLINE)
+def pass_event(p, progress, coming, horizon, want_peak):
+    """Return the progress after the coming event; accumulating impacts are cut short if they end within the ``horizon``."""
+    arc, impacts, brace_hits = progress.arc, progress.impacts, progress.brace_hits
+    peak = progress.peak
+    if want_peak and progress.mode == FLIGHT:
+        peak = peak_with(p, arc, coming, peak)
+    impacts += coming.event == IMPACT
+    brace_hits += coming.event == BRACE
+    mode, after = after_event(p, arc, arc.start + coming.wait, coming, horizon)
+    return Progress(
+        mode=mode,
+        cycle=progress.cycle,
+        arc=after,
+        pending=progress.pending,
+        crowd=progress.crowd + 1,
+        impacts=impacts,
+        brace_hits=brace_hits,
+        peak=peak,
+        no_return=progress.no_return,
+        last_wait=progress.last_wait,
+        wait_before=progress.wait_before,
+        strain=progress.strain,
     )
+
+
+@njit(**INTERNAL_INLINE)
+def resynchronised(p, progress):
+    """Return the progress with the forcing of its arc computed from the clock, where that is due."""
+    arc = progress.arc
+    if (progress.impacts + progress.brace_hits) & RESYNCHRONISE == 0:
+        arc = arc_from(p, arc.side, arc.start, arc.angle, arc.velocity)
+    return with_arc(progress, arc)
+
+
+@njit(**INTERNAL_INLINE)
+def unobserved_time(p, progress, coming, cycles, recording):
+    """Return the time after the coming event in which nothing is recorded, so that accumulating impacts may be cut short.
+
+    Without section and events that is the rest of the march; where releases are waited for any time, whatever the section
+    then misses.
+    """
+    if recording.section.shape[0] == 0 and recording.events.shape[0] == 0 and not recording.releases:
+        return (cycles - progress.cycle) * p.period - (progress.arc.start + coming.wait)
+    return MAX_ARC_TIME if recording.releases else 0.0
 
 
 @njit(**INTERNAL)
-def march_on(p, progress, cycles, section_time, section, events, columns, growth, want_peak, want_release):
+def march_on(p, progress, cycles, recording, state):
     """March to the end of cycle ``cycles``: (status, progress, section rows written, event rows written).
 
-    1. ``section`` (n, 2) takes the state at ``section_time`` within each cycle, just after any event there,
-       in order and as long as no overturning is proved; (n, 4) the impacts and brace hits so far too; no rows
-       record nothing.
-    2. ``events`` (n, 8) takes one row an event (``event_rows.note``). When it is full, or after BREATH events, the march
-       returns PAUSED; with ``want_release`` RELEASED after a lift-off or leaving a brace. Called again it goes
-       on where it was.
-    3. ``columns`` (2, 2) or (8, 2) carries differences (``tangent``); with ``growth`` (2,) they are
-       re-orthonormalised at every event, with ``growth`` (1,) the first is normalised where need be and at the end.
-    4. Without section and events, accumulating impacts that certainly end in rest before the march does are
-       cut short; with ``want_release`` always, whatever the section then misses.
-    5. At the end the arc is renewed: the progress begins at the start of cycle ``cycles``; with
-       ``want_release`` the arc under way goes on, and counts when it ends. A proof of overturning ends the
-       march with its cycle.
+    1. The ``recording`` says what is written. When its ``events`` are full, or after BREATH events, the march returns
+       PAUSED; where it waits for releases RELEASED after each. Called again it goes on where it was.
+    2. ``state`` carries differences (``tangent.TangentState``).
+    3. At the end the arc is renewed: the progress begins at the start of cycle ``cycles``; where it waits for releases the
+       arc under way goes on, and counts when it ends. A proof of overturning ends the march with its cycle.
     """
-    mode, cycle, arc, pending, crowd, impacts, brace_hits, peak, no_return, last_wait, wait_before, strain = (
-        progress
-    )
-    skip_zeno = section.shape[0] == 0 and events.shape[0] == 0 and not want_release
-    light, measured = columns.shape[0] == TANGENT and growth.shape[0] < TANGENT, growth.shape[0] == 1
-    tangent = read_tangent(columns) if light else Tangent(0.0, 0.0, 0.0, 0.0)
-    written, rows, events_since_return, ended, paused, released = 0, 0, 0, False, False, False
-    last_lapse, lapse_before = propagator_or_none(p, last_wait), propagator_or_none(p, wait_before)
+    events, tangent = recording.events, read_registers(state)
+    written, rows, computed = 0, 0, 0
+    last_lapse = propagator_or_none(p, progress.last_wait)
+    lapse_before = propagator_or_none(p, progress.wait_before)
     while True:
-        coming, lapse = next_event(p, mode, arc, lapse_before)
-        at = arc.start + coming.wait
-        if coming.wait == math.inf and mode == FLIGHT and no_return == math.inf:
-            no_return = arc.start + no_return_time(p, arc)
-        while at > (section_time if pending else p.period):
-            if pending:
-                pending = False
-                if rows < section.shape[0] and section_time <= no_return:
-                    note_state(p, section[rows], mode, arc, section_time - arc.start, impacts, brace_hits)
-                    rows += 1
-                continue
-            cycle, crowd, pending = cycle + 1, 0, True
-            arc, no_return = shift_clock(arc, p.period), no_return - p.period
-            at = arc.start + coming.wait
-            ended = cycle >= cycles or no_return <= 0.0
-            if ended:
-                break
-        paused = events_since_return >= BREATH or (events.shape[0] > 0 and written + 2 > events.shape[0])
-        if ended or paused or crowd >= MAX_EVENTS:
+        coming, lapse = next_event(p, progress.mode, progress.arc, lapse_before)
+        progress = prove_no_return(p, progress, coming)
+        progress, rows, ended = pass_boundaries(p, progress, coming.wait, cycles, recording, rows)
+        full = computed >= BREATH or (events.shape[0] > 0 and written + 2 > events.shape[0])
+        status = DONE if ended else PAUSED if full else CROWDED
+        if ended or status == PAUSED or progress.crowd >= MAX_EVENTS:
             break
-        crowd += 1
-        events_since_return += 1
-        if want_peak and mode == FLIGHT:
-            peak = peak_with(p, arc, coming, peak)
+        computed += 1
+        before = progress
         # What is left of an arc entered on its way says nothing about whole ones.
-        lapse_before, last_lapse = last_lapse, lapse if arc.angle in (0.0, p.brace_angle) else last_lapse
-        impacts += coming.event == IMPACT
-        brace_hits += coming.event == BRACE
-        horizon = (cycles - cycle) * p.period - at if skip_zeno else MAX_ARC_TIME if want_release else 0.0
-        mode_after, after = after_event(p, arc, at, coming, horizon)
-        if mode_after != FLIGHT:
-            tangent = normalised(tangent, growth) if measured else tangent
-            strain = growth[0] if growth.shape[0] > 0 else (log_strain(tangent) if light else math.inf)
-        released = want_release and mode != FLIGHT and mode_after == FLIGHT
-        if light:
-            tangent = carried(p, tangent, mode, arc, coming, mode_after, after.side)
-            tangent = normalised(tangent, growth) if measured and out_of_scale(tangent) else tangent
-        elif columns.shape[0] > 0:
-            elapsed = cycle * p.period + arc.start
-            carry_rows(p, columns, growth, mode, arc, coming, mode_after, after.side, elapsed)
-        mode, arc, before = mode_after, after, arc.side * coming.velocity
-        if (impacts + brace_hits) & RESYNCHRONISE == 0:
-            arc = arc_from(p, arc.side, arc.start, arc.angle, arc.velocity)
+        whole = before.arc.angle in (0.0, p.brace_angle)
+        lapse_before, last_lapse = last_lapse, lapse if whole else last_lapse
+        unobserved = unobserved_time(p, before, coming, cycles, recording)
+        progress = pass_event(p, before, coming, unobserved, recording.peak)
+        if progress.mode != FLIGHT:
+            tangent, strain = strain_of(tangent, state)
+            progress = with_strain(progress, strain)
+        tangent = carry(p, tangent, state, before, coming, progress)
+        progress = resynchronised(p, progress)
         if events.shape[0] > 0:
-            written = note_event(events, written, cycle, mode, arc, coming.event, before)
-        if released:
+            speed = before.arc.side * coming.velocity
+            written = note_event(events, written, progress, coming.event, speed)
+        if recording.releases and before.mode != FLIGHT and progress.mode == FLIGHT:
+            status = RELEASED
             break
-    if light:
-        write_tangent(columns, normalised(tangent, growth) if measured else tangent)
-    left = lapse.time if want_release else min(at, MAX_ARC_TIME)
-    last_wait, wait_before = last_lapse.time, left if ended else lapse_before.time
-    reached = Progress(
-        mode, cycle, arc, pending, crowd, impacts, brace_hits, peak, no_return, last_wait, wait_before, strain
-    )
-    if not ended:
-        return RELEASED if released else PAUSED if paused else CROWDED, reached, rows, written
-    if want_release and coming.wait < math.inf:
-        return DONE, reached, rows, written
-    status, reached = finish(p, reached, coming, columns, growth, want_peak)
-    return status, reached, rows, written
+    if in_registers(state):
+        write_registers(tangent, state)
+    left = lapse.time if recording.releases else min(progress.arc.start + coming.wait, MAX_ARC_TIME)
+    progress = with_waits(progress, last_lapse.time, left if status == DONE else lapse_before.time)
+    if status == DONE and not (recording.releases and coming.wait < math.inf):
+        status, progress = finish(p, progress, coming, state, recording.peak)
+    return status, progress, rows, written
+
+
+@njit(**INTERNAL)
+def march_through(p, progress, cycles, recording, state):
+    """``march_on`` as often as it pauses: (status, progress)."""
+    rows, section = 0, recording.section
+    while True:
+        part = Recording(recording.section_time, section[rows:], recording.events, recording.peak, False)
+        status, progress, taken, _ = march_on(p, progress, cycles, part, state)
+        rows += taken
+        if status != PAUSED:
+            return status, progress
 
 
 @njit(**ENTRY_POINT)
-def march_plain(p, progress, cycles, section_time, section, events, columns, growth, want_peak):
+def march_plain(p, progress, cycles, recording, state):
     """``march_on`` to the end of cycle ``cycles`` as Python may have it."""
-    status, reached, rows, written = march_on(
-        p, progress, cycles, section_time, section, events, columns, growth, want_peak, False
-    )
+    status, reached, rows, written = march_on(p, progress, cycles, recording, state)
     return status, to_tuple(reached), rows, written
 
 
@@ -275,9 +291,7 @@ def begin_march(p, angle, velocity):
     return from_tuple(fields), hit
 
 
-def march(p, progress, cycles, section_time, section, events, columns, growth, want_peak):
+def march(p, progress, cycles, recording, state=NO_TANGENT):
     """``march_plain`` for Python: (status, progress, section rows written, event rows written)."""
-    status, fields, rows, written = march_plain(
-        p, progress, cycles, section_time, section, events, columns, growth, want_peak
-    )
+    status, fields, rows, written = march_plain(p, progress, cycles, recording, state)
     return status, from_tuple(fields), rows, written

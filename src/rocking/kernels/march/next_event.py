@@ -5,8 +5,9 @@ from typing import NamedTuple
 
 from numba import njit
 
-from rocking.kernels.arc.bracket import MARGIN, ZERO
 from rocking.kernels.arc.bracket import NEVER as NEVER_MORE
+from rocking.kernels.arc.bracket import ZERO
+from rocking.kernels.arc.enclosure import grazes
 from rocking.kernels.arc.fast_path import fast_first_event, fast_first_impact
 from rocking.kernels.arc.first_zero import CROSSING, MAX_ARC_TIME, NEVER, base_watch, brace_watch, first_zero
 from rocking.kernels.arc.solution import NONE_YET, evaluate, propagator_or_none
@@ -81,15 +82,6 @@ def stays_leaning(p, side, psi):
 
 
 @njit(**KERNEL_INLINE)
-def grazes(p, arc, t, velocity):
-    """Whether an arc arrives so slowly that the last digits tell whether it arrives at all."""
-    acceleration = p.amplitude + 1.0
-    return velocity * velocity <= MARGIN * acceleration * (
-        arc.angle + t * (abs(arc.velocity) + t * acceleration)
-    )
-
-
-@njit(**KERNEL_INLINE)
 def next_event(p, mode, arc, guess):
     """(what comes next and when, the lapse to guess from next time), from the lapse until the coming event as it is guessed.
 
@@ -103,7 +95,8 @@ def next_event(p, mode, arc, guess):
             answer, at_brace, t, now = fast_first_event(p, arc)
         if answer == NEVER_MORE:
             return Next(math.inf, NONE, arc.side, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0), guess
-        if answer == ZERO and not grazes(p, arc, t, now.velocity):
+        grazing = grazes(p.amplitude, arc.angle, arc.velocity, t, now.velocity)
+        if answer == ZERO and not grazing:
             event, angle = (BRACE, p.brace_angle) if at_brace else (IMPACT, 0.0)
             return Next(
                 t, event, arc.side, angle, now.velocity, now.cosine, now.sine, now.sinh, now.versinh

@@ -5,29 +5,15 @@ import math
 from numba import njit
 
 from rocking.kernels.compile_options import ENTRY_POINT, INTERNAL
-from rocking.kernels.march.march import CROWDED, DONE, OVERTURNED, PAUSED, UNKNOWN, begin, march_on
-from rocking.kernels.parameters import make
+from rocking.kernels.march.march import CROWDED, DONE, OVERTURNED, UNKNOWN, begin, march_through
+from rocking.kernels.march.progress import Recording
+from rocking.kernels.parameters import parameters_from_row
 
 
 @njit(**INTERNAL)
-def marched(p, angle, velocity, cycles, section_time, section, nothing, want_peak):
-    """(status, Theta, Theta', peak) after whole cycles; ``section`` takes the states at ``section_time``."""
-    progress, _ = begin(p, angle, velocity, UNKNOWN)
-    status, rows = PAUSED, 0
-    while status == PAUSED:
-        status, progress, taken, _ = march_on(
-            p,
-            progress,
-            cycles,
-            section_time,
-            section[rows:],
-            nothing.events,
-            nothing.columns,
-            nothing.growth,
-            want_peak,
-            False,
-        )
-        rows += taken
+def march_state(p, angle, velocity, cycles, recording, tangent):
+    """(status, Theta, Theta', peak) after whole cycles."""
+    status, progress = march_through(p, begin(p, angle, velocity, UNKNOWN)[0], cycles, recording, tangent)
     arc = progress.arc
     return status, arc.side * arc.angle + 0.0, arc.side * arc.velocity + 0.0, progress.peak
 
@@ -42,17 +28,17 @@ def sweep(systems, angle, velocity, carry, transient, section_phase, section, pe
        near side of its braces, or, if that has overturned, where that began; without, every one at (angle, velocity).
     3. Where a motion overturns or is crowded (``march.Status``, in ``statuses``), section and peak are NaN.
     """
-    kept = section.shape[1]
+    kept, passing = section.shape[1], Recording(0.0, nothing.section, nothing.events, False, False)
     for k in range(systems.shape[0]):
-        row = systems[k]
-        p = make(row[0], row[1], row[2], row[3], row[4], row[5], row[6])
+        p = parameters_from_row(systems[k])
         time = ((section_phase - p.phase) % (2.0 * math.pi)) * p.per_frequency % p.period
         first = min(max(angle, -p.brace_angle), p.brace_angle)
         status, u, v = DONE, first, velocity
         if transient > 0:
-            status, u, v, _ = marched(p, first, velocity, transient, 0.0, section[k, :0], nothing, False)
+            status, u, v, _ = march_state(p, first, velocity, transient, passing, nothing.tangent)
         if status not in (OVERTURNED, CROWDED):
-            status, u, v, peaks[k] = marched(p, u, v, kept, time, section[k], nothing, True)
+            watched = Recording(time, section[k], nothing.events, True, False)
+            status, u, v, peaks[k] = march_state(p, u, v, kept, watched, nothing.tangent)
         statuses[k] = status
         if status in (OVERTURNED, CROWDED):
             section[k] = math.nan

@@ -5,10 +5,12 @@ from typing import NamedTuple
 
 from numba import njit
 
-from rocking.kernels.compile_options import AST_INLINE, INTERNAL
+from rocking.kernels.compile_options import AST_INLINE, INTERNAL, INTERNAL_INLINE
 from rocking.kernels.march.march import DONE, begin, march_on
-from rocking.kernels.march.tangent import Tangent, read_tangent
+from rocking.kernels.march.progress import Recording
+from rocking.kernels.march.tangent import Tangent, TangentState, read_tangent, write_tangent
 from rocking.kernels.numerics.elementary import size
+from rocking.kernels.parameters import HarmonicParameters
 
 RESIDUAL = 1e-12
 # Near a fold Newton's method converges linearly, by halves.
@@ -28,6 +30,23 @@ class Patience(NamedTuple):
 # From what a motion approaches; from anywhere.
 NEARBY = Patience(1, math.inf, 0, 10.0)
 ANYWHERE = Patience(MAX_STEPS, 2.0, 4, 1e3)
+
+
+class ReturnMap(NamedTuple):
+    """Map of a state at the time ``start`` within the first cycle to that at the end of cycle ``cycles``, times ``sign``."""
+
+    p: HarmonicParameters
+    cycles: int
+    start: float
+    sign: float  # -1 where the image is mirrored, else 1
+
+
+class Guess(NamedTuple):
+    """A state to begin with; ``waits`` as for ``march.begin``."""
+
+    angle: float
+    velocity: float
+    waits: tuple[float, float]
 
 
 class MapImage(NamedTuple):
@@ -56,21 +75,14 @@ class FixedPoint(NamedTuple):
 
 
 @njit(**INTERNAL)
-def image_after(
-    p, angle, velocity, cycles, section_time, section, nothing, columns, want_peak, waits, start=0.0
-):
-    """The image, at the end of cycle ``cycles``, of a state at the time ``start`` within the first.
-
-    ``section`` as in ``march_on``, ``columns`` (2, 2) or none.
-    """
-    progress, _ = begin(p, angle, velocity, waits, start)
-    if columns.shape[0] > 0:
-        columns[0, 0], columns[0, 1], columns[1, 0], columns[1, 1] = 1.0, 0.0, 0.0, 1.0
-    status, progress, _, _ = march_on(
-        p, progress, cycles, section_time, section, nothing.events, columns, nothing.growth, want_peak, False
-    )
+def image_after(mapping, guess, recording, state):
+    """Return the ``MapImage`` of a state, before any mirroring; ``state`` carries differences or none."""
+    progress, _ = begin(mapping.p, guess.angle, guess.velocity, guess.waits, mapping.start)
+    if state.columns.shape[0] > 0:
+        write_tangent(state.columns, Tangent(1.0, 0.0, 0.0, 1.0))
+    status, progress, _, _ = march_on(mapping.p, progress, mapping.cycles, recording, state)
     arc = progress.arc
-    tangent = read_tangent(columns) if columns.shape[0] > 0 else Tangent(0.0, 0.0, 0.0, 0.0)
+    tangent = read_tangent(state.columns) if state.columns.shape[0] > 0 else Tangent(0.0, 0.0, 0.0, 0.0)
     return MapImage(
         status == DONE,
         arc.side * arc.angle,
@@ -83,48 +95,71 @@ def image_after(
     )
 
 
-@njit(**AST_INLINE)
-def find_fixed_point(p, angle, velocity, cycles, most_work, nothing, columns, waits, patience, start, sign):
-    """Newton's method on the map of ``image_after`` times ``sign``, until the residual is at most RESIDUAL; ``waits`` as for ``begin``.
+class Trial(NamedTuple):
+    """A state that was tried, its image, by how much that misses it, and the events computed."""
 
-    ``sign`` is -1 where the image is mirrored, else 1. Where none is found, the state is the last one accepted.
-    """
-    reach = min(p.brace_angle, patience.reach)
-    work, failures, steps, halvings, converged, inside = 0, 0, 0, 0, False, True
-    residual, best, error, share, to_angle, to_velocity = math.inf, math.inf, math.inf, 1.0, 0.0, 0.0
-    at_angle, at_velocity = angle, velocity
-    while True:
-        accepted = False
-        if inside:
-            image = image_after(
-                p, at_angle, at_velocity, cycles, 0.0, nothing.section, nothing, columns, False, waits, start
-            )
+    accepted: bool
+    guess: Guess
+    image: MapImage
+    missed: tuple[float, float]
+    work: int
+
+
+@njit(**INTERNAL)
+def line_search(mapping, at, to, residual, patience, recording, state):
+    """Try a step ``to`` from a state, then halves of it, until the residual is small enough against that of the state."""
+    angle, velocity, waits, work, accepted = to[0], to[1], at.waits, 0, False
+    reach, nowhere = min(mapping.p.brace_angle, patience.reach), Tangent(0.0, 0.0, 0.0, 0.0)
+    guess, missed = at, (math.inf, math.inf)
+    image = MapImage(False, math.nan, math.nan, nowhere, 0, 0, math.nan, waits)
+    for _ in range(patience.halvings + 1):
+        guess = Guess(at.angle + angle, at.velocity + velocity, waits)
+        inside = abs(guess.angle) <= reach and abs(guess.velocity) <= patience.reach
+        if inside or residual == math.inf:
+            image = image_after(mapping, guess, recording, state)
             waits = image.waits
             work += image.impacts + image.brace_hits
-            miss, miss_rate = sign * image.angle - at_angle, sign * image.velocity - at_velocity
-            missed = max(abs(miss), abs(miss_rate))
-            accepted = image.certain and missed <= patience.worse * residual
+            missed = mapping.sign * image.angle - guess.angle, mapping.sign * image.velocity - guess.velocity
+            accepted = image.certain and max(abs(missed[0]), abs(missed[1])) <= patience.worse * residual
         if accepted:
-            angle, velocity, residual = at_angle, at_velocity, missed
-            tangent = image.tangent
-            a, b, c, d = sign * tangent.a, sign * tangent.b, sign * tangent.c, sign * tangent.d
-            converged = residual <= RESIDUAL * max(1.0, abs(a), abs(b), abs(c), abs(d))
-            steps += 1
-            failures += not residual < 0.9 * best
-            best = min(best, residual)
-            # x + (I - J)^-1 (P(x) - x), with J = [[a, c], [b, d]]
-            determinant = (1.0 - a) * (1.0 - d) - b * c
-            to_angle = ((1.0 - d) * miss + c * miss_rate) / determinant
-            to_velocity = (b * miss + (1.0 - a) * miss_rate) / determinant
-            error = size(to_angle, to_velocity)
-            lost = failures > patience.failures or work > most_work or not error < math.inf
-            if converged or lost or steps > MAX_STEPS:
-                break
-            share, halvings = 1.0, 0
-        elif halvings == patience.halvings:
             break
-        else:
-            share, halvings = 0.5 * share, halvings + 1
-        at_angle, at_velocity = angle + share * to_angle, velocity + share * to_velocity
-        inside = abs(at_angle) <= reach and abs(at_velocity) <= patience.reach
-    return FixedPoint(converged, angle, velocity, image, residual, error, work)
+        angle, velocity = 0.5 * angle, 0.5 * velocity
+    return Trial(accepted, Guess(guess.angle, guess.velocity, waits), image, missed, work)
+
+
+@njit(**INTERNAL_INLINE)
+def newton_correction(tangent, sign, missed):
+    """(correction of the angle and of the velocity, the residual that counts as none) of a state that its image ``missed``."""
+    a, b, c, d = sign * tangent.a, sign * tangent.b, sign * tangent.c, sign * tangent.d
+    # (I - J)^-1 (P(x) - x), with J = [[a, c], [b, d]]
+    determinant = (1.0 - a) * (1.0 - d) - b * c
+    to_angle = ((1.0 - d) * missed[0] + c * missed[1]) / determinant
+    to_velocity = (b * missed[0] + (1.0 - a) * missed[1]) / determinant
+    return (to_angle, to_velocity), RESIDUAL * max(1.0, abs(a), abs(b), abs(c), abs(d))
+
+
+@njit(**AST_INLINE)
+def find_fixed_point(mapping, guess, most_work, patience, columns, nothing):
+    """Find a fixed point of a map by Newton's method, until the residual is at most RESIDUAL.
+
+    Where none is found, the state is the last one accepted.
+    """
+    recording = Recording(0.0, nothing.section, nothing.events, False, False)
+    state, at, to = TangentState(columns, nothing.tangent.growth), guess, (0.0, 0.0)
+    work, failures, converged, residual, best, error = 0, 0, False, math.inf, math.inf, math.inf
+    for _ in range(MAX_STEPS + 1):
+        trial = line_search(mapping, at, to, residual, patience, recording, state)
+        work += trial.work
+        if not trial.accepted:
+            break
+        at = trial.guess
+        residual = max(abs(trial.missed[0]), abs(trial.missed[1]))
+        to, enough = newton_correction(trial.image.tangent, mapping.sign, trial.missed)
+        converged = residual <= enough
+        failures += not residual < 0.9 * best
+        best = min(best, residual)
+        error = size(to[0], to[1])
+        lost = failures > patience.failures or work > most_work or not error < math.inf
+        if converged or lost:
+            break
+    return FixedPoint(converged, at.angle, at.velocity, trial.image, residual, error, work)

@@ -8,7 +8,7 @@ import math
 from numba import njit
 
 from rocking.kernels.compile_options import ENTRY_POINT, INTERNAL
-from rocking.kernels.numerics.elementary import size
+from rocking.kernels.numerics.elementary import fma, size
 
 
 @njit(**INTERNAL)
@@ -29,13 +29,10 @@ def eigenvalues(middle, square, determinant):
 
 @njit(**INTERNAL)
 def multipliers(tangent):
-    """The ``eigenvalues`` of a tangent."""
-    apart = 0.5 * (tangent.a - tangent.d)
-    return eigenvalues(
-        0.5 * (tangent.a + tangent.d),
-        apart * apart + tangent.b * tangent.c,
-        tangent.a * tangent.d - tangent.b * tangent.c,
-    )
+    """Return the ``eigenvalues`` of a tangent. Which product is fused is written out: the compiler's choice depends on the caller."""
+    apart, crossed = 0.5 * (tangent.a - tangent.d), tangent.b * tangent.c
+    determinant = fma(tangent.a, tangent.d, -crossed)
+    return eigenvalues(0.5 * (tangent.a + tangent.d), fma(apart, apart, crossed), determinant)
 
 
 @njit(**ENTRY_POINT)

@@ -6,43 +6,36 @@ from numba import njit
 
 from rocking.kernels.compile_options import ENTRY_POINT, INTERNAL
 from rocking.kernels.march.march import UNKNOWN
-from rocking.kernels.orbits.fixed_point import ANYWHERE, UNBOUNDED, find_fixed_point
+from rocking.kernels.orbits.fixed_point import ANYWHERE, UNBOUNDED, Guess, ReturnMap, find_fixed_point
 from rocking.kernels.parameters import later
 
 
 @njit(**INTERNAL)
 def return_map(p, period, mirrored):
-    """(system, start, cycles, sign) of the map over ``period`` cycles, or over half an odd number of them and mirrored.
+    """Return the ``ReturnMap`` over ``period`` cycles, or over half an odd number of them and mirrored.
 
-    A state at the time ``start`` within the first cycle is marched to the end of cycle ``cycles``; its image is multiplied
-    by ``sign``. Half a cycle comes first: the march ends only with a whole one, and p.period stays that of the forcing.
+    Half a cycle comes first: the march ends only with a whole one, and p.period stays that of the forcing.
     """
     if not mirrored:
-        return p, 0.0, period, 1.0
+        return ReturnMap(p, period, 0.0, 1.0)
     half = 0.5 * p.period
-    return later(p, -half), half, (period + 1) // 2, -1.0
+    return ReturnMap(later(p, -half), (period + 1) // 2, half, -1.0)
 
 
 @njit(**ENTRY_POINT)
 def newton_from_starts(p, period, mirrored, starts, nothing, columns, out):
-    """Newton's method on ``return_map`` from every start; ``out`` (n, 4) takes (found, angle, velocity, residual).
+    """Find fixed points of ``return_map`` by Newton's method from every start, and return how many were found.
 
-    Starts beyond a brace lead nowhere. How many were found.
+    ``out`` (n, 4) takes (found, angle, velocity, residual). Starts beyond a brace lead nowhere.
     """
-    q, start, cycles, sign = return_map(p, period, mirrored)
-    count = 0
+    mapping, count = return_map(p, period, mirrored), 0
     for i in range(starts.shape[0]):
         out[i, 0], out[i, 1], out[i, 2], out[i, 3] = False, starts[i, 0], starts[i, 1], math.inf
         if abs(starts[i, 0]) > p.brace_angle:
             continue
-        found = find_fixed_point(
-            q, starts[i, 0], starts[i, 1], cycles, UNBOUNDED, nothing, columns, UNKNOWN, ANYWHERE, start, sign
-        )
-        out[i, 0], out[i, 1], out[i, 2], out[i, 3] = (
-            found.converged,
-            found.angle,
-            found.velocity,
-            found.residual,
-        )
+        guess = Guess(starts[i, 0], starts[i, 1], UNKNOWN)
+        found = find_fixed_point(mapping, guess, UNBOUNDED, ANYWHERE, columns, nothing)
+        out[i, 0], out[i, 1] = found.converged, found.angle
+        out[i, 2], out[i, 3] = found.velocity, found.residual
         count += found.converged
     return count

@@ -1,0 +1,79 @@
+"""One leg of a classification: the march from one checkpoint to the next."""
+
+import numpy as np
+from numba import njit
+
+from rocking.kernels.classify.classifier_state import Run
+from rocking.kernels.classify.quasi_periodicity import append_lazy_rows, collect, section_needed
+from rocking.kernels.classify.reset import follow, moved_on
+from rocking.kernels.compile_options import AST_INLINE, INTERNAL, INTERNAL_INLINE
+from rocking.kernels.march.march import DONE, PAUSED, RELEASED, march_on
+from rocking.kernels.march.progress import Recording
+from rocking.kernels.march.tangent import TangentState
+
+# A motion with more events a cycle than this on average is not classified to its end.
+MAX_EVENTS_A_CYCLE = 200
+FREE_EVENTS = 1_000_000
+
+
+@njit(**INTERNAL_INLINE)
+def most_events(max_cycles):
+    """Return how many events a motion may have; one with more is not classified to its end."""
+    return MAX_EVENTS_A_CYCLE * max_cycles + FREE_EVENTS
+
+
+@njit(**INTERNAL)
+def make_room(section, count, coming, most_rows):
+    """Return how many rows of the section stay when ``coming`` more follow; where these do not fit, the last ones move to the front."""
+    if coming <= most_rows and count + coming <= section.shape[0]:
+        return count
+    kept = max(min(count, most_rows - coming), 0)
+    if kept < count:
+        for k in range(kept):
+            for column in range(section.shape[1]):
+                section[k, column] = section[count - kept + k, column]
+    return kept
+
+
+@njit(**AST_INLINE)
+def follow_flights(p, run, target, most, workspace, wanted):
+    """(status, run) at the end of cycle ``target`` of a motion that loses nothing; rows of the section only if they are ``wanted``."""
+    watch, flights, section_time, count, lossless, measuring = run
+    progress, events = watch.progress, workspace.events
+    recording = Recording(section_time, workspace.nothing.section, events, True, True)
+    while True:
+        before = progress
+        status, progress, _, written = march_on(p, before, target, recording, workspace.tangent)
+        flights = collect(p, flights, written, events, workspace.flights)
+        if wanted:
+            count = append_lazy_rows(
+                p, before, events, written, progress, section_time, workspace.section, count
+            )
+        on = status in (PAUSED, RELEASED)
+        if not on or progress.impacts + progress.brace_hits > most:
+            return status, Run(moved_on(watch, progress), flights, section_time, count, lossless, measuring)
+
+
+@njit(**AST_INLINE)
+def march_leg(p, run, max_cycles, target, workspace):
+    """(status, run): a motion followed to ``target`` with its last states."""
+    most = most_events(max_cycles)
+    watch, flights, section_time, count, lossless, measuring = run
+    cycle, rows, nothing = watch.progress.cycle, workspace.scratch.shape[0], workspace.nothing
+    count = make_room(workspace.section, count, target - cycle, rows)
+    if lossless:
+        wanted = section_needed(workspace.tangent.growth[0], target, max_cycles, rows)
+        kept = Run(watch, flights, section_time, count if wanted else 0, lossless, measuring)
+        return follow_flights(p, kept, target, most, workspace, wanted)
+    growth = workspace.tangent.growth if measuring else nothing.tangent.growth
+    tangent = TangentState(workspace.tangent.columns, growth)
+    # the section of the cycle under way may be past
+    coming = target - cycle - (not watch.progress.pending)
+    total, status = count + min(coming, rows), np.int64(DONE)
+    while status == DONE and cycle < target:
+        # Of a long leg only the last states are kept.
+        until = target if target - cycle <= rows else target - rows
+        part = workspace.section[count:total] if until == target else nothing.section
+        status, watch = follow(p, watch, until, most, section_time, part, tangent, nothing)
+        cycle = watch.progress.cycle
+    return status, Run(watch, flights, section_time, total, lossless, measuring)
