@@ -8,13 +8,13 @@ import pytest
 from rocking.kernels import event_kinds as ev
 from rocking.kernels.march import march as kernel
 from rocking.kernels.march import tangent
+from rocking.kernels.march.event_rows import EVENT_ROW
 from rocking.kernels.march.progress import Recording
 from rocking.kernels.march.tangent import TangentState
 from rocking.kernels.parameters import harmonic_parameters
 
 NAMES = ("amplitude", "frequency", "phase", "restitution", "brace_angle", "brace_restitution")
 NOTHING = np.empty((0, 2))
-NO_EVENTS = np.empty((0, 8))
 
 
 def numbers(case):
@@ -32,7 +32,7 @@ def numbers(case):
 def final(case, cycles, columns=NOTHING, growth=NOTHING[:, 0], room=10_000):
     p = numbers(case)
     progress, _ = kernel.begin_march(p, case["angle"], case["velocity"])
-    events = np.empty((room, 8))
+    events = np.empty(room, EVENT_ROW)
     recording, tangent = Recording(events=events), TangentState(columns, growth)
     status, progress, _, written = kernel.march(p, progress, cycles, recording, tangent)
     assert status in (kernel.DONE, kernel.STILL)
@@ -49,7 +49,7 @@ def difference(case, cycles, name, step):
 
 
 def kinds(case, cycles):
-    return set(final(case, cycles)[2][:, 2].astype(int).tolist())
+    return set(final(case, cycles)[2]["event"].astype(int).tolist())
 
 
 BASE = dict(amplitude=2.0, frequency=2.0 * math.pi, phase=0.3, restitution=0.925, angle=0.1, velocity=0.4)

@@ -16,7 +16,6 @@ LONGEST = 512
 CHAOS_CYCLES = 1_000_000
 BATCHES = 50
 HALF = 100_000  # cycles of each half whose averages must agree
-NOTHING, NO_EVENTS = np.empty((0, 2)), np.empty((0, 8))
 
 
 class Unsettled(Exception):

@@ -6,8 +6,8 @@ import mpmath as mp
 import numpy as np
 import pytest
 
-from rocking.kernels.numerics import simd
-from rocking.kernels.numerics.economised_series import chebyshev, economised
+from oracles.economised_series import chebyshev, economised
+from rocking.kernels.numerics import elementary, simd
 
 TIME, ANGLE = (0.5 * math.log(2.0)) ** 2, (0.25 * math.pi) ** 2
 
@@ -27,6 +27,15 @@ def test_one_power_less_costs_what_the_chebyshev_polynomial_is_high():
     assert len(short) == 5
     off = turns**5 - np.polyval(short[::-1], turns)
     assert off == pytest.approx((-1.0) ** np.arange(6) * w**5 / 2**9, rel=1e-9)
+
+
+def test_the_coefficients_are_those_of_taylors_series_economised():
+    odd, even = elementary.ODD, elementary.EVEN
+    assert economised(odd, TIME, 5) == simd.SINH_SERIES
+    assert economised(even, TIME, 5) == simd.COSH_SERIES
+    assert economised([c * (-1) ** k for k, c in enumerate(odd)], ANGLE, 6) == simd.SIN_SERIES
+    assert economised([c * (-1) ** k for k, c in enumerate(even)], ANGLE, 6) == simd.COS_SERIES
+    assert economised([2.0 / k for k in range(1, 16, 2)], 1.0 / 9.0, 3) == simd.LOGARITHM
 
 
 @pytest.mark.parametrize(

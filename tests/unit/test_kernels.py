@@ -20,13 +20,12 @@ from numba.core.dispatcher import Dispatcher
 from rocking import kernels
 from rocking.kernels import event_kinds, parameters
 from rocking.kernels.march import march as kernel
+from rocking.kernels.march.event_rows import EVENT_ROW
 from rocking.kernels.march.progress import Recording
 from rocking.kernels.numerics import elementary
 
 SOURCES = Path(kernels.__file__).parents[2]
 COPY = shutil.ignore_patterns("__pycache__", "*.egg-info")
-NOTHING = np.empty((0, 2))
-NO_EVENTS = np.empty((0, 8))
 PRINT_IMPACT_SPEED = (
     "from rocking.kernels import parameters; from rocking.kernels.march import march; "
     "p = parameters.harmonic_parameters(2.0, 6.28, 1.0, 0.0, 0.925); s, _ = march.begin_march(p, 0.1, 0.0);"
@@ -282,7 +281,7 @@ def test_a_full_buffer_of_events_loses_none():
         progress, _ = kernel.begin_march(p, 0.0, 0.0)
         found, status = [], kernel.PAUSED
         while status == kernel.PAUSED:
-            rows = np.empty((room, 8))
+            rows = np.empty(room, EVENT_ROW)
             status, progress, _, written = kernel.march(p, progress, 40, Recording(events=rows))
             found.append(rows[:written])
         return np.concatenate(found)

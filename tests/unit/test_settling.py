@@ -9,18 +9,17 @@ from rocking.kernels import event_kinds as ev
 from rocking.kernels import parameters
 from rocking.kernels.march import march as kernel
 from rocking.kernels.march.chatter import base_settling_time, brace_settling_time
+from rocking.kernels.march.event_rows import EVENT_ROW
 from rocking.kernels.march.progress import Recording
-
-NOTHING = np.empty((0, 2))
 
 
 def first_reset(p, speed):
     """(time, whether it is rest) of the first event that is no impact, from the base at this speed."""
     progress, _ = kernel.begin_march(p, 0.0, speed)
-    rows = np.empty((20_000, 8))
+    rows = np.empty(20_000, EVENT_ROW)
     _, _, _, written = kernel.march(p, progress, 1, Recording(events=rows))
-    others = rows[:written][rows[:written, 2] != ev.IMPACT]
-    return others[0, 1], others[0, 2] == ev.RESTS
+    others = rows[:written][rows["event"][:written] != ev.IMPACT]
+    return others[0]["time"], others[0]["event"] == ev.RESTS
 
 
 def test_certified_rest_comes_and_comes_in_time():

@@ -25,20 +25,20 @@ KINDS = np.array(["impact", "brace", "rest", "lift-off", "lean", "leave"])
 
 def events_of(system: System, rows: np.ndarray, duration: float) -> np.ndarray:
     """Event rows of the kernel as `Motion.events` gives them."""
-    rows = rows[rows[:, 2] != kernel.NONE]
+    rows = rows[rows["event"] != kernel.NONE]
     forcing = system.forcing
     events = np.empty(len(rows), EVENT)
-    events["cycle"] = rows[:, 0]
+    events["cycle"] = rows["cycle"]
     events["time"] = absolute(rows, forcing.period, duration)
-    events["phase"] = np.mod(forcing.frequency * rows[:, 1] + forcing.phase, 2.0 * math.pi)
-    events["angle"] = rows[:, 4] * rows[:, 5] + 0.0
-    events["before"] = rows[:, 7] + 0.0
-    events["after"] = rows[:, 4] * rows[:, 6] + 0.0
-    events["kind"] = KINDS[rows[:, 2].astype(int)]
+    events["phase"] = np.mod(forcing.frequency * rows["time"] + forcing.phase, 2.0 * math.pi)
+    events["angle"] = rows["side"] * rows["angle"] + 0.0
+    events["before"] = rows["before"] + 0.0
+    events["after"] = rows["side"] * rows["velocity"] + 0.0
+    events["kind"] = KINDS[rows["event"].astype(int)]
     return events
 
 
 def absolute(rows: np.ndarray, period: float, duration: float) -> np.ndarray:
     """When the events of rows were, in τ from the start."""
     # rounding must not put the last event after the end
-    return np.minimum(rows[:, 0] * period + rows[:, 1], duration)
+    return np.minimum(rows["cycle"] * period + rows["time"], duration)

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from rocking.kernels import parameters as numbers
+from rocking.kernels.march import event_rows
 from rocking.kernels.march import march as kernel
 from rocking.kernels.march import progress as values
 from rocking.kernels.march import tangent as differences
@@ -55,7 +56,7 @@ def run(
 ) -> tuple[Any, ...]:
     """March to the end, in breaths: (status, progress, section, what `keep` made of the event rows of each breath)."""
     section = np.empty((cycles + 1 if record == "section" else 0, 2))
-    events = np.empty((4096 if record == "all" else 0, 8))
+    events = np.empty(4096 if record == "all" else 0, event_rows.EVENT_ROW)
     kept: list[np.ndarray] = []
     status, recorded, done = kernel.PAUSED, 0, 0
     while status == kernel.PAUSED:
@@ -67,7 +68,7 @@ def run(
         if status == kernel.CROWDED or recorded > MAX_RECORDED:
             raise TooManyEvents(_crowded(status))
         if status == kernel.PAUSED and 0 < len(events) < 1_000_000:
-            events = np.empty((4 * len(events), 8))
+            events = np.empty(4 * len(events), event_rows.EVENT_ROW)
     if record == "section" and section_time == 0.0 and status != kernel.OVERTURNED:
         section[done] = state_of(progress)
         done += 1

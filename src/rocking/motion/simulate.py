@@ -106,7 +106,7 @@ def kept_events(
 
 
 def _first_rows(progress: Any, start: State, hit: bool) -> np.ndarray:
-    rows = np.empty((2, 8))
+    rows = np.empty(2, event_rows.EVENT_ROW)
     return rows[: event_rows.note_start(rows, progress, hit, start.velocity)]
 
 

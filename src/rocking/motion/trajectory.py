@@ -66,7 +66,8 @@ class Trajectory(ReadOnlyArrays):
         rows = self._rows()
         begins = absolute(rows, self.system.forcing.period, self.duration)
         lasts = np.append(
-            np.diff(rows[:, 0]) * self.system.forcing.period + np.diff(rows[:, 1]), self.duration - begins[-1]
+            np.diff(rows["cycle"]) * self.system.forcing.period + np.diff(rows["time"]),
+            self.duration - begins[-1],
         )
         found = np.empty((4 * len(rows) + 16, 3))
         count = resample.turns(self._numbers, rows, lasts, found)
@@ -180,7 +181,7 @@ class Trajectory(ReadOnlyArrays):
         begins = absolute(rows, self.system.forcing.period, self.duration)
         index = np.searchsorted(begins, flat, side="right") - 1
         cycle = np.floor(flat / period)
-        elapsed = (cycle - rows[index, 0]) * period + ((flat - cycle * period) - rows[index, 1])
+        elapsed = (cycle - rows["cycle"][index]) * period + ((flat - cycle * period) - rows["time"][index])
         out = np.empty((flat.size, 3))
         elapsed = np.where(flat > begins[index], np.maximum(elapsed, 0.0), 0.0)
         resample.sample(self._numbers, rows, index, elapsed, out)

@@ -26,6 +26,10 @@ SMALL_SHEAR = 1.0
 OUTGROWN = 20.0
 
 
+# Columns of a section row after those of ``note_state``: the arc on which the state lies, and how long ago that began.
+SIDE, ANGLE, VELOCITY, ELAPSED = range(4, 8)
+
+
 class Flights(NamedTuple):
     """What is being collected: flights between impacts or, where there are none, between brace hits."""
 
@@ -56,16 +60,16 @@ def collect(p, flights, rows, events, values):
     """Add recorded events: ``values`` (n, 2) takes how long each flight lasted, and the square of the speed it ended with."""
     event, cycle, time, first_cycle, count = flights
     for k in range(rows):
-        now, met = int(events[k, 0]), int(events[k, 2])
+        now, met = int(events[k].cycle), int(events[k].event)
         if met != IMPACT and (met != BRACE or event == IMPACT):
             continue
         if met != event:
             event, count, first_cycle = met, 0, now
         elif count < values.shape[0]:
-            values[count, 0] = (now - cycle) * p.period + (events[k, 1] - time)
-            values[count, 1] = events[k, 6] * events[k, 6]
+            values[count, 0] = (now - cycle) * p.period + (events[k].time - time)
+            values[count, 1] = events[k].velocity * events[k].velocity
             count += 1
-        cycle, time = now, events[k, 1]
+        cycle, time = now, events[k].time
     return Flights(event, cycle, time, first_cycle, count)
 
 
@@ -81,21 +85,21 @@ def append_lazy_rows(p, before, events, written, after, section_time, section, c
     impacts, brace_hits, due = before.impacts, before.brace_hits, before.cycle + (not before.pending)
     for k in range(written + 1):
         if k < written:
-            cycle, time = int(events[k, 0]), events[k, 1]
+            cycle, time = int(events[k].cycle), events[k].time
             until = cycle + (section_time < time)
         else:
             cycle, time, until = after.cycle, 0.0, after.cycle + (not after.pending)
         while due < until:
             section[count, 0] = math.nan if mode == FLIGHT else side * angle
             section[count, 1], section[count, 2], section[count, 3] = 0.0, impacts, brace_hits
-            section[count, 4], section[count, 5], section[count, 6] = side, angle, velocity
-            section[count, 7] = (due - begun) * p.period + (section_time - start)
+            section[count, SIDE], section[count, ANGLE], section[count, VELOCITY] = side, angle, velocity
+            section[count, ELAPSED] = (due - begun) * p.period + (section_time - start)
             count, due = count + 1, due + 1
         if k < written:
-            impacts += events[k, 2] == IMPACT
-            brace_hits += events[k, 2] == BRACE
-            begun, start, mode = cycle, time, int(events[k, 3])
-            side, angle, velocity = events[k, 4], events[k, 5], events[k, 6]
+            impacts += events[k].event == IMPACT
+            brace_hits += events[k].event == BRACE
+            begun, start, mode = cycle, time, int(events[k].mode)
+            side, angle, velocity = events[k].side, events[k].angle, events[k].velocity
     return count
 
 
@@ -104,8 +108,9 @@ def evaluate_lazy_rows(p, section, first, count, section_time):
     """The states of all rows from ``first`` on that were only sketched."""
     for k in range(max(first, 0), count):
         if math.isnan(section[k, 0]):
-            elapsed = section[k, 7]
-            arc = arc_from(p, int(section[k, 4]), section_time - elapsed, section[k, 5], section[k, 6])
+            side, elapsed = int(section[k, SIDE]), section[k, ELAPSED]
+            start = section_time - elapsed
+            arc = arc_from(p, side, start, section[k, ANGLE], section[k, VELOCITY])
             section[k, 0], section[k, 1] = state_at(p, FLIGHT, arc, elapsed)
 
 

@@ -5,6 +5,7 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
+from rocking.kernels.classify.verdict_record import Judgement
 from rocking.kernels.compile_options import INTERNAL
 
 
@@ -41,11 +42,16 @@ def empty_results(count):
 
 
 @njit(**INTERNAL)
-def store_result(answers, k, told):
-    """Write what was judged of point k."""
-    answers.kind[k], answers.ground[k] = told[0], told[1]
-    answers.period[k], answers.symmetric[k] = told[2], told[3]
-    answers.impacts[k], answers.brace_hits[k] = told[4], told[5]
-    answers.exponent[k], answers.error[k], answers.peak[k] = told[10], told[11], told[12]
-    answers.transient[k], answers.cycles[k] = told[14], told[15]
-    answers.orbit[k, 0], answers.orbit[k, 1], answers.orbit[k, 2] = told[17], told[18], told[19]
+def store_result(results, k, verdict):
+    """Write the verdict on point k."""
+    found = Judgement(*verdict)
+    results.kind[k], results.ground[k] = found.kind, found.ground
+    results.period[k], results.symmetric[k] = found.period, found.symmetric
+    results.impacts[k], results.brace_hits[k] = found.impacts, found.brace_hits
+    results.exponent[k], results.error[k], results.peak[k] = found.exponent, found.error, found.peak
+    results.transient[k], results.cycles[k] = found.transient, found.cycles
+    results.orbit[k, 0], results.orbit[k, 1], results.orbit[k, 2] = (
+        found.section_time,
+        found.angle,
+        found.velocity,
+    )

@@ -4,6 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from rocking.kernels.march.event_rows import EVENT_ROW
 from rocking.kernels.march.tangent import TangentState
 
 # Cycles between looks at a motion that loses nothing.
@@ -18,16 +19,16 @@ class NoRecording(NamedTuple):
     """Arrays without rows, for what is not recorded: made once, since to make one costs as much as half an impact."""
 
     section: np.ndarray  # (0, 4)
-    events: np.ndarray  # (0, 8)
+    events: np.ndarray  # (0,)
     tangent: TangentState  # (0, 2), (0,)
 
 
 class Workspace(NamedTuple):
     """Workspace, for one system after another."""
 
-    section: np.ndarray  # (n, 8), the last cycles: ``note_state``, then ``quasi_periodicity.sketch``
+    section: np.ndarray  # (n, 8), the last cycles: ``note_state``, then ``append_lazy_rows``
     scratch: np.ndarray  # (n, 4), a trial orbit's; as many of the last cycles are looked at
-    events: np.ndarray  # (n, 8)
+    events: np.ndarray  # (n,)
     flights: np.ndarray  # (n, 2)
     weights: np.ndarray  # (n/4 + 1,)
     batches: np.ndarray
@@ -51,7 +52,7 @@ def make_workspace(max_cycles, max_period):
     return Workspace(
         np.empty((rows + SPARE * LEG, 8)),
         np.empty((rows, 4)),
-        np.empty((512, 8)),
+        np.empty(512, EVENT_ROW),
         np.empty((flights, 2)),
         np.empty(flights // 4 + 1),
         np.empty(BATCHES),
@@ -63,4 +64,4 @@ def make_workspace(max_cycles, max_period):
 
 def no_recording():
     """Make the arrays of ``NoRecording``."""
-    return NoRecording(np.empty((0, 4)), np.empty((0, 8)), TangentState(np.empty((0, 2)), np.empty(0)))
+    return NoRecording(np.empty((0, 4)), np.empty(0, EVENT_ROW), TangentState(np.empty((0, 2)), np.empty(0)))

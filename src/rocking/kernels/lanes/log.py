@@ -32,9 +32,13 @@ def log_arc(s, i, log):
     """Write the arc under way into the log of a lane, if that is kept; now and then take the forcing from the clock."""
     events, start, side, angle = int(s.events[i]), s.start[i], s.side[i], s.angle[i]
     if s.log_on[i] > 0.0:
-        k, event = events - int(s.counted[i]), BRACE if angle > 0.0 else IMPACT
-        log[i, k, 0], log[i, k, 1], log[i, k, 2] = s.cycle[i], start, event
-        log[i, k, 4], log[i, k, 5], log[i, k, 6] = side, angle, s.velocity[i]
+        row = log[i, events - int(s.counted[i])]
+        row.cycle = s.cycle[i]
+        row.time = start
+        row.event = BRACE if angle > 0.0 else IMPACT
+        row.side = side
+        row.angle = angle
+        row.velocity = s.velocity[i]
     if events & RESYNCHRONISE == 0 and s.stage[i] == BRACKET:
         s.cosine[i], s.sine[i], _, _, _ = clock(s.frequency[i], s.phase[i], side, start)
 

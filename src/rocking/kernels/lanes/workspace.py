@@ -10,6 +10,7 @@ from numba.extending import intrinsic
 from rocking.kernels.classify.workspace import NoRecording, Workspace, make_workspace
 from rocking.kernels.compile_options import INTERNAL
 from rocking.kernels.lanes.state import LANE_STATE, LANES, LOG_ROWS
+from rocking.kernels.march.event_rows import EVENT_ROW
 from rocking.kernels.march.tangent import TangentState
 
 
@@ -32,7 +33,7 @@ class LaneWorkspace(NamedTuple):
     """Workspace of all lanes: for each what its own must keep from leg to leg."""
 
     state: np.ndarray  # (1,), LANE_STATE
-    log: np.ndarray  # (lanes, n, 8), the arcs since they were last read, as ``event_rows.note`` has them
+    log: np.ndarray  # (lanes, n), EVENT_ROW: the arcs since they were last read
     section: np.ndarray
     scratch: np.ndarray
     events: np.ndarray
@@ -53,7 +54,7 @@ def make_lane_workspace(max_cycles, max_period):
     )
     return LaneWorkspace(
         room[first : first + LANE_STATE.itemsize].view(LANE_STATE),
-        np.zeros((LANES, LOG_ROWS, 8)),
+        np.zeros((LANES, LOG_ROWS), EVENT_ROW),
         section,
         one.scratch,
         one.events,

@@ -1,10 +1,16 @@
 """What a march writes down: rows of the section, and of events."""
 
+import numpy as np
 from numba import njit
 
 from rocking.kernels.arc.solution import evaluate, within_reach
 from rocking.kernels.compile_options import ENTRY_POINT, INTERNAL
 from rocking.kernels.event_kinds import BRACE, FLIGHT, LEAN, LEANS, NONE, REST, RESTS
+
+# An event: its cycle and the time within it, what it is; mode, side, u and u' of the arc that follows; Theta' just before.
+EVENT_ROW = np.dtype(
+    [(name, np.float64) for name in ["cycle", "time", "event", "mode", "side", "angle", "velocity", "before"]]
+)
 
 
 @njit(**INTERNAL)
@@ -30,14 +36,14 @@ def note_state(p, row, progress, t):
 def note(events, count, progress, event, before):
     """Write one event, with the arc that follows it and the velocity before it; return how many are written."""
     row, arc = events[count], progress.arc
-    row[0] = progress.cycle
-    row[1] = arc.start
-    row[2] = event
-    row[3] = progress.mode
-    row[4] = arc.side
-    row[5] = arc.angle
-    row[6] = arc.velocity
-    row[7] = before
+    row.cycle = progress.cycle
+    row.time = arc.start
+    row.event = event
+    row.mode = progress.mode
+    row.side = arc.side
+    row.angle = arc.angle
+    row.velocity = arc.velocity
+    row.before = before
     return count + 1
 
 

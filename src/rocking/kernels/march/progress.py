@@ -7,6 +7,7 @@ from numba import njit
 
 from rocking.kernels.arc.solution import Arc
 from rocking.kernels.compile_options import KERNEL_INLINE
+from rocking.kernels.march.event_rows import EVENT_ROW
 from rocking.kernels.numerics.replace_fields import replacing
 
 
@@ -36,7 +37,7 @@ class Recording(NamedTuple):
     # (n, 2), the states at that time, just after any event there, in order and as long as no overturning is proved; (n, 4)
     # with the impacts and brace hits so far
     section: np.ndarray = np.empty((0, 2))
-    events: np.ndarray = np.empty((0, 8))  # one row an event (``event_rows.note``)
+    events: np.ndarray = np.empty(0, EVENT_ROW)  # one row an event
     peak: bool = False
     releases: bool = False  # stop after each lift-off, and each time the block leaves a brace
 

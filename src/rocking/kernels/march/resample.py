@@ -15,7 +15,7 @@ from rocking.kernels.forcing.harmonic import forcing_term
 @njit(**INTERNAL)
 def arc_of(p, row):
     """The arc that an event row (``event_rows.note``) began."""
-    return arc_from(p, int(row[4]), row[1], row[5], row[6])
+    return arc_from(p, int(row.side), row.time, row.angle, row.velocity)
 
 
 @njit(**ENTRY_POINT)
@@ -23,9 +23,9 @@ def sample(p, rows, index, elapsed, out):
     """Write (Theta, Theta', Theta'') into ``out`` (n, 3), a time ``elapsed[k]`` into the arc, rest or lean of row ``index[k]``."""
     for k in range(index.shape[0]):
         row = rows[index[k]]
-        side = row[4]
-        out[k, 0], out[k, 1], out[k, 2] = side * row[5], 0.0, 0.0
-        if row[3] == FLIGHT:
+        side = row.side
+        out[k, 0], out[k, 1], out[k, 2] = side * row.angle, 0.0, 0.0
+        if row.mode == FLIGHT:
             now = evaluate(p, arc_of(p, row), elapsed[k])
             out[k, 0] = side * within_reach(p, now.angle)
             out[k, 1] = side * now.velocity

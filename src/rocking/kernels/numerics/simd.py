@@ -12,8 +12,7 @@ from numba import njit, types
 from numba.extending import intrinsic
 
 from rocking.kernels.compile_options import SIMD_INLINE
-from rocking.kernels.numerics.economised_series import economised
-from rocking.kernels.numerics.elementary import EVEN, HALF_PI, ODD, TWO_OVER_PI, fma
+from rocking.kernels.numerics.elementary import HALF_PI, TWO_OVER_PI, fma
 
 # Added to a number and taken off again it rounds to an integer, which its last bits hold.
 ROUNDER = 1.5 * 2.0**52
@@ -30,13 +29,45 @@ HALF, ONE = 1022 << EXPONENT, 1023 << EXPONENT
 ROOT_HALF = int(np.float64(0.5**0.5).view(np.int64))
 INTEGER = int(np.float64(ROUNDER).view(np.int64))
 
-SINH_SERIES, COSH_SERIES = (economised(c, (0.5 * math.log(2.0)) ** 2, 5) for c in (ODD, EVEN))
-SIN_SERIES, COS_SERIES = (
-    economised([c * (-1) ** k for k, c in enumerate(series)], (0.25 * math.pi) ** 2, 6)
-    for series in (ODD, EVEN)
+# Series by powers of the square of the argument, Taylor's shortened by Lanczos's economisation: on the short range of the
+# reduced argument they are as good as long ones. Those of sinh and sin begin with the third power, of cosh and cos with the
+# fourth.
+SINH_SERIES = (
+    0.16666666666666666,
+    0.008333333333330063,
+    0.00019841269863041792,
+    2.755726847865102e-06,
+    2.510037652317223e-08,
+)
+COSH_SERIES = (
+    0.041666666666666664,
+    0.0013888888888886554,
+    2.4801587317135943e-05,
+    2.755728298301917e-07,
+    2.0911230161316327e-09,
+)
+SIN_SERIES = (
+    0.16666666666666663,
+    -0.00833333333333095,
+    0.0001984126983675979,
+    -2.7557316103105014e-06,
+    2.5051131947374597e-08,
+    -1.5918135932869772e-10,
+)
+COS_SERIES = (
+    0.041666666666666664,
+    -0.0013888888888887398,
+    2.4801587298766363e-05,
+    -2.7557317272036996e-07,
+    2.087614632531677e-09,
+    -1.1382636115964061e-11,
 )
 # ln(1 + s) - ln(1 - s) over s, by powers of s**2; s = (a - b)/(a + b) where neither is more than twice the other
-LOGARITHM = economised([2.0 / k for k in range(1, 16, 2)], 1.0 / 9.0, 3)
+LOGARITHM = (
+    2.0000143422285115,
+    0.664383255352155,
+    0.45293753899232775,
+)
 
 
 @intrinsic
