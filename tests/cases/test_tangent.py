@@ -103,7 +103,7 @@ def test_columns_are_the_derivatives_of_the_motion(label):
     columns = np.zeros((tangent.SENSITIVITIES, 2))
     columns[0, 0] = columns[1, 1] = 1.0
     state, progress, met = final(case, cycles, columns)
-    reset = not {ev.RESTS, ev.LEANS}.isdisjoint(met[:, 2].astype(int).tolist())
+    reset = not {ev.RESTS, ev.LEANS}.isdisjoint(met["event"].astype(int).tolist())
     scale = 1.0 + np.abs(columns).max()
     for row, name in enumerate(("angle", "velocity", *NAMES)):
         if name not in case:

@@ -4,7 +4,7 @@ On side sigma = sign(Theta) work with u = sigma Theta >= 0: u'' - u = f = -1 - A
 
     u = u0 + v0 sinh t + steady (cosh t - 1) + G(t),
 
-``steady`` a steady part of u0 - 1 - A cos eta, G the response from rest to the remainder (``harmonic.respond``).
+``steady`` a steady part of u0 - 1 - A cos eta, G the response from rest to the remainder (``harmonic.forced_response``).
 The exponential form u = c+ e^t + c- e^-t + 1 + beta cos eta serves bounds.
 """
 

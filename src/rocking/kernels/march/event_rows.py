@@ -8,9 +8,8 @@ from rocking.kernels.compile_options import ENTRY_POINT, INTERNAL
 from rocking.kernels.event_kinds import BRACE, FLIGHT, LEAN, LEANS, NONE, REST, RESTS
 
 # An event: its cycle and the time within it, what it is; mode, side, u and u' of the arc that follows; Theta' just before.
-EVENT_ROW = np.dtype(
-    [(name, np.float64) for name in ["cycle", "time", "event", "mode", "side", "angle", "velocity", "before"]]
-)
+NAMES = "cycle", "time", "event", "mode", "side", "angle", "velocity", "before"
+EVENT_ROW = np.dtype([(name, np.float64) for name in NAMES], align=True)
 
 
 @njit(**INTERNAL)

@@ -42,7 +42,7 @@ def turns(p, rows, until, out):
     """
     count = 0
     for k in range(rows.shape[0]):
-        if rows[k, 3] != FLIGHT:
+        if rows[k].mode != FLIGHT:
             continue
         arc = arc_of(p, rows[k])
         sign = first_turn_sign(p, arc)
