@@ -17,7 +17,7 @@ from rocking.kernels.compile_options import ALLOCATING, KERNEL
 from rocking.kernels.lanes.log import log_arcs
 from rocking.kernels.lanes.scalar_fallback import find_event, update_peak
 from rocking.kernels.lanes.state import FIND_EVENT, IDLE, LANES, LOAD_NEXT, NO_REQUEST, UPDATE_PEAK
-from rocking.kernels.lanes.step import advance, strike
+from rocking.kernels.lanes.step import advance, apply_impacts
 from rocking.kernels.lanes.transfer import load_block, set_leg
 from rocking.kernels.lanes.workspace import make_lane_workspace
 from rocking.kernels.march.march import MAX_EVENTS, UNKNOWN, begin
@@ -88,7 +88,7 @@ def in_lanes(systems, speeds, cycles, memory):
         if blocks == 0:
             return impacts
         while True:
-            strike(s)
+            apply_impacts(s)
             log_arcs(s, memory.flights, memory.log, False)
             if advance(s):
                 break

@@ -20,7 +20,7 @@ from rocking.kernels.lanes.state import (
     REFINE,
     set_system,
 )
-from rocking.kernels.lanes.step import advance, advance_between, strike, strike_between
+from rocking.kernels.lanes.step import advance, advance_between, apply_events, apply_impacts
 from rocking.kernels.lanes.transfer import arc_of, load_block, set_leg
 from rocking.kernels.march.event_rows import state_at
 from rocking.kernels.march.progress import Progress
@@ -42,9 +42,9 @@ def sit_down(s, i, p, side, start, velocity, columns, cycles, angle=0.0):
 def strike_all(s, braced):
     """The events of all lanes that have arrived."""
     if braced:
-        strike_between(s)
+        apply_events(s)
     else:
-        strike(s)
+        apply_impacts(s)
 
 
 @njit(**KERNEL)
@@ -154,8 +154,8 @@ def may_exceed(systems, starts, peaks):
 
 @njit(**KERNEL)
 def strike_now(s):
-    """``strike`` for Python."""
-    strike(s)
+    """``apply_impacts`` for Python."""
+    apply_impacts(s)
 
 
 @njit(**KERNEL)

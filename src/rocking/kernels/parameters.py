@@ -34,8 +34,8 @@ class HarmonicParameters(NamedTuple):
     brace_half: float
     # at the cuts of the base's stretches: 1 + beta cos eta, |d/dt of it|; the stretches' lengths, |eta| < half
     # ("inside") and beyond; e^+-length of the outer one and of a whole turn
-    cut_place: float
-    cut_rate: float
+    sign_change_displacement: float
+    sign_change_velocity: float
     base_inside: float
     base_outside: float
     base_outside_growth: float

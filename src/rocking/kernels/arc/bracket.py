@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 from numba import njit
 
-from rocking.kernels.arc.solution import after, exponentials, lapse_of
+from rocking.kernels.arc.solution import exponentials, propagate, propagator_of
 from rocking.kernels.compile_options import INTERNAL, INTERNAL_INLINE, SIMD_INLINE
 from rocking.kernels.forcing.harmonic import first_sign_change, forcing_rates, forcing_term
 from rocking.kernels.numerics.elementary import fma
@@ -61,10 +61,10 @@ def start_knot(p, arc, constant, s):
 
 
 @njit(**INTERNAL_INLINE)
-def first_stretch(p, arc):
+def first_interval(p, arc):
     """(when the first stretch ends, whether it is convex)."""
-    cut, concave = first_sign_change(p, arc.side, arc.psi, 0.0, p.base_half)
-    return cut, not concave
+    sign_change, concave = first_sign_change(p, arc.side, arc.psi, 0.0, p.base_half)
+    return sign_change, not concave
 
 
 @njit(**INTERNAL_INLINE)
@@ -114,7 +114,7 @@ def bottom(p, arc, left, right, doubt):
     x = min(max(x, 0.0), 1.0)
     time, here = left.time + x * width, left
     for _ in range(MAX_DIPS):
-        now = after(p, arc, lapse_of(p, time))
+        now = propagate(p, arc, propagator_of(p, time))
         here = knot(p, arc, 0.0, 1.0, time, now)
         if here.w < -doubt or positive_throughout(here, doubt):
             break
@@ -123,10 +123,13 @@ def bottom(p, arc, left, right, doubt):
 
 
 @njit(**INTERNAL_INLINE)
-def at_cut(p, time, growing, shrinking, turned):
+def at_sign_change(p, time, growing, shrinking, turned):
     """The knot at the beginning (``turned`` = -1) or end (1) of a convex stretch, from c+ e^t and c- e^-t."""
-    angle, rate = growing + shrinking + p.cut_place, growing - shrinking + turned * p.cut_rate
-    return Jet(time, angle, rate, 0.0, -turned * p.cut_rate * (1.0 + p.frequency * p.frequency))
+    angle, rate = (
+        growing + shrinking + p.sign_change_displacement,
+        growing - shrinking + turned * p.sign_change_velocity,
+    )
+    return Jet(time, angle, rate, 0.0, -turned * p.sign_change_velocity * (1.0 + p.frequency * p.frequency))
 
 
 @njit(**INTERNAL_INLINE)
@@ -136,13 +139,13 @@ def stays_clear(p, arc, end):
     Most often the order of the stretches alone proves it: that leaves the convex ones which the arc passes from end to end,
     and those in which it begins falling or ends rising.
     """
-    start, (cut, convex) = start_knot(p, arc, 0.0, 1.0), first_stretch(p, arc)
+    start, (sign_change, convex) = start_knot(p, arc, 0.0, 1.0), first_interval(p, arc)
     begins_well, ends_well = positive_ahead(start.w, start.dw), positive_ahead(end.w, -end.dw)
-    time = cut + p.base_inside if convex else cut
+    time = sign_change + p.base_inside if convex else sign_change
     if not (start.w > 0.0 or start.dw > 0.0):
         return False
     if convex and not begins_well:
-        return ends_well and end.time <= cut
+        return ends_well and end.time <= sign_change
     if end.time <= time or (ends_well and end.time <= time + p.base_outside):
         return True
     grow, shrink, error = exponentials(p, arc)
@@ -151,10 +154,10 @@ def stays_clear(p, arc, end):
     per_z = 1.0 / z
     for _ in range(MAX_TURNS):
         growing, shrinking = grow * z, shrink * per_z
-        left = at_cut(p, time, growing, shrinking, -1.0)
+        left = at_sign_change(p, time, growing, shrinking, -1.0)
         doubt = MARGIN * (abs(growing) + abs(shrinking) + 1.0) + error * (z + per_z)
         growing, shrinking = growing * p.base_outside_growth, shrinking * p.base_outside_decay
-        right = at_cut(p, time, growing, shrinking, 1.0)
+        right = at_sign_change(p, time, growing, shrinking, 1.0)
         doubt = p.base_outside_growth * doubt + MARGIN * abs(growing)
         if not (left.w > doubt and right.w > doubt) or may_dip_between(p, (left, right), (doubt, doubt)):
             return False
@@ -177,11 +180,11 @@ class CutKnot(NamedTuple):
 
 @njit(**INTERNAL_INLINE)
 def cut_knot(p, arc_exponentials, time, z, per_z, turned):
-    """Return the ``CutKnot`` at a time, e^t = z, as ``at_cut`` gives the knot."""
+    """Return the ``CutKnot`` at a time, e^t = z, as ``at_sign_change`` gives the knot."""
     grow, shrink, error = arc_exponentials
     growing, shrinking = grow * z, shrink * per_z
     doubt = MARGIN * (abs(growing) + abs(shrinking) + 1.0) + (WIDE * error) * (z + per_z)
-    return CutKnot(at_cut(p, time, growing, shrinking, turned), growing, shrinking, doubt)
+    return CutKnot(at_sign_change(p, time, growing, shrinking, turned), growing, shrinking, doubt)
 
 
 @njit(**INTERNAL_INLINE)
@@ -211,20 +214,20 @@ def bracket_first_zero(p, arc):
     A concave stretch that begins with u >= 0 holds one zero if it ends with u < 0, else none; a convex one that begins
     with u > 0, or rising from 0, likewise, but for a dip. None will ever come as soon as what grows outweighs all else.
     """
-    before, (cut, convex) = start_knot(p, arc, 0.0, 1.0), first_stretch(p, arc)
+    before, (sign_change, convex) = start_knot(p, arc, 0.0, 1.0), first_interval(p, arc)
     # a convex stretch under way in which u rises holds no zero; else it is looked at like a whole one, and so is that of a
     # lift-off, through all of which u rises: from where it ends u is known to be positive, or all is in doubt
     lifts = before.w == 0.0 == before.dw
     if not (before.w > 0.0 or before.dw > 0.0 or (convex and lifts)):
         return Walk(UNSURE, before, before)
     under_way = convex and (lifts or not positive_ahead(before.w, before.dw))
-    time = 0.0 if under_way else cut + p.base_inside if convex else cut
+    time = 0.0 if under_way else sign_change + p.base_inside if convex else sign_change
     # how long the stretch is, and e^+-length
-    stretch = p.base_outside, p.base_outside_growth, p.base_outside_decay
+    interval = p.base_outside, p.base_outside_growth, p.base_outside_decay
     z, per_z, left, c = 1.0, 1.0, CutKnot(before, 0.0, 0.0, MARGIN), exponentials(p, arc)
     if under_way:
-        growth = math.exp(cut)
-        stretch = cut, growth, 1.0 / growth
+        growth = math.exp(sign_change)
+        interval = sign_change, growth, 1.0 / growth
     else:
         z = math.exp(time)
         per_z = 1.0 / z
@@ -235,9 +238,9 @@ def bracket_first_zero(p, arc):
                 return Walk(ZERO, before, left.jet)
             if not left.jet.w > left.doubt:
                 return Walk(UNSURE, before, left.jet)
-        time += stretch[0]
-        z *= stretch[1]
-        per_z *= stretch[2]
+        time += interval[0]
+        z *= interval[1]
+        per_z *= interval[2]
         right = cut_knot(p, c, time, z, per_z, 1.0)
         end = cross(p, arc, left, right, k == 0 and lifts)
         if end.answer != PASSED:
@@ -248,5 +251,5 @@ def bracket_first_zero(p, arc):
         time += p.base_inside
         z *= p.turn_growth * p.base_outside_decay
         per_z *= p.turn_decay * p.base_outside_growth
-        stretch = p.base_outside, p.base_outside_growth, p.base_outside_decay
+        interval = p.base_outside, p.base_outside_growth, p.base_outside_decay
     return Walk(UNSURE, left.jet, left.jet)

@@ -23,7 +23,7 @@ RIGHT_ANGLE = 0.5 * math.pi
 
 
 @njit(**KERNEL_INLINE)
-def turn_watch(p, sign):
+def turn_event_function(p, sign):
     """A turn of the motion: w = sign u', f_w = sign A Omega sin eta."""
     half = 0.5 * math.pi if p.amplitude > 0.0 else math.inf
     return EventFunction(0.0, 0.0, sign, sign * 0.5 * math.pi, half, p.amplitude > 0.0)
@@ -42,7 +42,7 @@ def next_turn(p, arc, sign, t, until):
     """(Found, time, instant) of the next turn after t, where sign u' falls through zero."""
     start, passed = t, PASSED * (1.0 + t)
     while True:
-        found, then, now = first_zero(p, arc, turn_watch(p, sign), start, until)
+        found, then, now = first_zero(p, arc, turn_event_function(p, sign), start, until)
         if found != CROSSING or then > t:
             return found, then, now
         start += passed

@@ -16,7 +16,7 @@ from numba import njit
 from rocking.kernels.arc.bracket import UNSURE, ZERO, Jet, bracket_first_zero, knot, start_knot, stays_clear
 from rocking.kernels.arc.enclosure import stays_between
 from rocking.kernels.arc.first_zero import MAX_ARC_TIME, corrected_step, step_to_zero
-from rocking.kernels.arc.solution import Instant, after, lapse_of
+from rocking.kernels.arc.solution import Instant, propagate, propagator_of
 from rocking.kernels.arc.taylor import series, velocity_after
 from rocking.kernels.compile_options import INTERNAL_INLINE
 from rocking.kernels.forcing.harmonic import forcing_rates, forcing_term
@@ -123,37 +123,37 @@ def taylor_zero(p, steady, here):
 
 
 @njit(**INTERNAL_INLINE)
-def refine_prediction(p, arc, constant, s, lapse, low, high):
+def refine_prediction(p, arc, constant, s, propagator, low, high):
     """(reached, time, instant, lapse close by) of a zero of w = constant + s u between two times, from a lapse not far from it."""
-    now = after(p, arc, lapse)
+    now = propagate(p, arc, propagator)
     for _ in range(TRIES):
-        here = knot(p, arc, constant, s, lapse.time, now)
+        here = knot(p, arc, constant, s, propagator.time, now)
         if close(p, here):
             y, correction = corrected_step(here.w, here.dw, (here.f, here.df, turned(p, constant + s, here)))
             step = y * correction
-            t = lapse.time + step
-            return low < t < high, t, taylor_step(p, now, step), lapse
-        told, step = taylor_zero(p, constant + s, here)
-        t = lapse.time + step
-        if not (told and low < t < high):
+            t = propagator.time + step
+            return low < t < high, t, taylor_step(p, now, step), propagator
+        valid, step = taylor_zero(p, constant + s, here)
+        t = propagator.time + step
+        if not (valid and low < t < high):
             break
-        lapse = lapse_of(p, t)
-        now = after(p, arc, lapse)
-    return False, lapse.time, now, lapse
+        propagator = propagator_of(p, t)
+        now = propagate(p, arc, propagator)
+    return False, propagator.time, now, propagator
 
 
 @njit(**INTERNAL_INLINE)
 def seek_in(p, arc, bracket):
     """``refine_prediction`` for the zero of u in a bracket: from where the series about its nearer end has the zero, or the middle."""
     low, high = bracket.low, bracket.high
-    told, step = taylor_zero(p, 1.0, low)
+    valid, step = taylor_zero(p, 1.0, low)
     t = low.time + step
-    if not (told and low.time < t < high.time):
-        told, step = taylor_zero(p, 1.0, high)
+    if not (valid and low.time < t < high.time):
+        valid, step = taylor_zero(p, 1.0, high)
         t = high.time + step
-        if not (told and low.time < t < high.time):
+        if not (valid and low.time < t < high.time):
             t = 0.5 * (low.time + high.time)
-    return refine_prediction(p, arc, 0.0, 1.0, lapse_of(p, t), low.time, min(high.time, MAX_ARC_TIME))
+    return refine_prediction(p, arc, 0.0, 1.0, propagator_of(p, t), low.time, min(high.time, MAX_ARC_TIME))
 
 
 @njit(**INTERNAL_INLINE)
@@ -163,12 +163,12 @@ def fast_first_impact(p, arc, guess):
     From the lapse that is guessed, if it leads to an impact that is certainly the first; else from a walk.
     """
     if guess.time > 0.0:
-        reached, t, now, lapse = refine_prediction(p, arc, 0.0, 1.0, guess, 0.0, MAX_ARC_TIME)
+        reached, t, now, propagator = refine_prediction(p, arc, 0.0, 1.0, guess, 0.0, MAX_ARC_TIME)
         if reached and stays_clear(p, arc, Jet(t, 0.0, now.velocity, 0.0, 0.0)):
-            return ZERO, t, now, lapse
+            return ZERO, t, now, propagator
     bracket = bracket_first_zero(p, arc)
-    reached, t, now, lapse = seek_in(p, arc, bracket)
-    return (bracket.answer if bracket.answer != ZERO or reached else UNSURE), t, now, lapse
+    reached, t, now, propagator = seek_in(p, arc, bracket)
+    return (bracket.answer if bracket.answer != ZERO or reached else UNSURE), t, now, propagator
 
 
 @njit(**INTERNAL_INLINE)
@@ -179,9 +179,9 @@ def predict_next_event(p, base, brace):
     here, rough = (brace, to_brace) if at_brace else (base, to_base)
     farthest = REACH / max(1.0, p.frequency)
     rough = min(rough, farthest)
-    told, step = polished(p, p.brace_angle - 1.0 if at_brace else 1.0, here, rough)
-    told = told and 0.0 < step <= farthest
-    return told, at_brace, step if told else rough
+    valid, step = polished(p, p.brace_angle - 1.0 if at_brace else 1.0, here, rough)
+    valid = valid and 0.0 < step <= farthest
+    return valid, at_brace, step if valid else rough
 
 
 @njit(**INTERNAL_INLINE)
@@ -194,24 +194,24 @@ def fast_first_event(p, arc):
     """
     system = p.amplitude, p.frequency, p.brace_angle
     base, brace = start_knot(p, arc, 0.0, 1.0), start_knot(p, arc, p.brace_angle, -1.0)
-    told, at_brace, step = predict_next_event(p, base, brace)
+    valid, at_brace, step = predict_next_event(p, base, brace)
     for _ in range(LOOKS):
-        lapse = lapse_of(p, base.time + step)
-        now = after(p, arc, lapse)
-        if not told:
+        propagator = propagator_of(p, base.time + step)
+        now = propagate(p, arc, propagator)
+        if not valid:
             if stays_between(system, step, (base.w, base.dw), (now.angle, now.velocity)):
                 base, brace = (
-                    knot(p, arc, 0.0, 1.0, lapse.time, now),
-                    knot(p, arc, p.brace_angle, -1.0, lapse.time, now),
+                    knot(p, arc, 0.0, 1.0, propagator.time, now),
+                    knot(p, arc, p.brace_angle, -1.0, propagator.time, now),
                 )
-                told, at_brace, step = predict_next_event(p, base, brace)
+                valid, at_brace, step = predict_next_event(p, base, brace)
                 continue
             at_brace = now.angle > p.brace_angle
-            told = at_brace or now.angle < 0.0
-        if told:
+            valid = at_brace or now.angle < 0.0
+        if valid:
             place, s = (p.brace_angle, -1.0) if at_brace else (0.0, 1.0)
-            reached, t, now, _ = refine_prediction(p, arc, place, s, lapse, base.time, MAX_ARC_TIME)
+            reached, t, now, _ = refine_prediction(p, arc, place, s, propagator, base.time, MAX_ARC_TIME)
             if reached and stays_between(system, t - base.time, (base.w, base.dw), (place, now.velocity)):
                 return ZERO, at_brace, t, now
-        told, step = False, 0.5 * step
+        valid, step = False, 0.5 * step
     return UNSURE, False, 0.0, NOWHERE

@@ -18,7 +18,7 @@ from typing import NamedTuple
 
 from numba import njit
 
-from rocking.kernels.arc.solution import after, evaluate, exponentials, propagator_or_none
+from rocking.kernels.arc.solution import evaluate, exponentials, propagate, propagator_or_none
 from rocking.kernels.arc.taylor import reversion
 from rocking.kernels.compile_options import INTERNAL, KERNEL, KERNEL_INLINE
 from rocking.kernels.forcing.harmonic import first_sign_change, forcing_rates, forcing_term, next_sign_change
@@ -54,13 +54,13 @@ class EventFunction(NamedTuple):
 
 
 @njit(**KERNEL_INLINE)
-def base_watch(p):
+def base_event_function(p):
     """The base: w = u, f_w = -1 - A cos eta."""
     return EventFunction(0.0, 1.0, 0.0, 0.0, p.base_half, False)
 
 
 @njit(**KERNEL_INLINE)
-def brace_watch(p):
+def brace_event_function(p):
     """The brace: w = brace_angle - u, f_w = 1 - brace_angle + A cos eta."""
     return EventFunction(
         p.brace_angle, -1.0, 0.0, 0.0, p.brace_half, p.brace_half < math.inf or p.brace_angle < 1.0
@@ -68,26 +68,26 @@ def brace_watch(p):
 
 
 @njit(**KERNEL_INLINE)
-def watched(p, arc, watch, now):
+def event_values(p, arc, event_function, now):
     """(w, w') at an instant; w from its change since the start, so that it is accurate near a brace too."""
     acceleration = now.angle + forcing_term(p, now.cosine)
-    at_start = watch.constant + watch.of_angle * arc.angle
+    at_start = event_function.constant + event_function.of_angle * arc.angle
     return (
-        at_start + (watch.of_angle * now.risen + watch.of_velocity * now.velocity),
-        watch.of_angle * now.velocity + watch.of_velocity * acceleration,
+        at_start + (event_function.of_angle * now.risen + event_function.of_velocity * now.velocity),
+        event_function.of_angle * now.velocity + event_function.of_velocity * acceleration,
     )
 
 
 @njit(**KERNEL_INLINE)
-def watched_forcing(p, watch, now):
+def event_forcing(p, event_function, now):
     """(f_w, f_w', f_w'') at an instant."""
     f = forcing_term(p, now.cosine)
     df, ddf = forcing_rates(p, now.cosine, now.sine)
     dddf = -p.frequency * p.frequency * df
     return (
-        watch.of_angle * f + watch.of_velocity * df - watch.constant,
-        watch.of_angle * df + watch.of_velocity * ddf,
-        watch.of_angle * ddf + watch.of_velocity * dddf,
+        event_function.of_angle * f + event_function.of_velocity * df - event_function.constant,
+        event_function.of_angle * df + event_function.of_velocity * ddf,
+        event_function.of_angle * ddf + event_function.of_velocity * dddf,
     )
 
 
@@ -109,16 +109,16 @@ def step_to_zero(w, dw, forcing):
 
 
 @njit(**INTERNAL)
-def refine(p, arc, watch, low, high, t):
+def refine(p, arc, event_function, low, high, t):
     """(time, instant) of the one zero in [low, high], w > 0 just after low and w <= 0 at high, from the guess t."""
     now = evaluate(p, arc, t)
     for k in range(ITERATIONS):
-        w, dw = watched(p, arc, watch, now)
+        w, dw = event_values(p, arc, event_function, now)
         if w > 0.0:
             low = t
         else:
             high = t
-        ahead = t + step_to_zero(w, dw, watched_forcing(p, watch, now))
+        ahead = t + step_to_zero(w, dw, event_forcing(p, event_function, now))
         stuck = k > MAX_STEPS and k % 2 == 0
         if stuck or not (dw < 0.0 and low <= ahead <= high):
             ahead = 0.5 * (low + high)
@@ -131,7 +131,7 @@ def refine(p, arc, watch, low, high, t):
 
 
 @njit(**INTERNAL)
-def time_below_zero(p, arc, watch, start, end):
+def time_below_zero(p, arc, event_function, start, end):
     """Return a time in a convex stretch at which w <= 0, or infinity where w stays positive.
 
     ``start`` and ``end`` are (time, w, w') at its ends, where w > 0.
@@ -145,7 +145,7 @@ def time_below_zero(p, arc, watch, start, end):
     t = left - (w + dw) * (right - left) / ((dw_right + w_right) - (w + dw))
     for _ in range(ITERATIONS):
         now = evaluate(p, arc, t)
-        w, dw = watched(p, arc, watch, now)
+        w, dw = event_values(p, arc, event_function, now)
         if w <= 0.0:
             return t
         slope = w + dw
@@ -153,7 +153,7 @@ def time_below_zero(p, arc, watch, start, end):
             low = t
         else:
             high = t
-        f, _, _ = watched_forcing(p, watch, now)
+        f, _, _ = event_forcing(p, event_function, now)
         ahead = t - slope / (slope + f)
         if not low <= ahead <= high:
             ahead = 0.5 * (low + high)
@@ -165,26 +165,26 @@ def time_below_zero(p, arc, watch, start, end):
 
 
 @njit(**KERNEL_INLINE)
-def first_guess(p, watch, now, w, dw, low, high):
+def first_guess(p, event_function, now, w, dw, low, high):
     """Where to begin in (low, high), ``now`` at low: the parabola's return for a hop that starts at w = 0, else the middle."""
     middle = 0.5 * (low + high)
-    f, _, _ = watched_forcing(p, watch, now)
+    f, _, _ = event_forcing(p, event_function, now)
     hop = 2.0 * dw
     return low - hop / f if w == 0.0 and hop > 0.0 and hop < -f * (middle - low) else middle
 
 
 @njit(**INTERNAL)
-def earliest_possible_zero(p, arc, watch, t):
+def earliest_possible_zero(p, arc, event_function, t):
     """How long w certainly stays positive from t on: t where nothing is certain, infinity for ever.
 
     w lies within ``swing`` of m + a e^t + b e^-t; the earliest time after t at which that curve, lowered by
     its rounding error, comes down to the swing.
     """
     grow, shrink, error = exponentials(p, arc)
-    m = watch.constant + watch.of_angle
-    a = (watch.of_angle + watch.of_velocity) * grow - error
-    b = (watch.of_angle - watch.of_velocity) * shrink - error
-    swing = p.response * (abs(watch.of_angle) + abs(watch.of_velocity) * p.frequency)
+    m = event_function.constant + event_function.of_angle
+    a = (event_function.of_angle + event_function.of_velocity) * grow - error
+    b = (event_function.of_angle - event_function.of_velocity) * shrink - error
+    swing = p.response * (abs(event_function.of_angle) + abs(event_function.of_velocity) * p.frequency)
     m -= swing + 1e-12 * (swing + abs(m))
     z = math.exp(t)
     if m + a * z + b / z <= 0.0:
@@ -216,56 +216,58 @@ def no_return_time(p, arc):
 
 
 @njit(**KERNEL_INLINE)
-def interval_at(p, arc, watch, t):
+def interval_at(p, arc, event_function, t):
     """(when the stretch under way at the time t ends, whether it lies inside the window of ``EventFunction``)."""
-    if not watch.half < math.inf:
+    if not event_function.half < math.inf:
         return math.inf, True
-    cut, inside = first_sign_change(p, arc.side, arc.psi, watch.centre, watch.half)
-    while cut <= t:
+    sign_change, inside = first_sign_change(p, arc.side, arc.psi, event_function.centre, event_function.half)
+    while sign_change <= t:
         inside = not inside
-        cut += next_sign_change(p, watch.half, inside)
-    return cut, inside
+        sign_change += next_sign_change(p, event_function.half, inside)
+    return sign_change, inside
 
 
 @njit(**KERNEL)
-def first_zero(p, arc, watch, t, limit):
+def first_zero(p, arc, event_function, t, limit):
     """(Found, time, instant): the first time after t, by ``limit``, at which w falls through zero.
 
     w >= 0 at t. Where w = w' = 0 at t (lift-off, leaving a brace) the first convex stretch begins there,
     and w rises through all of it.
     """
-    now = after(p, arc, propagator_or_none(p, t))
-    w, dw = watched(p, arc, watch, now)
+    now = propagate(p, arc, propagator_or_none(p, t))
+    w, dw = event_values(p, arc, event_function, now)
     at_rest = w == 0.0 and dw == 0.0
-    cut, inside = interval_at(p, arc, watch, t)
+    sign_change, inside = interval_at(p, arc, event_function, t)
     while True:
-        right = min(cut, limit)
+        right = min(sign_change, limit)
         then = evaluate(p, arc, right)
-        w_right, dw_right = watched(p, arc, watch, then)
+        w_right, dw_right = event_values(p, arc, event_function, then)
         low_end = right if w_right < 0.0 else math.inf
-        convex = inside == watch.convex_inside
+        convex = inside == event_function.convex_inside
         if at_rest:
             low_end = math.inf
         elif convex and w_right >= 0.0:
-            low_end = time_below_zero(p, arc, watch, (t, w, dw), (right, w_right, dw_right))
+            low_end = time_below_zero(p, arc, event_function, (t, w, dw), (right, w_right, dw_right))
         if low_end < math.inf:
-            t, now = refine(p, arc, watch, t, low_end, first_guess(p, watch, now, w, dw, t, low_end))
+            t, now = refine(
+                p, arc, event_function, t, low_end, first_guess(p, event_function, now, w, dw, t, low_end)
+            )
             return CROSSING, t, now
         at_rest = at_rest and not convex
         t, w, dw, now = right, w_right, dw_right, then
-        clear = earliest_possible_zero(p, arc, watch, t)
+        clear = earliest_possible_zero(p, arc, event_function, t)
         if clear == math.inf:
             return NEVER, t, then
         if t >= limit:
             return LATER, limit, then
         inside = not inside
-        cut += next_sign_change(p, watch.half, inside)
+        sign_change += next_sign_change(p, event_function.half, inside)
         if clear >= limit:
             return LATER, limit, evaluate(p, arc, limit)
-        if clear > cut:
+        if clear > sign_change:
             cycles = math.floor((clear - t) / p.period) * p.period
             if cycles > 0.0:
                 t += cycles
-                cut += cycles
+                sign_change += cycles
                 now = evaluate(p, arc, t)
-                w, dw = watched(p, arc, watch, now)
+                w, dw = event_values(p, arc, event_function, now)

@@ -87,7 +87,7 @@ def shift_clock(arc, time):
 
 
 @njit(**INTERNAL_INLINE)
-def lapse_of(p, t):
+def propagator_of(p, t):
     """The lapse of a time t >= 0."""
     sinh, versinh, excess, higher = hyperbolic(t)
     return Propagator(t, sinh, versinh, forced_step(p, t, sinh, versinh, excess, higher))
@@ -95,20 +95,20 @@ def lapse_of(p, t):
 
 @njit(**KERNEL)
 def propagator_or_none(p, t):
-    """``lapse_of`` where it is rarely needed."""
-    return lapse_of(p, t) if t > 0.0 else NONE_YET
+    """``propagator_of`` where it is rarely needed."""
+    return propagator_of(p, t) if t > 0.0 else NONE_YET
 
 
 @njit(**INTERNAL_INLINE)
 def evaluate(p, arc, t):
     """The arc a time t >= 0 after its start."""
-    return after(p, arc, lapse_of(p, t))
+    return propagate(p, arc, propagator_of(p, t))
 
 
 @njit(**INTERNAL_INLINE)
-def after(p, arc, lapse):
+def propagate(p, arc, propagator):
     """The arc a lapse after its start: eq. (5)."""
-    _, sinh, versinh, forced_step = lapse
+    _, sinh, versinh, forced_step = propagator
     steady, displaced, moved, cosine, sine = forced_response(
         p, arc.cosine, arc.sine, arc.angle - 1.0, arc.acceleration, forced_step
     )
@@ -126,9 +126,9 @@ def within_reach(p, angle):
 @njit(**INTERNAL_INLINE)
 def exponentials(p, arc):
     """(c+, c-, a bound on the rounding error of either): u = c+ e^t + c- e^-t + 1 + beta cos eta."""
-    place, rate = particular(p, arc.cosine, arc.sine)
-    mean = arc.angle - 1.0 - place
-    half = arc.velocity - rate
+    displacement, forced_velocity = particular(p, arc.cosine, arc.sine)
+    mean = arc.angle - 1.0 - displacement
+    half = arc.velocity - forced_velocity
     error = (
         4.0 * ROUNDING * (abs(arc.angle) + abs(arc.velocity) + 1.0 + 2.0 * p.response * (1.0 + p.frequency))
     )

@@ -6,7 +6,7 @@ from numba import njit
 
 from rocking.kernels.classify.periodicity import PeriodicityCheck, no_cycle
 from rocking.kernels.classify.quasi_periodicity import MIN_FLIGHTS, Flights, no_flights
-from rocking.kernels.classify.reset import ResetTracker, watched
+from rocking.kernels.classify.reset import ResetTracker, new_tracker
 from rocking.kernels.classify.workspace import BATCHES
 from rocking.kernels.compile_options import INTERNAL, INTERNAL_INLINE
 from rocking.kernels.march.march import UNKNOWN, begin
@@ -19,7 +19,7 @@ FIRST_SECTION = 0.3819660112501051  # of a period
 class Run(NamedTuple):
     """A motion under way."""
 
-    watch: ResetTracker
+    tracker: ResetTracker
     flights: Flights
     section_time: float  # of the section, within a cycle
     count: int  # rows kept of it
@@ -85,14 +85,14 @@ def batch_of(max_cycles):
 @njit(**INTERNAL)
 def opened(p, angle, velocity, max_cycles):
     """Return the state of a motion from (angle, velocity) at its start."""
-    watch = watched(begin(p, angle, velocity, UNKNOWN)[0])
-    run = Run(watch, no_flights(), FIRST_SECTION * p.period, 0, False, False)
+    tracker = new_tracker(begin(p, angle, velocity, UNKNOWN)[0])
+    run = Run(tracker, no_flights(), FIRST_SECTION * p.period, 0, False, False)
     batch = batch_of(max_cycles)
     batch_end = (max_cycles - BATCHES * batch) if batch > 0 else max_cycles + 1
     return ClassifierState(
         run=run,
         impacts=0,
-        brace_hits=watch.progress.brace_hits,
+        brace_hits=tracker.progress.brace_hits,
         checkpoint=FIRST_CHECKPOINT,
         batches=Batches(batch_end, 0, 0.0),
         lossy=0,

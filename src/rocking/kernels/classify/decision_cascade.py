@@ -37,7 +37,7 @@ from rocking.kernels.classify.periodicity import (
     with_work,
 )
 from rocking.kernels.classify.quasi_periodicity import (
-    agreement,
+    agreeing_digits,
     digits_of_speeds,
     evaluate_lazy_rows,
     no_flights,
@@ -96,10 +96,10 @@ def next_checkpoint(cycle, coming):
 
 
 @njit(**INTERNAL_INLINE)
-def over_batch(p, watch, target, max_cycles, grown):
+def over_batch(p, tracker, target, max_cycles, grown):
     """Return the exponent over the batch that ends at ``target``, in which differences have ``grown``; a release forgets them all."""
     batch = batch_of(max_cycles)
-    return (-math.inf if released_since(watch, target - batch) else grown) / (batch * p.period)
+    return (-math.inf if released_since(tracker, target - batch) else grown) / (batch * p.period)
 
 
 @njit(**INTERNAL_INLINE)
@@ -118,10 +118,10 @@ def end_batch(p, case, target, max_cycles, workspace):
     """
     run, batches, growth = case.run, case.batches, workspace.tangent.growth
     if run.measuring:
-        exponent = over_batch(p, run.watch, target, max_cycles, growth[0] - batches.grown)
+        exponent = over_batch(p, run.tracker, target, max_cycles, growth[0] - batches.grown)
         workspace.batches[batches.measured] = exponent
     elif not run.lossless:
-        begin_measuring(run.watch, workspace.tangent)
+        begin_measuring(run.tracker, workspace.tangent)
     return next_batch(case, max_cycles, growth[0])
 
 
@@ -152,18 +152,20 @@ def checkpoint_unstable(case, flights, max_cycles, growth):
 @njit(**INTERNAL)
 def note_losses(p, case, target):
     """Return the state of a motion that may have lost energy since the last checkpoint; then its flights are of no use."""
-    run, done = case.run, case.run.watch.progress
+    run, done = case.run, case.run.tracker.progress
     if not loses(p, done.impacts - case.impacts, done.brace_hits - case.brace_hits):
         return case
-    watch = unvisited(run.watch) if run.lossless else run.watch
-    return with_losses(case, as_lossy(run, watch, no_flights(), False), target)
+    tracker = unvisited(run.tracker) if run.lossless else run.tracker
+    return with_losses(case, as_lossy(run, tracker, no_flights(), False), target)
 
 
 @njit(**INTERNAL)
 def compare_averages(case, workspace):
     """Return the state in which the averages over the flights have been compared."""
     flights = case.run.flights
-    digits, converged = agreement(flights, workspace.flights, workspace.weights, workspace.tangent.growth[0])
+    digits, converged = agreeing_digits(
+        flights, workspace.flights, workspace.weights, workspace.tangent.growth[0]
+    )
     return with_averages(case, Averages(enough_after(flights.count), digits, converged))
 
 
@@ -182,7 +184,7 @@ def seek_orbit(p, case, target, max_period, workspace, still):
 
     ``still`` says that it may be a neutral one.
     """
-    run, known, done = case.run, case.known, case.run.watch.progress
+    run, known, done = case.run, case.known, case.run.tracker.progress
     events = done.impacts + done.brace_hits
     most_work = events if still else FREE_WORK + events // 2 - case.work
     evaluate_lazy_rows(p, workspace.section, 0, run.count, run.section_time)
@@ -191,13 +193,13 @@ def seek_orbit(p, case, target, max_period, workspace, still):
     work = case.work + check.work
     if check.answer == REACHED:
         ground = NEUTRAL_ORBIT if still else ORBIT
-        return periodic(p, ground, run.watch, with_work(check, work), run.section_time), case, 0
+        return periodic(p, ground, run.tracker, with_work(check, work), run.section_time), case, 0
     if check.period > 0:
         known = KnownOrbit(check, target if check.work > 0 else known.cycle)
     if check.answer == ON_EVENT:
         run = with_section(run, (run.section_time + NEXT_SECTION * p.period) % p.period, 0)
         known = KnownOrbit(no_cycle(0), known.cycle)
-    return undecided(run.watch), with_known(case, run, known, work), check.coming
+    return undecided(run.tracker), with_known(case, run, known, work), check.coming
 
 
 @njit(**INTERNAL)
@@ -205,7 +207,7 @@ def expect_torus(case, workspace):
     """Return the state of a motion that has lost nothing for long: from here on its flights are collected."""
     run, batches = case.run, case.batches
     begin_tangent(workspace.tangent)
-    run = as_lossless(run, under_way(run.watch.progress), True)
+    run = as_lossless(run, under_way(run.tracker.progress), True)
     return with_batches(case, run, Batches(batches.end, batches.measured, 0.0))
 
 
@@ -220,7 +222,7 @@ def end_of_budget(p, case, target, max_period, workspace):
         stands=is_stationary(section, run.count, max_period),
         lingers=lingers_near(section, run.count, target - known.cycle, known.check),
     )
-    return unsettled(p, run.watch, case.work, target, workspace.batches, findings)
+    return unsettled(p, run.tracker, case.work, target, workspace.batches, findings)
 
 
 @njit(**AST_INLINE)
@@ -231,20 +233,20 @@ def evaluate_checkpoint(p, case, status, run, max_cycles, max_period, workspace)
     checkpoint averages are compared, there and at the end a periodic orbit is sought; a batch only adds to the exponent.
     """
     if status != DONE:
-        return ended(status, run.watch, case.work), case
-    case, target, done = with_run(case, run), next_look(case, max_cycles), run.watch.progress
+        return ended(status, run.tracker, case.work), case
+    case, target, done = with_run(case, run), next_look(case, max_cycles), run.tracker.progress
     due, over, coming = target == case.checkpoint, target == max_cycles, 0
     if due or over:
         case = note_losses(p, case, target)
     if target == case.batches.end:
         case = end_batch(p, case, target, max_cycles, workspace)
     if not (due or over):
-        return undecided(run.watch), case
+        return undecided(run.tracker), case
     if case.run.lossless and due and case.run.flights.count >= case.averages.enough:
         case = compare_averages(case, workspace)
     still = stands_still(p, case, over, max_period, workspace)
     if due and case.averages.converged and not still:
-        return torus(case.run.watch, case.work, case.run.section_time, case.averages.digits), case
+        return torus(case.run.tracker, case.work, case.run.section_time, case.averages.digits), case
     if still or not case.run.lossless:
         verdict, case, coming = seek_orbit(p, case, target, max_period, workspace, still)
         if verdict[0] != OPEN:
@@ -255,7 +257,7 @@ def evaluate_checkpoint(p, case, status, run, max_cycles, max_period, workspace)
         return end_of_budget(p, case, target, max_period, workspace), case
     checkpoint = target + LEG if case.run.lossless else next_checkpoint(target, coming)
     case = with_checkpoint(case, done.impacts, done.brace_hits, checkpoint)
-    return undecided(case.run.watch), case
+    return undecided(case.run.tracker), case
 
 
 @njit(**AST_INLINE)

@@ -38,8 +38,8 @@ def make_room(section, count, coming, most_rows):
 @njit(**AST_INLINE)
 def follow_flights(p, run, target, most, workspace, wanted):
     """(status, run) at the end of cycle ``target`` of a motion that loses nothing; rows of the section only if they are ``wanted``."""
-    watch, flights, section_time, count, lossless, measuring = run
-    progress, events = watch.progress, workspace.events
+    tracker, flights, section_time, count, lossless, measuring = run
+    progress, events = tracker.progress, workspace.events
     recording = Recording(section_time, workspace.nothing.section, events, True, True)
     while True:
         before = progress
@@ -51,29 +51,29 @@ def follow_flights(p, run, target, most, workspace, wanted):
             )
         on = status in (PAUSED, RELEASED)
         if not on or progress.impacts + progress.brace_hits > most:
-            return status, Run(moved_on(watch, progress), flights, section_time, count, lossless, measuring)
+            return status, Run(moved_on(tracker, progress), flights, section_time, count, lossless, measuring)
 
 
 @njit(**AST_INLINE)
 def march_leg(p, run, max_cycles, target, workspace):
     """(status, run): a motion followed to ``target`` with its last states."""
     most = most_events(max_cycles)
-    watch, flights, section_time, count, lossless, measuring = run
-    cycle, rows, nothing = watch.progress.cycle, workspace.scratch.shape[0], workspace.nothing
+    tracker, flights, section_time, count, lossless, measuring = run
+    cycle, rows, nothing = tracker.progress.cycle, workspace.scratch.shape[0], workspace.nothing
     count = make_room(workspace.section, count, target - cycle, rows)
     if lossless:
         wanted = section_needed(workspace.tangent.growth[0], target, max_cycles, rows)
-        kept = Run(watch, flights, section_time, count if wanted else 0, lossless, measuring)
+        kept = Run(tracker, flights, section_time, count if wanted else 0, lossless, measuring)
         return follow_flights(p, kept, target, most, workspace, wanted)
     growth = workspace.tangent.growth if measuring else nothing.tangent.growth
     tangent = TangentState(workspace.tangent.columns, growth)
     # the section of the cycle under way may be past
-    coming = target - cycle - (not watch.progress.pending)
+    coming = target - cycle - (not tracker.progress.pending)
     total, status = count + min(coming, rows), np.int64(DONE)
     while status == DONE and cycle < target:
         # Of a long leg only the last states are kept.
         until = target if target - cycle <= rows else target - rows
         part = workspace.section[count:total] if until == target else nothing.section
-        status, watch = follow(p, watch, until, most, section_time, part, tangent, nothing)
-        cycle = watch.progress.cycle
-    return status, Run(watch, flights, section_time, total, lossless, measuring)
+        status, tracker = follow(p, tracker, until, most, section_time, part, tangent, nothing)
+        cycle = tracker.progress.cycle
+    return status, Run(tracker, flights, section_time, total, lossless, measuring)

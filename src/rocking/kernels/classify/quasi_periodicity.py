@@ -22,7 +22,7 @@ SHEAR = 5.0
 # Near the rim of an island the shear is large, and sticky chaos looks the same. Such motion needs this many flights.
 SHEARED_FLIGHTS = 8192
 SMALL_SHEAR = 1.0
-# More than ``agreement`` allows of as many flights as are kept (``workspace``).
+# More than ``agreeing_digits`` allows of as many flights as are kept (``workspace``).
 OUTGROWN = 20.0
 
 
@@ -118,13 +118,13 @@ def evaluate_lazy_rows(p, section, first, count, section_time):
 def section_needed(growth, target, max_cycles, rows):
     """Whether the states of a leg to ``target`` may be asked for: on a torus, and of every motion the last ones, ``rows`` at most.
 
-    On a torus differences never grow by more than ``agreement`` would allow at the end.
+    On a torus differences never grow by more than ``agreeing_digits`` would allow at the end.
     """
     return growth <= max(OUTGROWN, math.log(max_cycles) + SHEAR) or target > max_cycles - rows
 
 
 @njit(**INTERNAL)
-def agreement(flights, values, weights, growth):
+def agreeing_digits(flights, values, weights, growth):
     """(digits to which the averages over both halves agree, whether all is as on a torus).
 
     The flight times must agree to ENOUGH_DIGITS. Inside an island they are locked to the forcing, and their
@@ -151,7 +151,7 @@ def too_few(flights):
 
 @njit(**INTERNAL)
 def digits_of_speeds(flights, values, weights):
-    """The digits of ``agreement``, however much differences have grown."""
+    """The digits of ``agreeing_digits``, however much differences have grown."""
     if too_few(flights):
         return 0.0
     bumps(flights.count // 2, weights)

@@ -57,36 +57,36 @@ from_release = replacing(Progress, "peak", "strain")
 
 
 @njit(**INTERNAL)
-def watched(progress):
+def new_tracker(progress):
     """A motion at its start."""
     never = ResetRecord(False, 0, 0.0, 0, 0, False, -math.inf, 0.0)
     return ResetTracker(progress, never, never, 0, -1, -1, 0.0, progress.peak)
 
 
 @njit(**INTERNAL)
-def moved_on(watch, progress):
+def moved_on(tracker, progress):
     """The watch of a motion that has gone on to ``progress`` without a release that proves an orbit."""
-    return ResetTracker(progress, watch.base, watch.brace, 0, -1, -1, 0.0, watch.peak)
+    return ResetTracker(progress, tracker.base, tracker.brace, 0, -1, -1, 0.0, tracker.peak)
 
 
 @njit(**INTERNAL)
-def unvisited(watch):
+def unvisited(tracker):
     """The same motion, its releases forgotten: what differences have grown to since is no longer known."""
-    fresh = watched(watch.progress)
-    return ResetTracker(watch.progress, fresh.base, fresh.brace, 0, -1, -1, 0.0, watch.peak)
+    fresh = new_tracker(tracker.progress)
+    return ResetTracker(tracker.progress, fresh.base, fresh.brace, 0, -1, -1, 0.0, tracker.peak)
 
 
 @njit(**INTERNAL)
-def largest_angle(watch):
+def largest_angle(tracker):
     """Largest angle since the start."""
-    return max(watch.peak, watch.progress.peak)
+    return max(tracker.peak, tracker.progress.peak)
 
 
 @njit(**INTERNAL)
-def released_since(watch, cycle):
+def released_since(tracker, cycle):
     """Whether the block was released in ``cycle`` or later."""
-    return (watch.base.seen and watch.base.cycle >= cycle) or (
-        watch.brace.seen and watch.brace.cycle >= cycle
+    return (tracker.base.seen and tracker.base.cycle >= cycle) or (
+        tracker.brace.seen and tracker.brace.cycle >= cycle
     )
 
 
@@ -122,12 +122,12 @@ def hits_between(p, progress, visit, lifts):
 
 
 @njit(**INTERNAL)
-def at_release(p, watch, progress):
+def at_release(p, tracker, progress):
     """The watch at a release, from the base (the arc begins there) or from a brace."""
     arc = progress.arc
     lifts = arc.angle == 0.0
-    base = after_flight(watch.base, progress.strain, progress.peak, not lifts)
-    brace = after_flight(watch.brace, progress.strain, progress.peak, lifts)
+    base = after_flight(tracker.base, progress.strain, progress.peak, not lifts)
+    brace = after_flight(tracker.brace, progress.strain, progress.peak, lifts)
     visit = base if lifts else brace
     half_periods, impacts, brace_hits = 0, -1, -1
     if visit.seen:
@@ -147,38 +147,38 @@ def at_release(p, watch, progress):
         peak=0.0,
     )
     anew = from_release(progress, arc.angle, -math.inf)
-    peak = max(watch.peak, progress.peak)
+    peak = max(tracker.peak, progress.peak)
     base, brace = (now, brace) if lifts else (base, now)
     return ResetTracker(anew, base, brace, half_periods, impacts, brace_hits, visit.peak, peak)
 
 
 @njit(**AST_INLINE)
-def follow(p, watch, target, most_events, section_time, section, tangent, nothing):
+def follow(p, tracker, target, most_events, section_time, section, tangent, nothing):
     """(status, watch) at the end of cycle ``target``, or at the release that decides; RELEASED only then.
 
     ``section`` must have a row for every cycle to come, or none. ``tangent`` carries differences since the last release;
     where its growth is measured from the start.
     """
     rows = 0
-    seen = watch.base.seen or watch.brace.seen
+    seen = tracker.base.seen or tracker.brace.seen
     tracked = tangent.columns if seen or tangent.growth.shape[0] > 0 else nothing.tangent.columns
     while True:
         recording = Recording(
             section_time, section if rows == 0 else section[rows:], nothing.events, True, True
         )
         state = TangentState(tracked, tangent.growth)
-        status, progress, taken, _ = march_on(p, watch.progress, target, recording, state)
+        status, progress, taken, _ = march_on(p, tracker.progress, target, recording, state)
         rows += taken
         if status == RELEASED:
-            watch = at_release(p, watch, progress)
-            if watch.half_periods != 0:
-                return RELEASED, watch
+            tracker = at_release(p, tracker, progress)
+            if tracker.half_periods != 0:
+                return RELEASED, tracker
             tracked = tangent.columns
             begin_tangent(tangent)
             continue
-        watch = moved_on(watch, progress)
+        tracker = moved_on(tracker, progress)
         if status != PAUSED or progress.impacts + progress.brace_hits > most_events:
-            return status, watch
+            return status, tracker
 
 
 @njit(**INTERNAL)
@@ -189,9 +189,9 @@ def begin_tangent(tangent):
 
 
 @njit(**INTERNAL)
-def begin_measuring(watch, tangent):
+def begin_measuring(tracker, tangent):
     """Measure growth from here on; what differences have grown to since the last release stays in it."""
-    if watch.progress.mode == FLIGHT and (watch.base.seen or watch.brace.seen):
+    if tracker.progress.mode == FLIGHT and (tracker.base.seen or tracker.brace.seen):
         tangent.growth[:] = 0.0
         write_registers(read_tangent(tangent.columns), tangent)
     else:

@@ -116,9 +116,9 @@ UNKNOWN_EXPONENT = math.nan, math.nan
 
 
 @njit(**INTERNAL)
-def pack_verdict(kind, ground, watch, exponent, transient, check, section_time, digits):
+def pack_verdict(kind, ground, tracker, exponent, transient, check, section_time, digits):
     """Return the flat verdict that kernels hand to Python, in the order of ``Judgement``; ``exponent`` with its standard error."""
-    progress, peak, found = watch.progress, largest_angle(watch), check.found
+    progress, peak, found = tracker.progress, largest_angle(tracker), check.found
     real, imaginary, other_real, other_imaginary = multipliers(found.image.tangent)
     if check.peak > peak:
         # an orbit approached from below
@@ -151,64 +151,64 @@ def pack_verdict(kind, ground, watch, exponent, transient, check, section_time, 
 
 
 @njit(**INTERNAL)
-def undecided(watch):
+def undecided(tracker):
     """Return no verdict yet."""
-    return pack_verdict(OPEN, UNWATCHED, watch, UNKNOWN_EXPONENT, -1, no_cycle(0), 0.0, math.nan)
+    return pack_verdict(OPEN, UNWATCHED, tracker, UNKNOWN_EXPONENT, -1, no_cycle(0), 0.0, math.nan)
 
 
 @njit(**INTERNAL)
-def ended(status, watch, work):
+def ended(status, tracker, work):
     """Return the verdict on a run that stopped early: overturned, at rest, periodic by a release, or too many events."""
-    cycle, none = watch.progress.cycle, no_cycle(work)
+    cycle, none = tracker.progress.cycle, no_cycle(work)
     if status == OVERTURNED:
-        return pack_verdict(OVERTURNS, NO_RETURN, watch, UNKNOWN_EXPONENT, cycle, none, 0.0, math.nan)
+        return pack_verdict(OVERTURNS, NO_RETURN, tracker, UNKNOWN_EXPONENT, cycle, none, 0.0, math.nan)
     if status == STILL:
-        return pack_verdict(REST, STILL_FOR_EVER, watch, (-math.inf, 0.0), cycle, none, 0.0, math.nan)
-    if status == RELEASED and watch.half_periods > 0:
-        return released(watch, work)
+        return pack_verdict(REST, STILL_FOR_EVER, tracker, (-math.inf, 0.0), cycle, none, 0.0, math.nan)
+    if status == RELEASED and tracker.half_periods > 0:
+        return released(tracker, work)
     ground = UNRESOLVED_RESET if status == RELEASED else CROWDED
-    return pack_verdict(UNDETERMINED, ground, watch, UNKNOWN_EXPONENT, -1, none, 0.0, math.nan)
+    return pack_verdict(UNDETERMINED, ground, tracker, UNKNOWN_EXPONENT, -1, none, 0.0, math.nan)
 
 
 @njit(**INTERNAL)
-def released(watch, work):
+def released(tracker, work):
     """Return the verdict on a motion that was released as it was before: superstable, and symmetric after an odd number of half cycles.
 
     From one release to the next a symmetric motion goes through half of its period.
     """
-    half_periods, arc = watch.half_periods, watch.progress.arc
+    half_periods, arc = tracker.half_periods, tracker.progress.arc
     symmetric = half_periods % 2 == 1
     period, halves = (half_periods, 2) if symmetric else (half_periods // 2, 1)
-    impacts = halves * watch.impacts if watch.impacts >= 0 else -1
-    brace_hits = halves * watch.brace_hits if watch.brace_hits >= 0 else -1
+    impacts = halves * tracker.impacts if tracker.impacts >= 0 else -1
+    brace_hits = halves * tracker.brace_hits if tracker.brace_hits >= 0 else -1
     image = constant_image(impacts, brace_hits)
     release = FixedPoint(True, arc.side * arc.angle, 0.0, image, 0.0, 0.0, 0)
-    orbit = PeriodicityCheck(REACHED, period, symmetric, release, watch.orbit_peak, 0.0, 0, work)
-    transient = max(watch.progress.cycle - (half_periods + 1) // 2, 0)
-    return pack_verdict(PERIODIC, RESET, watch, (-math.inf, 0.0), transient, orbit, arc.start, math.nan)
+    orbit = PeriodicityCheck(REACHED, period, symmetric, release, tracker.orbit_peak, 0.0, 0, work)
+    transient = max(tracker.progress.cycle - (half_periods + 1) // 2, 0)
+    return pack_verdict(PERIODIC, RESET, tracker, (-math.inf, 0.0), transient, orbit, arc.start, math.nan)
 
 
 @njit(**INTERNAL)
-def periodic(p, ground, watch, check, section_time):
+def periodic(p, ground, tracker, check, section_time):
     """Return the verdict on a motion that has reached a periodic orbit."""
     real, imaginary, _, _ = multipliers(check.found.image.tangent)
     exponent = math.log(math.hypot(real, imaginary)) / (check.period * p.period), 0.0
     if ground == NEUTRAL_ORBIT:
         # the multipliers' product is 1, and differences were seen to grow no faster than linearly
         exponent = 0.0, math.nan
-    transient = max(watch.progress.cycle - check.period, 0)
-    return pack_verdict(PERIODIC, ground, watch, exponent, transient, check, section_time, math.nan)
+    transient = max(tracker.progress.cycle - check.period, 0)
+    return pack_verdict(PERIODIC, ground, tracker, exponent, transient, check, section_time, math.nan)
 
 
 @njit(**INTERNAL)
-def torus(watch, work, section_time, digits):
+def torus(tracker, work, section_time, digits):
     """Return the verdict on a motion whose averages converge as on a torus."""
     none = no_cycle(work)
-    return pack_verdict(QUASI_PERIODIC, TORUS, watch, (0.0, math.nan), 0, none, section_time, digits)
+    return pack_verdict(QUASI_PERIODIC, TORUS, tracker, (0.0, math.nan), 0, none, section_time, digits)
 
 
 @njit(**INTERNAL)
-def unsettled(p, watch, work, max_cycles, batches, findings):
+def unsettled(p, tracker, work, max_cycles, batches, findings):
     """Return the verdict at the end of the budget: chaotic if all of this shows it, else undetermined.
 
     The exponent is clearly positive; over the batches differences grew far; the batches are independent; and the motion
@@ -235,4 +235,4 @@ def unsettled(p, watch, work, max_cycles, batches, findings):
         ground = CORRELATED
     else:
         kind = CHAOTIC
-    return pack_verdict(kind, ground, watch, (mean, error), -1, no_cycle(work), 0.0, findings.digits)
+    return pack_verdict(kind, ground, tracker, (mean, error), -1, no_cycle(work), 0.0, findings.digits)

@@ -25,9 +25,9 @@ class ForcedStep(NamedTuple):
     sin_x: float
     versine: float
     in_phase: float
-    lateness: float
-    place: float
-    rate: float
+    quadrature: float
+    displacement: float
+    forced_velocity: float
 
 
 @njit(**INTERNAL_INLINE)
@@ -67,13 +67,13 @@ def forced_step(p, t, sinh, versinh, excess, higher):
     """The swing of a time t."""
     sin_x, versine, lag, deficit = circular(p.frequency, t)
     in_phase = versinh + versine
-    lateness = p.frequency * excess + lag
+    quadrature = p.frequency * excess + lag
     near = p.frequency * t < SHORT
-    place, rate = in_phase, sinh + p.frequency * sin_x
+    displacement, forced_velocity = in_phase, sinh + p.frequency * sin_x
     if near:
-        place = -(p.frequency * p.frequency * higher + deficit)
-        rate = -p.frequency * lateness
-    return ForcedStep(near, sin_x, versine, in_phase, lateness, place, rate)
+        displacement = -(p.frequency * p.frequency * higher + deficit)
+        forced_velocity = -p.frequency * quadrature
+    return ForcedStep(near, sin_x, versine, in_phase, quadrature, displacement, forced_velocity)
 
 
 @njit(**INTERNAL_INLINE)
@@ -84,9 +84,9 @@ def forced_response(p, cosine, sine, above, acceleration, forced_step):
     the start, later u0 - 1 (``above``): either way G is made of sums of positive functions, and no larger parts
     cancel.
     """
-    near, sin_x, versine, in_phase, lateness, place, rate = forced_step
-    displaced = p.response * (sine * lateness - cosine * place)
-    moved = p.response * (p.frequency * sine * in_phase - cosine * rate)
+    near, sin_x, versine, in_phase, quadrature, displacement, forced_velocity = forced_step
+    displaced = p.response * (sine * quadrature - cosine * displacement)
+    moved = p.response * (p.frequency * sine * in_phase - cosine * forced_velocity)
     return (
         acceleration if near else above,
         displaced,

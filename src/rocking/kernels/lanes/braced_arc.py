@@ -68,17 +68,17 @@ def predict_event(s, i):
     c = coefficients(s, i, u, c, at_brace)
     farthest = REACH / max(1.0, s.frequency[i])
     rough = choose(rough <= farthest, rough, farthest)
-    x, told = rough, rough > 0.0
+    x, certain = rough, rough > 0.0
     for _ in range(ROUNDS):
         w, dw, second, third, fourth = series(c, x)
         per = 1.0 / dw
         y = -w * per
-        told = told & (dw < 0.0)
+        certain = certain & (dw < 0.0)
         x += y * within_a_factor_of_two(reversion(y, second, third, fourth, per))
-    told = told & (x > 0.0) & (x <= farthest)
-    s.time[i] = choose(aims, s.about[i] + choose(told, x, rough), s.time[i])
+    certain = certain & (x > 0.0) & (x <= farthest)
+    s.time[i] = choose(aims, s.about[i] + choose(certain, x, rough), s.time[i])
     s.at_brace[i] = choose(aims, choose(at_brace, 1.0, 0.0), s.at_brace[i])
-    s.stage[i] = choose(aims, choose(told, REFINE, EXTEND), s.stage[i])
+    s.stage[i] = choose(aims, choose(certain, REFINE, EXTEND), s.stage[i])
 
 
 @njit(**SIMD_INLINE)

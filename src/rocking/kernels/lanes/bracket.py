@@ -16,7 +16,7 @@ from rocking.kernels.numerics.elementary import fma
 from rocking.kernels.numerics.simd import choose
 
 
-class ConvexStretch(NamedTuple):
+class ConvexInterval(NamedTuple):
     """u on a convex stretch: at its start, halfway and at its end, with bounds on the errors at start and end."""
 
     u: float
@@ -29,16 +29,17 @@ class ConvexStretch(NamedTuple):
 
 
 @njit(**SIMD_INLINE)
-def convex_stretch(s, i):
-    """Return the ``ConvexStretch`` of lane i that begins at ``end``."""
-    place, rate, response = s.cut_place[i], s.cut_rate[i], s.response[i]
+def convex_interval(s, i):
+    """Return the ``ConvexInterval`` of lane i that begins at ``end``."""
+    displacement, forced_velocity = s.sign_change_displacement[i], s.sign_change_velocity[i]
+    response = s.response[i]
     growing, shrinking = s.growing[i] * s.z[i], s.shrinking[i] * s.per_z[i]
-    u, du = growing + shrinking + place, growing - shrinking - rate
+    u, du = growing + shrinking + displacement, growing - shrinking - forced_velocity
     error = MARGIN * (abs(growing) + abs(shrinking) + 1.0)
     growing, shrinking = growing * s.half_growth[i], shrinking * s.half_decay[i]
     u_half, du_half = growing + shrinking + 1.0 - response, growing - shrinking
     growing, shrinking = growing * s.half_growth[i], shrinking * s.half_decay[i]
-    u_right, du_right = growing + shrinking + place, growing - shrinking + rate
+    u_right, du_right = growing + shrinking + displacement, growing - shrinking + forced_velocity
     error_right = error + MARGIN * (abs(growing) + abs(shrinking))
     for_ever = (growing > 0.0) & (growing - abs(shrinking) + 1.0 - response > error_right)
     passed = (u > error) & (u_half > error_right) & (u_right > error_right)
@@ -46,7 +47,7 @@ def convex_stretch(s, i):
     tanh = s.half_tanh[i]
     doubt = may_dip(u, du, u_half, du_half, tanh) | may_dip(u_half, du_half, u_right, du_right, tanh)
     doubt = doubt & (s.cleared[i] == 0.0)
-    return ConvexStretch(u, u_half, u_right, error, error_right, passed & (doubt == False), passed & doubt)  # noqa: E712
+    return ConvexInterval(u, u_half, u_right, error, error_right, passed & (doubt == False), passed & doubt)  # noqa: E712
 
 
 @njit(**SIMD_INLINE)
@@ -61,7 +62,7 @@ def turn_forcing(s, i, turns):
 @njit(**SIMD_INLINE)
 def skip_clear_period(s, i):
     """Go a turn of the forcing further, where certainly no zero lies in the next stretches."""
-    passed = convex_stretch(s, i).passed & (s.stage[i] == BRACKET)
+    passed = convex_interval(s, i).passed & (s.stage[i] == BRACKET)
     s.low[i] = choose(passed, s.end[i] + s.outside[i], s.low[i])
     s.cleared[i] = choose(passed, 0.0, s.cleared[i])
     turn_forcing(s, i, passed)
@@ -74,15 +75,15 @@ def walk(s, i):
     ``skip_clear_period`` before it does not look for the zero: most often only the last of two turns holds it.
     """
     stage, low, end, outside = s.stage[i], s.low[i], s.end[i], s.outside[i]
-    stretch = convex_stretch(s, i)
-    above, found_in = stretch.u > stretch.error, stretch.u < -stretch.error
-    dips = above & (stretch.u_half < -stretch.error_right)
-    falls = (stretch.u_right < -stretch.error_right) & (stretch.u_half > stretch.error_right)
+    interval = convex_interval(s, i)
+    above, found_in = interval.u > interval.error, interval.u < -interval.error
+    dips = above & (interval.u_half < -interval.error_right)
+    falls = (interval.u_right < -interval.error_right) & (interval.u_half > interval.error_right)
     found = found_in | dips | (above & falls)
-    on = choose(stretch.passed, BRACKET, choose(stretch.doubtful, MINIMUM, FAILED))
+    on = choose(interval.passed, BRACKET, choose(interval.doubtful, MINIMUM, FAILED))
     halfway = fma(0.5, outside, end)
     high = choose(found_in, end, choose(dips, halfway, end + outside))
-    next_low = choose(found_in, low, choose(stretch.passed, end + outside, end))
+    next_low = choose(found_in, low, choose(interval.passed, end + outside, end))
     walking = stage == BRACKET
     s.stage[i] = choose(walking, choose(found, GUESS, on), stage)
     s.concave[i] = choose(walking, choose(found_in, 1.0, -1.0), s.concave[i])
@@ -91,4 +92,4 @@ def walk(s, i):
     s.time[i] = choose(walking, halfway, s.time[i])
     s.tries[i] = choose(walking, 0.0, s.tries[i])
     s.cleared[i] = choose(walking, 0.0, s.cleared[i])
-    turn_forcing(s, i, stretch.passed & walking)
+    turn_forcing(s, i, interval.passed & walking)

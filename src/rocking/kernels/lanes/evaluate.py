@@ -28,12 +28,12 @@ def instant_of(s, i, above):
     sin_x, versine, lag = s.sin_x[i], s.versine[i], s.lag[i]
     near = s.time[i] < s.short_time_limit[i]
     in_phase, quadrature = versinh + versine, fma(frequency, excess, lag)
-    place = choose(near, -fma(s.frequency_square[i], s.higher[i], s.deficit[i]), in_phase)
-    rate = choose(near, -frequency * quadrature, fma(frequency, sin_x, sinh))
+    displacement = choose(near, -fma(s.frequency_square[i], s.higher[i], s.deficit[i]), in_phase)
+    forced_velocity = choose(near, -frequency * quadrature, fma(frequency, sin_x, sinh))
     steady = choose(near, fma(-s.amplitude[i], cosine, above), above)
     response_cosine = response * cosine
-    displaced = fma(response * sine, quadrature, -response_cosine * place)
-    moved = fma(s.response_rate[i] * sine, in_phase, -response_cosine * rate)
+    displaced = fma(response * sine, quadrature, -response_cosine * displacement)
+    moved = fma(s.response_rate[i] * sine, in_phase, -response_cosine * forced_velocity)
     return (
         fma(velocity, sinh, fma(steady, versinh, displaced)),
         velocity + fma(velocity, versinh, fma(steady, sinh, moved)),

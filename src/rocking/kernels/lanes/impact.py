@@ -27,7 +27,7 @@ from rocking.kernels.numerics.elementary import fma
 from rocking.kernels.numerics.simd import ROUGHLY, both_exponentials, choose, logarithms_of_ratios
 
 # c+ and c- below this tell a crest and its time well enough.
-TOLD = -1e-5
+CREST_CERTAIN = -1e-5
 
 
 @njit(**SIMD_INLINE)
@@ -116,19 +116,19 @@ def begin_exponentials(s, i):
     grow, shrink = mean + half, mean - half
     m, root = math.sqrt(grow * shrink), math.sqrt(fma(q, q, -grow * shrink))
     late, twice = logarithms_of_ratios(q + root, -grow, -shrink, -grow)
-    to_cut = choose(s.side[i] > 0.0, s.cut_right[i], s.cut_left[i]) - s.start[i]
+    to_sign_change = choose(s.side[i] > 0.0, s.sign_change_right[i], s.sign_change_left[i]) - s.start[i]
     s.growing[i] = choose(begins, 0.5 * grow, s.growing[i])
     s.shrinking[i] = choose(begins, 0.5 * shrink, s.shrinking[i])
     s.deep[i] = m
     s.twice[i] = twice
     s.late[i] = choose(q > m, late, -math.inf)
-    s.cut[i] = fma(-np.floor(to_cut * s.per_period[i]), s.period[i], to_cut)
+    s.sign_change[i] = fma(-np.floor(to_sign_change * s.per_period[i]), s.period[i], to_sign_change)
 
 
 @njit(**SIMD_INLINE)
 def crest_may_exceed(s, i):
     """Whether a block in lane i may rise beyond its peak on the arc that begins."""
-    away = fma(-0.5, s.inside[i] + s.twice[i], s.cut[i])
+    away = fma(-0.5, s.inside[i] + s.twice[i], s.sign_change[i])
     away = fma(-np.floor(fma(away, s.per_period[i], 0.5)), s.period[i], away)
     away = max(abs(away) - ROUGHLY, 0.0)
     return may_rise_above(s.peak[i], s.deep[i], away, s.frequency_square[i], s.response[i])
@@ -137,16 +137,16 @@ def crest_may_exceed(s, i):
 @njit(**SIMD_INLINE)
 def begin_walk(s, i):
     """Write where the walk along an arc that begins starts: turns of the forcing between the roots need not be walked."""
-    cut, late, begins = s.cut[i], s.late[i], s.stage[i] >= NEW_ARC
-    told = max(s.growing[i], s.shrinking[i]) < TOLD
-    certain = told & (crest_may_exceed(s, i) == False)  # noqa: E712
+    sign_change, late, begins = s.sign_change[i], s.late[i], s.stage[i] >= NEW_ARC
+    certain = max(s.growing[i], s.shrinking[i]) < CREST_CERTAIN
+    certain = certain & (crest_may_exceed(s, i) == False)  # noqa: E712
     early, late = s.twice[i] - late + 2.0 * ROUGHLY, late - 2.0 * ROUGHLY
-    leaps = told & (cut > early) & (cut < late)
-    turns = choose(leaps, np.floor((late - cut) * s.per_period[i]), 0.0)
-    cut = fma(turns, s.period[i], cut)
+    leaps = certain & (sign_change > early) & (sign_change < late)
+    turns = choose(leaps, np.floor((late - sign_change) * s.per_period[i]), 0.0)
+    sign_change = fma(turns, s.period[i], sign_change)
     s.exceeds[i] = choose(begins, choose(certain, 0.0, 1.0), s.exceeds[i])
-    s.low[i] = choose(begins, max(cut - s.inside[i], 0.0), s.low[i])
-    s.end[i] = choose(begins, cut, s.end[i])
+    s.low[i] = choose(begins, max(sign_change - s.inside[i], 0.0), s.low[i])
+    s.end[i] = choose(begins, sign_change, s.end[i])
 
 
 @njit(**SIMD_INLINE)

@@ -76,7 +76,7 @@ def find_event(s, i, p):
 
 
 @njit(**INTERNAL_INLINE)
-def resolve(s, i, p):
+def resolve_alone(s, i, p):
     """Do what needs one block alone, and return the request that is left."""
     if s.request[i] == FIND_EVENT:
         return find_event(s, i, p)

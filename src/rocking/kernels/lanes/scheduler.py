@@ -20,7 +20,7 @@ from rocking.kernels.classify.workspace import LEG
 from rocking.kernels.compile_options import ALLOCATING_ENTRY, INTERNAL, INTERNAL_INLINE
 from rocking.kernels.event_kinds import FLIGHT, IMPACT
 from rocking.kernels.lanes.log import log_arcs
-from rocking.kernels.lanes.scalar_fallback import request_at_event, resolve, update_peak
+from rocking.kernels.lanes.scalar_fallback import request_at_event, resolve_alone, update_peak
 from rocking.kernels.lanes.state import (
     END_LEG,
     IDLE,
@@ -31,7 +31,7 @@ from rocking.kernels.lanes.state import (
     TO_SCALAR,
     UPDATE_PEAK,
 )
-from rocking.kernels.lanes.step import advance, advance_between, strike, strike_between
+from rocking.kernels.lanes.step import advance, advance_between, apply_events, apply_impacts
 from rocking.kernels.lanes.transfer import (
     flights_by_now,
     load_block,
@@ -69,12 +69,12 @@ class BatchRequest(NamedTuple):
 @njit(**INTERNAL)
 def lane_eligible(p, case):
     """Whether lanes may march a motion: between braces from event to event, or without any where nothing is lost."""
-    run, watch = case.run, case.run.watch
-    progress, arc = watch.progress, watch.progress.arc
+    run, tracker = case.run, case.run.tracker
+    progress, arc = tracker.progress, tracker.progress.arc
     if progress.mode != FLIGHT or not (p.amplitude > 1.0 and p.period >= MIN_LANE_PERIOD):
         return False
     if p.brace_angle < math.inf:
-        return not (run.lossless or watch.base.seen or watch.brace.seen)
+        return not (run.lossless or tracker.base.seen or tracker.brace.seen)
     plain = p.restitution == 1.0 and arc.angle == 0.0 and arc.velocity >= SLOWEST
     return plain and run.lossless and run.flights.event == IMPACT
 
@@ -96,7 +96,7 @@ def try_skip_readback(s, i, work, max_cycles, workspace):
     if section_needed(growth, ahead, max_cycles, workspace.scratch.shape[0]):
         return False, work
     if further.batches.measured > case.batches.measured:
-        exponent = over_batch(p, case.run.watch, target, max_cycles, growth - case.batches.grown)
+        exponent = over_batch(p, case.run.tracker, target, max_cycles, growth - case.batches.grown)
         workspace.batches[i, case.batches.measured] = exponent
     set_leg(s, i, ahead, False)
     return True, LaneWork(point, p, further)
@@ -116,9 +116,9 @@ def start_leg(s, i, work, stays, max_cycles, own):
     if stays:
         set_difference(s, i, own.tangent.columns)
     else:
-        load_block(s, i, work.p, case.run.watch.progress, own.tangent.columns, case.run.flights.count)
+        load_block(s, i, work.p, case.run.tracker.progress, own.tangent.columns, case.run.flights.count)
     # no more cycles at a time than the section has rows for
-    target = min(next_look(case, max_cycles), case.run.watch.progress.cycle + LEG)
+    target = min(next_look(case, max_cycles), case.run.tracker.progress.cycle + LEG)
     needed = section_needed(own.tangent.growth[0], target, max_cycles, own.scratch.shape[0])
     set_leg(s, i, target, not case.run.lossless or needed)
 
@@ -131,7 +131,7 @@ def service_lane(s, i, request, work, queue, batch, workspace):
     they may march. All that they may not march is done here, one block at a time.
     """
     own, max_cycles = lane_workspace(workspace, i), batch.max_cycles
-    verdict, settled, ended = undecided(work.case.run.watch), request == LOAD_NEXT, request == END_LEG
+    verdict, settled, ended = undecided(work.case.run.tracker), request == LOAD_NEXT, request == END_LEG
     marched = ended and s.target[i] == next_look(work.case, max_cycles)
     stays, due = request < LOAD_NEXT or ended, marched or request == TO_SCALAR
     if not settled:
@@ -160,7 +160,7 @@ def service_lane(s, i, request, work, queue, batch, workspace):
 
 
 @njit(**INTERNAL_INLINE)
-def attend(s, i, request, work, queue, batch, workspace):
+def service_until_ready(s, i, request, work, queue, batch, workspace):
     """Fulfil this and the following requests of a lane, and return its work item and the next point of the queue."""
     while request > UPDATE_PEAK:
         skipped = False
@@ -177,9 +177,9 @@ def run_lanes(s, flights, log, braced, stop):
     """March all lanes until one of them makes a request."""
     while stop[0] == 0:
         if braced:
-            strike_between(s)
+            apply_events(s)
         else:
-            strike(s)
+            apply_impacts(s)
         log_arcs(s, flights, log, braced)
         if advance_between(s) if braced else advance(s):
             return
@@ -202,9 +202,9 @@ def classify_batch_lanes(systems, starts, max_cycles, max_period, workspace, res
         for i in range(LANES):
             if s.request[i] == NO_REQUEST:
                 continue
-            request = resolve(s, i, works[i].p)
+            request = resolve_alone(s, i, works[i].p)
             if request > UPDATE_PEAK:
-                works[i], queue = attend(s, i, request, works[i], queue, batch, workspace)
+                works[i], queue = service_until_ready(s, i, request, works[i], queue, batch, workspace)
                 busy -= works[i].point < 0
             update_peak(s, i, works[i].p)
         if busy == 0:

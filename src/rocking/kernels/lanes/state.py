@@ -27,10 +27,11 @@ FIELDS = (
     "amplitude", "frequency", "phase", "response", "restitution", "period", "per_period",
     "amplitude_rate", "frequency_square", "response_rate", "short_time_limit",
     # when, within the cycle, a convex stretch begins on either side
-    "cut_right", "cut_left",
+    "sign_change_right", "sign_change_left",
     # 1 + beta cos eta and the size of its rate at the cuts; lengths of the concave and the convex stretches; e^+-length
     # of a whole turn and of half of a convex stretch, the hyperbolic tangent of that, with a margin
-    "cut_place", "cut_rate", "inside", "outside", "turn_growth", "turn_decay", "half_growth", "half_decay", "half_tanh",
+    "sign_change_displacement", "sign_change_velocity", "inside", "outside",
+    "turn_growth", "turn_decay", "half_growth", "half_decay", "half_tanh",
     # of a concave and of a convex stretch a quarter from their middle: cos eta, the size of sin eta, e^+-quarter
     "cosine_in", "sine_in", "grow_in", "decay_in", "cosine_out", "sine_out", "grow_out", "decay_out",
     # the arc: where it starts, and c+ and c-
@@ -57,7 +58,7 @@ FIELDS = (
     # between braces: (u, u', cos eta, sin eta) at the time ``about``, up to which nothing is met
     "knot_angle", "knot_rate", "knot_cosine", "knot_sine",
     # where an arc begins: the first cut; m = 2 sqrt(c+ c-), ln(c-/c+), and roughly the time up to which u must be positive
-    "cut", "deep", "twice", "late",
+    "sign_change", "deep", "twice", "late",
     # where an arc is logged: into which row, the square of the speed, whether there is more to log
     "slot", "square", "due",
 )  # fmt: skip
@@ -105,10 +106,10 @@ def set_system(s, i, p):
     s.short_time_limit[i] = min(SHORT_TIME, SHORT_ANGLE / p.frequency)
     s.brace_angle[i] = p.brace_angle
     s.brace_restitution[i] = p.brace_restitution
-    s.cut_right[i] = within_a_cycle(p, p.base_half - p.phase)
-    s.cut_left[i] = within_a_cycle(p, p.base_half - p.phase - math.pi)
-    s.cut_place[i] = p.cut_place
-    s.cut_rate[i] = p.cut_rate
+    s.sign_change_right[i] = within_a_cycle(p, p.base_half - p.phase)
+    s.sign_change_left[i] = within_a_cycle(p, p.base_half - p.phase - math.pi)
+    s.sign_change_displacement[i] = p.sign_change_displacement
+    s.sign_change_velocity[i] = p.sign_change_velocity
     s.inside[i] = p.base_inside
     s.outside[i] = p.base_outside
     s.turn_growth[i] = p.turn_growth

@@ -20,7 +20,7 @@ from rocking.kernels.lanes.state import LANES
 
 
 @njit(**SIMD)
-def strike(s):
+def apply_impacts(s):
     """Apply the impacts of all lanes that have arrived, and begin their next arcs."""
     for i in range(LANES):
         carry_through_impact(s, i)
@@ -60,8 +60,8 @@ def advance(s):
 
 
 @njit(**SIMD)
-def strike_between(s):
-    """``strike`` between braces."""
+def apply_events(s):
+    """``apply_impacts`` between braces."""
     for i in range(LANES):
         carry_through_event(s, i)
     for i in range(LANES):

@@ -108,8 +108,8 @@ def progress_of(s, i, p, before, ends, section_time):
 @njit(**INTERNAL)
 def unload_block(s, i, request, p, run, workspace, log):
     """Return the run of a lane, with what happened since it was last read; at the end of the leg if that is its request."""
-    watch, flights, section_time, count, lossless, measuring = run
-    before, written = watch.progress, int(s.events[i]) - int(s.counted[i])
+    tracker, flights, section_time, count, lossless, measuring = run
+    before, written = tracker.progress, int(s.events[i]) - int(s.counted[i])
     if lossless and written > 0:
         collected = flights_by_now(s, i, flights, workspace.flights.shape[0])
         flights = Flights(IMPACT, int(s.cycle[i]), s.start[i], flights.first_cycle, collected)
@@ -123,7 +123,7 @@ def unload_block(s, i, request, p, run, workspace, log):
         count = 0
     s.counted[i] = s.events[i]
     read_growth(s, i, workspace.tangent.columns, workspace.tangent.growth)
-    return Run(moved_on(watch, after), flights, section_time, count, lossless, measuring)
+    return Run(moved_on(tracker, after), flights, section_time, count, lossless, measuring)
 
 
 @njit(**INTERNAL)

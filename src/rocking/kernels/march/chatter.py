@@ -9,17 +9,17 @@ from rocking.kernels.forcing.harmonic import acceleration_change_bound, forcing_
 
 
 @njit(**INTERNAL)
-def settling_time(speed, restitution, weakest, strongest, room):
+def settling_time(speed, restitution, weakest, strongest, clearance):
     """A bound on how long impacts go on, from one that leaves at ``speed``.
 
-    The block is pressed back with ``weakest`` to ``strongest`` within ``room``. Infinite where they need
+    The block is pressed back with ``weakest`` to ``strongest`` within ``clearance``. Infinite where they need
     not end. A hop's height stays below h = speed**2/weakest (<= weakest/2), so the press, less u, stays
     above ``weakest - h``; each impact returns at most ``ratio`` times the speed it left with, so speeds
     fall geometrically by restitution*ratio, and a hop lasts at most (1 + ratio)/(weakest - h) times its
     speed.
     """
     height = speed * speed / weakest
-    if not (weakest > 0.0 and height <= 0.5 * min(weakest, room)):
+    if not (weakest > 0.0 and height <= 0.5 * min(weakest, clearance)):
         return math.inf
     press = weakest - height
     ratio = math.sqrt(strongest / press)

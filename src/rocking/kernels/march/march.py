@@ -229,10 +229,10 @@ def march_on(p, progress, cycles, recording, state):
     """
     events, tangent = recording.events, read_registers(state)
     written, rows, computed = 0, 0, 0
-    last_lapse = propagator_or_none(p, progress.last_wait)
-    lapse_before = propagator_or_none(p, progress.wait_before)
+    last_propagator = propagator_or_none(p, progress.last_wait)
+    propagator_before = propagator_or_none(p, progress.wait_before)
     while True:
-        coming, lapse = next_event(p, progress.mode, progress.arc, lapse_before)
+        coming, propagator = next_event(p, progress.mode, progress.arc, propagator_before)
         progress = prove_no_return(p, progress, coming)
         progress, rows, ended = pass_boundaries(p, progress, coming.wait, cycles, recording, rows)
         full = computed >= BREATH or (events.shape[0] > 0 and written + 2 > events.shape[0])
@@ -243,7 +243,7 @@ def march_on(p, progress, cycles, recording, state):
         before = progress
         # What is left of an arc entered on its way says nothing about whole ones.
         whole = before.arc.angle in (0.0, p.brace_angle)
-        lapse_before, last_lapse = last_lapse, lapse if whole else last_lapse
+        propagator_before, last_propagator = last_propagator, propagator if whole else last_propagator
         unobserved = unobserved_time(p, before, coming, cycles, recording)
         progress = pass_event(p, before, coming, unobserved, recording.peak)
         if progress.mode != FLIGHT:
@@ -259,8 +259,8 @@ def march_on(p, progress, cycles, recording, state):
             break
     if in_registers(state):
         write_registers(tangent, state)
-    left = lapse.time if recording.releases else min(progress.arc.start + coming.wait, MAX_ARC_TIME)
-    progress = with_waits(progress, last_lapse.time, left if status == DONE else lapse_before.time)
+    left = propagator.time if recording.releases else min(progress.arc.start + coming.wait, MAX_ARC_TIME)
+    progress = with_waits(progress, last_propagator.time, left if status == DONE else propagator_before.time)
     if status == DONE and not (recording.releases and coming.wait < math.inf):
         status, progress = finish(p, progress, coming, state, recording.peak)
     return status, progress, rows, written

@@ -9,7 +9,14 @@ from rocking.kernels.arc.bracket import NEVER as NEVER_MORE
 from rocking.kernels.arc.bracket import ZERO
 from rocking.kernels.arc.enclosure import grazes
 from rocking.kernels.arc.fast_path import fast_first_event, fast_first_impact
-from rocking.kernels.arc.first_zero import CROSSING, MAX_ARC_TIME, NEVER, base_watch, brace_watch, first_zero
+from rocking.kernels.arc.first_zero import (
+    CROSSING,
+    MAX_ARC_TIME,
+    NEVER,
+    base_event_function,
+    brace_event_function,
+    first_zero,
+)
 from rocking.kernels.arc.solution import NONE_YET, evaluate, propagator_or_none
 from rocking.kernels.compile_options import INTERNAL, KERNEL, KERNEL_INLINE
 from rocking.kernels.event_kinds import BRACE, FLIGHT, IMPACT, LEAN, LEAVE, LIFT_OFF, NONE, REST
@@ -37,11 +44,13 @@ def until_window(p, side, psi, half, inside):
     Who is still held in the second half of a window, having come back at its very end before the clock moved, waits
     for the next.
     """
-    cut, now_inside = first_sign_change(p, side, psi, 0.0, half)
+    sign_change, now_inside = first_sign_change(p, side, psi, 0.0, half)
     if now_inside != inside:
-        return cut
+        return sign_change
     return (
-        0.0 if cut > 0.5 * next_sign_change(p, half, inside) else cut + next_sign_change(p, half, not inside)
+        0.0
+        if sign_change > 0.5 * next_sign_change(p, half, inside)
+        else sign_change + next_sign_change(p, half, not inside)
     )
 
 
@@ -88,9 +97,9 @@ def next_event(p, mode, arc, guess):
     Between braces none is. NONE after a finite wait only renews an arc grown long.
     """
     if mode == FLIGHT and p.base_half < math.inf:
-        at_brace, lapse = False, NONE_YET
+        at_brace, propagator = False, NONE_YET
         if p.brace_angle == math.inf:
-            answer, t, now, lapse = fast_first_impact(p, arc, guess)
+            answer, t, now, propagator = fast_first_impact(p, arc, guess)
         else:
             answer, at_brace, t, now = fast_first_event(p, arc)
         if answer == NEVER_MORE:
@@ -100,7 +109,7 @@ def next_event(p, mode, arc, guess):
             event, angle = (BRACE, p.brace_angle) if at_brace else (IMPACT, 0.0)
             return Next(
                 t, event, arc.side, angle, now.velocity, now.cosine, now.sine, now.sinh, now.versinh
-            ), lapse
+            ), propagator
     coming = any_event(p, mode, arc)
     if mode != FLIGHT or p.brace_angle < math.inf:
         return coming, guess
@@ -119,11 +128,11 @@ def any_event(p, mode, arc):
             wait, LEAVE if wait < math.inf else NONE, arc.side, p.brace_angle, 0.0, 0.0, 0.0, 0.0, 0.0
         )
     event = IMPACT
-    found, t, now = first_zero(p, arc, base_watch(p), 0.0, MAX_ARC_TIME)
+    found, t, now = first_zero(p, arc, base_event_function(p), 0.0, MAX_ARC_TIME)
     if found != CROSSING:
         event, t = NONE, MAX_ARC_TIME
     if p.brace_angle < math.inf:
-        hit, t_hit, now_hit = first_zero(p, arc, brace_watch(p), 0.0, t)
+        hit, t_hit, now_hit = first_zero(p, arc, brace_event_function(p), 0.0, t)
         if hit == CROSSING:
             event, t, now = BRACE, t_hit, now_hit
     elif found == NEVER:

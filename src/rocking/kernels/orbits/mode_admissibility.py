@@ -14,7 +14,7 @@ import math
 from numba import njit
 
 from rocking.kernels.arc.extrema import arc_peak
-from rocking.kernels.arc.first_zero import CROSSING, base_watch, first_zero
+from rocking.kernels.arc.first_zero import CROSSING, base_event_function, first_zero
 from rocking.kernels.arc.solution import arc_from
 from rocking.kernels.compile_options import ENTRY_POINT, INTERNAL
 from rocking.kernels.forcing.harmonic import particular
@@ -33,15 +33,15 @@ def first_half(p, speed, near, far, length):
     angle, velocity = 0.0, speed
     for k in range(pieces):
         arc = arc_from(p, 1, k * step, angle, velocity)
-        found, _, _ = first_zero(p, arc, base_watch(p), 0.0, step)
+        found, _, _ = first_zero(p, arc, base_event_function(p), 0.0, step)
         if found == CROSSING:
             return False, peak
         peak = arc_peak(p, arc, step, peak)
         t = (k + 1) * step
         sine, cosine, _, _ = direction(p.frequency * t + p.phase)
-        place, rate = particular(p, cosine, sine)
+        displacement, forced_velocity = particular(p, cosine, sine)
         leaving, coming = near * math.exp(-t), far * math.exp(t - length)
-        angle, velocity = leaving + coming + 1.0 + place, coming - leaving + rate
+        angle, velocity = leaving + coming + 1.0 + displacement, coming - leaving + forced_velocity
         if angle <= 0.0:
             return False, peak
     return True, peak

@@ -35,9 +35,9 @@ def swings(amplitudes, frequencies, phases, out):
 @njit(**INTERNAL)
 def leaving(p, side):
     """(Theta, Theta') at the start of the clock of the motion that is NEAR (1 - beta) from the saddle orbit just then."""
-    place, rate = particular(p, side * math.cos(p.phase), side * math.sin(p.phase))
+    displacement, forced_velocity = particular(p, side * math.cos(p.phase), side * math.sin(p.phase))
     distance = NEAR * (1.0 - p.response)
-    return side * (1.0 + place - distance), side * (rate - distance)
+    return side * (1.0 + displacement - distance), side * (forced_velocity - distance)
 
 
 @njit(**ENTRY_POINT)
