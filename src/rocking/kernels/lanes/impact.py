@@ -138,10 +138,10 @@ def crest_may_exceed(s, i):
 def begin_walk(s, i):
     """Write where the walk along an arc that begins starts: turns of the forcing between the roots need not be walked."""
     sign_change, late, begins = s.sign_change[i], s.late[i], s.stage[i] >= NEW_ARC
-    certain = max(s.growing[i], s.shrinking[i]) < CREST_CERTAIN
-    certain = certain & (crest_may_exceed(s, i) == False)  # noqa: E712
+    has_crest = max(s.growing[i], s.shrinking[i]) < CREST_CERTAIN
+    certain = has_crest & (crest_may_exceed(s, i) == False)  # noqa: E712
     early, late = s.twice[i] - late + 2.0 * ROUGHLY, late - 2.0 * ROUGHLY
-    leaps = certain & (sign_change > early) & (sign_change < late)
+    leaps = has_crest & (sign_change > early) & (sign_change < late)
     turns = choose(leaps, np.floor((late - sign_change) * s.per_period[i]), 0.0)
     sign_change = fma(turns, s.period[i], sign_change)
     s.exceeds[i] = choose(begins, choose(certain, 0.0, 1.0), s.exceeds[i])
