@@ -137,9 +137,8 @@ def curves(shown: ViewState, corner: Corner) -> dict[str, Any]:
 def _curve(name: str, across: Span, up: Span, restitution: float) -> tuple[np.ndarray, ...]:
     """Periods, and the amplitudes of a curve over them: where it holds, and where its mode is not admissible."""
     periods = np.linspace(across.low, across.high, CURVE_POINTS)
-    restitutions = np.full(CURVE_POINTS, restitution)
     return periods, *theory_curves.lines_of(
-        theory_curves.CURVES[name], periods, restitutions, up.low, up.high
+        theory_curves.CURVES[name], periods, np.full(CURVE_POINTS, restitution), up.low, up.high
     )
 
 

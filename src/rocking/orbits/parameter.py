@@ -11,7 +11,7 @@ from rocking.model import (
     System,
     pair,
     quantities,
-    refusal,
+    refuse_if,
     within,
 )
 
@@ -58,6 +58,5 @@ def checked_range(parameter: str, bounds: tuple[float, float]) -> tuple[float, f
     allowed = "be (lowest, highest), the one below the other"
     ends = pair("bounds", bounds, allowed)
     low, high = (within(f"bounds of {parameter}", value, *ALLOWED[parameter]) for value in ends)
-    if not low < high:
-        raise ValueError(refusal("bounds", allowed, bounds))
+    refuse_if(not low < high, "bounds", allowed, bounds)
     return low, high

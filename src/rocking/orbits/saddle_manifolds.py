@@ -185,8 +185,7 @@ def _manifold(
     # An impact at the section's own instant tears the curve: Θ' jumps there to e Θ'.
     torn = np.concatenate([[False], np.hypot(*np.diff(points, axis=0).T) > spacing])
     apart = np.flatnonzero((np.diff(rows) > 1) | torn[rows[1:]]) + 1
-    whole = np.insert(points[rows], apart, math.nan, axis=0)
-    curve = np.concatenate([[end, centre], whole])
+    curve = np.concatenate([[end, centre], np.insert(points[rows], apart, math.nan, axis=0)])
     moments = np.concatenate([[math.nan, -math.inf], np.insert(times[rows], apart, math.nan)])
     if backward:
         curve[:, 1] *= -1.0

@@ -125,8 +125,7 @@ def _cells(ax: Axes, codes: np.ndarray, x: np.ndarray, y: np.ndarray) -> None:
     """A cell a point, and stripes over those that are hatched."""
     colours = ListedColormap([look.colour for look in LOOKS]).with_extremes(over="white")
     norm = BoundaryNorm(np.arange(len(LOOKS) + 1) - 0.5, len(LOOKS))
-    drawn = ax.pcolorfast(x, y, codes, cmap=colours, norm=norm)
-    drawn.set(gid="map", rasterized=True)
+    ax.pcolorfast(x, y, codes, cmap=colours, norm=norm).set(gid="map", rasterized=True)
     hatched = [number for number, look in enumerate(LOOKS) if look.hatch is not None]
     if np.isin(codes, hatched).any():
         stripes = ax.imshow(
@@ -209,12 +208,11 @@ def _symbol_keys(counts: np.ndarray, symbols: Sequence[Symbol]) -> list[Line2D]:
     for symbol in symbols:
         count = counts[list(symbol.looks)].sum()
         if count:
-            how = _how(symbol, "kinds" if kinds else "paper")
             keys.append(
                 Line2D(
                     [],
                     [],
-                    **how,
+                    **_how(symbol, "kinds" if kinds else "paper"),
                     markersize=style.MARK,
                     label=f"{symbol.name} {percent(count / counts.sum())}",
                 )

@@ -11,6 +11,7 @@ from rocking.model import (
     Block,
     reals,
     refusal,
+    refuse_if,
     whole,
     within,
 )
@@ -94,8 +95,7 @@ def _points(result) -> NDArray:
         points = np.asarray(reals("result", result))
     except TypeError:
         raise TypeError(refusal("result", allowed, result)) from None
-    if points.ndim != 2 or points.shape[1] != 2 or not len(points):
-        raise ValueError(refusal("result", allowed, result))
+    refuse_if(points.ndim != 2 or points.shape[1] != 2 or not len(points), "result", allowed, result)
     return points
 
 

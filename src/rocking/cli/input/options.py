@@ -193,8 +193,7 @@ def question(given: Mapping[str, Any]) -> tuple[System, State, Block | None]:
             forcing = Harmonic(**{name: given[name] for name in (*NORMALISED, "phase")})
             return System(forcing, given["restitution"], braces), start, None
         block = Block(given["height"], given["width"], given["restitution"])
-        shaking = {name: given[name] for name in (*SI[2:], "phase")}
-        return block.system(**shaking, braces=braces), start, block
+        return block.system(**{name: given[name] for name in (*SI[2:], "phase")}, braces=braces), start, block
 
 
 def _braces(given: Mapping[str, Any]) -> Any:

@@ -79,10 +79,9 @@ def record(
         }
         for name in found.kind.dims
     }
-    fixed = {name: found.attrs[name] for name in (*TOLD, *COUNTS) if name in found.attrs}
     return {
         "axes": axes,
-        **fixed,
+        **{name: found.attrs[name] for name in (*TOLD, *COUNTS) if name in found.attrs},
         "points": sum(kinds.values()),
         "kinds": kinds,
         "evidence": criteria,

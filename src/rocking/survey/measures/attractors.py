@@ -190,8 +190,7 @@ def section_of(system: System, anchor: np.ndarray, period: int) -> np.ndarray:
     """The states (n, 2) of an orbit on the section, from the one that stands for it."""
     phase = system.forcing.phase + math.tau * kernel.SECTION
     clocked = system_of(NO_BRACES | quantities(system) | {"phase": phase})
-    motion = simulate(clocked, State(*anchor), cycles=period, record="section")
-    return np.asarray(motion.section()[:period])
+    return np.asarray(simulate(clocked, State(*anchor), cycles=period, record="section").section()[:period])
 
 
 def make_attractors(
