@@ -229,12 +229,12 @@ def _read(
 def address(shown: ViewState) -> str:
     """The parameters of an address that shows the same: the system, and whatever is not as at the beginning."""
     system = ("amplitude", "period", "restitution")
-    parts = {"version": str(VERSION)}
-    for each in attrs.fields(ViewState):
-        value = getattr(shown, each.name)
-        if each.name in system or value != each.default:
-            parts[each.name] = written(value)
-    return urlencode(parts, safe=":,")
+    parts = {
+        each.name: written(getattr(shown, each.name))
+        for each in attrs.fields(ViewState)
+        if each.name in system or getattr(shown, each.name) != each.default
+    }
+    return urlencode({"version": str(VERSION)} | parts, safe=":,")
 
 
 def written(value: Any) -> str:

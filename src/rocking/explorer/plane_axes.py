@@ -110,10 +110,11 @@ def answers(picture: Picture) -> dict[str, np.ndarray]:
     """What the page tells of a point, and writes into a table: flat, upward first."""
     kept = picture.fields
     narrow = np.iinfo(np.int16)
-    told = {}
-    for name in ("response_period", "impacts_per_period"):
-        told[name] = np.clip(kept[name], narrow.min, narrow.max).astype(np.int16).ravel()
-    return told | {
+    counts = {
+        name: np.clip(kept[name], narrow.min, narrow.max).astype(np.int16).ravel()
+        for name in ("response_period", "impacts_per_period")
+    }
+    return counts | {
         "look": picture.look.ravel(),
         "evidence": kept["evidence"].ravel(),
         "exponent": kept["exponent"].astype(np.float32).ravel(),

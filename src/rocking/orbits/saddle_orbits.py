@@ -37,8 +37,7 @@ def response(system: System) -> float:
 def saddle(system: System, phase: float, side: int) -> tuple[float, float]:
     """(Θ, Θ') of the saddle orbit on a side at a forcing phase."""
     forcing = system.forcing
-    angle, velocity = saddle_orbit(phase, forcing.amplitude, forcing.period, "upper" if side > 0 else "lower")
-    return angle, velocity
+    return saddle_orbit(phase, forcing.amplitude, forcing.period, "upper" if side > 0 else "lower")
 
 
 def saddle_events(system: System, phase: float, state: State) -> tuple[OrbitEvent, ...]:

@@ -69,7 +69,7 @@ class Measurement:
     variables: tuple[Variable, ...]
     options: dict[str, int]
     method: int
-    shares: str
+    shares: str = "kind"
 
     def blank(self, shape: tuple[int, ...]) -> Arrays:
         """Arrays in which nothing is computed."""

@@ -187,8 +187,7 @@ def question(given: Mapping[str, Any]) -> tuple[System, State, Block | None]:
         require(given, (("height",), ("width",), SI[2:5], SI[5:]), SI_NEEDS)
     braces = _braces(given)
     with your_input(ARGUMENTS):
-        state = (within(name, given[name], -MAX_START, MAX_START) for name in ("angle", "velocity"))
-        start = State(*state)
+        start = State(*(within(name, given[name], -MAX_START, MAX_START) for name in START))
         if normalised:
             forcing = Harmonic(**{name: given[name] for name in (*NORMALISED, "phase")})
             return System(forcing, given["restitution"], braces), start, None

@@ -43,8 +43,8 @@ def show(found: OverturningCurve, block: Block | None, files: list[Path], *, as_
     if as_json:
         told = {} if block is None else {"block": asked_in_si(found.dataset, block), "warnings": doubts}
         print_json(record(found, block, files) | told)
-        return
-    print_table(title(found, block), rows(found, block), files, warned(doubts))
+    else:
+        print_table(title(found, block), rows(found, block), files, warned(doubts))
 
 
 def title(found: OverturningCurve, block: Block | None) -> str:

@@ -77,8 +77,7 @@ def destination(max_cycles: int, max_period: int, title: str) -> Measurement:
         by_name["transient"],
         by_name["cycles"],
     )
-    options = budget(max_cycles, max_period)
-    return Measurement(title, judge, compile_both, variables, options, batch.METHOD, shares="kind")
+    return Measurement(title, judge, compile_both, variables, budget(max_cycles, max_period), batch.METHOD)
 
 
 def compile_both(may_last: bool) -> None:
