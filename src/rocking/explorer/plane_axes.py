@@ -54,12 +54,7 @@ class Corner:
 
     def ranges(self, across: Span, up: Span) -> tuple[float, float, float, float]:
         """Left, right, bottom and top as they are drawn."""
-        return (
-            across.low - self.across,
-            across.high - self.across,
-            up.low - self.up,
-            up.high - self.up,
-        )
+        return (across.low - self.across, across.high - self.across, up.low - self.up, up.high - self.up)
 
 
 def corner_of(across: Span, up: Span) -> Corner:
@@ -81,10 +76,7 @@ def place(made: Any, corner: Corner, across: Span, up: Span, limits: tuple[Span,
 
 def label(made: Any, corner: Corner, names: tuple[str, str]) -> None:
     """Say what the axes are, and which number they count from."""
-    for axis, name, base in (
-        (made.below[0], names[0], corner.across),
-        (made.left[0], names[1], corner.up),
-    ):
+    for axis, name, base in ((made.below[0], names[0], corner.across), (made.left[0], names[1], corner.up)):
         axis.axis_label = f"{name} − {base!r}" if base else name
 
 

@@ -8,15 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from attrs import field, frozen
 
-from rocking.model import (
-    NotebookPicture,
-    Orbit,
-    ReadOnlyArrays,
-    Stability,
-    read_only,
-    stability_of,
-    within,
-)
+from rocking.model import NotebookPicture, Orbit, ReadOnlyArrays, Stability, read_only, stability_of, within
 from rocking.orbits.event_chain import Chain, multipliers_of, orbit_of, solved, states
 from rocking.orbits.grazing import Touch
 

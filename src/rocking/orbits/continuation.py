@@ -55,11 +55,7 @@ MAX_HALVINGS = 20
 
 
 def continue_orbit(
-    orbit: Orbit,
-    parameter: str,
-    bounds: tuple[float, float],
-    step: float = 0.01,
-    max_points: int = 10_000,
+    orbit: Orbit, parameter: str, bounds: tuple[float, float], step: float = 0.01, max_points: int = 10_000
 ) -> Branch:
     """Follow a periodic orbit through a parameter, both ways, through folds, to the ends of its branch.
 

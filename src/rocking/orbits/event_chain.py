@@ -83,10 +83,7 @@ def chain_of(orbit: Orbit) -> Chain:
     if orbit.superstable:
         raise ValueError(
             refusal(
-                "orbit",
-                "neither rest nor lean",
-                orbit.period,
-                "sweep the parameter with classify",
+                "orbit", "neither rest nor lean", orbit.period, "sweep the parameter with classify"
             ).replace("got", "got one that does, of period")
         )
     events = simulate(clocked(orbit.system, orbit.phase), orbit.state, cycles=orbit.period).events

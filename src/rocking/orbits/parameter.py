@@ -4,26 +4,9 @@ from __future__ import annotations
 
 from attrs import evolve
 
-from rocking.model import (
-    RANGES,
-    Braces,
-    Harmonic,
-    System,
-    pair,
-    quantities,
-    refuse_if,
-    within,
-)
+from rocking.model import RANGES, Braces, Harmonic, System, pair, quantities, refuse_if, within
 
-PARAMETERS = (
-    "amplitude",
-    "period",
-    "frequency",
-    "phase",
-    "restitution",
-    "brace_angle",
-    "brace_restitution",
-)
+PARAMETERS = ("amplitude", "period", "frequency", "phase", "restitution", "brace_angle", "brace_restitution")
 # A model's own ranges; towards 0 nothing is left of a restitution to follow.
 ALLOWED = RANGES | dict.fromkeys(("restitution", "brace_restitution"), (1e-3, 1.0))
 

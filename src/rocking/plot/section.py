@@ -6,15 +6,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from numpy.typing import ArrayLike, NDArray
 
-from rocking.model import (
-    MAX_PHASE,
-    Block,
-    reals,
-    refusal,
-    refuse_if,
-    whole,
-    within,
-)
+from rocking.model import MAX_PHASE, Block, reals, refusal, refuse_if, whole, within
 from rocking.motion import Motion
 from rocking.plot.parts import style
 from rocking.plot.parts.axis_units import quantities

@@ -179,10 +179,7 @@ def _unresolved_reset(case: Case) -> Shown:
 
 def _unwatched(case: Case) -> Shown:
     needed = kernel.CHAOS_NEEDS if case.system.braces is None else kernel.CHAOS_NEEDS_WITH_BRACES
-    return Shown(
-        f"{_no_orbit(case)}, too few to call it chaotic",
-        f"raise max_cycles to {needed:,} or more",
-    )
+    return Shown(f"{_no_orbit(case)}, too few to call it chaotic", f"raise max_cycles to {needed:,} or more")
 
 
 def _indistinct(case: Case) -> Shown:

@@ -11,16 +11,7 @@ import numpy as np
 from attrs import field, frozen
 
 from rocking.kernels import parameters as numbers
-from rocking.model import (
-    NO_BRACES,
-    RANGES,
-    check_between,
-    exactly_one,
-    reals,
-    refusal,
-    shown,
-    within,
-)
+from rocking.model import NO_BRACES, RANGES, check_between, exactly_one, reals, refusal, shown, within
 
 Values = Mapping[str, np.ndarray]
 

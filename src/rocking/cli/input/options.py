@@ -10,16 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any, TypeVar
 
 import typer
 
-from rocking.cli.option_names import (
-    ARGUMENTS,
-    NORMALISED,
-    SI,
-    START,
-    SYSTEM,
-    YourInput,
-    option,
-    your_input,
-)
+from rocking.cli.option_names import ARGUMENTS, NORMALISED, SI, START, SYSTEM, YourInput, option, your_input
 
 if TYPE_CHECKING:
     from rocking.model import Block, State, System

@@ -88,10 +88,7 @@ def record(diagram: OrbitDiagram, block: Block | None, files: Sequence[Path]) ->
             varied = PHYSICAL[diagram.parameter]
             sweep[f"overturned_at_{varied.key}"] = varied.turn(block, sweep["overturned_at"]).tolist()
         sweep["peak_deg"] = None if sweep["peak"] is None else float(block.degrees(sweep["peak"]))
-    return told | {
-        "block": asked_in_si(diagram.to_xarray(), block),
-        "warnings": _warnings(diagram, block),
-    }
+    return told | {"block": asked_in_si(diagram.to_xarray(), block), "warnings": _warnings(diagram, block)}
 
 
 def write_plot(diagram: OrbitDiagram, block: Block | None, path: Path) -> None:

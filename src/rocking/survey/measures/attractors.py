@@ -11,17 +11,7 @@ import numpy as np
 from rocking.kernels import batch
 from rocking.kernels.classify import attractor_anchor as kernel
 from rocking.kernels.classify import results, verdict_record
-from rocking.model import (
-    NO_BRACES,
-    Attractor,
-    Harmonic,
-    Kind,
-    State,
-    System,
-    Verdict,
-    quantities,
-    system_of,
-)
+from rocking.model import NO_BRACES, Attractor, Harmonic, Kind, State, System, Verdict, quantities, system_of
 from rocking.motion import simulate
 from rocking.response import budget, classify
 from rocking.survey.measurement import Arrays, Measurement, Variable
