@@ -142,16 +142,14 @@ def python(shown: ViewState) -> str:
         ")",
     ]
     if shown.block is not None:
-        lines.insert(3, f"block = {_block(shown)}")
+        lines.insert(
+            3, f"block = rk.Block({shown.height!r}, {shown.width!r}, restitution={shown.restitution!r})"
+        )
     return "\n".join(lines)
 
 
 def _axis(span: Any) -> str:
     return f"np.linspace({span.low!r}, {span.high!r}, 101)"
-
-
-def _block(shown: ViewState) -> str:
-    return f"rk.Block({shown.height!r}, {shown.width!r}, restitution={shown.restitution!r})"
 
 
 def commands(shown: ViewState) -> str:

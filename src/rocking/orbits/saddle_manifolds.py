@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from attrs import field, frozen
+from numpy.typing import NDArray
 
 from rocking.kernels.march import march
 from rocking.kernels.orbits import saddle_manifold as kernel
@@ -21,9 +22,6 @@ from rocking.model import (
     within,
 )
 from rocking.orbits.saddle_orbits import check, parameters, response, saddle
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
 
 MAX_CYCLES = 100
 SPACINGS = (1e-5, 1.0)

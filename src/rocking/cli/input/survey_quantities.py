@@ -5,16 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from rocking.cli.input.axis import FORM, VARIES, Axis
 from rocking.cli.input.options import question
 from rocking.cli.input.study_file import Check, quantity
 from rocking.cli.option_names import SI, TOLD, YourInput, option
-from rocking.model import instance, quantities, reals, refusal, whole
-
-if TYPE_CHECKING:
-    from rocking.model import Block
+from rocking.model import Block, instance, quantities, reals, refusal, whole
 
 
 def normalised(given: Mapping[str, Any]) -> dict[str, Any]:

@@ -12,12 +12,11 @@ import numpy as np
 
 from rocking.cli.output.console import WARNING, Row, print_json, print_table
 from rocking.cli.reports import validity
-from rocking.model import GRAVITY, PHYSICAL, Block, counted, ordinal, quantities
+from rocking.model import GRAVITY, PHYSICAL, Block, System, Verdict, counted, ordinal, quantities
 
 if TYPE_CHECKING:
     import xarray as xr
 
-    from rocking.model import System, Verdict
     from rocking.motion import Motion
 
 

@@ -12,12 +12,11 @@ from rocking.cli.output.console import Row, print_json, print_table
 from rocking.cli.output.survey_run import MAX_ROWS
 from rocking.cli.reports.motion import asked_in_si, in_si
 from rocking.cli.reports.validity import warned, warnings
-from rocking.model import GRAVITY, PHYSICAL, OverturningCurve
+from rocking.model import GRAVITY, PHYSICAL, Block, OverturningCurve
 
 if TYPE_CHECKING:
     import xarray as xr
 
-    from rocking.model import Block
 
 LEVELS = ("lowest", "resolution", "survived_up_to")
 """What is an amplitude of the answer."""
