@@ -180,12 +180,19 @@ def _verdict(start: State, case: Case) -> Verdict:
         cycles=judged.cycles,
         impacts=judged.work,
         orbit=orbit,
-        period=orbit and orbit.period,
-        impacts_per_period=orbit and orbit.impacts,
-        brace_hits_per_period=orbit and orbit.brace_hits,
-        symmetric=orbit and orbit.symmetric,
-        multipliers=orbit and orbit.multipliers,
+        **_of(orbit),
     )
+
+
+def _of(orbit: Orbit | None) -> dict[str, Any]:
+    """What a verdict repeats of its orbit, or that there is none."""
+    return {
+        "period": orbit and orbit.period,
+        "impacts_per_period": orbit and orbit.impacts,
+        "brace_hits_per_period": orbit and orbit.brace_hits,
+        "symmetric": orbit and orbit.symmetric,
+        "multipliers": orbit and orbit.multipliers,
+    }
 
 
 def _orbit(case: Case) -> Orbit:

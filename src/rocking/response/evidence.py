@@ -115,20 +115,19 @@ def _neutral_orbit(case: Case) -> Shown:
 
 
 def _torus(case: Case) -> Shown:
-    what = (
+    return Shown(
         f"nothing is lost; the averages over both halves of the run agree as on a torus, to "
         f"{quasi_periodicity.ENOUGH_DIGITS:.0f} digits or more "
         f"for the flight times and {math.floor(case.judgement.digits)} for the squared speeds; neighbours part no faster than "
-        f"linearly; and it does not return to within {decision_cascade.UNMOVED:.0e} in {case.max_period} cycles"
+        f"linearly; and it does not return to within {decision_cascade.UNMOVED:.0e} in {case.max_period} cycles",
+        f"statistical, over {spent(case)}: a motion that stays near a torus for long may leave it later",
+        {
+            "flight digits": quasi_periodicity.ENOUGH_DIGITS,
+            "speed digits": quasi_periodicity.CHAOTIC_DIGITS,
+            "log shear": quasi_periodicity.SHEAR,
+            f"log shear below {quasi_periodicity.SHEARED_FLIGHTS} flights": quasi_periodicity.SMALL_SHEAR,
+        },
     )
-    tolerances = {
-        "flight digits": quasi_periodicity.ENOUGH_DIGITS,
-        "speed digits": quasi_periodicity.CHAOTIC_DIGITS,
-        "log shear": quasi_periodicity.SHEAR,
-        f"log shear below {quasi_periodicity.SHEARED_FLIGHTS} flights": quasi_periodicity.SMALL_SHEAR,
-    }
-    remark = f"statistical, over {spent(case)}: a motion that stays near a torus for long may leave it later"
-    return Shown(what, remark, tolerances)
 
 
 def _exponent(case: Case) -> Shown:

@@ -24,9 +24,9 @@ def show(motion: Motion, block: Block | None, files: Sequence[Path], *, as_json:
     """Print the summary on stdout, and where its files are."""
     if as_json:
         print_json(record(motion, block, files))
-        return
-    more = [*beyond(motion.start.angle, block), *validity.lines(motion, block)]
-    print_table(verdict(motion), [*asked(motion, block), *found(motion, block)], files, more)
+    else:
+        more = [*beyond(motion.start.angle, block), *validity.lines(motion, block)]
+        print_table(verdict(motion), [*asked(motion, block), *found(motion, block)], files, more)
 
 
 def verdict(motion: Motion) -> str:
