@@ -177,8 +177,7 @@ _SUB_NAMESPACES = ("plot", "theory")
 def __getattr__(name: str) -> Any:
     if name not in __all__:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    pictures = import_module("rocking.model.notebook_renderers")
-    pictures.fill_at_first_use(lambda: import_module("rocking.plot"))
+    import_module("rocking.model.notebook_renderers").fill_at_first_use(lambda: import_module("rocking.plot"))
     if name in _SUB_NAMESPACES:
         value = import_module(f"rocking.{name}")
     else:

@@ -30,21 +30,20 @@ app = typer.Typer(
 )
 
 
-def _shown(examples: str) -> str:
-    """Examples under the help; the control character keeps lines as they are."""
-    return f"\b\n{examples}"
-
-
-app.command(epilog=_shown(simulate.EXAMPLES))(simulate.simulate)
-app.command(epilog=_shown(classify.EXAMPLES))(classify.classify)
-app.command(epilog=_shown(modes.EXAMPLES))(modes.modes)
-app.command("map", epilog=_shown(map_.EXAMPLES))(map_.map_)
-app.command(epilog=_shown(basins.EXAMPLES))(basins.basins)
-app.command(epilog=_shown(overturning.EXAMPLES))(overturning.overturning)
-app.command(epilog=_shown(orbit_diagram.EXAMPLES))(orbit_diagram.orbit_diagram)
-app.command()(explore.explore)
-app.command(epilog=_shown(paper.EXAMPLES))(paper.paper)
-app.command()(cite.cite)
+for name, command, examples in (
+    ("simulate", simulate.simulate, simulate.EXAMPLES),
+    ("classify", classify.classify, classify.EXAMPLES),
+    ("modes", modes.modes, modes.EXAMPLES),
+    ("map", map_.map_, map_.EXAMPLES),
+    ("basins", basins.basins, basins.EXAMPLES),
+    ("overturning", overturning.overturning, overturning.EXAMPLES),
+    ("orbit-diagram", orbit_diagram.orbit_diagram, orbit_diagram.EXAMPLES),
+    ("explore", explore.explore, None),
+    ("paper", paper.paper, paper.EXAMPLES),
+    ("cite", cite.cite, None),
+):
+    # The control character keeps the lines of the examples, under the help, as they are.
+    app.command(name, epilog=examples and f"\b\n{examples}")(command)
 
 
 @app.callback(invoke_without_command=True)

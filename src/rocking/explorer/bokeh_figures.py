@@ -169,11 +169,10 @@ def spectrum() -> Any:
 def diagram() -> Any:
     """What is left of the motion after a transient, over the amplitude or the period."""
     made = _figure("diagram", "", "angle Θ", tools="tap")
-    points = _empty("points", "value", "angle")
     made.scatter(
         "value",
         "angle",
-        source=points,
+        source=_empty("points", "value", "angle"),
         name="dots",
         size=1.8,
         color=style.MOTION,

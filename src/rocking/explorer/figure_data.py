@@ -221,8 +221,7 @@ class Section:
         orbit = {"angle": last[:MAX_RINGS, 0], "velocity": last[:MAX_RINGS, 1]}
         places, first, counts = np.unique(_cells(points, spans), return_index=True, return_counts=True)
         if len(places) <= SINGLE:
-            single = {"angle": points[first, 0], "velocity": points[first, 1]}
-            return Drawn(single, no_image(), orbit, spans)
+            return Drawn({"angle": points[first, 0], "velocity": points[first, 1]}, no_image(), orbit, spans)
         image = np.zeros(CELLS * CELLS, np.uint8)
         image[places] = np.minimum(1 + np.log2(counts), 8)
         left, right, bottom, top = spans

@@ -19,6 +19,7 @@ from rocking.model import (
     Block,
     check_start,
     refusal,
+    refuse_if,
 )
 from rocking.plot.parts import theory_curves
 
@@ -64,8 +65,7 @@ def _number(low: float, high: float) -> Callable[[str, str], float]:
             value = float(text) if len(text) <= MAX_LENGTH else math.nan
         except ValueError:
             value = math.nan
-        if not low <= value <= high:
-            raise ValueError(refusal(name, allowed, text))
+        refuse_if(not low <= value <= high, name, allowed, text)
         return value + 0.0  # no negative zero
 
     return read
@@ -103,8 +103,7 @@ def _optional(read: Callable[[str, str], Any]) -> Callable[[str, str], Any]:
 
 def _word(*allowed: str) -> Callable[[str, str], str]:
     def read(name: str, text: str) -> str:
-        if text not in allowed:
-            raise ValueError(refusal(name, f"be one of {', '.join(allowed)}", text))
+        refuse_if(text not in allowed, name, f"be one of {', '.join(allowed)}", text)
         return text
 
     return read
@@ -230,12 +229,12 @@ def _read(
 def address(shown: ViewState) -> str:
     """The parameters of an address that shows the same: the system, and whatever is not as at the beginning."""
     system = ("amplitude", "period", "restitution")
-    parts = {"version": str(VERSION)}
-    for each in attrs.fields(ViewState):
-        value = getattr(shown, each.name)
-        if each.name in system or value != each.default:
-            parts[each.name] = written(value)
-    return urlencode(parts, safe=":,")
+    parts = {
+        each.name: written(getattr(shown, each.name))
+        for each in attrs.fields(ViewState)
+        if each.name in system or getattr(shown, each.name) != each.default
+    }
+    return urlencode({"version": str(VERSION)} | parts, safe=":,")
 
 
 def written(value: Any) -> str:

@@ -33,8 +33,7 @@ class Link(DataModel):
 
     def send(self, name: str, message: dict[str, Any]) -> None:
         """Tell the page, which hears only of what differs: hence the number."""
-        numbered = {"n": next(_numbers), **message}
-        setattr(self, name, json.dumps(numbered, ensure_ascii=False, allow_nan=False))
+        setattr(self, name, json.dumps({"n": next(_numbers), **message}, ensure_ascii=False, allow_nan=False))
 
     def draw(self, **figures: dict[str, Any]) -> None:
         """What is new in figures, by their names: columns by the names of their sources; `ranges`, `label` and `here` where these change.

@@ -54,12 +54,7 @@ class Corner:
 
     def ranges(self, across: Span, up: Span) -> tuple[float, float, float, float]:
         """Left, right, bottom and top as they are drawn."""
-        return (
-            across.low - self.across,
-            across.high - self.across,
-            up.low - self.up,
-            up.high - self.up,
-        )
+        return (across.low - self.across, across.high - self.across, up.low - self.up, up.high - self.up)
 
 
 def corner_of(across: Span, up: Span) -> Corner:
@@ -81,10 +76,7 @@ def place(made: Any, corner: Corner, across: Span, up: Span, limits: tuple[Span,
 
 def label(made: Any, corner: Corner, names: tuple[str, str]) -> None:
     """Say what the axes are, and which number they count from."""
-    for axis, name, base in (
-        (made.below[0], names[0], corner.across),
-        (made.left[0], names[1], corner.up),
-    ):
+    for axis, name, base in ((made.below[0], names[0], corner.across), (made.left[0], names[1], corner.up)):
         axis.axis_label = f"{name} − {base!r}" if base else name
 
 
@@ -110,10 +102,11 @@ def answers(picture: Picture) -> dict[str, np.ndarray]:
     """What the page tells of a point, and writes into a table: flat, upward first."""
     kept = picture.fields
     narrow = np.iinfo(np.int16)
-    told = {}
-    for name in ("response_period", "impacts_per_period"):
-        told[name] = np.clip(kept[name], narrow.min, narrow.max).astype(np.int16).ravel()
-    return told | {
+    counts = {
+        name: np.clip(kept[name], narrow.min, narrow.max).astype(np.int16).ravel()
+        for name in ("response_period", "impacts_per_period")
+    }
+    return counts | {
         "look": picture.look.ravel(),
         "evidence": kept["evidence"].ravel(),
         "exponent": kept["exponent"].astype(np.float32).ravel(),
@@ -137,9 +130,8 @@ def curves(shown: ViewState, corner: Corner) -> dict[str, Any]:
 def _curve(name: str, across: Span, up: Span, restitution: float) -> tuple[np.ndarray, ...]:
     """Periods, and the amplitudes of a curve over them: where it holds, and where its mode is not admissible."""
     periods = np.linspace(across.low, across.high, CURVE_POINTS)
-    restitutions = np.full(CURVE_POINTS, restitution)
     return periods, *theory_curves.lines_of(
-        theory_curves.CURVES[name], periods, restitutions, up.low, up.high
+        theory_curves.CURVES[name], periods, np.full(CURVE_POINTS, restitution), up.low, up.high
     )
 
 

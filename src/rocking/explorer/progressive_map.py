@@ -174,8 +174,7 @@ class Refinement:
             while begun < order.size and len(under_way) < AHEAD * self.workers.count:
                 piece = order[begun : begun + self._next(order.size - begun)]
                 begun += piece.size
-                work = partial(self._timed, piece)
-                under_way[asyncio.ensure_future(self.workers.later(work))] = piece
+                under_way[asyncio.ensure_future(self.workers.later(partial(self._timed, piece)))] = piece
             done, _ = await asyncio.wait(under_way, return_when=asyncio.FIRST_COMPLETED)
             for future in done:
                 piece = under_way.pop(future)

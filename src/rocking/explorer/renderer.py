@@ -167,8 +167,7 @@ class SessionRenderer:
             self.jobs.start("judge", partial(self._judge_longer, shown, spectrum.why))
 
     def _tell_verdict(self, shown: ViewState, verdict: Verdict, why: str) -> None:
-        words = texts.verdict(verdict, shown.block)
-        self.link.send("verdict", words | {"spectrum": why})
+        self.link.send("verdict", texts.verdict(verdict, shown.block) | {"spectrum": why})
 
     def _draw_section(self, drawn: figure_data.Drawn, grown: figure_data.Section) -> None:
         self.link.draw(section=_section(drawn, grown))

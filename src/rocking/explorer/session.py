@@ -109,8 +109,7 @@ class Session:
             jobs.start("response", partial(painter.respond, new))
         elif differs("angles", "velocities"):
             jobs.start("basin", partial(painter.refine_basin, new))
-        others = [name for name in SYSTEM if name != new.vary]
-        if differs("vary", "varied", *others):
+        if differs("vary", "varied", *[name for name in SYSTEM if name != new.vary]):
             jobs.start("diagram", partial(painter.draw_diagram, new))
 
     def _told(self) -> dict[str, Any]:

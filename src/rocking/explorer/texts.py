@@ -58,12 +58,8 @@ def _physical(forcing: Harmonic, block: Block) -> Facts:
     """The base's motion in SI, and what the normalised units are there."""
     acceleration, seconds = block.acceleration(forcing.amplitude), block.seconds(forcing.period)
     base = f"{acceleration:.4g} m/s² ({acceleration / GRAVITY:.4g} g), {seconds:.4g} s ({1 / seconds:.4g} Hz)"
-    units = (
-        ("A", f"{block.acceleration(1.0):.4g} m/s²"),
-        ("τ", f"{block.seconds(1.0):.4g} s"),
-        ("Θ", f"{block.degrees(1.0):.4g}°"),
-    )
-    return [("base", base), ("units", ", ".join(f"{name} {unit}" for name, unit in units))]
+    units = f"A {block.acceleration(1.0):.4g} m/s², τ {block.seconds(1.0):.4g} s, Θ {block.degrees(1.0):.4g}°"
+    return [("base", base), ("units", units)]
 
 
 def _reach(angle: float, block: Block | None) -> str:
@@ -146,16 +142,14 @@ def python(shown: ViewState) -> str:
         ")",
     ]
     if shown.block is not None:
-        lines.insert(3, f"block = {_block(shown)}")
+        lines.insert(
+            3, f"block = rk.Block({shown.height!r}, {shown.width!r}, restitution={shown.restitution!r})"
+        )
     return "\n".join(lines)
 
 
 def _axis(span: Any) -> str:
     return f"np.linspace({span.low!r}, {span.high!r}, 101)"
-
-
-def _block(shown: ViewState) -> str:
-    return f"rk.Block({shown.height!r}, {shown.width!r}, restitution={shown.restitution!r})"
 
 
 def commands(shown: ViewState) -> str:

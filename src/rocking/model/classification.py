@@ -85,12 +85,7 @@ class Criterion(IntEnum):
         "between torus and chaos",
         "averages agree too well for chaos, not well enough for a torus",
     )
-    CROWDED = (
-        11,
-        "none",
-        "too many events",
-        "chatters almost without loss, more impacts than are followed",
-    )
+    CROWDED = (11, "none", "too many events", "chatters almost without loss, more impacts than are followed")
     STANDING = 12, "none", "stands on an unstable orbit", "stands on an unstable orbit"
     LITTLE_GROWTH = (
         13,

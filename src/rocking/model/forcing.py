@@ -17,8 +17,7 @@ MAX_PHASE = 1e3
 
 
 def _amplitude(value: float) -> float:
-    way_out = "for the opposite direction add π to phase"
-    return within("amplitude", value, 0, MAX_AMPLITUDE, if_below=way_out)
+    return within("amplitude", value, 0, MAX_AMPLITUDE, if_below="for the opposite direction add π to phase")
 
 
 def _period(value: float | None) -> float | None:

@@ -68,6 +68,12 @@ def refusal(name: str, allowed: str, value: object, remedy: str = "") -> str:
     return f"{name} must {allowed}; got {shown(value)}" + (f" ({remedy})" if remedy else "")
 
 
+def refuse_if(wrong: object, name: str, allowed: str, value: object, remedy: str = "") -> None:
+    """Refuse the value of an argument with a sentence, where something is wrong with it."""
+    if wrong:
+        raise ValueError(refusal(name, allowed, value, remedy))
+
+
 def within(name: str, value: float, low: float, high: float, unit: str = "", if_below: str = "") -> float:
     """Return `value` as a float that lies in [low, high]; NaN, infinities and whatever is no real number are refused.
 

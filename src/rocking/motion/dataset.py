@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from rocking.model import VERSION, Block, block_attributes, instance, quantities, refusal, within
+from rocking.model import VERSION, Block, block_attributes, instance, quantities, refuse_if, within
 from rocking.motion.fall import end_shown, sample_step
 
 if TYPE_CHECKING:
@@ -69,8 +69,7 @@ def to_dataset(motion: Trajectory, step: float | None = None, block: Block | Non
 
     units = _units(block)
     if motion.record == "section":
-        if step is not None:
-            raise ValueError(refusal("step", 'be left out of a motion with record="section"', step))
+        refuse_if(step is not None, "step", 'be left out of a motion with record="section"', step)
         variables, coordinates = _section(motion, units)
     else:
         variables, coordinates = _samples(motion, _times(motion, step, units), units, block)
@@ -101,8 +100,7 @@ def _times(motion: Trajectory, step: float | None, units: dict[str, Unit]) -> np
         longest = motion.cycles * motion.system.forcing.period * second
         spacing = within("step", step, longest / MAX_STEPS, longest, "" if unit == "1" else unit) / second
     end = end_shown(motion)
-    count = int(end / spacing * (1 + 1e-12))
-    return np.minimum(spacing * np.arange(count + 1), end)
+    return np.minimum(spacing * np.arange(int(end / spacing * (1 + 1e-12)) + 1), end)
 
 
 def _variable(along: str, values: Any, unit: Unit, long_name: str) -> tuple[str, Any, dict[str, str]]:
@@ -150,10 +148,9 @@ def _section(motion: Trajectory, units: dict[str, Unit]) -> tuple[Variables, Var
             "cycle", velocity, units["velocity"], "angular velocity of the block, once a forcing cycle"
         ),
     }
-    times = _variable("cycle", cycles * motion.system.forcing.period, units["time"], "time")
     return variables, {
         "cycle": ("cycle", cycles, {"long_name": "forcing cycles since the start"}),
-        "time": times,
+        "time": _variable("cycle", cycles * motion.system.forcing.period, units["time"], "time"),
     }
 
 

@@ -97,11 +97,15 @@ def kept_events(
     cycles = whole("cycles", cycles, 1, MAX_CYCLES)
     duration = cycles * system.forcing.period
 
-    def of_rows(rows: np.ndarray) -> np.ndarray:
-        return keep(events_of(system, rows, duration))
-
     return np.concatenate(
-        run(*start_march(system, start), cycles, 0.0, "all", want_peak=False, keep=of_rows)[3]
+        run(
+            *start_march(system, start),
+            cycles,
+            0.0,
+            "all",
+            want_peak=False,
+            keep=lambda rows: keep(events_of(system, rows, duration)),
+        )[3]
     )
 
 

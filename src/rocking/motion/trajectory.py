@@ -19,6 +19,7 @@ from rocking.model import (
     read_only,
     reals,
     refusal,
+    refuse_if,
     within,
 )
 from rocking.motion.event_table import absolute, events_of
@@ -153,18 +154,16 @@ class Trajectory(ReadOnlyArrays):
             if self.record == "section":
                 return self._section_rows
             phase = self.system.forcing.phase
-        at = within("phase", phase, -MAX_PHASE, MAX_PHASE)
-        return section_of(self.system, self.start, self.cycles, at)
+        return section_of(self.system, self.start, self.cycles, within("phase", phase, -MAX_PHASE, MAX_PHASE))
 
     @cached_property
     def _numbers(self) -> Any:
         return parameters(self.system)
 
     def _rows(self) -> np.ndarray:
-        if self.record != "all":
-            raise ValueError(
-                refusal("record", "be 'all' for events, peaks and states at any time", self.record)
-            )
+        refuse_if(
+            self.record != "all", "record", "be 'all' for events, peaks and states at any time", self.record
+        )
         return self._event_rows
 
     def _sampled(self, times: Any) -> np.ndarray:

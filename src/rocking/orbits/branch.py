@@ -3,25 +3,14 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
 import numpy as np
 from attrs import field, frozen
+from numpy.typing import NDArray
 
-from rocking.model import (
-    NotebookPicture,
-    Orbit,
-    ReadOnlyArrays,
-    Stability,
-    read_only,
-    stability_of,
-    within,
-)
+from rocking.model import NotebookPicture, Orbit, ReadOnlyArrays, Stability, read_only, stability_of, within
 from rocking.orbits.event_chain import Chain, multipliers_of, orbit_of, solved, states
 from rocking.orbits.grazing import Touch
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
 
 POINT = np.dtype(
     [

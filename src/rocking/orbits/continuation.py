@@ -8,7 +8,7 @@ import numpy as np
 
 from rocking.kernels.orbits import arclength, branch_point
 from rocking.kernels.orbits import continuation as kernel
-from rocking.model import Orbit, instance, one_of, refusal, whole, within
+from rocking.model import Orbit, instance, one_of, refusal, refuse_if, whole, within
 from rocking.motion import simulate
 from rocking.orbits.branch import Branch, SpecialPoint, table
 from rocking.orbits.event_chain import (
@@ -55,11 +55,7 @@ MAX_HALVINGS = 20
 
 
 def continue_orbit(
-    orbit: Orbit,
-    parameter: str,
-    bounds: tuple[float, float],
-    step: float = 0.01,
-    max_points: int = 10_000,
+    orbit: Orbit, parameter: str, bounds: tuple[float, float], step: float = 0.01, max_points: int = 10_000
 ) -> Branch:
     """Follow a periodic orbit through a parameter, both ways, through folds, to the ends of its branch.
 
@@ -112,8 +108,9 @@ def continue_orbit(
     one_of("parameter", parameter, tuple(NAMES))
     here = value_of(orbit.system, parameter)
     low, high = checked_range(parameter, bounds)
-    if not low <= here <= high:
-        raise ValueError(refusal(parameter, f"lie in [{low:.6g}, {high:.6g}] to be followed there", here))
+    refuse_if(
+        not low <= here <= high, parameter, f"lie in [{low:.6g}, {high:.6g}] to be followed there", here
+    )
     step = within("step", step, 1e-6, 0.1)
     most = whole("max_points", max_points, 2, 1_000_000)
     chain = chain_of(orbit)
@@ -159,8 +156,9 @@ def switch_branch(
         allowed = "be of kind symmetry-breaking or period-doubling to switch branches"
         raise ValueError(refusal("special", allowed, special.kind))
     low, high = checked_range(special.name, bounds)
-    if not low <= special.parameter <= high:
-        raise ValueError(refusal("bounds", f"hold the special point's own {special.name}", bounds))
+    refuse_if(
+        not low <= special.parameter <= high, "bounds", f"hold the special point's own {special.name}", bounds
+    )
     step = within("step", step, 1e-6, 0.1)
     most = whole("max_points", max_points, 2, 1_000_000)
     chain, row = _twice(special)

@@ -83,14 +83,10 @@ def chain_of(orbit: Orbit) -> Chain:
     if orbit.superstable:
         raise ValueError(
             refusal(
-                "orbit",
-                "neither rest nor lean",
-                orbit.period,
-                "sweep the parameter with classify",
+                "orbit", "neither rest nor lean", orbit.period, "sweep the parameter with classify"
             ).replace("got", "got one that does, of period")
         )
-    motion = simulate(clocked(orbit.system, orbit.phase), orbit.state, cycles=orbit.period)
-    events = motion.events
+    events = simulate(clocked(orbit.system, orbit.phase), orbit.state, cycles=orbit.period).events
     events = events[np.isin(events["kind"], ("impact", "brace"))]
     if not len(events):
         raise ValueError(
@@ -99,8 +95,7 @@ def chain_of(orbit: Orbit) -> Chain:
     psi = orbit.phase + orbit.system.forcing.frequency * events["time"]
     kinds = np.where(events["kind"] == "impact", IMPACT, BRACE).astype(np.int64)
     # the side that the block is on after an event
-    first = events[0]
-    side = 1 if (first["after"] > 0.0) == (kinds[0] == IMPACT) else -1
+    side = 1 if (events[0]["after"] > 0.0) == (kinds[0] == IMPACT) else -1
     count = len(events) // 2 if orbit.symmetric else len(events)
     return Chain(orbit.system, orbit.period, orbit.symmetric, kinds[:count], side, np.asarray(psi[:count]))
 

@@ -11,7 +11,7 @@ from typing import Any, overload
 import numpy as np
 from attrs import field, frozen
 
-from rocking.model import Orbit, Stability, System, instance, pair, refusal, whole, within
+from rocking.model import Orbit, Stability, System, instance, pair, refuse_if, whole, within
 from rocking.orbits.event_chain import clocked
 from rocking.orbits.find_orbit import newton_from_starts
 from rocking.orbits.orbit_registry import OrbitRegistry
@@ -152,8 +152,7 @@ def find_orbits(
     effort = within("effort", effort, 0.01, 1000.0)
     seed = whole("seed", seed, 0, 2**32 - 1)
     box = _box(system, angles, velocities)
-    forcing = system.forcing
-    there = clocked(system, (forcing.phase + math.tau * SECTION) % math.tau)
+    there = clocked(system, (system.forcing.phase + math.tau * SECTION) % math.tau)
     known, used = OrbitRegistry(system, there.forcing.phase), 0
     jobs = [(n, False) for n in range(1, max_period + 1)] + [(n, True) for n in range(1, max_period + 1, 2)]
     settled = False
@@ -200,8 +199,7 @@ def _box(system: System, angles: Any, velocities: Any) -> tuple[float, ...] | No
         allowed = "be (lowest, highest), the one below the other"
         ends = (-usual, usual) if bounds is None else pair(name, bounds, allowed)
         low, high = (value if bounds is None else within(name, value, -1e3, 1e3) for value in ends)
-        if not low < high:
-            raise ValueError(refusal(name, allowed, bounds))
+        refuse_if(not low < high, name, allowed, bounds)
         box = (*box, low, high)
     return box
 

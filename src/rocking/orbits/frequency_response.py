@@ -20,6 +20,7 @@ from rocking.model import (
     exactly_one,
     reals,
     refusal,
+    refuse_if,
     whole,
     within,
 )
@@ -93,8 +94,7 @@ def frequency_response(
     parameter = exactly_one(period=period, frequency=frequency)
     values = _values(parameter, period if frequency is None else frequency)
     amplitude = within("amplitude", amplitude, 0.0, MAX_AMPLITUDE)
-    if amplitude == 0.0:
-        raise ValueError(refusal("amplitude", "be above 0: an unshaken block has no (1, n) orbit", amplitude))
+    refuse_if(amplitude == 0.0, "amplitude", "be above 0: an unshaken block has no (1, n) orbit", amplitude)
     restitution = _lossy(restitution)
     followed = tuple(dict.fromkeys(_odd(n) for n in _sequence(modes)))
     systems = [System(Harmonic(amplitude, **{parameter: value}), restitution) for value in values.tolist()]
@@ -136,10 +136,7 @@ def _sequence(modes: Any) -> tuple[int, ...]:
 
 def _odd(n: int) -> int:
     n = whole("modes", n, 1, MAX_CYCLES_IN_MODE)
-    if n % 2 == 0:
-        raise ValueError(
-            refusal("modes", "be odd: no symmetric orbit repeats after an even number of cycles", n)
-        )
+    refuse_if(n % 2 == 0, "modes", "be odd: no symmetric orbit repeats after an even number of cycles", n)
     return n
 
 
@@ -152,8 +149,7 @@ def _branches(
     for system in systems:
         value = getattr(system.forcing, parameter)
         known = [phase for branch in symmetric for phase in _phases(branch, value)]
-        modes = symmetric_modes(system.forcing.amplitude, system.forcing.period, system.restitution, n)
-        for mode in modes:
+        for mode in symmetric_modes(system.forcing.amplitude, system.forcing.period, system.restitution, n):
             if any(abs(math.remainder(mode.phase - phase, math.tau)) <= SAME for phase in known):
                 continue
             orbit = _orbit_of_mode(mode, system, parameter) if mode.admissible else None

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rocking.kernels.orbits import saddle_manifold as kernel
-from rocking.model import System, refusal
+from rocking.model import System, refusal, refuse_if
 from rocking.orbits.parameter import with_value
 from rocking.orbits.saddle_orbits import check, parameters
 
@@ -51,8 +51,7 @@ def manifold_gap(system: System) -> float:
     check(system)
     forcing = system.forcing
     most = math.sqrt(1.0 + forcing.frequency**2)
-    if forcing.amplitude >= most:
-        raise ValueError(refusal("amplitude", f"be below √(1 + Ω²) = {most:.6g}", forcing.amplitude))
+    refuse_if(forcing.amplitude >= most, "amplitude", f"be below √(1 + Ω²) = {most:.6g}", forcing.amplitude)
     from scipy.optimize import minimize_scalar
 
     ways = _Passage.of(system, -1, backward=False), _Passage.of(system, 1, backward=True)

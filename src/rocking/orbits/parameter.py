@@ -4,26 +4,9 @@ from __future__ import annotations
 
 from attrs import evolve
 
-from rocking.model import (
-    RANGES,
-    Braces,
-    Harmonic,
-    System,
-    pair,
-    quantities,
-    refusal,
-    within,
-)
+from rocking.model import RANGES, Braces, Harmonic, System, pair, quantities, refuse_if, within
 
-PARAMETERS = (
-    "amplitude",
-    "period",
-    "frequency",
-    "phase",
-    "restitution",
-    "brace_angle",
-    "brace_restitution",
-)
+PARAMETERS = ("amplitude", "period", "frequency", "phase", "restitution", "brace_angle", "brace_restitution")
 # A model's own ranges; towards 0 nothing is left of a restitution to follow.
 ALLOWED = RANGES | dict.fromkeys(("restitution", "brace_restitution"), (1e-3, 1.0))
 
@@ -58,6 +41,5 @@ def checked_range(parameter: str, bounds: tuple[float, float]) -> tuple[float, f
     allowed = "be (lowest, highest), the one below the other"
     ends = pair("bounds", bounds, allowed)
     low, high = (within(f"bounds of {parameter}", value, *ALLOWED[parameter]) for value in ends)
-    if not low < high:
-        raise ValueError(refusal("bounds", allowed, bounds))
+    refuse_if(not low < high, "bounds", allowed, bounds)
     return low, high

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from attrs import field, frozen
+from numpy.typing import NDArray
 
 from rocking.kernels.march import march
 from rocking.kernels.orbits import saddle_manifold as kernel
@@ -21,9 +22,6 @@ from rocking.model import (
     within,
 )
 from rocking.orbits.saddle_orbits import check, parameters, response, saddle
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
 
 MAX_CYCLES = 100
 SPACINGS = (1e-5, 1.0)
@@ -185,8 +183,7 @@ def _manifold(
     # An impact at the section's own instant tears the curve: Θ' jumps there to e Θ'.
     torn = np.concatenate([[False], np.hypot(*np.diff(points, axis=0).T) > spacing])
     apart = np.flatnonzero((np.diff(rows) > 1) | torn[rows[1:]]) + 1
-    whole = np.insert(points[rows], apart, math.nan, axis=0)
-    curve = np.concatenate([[end, centre], whole])
+    curve = np.concatenate([[end, centre], np.insert(points[rows], apart, math.nan, axis=0)])
     moments = np.concatenate([[math.nan, -math.inf], np.insert(times[rows], apart, math.nan)])
     if backward:
         curve[:, 1] *= -1.0

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from rocking.model import OrbitEvent, State, System, instance, refusal
+from rocking.model import OrbitEvent, State, System, instance, refusal, refuse_if
 from rocking.motion import start_march
 from rocking.theory import saddle_orbit
 
@@ -22,8 +22,7 @@ def check(system: System) -> None:
         raise ValueError(
             refusal("system", "have no braces, between which there are no such saddles", system.braces)
         )
-    if system.restitution == 0.0:
-        raise ValueError(refusal("restitution", "be positive, for impacts to be reversed", 0.0))
+    refuse_if(system.restitution == 0.0, "restitution", "be positive, for impacts to be reversed", 0.0)
     if response(system) >= 1.0:
         most = 1.0 + system.forcing.frequency**2
         allowed = f"be below 1 + Ω² = {most:.6g}, where the saddle orbits touch Θ = 0"
@@ -38,8 +37,7 @@ def response(system: System) -> float:
 def saddle(system: System, phase: float, side: int) -> tuple[float, float]:
     """(Θ, Θ') of the saddle orbit on a side at a forcing phase."""
     forcing = system.forcing
-    angle, velocity = saddle_orbit(phase, forcing.amplitude, forcing.period, "upper" if side > 0 else "lower")
-    return angle, velocity
+    return saddle_orbit(phase, forcing.amplitude, forcing.period, "upper" if side > 0 else "lower")
 
 
 def saddle_events(system: System, phase: float, state: State) -> tuple[OrbitEvent, ...]:

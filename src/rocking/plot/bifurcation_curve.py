@@ -5,7 +5,7 @@ from typing import Any
 
 from matplotlib.axes import Axes
 
-from rocking.model import Block, refusal
+from rocking.model import Block, refuse_if
 from rocking.orbits import BifurcationCurve
 from rocking.plot.parts import style
 from rocking.plot.parts.axis_units import parameter
@@ -54,10 +54,9 @@ def bifurcation_curve(
     each = several(result, BifurcationCurve)
     plane = each[0].names
     for one in each:
-        if one.names != plane:
-            raise ValueError(
-                refusal("result", f"hold curves of one plane, {plane[0]} and {plane[1]}", one.names)
-            )
+        refuse_if(
+            one.names != plane, "result", f"hold curves of one plane, {plane[0]} and {plane[1]}", one.names
+        )
     (across, x_label), (upright, y_label) = (parameter(name, block) for name in plane)
     ax = style.own(ax, height=2.9)
     for one in each:

@@ -5,14 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 from matplotlib.axes import Axes
 
-from rocking.model import (
-    MAX_PHASE,
-    Block,
-    Stability,
-    one_of,
-    refusal,
-    within,
-)
+from rocking.model import MAX_PHASE, Block, Stability, one_of, refusal, within
 from rocking.orbits import Branch
 from rocking.plot.parts import branch_lines, style
 from rocking.plot.parts.axis_units import parameter, quantities

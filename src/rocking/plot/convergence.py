@@ -5,7 +5,7 @@ import math
 import numpy as np
 from matplotlib.axes import Axes
 
-from rocking.model import instance, plus_minus, refusal, whole
+from rocking.model import instance, plus_minus, refuse_if, whole
 from rocking.plot.parts import style
 from rocking.response import LyapunovSpectrum
 
@@ -47,8 +47,7 @@ def convergence(spectrum: LyapunovSpectrum, ax: Axes | None = None, exponent: in
     instance("spectrum", spectrum, LyapunovSpectrum)
     row = whole("exponent", exponent, 1, 2) - 1
     final, error = float(spectrum.values[row]), float(spectrum.errors[row])
-    if final == -math.inf:
-        raise ValueError(refusal("exponent", "be finite to be drawn", final))
+    refuse_if(final == -math.inf, "exponent", "be finite to be drawn", final)
     ax = style.own(ax)
     ax.set_xscale("log")
     history = spectrum.history

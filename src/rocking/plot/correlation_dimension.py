@@ -42,11 +42,7 @@ def dimension(result: CorrelationDimension, ax: Axes | None = None) -> Axes:
     instance("result", result, CorrelationDimension)
     if result.isolated:
         raise ValueError(
-            refusal(
-                "result",
-                "hold pairs that scale",
-                counted(result.isolated, "isolated point"),
-            )
+            refusal("result", "hold pairs that scale", counted(result.isolated, "isolated point"))
         )
     ax = style.own(ax, height=2.8)
     ax.set(xscale="log", yscale="log")

@@ -1,5 +1,7 @@
 """Peak rotation over the forcing's period: branches of (1, n) orbits, and what a start from rest does."""
 
+from itertools import cycle
+
 import numpy as np
 from matplotlib.axes import Axes
 
@@ -53,7 +55,7 @@ def frequency_response(result: FrequencyResponse, ax: Axes | None = None, block:
     shown = quantities(block)
     across, x_label = parameter(result.parameter, block)
     ax = style.own(ax, height=3.0)
-    for n, colour in zip(result.modes, _colours(len(result.modes)), strict=True):
+    for n, colour in zip(result.modes, cycle(LINES), strict=False):
         for stability in Stability:
             name = f"(1,{n}), {stability}"
             for branch in result.of(n):
@@ -65,10 +67,6 @@ def frequency_response(result: FrequencyResponse, ax: Axes | None = None, block:
     ax.set_ylim(min(low, 0.0) - ROOM * (high - low), high)
     style.key(ax)
     return ax
-
-
-def _colours(count: int) -> list[str]:
-    return [LINES[i % len(LINES)] for i in range(count)]
 
 
 def _from_rest(ax: Axes, result: FrequencyResponse, across, upright) -> None:

@@ -6,7 +6,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.ticker import FixedLocator
 
-from rocking.model import Block, refusal, whole
+from rocking.model import Block, refusal, refuse_if, whole
 from rocking.motion import Motion
 from rocking.plot.parts import style
 from rocking.plot.parts.axis_units import quantities
@@ -91,6 +91,5 @@ def _impacts(result, transient) -> np.ndarray:
         impacts = result[result["cycle"] >= whole("transient", transient, 0, last)]
     else:
         raise TypeError(refusal("result", "be a Motion or what impact_section gives", result))
-    if not len(impacts):
-        raise ValueError(refusal("result", "hold an impact after the transient", len(impacts)))
+    refuse_if(not len(impacts), "result", "hold an impact after the transient", len(impacts))
     return impacts

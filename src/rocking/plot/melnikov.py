@@ -148,10 +148,9 @@ def _closed(ax: Axes, shown, turn: float, label: str | None) -> None:
     """The orbit that turns at ±`turn`, from its energy."""
     angle = turn * np.sin(np.linspace(0.0, math.tau, POINTS))
     left = np.maximum(2.0 * (energy(turn, 0.0) - energy(angle, 0.0)), 0.0)
-    velocity = np.sqrt(left) * np.sign(np.cos(np.linspace(0.0, math.tau, POINTS)))
     ax.plot(
         shown.angle(angle),
-        shown.velocity(velocity),
+        shown.velocity(np.sqrt(left) * np.sign(np.cos(np.linspace(0.0, math.tau, POINTS)))),
         color=style.GUIDE,
         linewidth=style.THIN,
         label=label,

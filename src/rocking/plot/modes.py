@@ -121,9 +121,7 @@ def modes(
 
 
 def _kind(mode: Mode) -> str:
-    if not mode.admissible:
-        return "inadmissible"
-    return mode.stability
+    return mode.stability if mode.admissible else "inadmissible"
 
 
 def _draw(ax: Axes, points: list, colour: str, root: str) -> None:

@@ -73,11 +73,10 @@ def overturning(found: OverturningCurve, ax: Axes | None = None, block: Block | 
     (name,) = data.lowest.dims
     turn, x_label = parameter(str(name), block)
     across = turn(data[name].values)
-    shares = 100 * data.overturning_share.transpose("amplitude", name).values
     image = ax.pcolormesh(
         across,
         amplitudes,
-        shares,
+        100 * data.overturning_share.transpose("amplitude", name).values,
         cmap="Greys",
         vmin=0,
         vmax=100,
@@ -108,13 +107,12 @@ def _tangency(ax: Axes, across: np.ndarray, tangency: np.ndarray) -> None:
     """A* where it is seen; the axes stay those of what was scanned."""
     above = ax.get_ylim()
     if (tangency > above[0]).any():
-        dashes = (0, (5, 2))
         ax.plot(
             across,
             tangency,
             color=style.MOTION,
             linewidth=style.LINE,
-            linestyle=dashes,
+            linestyle=(0, (5, 2)),
             label="exact tangency $A^*$",
         )
         ax.set_ylim(above)

@@ -107,7 +107,14 @@ def parametric_map(
     style.label(ax, x_label, y_label)
     style.block_title(ax, block)
     ax.set(xlim=turn_across(edges(read.across))[[0, -1]], ylim=turn_up(edges(read.up))[[0, -1]])
-    _legend(ax, [*keys, *lines])
+    ax.legend(
+        handles=[*keys, *lines],
+        **style.BELOW | {"fontsize": style.SMALL - 0.5},
+        ncols=2,
+        handlelength=1.8,
+        columnspacing=0.8,
+        handletextpad=0.5,
+    )
     return ax
 
 
@@ -125,15 +132,13 @@ def _cells(ax: Axes, codes: np.ndarray, x: np.ndarray, y: np.ndarray) -> None:
     """A cell a point, and stripes over those that are hatched."""
     colours = ListedColormap([look.colour for look in LOOKS]).with_extremes(over="white")
     norm = BoundaryNorm(np.arange(len(LOOKS) + 1) - 0.5, len(LOOKS))
-    drawn = ax.pcolorfast(x, y, codes, cmap=colours, norm=norm)
-    drawn.set(gid="map", rasterized=True)
+    ax.pcolorfast(x, y, codes, cmap=colours, norm=norm).set(gid="map", rasterized=True)
     hatched = [number for number, look in enumerate(LOOKS) if look.hatch is not None]
     if np.isin(codes, hatched).any():
-        stripes = ax.imshow(
+        ax.imshow(
             _stripes(codes, x, y), extent=(x[0], x[-1], y[0], y[-1]), origin="lower", aspect="auto",
             interpolation="nearest", interpolation_stage="rgba",
-        )  # fmt: skip
-        stripes.set(gid="hatches", rasterized=True)
+        ).set(gid="hatches", rasterized=True)  # fmt: skip
 
 
 def _stripes(codes: np.ndarray, x: np.ndarray, y: np.ndarray) -> np.ndarray:
@@ -209,26 +214,13 @@ def _symbol_keys(counts: np.ndarray, symbols: Sequence[Symbol]) -> list[Line2D]:
     for symbol in symbols:
         count = counts[list(symbol.looks)].sum()
         if count:
-            how = _how(symbol, "kinds" if kinds else "paper")
             keys.append(
                 Line2D(
                     [],
                     [],
-                    **how,
+                    **_how(symbol, "kinds" if kinds else "paper"),
                     markersize=style.MARK,
                     label=f"{symbol.name} {percent(count / counts.sum())}",
                 )
             )
     return keys
-
-
-def _legend(ax: Axes, keys: Sequence[Patch | Line2D]) -> None:
-    """Below the axes: two columns while they are short."""
-    ax.legend(
-        handles=keys,
-        **style.BELOW | {"fontsize": style.SMALL - 0.5},
-        ncols=2,
-        handlelength=1.8,
-        columnspacing=0.8,
-        handletextpad=0.5,
-    )

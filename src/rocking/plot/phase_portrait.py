@@ -65,13 +65,12 @@ def phase_portrait(
     events = events[np.isin(events["kind"], list(STRIKES))]
     shown = quantities(block)
     ax = style.own(ax, height=3.0)
-    never_moves = not np.ptp(angle) and not np.ptp(velocity)
     ax.plot(
         shown.angle(np.insert(angle, breaks, np.nan)),
         shown.velocity(np.insert(velocity, breaks, np.nan)),
         color=style.MOTION,
         linewidth=style.line_width(len(events)),
-        marker="o" if never_moves else "none",
+        marker="o" if not np.ptp(angle) and not np.ptp(velocity) else "none",
         markersize=style.MARK,
         rasterized=len(time) > style.MAX_CORNERS,
         gid="motion",

@@ -6,14 +6,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from numpy.typing import ArrayLike, NDArray
 
-from rocking.model import (
-    MAX_PHASE,
-    Block,
-    reals,
-    refusal,
-    whole,
-    within,
-)
+from rocking.model import MAX_PHASE, Block, reals, refusal, refuse_if, whole, within
 from rocking.motion import Motion
 from rocking.plot.parts import style
 from rocking.plot.parts.axis_units import quantities
@@ -94,8 +87,7 @@ def _points(result) -> NDArray:
         points = np.asarray(reals("result", result))
     except TypeError:
         raise TypeError(refusal("result", allowed, result)) from None
-    if points.ndim != 2 or points.shape[1] != 2 or not len(points):
-        raise ValueError(refusal("result", allowed, result))
+    refuse_if(points.ndim != 2 or points.shape[1] != 2 or not len(points), "result", allowed, result)
     return points
 
 

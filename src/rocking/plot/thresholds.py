@@ -6,7 +6,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from numpy.typing import ArrayLike
 
-from rocking.model import Block, reals, refusal
+from rocking.model import Block, reals, refusal, refuse_if
 from rocking.plot.parts import style
 from rocking.plot.parts.axis_units import parameter
 
@@ -63,8 +63,7 @@ def thresholds(
     across = np.asarray(reals("periods", periods))
     if not isinstance(curves, Mapping):
         raise TypeError(refusal("curves", "be a dict of amplitudes by label", curves))
-    if not 1 <= len(curves) <= len(LINES):
-        raise ValueError(refusal("curves", f"hold 1 to {len(LINES)} of them", len(curves)))
+    refuse_if(not 1 <= len(curves) <= len(LINES), "curves", f"hold 1 to {len(LINES)} of them", len(curves))
     ax = style.own(ax, height=2.9)
     for (name, curve), (colour, dashes) in zip(curves.items(), LINES, strict=False):
         amplitudes, holds = curve if isinstance(curve, tuple) else (curve, np.ones(across.shape, bool))

@@ -97,8 +97,7 @@ def _motion(verdict: Verdict, history: Axes, portrait: Axes, block: Block | None
     """The time history and the phase portrait of the last cycles, or a word where they hold too many events."""
     first, cycles = _window(verdict)
     try:
-        start = _after(verdict, first)
-        motion = simulate(verdict.system, start, cycles=cycles)
+        motion = simulate(verdict.system, _after(verdict, first), cycles=cycles)
     except TooManyEvents:
         for ax in (history, portrait):
             ax.set_axis_off()

@@ -177,14 +177,17 @@ def _page(read: Responses, counts: np.ndarray, pyramid: Pyramid, block: Block | 
         "across": {"values": _told(turn_across(read.across)), "name": _plain(across)},
         "up": {"values": _told(turn_up(read.up)), "name": _plain(up)},
     }
-    environment = Environment(autoescape=True, undefined=StrictUndefined)
-    return environment.from_string(template).render(
-        view=view,
-        legend=legend,
-        fixed=({} if block is None else {"block": block.size})
-        | {name: f"{read.told[name]:.6g}" for name in FIXED if name in read.told},
-        points=f"{read.up.size:,} × {read.across.size:,}",
-        version=VERSION,
+    return (
+        Environment(autoescape=True, undefined=StrictUndefined)
+        .from_string(template)
+        .render(
+            view=view,
+            legend=legend,
+            fixed=({} if block is None else {"block": block.size})
+            | {name: f"{read.told[name]:.6g}" for name in FIXED if name in read.told},
+            points=f"{read.up.size:,} × {read.across.size:,}",
+            version=VERSION,
+        )
     )
 
 

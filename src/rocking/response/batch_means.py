@@ -100,8 +100,7 @@ def _judged(sums: NDArray[np.float64], lengths: NDArray[np.float64]) -> BatchMea
     batches, value = len(sums), float(sums.sum() / lengths.sum())
     if batches < MIN_BATCHES:
         return BatchMean(value, math.inf, math.nan, bounded=False, batches=batches)
-    departures = sums - value * lengths
-    errors = _errors(departures) / lengths.sum()
+    errors = _errors(sums - value * lengths) / lengths.sum()
     last, finest, largest = errors[-1], errors[0], errors.max()
     # Joined r to one the spread of the mean stays, or falls by √r where sums are bounded: the line is between.
     joined = 2.0 ** (len(errors) - 1)

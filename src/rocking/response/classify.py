@@ -158,8 +158,7 @@ def _to_its_end(system: System, start: State, judgement: kernel.Judgement) -> Mo
 
 def _verdict(start: State, case: Case) -> Verdict:
     judged, motion = case.judgement, case.motion
-    periodic = judged.kind == kernel.PERIODIC
-    orbit = _orbit(case) if periodic else None
+    orbit = _orbit(case) if judged.kind == kernel.PERIODIC else None
     # of what is undetermined only an exponent that was weighed is told
     measured = judged.kind != kernel.UNDETERMINED or judged.ground in kernel.WEIGHED
     steady, transient = _known(judged.steady_peak), None if judged.transient < 0 else judged.transient

@@ -8,7 +8,7 @@ import numpy as np
 from attrs import field, frozen
 from numpy.typing import ArrayLike, NDArray
 
-from rocking.model import ReadOnlyArrays, TooShort, read_only, reals, refusal
+from rocking.model import ReadOnlyArrays, TooShort, read_only, reals, refusal, refuse_if
 from rocking.motion import Motion
 from rocking.response.pair_counts import pairs_within
 from rocking.response.scaling_region import Scaling, scaling_region
@@ -200,8 +200,7 @@ def _cloud(points: ArrayLike) -> Array:
         raise TypeError(refusal("points", allowed, points)) from None
     if cloud.ndim == 1:
         cloud = cloud[:, None]
-    if cloud.ndim != 2 or cloud.shape[1] == 0:
-        raise ValueError(refusal("points", allowed, points))
+    refuse_if(cloud.ndim != 2 or cloud.shape[1] == 0, "points", allowed, points)
     if len(cloud) < MIN_POINTS or len(cloud) > MAX_POINTS:
         raise ValueError(
             f"points must be {MIN_POINTS:,} at least and {MAX_POINTS:,} at most; got {len(cloud):,} "

@@ -74,11 +74,12 @@ def _reset(case: Case) -> Shown:
     judged = case.judgement
     which = "release from a brace" if judged.angle else "lift-off from rest"
     apart = counted(judged.period, "half cycle") if judged.symmetric else counted(judged.period, "cycle")
-    what = (
+    return Shown(
         f"{_periodic(judged)}: every {which} is the same state{' but for its side' * judged.symmetric}, two of them are "
-        f"{apart} of the forcing apart, and differences grew less than {MAX_GROWTH}-fold between them"
+        f"{apart} of the forcing apart, and differences grew less than {MAX_GROWTH}-fold between them",
+        f"verified, {_when(case)}",
+        {"growth": float(MAX_GROWTH)},
     )
-    return Shown(what, f"verified, {_when(case)}", {"growth": float(MAX_GROWTH)})
 
 
 def _orbit(case: Case) -> Shown:
@@ -87,98 +88,97 @@ def _orbit(case: Case) -> Shown:
         reached = f"the motion lies on the orbit to within {periodicity.ROUNDING:.0e}"
     else:
         reached = f"the motion, {judged.distance:.2g} away a period before, approaches the orbit as they say"
-    what = (
+    return Shown(
         f"{_periodic(judged)}: Newton's method met |P(x) − x| ≤ {at_most(judged.residual)}, both multipliers are inside the "
-        f"unit circle (largest {_below_one(math.hypot(judged.real, judged.imaginary))}) and {reached}"
+        f"unit circle (largest {_below_one(math.hypot(judged.real, judged.imaginary))}) and {reached}",
+        f"verified, {_when(case)}",
+        {
+            "residual": fixed_point.RESIDUAL,
+            "approach": periodicity.NONLINEAR,
+            "distance": periodicity.ROUNDING,
+        },
     )
-    tolerances = {
-        "residual": fixed_point.RESIDUAL,
-        "approach": periodicity.NONLINEAR,
-        "distance": periodicity.ROUNDING,
-    }
-    return Shown(what, f"verified, {_when(case)}", tolerances)
 
 
 def _neutral_orbit(case: Case) -> Shown:
-    what = (
+    return Shown(
         f"{_periodic(case.judgement)}: the motion comes back to within {decision_cascade.UNMOVED:.0e} of where it was, its averages over "
         f"both halves of the run agree to {quasi_periodicity.ENOUGH_DIGITS:.0f} digits or more, and nothing is lost, so that neighbours "
-        "stay neighbours and need not approach"
+        "stay neighbours and need not approach",
+        f"verified, {_when(case)}",
+        {
+            "residual": fixed_point.RESIDUAL,
+            "distance": decision_cascade.UNMOVED,
+            "digits": quasi_periodicity.ENOUGH_DIGITS,
+        },
     )
-    tolerances = {
-        "residual": fixed_point.RESIDUAL,
-        "distance": decision_cascade.UNMOVED,
-        "digits": quasi_periodicity.ENOUGH_DIGITS,
-    }
-    return Shown(what, f"verified, {_when(case)}", tolerances)
 
 
 def _torus(case: Case) -> Shown:
-    what = (
+    return Shown(
         f"nothing is lost; the averages over both halves of the run agree as on a torus, to "
         f"{quasi_periodicity.ENOUGH_DIGITS:.0f} digits or more "
         f"for the flight times and {math.floor(case.judgement.digits)} for the squared speeds; neighbours part no faster than "
-        f"linearly; and it does not return to within {decision_cascade.UNMOVED:.0e} in {case.max_period} cycles"
+        f"linearly; and it does not return to within {decision_cascade.UNMOVED:.0e} in {case.max_period} cycles",
+        f"statistical, over {spent(case)}: a motion that stays near a torus for long may leave it later",
+        {
+            "flight digits": quasi_periodicity.ENOUGH_DIGITS,
+            "speed digits": quasi_periodicity.CHAOTIC_DIGITS,
+            "log shear": quasi_periodicity.SHEAR,
+            f"log shear below {quasi_periodicity.SHEARED_FLIGHTS} flights": quasi_periodicity.SMALL_SHEAR,
+        },
     )
-    tolerances = {
-        "flight digits": quasi_periodicity.ENOUGH_DIGITS,
-        "speed digits": quasi_periodicity.CHAOTIC_DIGITS,
-        "log shear": quasi_periodicity.SHEAR,
-        f"log shear below {quasi_periodicity.SHEARED_FLIGHTS} flights": quasi_periodicity.SMALL_SHEAR,
-    }
-    remark = f"statistical, over {spent(case)}: a motion that stays near a torus for long may leave it later"
-    return Shown(what, remark, tolerances)
 
 
 def _exponent(case: Case) -> Shown:
     judged = case.judgement
-    what = (
+    return Shown(
         f"largest exponent {plus_minus(judged.exponent, judged.error)} per τ, {judged.exponent / judged.error:.0f} standard "
-        f"errors above zero, watched for {spent(case)}"
+        f"errors above zero, watched for {spent(case)}",
+        "statistical: a longer run may find an end to it",
+        {"standard errors": kernel.CLEARLY},
     )
-    remark = "statistical: a longer run may find an end to it"
-    return Shown(what, remark, {"standard errors": kernel.CLEARLY})
 
 
 def _little_growth(case: Case) -> Shown:
     grown = case.judgement.exponent * _measured_time(case)
-    what = (
+    return Shown(
         f"{_seems_chaotic(case)}, but over the second half of the run differences grew by a factor of only e^{grown:.3g}: they "
-        "do so too while a motion leaves an unstable orbit"
+        "do so too while a motion leaves an unstable orbit",
+        _longer(case),
+        {"log growth": kernel.FAR},
     )
-    return Shown(what, _longer(case), {"log growth": kernel.FAR})
 
 
 def _correlated(case: Case) -> Shown:
-    what = (
+    return Shown(
         f"{_seems_chaotic(case)}, but the {workspace.BATCHES} batches behind that error depend on each other: joined four to one "
-        f"they raise its variance more than {kernel.MAX_CORRELATION:.0f}-fold"
+        f"they raise its variance more than {kernel.MAX_CORRELATION:.0f}-fold",
+        _longer(case),
+        {"correlation": kernel.MAX_CORRELATION},
     )
-    return Shown(what, _longer(case), {"correlation": kernel.MAX_CORRELATION})
 
 
 def _lingering(case: Case) -> Shown:
-    what = (
+    return Shown(
         f"{_seems_chaotic(case)}, but in its last cycles the motion stays within {decision_cascade.NEAR:.0e} of an unstable "
-        "orbit"
+        "orbit",
+        f"{_longer(case)}, or start elsewhere",
+        {"distance": decision_cascade.NEAR},
     )
-    return Shown(what, f"{_longer(case)}, or start elsewhere", {"distance": decision_cascade.NEAR})
 
 
 def _unresolved_reset(case: Case) -> Shown:
-    what = (
+    return Shown(
         f"it comes to rest or leans and is released again, but between two releases differences grow more than "
-        f"{MAX_GROWTH}-fold: after how many cycles it repeats itself is not known in double precision"
+        f"{MAX_GROWTH}-fold: after how many cycles it repeats itself is not known in double precision",
+        "no longer run can tell; a slightly different system may",
     )
-    return Shown(what, "no longer run can tell; a slightly different system may")
 
 
 def _unwatched(case: Case) -> Shown:
     needed = kernel.CHAOS_NEEDS if case.system.braces is None else kernel.CHAOS_NEEDS_WITH_BRACES
-    return Shown(
-        f"{_no_orbit(case)}, too few to call it chaotic",
-        f"raise max_cycles to {needed:,} or more",
-    )
+    return Shown(f"{_no_orbit(case)}, too few to call it chaotic", f"raise max_cycles to {needed:,} or more")
 
 
 def _indistinct(case: Case) -> Shown:
@@ -197,27 +197,27 @@ def _indistinct(case: Case) -> Shown:
 
 
 def _between(case: Case) -> Shown:
-    what = (
+    return Shown(
         f"nothing is lost, and the averages over both halves of {spent(case)} agree to {case.judgement.digits:.1f} digits: better "
-        f"than on chaotic motion (below {quasi_periodicity.CHAOTIC_DIGITS:.0f}), but not all is as on a torus"
+        f"than on chaotic motion (below {quasi_periodicity.CHAOTIC_DIGITS:.0f}), but not all is as on a torus",
+        _longer(case),
     )
-    return Shown(what, _longer(case))
 
 
 def _crowded(case: Case) -> Shown:
-    what = (
+    return Shown(
         f"more impacts than are followed, over {leg.MAX_EVENTS_A_CYCLE} a cycle: it chatters almost without loss; given up "
-        f"after {spent(case)}"
+        f"after {spent(case)}",
+        "start it faster, or take a smaller restitution",
     )
-    return Shown(what, "start it faster, or take a smaller restitution")
 
 
 def _standing(case: Case) -> Shown:
-    what = (
+    return Shown(
         f"it comes back to within {decision_cascade.UNMOVED:.0e} of where it was in {spent(case)}, and differences grow by "
-        f"{case.judgement.exponent:.4g} per τ: it stands on an unstable orbit"
+        f"{case.judgement.exponent:.4g} per τ: it stands on an unstable orbit",
+        "start it a little beside",
     )
-    return Shown(what, "start it a little beside")
 
 
 SHOWN: dict[Criterion, Callable[[Case], Shown]] = {
@@ -252,8 +252,7 @@ def _longer(case: Case) -> str:
 
 def _measured_time(case: Case) -> float:
     """The time, in τ, over which the exponent is measured: the batches of the second half."""
-    batch = case.max_cycles // (2 * workspace.BATCHES)
-    return workspace.BATCHES * batch * case.system.forcing.period
+    return workspace.BATCHES * (case.max_cycles // (2 * workspace.BATCHES)) * case.system.forcing.period
 
 
 def _seems_chaotic(case: Case) -> str:

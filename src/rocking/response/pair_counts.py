@@ -66,8 +66,7 @@ def _listed(tree: Any, theiler: int, radii: Array) -> tuple[Array, Array]:
     distances = np.sqrt(((tree.data[listed[:, 0]] - tree.data[listed[:, 1]]) ** 2).sum(axis=1))
     bins = np.searchsorted(radii, distances)
     everyone = np.arange(tree.n)
-    sizes = [len(block) for block in np.array_split(everyone, BLOCKS)]
-    block_of = np.repeat(np.arange(BLOCKS), sizes)
+    block_of = np.repeat(np.arange(BLOCKS), [len(block) for block in np.array_split(everyone, BLOCKS)])
     cells = sum(
         np.bincount(block_of[listed[:, end]] * len(radii) + bins, minlength=BLOCKS * len(radii))
         for end in (0, 1)

@@ -128,8 +128,7 @@ def rotation_number(system: System, start: State | None = None, cycles: int = 20
     """
     motion = simulate(system, start, cycles=whole("cycles", cycles, 1, MAX_CYCLES), record="all")
     section, phases, speeds = _strikes(motion)
-    flights = _flights(motion, section)
-    mean, digits = average(flights)
+    mean, digits = average(_flights(motion, section))
     found = RotationNumber(
         system=system,
         start=motion.start,

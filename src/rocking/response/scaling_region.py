@@ -51,8 +51,7 @@ def scaling_region(radii: Array, counts: Array, pairs: Array) -> Scaling | None:
     x = np.log(radii)
     y = np.log(counts.sum(axis=0) / pairs.sum(axis=0))
     # without one block each (jackknife)
-    others = np.log((counts.sum(axis=0) - counts) / (pairs.sum(axis=0) - pairs))
-    fits = _Fits(x, np.vstack([y, others]))
+    fits = _Fits(x, np.vstack([y, np.log((counts.sum(axis=0) - counts) / (pairs.sum(axis=0) - pairs))]))
     first, last, found = _longest(fits)
     low, high = fits.interval(first, last)
     local = [fits.slope(k, k + 1) for k in range(len(x) - 1)]

@@ -88,8 +88,7 @@ def parts_and_rotation(
     for n in [parts] if parts else range(1, MAX_SUBHARMONIC + 1):
         free = rotation or _free(telling, n, resolution)
         named = [combination(line, n, free, resolution) for line in telling]
-        turning = sum(one is not None and one.rotation != 0 for one in named)
-        if not rotation and turning < 2:
+        if not rotation and sum(one is not None and one.rotation != 0 for one in named) < 2:
             free, named = None, [combination(line, n, None, resolution) for line in telling]
         count = sum(one is not None for one in named)
         if count > best[0]:

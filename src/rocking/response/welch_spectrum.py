@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from rocking.model import Outcome, instance, refusal, whole, within
+from rocking.model import Outcome, instance, refusal, refuse_if, whole, within
 from rocking.motion import Motion
 from rocking.response import uniform_samples
 from rocking.response.spectral_density import SHARE_OF_LINES, SHOWN, Peak, SpectralDensity
@@ -91,8 +91,7 @@ def spectral_density(
     cycles = _check_motion(motion, transient)
     if samples is not None:
         samples = whole("samples", samples, MIN_SAMPLES, MAX_SAMPLES)
-        if samples % 2:
-            raise ValueError(refusal("samples", "be even", samples))
+        refuse_if(samples % 2, "samples", "be even", samples)
     if rotation is not None:
         rotation = within("rotation", rotation, 1e-6, 1e3)
     if period is not None:
@@ -186,8 +185,7 @@ def _taper(window: str | tuple, length: int) -> Taper:
             weights = get_window(window, length)
     except (TypeError, ValueError):
         raise ValueError(refusal("window", "be one that scipy.signal.get_window knows", window)) from None
-    if not np.isfinite(weights).all():
-        raise ValueError(refusal("window", "have finite weights", window))
+    refuse_if(not np.isfinite(weights).all(), "window", "have finite weights", window)
     taper = Taper(weights)
     if taper.side_lobes > HIGHEST_SIDE_LOBES:
         raise ValueError(refusal("window", "have side lobes below a tenth of its main lobe", window))

@@ -124,8 +124,7 @@ def basin_map(
         ends = {name: span(name, v) for name, v in (("velocity", velocity), ("angle", angle))}
         reach = MAX_START if system.braces is None else system.braces.angle
         check_between(max(ends["angle"], key=abs), reach)
-        count = whole("samples", samples, 1, MAX_SAMPLES)
-        starts = random.uniform(*_corners(ends), (count, 2))
+        starts = random.uniform(*_corners(ends), (whole("samples", samples, 1, MAX_SAMPLES), 2))
         found = _random_dataset(system, starts, measure, executor).assign_attrs(seed=seed)
     labels, first = label_attractors(system, {str(name): found[name].values for name in found.data_vars})
     attractors = make_attractors(system, starts, first, max_cycles, max_period)

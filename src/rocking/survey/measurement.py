@@ -69,7 +69,7 @@ class Measurement:
     variables: tuple[Variable, ...]
     options: dict[str, int]
     method: int
-    shares: str
+    shares: str = "kind"
 
     def blank(self, shape: tuple[int, ...]) -> Arrays:
         """Arrays in which nothing is computed."""
@@ -101,8 +101,7 @@ def batches(tile: Tile, fixed: dict[str, float], wanted: np.ndarray, measure: Me
 
 def compute(batch: Batch, stop: np.ndarray) -> Arrays:
     """The answers at the points of a batch, in their order; CancelledError if told to stop."""
-    shape = tuple(values.size for values in batch.axes.values())
-    places = np.unravel_index(batch.wanted, shape)
+    places = np.unravel_index(batch.wanted, tuple(values.size for values in batch.axes.values()))
     values = {name: axis[at] for (name, axis), at in zip(batch.axes.items(), places, strict=True)}
     answers = batch.judge(points(values, batch.fixed), batch.options, stop)
     if answers is None:

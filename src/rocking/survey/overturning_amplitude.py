@@ -99,8 +99,7 @@ def overturning_amplitude(
         "frequency": frequency,
         "period": period,
     }
-    varying = sum(np.ndim(value) > 0 for value in given.values())
-    asked = question(given, varying, "an overturning amplitude")
+    asked = question(given, sum(np.ndim(value) > 0 for value in given.values()), "an overturning amplitude")
     found = run_survey(asked, measure, store, executor, progress=progress, repair=repair)
     kinds = found.kind if count > 1 else found.kind.expand_dims(phase=turned)
     over = [name for name in ("restitution", "frequency", "period") if name in asked.axes]

@@ -103,6 +103,5 @@ def parametric_map(
         2,
         "a parametric map",
     )
-    title = "Parametric map of a free-standing block on a shaking base"
-    measure = response(max_cycles, max_period, title)
+    measure = response(max_cycles, max_period, "Parametric map of a free-standing block on a shaking base")
     return run_survey(asked, measure, store, executor, progress=progress, repair=repair)

@@ -90,13 +90,12 @@ def repeatability(
     columns = (
         answers[name].tolist() for name in ("kind", "response_period", "symmetric", "impacts_per_period")
     )
-    responses = Counter(_told(*each) for each in zip(*columns, strict=True))
     return Repeatability(
         system,
         start,
         off,
         _shares(kinds, unknown, count),
-        _shares(responses, unknown, count),
+        _shares(Counter(_told(*each) for each in zip(*columns, strict=True)), unknown, count),
     )
 
 

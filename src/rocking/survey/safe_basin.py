@@ -97,8 +97,7 @@ def safe_basin(
         RANGES["angle"] if brace_angle is None else (-asked.fixed["brace_angle"], asked.fixed["brace_angle"])
     )
     low, high = zip(span("angle", angle, reach), span("velocity", velocity), strict=True)
-    count = whole("samples", samples, 1, MAX_SAMPLES)
-    starts = generator(seed).uniform(low, high, (count, 2))
+    starts = generator(seed).uniform(low, high, (whole("samples", samples, 1, MAX_SAMPLES), 2))
     amplitudes = asked.axes["amplitude"]
     kinds = [
         sampled(_placed(asked, value, starts), measure, executor)["kind"] for value in amplitudes.tolist()

@@ -11,16 +11,7 @@ import numpy as np
 from attrs import field, frozen
 
 from rocking.kernels import parameters as numbers
-from rocking.model import (
-    NO_BRACES,
-    RANGES,
-    check_between,
-    exactly_one,
-    reals,
-    refusal,
-    shown,
-    within,
-)
+from rocking.model import NO_BRACES, RANGES, check_between, exactly_one, reals, refusal, shown, within
 
 Values = Mapping[str, np.ndarray]
 
@@ -81,8 +72,7 @@ class SurveySpec:
     @property
     def may_last(self) -> bool:
         """Whether some points may have to be marched for long: they lose nothing at impacts, or stand between braces."""
-        named = self.axes.keys() | self.fixed.keys()
-        return "brace_angle" in named or 1.0 in (
+        return "brace_angle" in (self.axes.keys() | self.fixed.keys()) or 1.0 in (
             self.axes["restitution"] if "restitution" in self.axes else [self.fixed["restitution"]]
         )
 
@@ -100,8 +90,7 @@ def question(asked: Mapping[str, Any], count: int, what: str) -> SurveySpec:
     missing = [name for name in ("amplitude", "restitution") if name not in given]
     if missing:
         raise TypeError(f"{what} needs {' and '.join(missing)}; got none")
-    braced = "brace_angle" in given
-    rebound = 1.0 if braced else given.pop("brace_restitution", 1.0)
+    rebound = 1.0 if "brace_angle" in given else given.pop("brace_restitution", 1.0)
     if _is_axis(rebound) or rebound != 1.0:
         raise TypeError(refusal("brace_restitution", "come with brace_angle", rebound))
     axes = {name: axis(name, value) for name, value in given.items() if _is_axis(value)}
@@ -162,8 +151,7 @@ def _is_axis(value: Any) -> bool:
 
 
 def _counted(count: int) -> str:
-    words = {1: "one quantity", 2: "two quantities"}
-    return words.get(count, f"{count} quantities")
+    return {1: "one quantity", 2: "two quantities"}.get(count, f"{count} quantities")
 
 
 def _check_braces(asked: SurveySpec) -> None:

@@ -134,8 +134,7 @@ def tile_edges(shape: Sequence[int]) -> tuple[int, ...]:
     edges, room = [0] * len(shape), MAX_IN_A_TILE
     for left, place in enumerate(sorted(range(len(shape)), key=lambda place: shape[place])):
         most = int(room ** (1 / (len(shape) - left)) + 1e-9)
-        wanted = max(-(-shape[place] // MIN_TILES), MIN_EDGE)
-        edges[place] = min(shape[place], wanted, most)
+        edges[place] = min(shape[place], max(-(-shape[place] // MIN_TILES), MIN_EDGE), most)
         room //= edges[place]
     return tuple(edges)
 

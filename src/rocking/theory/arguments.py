@@ -7,13 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from rocking.model import (
-    MAX_AMPLITUDE,
-    PERIODS,
-    one_of,
-    reals,
-    refusal,
-)
+from rocking.model import MAX_AMPLITUDE, PERIODS, one_of, reals, refusal
 
 MAX_CYCLES = 9_999
 ORBITS = {"upper": 1.0, "lower": -1.0}

@@ -46,8 +46,7 @@ def physical_acceleration(block: Block, radians: Any, base_acceleration: Any) ->
     """
     angle = np.asarray(instance("block", block, Block).angle(radians=radians))
     amplitude = block.amplitude(reals("base_acceleration", base_acceleration))
-    normalised = angle - np.sign(angle) - np.asarray(amplitude)
-    return plain(_per_inertia(block) * normalised)
+    return plain(_per_inertia(block) * (angle - np.sign(angle) - np.asarray(amplitude)))
 
 
 def physical_damping(block: Block, radians: Any, radians_per_second: Any, width: float) -> Any:
@@ -63,8 +62,7 @@ def physical_damping(block: Block, radians: Any, radians_per_second: Any, width:
     True
     """
     angle = instance("block", block, Block).angle(radians=radians)
-    force = damping(angle, block.velocity(radians_per_second), block.restitution, width)
-    return _per_inertia(block) * force
+    return _per_inertia(block) * damping(angle, block.velocity(radians_per_second), block.restitution, width)
 
 
 def physical_energy(block: Block, radians: Any, radians_per_second: Any) -> Any:

@@ -84,8 +84,7 @@ def free_peaks(angle: Any, restitution: Any, impacts: Any) -> Any:
     [0.4, 0.2]
     """
     speed = np.asarray(free_impact_speed(angle))
-    count = between("impacts", impacts, 0, 1e9)
-    energy = (speed * restitutions(restitution) ** count) ** 2
+    energy = (speed * restitutions(restitution) ** between("impacts", impacts, 0, 1e9)) ** 2
     return plain(energy / (1.0 + np.sqrt(1.0 - energy)))
 
 

@@ -142,8 +142,7 @@ def manifold_gap(phase: Any, amplitude: Any, period: Any, restitution: Any) -> A
 
 def _swing(phase: Any, amplitude: Any, period: Any) -> tuple[Any, Any]:
     """(β cos ψ, −βΩ sin ψ): how far a saddle orbit is from ±1, and its velocity."""
-    omega = frequencies(period)
-    forcing = np.broadcast_arrays(amplitudes(amplitude), omega, reals("phase", phase))
+    forcing = np.broadcast_arrays(amplitudes(amplitude), frequencies(period), reals("phase", phase))
     swing = np.empty((*forcing[0].shape, 2))
     saddle_manifold.swings(
         *(np.ascontiguousarray(each, float).ravel() for each in forcing), swing.reshape(-1, 2)

@@ -17,14 +17,7 @@ import numpy as np
 from scipy.integrate import quad
 
 from rocking.model import MAX_AMPLITUDE, PERIODS, finite, reals, within
-from rocking.theory.arguments import (
-    amplitudes,
-    between,
-    frequencies,
-    plain,
-    restitutions,
-    side_of,
-)
+from rocking.theory.arguments import amplitudes, between, frequencies, plain, restitutions, side_of
 
 CRITICAL_ENERGY = 0.5
 WIDTHS = (1e-12, 1.0)

@@ -12,14 +12,7 @@ import numpy as np
 
 from rocking.kernels import parameters as numbers
 from rocking.kernels.orbits import floquet, mode_admissibility, symmetric_mode
-from rocking.model import (
-    MAX_AMPLITUDE,
-    PERIODS,
-    Mode,
-    refusal,
-    whole,
-    within,
-)
+from rocking.model import MAX_AMPLITUDE, PERIODS, Mode, refusal, whole, within
 from rocking.theory.arguments import MAX_CYCLES, frequencies, odd, plain, restitutions
 
 
@@ -59,8 +52,7 @@ def existence_amplitude(period: Any, restitution: Any, n: Any) -> Any:
     """
     omega, e, half = frequencies(period), restitutions(restitution), 0.5 * odd(n)
     t = np.tanh(half * math.pi / omega)
-    lost = np.where(e > 0.0, 1.0 - e, np.nan)
-    swept = t * lost
+    swept = t * np.where(e > 0.0, 1.0 - e, np.nan)
     return plain((1.0 + omega * omega) * t * swept / np.hypot(1.0 + e, omega * swept))
 
 

@@ -33,8 +33,7 @@ BoundaryRuns = Annotated[
     ),
 ]
 Plot = Annotated[
-    Path | None,
-    ask.file_option("--plot", "The basins, a colour an attractor, with shares (.png .svg .pdf)."),
+    Path | None, ask.file_option("--plot", "The basins, a colour an attractor, with shares (.png .svg .pdf).")
 ]
 
 

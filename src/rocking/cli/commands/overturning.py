@@ -20,8 +20,7 @@ SHAKEN = ("period", "frequency", "height", "width", "frequency_hz", "period_s", 
 Amplitude = Annotated[
     Any,
     axis.axis_option(
-        "--amplitude",
-        "Normalised: amplitudes to scan, START:STOP:COUNT; 1:16:301 unless given.",
+        "--amplitude", "Normalised: amplitudes to scan, START:STOP:COUNT; 1:16:301 unless given."
     ),
 ]
 Acceleration = Annotated[
@@ -30,12 +29,10 @@ Acceleration = Annotated[
 ]
 AccelerationG = Annotated[Any, axis.axis_option("--acceleration-g", "SI: the same in units of g.")]
 Phases = Annotated[
-    ask.Number,
-    ask.number_option("--phases", "Phases at which the shaking begins; 16 unless given."),
+    ask.Number, ask.number_option("--phases", "Phases at which the shaking begins; 16 unless given.")
 ]
 MaxCycles = Annotated[
-    ask.Number,
-    ask.number_option("--max-cycles", "Cycles of the base to follow at most; 1,000 unless given."),
+    ask.Number, ask.number_option("--max-cycles", "Cycles of the base to follow at most; 1,000 unless given.")
 ]
 Plot = Annotated[
     Path | None,

@@ -35,8 +35,7 @@ def compute(given: Mapping[str, Any]) -> tuple[BasinMap, Block | None]:
     from rocking.survey import basin_map
 
     asked = {name: each for name, each in given.items() if name not in FILES}
-    shaken = {name: asked.pop(name) for name in SYSTEM if name in asked}
-    system, _, block = system_of(shaken)
+    system, _, block = system_of({name: asked.pop(name) for name in SYSTEM if name in asked})
     reach = 1.0 if system.braces is None else min(system.braces.angle, 1.0)
     usual = {"angle": Axis(-reach, reach, DEFAULT_STARTS), "velocity": Axis(-1.0, 1.0, DEFAULT_STARTS)}
     for name, axis in usual.items():

@@ -14,12 +14,11 @@ from rocking.cli.option_names import COUNTS, START, SYSTEM, YourInput, option, o
 from rocking.cli.output import files
 from rocking.cli.output.files import SUFFIXES, check_apart, check_files
 from rocking.cli.output.survey_run import ARGUMENTS, carried_out
-from rocking.model import TILES, check_replaceable, instance, refusal
+from rocking.model import TILES, Block, check_replaceable, instance, refusal
 
 if TYPE_CHECKING:
     import xarray as xr
 
-    from rocking.model import Block
 
 THEORY = ("curves", "symbols")
 PLACES = ("store", "tiles", *SUFFIXES)

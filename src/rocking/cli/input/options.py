@@ -10,16 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any, TypeVar
 
 import typer
 
-from rocking.cli.option_names import (
-    ARGUMENTS,
-    NORMALISED,
-    SI,
-    START,
-    SYSTEM,
-    YourInput,
-    option,
-    your_input,
-)
+from rocking.cli.option_names import ARGUMENTS, NORMALISED, SI, START, SYSTEM, YourInput, option, your_input
 
 if TYPE_CHECKING:
     from rocking.model import Block, State, System
@@ -187,14 +178,12 @@ def question(given: Mapping[str, Any]) -> tuple[System, State, Block | None]:
         require(given, (("height",), ("width",), SI[2:5], SI[5:]), SI_NEEDS)
     braces = _braces(given)
     with your_input(ARGUMENTS):
-        state = (within(name, given[name], -MAX_START, MAX_START) for name in ("angle", "velocity"))
-        start = State(*state)
+        start = State(*(within(name, given[name], -MAX_START, MAX_START) for name in START))
         if normalised:
             forcing = Harmonic(**{name: given[name] for name in (*NORMALISED, "phase")})
             return System(forcing, given["restitution"], braces), start, None
         block = Block(given["height"], given["width"], given["restitution"])
-        shaking = {name: given[name] for name in (*SI[2:], "phase")}
-        return block.system(**shaking, braces=braces), start, block
+        return block.system(**{name: given[name] for name in (*SI[2:], "phase")}, braces=braces), start, block
 
 
 def _braces(given: Mapping[str, Any]) -> Any:

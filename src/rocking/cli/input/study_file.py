@@ -16,10 +16,7 @@ STUDY = (
     "All this in a TOML file, a line an option: restitution = 0.9, an axis in quotes, such as "
     'period = "1:3:60"; what is typed here wins.'
 )
-Study = Annotated[
-    Path | None,
-    typer.Option("--study", metavar="FILE", help=STUDY),
-]
+Study = Annotated[Path | None, typer.Option("--study", metavar="FILE", help=STUDY)]
 MAX_BYTES = 1_000_000
 """In a study file, which has some ten lines."""
 Check = Callable[[Any], Any]

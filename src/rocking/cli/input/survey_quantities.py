@@ -5,28 +5,24 @@ from __future__ import annotations
 from collections.abc import Mapping
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from rocking.cli.input.axis import FORM, VARIES, Axis
 from rocking.cli.input.options import question
 from rocking.cli.input.study_file import Check, quantity
 from rocking.cli.option_names import SI, TOLD, YourInput, option
-from rocking.model import instance, quantities, reals, refusal, whole
-
-if TYPE_CHECKING:
-    from rocking.model import Block
+from rocking.model import Block, instance, quantities, reals, refusal, whole
 
 
 def normalised(given: Mapping[str, Any]) -> dict[str, Any]:
     """Numbers and arrays, normalised, of quantities given as numbers, axes and lists."""
     import numpy as np
 
-    spans = {name: each if isinstance(each, Axis) else None for name, each in given.items()}
-    lists = {name: each for name, each in given.items() if np.ndim(each) > 0 and spans[name] is None}
+    varied = {name: each for name, each in given.items() if isinstance(each, Axis)}
+    lists = {name: each for name, each in given.items() if np.ndim(each) > 0 and name not in varied}
     if any(name in SI for name in lists):
         raise YourInput(f"{option(next(iter(lists)))} in SI must be a number or {FORM}; got a list")
-    varied = [name for name, span in spans.items() if span is not None]
-    if "displacement" in given and any(name in ("frequency_hz", "period_s") for name in varied):
+    if "displacement" in given and ("frequency_hz" in varied or "period_s" in varied):
         raise YourInput(
             "--displacement with an axis of the frequency varies two things: give --acceleration instead"
         )
@@ -37,13 +33,12 @@ def normalised(given: Mapping[str, Any]) -> dict[str, Any]:
         at |= {name: each[0 if end == "start" else -1] for name, each in lists.items()}
         ends.append(_numbers(at))
     first, last = ends
-    asked: dict[str, Any] = {}
-    for name in TOLD:
-        if name not in first:
-            continue
-        source = next((each for each in varied if VARIES.get(each, each) == name), None)
-        span = None if source is None else spans[source]
-        asked[name] = first[name] if span is None else np.linspace(first[name], last[name], span.points)
+    points = {VARIES.get(name, name): span.points for name, span in varied.items()}
+    asked = {
+        name: np.linspace(first[name], last[name], points[name]) if name in points else first[name]
+        for name in TOLD
+        if name in first
+    }
     return asked | lists
 
 

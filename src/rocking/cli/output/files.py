@@ -7,12 +7,19 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from rocking.cli.option_names import YourInput, option, your_input
-from rocking.model import PHYSICAL, block_attributes, check_writable, replacing, replacing_hdf5, resolve_path
+from rocking.model import (
+    PHYSICAL,
+    Block,
+    block_attributes,
+    check_writable,
+    replacing,
+    replacing_hdf5,
+    resolve_path,
+)
 
 if TYPE_CHECKING:
     import xarray as xr
 
-    from rocking.model import Block
 
 PICTURES = (".png", ".svg", ".pdf")
 SUFFIXES = {"plot": PICTURES, "csv": (".csv",), "netcdf": (".nc",)}

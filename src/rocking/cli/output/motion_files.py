@@ -80,8 +80,8 @@ def write_plot(motion: Motion, block: Block | None, path: Path) -> None:
 
     if path.suffix.lower() in FILMS:
         plot.animation(motion, path, block)
-        return
-    plot.save(plot.overview(motion, block), path)
+    else:
+        plot.save(plot.overview(motion, block), path)
 
 
 def write_csv(motion: Motion, block: Block | None, path: Path) -> None:

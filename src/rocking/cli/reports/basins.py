@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import attrs
 
@@ -13,10 +13,7 @@ from rocking.cli.output.console import Row, print_json, print_table
 from rocking.cli.output.survey_run import MAX_ROWS, share_record
 from rocking.cli.reports.motion import asked_of, physical_of, question_of
 from rocking.cli.reports.validity import warned, warnings
-from rocking.model import counted
-
-if TYPE_CHECKING:
-    from rocking.model import BasinMap, Block, System, UncertaintyExponent
+from rocking.model import BasinMap, Block, System, UncertaintyExponent, counted
 
 
 def show(found: BasinMap, block: Block | None, files: list[Path], *, as_json: bool) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import attrs
 
@@ -13,11 +13,7 @@ from rocking.cli.option_names import as_typed, options
 from rocking.cli.output.console import Row, print_json, print_table
 from rocking.cli.reports import validity
 from rocking.cli.reports.motion import asked, beyond, physical, question, reach
-from rocking.model import counted, plus_minus
-
-if TYPE_CHECKING:
-    from rocking.model import Block, Verdict
-
+from rocking.model import Block, Verdict, counted, plus_minus
 
 BUDGET = options("max_cycles", "max_period")
 
@@ -72,7 +68,7 @@ def record(verdict: Verdict, block: Block | None, file: Path | None) -> dict[str
         "impacts_per_period": verdict.impacts_per_period,
         "brace_hits_per_period": verdict.brace_hits_per_period,
         "symmetric": verdict.symmetric,
-        "multipliers": None if orbit is None else _parts(orbit.multipliers),
+        "multipliers": None if orbit is None else [[value.real, value.imag] for value in orbit.multipliers],
         "exponent": verdict.exponent,
         "exponent_error": verdict.exponent_error,
         "superstable": verdict.superstable,
@@ -95,10 +91,6 @@ def record(verdict: Verdict, block: Block | None, file: Path | None) -> dict[str
 
 def _count(hits: int | None) -> str:
     return "infinitely many, before rest or leaning" if hits is None else f"{hits}"
-
-
-def _parts(multipliers: tuple[complex, complex]) -> list[list[float]]:
-    return [[value.real, value.imag] for value in multipliers]
 
 
 def _pair(larger: complex, smaller: complex) -> str:

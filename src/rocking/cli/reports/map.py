@@ -12,12 +12,10 @@ from rocking.cli.option_names import COUNTS, TOLD
 from rocking.cli.output.console import Row, print_json, print_table
 from rocking.cli.reports.motion import asked_in_si, beyond, in_si
 from rocking.cli.reports.validity import warned, warnings
-from rocking.model import Criterion, counted, percent
+from rocking.model import Block, Criterion, counted, percent
 
 if TYPE_CHECKING:
     import xarray as xr
-
-    from rocking.model import Block
 
 
 def show(found: xr.Dataset, block: Block | None, files: list[Path], *, as_json: bool) -> None:
@@ -32,18 +30,14 @@ def show(found: xr.Dataset, block: Block | None, files: list[Path], *, as_json: 
         return
     size = " × ".join(f"{found.sizes[name]:,}" for name in found.kind.dims)
     rows = [*_asked(found, block), *_found(kinds, criteria)]
-    more = [*beyond(_farthest(found), block), *warned(doubts)]
+    farthest = float(max(np.atleast_1d(_values(found, "angle")), key=abs))
+    more = [*beyond(farthest, block), *warned(doubts)]
     print_table(f"parametric map, {size} points", rows, files, more)
 
 
 def _values(found: xr.Dataset, name: str) -> Any:
     """Those of an axis, or the one that does not vary."""
     return found[name].values if name in found.coords else found.attrs[name]
-
-
-def _farthest(found: xr.Dataset) -> float:
-    """The start farthest from upright."""
-    return float(max(np.atleast_1d(_values(found, "angle")), key=abs))
 
 
 def _asked(found: xr.Dataset, block: Block | None) -> Iterator[Row]:
@@ -79,10 +73,9 @@ def record(
         }
         for name in found.kind.dims
     }
-    fixed = {name: found.attrs[name] for name in (*TOLD, *COUNTS) if name in found.attrs}
     return {
         "axes": axes,
-        **fixed,
+        **{name: found.attrs[name] for name in (*TOLD, *COUNTS) if name in found.attrs},
         "points": sum(kinds.values()),
         "kinds": kinds,
         "evidence": criteria,

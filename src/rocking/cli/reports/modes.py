@@ -5,17 +5,14 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from attrs import frozen
 
 from rocking.cli.output.console import aligned, print_json, print_table
 from rocking.cli.reports.motion import asked_of, in_si, physical_of, reach
 from rocking.cli.reports.validity import warned, warnings
-from rocking.model import counted
-
-if TYPE_CHECKING:
-    from rocking.model import Block, Mode, System
+from rocking.model import Block, Mode, System, counted
 
 
 @frozen

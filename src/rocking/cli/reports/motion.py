@@ -12,12 +12,11 @@ import numpy as np
 
 from rocking.cli.output.console import WARNING, Row, print_json, print_table
 from rocking.cli.reports import validity
-from rocking.model import GRAVITY, PHYSICAL, Block, counted, ordinal, quantities
+from rocking.model import GRAVITY, PHYSICAL, Block, System, Verdict, counted, ordinal, quantities
 
 if TYPE_CHECKING:
     import xarray as xr
 
-    from rocking.model import System, Verdict
     from rocking.motion import Motion
 
 
@@ -25,9 +24,9 @@ def show(motion: Motion, block: Block | None, files: Sequence[Path], *, as_json:
     """Print the summary on stdout, and where its files are."""
     if as_json:
         print_json(record(motion, block, files))
-        return
-    more = [*beyond(motion.start.angle, block), *validity.lines(motion, block)]
-    print_table(verdict(motion), [*asked(motion, block), *found(motion, block)], files, more)
+    else:
+        more = [*beyond(motion.start.angle, block), *validity.lines(motion, block)]
+        print_table(verdict(motion), [*asked(motion, block), *found(motion, block)], files, more)
 
 
 def verdict(motion: Motion) -> str:

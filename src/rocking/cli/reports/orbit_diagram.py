@@ -13,10 +13,9 @@ from rocking.cli.output import files
 from rocking.cli.output.console import Row, print_json, print_table
 from rocking.cli.reports.motion import asked_in_si, beyond, in_si, reach
 from rocking.cli.reports.validity import warned, warnings
-from rocking.model import PHYSICAL
+from rocking.model import PHYSICAL, Block
 
 if TYPE_CHECKING:
-    from rocking.model import Block
     from rocking.orbits import OrbitDiagram
 
 
@@ -88,10 +87,7 @@ def record(diagram: OrbitDiagram, block: Block | None, files: Sequence[Path]) ->
             varied = PHYSICAL[diagram.parameter]
             sweep[f"overturned_at_{varied.key}"] = varied.turn(block, sweep["overturned_at"]).tolist()
         sweep["peak_deg"] = None if sweep["peak"] is None else float(block.degrees(sweep["peak"]))
-    return told | {
-        "block": asked_in_si(diagram.to_xarray(), block),
-        "warnings": _warnings(diagram, block),
-    }
+    return told | {"block": asked_in_si(diagram.to_xarray(), block), "warnings": _warnings(diagram, block)}
 
 
 def write_plot(diagram: OrbitDiagram, block: Block | None, path: Path) -> None:

@@ -12,12 +12,11 @@ from rocking.cli.output.console import Row, print_json, print_table
 from rocking.cli.output.survey_run import MAX_ROWS
 from rocking.cli.reports.motion import asked_in_si, in_si
 from rocking.cli.reports.validity import warned, warnings
-from rocking.model import GRAVITY, PHYSICAL, OverturningCurve
+from rocking.model import GRAVITY, PHYSICAL, Block, OverturningCurve
 
 if TYPE_CHECKING:
     import xarray as xr
 
-    from rocking.model import Block
 
 LEVELS = ("lowest", "resolution", "survived_up_to")
 """What is an amplitude of the answer."""
@@ -43,8 +42,8 @@ def show(found: OverturningCurve, block: Block | None, files: list[Path], *, as_
     if as_json:
         told = {} if block is None else {"block": asked_in_si(found.dataset, block), "warnings": doubts}
         print_json(record(found, block, files) | told)
-        return
-    print_table(title(found, block), rows(found, block), files, warned(doubts))
+    else:
+        print_table(title(found, block), rows(found, block), files, warned(doubts))
 
 
 def title(found: OverturningCurve, block: Block | None) -> str:

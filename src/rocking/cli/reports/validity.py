@@ -8,10 +8,9 @@ import attrs
 
 from rocking.cli.output.console import WARNING
 from rocking.cli.output.motion_files import MAX_CYCLES_KEPT, run
-from rocking.model import counted
+from rocking.model import Block, Verdict, counted
 
 if TYPE_CHECKING:
-    from rocking.model import Block, Verdict
     from rocking.motion import Motion
 
 FIRST = 200

@@ -17,5 +17,4 @@ from rocking.papers.yim_lin_1991.map_layout import draw_map
 
 def draw() -> Figure:
     """Draws figure 13b."""
-    title = r"braces at 1, $r = 1$, $e = 0.925$"
-    return draw_map(cached_surveys.braced(), "13b", title)
+    return draw_map(cached_surveys.braced(), "13b", r"braces at 1, $r = 1$, $e = 0.925$")

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from rocking.model import refusal
+from rocking.model import refusal, refuse_if
 from rocking.plot.parts.legend import NONE, looks
 
 if TYPE_CHECKING:
@@ -68,8 +68,7 @@ class Responses:
             self._below.folder = self.folder
         below = self._below
         rows, columns = nearest(below.up, self.up[begin:end]), nearest(below.across, self.across)
-        read = below.rows(rows[0], rows[-1] + 1)
-        return read[np.ix_(rows - rows[0], columns)]
+        return below.rows(rows[0], rows[-1] + 1)[np.ix_(rows - rows[0], columns)]
 
 
 def edges(values: np.ndarray) -> np.ndarray:
@@ -94,8 +93,7 @@ def _levels(found: Any) -> list[xr.Dataset]:
         kinds = getattr(level, "kind", None)
         if getattr(kinds, "ndim", 0) != 2 or not all(hasattr(level, name) for name in NEEDED):
             raise TypeError(refusal("found", allowed, found))
-    if not levels:
-        raise ValueError(refusal("found", allowed, found))
+    refuse_if(not levels, "found", allowed, found)
     return levels
 
 
@@ -104,8 +102,7 @@ def _opened(folder: Path) -> list[xr.Dataset]:
     import xarray as xr
 
     count = sum(1 for each in folder.glob("level-*") if each.is_dir())
-    if not count:
-        raise ValueError(refusal("found", "be the folder of a map's store", str(folder)))
+    refuse_if(not count, "found", "be the folder of a map's store", str(folder))
     with _reading(folder):
         return [
             xr.open_zarr(folder, group=f"level-{number}", chunks=None, consolidated=False)

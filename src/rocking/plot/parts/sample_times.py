@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from rocking.model import instance, refusal, within
+from rocking.model import instance, refusal, refuse_if, within
 from rocking.motion import FALLEN, Motion, end_shown
 
 SAMPLES_PER_TIME = 64
@@ -31,10 +31,9 @@ def window(motion: Motion, cycles: tuple[float, float] | None) -> tuple[float, f
     if within("cycles", last, 0, motion.cycles) <= first:
         raise ValueError(refusal("cycles", "be a pair (first, last) with first < last", cycles))
     period = motion.system.forcing.period
-    if first * period >= end:
-        raise ValueError(
-            refusal("cycles", f"begin before |Θ| = {FALLEN:g}, in cycle {end / period:.4g}", cycles)
-        )
+    refuse_if(
+        first * period >= end, "cycles", f"begin before |Θ| = {FALLEN:g}, in cycle {end / period:.4g}", cycles
+    )
     return first * period, min(last * period, end)
 
 

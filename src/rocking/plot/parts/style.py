@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, MaxNLocator, NullLocator
 from numpy.typing import NDArray
 
-from rocking.model import Block, instance, members, refusal, whole, within
+from rocking.model import Block, instance, members, refuse_if, whole, within
 
 COLUMN = 3.5
 PAGE = 7.2
@@ -92,8 +92,7 @@ def panels(rows: int = 1, columns: int = 1, height: float = 2.4, ratios: tuple[f
     if ratios is not None:
         allowed = f"be {columns} positive numbers, one a column"
         ratios = tuple(within("ratios", each, 0.0, 1e6) for each in members("ratios", ratios, allowed))
-        if len(ratios) != columns or min(ratios) == 0.0:
-            raise ValueError(refusal("ratios", allowed, ratios))
+        refuse_if(len(ratios) != columns or min(ratios) == 0.0, "ratios", allowed, ratios)
     figure = Figure(figsize=(COLUMN if columns == 1 else PAGE, height * rows), layout="constrained")
     axes = list(figure.subplots(rows, columns, squeeze=False, width_ratios=ratios).flat)
     for letter, ax in zip("abcdefghijkl", axes, strict=False):
@@ -141,8 +140,7 @@ def logarithmic(axis: Axis) -> None:
 
 def key(ax: Axes) -> None:
     """A legend of what is drawn; its marks never shrink."""
-    legend = ax.legend(**BELOW, ncols=2, handletextpad=0.2, columnspacing=1.2)
-    for mark in legend.get_lines():
+    for mark in ax.legend(**BELOW, ncols=2, handletextpad=0.2, columnspacing=1.2).get_lines():
         mark.set(markersize=MARK, markeredgewidth=0.8)
 
 

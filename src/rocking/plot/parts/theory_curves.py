@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
-from typing import Any, Protocol
+from collections.abc import Callable, Iterable, Mapping
+from functools import partial
+from typing import Any
 
 import numpy as np
 from attrs import frozen
@@ -12,7 +13,7 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 from matplotlib.patheffects import withStroke
 
-from rocking.model import MAX_AMPLITUDE, members, one_of, refusal
+from rocking.model import MAX_AMPLITUDE, members, one_of, refusal, refuse_if
 from rocking.plot.parts import style
 from rocking.plot.parts.style import DOTTED
 from rocking.theory import (
@@ -27,33 +28,25 @@ POINTS = 400
 HALO = 2.4
 
 
-class _Amplitude(Protocol):
-    def __call__(self, period: Any, restitution: Any) -> Any: ...
-
-
 @frozen
 class Curve:
     """An amplitude over period and restitution; with n, that of a (1, n) mode, which may not be admissible everywhere."""
 
     name: str
-    amplitude: _Amplitude
+    amplitude: Callable[..., Any]
     dashes: Any
     n: int | None = None
 
 
-def _breaking(n: int) -> _Amplitude:
-    return lambda period, restitution: symmetry_breaking_amplitude(period, restitution, n)
-
-
-def _existence(n: int) -> _Amplitude:
-    return lambda period, restitution: existence_amplitude(period, restitution, n)
-
-
 CURVES = {
-    "symmetry-breaking-1": Curve("(1,1) stable to $A_{SB}$", _breaking(1), "-", 1),
-    "symmetry-breaking-3": Curve("(1,3) stable to $A_{SB}$", _breaking(3), (0, (5, 2)), 3),
-    "existence-1": Curve("(1,1) from $A_E$", _existence(1), (0, (1, 1)), 1),
-    "existence-3": Curve("(1,3) from $A_E$", _existence(3), (0, (3, 1, 1, 1, 1, 1)), 3),
+    "symmetry-breaking-1": Curve(
+        "(1,1) stable to $A_{SB}$", partial(symmetry_breaking_amplitude, n=1), "-", 1
+    ),
+    "symmetry-breaking-3": Curve(
+        "(1,3) stable to $A_{SB}$", partial(symmetry_breaking_amplitude, n=3), (0, (5, 2)), 3
+    ),
+    "existence-1": Curve("(1,1) from $A_E$", partial(existence_amplitude, n=1), (0, (1, 1)), 1),
+    "existence-3": Curve("(1,3) from $A_E$", partial(existence_amplitude, n=3), (0, (3, 1, 1, 1, 1, 1)), 3),
     "melnikov": Curve("zeros from $A_M$", melnikov_amplitude, (0, (6, 2, 1, 2))),
     "heteroclinic": Curve("tangency at $A^*$", heteroclinic_amplitude, (0, (9, 2))),
 }
@@ -69,14 +62,12 @@ def check(names: Iterable[str], axes: Iterable[str], told: Mapping[str, Any]) ->
     allowed = f"be a sequence of {', '.join(map(repr, CURVES))}"
     names = tuple(one_of("curves", name, tuple(CURVES)) for name in members("curves", names, allowed))
     upward, across = axes
-    if names and (upward != "amplitude" or across not in ("period", "frequency", "restitution")):
-        raise ValueError(
-            refusal(
-                "curves",
-                "lie over a map of the amplitude and the period, frequency or restitution",
-                f"{upward} and {across}",
-            )
-        )
+    refuse_if(
+        names and (upward != "amplitude" or across not in ("period", "frequency", "restitution")),
+        "curves",
+        "lie over a map of the amplitude and the period, frequency or restitution",
+        f"{upward} and {across}",
+    )
     if names and "brace_angle" in told:
         raise ValueError(
             refusal(

@@ -15,16 +15,7 @@ from rocking.model import replacing
 from rocking.plot.parts import style
 from rocking.plot.parts.save import check_path
 
-COLOURS = (
-    "white",
-    style.INK,
-    style.TABLE,
-    style.BLOCK,
-    style.IMPACT,
-    style.BRACE,
-    style.MOTION,
-    style.GUIDE,
-)
+COLOURS = ("white", style.INK, style.TABLE, style.BLOCK, style.IMPACT, style.BRACE, style.MOTION, style.GUIDE)
 
 
 def check_film(path: str | Path) -> Path:

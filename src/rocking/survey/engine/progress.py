@@ -42,16 +42,16 @@ class Bar:
         self.counts = dict.fromkeys(self.meanings, 0)
         self.settled_points = 0
         fixed = Column(no_wrap=True)
-        console = Console(stderr=True, highlight=False)
         shares = Column(no_wrap=True, overflow="ellipsis", ratio=1)
-        columns = (
+        self.bar = Progress(
             BarColumn(12),
             TaskProgressColumn(table_column=fixed),
             Rate(fixed.copy()),
             TimeRemainingColumn(table_column=fixed.copy()),
             TextColumn("{task.fields[shares]}", table_column=shares),
+            console=Console(stderr=True, highlight=False),
+            expand=True,
         )
-        self.bar = Progress(*columns, console=console, expand=True)
         self.before = 0
 
     def __enter__(self) -> Bar:

@@ -8,13 +8,13 @@ from concurrent.futures import Executor
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
-from rocking.model import instance, refusal
+from rocking.model import instance, refuse_if
 from rocking.survey.engine.cost import cost
-from rocking.survey.engine.tile_loop import Results, cores, run
+from rocking.survey.engine.tile_loop import cores, run
 from rocking.survey.measurement import Measurement
 from rocking.survey.spec import SurveySpec
 from rocking.survey.store.memory import Memory, check_fits
-from rocking.survey.store.store import opened
+from rocking.survey.store.store import Store, opened
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -32,8 +32,9 @@ def run_survey(
     """Carry a survey out, or go on with one in a store."""
     if executor is not None:
         instance("executor", executor, Executor)
-    if store is None and repair:
-        raise ValueError(refusal("repair", "go with store, whose damaged tiles it computes again", repair))
+    refuse_if(
+        store is None and repair, "repair", "go with store, whose damaged tiles it computes again", repair
+    )
     if store is None:
         check_fits(asked, measure)
         results = Memory(asked, measure)
@@ -49,7 +50,7 @@ def run_survey(
         return kept.dataset()
 
 
-def _carry_out(results: Results, executor: Executor | None, progress: bool, interrupted: str) -> None:
+def _carry_out(results: Memory | Store, executor: Executor | None, progress: bool, interrupted: str) -> None:
     # Before other threads begin: a process that ends while one of them compiles may crash.
     results.measure.compile(results.asked.may_last)
     with _noted(f"The survey was interrupted; {interrupted}."):

@@ -7,51 +7,22 @@ from collections import deque
 from collections.abc import Iterator
 from concurrent.futures import FIRST_EXCEPTION, Executor, Future, ThreadPoolExecutor, wait
 from contextlib import contextmanager
-from typing import Protocol
+from typing import TYPE_CHECKING
 
 import numpy as np
 from attrs import frozen
 
-from rocking.survey.measurement import Arrays, Measurement, batches, compute
-from rocking.survey.spec import SurveySpec
+from rocking.survey.measurement import Arrays, batches, compute
 from rocking.survey.store.locking import defer_interrupt
-from rocking.survey.tiling import Level, Tile
+from rocking.survey.tiling import Tile
+
+if TYPE_CHECKING:
+    from rocking.survey.engine.progress import Bar
+    from rocking.survey.store.memory import Memory
+    from rocking.survey.store.store import Store
 
 MAX_UNDER_WAY = 512
 """Batches under way or waiting for an earlier tile, at most: what they answer takes some 0.2 GB."""
-
-
-class Results(Protocol):
-    """Where results are kept: in memory, or in a store."""
-
-    asked: SurveySpec
-    measure: Measurement
-    levels: list[Level]
-    done: int  # points that an earlier run has left
-
-    def known(self, tile: Tile) -> np.ndarray:
-        """Which points of a tile are there."""
-        ...
-
-    def read(self, tile: Tile, names: tuple[str, ...] = ()) -> Arrays:
-        """What is there of a tile, of all variables unless some are named."""
-        ...
-
-    def coarser(self, tile: Tile) -> Arrays:
-        """Of the level before, the points that a tile shares."""
-        ...
-
-    def write(self, tile: Tile, answers: Arrays) -> None:
-        """Keep a tile."""
-        ...
-
-
-class Watcher(Protocol):
-    """Who is told how far it is."""
-
-    def settled(self, found: np.ndarray, *, before: bool) -> None:
-        """Points were settled, with these values of the variable whose shares are told; `before`: by an earlier run."""
-        ...
 
 
 @frozen(eq=False)
@@ -64,7 +35,7 @@ class Pending:
     futures: list[Future]
 
 
-def run(results: Results, executor: Executor | None = None, watcher: Watcher | None = None) -> None:
+def run(results: Memory | Store, executor: Executor | None = None, watcher: Bar | None = None) -> None:
     """Compute what is not there yet; on Ctrl-C, and whatever else happens, what is kept stays good."""
     with engine(executor) as (pool, stop):
         pending: deque[Pending] = deque()
@@ -88,7 +59,9 @@ def run(results: Results, executor: Executor | None = None, watcher: Watcher | N
                 future.cancel()
 
 
-def _submit(pool: Executor, stop: np.ndarray, results: Results, tile: Tile, known: np.ndarray) -> Pending:
+def _submit(
+    pool: Executor, stop: np.ndarray, results: Memory | Store, tile: Tile, known: np.ndarray
+) -> Pending:
     """Send off what neither an earlier run nor a coarser level has found."""
     wanted = np.flatnonzero(tile.own(~known)).astype(np.int32)
     work = list(batches(tile, results.asked.fixed, wanted, results.measure))
@@ -97,7 +70,7 @@ def _submit(pool: Executor, stop: np.ndarray, results: Results, tile: Tile, know
     )
 
 
-def _settle(pending: deque[Pending], results: Results, watcher: Watcher | None) -> int:
+def _settle(pending: deque[Pending], results: Memory | Store, watcher: Bar | None) -> int:
     """Wait for the first tile under way and keep it; how many batches it had. Tiles are kept in the order of the plan."""
     first = pending[0]
     wait(first.futures, return_when=FIRST_EXCEPTION)
@@ -118,7 +91,13 @@ def _settle(pending: deque[Pending], results: Results, watcher: Watcher | None) 
 
 
 def _tell(
-    watcher: Watcher | None, results: Results, tile: Tile, answers: Arrays, which: np.ndarray, *, before: bool
+    watcher: Bar | None,
+    results: Memory | Store,
+    tile: Tile,
+    answers: Arrays,
+    which: np.ndarray,
+    *,
+    before: bool,
 ) -> None:
     """Tell who watches what was found at the points that are in no coarser level."""
     if watcher is not None:

@@ -11,17 +11,7 @@ import numpy as np
 from rocking.kernels import batch
 from rocking.kernels.classify import attractor_anchor as kernel
 from rocking.kernels.classify import results, verdict_record
-from rocking.model import (
-    NO_BRACES,
-    Attractor,
-    Harmonic,
-    Kind,
-    State,
-    System,
-    Verdict,
-    quantities,
-    system_of,
-)
+from rocking.model import NO_BRACES, Attractor, Harmonic, Kind, State, System, Verdict, quantities, system_of
 from rocking.motion import simulate
 from rocking.response import budget, classify
 from rocking.survey.measurement import Arrays, Measurement, Variable
@@ -77,8 +67,7 @@ def destination(max_cycles: int, max_period: int, title: str) -> Measurement:
         by_name["transient"],
         by_name["cycles"],
     )
-    options = budget(max_cycles, max_period)
-    return Measurement(title, judge, compile_both, variables, options, batch.METHOD, shares="kind")
+    return Measurement(title, judge, compile_both, variables, budget(max_cycles, max_period), batch.METHOD)
 
 
 def compile_both(may_last: bool) -> None:
@@ -190,8 +179,7 @@ def section_of(system: System, anchor: np.ndarray, period: int) -> np.ndarray:
     """The states (n, 2) of an orbit on the section, from the one that stands for it."""
     phase = system.forcing.phase + math.tau * kernel.SECTION
     clocked = system_of(NO_BRACES | quantities(system) | {"phase": phase})
-    motion = simulate(clocked, State(*anchor), cycles=period, record="section")
-    return np.asarray(motion.section()[:period])
+    return np.asarray(simulate(clocked, State(*anchor), cycles=period, record="section").section()[:period])
 
 
 def make_attractors(

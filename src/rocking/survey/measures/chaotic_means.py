@@ -29,7 +29,8 @@ def averages(points: Points, chaotic: np.ndarray, cycles: int, stop: np.ndarray)
     for k in np.flatnonzero(chaotic):
         if stop[0]:
             break
-        late = _late_angles(_system(points.systems[k]), State(*points.starts[k]), count)
+        system = system_of(dict(zip(SYSTEM, points.systems[k].tolist(), strict=True)))
+        late = _late_angles(system, State(*points.starts[k]), count)
         means = late[: late.size // BATCHES * BATCHES].reshape(BATCHES, -1).mean(axis=1)
         found[k] = means.mean(), means.std(ddof=1) / math.sqrt(BATCHES)
     return found
@@ -43,10 +44,6 @@ def _late_angles(system: System, start: State, cycles: int) -> np.ndarray:
         if motion.outcome == "bounded":
             return np.asarray(motion.section()[cycles // 2 :, 0])
     return np.full(BATCHES, math.nan)
-
-
-def _system(row: np.ndarray) -> System:
-    return system_of(dict(zip(SYSTEM, row.tolist(), strict=True)))
 
 
 def grouped(means: np.ndarray, errors: np.ndarray) -> np.ndarray:

@@ -18,8 +18,9 @@ KIND = VARIABLES[0]
 
 def outcome(max_cycles: int, max_period: int, title: str) -> Measurement:
     """The kind of each response, by the cascade of `classify`."""
-    options = budget(max_cycles, max_period)
-    return Measurement(title, judge, batch.compile_many, (KIND,), options, batch.METHOD, shares="kind")
+    return Measurement(
+        title, judge, batch.compile_many, (KIND,), budget(max_cycles, max_period), batch.METHOD
+    )
 
 
 def judge(points: Points, options: Mapping[str, int], stop: np.ndarray) -> Arrays | None:

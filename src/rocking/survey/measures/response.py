@@ -93,8 +93,9 @@ VARIABLES = (
 
 def response(max_cycles: int, max_period: int, title: str) -> Measurement:
     """What the cascade of `classify` says at each point."""
-    options = budget(max_cycles, max_period)
-    return Measurement(title, judge, batch.compile_many, VARIABLES, options, batch.METHOD, shares="kind")
+    return Measurement(
+        title, judge, batch.compile_many, VARIABLES, budget(max_cycles, max_period), batch.METHOD
+    )
 
 
 def judge(points: Points, options: Mapping[str, int], stop: np.ndarray) -> Arrays | None:

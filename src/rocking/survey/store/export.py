@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Hashable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -69,7 +69,11 @@ def to_netcdf(found: xr.Dataset, path: str | os.PathLike[str]) -> None:
         for name, variable in found.variables.items():
             made = file.create_variable(str(name), variable.dims, variable.dtype, fillvalue=None)
             made.attrs.update(_plain(variable.attrs, variable.dtype))
-            beside = [str(each) for each in _beside(found) if set(found[each].dims) <= set(variable.dims)]
+            beside = [
+                str(each)
+                for each in found.coords
+                if each not in found.dims and set(found[each].dims) <= set(variable.dims)
+            ]
             if name in found.data_vars and beside:
                 made.attrs["coordinates"] = " ".join(beside)
             if name in found.coords:
@@ -81,11 +85,6 @@ def to_netcdf(found: xr.Dataset, path: str | os.PathLike[str]) -> None:
             for name in part.data_vars:
                 file[str(name)][begin:end] = part[name].values
             begin = end
-
-
-def _beside(found: xr.Dataset) -> list[Hashable]:
-    """Coordinates beside the axes, which a file has to name as such."""
-    return [name for name in found.coords if name not in found.dims]
 
 
 def _plain(told: dict[Any, Any], dtype: Any = None) -> dict[str, Any]:

@@ -118,8 +118,7 @@ class Store:
 
     def dataset(self) -> xr.Dataset:
         """The finest level, read when it is used."""
-        found = open_level(self.path, self.levels[-1].number)
-        return found[[each.name for each in self.measure.variables]]
+        return open_level(self.path, self.levels[-1].number)[[each.name for each in self.measure.variables]]
 
     def check(self, *, repair: bool) -> None:
         """Read all that is marked done: damage is refused by name, or with `repair` computed again."""

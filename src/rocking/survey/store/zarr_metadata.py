@@ -26,8 +26,7 @@ def make_groups(
     from zarr.core.group import GroupMetadata
 
     told = _plain(attributes(asked, measure))
-    wanted = {level.name: GroupMetadata(told) for level in levels}
-    found = _made(files, wanted, there)
+    found = _made(files, {level.name: GroupMetadata(told) for level in levels}, there)
     for group in found.values():
         if group.attrs.asdict() != told:
             group.attrs.put(told)
