@@ -23,6 +23,7 @@ from rocking.kernels.march import march as kernel
 from rocking.kernels.march.event_rows import EVENT_ROW
 from rocking.kernels.march.progress import Recording
 from rocking.kernels.numerics import elementary
+from rocking.kernels.numerics.replace_fields import replacing
 
 SOURCES = Path(kernels.__file__).parents[2]
 COPY = shutil.ignore_patterns("__pycache__", "*.egg-info")
@@ -341,3 +342,8 @@ def test_compiling_is_told_once(caplog):
         compile_one()
         compile_one()
     assert [record.name for record in caplog.records] == ["rocking"]
+
+
+def test_a_field_that_a_tuple_does_not_have_cannot_be_replaced():
+    with pytest.raises(ValueError, match="Recording has no field peek"):
+        replacing(Recording, "peak", "peek")

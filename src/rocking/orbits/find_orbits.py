@@ -11,6 +11,7 @@ from typing import Any, overload
 import numpy as np
 from attrs import field, frozen
 
+from rocking.kernels.classify import attractor_anchor
 from rocking.model import Orbit, Stability, System, instance, pair, refuse_if, whole, within
 from rocking.orbits.event_chain import clocked
 from rocking.orbits.find_orbit import newton_from_starts
@@ -18,8 +19,6 @@ from rocking.orbits.orbit_registry import OrbitRegistry
 from rocking.orbits.saddle_orbits import response
 
 MAX_PERIOD = 64
-# Away from the phase of any likely start.
-SECTION = 0.3819660112501051
 # The first round's starts a map, then twice as many, and so on.
 FIRST_ROUND = 2048
 MAX_ROUNDS = 6
@@ -152,7 +151,7 @@ def find_orbits(
     effort = within("effort", effort, 0.01, 1000.0)
     seed = whole("seed", seed, 0, 2**32 - 1)
     box = _box(system, angles, velocities)
-    there = clocked(system, (system.forcing.phase + math.tau * SECTION) % math.tau)
+    there = clocked(system, (system.forcing.phase + math.tau * attractor_anchor.SECTION) % math.tau)
     known, used = OrbitRegistry(system, there.forcing.phase), 0
     jobs = [(n, False) for n in range(1, max_period + 1)] + [(n, True) for n in range(1, max_period + 1, 2)]
     settled = False

@@ -5,6 +5,7 @@ import math
 import numpy as np
 from numba import njit
 
+from rocking.kernels.classify.classifier_state import FIRST_SECTION
 from rocking.kernels.classify.verdict_record import PERIODIC, REST
 from rocking.kernels.classify.workspace import no_recording
 from rocking.kernels.compile_options import ALLOCATING_ENTRY, INTERNAL
@@ -13,7 +14,7 @@ from rocking.kernels.march.progress import Recording
 from rocking.kernels.parameters import later, parameters_from_row
 
 # The phase of the section on which attractors are compared, in cycles: on no event of any symmetric mode but by chance.
-SECTION = 0.3819660112501051
+SECTION = FIRST_SECTION
 # States of an orbit whose angles differ by less are told apart by their velocities.
 TIED = 1e-7
 # Rest is certain long before its last impact.

@@ -13,7 +13,8 @@ from rocking.kernels.march.march import UNKNOWN, begin
 from rocking.kernels.numerics.replace_fields import replacing
 
 FIRST_CHECKPOINT = 14
-FIRST_SECTION = 0.3819660112501051  # of a period
+# Phase of the first section, in cycles: by chance alone an event lies there.
+FIRST_SECTION = 0.3819660112501051
 
 
 class Run(NamedTuple):

@@ -122,7 +122,7 @@ def next_sign_change(p, half, inside):
 
 
 @njit(**INTERNAL_INLINE)
-def acceleration_change_bound(p, cosine, sine, time):
+def acceleration_change_bound(p, sine, time):
     """A bound on how far the base acceleration moves within the coming ``time``."""
     x = p.frequency * time
     return p.amplitude * (abs(sine) * x + 0.5 * x * x)

@@ -4,7 +4,7 @@ import numpy as np
 from numba import njit
 
 from rocking.kernels.compile_options import INTERNAL, INTERNAL_INLINE, SIMD_INLINE
-from rocking.kernels.event_kinds import BRACE, IMPACT
+from rocking.kernels.event_kinds import BRACE, FLIGHT, IMPACT
 from rocking.kernels.forcing.harmonic import clock
 from rocking.kernels.lanes.state import BRACKET, LANES
 from rocking.kernels.lanes.workspace import prefetch_for_write
@@ -36,6 +36,7 @@ def log_arc(s, i, log):
         row.cycle = s.cycle[i]
         row.time = start
         row.event = BRACE if angle > 0.0 else IMPACT
+        row.mode = FLIGHT
         row.side = side
         row.angle = angle
         row.velocity = s.velocity[i]

@@ -40,7 +40,7 @@ def base_settling_time(p, cosine, sine, speed):
     if p.restitution >= 1.0 or swing >= 1.0:
         return math.inf
     window = 5.0 * speed / ((1.0 - swing) * (1.0 - p.restitution))
-    moved = acceleration_change_bound(p, cosine, sine, window)
+    moved = acceleration_change_bound(p, sine, window)
     bound = settling_time(speed, p.restitution, 1.0 - swing - moved, 1.0 - swing + moved, p.brace_angle)
     return bound if bound <= window else math.inf
 
@@ -52,6 +52,6 @@ def brace_settling_time(p, cosine, sine, speed):
     if p.brace_restitution >= 1.0 or press <= 0.0:
         return math.inf
     window = 5.0 * speed / (press * (1.0 - p.brace_restitution))
-    moved = acceleration_change_bound(p, cosine, sine, window)
+    moved = acceleration_change_bound(p, sine, window)
     bound = settling_time(speed, p.brace_restitution, press - moved, press + moved, p.brace_angle)
     return bound if bound <= window else math.inf

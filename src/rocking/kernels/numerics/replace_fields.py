@@ -7,6 +7,9 @@ from rocking.kernels.compile_options import INTERNAL_INLINE
 
 def replacing(kind, *fields):
     """Make a kernel that takes a tuple of this kind and new values of ``fields``, in this order, and returns the new tuple."""
+    unknown = set(fields) - set(kind._fields)
+    if unknown:
+        raise ValueError(f"{kind.__name__} has no field {', '.join(sorted(unknown))}")
     values = ", ".join(field if field in fields else f"old.{field}" for field in kind._fields)
     scope = {"kind": kind}
     exec(f"def replace(old, {', '.join(fields)}):\n    return kind({values})", scope)
