@@ -67,7 +67,7 @@ class ClassifierState(NamedTuple):
 
 with_measuring = replacing(Run, "measuring")
 with_section = replacing(Run, "section_time", "count")
-as_lossy = replacing(Run, "watch", "flights", "lossless")
+as_lossy = replacing(Run, "tracker", "flights", "lossless")
 as_lossless = replacing(Run, "flights", "lossless")
 with_run = replacing(ClassifierState, "run")
 with_batches = replacing(ClassifierState, "run", "batches")
