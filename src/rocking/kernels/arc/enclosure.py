@@ -16,7 +16,7 @@ def grazes(amplitude, start_angle, start_velocity, t, velocity):
 
 @njit(**SIMD_INLINE)
 def outweighs(first, last, off):
-    """Return whether a cubic with zero end values exceeds the error bound ``off`` everywhere in between.
+    """Return whether the inner Bernstein terms of a cubic exceed its error bound everywhere between the ends.
 
     For every s in (0, 1): first s (1 - s)^2 + last s^2 (1 - s) > off s^2 (1 - s)^2.
     """
