@@ -39,9 +39,9 @@ NEAR = 0.25
 
 @njit(**INTERNAL_INLINE)
 def taylor_step(p, now, step):
-    """Advance an instant by a small step with its Taylor series, whose derivatives follow from u'' = u + f.
+    """Advance an instant by a small step with its Taylor series, from the derivatives that u'' = u + f gives.
 
-    The angle is left at 0: the caller knows it.
+    The fields of the angle are 0: the caller sets the angle.
     """
     f = forcing_term(p, now.cosine)
     df, ddf = forcing_rates(p, now.cosine, now.sine)

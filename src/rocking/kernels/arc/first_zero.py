@@ -55,7 +55,7 @@ class EventFunction(NamedTuple):
     of_velocity: float
     centre: float  # sign changes at eta = centre +- half
     half: float
-    convex_inside: bool  # f_w > 0 for |eta - centre| < half (everywhere, where half is infinite)
+    convex_inside: bool  # f_w > 0 for |eta - centre| < half (everywhere if half is infinite)
 
 
 @njit(**KERNEL_INLINE)
@@ -146,8 +146,8 @@ def time_below_zero(p, arc, event_function, start, end):
     """Return a time in a convex sign interval at which w <= 0, or infinity if w stays positive.
 
     ``start`` and ``end`` are (time, w, w') at its ends, where w > 0. The minimum of y = w e^t is the zero of
-    w + w'. The product of w + w' with e^t only grows, so that one safeguarded Newton iteration finds it. The
-    sign of w there decides.
+    w + w'. The product (w + w') e^-t only grows, so that one safeguarded Newton iteration finds this zero.
+    The sign of w there decides.
     """
     (left, w, dw), (right, w_right, dw_right) = start, end
     if w + dw >= 0.0 or dw_right - w_right <= 0.0 or dw_right + w_right <= 0.0:

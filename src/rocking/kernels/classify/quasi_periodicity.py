@@ -24,8 +24,8 @@ LONG = 2048
 # Shear makes tangent vectors grow in proportion to the length. The factor is at most e to the power of this.
 # Observed factors reach e^3.
 SHEAR = 5.0
-# Near the boundary of an island the shear is large, and chaotic motion that stays there looks alike. Such
-# motion needs this number of arcs.
+# Near the boundary of an island the shear is large, and chaotic motion with a long sojourn there has similar
+# averages. Such motion needs this number of arcs.
 SHEARED_FLIGHTS = 8192
 SMALL_SHEAR = 1.0
 # More growth than ``agreeing_digits`` allows for the largest number of arcs that is kept (``workspace``).

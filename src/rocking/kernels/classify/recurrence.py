@@ -16,7 +16,7 @@ LINEAR = 0.2
 # States that alternate around a longer orbit follow a rotation. So the states must come closer to the limit
 # by this factor per lag.
 NEARER = 0.95
-# Differences with directions as equal as this, relative to their lengths, span one direction only.
+# If the sine of the angle between two differences is at most this, they span one direction only.
 ALIGNED = 1e-5
 
 

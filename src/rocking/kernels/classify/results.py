@@ -25,7 +25,7 @@ class ResultArrays(NamedTuple):
     cycles: np.ndarray  # (n,)
     orbit: (
         np.ndarray
-    )  # (n, 3): a state of the orbit, (time within the cycle, angle, velocity); NaN where none
+    )  # (n, 3): a state of the orbit, (time within the cycle, angle, velocity); NaN if there is none
 
 
 def empty_results(count):

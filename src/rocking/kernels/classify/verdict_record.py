@@ -55,9 +55,9 @@ class Ground(IntEnum):
     TORUS = 5
     EXPONENT = 6
     UNRESOLVED_RESET = 7
-    UNWATCHED = 8  # too few cycles to call anything chaotic
+    UNWATCHED = 8  # too few cycles for the evidence of chaos
     INDISTINCT = 9  # the exponent is not clearly positive
-    BETWEEN = 10  # averages agree too well for chaos, too badly for a torus
+    BETWEEN = 10  # averages agree too well for chaos, not well enough for a torus
     CROWDED = 11
     STANDING = 12  # on an unstable orbit, to within rounding
     LITTLE_GROWTH = 13  # tangent vectors grew no more than while a motion leaves an unstable orbit

@@ -227,7 +227,7 @@ def unobserved_time(p, progress, coming, cycles, recording):
 def march_on(p, progress, cycles, recording, state):
     """March to the end of cycle ``cycles``, or to the next pause.
 
-    1. The ``recording`` says what is written. If its ``events`` are full, or after BREATH events, the march returns
+    1. The ``recording`` selects the output. If its ``events`` are full, or after BREATH events, the march returns
        PAUSED; if it stops at releases it returns RELEASED after each. The next call resumes it.
     2. ``state`` carries tangent vectors (``tangent.TangentState``).
     3. At the end the progress starts a new arc at the start of cycle ``cycles``. If the march stops at releases, the present

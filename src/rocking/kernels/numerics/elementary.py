@@ -58,7 +58,7 @@ def short_series(q, c):
 
 @njit(**KERNEL_INLINE)
 def size(x, y):
-    """Return the length of (x, y), whose squares must not overflow; takes a third of the time of ``math.hypot``."""
+    """Return the length of (x, y) in a third of the time of ``math.hypot``; the squares must not overflow."""
     return math.sqrt(x * x + y * y)
 
 

@@ -60,7 +60,7 @@ class Problem(NamedTuple):
 
     p: HarmonicParameters
     chain: Chain
-    which: tuple  # the parameters
+    which: tuple  # the parameters that vary
     limits: tuple  # (lowest, highest) of each parameter
     longest: float  # greatest length of a step
     workspace: Workspace
@@ -164,7 +164,7 @@ def newton_step(workspace, y, direction):
     size = 0.0
     for j in range(n):
         y[j] += right[j]
-        # a phase counts in full however many there are
+        # a phase has full weight here, however many there are
         size = max(size, abs(right[j]) * min(1.0, math.sqrt(workspace.weights[j] * n)))
     return size
 

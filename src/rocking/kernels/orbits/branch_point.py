@@ -29,7 +29,7 @@ class Special(IntEnum):
 class Point(NamedTuple):
     """Properties of a point of a branch, in addition to its phases."""
 
-    corrections: int  # -1 where Newton's method fails
+    corrections: int  # -1 if Newton's method fails
     trace: float
     determinant: float
     valid: bool  # whether the motion of the block is that of the chain

@@ -16,7 +16,7 @@ from rocking.kernels.orbits.event_chain import arc_at, event_after, place_of, si
 
 # Events further apart in time than this are different.
 APART = 1e-6
-# A motion that nearly touches meets base or brace within this time of the extremum, if at all.
+# A motion that nearly touches base or brace reaches it within this time of the extremum, if at all.
 NEAR_TOUCH = 1e-3
 MAX_TURNS = 20
 # Maximum number of restarts of one arc.
@@ -39,8 +39,9 @@ UNCONDITIONAL = Condition(-1, -1, IMPACT, 0.0)
 def verify_chain(p, chain, y, links, condition):
     """March every arc of a chain to its first event, and check that the motion is that of the chain.
 
-    The check fails if an arc meets base or brace before its end, or leaves an event into the base or the
-    brace. Only the arc of the condition may meet what it touches, at about the time of the touch.
+    The check fails if an arc reaches base or brace before its end, or leaves an event into the base or the
+    brace. Only the arc of the condition may reach the surface that it touches, at about the time of the
+    touch.
 
     Returns
     -------

@@ -62,10 +62,10 @@ class State(NamedTuple):
     """Progress along a branch."""
 
     tangent: Tangent
-    point: Point  # there
+    point: Point  # at the present end of the branch
     earlier: Point  # the point before
-    last: float  # length of the step between the two
-    length: float  # of the step to try next
+    last: float  # length of the step between these two points
+    length: float  # length of the step to try next
 
 
 class Step(NamedTuple):

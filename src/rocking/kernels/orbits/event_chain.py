@@ -1,9 +1,9 @@
 """Periodic orbit as a closed chain of arcs; the only unknowns are the forcing phases of its events.
 
 Between two events at known phases an arc is known in closed form, eq. (5) of Yim & Lin (1991): its initial
-speed is linear in its end angle. What remains is the impact law, eq. (2), at every event. These equations
+speed is linear in its end angle. The equations of the chain are the impact law, eq. (2), at every event. They
 need no search for a zero and no case distinction, so they are smooth through a grazing, where the return map
-is not. Whether an arc of the solution meets anything on its way is checked afterwards (``verify_chain``).
+is not. ``verify_chain`` checks afterwards whether an arc of the solution reaches base or brace on its way.
 """
 
 import math

@@ -38,7 +38,7 @@ class ReturnMap(NamedTuple):
     p: HarmonicParameters
     cycles: int
     start: float
-    sign: float  # -1 where the image is mirrored, else 1
+    sign: float  # -1 if the image is mirrored, else 1
 
 
 class Guess(NamedTuple):

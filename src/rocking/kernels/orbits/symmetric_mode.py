@@ -63,7 +63,7 @@ def closed_form(frequency, response, restitution, order, faster):
     slow = (t - frequency * response) * (t + frequency * response) * twice * (twice / fast) / a
     # at the fold both roots are equal
     speed = fast if faster else (slow if root < 0.0 else math.nan)
-    # (t - V k+)/Omega without the cancellation where e is near 1
+    # (t - V k+)/Omega without the cancellation that occurs if e is near 1
     sine = (frequency * t * t * t * lost * lost - root * kept) / a
     apart = -frequency * root * (twice / speed) / (a * fold)
     steep = math.sinh(h) if h < MAX_ARGUMENT else math.inf
