@@ -16,9 +16,9 @@ class HarmonicParameters(NamedTuple):
     """Parameters of a block excited by A cos(Omega tau + phi), in normalised units.
 
     ``brace_angle`` is infinite if there are no braces. ``base_half`` and ``brace_half`` bound the *sign
-    intervals* of an arc, on which the forcing term of the base (or brace) keeps its sign. With eta = psi +
-    (pi on the negative side), the intervals meet where eta = +-half. The bounds are infinite if the sign
-    never changes.
+    intervals* of an arc, on which the forcing term of the base (or brace) keeps its sign. The intervals meet
+    where eta = +-half, with eta = psi (+ pi on the negative side). The bounds are infinite if the sign never
+    changes.
     """
 
     amplitude: float

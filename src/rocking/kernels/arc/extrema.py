@@ -94,10 +94,16 @@ def arc_peak(p, arc, until, peak):
 def may_rise_above(peak, m, away, frequency_square, response):
     """Return whether 1 - m cosh(t - middle) + beta cos eta may exceed ``peak``.
 
-    The nearest maximum of cos eta lies a time ``away`` from the middle. The function is at most 1 - m + beta
-    - away**2 b m/2(m + b), the best compromise between the two terms. Here b is the least curvature of beta
-    cos eta between the two times, with a = Omega away. For y up to a, 1 - cos y >= y**2 (1/2 - a**2/4! +
-    a**4/6! - a**6/8!). From y = pi/2 to pi, 1 - cos y is at least 1.
+    The nearest maximum of cos eta lies a time ``away`` from the middle. The best compromise between the two
+    terms is at most
+
+        1 - m + beta - away**2 b m/(2 (m + b)).
+
+    Here b is the least curvature of beta cos eta between the two times. It follows with a = Omega away from
+
+        1 - cos y >= y**2 (1/2 - a**2/4! + a**4/6! - a**6/8!) for y up to a.
+
+    From y = pi/2 to pi, 1 - cos y is at least 1.
     """
     away_2 = away * away
     a = min(frequency_square * away_2, RIGHT_ANGLE * RIGHT_ANGLE)
@@ -108,16 +114,21 @@ def may_rise_above(peak, m, away, frequency_square, response):
 
 @njit(**INTERNAL_INLINE)
 def closed_form_peak(p, arc, until, peak):
-    """Find the largest of ``peak`` and the angles on the arc up to ``until``, if no search is needed for certainty.
+    """Find the largest of ``peak`` and the angles on the arc up to ``until``, if certain without a search.
 
-    If c+ and c- are negative, u = 1 - m cosh(t - middle) + beta cos eta with m = 2 sqrt(c+ c-). This function
-    is largest between ``middle`` and the nearest eta = 0 (mod 2 pi). Shifts by whole forcing periods and
-    reflections about either time move any other time between the two, and each of them raises u.
+    If c+ and c- are negative,
 
-    Let s be the time from the middle and d the phase left. Between the two times m sinh s - beta Omega sin(d
-    - Omega s) is convex, at most 0 at first and at least 0 at last. So the maximum is the only extremum. It
-    belongs to the arc if the arc reaches it. An arc that starts in the middle (a lift-off) has one of two
-    equal maxima before its start.
+        u = 1 - m cosh(t - middle) + beta cos eta with m = 2 sqrt(c+ c-).
+
+    This function is largest between ``middle`` and the nearest eta = 0 (mod 2 pi). Shifts by whole forcing
+    periods and reflections about either time move any other time between the two, and each of them raises u.
+    Let s be the time from the middle and d the phase left. Between the two times
+
+        m sinh s - beta Omega sin(d - Omega s)
+
+    is convex, at most 0 at first and at least 0 at last. So the maximum is the only extremum. It belongs to
+    the arc if the arc reaches it. An arc that starts in the middle (a lift-off) has one of two equal maxima
+    before its start.
 
     Returns
     -------

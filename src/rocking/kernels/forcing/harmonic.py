@@ -97,10 +97,12 @@ def forced_step(p, t, sinh, versinh, excess, higher):
 def forced_response(p, cosine, sine, above, acceleration, forced_step):
     """Evaluate the response to the forcing a time t later, without cancellation.
 
-    u'' - u is split into a constant part (``steady``) and a remainder, which moves u by G. G'' - G = u0 - 1 -
-    A cos eta - steady, G = G' = 0 at t = 0. Within a third of a forcing period ``steady`` is the
-    ``acceleration`` at the start, later u0 - 1 (``above``). In both cases G is a sum of positive functions,
-    so that no larger terms cancel.
+    u'' - u is split into a constant part (``steady``) and a remainder, which moves u by G:
+
+        G'' - G = u0 - 1 - A cos eta - steady, G = G' = 0 at t = 0.
+
+    Within a third of a forcing period ``steady`` is the ``acceleration`` at the start, later u0 - 1
+    (``above``). In both cases G is a sum of positive functions, so that no larger terms cancel.
 
     Returns
     -------

@@ -134,8 +134,8 @@ def evaluate_trial(s, i):
 def positive_by_tangent(u, fall, t, low, high):
     """Return whether u is certainly positive on [low, high], in a convex sign interval, from one point of it.
 
-    The point is u at t, with fall = u + u' there. y = u e^t, convex in e^2t, lies above its tangent; (e^2d -
-    1)/2d <= 1 + 8d up to d = 2.
+    The point is u at t, with fall = u + u' there. The function y = u e^t, convex in e^2t, lies above its
+    tangent. Up to d = 2, (e^2d - 1)/2d <= 1 + 8d holds.
     """
     left = high - t
     down = choose(left < 2.0, -fall * left * fma(8.0, left, 1.0), math.inf)

@@ -15,8 +15,8 @@ def settling_time(speed, restitution, weakest, strongest, clearance):
     The block is accelerated back with ``weakest`` to ``strongest`` within ``clearance``. Infinite if the
     impacts need not end. The height of an arc stays below h = speed**2/weakest (<= weakest/2), so the
     acceleration, less u, stays above ``weakest - h``. Each arc returns with at most ``ratio`` times the speed
-    with which it left. So speeds fall geometrically by restitution*ratio, and an arc lasts at most (1 +
-    ratio)/(weakest - h) times its speed.
+    with which it left. So speeds fall geometrically by restitution*ratio. The duration of an arc is at most
+    (1 + ratio)/(weakest - h) times its speed.
     """
     height = speed * speed / weakest
     if not (weakest > 0.0 and height <= 0.5 * min(weakest, clearance)):

@@ -1,8 +1,8 @@
 """Elementary functions of an arc, to full relative accuracy for arbitrarily short arcs.
 
-The standard functions lose digits by cancellation in ``cosh t - 1``, ``sinh t - t``, ``1 - cos x`` and ``x -
-sin x`` for short arcs. Short arguments are evaluated by their Taylor series, which avoids this. Long
-arguments use exponentials, and the sine and cosine of an argument reduced by pi/2 in three parts.
+For short arcs the standard functions lose digits by cancellation in ``cosh t - 1``, ``sinh t - t``, ``1 - cos
+x`` and ``x - sin x``. Short arguments are evaluated by their Taylor series, which avoids this. Long arguments
+use exponentials, and the sine and cosine of an argument reduced by pi/2 in three parts.
 """
 
 import math
