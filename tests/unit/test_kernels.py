@@ -154,7 +154,7 @@ def test_machine_code_is_kept_in_the_first_folder_that_can_be_written_and_else_n
         assert "once for this machine" in done.stderr
     else:
         assert kept == []
-        assert "at every start, for no cache folder can be written" in done.stderr
+        assert "at every start, because no cache folder is writable" in done.stderr
 
 
 def test_nothing_compiled_calls_what_is_kept_on_disk():

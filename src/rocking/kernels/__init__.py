@@ -1,7 +1,8 @@
-"""The compiled physics: numbers in, numbers out.
+"""Compiled kernels of the package: functions of numbers and arrays, without Python objects.
 
-All modules are imported here, by a walk over the package, so that each keeps its machine code where ``machine_code``
-says. That a kernel is compiled, which takes most of a minute, is told once to the log ``rocking``.
+All modules are imported here, by a walk over the package, so that each caches its machine code in the folder
+of ``machine_code``. The first compilation, which takes most of a minute, is reported once in the log
+``rocking``.
 """
 
 import importlib
@@ -14,19 +15,19 @@ from rocking.kernels.machine_code import FOLDER, kept_in_folder
 
 
 class _Compiling(event.Listener):
-    """Hears the compiler start, tells it, and hears no more."""
+    """Listener that reports the first compilation and then unregisters itself."""
 
     def on_start(self, _: event.Event) -> None:
         event.unregister("numba:compile", self)
-        often = "once for this machine" if FOLDER else "at every start, for no cache folder can be written"
-        logging.getLogger("rocking").info("compiling, %s: most of a minute", often)
+        often = "once for this machine" if FOLDER else "at every start, because no cache folder is writable"
+        logging.getLogger("rocking").info("compiling the kernels (%s): takes most of a minute", often)
 
     def on_end(self, _: event.Event) -> None:
-        """Nothing: one start is enough."""
+        """Do nothing: only the start of a compilation is reported."""
 
 
 def _tell_of_compiling() -> None:
-    """What comes from the cache is not compiled, and not told."""
+    """Register the listener for compilations. Machine code loaded from the cache triggers no report."""
     event.register("numba:compile", _Compiling())
 
 

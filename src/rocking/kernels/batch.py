@@ -1,4 +1,4 @@
-"""Many systems, one after another or in lanes, without Python in between: what a survey asks of a tile."""
+"""Classification of a batch of systems, in SIMD lanes or one by one, in a single call from Python."""
 
 import math
 from functools import cache
@@ -16,15 +16,17 @@ from rocking.kernels.lanes.scheduler import MIN_LANE_PERIOD, classify_batch_lane
 from rocking.kernels.lanes.workspace import make_lane_workspace
 from rocking.kernels.parameters import parameters_from_row
 
-# The version of what is answered: raised whenever an answer to the same question may change, so that a store never mixes two.
+# Version of the results. It is raised whenever a result for the same request may change, so that a store
+# never mixes two versions.
 METHOD = 19
 
 
 @njit(**ENTRY_POINT)
 def classify_batch_scalar(systems, starts, max_cycles, max_period, memory, answers, stop):
-    """Whether all points were judged, and ``stop[0]`` not set on the way.
+    """Classify the points of a batch one by one.
 
-    A row of ``systems`` is what ``make`` takes, a row of ``starts`` (angle, velocity).
+    A row of ``systems`` holds the arguments of ``make``, a row of ``starts`` is (angle, velocity). Returns
+    True if all points were classified, False if ``stop[0]`` was set before the end.
     """
     for k in range(systems.shape[0]):
         if stop[0] != 0:
@@ -36,16 +38,24 @@ def classify_batch_scalar(systems, starts, max_cycles, max_period, memory, answe
 
 @cache
 def has_simd():
-    """Whether this machine adds products four numbers at a time, or more: on others lanes gain nothing."""
+    """Return whether this processor fuses multiplication and addition of four or more numbers at a time.
+
+    On other processors lanes are not faster.
+    """
     told = numba.config.CPU_FEATURES
     features = (llvm.get_host_cpu_features().flatten() if told is None else told).split(",")
     return {"+avx2", "+fma"} <= set(features)
 
 
 def lane_masks(systems):
-    """(which points may come to be marched in lanes without braces, and which between braces): a point's own matter.
+    """Return masks of the points that profit from the lane path. They depend on each point only.
 
-    Where much plain marching is likely: without loss, or in what braces make of it.
+    Only undamped motions and motions between braces often need long marches.
+
+    Returns
+    -------
+    tuple of (array of bool, array of bool)
+        Points without braces and points with braces.
     """
     amplitude, _, period, _, restitution, brace_angle, _ = systems.T
     may, braced = (amplitude > 1.0) & (period >= MIN_LANE_PERIOD) & has_simd(), brace_angle < math.inf
@@ -53,7 +63,10 @@ def lane_masks(systems):
 
 
 def classify_batch(systems, starts, max_cycles, max_period, stop):
-    """``Answers`` for points (n, 7) and (n, 2); None where ``stop`` (1,) was set by another thread on the way."""
+    """Classify a batch of points, ``systems`` (n, 7) and ``starts`` (n, 2).
+
+    Returns ``ResultArrays``, or None if another thread set ``stop`` (1,) before the end.
+    """
     answers, (lossless, braced) = empty_results(len(systems)), lane_masks(systems)
     parts = (
         (~(lossless | braced), classify_batch_scalar, make_workspace),
@@ -72,9 +85,10 @@ def classify_batch(systems, starts, max_cycles, max_period, stop):
 
 
 def compile_many(may_last):
-    """Compile, or load, what ``classify_batch`` runs: a process that ends while another thread compiles may crash.
+    """Compile or load the kernels of ``classify_batch``.
 
-    Some points may have to be marched for long (``may_last``): only for those the lanes are compiled.
+    A process that ends while another thread compiles may crash. The lanes are compiled only if some points
+    may need a long march (``may_last``).
     """
     still = np.array(
         [[0.0, 1.0, math.tau, 0.0, 0.0, math.inf, 1.0], [2.0, math.tau, 1.0, 0.0, 1.0, math.inf, 1.0]]

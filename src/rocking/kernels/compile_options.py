@@ -1,4 +1,4 @@
-"""Options of the compiler, one set for each kind of kernel."""
+"""Options of the compiler: one set for each kind of kernel."""
 
 from rocking.kernels.compiler import WholeCompiler
 from rocking.kernels.machine_code import FOLDER
@@ -12,24 +12,26 @@ KERNEL = dict(
     forceinline=False,
     _nrt=False,
 )
-# Entry points are what Python calls. Each is cached on disk with private copies of all that it calls. A cached function
-# is not inlined into compiled callers: speed and last digits would then depend on the state of the cache. So no kernel
-# calls an entry point. Without a folder of our own nothing is cached: the compiler would write beside the sources.
+# Python calls entry points. Each is cached on disk with private copies of all its callees. A cached function
+# is not inlined into compiled callers: speed and last digits would then depend on the state of the cache. So
+# no kernel calls an entry point. Nothing is cached without a cache folder, because the compiler would write
+# next to the sources.
 CACHED = dict(cache=FOLDER is not None, pipeline_class=WholeCompiler)
 ENTRY_POINT = dict(KERNEL, **CACHED)
-# Kernels that only kernels call have no wrapper for Python, which takes as long to compile as the kernel itself.
-# A call from Python would end the process.
+# Internal kernels are called by kernels only. They have no wrapper for Python, which takes as long to compile
+# as the kernel itself. A call from Python would end the process.
 INTERNAL = dict(KERNEL, no_cpython_wrapper=True)
 # Kernels that allocate arrays or lists need reference counting.
 ALLOCATING = dict(KERNEL, _nrt=True)
 ALLOCATING_ENTRY = dict(ALLOCATING, **CACHED)
 KERNEL_INLINE = dict(KERNEL, forceinline=True)
 INTERNAL_INLINE = dict(INTERNAL, forceinline=True)
-# The compiler optimises a callee once more with every caller. A short kernel between a caller and the march is
-# inlined as syntax instead, before that.
+# The compiler optimises a callee again in each caller. A short kernel between a caller and the march is
+# inlined as syntax instead, before that step.
 AST_INLINE = dict(INTERNAL, inline="always")
-# Kernels for vectors. The compiler may not choose which product it fuses with a sum, so that results depend neither
-# on the width of the vectors nor on what else is compiled. A fused product is written as such.
+# Kernels for SIMD code. The compiler may not choose which products it fuses with a sum, so that results
+# depend neither on the width of the vectors nor on other compiled code. Fused products are written
+# explicitly.
 SIMD = dict(
     nogil=True,
     error_model="numpy",

@@ -1,8 +1,8 @@
-"""How what Python calls is compiled: with a copy of its own of all that it calls.
+"""Compiler pipeline for entry points: each library links private copies of its callees.
 
-Copies of a shared function differ in their last bits, for each is optimised with its callers. Left to itself the linker
-takes the copy that it met first, and then a process that compiles rounds otherwise than one that finds all on disk, and
-the order of calls decides.
+Copies of a shared function differ in their last bits, because each is optimised together with its callers. By
+default the linker uses the copy that it met first. Results would then depend on the order of the calls, and
+on whether the code was compiled or loaded from disk.
 """
 
 from llvmlite.binding import Linkage
@@ -11,7 +11,7 @@ from numba.core.compiler import Compiler
 
 
 class SelfContainedLibrary(JITCodeLibrary):
-    """Machine code that takes no function from elsewhere."""
+    """Machine code that contains private copies of all its callees."""
 
     def _optimize_final_module(self):
         here = [function for function in self._final_module.functions if not function.is_declaration]
@@ -19,13 +19,14 @@ class SelfContainedLibrary(JITCodeLibrary):
         for function in here:
             if function.linkage == Linkage.linkonce_odr:
                 function.linkage = Linkage.internal
-                # The linker keeps names of internal functions too, and would hand them to others.
+                # The linker keeps the names of internal functions too, and would let other libraries use
+                # them.
                 function.name = f"{function.name}.{own}"
         super()._optimize_final_module()
 
 
 class WholeCompiler(Compiler):
-    """The compiler as it is, but for where the code goes."""
+    """Compiler that writes its code into a ``SelfContainedLibrary``."""
 
     def compile_extra(self, func):
         """Compile a function."""

@@ -1,23 +1,23 @@
-"""What a block does between events, and what can end an arc, a rest or a lean."""
+"""Modes of motion between events, and the events that end them."""
 
 from enum import IntEnum
 
 
 class MotionMode(IntEnum):
-    """What the block does between events."""
+    """Mode of motion between two events."""
 
     FLIGHT = 0
     REST = 1
     LEAN = 2
 
 
-# Kernels compute with plain integers: an enum member would give every function a second type to be compiled
-# for.
+# Kernels use plain integers: an enum member would be a second type, for which every function is compiled
+# again.
 FLIGHT, REST, LEAN = (int(mode) for mode in MotionMode)
 
 
 class Event(IntEnum):
-    """What can end an arc, a rest or a lean; NONE where nothing does."""
+    """Event that ends an arc, a rest or a sustained contact with a brace; NONE if there is none."""
 
     IMPACT = 0
     BRACE = 1

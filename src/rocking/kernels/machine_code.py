@@ -1,7 +1,7 @@
-"""Where machine code is kept on disk.
+"""Location of the cached machine code on disk.
 
-The compiler's cache looks only at the file of a function itself, and would serve stale code after an edit of a function
-that it calls. So the code lies in a folder named by a hash over all kernel sources.
+The compiler's cache checks only the file of the function itself. It would load stale code after an edit of a
+function that this one calls. So the cache folder is named by a hash over all kernel sources.
 """
 
 import hashlib
@@ -17,7 +17,7 @@ SOURCES = Path(__file__).parent
 
 
 def hash_sources() -> str:
-    """Hash all kernel sources, with their places in the package."""
+    """Hash all kernel sources, with their paths inside the package."""
     digest = hashlib.sha256()
     for source in sorted(SOURCES.rglob("*.py")):
         digest.update(source.relative_to(SOURCES).as_posix().encode() + source.read_bytes())
@@ -25,9 +25,10 @@ def hash_sources() -> str:
 
 
 def find_folder() -> Path | None:
-    """Make a folder for these sources in ``NUMBA_CACHE_DIR``, the user's cache, or a temporary folder of the user.
+    """Create a cache folder for these sources, in the first of three places that is writable.
 
-    None where none of them can be written: then the kernels are compiled at every start.
+    The places are ``NUMBA_CACHE_DIR``, the user's cache and a temporary folder of the user. Returns None if
+    none of them is writable: then the kernels are compiled at every start.
     """
     digest, user = hash_sources(), os.getuid() if hasattr(os, "getuid") else "user"
     homes = (
@@ -51,7 +52,10 @@ FOLDER = find_folder()
 
 @contextmanager
 def kept_in_folder() -> Iterator[None]:
-    """Let the compiler keep its code in FOLDER while the kernels are defined: its own setting holds for the whole process."""
+    """Let the compiler use FOLDER as its cache while the kernels are defined.
+
+    The compiler's own setting is restored afterwards because it applies to the whole process.
+    """
     before = numba.config.CACHE_DIR
     numba.config.CACHE_DIR = str(FOLDER or before)
     try:

@@ -1,4 +1,4 @@
-"""The numbers a kernel reads: one flat tuple a system, with what depends on the system alone worked out once."""
+"""Parameters of a system: one flat named tuple, with derived quantities that depend on the system alone."""
 
 import math
 from fractions import Fraction
@@ -13,11 +13,12 @@ TURN = Fraction("6.28318530717958647692528676655900576839433879875021")
 
 
 class HarmonicParameters(NamedTuple):
-    """A block shaken by A cos(Omega tau + phi), in normalised units.
+    """Parameters of a block excited by A cos(Omega tau + phi), in normalised units.
 
-    ``brace_angle`` is infinite where there are no braces. ``base_half`` and ``brace_half`` bound the
-    *stretches* of an arc, on which the forcing term of the base (or brace) keeps its sign: with eta = psi +
-    (pi on the negative side) they are cut where eta = +-half; infinite where the sign never changes.
+    ``brace_angle`` is infinite if there are no braces. ``base_half`` and ``brace_half`` bound the *sign
+    intervals* of an arc, on which the forcing term of the base (or brace) keeps its sign. The intervals meet
+    where eta = +-half, with eta = psi (+ pi on the negative side). The bounds are infinite if the sign never
+    changes.
     """
 
     amplitude: float
@@ -32,8 +33,9 @@ class HarmonicParameters(NamedTuple):
     response: float  # beta = A/(1 + Omega**2)
     base_half: float
     brace_half: float
-    # at the cuts of the base's stretches: 1 + beta cos eta, |d/dt of it|; the stretches' lengths, |eta| < half
-    # ("inside") and beyond; e^+-length of the outer one and of a whole turn
+    # At the sign changes of the base's forcing term: 1 + beta cos eta and the absolute value of its
+    # derivative. Lengths of the sign intervals, |eta| < half ("inside") and the other one ("outside").
+    # e^+-length of the outer interval and of a whole forcing period.
     sign_change_displacement: float
     sign_change_velocity: float
     base_inside: float
@@ -47,7 +49,7 @@ class HarmonicParameters(NamedTuple):
 
 @njit(**INTERNAL)
 def stiffness(frequency):
-    """1 + Omega**2 in two parts, the second what the first leaves out by rounding."""
+    """Return 1 + Omega**2 in two parts: the rounded sum and its rounding error."""
     square = frequency * frequency
     total = 1.0 + square
     large, small = max(square, 1.0), min(square, 1.0)
@@ -56,14 +58,17 @@ def stiffness(frequency):
 
 @njit(**INTERNAL)
 def share(numerator, whole, rest):
-    """numerator/(whole + rest), rounded once but for a rare last place."""
+    """Return numerator/(whole + rest), correctly rounded except for a rare error in the last place."""
     quotient = numerator / whole
     return quotient + (fma(-quotient, whole, numerator) - quotient * rest) / whole
 
 
 @njit(**INTERNAL)
 def make(amplitude, frequency, period, phase, restitution, brace_angle, brace_restitution):
-    """The parameters of a system; beta and 1/(1 + Omega**2) rounded once, since every term of an arc carries them."""
+    """Return the parameters of a system.
+
+    beta and 1/(1 + Omega**2) are rounded only once because every term of an arc contains them.
+    """
     whole, rest = stiffness(frequency)
     response, reciprocal = share(amplitude, whole, rest), share(1.0, whole, rest)
     base_half = math.acos(-1.0 / amplitude) if amplitude > 1.0 else math.inf
@@ -100,13 +105,13 @@ def make(amplitude, frequency, period, phase, restitution, brace_angle, brace_re
 
 @njit(**INTERNAL)
 def parameters_from_row(row):
-    """Return the parameters of a system from a row of what ``make`` takes."""
+    """Return the parameters of a system from a row that holds the arguments of ``make``."""
     return make(row[0], row[1], row[2], row[3], row[4], row[5], row[6])
 
 
 @njit(**ENTRY_POINT)
 def make_plain(amplitude, frequency, period, phase, restitution, brace_angle, brace_restitution):
-    """``make`` for Python: a plain tuple, as ``march.plain`` has it."""
+    """Return ``make`` as a plain tuple; entry point for Python (reason: ``progress.to_tuple``)."""
     p = make(amplitude, frequency, period, phase, restitution, brace_angle, brace_restitution)
     return p[:]
 
@@ -120,26 +125,26 @@ def harmonic_parameters(
     brace_angle: float = math.inf,
     brace_restitution: float = 1.0,
 ) -> HarmonicParameters:
-    """The tuple of a harmonic forcing."""
+    """Return the parameters of a system with harmonic forcing."""
     values = amplitude, frequency, period, within_a_turn(phase), restitution, brace_angle, brace_restitution
     return HarmonicParameters(*make_plain(*map(float, values)))
 
 
 def within_a_turn(phase: float) -> float:
-    """A phase of several turns without them, rounded once: what is added to it later must not cost its last digits."""
+    """Reduce a phase by whole turns, with one rounding, so that later additions keep its last digits."""
     return phase if abs(phase) <= TURN else float(Fraction(phase) - round(Fraction(phase) / TURN) * TURN)
 
 
 @njit(**INTERNAL)
 def later(p, time):
-    """The same system with its clock set to 0 a time (within a period) later."""
+    """Return the system with its clock set to 0 at ``time`` (within a period), which changes its phase."""
     phase = p.phase + p.frequency * time
     return at_phase(p, phase - 2.0 * math.pi * round(phase / (2.0 * math.pi)))
 
 
 @njit(**INTERNAL)
 def at_phase(p, phase):
-    """The same system with another forcing phase at time 0."""
+    """Return the system with a different forcing phase at time 0."""
     return make(
         amplitude=p.amplitude,
         frequency=p.frequency,

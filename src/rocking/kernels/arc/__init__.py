@@ -1,1 +1,1 @@
-"""One arc, the motion between two events: its closed form, its first zero and its extrema."""
+"""Arc, the motion between two events: its closed form, its first zero and its extrema."""

@@ -1,8 +1,8 @@
-"""The first zero of an arc without braces, bracketed by what is known where its stretches meet.
+"""Bracket of the first zero of an arc without braces, from u and u' at the sign changes of the forcing term.
 
-There (``first_zero`` says what a stretch is) cos eta is known and e^t grows by given factors, so that u and u' need no
-elementary function. A bracket holds one zero; whatever is not certain by a wide margin is UNSURE and left
-to ``first_zero``.
+At a sign change (``first_zero`` defines the sign intervals) cos eta is known and e^t grows by known factors.
+So u and u' need no elementary function there. A bracket contains one zero. If the result is not certain by a
+wide margin, it is UNSURE and ``first_zero`` decides.
 """
 
 import math
@@ -16,18 +16,18 @@ from rocking.kernels.forcing.harmonic import first_sign_change, forcing_rates, f
 from rocking.kernels.numerics.elementary import fma
 
 MAX_TURNS = 64
-# Knots of a dip that are looked at.
+# Maximum number of trial points at a local minimum.
 MAX_DIPS = 4
 MARGIN = 1e-11
-# In units of the rounding error of c+ and c-.
+# Safety factor on the rounding error of c+ and c-.
 WIDE = 16.0
 
-# What a walk ends with: a bracket, none for ever, or a doubt; or that it goes on.
+# Result of the search: a bracket, proof that no zero follows, uncertainty, or no zero in this sign interval.
 ZERO, NEVER, UNSURE, PASSED = range(4)
 
 
 class Jet(NamedTuple):
-    """w at one time, with what gives all its derivatives: w'' = w + f, w''' = w' + df."""
+    """w at one time, with all its derivatives: w'' = w + f, w''' = w' + df."""
 
     time: float
     w: float
@@ -37,7 +37,7 @@ class Jet(NamedTuple):
 
 
 class Walk(NamedTuple):
-    """How a walk ended; the bracket of ZERO."""
+    """Result of the search along the sign intervals; for ZERO with the bracket."""
 
     answer: int
     low: Jet
@@ -46,7 +46,10 @@ class Walk(NamedTuple):
 
 @njit(**INTERNAL_INLINE)
 def knot(p, arc, constant, s, time, now):
-    """The knot of w = constant + s u at an instant; w from its change since the start, so that it is accurate near a brace too."""
+    """Return the jet of w = constant + s u at an instant.
+
+    w is computed from its change since the start, so that it is accurate near a brace too.
+    """
     f = forcing_term(p, now.cosine)
     df, _ = forcing_rates(p, now.cosine, now.sine)
     return Jet(time, (constant + s * arc.angle) + s * now.risen, s * now.velocity, s * f - constant, s * df)
@@ -54,7 +57,7 @@ def knot(p, arc, constant, s, time, now):
 
 @njit(**INTERNAL_INLINE)
 def start_knot(p, arc, constant, s):
-    """The knot of w = constant + s u at the arc's start."""
+    """Return the jet of w = constant + s u at the start of the arc."""
     f = forcing_term(p, arc.cosine)
     df, _ = forcing_rates(p, arc.cosine, arc.sine)
     return Jet(0.0, constant + s * arc.angle, s * arc.velocity, s * f - constant, s * df)
@@ -62,28 +65,42 @@ def start_knot(p, arc, constant, s):
 
 @njit(**INTERNAL_INLINE)
 def first_interval(p, arc):
-    """(when the first stretch ends, whether it is convex)."""
+    """Return the first sign interval of an arc.
+
+    Returns
+    -------
+    tuple of (float, bool)
+        Time at which it ends.
+        Whether it is convex.
+    """
     sign_change, concave = first_sign_change(p, arc.side, arc.psi, 0.0, p.base_half)
     return sign_change, not concave
 
 
 @njit(**INTERNAL_INLINE)
 def positive_ahead(w, dw):
-    """Whether w, positive here, stays so as long as f > 0 lasts from here on: it lies above the free motion (w'' = w)."""
+    """Return whether w, positive here, stays positive for as long as f > 0.
+
+    Then w lies above the free motion (w'' = w) from the same state.
+    """
     return w + dw >= 0.0
 
 
 @njit(**INTERNAL_INLINE)
 def positive_throughout(here, doubt):
-    """Whether w is positive in all of a convex stretch, by one knot in it: it lies above the free motion through that, either way."""
+    """Return whether one jet proves that w is positive on its whole convex sign interval.
+
+    In both directions of time w lies above the free motion through that jet.
+    """
     return here.w - abs(here.dw) > doubt
 
 
 @njit(**SIMD_INLINE)
 def may_dip(w, dw, w_right, dw_right, tanh):
-    """Whether w, positive at both ends of a part of a convex stretch, may reach zero within; ``tanh`` of its length.
+    """Return whether w, positive at both ends of a convex part of an arc, may reach zero inside.
 
-    It stays clear if the free motions through either end never reach zero, or only after passing each other.
+    ``tanh`` is that of the length of the part. w stays positive if the free motions through both ends never
+    reach zero, or reach it only after they have crossed.
     """
     crossed, enough = fma(w, dw_right, -w_right * dw), tanh * fma(w, w_right, -dw * dw_right)
     return (w + dw < 0.0) & (dw_right > w_right) & ((crossed >= enough) == False)  # noqa: E712
@@ -91,7 +108,7 @@ def may_dip(w, dw, w_right, dw_right, tanh):
 
 @njit(**INTERNAL_INLINE)
 def may_dip_between(p, ends, doubts):
-    """``may_dip`` between two knots that are in doubt by so much."""
+    """Return ``may_dip`` between two jets with the given error bounds."""
     (left, right), (left_doubt, right_doubt) = ends, doubts
     tanh = p.base_outside_tanh * (1.0 + MARGIN)
     w, dw = left.w - left_doubt, left.dw - left_doubt
@@ -100,9 +117,10 @@ def may_dip_between(p, ends, doubts):
 
 @njit(**INTERNAL)
 def bottom(p, arc, left, right, doubt):
-    """A knot of a dip that tells whether it reaches zero, or, after some tries, a knot near its bottom.
+    """Find the minimum of w between two jets, as far as needed to decide whether w reaches zero.
 
-    The first is where the slope, a cubic by its values and derivatives at both ends, vanishes; then Newton's method.
+    The first trial is the zero of the slope, taken as a cubic through its values and derivatives at both
+    ends. Newton's method follows. Returns a jet that decides, or the last one after MAX_DIPS trials.
     """
     width = right.time - left.time
     a, b = left.dw, right.dw
@@ -124,7 +142,10 @@ def bottom(p, arc, left, right, doubt):
 
 @njit(**INTERNAL_INLINE)
 def at_sign_change(p, time, growing, shrinking, turned):
-    """The knot at the beginning (``turned`` = -1) or end (1) of a convex stretch, from c+ e^t and c- e^-t."""
+    """Return the jet at one end of a convex sign interval, from c+ e^t and c- e^-t.
+
+    ``turned`` is -1 at its start and 1 at its end.
+    """
     angle, rate = (
         growing + shrinking + p.sign_change_displacement,
         growing - shrinking + turned * p.sign_change_velocity,
@@ -134,10 +155,10 @@ def at_sign_change(p, time, growing, shrinking, turned):
 
 @njit(**INTERNAL_INLINE)
 def stays_clear(p, arc, end):
-    """Whether w certainly stays positive on (0, end), where it does not fall below zero.
+    """Return whether w certainly stays positive on (0, end), where ``end`` is a jet with w >= 0.
 
-    Most often the order of the stretches alone proves it: that leaves the convex ones which the arc passes from end to end,
-    and those in which it begins falling or ends rising.
+    In most cases the order of the sign intervals is sufficient proof. Otherwise some convex intervals need a
+    check: those that the arc crosses completely, and those in which it starts falling or ends rising.
     """
     start, (sign_change, convex) = start_knot(p, arc, 0.0, 1.0), first_interval(p, arc)
     begins_well, ends_well = positive_ahead(start.w, start.dw), positive_ahead(end.w, -end.dw)
@@ -170,7 +191,7 @@ def stays_clear(p, arc, end):
 
 
 class CutKnot(NamedTuple):
-    """A knot, c+ e^t and c- e^-t there, and how much is in doubt of it."""
+    """Jet at a sign change, with c+ e^t and c- e^-t there, and an error bound."""
 
     jet: Jet
     growing: float
@@ -180,7 +201,7 @@ class CutKnot(NamedTuple):
 
 @njit(**INTERNAL_INLINE)
 def cut_knot(p, arc_exponentials, time, z, per_z, turned):
-    """Return the ``CutKnot`` at a time, e^t = z, as ``at_sign_change`` gives the knot."""
+    """Return the ``CutKnot`` at a sign change, where e^t = z."""
     grow, shrink, error = arc_exponentials
     growing, shrinking = grow * z, shrink * per_z
     doubt = MARGIN * (abs(growing) + abs(shrinking) + 1.0) + (WIDE * error) * (z + per_z)
@@ -189,9 +210,9 @@ def cut_knot(p, arc_exponentials, time, z, per_z, turned):
 
 @njit(**INTERNAL_INLINE)
 def cross(p, arc, start, end, lifts):
-    """Return how the walk across a convex stretch between two knots ends: PASSED where no zero is there.
+    """Search a convex sign interval between two jets; PASSED if it contains no zero.
 
-    ``lifts`` says that u rises through all of it.
+    ``lifts`` says that u rises through the whole interval.
     """
     left, right, doubt = start.jet, end.jet, end.doubt
     if right.w < -doubt:
@@ -209,20 +230,22 @@ def cross(p, arc, start, end, lifts):
 
 @njit(**INTERNAL_INLINE)
 def bracket_first_zero(p, arc):
-    """Walk from turn to turn to the first zero of u.
+    """Search for the first zero of u, one forcing period after another.
 
-    A concave stretch that begins with u >= 0 holds one zero if it ends with u < 0, else none; a convex one that begins
-    with u > 0, or rising from 0, likewise, but for a dip. None will ever come as soon as what grows outweighs all else.
+    A concave sign interval that begins with u >= 0 contains one zero if it ends with u < 0, else none. The
+    same holds for a convex interval that begins with u > 0, or rising from 0, unless it contains a minimum
+    below zero. No zero follows as soon as the growing exponential outweighs all other terms.
     """
     before, (sign_change, convex) = start_knot(p, arc, 0.0, 1.0), first_interval(p, arc)
-    # a convex stretch under way in which u rises holds no zero; else it is looked at like a whole one, and so is that of a
-    # lift-off, through all of which u rises: from where it ends u is known to be positive, or all is in doubt
+    # A convex sign interval in which the arc starts and u rises contains no zero. Otherwise it is examined
+    # like a complete interval. So is the interval of a lift-off, through which u rises: at its end u is
+    # positive, or the result is UNSURE.
     lifts = before.w == 0.0 == before.dw
     if not (before.w > 0.0 or before.dw > 0.0 or (convex and lifts)):
         return Walk(UNSURE, before, before)
     under_way = convex and (lifts or not positive_ahead(before.w, before.dw))
     time = 0.0 if under_way else sign_change + p.base_inside if convex else sign_change
-    # how long the stretch is, and e^+-length
+    # length of the interval, and e^+-length
     interval = p.base_outside, p.base_outside_growth, p.base_outside_decay
     z, per_z, left, c = 1.0, 1.0, CutKnot(before, 0.0, 0.0, MARGIN), exponentials(p, arc)
     if under_way:

@@ -1,4 +1,4 @@
-"""What is certain of an arc by its ends, for one block and in lanes alike: nothing is met between them; it does not graze."""
+"""Proofs from the ends of an arc, for one block and for lanes: no event between them, no grazing arrival."""
 
 from numba import njit
 
@@ -9,27 +9,31 @@ from rocking.kernels.numerics.elementary import fma
 
 @njit(**SIMD_INLINE)
 def grazes(amplitude, start_angle, start_velocity, t, velocity):
-    """Whether an arc arrives after a time t so slowly that the last digits tell whether it arrives at all."""
+    """Return whether an arc arrives after a time t so slowly that rounding decides whether it arrives at all."""
     most = amplitude + 1.0
     return velocity * velocity <= MARGIN * most * fma(t, fma(t, most, abs(start_velocity)), start_angle)
 
 
 @njit(**SIMD_INLINE)
 def outweighs(first, last, off):
-    """Whether first s (1 - s)^2 + last s^2 (1 - s) > off s^2 (1 - s)^2 for every share s of the way."""
+    """Return whether the inner Bernstein terms of a cubic exceed its error bound everywhere between the ends.
+
+    For every s in (0, 1): first s (1 - s)^2 + last s^2 (1 - s) > off s^2 (1 - s)^2.
+    """
     least = min(first, last)
     return (least > 0.0) & (first + last + 2.0 * least > off)
 
 
 @njit(**SIMD_INLINE)
 def stays_between(system, t, first, last):
-    """Whether a flight certainly meets neither the base nor a brace within a time t, by (u, u') at its ends.
+    """Return whether an arc certainly meets neither base nor brace within a time t, from (u, u') at its ends.
 
-    Its ``system`` is (A, Omega, brace angle).
+    ``system`` is (A, Omega, brace angle).
 
-    Between them u lies within t^4 s^2 (1 - s)^2 max|u''''|/24 of the cubic with the same ends, whose Bernstein coefficients
-    tell on which side of the base and of the brace that stays. u'''' = u - 1 + A (Omega^2 - 1) cos eta; and |u - 1| is nowhere
-    larger than A, or 1, or than at the ends, since u'' = u - 1 - A cos eta.
+    Between the ends u lies within t^4 s^2 (1 - s)^2 max|u''''|/24 of the cubic with the same end values and
+    slopes. The Bernstein coefficients of this cubic show on which side of base and brace it stays. The fourth
+    derivative is u'''' = u - 1 + A (Omega^2 - 1) cos eta. |u - 1| never exceeds the largest of A, 1 and its
+    values at the ends, because u'' = u - 1 - A cos eta.
     """
     amplitude, frequency, brace_angle = system
     (angle, velocity), (end, arrival) = first, last

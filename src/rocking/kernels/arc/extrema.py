@@ -1,4 +1,4 @@
-"""Where an arc turns, and the largest angle on it."""
+"""Extrema of the angle along an arc, and the largest angle."""
 
 import math
 
@@ -13,25 +13,28 @@ from rocking.kernels.event_kinds import BRACE, IMPACT
 from rocking.kernels.forcing.harmonic import TURN, forcing_rates, forcing_term
 from rocking.kernels.numerics.elementary import fma
 
-# A turn just found is not met again by rounding: it is passed by this share of the time, and ever more.
+# After an extremum the search starts later by this fraction of the time, and by ever more, so that rounding
+# cannot find the same extremum again.
 PASSED = 2.0**-50
-# The middle of an arc must be known this well, as a phase of the forcing; crests nearer to a tie than TIED are compared.
+# Accuracy required of the middle of an arc, as a forcing phase. Two maxima closer to a tie than TIED are
+# compared.
 KNOWN, TIED = 1e-6, 1e-3
-# From this near, in units of 1/max(1, Omega), a Taylor series reaches the top of a crest to rounding; so many tries at it.
+# From this close, in units of 1/max(1, Omega), a Taylor series reaches a maximum to rounding. TRIES limits
+# the iterations.
 NEAR, TRIES = 1e-3, 6
 RIGHT_ANGLE = 0.5 * math.pi
 
 
 @njit(**KERNEL_INLINE)
 def turn_event_function(p, sign):
-    """A turn of the motion: w = sign u', f_w = sign A Omega sin eta."""
+    """Return the event function of an extremum of the angle: w = sign u', f_w = sign A Omega sin eta."""
     half = 0.5 * math.pi if p.amplitude > 0.0 else math.inf
     return EventFunction(0.0, 0.0, sign, sign * 0.5 * math.pi, half, p.amplitude > 0.0)
 
 
 @njit(**INTERNAL)
 def first_turn_sign(p, arc):
-    """The sign of u' just after an arc's start; positive where all of u', u'' vanish (lift-off)."""
+    """Return the sign of u' just after the start of an arc; positive if both u' and u'' vanish (lift-off)."""
     if arc.velocity != 0.0:
         return math.copysign(1.0, arc.velocity)
     return -1.0 if arc.angle + forcing_term(p, arc.cosine) < 0.0 else 1.0
@@ -39,7 +42,13 @@ def first_turn_sign(p, arc):
 
 @njit(**INTERNAL)
 def next_turn(p, arc, sign, t, until):
-    """(Found, time, instant) of the next turn after t, where sign u' falls through zero."""
+    """Find the next extremum after t, where sign u' falls through zero.
+
+    Returns
+    -------
+    tuple of (int, float, Instant)
+        Result, as in ``Found``, with its time and the state there.
+    """
     start, passed = t, PASSED * (1.0 + t)
     while True:
         found, then, now = first_zero(p, arc, turn_event_function(p, sign), start, until)
@@ -53,10 +62,10 @@ def next_turn(p, arc, sign, t, until):
 
 @njit(**INTERNAL_INLINE)
 def may_exceed(p, arc, coming, peak):
-    """Whether an arc up to an impact may reach beyond ``peak``.
+    """Return whether an arc up to an impact may reach an angle beyond ``peak``.
 
-    h = u - 1 - beta cos eta obeys h'' = h. Where it is negative at both ends it stays below
-    -min(|h|)/cosh(half the wait).
+    h = u - 1 - beta cos eta obeys h'' = h. If h is negative at both ends, it stays below -min(|h|)/cosh(half
+    the wait).
     """
     if peak >= p.brace_angle:
         return False
@@ -68,7 +77,7 @@ def may_exceed(p, arc, coming, peak):
 
 @njit(**INTERNAL)
 def arc_peak(p, arc, until, peak):
-    """The largest of ``peak`` and the angles on the arc up to ``until``."""
+    """Return the largest of ``peak`` and the angles on the arc up to ``until``."""
     now = evaluate(p, arc, until)
     peak = max(peak, within_reach(p, now.angle))
     t = 0.0
@@ -83,10 +92,18 @@ def arc_peak(p, arc, until, peak):
 
 @njit(**SIMD_INLINE)
 def may_rise_above(peak, m, away, frequency_square, response):
-    """Whether 1 - m cosh(t - middle) + beta cos eta may exceed ``peak``, with a crest of cos eta a time ``away`` from the middle.
+    """Return whether 1 - m cosh(t - middle) + beta cos eta may exceed ``peak``.
 
-    It is at most 1 - m + beta - a**2 b m/2(m + b) with b the least curvature of the crest on the way, by what the best compromise
-    between the two costs: 1 - cos y >= y**2 (1/2 - a**2/4! + a**4/6! - a**6/8!) for y up to a, and at least 1 from a = pi/2 to pi.
+    The nearest maximum of cos eta lies a time ``away`` from the middle. The best compromise between the two
+    terms is at most
+
+        1 - m + beta - away**2 b m/(2 (m + b)).
+
+    Here b is the least curvature of beta cos eta between the two times. It follows with a = Omega away from
+
+        1 - cos y >= y**2 (1/2 - a**2/4! + a**4/6! - a**6/8!) for y up to a.
+
+    From y = pi/2 to pi, 1 - cos y is at least 1.
     """
     away_2 = away * away
     a = min(frequency_square * away_2, RIGHT_ANGLE * RIGHT_ANGLE)
@@ -97,13 +114,27 @@ def may_rise_above(peak, m, away, frequency_square, response):
 
 @njit(**INTERNAL_INLINE)
 def closed_form_peak(p, arc, until, peak):
-    """(certain, the largest of ``peak`` and the angles on the arc up to ``until``), where it is certain without a search.
+    """Find the largest of ``peak`` and the angles on the arc up to ``until``, if certain without a search.
 
-    Where c+ and c- are negative, u = 1 - m cosh(t - middle) + beta cos eta, m = 2 sqrt(c+ c-), is largest between the middle
-    and the nearest eta = 0 (mod 2 pi): by whole turns and by mirroring at either of the two any
-    other time is brought between them, and u higher. There m sinh s - beta Omega sin(d - Omega s), s the time from
-    the middle and d the phase to go, is convex, not above 0 at first and not below it at last: the crest is the only turn.
-    It is the arc's too if the arc reaches it. An arc that begins in the middle (a lift-off) has one of two equal crests before it.
+    If c+ and c- are negative,
+
+        u = 1 - m cosh(t - middle) + beta cos eta with m = 2 sqrt(c+ c-).
+
+    This function is largest between ``middle`` and the nearest eta = 0 (mod 2 pi). Shifts by whole forcing
+    periods and reflections about either time move any other time between the two, and each of them raises u.
+    Let s be the time from the middle and d the phase left. Between the two times
+
+        m sinh s - beta Omega sin(d - Omega s)
+
+    is convex, at most 0 at first and at least 0 at last. So the maximum is the only extremum. It belongs to
+    the arc if the arc reaches it. An arc that starts in the middle (a lift-off) has one of two equal maxima
+    before its start.
+
+    Returns
+    -------
+    tuple of (bool, float)
+        Whether the result is certain.
+        The largest angle.
     """
     grow, shrink, error = exponentials(p, arc)
     if not (max(grow, shrink) < 0.0 and p.frequency * error < -KNOWN * max(grow, shrink)):
@@ -131,7 +162,7 @@ def closed_form_peak(p, arc, until, peak):
         second, third = now.angle + f, now.velocity + df
         if not second < 0.0:
             break
-        # The rate is concave: below its tangent on the crest's far side, above its chord on the near one.
+        # u' is concave: it lies below its tangent beyond the maximum, and above its chord before it.
         ahead_of = now.velocity * ahead > 0.0
         rest = now.velocity / (-second) if ahead_of else t - middle
         if now.angle + 0.5 * abs(now.velocity * rest) <= peak:
@@ -151,14 +182,14 @@ def closed_form_peak(p, arc, until, peak):
 
 @njit(**INTERNAL)
 def largest_on(p, arc, until, peak):
-    """``arc_peak``, without a search where that is certain."""
+    """Return the result of ``arc_peak``, without a search if ``closed_form_peak`` is certain."""
     certain, largest = closed_form_peak(p, arc, until, peak)
     return largest if certain else arc_peak(p, arc, until, peak)
 
 
 @njit(**INTERNAL_INLINE)
 def peak_with(p, arc, coming, peak):
-    """The largest of ``peak`` and the angles of an arc up to the event that ends it."""
+    """Return the largest of ``peak`` and the angles of an arc up to the event that ends it."""
     if coming.event == BRACE:
         return p.brace_angle
     if coming.event == IMPACT and not may_exceed(p, arc, coming, peak):

@@ -1,12 +1,14 @@
-"""The first event of a flight, proved at a fraction of the cost of ``first_zero``.
+"""Certified first event of an arc, at a fraction of the cost of ``first_zero``.
 
-A steady motion repeats its arcs, so an earlier arc tells where the next zero is, and what carries an arc on by that
-time is still at hand (``Lapse``): from there a Taylor series reaches the zero. Where it lies further off the series
-guesses, and one new evaluation follows. It is the *first* zero if no stretch before it holds one: most often their order
-alone proves that. Where the guess is no good, ``bracket`` brackets the zero and tells where to begin.
+A steady motion repeats its arcs. So an earlier arc predicts the time of the next zero, and the ``Propagator``
+of that time is available. From there a Taylor series reaches the zero. If the zero is further away, the
+series gives a guess, and one new evaluation follows. It is the *first* zero if no sign interval before it
+contains one; in most cases the order of the intervals proves that. If the guess is not good enough,
+``bracket`` brackets the zero and provides another.
 
-Between braces flights are short: the series about their start guesses, and the cubic with the same ends proves that
-nothing is met before. Whatever is not certain by a wide margin is left to ``first_zero``.
+Between braces arcs are short. The series about their start predicts the event, and the cubic with the same
+ends proves that nothing is met before. Results that are not certain by a wide margin are left to
+``first_zero``.
 """
 
 import math
@@ -22,22 +24,25 @@ from rocking.kernels.compile_options import INTERNAL_INLINE
 from rocking.kernels.forcing.harmonic import forcing_rates, forcing_term
 
 TRIES = 6
-# So often the series is begun anew on the way to an event.
+# Maximum number of expansion points of the series on the way to an event.
 LOOKS = 8
 NOWHERE = Instant(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
-# The step by the reverted series and the Taylor series that follow it are exact to rounding for steps below this, in
-# units of 1/max(1, Omega), of w'/w'' and of the root of w'/w'''.
+# Steps below this need no further correction: the reverted series and the Taylor series after it are exact to
+# rounding. The units are 1/max(1, Omega), w'/w'' and the root of w'/w'''.
 SMALL = 2e-4
-# A longer step is polished where it is shorter than REACH, in units of 1/max(1, Omega), in so many rounds; from a
-# bend below this one more round would not show.
+# A longer step is refined if it is shorter than REACH, in units of 1/max(1, Omega), in at most ROUNDS rounds.
+# Below BEND one more round has no effect.
 REACH, ROUNDS, BEND = 1.8, 3, 0.25
-# From so near, and such a bend, it needs no polish.
+# Below this length, and below BEND, a step needs no refinement.
 NEAR = 0.25
 
 
 @njit(**INTERNAL_INLINE)
 def taylor_step(p, now, step):
-    """An instant carried on by a small step: Taylor series with all its derivatives from u'' = u + f; the angle is the caller's."""
+    """Advance an instant by a small step with its Taylor series, from the derivatives that u'' = u + f gives.
+
+    The fields of the angle are 0: the caller sets the angle.
+    """
     f = forcing_term(p, now.cosine)
     df, ddf = forcing_rates(p, now.cosine, now.sine)
     second = now.angle + f
@@ -59,7 +64,7 @@ def taylor_step(p, now, step):
 
 @njit(**INTERNAL_INLINE)
 def close(p, now):
-    """Whether the zero of w is so near that one step of the series reaches it."""
+    """Return whether the zero of w is so near that one step of the series reaches it."""
     w, v = abs(now.w), -now.dw
     bend, twist = w * abs(now.w + now.f), w * w * abs(now.dw + now.df)
     return (
@@ -69,7 +74,7 @@ def close(p, now):
 
 @njit(**INTERNAL_INLINE)
 def parabola_step(now):
-    """A step towards the zero of w from further off: to where the parabola comes down, infinity where it does not."""
+    """Return a step towards a more distant zero of w: to the zero of the parabola, or infinity if there is none."""
     fall = now.w + now.f
     under = now.dw * now.dw - 2.0 * now.w * fall
     if fall < 0.0 and under > 0.0:
@@ -79,15 +84,21 @@ def parabola_step(now):
 
 @njit(**INTERNAL_INLINE)
 def turned(p, steady, now):
-    """f'' at a knot; f = -steady and a part that turns with the forcing."""
+    """Return f'' at a jet, where f is the sum of -steady and a part that oscillates with the forcing."""
     return -p.frequency * p.frequency * (now.f + steady)
 
 
 @njit(**INTERNAL_INLINE)
 def polished(p, steady, now, rough):
-    """(whether w falls there, a step to its zero): a rough one corrected by the Taylor series about ``now``, no new elementary functions.
+    """Refine a rough step to the zero of w by the Taylor series about ``now``, without new elementary functions.
 
     c_k are the derivatives of w there, w_k those at the end of the step.
+
+    Returns
+    -------
+    tuple of (bool, float)
+        Whether w falls at the end of the step.
+        The step.
     """
     square = -p.frequency * p.frequency
     df, ddf = now.df, turned(p, steady, now)
@@ -109,7 +120,14 @@ def polished(p, steady, now, rough):
 
 @njit(**INTERNAL_INLINE)
 def taylor_zero(p, steady, here):
-    """(whether the series about a knot tells where w has its zero, the step there)."""
+    """Predict the zero of w from the Taylor series about a jet.
+
+    Returns
+    -------
+    tuple of (bool, float)
+        Whether the series is valid as far as the zero.
+        The step to the zero.
+    """
     scale, rough = max(1.0, p.frequency), math.inf
     if abs(here.w * (here.w + here.f)) < BEND * here.dw * here.dw and here.dw < 0.0:
         rough = step_to_zero(here.w, here.dw, (here.f, here.df, turned(p, steady, here)))
@@ -124,7 +142,15 @@ def taylor_zero(p, steady, here):
 
 @njit(**INTERNAL_INLINE)
 def refine_prediction(p, arc, constant, s, propagator, low, high):
-    """(reached, time, instant, lapse close by) of a zero of w = constant + s u between two times, from a lapse not far from it."""
+    """Refine a zero of w = constant + s u between two times, starting from a propagator close to it.
+
+    Returns
+    -------
+    tuple of (bool, float, Instant, Propagator)
+        Whether the zero was reached.
+        Its time and the state there.
+        A propagator close to it.
+    """
     now = propagate(p, arc, propagator)
     for _ in range(TRIES):
         here = knot(p, arc, constant, s, propagator.time, now)
@@ -144,7 +170,10 @@ def refine_prediction(p, arc, constant, s, propagator, low, high):
 
 @njit(**INTERNAL_INLINE)
 def seek_in(p, arc, bracket):
-    """``refine_prediction`` for the zero of u in a bracket: from where the series about its nearer end has the zero, or the middle."""
+    """Refine the zero of u in a bracket with ``refine_prediction``.
+
+    The search starts at the zero that the series about the nearer end predicts, or in the middle.
+    """
     low, high = bracket.low, bracket.high
     valid, step = taylor_zero(p, 1.0, low)
     t = low.time + step
@@ -158,9 +187,17 @@ def seek_in(p, arc, bracket):
 
 @njit(**INTERNAL_INLINE)
 def fast_first_impact(p, arc, guess):
-    """(answer, time, instant, lapse close by) of the first event of a flight without braces: ZERO, NEVER, or UNSURE.
+    """Find the first event of an arc without braces.
 
-    From the lapse that is guessed, if it leads to an impact that is certainly the first; else from a walk.
+    The search starts from the propagator ``guess`` if that leads to an impact that is certainly the first,
+    else from ``bracket_first_zero``.
+
+    Returns
+    -------
+    tuple of (int, float, Instant, Propagator)
+        ZERO, NEVER or UNSURE.
+        Time of the event and the state there.
+        A propagator close to it.
     """
     if guess.time > 0.0:
         reached, t, now, propagator = refine_prediction(p, arc, 0.0, 1.0, guess, 0.0, MAX_ARC_TIME)
@@ -173,7 +210,15 @@ def fast_first_impact(p, arc, guess):
 
 @njit(**INTERNAL_INLINE)
 def predict_next_event(p, base, brace):
-    """(whether the series about an instant tells where an event is, whether at a brace, after how long); else how far it leads."""
+    """Predict the next event from the Taylor series at an instant.
+
+    Returns
+    -------
+    tuple of (bool, bool, float)
+        Whether an event is predicted.
+        Whether it is at a brace.
+        The step to the event, or the validity radius of the series if none is predicted.
+    """
     to_base, to_brace = parabola_step(base), parabola_step(brace)
     at_brace = to_brace < to_base
     here, rough = (brace, to_brace) if at_brace else (base, to_base)
@@ -186,11 +231,18 @@ def predict_next_event(p, base, brace):
 
 @njit(**INTERNAL_INLINE)
 def fast_first_event(p, arc):
-    """(answer, whether at a brace, time, instant) of the first event of a flight between braces: ZERO, or UNSURE.
+    """Find the first event of an arc between braces.
 
-    It is guessed from the start of the arc, not from an earlier one: in chaos that is seldom like it. Where the series tells
-    of no event, it begins anew further on; or, where that is beyond one, the event is sought from there. Whatever is not
-    certain is asked again of half the way.
+    The guess comes from the start of the arc, because in chaotic motion an earlier arc is seldom similar. If
+    the series predicts no event, it is expanded again further on. If that point lies beyond an event, the
+    event is sought from there. A step that is not certain is tried again with half its length.
+
+    Returns
+    -------
+    tuple of (int, bool, float, Instant)
+        ZERO or UNSURE.
+        Whether the event is at a brace.
+        Time of the event and the state there.
     """
     system = p.amplitude, p.frequency, p.brace_angle
     base, brace = start_knot(p, arc, 0.0, 1.0), start_knot(p, arc, p.brace_angle, -1.0)

@@ -1,15 +1,21 @@
-"""The certified first crossing of an arc: which event comes first, and exactly when.
+"""Certified first zero of an arc: which event comes first, and when.
 
-What is watched is w = constant + of_angle u + of_velocity u': the base (w = u), a brace (w = brace_angle -
-u) or a turn (w = +-u'). Each obeys w'' - w = f_w with f_w = of_angle f + of_velocity f' - constant, and on
-a *stretch*, where f_w keeps its sign, y = w e^t is concave or convex in z = e^2t (y_zz = f_w e^-3t/4). So
+The event function is w = constant + of_angle u + of_velocity u'. There are three:
 
-* a concave stretch that starts with w >= 0 holds one zero if it ends with w < 0, else none;
-* a convex one holds one zero if it ends with w < 0; else two or none, decided by the sign of w at the
-  bottom of the dip, if there is a dip.
+* the base, w = u;
+* a brace, w = brace_angle - u;
+* an extremum of the angle, w = +-u'.
 
-Nothing is sampled and nothing above rounding can be missed. Stretches far above w's possible oscillation
-are skipped whole.
+It obeys w'' - w = f_w with f_w = of_angle f + of_velocity f' - constant. A *sign interval* is a part of an
+arc on which f_w keeps its sign. There y = w e^t is concave or convex in z = e^2t, because y_zz = f_w e^-3t/4.
+Therefore
+
+* a concave interval that starts with w >= 0 contains one zero if it ends with w < 0, else none;
+* a convex interval contains one zero if it ends with w < 0;
+* else it contains two or none, decided by the sign of w at its minimum, if there is one.
+
+Nothing is sampled, and no zero above rounding can be missed. Sign intervals on which w is too large to reach
+zero are skipped together.
 """
 
 import math
@@ -23,45 +29,44 @@ from rocking.kernels.arc.taylor import reversion
 from rocking.kernels.compile_options import INTERNAL, KERNEL, KERNEL_INLINE
 from rocking.kernels.forcing.harmonic import first_sign_change, forcing_rates, forcing_term, next_sign_change
 
-# An arc is renewed from its own state after this long: e^32 is where the closed form has used up double
-# precision.
+# After this long an arc restarts from its own state: at e^32 the closed form has used up double precision.
 MAX_ARC_TIME = 32.0
 ITERATIONS = 200
-# A zero not reached in so many steps is halved in on as well.
+# After this number of steps every second one is a bisection.
 MAX_STEPS = 10
 
 
 class Found(IntEnum):
-    """What a search for a crossing ended with."""
+    """Result of a search for a zero."""
 
     CROSSING = 0
-    NEVER = 1  # proved: no crossing, however long one waits
-    LATER = 2  # none up to the limit
+    NEVER = 1  # proved: no zero at any later time
+    LATER = 2  # no zero up to the limit
 
 
 CROSSING, NEVER, LATER = (int(found) for found in Found)
 
 
 class EventFunction(NamedTuple):
-    """What is followed to its first zero, and where the sign of its forcing term changes."""
+    """Event function whose first zero is sought, with the sign changes of its forcing term."""
 
     constant: float
     of_angle: float
     of_velocity: float
-    centre: float  # cuts at eta = centre +- half
+    centre: float  # sign changes at eta = centre +- half
     half: float
-    convex_inside: bool  # f_w > 0 for |eta - centre| < half (everywhere, where half is infinite)
+    convex_inside: bool  # f_w > 0 for |eta - centre| < half (everywhere if half is infinite)
 
 
 @njit(**KERNEL_INLINE)
 def base_event_function(p):
-    """The base: w = u, f_w = -1 - A cos eta."""
+    """Return the event function of the base: w = u, f_w = -1 - A cos eta."""
     return EventFunction(0.0, 1.0, 0.0, 0.0, p.base_half, False)
 
 
 @njit(**KERNEL_INLINE)
 def brace_event_function(p):
-    """The brace: w = brace_angle - u, f_w = 1 - brace_angle + A cos eta."""
+    """Return the event function of the brace: w = brace_angle - u, f_w = 1 - brace_angle + A cos eta."""
     return EventFunction(
         p.brace_angle, -1.0, 0.0, 0.0, p.brace_half, p.brace_half < math.inf or p.brace_angle < 1.0
     )
@@ -69,7 +74,7 @@ def brace_event_function(p):
 
 @njit(**KERNEL_INLINE)
 def event_values(p, arc, event_function, now):
-    """(w, w') at an instant; w from its change since the start, so that it is accurate near a brace too."""
+    """Return w and w' at an instant; w from its change since the start, so that it is accurate near a brace too."""
     acceleration = now.angle + forcing_term(p, now.cosine)
     at_start = event_function.constant + event_function.of_angle * arc.angle
     return (
@@ -80,7 +85,7 @@ def event_values(p, arc, event_function, now):
 
 @njit(**KERNEL_INLINE)
 def event_forcing(p, event_function, now):
-    """(f_w, f_w', f_w'') at an instant."""
+    """Return f_w, f_w' and f_w'' at an instant."""
     f = forcing_term(p, now.cosine)
     df, ddf = forcing_rates(p, now.cosine, now.sine)
     dddf = -p.frequency * p.frequency * df
@@ -93,7 +98,7 @@ def event_forcing(p, event_function, now):
 
 @njit(**KERNEL_INLINE)
 def corrected_step(w, dw, forcing):
-    """(y, correction): Newton's step y, times ``taylor.reversion``."""
+    """Return Newton's step y, and the factor of ``taylor.reversion`` that corrects it."""
     f, df, ddf = forcing
     second, per = w + f, 1.0 / dw
     y = -w * per
@@ -102,7 +107,7 @@ def corrected_step(w, dw, forcing):
 
 @njit(**KERNEL_INLINE)
 def step_to_zero(w, dw, forcing):
-    """Return a step towards the zero of w; far away it is Newton's."""
+    """Return a step towards the zero of w; far from the zero it is Newton's step."""
     y, correction = corrected_step(w, dw, forcing)
     # The product must not be fused with a time that it is added to: the last digits of every motion would change.
     return y * correction if 0.5 < correction < 2.0 else y
@@ -110,7 +115,13 @@ def step_to_zero(w, dw, forcing):
 
 @njit(**INTERNAL)
 def refine(p, arc, event_function, low, high, t):
-    """(time, instant) of the one zero in [low, high], w > 0 just after low and w <= 0 at high, from the guess t."""
+    """Refine the only zero of w in [low, high] from the guess t, with w > 0 just after low and w <= 0 at high.
+
+    Returns
+    -------
+    tuple of (float, Instant)
+        Time of the zero and the state there.
+    """
     now = evaluate(p, arc, t)
     for k in range(ITERATIONS):
         w, dw = event_values(p, arc, event_function, now)
@@ -132,11 +143,11 @@ def refine(p, arc, event_function, low, high, t):
 
 @njit(**INTERNAL)
 def time_below_zero(p, arc, event_function, start, end):
-    """Return a time in a convex stretch at which w <= 0, or infinity where w stays positive.
+    """Return a time in a convex sign interval at which w <= 0, or infinity if w stays positive.
 
-    ``start`` and ``end`` are (time, w, w') at its ends, where w > 0.
-    The bottom of y = w e^t is where w + w' = 0, whose left side times e^-t only grows: one safeguarded
-    Newton iteration finds it, and w there decides.
+    ``start`` and ``end`` are (time, w, w') at its ends, where w > 0. The minimum of y = w e^t is the zero of
+    w + w'. The product (w + w') e^-t only grows, so that one safeguarded Newton iteration finds this zero.
+    The sign of w there decides.
     """
     (left, w, dw), (right, w_right, dw_right) = start, end
     if w + dw >= 0.0 or dw_right - w_right <= 0.0 or dw_right + w_right <= 0.0:
@@ -157,7 +168,7 @@ def time_below_zero(p, arc, event_function, start, end):
         ahead = t - slope / (slope + f)
         if not low <= ahead <= high:
             ahead = 0.5 * (low + high)
-        # how much lower the bottom may be is no more than the tangent says
+        # the tangent bounds how much lower the minimum may be
         if abs(ahead - t) <= 1e-9 * (high - left) and w > abs(slope * (ahead - t)):
             return math.inf
         t = ahead
@@ -166,7 +177,10 @@ def time_below_zero(p, arc, event_function, start, end):
 
 @njit(**KERNEL_INLINE)
 def first_guess(p, event_function, now, w, dw, low, high):
-    """Where to begin in (low, high), ``now`` at low: the parabola's return for a hop that starts at w = 0, else the middle."""
+    """Return a first guess of the zero in (low, high), where ``now`` is the state at low.
+
+    For a short arc that starts at w = 0 it is the zero of the parabola, else the middle.
+    """
     middle = 0.5 * (low + high)
     f, _, _ = event_forcing(p, event_function, now)
     hop = 2.0 * dw
@@ -175,10 +189,11 @@ def first_guess(p, event_function, now, w, dw, low, high):
 
 @njit(**INTERNAL)
 def earliest_possible_zero(p, arc, event_function, t):
-    """How long w certainly stays positive from t on: t where nothing is certain, infinity for ever.
+    """Return the time until which w certainly stays positive, searched from t on.
 
-    w lies within ``swing`` of m + a e^t + b e^-t; the earliest time after t at which that curve, lowered by
-    its rounding error, comes down to the swing.
+    The result is t if nothing is certain, and infinity if w stays positive permanently. w lies within
+    ``swing`` of m + a e^t + b e^-t. The result is the earliest time after t at which that curve, lowered by
+    its rounding error, falls to ``swing``.
     """
     grow, shrink, error = exponentials(p, arc)
     m = event_function.constant + event_function.of_angle
@@ -206,7 +221,7 @@ def earliest_possible_zero(p, arc, event_function, t):
 
 @njit(**INTERNAL)
 def no_return_time(p, arc):
-    """When an arc that never comes back first proves it: c+ e^t - |c-| e^-t + 1 - beta > 0 from then on."""
+    """Return the time from which c+ e^t - |c-| e^-t + 1 - beta > 0 proves that an arc never comes back."""
     grow, shrink, _ = exponentials(p, arc)
     m = 1.0 - p.response
     b = abs(shrink)
@@ -217,7 +232,14 @@ def no_return_time(p, arc):
 
 @njit(**KERNEL_INLINE)
 def interval_at(p, arc, event_function, t):
-    """(when the stretch under way at the time t ends, whether it lies inside the window of ``EventFunction``)."""
+    """Return the sign interval that contains the time t.
+
+    Returns
+    -------
+    tuple of (float, bool)
+        Time at which it ends.
+        Whether eta lies within ``half`` of the centre of the ``EventFunction``.
+    """
     if not event_function.half < math.inf:
         return math.inf, True
     sign_change, inside = first_sign_change(p, arc.side, arc.psi, event_function.centre, event_function.half)
@@ -229,10 +251,17 @@ def interval_at(p, arc, event_function, t):
 
 @njit(**KERNEL)
 def first_zero(p, arc, event_function, t, limit):
-    """(Found, time, instant): the first time after t, by ``limit``, at which w falls through zero.
+    """Find the first time after t, up to ``limit``, at which w falls through zero.
 
-    w >= 0 at t. Where w = w' = 0 at t (lift-off, leaving a brace) the first convex stretch begins there,
-    and w rises through all of it.
+    w >= 0 at t. If w = w' = 0 at t (lift-off, departure from a brace), the first convex sign interval begins
+    there, and w rises through all of it.
+
+    Returns
+    -------
+    tuple of (int, float, Instant)
+        Result, as in ``Found``.
+        Time of the zero, or time up to which there is none.
+        State at that time.
     """
     now = propagate(p, arc, propagator_or_none(p, t))
     w, dw = event_values(p, arc, event_function, now)

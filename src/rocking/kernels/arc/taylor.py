@@ -1,4 +1,4 @@
-"""Steps by Taylor series, for one block and for lanes alike: which products are fused is written out, so both round alike."""
+"""Steps by Taylor series, for one block and for lanes: fused products are explicit, so that both round alike."""
 
 import math
 
@@ -13,9 +13,9 @@ I2, I3, I4, I5, I6, I7, I8 = (1.0 / math.factorial(k) for k in range(2, 9))
 
 @njit(**SIMD_INLINE)
 def reversion(y, second, third, fourth, per):
-    """Return the factor by which a Newton step y leads to the nearest zero of w's Taylor series, to fifth order.
+    """Return the factor that extends a Newton step y to the nearest zero of w's Taylor series, to fifth order.
 
-    ``per`` is 1/w'; ``second`` and so on are the higher derivatives.
+    ``per`` is 1/w'; ``second``, ``third`` and ``fourth`` are higher derivatives of w.
     """
     a, b, c = I2 * second * per, I3 * third * per, I4 * fourth * per
     return fma(y, fma(y, fma(y, fma(5.0 * a, fma(-a, a, b), -c), fma(2.0 * a, a, -b)), -a), 1.0)
@@ -23,15 +23,19 @@ def reversion(y, second, third, fourth, per):
 
 @njit(**SIMD_INLINE)
 def within_a_factor_of_two(factor):
-    """Return a factor between 1/2 and 2; else 1. One near 0 would stop where there is no zero."""
+    """Return the factor if it lies between 1/2 and 2, else 1.
+
+    A factor near 0 would stop the search away from a zero.
+    """
     return choose((factor > 0.5) & (factor < 2.0), factor, 1.0)
 
 
 @njit(**SIMD_INLINE)
 def series(c, x):
-    """Return w and its first four derivatives a time x later, from (w, w', ..., the eighth derivative) now.
+    """Return w and its first four derivatives a time x later, from its first eight derivatives at present.
 
-    The series stops where it is good to some three digits up to ``fast_path.REACH``.
+    ``c`` is (w, w', ..., the eighth derivative). Up to a time of ``fast_path.REACH`` the truncated series is
+    accurate to about three digits.
     """
     c0, c1, c2, c3, c4, c5, c6, c7, c8 = c
     q = x * x
@@ -48,6 +52,6 @@ def series(c, x):
 
 @njit(**SIMD_INLINE)
 def velocity_after(derivatives, x):
-    """Return w' a small time x later from (w', ..., the fifth derivative) now."""
+    """Return w' a small time x later from (w', ..., the fifth derivative) at present."""
     v, second, third, fourth, fifth = derivatives
     return fma(x, fma(x, fma(x, fma(x, I4 * fifth, I3 * fourth), I2 * third), second), v)

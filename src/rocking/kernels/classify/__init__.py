@@ -1,1 +1,1 @@
-"""The classification of a response, from recurrence to the verdict."""
+"""Classification of a response, from its recurrence to the verdict."""

@@ -1,4 +1,4 @@
-"""Where responses end up, so that two starts can be compared: one state an attractor, the same from whichever start."""
+"""Canonical state of an attractor, equal for all initial states that lead to it."""
 
 import math
 
@@ -13,17 +13,24 @@ from rocking.kernels.march.march import DONE, STILL, UNKNOWN, begin, march_throu
 from rocking.kernels.march.progress import Recording
 from rocking.kernels.parameters import later, parameters_from_row
 
+<<<<<<< HEAD
 # The phase of the section on which attractors are compared, in cycles: on no event of any symmetric mode but by chance.
 SECTION = FIRST_SECTION
 # States of an orbit whose angles differ by less are told apart by their velocities.
+=======
+# Phase of the section on which attractors are compared, in cycles. An event of a symmetric mode lies there
+# only by chance.
+SECTION = 0.3819660112501051
+# States of an orbit with angles closer than this are ordered by their velocities.
+>>>>>>> w-kernels
 TIED = 1e-7
-# Rest is certain long before its last impact.
+# Rest is proved long before its last impact, so the march takes this factor longer.
 LONGER = 10
 
 
 @njit(**INTERNAL)
 def rest_angle(p, angle, velocity, cycles, nothing):
-    """Return where a motion that is known to end at rest does so: 0, or on a brace."""
+    """Return the angle at which a motion comes to rest: 0, or on a brace."""
     if p.brace_angle == math.inf:
         return 0.0
     recording = Recording(0.0, nothing.section, nothing.events, False, False)
@@ -34,7 +41,7 @@ def rest_angle(p, angle, velocity, cycles, nothing):
 
 @njit(**INTERNAL)
 def foremost(states, first):
-    """The row of the largest angle, of those tied the one of the largest velocity."""
+    """Return the row of the largest angle; of rows with tied angles, that of the largest velocity."""
     best = first
     for row in range(first + 1, states.shape[0]):
         ahead = states[row, 0] - states[best, 0]
@@ -45,10 +52,10 @@ def foremost(states, first):
 
 @njit(**ALLOCATING_ENTRY)
 def anchor_each(systems, starts, kind, period, cycles, orbit, nothing, anchors):
-    """Write for each of n points the state (angle, velocity) that stands for what it ends up on; NaN where nothing does.
+    """Write the canonical state (angle, velocity) of the attractor of each of n points; NaN if there is none.
 
-    Of a periodic orbit its foremost state on the section at SECTION; of rest where that is. ``kind``, ``period``,
-    ``cycles`` and ``orbit`` are ``Answers``.
+    For a periodic orbit it is the foremost state on the section at SECTION, for rest the state of rest.
+    ``kind``, ``period``, ``cycles`` and ``orbit`` are fields of ``ResultArrays``.
     """
     for k in range(systems.shape[0]):
         anchors[k, 0], anchors[k, 1] = math.nan, math.nan
@@ -58,7 +65,8 @@ def anchor_each(systems, starts, kind, period, cycles, orbit, nothing, anchors):
         if kind[k] == REST:
             anchors[k, 0], anchors[k, 1] = rest_angle(p, starts[k, 0], starts[k, 1], cycles[k], nothing), 0.0
             continue
-        # The second time round: an orbit that rests is known at a release, whose instant is rounded.
+        # The second repetition is used, because an orbit with rest is known at a release, whose time is
+        # rounded.
         states = np.empty((2 * period[k], 2))
         at = (SECTION * p.period - orbit[k, 0]) % p.period
         q, recording = later(p, orbit[k, 0]), Recording(at, states, nothing.events, False, False)
@@ -70,7 +78,7 @@ def anchor_each(systems, starts, kind, period, cycles, orbit, nothing, anchors):
 
 
 def anchors_of(systems, starts, answers):
-    """``anchor_each`` for the answers of ``judge_many``: an array (n, 2)."""
+    """Return ``anchor_each`` for the results of ``batch.classify_batch``: an array (n, 2)."""
     anchors = np.empty((len(systems), 2))
     anchor_each(
         systems,

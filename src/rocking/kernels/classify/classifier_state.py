@@ -1,4 +1,4 @@
-"""A motion under classification, and what is known of it between two checkpoints."""
+"""State of a classification between two checkpoints."""
 
 from typing import NamedTuple
 
@@ -18,12 +18,12 @@ FIRST_SECTION = 0.3819660112501051
 
 
 class Run(NamedTuple):
-    """A motion under way."""
+    """Motion in progress, with the records that its classification needs."""
 
     tracker: ResetTracker
     flights: Flights
     section_time: float  # of the section, within a cycle
-    count: int  # rows kept of it
+    count: int  # number of section rows kept
     lossless: bool
     measuring: bool
 
@@ -31,35 +31,35 @@ class Run(NamedTuple):
 class Batches(NamedTuple):
     """Batches over which the exponent is measured."""
 
-    end: int  # the cycle at which the present one ends
-    measured: int  # batches
+    end: int  # cycle at which the present batch ends
+    measured: int  # number of batches measured
     grown: float  # logarithm of the growth before the present one
 
 
 class Averages(NamedTuple):
-    """Averages over the flights, as they were compared last."""
+    """Averages over the arcs, as last compared."""
 
-    enough: int  # flights, to compare them again
-    digits: float  # to which they agreed
+    enough: int  # number of arcs at which they are compared again
+    digits: float  # to which both halves agreed
     converged: bool
 
 
 class KnownOrbit(NamedTuple):
-    """The orbit that was found last, and the cycle at which it was found."""
+    """Periodic orbit found last, and the cycle at which it was found."""
 
     check: PeriodicityCheck
     cycle: int
 
 
 class ClassifierState(NamedTuple):
-    """A motion and what is known of it at a checkpoint, between two legs."""
+    """Motion and the knowledge of it at a checkpoint, between two marches."""
 
     run: Run
     impacts: int
     brace_hits: int
     checkpoint: int
     batches: Batches
-    lossy: int  # the last checkpoint at which something had been lost
+    lossy: int  # last checkpoint with dissipation since the one before
     averages: Averages
     known: KnownOrbit
     work: int  # events computed by Newton's method
@@ -79,7 +79,7 @@ with_checkpoint = replacing(ClassifierState, "impacts", "brace_hits", "checkpoin
 
 @njit(**INTERNAL_INLINE)
 def batch_of(max_cycles):
-    """Return over how many cycles the exponent is measured at a time."""
+    """Return the number of cycles of one batch of the exponent."""
     return max_cycles // (2 * BATCHES)
 
 
@@ -105,5 +105,5 @@ def opened(p, angle, velocity, max_cycles):
 
 @njit(**INTERNAL_INLINE)
 def next_look(case, max_cycles):
-    """Return the cycle at which the leg to come ends."""
+    """Return the cycle of the next checkpoint, at which the coming march ends."""
     return min(case.checkpoint, case.batches.end, max_cycles)

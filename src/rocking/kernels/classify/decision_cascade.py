@@ -1,8 +1,14 @@
-"""What a response is: a cascade in which the first evidence that suffices decides, and nothing is a default.
+"""Decision cascade of the classification: the first test with sufficient evidence decides, and there is no default.
 
-In this order: no return, or rest for ever, proved by the march; a release like an earlier one (``reset``); a stable
-periodic orbit that the motion has reached (``periodicity``); where nothing is lost, averages that converge as on a torus
-(``quasi_periodicity``); at the end of the budget an exponent clearly above zero. Else undetermined.
+The tests, in this order:
+
+1. overturning is certain, or rest is permanent: proved by the march;
+2. a reset, the same release as before (``reset``);
+3. a stable periodic orbit that the motion has reached (``periodicity``);
+4. for an undamped motion, averages that converge as on a torus (``quasi_periodicity``);
+5. at the end of the budget, an exponent clearly above zero.
+
+Else the motion is undetermined.
 """
 
 import math
@@ -63,23 +69,29 @@ from rocking.kernels.numerics.elementary import size
 
 CHECKPOINTS_GROW = 1.25
 NEXT_SECTION = 0.6180339887498949
-# Newton's method may compute half as many events as the march, and this many in any case.
+# Newton's method may compute half as many events as the march, and this number in any case.
 FREE_WORK = 10
 UNMOVED = 1e-11
-# A motion that stays as near as this to an unstable orbit has not left it.
+# A motion that stays this close to an unstable orbit has not left it.
 NEAR = 1e-3
 
 
 @njit(**INTERNAL)
 def is_stationary(section, count, max_period):
-    """Whether the motion came back to where it was: on a torus only where that is a neutral periodic orbit, on chaos never."""
+    """Return whether the motion came back to an earlier state.
+
+    On a torus that happens only on a neutral periodic orbit, in chaotic motion never.
+    """
     lag, distance = closest_return(section, count, max_period)
     return lag > 0 and distance <= UNMOVED
 
 
 @njit(**INTERNAL)
 def lingers_near(section, count, since, known):
-    """Whether the motion was near the ``known`` orbit, found ``since`` cycles ago, in all of the cycles that are kept."""
+    """Return whether the motion was near the ``known`` orbit in all recorded cycles.
+
+    The orbit was found ``since`` cycles ago.
+    """
     if known.period == 0:
         return False
     rows = range(count - 1 - since % known.period, -1, -known.period)
@@ -91,20 +103,26 @@ def lingers_near(section, count, since, known):
 
 @njit(**INTERNAL)
 def next_checkpoint(cycle, coming):
-    """When to look for a periodic orbit again: as foretold, where one was found, else ever later."""
+    """Return the cycle of the next search for a periodic orbit.
+
+    If an orbit was found, the cycle is predicted. Otherwise the intervals grow.
+    """
     return cycle + min(coming, cycle // 2) if coming > 0 else int(cycle * CHECKPOINTS_GROW)
 
 
 @njit(**INTERNAL_INLINE)
 def over_batch(p, tracker, target, max_cycles, grown):
-    """Return the exponent over the batch that ends at ``target``, in which differences have ``grown``; a release forgets them all."""
+    """Return the exponent over the batch that ends at ``target``.
+
+    The tangent vector has ``grown`` by this logarithm in the batch. A release in it erases all perturbations.
+    """
     batch = batch_of(max_cycles)
     return (-math.inf if released_since(tracker, target - batch) else grown) / (batch * p.period)
 
 
 @njit(**INTERNAL_INLINE)
 def next_batch(case, max_cycles, growth):
-    """Return the state in which the next batch begins."""
+    """Return the state at the start of the next batch."""
     run, batches = case.run, case.batches
     after = Batches(batches.end + batch_of(max_cycles), batches.measured + run.measuring, growth)
     return with_batches(case, with_measuring(run, True), after)
@@ -114,7 +132,7 @@ def next_batch(case, max_cycles, growth):
 def end_batch(p, case, target, max_cycles, workspace):
     """Write the exponent over the batch that ends at ``target``, or begin to measure.
 
-    Where something is lost it begins with differences of size 1.
+    A dissipative motion begins with tangent vectors of size 1.
     """
     run, batches, growth = case.run, case.batches, workspace.tangent.growth
     if run.measuring:
@@ -127,15 +145,16 @@ def end_batch(p, case, target, max_cycles, workspace):
 
 @njit(**INTERNAL_INLINE)
 def enough_after(count):
-    """Return how many flights there must be for their averages to be compared again."""
+    """Return the number of arcs at which their averages are compared again."""
     return count * 5 // 4
 
 
 @njit(**INTERNAL_INLINE)
 def checkpoint_unstable(case, flights, max_cycles, growth):
-    """Return the state after a checkpoint, before the end, of a motion without loss that has outgrown any torus.
+    """Return the state after a checkpoint of an undamped motion whose tangent growth excludes a torus.
 
-    It has so many ``flights``. Only an exponent could be noted, if a batch has ended.
+    The checkpoint is not the last, and the motion has the given number of ``flights``, its arcs between
+    impacts. Only an exponent could be recorded, if a batch has ended.
     """
     target, averages = next_look(case, max_cycles), case.averages
     due = target == case.checkpoint
@@ -151,7 +170,10 @@ def checkpoint_unstable(case, flights, max_cycles, growth):
 
 @njit(**INTERNAL)
 def note_losses(p, case, target):
-    """Return the state of a motion that may have lost energy since the last checkpoint; then its flights are of no use."""
+    """Return the state of a motion that may have dissipated energy since the last checkpoint.
+
+    If it has, its arcs are discarded.
+    """
     run, done = case.run, case.run.tracker.progress
     if not loses(p, done.impacts - case.impacts, done.brace_hits - case.brace_hits):
         return case
@@ -161,7 +183,7 @@ def note_losses(p, case, target):
 
 @njit(**INTERNAL)
 def compare_averages(case, workspace):
-    """Return the state in which the averages over the flights have been compared."""
+    """Return the state after a comparison of the averages over the arcs."""
     flights = case.run.flights
     digits, converged = agreeing_digits(
         flights, workspace.flights, workspace.weights, workspace.tangent.growth[0]
@@ -171,7 +193,10 @@ def compare_averages(case, workspace):
 
 @njit(**INTERNAL)
 def stands_still(p, case, over, max_period, workspace):
-    """Whether the averages converge because the motion came back to where it was: then it is no torus."""
+    """Return whether the averages converge because the motion came back to an earlier state.
+
+    Then it is no torus.
+    """
     run, converged = case.run, case.averages.converged
     if converged or over:
         evaluate_lazy_rows(p, workspace.section, run.count - 1 - max_period, run.count, run.section_time)
@@ -180,9 +205,14 @@ def stands_still(p, case, over, max_period, workspace):
 
 @njit(**AST_INLINE)
 def seek_orbit(p, case, target, max_period, workspace, still):
-    """(verdict, state, cycles until an orbit may be reached): whether the motion has reached a periodic orbit.
+    """Test whether the motion has reached a periodic orbit; ``still`` allows a neutral one.
 
-    ``still`` says that it may be a neutral one.
+    Returns
+    -------
+    tuple of (tuple, ClassifierState, int)
+        Verdict, of kind OPEN if the motion has not reached an orbit.
+        State.
+        Predicted number of cycles until an orbit may be reached, 0 if unknown.
     """
     run, known, done = case.run, case.known, case.run.tracker.progress
     events = done.impacts + done.brace_hits
@@ -204,7 +234,7 @@ def seek_orbit(p, case, target, max_period, workspace, still):
 
 @njit(**INTERNAL)
 def expect_torus(case, workspace):
-    """Return the state of a motion that has lost nothing for long: from here on its flights are collected."""
+    """Return the state of a motion without dissipation for a long time: from here on its arcs are collected."""
     run, batches = case.run, case.batches
     begin_tangent(workspace.tangent)
     run = as_lossless(run, under_way(run.tracker.progress), True)
@@ -227,10 +257,17 @@ def end_of_budget(p, case, target, max_period, workspace):
 
 @njit(**AST_INLINE)
 def evaluate_checkpoint(p, case, status, run, max_cycles, max_period, workspace):
-    """(verdict, state) after a leg that ended so: kind OPEN where nothing decides yet.
+    """Evaluate a motion at a checkpoint, after a march that ended with ``status``.
 
-    Legs end at checkpoints, which do not depend on the budget, and in its second half at the ends of equal batches. At a
-    checkpoint averages are compared, there and at the end a periodic orbit is sought; a batch only adds to the exponent.
+    A march (leg) ends at a checkpoint, which does not depend on the budget. In the second half of the budget
+    it also ends with each of the equal batches. At a checkpoint averages are compared. There and at the end
+    of the budget a periodic orbit is sought. The end of a batch only adds to the exponent.
+
+    Returns
+    -------
+    tuple of (tuple, ClassifierState)
+        Verdict, of kind OPEN if nothing decides yet.
+        State.
     """
     if status != DONE:
         return ended(status, run.tracker, case.work), case
@@ -262,7 +299,10 @@ def evaluate_checkpoint(p, case, status, run, max_cycles, max_period, workspace)
 
 @njit(**AST_INLINE)
 def judge(p, angle, velocity, max_cycles, max_period, workspace):
-    """The ``Judgement`` of a motion from (angle, velocity), followed for ``max_cycles`` forcing cycles at most."""
+    """Classify a motion from (angle, velocity) within ``max_cycles`` forcing cycles.
+
+    Returns the fields of ``Judgement`` as a flat tuple.
+    """
     case = opened(p, angle, velocity, max_cycles)
     while True:
         status, run = march_leg(p, case.run, max_cycles, next_look(case, max_cycles), workspace)
@@ -273,5 +313,5 @@ def judge(p, angle, velocity, max_cycles, max_period, workspace):
 
 @njit(**ENTRY_POINT)
 def judge_plain(p, angle, velocity, max_cycles, max_period, workspace):
-    """``judge`` for Python."""
+    """Return ``judge``; entry point for Python."""
     return judge(p, angle, velocity, max_cycles, max_period, workspace)

@@ -1,4 +1,4 @@
-"""One leg of a classification: the march from one checkpoint to the next."""
+"""March of a classification from one checkpoint to the next (one leg)."""
 
 import numpy as np
 from numba import njit
@@ -11,20 +11,23 @@ from rocking.kernels.march.march import DONE, PAUSED, RELEASED, march_on
 from rocking.kernels.march.progress import Recording
 from rocking.kernels.march.tangent import TangentState
 
-# A motion with more events a cycle than this on average is not classified to its end.
+# A motion with a larger average number of events per cycle is not classified to its end.
 MAX_EVENTS_A_CYCLE = 200
 FREE_EVENTS = 1_000_000
 
 
 @njit(**INTERNAL_INLINE)
 def most_events(max_cycles):
-    """Return how many events a motion may have; one with more is not classified to its end."""
+    """Return the maximum number of events of a motion; the classification of one with more is abandoned."""
     return MAX_EVENTS_A_CYCLE * max_cycles + FREE_EVENTS
 
 
 @njit(**INTERNAL)
 def make_room(section, count, coming, most_rows):
-    """Return how many rows of the section stay when ``coming`` more follow; where these do not fit, the last ones move to the front."""
+    """Return the number of section rows that stay when ``coming`` more follow.
+
+    If these do not fit, the last rows move to the front.
+    """
     if coming <= most_rows and count + coming <= section.shape[0]:
         return count
     kept = max(min(count, most_rows - coming), 0)
@@ -37,7 +40,15 @@ def make_room(section, count, coming, most_rows):
 
 @njit(**AST_INLINE)
 def follow_flights(p, run, target, most, workspace, wanted):
-    """(status, run) at the end of cycle ``target`` of a motion that loses nothing; rows of the section only if they are ``wanted``."""
+    """March an undamped motion to the end of cycle ``target`` and collect its arcs between impacts.
+
+    Rows of the section are added only if they are ``wanted``.
+
+    Returns
+    -------
+    tuple of (int, Run)
+        Status and run.
+    """
     tracker, flights, section_time, count, lossless, measuring = run
     progress, events = tracker.progress, workspace.events
     recording = Recording(section_time, workspace.nothing.section, events, True, True)
@@ -56,7 +67,13 @@ def follow_flights(p, run, target, most, workspace, wanted):
 
 @njit(**AST_INLINE)
 def march_leg(p, run, max_cycles, target, workspace):
-    """(status, run): a motion followed to ``target`` with its last states."""
+    """March a motion to the end of cycle ``target``, with its last states.
+
+    Returns
+    -------
+    tuple of (int, Run)
+        Status and run.
+    """
     most = most_events(max_cycles)
     tracker, flights, section_time, count, lossless, measuring = run
     cycle, rows, nothing = tracker.progress.cycle, workspace.scratch.shape[0], workspace.nothing
@@ -67,11 +84,11 @@ def march_leg(p, run, max_cycles, target, workspace):
         return follow_flights(p, kept, target, most, workspace, wanted)
     growth = workspace.tangent.growth if measuring else nothing.tangent.growth
     tangent = TangentState(workspace.tangent.columns, growth)
-    # the section of the cycle under way may be past
+    # the section of the present cycle may have passed
     coming = target - cycle - (not tracker.progress.pending)
     total, status = count + min(coming, rows), np.int64(DONE)
     while status == DONE and cycle < target:
-        # Of a long leg only the last states are kept.
+        # Only the last states of a long leg are kept.
         until = target if target - cycle <= rows else target - rows
         part = workspace.section[count:total] if until == target else nothing.section
         status, tracker = follow(p, tracker, until, most, section_time, part, tangent, nothing)

@@ -1,4 +1,4 @@
-"""Whether a motion has reached a periodic orbit: what its returns point to, Newton's method from there, and the Floquet stop."""
+"""Test whether a motion has reached a periodic orbit: candidates, Newton's method and the Floquet criterion."""
 
 import math
 from typing import NamedTuple
@@ -27,28 +27,31 @@ from rocking.kernels.orbits.floquet import adapted_norm, length, spectral_radius
 from rocking.kernels.orbits.symmetric_mode import Nearest, nearest
 from rocking.kernels.parameters import later
 
-# Where Newton's method starts, in this order; and once more with the least period of what it found.
+# Candidates for Newton's method, in this order. REFINED repeats the search with the least period of the orbit
+# found.
 KNOWN, APPROACHED, CLOSEST, NO_MORE = range(4)
 REFINED = -1
-# From returns further apart Newton's method seldom finds what the motion approaches.
+# From more distant returns Newton's method seldom finds the orbit that the motion approaches.
 CLOSE = 0.01
-# A symmetric mode is taken for the limit of the returns where it is nearer to that than this share of the way left.
+# A symmetric mode replaces the limit of the returns if it is closer to it than this fraction of the remaining
+# distance.
 BESIDE = 0.5
-# A section must not lie on an event: sides, impacts and derivatives are ambiguous there. In cycles.
+# Minimum distance of a section from an event, in cycles. At an event sides, impacts and derivatives are
+# ambiguous.
 CLEARANCE = 1e-6
-# How far a return may be from what the multipliers say, as a share of what is left of the distance.
+# Maximum deviation of a return from the multipliers' prediction, as a fraction of the predicted approach.
 NONLINEAR = 0.2
-# Beside a bifurcation an orbit attracts weakly, and its returns obey the multipliers alone only after 10**4 cycles or more. They
-# may bend by this share of all of the distance, if they come nearer by this share of what the multipliers promise: what is
-# small of second order cannot turn that round on the rest of the way.
+# Near a bifurcation attraction is weak, and returns obey the multipliers alone only after 10**4 cycles or
+# more. There the returns may deviate by BENT of the whole distance, if they approach by at least APPROACH of
+# the predicted rate. Second-order terms this small cannot reverse the approach later.
 BENT, APPROACH = 0.01, 0.3
 RETURNS = 3
 MAX_FORETOLD = 1 << 20
-# States of an orbit as near as this are one.
+# States of an orbit closer than this are equal.
 SAME = 1e-9
-# A motion as near as this to a neutral orbit is on it.
+# A motion closer than this to a neutral orbit is on it.
 NEUTRAL = 1e-10
-# A motion that passes an orbit which repels comes this much nearer from look to look.
+# A motion that passes an unstable orbit comes closer by this factor from checkpoint to checkpoint.
 MUCH_NEARER = 0.5
 # Distances below this are rounding.
 ROUNDING = 1e-12
@@ -57,27 +60,27 @@ NOT_YET, REACHED, ON_EVENT = range(3)
 
 
 class PeriodicityCheck(NamedTuple):
-    """A periodic orbit that a motion was compared with."""
+    """Periodic orbit with which a motion was compared, and the result."""
 
     answer: int  # NOT_YET, REACHED, or ON_EVENT: the section must move
     period: int
     symmetric: bool
     found: FixedPoint
-    peak: float  # NaN where it was not asked for
-    distance: float  # from the orbit, a period before the last return
-    coming: int  # cycles until it may be reached, as far as that can be foretold; 0 where it cannot
+    peak: float  # NaN if it was not requested
+    distance: float  # from the orbit, one period before the last return
+    coming: int  # predicted number of cycles until it may be reached; 0 if unknown
     work: int
 
 
 @njit(**INTERNAL)
 def loses(p, impacts, brace_hits):
-    """Whether so many events lose energy."""
+    """Return whether a motion with the given numbers of impacts dissipates energy."""
     return (p.restitution < 1.0 and impacts > 0) or (p.brace_restitution < 1.0 and brace_hits > 0)
 
 
 @njit(**INTERNAL)
 def on_event(p, section, row):
-    """Whether an impact or a brace hit lies within CLEARANCE of a row of the section."""
+    """Return whether an impact lies within CLEARANCE of a row of the section."""
     near = CLEARANCE * p.period
     angle = abs(section[row, 0])
     reach = near * abs(section[row, 1]) + near * near * (1.0 + p.amplitude)
@@ -85,12 +88,12 @@ def on_event(p, section, row):
 
 
 class Candidate(NamedTuple):
-    """Where Newton's method starts: a state whose image after ``lag`` cycles is itself, about."""
+    """Start of Newton's method: a state that returns approximately to itself after ``lag`` cycles."""
 
-    lag: int  # 0 where there is none
+    lag: int  # 0 if there is none
     row: int  # of the section
     guess: Guess
-    most_work: int  # events that may be computed
+    most_work: int  # maximum number of events to compute
     mode: Nearest  # the symmetric mode that may be the limit
 
 
@@ -100,7 +103,7 @@ with_work = replacing(PeriodicityCheck, "work")
 
 @njit(**INTERNAL)
 def known_candidate(clocked, orbit, count, since):
-    """Return the candidate of the known orbit, found ``since`` cycles ago; a section too short has none."""
+    """Return the candidate of the known orbit, found ``since`` cycles ago; none if the section is too short."""
     row = count - 1 - since % max(orbit.period, 1)
     lag = orbit.period if row >= orbit.period else 0
     return Candidate(lag, row, Guess(0.0, 0.0, UNKNOWN), UNBOUNDED, nearest(clocked, 0, 0.0, 0.0))
@@ -108,7 +111,7 @@ def known_candidate(clocked, orbit, count, since):
 
 @njit(**INTERNAL)
 def approached_candidate(clocked, section, count, most_lag):
-    """Return the limit of the last returns, or the symmetric mode beside it."""
+    """Return the limit of the last returns, or the symmetric mode close to it."""
     row = count - 1
     lag, angle, velocity = approached(section, count, most_lag)
     mode, waits = nearest(clocked, lag, angle, velocity), UNKNOWN
@@ -120,7 +123,7 @@ def approached_candidate(clocked, section, count, most_lag):
 
 @njit(**INTERNAL)
 def closest_candidate(section, count, most_lag, most_work, mode):
-    """Return the closest return of the last state, if it is close. Only far from an orbit does Newton's method need much work."""
+    """Return the closest return of the last state, if it is close enough; far from an orbit it needs much work."""
     row = count - 1
     lag, away = closest_return(section, count, most_lag)
     guess = Guess(section[row, 0], section[row, 1], UNKNOWN)
@@ -146,7 +149,7 @@ def refined_candidate(candidate, found, period):
 
 @njit(**AST_INLINE)
 def orbit_near(clocked, candidate, workspace):
-    """Return the orbit that Newton's method finds from a candidate, as a check that is still to be made."""
+    """Return the orbit that Newton's method finds from a candidate, as a check without a result yet."""
     lag, mode, symmetric, peak = candidate.lag, candidate.mode, False, math.nan
     mapping = ReturnMap(clocked, lag, 0.0, 1.0)
     found = find_fixed_point(
@@ -161,10 +164,12 @@ def orbit_near(clocked, candidate, workspace):
 def check_periodicity(p, run, workspace, most_lag, most_work, known, since, neutral):
     """Compare a motion with the periodic orbit that its last states approach.
 
-    First with the ``known`` one, found ``since`` cycles ago, and with no other while the motion comes nearer to
-    it, much nearer if it repels: what was born of it lies beside it; then with the limit of the returns, or the
-    symmetric mode beside it; then, if they have none, with what is nearest to a close return. A ``neutral`` orbit
-    attracts nothing: the motion must be on it.
+    1. The first candidate is the ``known`` orbit, found ``since`` cycles ago; no other while the distance to it shrinks. If
+       it is unstable, the distance must shrink by MUCH_NEARER, because orbits that branch off from it lie close to it.
+    2. The second is the extrapolated limit of the returns, or the symmetric mode close to it.
+    3. If there is no limit, the third is the closest return.
+
+    A ``neutral`` orbit does not attract: the motion must be on it.
     """
     count, clocked = run.count, later(p, run.section_time)
     trying, orbit, seen, work = KNOWN, known, no_cycle(0), 0
@@ -185,7 +190,7 @@ def check_periodicity(p, run, workspace, most_lag, most_work, known, since, neut
             nearer = away < known.distance * (1.0 if attracts(p, orbit.found.image) else MUCH_NEARER)
             if now == KNOWN and answer == NOT_YET and nearer:
                 return answered(orbit, NOT_YET, away, coming, work)
-            # Of what is found time and again somewhere else nothing is predicted.
+            # An orbit found repeatedly at different places gives no prediction.
             coming = coming if now == APPROACHED and known.period == 0 else 0
             if now != KNOWN or answer == ON_EVENT:
                 seen = answered(orbit, answer, away, coming, work)
@@ -204,24 +209,24 @@ def check_periodicity(p, run, workspace, most_lag, most_work, known, since, neut
 
 @njit(**INTERNAL)
 def constant_image(impacts, brace_hits):
-    """An image that does not depend on the state: its derivative, and so both multipliers, are zero."""
+    """Return an image that does not depend on the state: its derivative, and so both multipliers, are zero."""
     nothing = Tangent(0.0, 0.0, 0.0, 0.0)
     return MapImage(False, math.nan, math.nan, nothing, impacts, brace_hits, math.nan, UNKNOWN)
 
 
 @njit(**INTERNAL)
 def no_cycle(work):
-    """No orbit."""
+    """Return the check that stands for no orbit."""
     nothing = FixedPoint(False, math.nan, math.nan, constant_image(-1, -1), math.nan, math.nan, 0)
     return PeriodicityCheck(NOT_YET, 0, False, nothing, math.nan, math.nan, 0, work)
 
 
 @njit(**INTERNAL)
 def repetition(rows, halves, angle, velocity, lag, same):
-    """(least period, whether it is its own mirror image half of that later) of an orbit of ``lag`` cycles through a state.
+    """Return least period and mirror symmetry (bool) of an orbit of ``lag`` cycles through a state.
 
-    ``rows`` are its states on any section, a cycle apart; ``halves`` those half a cycle after the state, and on. States as
-    near as ``same`` are one.
+    ``rows`` are its states on any section, one cycle apart. ``halves`` are those from half a cycle after the
+    state on. States closer than ``same`` are equal.
     """
     period = lag
     for divisor in range(1, min(lag, rows.shape[0])):
@@ -235,19 +240,22 @@ def repetition(rows, halves, angle, velocity, lag, same):
 
 @njit(**ENTRY_POINT)
 def repetition_plain(rows, halves, angle, velocity, lag, same):
-    """``repetition`` for Python."""
+    """Return ``repetition``; entry point for Python."""
     return repetition(rows, halves, angle, velocity, lag, same)
 
 
 @njit(**INTERNAL)
 def attracts(p, image):
-    """Whether an orbit is stable, and loses something: else both its multipliers may be inside the unit circle by rounding alone."""
+    """Return whether an orbit is stable and dissipates energy.
+
+    In undamped motion rounding alone may move both multipliers inside the unit circle.
+    """
     return spectral_radius(image.tangent) < 1.0 and loses(p, image.impacts, image.brace_hits)
 
 
 @njit(**INTERNAL)
 def least_period(p, clocked, found, lag, workspace):
-    """Return (least period, whether the orbit is its own mirror image, its image) of an orbit that closes after ``lag`` cycles."""
+    """Return least period, mirror symmetry and image of an orbit that closes after ``lag`` cycles."""
     scratch, nothing = workspace.scratch, workspace.nothing
     guess = Guess(found.angle, found.velocity, found.image.waits)
     recording = Recording(0.5 * p.period, scratch, nothing.events, True, False)
@@ -259,15 +267,23 @@ def least_period(p, clocked, found, lag, workspace):
 
 @njit(**INTERNAL)
 def compare(p, section, row, period, found):
-    """(answer, distance from the orbit a period before the row, cycles until it may be reached, 0 where nobody knows): the Floquet stop.
+    """Compare the last returns with an orbit by the Floquet criterion.
 
-    The orbit must be stable, and each of the last RETURNS returns what its multipliers say, up to a share of
-    what is left (or of the distance, where they attract weakly), with the orbit's own impacts: one alone may do so by
-    chance, and the map has kinks that only the next ones meet. An orbit that rests or leans in between is not judged
-    here: its section need not resolve when.
+    The orbit must be stable. Each of the last RETURNS returns must obey its multipliers and have the orbit's
+    own impacts. It may deviate by NONLINEAR of the predicted approach, (1 - spectral radius) times the
+    distance, or by BENT of the distance. One return may do so by chance, and the map may have kinks that only
+    later returns meet. An orbit with rest or sustained contact is not tested here: its section need not
+    resolve when they occur.
 
-    What a return is off by, as a share of the distance, shrinks like the distance itself, by the larger multiplier a return;
-    of a motion that does not come nearer nothing is foretold.
+    The relative deviation of a return shrinks like the distance, by the larger multiplier per return. If the
+    motion does not come closer, nothing is predicted.
+
+    Returns
+    -------
+    tuple of (int, float, int)
+        Answer, as in ``PeriodicityCheck``.
+        Distance from the orbit one period before the row.
+        Predicted number of cycles until the orbit may be reached, 0 if unknown.
     """
     angle, velocity, image = found.angle, found.velocity, found.image
     tangent = image.tangent
@@ -279,7 +295,7 @@ def compare(p, section, row, period, found):
         if on_event(p, section, row - k):
             return ON_EVENT, distance, 0
     norm = adapted_norm(tangent, 0.5 * (1.0 + radius))
-    # By so much returns are off because the orbit itself is.
+    # Deviation of the returns because of the residual of the orbit itself.
     doubt = found.residual * (math.sqrt(norm[0]) + math.sqrt(norm[2]))
     for k in range(RETURNS):
         after = row - k * period

@@ -1,4 +1,7 @@
-"""Motions that lose nothing: the flights from impact to impact, on whose section the motion is analytic."""
+"""Test of undamped motion for quasi-periodicity, by averages over its arcs from impact to impact.
+
+The map from impact to impact is analytic.
+"""
 
 import math
 from typing import NamedTuple
@@ -15,23 +18,27 @@ MIN_FLIGHTS = 192
 MIN_CYCLES = 128
 ENOUGH_DIGITS = 9.0
 CHAOTIC_DIGITS = 6.0
-# From so many flights on a torus gains a digit with each doubling at least; motion that sticks to one for long does not.
+# From this number of arcs on, motion on a torus gains at least one digit per doubling; motion that only stays
+# close to a torus for long does not.
 LONG = 2048
-# Shear lets differences grow like the length times a factor, at most e to this; seen: e^3.
+# Shear makes tangent vectors grow in proportion to the length. The factor is at most e to the power of this.
+# Observed factors reach e^3.
 SHEAR = 5.0
-# Near the rim of an island the shear is large, and sticky chaos looks the same. Such motion needs this many flights.
+# Near the boundary of an island the shear is large, and chaotic motion with a long sojourn there has similar
+# averages. Such motion needs this number of arcs.
 SHEARED_FLIGHTS = 8192
 SMALL_SHEAR = 1.0
-# More than ``agreeing_digits`` allows of as many flights as are kept (``workspace``).
+# More growth than ``agreeing_digits`` allows for the largest number of arcs that is kept (``workspace``).
 OUTGROWN = 20.0
 
 
-# Columns of a section row after those of ``note_state``: the arc on which the state lies, and how long ago that began.
+# Columns of a section row after those of ``note_state``: the arc on which the state lies, and the time since
+# its start.
 SIDE, ANGLE, VELOCITY, ELAPSED = range(4, 8)
 
 
 class Flights(NamedTuple):
-    """What is being collected: flights between impacts or, where there are none, between brace hits."""
+    """Record of the collected arcs: between impacts or, if there are none, between brace impacts."""
 
     event: int
     cycle: int  # of the last event
@@ -42,13 +49,13 @@ class Flights(NamedTuple):
 
 @njit(**INTERNAL)
 def no_flights():
-    """Before the first event."""
+    """Return the record before the first event."""
     return Flights(NONE, 0, 0.0, 0, 0)
 
 
 @njit(**INTERNAL)
 def under_way(progress):
-    """Before the event to come, which ends the first flight if an impact began it."""
+    """Return the record before the coming event, which ends the first arc if an impact began it."""
     arc = progress.arc
     if progress.mode == FLIGHT and arc.angle == 0.0 and arc.velocity > 0.0:
         return Flights(IMPACT, progress.cycle, arc.start, progress.cycle, 0)
@@ -57,7 +64,7 @@ def under_way(progress):
 
 @njit(**INTERNAL)
 def collect(p, flights, rows, events, values):
-    """Add recorded events: ``values`` (n, 2) takes how long each flight lasted, and the square of the speed it ended with."""
+    """Add the arcs of recorded events: ``values`` (n, 2) takes their durations and their squared final speeds."""
     event, cycle, time, first_cycle, count = flights
     for k in range(rows):
         now, met = int(events[k].cycle), int(events[k].event)
@@ -75,10 +82,10 @@ def collect(p, flights, rows, events, values):
 
 @njit(**INTERNAL)
 def append_lazy_rows(p, before, events, written, after, section_time, section, count):
-    """How many rows ``section`` (n, 8) has when the instants from ``before`` to ``after`` are added to its ``count``.
+    """Add the instants from ``before`` to ``after`` to the ``count`` rows of ``section`` (n, 8).
 
-    Of each is noted the arc on which it lies, (side, angle, velocity) at its start and how long ago that was: few of
-    the states themselves are ever asked for (``evaluate_lazy_rows``).
+    Each row holds (side, angle, velocity) at the start of its arc and the time since then. Few of the states
+    themselves are ever needed (``evaluate_lazy_rows``). Returns the number of rows.
     """
     mode, arc = before.mode, before.arc
     side, start, angle, velocity, begun = float(arc.side), arc.start, arc.angle, arc.velocity, before.cycle
@@ -105,7 +112,7 @@ def append_lazy_rows(p, before, events, written, after, section_time, section, c
 
 @njit(**INTERNAL)
 def evaluate_lazy_rows(p, section, first, count, section_time):
-    """The states of all rows from ``first`` on that were only sketched."""
+    """Evaluate the states of all rows from ``first`` on that hold only their arc."""
     for k in range(max(first, 0), count):
         if math.isnan(section[k, 0]):
             side, elapsed = int(section[k, SIDE]), section[k, ELAPSED]
@@ -116,22 +123,28 @@ def evaluate_lazy_rows(p, section, first, count, section_time):
 
 @njit(**INTERNAL)
 def section_needed(growth, target, max_cycles, rows):
-    """Whether the states of a leg to ``target`` may be asked for: on a torus, and of every motion the last ones, ``rows`` at most.
+    """Return whether the states of a march to ``target`` may be needed.
 
-    On a torus differences never grow by more than ``agreeing_digits`` would allow at the end.
+    They may be on a torus, and for every motion the last ones, at most ``rows``. On a torus tangent vectors
+    never grow by more than ``agreeing_digits`` would allow at the end.
     """
     return growth <= max(OUTGROWN, math.log(max_cycles) + SHEAR) or target > max_cycles - rows
 
 
 @njit(**INTERNAL)
 def agreeing_digits(flights, values, weights, growth):
-    """(digits to which the averages over both halves agree, whether all is as on a torus).
+    """Compare the averages over both halves of the arcs.
 
-    The flight times must agree to ENOUGH_DIGITS. Inside an island they are locked to the forcing, and their
-    average converges even in a thin chaotic layer. So the average of the squared speeds must converge too, to
-    CHAOTIC_DIGITS and ever more, and differences must have grown (``growth``, a logarithm) no more than like the
-    length times a factor. That must be small unless there are many flights. The digits are the speeds', 0 where there
-    is too little to tell or differences have grown by more.
+    The durations of the arcs must agree to ENOUGH_DIGITS. Inside an island they are locked to the forcing,
+    and their average converges even in a thin chaotic layer. So the average of the squared speeds must
+    converge too, to CHAOTIC_DIGITS and later more. The tangent vectors must have grown (``growth``, a
+    logarithm) no more than in proportion to the length. The factor must be small unless there are many arcs.
+
+    Returns
+    -------
+    tuple of (float, bool)
+        Digits of the speeds, 0 if there are too few arcs or the growth is larger.
+        Whether the motion converges as on a torus.
     """
     count, cycles = flights.count, flights.cycle - flights.first_cycle
     shear = SMALL_SHEAR if count < SHEARED_FLIGHTS else SHEAR
@@ -145,13 +158,13 @@ def agreeing_digits(flights, values, weights, growth):
 
 @njit(**INTERNAL)
 def too_few(flights):
-    """Whether there are too few flights to tell."""
+    """Return whether there are too few arcs for a comparison."""
     return flights.count < MIN_FLIGHTS or flights.cycle - flights.first_cycle < MIN_CYCLES
 
 
 @njit(**INTERNAL)
 def digits_of_speeds(flights, values, weights):
-    """The digits of ``agreeing_digits``, however much differences have grown."""
+    """Return the digits of ``agreeing_digits``, regardless of the growth of the tangent vectors."""
     if too_few(flights):
         return 0.0
     bumps(flights.count // 2, weights)

@@ -1,4 +1,4 @@
-"""Where the last states of a motion point to: the lag of its returns, and the fixed point that they approach."""
+"""Recurrence of a motion: the lag of its close returns, and the fixed point that they approach."""
 
 import math
 
@@ -9,25 +9,32 @@ from rocking.kernels.march.tangent import Tangent
 from rocking.kernels.numerics.elementary import size
 from rocking.kernels.orbits.floquet import multipliers
 
-# Returns as near as this are the orbit itself.
+# Returns closer than this are the orbit itself.
 ARRIVED = 1e-9
-# A sequence is taken for linear where it foretells its own earlier difference to this share.
+# A sequence counts as linear if it predicts its own earlier difference with this relative error or less.
 LINEAR = 0.2
-# States that hop around a longer orbit obey a rotation: what is approached must come nearer by this factor a lag.
+# States that alternate around a longer orbit follow a rotation. So the states must come closer to the limit
+# by this factor per lag.
 NEARER = 0.95
-# Differences that point the same way, to this share of their lengths, span one direction only.
+# If the sine of the angle between two differences is at most this, they span one direction only.
 ALIGNED = 1e-5
 
 
 @njit(**INTERNAL)
 def apart(section, first, second):
-    """Distance of two rows."""
+    """Return the distance of two rows."""
     return size(section[first, 0] - section[second, 0], section[first, 1] - section[second, 1])
 
 
 @njit(**INTERNAL)
 def closest_return(section, count, most_lag):
-    """(lag, distance) of the closest return of the last row."""
+    """Find the closest return of the last row.
+
+    Returns
+    -------
+    tuple of (int, float)
+        Lag and distance.
+    """
     lag, closest = 0, math.inf
     for k in range(1, min(count - 1, most_lag) + 1):
         distance = apart(section, count - 1, count - 1 - k)
@@ -38,10 +45,16 @@ def closest_return(section, count, most_lag):
 
 @njit(**INTERNAL)
 def approached(section, count, most_lag):
-    """(lag, angle, velocity) of the fixed point that the last returns approach, by the least lag; lag 0 where none do.
+    """Find the fixed point that the last returns approach, with the least lag.
 
-    Near a fixed point x of the map over ``lag`` cycles the differences of returns obey one matrix, d0 = M d1, d1 = M d2,
-    which gives M and x = x0 + M d0 + M M d0 + …; it must also foretell d2 from d3.
+    Near a fixed point x of the map over ``lag`` cycles the differences of returns obey one matrix, d0 = M d1,
+    d1 = M d2. This gives M and x = x0 + M d0 + M M d0 + …; M must also predict d2 from d3.
+
+    Returns
+    -------
+    tuple of (int, float, float)
+        Lag, 0 if the returns approach no point.
+        Angle and velocity of the fixed point.
     """
     last = count - 1
     for lag in range(1, most_lag + 1):
@@ -57,7 +70,14 @@ def approached(section, count, most_lag):
 
 @njit(**INTERNAL)
 def limit(section, row, lag):
-    """(whether the returns are linear, their limit's angle and velocity)."""
+    """Extrapolate the returns of a row to their limit.
+
+    Returns
+    -------
+    tuple of (bool, float, float)
+        Whether the returns are linear.
+        Angle and velocity of the limit.
+    """
     x0, y0 = difference(section, row, lag)
     x1, y1 = difference(section, row - lag, lag)
     x2, y2 = difference(section, row - 2 * lag, lag)
@@ -85,5 +105,5 @@ def limit(section, row, lag):
 
 @njit(**INTERNAL)
 def difference(section, row, lag):
-    """A row less the row ``lag`` cycles before."""
+    """Return a row less the row ``lag`` cycles before."""
     return section[row, 0] - section[row - lag, 0], section[row, 1] - section[row - lag, 1]

@@ -1,4 +1,7 @@
-"""Motions that come to rest or lean: every lift-off, and every release from a brace, is the same state up to symmetry."""
+"""Resets: every lift-off, and every departure from a brace, is the same state up to symmetry.
+
+A release is either of the two. It follows rest or sustained contact with a brace.
+"""
 
 import math
 from typing import NamedTuple
@@ -18,29 +21,30 @@ from rocking.kernels.march.tangent import (
 )
 from rocking.kernels.numerics.replace_fields import replacing
 
-# Differences that grow by less between two releases leave the later one certain in double precision.
+# If tangent vectors grow by less between two releases, the later one is certain in double precision.
 MAX_STRAIN = math.log(1e8)
 
 
 class ResetRecord(NamedTuple):
-    """The last release of one kind, and what happened since."""
+    """Last release of one kind, and the events since."""
 
     seen: bool
     cycle: int
     time: float
     impacts: int  # from the start to this release
-    brace_hits: int  # likewise
-    otherwise: bool  # a release of the other kind followed
+    brace_hits: int  # as for impacts
+    otherwise: bool  # whether a release of the other kind followed
     strain: float
     peak: float
 
 
 class ResetTracker(NamedTuple):
-    """A motion under way, with its releases.
+    """Motion in progress, with its releases.
 
-    ``half_periods`` is the number of half forcing cycles between the last two releases of one kind, if they prove an
-    orbit; negative if differences grew too much in between; 0 before. ``impacts`` and ``brace_hits`` are counted between
-    these two; -1 where they accumulate. The progress counts its peak from the last release.
+    ``half_periods`` is the number of half forcing cycles between the last two releases of one kind, if they
+    prove an orbit. It is negative if tangent vectors grew too much in between, and 0 before. ``impacts`` and
+    ``brace_hits`` are counted between these two; -1 if they accumulate. The peak of the progress counts from
+    the last release.
     """
 
     progress: Progress
@@ -58,33 +62,33 @@ from_release = replacing(Progress, "peak", "strain")
 
 @njit(**INTERNAL)
 def new_tracker(progress):
-    """A motion at its start."""
+    """Return the tracker of a motion at its start."""
     never = ResetRecord(False, 0, 0.0, 0, 0, False, -math.inf, 0.0)
     return ResetTracker(progress, never, never, 0, -1, -1, 0.0, progress.peak)
 
 
 @njit(**INTERNAL)
 def moved_on(tracker, progress):
-    """The watch of a motion that has gone on to ``progress`` without a release that proves an orbit."""
+    """Return the tracker of a motion that reached ``progress`` without a release that proves an orbit."""
     return ResetTracker(progress, tracker.base, tracker.brace, 0, -1, -1, 0.0, tracker.peak)
 
 
 @njit(**INTERNAL)
 def unvisited(tracker):
-    """The same motion, its releases forgotten: what differences have grown to since is no longer known."""
+    """Return the tracker without its releases, because the growth since then is no longer known."""
     fresh = new_tracker(tracker.progress)
     return ResetTracker(tracker.progress, fresh.base, fresh.brace, 0, -1, -1, 0.0, tracker.peak)
 
 
 @njit(**INTERNAL)
 def largest_angle(tracker):
-    """Largest angle since the start."""
+    """Return the largest angle since the start."""
     return max(tracker.peak, tracker.progress.peak)
 
 
 @njit(**INTERNAL)
 def released_since(tracker, cycle):
-    """Whether the block was released in ``cycle`` or later."""
+    """Return whether the block was released in ``cycle`` or later."""
     return (tracker.base.seen and tracker.base.cycle >= cycle) or (
         tracker.brace.seen and tracker.brace.cycle >= cycle
     )
@@ -92,7 +96,10 @@ def released_since(tracker, cycle):
 
 @njit(**INTERNAL)
 def after_flight(visit, strain, peak, otherwise):
-    """A visit after one more flight that ended in rest or leaning, with a release of the other kind if ``otherwise``."""
+    """Return a reset record after one more motion that ended in rest or in contact with a brace.
+
+    ``otherwise`` says that a release of the other kind followed it.
+    """
     return ResetRecord(
         visit.seen,
         visit.cycle,
@@ -107,10 +114,15 @@ def after_flight(visit, strain, peak, otherwise):
 
 @njit(**INTERNAL)
 def hits_between(p, progress, visit, lifts):
-    """(impacts, brace hits) from a visit to the present release of the same kind; -1 where infinitely many occur.
+    """Count the impacts from a recorded release to the present one of the same kind.
 
-    Rest at the base follows infinitely many impacts unless e = 0, leaning infinitely many hits unless r = 0. A release from
-    the base (``lifts``) follows rest, one from a brace follows leaning.
+    Rest at the base follows infinitely many impacts unless e = 0, contact with a brace infinitely many unless
+    r = 0. A release from the base (``lifts``) follows rest, one from a brace follows contact.
+
+    Returns
+    -------
+    tuple of (int, int)
+        Impacts and brace impacts, -1 if there are infinitely many.
     """
     impacts, brace_hits = progress.impacts - visit.impacts, progress.brace_hits - visit.brace_hits
     rested, leaned = lifts or visit.otherwise, visit.otherwise or not lifts
@@ -123,7 +135,7 @@ def hits_between(p, progress, visit, lifts):
 
 @njit(**INTERNAL)
 def at_release(p, tracker, progress):
-    """The watch at a release, from the base (the arc begins there) or from a brace."""
+    """Return the tracker at a release, from the base (the arc begins there) or from a brace."""
     arc = progress.arc
     lifts = arc.angle == 0.0
     base = after_flight(tracker.base, progress.strain, progress.peak, not lifts)
@@ -154,10 +166,16 @@ def at_release(p, tracker, progress):
 
 @njit(**AST_INLINE)
 def follow(p, tracker, target, most_events, section_time, section, tangent, nothing):
-    """(status, watch) at the end of cycle ``target``, or at the release that decides; RELEASED only then.
+    """March a motion to the end of cycle ``target``, or to the release that decides.
 
-    ``section`` must have a row for every cycle to come, or none. ``tangent`` carries differences since the last release;
-    where its growth is measured from the start.
+    ``section`` must have a row for every cycle to come, or none. ``tangent`` carries tangent vectors since
+    the last release; if its growth is measured, since the start.
+
+    Returns
+    -------
+    tuple of (int, ResetTracker)
+        Status, RELEASED only at the release that decides.
+        Tracker.
     """
     rows = 0
     seen = tracker.base.seen or tracker.brace.seen
@@ -183,14 +201,14 @@ def follow(p, tracker, target, most_events, section_time, section, tangent, noth
 
 @njit(**INTERNAL)
 def begin_tangent(tangent):
-    """Begin with differences of size 1 along both axes."""
+    """Start with tangent vectors of size 1 along both axes."""
     write_tangent(tangent.columns, Tangent(1.0, 0.0, 0.0, 1.0))
     tangent.growth[:] = 0.0
 
 
 @njit(**INTERNAL)
 def begin_measuring(tracker, tangent):
-    """Measure growth from here on; what differences have grown to since the last release stays in it."""
+    """Measure the growth of the first tangent vector from here on, including its growth since the last release."""
     if tracker.progress.mode == FLIGHT and (tracker.base.seen or tracker.brace.seen):
         tangent.growth[:] = 0.0
         write_registers(read_tangent(tangent.columns), tangent)

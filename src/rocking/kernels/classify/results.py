@@ -1,4 +1,4 @@
-"""What a survey is told of each of its points: flat arrays, and the way from a judgement into them."""
+"""Result arrays of a batch, and the conversion of a verdict into them."""
 
 from typing import NamedTuple
 
@@ -10,26 +10,26 @@ from rocking.kernels.compile_options import INTERNAL
 
 
 class ResultArrays(NamedTuple):
-    """What the cascade says of each of n points, one flat array a question; as in ``Judgement``."""
+    """Classification of n points, one flat array per field of ``Judgement``."""
 
     kind: np.ndarray  # (n,), Kind
     ground: np.ndarray  # (n,), Ground
-    period: np.ndarray  # (n,), 0 where none
+    period: np.ndarray  # (n,), 0 if there is none
     symmetric: np.ndarray  # (n,), 0 or 1
-    impacts: np.ndarray  # (n,), -1 where there are infinitely many or there is no orbit
-    brace_hits: np.ndarray  # (n,), likewise
-    exponent: np.ndarray  # (n,), NaN where not weighed
-    error: np.ndarray  # (n,), likewise
+    impacts: np.ndarray  # (n,), -1 if there are infinitely many or there is no orbit
+    brace_hits: np.ndarray  # (n,), as for impacts
+    exponent: np.ndarray  # (n,), NaN if not measured
+    error: np.ndarray  # (n,), standard error of the exponent
     peak: np.ndarray  # (n,)
-    transient: np.ndarray  # (n,), -1 where none is known
+    transient: np.ndarray  # (n,), -1 if unknown
     cycles: np.ndarray  # (n,)
     orbit: (
         np.ndarray
-    )  # (n, 3): a state of the orbit, (time within the cycle, angle, velocity); NaN where none
+    )  # (n, 3): a state of the orbit, (time within the cycle, angle, velocity); NaN if there is none
 
 
 def empty_results(count):
-    """Room for the answers of ``count`` points."""
+    """Return result arrays for ``count`` points."""
     return ResultArrays(
         *(np.zeros(count, np.uint8) for _ in range(2)),
         np.zeros(count, np.int32),

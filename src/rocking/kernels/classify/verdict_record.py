@@ -1,4 +1,4 @@
-"""The verdicts of the decision cascade: what a response is, on which ground, and the numbers that go with it."""
+"""Verdicts of the decision cascade: response type, criterion and the associated numbers."""
 
 import math
 from enum import IntEnum
@@ -20,15 +20,16 @@ from rocking.kernels.orbits.floquet import multipliers
 CLEARLY = 6.0  # standard errors
 CHAOS_NEEDS = 10_000
 CHAOS_NEEDS_WITH_BRACES = 100_000
-# Rounding leaves a motion some 2**-53 beside an unstable orbit. While it leaves that orbit, differences grow by 2**53 at
-# most, and they grow steadily: the exponent of that seems certain. Chaos is what grew further, as a logarithm.
+# Rounding keeps a motion about 2**-53 away from an unstable orbit. While the motion leaves that orbit,
+# tangent vectors grow steadily by 2**53 at most, and the exponent of that seems certain. Chaos requires
+# growth beyond this logarithm.
 FAR = 40.0
-# The variance of the mean may exceed that of independent batches by this factor.
+# Maximum ratio of the variance of the mean to that of independent batches.
 MAX_CORRELATION = 4.0
 
 
 class Kind(IntEnum):
-    """What a response is."""
+    """Response type."""
 
     REST = 0
     PERIODIC = 1
@@ -39,12 +40,12 @@ class Kind(IntEnum):
 
 
 REST, PERIODIC, QUASI_PERIODIC, CHAOTIC, OVERTURNS, UNDETERMINED = (int(kind) for kind in Kind)
-# The kind of a motion that nothing decides yet.
+# Kind of a motion that is not classified yet.
 OPEN = -1
 
 
 class Ground(IntEnum):
-    """Which evidence decided, or why none did."""
+    """Criterion that decided, or reason why none did."""
 
     NO_RETURN = 0
     STILL_FOR_EVER = 1
@@ -54,12 +55,12 @@ class Ground(IntEnum):
     TORUS = 5
     EXPONENT = 6
     UNRESOLVED_RESET = 7
-    UNWATCHED = 8  # too few cycles to call anything chaotic
+    UNWATCHED = 8  # too few cycles for the evidence of chaos
     INDISTINCT = 9  # the exponent is not clearly positive
-    BETWEEN = 10  # averages agree too well for chaos, too badly for a torus
+    BETWEEN = 10  # averages agree too well for chaos, not well enough for a torus
     CROWDED = 11
     STANDING = 12  # on an unstable orbit, to within rounding
-    LITTLE_GROWTH = 13  # differences grew no more than while a motion leaves an unstable orbit
+    LITTLE_GROWTH = 13  # tangent vectors grew no more than while a motion leaves an unstable orbit
     CORRELATED = 14  # the batches of the exponent depend on each other
     LINGERING = 15  # near an unstable orbit
 
@@ -70,12 +71,12 @@ class Ground(IntEnum):
 ) = (int(ground) for ground in Ground)  # fmt: skip
 
 
-# An undetermined motion has an exponent that is worth telling on these grounds.
+# On these grounds the exponent of an undetermined motion is reported.
 WEIGHED = (INDISTINCT, LITTLE_GROWTH, CORRELATED, LINGERING)
 
 
 class Judgement(NamedTuple):
-    """What Python is told, flat; counts are -1 and numbers NaN where they do not apply."""
+    """Flat classification result. Counts are -1 and floats NaN if not applicable."""
 
     kind: int
     ground: int
@@ -103,13 +104,13 @@ class Judgement(NamedTuple):
 
 
 class Findings(NamedTuple):
-    """What the end of the budget finds of a motion that nothing has decided."""
+    """Findings at the end of the budget about a motion without a verdict."""
 
-    measured: int  # batches over which the exponent is measured
+    measured: int  # number of batches over which the exponent is measured
     lossless: bool
     digits: float  # to which averages agree
     stands: bool  # on an unstable orbit
-    lingers: bool  # near one
+    lingers: bool  # the motion stays near an unstable orbit
 
 
 UNKNOWN_EXPONENT = math.nan, math.nan
@@ -117,7 +118,7 @@ UNKNOWN_EXPONENT = math.nan, math.nan
 
 @njit(**INTERNAL)
 def pack_verdict(kind, ground, tracker, exponent, transient, check, section_time, digits):
-    """Return the flat verdict that kernels hand to Python, in the order of ``Judgement``; ``exponent`` with its standard error."""
+    """Return the flat verdict, in the order of ``Judgement``; ``exponent`` is a pair with its standard error."""
     progress, peak, found = tracker.progress, largest_angle(tracker), check.found
     real, imaginary, other_real, other_imaginary = multipliers(found.image.tangent)
     if check.peak > peak:
@@ -152,13 +153,16 @@ def pack_verdict(kind, ground, tracker, exponent, transient, check, section_time
 
 @njit(**INTERNAL)
 def undecided(tracker):
-    """Return no verdict yet."""
+    """Return the verdict of a motion that is not classified yet."""
     return pack_verdict(OPEN, UNWATCHED, tracker, UNKNOWN_EXPONENT, -1, no_cycle(0), 0.0, math.nan)
 
 
 @njit(**INTERNAL)
 def ended(status, tracker, work):
-    """Return the verdict on a run that stopped early: overturned, at rest, periodic by a release, or too many events."""
+    """Return the verdict of a run that stopped early: overturned, at rest, periodic by reset, or crowded.
+
+    A crowded run has too many events.
+    """
     cycle, none = tracker.progress.cycle, no_cycle(work)
     if status == OVERTURNED:
         return pack_verdict(OVERTURNS, NO_RETURN, tracker, UNKNOWN_EXPONENT, cycle, none, 0.0, math.nan)
@@ -172,9 +176,10 @@ def ended(status, tracker, work):
 
 @njit(**INTERNAL)
 def released(tracker, work):
-    """Return the verdict on a motion that was released as it was before: superstable, and symmetric after an odd number of half cycles.
+    """Return the verdict of a motion that was released from the same state as before: a superstable orbit.
 
-    From one release to the next a symmetric motion goes through half of its period.
+    The orbit is symmetric if the number of half cycles between the releases is odd: then they are half a
+    period apart.
     """
     half_periods, arc = tracker.half_periods, tracker.progress.arc
     symmetric = half_periods % 2 == 1
@@ -190,11 +195,11 @@ def released(tracker, work):
 
 @njit(**INTERNAL)
 def periodic(p, ground, tracker, check, section_time):
-    """Return the verdict on a motion that has reached a periodic orbit."""
+    """Return the verdict of a motion that has reached a periodic orbit."""
     real, imaginary, _, _ = multipliers(check.found.image.tangent)
     exponent = math.log(math.hypot(real, imaginary)) / (check.period * p.period), 0.0
     if ground == NEUTRAL_ORBIT:
-        # the multipliers' product is 1, and differences were seen to grow no faster than linearly
+        # the product of the multipliers is 1, and the tangent vectors grew no faster than linearly
         exponent = 0.0, math.nan
     transient = max(tracker.progress.cycle - check.period, 0)
     return pack_verdict(PERIODIC, ground, tracker, exponent, transient, check, section_time, math.nan)
@@ -202,17 +207,17 @@ def periodic(p, ground, tracker, check, section_time):
 
 @njit(**INTERNAL)
 def torus(tracker, work, section_time, digits):
-    """Return the verdict on a motion whose averages converge as on a torus."""
+    """Return the verdict of a motion whose averages converge as on a torus."""
     none = no_cycle(work)
     return pack_verdict(QUASI_PERIODIC, TORUS, tracker, (0.0, math.nan), 0, none, section_time, digits)
 
 
 @njit(**INTERNAL)
 def unsettled(p, tracker, work, max_cycles, batches, findings):
-    """Return the verdict at the end of the budget: chaotic if all of this shows it, else undetermined.
+    """Return the verdict at the end of the budget: chaotic if all conditions hold, else undetermined.
 
-    The exponent is clearly positive; over the batches differences grew far; the batches are independent; and the motion
-    neither stands on an unstable orbit nor lingers near one.
+    The exponent is clearly positive; over the batches the tangent vectors grew far; the batches are
+    independent. The motion neither stays on an unstable orbit nor lingers near one.
     """
     mean, error, correlation = math.nan, math.nan, math.nan
     if findings.measured == BATCHES:

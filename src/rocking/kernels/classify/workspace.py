@@ -1,4 +1,4 @@
-"""Workspace of the decision cascade: made once, for one system after another."""
+"""Workspace of the decision cascade, allocated once and used for many systems."""
 
 from typing import NamedTuple
 
@@ -7,16 +7,16 @@ import numpy as np
 from rocking.kernels.march.event_rows import EVENT_ROW
 from rocking.kernels.march.tangent import TangentState
 
-# Cycles between looks at a motion that loses nothing.
+# Cycles between checkpoints of an undamped motion.
 LEG = 128
-# The last states are moved to the front once in so many looks.
+# The last states are moved to the front once per this number of checkpoints.
 SPARE = 3
-# Over so many equal parts of the second half of the budget the exponent is measured.
+# Number of equal parts of the second half of the budget over which the exponent is measured.
 BATCHES = 64
 
 
 class NoRecording(NamedTuple):
-    """Arrays without rows, for what is not recorded: made once, since to make one costs as much as half an impact."""
+    """Empty arrays for disabled recordings, allocated once: an allocation costs as much as half an impact."""
 
     section: np.ndarray  # (0, 4)
     events: np.ndarray  # (0,)
@@ -24,29 +24,30 @@ class NoRecording(NamedTuple):
 
 
 class Workspace(NamedTuple):
-    """Workspace, for one system after another."""
+    """Preallocated arrays for the classification of one system after another."""
 
     section: np.ndarray  # (n, 8), the last cycles: ``note_state``, then ``append_lazy_rows``
-    scratch: np.ndarray  # (n, 4), a trial orbit's; as many of the last cycles are looked at
+    scratch: np.ndarray  # (n, 4), states of a trial orbit; n also limits the number of last cycles used
     events: np.ndarray  # (n,)
     flights: np.ndarray  # (n, 2)
     weights: np.ndarray  # (n/4 + 1,)
     batches: np.ndarray
     tangent: TangentState  # (2, 2), (1,)
-    trial: np.ndarray  # (2, 2), differences of a trial orbit
+    trial: np.ndarray  # (2, 2), tangent vectors of a trial orbit
     nothing: NoRecording
 
 
 def padded_row_length(count):
-    """Return a row length of at least ``count``, padded so that consecutive rows start in different sets of the cache.
+    """Return a row length of at least ``count``, padded for the cache.
 
-    Lanes write into all their rows in turn; equal alignment causes conflict misses.
+    Consecutive rows start in different cache sets. Lanes write into all their rows in turn; equal alignment
+    causes conflict misses.
     """
     return count + (8 - count) % 512
 
 
 def make_workspace(max_cycles, max_period):
-    """Make the workspace for runs of up to ``max_cycles`` and orbits of up to ``max_period``."""
+    """Allocate the workspace for runs of up to ``max_cycles`` and orbits of up to ``max_period``."""
     rows = max(4 * max_period, LEG) + 1
     flights = padded_row_length(min(max(4 * max_cycles, 1024), 1 << 18))
     return Workspace(
@@ -63,5 +64,5 @@ def make_workspace(max_cycles, max_period):
 
 
 def no_recording():
-    """Make the arrays of ``NoRecording``."""
+    """Allocate the arrays of ``NoRecording``."""
     return NoRecording(np.empty((0, 4)), np.empty(0, EVENT_ROW), TangentState(np.empty((0, 2)), np.empty(0)))

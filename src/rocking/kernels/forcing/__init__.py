@@ -1,1 +1,1 @@
-"""The motion of the base: its forcing term, its response and its changes of sign."""
+"""Motion of the base: its forcing term, the response to it and the sign changes."""

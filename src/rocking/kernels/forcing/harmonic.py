@@ -1,9 +1,9 @@
 """Harmonic base acceleration A cos(Omega tau + phi), eq. (3) of Yim & Lin (1991).
 
-This is all that an arc knows of its forcing; another forcing is another file with these functions: what the
-arc starts from, the particular solution that starts from rest, and where the sign of a forcing term
-changes. On one side sigma of the base the block feels sigma A cos psi = A cos eta, with eta = psi on the
-positive side and psi + pi on the negative one; (cosine, sine) are those of eta.
+An arc uses its forcing through these functions alone; another forcing is another module with the same
+functions. They give the forcing at the start of an arc, the particular solution from rest, and the sign
+changes of a forcing term. On side sigma of the base the forcing of the block is sigma A cos psi = A cos eta.
+Here eta = psi on the positive side and psi + pi on the negative side; (cosine, sine) are those of eta.
 """
 
 import math
@@ -19,9 +19,12 @@ TURN = 2.0 * math.pi
 
 
 class ForcedStep(NamedTuple):
-    """What the forcing does to any arc within a time, for unit amplitude and each of cos eta, sin eta at its start."""
+    """Effect of the forcing on every arc within a time, for unit amplitude.
 
-    near: bool  # within a third of a turn
+    It holds the response to each of cos eta and sin eta at the start.
+    """
+
+    near: bool  # shorter than about a third of a forcing period
     sin_x: float
     versine: float
     in_phase: float
@@ -32,7 +35,14 @@ class ForcedStep(NamedTuple):
 
 @njit(**INTERNAL_INLINE)
 def clock(frequency, phase, side, time):
-    """(cosine, sine, psi, 1 - |cosine|, whether that is accurate however small) at a time within the cycle."""
+    """Evaluate the forcing phase at a time within the cycle.
+
+    Returns
+    -------
+    tuple of (float, float, float, float, bool)
+        cos eta, sin eta, psi and 1 - |cos eta|.
+        Whether 1 - |cos eta| is accurate relative to its size.
+    """
     psi = frequency * time + phase
     sine, cosine, versine, exact = direction(psi)
     return side * cosine, side * sine, psi, versine, exact
@@ -40,7 +50,14 @@ def clock(frequency, phase, side, time):
 
 @njit(**INTERNAL_INLINE)
 def forcing_at(p, side, time, angle):
-    """(cosine, sine, psi, pull) at a time within the cycle; pull = u - 1 - A cosine = u'', exact however close to 0."""
+    """Evaluate the forcing and the acceleration u'' at a time within the cycle and an angle u.
+
+    Returns
+    -------
+    tuple of (float, float, float, float)
+        cos eta, sin eta and psi.
+        u'' = u - 1 - A cos eta, accurate even if it is close to 0.
+    """
     cosine, sine, psi, versine, exact = clock(p.frequency, p.phase, side, time)
     above = angle - 1.0
     acceleration = fma(-p.amplitude, cosine, above)
@@ -52,19 +69,19 @@ def forcing_at(p, side, time, angle):
 
 @njit(**INTERNAL_INLINE)
 def forcing_term(p, cosine):
-    """f = u'' - u = -1 - A cos eta on one side of the base: eq. (4)."""
+    """Return f = u'' - u = -1 - A cos eta on one side of the base, eq. (4)."""
     return -1.0 - p.amplitude * cosine
 
 
 @njit(**INTERNAL_INLINE)
 def forcing_rates(p, cosine, sine):
-    """(f', f'') of ``forcing_term``; each higher derivative is -Omega**2 times the last but one."""
+    """Return f' and f'' of ``forcing_term``; each higher derivative is -Omega**2 times the last but one."""
     return p.amplitude * p.frequency * sine, p.amplitude * p.frequency * p.frequency * cosine
 
 
 @njit(**INTERNAL_INLINE)
 def forced_step(p, t, sinh, versinh, excess, higher):
-    """The swing of a time t."""
+    """Return the ``ForcedStep`` of a time t."""
     sin_x, versine, lag, deficit = circular(p.frequency, t)
     in_phase = versinh + versine
     quadrature = p.frequency * excess + lag
@@ -78,11 +95,20 @@ def forced_step(p, t, sinh, versinh, excess, higher):
 
 @njit(**INTERNAL_INLINE)
 def forced_response(p, cosine, sine, above, acceleration, forced_step):
-    """(steady, G, G', cos eta, sin eta) a time later: u'' - u is split into a steady part and a rest, which moves u by G.
+    """Evaluate the response to the forcing a time t later, without cancellation.
 
-    G'' - G = u0 - 1 - A cos eta - steady, G = G' = 0 at t = 0. Within a third of a turn ``steady`` is the ``acceleration`` at
-    the start, later u0 - 1 (``above``): either way G is made of sums of positive functions, and no larger parts
-    cancel.
+    u'' - u is split into a constant part (``steady``) and a remainder, which moves u by G:
+
+        G'' - G = u0 - 1 - A cos eta - steady, G = G' = 0 at t = 0.
+
+    Within a third of a forcing period ``steady`` is the ``acceleration`` at the start, later u0 - 1
+    (``above``). In both cases G is a sum of positive functions, so that no larger terms cancel.
+
+    Returns
+    -------
+    tuple of (float, float, float, float, float)
+        The steady part, G and G'.
+        cos eta and sin eta at the end.
     """
     near, sin_x, versine, in_phase, quadrature, displacement, forced_velocity = forced_step
     displaced = p.response * (sine * quadrature - cosine * displacement)
@@ -98,39 +124,57 @@ def forced_response(p, cosine, sine, above, acceleration, forced_step):
 
 @njit(**INTERNAL_INLINE)
 def particular(p, cosine, sine):
-    """(beta cos eta, its derivative): the bounded particular solution of u'' - u = -A cos eta."""
+    """Return beta cos eta and its derivative: the bounded particular solution of u'' - u = -A cos eta."""
     return p.response * cosine, -p.response * p.frequency * sine
 
 
 @njit(**INTERNAL_INLINE)
 def first_sign_change(p, side, psi, centre, half):
-    """(time to the first eta = centre +- half at or after now, whether eta lies within half of the centre until then)."""
+    """Find the first sign change, eta = centre +- half, at or after the present time.
+
+    Returns
+    -------
+    tuple of (float, bool)
+        Time to the sign change.
+        Whether eta lies within ``half`` of the centre until then.
+    """
     zeta = psi - centre + half
     if side < 0:
         zeta += math.pi
     zeta -= TURN * np.floor(zeta * (1.0 / TURN))
     if zeta >= TURN:
-        zeta = 0.0  # just before the first cut, rounded onto it: what follows it has begun
+        zeta = 0.0  # rounded onto the first sign change: the next interval has started
     inside = zeta < 2.0 * half
     return ((2.0 * half if inside else TURN) - zeta) * p.per_frequency, inside
 
 
 @njit(**INTERNAL_INLINE)
 def next_sign_change(p, half, inside):
-    """Time from one cut to the next, ``inside`` telling the stretch between them."""
+    """Return the time from one sign change to the next; ``inside`` says which sign interval lies between them."""
     return (2.0 * half if inside else TURN - 2.0 * half) * p.per_frequency
 
 
 @njit(**INTERNAL_INLINE)
+<<<<<<< HEAD
 def acceleration_change_bound(p, sine, time):
     """A bound on how far the base acceleration moves within the coming ``time``."""
+=======
+def acceleration_change_bound(p, cosine, sine, time):
+    """Return an upper bound on the change of the base acceleration within the next ``time``."""
+>>>>>>> w-kernels
     x = p.frequency * time
     return p.amplitude * (abs(sine) * x + 0.5 * x * x)
 
 
 @njit(**INTERNAL_INLINE)
 def sensitivities(p, cosine, sine, t, sinh, versinh, excess):
-    """(F_A, F'_A, F_psi, F'_psi, F_Omega, F'_Omega): the response differentiated by amplitude, starting phase, frequency."""
+    """Return the derivatives of the response by amplitude, starting phase and frequency.
+
+    Returns
+    -------
+    tuple of six floats
+        F_A, F'_A, F_psi, F'_psi, F_Omega and F'_Omega.
+    """
     sin_x, versine, lag, _ = circular(p.frequency, t)
     frequency, k = p.frequency, p.reciprocal
     in_phase = k * (versinh + versine)

@@ -1,1 +1,1 @@
-"""Many blocks at once, one in each lane of the vector registers."""
+"""SIMD lanes: many blocks in lockstep, one block per lane of the vector registers."""

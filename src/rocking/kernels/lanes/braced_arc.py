@@ -1,8 +1,8 @@
-"""Flights between braces, for many blocks at once: where each ends, that nothing is met before, and what the event does.
+"""Arcs between braces, in lanes: the event that ends each, and the proof that nothing is met before.
 
-As ``fast_path.fast_first_event`` does for one block: the series about the start, or about an instant further on, guesses the
-event; the cubic between two instants proves that nothing is met between them. What that does not settle is left to the
-functions for one block.
+The method is that of ``fast_path.fast_first_event`` for one block. The series about the start, or about a
+later instant, predicts the event. The cubic between two instants proves that nothing is met between them.
+Undecided cases are left to the functions for one block.
 """
 
 import math
@@ -19,13 +19,22 @@ from rocking.kernels.numerics.elementary import fma
 from rocking.kernels.numerics.simd import choose
 
 MAX_TRIES, ROUNDS = 8, 2
-# As near as this the step of fifth order leaves less than rounding, and so do the series that follow it.
+# From this close the remainder of the step of fifth order, and of the series after it, is below rounding.
 NEAR = 1e-3
 
 
 @njit(**SIMD_INLINE)
 def parabola(u, v, second, brace_angle):
-    """(whether at a brace, when) the event is where the parabola comes, or, against the pull, the tangent; ``fast_path.parabola_step``."""
+    """Guess the next event by the parabola or, against the acceleration, by the tangent.
+
+    The guess is that of ``fast_path.parabola_step``.
+
+    Returns
+    -------
+    tuple of (bool, float)
+        Whether it is at a brace.
+        The time to it.
+    """
     falls = second < 0.0
     towards, distance = choose(falls, -v, v), choose(falls, u, brace_angle - u)
     size = abs(second)
@@ -40,7 +49,10 @@ def parabola(u, v, second, brace_angle):
 
 @njit(**SIMD_INLINE)
 def coefficients(s, i, u, c, at_brace):
-    """Return the first nine derivatives, at the last knot, of what falls to 0 at the event: of u, or of how far it is from a brace."""
+    """Return value and first eight derivatives, at the last jet, of the function that vanishes at the event.
+
+    The function is u, or the distance from a brace.
+    """
     square = s.frequency_square[i]
     c7 = fma(square * square, s.amplitude_rate[i] * s.knot_sine[i], c[5])
     c8 = fma(square * square, square * s.amplitude[i] * s.knot_cosine[i], c[6])
@@ -61,7 +73,7 @@ def coefficients(s, i, u, c, at_brace):
 
 @njit(**SIMD_INLINE)
 def predict_event(s, i):
-    """Write the next trial time of lane i: where the series has its event, or, where that tells none, further on."""
+    """Write the next trial time of lane i: the event that the series predicts or, if there is none, a later time."""
     u, v, aims = s.knot_angle[i], s.knot_rate[i], s.stage[i] == BRACKET
     c = derivatives(s, i, (u, v, s.knot_cosine[i], s.knot_sine[i]))
     at_brace, rough = parabola(u, v, c[2], s.brace_angle[i])
@@ -83,12 +95,12 @@ def predict_event(s, i):
 
 @njit(**SIMD_INLINE)
 def correct_event(s, i):
-    """Step from the trial time of lane i to the event, or nearer to it; or on from there, where that is too far."""
+    """Step from the trial time of lane i to the event or towards it, or expand the series there if it is too far."""
     t, angle, brace_angle, at_brace = s.time[i], s.angle[i], s.brace_angle[i], s.at_brace[i] > 0.0
     risen, v, cosine, sine = instant_of(s, i, angle - 1.0)
     u = angle + risen
     _, _, second, third, fourth, fifth, _ = derivatives(s, i, (u, v, cosine, sine))
-    # towards a brace u falls short of it
+    # near a brace: the remaining distance to it
     left = choose(at_brace, risen - (brace_angle - angle), u)
     per = 1.0 / v
     y = -left * per
@@ -109,7 +121,7 @@ def correct_event(s, i):
     )
     touches = grazes(s.amplitude[i], angle, s.velocity[i], t + x, slope)
     arrived = heads & close & free & (touches == False)  # noqa: E712
-    # of a lane that has not arrived nobody asks for these
+    # these are used only for lanes that have arrived
     s.wait[i] = choose(arrived, t + x, s.wait[i])
     s.speed[i] = abs(slope)
     set_next(s, i, x, cosine, sine)
@@ -121,14 +133,16 @@ def correct_event(s, i):
 def choose_trial(s, i, there, arrived, free, nears, ahead):
     """Choose the next stage and trial time of lane i from its state ``there``, at the last trial time.
 
-    It has ``arrived`` at the event; or it ``nears`` it, and the next trial is the time ``ahead``; or it goes on from there,
-    where it is certainly ``free`` until then; or it goes back half of the way.
+    * If the lane has ``arrived`` at the event, the arc ends.
+    * If it ``nears`` the event, the next trial is the time ``ahead``.
+    * If the arc is certainly ``free`` until then, it continues from there.
+    * Else it goes back by half of the way.
     """
     u, v, cosine, sine = there
     stage, t, about, tries = s.stage[i], s.time[i], s.about[i], s.tries[i]
     heads, goes_on = stage == REFINE, stage == EXTEND
     moves, further, nears = heads | goes_on, goes_on & free, nears & (ahead > about)
-    # too far: what was met lies before
+    # too far: the event lies before
     above, beneath = goes_on & (u > s.brace_angle[i]), goes_on & (u < 0.0)
     beyond = above | beneath
     back = moves & ((arrived | nears | further | beyond) == False)  # noqa: E712

@@ -1,4 +1,4 @@
-"""What each lane requests before an event between braces, and what the event does: eq. (2), or what a brace returns."""
+"""Requests before events between braces, and the events themselves: eq. (2) and the impact on a brace."""
 
 from numba import njit
 
@@ -12,7 +12,7 @@ from rocking.kernels.numerics.simd import choose
 
 @njit(**SIMD_INLINE)
 def request_before_event(s, i):
-    """Write what lane i requests before its event, and return whether that is anything."""
+    """Write the request of lane i before its event, and return whether there is one."""
     at_brace, exceeds = s.at_brace[i] > 0.0, s.exceeds[i] > 0.0
     restitution = choose(at_brace, s.brace_restitution[i], s.restitution[i])
     returned = restitution * s.speed[i]
@@ -23,7 +23,7 @@ def request_before_event(s, i):
 
 @njit(**SIMD_INLINE)
 def carry_through_event(s, i):
-    """Carry the difference in lane i through its event."""
+    """Propagate the tangent vector in lane i through its event."""
     hit, r, f = s.at_brace[i] > 0.0, s.brace_restitution[i], next_forcing_term(s, i)
     pressed, pulled = brace_gain(r, s.brace_angle[i], f), impact_gain(s.restitution[i], f, -1.0)
     propagate_tangent(s, i, choose(hit, -r, s.restitution[i]), choose(hit, pressed, pulled) / s.speed[i])
@@ -31,7 +31,7 @@ def carry_through_event(s, i):
 
 @njit(**SIMD_INLINE)
 def apply_event(s, i):
-    """Apply the event in lane i where that has arrived, eq. (2) or what a brace does, and begin the next arc."""
+    """Apply the event in lane i if it has arrived, eq. (2) or a brace impact, and begin the next arc."""
     turn_clock(s, i)
     hit, arrived, begins = s.at_brace[i] > 0.0, s.stage[i] == AT_EVENT, s.stage[i] >= NEW_ARC
     turned = choose(hit, 1.0, -1.0)

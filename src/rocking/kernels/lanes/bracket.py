@@ -1,7 +1,7 @@
-"""In which stretch of its arc does each lane's block come down? The order of signs at known points proves it.
+"""Bracket of the first zero in each lane: the signs of u at known points prove which sign interval contains it.
 
-At the ends of the stretches, and halfway, cos eta is known and e^t follows by multiplication, so that u = c+ e^t + c- e^-t + 1 +
-beta cos eta costs no elementary function. The proof is that of ``arc.bracket``.
+At the ends of the sign intervals, and halfway, cos eta is known and e^t follows by multiplication. So u = c+
+e^t + c- e^-t + 1 + beta cos eta needs no elementary function. The proof is that of ``arc.bracket``.
 """
 
 from typing import NamedTuple
@@ -17,15 +17,15 @@ from rocking.kernels.numerics.simd import choose
 
 
 class ConvexInterval(NamedTuple):
-    """u on a convex stretch: at its start, halfway and at its end, with bounds on the errors at start and end."""
+    """Values of u on a convex sign interval: at its start, halfway and at its end, with error bounds."""
 
     u: float
     u_half: float
     u_right: float
     error: float
     error_right: float
-    passed: bool  # no zero is there
-    doubtful: bool  # only a dip may hold zeros
+    passed: bool  # it contains no zero
+    doubtful: bool  # it contains zeros only if u has a minimum below zero inside
 
 
 @njit(**SIMD_INLINE)
@@ -52,7 +52,7 @@ def convex_interval(s, i):
 
 @njit(**SIMD_INLINE)
 def turn_forcing(s, i, turns):
-    """Move ``end`` of lane i on by a turn of the forcing, where it ``turns``."""
+    """Move ``end`` of lane i forward by one forcing period, if ``turns``."""
     end, z, per_z = s.end[i], s.z[i], s.per_z[i]
     s.end[i] = choose(turns, end + s.period[i], end)
     s.z[i] = choose(turns, z * s.turn_growth[i], z)
@@ -61,7 +61,7 @@ def turn_forcing(s, i, turns):
 
 @njit(**SIMD_INLINE)
 def skip_clear_period(s, i):
-    """Go a turn of the forcing further, where certainly no zero lies in the next stretches."""
+    """Advance the search by one forcing period, if the next sign intervals certainly contain no zero."""
     passed = convex_interval(s, i).passed & (s.stage[i] == BRACKET)
     s.low[i] = choose(passed, s.end[i] + s.outside[i], s.low[i])
     s.cleared[i] = choose(passed, 0.0, s.cleared[i])
@@ -70,9 +70,10 @@ def skip_clear_period(s, i):
 
 @njit(**SIMD_INLINE)
 def walk(s, i):
-    """Pass the next convex stretch and the concave one before it, or bracket the zero in one of them.
+    """Pass the next convex sign interval and the concave one before it, or bracket the zero in one of them.
 
-    ``skip_clear_period`` before it does not look for the zero: most often only the last of two turns holds it.
+    ``skip_clear_period`` before it only passes intervals: in most cases only the last of two periods contains
+    the zero.
     """
     stage, low, end, outside = s.stage[i], s.low[i], s.end[i], s.outside[i]
     interval = convex_interval(s, i)

@@ -1,4 +1,4 @@
-"""An instant of each lane's arc: the elementary functions there, u and its derivatives, and how steps go on from it."""
+"""Evaluation of the arc of each lane at one time: elementary functions, u and its derivatives, small steps."""
 
 from numba import njit
 
@@ -10,7 +10,7 @@ from rocking.kernels.numerics.simd import choose, circular, hyperbolic
 
 @njit(**SIMD_INLINE)
 def derivatives(s, i, there):
-    """u and its first six derivatives at an instant (u, u', cos eta, sin eta) in lane i, from u'' = u + f."""
+    """Return u and its first six derivatives at an instant (u, u', cos eta, sin eta) in lane i, from u'' = u + f."""
     u, v, cosine, sine = there
     square, acceleration = s.frequency_square[i], s.amplitude[i] * cosine
     df, ddf = s.amplitude_rate[i] * sine, square * acceleration
@@ -21,7 +21,16 @@ def derivatives(s, i, there):
 
 @njit(**SIMD_INLINE)
 def instant_of(s, i, above):
-    """(u - u0, u', cos eta, sin eta) of lane i where it looks, eq. (5) as in ``respond`` and ``after``; u0 = 1 + ``above``."""
+    """Evaluate the arc of lane i at its trial time, eq. (5); u0 = 1 + ``above``.
+
+    The formulas are those of ``harmonic.forced_response`` and ``solution.propagate``.
+
+    Returns
+    -------
+    tuple of (float, float, float, float)
+        u - u0 and u'.
+        cos eta and sin eta.
+    """
     frequency, response = s.frequency[i], s.response[i]
     velocity, cosine, sine = s.velocity[i], s.cosine[i], s.sine[i]
     sinh, versinh, excess = s.sinh[i], s.versinh[i], s.excess[i]
@@ -56,7 +65,10 @@ def evaluate_circular(s, i):
 
 @njit(**SIMD_INLINE)
 def set_next(s, i, x, cosine, sine):
-    """Write the forcing and the hyperbolic functions a small time x after the trial time, as in ``fast_path.taylor_step``."""
+    """Write the forcing and the hyperbolic functions a small time x after the trial time.
+
+    The series are those of ``fast_path.taylor_step``.
+    """
     sinh, versinh, angle = s.sinh[i], s.versinh[i], s.frequency[i] * x
     sin_x = angle * fma(-angle * angle, I3, 1.0)
     versine = angle * angle * fma(-angle * angle, I4, I2)

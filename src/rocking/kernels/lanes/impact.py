@@ -1,4 +1,4 @@
-"""The impact that ends each lane's arc, eq. (2), the arc that begins with it, and whether anything about it is not plain."""
+"""Impact that ends the arc of each lane, eq. (2), the arc that follows, and the requests before it."""
 
 import math
 
@@ -26,15 +26,15 @@ from rocking.kernels.march.tangent import carry_along, carry_through, impact_gai
 from rocking.kernels.numerics.elementary import fma
 from rocking.kernels.numerics.simd import ROUGHLY, both_exponentials, choose, logarithms_of_ratios
 
-# c+ and c- below this tell a crest and its time well enough.
+# Below this c+ and c- determine the maximum and its time accurately enough.
 CREST_CERTAIN = -1e-5
 
 
 @njit(**SIMD_INLINE)
 def set_request(s, i, request, returned):
-    """Write what lane i requests before its event, which returns the speed ``returned``: this, or what comes first.
+    """Set the service request of lane i before its event; the condition with the highest priority wins.
 
-    Returns whether that is anything.
+    ``returned`` is the speed after the event. Returns whether a request is pending.
     """
     request = choose(log_is_full(s, i), FLUSH_LOG, request)
     request = choose(returned < SLOWEST, TO_SCALAR, request)
@@ -48,7 +48,7 @@ def set_request(s, i, request, returned):
 
 @njit(**SIMD_INLINE)
 def request_before_impact(s, i):
-    """Write what lane i requests before its impact, and return whether that is anything."""
+    """Write the request of lane i before its impact, and return whether there is one."""
     request = choose(s.exceeds[i] == 0.0, NO_REQUEST, UPDATE_PEAK)
     return set_request(s, i, request, s.restitution[i] * s.speed[i])
 
@@ -61,7 +61,10 @@ def next_forcing_term(s, i):
 
 @njit(**SIMD_INLINE)
 def propagate_tangent(s, i, factor, shear):
-    """Carry the difference in lane i along the arc and through its event, [[factor, 0], [shear, factor]], where that has arrived."""
+    """Propagate the tangent vector in lane i along the arc and through its event, if that has arrived.
+
+    The saltation matrix is [[factor, 0], [shear, factor]].
+    """
     angle, velocity, arrived = s.delta_angle[i], s.delta_velocity[i], s.stage[i] == AT_EVENT
     ahead = carry_along((angle, velocity), s.next_sinh[i], s.next_versinh[i])
     a, b = carry_through(ahead, factor, shear)
@@ -77,7 +80,7 @@ def propagate_tangent(s, i, factor, shear):
 
 @njit(**SIMD_INLINE)
 def turn_clock(s, i):
-    """Write the cycle of the event in lane i, and the time within it, where that has arrived."""
+    """Write the cycle of the event in lane i and the time within it, if it has arrived."""
     start, cycle, arrived = s.start[i], s.cycle[i], s.stage[i] == AT_EVENT
     turns = np.floor((start + s.wait[i]) * s.per_period[i])
     s.start[i] = choose(arrived, fma(-turns, s.period[i], start) + s.wait[i], start)
@@ -86,14 +89,14 @@ def turn_clock(s, i):
 
 @njit(**SIMD_INLINE)
 def carry_through_impact(s, i):
-    """Carry the difference in lane i through its impact."""
+    """Propagate the tangent vector in lane i through its impact."""
     gained = impact_gain(s.restitution[i], next_forcing_term(s, i), -1.0)
     propagate_tangent(s, i, s.restitution[i], gained / s.speed[i])
 
 
 @njit(**SIMD_INLINE)
 def apply_impact(s, i):
-    """Apply the impact in lane i, eq. (2), where that has arrived."""
+    """Apply the impact in lane i, eq. (2), if it has arrived."""
     turn_clock(s, i)
     arrived = s.stage[i] == AT_EVENT
     s.side[i] = choose(arrived, -s.side[i], s.side[i])
@@ -104,10 +107,10 @@ def apply_impact(s, i):
 
 @njit(**SIMD_INLINE)
 def begin_exponentials(s, i):
-    """Write c+ and c- of an arc that begins, and where u is positive between the roots of its exponentials.
+    """Write c+ and c- of an arc that begins, and bounds of the time in which u is positive.
 
-    Where c+ and c- are negative u lies within beta of 1 - m cosh(t - middle), m = 2 sqrt(c+ c-): above 0 between the roots
-    of c+ z + 1 - beta + c-/z in z = e^t.
+    If c+ and c- are negative, u lies within beta of 1 - m cosh(t - middle), m = 2 sqrt(c+ c-). It is above 0
+    between the roots of c+ z + 1 - beta + c-/z in z = e^t.
     """
     begins, q = s.stage[i] >= NEW_ARC, 1.0 - s.response[i]
     mean = fma(-s.response[i], s.cosine[i], -1.0)
@@ -127,7 +130,7 @@ def begin_exponentials(s, i):
 
 @njit(**SIMD_INLINE)
 def crest_may_exceed(s, i):
-    """Whether a block in lane i may rise beyond its peak on the arc that begins."""
+    """Return whether u may exceed the peak of lane i on the arc that begins."""
     away = fma(-0.5, s.inside[i] + s.twice[i], s.sign_change[i])
     away = fma(-np.floor(fma(away, s.per_period[i], 0.5)), s.period[i], away)
     away = max(abs(away) - ROUGHLY, 0.0)
@@ -136,7 +139,10 @@ def crest_may_exceed(s, i):
 
 @njit(**SIMD_INLINE)
 def begin_walk(s, i):
-    """Write where the walk along an arc that begins starts: turns of the forcing between the roots need not be walked."""
+    """Write the start of the search along an arc that begins.
+
+    Whole forcing periods between the roots of the exponentials are skipped.
+    """
     sign_change, late, begins = s.sign_change[i], s.late[i], s.stage[i] >= NEW_ARC
     has_crest = max(s.growing[i], s.shrinking[i]) < CREST_CERTAIN
     certain = has_crest & (crest_may_exceed(s, i) == False)  # noqa: E712
@@ -151,7 +157,7 @@ def begin_walk(s, i):
 
 @njit(**SIMD_INLINE)
 def begin_bracket(s, i):
-    """Write e^+-t where the walk along an arc that begins starts, and its stage."""
+    """Write e^+-t at the start of the search along an arc that begins, and its stage."""
     begins = s.stage[i] >= NEW_ARC
     z, per_z = both_exponentials(s.end[i])
     s.z[i] = choose(begins, z, s.z[i])

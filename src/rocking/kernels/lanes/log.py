@@ -1,4 +1,4 @@
-"""The log of each lane: its arcs where states may be needed, and the flights of a motion that loses nothing."""
+"""Log of each lane: arcs from which section states may be needed, and the arcs of an undamped motion."""
 
 import numpy as np
 from numba import njit
@@ -11,16 +11,16 @@ from rocking.kernels.lanes.workspace import prefetch_for_write
 from rocking.kernels.march.march import RESYNCHRONISE
 from rocking.kernels.numerics.simd import choose
 
-# A cache line holds four flights: the next but one is prefetched.
+# A 64-byte cache line holds four entries; the prefetch is two lines ahead.
 AHEAD = 8
 
 
 @njit(**SIMD_INLINE)
 def mark_pending(s, i, most, braced):
-    """Write where the last flight of a lane goes, -1 if nowhere; the square of its speed; whether ``log_arc`` is due."""
+    """Compute the log slot of a lane (-1: none), the squared impact speed, and whether ``log_arc`` is due."""
     slot, rounds = s.events[i] - s.uncollected[i] - 1.0, s.events[i] * (1.0 / (RESYNCHRONISE + 1))
     kept = (s.events[i] > s.counted[i]) & (slot < most) & (braced == False)  # noqa: E712
-    # every so many events as in ``log_arc``, exactly: RESYNCHRONISE + 1 is a power of two
+    # at regular numbers of events as in ``log_arc``, exactly: RESYNCHRONISE + 1 is a power of two
     due = (s.log_on[i] > 0.0) | ((np.floor(rounds) == rounds) & (s.stage[i] == BRACKET))
     s.slot[i] = choose(kept, slot, -1.0)
     s.square[i] = s.velocity[i] * s.velocity[i]
@@ -29,7 +29,10 @@ def mark_pending(s, i, most, braced):
 
 @njit(**INTERNAL_INLINE)
 def log_arc(s, i, log):
-    """Write the arc under way into the log of a lane, if that is kept; now and then take the forcing from the clock."""
+    """Write the present arc into the log of a lane, if that is kept.
+
+    At regular numbers of events compute the forcing from the clock.
+    """
     events, start, side, angle = int(s.events[i]), s.start[i], s.side[i], s.angle[i]
     if s.log_on[i] > 0.0:
         row = log[i, events - int(s.counted[i])]
@@ -46,9 +49,9 @@ def log_arc(s, i, log):
 
 @njit(**INTERNAL)
 def log_arcs(s, flights, log, braced):
-    """Write the last flight of each lane, where there are no braces: its duration, and the square of its speed.
+    """Write the last arc of each lane without braces: its duration and squared speed; and ``log_arc`` if due.
 
-    So again and again until the next impact; and ``log_arc`` where that is due.
+    The entry is written again at every pass until the next impact.
     """
     for i in range(LANES):
         mark_pending(s, i, flights.shape[1], braced)
@@ -56,7 +59,7 @@ def log_arcs(s, flights, log, braced):
         slot = int(s.slot[i])
         if slot >= 0:
             flights[i, slot, 0], flights[i, slot, 1] = s.wait[i], s.square[i]
-            # No processor foresees where as many lanes write next.
+            # Hardware prefetchers do not predict the addresses of this many write streams.
             prefetch_for_write(
                 flights.ctypes.data + flights.itemsize * 2 * (i * flights.shape[1] + slot + AHEAD)
             )

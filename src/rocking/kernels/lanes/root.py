@@ -1,4 +1,4 @@
-"""To the first zero of each lane's arc, once the stretch that holds it is known: a guess, and steps of fifth order."""
+"""First zero of the arc of each lane in its known sign interval: a guess, and steps of fifth order."""
 
 import math
 
@@ -13,13 +13,19 @@ from rocking.kernels.numerics.elementary import fma
 from rocking.kernels.numerics.simd import choose
 
 MAX_TRIES = 12
-# As near as this the step of fifth order leaves of u less than rounding does, and so do the series that follow it.
+# From this close the remainder of the step of fifth order, and of the series after it, is below rounding.
 NEAR = 1e-3
 
 
 @njit(**SIMD_INLINE)
 def taylor(c, x):
-    """(w, w', w''/2) a time x later by their Taylor series, of which c are the coefficients: by Horner's rule, thrice."""
+    """Evaluate a Taylor series with coefficients c a time x later, by three Horner schemes.
+
+    Returns
+    -------
+    tuple of (float, float, float)
+        w, w' and w''/2.
+    """
     c0, c1, c2, c3, c4, c5, c6 = c
     w = fma(x, c6, c5)
     dw = fma(x, c6, w)
@@ -40,11 +46,18 @@ def taylor(c, x):
 
 @njit(**SIMD_INLINE)
 def middle_of_half(s, i):
-    """Return (time, u, u', cos eta, sin eta, a quarter of the stretch): the middle of the half of its stretch that holds the zero."""
+    """Evaluate the arc in the middle of that half of its sign interval which contains the zero.
+
+    Returns
+    -------
+    tuple of six floats
+        Time, u, u', cos eta and sin eta.
+        A quarter of the length of the interval.
+    """
     within, end = s.concave[i] > 0.0, s.end[i]
-    # of the concave stretch, which ends at ``end``, or of the convex one, which begins there
+    # of the concave interval, which ends at ``end``, or of the convex one, which begins there
     more, less = choose(within, s.grow_in[i], s.grow_out[i]), choose(within, s.decay_in[i], s.decay_out[i])
-    # from ``end`` to the middle twice a quarter on, or back
+    # from ``end`` to the middle: two quarters forwards or backwards
     on, back = choose(within, less, more), choose(within, more, less)
     growing, shrinking = s.growing[i] * (s.z[i] * (on * on)), s.shrinking[i] * (s.per_z[i] * (back * back))
     quarter = 0.25 * choose(within, s.inside[i], s.outside[i])
@@ -61,16 +74,16 @@ def middle_of_half(s, i):
 
 @njit(**SIMD_INLINE)
 def initial_guess(s, i):
-    """Guess the zero by a parabola about the middle of a half of its stretch, or about the start of a short hop."""
+    """Guess the zero by a parabola about the middle of half its sign interval, or about the start of a short arc."""
     about, u, v, cosine, sine, quarter = middle_of_half(s, i)
-    # A short hop comes down about where the parabola from its start does.
+    # A short arc ends about where the parabola from its start does.
     amplitude, velocity, fall = s.amplitude[i], s.velocity[i], fma(s.amplitude[i], s.cosine[i], 1.0)
     short = 2.0 * velocity * s.frequency[i] < fall
     hops = (s.low[i] == 0.0) & short & (4.0 * velocity < fall * s.high[i])
     u, v = choose(hops, 0.0, u), choose(hops, velocity, v)
     cosine, sine = choose(hops, s.cosine[i], cosine), choose(hops, s.sine[i], sine)
     second = u + fma(-amplitude, cosine, -1.0)
-    # else half of a quarter further, on the zero's side
+    # else half a quarter further, on the side of the zero
     under = fma(v, v, -2.0 * u * second)
     root = math.sqrt(max(under, 0.0))
     x = choose(v > 0.0, v + root, 2.0 * u) / choose(v > 0.0, -second, root - v)
@@ -85,7 +98,7 @@ def initial_guess(s, i):
 
 @njit(**SIMD_INLINE)
 def guess(s, i):
-    """Find the zero to some six digits: two steps on the Taylor series about where ``initial_guess`` has it."""
+    """Find the zero to about six digits: two steps on the Taylor series about the point of ``initial_guess``."""
     low, high, x, guessing = s.low[i], s.high[i], s.guess_offset[i], s.stage[i] == GUESS
     c0, c1, c2, c3, c4, c5, c6 = derivatives(s, i, there(s, i))
     c = c0, c1, I2 * c2, I3 * c3, I4 * c4, I5 * c5, I6 * c6
@@ -103,13 +116,13 @@ def guess(s, i):
 
 @njit(**SIMD_INLINE)
 def there(s, i):
-    """Return (u, u', cos eta, sin eta) where lane i was evaluated last."""
+    """Return (u, u', cos eta, sin eta) of lane i at its last evaluation."""
     return s.angle_there[i], s.rate_there[i], s.cosine_there[i], s.sine_there[i]
 
 
 @njit(**SIMD_INLINE)
 def evaluate_trial(s, i):
-    """Evaluate the arc of lane i, from the base, at its trial time."""
+    """Evaluate the arc of lane i, which starts at the base, at its trial time."""
     u, v, cosine, sine = instant_of(s, i, -1.0)
     s.angle_there[i] = u
     s.rate_there[i] = v
@@ -119,9 +132,10 @@ def evaluate_trial(s, i):
 
 @njit(**SIMD_INLINE)
 def positive_by_tangent(u, fall, t, low, high):
-    """Whether u is certainly positive on [low, high], in a convex stretch, by its value at t and fall = u + u' there.
+    """Return whether u is certainly positive on [low, high], in a convex sign interval, from one point of it.
 
-    y = u e^t, convex in e^2t, lies above its tangent; (e^2d - 1)/2d <= 1 + 8d up to d = 2.
+    The point is u at t, with fall = u + u' there. The function y = u e^t, convex in e^2t, lies above its
+    tangent. Up to d = 2, (e^2d - 1)/2d <= 1 + 8d holds.
     """
     left = high - t
     down = choose(left < 2.0, -fall * left * fma(8.0, left, 1.0), math.inf)
@@ -130,20 +144,20 @@ def positive_by_tangent(u, fall, t, low, high):
 
 @njit(**SIMD_INLINE)
 def step(s, i):
-    """Step from the trial time to the zero, or nearer to it; or to the bottom of a dip, which shows that there is none."""
+    """Step from the trial time to the zero or towards it, or to the minimum that proves that there is none."""
     u, v, cosine, sine = there(s, i)
     _, _, second, third, fourth, fifth, _ = derivatives(s, i, (u, v, cosine, sine))
     diving = s.stage[i] == MINIMUM
     per = 1.0 / choose(diving, v + second, v)
     y = -u * per
     factor = reversion(y, second, third, fourth, per)
-    # near enough, as ``fast_path.close``: the rest of the way by Taylor series
+    # near enough, as in ``fast_path.close``: the rest of the way by Taylor series
     bend, twist = y * per * second, y * (y * per) * third
     close = (v < 0.0) & (abs(y) * max(1.0, s.frequency[i]) < NEAR)
     close &= (abs(bend) < NEAR) & (abs(twist) < NEAR * NEAR)
     arrived, x = (s.stage[i] == REFINE) & close, y * factor
     s.wait[i] = choose(arrived, s.time[i] + x, s.wait[i])
-    # of a lane that has not arrived nobody asks for these
+    # these are used only for lanes that have arrived
     s.speed[i] = -velocity_after((v, second, third, fourth, fifth), x)
     set_next(s, i, x, cosine, sine)
     narrow(s, i, arrived, choose(diving, -(u + v) * per, y * within_a_factor_of_two(factor)))
@@ -151,9 +165,9 @@ def step(s, i):
 
 @njit(**SIMD_INLINE)
 def narrow(s, i, arrived, ahead):
-    """Narrow the interval of the zero, or of the bottom of a dip, where u + u' = 0 (``first_zero.time_below_zero``); choose the next stage.
+    """Narrow the interval of the zero or of the minimum; choose the next stage.
 
-    The next trial is ``ahead`` of the last one.
+    At the minimum u + u' = 0 (``first_zero.time_below_zero``). The next trial is ``ahead`` of the last one.
     """
     stage, t, low, high = s.stage[i], s.time[i], s.low[i], s.high[i]
     u, v, diving, tries = s.angle_there[i], s.rate_there[i], stage == MINIMUM, s.tries[i]
@@ -163,7 +177,7 @@ def narrow(s, i, arrived, ahead):
     beyond = choose(diving, through | (fall > 0.0), u <= 0.0)
     low, high = choose(held & (beyond == False), t, low), choose(held & beyond, t, high)  # noqa: E712
     ahead = t + ahead
-    # A step that would leave what holds the zero, or the bottom, goes to its middle.
+    # A step that would leave the interval goes to its middle.
     inside = (ahead >= low) & (ahead <= high) & (diving | (v < 0.0))
     s.time[i] = choose(held, choose(inside, ahead, 0.5 * (low + high)), t)
     s.low[i] = low

@@ -1,4 +1,4 @@
-"""What a lane leaves to the functions for one block: an event that is not certain, a crest, accumulating events."""
+"""Scalar fallback of a lane, by the functions for one block: uncertain events, maxima of the angle, chattering."""
 
 from numba import njit
 
@@ -27,14 +27,14 @@ from rocking.kernels.march.next_event import next_event
 
 @njit(**INTERNAL)
 def leg_done(s, i):
-    """Whether the coming event lies beyond the end of the leg."""
+    """Return whether the coming event lies beyond the end of the leg."""
     left = (s.target[i] - s.cycle[i]) * s.period[i]
     return s.start[i] + s.wait[i] > left
 
 
 @njit(**INTERNAL)
 def settles(s, i, p):
-    """Whether events certainly accumulate after the coming one, as in ``impact_law``."""
+    """Return whether chattering certainly follows the coming event, as in ``impact_law``."""
     hits, cosine, sine = s.at_brace[i] > 0.0, s.next_cosine[i], s.next_sine[i]
     restitution = p.brace_restitution if hits else p.restitution
     speed = restitution * s.speed[i]
@@ -47,7 +47,7 @@ def settles(s, i, p):
 
 @njit(**INTERNAL)
 def request_at_event(s, i, p):
-    """Return the request of a lane that may have arrived: the end of its leg, to be marched alone, or nothing."""
+    """Return the request of a lane that may have arrived: the end of its leg, a march alone, or nothing."""
     if s.stage[i] != AT_EVENT:
         return NO_REQUEST
     return END_LEG if leg_done(s, i) else TO_SCALAR if settles(s, i, p) else NO_REQUEST
@@ -55,7 +55,7 @@ def request_at_event(s, i, p):
 
 @njit(**INTERNAL)
 def find_event(s, i, p):
-    """Find the coming event, of which a lane was not certain, and return its request after that."""
+    """Find the coming event that a lane could not determine with certainty; return the next request of the lane."""
     coming, _ = next_event(p, FLIGHT, arc_of(s, i, p), NONE_YET)
     hits, speed = coming.event == BRACE, abs(coming.velocity)
     returned = (p.brace_restitution if hits else p.restitution) * speed
@@ -77,7 +77,7 @@ def find_event(s, i, p):
 
 @njit(**INTERNAL_INLINE)
 def resolve_alone(s, i, p):
-    """Do what needs one block alone, and return the request that is left."""
+    """Fulfil the requests that need the functions for one block, and return the request that is left."""
     if s.request[i] == FIND_EVENT:
         return find_event(s, i, p)
     return request_at_event(s, i, p) if s.request[i] == CHECK_ZENO else s.request[i]
@@ -85,6 +85,6 @@ def resolve_alone(s, i, p):
 
 @njit(**INTERNAL_INLINE)
 def update_peak(s, i, p):
-    """Update the largest angle up to the coming impact, where it may be exceeded."""
+    """Update the largest angle up to the coming impact, if the arc may exceed it."""
     if s.stage[i] == AT_EVENT and s.exceeds[i] > 0.0:
         s.peak[i] = largest_on(p, arc_of(s, i, p), s.wait[i], s.peak[i])

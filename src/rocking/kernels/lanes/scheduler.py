@@ -1,6 +1,7 @@
-"""The decision cascade for many systems at once: each alone until plain marching is all that is left, then in a lane.
+"""Batch scheduler: the decision cascade for many systems, each in a lane as soon as plain marching remains.
 
-Legs and checkpoints are the same; a lane only marches. The verdict on a block never depends on its neighbours.
+Before that each system is marched alone. Marches and checkpoints are the same in both; a lane only marches.
+The verdict on a block never depends on the other lanes.
 """
 
 import math
@@ -44,12 +45,12 @@ from rocking.kernels.lanes.transfer import (
 from rocking.kernels.lanes.workspace import lane_workspace
 from rocking.kernels.parameters import HarmonicParameters, parameters_from_row
 
-# Of a quicker forcing an arc has too many stretches to be walked along in step with others.
+# With a shorter forcing period an arc has too many sign intervals for a search in lockstep.
 MIN_LANE_PERIOD = 0.1
 
 
 class LaneWork(NamedTuple):
-    """Work item of a lane: a point of the batch, -1 where the lane is idle, its system and its classification."""
+    """Work item of a lane: a point of the batch (-1 if the lane is idle), its system and its classification."""
 
     point: int
     p: HarmonicParameters
@@ -57,7 +58,7 @@ class LaneWork(NamedTuple):
 
 
 class BatchRequest(NamedTuple):
-    """Batch of points: systems, initial states, the budget and the result arrays."""
+    """Batch request: systems, initial states, cycle budget and result arrays."""
 
     systems: np.ndarray
     starts: np.ndarray
@@ -68,7 +69,7 @@ class BatchRequest(NamedTuple):
 
 @njit(**INTERNAL)
 def lane_eligible(p, case):
-    """Whether lanes may march a motion: between braces from event to event, or without any where nothing is lost."""
+    """Return whether a motion may be marched in lanes: between braces, or without braces and undamped."""
     run, tracker = case.run, case.run.tracker
     progress, arc = tracker.progress, tracker.progress.arc
     if progress.mode != FLIGHT or not (p.amplitude > 1.0 and p.period >= MIN_LANE_PERIOD):
@@ -81,9 +82,15 @@ def lane_eligible(p, case):
 
 @njit(**INTERNAL_INLINE)
 def try_skip_readback(s, i, work, max_cycles, workspace):
-    """Start the next leg of a lane without reading its block, if its motion has outgrown any torus.
+    """Start the next leg of a lane without reading its block, if the tangent growth already excludes a torus.
 
-    Returns whether that was done, and the work item. What differences have grown by is read in any case.
+    The growth is read in any case.
+
+    Returns
+    -------
+    tuple of (bool, LaneWork)
+        Whether the leg was started.
+        The work item.
     """
     point, p, case = work
     target, most = next_look(case, max_cycles), workspace.flights.shape[1]
@@ -117,7 +124,7 @@ def start_leg(s, i, work, stays, max_cycles, own):
         set_difference(s, i, own.tangent.columns)
     else:
         load_block(s, i, work.p, case.run.tracker.progress, own.tangent.columns, case.run.flights.count)
-    # no more cycles at a time than the section has rows for
+    # no more cycles than the section has rows for
     target = min(next_look(case, max_cycles), case.run.tracker.progress.cycle + LEG)
     needed = section_needed(own.tangent.growth[0], target, max_cycles, own.scratch.shape[0])
     set_leg(s, i, target, not case.run.lossless or needed)
@@ -125,10 +132,15 @@ def start_leg(s, i, work, stays, max_cycles, own):
 
 @njit(**INTERNAL_INLINE)
 def service_lane(s, i, request, work, queue, batch, workspace):
-    """Read a lane after a leg, or part of one, and start its next leg.
+    """Service one lane at the end of a leg, or of part of one, and start its next leg.
 
-    Returns its work item and the next point of the queue: the same item while lanes may march it, else the next point that
-    they may march. All that they may not march is done here, one block at a time.
+    Motions that are not eligible for lanes are marched here, one block at a time.
+
+    Returns
+    -------
+    tuple of (LaneWork, int)
+        Work item: the same if it continues in the lane, else the next eligible one.
+        Next point of the queue.
     """
     own, max_cycles = lane_workspace(workspace, i), batch.max_cycles
     verdict, settled, ended = undecided(work.case.run.tracker), request == LOAD_NEXT, request == END_LEG
@@ -161,7 +173,14 @@ def service_lane(s, i, request, work, queue, batch, workspace):
 
 @njit(**INTERNAL_INLINE)
 def service_until_ready(s, i, request, work, queue, batch, workspace):
-    """Fulfil this and the following requests of a lane, and return its work item and the next point of the queue."""
+    """Fulfil this and the following requests of a lane.
+
+    Returns
+    -------
+    tuple of (LaneWork, int)
+        Work item of the lane.
+        Next point of the queue.
+    """
     while request > UPDATE_PEAK:
         skipped = False
         if request == END_LEG:
@@ -187,9 +206,10 @@ def run_lanes(s, flights, log, braced, stop):
 
 @njit(**ALLOCATING_ENTRY)
 def classify_batch_lanes(systems, starts, max_cycles, max_period, workspace, results, stop):
-    """Classify a batch in lanes, all points with braces or all without; arguments as for ``batch.judge_each``.
+    """Classify a batch in lanes, all points with braces or all without.
 
-    Returns whether all points were classified, and ``stop[0]`` not set on the way.
+    The arguments are those of ``batch.classify_batch_scalar``. Returns True if all points were classified,
+    False if ``stop[0]`` was set before the end.
     """
     batch = BatchRequest(systems, starts, max_cycles, max_period, results)
     s, p, queue, busy = workspace.state[0], parameters_from_row(systems[0]), np.int64(0), LANES

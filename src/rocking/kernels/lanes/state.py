@@ -1,14 +1,16 @@
-"""The state of many blocks that march in lockstep, one block a lane, without a branch.
+"""State of all lanes: many blocks that march in lockstep and without a branch, one block per lane.
 
-``s.velocity[i]`` is the field ``velocity`` of lane i. A field of all lanes is contiguous, so that one instruction
-moves several blocks. A pass (``step``) calls one function of (s, i) for every lane, and every lane does its next stage:
+``s.velocity[i]`` is the field ``velocity`` of lane i. A field of all lanes is contiguous, so that one
+instruction processes several blocks. A pass (``step``) calls functions of (s, i) for every lane; each lane
+executes its next stage:
 
-1. ``bracket`` walks along the stretches of the arc to the one in which the first zero of u lies;
+1. ``bracket`` finds the sign interval of the arc that contains the first zero of u;
 2. ``root`` guesses the zero, evaluates the arc there and steps to it;
 3. ``impact`` begins the next arc.
 
-Between braces ``braced_arc`` and ``braced_event`` do all that. Whatever is rare, or not certain by a wide margin, is left
-to the functions for one block: the lane makes a request.
+Between braces ``braced_arc`` and ``braced_event`` do all of this. Rare cases, and those that are not certain
+by a wide margin, are left to the functions for one block: the lane makes a request. The march of a lane from
+one checkpoint of its classification to the next is its *leg*.
 """
 
 import math
@@ -23,76 +25,83 @@ from rocking.kernels.numerics.simd import SHORT_ANGLE, SHORT_TIME
 LANES = 48
 
 FIELDS = (
-    # the system; A Omega, Omega**2, beta Omega; up to when the elementary functions are those of a short time
+    # the system; A Omega, Omega**2, beta Omega; the time below which the elementary functions use the
+    # short-time form
     "amplitude", "frequency", "phase", "response", "restitution", "period", "per_period",
     "amplitude_rate", "frequency_square", "response_rate", "short_time_limit",
-    # when, within the cycle, a convex stretch begins on either side
+    # time within the cycle at which a convex sign interval begins on either side
     "sign_change_right", "sign_change_left",
-    # 1 + beta cos eta and the size of its rate at the cuts; lengths of the concave and the convex stretches; e^+-length
-    # of a whole turn and of half of a convex stretch, the hyperbolic tangent of that, with a margin
+    # 1 + beta cos eta and the absolute value of its derivative at the sign changes; lengths of the concave
+    # and the convex intervals; e^+-length of a whole forcing period and of half a convex interval, and tanh
+    # of the latter, with a margin
     "sign_change_displacement", "sign_change_velocity", "inside", "outside",
     "turn_growth", "turn_decay", "half_growth", "half_decay", "half_tanh",
-    # of a concave and of a convex stretch a quarter from their middle: cos eta, the size of sin eta, e^+-quarter
+    # at a quarter of a concave and of a convex interval from its middle: cos eta, |sin eta|, e^+-quarter
     "cosine_in", "sine_in", "grow_in", "decay_in", "cosine_out", "sine_out", "grow_out", "decay_out",
-    # the arc: where it starts, and c+ and c-
+    # the arc: its stage, its start, and c+ and c-
     "stage", "cycle", "start", "side", "velocity", "cosine", "sine", "growing", "shrinking",
-    # no zero lies before ``low``; at ``end``, e^end = z, the next convex stretch begins; whether that holds no zero; whether
-    # u may exceed ``peak``
+    # ``low``: no zero lies before it; ``end``: the next convex interval begins there, e^end = z; whether that
+    # contains no zero; whether u may exceed ``peak``
     "low", "end", "z", "per_z", "cleared", "exceeds",
-    # the stretch of the zero: 1 where it is concave, to ``end``, -1 where convex, from there on; no zero lies after ``high``
+    # the sign interval of the zero: 1 if concave, up to ``end``, -1 if convex, from there on; no zero lies
+    # after ``high``
     "concave", "high",
-    # the trial time, how many there were, and the elementary functions of it
+    # the trial time, the number of trials, and the elementary functions of the time
     "time", "tries", "sinh", "versinh", "excess", "higher", "sin_x", "versine", "lag", "deficit",
-    # u, u', cos eta and sin eta there, and before that where the series that guesses the time is about; when that is, and
-    # how much later it is entered
+    # u, u', cos eta and sin eta at the trial time; before that, where the series that predicts the time is
+    # expanded; that time, and the offset of the prediction from it
     "angle_there", "rate_there", "cosine_there", "sine_there", "about", "guess_offset",
-    # the event to come
+    # the coming event
     "wait", "speed", "next_cosine", "next_sine", "next_sinh", "next_versinh", "request",
-    # the end of the leg; whether its arcs are logged; the events counted before it began, those of no flight that was
-    # collected, all; the largest angle
+    # the end of the leg; whether its arcs are logged; numbers of events before the leg, of those without a
+    # collected arc, and of all; the largest angle
     "target", "log_on", "counted", "uncollected", "events", "peak",
-    # a difference in (Theta, Theta'), to be doubled so often
+    # a tangent vector in (Theta, Theta'), and the binary exponent of its scale factor
     "delta_angle", "delta_velocity", "doublings",
-    # where braces stand and what they give back; the angle where the arc starts; whether a brace is met next; hits by now
+    # brace angle and restitution; the angle where the arc starts; whether a brace is met next; number of
+    # brace impacts
     "brace_angle", "brace_restitution", "angle", "at_brace", "brace_hits",
-    # between braces: (u, u', cos eta, sin eta) at the time ``about``, up to which nothing is met
+    # between braces: (u, u', cos eta, sin eta) at the time ``about``, before which nothing is met
     "knot_angle", "knot_rate", "knot_cosine", "knot_sine",
-    # where an arc begins: the first cut; m = 2 sqrt(c+ c-), ln(c-/c+), and roughly the time up to which u must be positive
+    # at the start of an arc: the first sign change; m = 2 sqrt(c+ c-), ln(c-/c+), and roughly the time before
+    # which u must be positive
     "sign_change", "deep", "twice", "late",
-    # where an arc is logged: into which row, the square of the speed, whether there is more to log
+    # log of an arc: its row, the squared speed, and whether more must be logged
     "slot", "square", "due",
 )  # fmt: skip
 LANE_STATE = np.dtype([(name, np.float64, LANES) for name in FIELDS], align=True)
 
-# What is next for a lane: nothing; to walk; to guess the zero in its stretch; to look for the bottom of a dip; to step to the
-# zero; what none of these can do; to look from further on; an arc, of a block that has just come; the event, once it was
-# attended to, and then an arc: from NEW_ARC on an arc begins.
+# Next stage of a lane. IDLE: no block. BRACKET: search the sign intervals. GUESS: guess the zero in its
+# interval. MINIMUM: search the minimum of a convex interval. REFINE: step to the zero. FAILED: a request is
+# needed. EXTEND: expand the series further on. From NEW_ARC on an arc begins: of a newly loaded block, or,
+# AT_EVENT, after the event and its requests.
 IDLE, BRACKET, GUESS, MINIMUM, REFINE, FAILED, EXTEND, NEW_ARC, AT_EVENT = (
     float(stage) for stage in range(9)
 )
-# What a lane requests: nothing; that its peak be updated; that its log be read; a block; that its leg be ended; that its block
-# be marched alone; that the coming event be found; that it be tested whether what follows a slow event accumulates. Only the
-# first two leave its block in the lane as it is.
+# Request of a lane: nothing; an update of its peak; a read of its log; a new block; the end of its leg; a
+# march of its block alone; a search for the coming event; a test for chattering after a slow event. Only the
+# first two leave the block in its lane as it is.
 NO_REQUEST, UPDATE_PEAK, FLUSH_LOG, LOAD_NEXT, END_LEG, TO_SCALAR, FIND_EVENT, CHECK_ZENO = (
     float(request) for request in range(8)
 )
-# An event slower than this is marched alone.
+# A block with an event slower than this is marched alone.
 SLOWEST = 1e-6
-# Arcs since the log was last read; odd, as ``classify.workspace.padded_row_length`` would have it.
+# Maximum number of arcs between two reads of the log; odd for the reason in
+# ``classify.workspace.padded_row_length``.
 LOG_ROWS = 385
-# Differences are brought back to size 1 from here.
+# The tangent vector is rescaled beyond this size.
 LARGE = 2.0**64
 
 
 @njit(**SIMD_INLINE)
 def log_is_full(s, i):
-    """Whether the log of a lane must be read before another arc is written into it; never where none is kept."""
+    """Return whether the log of a lane must be read before another arc is written; never if no log is kept."""
     return s.log_on[i] * (s.events[i] - s.counted[i]) > LOG_ROWS - 3.0
 
 
 @njit(**SIMD_INLINE)
 def set_system(s, i, p):
-    """Write what lane i must know of its system."""
+    """Write the parameters of the system of lane i."""
     s.amplitude[i] = p.amplitude
     s.frequency[i] = p.frequency
     s.phase[i] = p.phase
@@ -129,5 +138,5 @@ def set_system(s, i, p):
 
 @njit(**SIMD_INLINE)
 def within_a_cycle(p, eta):
-    """Return the time within the cycle at which the forcing has turned by ``eta``."""
+    """Return the time within the cycle at which the forcing phase reaches ``eta``."""
     return (eta - 2.0 * math.pi * math.floor(eta / (2.0 * math.pi))) * p.per_frequency

@@ -1,4 +1,4 @@
-"""A pass over all lanes: what is next for each. Each short loop is computed for several lanes at once."""
+"""Pass over all lanes: every lane executes its next stage. The compiler vectorises each short loop."""
 
 from numba import njit
 
@@ -36,7 +36,7 @@ def apply_impacts(s):
 
 @njit(**SIMD)
 def advance(s):
-    """Advance all lanes, to their impacts if those are near enough; return whether any requests anything there."""
+    """Advance all lanes, to their impacts if those are near enough; return whether any makes a request."""
     for i in range(LANES):
         skip_clear_period(s, i)
     for i in range(LANES):
@@ -61,7 +61,7 @@ def advance(s):
 
 @njit(**SIMD)
 def apply_events(s):
-    """``apply_impacts`` between braces."""
+    """Apply the events of all lanes that have arrived, between braces, and begin their next arcs."""
     for i in range(LANES):
         carry_through_event(s, i)
     for i in range(LANES):
@@ -70,7 +70,7 @@ def apply_events(s):
 
 @njit(**SIMD)
 def advance_between(s):
-    """``advance`` between braces."""
+    """Advance all lanes between braces; return whether any makes a request."""
     for i in range(LANES):
         predict_event(s, i)
     for i in range(LANES):

@@ -1,4 +1,4 @@
-"""A block moved into its lane, and read back."""
+"""Transfer of a block into its lane, and back."""
 
 import math
 
@@ -20,7 +20,7 @@ LN2 = math.log(2.0)
 
 @njit(**INTERNAL)
 def load_block(s, i, p, progress, columns, collected):
-    """Put a block into a lane; ``collected`` of its flights are kept already."""
+    """Load a block into a lane; ``collected`` of its arcs are already stored."""
     set_system(s, i, p)
     arc, events = progress.arc, progress.impacts + progress.brace_hits
     s.cycle[i] = progress.cycle
@@ -41,7 +41,7 @@ def load_block(s, i, p, progress, columns, collected):
 
 @njit(**INTERNAL_INLINE)
 def set_difference(s, i, columns):
-    """Set the difference that a lane carries from here on."""
+    """Set the tangent vector of a lane."""
     s.delta_angle[i] = columns[0, 0]
     s.delta_velocity[i] = columns[0, 1]
     s.doublings[i] = 0.0
@@ -49,21 +49,21 @@ def set_difference(s, i, columns):
 
 @njit(**INTERNAL_INLINE)
 def set_leg(s, i, target, logged):
-    """Set where the leg of a lane ends, and whether its arcs are logged."""
+    """Set the end of the leg of a lane, and whether its arcs are logged."""
     s.target[i] = target
     s.log_on[i] = logged
 
 
 @njit(**INTERNAL)
 def arc_of(s, i, p):
-    """Return the arc under way in a lane."""
+    """Return the present arc of a lane."""
     side, start = int(s.side[i]), s.start[i]
     return arc_after(p, side, start, s.angle[i], s.velocity[i], s.cosine[i], s.sine[i])
 
 
 @njit(**INTERNAL_INLINE)
 def read_growth(s, i, columns, growth):
-    """Add the logarithm of what the difference has grown by to ``growth``, and write the difference, of size 1, into ``columns``."""
+    """Add the logarithm of the tangent growth to ``growth``, and write the normalised vector into ``columns``."""
     a, b = s.delta_angle[i], s.delta_velocity[i]
     size = math.hypot(a, b)
     growth[0] += math.log(size) + s.doublings[i] * LN2
@@ -73,19 +73,19 @@ def read_growth(s, i, columns, growth):
 
 @njit(**INTERNAL_INLINE)
 def flights_by_now(s, i, flights, most):
-    """Return how many flights are collected, with those since the lane was last read."""
+    """Return the number of collected arcs, including those since the lane was last read."""
     return min(flights.count + int(s.events[i]) - int(s.counted[i]), most)
 
 
 @njit(**INTERNAL)
 def progress_of(s, i, p, before, ends, section_time):
-    """Return the ``Progress`` of a lane, which was ``before`` when it was last read; at the end of the leg if that ``ends``."""
+    """Return the ``Progress`` of a lane, which was ``before`` when last read; if the leg ``ends``, at its end."""
     arc, cycle, target = arc_of(s, i, p), int(s.cycle[i]), int(s.target[i])
     pending = arc.start <= section_time
     if ends:
         arc, cycle, pending = shift_clock(arc, (target - cycle) * p.period), target, True
     elif cycle < before.cycle:
-        # the arc under way began before the lane was last read
+        # the present arc began before the lane was last read
         arc, cycle = shift_clock(arc, (before.cycle - cycle) * p.period), before.cycle
         pending = before.pending
     hits = int(s.brace_hits[i])
@@ -107,7 +107,10 @@ def progress_of(s, i, p, before, ends, section_time):
 
 @njit(**INTERNAL)
 def unload_block(s, i, request, p, run, workspace, log):
-    """Return the run of a lane, with what happened since it was last read; at the end of the leg if that is its request."""
+    """Return the run of a lane, with all events since it was last read.
+
+    If the request is END_LEG, the run is at the end of the leg.
+    """
     tracker, flights, section_time, count, lossless, measuring = run
     before, written = tracker.progress, int(s.events[i]) - int(s.counted[i])
     if lossless and written > 0:
@@ -128,5 +131,5 @@ def unload_block(s, i, request, p, run, workspace, log):
 
 @njit(**INTERNAL)
 def status_of(s, i, max_cycles):
-    """Return the status of a lane's march: CROWDED after more events than a motion may have."""
+    """Return the status of the march of a lane: CROWDED after more events than a motion may have."""
     return CROWDED if int(s.events[i]) > most_events(max_cycles) else DONE

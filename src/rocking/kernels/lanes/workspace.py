@@ -1,4 +1,4 @@
-"""Workspace of all lanes: made once, for one batch after another."""
+"""Workspace of all lanes, allocated once and used for many batches."""
 
 from typing import NamedTuple
 
@@ -16,13 +16,13 @@ from rocking.kernels.march.tangent import TangentState
 
 @intrinsic
 def prefetch_for_write(typingctx, address):
-    """Prefetch the cache line at an address for writing. The processor ignores an address beyond all arrays."""
+    """Prefetch the cache line at an address for writing. The processor ignores invalid addresses."""
 
     def generate(context, builder, signature, arguments):
         pointer, number = ir.IntType(8).as_pointer(), ir.IntType(32)
         kind = ir.FunctionType(ir.VoidType(), [pointer, number, number, number])
         function = builder.module.declare_intrinsic("llvm.prefetch.p0i8", fnty=kind)
-        # to write, to keep as near as can be, not a program
+        # for writing, with high temporal locality, in the data cache
         builder.call(function, [builder.inttoptr(arguments[0], pointer), number(1), number(3), number(1)])
         return context.get_dummy_value()
 
@@ -30,10 +30,10 @@ def prefetch_for_write(typingctx, address):
 
 
 class LaneWorkspace(NamedTuple):
-    """Workspace of all lanes: for each what its own must keep from leg to leg."""
+    """Workspace of all lanes: arrays that each lane keeps from leg to leg, and shared ones."""
 
     state: np.ndarray  # (1,), LANE_STATE
-    log: np.ndarray  # (lanes, n), EVENT_ROW: the arcs since they were last read
+    log: np.ndarray  # (lanes, n), EVENT_ROW: the arcs since the last read
     section: np.ndarray
     scratch: np.ndarray
     events: np.ndarray
@@ -46,7 +46,10 @@ class LaneWorkspace(NamedTuple):
 
 
 def make_lane_workspace(max_cycles, max_period):
-    """Make the workspace of all lanes, as ``make_workspace`` does for one block; the state begins at a cache line."""
+    """Allocate the workspace of all lanes, as ``make_workspace`` does for one block.
+
+    The state starts at a cache line.
+    """
     one, room = make_workspace(max_cycles, max_period), np.zeros(LANE_STATE.itemsize + 64, np.uint8)
     first = -room.ctypes.data % 64
     section, flights, batches, columns, growth = (

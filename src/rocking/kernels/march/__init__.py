@@ -1,1 +1,1 @@
-"""The march of one block from event to event."""
+"""March of one block from event to event."""

@@ -1,4 +1,4 @@
-"""The limits of accumulating impacts (Zeno): when rest, or leaning, is certain, and how soon it comes at the latest."""
+"""Bounds on chattering (Zeno): proof that it ends in rest or sustained contact, and an upper bound on when."""
 
 import math
 
@@ -10,13 +10,13 @@ from rocking.kernels.forcing.harmonic import acceleration_change_bound, forcing_
 
 @njit(**INTERNAL)
 def settling_time(speed, restitution, weakest, strongest, clearance):
-    """A bound on how long impacts go on, from one that leaves at ``speed``.
+    """Return an upper bound on the duration of chattering after an impact that leaves at ``speed``.
 
-    The block is pressed back with ``weakest`` to ``strongest`` within ``clearance``. Infinite where they need
-    not end. A hop's height stays below h = speed**2/weakest (<= weakest/2), so the press, less u, stays
-    above ``weakest - h``; each impact returns at most ``ratio`` times the speed it left with, so speeds
-    fall geometrically by restitution*ratio, and a hop lasts at most (1 + ratio)/(weakest - h) times its
-    speed.
+    The block is accelerated back with ``weakest`` to ``strongest`` within ``clearance``. Infinite if the
+    impacts need not end. The height of an arc stays below h = speed**2/weakest (<= weakest/2), so the
+    acceleration, less u, stays above ``weakest - h``. Each arc returns with at most ``ratio`` times the speed
+    with which it left. So speeds fall geometrically by restitution*ratio. The duration of an arc is at most
+    (1 + ratio)/(weakest - h) times its speed.
     """
     height = speed * speed / weakest
     if not (weakest > 0.0 and height <= 0.5 * min(weakest, clearance)):
@@ -31,10 +31,11 @@ def settling_time(speed, restitution, weakest, strongest, clearance):
 
 @njit(**KERNEL)
 def base_settling_time(p, cosine, sine, speed):
-    """A bound on the time from an impact to rest (Zeno limit at the base), infinite where not certain.
+    """Return an upper bound on the time from an impact to rest (Zeno limit at the base).
 
-    On the sides of the base the block is pressed back with 1 +- A cos psi. The weaker of the two bounds both, and
-    stays positive within the window, so it ends before lift-off.
+    Infinite if rest is not certain. On the two sides of the base the block is accelerated back with 1 +- A
+    cos psi. The weaker of the two bounds both, and stays positive within the window, so that the window ends
+    before lift-off.
     """
     swing = p.amplitude * abs(cosine)
     if p.restitution >= 1.0 or swing >= 1.0:
@@ -47,7 +48,10 @@ def base_settling_time(p, cosine, sine, speed):
 
 @njit(**KERNEL)
 def brace_settling_time(p, cosine, sine, speed):
-    """A bound on the time from a hit to leaning, infinite where it is not certain; the brace is pressed with brace_angle + f."""
+    """Return an upper bound on the time from a brace impact to sustained contact; infinite if that is not certain.
+
+    The acceleration into the brace is brace_angle + f.
+    """
     press = p.brace_angle + forcing_term(p, cosine)
     if p.brace_restitution >= 1.0 or press <= 0.0:
         return math.inf

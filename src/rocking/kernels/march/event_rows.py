@@ -1,4 +1,4 @@
-"""What a march writes down: rows of the section, and of events."""
+"""Row layout of sections and events, and the functions that write rows."""
 
 import numpy as np
 from numba import njit
@@ -7,14 +7,15 @@ from rocking.kernels.arc.solution import evaluate, within_reach
 from rocking.kernels.compile_options import ENTRY_POINT, INTERNAL
 from rocking.kernels.event_kinds import BRACE, FLIGHT, LEAN, LEANS, NONE, REST, RESTS
 
-# An event: its cycle and the time within it, what it is; mode, side, u and u' of the arc that follows; Theta' just before.
+# An event: its cycle and the time within it; its kind; mode, side, u and u' of the arc that follows; Theta'
+# just before.
 NAMES = "cycle", "time", "event", "mode", "side", "angle", "velocity", "before"
 EVENT_ROW = np.dtype([(name, np.float64) for name in NAMES], align=True)
 
 
 @njit(**INTERNAL)
 def state_at(p, mode, arc, t):
-    """(Theta, Theta') a time t into an arc, a rest or a lean."""
+    """Return Theta and Theta' a time t into an arc, a rest or a contact with a brace."""
     if mode == REST:
         return 0.0, 0.0
     if mode == LEAN:
@@ -25,7 +26,7 @@ def state_at(p, mode, arc, t):
 
 @njit(**INTERNAL)
 def note_state(p, row, progress, t):
-    """Write a row of the section, a time t into an arc, a rest or a lean."""
+    """Write a row of the section, a time t into an arc, a rest or a contact with a brace."""
     row[0], row[1] = state_at(p, progress.mode, progress.arc, t)
     if row.shape[0] > 2:
         row[2], row[3] = progress.impacts, progress.brace_hits
@@ -33,7 +34,7 @@ def note_state(p, row, progress, t):
 
 @njit(**INTERNAL)
 def note(events, count, progress, event, before):
-    """Write one event, with the arc that follows it and the velocity before it; return how many are written."""
+    """Write one event, with the arc after it and the velocity before it; return the number of events."""
     row, arc = events[count], progress.arc
     row.cycle = progress.cycle
     row.time = arc.start
@@ -48,7 +49,7 @@ def note(events, count, progress, event, before):
 
 @njit(**INTERNAL)
 def note_event(events, count, progress, event, before):
-    """Write an event; rest or leaning that begins with it is an event of its own at the same instant."""
+    """Write an event, and any rest or sustained contact that begins with it; return the number of events."""
     count = note(events, count, progress, event, before)
     if progress.mode == FLIGHT:
         return count
@@ -57,7 +58,10 @@ def note_event(events, count, progress, event, before):
 
 @njit(**ENTRY_POINT)
 def note_start(events, progress, hit, velocity):
-    """Write what a motion begins with: its first arc, after a hit on a brace (and leaning there) where it starts with one."""
+    """Write the first rows of a motion: its first arc, after a brace impact if it starts with one.
+
+    Returns the number of events written. A sustained contact with the brace at the start is a second event.
+    """
     if hit:
         return note_event(events, 0, progress, BRACE, velocity)
     return note(events, 0, progress, NONE, velocity)

@@ -1,4 +1,4 @@
-"""What an event does: impact, eq. (2) of Yim & Lin (1991), brace impact, rest, leaning, lift-off, leaving."""
+"""Impact law, eq. (2) of Yim & Lin (1991), and the states after all other events."""
 
 import math
 
@@ -10,20 +10,26 @@ from rocking.kernels.event_kinds import BRACE, FLIGHT, IMPACT, LEAN, LEAVE, LIFT
 from rocking.kernels.march.chatter import base_settling_time, brace_settling_time
 from rocking.kernels.march.next_event import side_to_lift, stays_leaning
 
-# Accumulating impacts of a recorded motion go on, one by one, down to this speed.
+# In a recorded motion chattering impacts are resolved one by one down to this speed.
 SLOWEST = 1e-13
-# Below this a speed is none: where the press all but vanishes, accumulation cannot be proved to end.
+# A speed below this counts as zero. If the acceleration into the contact nearly vanishes, chattering cannot
+# be proved to end.
 NEGLIGIBLE = 1e-30
-# Faster than this no accumulation is looked for.
+# Above this speed chattering is not tested.
 SLOW = 0.1
 
 
 @njit(**KERNEL_INLINE)
 def after_impact(p, arc, time, coming, horizon):
-    """(mode, arc) after an impact at the base.
+    """Return mode and arc after an impact at the base.
 
-    ``horizon`` is the time in which nothing is asked for, so that accumulating impacts may be cut short. A block
-    that comes back before the clock has moved has not left: so at a brace too.
+    ``horizon`` is the time in which nothing is recorded, so that chattering may be cut short. If the block
+    returns before the clock has advanced, it has not left; the same holds at a brace.
+
+    Returns
+    -------
+    tuple of (int, Arc)
+        Mode and arc.
     """
     speed = p.restitution * max(-coming.velocity, 0.0)
     if speed < NEGLIGIBLE and p.restitution < 1.0:
@@ -46,12 +52,18 @@ def after_impact(p, arc, time, coming, horizon):
 
 @njit(**INTERNAL)
 def after_brace(p, arc, time, coming, horizon):
-    """(mode, arc) after a hit on a brace."""
+    """Return mode and arc after a brace impact; arguments as for ``after_impact``.
+
+    Returns
+    -------
+    tuple of (int, Arc)
+        Mode and arc.
+    """
     speed = p.brace_restitution * max(coming.velocity, 0.0)
     if speed < NEGLIGIBLE and p.brace_restitution < 1.0:
         speed = 0.0
     if speed >= SLOW:
-        # Only how a slow hop goes hangs on the last digits of the pull.
+        # Only a slow arc depends on the last digits of its acceleration.
         return FLIGHT, arc_after(p, arc.side, time, p.brace_angle, -speed, coming.cosine, coming.sine)
     after = arc_from(p, arc.side, time, p.brace_angle, -speed)
     mode = FLIGHT
@@ -69,7 +81,13 @@ def after_brace(p, arc, time, coming, horizon):
 
 @njit(**KERNEL_INLINE)
 def after_event(p, arc, time, coming, horizon):
-    """(mode, arc) after the coming event."""
+    """Return mode and arc after the coming event; arguments as for ``after_impact``.
+
+    Returns
+    -------
+    tuple of (int, Arc)
+        Mode and arc.
+    """
     if coming.event == IMPACT:
         return after_impact(p, arc, time, coming, horizon)
     if coming.event == BRACE:

@@ -1,7 +1,7 @@
-"""The march of one block: from event to event, in constant memory.
+"""Event-driven march of one block, in constant memory.
 
-Time is kept as an integer cycle and the time within it, so that no phase is lost however long the run.
-Sections lie inside arcs and do not break them.
+Time is an integer cycle and the time within it, so that the forcing phase stays accurate however long the
+run. Sections lie inside arcs and do not interrupt them.
 """
 
 import math
@@ -48,24 +48,24 @@ from rocking.kernels.march.tangent import (
 )
 
 MAX_EVENTS = 10_000_000
-# Compiled code cannot be interrupted: it returns after this many events.
+# Compiled code cannot be interrupted, so a march returns after this number of events.
 BREATH = 2_000_000
-# No guesses of the first two waits.
+# No guesses of the first two times between events.
 UNKNOWN = (0.0, 0.0)
-# From event to event the forcing is turned on with the arc; after this many (a power of two, less one) it
-# is computed from the clock again.
+# From event to event cos eta and sin eta are propagated with the arc. After this number of events (a power of
+# two, less one) they are computed from the clock again.
 RESYNCHRONISE = 15
 
 
 class Status(IntEnum):
-    """How a march ended."""
+    """Reason why a march ended."""
 
     DONE = 0
     OVERTURNED = 1
-    STILL = 2  # at rest, or leaning, for ever
-    PAUSED = 3  # the event buffer is full, or it is time to return: go on
+    STILL = 2  # permanently at rest or in contact with a brace
+    PAUSED = 3  # the event buffer is full, or BREATH events were computed: call again to resume
     CROWDED = 4  # more than MAX_EVENTS events in one cycle
-    RELEASED = 5  # the block has just lifted off or left a brace, and that was waited for: go on
+    RELEASED = 5  # the block has just lifted off or left a brace, as requested: call again to resume
 
 
 DONE, OVERTURNED, STILL, PAUSED, CROWDED, RELEASED = (int(status) for status in Status)
@@ -73,9 +73,15 @@ DONE, OVERTURNED, STILL, PAUSED, CROWDED, RELEASED = (int(status) for status in 
 
 @njit(**INTERNAL)
 def begin(p, angle, velocity, waits, start=0.0):
-    """The block just after any event at the time ``start`` within its first cycle, and whether a brace was hit there.
+    """Start a march just after any event at the time ``start`` within its first cycle.
 
-    ``waits`` guesses the time to the first event and that from there to the next.
+    ``waits`` guesses the time to the first event and the time from there to the second.
+
+    Returns
+    -------
+    tuple of (Progress, bool)
+        The march at its start.
+        Whether a brace was hit there.
     """
     side = 1 if angle > 0.0 or (angle == 0.0 and velocity > 0.0) else -1
     hit = abs(angle) == p.brace_angle and side * velocity > 0.0
@@ -108,16 +114,16 @@ def begin(p, angle, velocity, waits, start=0.0):
 
 @njit(**ENTRY_POINT)
 def begin_plain(p, angle, velocity):
-    """``begin`` as Python may have it."""
+    """Return the result of ``begin`` with the progress as nested tuples; entry point for Python."""
     progress, hit = begin(p, angle, velocity, UNKNOWN)
     return to_tuple(progress), hit
 
 
 @njit(**INTERNAL)
 def finish(p, reached, coming, state, want_peak):
-    """Return (status, progress) at the end of a march: differences, peak and arc are brought there.
+    """Return status and progress at the end of a march: tangent vectors, peak and arc are brought there.
 
-    An overturned block is left at the moment of the proof: later its angle may be beyond all numbers.
+    An overturned block is left at the time of the proof, because its angle may overflow later.
     """
     arc, peak = reached.arc, reached.peak
     end = min(reached.no_return, 0.0)
@@ -141,7 +147,7 @@ def finish(p, reached, coming, state, want_peak):
 
 @njit(**INTERNAL_INLINE)
 def prove_no_return(p, progress, coming):
-    """Return the progress with the time of the proof, where the block never comes back."""
+    """Return the progress with the time from which overturning is proved, if the block never comes back."""
     arc, no_return = progress.arc, progress.no_return
     if coming.wait == math.inf and progress.mode == FLIGHT and no_return == math.inf:
         no_return = arc.start + no_return_time(p, arc)
@@ -150,9 +156,9 @@ def prove_no_return(p, progress, coming):
 
 @njit(**INTERNAL_INLINE)
 def pass_boundaries(p, progress, wait, cycles, recording, rows):
-    """Pass the sections and the ends of cycles that lie before the coming event.
+    """Pass the sections and the ends of cycles before the coming event.
 
-    Returns (progress, section rows written, whether the march ends there).
+    Returns the progress, the number of section rows written, and whether the march ends there.
     """
     section, section_time = recording.section, recording.section_time
     while progress.arc.start + wait > (section_time if progress.pending else p.period):
@@ -172,7 +178,7 @@ def pass_boundaries(p, progress, wait, cycles, recording, rows):
 
 @njit(**INTERNAL_INLINE)
 def pass_event(p, progress, coming, horizon, want_peak):
-    """Return the progress after the coming event; accumulating impacts are cut short if they end within the ``horizon``."""
+    """Return the progress after the coming event; chattering is cut short if it ends within the ``horizon``."""
     arc, impacts, brace_hits = progress.arc, progress.impacts, progress.brace_hits
     peak = progress.peak
     if want_peak and progress.mode == FLIGHT:
@@ -198,7 +204,7 @@ def pass_event(p, progress, coming, horizon, want_peak):
 
 @njit(**INTERNAL_INLINE)
 def resynchronised(p, progress):
-    """Return the progress with the forcing of its arc computed from the clock, where that is due."""
+    """Return the progress with the forcing of its arc computed from the clock, if that is due."""
     arc = progress.arc
     if (progress.impacts + progress.brace_hits) & RESYNCHRONISE == 0:
         arc = arc_from(p, arc.side, arc.start, arc.angle, arc.velocity)
@@ -207,10 +213,10 @@ def resynchronised(p, progress):
 
 @njit(**INTERNAL_INLINE)
 def unobserved_time(p, progress, coming, cycles, recording):
-    """Return the time after the coming event in which nothing is recorded, so that accumulating impacts may be cut short.
+    """Return the time after the coming event in which nothing is recorded, so that chattering may be cut short.
 
-    Without section and events that is the rest of the march; where releases are waited for any time, whatever the section
-    then misses.
+    Without section and events that is the rest of the march. If the march stops at releases it is
+    MAX_ARC_TIME, even if the section then misses states.
     """
     if recording.section.shape[0] == 0 and recording.events.shape[0] == 0 and not recording.releases:
         return (cycles - progress.cycle) * p.period - (progress.arc.start + coming.wait)
@@ -219,13 +225,19 @@ def unobserved_time(p, progress, coming, cycles, recording):
 
 @njit(**INTERNAL)
 def march_on(p, progress, cycles, recording, state):
-    """March to the end of cycle ``cycles``: (status, progress, section rows written, event rows written).
+    """March to the end of cycle ``cycles``, or to the next pause.
 
-    1. The ``recording`` says what is written. When its ``events`` are full, or after BREATH events, the march returns
-       PAUSED; where it waits for releases RELEASED after each. Called again it goes on where it was.
-    2. ``state`` carries differences (``tangent.TangentState``).
-    3. At the end the arc is renewed: the progress begins at the start of cycle ``cycles``; where it waits for releases the
-       arc under way goes on, and counts when it ends. A proof of overturning ends the march with its cycle.
+    1. The ``recording`` selects the output. If its ``events`` are full, or after BREATH events, the march returns
+       PAUSED; if it stops at releases it returns RELEASED after each. The next call resumes it.
+    2. ``state`` carries tangent vectors (``tangent.TangentState``).
+    3. At the end the progress starts a new arc at the start of cycle ``cycles``. If the march stops at releases, the present
+       arc is continued instead, and counts when it ends. A proof of overturning ends the march with its cycle.
+
+    Returns
+    -------
+    tuple of (int, Progress, int, int)
+        Status and progress.
+        Numbers of section rows and of event rows written.
     """
     events, tangent = recording.events, read_registers(state)
     written, rows, computed = 0, 0, 0
@@ -241,7 +253,7 @@ def march_on(p, progress, cycles, recording, state):
             break
         computed += 1
         before = progress
-        # What is left of an arc entered on its way says nothing about whole ones.
+        # The remainder of an arc that was entered midway predicts nothing about complete arcs.
         whole = before.arc.angle in (0.0, p.brace_angle)
         propagator_before, last_propagator = last_propagator, propagator if whole else last_propagator
         unobserved = unobserved_time(p, before, coming, cycles, recording)
@@ -268,7 +280,7 @@ def march_on(p, progress, cycles, recording, state):
 
 @njit(**INTERNAL)
 def march_through(p, progress, cycles, recording, state):
-    """``march_on`` as often as it pauses: (status, progress)."""
+    """Return status and progress after ``march_on``, called until the march no longer pauses."""
     rows, section = 0, recording.section
     while True:
         part = Recording(recording.section_time, section[rows:], recording.events, recording.peak, False)
@@ -280,18 +292,18 @@ def march_through(p, progress, cycles, recording, state):
 
 @njit(**ENTRY_POINT)
 def march_plain(p, progress, cycles, recording, state):
-    """``march_on`` to the end of cycle ``cycles`` as Python may have it."""
+    """March by ``march_on`` and return the progress as nested tuples; entry point for Python."""
     status, reached, rows, written = march_on(p, progress, cycles, recording, state)
     return status, to_tuple(reached), rows, written
 
 
 def begin_march(p, angle, velocity):
-    """``begin_plain`` for Python: (progress, whether a brace was hit)."""
+    """Return the progress at the start and whether a brace is hit there: ``begin_plain`` for Python."""
     fields, hit = begin_plain(p, angle, velocity)
     return from_tuple(fields), hit
 
 
 def march(p, progress, cycles, recording, state=NO_TANGENT):
-    """``march_plain`` for Python: (status, progress, section rows written, event rows written)."""
+    """Return status, progress and the numbers of section and event rows written: ``march_plain`` for Python."""
     status, fields, rows, written = march_plain(p, progress, cycles, recording, state)
     return status, from_tuple(fields), rows, written

@@ -1,4 +1,4 @@
-"""Which event comes next: impact, brace hit, lift-off, leaving a brace, or none for ever."""
+"""Next event of a motion: impact, brace impact, lift-off, departure from a brace, or proof that none follows."""
 
 import math
 from typing import NamedTuple
@@ -24,7 +24,7 @@ from rocking.kernels.forcing.harmonic import first_sign_change, next_sign_change
 
 
 class Next(NamedTuple):
-    """The coming event of an arc, a rest or a lean: after how long, what, and the instant itself."""
+    """Coming event of an arc, a rest or a contact with a brace: time until it, kind, and the state at that time."""
 
     wait: float
     event: int
@@ -39,10 +39,10 @@ class Next(NamedTuple):
 
 @njit(**KERNEL_INLINE)
 def until_window(p, side, psi, half, inside):
-    """Time until eta next enters |eta| < half (``inside``) or leaves it: 0 in the first half of that window.
+    """Return the time until eta next enters |eta| < half (``inside``) or leaves it.
 
-    Who is still held in the second half of a window, having come back at its very end before the clock moved, waits
-    for the next.
+    The time is 0 in the first half of that window. A block that is still held in the second half of a window
+    came back at its very end, before the clock advanced. It waits for the next window.
     """
     sign_change, now_inside = first_sign_change(p, side, psi, 0.0, half)
     if now_inside != inside:
@@ -56,7 +56,13 @@ def until_window(p, side, psi, half, inside):
 
 @njit(**INTERNAL)
 def wait_at_rest(p, psi):
-    """(time until |A cos psi| rises through 1, side of the lift-off); infinite for A <= 1."""
+    """Return the time until a block at rest lifts off, when |A cos psi| rises through 1; infinite for A <= 1.
+
+    Returns
+    -------
+    tuple of (float, int)
+        The time, and the side of the lift-off.
+    """
     if p.base_half == math.inf:
         return math.inf, 1
     right = until_window(p, 1, psi, p.base_half, False)
@@ -66,7 +72,7 @@ def wait_at_rest(p, psi):
 
 @njit(**INTERNAL)
 def wait_leaning(p, side, psi):
-    """Time until the brace is no longer pressed, brace_angle + f falling through 0; infinite where it always is."""
+    """Return the time until a block leaves its brace, when brace_angle + f falls through 0; infinite if never."""
     if p.brace_half == math.inf:
         return math.inf
     return until_window(p, side, psi, p.brace_half, True)
@@ -74,7 +80,7 @@ def wait_leaning(p, side, psi):
 
 @njit(**INTERNAL)
 def side_to_lift(p, psi):
-    """The side to which a block standing still at the base lifts now: where f > 0; 0 where it stays."""
+    """Return the side to which a block at rest at the base lifts now, where f > 0; 0 if it stays."""
     if p.base_half < math.inf:
         for side in (1, -1):
             if not first_sign_change(p, side, psi, 0.0, p.base_half)[1]:
@@ -84,7 +90,7 @@ def side_to_lift(p, psi):
 
 @njit(**KERNEL)
 def stays_leaning(p, side, psi):
-    """Whether a block standing still at the brace is pressed against it: brace_angle + f > 0."""
+    """Return whether a block at rest at the brace is pressed against it: brace_angle + f > 0."""
     if p.brace_half == math.inf:
         return p.brace_angle > 1.0
     return not first_sign_change(p, side, psi, 0.0, p.brace_half)[1]
@@ -92,9 +98,15 @@ def stays_leaning(p, side, psi):
 
 @njit(**KERNEL_INLINE)
 def next_event(p, mode, arc, guess):
-    """(what comes next and when, the lapse to guess from next time), from the lapse until the coming event as it is guessed.
+    """Find the next event, starting from the propagator ``guess`` of the time until it.
 
-    Between braces none is. NONE after a finite wait only renews an arc grown long.
+    There is no guess between braces. NONE after a finite time only restarts an arc that has grown long.
+
+    Returns
+    -------
+    tuple of (Next, Propagator)
+        The next event.
+        The propagator from which to guess the event after the next.
     """
     if mode == FLIGHT and p.base_half < math.inf:
         at_brace, propagator = False, NONE_YET
@@ -118,7 +130,7 @@ def next_event(p, mode, arc, guess):
 
 @njit(**KERNEL)
 def any_event(p, mode, arc):
-    """What comes next, and when, without a guess."""
+    """Find the next event without a guess."""
     if mode == REST:
         wait, side = wait_at_rest(p, arc.psi)
         return Next(wait, LIFT_OFF if wait < math.inf else NONE, side, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)

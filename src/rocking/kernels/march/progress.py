@@ -1,4 +1,4 @@
-"""A block under way, and what a march records of it."""
+"""Progress of a march, and the recording of it."""
 
 from typing import NamedTuple
 
@@ -12,34 +12,34 @@ from rocking.kernels.numerics.replace_fields import replacing
 
 
 class Progress(NamedTuple):
-    """A block under way, and what it has met so far."""
+    """State of a march: mode, clock, arc and the numbers of events so far."""
 
     mode: int
     cycle: int
     arc: Arc
-    pending: bool  # this cycle's section is still to come
+    pending: bool  # the section of this cycle is still ahead
     crowd: int  # events in this cycle
     impacts: int
     brace_hits: int
     peak: float
     no_return: float  # time within the cycle at which overturning was proved; infinite before
-    # about how long the last arc took, and how long the one under way will take from where it is entered, which is
-    # most often what the last on its side took; 0 where that is not known
+    # Guesses of two times between events: how long the last arc took, and how long the present arc takes from
+    # its entry. The second is usually that of the last arc on the same side. 0 if unknown.
     last_wait: float
     wait_before: float
-    strain: float  # logarithm of what differences had grown to when the block last came to rest or leaned
+    strain: float  # logarithm of the tangent growth at the last start of rest or brace contact
 
 
 class Recording(NamedTuple):
-    """What a march records; arrays without rows record nothing."""
+    """Recording of a march; arrays without rows record nothing."""
 
     section_time: float = 0.0  # within each cycle
-    # (n, 2), the states at that time, just after any event there, in order and as long as no overturning is proved; (n, 4)
-    # with the impacts and brace hits so far
+    # (n, 2): states at that time, just after any event there, in order and up to the proof of overturning.
+    # (n, 4): with the numbers of impacts and brace impacts so far.
     section: np.ndarray = np.empty((0, 2))
-    events: np.ndarray = np.empty(0, EVENT_ROW)  # one row an event
+    events: np.ndarray = np.empty(0, EVENT_ROW)  # one row per event
     peak: bool = False
-    releases: bool = False  # stop after each lift-off, and each time the block leaves a brace
+    releases: bool = False  # stop after each lift-off and each departure from a brace
 
 
 with_clock = replacing(Progress, "cycle", "arc", "pending", "crowd", "no_return")
@@ -55,8 +55,8 @@ with_waits = replacing(Progress, "last_wait", "wait_before")
 def to_tuple(progress):
     """Return a progress as nested tuples, for Python.
 
-    A named tuple is made by calling its class, and an interrupt (Ctrl-C) that strikes there, on the way out of compiled code,
-    ends the whole process.
+    A named tuple is created by a call of its class. An interrupt (Ctrl-C) during that call, on the return
+    from compiled code, would end the whole process.
     """
     arc = progress.arc
     return (
@@ -76,5 +76,5 @@ def to_tuple(progress):
 
 
 def from_tuple(fields):
-    """Return the progress that ``to_tuple`` took apart."""
+    """Return the progress that ``to_tuple`` converted."""
     return Progress(*fields[:2], Arc(*fields[2]), *fields[3:])

@@ -1,4 +1,4 @@
-"""What a recorded motion was at any time, and where it turned: read from the arcs that its events began."""
+"""Dense output and extrema of a recorded motion, from the arcs of its event rows."""
 
 import math
 
@@ -14,13 +14,16 @@ from rocking.kernels.forcing.harmonic import forcing_term
 
 @njit(**INTERNAL)
 def arc_of(p, row):
-    """The arc that an event row (``event_rows.note``) began."""
+    """Return the arc that starts with an event row (``event_rows.note``)."""
     return arc_from(p, int(row.side), row.time, row.angle, row.velocity)
 
 
 @njit(**ENTRY_POINT)
 def sample(p, rows, index, elapsed, out):
-    """Write (Theta, Theta', Theta'') into ``out`` (n, 3), a time ``elapsed[k]`` into the arc, rest or lean of row ``index[k]``."""
+    """Write (Theta, Theta', Theta'') into ``out`` (n, 3) at given times.
+
+    Row k is taken a time ``elapsed[k]`` after the event of row ``index[k]``.
+    """
     for k in range(index.shape[0]):
         row = rows[index[k]]
         side = row.side
@@ -30,15 +33,16 @@ def sample(p, rows, index, elapsed, out):
             out[k, 0] = side * within_reach(p, now.angle)
             out[k, 1] = side * now.velocity
             out[k, 2] = side * (now.angle + forcing_term(p, now.cosine))
-            if not math.isfinite(now.angle):  # overturned long ago, beyond all numbers
+            if not math.isfinite(now.angle):  # overturned long before: the angle has overflowed
                 out[k, :] = side * math.inf
 
 
 @njit(**ENTRY_POINT)
 def turns(p, rows, until, out):
-    """Write (row, time into its arc, Theta) of every local extreme of the flights.
+    """Write (row, time into its arc, Theta) of every local extremum of the angle.
 
-    Returns how many there are, written or not; ``until[k]`` is how long row k's arc lasts.
+    ``until[k]`` is the duration of the arc of row k. Returns the number of extrema, including those for which
+    ``out`` has no row.
     """
     count = 0
     for k in range(rows.shape[0]):

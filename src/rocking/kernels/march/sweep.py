@@ -1,4 +1,4 @@
-"""One system after another: what is left of the motion of each after a transient, and where that motion begins."""
+"""Sweep over systems: section and peak of each motion after a transient, and the initial state of the next."""
 
 import math
 
@@ -12,7 +12,13 @@ from rocking.kernels.parameters import parameters_from_row
 
 @njit(**INTERNAL)
 def march_state(p, angle, velocity, cycles, recording, tangent):
-    """(status, Theta, Theta', peak) after whole cycles."""
+    """March a whole number of cycles from a state.
+
+    Returns
+    -------
+    tuple of (int, float, float, float)
+        Status, Theta, Theta' and peak at the end.
+    """
     status, progress = march_through(p, begin(p, angle, velocity, UNKNOWN)[0], cycles, recording, tangent)
     arc = progress.arc
     return status, arc.side * arc.angle + 0.0, arc.side * arc.velocity + 0.0, progress.peak
@@ -20,13 +26,18 @@ def march_state(p, angle, velocity, cycles, recording, tangent):
 
 @njit(**ENTRY_POINT)
 def sweep(systems, angle, velocity, carry, transient, section_phase, section, peaks, statuses, nothing):
-    """(Theta, Theta') with which the next system would begin, when all of ``systems`` (n, 7) have had their turn.
+    """March through all ``systems`` (n, 7) in turn, and write sections, peaks and statuses.
 
-    1. A row of ``systems`` is what ``make`` takes. Each is run for ``transient`` cycles, and for as many more as
-       ``section`` (n, m, 2) has rows for it, which take the states where the forcing's phase is ``section_phase``.
-    2. The first begins at (angle, velocity); with ``carry`` each next one where the one before has ended, on the
-       near side of its braces, or, if that has overturned, where that began; without, every one at (angle, velocity).
-    3. Where a motion overturns or is crowded (``march.Status``, in ``statuses``), section and peak are NaN.
+    1. A row of ``systems`` holds the arguments of ``make``. Each system runs for ``transient`` cycles, then for one cycle
+       per row of its ``section`` (n, m, 2). The section is at the forcing phase ``section_phase``.
+    2. Without ``carry`` each system starts at (angle, velocity). With it each but the first starts at the end state of the
+       one before, or, if that overturned, at its initial state. The angle is clipped to the range between the braces.
+    3. If a motion overturns or is crowded (``march.Status``, in ``statuses``), section and peak are NaN.
+
+    Returns
+    -------
+    tuple of (float, float)
+        Theta and Theta' at which a following system would start.
     """
     kept, passing = section.shape[1], Recording(0.0, nothing.section, nothing.events, False, False)
     for k in range(systems.shape[0]):

@@ -1,7 +1,8 @@
-"""How small differences travel: along arcs, through impacts, brace impacts, rest and leaning.
+"""Propagation of tangent vectors: along arcs, through impacts, brace impacts, rest and sustained contact.
 
-``Tangent`` holds the differences with respect to the start alone, in registers. ``TangentState`` holds in its rows those
-with respect to the start (0, 1) and to the parameters (``Row``, at a fixed time after the start of the march).
+``Tangent`` holds the derivatives by the initial state alone, in registers. The rows of ``TangentState`` hold
+those by the initial state (0, 1) and by the parameters (``Row``, at a fixed time after the start of the
+march).
 """
 
 import math
@@ -18,12 +19,12 @@ from rocking.kernels.numerics.elementary import fma, hyperbolic
 
 TANGENT = 2
 SENSITIVITIES = 8
-# How large and how small differences may grow before they are brought back to size 1: far from any end of the numbers.
+# Range of sizes of the tangent vectors before they are normalised again: far from overflow and underflow.
 LARGE, SMALL = 1e100, 1e-100
 
 
 class Row(IntEnum):
-    """Which row of ``columns`` belongs to which parameter."""
+    """Row of ``columns`` of each parameter."""
 
     AMPLITUDE = 2
     FREQUENCY = 3
@@ -34,11 +35,11 @@ class Row(IntEnum):
 
 
 class TangentState(NamedTuple):
-    """Differences that a march carries."""
+    """Tangent vectors that a march propagates."""
 
-    columns: np.ndarray  # (0 | 2 | 8, 2), one (delta Theta, delta Theta') a row
-    # (2,): the rows are re-orthonormalised at every event, (1,): the first is normalised where need be and at the end, and
-    # the logarithms of what that takes out are added; (0,): neither
+    columns: np.ndarray  # (0 | 2 | 8, 2), one (delta Theta, delta Theta') per row
+    # (2,): the rows are re-orthonormalised at every event. (1,): the first is normalised if necessary, and at
+    # the end. In both cases the logarithms of the factors removed are added here. (0,): neither.
     growth: np.ndarray
 
 
@@ -46,7 +47,7 @@ NO_TANGENT = TangentState(np.empty((0, 2)), np.empty(0))
 
 
 class Tangent(NamedTuple):
-    """Two differences, (a, b) and (c, d)."""
+    """Two tangent vectors, (a, b) and (c, d)."""
 
     a: float
     b: float
@@ -56,51 +57,51 @@ class Tangent(NamedTuple):
 
 @njit(**INTERNAL)
 def read_tangent(columns):
-    """The first two rows."""
+    """Return the first two rows."""
     return Tangent(columns[0, 0], columns[0, 1], columns[1, 0], columns[1, 1])
 
 
 @njit(**INTERNAL)
 def write_tangent(columns, tangent):
-    """Back into the first two rows."""
+    """Write a tangent into the first two rows."""
     columns[0, 0], columns[0, 1] = tangent.a, tangent.b
     columns[1, 0], columns[1, 1] = tangent.c, tangent.d
 
 
 @njit(**INTERNAL_INLINE)
 def in_registers(state):
-    """Whether the march carries the differences as a ``Tangent``."""
+    """Return whether the march carries the tangent vectors as a ``Tangent``."""
     return state.columns.shape[0] == TANGENT and state.growth.shape[0] < TANGENT
 
 
 @njit(**INTERNAL_INLINE)
 def is_measured(state):
-    """Whether the growth of the first difference alone is measured."""
+    """Return whether the growth of the first tangent vector alone is measured."""
     return state.growth.shape[0] == 1
 
 
 @njit(**INTERNAL_INLINE)
 def read_registers(state):
-    """Return the differences that are carried in registers; zeros where none are."""
+    """Return the tangent vectors that are carried in registers; zeros if there are none."""
     return read_tangent(state.columns) if in_registers(state) else Tangent(0.0, 0.0, 0.0, 0.0)
 
 
 @njit(**INTERNAL_INLINE)
 def write_registers(tangent, state):
-    """Write the differences that were carried in registers."""
+    """Write the tangent vectors that were carried in registers."""
     write_tangent(state.columns, normalised(tangent, state.growth) if is_measured(state) else tangent)
 
 
 @njit(**INTERNAL)
 def finish_tangent(state):
-    """Bring the first difference to size 1 at the end of a march, where its growth is measured."""
+    """Normalise the first tangent vector at the end of a march, if its growth is measured."""
     if is_measured(state):
         write_tangent(state.columns, normalised(read_tangent(state.columns), state.growth))
 
 
 @njit(**INTERNAL_INLINE)
 def strain_of(tangent, state):
-    """Return (tangent, strain) where the block comes to rest or leans: the logarithm of what differences have grown to."""
+    """Return the tangent and the logarithm of its growth at the start of rest or of contact with a brace."""
     growth = state.growth
     if is_measured(state):
         tangent = normalised(tangent, growth)
@@ -111,20 +112,20 @@ def strain_of(tangent, state):
 
 @njit(**INTERNAL)
 def log_strain(tangent):
-    """Logarithm of what a difference in velocity has grown to; a release fixes the angle."""
+    """Return the logarithm of the growth of a perturbation of the velocity; a release fixes the angle."""
     return math.log(max(abs(tangent.c), abs(tangent.d)))
 
 
 @njit(**KERNEL_INLINE)
 def out_of_scale(tangent):
-    """Whether the first difference must be brought back to size 1; never where it is zero."""
+    """Return whether the first tangent vector must be normalised; never if it is zero."""
     size = max(abs(tangent.a), abs(tangent.b))
     return size > LARGE or 0.0 < size < SMALL
 
 
 @njit(**INTERNAL)
 def normalised(tangent, growth):
-    """Return the tangent with its first difference at size 1; the logarithm of what that takes out is added to ``growth`` (1,)."""
+    """Return the tangent with its first vector at size 1; add the logarithm of the factor to ``growth`` (1,)."""
     size = math.hypot(tangent.a, tangent.b)
     growth[0] += math.log(size)
     if size == 0.0:
@@ -134,7 +135,7 @@ def normalised(tangent, growth):
 
 @njit(**SIMD_INLINE)
 def carry_along(difference, sinh, versinh):
-    """Carry (delta u, delta u') along an arc: [[cosh t, sinh t], [sinh t, cosh t]]."""
+    """Propagate (delta u, delta u') along an arc: [[cosh t, sinh t], [sinh t, cosh t]]."""
     a, b = difference
     cosh = 1.0 + versinh
     return fma(cosh, a, sinh * b), fma(sinh, a, cosh * b)
@@ -142,45 +143,51 @@ def carry_along(difference, sinh, versinh):
 
 @njit(**SIMD_INLINE)
 def carry_through(difference, factor, shear):
-    """Carry (delta u, delta u') through an event: [[factor, 0], [shear, factor]]."""
+    """Propagate (delta u, delta u') through an event by its saltation matrix [[factor, 0], [shear, factor]]."""
     a, b = difference
     return factor * a, fma(shear, a, factor * b)
 
 
 @njit(**SIMD_INLINE)
 def impact_gain(restitution, f, turned):
-    """Return the shear of an impact times the speed: by so much Theta'' changes beyond the factor e.
+    """Return the shear of an impact times the speed: the change of Theta'' beyond the factor e.
 
-    f is the forcing term there; ``turned`` is -1 where the block goes on on the other side, else 1.
+    f is the forcing term there; ``turned`` is -1 if the block continues on the other side, else 1.
     """
     return fma(restitution - 1.0, 1.0 + f, turned - restitution)
 
 
 @njit(**SIMD_INLINE)
 def brace_gain(brace_restitution, brace_angle, f):
-    """Return the shear of a hit on a brace times the speed."""
+    """Return the shear of a brace impact times the speed."""
     return (1.0 + brace_restitution) * (brace_angle + f)
 
 
 @njit(**KERNEL_INLINE)
 def along(tangent, sinh, versinh):
-    """Carry both differences along an arc."""
+    """Propagate both tangent vectors along an arc."""
     a, b, c, d = tangent
     return Tangent(*carry_along((a, b), sinh, versinh), *carry_along((c, d), sinh, versinh))
 
 
 @njit(**KERNEL_INLINE)
 def through(tangent, event):
-    """Carry both differences through an event, as ``event_map`` gives it."""
+    """Propagate both tangent vectors through an event, with the saltation matrix of ``event_map``."""
     a, b, c, d = tangent
     return Tangent(*carry_through((a, b), event[0], event[1]), *carry_through((c, d), event[0], event[1]))
 
 
 @njit(**KERNEL_INLINE)
 def event_map(p, arc, coming, mode_after, side_after):
-    """(factor, shear) of an event: e and (Theta''+ - e Theta''-)/Theta'- of an impact, e replaced by -r at a brace.
+    """Return the saltation matrix [[factor, 0], [shear, factor]] of an event.
 
-    Rest, leaning, lift-off and leaving forget: (0, 0).
+    For an impact factor = e and shear = (Theta''+ - e Theta''-)/Theta'-; at a brace e is replaced by -r.
+    Rest, sustained contact, lift-off and departure erase all perturbations: (0, 0).
+
+    Returns
+    -------
+    tuple of (float, float)
+        Factor and shear.
     """
     if mode_after != FLIGHT:
         return 0.0, 0.0
@@ -196,15 +203,16 @@ def event_map(p, arc, coming, mode_after, side_after):
 
 @njit(**KERNEL_INLINE)
 def shear_of(gained, speed):
-    """Return the shear of an event at a speed; none where it only touches."""
+    """Return the shear of an event at a speed; 0 if the block only touches."""
     return gained / speed if speed != 0.0 else 0.0
 
 
 @njit(**INTERNAL_INLINE)
 def carry(p, tangent, state, before, coming, after):
-    """Carry the differences along an arc, which they pass unchanged at rest and leaning, and through the event that ends it.
+    """Propagate the tangent vectors along an arc and through its final event.
 
-    ``before`` and ``after`` are the progress on both sides of the event. Returns the tangent; rows are changed in place.
+    At rest and in contact with a brace the vectors stay unchanged. ``before`` and ``after`` are the progress
+    on both sides of the event. Returns the tangent; rows are changed in place.
     """
     if in_registers(state):
         if before.mode == FLIGHT:
@@ -218,10 +226,10 @@ def carry(p, tangent, state, before, coming, after):
 
 @njit(**INTERNAL)
 def carry_arc(p, arc, state, t, elapsed):
-    """Carry all rows along an arc of length t that began ``elapsed`` after the start of the march.
+    """Propagate all rows along an arc of length t that started ``elapsed`` after the start of the march.
 
-    With two ``growth`` in steps of at most 1, re-orthonormalised after each: the shrinking direction is never lost to
-    rounding.
+    With two entries in ``growth`` the steps are at most 1, and the rows are re-orthonormalised after each. So
+    rounding never destroys the contracting direction.
     """
     columns, growth = state
     steps = math.ceil(t) if growth.shape[0] == TANGENT and t > 1.0 else 1
@@ -237,7 +245,7 @@ def carry_arc(p, arc, state, t, elapsed):
 
 @njit(**INTERNAL)
 def carry_rows(p, state, before, coming, after):
-    """Carry all rows along an arc and through its event, with what the restitutions and the place of the brace add."""
+    """Propagate all rows along an arc and its event, with the derivatives by restitutions and brace angle."""
     columns, arc, flies_on = state.columns, before.arc, after.mode == FLIGHT
     if before.mode == FLIGHT:
         carry_arc(p, arc, state, coming.wait, before.cycle * p.period + arc.start)
@@ -261,7 +269,10 @@ def carry_rows(p, state, before, coming, after):
 
 @njit(**INTERNAL)
 def carry_forcing(p, arc, columns, t, elapsed):
-    """The forcing's own share in the parameter rows of an arc that began ``elapsed`` after the start of the march."""
+    """Add the derivatives of the forcing to the parameter rows.
+
+    The arc started ``elapsed`` after the start of the march.
+    """
     sinh, versinh, excess, _ = hyperbolic(t)
     place_a, rate_a, place_psi, rate_psi, place_f, rate_f = sensitivities(
         p, arc.cosine, arc.sine, t, sinh, versinh, excess
@@ -277,7 +288,7 @@ def carry_forcing(p, arc, columns, t, elapsed):
 
 @njit(**INTERNAL)
 def orthonormalise(columns, growth):
-    """Gram-Schmidt on the two tangent rows; the logarithms of what it takes out are added to ``growth``."""
+    """Apply Gram-Schmidt to the two tangent rows; the logarithms of the factors removed are added to ``growth``."""
     a, b = columns[0, 0], columns[0, 1]
     c, d = columns[1, 0], columns[1, 1]
     first = math.sqrt(a * a + b * b)
@@ -285,9 +296,9 @@ def orthonormalise(columns, growth):
         growth[0] = growth[1] = -math.inf
         return
     a, b = a / first, b / first
-    # What is left of the second row without its part along the first is its projection onto the normal
-    # (-b, a): in the plane that is the whole of Gram-Schmidt, and it loses least to rounding after a strong
-    # shear, where subtracting the part along the first row would cancel.
+    # The second row without its part along the first is its projection onto the normal (-b, a), which in the
+    # plane is all of Gram-Schmidt. It loses least to rounding after a strong shear. Subtracting the part
+    # along the first row would cancel.
     second = a * d - b * c
     growth[0] += math.log(first)
     growth[1] += math.log(abs(second)) if second != 0.0 else -math.inf

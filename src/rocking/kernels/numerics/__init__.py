@@ -1,1 +1,1 @@
-"""Elementary functions, series and averages: numbers in, numbers out, no physics."""
+"""Elementary functions, series and averages: numerics without mechanics."""

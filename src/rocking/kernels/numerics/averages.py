@@ -1,4 +1,4 @@
-"""Averages along a motion: weighted Birkhoff averages, and means of batches with their error."""
+"""Averages along a motion: weighted Birkhoff averages, and batch means with their standard error."""
 
 import math
 
@@ -8,15 +8,16 @@ from numba import njit
 from rocking.kernels.compile_options import ALLOCATING, ALLOCATING_ENTRY, ENTRY_POINT, INTERNAL, KERNEL, SIMD
 from rocking.kernels.numerics.simd import both_exponentials
 
-# Of a weight below e to minus this nothing is seen in a sum.
+# A weight below e to the power of minus this does not change a sum.
 UNSEEN = 700.0
 
 
 @njit(**SIMD)
 def bumps(count, weights):
-    """The weights of the first half of ``count`` values, several at a time; the other half has the same from its end.
+    """Write the weights of the first half of ``count`` values.
 
-    An odd count's middle one is halved: it comes from either end.
+    The second half has the same weights in reverse order. The middle weight of an odd count is halved because
+    it is used from both ends.
     """
     step, half = 1.0 / (count + 1), (count + 1) // 2
     for k in range(half):
@@ -28,10 +29,10 @@ def bumps(count, weights):
 
 @njit(**ALLOCATING)
 def weighted_mean(values):
-    """Birkhoff average with the weight exp(-1/(x(1 - x))), x from 0 to 1 along ``values``.
+    """Return the Birkhoff average with the weight exp(-1/(x(1 - x))), where x runs from 0 to 1 along ``values``.
 
-    Das, Saiki, Sander and Yorke (2017), Nonlinearity 30: on a quasi-periodic motion it converges faster than any
-    power of the length.
+    Das, Saiki, Sander and Yorke (2017), Nonlinearity 30: on a quasi-periodic motion it converges faster than
+    any power of the length.
     """
     total, count = 0.0, values.shape[0]
     weights = np.empty((count + 1) // 2)
@@ -43,14 +44,14 @@ def weighted_mean(values):
 
 @njit(**ALLOCATING)
 def digits_of_agreement(values):
-    """To how many decimal digits the weighted means of both halves of ``values`` agree, relative to their size."""
+    """Return the number of decimal digits to which the weighted means of both halves of ``values`` agree."""
     half = values.shape[0] // 2
     return digits_alike(weighted_mean(values[:half]), weighted_mean(values[half : 2 * half]))
 
 
 @njit(**INTERNAL)
 def digits_with(values, weights):
-    """``digits_of_agreement`` by the weights that ``bumps`` gives half as many values."""
+    """Return ``digits_of_agreement`` from the weights that ``bumps`` computes for half the number of values."""
     half, first, second = values.shape[0] // 2, 0.0, 0.0
     for k in range((half + 1) // 2):
         opposite = half - 1 - k
@@ -61,7 +62,7 @@ def digits_with(values, weights):
 
 @njit(**INTERNAL)
 def digits_alike(first, second):
-    """To how many decimal digits two numbers agree, relative to their size."""
+    """Return the number of decimal digits to which two numbers agree, relative to their size."""
     scale = max(abs(first), abs(second))
     if first == second or scale == 0.0:
         return 16.0
@@ -70,7 +71,10 @@ def digits_alike(first, second):
 
 @njit(**KERNEL)
 def error_of_sum(departures, width):
-    """Standard error of a sum, from how far its terms depart from their mean, ``width`` neighbours taken together."""
+    """Return the standard error of a sum from the deviations of its terms, in groups of ``width`` neighbours.
+
+    ``departures`` holds the deviation of each term from the mean of the terms.
+    """
     groups = departures.shape[0] // width
     spread = 0.0
     for k in range(groups):
@@ -81,10 +85,16 @@ def error_of_sum(departures, width):
 
 @njit(**ALLOCATING)
 def batch_error(batches):
-    """(mean, standard error, correlation) of a series from batch means: the largest error of all, half and a quarter as many.
+    """Estimate the mean of a series and its standard error from batch means.
 
-    Where batches are long against the correlation time, merging them changes the error by chance only; where
-    they are not, it grows: ``correlation`` is the factor by which that raises the variance.
+    The error is the largest of three estimates: from all batches, from pairs and from groups of four. If the
+    batches are long compared with the correlation time, merging them changes the error by chance only.
+    Otherwise the error grows; ``correlation`` is the factor by which merging raises the variance.
+
+    Returns
+    -------
+    tuple of (float, float, float)
+        Mean, standard error and correlation.
     """
     mean = batches.mean()
     departures = batches - mean
@@ -98,17 +108,17 @@ def batch_error(batches):
 
 @njit(**ALLOCATING_ENTRY)
 def weighted_mean_plain(values):
-    """``weighted_mean`` for Python."""
+    """Return ``weighted_mean``; entry point for Python."""
     return weighted_mean(values)
 
 
 @njit(**ALLOCATING_ENTRY)
 def digits_of_agreement_plain(values):
-    """``digits_of_agreement`` for Python."""
+    """Return ``digits_of_agreement``; entry point for Python."""
     return digits_of_agreement(values)
 
 
 @njit(**ENTRY_POINT)
 def error_of_sum_plain(departures, width):
-    """``error_of_sum`` for Python."""
+    """Return ``error_of_sum``; entry point for Python."""
     return error_of_sum(departures, width)

@@ -1,8 +1,8 @@
-"""The few elementary functions of an arc, each to full relative accuracy however short the arc is.
+"""Elementary functions of an arc, to full relative accuracy for arbitrarily short arcs.
 
-``cosh t - 1``, ``sinh t - t``, ``1 - cos x`` and ``x - sin x`` cancel for short arcs when formed from the
-library's functions; here short arguments go through their Taylor series, which loses nothing, and long ones
-through exponentials and a sine and cosine of an argument reduced by pi/2 in three parts.
+For short arcs the standard functions lose digits by cancellation in ``cosh t - 1``, ``sinh t - t``, ``1 - cos
+x`` and ``x - sin x``. Short arguments are evaluated by their Taylor series, which avoids this. Long arguments
+use exponentials, and the sine and cosine of an argument reduced by pi/2 in three parts.
 """
 
 import math
@@ -13,21 +13,21 @@ from numba.extending import intrinsic
 
 from rocking.kernels.compile_options import KERNEL_INLINE
 
-# Coefficients by increasing power of the squared argument: 1/3!, 1/5!, ... and 1/4!, 1/6!, ...; the first
-# dropped term is below 2**-55 of the sum at 2.
+# Coefficients by increasing power of the squared argument: 1/3!, 1/5!, ... and 1/4!, 1/6!, .... The first
+# omitted term is below 2**-55 of the sum at 2.
 ODD = tuple(1.0 / math.factorial(k) for k in range(3, 27, 2))
 EVEN = tuple(1.0 / math.factorial(k) for k in range(4, 28, 2))
 SHORT = 2.0
 
-# pi/2 in three parts; the first two have 33 bits, so their products with the quadrant number are exact up
-# to 2**20 quadrants.
+# pi/2 in three parts. The first two have 33 bits, so their products with the quadrant number are exact up to
+# 2**20 quadrants.
 HALF_PI = (1.5707963267341256, 6.077100506303966e-11, 2.0222662487959506e-21)
 TWO_OVER_PI = 2.0 / math.pi
 
 
 @intrinsic
 def fma(typingctx, a, b, c):
-    """``a*b + c`` with one rounding."""
+    """Return ``a*b + c`` with one rounding."""
 
     def generate(context, builder, signature, arguments):
         return builder.fma(*arguments)
@@ -37,7 +37,7 @@ def fma(typingctx, a, b, c):
 
 @njit(**KERNEL_INLINE)
 def series(q, c):
-    """Sum of c[k] q**k for 12 coefficients, two interleaved chains (half the latency of one)."""
+    """Return the sum of c[k] q**k for 12 coefficients, in two interleaved chains (half the latency of one)."""
     q2 = q * q
     even = c[10]
     odd = c[11]
@@ -49,7 +49,7 @@ def series(q, c):
 
 @njit(**KERNEL_INLINE)
 def short_series(q, c):
-    """The first 8 terms, enough for |argument| <= pi/4."""
+    """Return the sum of the first 8 terms, enough for |argument| <= pi/4."""
     q2 = q * q
     even = fma(fma(fma(c[6], q2, c[4]), q2, c[2]), q2, c[0])
     odd = fma(fma(fma(c[7], q2, c[5]), q2, c[3]), q2, c[1])
@@ -58,13 +58,20 @@ def short_series(q, c):
 
 @njit(**KERNEL_INLINE)
 def size(x, y):
-    """The length of (x, y), of numbers whose squares are numbers: a third of the cost of ``math.hypot``."""
+    """Return the length of (x, y) in a third of the time of ``math.hypot``; the squares must not overflow."""
     return math.sqrt(x * x + y * y)
 
 
 @njit(**KERNEL_INLINE)
 def hyperbolic(t):
-    """(sinh t, cosh t - 1, sinh t - t, cosh t - 1 - t**2/2) for t >= 0."""
+    """Evaluate the hyperbolic functions of t >= 0 without cancellation.
+
+    Returns
+    -------
+    tuple of (float, float, float, float)
+        sinh t and cosh t - 1.
+        sinh t - t and cosh t - 1 - t**2/2.
+    """
     q = t * t
     if t < SHORT:
         excess = q * t * series(q, ODD)
@@ -79,11 +86,17 @@ def hyperbolic(t):
 
 @njit(**KERNEL_INLINE)
 def quarter_turn(x, correction):
-    """(sin, cos, 1 - |cos|, quadrant) of ``x + correction``, 0 <= x up to 10**6, ``correction`` an ulp of x or so.
+    """Evaluate sine and cosine of ``x + correction``, for 0 <= x up to 10**6.
 
-    1 - |cos| keeps its relative accuracy in the even quadrants, those about the multiples of pi.
+    The ``correction`` is about one ulp of x.
+
+    Returns
+    -------
+    tuple of (float, float, float, int)
+        sin, cos, 1 - |cos| and the quadrant (0 to 3).
+        In the even quadrants, around the multiples of pi, 1 - |cos| is accurate relative to its size.
     """
-    # ``math.floor`` goes through an integer and back
+    # ``math.floor`` converts to an integer and back
     quadrant = np.floor(x * TWO_OVER_PI + 0.5)
     high = fma(-quadrant, HALF_PI[0], x)
     tail = fma(-quadrant, HALF_PI[1], correction)
@@ -108,9 +121,15 @@ def quarter_turn(x, correction):
 
 @njit(**KERNEL_INLINE)
 def circular(rate, t):
-    """(sin x, 1 - cos x, x - sin x, for short x also x**2/2 - 1 + cos x) of x = rate * t >= 0.
+    """Evaluate the circular functions of x = rate * t >= 0 without cancellation.
 
-    The product is kept to twice double precision.
+    The product is computed to twice double precision.
+
+    Returns
+    -------
+    tuple of (float, float, float, float)
+        sin x and 1 - cos x.
+        x - sin x and, for short x only, x**2/2 - 1 + cos x.
     """
     x = rate * t
     if x < SHORT:
@@ -126,6 +145,13 @@ def circular(rate, t):
 
 @njit(**KERNEL_INLINE)
 def direction(angle):
-    """(sin, cos, 1 - |cos|, whether that is accurate however small) of an angle of either sign."""
+    """Evaluate sine and cosine of an angle of either sign.
+
+    Returns
+    -------
+    tuple of (float, float, float, bool)
+        sin, cos and 1 - |cos|.
+        Whether 1 - |cos| is accurate relative to its size.
+    """
     sine, cosine, versine, k = quarter_turn(abs(angle), 0.0)
     return (-sine if angle < 0.0 else sine), cosine, versine, k & 1 == 0

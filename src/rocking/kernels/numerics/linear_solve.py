@@ -1,4 +1,4 @@
-"""A small dense linear system, solved in place: nothing is allocated, and no library is waited for."""
+"""Solution of a small dense linear system in place, without allocation or a library call."""
 
 from numba import njit
 
@@ -7,7 +7,10 @@ from rocking.kernels.compile_options import INTERNAL
 
 @njit(**INTERNAL)
 def solve(matrix, right, n):
-    """Solve the leading n x n system by elimination with row pivots; ``right`` becomes the solution. False where it is singular."""
+    """Solve the leading n x n system by Gaussian elimination with row pivots; ``right`` becomes the solution.
+
+    Returns False if the system is singular.
+    """
     for k in range(n):
         pivot = k
         for i in range(k + 1, n):

@@ -1,4 +1,4 @@
-"""Named tuples with some fields replaced: ``_replace`` of Python, which compiled code does not have."""
+"""Copies of named tuples with some fields replaced: compiled code lacks Python's ``_replace``."""
 
 from numba import njit
 
@@ -6,7 +6,10 @@ from rocking.kernels.compile_options import INTERNAL_INLINE
 
 
 def replacing(kind, *fields):
-    """Make a kernel that takes a tuple of this kind and new values of ``fields``, in this order, and returns the new tuple."""
+    """Make a kernel that returns a copy of a named tuple of type ``kind`` with new values of ``fields``.
+
+    The kernel takes the tuple and the new values, in the order of ``fields``. ValueError: if the tuple lacks a field.
+    """
     unknown = set(fields) - set(kind._fields)
     if unknown:
         raise ValueError(f"{kind.__name__} has no field {', '.join(sorted(unknown))}")

@@ -1,7 +1,8 @@
-"""The elementary functions of an arc without a branch, so that the compiler computes them for many blocks at once.
+"""Branch-free elementary functions of an arc, which the compiler vectorises over many blocks.
 
-Those of an arc are made of the series of a reduced argument. From an argument so short that nothing is taken off it the
-series give the differences, such as sinh t - t, to full relative accuracy as well; of longer ones these are formed.
+The functions of an arc are series of a reduced argument. If the reduction leaves a short argument unchanged,
+the series also give the differences, such as sinh t - t, to full relative accuracy. For longer arguments
+these differences are formed by subtraction.
 """
 
 import math
@@ -14,24 +15,24 @@ from numba.extending import intrinsic
 from rocking.kernels.compile_options import SIMD_INLINE
 from rocking.kernels.numerics.elementary import HALF_PI, TWO_OVER_PI, fma
 
-# Added to a number and taken off again it rounds to an integer, which its last bits hold.
+# Adding and subtracting this rounds a number to an integer, which is then held in its last bits.
 ROUNDER = 1.5 * 2.0**52
 PER_LN2 = 1.0 / math.log(2.0)
-# Of times and angles up to these, below ln 2 / 2 and pi / 4, nothing is taken off.
+# Times and angles up to these, below ln 2 / 2 and pi / 4, are not reduced.
 SHORT_TIME, SHORT_ANGLE = 0.34, 0.78
-# More than ``logarithms_of_ratios`` are wrong by.
+# Upper bound on the error of ``logarithms_of_ratios``.
 ROUGHLY = 6e-6
 # ln 2 in two parts; the first has 32 bits.
 LN2 = (0.6931471803691238, 1.9082149292705877e-10)
 EXPONENT = 52
 HALF, ONE = 1022 << EXPONENT, 1023 << EXPONENT
-# The bits of 2**-1/2, and of ROUNDER.
+# Bit patterns of 2**-1/2 and of ROUNDER.
 ROOT_HALF = int(np.float64(0.5**0.5).view(np.int64))
 INTEGER = int(np.float64(ROUNDER).view(np.int64))
 
-# Series by powers of the square of the argument, Taylor's shortened by Lanczos's economisation: on the short range of the
-# reduced argument they are as good as long ones. Those of sinh and sin begin with the third power, of cosh and cos with the
-# fourth.
+# Series in powers of the squared argument: Taylor series shortened by Lanczos's economisation. On the short
+# range of the reduced argument they are as accurate as longer Taylor series. Those of sinh and sin begin with
+# the third power, those of cosh and cos with the fourth.
 SINH_SERIES = (
     0.16666666666666666,
     0.008333333333330063,
@@ -62,7 +63,8 @@ COS_SERIES = (
     2.087614632531677e-09,
     -1.1382636115964061e-11,
 )
-# ln(1 + s) - ln(1 - s) over s, by powers of s**2; s = (a - b)/(a + b) where neither is more than twice the other
+# (ln(1 + s) - ln(1 - s))/s in powers of s**2. Here s = (a - b)/(a + b); a and b differ by at most a factor of
+# two.
 LOGARITHM = (
     2.0000143422285115,
     0.664383255352155,
@@ -72,7 +74,7 @@ LOGARITHM = (
 
 @intrinsic
 def choose(typingctx, condition, yes, no):
-    """``yes if condition else no`` of two numbers at hand, without a branch."""
+    """Return ``yes if condition else no`` without a branch; both numbers are already computed."""
 
     def generate(context, builder, signature, arguments):
         return builder.select(*arguments)
@@ -82,7 +84,7 @@ def choose(typingctx, condition, yes, no):
 
 @intrinsic
 def bits_of(typingctx, x):
-    """The bits of a number as an integer."""
+    """Return the bits of a number as an integer."""
 
     def generate(context, builder, signature, arguments):
         return builder.bitcast(arguments[0], ir.IntType(64))
@@ -92,7 +94,7 @@ def bits_of(typingctx, x):
 
 @intrinsic
 def from_bits(typingctx, n):
-    """The number with these bits."""
+    """Return the number with the given bits."""
 
     def generate(context, builder, signature, arguments):
         return builder.bitcast(arguments[0], ir.DoubleType())
@@ -102,23 +104,30 @@ def from_bits(typingctx, n):
 
 @njit(**SIMD_INLINE)
 def five_terms(q, c):
-    """Sum of c[k] q**k, in two chains of which neither waits for the other."""
+    """Return the sum of c[k] q**k for 5 coefficients, in two independent chains."""
     q2 = q * q
     return fma(fma(c[3], q2, c[1]), q, fma(fma(c[4], q2, c[2]), q2, c[0]))
 
 
 @njit(**SIMD_INLINE)
 def six_terms(q, c):
-    """``five_terms`` with one more."""
+    """Return the sum of c[k] q**k for 6 coefficients, in two independent chains."""
     q2 = q * q
     return fma(fma(fma(c[5], q2, c[3]), q2, c[1]), q, fma(fma(c[4], q2, c[2]), q2, c[0]))
 
 
 @njit(**SIMD_INLINE)
 def reduced_exponential(t, one):
-    """(sinh r, cosh r - 1, sinh r - r, cosh r - 1 - r**2/2, k, 2**k, 2**-k) of t = r + k ln 2, abs(r) <= ln 2 / 2.
+    """Reduce t = r + k ln 2 with abs(r) <= ln 2 / 2, and evaluate the hyperbolic functions of r.
 
-    The powers are times the number with the bits ``one``.
+    ``one`` holds the bits of the number by which both powers of two are multiplied.
+
+    Returns
+    -------
+    tuple of seven floats
+        sinh r and cosh r - 1.
+        sinh r - r and cosh r - 1 - r**2/2.
+        k, 2**k and 2**-k.
     """
     shifted = fma(t, PER_LN2, ROUNDER)
     k = shifted - ROUNDER
@@ -131,14 +140,21 @@ def reduced_exponential(t, one):
 
 @njit(**SIMD_INLINE)
 def both_exponentials(t):
-    """(e^t, e^-t) for abs(t) < 700: even and odd part of the reduced argument serve both."""
+    """Return e^t and e^-t for abs(t) < 700, from the even and odd parts of one reduced argument."""
     odd, even, _, _, _, up, down = reduced_exponential(t, ONE)
     return (1.0 + (even + odd)) * up, (1.0 + (even - odd)) * down
 
 
 @njit(**SIMD_INLINE)
 def hyperbolic(t):
-    """(sinh t, cosh t - 1, sinh t - t, for short t also cosh t - 1 - t**2/2) for t >= 0."""
+    """Evaluate the hyperbolic functions of t >= 0 without a branch.
+
+    Returns
+    -------
+    tuple of (float, float, float, float)
+        sinh t and cosh t - 1.
+        sinh t - t and, for short t only, cosh t - 1 - t**2/2.
+    """
     odd, even, excess, higher, k, up, down = reduced_exponential(t, HALF)
     grown, shrunk = (1.0 + (even + odd)) * up, (1.0 + (even - odd)) * down
     sinh, versinh, short = grown - shrunk, (grown - 1.0) + shrunk, k == 0.0
@@ -147,14 +163,21 @@ def hyperbolic(t):
 
 @njit(**SIMD_INLINE)
 def circular(rate, t):
-    """(sin x, 1 - cos x, x - sin x, for short x also x**2/2 - 1 + cos x) of x = rate * t, 0 <= x up to 10**4."""
+    """Evaluate the circular functions of x = rate * t, 0 <= x up to 10**4, without a branch.
+
+    Returns
+    -------
+    tuple of (float, float, float, float)
+        sin x and 1 - cos x.
+        x - sin x and, for short x only, x**2/2 - 1 + cos x.
+    """
     x = rate * t
     shifted = fma(x, TWO_OVER_PI, ROUNDER)
     quadrant = shifted - ROUNDER
     high = fma(-quadrant, HALF_PI[0], x)
     tail = fma(-quadrant, HALF_PI[1], fma(rate, t, -x))
     r = high + tail
-    # the third part of pi/2 would not show
+    # the third part of pi/2 is below the rounding error
     tail -= r - high
     p = r * r
     excess, higher = r * p * six_terms(p, SIN_SERIES), p * p * six_terms(p, COS_SERIES)
@@ -173,7 +196,14 @@ def circular(rate, t):
 
 @njit(**SIMD_INLINE)
 def parts(x):
-    """(m, k) with x = m * 2**k of a normal x > 0; m lies between 2**-1/2 and 2**1/2 whatever x is, NaN too."""
+    """Split a normal x > 0 into m * 2**k.
+
+    Returns
+    -------
+    tuple of (float, float)
+        The factor m, between 2**-1/2 and 2**1/2 for every x, NaN included.
+        The exponent k.
+    """
     bits = bits_of(x)
     exponent = (bits - ROOT_HALF) >> EXPONENT
     return from_bits(bits - (exponent << EXPONENT)), from_bits(exponent + INTEGER) - ROUNDER
@@ -181,9 +211,10 @@ def parts(x):
 
 @njit(**SIMD_INLINE)
 def logarithms_of_ratios(a, b, c, d):
-    """ln(a/b) and ln(c/d) of normal numbers above 0, to 5.4e-6 (``ROUGHLY``); one division, the slowest step, serves both.
+    """Return ln(a/b) and ln(c/d) of normal numbers above 0, to 5.4e-6 (``ROUGHLY``).
 
-    Either is right whatever the numbers of the other are.
+    One division, the slowest operation, serves both. The accuracy of either does not depend on the other's
+    numbers.
     """
     (a, i), (b, j) = parts(a), parts(b)
     (c, k), (d, n) = parts(c), parts(d)
@@ -193,6 +224,6 @@ def logarithms_of_ratios(a, b, c, d):
 
 @njit(**SIMD_INLINE)
 def logarithm(power, s):
-    """power ln 2 + 2 artanh s for |s| <= 1/3."""
+    """Return power ln 2 + 2 artanh s for |s| <= 1/3."""
     q = s * s
     return fma(power, LN2[0], s * fma(q, fma(q, LOGARITHM[2], LOGARITHM[1]), LOGARITHM[0]))

@@ -1,1 +1,1 @@
-"""Periodic orbits: the return map, symmetric modes, chains of events, continuation and manifolds."""
+"""Periodic orbits: return map, symmetric modes, event chains, continuation and manifolds."""

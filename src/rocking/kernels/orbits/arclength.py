@@ -1,4 +1,7 @@
-"""Pseudo-arclength continuation of closed chains of arcs through one parameter or two: predictor, corrector, direction, length."""
+"""Pseudo-arclength continuation of closed event chains in one or two parameters.
+
+This module holds the predictor, the corrector, the direction and the step length.
+"""
 
 import math
 from enum import IntEnum
@@ -14,37 +17,37 @@ from rocking.kernels.parameters import HarmonicParameters
 
 MAX_CORRECTIONS = 10
 CONVERGED = 1e-11
-# A point that took no more corrections than this is followed by a longer step.
+# If a point took no more corrections than this, the next step is longer.
 FEW_CORRECTIONS = 4
 GROW, SHRINK = 1.4, 0.5
-# The shortest step against the longest.
+# Shortest step, relative to the longest.
 MIN_STEP = 1e-12
-# The cosine of the angle between the directions of two neighbouring points is greater than this.
+# Lower bound on the cosine of the angle between the directions at two neighbouring points.
 MIN_COSINE = 0.97
-# Steps this short against the longest end on a grazing.
+# Steps shorter than this, relative to the longest, end at a grazing.
 GRAZING_STEP = 1e-3
-# A curve that returns to its start has more points than this.
+# Minimum number of points of a closed curve.
 MIN_LOOP = 8
 
 
 class End(IntEnum):
-    """Why a curve ends."""
+    """Reason why a curve ends."""
 
-    GOING = -1  # it does not
+    GOING = -1  # the curve continues
     RANGE = 0
     GRAZED = 1
     MERGED = 2
     CLOSED = 3
-    MANY = 4  # as many points as were asked for
+    MANY = 4  # the requested number of points
     LOST = 5
 
 
 class Workspace(NamedTuple):
-    """Working memory for n unknowns, the phases and the parameters of a chain."""
+    """Working memory for n unknowns: the phases and the parameters of a chain."""
 
-    weights: np.ndarray  # of the square of each unknown in the square of a length
+    weights: np.ndarray  # weight of the square of each unknown in the squared length
     equations: Equations
-    differences: Equations  # at points nearby
+    differences: Equations  # at neighbouring points, for finite differences
     matrix: np.ndarray
     right: np.ndarray
     predicted: np.ndarray  # the point predicted
@@ -53,25 +56,28 @@ class Workspace(NamedTuple):
 
 
 class Problem(NamedTuple):
-    """What does not change along a curve of chains of k events; a point y has k phases, then one or two parameters."""
+    """Constant data along a curve of chains of k events; a point y has k phases, then one or two parameters."""
 
     p: HarmonicParameters
     chain: Chain
-    which: tuple  # the parameters
-    limits: tuple  # (lowest, highest) of each
-    longest: float  # length of a step
+    which: tuple  # the parameters that vary
+    limits: tuple  # (lowest, highest) of each parameter
+    longest: float  # greatest length of a step
     workspace: Workspace
 
 
 class Tangent(NamedTuple):
-    """A point of a curve and the curve's direction there, of length 1."""
+    """Point of a curve and the direction of the curve there, of length 1."""
 
     point: np.ndarray
     direction: np.ndarray
 
 
 def make_workspace(phases, scales):
-    """Return working memory for so many phases, which count as one, and for parameters, each in its own scale."""
+    """Return working memory for the given number of phases and for parameters with the given scales.
+
+    The weights of all phases together equal that of one parameter of scale 1.
+    """
     n = phases + len(scales)
     weights = np.full(n, 1.0 / phases)
     weights[phases:] = [1.0 / scale**2 for scale in scales]
@@ -80,7 +86,7 @@ def make_workspace(phases, scales):
 
 @njit(**INTERNAL)
 def system_at(problem, y):
-    """The system at a point."""
+    """Return the system at a point."""
     system, k = problem.p, problem.chain.kinds.shape[0]
     for i in range(len(problem.which)):
         system = with_value(system, problem.which[i], y[k + i])
@@ -89,7 +95,14 @@ def system_at(problem, y):
 
 @njit(**INTERNAL)
 def crossed_limit(problem, y):
-    """(index of the unknown, its limit) where a parameter lies outside its range; index -1 where none does."""
+    """Find a parameter outside its range.
+
+    Returns
+    -------
+    tuple of (int, float)
+        Index of the unknown, -1 if all are inside.
+        The limit that it has crossed.
+    """
     k = problem.chain.kinds.shape[0]
     for i in range(len(problem.limits)):
         low, high = problem.limits[i]
@@ -100,7 +113,10 @@ def crossed_limit(problem, y):
 
 @njit(**INTERNAL)
 def within_bounds(problem, y):
-    """Whether no parameter lies beyond its range by more than two steps: a limit is found from both of its sides."""
+    """Return whether every parameter exceeds its range by two steps at most.
+
+    The margin is needed because a limit is found from both of its sides.
+    """
     k = problem.chain.kinds.shape[0]
     for i in range(len(problem.limits)):
         low, high = problem.limits[i]
@@ -112,7 +128,7 @@ def within_bounds(problem, y):
 
 @njit(**INTERNAL)
 def inner(a, b, weights):
-    """The scalar product of two directions."""
+    """Return the scalar product of two directions."""
     total = 0.0
     for j in range(a.shape[0]):
         total += weights[j] * a[j] * b[j]
@@ -121,7 +137,7 @@ def inner(a, b, weights):
 
 @njit(**INTERNAL)
 def border(workspace, direction):
-    """The equations with the direction as the last row, ready to be solved."""
+    """Write the equations, with the direction as their last row, into the matrix to be solved."""
     n = direction.shape[0]
     for i in range(n - 1):
         for j in range(n):
@@ -132,7 +148,7 @@ def border(workspace, direction):
 
 @njit(**INTERNAL)
 def newton_step(workspace, y, direction):
-    """Make one step of Newton's method, in place, on the equations and on the plane across ``direction``; return its size.
+    """Make one Newton step, in place, on the equations and on the plane across ``direction``; return its size.
 
     The plane goes through ``workspace.predicted``.
     """
@@ -148,17 +164,23 @@ def newton_step(workspace, y, direction):
     size = 0.0
     for j in range(n):
         y[j] += right[j]
-        # a phase counts in full however many there are
+        # a phase has full weight here, however many there are
         size = max(size, abs(right[j]) * min(1.0, math.sqrt(workspace.weights[j] * n)))
     return size
 
 
 @njit(**INTERNAL)
 def correct(assemble, problem, y, direction, condition):
-    """Correct ``y`` by Newton's method, in place, in the plane across ``direction``: (corrections, condition).
+    """Correct ``y`` by Newton's method, in place, in the plane across ``direction``.
 
-    The number of corrections is -1 where the method fails. ``assemble`` (problem, y, condition) writes the equations into
-    the workspace. It returns whether they exist at y, and the condition with the time of its touch there.
+    ``assemble`` (problem, y, condition) writes the equations into the workspace. It returns whether they
+    exist at y, and the condition with the time of its touch there.
+
+    Returns
+    -------
+    tuple of (int, Condition)
+        Number of corrections, -1 if the method fails.
+        The condition at the corrected point.
     """
     before, converged = math.inf, False
     for corrections in range(MAX_CORRECTIONS):
@@ -187,9 +209,9 @@ def predict(tangent, length, workspace):
 
 @njit(**INTERNAL)
 def find_direction(direction, workspace):
-    """Write the curve's direction at the point last assembled into ``workspace.direction``; False where there is none.
+    """Write the direction of the curve at the last assembled point into ``workspace.direction``.
 
-    Of the two senses it has that of ``direction``.
+    Its sense is that of ``direction``. Returns False if there is no direction.
     """
     n, right = direction.shape[0], workspace.right
     border(workspace, direction)
@@ -205,7 +227,10 @@ def find_direction(direction, workspace):
 
 @njit(**INTERNAL)
 def bends_little(direction, workspace):
-    """Whether the direction at the point last assembled, left in ``workspace.direction``, is close to ``direction``."""
+    """Return whether the direction at the last assembled point is close to ``direction``.
+
+    The new direction is left in ``workspace.direction``.
+    """
     return (
         find_direction(direction, workspace)
         and inner(workspace.direction, direction, workspace.weights) > MIN_COSINE
@@ -214,7 +239,7 @@ def bends_little(direction, workspace):
 
 @njit(**ALLOCATING)
 def has_closed(start, points, count, problem):
-    """Whether a curve has returned to its start between the last two of so many points."""
+    """Return whether a curve has returned to its start between the last two of its first ``count`` points."""
     if count <= MIN_LOOP:
         return False
     weights = problem.workspace.weights
@@ -225,5 +250,5 @@ def has_closed(start, points, count, problem):
 
 @njit(**INTERNAL)
 def next_length(problem, length, corrections):
-    """The length of the next step after one that took so many corrections."""
+    """Return the length of the next step after one that took the given number of corrections."""
     return min(length * (GROW if corrections <= FEW_CORRECTIONS else 1.0), problem.longest)

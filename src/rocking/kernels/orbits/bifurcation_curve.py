@@ -1,6 +1,6 @@
-"""A special point followed through two parameters: the chain's equations and the one condition that makes it special.
+"""Continuation of a bifurcation point in two parameters: the chain's equations with one further condition.
 
-The condition is exact; only its derivatives, by which Newton's method converges, are differences.
+The condition is exact. Only its derivatives, which Newton's method uses, are finite differences.
 """
 
 import math
@@ -33,7 +33,7 @@ DIFFERENCE = 1e-6
 
 
 class CurveStep(NamedTuple):
-    """A step along a curve of special points."""
+    """Step along a curve of special points."""
 
     end: int  # an ``End``
     length: float
@@ -43,7 +43,14 @@ class CurveStep(NamedTuple):
 
 @njit(**INTERNAL)
 def condition_at(problem, y, condition, equations):
-    """(what vanishes, when the arc touches), and the ``equations``; NaN where the chain breaks."""
+    """Write the ``equations`` at a point and evaluate the condition.
+
+    Returns
+    -------
+    tuple of (float, float)
+        Value of the condition, NaN if the chain breaks.
+        Time at which the arc touches.
+    """
     q = system_at(problem, y)
     if not assemble(q, problem.which[0], problem.chain, y, equations):
         return math.nan, condition.time
@@ -55,7 +62,14 @@ def condition_at(problem, y, condition, equations):
 
 @njit(**INTERNAL)
 def assemble_curve(problem, y, condition):
-    """(whether the condition holds a value, the condition): the chain's equations and the condition with their derivatives."""
+    """Write the chain's equations and the condition, with their derivatives.
+
+    Returns
+    -------
+    tuple of (bool, Condition)
+        Whether the condition has a finite value.
+        The condition with its time of touch.
+    """
     k, weights = problem.chain.kinds.shape[0], problem.workspace.weights
     equations, nearby = problem.workspace.equations, problem.workspace.differences
     for j in range(k + 2):
@@ -76,7 +90,10 @@ def assemble_curve(problem, y, condition):
 
 @njit(**INTERNAL)
 def next_point(problem, tangent, length, condition):
-    """The step to the next point, left in ``workspace.corrected``, and the direction there: shorter where the curve bends."""
+    """Step to the next point, with shorter steps if the curve bends.
+
+    The point is left in ``workspace.corrected``, the direction there in ``workspace.direction``.
+    """
     y, links = problem.workspace.corrected, problem.workspace.equations.links
     while True:
         predict(tangent, length, problem.workspace)
@@ -93,7 +110,10 @@ def next_point(problem, tangent, length, condition):
 
 @njit(**ALLOCATING)
 def converge_to_limit(problem, y, index, limit, condition):
-    """Whether the curve's point at a limit was found, between ``y`` and ``workspace.corrected``, where it is left."""
+    """Return whether the point of the curve at a limit was found, between ``y`` and ``workspace.corrected``.
+
+    The point is left in ``workspace.corrected``.
+    """
     point, predicted = problem.workspace.corrected, problem.workspace.predicted
     across = np.zeros(y.shape[0])
     across[index] = 1.0
@@ -106,9 +126,15 @@ def converge_to_limit(problem, y, index, limit, condition):
 
 @njit(**ALLOCATING_ENTRY)
 def follow_curve(problem, start, condition, points):
-    """(points, why it ended): a curve of special points from near ``start``, a tangent, along its direction.
+    """Follow a curve of special points from near ``start``, a tangent, in its direction.
 
     ``points`` (n, k + 2) takes the phases and both parameters.
+
+    Returns
+    -------
+    tuple of (int, int)
+        Number of points.
+        Reason for the end, as in ``End``.
     """
     workspace = problem.workspace
     predict(start, 0.0, workspace)

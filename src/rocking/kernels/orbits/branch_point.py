@@ -1,4 +1,4 @@
-"""Points of a branch of periodic orbits: corrected, certified, and located where a test vanishes along a step."""
+"""Points of a branch of periodic orbits: corrected, validated, and located at a zero of a test function."""
 
 import math
 from enum import IntEnum
@@ -11,15 +11,15 @@ from rocking.kernels.orbits.arclength import correct, predict, system_at
 from rocking.kernels.orbits.chain_validation import UNCONDITIONAL, verify_chain
 from rocking.kernels.orbits.event_chain import assemble, monodromy
 
-# A root along a step is sought to this share of it.
+# Relative accuracy of a root along a step.
 ROOT_TOLERANCE = 1e-14
 MAX_HALVINGS = 200
 
 
 class Special(IntEnum):
-    """What changes at a point of a branch."""
+    """Type of a special point of a branch."""
 
-    BOUND = -1  # nothing: the parameter takes a given value
+    BOUND = -1  # no bifurcation: the parameter takes a given value
     FOLD = 0
     SYMMETRY_BREAKING = 1
     PERIOD_DOUBLING = 2
@@ -27,26 +27,27 @@ class Special(IntEnum):
 
 
 class Point(NamedTuple):
-    """What is known of a point beside its phases."""
+    """Properties of a point of a branch, in addition to its phases."""
 
-    corrections: int  # -1 where Newton's method fails
+    corrections: int  # -1 if Newton's method fails
     trace: float
     determinant: float
-    valid: bool  # whether the block moves so by itself
+    valid: bool  # whether the motion of the block is that of the chain
     peak: float
 
 
 @njit(**INTERNAL)
 def multiplier_angle(trace, determinant):
-    """Where the multipliers stand, as an angle: pi/4 at a fold, -pi/4 at a flip, within pi/2 however large they are."""
+    """Return an angle that measures the multipliers: pi/4 at a fold, -pi/4 at a flip, always within pi/2."""
     return math.atan(trace / (1.0 + determinant))
 
 
 @njit(**INTERNAL)
 def passes_and_returns(earlier, length_before, start, stop, length):
-    """Whether multipliers that go from ``start`` to ``stop`` seem to pass a fold or a flip and come back in between.
+    """Return whether the multipliers seem to pass a fold or a flip and come back between ``start`` and ``stop``.
 
-    They lie on the parabola through these two and the value ``earlier`` (NaN: none), a length before the first.
+    They are assumed to lie on the parabola through these two and the value ``earlier`` (NaN: none),
+    ``length_before`` in front of the first.
     """
     slope, before = (stop - start) / length, (start - earlier) / length_before
     bend = (slope - before) / (length + length_before)
@@ -63,14 +64,24 @@ def passes_and_returns(earlier, length_before, start, stop, length):
 
 @njit(**INTERNAL)
 def assemble_branch(problem, y, condition):
-    """(whether events keep their order, the condition, of which a branch has none): the equations at a point of a branch."""
+    """Write the equations at a point of a branch, which has no condition.
+
+    Returns
+    -------
+    tuple of (bool, Condition)
+        Whether the events keep their order.
+        The condition, unchanged.
+    """
     q, equations = system_at(problem, y), problem.workspace.equations
     return assemble(q, problem.which[0], problem.chain, y, equations), condition
 
 
 @njit(**INTERNAL)
 def point_at(problem, tangent, length):
-    """The point of the branch a length further along a tangent, left in ``workspace.corrected``; not certified."""
+    """Return the point of the branch a length further along a tangent, not validated.
+
+    The point is left in ``workspace.corrected``.
+    """
     workspace = problem.workspace
     predict(tangent, length, workspace)
     corrections, _ = correct(assemble_branch, problem, workspace.corrected, tangent.direction, UNCONDITIONAL)
@@ -83,7 +94,7 @@ def point_at(problem, tangent, length):
 
 @njit(**INTERNAL)
 def validated_point_at(problem, tangent, length):
-    """The point a length further, certified: every arc of it is marched."""
+    """Return the point of the branch a length further along a tangent, validated: every arc of it is marched."""
     point, workspace = point_at(problem, tangent, length), problem.workspace
     if point.corrections < 0:
         return point
@@ -94,15 +105,16 @@ def validated_point_at(problem, tangent, length):
 
 @njit(**INTERNAL)
 def special_value(what, trace, determinant):
-    """What vanishes at a fold, or at a flip."""
+    """Return the test function of a fold or of a flip, which vanishes there."""
     return 1.0 - trace + determinant if what == Special.FOLD else 1.0 + trace + determinant
 
 
 @njit(**INTERNAL)
 def locate(problem, tangent, length, what, level, at_start, at_end):
-    """The length at which a test, or a parameter less ``level``, vanishes between 0 and ``length``; NaN where it is lost.
+    """Return the length at which a test function, or a parameter less ``level``, vanishes between 0 and ``length``.
 
-    By false position with halvings, from the values at both ends.
+    The method is false position with halvings (Illinois), from the values at both ends. NaN if the branch is
+    lost.
     """
     a, b, f, g = 0.0, length, at_start, at_end
     middle, last = length, 0
@@ -118,7 +130,7 @@ def locate(problem, tangent, length, what, level, at_start, at_end):
             value = special_value(what, point.trace, point.determinant)
         if value == 0.0 or b - a <= ROOT_TOLERANCE * length:
             return middle
-        # Illinois: an end that stays counts half
+        # Illinois: the value at an end that stays is halved
         if (value > 0.0) == (g > 0.0):
             b, g = middle, value
             f *= 0.5 if last == 1 else 1.0
@@ -132,7 +144,7 @@ def locate(problem, tangent, length, what, level, at_start, at_end):
 
 @njit(**INTERNAL)
 def last_valid_length(problem, tangent, length):
-    """The greatest length up to which the points are the block's own motion, by halving."""
+    """Return the greatest length up to which the points are motions of the block, by bisection."""
     a, b = 0.0, length
     for _ in range(MAX_HALVINGS):
         if b - a <= ROOT_TOLERANCE * length:

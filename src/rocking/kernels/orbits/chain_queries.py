@@ -1,4 +1,4 @@
-"""A closed chain of arcs as Python asks for it: its equations at a point, its states at a phase."""
+"""Entry points for Python on a closed event chain: its equations at a point, its states at a phase."""
 
 import math
 
@@ -21,10 +21,11 @@ from rocking.kernels.orbits.event_chain import (
 
 @njit(**ENTRY_POINT)
 def states_at(p, which, chain, rows, psi, out):
-    """Write (Theta, Theta') of each of the orbits ``rows`` (n, k + 1) at every phase ``psi`` + 2 pi m of its chain into ``out`` (n, m, 2).
+    """Write (Theta, Theta') of each of the orbits ``rows`` (n, k + 1) at a forcing phase into ``out`` (n, m, 2).
 
-    The phases of a chain begin at its first event; a mirrored chain repeats itself with the sides exchanged. Cycles are
-    counted from the first event of the first orbit, so that one cycle's states are a curve though that event passes ``psi``.
+    The states are those at the phases ``psi`` + 2 pi m of the chain, which begin at its first event. A
+    mirrored chain repeats with the sides exchanged. Cycles are counted from the first event of the first
+    orbit. So the states of one cycle form a curve even if that event passes ``psi``.
     """
     k = chain.kinds.shape[0]
     first = math.ceil((rows[0, 0] - psi) / (2.0 * math.pi)) if rows.shape[0] else 0
@@ -49,7 +50,13 @@ def states_at(p, which, chain, rows, psi, out):
 
 @njit(**ENTRY_POINT)
 def equations_at(p, which, chain, y, equations):
-    """(trace, determinant) once round the chain, with its ``equations``; the parameter is the last of ``y``."""
+    """Assemble the ``equations`` of a chain at a point; the parameter is the last entry of ``y``.
+
+    Returns
+    -------
+    tuple of (float, float)
+        Trace and determinant of the monodromy matrix, NaN if events change their order.
+    """
     q = with_value(p, which, y[-1])
     if not assemble(q, which, chain, y, equations):
         return math.nan, math.nan

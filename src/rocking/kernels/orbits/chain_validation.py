@@ -1,4 +1,4 @@
-"""Whether the motion is what a closed chain of arcs says: every arc marched to its first event, and how near it comes to others."""
+"""Validation of a closed event chain: every arc is marched to its first event; distance to a touch."""
 
 import math
 from typing import NamedTuple
@@ -14,21 +14,21 @@ from rocking.kernels.march.impact_law import after_event
 from rocking.kernels.march.next_event import next_event
 from rocking.kernels.orbits.event_chain import arc_at, event_after, place_of, side_after
 
-# Events as far apart as this, in time, are not the same.
+# Events further apart in time than this are different.
 APART = 1e-6
-# A motion that all but touches meets what it touches this near to the turn, if at all.
+# A motion that nearly touches base or brace reaches it within this time of the extremum, if at all.
 NEAR_TOUCH = 1e-3
 MAX_TURNS = 20
-# One arc is renewed so often at most.
+# Maximum number of restarts of one arc.
 LONG_ARCS = 64
 
 
 class Condition(NamedTuple):
-    """What makes a point special: of a grazing also where the orbit touches the base or a brace."""
+    """Condition that makes a point special; for a grazing also the place where the orbit touches base or brace."""
 
     kind: int  # a ``Special``
-    arc: int  # the arc that touches, -1 where none does
-    level: int  # what it touches: IMPACT for the base, BRACE
+    arc: int  # the arc that touches, -1 if there is none
+    level: int  # IMPACT if it touches the base, BRACE if a brace
     time: float  # from the start of the arc
 
 
@@ -37,10 +37,17 @@ UNCONDITIONAL = Condition(-1, -1, IMPACT, 0.0)
 
 @njit(**INTERNAL)
 def verify_chain(p, chain, y, links, condition):
-    """(whether the motion is the chain's own, its largest angle): every arc is marched to its first event.
+    """March every arc of a chain to its first event, and check that the motion is that of the chain.
 
-    An arc that meets something before its end is not, nor one that leaves an event into the base or the brace. Only the arc
-    of the condition may meet what it touches, at about the time of the touch.
+    The check fails if an arc reaches base or brace before its end, or leaves an event into the base or the
+    brace. Only the arc of the condition may reach the surface that it touches, at about the time of the
+    touch.
+
+    Returns
+    -------
+    tuple of (bool, float)
+        Whether the motion is that of the chain.
+        Its largest angle.
     """
     side, peak = chain.side, 0.0
     for j in range(chain.kinds.shape[0]):
@@ -72,7 +79,14 @@ def verify_chain(p, chain, y, links, condition):
 
 @njit(**INTERNAL)
 def clearance(p, chain, y, links, condition):
-    """(distance left to what an arc touches, where it turns; time of that): by Newton's method from a time near."""
+    """Find the extremum at which an arc nearly touches, by Newton's method from the time in ``condition``.
+
+    Returns
+    -------
+    tuple of (float, float)
+        Distance left to base or brace there, NaN if the extremum leaves the arc.
+        Its time.
+    """
     touched, t, side = condition.arc, condition.time, chain.side
     for j in range(touched):
         side = side_after(side, chain.kinds[j + 1])

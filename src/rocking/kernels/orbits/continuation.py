@@ -1,4 +1,4 @@
-"""A branch of periodic orbits followed through a parameter: pseudo-arclength steps, and the points where something changes."""
+"""Continuation of a branch of periodic orbits in one parameter, with its special points."""
 
 import math
 from typing import NamedTuple
@@ -31,15 +31,18 @@ from rocking.kernels.orbits.branch_point import (
     validated_point_at,
 )
 
-# The multipliers turn by no more than this in a step, as ``multiplier_angle`` measures them: a fold and a flip are pi/2 apart.
+# Maximum change of ``multiplier_angle`` in a step; a fold and a flip are pi/2 apart.
 MAX_TURN = 0.3
-# An event reached more slowly than this grazes, to rounding: the depth of a touch goes like the square of the speed.
+# An event reached more slowly than this grazes, to rounding: the depth of a touch is proportional to the
+# squared speed.
 GRAZING_SPEED = 1e-8
-# Beyond this on one side the multipliers are far from a fold and from a flip. Towards a grazing they grow without bound.
+# Beyond this, with one sign, the multipliers are far from a fold and from a flip. Near a grazing they grow
+# without bound.
 FAR_ANGLE = 1.2
-# A step as short as this, against the longest, is taken however the multipliers change in it.
+# A step shorter than this, relative to the longest, is accepted however much the multipliers change.
 MIN_RESOLVED_STEP = 1e-6
-# Phases half a chain apart that differ by half its turn to this: the orbit repeats itself sooner.
+# Tolerance of phases half a chain apart: if they differ by half the turn of the chain, the orbit has a
+# shorter period.
 SAME_PHASE = 1e-5
 
 FACTS = np.dtype([(name, float) for name in ("trace", "determinant", "peak", "velocity")])
@@ -47,7 +50,7 @@ CHANGE = np.dtype([("kind", np.int64), ("index", np.int64)])
 
 
 class BranchTable(NamedTuple):
-    """Room for n points and m special points of a branch of chains of k events."""
+    """Arrays for n points and m special points of a branch of chains of k events."""
 
     rows: np.ndarray  # (n, k + 1): the phases and the parameter
     facts: np.ndarray  # (n,) of FACTS; the velocity is that after the first event
@@ -56,17 +59,17 @@ class BranchTable(NamedTuple):
 
 
 class State(NamedTuple):
-    """Where a branch has been followed to."""
+    """Progress along a branch."""
 
     tangent: Tangent
-    point: Point  # there
+    point: Point  # at the present end of the branch
     earlier: Point  # the point before
-    last: float  # length of the step between the two
-    length: float  # of the step to try next
+    last: float  # length of the step between these two points
+    length: float  # length of the step to try next
 
 
 class Step(NamedTuple):
-    """A step along a branch."""
+    """Step along a branch."""
 
     end: int  # an ``End``
     length: float
@@ -75,7 +78,7 @@ class Step(NamedTuple):
 
 @njit(**INTERNAL)
 def repeats_sooner(chain, y):
-    """Whether an orbit repeats itself, or its mirror image, after half its chain."""
+    """Return whether an orbit, or its mirror image, repeats after half its chain."""
     k = chain.kinds.shape[0]
     if k % 2 == 1:
         return False
@@ -89,7 +92,17 @@ def repeats_sooner(chain, y):
 
 @njit(**INTERNAL)
 def kind_of(what, chain, y):
-    """(kind of a special point, whether the orbit is more symmetrical there: then the kind is that of where it came from)."""
+    """Classify a special point.
+
+    If the orbit is more symmetric there, the branch ends on a branch of such orbits. The kind is then that of
+    the point on this other branch.
+
+    Returns
+    -------
+    tuple of (int, bool)
+        The kind, as in ``Special``.
+        Whether the orbit is more symmetric there.
+    """
     if what == Special.PERIOD_DOUBLING:
         return (Special.SYMMETRY_BREAKING if chain.mirrored else Special.PERIOD_DOUBLING), False
     if not repeats_sooner(chain, y):
@@ -109,7 +122,7 @@ def store_point(table, row, point, workspace):
 
 @njit(**ALLOCATING)
 def store_special(table, found, y, kind, index):
-    """Write a special point, if there is room: the number of special points then."""
+    """Write a special point if the table has room; return the number of special points."""
     if found == table.changes.shape[0]:
         return found
     table.specials[found] = y
@@ -119,7 +132,7 @@ def store_special(table, found, y, kind, index):
 
 @njit(**INTERNAL)
 def slowest_arrival(problem):
-    """The least speed at which an event of the orbit last solved is reached."""
+    """Return the least speed at which the last solved orbit reaches an event."""
     slowest = math.inf
     for j in range(problem.chain.kinds.shape[0]):
         slowest = min(slowest, abs(problem.workspace.equations.links[j].arrives))
@@ -128,7 +141,7 @@ def slowest_arrival(problem):
 
 @njit(**INTERNAL)
 def resolves_multipliers(problem, state, point, length):
-    """Whether the multipliers change little in a step, so that none passes a special point unseen."""
+    """Return whether the multipliers change little in a step, so that no special point is passed unseen."""
     start = multiplier_angle(state.point.trace, state.point.determinant)
     stop = multiplier_angle(point.trace, point.determinant)
     if min(start, stop) > FAR_ANGLE or max(start, stop) < -FAR_ANGLE:
@@ -143,10 +156,11 @@ def resolves_multipliers(problem, state, point, length):
 
 @njit(**INTERNAL)
 def next_step(problem, state):
-    """The step to the next point, left in ``workspace.corrected``, and the direction there: shorter where the branch bends.
+    """Step to the next point, with shorter steps if the branch bends or the multipliers change fast.
 
-    Steps are shorter too where the multipliers change fast. At a grazing and at the end of the range the step ends on it.
-    Its length is 0 where the last point lies on the grazing, to rounding.
+    The point is left in ``workspace.corrected``, the direction there in ``workspace.direction``. At a grazing
+    and at the end of the range the step ends exactly there. Its length is 0 if the last point lies on the
+    grazing, to rounding.
     """
     workspace, tangent, length, longest = problem.workspace, state.tangent, state.length, problem.longest
     while True:
@@ -177,7 +191,10 @@ def next_step(problem, state):
 
 @njit(**INTERNAL)
 def length_to_limit(problem, tangent, length, limit):
-    """The length at which the parameter takes the value ``limit`` on the way to ``workspace.corrected``; NaN where it is lost."""
+    """Return the length at which the parameter reaches ``limit``; NaN if the branch is lost.
+
+    The limit lies on the way to ``workspace.corrected``.
+    """
     start = tangent.point[-1] - limit
     if start == 0.0:
         return 0.0
@@ -187,9 +204,13 @@ def length_to_limit(problem, tangent, length, limit):
 
 @njit(**ALLOCATING)
 def store_specials(problem, state, step, table, found, count):
-    """Write the special points along a step: (special points so far, length at which the branch merges).
+    """Write the special points along a step.
 
-    It merges with a branch of orbits that are more symmetrical; the length is NaN where it does not.
+    Returns
+    -------
+    tuple of (int, float)
+        Number of special points so far.
+        Length at which the branch merges with one of more symmetric orbits, NaN if it does not.
     """
     before, after, y = state.point, step.point, problem.workspace.corrected
     for what in (Special.FOLD, Special.PERIOD_DOUBLING):
@@ -210,7 +231,14 @@ def store_specials(problem, state, step, table, found, count):
 
 @njit(**ALLOCATING_ENTRY)
 def follow(problem, start, table):
-    """(points, special points, why it ended): a branch from the orbit near ``start``, a tangent, along its direction."""
+    """Follow a branch from the orbit near ``start``, a tangent, in its direction.
+
+    Returns
+    -------
+    tuple of (int, int, int)
+        Numbers of points and of special points.
+        Reason for the end, as in ``End``.
+    """
     workspace, rows, found = problem.workspace, table.rows, 0
     point = validated_point_at(problem, start, 0.0)
     if not point.valid:

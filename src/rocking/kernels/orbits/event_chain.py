@@ -1,9 +1,9 @@
-"""A periodic orbit as a closed chain of arcs: its unknowns are the forcing phases of its events alone.
+"""Periodic orbit as a closed chain of arcs; the only unknowns are the forcing phases of its events.
 
-Between two events at known phases an arc is known outright, eq. (5) of Yim & Lin (1991): the speed it must leave with
-is linear in what it must reach. What is left to satisfy is the impact law, eq. (2), at every event. These equations
-have no crossing to be found and no case to be told apart, so they are smooth through a grazing, where the return map
-itself is not; whether an arc of their solution meets anything on its way is asked afterwards (``verify_chain``).
+Between two events at known phases an arc is known in closed form, eq. (5) of Yim & Lin (1991): its initial
+speed is linear in its end angle. The equations of the chain are the impact law, eq. (2), at every event. They
+need no search for a zero and no case distinction, so they are smooth through a grazing, where the return map
+is not. ``verify_chain`` checks afterwards whether an arc of the solution reaches base or brace on its way.
 """
 
 import math
@@ -19,14 +19,14 @@ from rocking.kernels.forcing.harmonic import forcing_term, sensitivities
 from rocking.kernels.parameters import make
 
 AMPLITUDE, FREQUENCY, PERIOD, RESTITUTION, BRACE_ANGLE, BRACE_RESTITUTION = range(6)
-# What is kept of each arc of a chain, as ``Link`` names it.
+# Fields stored for each arc of a chain, as in ``Link``.
 LINK = np.dtype(
     [(name, float) for name in ("leaves", "arrives", "sinh", "cosh", "acceleration", "push", "time")]
 )
 
 
 class Chain(NamedTuple):
-    """What does not change along a branch: the events in their order, and how the chain closes."""
+    """Constant data along a branch: the events in their order, and the closure of the chain."""
 
     kinds: np.ndarray  # IMPACT or BRACE: event j, at which arc j begins
     side: int  # of arc 0
@@ -35,21 +35,21 @@ class Chain(NamedTuple):
 
 
 class Equations(NamedTuple):
-    """The equations of a chain of k events at a point, and its arcs: what ``assemble`` writes."""
+    """Equations of a chain of k events at a point, and its arcs, as ``assemble`` writes them."""
 
     jacobian: np.ndarray  # (k, k + 1): derivatives by the phases and by one parameter
-    residuals: np.ndarray  # (k,): what each equation leaves
+    residuals: np.ndarray  # (k,): the residual of each equation
     links: np.ndarray  # (k,) of LINK
 
 
 class Link(NamedTuple):
-    """An arc between two events: the speeds at its ends, and their derivatives."""
+    """Arc between two events: the speeds at its ends, and their derivatives."""
 
     leaves: float
     arrives: float
-    by_place: tuple  # of both, by the phase at its start with the phase at its end kept
+    by_place: tuple  # of both speeds, by the phase at its start with the phase at its end fixed
     by_end: tuple  # by the phase at its end
-    by_parameter: tuple  # by each of the parameters, the phases kept
+    by_parameter: tuple  # by each of the parameters, with the phases fixed
     sinh: float
     cosh: float
     acceleration: float  # u'' at its start
@@ -64,7 +64,7 @@ def make_equations(n):
 
 @njit(**INTERNAL)
 def with_value(p, which, value):
-    """The same system with one parameter changed; its clock starts at the phase 0."""
+    """Return the system with one parameter changed and its clock starting at the phase 0."""
     frequency, period = p.frequency, p.period
     if which == FREQUENCY:
         frequency, period = value, 2.0 * math.pi / value
@@ -83,45 +83,48 @@ def with_value(p, which, value):
 
 @njit(**KERNEL_INLINE)
 def place_of(p, kind):
-    """The angle at which an event happens."""
+    """Return the angle at which an event happens."""
     return p.brace_angle if kind == BRACE else 0.0
 
 
 @njit(**KERNEL_INLINE)
 def law(p, kind):
-    """Speed away from an event over speed towards it."""
+    """Return the coefficient of restitution of an event."""
     return p.brace_restitution if kind == BRACE else p.restitution
 
 
 @njit(**INTERNAL_INLINE)
 def event_after(chain, j):
-    """The event at which arc j ends."""
+    """Return the event at which arc j ends."""
     return j + 1 if j + 1 < chain.kinds.shape[0] else 0
 
 
 @njit(**INTERNAL_INLINE)
 def side_after(side, kind):
-    """The side of the arc after an event."""
+    """Return the side of the arc after an event."""
     return -side if kind == IMPACT else side
 
 
 @njit(**INTERNAL_INLINE)
 def duration(p, chain, y, j):
-    """Time from event j to the next one, at the phases ``y``."""
+    """Return the time from event j to the next one, at the phases ``y``."""
     after = event_after(chain, j)
     return (y[after] + (chain.turn if after == 0 else 0.0) - y[j]) * p.per_frequency
 
 
 @njit(**KERNEL_INLINE)
 def arc_at(p, side, psi, place, velocity):
-    """The arc that leaves at a forcing phase, which is brought near 0 first."""
+    """Return the arc that starts at a forcing phase; whole turns are removed from the phase first."""
     psi -= 2.0 * math.pi * round(psi / (2.0 * math.pi))
     return arc_from(p, side, psi * p.per_frequency, place, velocity)
 
 
 @njit(**INTERNAL)
 def link(p, side, first, last, psi, t):
-    """The arc of length t > 0 from an event of one kind at the phase ``psi`` to one of another: eq. (5) solved for its speed."""
+    """Return the arc of length t > 0 between events of two kinds: eq. (5) solved for its initial speed.
+
+    It starts at the forcing phase ``psi``.
+    """
     start, end = place_of(p, first), place_of(p, last)
     arc = arc_at(p, side, psi, start, 0.0)
     free = evaluate(p, arc, t)
@@ -132,7 +135,7 @@ def link(p, side, first, last, psi, t):
     place_a, rate_a, place_psi, rate_psi, place_f, rate_f = sensitivities(
         p, arc.cosine, arc.sine, t, sinh, free.versinh, sinh - t if t > 1.0 else excess_of(t)
     )
-    # The place reached must not move: the speed at the start makes up for what else moves it.
+    # The angle reached must not change, so the initial speed compensates all other changes of it.
     by_time = -arrives / sinh, push - arrives * cosh / sinh
     by_psi = place_psi / sinh, place_psi * cosh / sinh - rate_psi
     by_amplitude = place_a / sinh, place_a * cosh / sinh - rate_a
@@ -159,7 +162,7 @@ def link(p, side, first, last, psi, t):
 
 @njit(**KERNEL_INLINE)
 def excess_of(t):
-    """sinh t - t for t up to 1."""
+    """Return sinh t - t for t up to 1."""
     q = t * t
     total = 1.0
     for k in range(19, 3, -2):
@@ -169,10 +172,10 @@ def excess_of(t):
 
 @njit(**INTERNAL)
 def assemble(p, which, chain, y, equations):
-    """Write the equations of a chain at the phases ``y``, and their derivatives; False where events change places.
+    """Write the equations of a chain at the phases ``y``, and their derivatives.
 
-    Row j: what event j makes of the speed of arc j - 1, less what arc j must leave with. Column k holds the derivatives by
-    the parameter ``which``.
+    Row j is the speed after event j, by the impact law from arc j - 1, less the initial speed of arc j.
+    Column k holds the derivatives by the parameter ``which``. Returns False if events change their order.
     """
     jacobian, residuals, links = equations
     k = chain.kinds.shape[0]
@@ -203,16 +206,16 @@ def assemble(p, which, chain, y, equations):
 
 @njit(**INTERNAL_INLINE)
 def store_link(row, one):
-    """Keep an arc in a row of LINK."""
+    """Store an arc in a row of LINK."""
     row.leaves, row.arrives, row.sinh, row.cosh = one.leaves, one.arrives, one.sinh, one.cosh
     row.acceleration, row.push, row.time = one.acceleration, one.push, one.time
 
 
 @njit(**INTERNAL)
 def monodromy(p, chain, links):
-    """(trace, determinant) of the tangent once round the chain, mirrored where the chain is half an orbit.
+    """Return trace and determinant of the monodromy matrix of the chain, mirrored if the chain is half an orbit.
 
-    In (u, u') of the side the block is on: an event is [[-e, 0], [(u''+ + e u''-)/u'-, -e]].
+    In (u, u') of the present side the saltation matrix of an event is [[-e, 0], [(u''+ + e u''-)/u'-, -e]].
     """
     aa, ab, ba, bb, determinant = 1.0, 0.0, 0.0, 1.0, 1.0
     for j in range(chain.kinds.shape[0]):

@@ -1,4 +1,4 @@
-"""Periodic orbits: fixed points of the map over so many forcing cycles, by Newton's method with the exact Jacobian."""
+"""Fixed points of the return map over a number of forcing cycles, by Newton's method with the exact Jacobian."""
 
 import math
 from typing import NamedTuple
@@ -13,36 +13,36 @@ from rocking.kernels.numerics.elementary import size
 from rocking.kernels.parameters import HarmonicParameters
 
 RESIDUAL = 1e-12
-# Near a fold Newton's method converges linearly, by halves.
+# Near a fold Newton's method converges linearly: each step halves the error.
 MAX_STEPS = 40
 UNBOUNDED = 1 << 62
 
 
 class Patience(NamedTuple):
-    """How far Newton's method is followed."""
+    """Limits of Newton's method."""
 
-    failures: int  # steps in all that do not lower the residual by a tenth
-    worse: float  # a step that makes the residual grow by more is halved, as one that overturns the block or leads too far
-    halvings: int  # so often
-    reach: float  # of the angle, where no brace is nearer, and of the velocity
+    failures: int  # maximum number of steps that do not lower the residual by a tenth
+    worse: float  # a step that raises the residual by more, overturns or leads out of reach is halved
+    halvings: int  # maximum number of halvings of a step
+    reach: float  # range of the velocity, and of the angle if no brace is nearer
 
 
-# From what a motion approaches; from anywhere.
+# For a guess that a motion approaches, and for an arbitrary guess.
 NEARBY = Patience(1, math.inf, 0, 10.0)
 ANYWHERE = Patience(MAX_STEPS, 2.0, 4, 1e3)
 
 
 class ReturnMap(NamedTuple):
-    """Map of a state at the time ``start`` within the first cycle to that at the end of cycle ``cycles``, times ``sign``."""
+    """Map from the state at ``start`` within the first cycle to ``sign`` times that at the end of ``cycles``."""
 
     p: HarmonicParameters
     cycles: int
     start: float
-    sign: float  # -1 where the image is mirrored, else 1
+    sign: float  # -1 if the image is mirrored, else 1
 
 
 class Guess(NamedTuple):
-    """A state to begin with; ``waits`` as for ``march.begin``."""
+    """Initial state of a march; ``waits`` as for ``march.begin``."""
 
     angle: float
     velocity: float
@@ -50,33 +50,33 @@ class Guess(NamedTuple):
 
 
 class MapImage(NamedTuple):
-    """Where a state is after a while."""
+    """Image of a state under a return map, with its derivative."""
 
-    certain: bool  # neither overturned nor with too many events on the way
+    certain: bool  # neither overturned nor stopped by too many events
     angle: float
     velocity: float
     tangent: Tangent
     impacts: int
     brace_hits: int
     peak: float
-    waits: tuple[float, float]  # from the image to the first event and on to the next, about
+    waits: tuple[float, float]  # approximate times from the image to the first event, and on to the next
 
 
 class FixedPoint(NamedTuple):
-    """A fixed point, or how far one got."""
+    """Fixed point, or the last state of a failed search."""
 
     converged: bool
     angle: float
     velocity: float
     image: MapImage
     residual: float
-    error: float  # what Newton's method would still move it by
+    error: float  # size of the next Newton correction
     work: int  # events computed
 
 
 @njit(**INTERNAL)
 def image_after(mapping, guess, recording, state):
-    """Return the ``MapImage`` of a state, before any mirroring; ``state`` carries differences or none."""
+    """Return the ``MapImage`` of a state, before any mirroring; ``state`` carries tangent vectors or none."""
     progress, _ = begin(mapping.p, guess.angle, guess.velocity, guess.waits, mapping.start)
     if state.columns.shape[0] > 0:
         write_tangent(state.columns, Tangent(1.0, 0.0, 0.0, 1.0))
@@ -96,7 +96,7 @@ def image_after(mapping, guess, recording, state):
 
 
 class Trial(NamedTuple):
-    """A state that was tried, its image, by how much that misses it, and the events computed."""
+    """Trial state of Newton's method, its image, the difference of the two, and the number of events computed."""
 
     accepted: bool
     guess: Guess
@@ -107,7 +107,7 @@ class Trial(NamedTuple):
 
 @njit(**INTERNAL)
 def line_search(mapping, at, to, residual, patience, recording, state):
-    """Try a step ``to`` from a state, then halves of it, until the residual is small enough against that of the state."""
+    """Try a Newton step ``to`` from a state, then halve it until the residual is small enough."""
     angle, velocity, waits, work, accepted = to[0], to[1], at.waits, 0, False
     reach, nowhere = min(mapping.p.brace_angle, patience.reach), Tangent(0.0, 0.0, 0.0, 0.0)
     guess, missed = at, (math.inf, math.inf)
@@ -129,7 +129,14 @@ def line_search(mapping, at, to, residual, patience, recording, state):
 
 @njit(**INTERNAL_INLINE)
 def newton_correction(tangent, sign, missed):
-    """(correction of the angle and of the velocity, the residual that counts as none) of a state that its image ``missed``."""
+    """Return the Newton step from a state whose image minus the state is ``missed``.
+
+    Returns
+    -------
+    tuple of (tuple of (float, float), float)
+        Corrections of angle and velocity.
+        Residual below which the method has converged.
+    """
     a, b, c, d = sign * tangent.a, sign * tangent.b, sign * tangent.c, sign * tangent.d
     # (I - J)^-1 (P(x) - x), with J = [[a, c], [b, d]]
     determinant = (1.0 - a) * (1.0 - d) - b * c
@@ -142,7 +149,8 @@ def newton_correction(tangent, sign, missed):
 def find_fixed_point(mapping, guess, most_work, patience, columns, nothing):
     """Find a fixed point of a map by Newton's method, until the residual is at most RESIDUAL.
 
-    Where none is found, the state is the last one accepted.
+    The tolerance is multiplied by the largest entry of the Jacobian if that exceeds 1. If no fixed point is
+    found, the state is the last one accepted.
     """
     recording = Recording(0.0, nothing.section, nothing.events, False, False)
     state, at, to = TangentState(columns, nothing.tangent.growth), guess, (0.0, 0.0)

@@ -1,6 +1,7 @@
-"""Floquet multipliers of a periodic orbit, and a norm in which it attracts.
+"""Floquet multipliers of a periodic orbit, and a norm in which the orbit attracts.
 
-The multipliers are the eigenvalues of the tangent of the return map. An orbit is stable where both lie inside the unit circle.
+The multipliers are the eigenvalues of the derivative of the return map. An orbit is stable if both lie inside
+the unit circle.
 """
 
 import math
@@ -13,10 +14,15 @@ from rocking.kernels.numerics.elementary import fma, size
 
 @njit(**INTERNAL)
 def eigenvalues(middle, square, determinant):
-    """Both eigenvalues of a real matrix, the larger first, or that above the real axis: (real, imaginary, real, imaginary).
+    """Return both eigenvalues of a real matrix: the larger first, or the one above the real axis.
 
-    ``middle`` is half its trace, ``square`` the square of half their difference, which who knows more than the trace and
-    the determinant has without cancellation.
+    ``middle`` is half its trace, ``square`` the square of half their difference. A caller that knows the
+    whole matrix computes ``square`` without the cancellation of the formula in trace and determinant.
+
+    Returns
+    -------
+    tuple of (float, float, float, float)
+        Real and imaginary part of the first, then of the second.
     """
     if square < 0.0:
         root = math.sqrt(-square)
@@ -29,7 +35,10 @@ def eigenvalues(middle, square, determinant):
 
 @njit(**INTERNAL)
 def multipliers(tangent):
-    """Return the ``eigenvalues`` of a tangent. Which product is fused is written out: the compiler's choice depends on the caller."""
+    """Return the ``eigenvalues`` of a tangent.
+
+    The fused product is explicit, because the compiler's choice would depend on the caller.
+    """
     apart, crossed = 0.5 * (tangent.a - tangent.d), tangent.b * tangent.c
     determinant = fma(tangent.a, tangent.d, -crossed)
     return eigenvalues(0.5 * (tangent.a + tangent.d), fma(apart, apart, crossed), determinant)
@@ -37,7 +46,10 @@ def multipliers(tangent):
 
 @njit(**ENTRY_POINT)
 def multipliers_plain(middle, square, determinant, mirrored):
-    """``eigenvalues`` for Python, as two complex numbers; ``mirrored``: their squares, of a map over half a period."""
+    """Return ``eigenvalues`` as two complex numbers; entry point for Python.
+
+    If ``mirrored``, the map is over half a period, and the results are the squares of its eigenvalues.
+    """
     real, above, other, below = eigenvalues(middle, square, determinant)
     if mirrored:
         turned = 2.0 * abs(real * above)
@@ -48,9 +60,15 @@ def multipliers_plain(middle, square, determinant, mirrored):
 
 @njit(**INTERNAL)
 def adapted_norm(tangent, radius):
-    """(q11, q12, q22) of a norm in which a matrix with spectral radius < ``radius`` shrinks by ``radius`` at least.
+    """Return a norm in which a matrix with spectral radius < ``radius`` shrinks at least by the factor ``radius``.
 
-    Q = sum over k of N^kT N^k with N = M/radius, by doubling; without eigenvectors, which coincide where the multipliers do.
+    Q = sum over k of N^kT N^k with N = M/radius, by doubling. No eigenvectors are needed, which coincide if
+    the multipliers do.
+
+    Returns
+    -------
+    tuple of (float, float, float)
+        q11, q12 and q22.
     """
     q11, q12, q22 = 1.0, 0.0, 1.0
     # the columns of N are (a, b) and (c, d)
@@ -68,13 +86,13 @@ def adapted_norm(tangent, radius):
 
 @njit(**INTERNAL)
 def length(norm, x, y):
-    """Length of (x, y) in an adapted norm."""
+    """Return the length of (x, y) in an adapted norm."""
     q11, q12, q22 = norm
     return math.sqrt(q11 * x * x + 2.0 * q12 * x * y + q22 * y * y)
 
 
 @njit(**INTERNAL)
 def spectral_radius(tangent):
-    """The size of the largest multiplier."""
+    """Return the modulus of the largest multiplier."""
     real, imaginary, _, _ = multipliers(tangent)
     return size(real, imaginary)

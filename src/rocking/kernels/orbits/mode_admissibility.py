@@ -1,12 +1,12 @@
-"""Whether the closed form of a symmetric mode keeps its side for half a response, eq. (8) of Yim & Lin (1991).
+"""Admissibility of a symmetric mode: its closed form, eq. (8) of Yim & Lin (1991), must not pass through Theta = 0.
 
 On the positive side, from one impact to the next a time ``length`` = n pi/Omega later,
 
-    u = a e^-t + b e^-(length - t) + 1 + beta cos(phi + Omega t),
+    u = a e^-t + b e^-(length - t) + 1 + beta cos(phi + Omega t).
 
-written with what decays from either end, so that nothing grows however long it lasts. It is followed from both ends
-to the middle, in pieces that each begin from this form: rounding never grows by more than e^PIECE, and the impact
-at the far end is never a question of how near is near enough.
+Both exponentials decay from their end of the half-cycle, so that no term grows however long it is. The mode
+is followed from both ends to the middle, in pieces that each start from this form. So rounding grows by at
+most e^PIECE, and no tolerance is needed for the impact at the far end.
 """
 
 import math
@@ -26,7 +26,14 @@ PIECE = 4.0
 
 @njit(**INTERNAL)
 def first_half(p, speed, near, far, length):
-    """(whether u > 0 up to the middle, its largest value), from u = 0 with ``speed``; near, far are a, b above."""
+    """Follow a mode from u = 0 with ``speed`` to the middle; ``near`` and ``far`` are a, b above.
+
+    Returns
+    -------
+    tuple of (bool, float)
+        Whether u > 0 up to the middle.
+        Largest value of u.
+    """
     middle, peak = 0.5 * length, 0.0
     pieces = math.ceil(middle / PIECE)
     step = middle / pieces
@@ -49,9 +56,15 @@ def first_half(p, speed, near, far, length):
 
 @njit(**ENTRY_POINT)
 def half_cycle(p, speed, near, far, length):
-    """(whether u > 0 inside the half cycle, its largest value) of a mode that leaves the base with ``speed`` at phase ``p.phase``.
+    """Follow a mode that leaves the base with ``speed`` at phase ``p.phase`` through its half-cycle.
 
-    Seen from its end, backwards in time, a half cycle is one that begins at phase pi - phi with the speed before the impact.
+    In reversed time the half-cycle begins at phase pi - phi with the speed before the impact.
+
+    Returns
+    -------
+    tuple of (bool, float)
+        Whether u > 0 inside the half-cycle.
+        Largest value of u.
     """
     up, peak = first_half(p, speed, near, far, length)
     if not up:

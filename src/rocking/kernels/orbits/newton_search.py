@@ -1,4 +1,7 @@
-"""Periodic orbits sought from many starts: Newton's method on the map over a period, or over half of one and mirrored."""
+"""Search for periodic orbits from many initial states, by Newton's method on the return map.
+
+The map is over a whole period, or over half a period followed by reflection.
+"""
 
 import math
 
@@ -14,7 +17,7 @@ from rocking.kernels.parameters import later
 def return_map(p, period, mirrored):
     """Return the ``ReturnMap`` over ``period`` cycles, or over half an odd number of them and mirrored.
 
-    Half a cycle comes first: the march ends only with a whole one, and p.period stays that of the forcing.
+    The half cycle comes first: the march ends only with a whole one, and p.period stays that of the forcing.
     """
     if not mirrored:
         return ReturnMap(p, period, 0.0, 1.0)
@@ -24,9 +27,10 @@ def return_map(p, period, mirrored):
 
 @njit(**ENTRY_POINT)
 def newton_from_starts(p, period, mirrored, starts, nothing, columns, out):
-    """Find fixed points of ``return_map`` by Newton's method from every start, and return how many were found.
+    """Search for fixed points of ``return_map`` by Newton's method from every initial state.
 
-    ``out`` (n, 4) takes (found, angle, velocity, residual). Starts beyond a brace lead nowhere.
+    ``out`` (n, 4) takes (found, angle, velocity, residual). Initial states beyond a brace are skipped.
+    Returns the number of fixed points found.
     """
     mapping, count = return_map(p, period, mirrored), 0
     for i in range(starts.shape[0]):

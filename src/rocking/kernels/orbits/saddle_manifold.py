@@ -1,8 +1,8 @@
-"""Where the motions go that leave the saddle orbits 1 + beta cos psi and its mirror image inwards, along exact lines.
+"""Unstable manifolds of the saddle orbit 1 + beta cos psi and its mirror image, inward branches, along exact lines.
 
-On its side of the base every motion that comes from the saddle orbit is s = (u, u')_saddle - c e^t (1, 1); it has not
-touched the base before as long as c e^t < 1 - beta. So the lines need no smallness, and rounding is not magnified by
-time spent near the saddle.
+On its side of the base every motion that comes from the saddle orbit is s = (u, u')_saddle - c e^t (1, 1). It
+has not touched the base before as long as c e^t < 1 - beta. So the lines need no small distance from the
+saddle, and the time spent near it does not magnify rounding.
 """
 
 import math
@@ -19,13 +19,13 @@ from rocking.kernels.march.march import MAX_EVENTS, UNKNOWN, begin
 from rocking.kernels.march.next_event import any_event
 from rocking.kernels.parameters import later, make
 
-# Distance from the saddle orbit, over 1 - beta, at which a motion is taken up.
+# Distance from the saddle orbit, over 1 - beta, at which a motion is started.
 NEAR = 0.5
 
 
 @njit(**ENTRY_POINT)
 def swings(amplitudes, frequencies, phases, out):
-    """Write (beta cos psi, its derivative) into ``out`` (n, 2): how far saddle orbits are from their corners at phases psi."""
+    """Write beta cos psi and its derivative into ``out`` (n, 2): the deviation of a saddle orbit from its corner."""
     for k in range(out.shape[0]):
         frequency = frequencies[k]
         p = make(amplitudes[k], frequency, 2.0 * math.pi / frequency, phases[k], 1.0, math.inf, 1.0)
@@ -34,7 +34,7 @@ def swings(amplitudes, frequencies, phases, out):
 
 @njit(**INTERNAL)
 def leaving(p, side):
-    """(Theta, Theta') at the start of the clock of the motion that is NEAR (1 - beta) from the saddle orbit just then."""
+    """Return Theta and Theta' of the motion that is NEAR (1 - beta) from the saddle orbit when its clock starts."""
     displacement, forced_velocity = particular(p, side * math.cos(p.phase), side * math.sin(p.phase))
     distance = NEAR * (1.0 - p.response)
     return side * (1.0 + displacement - distance), side * (forced_velocity - distance)
@@ -44,7 +44,7 @@ def leaving(p, side):
 def images(p, side, times, out):
     """Write (Theta, Theta') into ``out`` (n, 2), at the section psi = phase, a time ``times[k]`` after ``leaving``.
 
-    Returns False if one is crowded with events.
+    Returns False if a motion has too many events.
     """
     for k in range(times.shape[0]):
         cycles = math.floor(times[k] / p.period)
@@ -71,7 +71,10 @@ def images(p, side, times, out):
 
 @njit(**ENTRY_POINT)
 def first_impacts(p, side, waits, out):
-    """Write (psi, speed just before) of the first impact into ``out`` (n, 2) of motions ``leaving`` at ``waits[k]``; NaN without."""
+    """Write (psi, speed just before) of the first impact into ``out`` (n, 2).
+
+    Motion k starts ``leaving`` at ``waits[k]``. NaN if its first event is no impact.
+    """
     for k in range(waits.shape[0]):
         q = later(p, waits[k])
         angle, velocity = leaving(q, side)

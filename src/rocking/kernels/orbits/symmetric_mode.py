@@ -1,12 +1,15 @@
-"""Symmetric (1, n) modes in closed form, eqs (8)-(10) of Yim & Lin (1991), and where one is when a section is due.
+"""Symmetric (1, n) modes in closed form, eqs (8)-(10) of Yim & Lin (1991), and their states on a section.
 
-With h = nπ/Ω, half a response, t = tanh(h/2), k∓ = (1 ∓ e)/2e and a = Ω²t²k₋² + k₊², the speed V after an impact and the phase φ
-there obey
+Let h = nπ/Ω, half a response, t = tanh(h/2), k∓ = (1 ∓ e)/2e and a = Ω²t²k₋² + k₊². The speed V after an
+impact and the phase φ there obey
 
     β cos φ = −t V k₋,   βΩ sin φ = t − V k₊,   so that   aV² − 2t k₊ V + t² − Ω²β² = 0.
 
-Written with the distance of V from V_E = t k₊/a, where both roots meet, nothing cancels and nothing overflows:
-(V − V_E)² = (Ω/a)² (√a β − t²k₋)(√a β + t²k₋), and the trace of the half-cycle map is 1 + e² + e(1+e) sinh h (1/V − 1/V_E).
+Both roots meet at V_E = t k₊/a. With the distance of V from V_E nothing cancels and nothing overflows:
+
+    (V − V_E)² = (Ω/a)² (√a β − t²k₋)(√a β + t²k₋).
+
+The trace of the half-cycle map is 1 + e² + e(1+e) sinh h (1/V − 1/V_E).
 """
 
 import math
@@ -20,27 +23,34 @@ from rocking.kernels.compile_options import ENTRY_POINT, INTERNAL, INTERNAL_INLI
 from rocking.kernels.forcing.harmonic import TURN
 from rocking.kernels.numerics.elementary import size
 
-# Beyond it sinh is infinite.
+# Beyond this sinh overflows.
 MAX_ARGUMENT = 700.0
-# The arc of no mode.
+# Arc that stands for no mode.
 NOWHERE = Arc(1, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0)
 
 
 class Nearest(NamedTuple):
-    """Of the states of a mode on a section the one nearest to a given state."""
+    """State of a mode on a section that is nearest to a given state."""
 
-    distance: float  # infinite where there is no stable mode
+    distance: float  # infinite if there is no stable mode
     order: int
     angle: float
     velocity: float
-    arc: Arc  # on which it lies; it began so long ago
+    arc: Arc  # on which the state lies
     since: float
-    half: float  # how long every arc of the mode takes
+    half: float  # duration of every arc of the mode
 
 
 @njit(**INTERNAL_INLINE)
 def closed_form(frequency, response, restitution, order, faster):
-    """(speed after an impact, phase there, trace of the half-cycle map) of the faster or slower mode; NaN where there is none."""
+    """Evaluate the faster or slower mode; NaN if it does not exist.
+
+    Returns
+    -------
+    tuple of (float, float, float)
+        Speed after an impact and forcing phase there.
+        Trace of the half-cycle map.
+    """
     e, h = restitution, order * math.pi / frequency
     t, lost, kept, twice = math.tanh(0.5 * h), 1.0 - e, 1.0 + e, 2.0 * e
     swept = frequency * t * lost
@@ -51,9 +61,9 @@ def closed_form(frequency, response, restitution, order, faster):
     root = root if faster else -root
     fast = fold + twice * frequency * abs(root) / a
     slow = (t - frequency * response) * (t + frequency * response) * twice * (twice / fast) / a
-    # at the fold both are one
+    # at the fold both roots are equal
     speed = fast if faster else (slow if root < 0.0 else math.nan)
-    # (t - V k+)/Omega without the cancellation where e is near 1
+    # (t - V k+)/Omega without the cancellation that occurs if e is near 1
     sine = (frequency * t * t * t * lost * lost - root * kept) / a
     apart = -frequency * root * (twice / speed) / (a * fold)
     steep = math.sinh(h) if h < MAX_ARGUMENT else math.inf
@@ -63,13 +73,16 @@ def closed_form(frequency, response, restitution, order, faster):
 
 @njit(**ENTRY_POINT)
 def closed_form_plain(frequency, response, restitution, order, faster):
-    """``closed_form`` for Python."""
+    """Return ``closed_form``; entry point for Python."""
     return closed_form(frequency, response, restitution, order, faster)
 
 
 @njit(**INTERNAL)
 def nearest(p, order, angle, velocity):
-    """Of the faster (1, ``order``) mode, if that is stable, the state at the start of a cycle nearest to (angle, velocity)."""
+    """Return the state of the faster (1, ``order``) mode nearest to (angle, velocity), at the start of a cycle.
+
+    The distance is infinite if the mode is not stable.
+    """
     half = order * math.pi * p.per_frequency
     best = Nearest(math.inf, order, math.nan, math.nan, NOWHERE, 0.0, half)
     if order % 2 == 0 or p.restitution == 0.0:
