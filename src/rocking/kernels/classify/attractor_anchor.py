@@ -13,16 +13,10 @@ from rocking.kernels.march.march import DONE, STILL, UNKNOWN, begin, march_throu
 from rocking.kernels.march.progress import Recording
 from rocking.kernels.parameters import later, parameters_from_row
 
-<<<<<<< HEAD
-# The phase of the section on which attractors are compared, in cycles: on no event of any symmetric mode but by chance.
-SECTION = FIRST_SECTION
-# States of an orbit whose angles differ by less are told apart by their velocities.
-=======
 # Phase of the section on which attractors are compared, in cycles. An event of a symmetric mode lies there
 # only by chance.
-SECTION = 0.3819660112501051
+SECTION = FIRST_SECTION
 # States of an orbit with angles closer than this are ordered by their velocities.
->>>>>>> w-kernels
 TIED = 1e-7
 # Rest is proved long before its last impact, so the march takes this factor longer.
 LONGER = 10

@@ -155,13 +155,8 @@ def next_sign_change(p, half, inside):
 
 
 @njit(**INTERNAL_INLINE)
-<<<<<<< HEAD
 def acceleration_change_bound(p, sine, time):
-    """A bound on how far the base acceleration moves within the coming ``time``."""
-=======
-def acceleration_change_bound(p, cosine, sine, time):
     """Return an upper bound on the change of the base acceleration within the next ``time``."""
->>>>>>> w-kernels
     x = p.frequency * time
     return p.amplitude * (abs(sine) * x + 0.5 * x * x)
 
