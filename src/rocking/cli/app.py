@@ -1,4 +1,4 @@
-"""The commands, gathered."""
+"""Command-line application: all commands of `rocking`."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from typing import Annotated
 
 import typer
 
+from rocking.cli.command_help import CommandHelp
 from rocking.cli.commands import (
     basins,
     cite,
@@ -19,37 +20,39 @@ from rocking.cli.commands import (
 )
 from rocking.cli.commands import map as map_
 
-VERSION = typer.Option("--version", help="Show the version and stop.")
+VERSION = typer.Option("--version", help="Show the version and exit.")
 
-# Rich help would take longer to load than all the rest of `rocking --help`.
+# Help in plain text: Rich takes longer to load than the rest of `rocking --help`.
 app = typer.Typer(
     pretty_exceptions_enable=False,
     add_completion=False,
     rich_markup_mode=None,
-    context_settings={"help_option_names": ["-h", "--help"]},
+    context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 120},
 )
 
 
-def _shown(examples: str) -> str:
-    """Examples under the help; the control character keeps lines as they are."""
-    return f"\b\n{examples}"
-
-
-app.command(epilog=_shown(simulate.EXAMPLES))(simulate.simulate)
-app.command(epilog=_shown(classify.EXAMPLES))(classify.classify)
-app.command(epilog=_shown(modes.EXAMPLES))(modes.modes)
-app.command("map", epilog=_shown(map_.EXAMPLES))(map_.map_)
-app.command(epilog=_shown(basins.EXAMPLES))(basins.basins)
-app.command(epilog=_shown(overturning.EXAMPLES))(overturning.overturning)
-app.command(epilog=_shown(orbit_diagram.EXAMPLES))(orbit_diagram.orbit_diagram)
-app.command()(explore.explore)
-app.command(epilog=_shown(paper.EXAMPLES))(paper.paper)
-app.command()(cite.cite)
+for name, command, examples in (
+    ("simulate", simulate.simulate, simulate.EXAMPLES),
+    ("classify", classify.classify, classify.EXAMPLES),
+    ("modes", modes.modes, modes.EXAMPLES),
+    ("map", map_.map_, map_.EXAMPLES),
+    ("basins", basins.basins, basins.EXAMPLES),
+    ("overturning", overturning.overturning, overturning.EXAMPLES),
+    ("orbit-diagram", orbit_diagram.orbit_diagram, orbit_diagram.EXAMPLES),
+    ("explore", explore.explore, None),
+    ("paper", paper.paper, paper.EXAMPLES),
+    ("cite", cite.cite, None),
+):
+    # The control character keeps the line breaks of the examples below the options.
+    app.command(name, cls=CommandHelp, epilog=examples and f"\b\nExamples:\n{examples}")(command)
 
 
 @app.callback(invoke_without_command=True)
 def rocking(context: typer.Context, version: Annotated[bool, VERSION] = False) -> None:
-    """Free-standing blocks on a shaking base: exact simulation and nonlinear dynamics."""
+    """Simulate and analyse free-standing blocks that rock on a harmonically moving base.
+
+    Run rocking COMMAND --help for the options and examples of a command.
+    """
     if version:
         from rocking import __version__
 
