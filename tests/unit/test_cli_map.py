@@ -220,7 +220,7 @@ REFUSED = {
         "missing --period: give --amplitude, --period (or --frequency) and --restitution"
     ),
     "map --amplitude 0:16:20 --period 1 --restitution 0.9": (
-        "a parametric map needs two quantities to vary, given as axes; got --amplitude"
+        "a parametric map needs two quantities as axes; got --amplitude"
     ),
     f"{LINE} --phase one": (
         "Invalid value for '--phase': must be a number or START:STOP:COUNT with START ≠ STOP and a whole COUNT "
@@ -269,8 +269,8 @@ def test_store_of_another_map_is_refused_by_the_names_of_options(rocking):
     assert (code, message) == (
         2,
         (
-            "--store 'map.zarr' holds another survey: --restitution is 0.9 there and 0.8 here; --max-cycles is 100 there "
-            "and 50 here (give another folder, or ask for the same)"
+            "--store 'map.zarr' holds a different survey: --restitution is 0.9 there and 0.8 here; --max-cycles is 100 there "
+            "and 50 here (give another folder, or the same values)"
         ),
     )
 
@@ -278,10 +278,10 @@ def test_store_of_another_map_is_refused_by_the_names_of_options(rocking):
 def test_store_of_another_block_is_refused_by_what_follows_from_the_block(rocking):
     line = "map --height 2 --acceleration 1:8:2 --frequency-hz 1:3:2 --max-cycles 5 --store map.zarr"
     rocking(f"{line} --width 0.6")
-    told = "--store 'map.zarr' holds another survey: restitution, which follows from the block, is 0.876147 there and "
+    told = "--store 'map.zarr' holds a different survey: restitution, which follows from the block, is 0.876147 there and "
     assert rocking(f"{line} --width 0.5")[:2] == (
         2,
-        f"{told}0.911765 here (give another folder, or ask for the same)",
+        f"{told}0.911765 here (give another folder, or the same values)",
     )
     assert (
         "--restitution is 0.876147 there and 0.9 here" in rocking(f"{line} --width 0.5 --restitution 0.9")[1]

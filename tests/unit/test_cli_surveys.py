@@ -144,7 +144,7 @@ def test_a_path_is_told_as_it_was_typed(rocking):
     chunk.write_bytes(chunk.read_bytes()[:-1])
     code, told, _ = rocking(line)
     assert code == 2
-    assert f"is damaged at '{chunk}'; with --repair" in told
+    assert f"is damaged at '{chunk}' (recompute these tiles with --repair)" in told
 
 
 def test_a_study_that_begins_with_a_mark_of_its_byte_order_is_read(rocking):
@@ -283,7 +283,10 @@ def test_overturning_of_a_block_scans_the_usual_amplitudes_and_says_where_nothin
         ("--frequency-hz 1", "missing --width: give --height, --width"),
         ("--width 0.5", "missing --frequency-hz: give --height, --width and --frequency-hz (or"),
         ("--width 0.5 --frequency-hz 1 --amplitude 1:2", "--amplitude is normalised and --height is SI"),
-        ("--width 0.5 --frequency-hz 1 --acceleration 3", "--acceleration must be an axis, START:STOP:COUNT"),
+        (
+            "--width 0.5 --frequency-hz 1 --acceleration 3",
+            "--acceleration must be an axis to scan, START:STOP:COUNT",
+        ),
     ],
 )
 def test_overturning_in_si_is_refused_in_the_words_of_its_options(rocking, line, message):

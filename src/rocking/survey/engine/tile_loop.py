@@ -1,4 +1,4 @@
-"""The loop: tiles from coarse to fine, their batches on any executor, their results kept in the order of the plan."""
+"""Loop over tiles from coarse to fine: batches run on any executor, results are kept in the order of the tiles."""
 
 from __future__ import annotations
 
@@ -18,45 +18,45 @@ from rocking.survey.store.locking import defer_interrupt
 from rocking.survey.tiling import Level, Tile
 
 MAX_UNDER_WAY = 512
-"""Batches under way or waiting for an earlier tile, at most: what they answer takes some 0.2 GB."""
+"""Maximum number of batches that run or wait for an earlier tile; their results take about 0.2 GB."""
 
 
 class Results(Protocol):
-    """Where results are kept: in memory, or in a store."""
+    """Interface of the results of a survey, in memory or in a store."""
 
     asked: SurveySpec
     measure: Measurement
     levels: list[Level]
-    done: int  # points that an earlier run has left
+    done: int  # number of points computed by an earlier run
 
     def known(self, tile: Tile) -> np.ndarray:
-        """Which points of a tile are there."""
+        """Return the mask of the computed points of a tile."""
         ...
 
     def read(self, tile: Tile, names: tuple[str, ...] = ()) -> Arrays:
-        """What is there of a tile, of all variables unless some are named."""
+        """Return the results of a tile for the named variables. Default: all variables."""
         ...
 
     def coarser(self, tile: Tile) -> Arrays:
-        """Of the level before, the points that a tile shares."""
+        """Return the results that a tile shares with the previous level."""
         ...
 
     def write(self, tile: Tile, answers: Arrays) -> None:
-        """Keep a tile."""
+        """Keep the results of a tile."""
         ...
 
 
 class Watcher(Protocol):
-    """Who is told how far it is."""
+    """Interface of an observer of the progress."""
 
     def settled(self, found: np.ndarray, *, before: bool) -> None:
-        """Points were settled, with these values of the variable whose shares are told; `before`: by an earlier run."""
+        """Report completed points by their values of the variable shown; `before`: computed by an earlier run."""
         ...
 
 
 @frozen(eq=False)
 class Pending:
-    """A tile under way."""
+    """Tile whose batches have been submitted."""
 
     tile: Tile
     known: np.ndarray
@@ -65,7 +65,7 @@ class Pending:
 
 
 def run(results: Results, executor: Executor | None = None, watcher: Watcher | None = None) -> None:
-    """Compute what is not there yet; on Ctrl-C, and whatever else happens, what is kept stays good."""
+    """Compute all missing points; after any interruption, including Ctrl-C, the results kept so far are valid."""
     with engine(executor) as (pool, stop):
         pending: deque[Pending] = deque()
         under_way = 0
@@ -89,7 +89,7 @@ def run(results: Results, executor: Executor | None = None, watcher: Watcher | N
 
 
 def _submit(pool: Executor, stop: np.ndarray, results: Results, tile: Tile, known: np.ndarray) -> Pending:
-    """Send off what neither an earlier run nor a coarser level has found."""
+    """Submit the points of a tile that neither an earlier run nor a coarser level has computed."""
     wanted = np.flatnonzero(tile.own(~known)).astype(np.int32)
     work = list(batches(tile, results.asked.fixed, wanted, results.measure))
     return Pending(
@@ -98,7 +98,7 @@ def _submit(pool: Executor, stop: np.ndarray, results: Results, tile: Tile, know
 
 
 def _settle(pending: deque[Pending], results: Results, watcher: Watcher | None) -> int:
-    """Wait for the first tile under way and keep it; how many batches it had. Tiles are kept in the order of the plan."""
+    """Wait for the first submitted tile and keep its results, so that tiles are kept in order; return its number of batches."""
     first = pending[0]
     wait(first.futures, return_when=FIRST_EXCEPTION)
     tile, shared = first.tile, first.tile.shared()
@@ -120,14 +120,14 @@ def _settle(pending: deque[Pending], results: Results, watcher: Watcher | None) 
 def _tell(
     watcher: Watcher | None, results: Results, tile: Tile, answers: Arrays, which: np.ndarray, *, before: bool
 ) -> None:
-    """Tell who watches what was found at the points that are in no coarser level."""
+    """Report the results at the points that no coarser level contains."""
     if watcher is not None:
         watcher.settled(answers[results.measure.shares][tile.own(which)], before=before)
 
 
 @contextmanager
 def engine(executor: Executor | None) -> Iterator[tuple[Executor, np.ndarray]]:
-    """The executor, with a flag that ends the work of threads soon; one's own threads, one a core, unless given."""
+    """Provide an executor and a flag that stops the work of threads. Default: a thread pool, one thread per core."""
     stop = np.zeros(1, np.int64)
     own = ThreadPoolExecutor(cores(), "survey") if executor is None else None
     try:
@@ -141,5 +141,5 @@ def engine(executor: Executor | None) -> Iterator[tuple[Executor, np.ndarray]]:
 
 
 def cores() -> int:
-    """Cores that this process may use."""
+    """Return the number of cores that this process may use."""
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
