@@ -264,7 +264,7 @@ def test_every_outcome_can_be_drawn(rocking, line):
 
 
 REFUSED = {
-    "": "give --amplitude, --period (or --frequency) and --restitution, or in SI --height, --width, "
+    "": "no system is given: give --amplitude, --period (or --frequency) and --restitution, or in SI --height, --width, "
     "--acceleration (or --acceleration-g, --displacement) and --frequency-hz (or --period-s)",
     "--amplitude 2 --height 1": "--amplitude is normalised and --height is SI: use one of the two (the SI option is --acceleration)",
     "--amplitude 2 --period 1": "missing --restitution: give --amplitude, --period (or --frequency) and --restitution",

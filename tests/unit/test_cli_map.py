@@ -220,7 +220,7 @@ REFUSED = {
         "missing --period: give --amplitude, --period (or --frequency) and --restitution"
     ),
     "map --amplitude 0:16:20 --period 1 --restitution 0.9": (
-        "a parametric map needs two quantities as axes; got --amplitude"
+        "a parametric map needs two quantities as axes, START:STOP:COUNT; got --amplitude"
     ),
     f"{LINE} --phase one": (
         "Invalid value for '--phase': must be a number or START:STOP:COUNT with START ≠ STOP and a whole COUNT "

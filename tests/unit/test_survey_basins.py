@@ -156,7 +156,7 @@ def test_a_basin_map_in_a_store_is_the_same(tmp_path):
 @pytest.mark.parametrize(
     "options, message",
     [
-        ({"angle": [0.0, 1.0], "velocity": 0.5}, "a basin map needs two quantities as axes"),
+        ({"angle": [0.0, 1.0], "velocity": 0.5}, "a basin map needs two quantities as arrays"),
         ({"angle": [1.0, 0.0], "velocity": [0.0, 1.0]}, "angle must hold two numbers or more"),
         ({"angle": 1.0, "velocity": (0, 1), "samples": 5}, "angle must be a pair (low, high)"),
         ({"angle": (1, 0), "velocity": (0, 1), "samples": 5}, "angle must be a pair (low, high)"),
@@ -240,7 +240,7 @@ def test_the_safe_area_need_not_fall_above_the_tangency():
 def test_a_safe_basin_needs_amplitudes():
     with pytest.raises(TypeError, match="amplitude must be an axis of amplitudes"):
         rk.safe_basin(amplitude=1.0, period=[1.0, 2.0], restitution=0.8)
-    with pytest.raises(TypeError, match="a safe basin needs one quantity to vary"):
+    with pytest.raises(TypeError, match="a safe basin needs one quantity as an array; got none$"):
         rk.safe_basin(amplitude=1.0, period=1.0, restitution=0.8)
 
 

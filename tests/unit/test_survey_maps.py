@@ -155,13 +155,13 @@ REFUSED = {
     "three axes": (
         {"restitution": [0.8, 0.9]},
         (
-            "a parametric map needs two quantities as axes; got amplitude and restitution and period "
-            "(give one of them a single number)"
+            "a parametric map needs two quantities as arrays; got amplitude and restitution and period "
+            "(give one of them as a number)"
         ),
     ),
     "one axis": (
         {"amplitude": 1.0},
-        "a parametric map needs two quantities as axes; got period",
+        "a parametric map needs two quantities as arrays; got period",
     ),
     "fixed out of range": ({"restitution": 1.2}, "restitution must lie in [0, 1]; got 1.2"),
     "nothing given": ({"restitution": None}, "a parametric map needs restitution; got none"),

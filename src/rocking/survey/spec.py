@@ -112,8 +112,8 @@ def question(asked: Mapping[str, Any], count: int, what: str) -> SurveySpec:
     fixed = {name: _number(name, value) for name, value in given.items() if name not in axes}
     if len(axes) != count:
         got, more = " and ".join(axes) or "none", len(axes) - count
-        way_out = f" (give {'one' if more == 1 else more} of them a single number)" if more > 0 else ""
-        raise TypeError(f"{what} needs {_counted(count)} as axes; got {got}{way_out}")
+        way_out = f" (give {'one' if more == 1 else more} of them as a number)" if more > 0 else ""
+        raise TypeError(f"{what} needs {_counted(count)}; got {got}{way_out}")
     asked_for = SurveySpec(axes, fixed)
     _check_braces(asked_for)
     return asked_for
@@ -166,8 +166,8 @@ def _is_axis(value: Any) -> bool:
 
 
 def _counted(count: int) -> str:
-    words = {1: "one quantity", 2: "two quantities"}
-    return words.get(count, f"{count} quantities")
+    words = {1: "one quantity as an array", 2: "two quantities as arrays"}
+    return words.get(count, f"{count} quantities as arrays")
 
 
 def _check_braces(asked: SurveySpec) -> None:

@@ -192,7 +192,7 @@ def question(given: Mapping[str, Any]) -> tuple[System, State, Block | None]:
     given = DEFAULTS | dict(given)
     normalised, physical = kinds(given)
     if not normalised and not physical:
-        raise YourInput(f"give {NORMALISED_NEEDS}, or in SI {SI_NEEDS}")
+        raise YourInput(f"no system is given: give {NORMALISED_NEEDS}, or in SI {SI_NEEDS}")
     if normalised:
         require(given, (("amplitude",), ("period", "frequency"), ("restitution",)), NORMALISED_NEEDS)
     else:

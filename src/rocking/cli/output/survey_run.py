@@ -8,6 +8,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from rocking.cli.input.axis import FORM
 from rocking.cli.option_names import ARGUMENTS as SYSTEM_ARGUMENTS
 from rocking.cli.option_names import NORMALISED, as_typed, option, options, your_input
 from rocking.cli.output.files import check_apart, check_files, with_block, write_dataset
@@ -16,7 +17,8 @@ if TYPE_CHECKING:
     from rocking.model import BasinMap, Block, OverturningCurve, Share
 
 OWN = ("samples", "seed", "boundary_runs", "phases", "store", "repair", "brace_angle", "brace_restitution")
-ARGUMENTS = SYSTEM_ARGUMENTS | options(*OWN)
+# On the command line an array is typed as an axis.
+ARGUMENTS = SYSTEM_ARGUMENTS | options(*OWN) | {"as arrays": f"as axes, {FORM}"}
 FILES = ("plot", "netcdf")
 MAX_ROWS = 20
 

@@ -137,7 +137,7 @@ def label_attractors(system: System, answers: Mapping[str, Any]) -> tuple[np.nda
     Returns
     -------
     tuple of (array (n,) of int, array (m,) of int)
-        Attractor of each initial state, and the index of one initial state of each attractor.
+        Attractor of each initial state; index of one initial state per attractor.
     """
     named_by = (*CLASS, *(each.name for each in (*ANCHORS, *AVERAGES)))
     flat = {name: np.asarray(answers[name]).ravel() for name in named_by}
