@@ -27,7 +27,10 @@ class CommandHelp(TyperCommand):
             name: [] for name in ("Arguments", *GROUPS.values(), "Options")
         }
         for parameter in self.get_params(ctx):
-            name, text = parameter.get_help_record(ctx)
+            record = parameter.get_help_record(ctx)
+            if record is None:
+                continue
+            name, text = record
             other = "Arguments" if parameter.param_type_name == "argument" else "Options"
             section = GROUPS.get(parameter.name, other)
             # Typer appends the Python type to the name of an argument.

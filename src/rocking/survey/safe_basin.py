@@ -35,7 +35,9 @@ def safe_basin(
     max_period: int = 64,
     executor: Executor | None = None,
 ) -> SafeBasin:
-    """Estimate the fraction of initial states that do not overturn, over the amplitude, with the thresholds A* and A_M.
+    """Estimate the fraction of initial states that do not overturn, over the amplitude.
+
+    The result includes the thresholds A* and A_M of the amplitude.
 
     Above A* the boundary of the overturning initial states is fractal. The safe fraction does not necessarily decrease
     from there on. Both thresholds hold for a block without braces; with braces they are NaN.

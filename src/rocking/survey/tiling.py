@@ -136,7 +136,7 @@ def finest(asked: SurveySpec) -> list[Level]:
 
 
 def tile_edges(shape: Sequence[int]) -> tuple[int, ...]:
-    """Return the edges of the tiles of a grid: short axes undivided, the others divided evenly, tiles of limited size."""
+    """Return the edges of tiles of limited size: short axes are undivided, the others divided evenly."""
     edges, room = [0] * len(shape), MAX_IN_A_TILE
     for left, place in enumerate(sorted(range(len(shape)), key=lambda place: shape[place])):
         most = int(room ** (1 / (len(shape) - left)) + 1e-9)

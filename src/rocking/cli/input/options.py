@@ -186,7 +186,7 @@ def kinds(given: Mapping[str, Any]) -> tuple[list[str], list[str]]:
 
 
 def question(given: Mapping[str, Any]) -> tuple[System, State, Block | None]:
-    """Return the system, the initial state and, with SI input, the block that the options describe; YourInput if invalid."""
+    """Return the system, the initial state and, with SI input, the block of the options; YourInput if invalid."""
     from rocking.model import MAX_START, Block, Harmonic, State, System, within
 
     given = DEFAULTS | dict(given)

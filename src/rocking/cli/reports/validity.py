@@ -35,7 +35,10 @@ def record(motion: Motion, block: Block) -> dict[str, Any] | None:
 
 
 def validity_motion(verdict: Verdict) -> tuple[str, Motion]:
-    """Return the motion over which validity is evaluated, and its description: one period of the orbit, else the first cycles."""
+    """Return a description of the motion over which validity is evaluated, and the motion.
+
+    The motion is one period of the orbit or, without orbit, the first cycles.
+    """
     system, orbit = verdict.system, verdict.orbit
     if orbit is None:
         motion = run(system, verdict.start, min(max(verdict.cycles, 1), FIRST), ())

@@ -98,7 +98,10 @@ def _submit(pool: Executor, stop: np.ndarray, results: Results, tile: Tile, know
 
 
 def _settle(pending: deque[Pending], results: Results, watcher: Watcher | None) -> int:
-    """Wait for the first submitted tile and keep its results, so that tiles are kept in order; return its number of batches."""
+    """Keep the results of the first submitted tile when they are complete; return its number of batches.
+
+    Tiles are kept in the order of submission.
+    """
     first = pending[0]
     wait(first.futures, return_when=FIRST_EXCEPTION)
     tile, shared = first.tile, first.tile.shared()

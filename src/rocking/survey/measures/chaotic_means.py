@@ -14,7 +14,7 @@ MAX_FOLLOWED = 20_000
 """Maximum number of cycles; the second half is averaged."""
 BATCHES = 20
 MAX_NUDGES, NUDGE = 100, 1e-15
-"""Number and size of perturbations of an initial state whose outcome rounding decides: a second run may overturn."""
+"""Number and size of perturbations of an initial state that overturns in a second run because of rounding."""
 APART = 10.0
 """Standard errors between the means of different attractors."""
 
@@ -41,7 +41,7 @@ def averages(points: Points, chaotic: np.ndarray, cycles: int, stop: np.ndarray)
 
 
 def _late_angles(system: System, start: State, cycles: int) -> np.ndarray:
-    """Return Θ on the section in the second half of the cycles; NaN if the run overturns for all perturbations of its start."""
+    """Return Θ on the section in the second half of the cycles; NaN if the run and all perturbed runs overturn."""
     for nudge in range(MAX_NUDGES):
         beside = State(start.angle, start.velocity + nudge * NUDGE)
         motion = simulate(system, beside, cycles=cycles, record="section")

@@ -48,7 +48,7 @@ class Scan:
 
     @property
     def first(self) -> np.ndarray:
-        """Index of the lowest amplitude that overturns at any phase, for each cell; the number of amplitudes if none does."""
+        """Index of the lowest amplitude that overturns at any phase of each cell; the number of amplitudes if none."""
         hit: np.ndarray = np.any(self.cells, axis=1)
         return np.where(hit.any(axis=1), hit.argmax(axis=1), self.amplitudes.size)
 

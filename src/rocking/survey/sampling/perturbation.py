@@ -14,7 +14,10 @@ INPUTS = 5
 
 
 def spread(count: int) -> np.ndarray:
-    """Return points (count, INPUTS) evenly spread over [-1, 1]: multiples of powers of the root of g⁶ = g + 1, modulo one."""
+    """Return points (count, INPUTS) that are evenly spread over [-1, 1].
+
+    They are multiples, modulo one, of powers of the root of g⁶ = g + 1.
+    """
     root = 1.0
     for _ in range(60):
         root = (1.0 + root) ** (1.0 / (INPUTS + 1))

@@ -24,7 +24,7 @@ DEFAULT_DIGITS, ALL_DIGITS = 6, 17
 
 @frozen(eq=False)
 class Layout:
-    """Layout of a store: axes of the finest level, axes along which each next level halves the spacing, tiles of each level."""
+    """Layout of a store: axes of the finest level, axes halved from level to level, and tiles of each level."""
 
     axes: dict[str, np.ndarray]
     halved: list[tuple[bool, ...]]

@@ -45,7 +45,7 @@ NAME = "rocking_survey"
 """Attribute of the root group that identifies the store of a survey."""
 MAX_NAMED = 5
 MAX_HELD = 1 << 20
-"""Largest level, in points, held in memory for the next one, about 50 MB; all levels together take less than twice that."""
+"""Largest level, in points, held in memory for the next one: about 50 MB, with all others less than twice that."""
 
 
 class Store:
