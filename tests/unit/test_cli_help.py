@@ -14,7 +14,7 @@ WITH_SYSTEM = set(COMMANDS) - {"explore", "paper", "cite"}
 
 
 def examples(printed, command):
-    """The examples at the end of a help page, each as one line."""
+    """Return the examples at the end of a help page, each on one line."""
     lines = printed.partition("\n  Examples:\n")[2].replace("\\\n", " ")
     return [
         " ".join(line.split()) for line in re.findall(rf"^  (rocking {command} .+)$", lines, re.MULTILINE)
@@ -22,7 +22,7 @@ def examples(printed, command):
 
 
 def made_small(example):
-    """The same with fewer points, cycles or samples: 300 along an axis say no more of it than 9."""
+    """Return an example with fewer points, cycles or samples, which run the same code in less time."""
     example = re.sub(r"(:\d+)\b(?= |$)", lambda count: f":{min(int(count[0][1:]), 9)}", example)
     return re.sub(r"--samples \d+", "--samples 50", example)
 
