@@ -229,10 +229,10 @@ class Section:
         elif not _is_start(self.last):
             self.ended = "too fast"
 
-    def drawn(self, verdict: Verdict) -> Drawn:
+    def drawn(self, period: int | None) -> Drawn:
         """Return the section without the transient, with the periodic orbit that the motion reaches."""
-        omitted = self._omitted(verdict)
-        points, last = self.points[omitted:], self.points[len(self.points) - (verdict.period or 0) :]
+        omitted = self._omitted()
+        points, last = self.points[omitted:], self.points[len(self.points) - (period or 0) :]
         title = _section_title(omitted, len(self.points), self.ended)
         spans = *_around(points[:, 0]), *_around(points[:, 1])
         orbit = {"angle": last[:MAX_RINGS, 0], "velocity": last[:MAX_RINGS, 1]}
@@ -252,8 +252,8 @@ class Section:
         }
         return Drawn({"angle": [], "velocity": []}, dense, orbit, spans, title)
 
-    def _omitted(self, verdict: Verdict) -> int:
-        """Return the number of transient cycles; a tenth of the section remains at least.
+    def _omitted(self) -> int:
+        """Return the number of cycles omitted as transient: a tenth of all, at least `TRANSIENT`, at most nine tenths.
 
         A motion that overturned or rests is all transient and is shown whole. An undamped motion has no transient.
         """
@@ -261,8 +261,8 @@ class Section:
         undamped = self.shown.restitution == 1.0 and not (braced and self.shown.brace_restitution < 1.0)
         if undamped or self.ended in ("overturned", "at rest"):
             return 0
-        transient = TRANSIENT if verdict.transient is None else verdict.transient
-        return min(transient, 9 * len(self.points) // 10)
+        computed = len(self.points)
+        return min(max(computed // 10, TRANSIENT), 9 * computed // 10)
 
 
 def _section_title(omitted: int, last: int, ended: str) -> str:

@@ -145,7 +145,8 @@ class SessionRenderer:
             self.workers.soon(partial(section.grow, GROWTH[0])),
             self.workers.soon(partial(self._first_basin, shown, stop)),
         )
-        drawn = await self.workers.soon(partial(section.drawn, found.verdict))
+        period = found.verdict.period
+        drawn = await self.workers.soon(partial(section.drawn, period))
 
         def change() -> None:
             self.link.draw(
@@ -159,7 +160,7 @@ class SessionRenderer:
             self._tell_verdict(shown, found.verdict, spectrum.why)
 
         await self._draw(change)
-        self.jobs.start("section", partial(self._grow, section, found.verdict))
+        self.jobs.start("section", partial(self._grow, section, period))
         self.jobs.start("basin", partial(self._finish_basin, shown, basin))
         if found.verdict.kind is Kind.UNDETERMINED and not figure_data.crowded(shown):
             self.jobs.start("judge", partial(self._judge_longer, shown, spectrum.why))
@@ -170,13 +171,13 @@ class SessionRenderer:
     def _draw_section(self, drawn: figure_data.Drawn) -> None:
         self.link.draw(section=_section(drawn))
 
-    async def _grow(self, section: figure_data.Section, verdict: Verdict, stop: np.ndarray) -> None:
+    async def _grow(self, section: figure_data.Section, period: int | None, stop: np.ndarray) -> None:
         for cycles in GROWTH[1:]:
             if section.ended or stop[0]:
                 return
             await asyncio.sleep(BREATH)
             await self.workers.later(partial(section.grow, cycles))
-            drawn = await self.workers.later(partial(section.drawn, verdict))
+            drawn = await self.workers.later(partial(section.drawn, period))
             await self._draw(partial(self._draw_section, drawn))
 
     async def _judge_longer(self, shown: ViewState, why: str, stop: np.ndarray) -> None:
