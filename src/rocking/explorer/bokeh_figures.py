@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from bokeh.models import ColumnDataSource, LinearAxis, LinearColorMapper, Range1d, Title
 from bokeh.models.annotations import Span
-from bokeh.models.tickers import BasicTicker
+from bokeh.models.tickers import BasicTicker, FixedTicker
 from bokeh.plotting import figure
 from matplotlib.colors import to_hex
 
@@ -27,7 +27,7 @@ AXIS = {
     "axis_label_standoff": 4,
     "minor_tick_line_color": None,
 }
-TITLE = {"text_font_size": "12px", "text_font": "system-ui, sans-serif", "standoff": 2, "offset": -54}
+TITLE = {"text_font_size": "12px", "text_font": "system-ui, sans-serif", "standoff": 7, "offset": -54}
 """Title of a figure: flush with the left edge, in the font of the page."""
 BASIN_LABELS = "initial angle Θ₀", "initial velocity Θ′₀"
 LEFT = 64
@@ -154,12 +154,13 @@ def spectrum() -> Any:
     """Return the power spectral density over frequency / forcing frequency, with names at its strongest lines."""
     made = _figure(
         "spectrum",
-        "Spectrum of the angle",
+        "Power spectral density",
         "frequency / forcing frequency",
-        "power spectral density S (τ)",
+        "density S (τ)",
         y_axis_type="log",
     )
     line, names = _empty("line", "frequency", "density"), _empty("names", "frequency", "density", "name")
+    made.yaxis.ticker = FixedTicker(ticks=[10.0**power for power in range(-40, 41, 2)])
     made.line("frequency", "density", source=line, name="line", line_color=style.MOTION, line_width=1.2)
     made.text(
         "frequency",

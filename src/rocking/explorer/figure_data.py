@@ -110,7 +110,7 @@ class Drawn:
     dense: Columns
     orbit: Columns
     ranges: Ranges
-    title: str
+    label: str
 
 
 def response(shown: ViewState) -> Response:
@@ -233,13 +233,13 @@ class Section:
         """Return the section without the transient, with the periodic orbit that the motion reaches."""
         omitted = self._omitted()
         points, last = self.points[omitted:], self.points[len(self.points) - (period or 0) :]
-        title = _section_title(omitted, len(self.points), self.ended)
+        label = _section_label(omitted, len(self.points), self.ended)
         spans = *_around(points[:, 0]), *_around(points[:, 1])
         orbit = {"angle": last[:MAX_RINGS, 0], "velocity": last[:MAX_RINGS, 1]}
         places, first, counts = np.unique(_cells(points, spans), return_index=True, return_counts=True)
         if len(places) <= SINGLE:
             single = {"angle": points[first, 0], "velocity": points[first, 1]}
-            return Drawn(single, no_image(), orbit, spans, title)
+            return Drawn(single, no_image(), orbit, spans, label)
         image = np.zeros(CELLS * CELLS, np.uint8)
         image[places] = np.minimum(1 + np.log2(counts), 8)
         left, right, bottom, top = spans
@@ -250,7 +250,7 @@ class Section:
             "w": [right - left],
             "h": [top - bottom],
         }
-        return Drawn({"angle": [], "velocity": []}, dense, orbit, spans, title)
+        return Drawn({"angle": [], "velocity": []}, dense, orbit, spans, label)
 
     def _omitted(self) -> int:
         """Return the number of cycles omitted as transient: a tenth of all, at least `TRANSIENT`, at most nine tenths.
@@ -265,10 +265,10 @@ class Section:
         return min(max(computed // 10, TRANSIENT), 9 * computed // 10)
 
 
-def _section_title(omitted: int, last: int, ended: str) -> str:
-    """Return the title of a section: the cycles shown, counted from 1, and the end of the motion if it ended."""
-    cycles = f", cycles {omitted + 1:,}–{last:,}" if last else ""
-    return f"Poincaré section{cycles}{', ' * bool(ended)}{ended}"
+def _section_label(omitted: int, last: int, ended: str) -> str:
+    """Return the label of the angle, with the cycles shown, counted from 1, and the reason if the motion ended."""
+    cycles = f"cycle{'s' * (last > 1)} {omitted + 1:,}{f'–{last:,}' * (last > 1)}" if last else ""
+    return ", ".join(filter(None, ("angle Θ", cycles, ended)))
 
 
 def _cells(points: np.ndarray, spans: Ranges) -> np.ndarray:

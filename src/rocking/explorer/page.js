@@ -111,7 +111,6 @@ function draw(drawn) {
 function fill(name, part, value) {
   const figure = models[name], change = (model, to) => model.setv(to, { sync: false });
   if (part === "answers") answers = Object.fromEntries(parts(value));
-  else if (part === "title") change(figure.title, { text: value });
   else if (part === "label") change(figure.below[0], { axis_label: value });
   else if (part === "here") change(figure.center.find(each => each.name === part), { location: value });
   else if (part === "ranges") {

@@ -36,7 +36,7 @@ class Link(DataModel):
         setattr(self, name, json.dumps({"n": next(_numbers), **message}, ensure_ascii=False, allow_nan=False))
 
     def draw(self, **figures: dict[str, Any]) -> None:
-        """Send new contents of figures, by figure name: columns by source name, and changed `ranges`, `title`, `label`, `here`.
+        """Send new contents of figures, by figure name: columns by source name, and changed `ranges`, `label`, `here`.
 
         All changes go in one message, because the server visits all models and the browser repaints after each message.
         """

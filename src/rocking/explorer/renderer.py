@@ -240,4 +240,4 @@ class SessionRenderer:
 
 def _section(drawn: figure_data.Drawn) -> dict[str, Any]:
     columns = {"points": drawn.points, "dense": drawn.dense, "orbit": drawn.orbit}
-    return {"ranges": drawn.ranges, "title": drawn.title, **columns}
+    return {"ranges": drawn.ranges, "label": drawn.label, **columns}
