@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from bokeh.models import ColumnDataSource, LinearAxis, LinearColorMapper, Range1d, Title
-from bokeh.models.annotations import Span
+from bokeh.models import ColumnDataSource, LinearAxis, LinearColorMapper, Range1d
+from bokeh.models.annotations import Span, Title
 from bokeh.models.tickers import BasicTicker, FixedTicker
 from bokeh.plotting import figure
 from matplotlib.colors import to_hex
@@ -27,8 +27,6 @@ AXIS = {
     "axis_label_standoff": 4,
     "minor_tick_line_color": None,
 }
-TITLE = {"text_font_size": "12px", "text_font": "system-ui, sans-serif", "standoff": 7, "offset": -54}
-"""Title of a figure: flush with the left edge, in the font of the page."""
 BASIN_LABELS = "initial angle Θ₀", "initial velocity Θ′₀"
 LEFT = 64
 """Left border of every figure, px, for tick labels and axis label. One width aligns the frames."""
@@ -48,7 +46,13 @@ def _empty(name: str, *columns: str) -> ColumnDataSource:
 def _figure(name: str, title: str, across: str, up: str, tools: str = "", ticks: int = 5, **more: Any) -> Any:
     made = figure(
         name=name,
-        title=Title(text=title, **TITLE),
+        title=Title(  # type: ignore[call-arg]  # its type hints lack the offset
+            text=title,
+            text_font_size="12px",
+            text_font="system-ui, sans-serif",
+            standoff=7,
+            offset=8 - LEFT,
+        ),
         tools=tools,
         toolbar_location=None,
         sizing_mode="stretch_both",

@@ -12,7 +12,7 @@ from rocking.explorer.bokeh_figures import SHADED
 from rocking.explorer.form_fields import written
 from rocking.explorer.progressive_map import Picture
 from rocking.explorer.view_state import DEFAULT, ViewState
-from rocking.model import GRAVITY, Block, Harmonic, Verdict, counted, percent
+from rocking.model import GRAVITY, Block, Harmonic, Kind, Verdict, counted, percent
 from rocking.plot.parts import legend as looks
 
 Facts = list[tuple[str, str]]
@@ -31,7 +31,8 @@ def verdict(found: Verdict, block: Block | None) -> dict[str, Any]:
         facts.append(("period", f"{counted(found.period, 'cycle')}, {symmetry}{seconds}"))
         hits = [("impacts", found.impacts_per_period), ("brace impacts", found.brace_hits_per_period)]
         facts += [(f"{what} per period", impacts(number)) for what, number in hits if number != 0]
-    facts.append(("largest |Θ|", f"{found.peak:.6g}" + _reach(found.peak, block)))
+    largest = "largest |Θ|" + " until the proof" * (found.kind == Kind.OVERTURNED)
+    facts.append((largest, f"{found.peak:.6g}" + _reach(found.peak, block)))
     if found.multipliers is not None:
         facts.append(("Floquet multipliers", _pair(*found.multipliers)))
     if found.exponent is not None:
