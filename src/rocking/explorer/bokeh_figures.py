@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from bokeh.models import ColumnDataSource, LinearAxis, LinearColorMapper, Range1d
 from bokeh.models.annotations import Span, Title
-from bokeh.models.tickers import BasicTicker, FixedTicker
+from bokeh.models.tickers import BasicTicker
 from bokeh.plotting import figure
 from matplotlib.colors import to_hex
 
@@ -51,7 +51,7 @@ def _figure(name: str, title: str, across: str, up: str, tools: str = "", ticks:
             text_font_size="12px",
             text_font="system-ui, sans-serif",
             standoff=7,
-            offset=8 - LEFT,
+            offset=8 - LEFT,  # flush with the left edge of the figure
         ),
         tools=tools,
         toolbar_location=None,
@@ -164,7 +164,6 @@ def spectrum() -> Any:
         y_axis_type="log",
     )
     line, names = _empty("line", "frequency", "density"), _empty("names", "frequency", "density", "name")
-    made.yaxis.ticker = FixedTicker(ticks=[10.0**power for power in range(-40, 41, 2)])
     made.line("frequency", "density", source=line, name="line", line_color=style.MOTION, line_width=1.2)
     made.text(
         "frequency",

@@ -33,7 +33,7 @@ PERIOD = 64
 SETTLING, RECORD = 128, 256
 """Cycles discarded before the spectrum, and cycles used for it."""
 HIGHEST, DECADES, NAMES = 3.05, 10.0, 6
-"""Spectrum: highest multiple of the forcing frequency, decades below the maximum, and maximum number of named lines."""
+"""Spectrum: highest multiple of the forcing frequency, decades shown below the maximum, and maximum number of named lines."""
 NAME_ACROSS, NAME_UP = 0.45, 1.2
 """Distances below which two names of lines overlap: in multiples of the forcing frequency and in decades."""
 NO_SPECTRUM = "No spectrum: the motion ends or has too many impacts"
@@ -193,7 +193,7 @@ def spectrum(shown: ViewState) -> Spectrum:
     kept = (multiples > 0) & (multiples <= HIGHEST) & (density.density > 0)
     heights = density.density[kept]
     top = float(heights.max()) if heights.size else 1.0
-    bottom = max(top * 10.0**-DECADES, float(heights.min()) if heights.size else 0.0)
+    bottom = top * 10.0**-DECADES  # with fewer decades, the labels of all of them overlap
     named: list[tuple[float, float, str]] = []
     for peak in density.peaks:
         multiple = peak.frequency * shown.period

@@ -381,6 +381,7 @@ function theme(name) {
   }
   const style = getComputedStyle(document.documentElement), colour = name => ({ value: style.getPropertyValue(name) });
   for (const name of ["line", "accent"]) inks[name] = style.getPropertyValue(`--${name}`);
+  for (const model of Object.values(models)) model.title.setv({ text_color: colour("--ink").value.trim() }, { sync: false });
   for (const { name, glyph } of Object.values(models).flatMap(model => model.renderers)) {
     if (name === "words") glyph.setv({ text_color: colour("--soft") }, { sync: false });
     if (name === "line") glyph.setv({ line_color: colour("--motion") }, { sync: false });
