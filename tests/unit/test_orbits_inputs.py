@@ -76,7 +76,7 @@ def test_a_response_that_is_not_periodic_has_no_orbit_to_follow():
 
 def test_a_saddle_without_impacts_is_not_followed():
     saddle = next(orbit for orbit in rk.find_orbits(SYSTEM, 1) if orbit.impacts == 0)
-    with pytest.raises(ValueError, match=r"^orbit must have an impact or a brace hit"):
+    with pytest.raises(ValueError, match=r"^orbit must have an impact or a brace impact"):
         rk.continue_orbit(saddle, "amplitude", (1, 3))
 
 

@@ -146,7 +146,7 @@ REFUSED = {
     "impacts that lose": (
         system(2.0, 1.0, 0.925),
         None,
-        r"^restitution must be 1 for a rotation number: .*; got 0\.925$",
+        r"^restitution must be 1 for a rotation number \(no dissipation\); got 0\.925$",
     ),
     "braces that lose": (
         system(15.0, 2.0, braces=rk.Braces(1.0, 0.9)),

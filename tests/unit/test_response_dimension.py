@@ -154,7 +154,7 @@ def test_periodic_motion_is_isolated_points_of_dimension_zero(case, count):
 def test_equal_points_are_one_point(value):
     found = rk.correlation_dimension(np.full((1_000, 2), value))
     assert (found.value, found.isolated) == (0.0, 1)
-    assert str(found) == "dimension 0 of the section: one point, met 1000 times"
+    assert str(found) == "dimension 0 of the section: one point, repeated over 1000 points"
 
 
 def test_islands_of_figure_5_are_curves():
@@ -218,7 +218,7 @@ BAD = {
     "what is left of an overturned motion": (
         rk.simulate(rk.System(rk.Harmonic(1.75, period=2.0), 0.95), cycles=2_000).section(),
         ValueError,
-        r"^points must be 1,000 at least .*; got 6 \(.* as long as the block stays up\)$",
+        r"^points must be 1,000 to .*; got 6 \(.* until the block overturns\)$",
     ),
     "NaN": (np.full((2_000, 2), math.nan), ValueError, "^points must be finite; row 0 is not$"),
     "infinite": (

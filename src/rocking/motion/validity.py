@@ -45,8 +45,8 @@ class Validity:
     angle, critical_angle : float
         Largest |θ| and θcr, in radians.
     moment_error, forcing_error : float
-        Largest relative overestimate by the slender-block model of the restoring moment (δ for sin δ) and of the moment of
-        the base acceleration (1 for cos δ). Here δ = θcr − |θ|; infinite beyond δ = −90°.
+        Largest relative overestimate of the restoring moment, δ/sin δ − 1 with δ = θcr − |θ|, and of the moment of the
+        base acceleration, 1/cos δ − 1. Infinite beyond δ = −90°.
     time_unit : float
         1/α, in seconds.
     warnings : tuple of str

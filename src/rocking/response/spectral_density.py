@@ -99,7 +99,7 @@ class SpectralDensity(ReadOnlyArrays):
     >>> system = rk.System(rk.Harmonic(amplitude=6.5, period=0.4), restitution=0.925)
     >>> density = rk.spectral_density(rk.simulate(system, cycles=1200), transient=600)
     >>> density.period, density.segments, density.broad_band
-    (3, 15, False)
+    (3, 14, False)
     """
 
     system: System
