@@ -299,7 +299,7 @@ def test_acceleration_that_lifts_only_the_model_is_warned_of(block):
 def test_what_concerns_the_block_is_said_without_a_motion_as_with_one():
     moving = run(2.0, 1.0, 0.7).validity(SQUAT)
     alone = list(block_warnings(SQUAT, 2.0, 0.5))
-    assert f"{moving.moment_error:.1%}, the base's push by up to {moving.forcing_error:.1%}" in alone[0]
+    assert f"{moving.moment_error:.1%}, that of the base acceleration by up to {moving.forcing_error:.1%}" in alone[0]
     assert any("less than Housner's" in text for text in alone)
     assert not list(block_warnings(TALL, 2.0, 1.0))
 

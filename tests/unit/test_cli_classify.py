@@ -184,7 +184,7 @@ def test_real_block_whose_response_has_no_period_is_judged_from_its_start(rockin
 
 def test_block_that_rocks_in_the_model_alone_is_said_to_stand_still(rocking):
     out = rocking("classify --height 1.8 --width 0.6 --acceleration-g 0.33 --frequency-hz 1.5")[2]
-    assert "3.236 m/s² = 0.33 g lies between, where the real one stands still" in out
+    assert "3.236 m/s² = 0.33 g lies between, where the real block remains at rest" in out
 
 
 def test_start_in_degrees_is_hinted_at(rocking):

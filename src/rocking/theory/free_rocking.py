@@ -26,6 +26,7 @@ def free_impact_speed(angle: Any) -> Any:
     -------
     float or ndarray
         Speed |Θ'|, in the shape of `angle`.
+
     Raises
     ------
     TypeError
@@ -56,6 +57,7 @@ def free_quarter_period(angle: Any) -> Any:
     -------
     float or ndarray
         Time τ, in the shape of `angle`; infinite at Θ₀ = 1, where the block balances on its corner.
+
     Raises
     ------
     TypeError
@@ -89,6 +91,7 @@ def free_peaks(angle: Any, restitution: Any, impacts: Any) -> Any:
     -------
     float or ndarray
         |Θ_k|.
+
     Raises
     ------
     TypeError

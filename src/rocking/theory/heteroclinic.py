@@ -1,7 +1,8 @@
 """Exact heteroclinic tangency, which Melnikov's method approximates: saddle orbits, their manifolds at Θ = 0, and A*.
 
-For A > 0 the unstable equilibria become the saddle orbits Θ = ±1 + β cos ψ, β = A/(1+Ω²). Two sets of motions are known in
-closed form: from the lower saddle orbit up to Θ = 0, and from Θ = 0 to the upper one. So is the distance of the manifolds.
+For A > 0 the unstable equilibria become the saddle orbits Θ = ±1 + β cos ψ, β = A/(1+Ω²). Motions from
+the lower saddle orbit up to Θ = 0 are known in closed form. So are motions from Θ = 0 to the upper saddle orbit, and the
+distance of the manifolds.
 """
 
 from __future__ import annotations
@@ -28,6 +29,7 @@ def heteroclinic_amplitude(period: Any, restitution: Any) -> Any:
     float or ndarray
         A* = (1+Ω²)(1−e)/√((1+e)² + Ω²(1−e)²), the limit of `existence_amplitude` for large n. Above A* the boundary between
         overturning and bounded motions is fractal.
+
     Raises
     ------
     TypeError
@@ -67,6 +69,7 @@ def saddle_orbit(phase: Any, amplitude: Any, period: Any, orbit: str = "upper") 
     -------
     angle, velocity : float or ndarray
         Θ and Θ'. They are a motion of the block if β < 1, so that Θ does not change its sign.
+
     Raises
     ------
     TypeError
@@ -96,6 +99,7 @@ def unstable_manifold_velocity(phase: Any, amplitude: Any, period: Any) -> Any:
     -------
     float or ndarray
         V_u.
+
     Raises
     ------
     TypeError
@@ -126,6 +130,7 @@ def stable_manifold_velocity(phase: Any, amplitude: Any, period: Any) -> Any:
     -------
     float or ndarray
         V_s.
+
     Raises
     ------
     TypeError
@@ -159,6 +164,7 @@ def manifold_gap(phase: Any, amplitude: Any, period: Any, restitution: Any) -> A
     -------
     float or ndarray
         e V_u − V_s.
+
     Raises
     ------
     TypeError

@@ -112,6 +112,7 @@ def damping(angle: Any, velocity: Any, restitution: Any, width: float) -> Any:
     -------
     float or ndarray
         F.
+
     Raises
     ------
     TypeError
@@ -142,6 +143,7 @@ def impact_loss(velocity: Any, restitution: Any) -> Any:
     -------
     float or ndarray
         Dissipated energy.
+
     Raises
     ------
     TypeError
@@ -174,6 +176,7 @@ def melnikov_function(time: Any, amplitude: Any, period: Any, restitution: Any, 
     -------
     float or ndarray
         Energy gained along the orbit, to first order in A and 1 − e. Where it has zeros, the manifolds intersect to this order.
+
     Raises
     ------
     TypeError
@@ -278,6 +281,7 @@ def melnikov_amplitude(period: Any, restitution: Any) -> Any:
     -------
     float or ndarray
         A_M.
+
     Raises
     ------
     TypeError

@@ -40,6 +40,7 @@ def existence_amplitude(period: Any, restitution: Any, n: Any) -> Any:
     -------
     float or ndarray
         A_E; 0 at e = 1, where modes exist at every A > 0; NaN at e = 0, where there are none.
+
     Raises
     ------
     TypeError
@@ -80,6 +81,7 @@ def symmetry_breaking_amplitude(period: Any, restitution: Any, n: Any) -> Any:
     -------
     float or ndarray
         A_SB; NaN at e = 0. It may exceed the amplitude at which the mode ceases to be admissible.
+
     Raises
     ------
     TypeError
@@ -123,6 +125,7 @@ def slower_mode_amplitude(period: Any, n: Any) -> Any:
     -------
     float or ndarray
         Amplitude A, with t = tanh(nπ/2Ω).
+
     Raises
     ------
     TypeError
