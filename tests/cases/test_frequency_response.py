@@ -201,7 +201,7 @@ def test_where_there_is_no_orbit_it_says_so():
         (
             dict(restitution=1.0),
             ValueError,
-            r"restitution must lie in \[0.001, 1\); got 1.0 \(without losses",
+            r"restitution must lie in \[0.001, 1\); got 1.0 \(an undamped motion",
         ),
         (dict(restitution=0.0), ValueError, r"restitution must lie in \[0.001, 1\]; got 0.0"),
         (

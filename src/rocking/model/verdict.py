@@ -292,7 +292,7 @@ class Verdict(NotebookPicture):
     --------
     >>> import rocking as rk
     >>> print(rk.classify(rk.System(rk.Harmonic(amplitude=1.75, period=2.0), restitution=0.95)))
-    overturned: overturning is certain from τ = 10.3092, after 4 impacts: the growing part ... reversed. Evidence: exact, within 6 cycles.
+    overturned: overturning is certain from τ = 10.3092, after 4 impacts, because the growing ... Evidence: exact, within 6 cycles.
     """
 
     system: System

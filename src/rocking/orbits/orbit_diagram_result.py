@@ -47,7 +47,7 @@ class OrbitDiagram(ReadOnlyArrays, NotebookPicture):
     >>> import rocking as rk
     >>> system = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925)
     >>> diagram = rk.orbit_diagram(system, "amplitude", [1.5, 2.0], sweep="rest", cycles=4)
-    >>> diagram.points.shape, diagram.overturned.any()
+    >>> diagram.points.shape, bool(diagram.overturned.any())
     ((1, 2, 4, 2), False)
     """
 

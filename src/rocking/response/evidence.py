@@ -52,10 +52,10 @@ def _no_return(case: Case) -> Shown:
     overturning = None if case.motion is None else case.motion.overturning
     undone = "the growing part of the motion can no longer be reversed"
     if overturning is None:
-        return Shown(f"overturning is certain: {undone}", f"exact, within {spent(case)}; {OTHERWISE}")
+        return Shown(f"overturning is certain, because {undone}", f"exact, within {spent(case)}; {OTHERWISE}")
     when = f"after {counted(overturning.impacts, 'impact')}" if overturning.impacts else "without an impact"
     return Shown(
-        f"overturning is certain from τ = {overturning.time:.6g}, {when}: {undone}",
+        f"overturning is certain from τ = {overturning.time:.6g}, {when}, because {undone}",
         f"exact, within {spent(case)}",
     )
 
@@ -223,7 +223,7 @@ def _crowded(case: Case) -> Shown:
 
 def _standing(case: Case) -> Shown:
     what = (
-        f"the motion remains on an unstable orbit: it returns to within {decision_cascade.UNMOVED:.0e} of an earlier state, "
+        f"the motion remains on an unstable orbit; it returns to within {decision_cascade.UNMOVED:.0e} of an earlier state, "
         f"and perturbations grow at a rate of {case.judgement.exponent:.4g} per τ"
     )
     return Shown(what, f"none, after {spent(case)}; change the initial state slightly")
