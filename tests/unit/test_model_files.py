@@ -206,6 +206,6 @@ def test_a_page_beside_a_link_or_a_folder_of_the_user_is_not_replaced(tmp_path):
         page = tmp_path / name
         write_folder(page, "old")
         put(page / "own")
-        with pytest.raises(OSError, match="folder must be new, empty, or hold just an earlier mark"):
+        with pytest.raises(OSError, match="folder must be new, empty, or hold only an earlier mark"):
             write_folder(page, "new")
         assert names(page) == ["mark", "own"]

@@ -127,10 +127,8 @@ class Orbit:
 
         Raises
         ------
-        TypeError
-            If `phase` is not a real number.
-        ValueError
-            If `phase` lies outside its range.
+        TypeError, ValueError
+            If `phase` is not a real number in its range.
 
         Examples
         --------
@@ -194,7 +192,7 @@ class Orbit:
         Raises
         ------
         TypeError, ValueError
-            If `simulate` raises it for these arguments.
+            As in `simulate`.
 
         Examples
         --------

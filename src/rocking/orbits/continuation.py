@@ -144,12 +144,8 @@ def switch_branch(
     ----------
     special : SpecialPoint
         Special point of kind "symmetry-breaking" or "period-doubling".
-    bounds : (float, float)
-        Lowest and highest value of the parameter; its value at `special` must lie in between.
-    step : float
-        Largest step, in units of the range (and of one radian of phase), in [1e-6, 0.1]. Default: 0.01.
-    max_points : int
-        Maximum number of points of each branch. Default: 10,000.
+    bounds, step, max_points
+        As in `continue_orbit`; the value of the parameter at `special` must lie within `bounds`.
 
     Returns
     -------
@@ -158,10 +154,8 @@ def switch_branch(
 
     Raises
     ------
-    TypeError
-        If an argument is of the wrong type.
-    ValueError
-        If `special` is a fold or a grazing, at which no branch bifurcates, or if an argument lies outside its range.
+    TypeError, ValueError
+        As in `continue_orbit`; also if `special` is a fold or a grazing, at which no branch bifurcates.
 
     Examples
     --------
