@@ -62,7 +62,7 @@ class Solved(NamedTuple):
     """Orbit at one value of a parameter."""
 
     found: bool
-    phases: np.ndarray  # and the value, last
+    phases: np.ndarray  # phases, then the value of the parameter
     trace: float
     determinant: float
     peak: float
