@@ -46,7 +46,7 @@ SAID = {
         None,
         {},
         (
-            "overturned: overturning is certain from τ = 10.3092, after 4 impacts, because the growing part of the motion can no longer be "
+            "overturned: overturning is certain from τ = 10.3092, after 4 impacts, because the growing part of the motion cannot be "
             "reversed. Evidence: exact, within 6 cycles."
         ),
     ),
@@ -55,7 +55,7 @@ SAID = {
         rk.State(1.5),
         {},
         (
-            "overturned: overturning is certain from τ = 0, without an impact, because the growing part of the motion can no longer be "
+            "overturned: overturning is certain from τ = 0, without an impact, because the growing part of the motion cannot be "
             "reversed. Evidence: exact, within … cycle."
         ),
     ),

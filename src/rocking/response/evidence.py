@@ -50,7 +50,7 @@ def evidence_of(case: Case) -> Evidence:
 
 def _no_return(case: Case) -> Shown:
     overturning = None if case.motion is None else case.motion.overturning
-    undone = "the growing part of the motion can no longer be reversed"
+    undone = "the growing part of the motion cannot be reversed"
     if overturning is None:
         return Shown(f"overturning is certain, because {undone}", f"exact, within {spent(case)}; {OTHERWISE}")
     when = f"after {counted(overturning.impacts, 'impact')}" if overturning.impacts else "without an impact"
