@@ -247,7 +247,10 @@ def test_overturning_motion_is_judged_up_to_its_proof():
 
 @pytest.mark.parametrize(
     ("braces", "why"),
-    [(None, "overturning is certain from the start"), (Braces(angle=1.2), "contact with a brace: 100.0% of the time")],
+    [
+        (None, "overturning is certain from the start"),
+        (Braces(angle=1.2), "contact with a brace: 100.0% of the time"),
+    ],
     ids=["falls", "leans"],
 )
 def test_block_past_balance_on_a_still_base_is_not_judged_says_so_and_warns(braces, why):
@@ -299,7 +302,10 @@ def test_acceleration_that_lifts_only_the_model_is_warned_of(block):
 def test_what_concerns_the_block_is_said_without_a_motion_as_with_one():
     moving = run(2.0, 1.0, 0.7).validity(SQUAT)
     alone = list(block_warnings(SQUAT, 2.0, 0.5))
-    assert f"{moving.moment_error:.1%}, that of the base acceleration by up to {moving.forcing_error:.1%}" in alone[0]
+    assert (
+        f"{moving.moment_error:.1%}, that of the base acceleration by up to {moving.forcing_error:.1%}"
+        in alone[0]
+    )
     assert any("less than Housner's" in text for text in alone)
     assert not list(block_warnings(TALL, 2.0, 1.0))
 

@@ -100,7 +100,9 @@ def test_json_in_si_has_the_block(rocking):
 def test_way_out_is_named_as_it_is_typed(rocking):
     out = rocking(f"classify {CHAOTIC} --max-cycles 500")[2]
     assert out.startswith("undetermined: no orbit of period up to 64 was reached, and 500 cycles are too few")
-    assert "Evidence: none, after 500 cycles; increase --max-cycles to 10,000 or more." in " ".join(out.split())
+    assert "Evidence: none, after 500 cycles; increase --max-cycles to 10,000 or more." in " ".join(
+        out.split()
+    )
     assert "max_cycles" not in out
 
 

@@ -66,7 +66,9 @@ def test_refusal_of_the_system_names_what_cannot_be_written(tmp_path, writing, f
             except OSError:
                 raise failure from None
 
-    told = f"{str(tmp_path / 'out')!r} cannot be written: No space left on device; existing data are unchanged"
+    told = (
+        f"{str(tmp_path / 'out')!r} cannot be written: No space left on device; existing data are unchanged"
+    )
     with pytest.raises(WriteError, match=re.escape(told)):
         fail()
     assert names(tmp_path) == []

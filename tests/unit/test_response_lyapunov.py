@@ -250,7 +250,9 @@ def test_kaplan_yorke_is_one_plus_the_ratio_and_needs_contraction():
     assert dimension == 1.0 + spectrum.values[0] / abs(spectrum.values[1])
     assert abs(dimension - (1 + 0.531 / 0.751)) < 3 * error < 0.1
     assert rk.lyapunov(system(2.0, 1.0, 0.925)).kaplan_yorke == (0.0, 0.0)
-    with pytest.raises(ValueError, match=r"requires contraction, .* \(an undamped motion has no attractor\)$"):
+    with pytest.raises(
+        ValueError, match=r"requires contraction, .* \(an undamped motion has no attractor\)$"
+    ):
         rk.lyapunov(system(4.0, 0.4, 1.0)).kaplan_yorke  # noqa: B018
 
 

@@ -200,9 +200,7 @@ def reals(name: str, values: Any) -> Any:
             return float(values)
         except OverflowError:
             largest = np.finfo(float).max
-            raise ValueError(
-                refusal(name, f"be a real number of size up to {largest:.6g}", values)
-            ) from None
+            raise ValueError(refusal(name, f"be a real number of size up to {largest:.6g}", values)) from None
     if _is_masked(values):
         raise ValueError(refusal(name, "hold no masked values", values, "leave them out, or fill them"))
     try:

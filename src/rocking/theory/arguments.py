@@ -51,7 +51,9 @@ def odd(values: Any) -> Any:
     if wrong.any():
         first = array[wrong].flat[0] if array.ndim else values
         allowed = f"be an odd whole number in [1, {MAX_CYCLES}]"
-        remedy = "no mode with even n is symmetric: half a response later the forcing is unchanged, not reversed"
+        remedy = (
+            "no mode with even n is symmetric: half a response later the forcing is unchanged, not reversed"
+        )
         raise ValueError(refusal("n", allowed, first, remedy if first % 2 == 0 else ""))
     return array
 
