@@ -1,6 +1,6 @@
 """Exact simulation and nonlinear dynamics of free-standing blocks on a shaking base.
 
-Every public name is imported when it is first used, so that `import rocking` itself costs nothing.
+A public name is imported on first use, so that `import rocking` loads no numerical library.
 """
 
 from __future__ import annotations
@@ -169,7 +169,7 @@ _NAMES = {
         "safe_basin"
     ),
 }
-"""Public names by room; all others are those of `model`."""
+"""Public names by subpackage. Names that are not listed belong to `model`."""
 _ALIAS = {"__version__": "VERSION"}
 _SUB_NAMESPACES = ("plot", "theory")
 

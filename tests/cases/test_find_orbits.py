@@ -82,7 +82,7 @@ def is_admissible(mode, n):
 
 
 def test_what_is_printed_says_that_completeness_is_not_guaranteed(orbits):
-    assert str(orbits).endswith("times at least; completeness is not guaranteed")
+    assert str(orbits).endswith(" guesses; completeness is not guaranteed")
 
 
 def test_other_starts_and_twice_the_effort_find_nothing_new(orbits):

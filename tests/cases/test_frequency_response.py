@@ -184,7 +184,7 @@ def test_as_a_dataset_it_has_every_point_and_says_what_was_fixed():
 def test_where_there_is_no_orbit_it_says_so():
     found = rk.frequency_response(period=[0.5, 1.0], amplitude=0.05, restitution=0.5)
     assert found.branches == ()
-    assert "(1,1) none found; (1,3) none found; from rest 2 rest" in str(found)
+    assert "(1, 1) none found; (1, 3) none found; from rest 2 rest" in str(found)
     assert found.to_xarray().sizes["point"] == 0
 
 
@@ -201,7 +201,7 @@ def test_where_there_is_no_orbit_it_says_so():
         (
             dict(restitution=1.0),
             ValueError,
-            r"restitution must lie in \[0.001, 1\); got 1.0 \(without losses",
+            r"restitution must lie in \[0.001, 1\); got 1.0 \(an undamped motion",
         ),
         (dict(restitution=0.0), ValueError, r"restitution must lie in \[0.001, 1\]; got 0.0"),
         (

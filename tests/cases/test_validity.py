@@ -210,14 +210,14 @@ def test_base_that_would_have_to_pull_makes_every_friction_too_small():
 
 def test_brace_hits_and_leaning_are_left_out_and_named():
     found = run(15.0, 2.0, 0.925, braces=Braces(angle=1.0)).validity(TALL)
-    assert any("brace hits" in warning for warning in found.warnings)
+    assert any("brace impacts" in warning for warning in found.warnings)
     leaning = run(20.0, 3.0, 0.9, braces=Braces(angle=0.4, restitution=0.0), cycles=4)
     assert (leaning.events["kind"] == "lean").any()
     events = leaning.events
     ended = np.append(events["time"][1:], leaning.duration)
     share = np.sum((ended - events["time"])[events["kind"] == "lean"]) / leaning.duration
     assert any(
-        f"leaning: the base reactions during {share:.1%}" in warning
+        f"contact with a brace: {share:.1%} of the time" in warning
         for warning in leaning.validity(TALL).warnings
     )
 
@@ -242,19 +242,25 @@ def test_overturning_motion_is_judged_up_to_its_proof():
     assert motion.overturning is not None
     assert max(found.reaction_time, found.friction_time) <= found.until == motion.overturning.time
     assert 0 < found.friction < math.inf
-    assert str(found).startswith(f"judged up to τ = {found.until:.6g}, where it is proved never to return\n")
+    assert str(found).startswith(f"assessed up to τ = {found.until:.6g}, where overturning is certain\n")
 
 
 @pytest.mark.parametrize(
     ("braces", "why"),
-    [(None, "past return from the start"), (Braces(angle=1.2), "during 100.0% of the time")],
+    [
+        (None, "overturning is certain from the start"),
+        (Braces(angle=1.2), "contact with a brace: 100.0% of the time"),
+    ],
     ids=["falls", "leans"],
 )
 def test_block_past_balance_on_a_still_base_is_not_judged_says_so_and_warns(braces, why):
     found = run(0.0, 1.0, 0.9, start=State(angle=1.2), braces=braces).validity(TALL)
     assert found.friction is found.friction_source is found.friction_time is None
     assert found.reaction is found.reaction_time is None
-    assert "least friction without sliding: not judged\nleast base reaction: not judged\n" in str(found)
+    assert (
+        "least coefficient of friction without sliding: not assessed\nleast base reaction: not assessed\n"
+        in str(found)
+    )
     assert any(why in warning for warning in found.warnings)
 
 
@@ -262,7 +268,7 @@ def test_slender_range_far_beyond_a_right_angle_is_named_without_a_number():
     found = run(0.0, 1.0, 0.9, start=State(angle=900.0)).validity(TALL)
     assert found.moment_error == found.forcing_error == math.inf
     assert "inf" not in str(found)
-    assert any("right angle" in warning for warning in found.warnings)
+    assert any("beyond 90°" in warning for warning in found.warnings)
 
 
 @pytest.mark.parametrize("other", [1, System(Harmonic(1.0, period=1.0), restitution=0.9)])
@@ -274,7 +280,7 @@ def test_what_is_no_block_is_refused(other):
 def test_report_reads_as_lines_and_an_unrecorded_motion_is_refused():
     system = System(Harmonic(amplitude=2.0, period=1.0), restitution=0.925)
     text = str(simulate(system, cycles=5).validity(SQUAT))
-    assert text.splitlines()[0].startswith("least friction without sliding: 0.")
+    assert text.splitlines()[0].startswith("least coefficient of friction without sliding: 0.")
     assert "warning: outside the slender range" in text
     with pytest.raises(ValueError, match="record must be 'all'"):
         simulate(system, cycles=5, record="none").validity(TALL)
@@ -287,7 +293,7 @@ def test_acceleration_that_lifts_only_the_model_is_warned_of(block):
     assert truth > 1.0
     for amplitude in (0.99, (1.0 + truth) / 2, truth * 1.0001):
         system = System(Harmonic(amplitude=amplitude, period=1.0), restitution=block.restitution)
-        said = [text for text in simulate(system, cycles=3).validity(block).warnings if "lifting" in text]
+        said = [text for text in simulate(system, cycles=3).validity(block).warnings if "lift-off" in text]
         assert bool(said) is (1.0 < amplitude < truth)
     among = [0.5, 1.0, (1.0 + truth) / 2, 3.0]
     assert any("1 of the 4 accelerations lie between" in text for text in block_warnings(block, among))
@@ -296,7 +302,10 @@ def test_acceleration_that_lifts_only_the_model_is_warned_of(block):
 def test_what_concerns_the_block_is_said_without_a_motion_as_with_one():
     moving = run(2.0, 1.0, 0.7).validity(SQUAT)
     alone = list(block_warnings(SQUAT, 2.0, 0.5))
-    assert f"{moving.moment_error:.1%}, the base's push by up to {moving.forcing_error:.1%}" in alone[0]
+    assert (
+        f"{moving.moment_error:.1%}, that of the base acceleration by up to {moving.forcing_error:.1%}"
+        in alone[0]
+    )
     assert any("less than Housner's" in text for text in alone)
     assert not list(block_warnings(TALL, 2.0, 1.0))
 
@@ -309,4 +318,4 @@ def test_report_has_seconds_and_degrees_and_says_where_no_friction_would_do():
         assert f"t = {TALL.seconds(time):.4g} s, τ = {time:.6g})" in str(found)
     jumping = run(15.0, 2.0, 0.925, braces=Braces(angle=1.0)).validity(Block(height=1.0, width=0.9))
     assert jumping.friction == math.inf
-    assert "none would do, for the base reaction vanishes (motion, t = " in str(jumping)
+    assert "none suffices, because the base reaction vanishes (motion, t = " in str(jumping)

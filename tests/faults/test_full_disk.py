@@ -36,7 +36,7 @@ def test_output_that_finds_no_room_is_named_and_leaves_nothing(line, limit, tmp_
     output = line.split()[-1]
     done = limited(line, limit, tmp_path)
     assert done.stderr == (
-        f"rocking: '{output}' cannot be written: File too large; what was there before is unchanged: make room, or give another place\n"
+        f"rocking: '{output}' cannot be written: File too large; existing data are unchanged (free some space, or give another path)\n"
     )
     assert (done.returncode, done.stdout) == (2, "")
     assert list(tmp_path.iterdir()) == []

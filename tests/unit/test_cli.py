@@ -50,7 +50,7 @@ def test_summary_in_si_shows_both_units_housners_restitution_and_validity(rockin
     assert "amplitude A = 1.20712 2.9 m/s²" in text
     assert "period T = 1.48401 0.5556 s" in text
     assert "restitution e = 0.911765 Housner's value for this block" in text
-    assert "least friction without sliding" in text
+    assert "least coefficient of friction without sliding" in text
     assert "restitution e = 0.5 as given" in " ".join(rocking(f"simulate {SI} --restitution 0.5")[2].split())
 
 
@@ -141,7 +141,7 @@ def test_run_too_long_to_judge_names_the_limit_and_one_that_overturns_early_is_j
     assert said in rocking(f"{line} 0.1")[2]
     early = rocking(f"{line} 3")[2]
     assert early == rocking(f"{line} 3".replace("1000000", "200"))[2]
-    assert "judged up to τ = 15.5003, where it is proved never to return\n" in early
+    assert "assessed up to τ = 15.5003, where overturning is certain\n" in early
 
 
 @pytest.mark.parametrize("columns", ["20", "80", "200"])

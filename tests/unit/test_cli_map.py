@@ -239,10 +239,10 @@ REFUSED = {
     ),
     f"{LINE} --plot map.gif": "--plot must end in .png, .svg, .pdf; got 'map.gif'",
     f"{LINE} --tiles {Path(__file__).parent}": (
-        "--tiles must be new, empty, or hold just an earlier index.html and what belongs to it; got "
-        f"{str(Path(__file__).parent)!r}, which holds something else"
+        "--tiles must be new, empty, or hold only an earlier index.html with its files; got "
+        f"{str(Path(__file__).parent)!r}, which holds other files"
     ),
-    f"{LINE} --tiles .": "--tiles must be another folder than the one this runs in; got '.'",
+    f"{LINE} --tiles .": "--tiles must not contain the working directory; got '.'",
     f"{LINE} --tiles look --csv look/map.csv": (
         "--tiles and --csv must not lie inside each other; got 'look/map.csv' for --csv"
     ),

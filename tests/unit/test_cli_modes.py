@@ -99,7 +99,7 @@ def test_picture_is_written_and_named(rocking, tmp_path, line, suffix):
     assert [path.name for path in tmp_path.iterdir()] == [f"a.{suffix}"]
 
 
-EVEN = "no mode of even n is symmetric: half a response later the forcing is as before, not reversed"
+EVEN = "no mode with even n is symmetric: half a response later the forcing is unchanged, not reversed"
 REFUSED = {
     "--amplitude 2": "missing --period and --restitution: give --amplitude, --period (or --frequency) and --restitution",
     "--amplitude 2 --period 1 --restitution 0.9 -n 2": f"n must be an odd whole number in [1, 9999]; got 2 ({EVEN})",

@@ -273,7 +273,7 @@ def test_overturning_of_a_block_scans_the_usual_amplitudes_and_says_where_nothin
     told = json.loads(rocking(f"overturning {CABINET} --period-s 0.5 --json")[2])
     assert told["amplitude"] == {"start": 1.0, "stop": 16.0, "count": 301}
     title = rocking(f"overturning {CABINET} --period-s 0.5 --acceleration 1:2:5")[2].splitlines()[0]
-    assert title.startswith("nothing overturns from rest")
+    assert title.startswith("no overturning from rest")
     assert title.endswith("1 to 2 m/s² = 0.102 to 0.2039 g")
 
 

@@ -66,7 +66,9 @@ def test_refusal_of_the_system_names_what_cannot_be_written(tmp_path, writing, f
             except OSError:
                 raise failure from None
 
-    told = f"{str(tmp_path / 'out')!r} cannot be written: No space left on device; what was there before is unchanged"
+    told = (
+        f"{str(tmp_path / 'out')!r} cannot be written: No space left on device; existing data are unchanged"
+    )
     with pytest.raises(WriteError, match=re.escape(told)):
         fail()
     assert names(tmp_path) == []
@@ -121,7 +123,7 @@ def test_unwritable_paths_are_refused_in_one_line(tmp_path):
     for path, message in {
         tmp_path / "a.txt": "--csv must end in .csv; got ",
         tmp_path / "none" / "a.csv": "--csv must lie in an existing folder; got ",
-        tmp_path / "folder.csv": "--csv must be a file's name; got ",
+        tmp_path / "folder.csv": "--csv must be the path of a file; got ",
     }.items():
         with pytest.raises((ValueError, OSError)) as caught:
             check_writable("--csv", path, (".csv",))
@@ -192,7 +194,7 @@ def test_folder_that_was_not_written_here_is_refused_and_an_empty_one_taken(tmp_
     (tmp_path / "other" / "notes").touch()
     with pytest.raises(
         OSError,
-        match="folder must be new, empty, or hold just an earlier mark and what belongs to it; got '.*other'",
+        match="folder must be new, empty, or hold only an earlier mark with its files; got '.*other'",
     ):
         write_folder(tmp_path / "other", "new")
     assert names(tmp_path / "other") == ["notes"]
@@ -206,6 +208,6 @@ def test_a_page_beside_a_link_or_a_folder_of_the_user_is_not_replaced(tmp_path):
         page = tmp_path / name
         write_folder(page, "old")
         put(page / "own")
-        with pytest.raises(OSError, match="folder must be new, empty, or hold just an earlier mark"):
+        with pytest.raises(OSError, match="folder must be new, empty, or hold only an earlier mark"):
             write_folder(page, "new")
         assert names(page) == ["mark", "own"]

@@ -115,7 +115,7 @@ def test_overturning_after_the_transient_counts_too():
     after = rk.simulate(falling).overturning.cycle
     diagram = rk.orbit_diagram(falling, "amplitude", [1.75], sweep="rest", transient=after - 1, cycles=3)
     assert diagram.overturned.all()
-    assert str(diagram).endswith("each from its start, overturned at 1.75")
+    assert str(diagram).endswith("each from the initial state, overturned at 1.75")
     shorter = rk.orbit_diagram(falling, "amplitude", [1.75], sweep="rest", transient=after - 3, cycles=2)
     assert not shorter.overturned.any()
 

@@ -69,20 +69,20 @@ def test_an_orbit_that_rests_is_not_followed():
 
 def test_a_response_that_is_not_periodic_has_no_orbit_to_follow():
     resting = rk.classify(rk.System(rk.Harmonic(amplitude=0.5, period=1.0), restitution=0.9)).orbit
-    said = r"^orbit must be an Orbit; got None \(rk.classify finds one only where the response is periodic; "
+    said = r"^orbit must be an Orbit; got None \(rk.classify returns one only if the response is periodic; "
     with pytest.raises(TypeError, match=said):
         rk.continue_orbit(resting, "amplitude", (1, 2))
 
 
 def test_a_saddle_without_impacts_is_not_followed():
     saddle = next(orbit for orbit in rk.find_orbits(SYSTEM, 1) if orbit.impacts == 0)
-    with pytest.raises(ValueError, match=r"^orbit must have an impact or a brace hit"):
+    with pytest.raises(ValueError, match=r"^orbit must have an impact or a brace impact"):
         rk.continue_orbit(saddle, "amplitude", (1, 3))
 
 
 def test_few_points_end_a_branch_with_that_reason(orbit):
     branch = rk.continue_orbit(orbit, "amplitude", (1.5, 3), max_points=3)
-    assert branch.ends == ("as many points as allowed", "as many points as allowed")
+    assert branch.ends == ("maximum number of points", "maximum number of points")
 
 
 def test_few_points_end_what_is_born_and_a_curve_as_well():
@@ -90,9 +90,9 @@ def test_few_points_end_what_is_born_and_a_curve_as_well():
     (breaking,) = rk.continue_orbit(strong, "amplitude", (15, 25)).special
     born = rk.switch_branch(breaking, (15, 30), max_points=5)
     assert [len(branch) for branch in born] == [6, 6]
-    assert {branch.ends[1] for branch in born} == {"as many points as allowed"}
+    assert {branch.ends[1] for branch in born} == {"maximum number of points"}
     curve = rk.bifurcation_curve(breaking, "period", "amplitude", ((0.9, 1.1), (15, 30)), max_points=4)
-    assert curve.ends == ("as many points as allowed", "as many points as allowed")
+    assert curve.ends == ("maximum number of points", "maximum number of points")
 
 
 def test_orbits_are_looked_for_from_the_box_that_is_given():

@@ -140,7 +140,7 @@ def test_what_is_not_resolved_says_so(monkeypatch):
     monkeypatch.setattr(sys.modules["rocking.orbits.saddle_manifolds"], "MAX_POINTS", 300)
     rough = rk.saddle_manifolds(SYSTEM, cycles=4)
     assert not rough.unstable[0].resolved
-    assert "not resolved (take fewer cycles)" in str(rough)
+    assert "not resolved (reduce cycles)" in str(rough)
     assert "not resolved" not in str(GROWN)
 
 
@@ -196,7 +196,7 @@ def test_past_the_tangency_a_motion_from_one_saddle_overturns_over_the_other():
         (dict(system=3), "system must be a System; got 3"),
         (
             dict(system=rk.System(rk.Harmonic(1.0, period=1.0), 0.9, rk.Braces(1.0))),
-            "system must have no braces, .*; got Braces",
+            "system must have no braces: .*; got Braces",
         ),
         (
             dict(system=rk.System(rk.Harmonic(1.0, period=1.0), 0.0)),
@@ -220,5 +220,5 @@ def test_refusals_are_one_line(change, message):
 def test_gap_and_tangency_refuse_what_has_none():
     with pytest.raises(ValueError, match=r"^amplitude must be below √\(1 \+ Ω²\) = 6.36227; got 7.0"):
         rk.manifold_gap(rk.System(rk.Harmonic(7.0, period=1.0), 0.8))
-    with pytest.raises(ValueError, match="^restitution must be below 1; got 1.0 .without losses"):
+    with pytest.raises(ValueError, match="^restitution must be below 1; got 1.0 .without dissipation"):
         rk.tangency_amplitude(rk.System(rk.Harmonic(1.0, period=1.0), 1.0))

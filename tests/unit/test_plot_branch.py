@@ -135,7 +135,7 @@ def test_where_there_is_nothing_to_follow_it_shows_what_a_start_from_rest_does()
 
 
 def test_notebooks_show_a_picture_over_the_line(family, response):
-    for result, begins in ((family[1], "branch of unsymmetric orbits"), (response, "frequency response at")):
+    for result, begins in ((family[1], "branch of asymmetric orbits"), (response, "frequency response at")):
         assert result._repr_html_().startswith(f'<figure><img alt="{begins}')
 
 

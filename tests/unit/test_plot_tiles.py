@@ -177,7 +177,7 @@ def test_folder_with_something_else_is_refused(tmp_path):
     (tmp_path / "notes.txt").touch()
     with pytest.raises(
         OSError,
-        match="folder must be new, empty, or hold just an earlier index.html and what belongs to it; got '.*'",
+        match="folder must be new, empty, or hold only an earlier index.html with its files; got '.*'",
     ):
         rk.plot.tiles(scattered(3, 2), tmp_path)
     with pytest.raises(OSError, match="folder must be a folder that can be written; got '.*notes.txt'"):
@@ -196,7 +196,7 @@ def test_nothing_of_somebody_elses_is_replaced(tmp_path, own):
     else:
         (folder / own).write_text("mine")
     before = sorted((path, path.stat().st_mtime_ns) for path in folder.rglob("*"))
-    with pytest.raises(FileExistsError, match="which holds something else"):
+    with pytest.raises(FileExistsError, match="which holds other files"):
         rk.plot.tiles(scattered(5, 2), folder)
     assert sorted((path, path.stat().st_mtime_ns) for path in folder.rglob("*")) == before
 
@@ -205,6 +205,6 @@ def test_folder_that_this_runs_in_is_refused(tmp_path, monkeypatch):
     (tmp_path / "deep").mkdir()
     monkeypatch.chdir(tmp_path / "deep")
     for folder in (".", "..", tmp_path):
-        with pytest.raises(OSError, match="folder must be another folder than the one this runs in; got"):
+        with pytest.raises(OSError, match="folder must not contain the working directory; got"):
             rk.plot.tiles(scattered(3, 2), folder)
     assert (tmp_path / "deep").is_dir()

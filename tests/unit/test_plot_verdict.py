@@ -138,7 +138,7 @@ def test_notebook_shows_the_picture_over_the_sentence():
     image = Image.open(io.BytesIO(base64.b64decode(encoded)))
     assert image.format == "PNG"
     assert np.asarray(image.convert("L")).std() > 10
-    assert "proved after 4 impacts, at τ = 10.3092, never to return" in html
+    assert "overturning is certain from τ = 10.3092, after 4 impacts" in html
 
 
 def test_other_than_a_verdict_is_refused_in_one_line():

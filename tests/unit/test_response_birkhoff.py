@@ -70,7 +70,7 @@ def test_islands_within_islands_turn_about_their_own_centres(offset):
 def test_nothing_turns_about_the_centre_itself():
     turning = rk.rotation_number(ISLANDS, rk.State(*CENTRE))
     assert (turning.locked, turning.free) == ((2, 3), None)
-    assert "nothing turns" in str(turning)
+    assert "no rotation about the island centre (periodic motion)" in str(turning)
 
 
 def test_free_rocking_strikes_at_its_own_frequency():
@@ -110,8 +110,8 @@ def test_bouncing_on_a_lossless_brace_turns_without_an_impact():
 def test_chaos_is_refused_with_what_was_found():
     """From most of the phases that nobody tells apart: a run may cling to an island, which turns almost evenly."""
     message = re.compile(
-        r"the halves of 20000 cycles agree to [0-5] digits where a rotation number needs 9 "
-        r"\(as on chaotic motion, or over too few cycles\)"
+        r"both halves of 20000 cycles agree to [0-5] digits, but a rotation number requires 9 "
+        r"\(the motion is chaotic, or cycles too few\)"
     )
     refused = 0
     for phase in np.linspace(0.0, 1e-7, 9):
@@ -123,7 +123,7 @@ def test_chaos_is_refused_with_what_was_found():
 
 def test_short_runs_are_refused_with_what_was_found():
     with pytest.raises(
-        rk.TooShort, match=r"^the halves of 1500 cycles agree to [678] digits .* \(take more cycles\)$"
+        rk.TooShort, match=r"^both halves of 1500 cycles agree to [678] digits, .* \(increase cycles\)$"
     ) as caught:
         rk.rotation_number(ISLANDS, cycles=1_500)
     assert abs(caught.value.estimate.free - 0.4744150886) < 1e-5
@@ -134,8 +134,8 @@ def test_short_runs_are_refused_with_what_was_found():
 @pytest.mark.parametrize("cycles", [20_000, 100_000])
 def test_curve_bent_around_its_mean_is_no_matter_of_the_length_of_the_run(cycles):
     told = re.escape(
-        "start must lie on a curve that surrounds its own mean; every 2nd of the impacts, 2 in 1 cycle, lies on none "
-        "(the motion is chaotic, or its curve is bent: take another start)"
+        "start must lie on a curve that surrounds its own mean; every 2nd of the impacts, 2 in 1 cycle, does not "
+        "(the motion is chaotic, or its curve is strongly bent: change start)"
     )
     with pytest.raises(ValueError, match=f"^{told}$") as caught:
         rk.rotation_number(system(0.3, 2.0), rk.State(velocity=0.55), cycles=cycles)
@@ -146,23 +146,27 @@ REFUSED = {
     "impacts that lose": (
         system(2.0, 1.0, 0.925),
         None,
-        r"^restitution must be 1 for a rotation number: .*; got 0\.925$",
+        r"^restitution must be 1 for a rotation number \(no dissipation\); got 0\.925$",
     ),
     "braces that lose": (
         system(15.0, 2.0, braces=rk.Braces(1.0, 0.9)),
         None,
-        r"^(braces\.restitution must be 1|a rotation number needs motion that goes on without loss)",
+        r"^(braces\.restitution must be 1|a rotation number requires a motion without dissipation)",
     ),
-    "overturning": (system(1.75, 2.0), None, "^the block must stay up for a rotation number; it overturns"),
+    "overturning": (
+        system(1.75, 2.0),
+        None,
+        "^the block must stay upright for a rotation number; it overturns",
+    ),
     "rest": (
         system(0.5, 1.0),
         None,
-        "^a rotation number needs motion that goes on without loss; the block comes to rest$",
+        "^a rotation number requires a motion without dissipation; the block comes to rest$",
     ),
     "balance": (
         system(0.0, 1.0),
         rk.State(1.0),
-        r"^too few impacts for a rotation number: 0 in 1,000 cycles \(take more cycles\)$",
+        r"^too few impacts for a rotation number: 0 in 1,000 cycles \(increase cycles\)$",
     ),
 }
 

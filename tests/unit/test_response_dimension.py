@@ -154,7 +154,7 @@ def test_periodic_motion_is_isolated_points_of_dimension_zero(case, count):
 def test_equal_points_are_one_point(value):
     found = rk.correlation_dimension(np.full((1_000, 2), value))
     assert (found.value, found.isolated) == (0.0, 1)
-    assert str(found) == "dimension 0 of the section: one point, met 1000 times"
+    assert str(found) == "dimension 0 of the section: one point, repeated over 1000 points"
 
 
 def test_islands_of_figure_5_are_curves():
@@ -192,7 +192,7 @@ BAD = {
     "too few": (
         np.ones((10, 2)),
         ValueError,
-        r"^points must be 1,000 at least and 10,000,000 at most; got 10 \(a section has one a cycle, .*\)$",
+        r"^points must be 1,000 to 10,000,000 in number; got 10 \(a section has one point per cycle .*\)$",
     ),
     "a cube": (
         np.ones((20, 20, 20)),
@@ -203,22 +203,22 @@ BAD = {
     "far too few for their number of coordinates": (
         np.random.default_rng(1).random((1_000, 50)),
         ValueError,
-        "^1000 points are too few for a dimension: there are close pairs over less than half a decade of r",
+        "^1000 points are too few for a dimension: close pairs span less than half a decade of r",
     ),
     "a motion": (
         rk.simulate(rk.System(rk.Harmonic(2.0, period=1.0), 0.9), cycles=2),
         TypeError,
-        r"^points must be points of .*; got Motion.* \(take those of its section, motion\.section\(\)\)$",
+        r"^points must be points of .*; got Motion.* \(pass the points of its section, motion\.section\(\)\)$",
     ),
     "an overturned motion": (
         rk.simulate(rk.System(rk.Harmonic(1.75, period=2.0), 0.95), cycles=2_000),
         ValueError,
-        "^the block must stay up for a dimension; it overturned in cycle 5$",
+        "^the block must stay upright for a dimension; it overturned in cycle 5$",
     ),
     "what is left of an overturned motion": (
         rk.simulate(rk.System(rk.Harmonic(1.75, period=2.0), 0.95), cycles=2_000).section(),
         ValueError,
-        r"^points must be 1,000 at least .*; got 6 \(.* as long as the block stays up\)$",
+        r"^points must be 1,000 to .*; got 6 \(.* until the block overturns\)$",
     ),
     "NaN": (np.full((2_000, 2), math.nan), ValueError, "^points must be finite; row 0 is not$"),
     "infinite": (

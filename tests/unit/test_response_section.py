@@ -114,7 +114,7 @@ def test_overturning_block_has_its_impacts_before_the_proof():
         ({"start": 3}, r"^start must be a State; got 3 "),
         (
             {"source": rk.simulate(MODE, cycles=3), "cycles": 3},
-            r"^cycles must be left out with a motion, .+ 3$",
+            r"^cycles must be omitted with a motion; got 3$",
         ),
         ({"source": rk.simulate(MODE, cycles=3), "transient": 3}, r"^transient must be .+ \[0, 2\]; got 3$"),
         (

@@ -120,7 +120,7 @@ def test_fractions_count_the_starts_and_flags_name_the_attractors():
     assert places.attrs["flag_meanings"].split()[0] == found.attractors[0].name.replace(", ", "-")
     fallen = np.count_nonzero(found.dataset.kind.values == 4)
     assert found.safe.count == 441 - fallen
-    assert str(found).startswith("441 starts: ")
+    assert str(found).startswith("441 initial states: ")
 
 
 def test_what_is_undetermined_may_lead_to_any_of_the_others():

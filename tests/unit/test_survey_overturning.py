@@ -80,7 +80,7 @@ def test_where_nothing_overturns_there_is_no_amplitude():
     assert np.isnan(data.lowest.values).all()
     assert data.survived_up_to.values.tolist() == [2.0, 2.0]
     assert np.isnan(data.surviving_above.values).all()
-    assert str(found).startswith("nothing overturns from rest at 3 amplitudes")
+    assert str(found).startswith("no overturning from rest at 3 amplitudes")
 
 
 def test_where_the_first_amplitude_overturns_nothing_is_claimed_below_it():

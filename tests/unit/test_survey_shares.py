@@ -110,7 +110,7 @@ def test_a_cantor_boundary_has_the_exponent_of_its_dimension():
     "interval, smooth, fractal, meaning",
     [
         ((0.72, 1.13), False, False, "undecided: 0.72–1.13 contains 1"),
-        ((0.95, 1.04), True, False, "1, and not below 0.9: smooth"),
+        ((0.95, 1.04), True, False, "contains 1, not below 0.9: smooth"),
         ((0.72, 0.98), False, True, "below 1: fractal"),
         ((1.02, 1.2), False, False, "undecided: 1.02–1.20 lies above 1"),
     ],

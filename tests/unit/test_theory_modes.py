@@ -286,13 +286,13 @@ def test_numbers_give_numbers_and_arrays_broadcast():
 
 def test_mode_says_what_it_is_in_one_line():
     stable, neutral = (rk.theory.symmetric_modes(2.0, 1.0, e, 1)[0] for e in (0.925, 1.0))
-    assert str(stable) == "(1,1) mode: V = 0.532017, φ = -1.67791, stable, admissible"
+    assert str(stable) == "(1, 1) mode: V = 0.532017, φ = -1.67791, stable, admissible"
     assert "neutral" in str(neutral)
     slow = rk.theory.symmetric_modes(1.2, 1.0, 0.925, 1)[1]
     assert str(slow).endswith("unstable, admissible")
 
 
-EVEN = "no mode of even n is symmetric: half a response later the forcing is as before, not reversed"
+EVEN = "no mode with even n is symmetric: half a response later the forcing is unchanged, not reversed"
 
 
 @pytest.mark.parametrize(

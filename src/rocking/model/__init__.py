@@ -1,6 +1,7 @@
-"""Values: what a block, its base and its state are, frozen and validated; known to every room but the kernels.
+"""Frozen, validated values: block, base motion, system, state, verdict, and the results of surveys.
 
-With them goes what every room shares: the one-line refusals, files that are whole or not there, notebook pictures.
+Every subpackage except `kernels` imports this one. It also holds the validation of arguments, the atomic
+replacement of files and the images of results in notebooks.
 """
 
 from rocking.model import notebook_renderers

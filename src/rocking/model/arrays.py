@@ -1,4 +1,4 @@
-"""Arrays inside frozen values."""
+"""Read-only arrays inside frozen values."""
 
 from __future__ import annotations
 
@@ -10,17 +10,17 @@ import numpy as np
 
 
 def read_only(array: np.ndarray) -> np.ndarray:
-    """Return an array, which from now on refuses to be written to."""
+    """Make an array read-only and return it."""
     array.flags.writeable = False
     return array
 
 
 class ReadOnlyArrays:
-    """A frozen value whose arrays are `read_only` also in its copies and in other processes."""
+    """Base class of frozen values whose arrays stay `read_only` in copies and in other processes."""
 
     __slots__ = ()
 
     def __reduce__(self) -> tuple[Any, ...]:
-        # NumPy makes an array writeable that it copies or unpickles: only the constructor makes it read-only again
+        # A copied or unpickled NumPy array is writeable. Only the constructor makes it read-only again.
         fields = attrs.fields(type(self))  # type: ignore[arg-type]  # every subclass is an attrs class
         return partial(type(self), **{each.alias: getattr(self, each.name) for each in fields}), ()

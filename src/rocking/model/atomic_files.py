@@ -1,4 +1,4 @@
-"""Files out: checked before the work, written under a temporary name beside the target, then renamed."""
+"""Atomic output: paths are checked before the work, and files are written under a temporary name, then renamed."""
 
 from __future__ import annotations
 
@@ -17,15 +17,21 @@ from typing import Any
 from attrs import frozen
 
 FULL = {errno.ENOSPC, errno.EDQUOT, errno.EFBIG}
-"""What the system says of a disk, a quota or a file that is full."""
+"""Error numbers of the operating system for a full disk, an exhausted quota and a file that is too large."""
 
 
 class WriteError(OSError):
-    """An output that cannot be written, a full disk for example; the message names it and says what to do."""
+    """Output that cannot be written, for example on a full disk. The message names it and the remedy."""
 
 
 def resolve_path(name: str, path: str | os.PathLike[str]) -> Path:
-    """Return `path` with its links followed; OSError in one line that starts with `name` where no file can have it."""
+    """Return the absolute path with all links followed.
+
+    Raises
+    ------
+    OSError
+        If no file can have this path. The message begins with `name`.
+    """
     try:
         place = Path(path).resolve()
         place.exists()
@@ -33,23 +39,30 @@ def resolve_path(name: str, path: str | os.PathLike[str]) -> Path:
             raise OSError(errno.ELOOP, os.strerror(errno.ELOOP))
     except (OSError, RuntimeError, ValueError) as error:
         why = getattr(error, "strerror", None) or error
-        if isinstance(error, FileNotFoundError):  # of all that is asked only the working directory must exist
+        if isinstance(error, FileNotFoundError):  # only a missing working directory raises it here
             why = "the working directory does not exist any more"
         raise OSError(f"{name} must be a path that can exist; got {os.fspath(path)!r}: {why}") from error
     return place
 
 
 def check_writable(name: str, path: str | os.PathLike[str], suffixes: Sequence[str] = ()) -> Path:
-    """Return `path` if a file may be written there; refuse it in one line that starts with `name` otherwise.
+    """Return `path` if a file can be written there. The check leaves no file behind.
 
-    Nothing is left there. `suffixes` are the endings allowed ("`.png`"); none: any.
+    Parameters
+    ----------
+    name : str
+        Name of the argument, for messages.
+    path : path-like
+        Path to check.
+    suffixes : sequence of str
+        Allowed endings, such as ".png". Default: (), any ending.
 
     Raises
     ------
     ValueError
-        An ending that is not among `suffixes`.
+        If the ending is not one of `suffixes`.
     OSError
-        No such folder, no permission, or something that is no plain file is there already.
+        If the folder does not exist, permission is denied, or the path exists and is no regular file.
     """
     path = Path(path)
     if suffixes and path.suffix.lower() not in suffixes:
@@ -58,14 +71,20 @@ def check_writable(name: str, path: str | os.PathLike[str], suffixes: Sequence[s
     if not place.parent.is_dir():
         raise FileNotFoundError(f"{name} must lie in an existing folder; got {str(path)!r}")
     if place.exists() and not place.is_file():
-        raise OSError(f"{name} must be a file's name; got {str(path)!r}, which is something else")
+        raise OSError(f"{name} must be the path of a file; got {str(path)!r}, which is not a regular file")
     if not _takes_files(place.parent) or (place.exists() and not os.access(place, os.W_OK)):
         raise PermissionError(f"{name} must be writable; got {str(path)!r}, which is not")
     return path
 
 
 def check_folder(name: str, path: str | os.PathLike[str]) -> Path:
-    """Return `path` if it is a folder that takes files, or may be made in one; OSError in one line that starts with `name` if not."""
+    """Return `path` if it is a writable folder or can be created in one.
+
+    Raises
+    ------
+    OSError
+        If it is neither. The message begins with `name`.
+    """
     path = Path(path)
     existing = resolve_path(name, path)
     while not existing.exists():
@@ -76,7 +95,7 @@ def check_folder(name: str, path: str | os.PathLike[str]) -> Path:
 
 
 def _takes_files(folder: Path) -> bool:
-    """Whether a file can be made there, found out by making one: permissions alone do not tell."""
+    """Return whether a file can be created in the folder, by creating one: permissions alone do not show it."""
     try:
         with TemporaryFile(dir=folder):
             return True
@@ -86,10 +105,15 @@ def _takes_files(folder: Path) -> bool:
 
 @contextmanager
 def replacing(path: str | os.PathLike[str]) -> Iterator[Path]:
-    """Yield a temporary name beside `path`, with its suffix, and rename it to `path` if the block succeeds.
+    """Yield a temporary path next to `path`, with its suffix, and rename it to `path` if the block succeeds.
 
-    On any failure, Ctrl-C included, the temporary file is removed and what stood at `path` stays untouched. A link is
-    followed: the file that it points to is replaced. Where the system refuses to write, `WriteError` says why.
+    On any failure, including Ctrl-C, the temporary file is removed and an existing file at `path` is unchanged.
+    If `path` is a link, the file that it points to is replaced.
+
+    Raises
+    ------
+    WriteError
+        If the operating system rejects the write.
 
     Examples
     --------
@@ -111,13 +135,13 @@ def replacing(path: str | os.PathLike[str]) -> Iterator[Path]:
 
 
 def _temporary_name() -> str:
-    """A name that nothing else has, shorter than most: a long name leaves no room for more."""
+    """Return a unique hidden file name, short enough for a path near the length limit."""
     return f".rocking-{secrets.token_hex(8)}"
 
 
 @contextmanager
 def _writing(path: str | os.PathLike[str]) -> Iterator[None]:
-    """Say of a write that the system refused which file or folder it was, and how to go on."""
+    """Convert an error of the operating system during a write into a `WriteError` that names the path."""
     try:
         yield
     except Exception as error:
@@ -125,13 +149,16 @@ def _writing(path: str | os.PathLike[str]) -> Iterator[None]:
         if failure is None or failure.errno is None:
             raise
         raise WriteError(
-            f"{os.fspath(path)!r} cannot be written: {failure.strerror}; what was there before is unchanged: "
-            "make room, or give another place"
+            f"{os.fspath(path)!r} cannot be written: {failure.strerror}; existing data are unchanged "
+            "(free some space, or give another path)"
         ) from error
 
 
 def _system_error(error: BaseException | None) -> OSError | None:
-    """The refusal of the system that led to an error, if any; a full disk also where a library stumbled over it later."""
+    """Return the error of the operating system behind `error`, or None.
+
+    The context chain is searched for a full disk only, because libraries report it late.
+    """
     if isinstance(error, OSError) and error.errno is not None:
         return error
     while error is not None and getattr(error, "errno", None) not in FULL:
@@ -140,17 +167,20 @@ def _system_error(error: BaseException | None) -> OSError | None:
 
 
 class _Hdf5File(io.FileIO):
-    """A file that tells the HDF5 library that all is written, and keeps what the system said: on a refusal that library crashes."""
+    """File for the HDF5 library that never reports a failed write to it: the library crashes on one.
+
+    The first error is kept in `failure`, to be raised after the library has closed.
+    """
 
     failure: OSError | None = None
 
     def write(self, content: Any, /) -> int:
-        """Write, unless an earlier write failed."""
+        """Write unless an earlier write failed, and report success."""
         self._attempt(super().write, content)
         return memoryview(content).nbytes
 
     def truncate(self, size: int | None = None, /) -> int:
-        """Set the size, unless an earlier write failed."""
+        """Set the size unless an earlier write failed, and report success."""
         self._attempt(super().truncate, size)
         return self.tell() if size is None else size
 
@@ -164,7 +194,7 @@ class _Hdf5File(io.FileIO):
 
 @contextmanager
 def replacing_hdf5(path: str | os.PathLike[str]) -> Iterator[io.FileIO]:
-    """Yield an open file for the HDF5 library, which is renamed to `path` if the block succeeds, as `replacing` does."""
+    """Yield an open file for the HDF5 library, and rename it to `path` if the block succeeds, as in `replacing`."""
     with replacing(path) as temporary, _Hdf5File(temporary, "w+") as file:
         try:
             yield file
@@ -175,7 +205,17 @@ def replacing_hdf5(path: str | os.PathLike[str]) -> Iterator[io.FileIO]:
 
 @frozen
 class Made:
-    """How a folder that was written here is known: by a page with a sign in it, and by the paths of all other files and folders."""
+    """Signature of a folder written by this package: its index page, with a sign in it, and the names in it.
+
+    Attributes
+    ----------
+    page : str
+        Name of the index page.
+    others, folders : str
+        Regular expressions of the relative paths of all other files and of all folders.
+    sign : str
+        Text that the index page contains.
+    """
 
     page: str
     others: str
@@ -183,7 +223,7 @@ class Made:
     sign: str
 
     def is_in(self, folder: Path) -> bool:
-        """Whether the folder holds just that, and no link; `others` and `folders` are regular expressions."""
+        """Return whether the folder holds exactly these files and folders, and no link."""
         page = folder / self.page
         if not page.is_file() or self.sign not in page.read_text(encoding="utf-8", errors="replace"):
             return False
@@ -197,7 +237,7 @@ class Made:
         return name == self.page or re.fullmatch(self.others, name) is not None
 
 
-# The page of a map in tiles: one room writes it, another asks before the work whether it may be written.
+# Page of a map in tiles. `plot` writes it, and `cli` checks the path before the computation.
 TILES = Made(
     "index.html",
     others=r"tiles/\d+/\d+-\d+(-[a-z]+)?\.png",
@@ -207,29 +247,36 @@ TILES = Made(
 
 
 def check_replaceable(name: str, path: str | os.PathLike[str], made: Made) -> Path:
-    """Return `path` if `replacing_folder` may write it; OSError in one line that starts with `name` if not."""
+    """Return `path` if `replacing_folder` may write it.
+
+    Raises
+    ------
+    OSError
+        If it may not. The message begins with `name`.
+    """
     path = check_folder(name, path)
     with suppress(FileNotFoundError):  # the working directory may be gone
         if Path.cwd().is_relative_to(path.resolve()):
-            raise OSError(f"{name} must be another folder than the one this runs in; got {str(path)!r}")
+            raise OSError(f"{name} must not contain the working directory; got {str(path)!r}")
     if path.exists() and any(path.iterdir()) and not made.is_in(path):
         raise FileExistsError(
-            f"{name} must be new, empty, or hold just an earlier {made.page} and what belongs to it; got {str(path)!r}, "
-            "which holds something else"
+            f"{name} must be new, empty, or hold only an earlier {made.page} with its files; got {str(path)!r}, "
+            "which holds other files"
         )
     return path
 
 
 @contextmanager
 def replacing_folder(name: str, path: str | os.PathLike[str], made: Made) -> Iterator[Path]:
-    """Yield a new folder beside `path` and rename it to `path` if the block succeeds; what stood there goes only then.
+    """Yield a new folder next to `path` and rename it to `path` if the block succeeds.
 
-    Only a folder that is empty, or that holds what was `made` here before and nothing else, is replaced.
+    An existing folder is replaced only if it is empty or holds nothing but earlier output, as `made` describes
+    it. It is removed only after the block has succeeded.
 
     Raises
     ------
     OSError
-        In one line that starts with `name`: something else is there, or the folder cannot be written.
+        If other files are there, or the folder cannot be written. The message begins with `name`.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""Which start leads where: what basin maps find."""
+"""Result of `basin_map`: attractors, their basins and the uncertainty exponents of the boundaries."""
 
 from __future__ import annotations
 
@@ -16,20 +16,28 @@ if TYPE_CHECKING:
     import xarray as xr
 
 
-# An interval that begins lower leaves both a smooth and a fractal boundary possible.
+# With a lower end of the interval below this value, both a smooth and a fractal boundary are possible.
 SMOOTH_FROM = 0.9
 
 
 @frozen
 class Attractor:
-    """What some of the starts lead to.
+    """Attractor of a basin map, or another outcome such as overturning.
 
     Attributes
     ----------
     name : str
-        Its own among those of the map, such as "period 1, unsymmetric (a)".
+        Unique name within the map, such as "period 1, asymmetric (a)".
     verdict : Verdict
-        Of one of those starts, with its evidence; `verdict.start` is that start.
+        Verdict, with its evidence, of one initial state of the basin. `verdict.start` is this state.
+
+    Examples
+    --------
+    >>> import rocking as rk
+    >>> system = rk.System(rk.Harmonic(amplitude=0.5, period=1.0), restitution=0.9)
+    >>> found = rk.basin_map(system, angle=[0.0, 0.1], velocity=[0.0, 0.1], boundary_runs=0)
+    >>> print(found.attractors[0])
+    rest
     """
 
     name: str
@@ -37,12 +45,12 @@ class Attractor:
 
     @property
     def kind(self) -> Kind:
-        """What it is; overturning is no attractor, but where those starts lead."""
+        """Response type. Overturning is listed as well, although it is not an attractor."""
         return self.verdict.kind
 
     @property
     def orbit(self) -> Orbit | None:
-        """The orbit, of a periodic one."""
+        """Periodic orbit; None if the response is not periodic."""
         return self.verdict.orbit
 
     def __str__(self) -> str:
@@ -51,22 +59,37 @@ class Attractor:
 
 @frozen
 class UncertaintyExponent:
-    """How fast the share f of uncertain starts falls with the uncertainty ε of the start: f ~ ε^value.
+    """Uncertainty exponent of a basin boundary: f ~ ε^value.
 
-    1 for a smooth boundary of a plane region; below 1 for a fractal one, whose box dimension is 2 − value.
+    f is the fraction of uncertain initial states, and ε is the uncertainty of the initial state. The exponent is 1
+    for a smooth boundary in the plane. It is below 1 for a fractal boundary, of box dimension 2 − value.
 
     Attributes
     ----------
-    value, low, high : float
-        The exponent and its 95 % interval.
+    value : float
+        Uncertainty exponent.
+    low, high : float
+        Ends of its 95 % confidence interval.
     distances : tuple of float
-        ε.
+        Uncertainties ε, in the units of Θ and Θ'.
     uncertain : tuple of Share
-        Of so many random starts, those of which one of the two at distance ε on either side, in a random direction, leads
-        elsewhere.
+        Fraction of uncertain initial states for each ε. A random initial state is uncertain if one of two states, at
+        distance ε on opposite sides in a random direction, leads to another attractor.
     misfit : float
-        χ² of the power law over its degrees of freedom: about 1 where it holds; where it is larger the interval is
-        wider by its square root.
+        χ² per degree of freedom of the power law, about 1 if it holds. If it is larger, the interval is wider by
+        its square root.
+
+    References
+    ----------
+    McDonald, Grebogi, Ott & Yorke, Physica D 17, 125–153 (1985).
+
+    Examples
+    --------
+    >>> exponent = UncertaintyExponent(0.85, 0.72, 0.98, distances=(), uncertain=(), misfit=1.0)
+    >>> print(exponent)
+    0.850 (0.720–0.980)
+    >>> exponent.fractal, exponent.meaning
+    (True, 'below 1: fractal')
     """
 
     value: float
@@ -78,21 +101,21 @@ class UncertaintyExponent:
 
     @property
     def fractal(self) -> bool:
-        """Whether the whole interval lies below 1, the exponent of a smooth boundary."""
+        """True if the whole interval lies below 1, the exponent of a smooth boundary."""
         return self.high < 1.0
 
     @property
     def smooth(self) -> bool:
-        """Whether the interval holds 1 and begins at 0.9 or above: no fractal boundary of a dimension above 1.1 is left."""
+        """True if the interval contains 1 and begins at 0.9 or above: this excludes box dimensions above 1.1."""
         return SMOOTH_FROM <= self.low <= 1.0 <= self.high
 
     @property
     def meaning(self) -> str:
-        """What the interval says of the boundary; a wide one that contains 1, or one above 1, decides nothing."""
+        """Conclusion from the interval: fractal, smooth or undecided."""
         if self.fractal:
             return "below 1: fractal"
         if self.smooth:
-            return f"1, and not below {SMOOTH_FROM:g}: smooth"
+            return f"contains 1, not below {SMOOTH_FROM:g}: smooth"
         where = "contains 1" if self.low <= 1.0 else "lies above 1"
         return f"undecided: {self.low:.2f}–{self.high:.2f} {where}"
 
@@ -102,24 +125,33 @@ class UncertaintyExponent:
 
 @frozen(eq=False)
 class BasinMap(NotebookPicture):
-    """Which start leads where; made by `basin_map`.
+    """Basins of attraction of a system over a grid or a random sample of initial states; returned by `basin_map`.
 
     Attributes
     ----------
     system : System
-        What was started.
+        System of the map.
     dataset : xarray.Dataset
-        Over the starts: `attractor` (a place in `attractors`), `kind`, `evidence`, `response_period`,
-        `impacts_per_period`, `brace_hits_per_period`, `symmetric`, `orbit_angle`, `orbit_velocity` (the state that stands
-        for the orbit), `mean_angle`, `mean_angle_error` (on the section, of what is chaotic), `transient`, `cycles`.
+        Variables over the initial states: `attractor` (index into `attractors`), `kind`, `evidence`,
+        `response_period`, `impacts_per_period`, `brace_hits_per_period`, `symmetric`, `orbit_angle` and
+        `orbit_velocity` (the state that represents the orbit), `mean_angle` and `mean_angle_error` (mean over the
+        section, for chaotic responses), `transient`, `cycles`.
     attractors : tuple of Attractor
-        What the starts lead to, the largest share first.
+        Attractors, that of the largest basin first.
     fractions : tuple of Share
-        The shares of the starts that lead there, in the same order.
+        Fraction of the initial states in each basin, in the same order.
     uncertainty_exponent : UncertaintyExponent or None
-        Of the boundary between starts that overturn and those that do not; None where there is none to be seen.
+        Exponent of the boundary between initial states that overturn and those that do not. None if there is no
+        such boundary, or if it was not estimated.
     attractor_exponent : UncertaintyExponent or None
-        Of the boundaries between all that the starts lead to.
+        Exponent of the boundaries between all basins. None likewise.
+
+    Examples
+    --------
+    >>> import rocking as rk
+    >>> system = rk.System(rk.Harmonic(amplitude=0.5, period=1.0), restitution=0.9)
+    >>> print(rk.basin_map(system, angle=[0.0, 0.1], velocity=[0.0, 0.1], boundary_runs=0))
+    4 initial states: rest 50.0 % (15.0–85.0 %), period 1, symmetric 50.0 % (15.0–85.0 %)
     """
 
     system: System
@@ -131,7 +163,7 @@ class BasinMap(NotebookPicture):
 
     @property
     def safe(self) -> Share:
-        """The share of starts that do not overturn."""
+        """Safe fraction: the fraction of initial states that do not overturn."""
         pairs = list(zip(self.attractors, self.fractions, strict=True))
         fallen = sum(share.count for each, share in pairs if each.kind is Kind.OVERTURNED)
         of = self.fractions[0].of
@@ -139,6 +171,10 @@ class BasinMap(NotebookPicture):
 
     def __str__(self) -> str:
         parts = (f"{each.name} {share}" for each, share in zip(self.attractors, self.fractions, strict=True))
-        text = f"{self.fractions[0].of:,} starts: {', '.join(parts)}"
+        text = f"{self.fractions[0].of:,} initial states: {', '.join(parts)}"
         exponent = self.uncertainty_exponent
-        return text if exponent is None else f"{text}; boundary of overturning: exponent {exponent}"
+        return (
+            text
+            if exponent is None
+            else f"{text}; uncertainty exponent of the overturning boundary {exponent}"
+        )

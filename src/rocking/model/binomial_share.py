@@ -1,4 +1,4 @@
-"""Shares of a whole, known from counts, with their intervals."""
+"""Fractions estimated from counts, with confidence intervals."""
 
 from __future__ import annotations
 
@@ -12,22 +12,24 @@ from attrs import field, frozen
 from rocking.model.validation import refusal
 
 LEVEL = 0.95
-"""How often an interval covers what it is of, about."""
+"""Confidence level of the intervals."""
 
 
 def wilson(count: Any, of: Any) -> tuple[Any, Any]:
-    """The 95 % interval of a share of which `count` in `of` independent trials were seen; arrays broadcast.
+    """Return the 95 % confidence interval of a fraction, Wilson's.
+
+    The interval ``(p + z²/2n ± z √(p(1 − p)/n + z²/4n²))/(1 + z²/n)``, with p = `count`/n and n = `of`, contains the
+    fractions that a test of level 5 % does not reject.
 
     Parameters
     ----------
     count, of : int or array
-        Successes and trials; (0, 1) without any trial.
+        Numbers of successes and of independent trials. Arrays broadcast.
 
     Returns
     -------
-    tuple
-        (low, high): (p + z²/2n ± z √(p(1 − p)/n + z²/4n²))/(1 + z²/n), the shares that a test of level 5 % does not
-        reject.
+    low, high : float or ndarray
+        Ends of the interval; 0 and 1 without any trial.
 
     References
     ----------
@@ -44,7 +46,7 @@ def wilson(count: Any, of: Any) -> tuple[Any, Any]:
     whole = trials + z * z
     middle = (seen + 0.5 * z * z) / whole
     half = z / whole * np.sqrt(seen * (trials - seen) / np.maximum(trials, 1.0) + 0.25 * z * z)
-    # where all or none were seen the formula's end is exact but for its rounding
+    # With no success or no failure, one end is exactly 0 or 1. The formula gives it with a rounding error.
     low = np.where(seen == 0.0, 0.0, np.maximum(middle - half, 0.0))
     high = np.where(seen == trials, 1.0, np.minimum(middle + half, 1.0))
     return (low.item(), high.item()) if low.ndim == 0 else (low, high)
@@ -52,15 +54,22 @@ def wilson(count: Any, of: Any) -> tuple[Any, Any]:
 
 @frozen
 class Share:
-    """A share known from a count, with its interval.
+    """Fraction estimated from a count, with its 95 % confidence interval.
 
     Attributes
     ----------
     count, of : int
-        How many of how many.
+        Number of members and total number.
     unknown : int
-        Of how many of the others it is not known whether they belong to it. The lower end of the interval counts none of
-        them, the upper end all of them: they widen it upwards.
+        Number of undetermined cases, which may or may not be members. The lower end of the interval counts none of
+        them and the upper end counts all of them. Default: 0.
+    value, low, high : float
+        Fraction `count/of` and the ends of its interval.
+
+    Raises
+    ------
+    ValueError
+        If a number is negative, or `count + unknown` exceeds `of`.
 
     Examples
     --------
@@ -85,17 +94,17 @@ class Share:
 
     @property
     def value(self) -> float:
-        """count/of; NaN of none."""
+        """Fraction `count/of`; NaN if `of` is 0."""
         return self.count / self.of if self.of else float("nan")
 
     @property
     def low(self) -> float:
-        """Lower end of its 95 % interval, Wilson's, if nothing that is unknown belongs to it."""
+        """Lower end of the 95 % Wilson interval, with no undetermined case counted."""
         return wilson(self.count, self.of)[0]
 
     @property
     def high(self) -> float:
-        """Upper end of it, if all that is unknown belongs to it."""
+        """Upper end of the 95 % Wilson interval, with all undetermined cases counted."""
         return wilson(self.count + self.unknown, self.of)[1]
 
     def __float__(self) -> float:
@@ -106,7 +115,7 @@ class Share:
 
 
 def _percent(share: float) -> str:
-    """To a tenth of a percent, and finer where a share is nearer to none or to all; 0 and 100 are exact."""
+    """Format a fraction in per cent to one decimal, and finer near 0 and 100; only exact values print as 0 or 100."""
     value = 100.0 * share
     if value in (0.0, 100.0):
         return f"{value:.0f}"

@@ -1,4 +1,4 @@
-"""A block in metres and seconds, and the way to the normalised system and back: Yim & Lin 1991, eqs. (1)-(4)."""
+"""Block in SI units, and conversion to and from normalised quantities: Yim & Lin (1991), Eqs. (1)–(4)."""
 
 from __future__ import annotations
 
@@ -36,32 +36,38 @@ def _inertia_ratio(value: float) -> float:
 
 @frozen(repr=False)
 class Block:
-    """A rigid block that stands on two corners: eqs. (1) and (2) of Yim & Lin 1991.
+    """Rigid block that stands on its two bottom corners: Yim & Lin (1991), Eqs. (1) and (2).
 
-    A method named after a physical unit takes a normalised value (`degrees(angle)`, `seconds(time)`), a method named
-    after a normalised quantity takes a physical one (`angle(degrees=5)`, `time(seconds)`). All of them take numbers or
-    arrays and keep their shape.
+    Methods convert between normalised and SI quantities. A method named after a physical unit takes a normalised
+    value: `degrees(angle)`, `seconds(time)`. A method named after a normalised quantity takes a physical value:
+    `angle(degrees=5)`, `time(seconds)`. All of them take numbers or arrays and keep the shape.
 
     Parameters
     ----------
     height, width : float
-        H and B in metres, in [0.001, 1000].
+        Height H and width B in metres, in [0.001, 1000].
     restitution : float, optional
-        e of eq. (2), in [0, 1]. Housner's (1963) unless given: e = 1 − 2 sin²θcr/`inertia_ratio`, which conserves the
-        angular momentum about the corner that is hit.
+        Coefficient of restitution e of Eq. (2), in [0, 1]. Default: Housner's value,
+        e = 1 − 2 sin²θcr/`inertia_ratio`, which conserves the angular momentum about the corner of the impact.
     inertia_ratio : float
-        Io/(MR²), moment of inertia about a corner; 4/3 for a uniform rectangle, in [1, 10].
+        Io/(MR²), normalised moment of inertia about a corner, in [1, 10]. Default: 4/3, a uniform rectangle.
 
     Raises
     ------
-    TypeError, ValueError
-        In one line, for a value that is no real number or lies outside its range, and where Housner's restitution is
-        negative (a squat block) and none is given.
+    TypeError
+        If a value is not a real number.
+    ValueError
+        If a value lies outside its range, or if Housner's coefficient of restitution is negative (a squat block) and
+        `restitution` is not given.
 
     Notes
     -----
-    Any proportions are allowed here, the equations are those of a slender block, sin θ ≈ θ. `Motion.validity` says how
-    far a motion leaves that range.
+    Any proportions are allowed, but the equations are those of a slender block, sin θ ≈ θ. `Motion.validity` reports
+    how far a motion leaves the range of this approximation.
+
+    References
+    ----------
+    Housner, Bull. Seismol. Soc. Am. 53, 403–417 (1963).
 
     Examples
     --------
@@ -92,37 +98,37 @@ class Block:
 
     @property
     def size(self) -> str:
-        """Height and width, as a block is named."""
+        """Height and width as text, such as "2 m × 0.5 m"."""
         return f"{self.height:g} m × {self.width:g} m"
 
     @property
     def radius(self) -> float:
-        """R, from a corner to the centre of mass, in metres."""
+        """Distance R from a corner to the centre of mass, in metres."""
         return math.hypot(self.height, self.width) / 2
 
     @property
     def critical_angle(self) -> float:
-        """θcr = arctan(B/H), in radians: beyond it the block falls by its own weight."""
+        """Critical angle θcr = arctan(B/H) in radians, beyond which the block overturns under its own weight."""
         return math.atan2(self.width, self.height)
 
     @property
     def frequency_parameter(self) -> float:
-        """α = √(MgR/Io), in 1/s: normalised time is τ = αt."""
+        """Frequency parameter α = √(MgR/Io) in 1/s. Normalised time is τ = αt."""
         return math.sqrt(GRAVITY / (self.inertia_ratio * self.radius))
 
     @property
     def housner_restitution(self) -> float:
-        """1 − 2 sin²θcr/(Io/MR²), for a uniform rectangle 1 − (3/2) sin²θcr (Housner 1963)."""
+        """Housner's (1963) coefficient of restitution, 1 − 2 sin²θcr/(Io/MR²); 1 − (3/2) sin²θcr for a uniform rectangle."""
         return 1 - 2 * math.sin(self.critical_angle) ** 2 / self.inertia_ratio
 
     @property
     def has_housner_restitution(self) -> bool:
-        """Whether the restitution is Housner's, because none was given."""
+        """True if `restitution` was not given, so that Housner's value applies."""
         return self._restitution is None
 
     @property
     def restitution(self) -> float:
-        """Restitution e of eq. (2): Housner's, unless one was given."""
+        """Coefficient of restitution e of Eq. (2): the given value, or Housner's."""
         return self.housner_restitution if self._restitution is None else self._restitution
 
     def system(
@@ -136,23 +142,31 @@ class Block:
         phase: float = 0.0,
         braces: Braces | None = None,
     ) -> System:
-        """The normalised system of this block on a base that shakes harmonically: eqs. (3) and (4).
+        """Return the normalised system of this block on a harmonically shaking base: Eqs. (3) and (4).
 
         Parameters
         ----------
         acceleration, acceleration_g, displacement : float
-            Amplitude of the base's motion in m/s², in units of g, or in metres (a_x = ω² d); give exactly one.
+            Amplitude of the base motion: acceleration a_x in m/s² or in units of g, or displacement d in metres.
+            They are related by a_x = ω²d. Give exactly one.
         frequency_hz, period_s : float
-            Of the base's motion, in Hz or seconds; give exactly one.
+            Frequency of the base motion in Hz, or its period in seconds. Give exactly one.
         phase : float
-            φ of a_x cos(ωt + φ), the base's *acceleration*, in radians.
+            Phase φ of the base acceleration a_x cos(ωt + φ), in radians, in [-1000, 1000]. Default: 0.
         braces : Braces, optional
-            Normalised; `Braces(angle=block.angle(degrees=3))` for a physical angle.
+            Braces with a normalised angle, such as `Braces(angle=block.angle(degrees=3))`. Default: no braces.
+
+        Returns
+        -------
+        System
+            System with the block's coefficient of restitution.
 
         Raises
         ------
-        TypeError, ValueError
-            In one line, naming the argument and the range that this block allows in its unit.
+        TypeError
+            If a value is of the wrong type, or if not exactly one of the alternatives is given.
+        ValueError
+            If a value lies outside its range, which is stated in the unit of the argument.
 
         Examples
         --------
@@ -174,7 +188,7 @@ class Block:
         return System(forcing, self.restitution, braces)
 
     def _forcing_frequency(self, frequency_hz: float | None, period_s: float | None) -> float:
-        """Ω from the one of the two that is given; the range's ends survive the rounding of the conversion."""
+        """Return Ω from the given one of the two; the ends of the range survive the rounding of the conversion."""
         exactly_one(frequency_hz=frequency_hz, period_s=period_s)
         low, high = (self.hertz(frequency) for frequency in FREQUENCIES)
         if frequency_hz is not None:
@@ -184,55 +198,72 @@ class Block:
         return min(max(self.frequency(hertz), FREQUENCIES[0]), FREQUENCIES[1])
 
     def acceleration(self, amplitude: Any) -> Any:
-        """a_x = A g θcr in m/s², from a normalised amplitude."""
+        """Base acceleration a_x = A g θcr in m/s², from a normalised amplitude A."""
         return reals("amplitude", amplitude) * (GRAVITY * self.critical_angle)
 
     def amplitude(self, acceleration: Any) -> Any:
-        """A = a_x/(g θcr), from an acceleration in m/s²."""
+        """Normalised amplitude A = a_x/(g θcr), from an acceleration in m/s²."""
         return reals("acceleration", acceleration) / (GRAVITY * self.critical_angle)
 
     def seconds(self, time: Any) -> Any:
-        """Seconds, t = τ/α, from a normalised time or period."""
+        """Time t = τ/α in seconds, from a normalised time or period."""
         return reals("time", time) / self.frequency_parameter
 
     def time(self, seconds: Any) -> Any:
-        """τ = αt, from a time or period in seconds."""
+        """Normalised time τ = αt, from a time or period in seconds."""
         return reals("seconds", seconds) * self.frequency_parameter
 
     def hertz(self, frequency: Any) -> Any:
-        """Ωα/2π in Hz, from a normalised angular frequency."""
+        """Frequency Ωα/2π in Hz, from a normalised angular frequency Ω."""
         return reals("frequency", frequency) * (self.frequency_parameter / math.tau)
 
     def frequency(self, hertz: Any) -> Any:
-        """Ω = ω/α, from a frequency in Hz."""
+        """Normalised angular frequency Ω = ω/α, from a frequency in Hz."""
         return reals("hertz", hertz) / (self.frequency_parameter / math.tau)
 
     def radians(self, angle: Any) -> Any:
-        """θ = Θ θcr in radians, from a normalised angle."""
+        """Angle θ = Θ θcr in radians, from a normalised angle Θ."""
         return reals("angle", angle) * self.critical_angle
 
     def degrees(self, angle: Any) -> Any:
-        """θ = Θ θcr in degrees, from a normalised angle."""
+        """Angle θ = Θ θcr in degrees, from a normalised angle Θ."""
         return np.degrees(self.radians(angle))
 
     def radians_per_second(self, velocity: Any) -> Any:
-        """dθ/dt = Θ' θcr α in rad/s, from a normalised velocity."""
+        """Angular velocity dθ/dt = Θ' θcr α in rad/s, from a normalised velocity Θ'."""
         return reals("velocity", velocity) * (self.critical_angle * self.frequency_parameter)
 
     def velocity(self, radians_per_second: Any) -> Any:
-        """Θ', from an angular velocity in rad/s."""
+        """Normalised velocity Θ', from an angular velocity in rad/s."""
         return reals("radians_per_second", radians_per_second) / (
             self.critical_angle * self.frequency_parameter
         )
 
     def top_displacement(self, angle: Any) -> Any:
-        """H sin θ in metres, from a normalised angle: how far the top's corner above the pivot moves along the base."""
+        """Displacement H sin θ along the base of the top corner above the pivot, in metres, from a normalised angle."""
         return self.height * np.sin(self.radians(angle))
 
     def angle(self, *, radians: Any = None, degrees: Any = None, top_displacement: Any = None) -> Any:
-        """Θ = θ/θcr, from exactly one of: radians, degrees, a displacement of the top in metres (|θ| ≤ 90°).
+        """Normalised angle Θ = θ/θcr, from exactly one physical quantity.
 
-        Raises TypeError for none or several of them, ValueError where the top's displacement exceeds the height.
+        Parameters
+        ----------
+        radians, degrees : float or array
+            Angle θ.
+        top_displacement : float or array
+            Displacement of the top corner along the base, in metres (|θ| ≤ 90°).
+
+        Returns
+        -------
+        float or ndarray
+            Θ, in the shape of the argument.
+
+        Raises
+        ------
+        TypeError
+            If not exactly one argument is given.
+        ValueError
+            If `top_displacement` exceeds the height.
 
         Examples
         --------

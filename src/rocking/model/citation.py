@@ -1,4 +1,4 @@
-"""What to cite: the package, and where its equations come from."""
+"""BibTeX entries of the package and of the sources of its equations."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ SOURCES = """@article{yim-lin-1991,
   journal = {Journal of Engineering Mechanics},
   publisher = {ASCE},
   volume = {117}, number = {9}, pages = {2079--2100}, year = {1991},
-  annote = {the model, eqs. (1)-(5), and the responses reproduced},
+  annote = {Model, Eqs. (1)--(5), and the responses reproduced by this package.},
 }
 
 @article{spanos-koh-1984,
@@ -26,7 +26,7 @@ SOURCES = """@article{yim-lin-1991,
   publisher = {ASCE},
   volume = {110}, number = {11}, pages = {1627--1642}, year = {1984},
   doi = {10.1061/(ASCE)0733-9399(1984)110:11(1627)},
-  annote = {the exact solution of the slender block between impacts, symmetric modes and their stability},
+  annote = {Exact solution for the slender block between impacts, symmetric modes and their stability.},
 }
 
 @article{housner-1963,
@@ -34,7 +34,7 @@ SOURCES = """@article{yim-lin-1991,
   title = {The behavior of inverted pendulum structures during earthquakes},
   journal = {Bulletin of the Seismological Society of America},
   volume = {53}, number = {2}, pages = {403--417}, year = {1963},
-  annote = {the restitution of a block, and free rocking},
+  annote = {Coefficient of restitution and free rocking of a block.},
 }
 
 @article{hogan-1989,
@@ -42,14 +42,14 @@ SOURCES = """@article{yim-lin-1991,
   title = {On the dynamics of rigid-block motion under harmonic forcing},
   journal = {Proceedings of the Royal Society of London A},
   volume = {425}, number = {1869}, pages = {441--476}, year = {1989},
-  annote = {the impact map and the dynamics under harmonic forcing},
+  annote = {Impact map and dynamics under harmonic forcing.},
 }
 
 @book{guckenheimer-holmes-1983,
   author = {Guckenheimer, John and Holmes, Philip},
   title = {Nonlinear oscillations, dynamical systems, and bifurcations of vector fields},
   publisher = {Springer}, address = {New York}, year = {1983},
-  annote = {Melnikov's method},
+  annote = {Melnikov's method.},
 }
 
 @article{benettin-1980,
@@ -59,7 +59,7 @@ SOURCES = """@article{yim-lin-1991,
   journal = {Meccanica},
   volume = {15}, pages = {9--20}, year = {1980},
   doi = {10.1007/BF02128236},
-  annote = {Lyapunov exponents from differences made orthonormal again and again},
+  annote = {Lyapunov exponents from repeatedly orthonormalised tangent vectors.},
 }
 
 @article{grassberger-procaccia-1983,
@@ -68,7 +68,7 @@ SOURCES = """@article{yim-lin-1991,
   journal = {Physica D},
   volume = {9}, pages = {189--208}, year = {1983},
   doi = {10.1016/0167-2789(83)90298-1},
-  annote = {the correlation dimension},
+  annote = {Correlation dimension.},
 }
 
 @article{theiler-1986,
@@ -77,7 +77,7 @@ SOURCES = """@article{yim-lin-1991,
   journal = {Physical Review A},
   volume = {34}, pages = {2427--2432}, year = {1986},
   doi = {10.1103/PhysRevA.34.2427},
-  annote = {pairs close in time are left out},
+  annote = {Exclusion of pairs of points that are close in time.},
 }
 
 @article{das-2017,
@@ -86,7 +86,7 @@ SOURCES = """@article{yim-lin-1991,
   journal = {Nonlinearity},
   volume = {30}, pages = {4111--4140}, year = {2017},
   doi = {10.1088/1361-6544/aa84c2},
-  annote = {weighted Birkhoff averages},
+  annote = {Weighted Birkhoff averages.},
 }
 
 @article{mcdonald-1985,
@@ -95,7 +95,7 @@ SOURCES = """@article{yim-lin-1991,
   journal = {Physica D},
   volume = {17}, pages = {125--153}, year = {1985},
   doi = {10.1016/0167-2789(85)90001-6},
-  annote = {the uncertainty exponent of a basin's boundary},
+  annote = {Uncertainty exponent of a basin boundary.},
 }
 
 @article{wilson-1927,
@@ -104,17 +104,23 @@ SOURCES = """@article{yim-lin-1991,
   journal = {Journal of the American Statistical Association},
   volume = {22}, number = {158}, pages = {209--212}, year = {1927},
   doi = {10.1080/01621459.1927.10502953},
-  annote = {the interval of a share},
+  annote = {Confidence interval of a fraction.},
 }
 """
 
 
 def cite() -> str:
-    """BibTeX for this package and for the sources of its equations.
+    """Return BibTeX entries for this package and for the sources of its equations.
+
+    Returns
+    -------
+    str
+        Entries separated by blank lines. The field `annote` states what each source is used for.
 
     Examples
     --------
-    >>> print(cite().splitlines()[0])
+    >>> import rocking as rk
+    >>> print(rk.cite().splitlines()[0])
     @software{rocking,
     """
     return PACKAGE.format(version=VERSION) + "\n\n" + SOURCES

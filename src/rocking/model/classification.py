@@ -1,4 +1,4 @@
-"""Kinds of responses, and the criteria by which a response is classified or stays undetermined."""
+"""Response types, and the criteria by which a response is classified or remains undetermined."""
 
 from __future__ import annotations
 
@@ -6,7 +6,12 @@ from enum import IntEnum, StrEnum
 
 
 class Kind(StrEnum):
-    """What a response is: a plain string, and one of six; no kind is ever a default.
+    """Type of a response: a string, one of six. No type is a default.
+
+    Attributes
+    ----------
+    code : int
+        Number of the type in maps, 0 to 5.
 
     Examples
     --------
@@ -25,7 +30,7 @@ class Kind(StrEnum):
 
     @property
     def code(self) -> int:
-        """Number of the kind in maps.
+        """Number of the response type in maps.
 
         Examples
         --------
@@ -38,16 +43,16 @@ class Kind(StrEnum):
 
 
 class Criterion(IntEnum):
-    """Criterion of a verdict: its code in maps, the level of its evidence, and what it says in a few words.
+    """Criterion of a verdict: its code in maps, the level of its evidence and its description.
 
     Attributes
     ----------
     level : str
-        As `Evidence.level`.
+        Level of the evidence, as in `Evidence.level`.
     brief : str
-        The criterion in a few words.
+        Description in a few words.
     why : str
-        Why a response is undetermined, in a clause; "" for a criterion that decides.
+        Reason why a response is undetermined, as a clause; "" for a criterion that decides.
 
     Examples
     --------
@@ -59,55 +64,65 @@ class Criterion(IntEnum):
     brief: str
     why: str
 
-    NO_RETURN = 0, "exact", "proved never to return"
-    STILL_FOR_EVER = 1, "exact", "proved to rest for ever"
-    RESET = 2, "verified", "released as before"
-    ORBIT = 3, "verified", "a stable orbit is reached"
-    NEUTRAL_ORBIT = 4, "verified", "a neutral orbit"
+    NO_RETURN = 0, "exact", "overturning proved"
+    STILL_FOR_EVER = 1, "exact", "permanent rest proved"
+    RESET = 2, "verified", "restarts from the same state"
+    ORBIT = 3, "verified", "stable orbit reached"
+    NEUTRAL_ORBIT = 4, "verified", "neutrally stable orbit"
     TORUS = 5, "statistical", "averages agree as on a torus"
-    EXPONENT = 6, "statistical", "exponent clearly positive"
+    EXPONENT = 6, "statistical", "exponent significantly positive"
     UNRESOLVED_RESET = (
         7,
         "none",
-        "released, period unresolved",
-        "rests or leans and is released again, too sensitive to tell its period",
+        "restarts, period unresolved",
+        "repeatedly rests or sticks to a brace, and its period is too sensitive to be resolved",
     )
     UNWATCHED = (
         8,
         "none",
-        "too few cycles to tell",
-        "no orbit reached, in too few cycles to call it chaotic",
+        "too few cycles",
+        "no orbit reached, and too few cycles to call it chaotic",
     )
-    INDISTINCT = 9, "none", "exponent not clear", "no orbit reached, and an exponent not clearly above zero"
+    INDISTINCT = (
+        9,
+        "none",
+        "exponent not significant",
+        "no orbit reached, and the exponent is not significantly positive",
+    )
     BETWEEN = (
         10,
         "none",
         "between torus and chaos",
-        "averages agree too well for chaos, not well enough for a torus",
+        "averages agree too well for chaos and not well enough for a torus",
     )
-    CROWDED = (11, "none", "too many events", "chatters almost without loss, more impacts than are followed")
-    STANDING = 12, "none", "stands on an unstable orbit", "stands on an unstable orbit"
+    CROWDED = (
+        11,
+        "none",
+        "too many impacts",
+        "chatters with little energy loss, with more impacts per cycle than the limit",
+    )
+    STANDING = 12, "none", "on an unstable orbit", "remains on an unstable orbit"
     LITTLE_GROWTH = (
         13,
         "none",
-        "differences grew little",
-        "an exponent above zero, but differences grew as little as while a motion leaves an unstable orbit",
+        "perturbations grew little",
+        "positive exponent, but perturbations grew no more than while a motion leaves an unstable orbit",
     )
     CORRELATED = (
         14,
         "none",
         "batches are correlated",
-        "an exponent above zero, but from batches that depend on each other",
+        "positive exponent, but from correlated batches",
     )
     LINGERING = (
         15,
         "none",
         "close to an unstable orbit",
-        "an exponent above zero, but close to an unstable orbit in the last cycles",
+        "positive exponent, but close to an unstable orbit in the last cycles",
     )
 
     def __new__(cls, code: int, level: str = "", brief: str = "", why: str = "") -> Criterion:
-        """Make a member that is its code, with what goes with it."""
+        """Create a member whose value is its code."""
         member = int.__new__(cls, code)
         member._value_ = code
         member.level, member.brief, member.why = level, brief, why

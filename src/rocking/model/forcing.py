@@ -1,4 +1,4 @@
-"""The shaking of the base, normalised: Yim & Lin 1991, eq. (3)."""
+"""Base acceleration, normalised: Yim & Lin (1991), Eq. (3)."""
 
 from __future__ import annotations
 
@@ -34,24 +34,25 @@ def _phase(value: float) -> float:
 
 @frozen(repr=False)
 class Harmonic:
-    """Harmonic acceleration of the base, A cos(Ωτ + φ): Yim & Lin 1991, eq. (3), normalised.
+    """Harmonic base acceleration A cos(Ωτ + φ), normalised: Yim & Lin (1991), Eq. (3).
 
     Parameters
     ----------
     amplitude : float
-        A = a_x/(g θcr), the base's largest acceleration over the one that just lifts the block; in [0, 1000].
+        Normalised amplitude A = a_x/(g θcr), in [0, 1000]. A block at rest lifts off if A > 1.
     period : float, optional
-        T = 2π/Ω in normalised time τ. Give exactly one of `period` and `frequency`.
+        Forcing period T = 2π/Ω, in units of 1/α, in [2π/1000, 2000π]. Give exactly one of `period` and `frequency`.
     frequency : float, optional
-        Ω = ω/α in radians per τ, in [0.001, 1000].
+        Angular frequency Ω = ω/α, in radians per τ, in [0.001, 1000].
     phase : float
-        φ in radians, in [-1000, 1000].
+        Phase φ in radians, in [-1000, 1000]. Default: 0.
 
     Raises
     ------
-    TypeError, ValueError
-        In one line, for a value that is no real number or lies outside its range, and for both or neither of
-        `period` and `frequency`.
+    TypeError
+        If a value is not a real number, or if not exactly one of `period` and `frequency` is given.
+    ValueError
+        If a value lies outside its range.
 
     Examples
     --------
@@ -72,16 +73,37 @@ class Harmonic:
 
     @property
     def period(self) -> float:
-        """T = 2π/Ω, in τ."""
+        """Forcing period T = 2π/Ω, in units of 1/α."""
         return math.tau / self._frequency if self._period is None else self._period  # type: ignore[operator]
 
     @property
     def frequency(self) -> float:
-        """Ω = 2π/T, in radians per τ."""
+        """Angular frequency Ω = 2π/T, in radians per τ."""
         return math.tau / self._period if self._frequency is None else self._frequency  # type: ignore[operator]
 
     def acceleration(self, times: Any) -> Any:
-        """A cos(Ωτ + φ) at normalised `times`, in units of g θcr, in their shape: eq. (3)."""
+        """Return the base acceleration A cos(Ωτ + φ), in units of g θcr: Eq. (3).
+
+        Parameters
+        ----------
+        times : float or array
+            Normalised time τ.
+
+        Returns
+        -------
+        float or ndarray
+            Acceleration, in the shape of `times`.
+
+        Raises
+        ------
+        TypeError
+            If `times` holds anything but real numbers.
+
+        Examples
+        --------
+        >>> Harmonic(amplitude=2.0, period=1.0).acceleration([0.0, 0.5]).tolist()
+        [2.0, -2.0]
+        """
         return self.amplitude * np.cos(self.frequency * reals("times", times) + self.phase)
 
     def __repr__(self) -> str:

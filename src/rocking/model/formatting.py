@@ -1,26 +1,26 @@
-"""How counts, measured numbers and shares read, wherever they are told."""
+"""Text of counts, measured numbers and fractions in all printed results."""
 
 from __future__ import annotations
 
 import math
 
-# Beyond it a double has no more digits to tell.
+# Number of significant decimal digits of double precision.
 MAX_DECIMALS = 15
 
 
 def counted(number: int, thing: str) -> str:
-    """1 impact, 2 impacts, 1,000 impacts.
+    """Format a number with its noun: 1 impact, 2 impacts, 1,000 impacts.
 
     Examples
     --------
-    >>> counted(1, "impact"), counted(1000, "brace hit")
-    ('1 impact', '1,000 brace hits')
+    >>> counted(1, "impact"), counted(1000, "brace impact")
+    ('1 impact', '1,000 brace impacts')
     """
     return f"{number:,} {thing}{'s' * (number != 1)}"
 
 
 def ordinal(number: int) -> str:
-    """1st, 2nd, 3rd, 4th, ….
+    """Format an ordinal number: 1st, 2nd, 3rd, 4th.
 
     Examples
     --------
@@ -32,7 +32,7 @@ def ordinal(number: int) -> str:
 
 
 def plus_minus(value: float, error: float) -> str:
-    """A number with its error, to the second digit of the error.
+    """Format a number with its error, to the second digit of the error.
 
     Examples
     --------
@@ -50,7 +50,7 @@ def plus_minus(value: float, error: float) -> str:
 
 
 def percent(share: float) -> str:
-    """A share to three digits or a tenth of a percent; never 0 % or 100 % of what is neither none nor all.
+    """Format a fraction in per cent, to three digits or one decimal; only exact values print as 0 % or 100 %.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""Notebook pictures: a room above hangs up how a kind of result is drawn, the results below ask; nobody imports upward."""
+"""Registry of functions that draw a result in a notebook, filled by `plot`, because `model` may not import it."""
 
 from __future__ import annotations
 
@@ -14,19 +14,38 @@ _fills: list[Callable[[], object]] = []
 
 
 def register(kind: type | str, draw: Draw) -> None:
-    """Let results of this `kind`, their type or the name that they are shown by, be shown by `draw`, which returns the bytes of a PNG."""
+    """Register the function that draws results of this kind as PNG.
+
+    Parameters
+    ----------
+    kind : type or str
+        Type of the results, or the name passed to `html` as `kind`.
+    draw : callable
+        Function of a result that returns the bytes of a PNG file.
+    """
     _draws[kind] = draw
 
 
 def fill_at_first_use(fill: Callable[[], object]) -> None:
-    """Remember who hangs the pictures up: `fill` runs once, when the first result is shown."""
+    """Set the function that registers all renderers; it runs once, when the first result is shown."""
     _fills[:] = [fill]
 
 
 def html(result: object, kind: str | None = None, line: str | None = None) -> str | None:
-    """A result's picture over its one line, for `_repr_html_`; None where no picture hangs, then the line is shown.
+    """Return the figure of a result above its one-line text, for `_repr_html_`.
 
-    Results of a type that is not ours have a `kind` and a `line` of their own.
+    Parameters
+    ----------
+    result : object
+        Result to show.
+    kind, line : str, optional
+        Registered name and text of a result whose type is defined elsewhere, such as an `xarray.Dataset`.
+        Default: the type and the string of `result`.
+
+    Returns
+    -------
+    str or None
+        HTML; None if no renderer is registered, so that the notebook prints the text.
     """
     while _fills:
         _fills.pop()()
@@ -39,7 +58,7 @@ def html(result: object, kind: str | None = None, line: str | None = None) -> st
 
 
 class NotebookPicture:
-    """Result that a notebook shows as a picture."""
+    """Base class of results that a notebook shows as a figure."""
 
     __slots__ = ()
 

@@ -1,4 +1,4 @@
-"""An event of a periodic orbit, from which its states are marched."""
+"""Event of a periodic orbit, from which states of the orbit are computed."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from attrs import frozen
 
 @frozen
 class OrbitEvent:
-    """A state of an orbit where its velocity may jump, known to rounding however unstable the orbit is."""
+    """State of an orbit at an instant where its velocity may jump, accurate to rounding even on an unstable orbit."""
 
     turned: float
     """Forcing phase, rad, from the orbit's `state` to the event."""

@@ -1,4 +1,4 @@
-"""Stability of a periodic orbit: the one criterion for modes, orbits and branches."""
+"""Stability of a periodic orbit: one criterion for modes, orbits and branches."""
 
 from __future__ import annotations
 
@@ -6,10 +6,10 @@ from enum import StrEnum
 
 
 class Stability(StrEnum):
-    """Linear stability of a periodic orbit: a plain string, and one of three.
+    """Linear stability of a periodic orbit: a string, one of three.
 
-    An orbit is "stable" where neighbouring motions approach it, "unstable" where one of them leaves it exponentially. It is
-    "neutral" where they do neither: the orbit loses no energy, and both multipliers lie on the unit circle.
+    An orbit is "stable" if nearby motions converge to it, and "unstable" if some of them diverge exponentially. It is
+    "neutral" if neither holds: the orbit dissipates no energy, and both multipliers lie on the unit circle.
 
     Examples
     --------
@@ -24,10 +24,11 @@ class Stability(StrEnum):
 
 
 def stability_of(trace: float, determinant: float) -> Stability:
-    """Decide the stability of a map of the plane from the trace and the determinant of its tangent.
+    """Return the stability of a fixed point of a plane map from the trace and the determinant of its Jacobian.
 
-    Both eigenvalues lie inside the unit circle where |trace| < 1 + determinant and determinant < 1. A determinant of exactly 1
-    means that nothing is lost; then |trace| < 2 puts both on the circle, and their computed moduli tell nothing.
+    Both eigenvalues lie inside the unit circle if |trace| < 1 + determinant and determinant < 1. A determinant of
+    exactly 1 means that no event dissipates energy. Then |trace| < 2 puts both eigenvalues on the unit circle, although
+    their computed moduli may differ from 1 by rounding.
     """
     if not abs(trace) < 1.0 + determinant:
         return Stability.UNSTABLE

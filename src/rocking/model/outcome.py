@@ -1,4 +1,4 @@
-"""How a run ended, and the proof where there is one."""
+"""Outcome of a simulated motion, with the proof of overturning."""
 
 from __future__ import annotations
 
@@ -8,10 +8,10 @@ from attrs import frozen
 
 
 class Outcome(StrEnum):
-    """What is known of a motion after its cycles: a plain string, and one of three.
+    """State of knowledge about a motion after the simulated cycles: a string, one of three.
 
-    `BOUNDED` says only that neither of the others was proved in these cycles. `AT_REST` includes leaning on a brace
-    for ever.
+    `BOUNDED` means only that neither of the other outcomes was proved in these cycles. `AT_REST` includes permanent
+    contact with a brace.
 
     Examples
     --------
@@ -28,16 +28,16 @@ class Outcome(StrEnum):
 
 @frozen
 class Overturning:
-    """When it was proved that the block does not return.
+    """Instant from which overturning is certain.
 
     Attributes
     ----------
     time : float
         Normalised time τ of the proof.
     cycle : int
-        The forcing cycle of the proof, counted from 0, as everywhere.
+        Forcing cycle of the proof, counted from 0.
     impacts : int
-        Impacts before it.
+        Number of impacts before it.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""What a block makes of normalised quantities: under which names and in which units they stand in files and answers."""
+"""SI counterparts of normalised quantities: names, units and conversions for files and printed results."""
 
 from __future__ import annotations
 
@@ -9,18 +9,18 @@ from rocking.model.block import Block
 
 
 class Physical(NamedTuple):
-    """A quantity in SI, and the unit of the normalised one."""
+    """SI counterpart of a normalised quantity."""
 
     normalised: str  # unit of the normalised quantity
     name: str
     unit: str
-    key: str  # its name with its unit, for a program
-    cf: str  # its unit as in the CF conventions
+    key: str  # name with unit, for JSON and CSV
+    cf: str  # unit in the notation of the CF conventions
     turn: Callable[[Block, Any], Any]
 
     @property
     def heading(self) -> str:
-        """Of a column."""
+        """Heading of a column."""
         return f"{self.name} [{self.unit}]"
 
 
@@ -38,11 +38,11 @@ PHYSICAL = {
     "peak": Physical("theta_cr", "peak", "rad", "peak_rad", "rad", Block.radians),
     "brace_angle": Physical("theta_cr", "brace_angle", "rad", "brace_angle_rad", "rad", Block.radians),
 }
-"""By the name of the normalised quantity; what has no unit is not there."""
+"""SI counterparts by the name of the normalised quantity. Dimensionless quantities are absent."""
 
 
 def block_attributes(block: Block) -> dict[str, float]:
-    """The block, as the attributes of a file have it."""
+    """Return the dimensions of a block as attributes of a file."""
     return {
         "block_height_m": block.height,
         "block_width_m": block.width,

@@ -1,4 +1,4 @@
-"""What surveys that sum up find: a dataset with a line that says it, each made by the function of like name."""
+"""Results of surveys: a dataset with a one-line summary, each returned by the survey function of the same name."""
 
 from __future__ import annotations
 
@@ -18,18 +18,26 @@ if TYPE_CHECKING:
 
 @frozen(eq=False)
 class SafeBasin(NotebookPicture):
-    """The share of starts that do not overturn, over the amplitude; made by `safe_basin`.
+    """Safe fraction of initial states as a function of the amplitude; returned by `safe_basin`.
 
     Attributes
     ----------
     dataset : xarray.Dataset
-        Over `amplitude`: `safe` with `safe_low` and `safe_high`, its 95 % interval, and `undetermined`, the share of those
-        of which it is not known what they are; they count as safe.
+        Variables over `amplitude`: `safe` with the ends `safe_low` and `safe_high` of its 95 % interval, and
+        `undetermined`, the fraction of undetermined initial states. These count as safe.
     shares : tuple of Share
-        The same shares, as counts.
-    heteroclinic_amplitude, melnikov_amplitude : float
-        A*, above which the boundary of the starts that overturn is fractal, exactly, and A_M, its first order; NaN between
-        braces, for which neither is known.
+        Safe fractions, as counts.
+    heteroclinic_amplitude : float
+        Amplitude A*, above which the boundary of the overturning initial states is fractal (exact). NaN with braces.
+    melnikov_amplitude : float
+        Amplitude A_M, the first-order approximation of A* by Melnikov's method. NaN with braces.
+
+    Examples
+    --------
+    >>> import rocking as rk
+    >>> found = rk.safe_basin(amplitude=[0.2, 0.5], period=1.0, restitution=0.925, samples=100)
+    >>> found.shares[0].of, found.melnikov_amplitude < found.heteroclinic_amplitude
+    (100, True)
     """
 
     dataset: xr.Dataset = field(repr=False)
@@ -42,8 +50,8 @@ class SafeBasin(NotebookPicture):
         least = min(range(len(self.shares)), key=lambda k: self.shares[k].value)
         first, last = self.shares[0], self.shares[-1]
         told = (
-            f"safe: {first} of {first.of:,} starts at A = {amplitudes[0]:.6g}, {last} at A = {amplitudes[-1]:.6g}, fewest "
-            f"{self.shares[least]} at A = {amplitudes[least]:.6g}"
+            f"safe fraction: {first} of {first.of:,} initial states at A = {amplitudes[0]:.6g}, {last} at A = {amplitudes[-1]:.6g}, "
+            f"lowest {self.shares[least]} at A = {amplitudes[least]:.6g}"
         )
         if np.isnan(self.heteroclinic_amplitude):
             return told
@@ -52,26 +60,36 @@ class SafeBasin(NotebookPicture):
 
 @frozen(eq=False)
 class OverturningCurve(NotebookPicture):
-    """The lowest amplitude that overturns the block from rest; made by `overturning_amplitude`.
+    """Lowest amplitude that overturns a block initially at rest; returned by `overturning_amplitude`.
 
     Attributes
     ----------
     dataset : xarray.Dataset
-        Over what varies of `period` (or `frequency`) and `restitution`: `lowest`, the lowest overturning amplitude found, NaN
-        where none was; `resolution`, the distance to the amplitude scanned before it; `lowest_phase`, where it is;
-        `survived_up_to`, the highest amplitude scanned up to which everything scanned survived; `surviving_above`, the share
-        of the scanned amplitudes and phases above it that survive; and over the scanned `amplitude` too
-        `overturning_share`, the share of the phases that overturn; over `phase` `changes`, how often the outcome changes along A.
-        `heteroclinic_amplitude` is A*.
+        Variables over `period` (or `frequency`) and `restitution`, as far as they vary:
+
+        - `lowest`: lowest overturning amplitude found, NaN if none was;
+        - `lowest_phase`: forcing phase at which it was found, rad;
+        - `resolution`: distance to the next lower amplitude of the scan;
+        - `survived_up_to`: highest amplitude of the scan up to which no run overturns;
+        - `surviving_above`: fraction of the scanned amplitudes and phases above `lowest` that do not overturn;
+        - `overturning_share`, also over `amplitude`: fraction of the phases that overturn;
+        - `changes`, also over `phase`: number of changes of the outcome along A;
+        - `heteroclinic_amplitude`: A*.
+
+    Examples
+    --------
+    >>> import rocking as rk
+    >>> print(rk.overturning_amplitude(period=2.0, restitution=0.925, amplitude=[0.5, 1.0], phases=2))
+    no overturning from rest at 2 amplitudes from 0.5 to 1 and 2 phases
     """
 
     dataset: xr.Dataset = field(repr=False)
 
     def __str__(self) -> str:
         lowest, scanned = self.dataset.lowest.values, self.dataset.amplitude.values
-        what = f"{scanned.size} amplitudes from {scanned[0]:.6g} to {scanned[-1]:.6g} at {self.dataset.phase.size} phases"
+        what = f"{scanned.size} amplitudes from {scanned[0]:.6g} to {scanned[-1]:.6g} and {self.dataset.phase.size} phases"
         if np.isnan(lowest).all():
-            return f"nothing overturns from rest at {what}"
+            return f"no overturning from rest at {what}"
         where = np.unravel_index(np.nanargmin(lowest), lowest.shape)
         at = ", ".join(
             f"{name} = {self.dataset[name].values[k]:.6g}"
@@ -79,22 +97,28 @@ class OverturningCurve(NotebookPicture):
         )
         above = float(self.dataset.surviving_above.values[where])
         return (
-            f"lowest overturning amplitude from rest {lowest[where]:.6g}{' at ' * bool(at)}{at}, scanned at {what}; "
-            f"{100.0 * above:.1f} % of what was scanned above it survive"
+            f"lowest overturning amplitude from rest {lowest[where]:.6g}{' at ' * bool(at)}{at}, from a scan of {what}; "
+            f"{100.0 * above:.1f} % of the scanned points above it do not overturn"
         )
 
 
 @frozen(eq=False)
 class ChaosShare(NotebookPicture):
-    """The share of chaotic responses among random periods and amplitudes, over the restitution; made by `chaos_share`.
+    """Fraction of chaotic responses over random periods and amplitudes; returned by `chaos_share`.
 
     Attributes
     ----------
     dataset : xarray.Dataset
-        Over `restitution`: `chaotic` with `chaotic_low` and `chaotic_high`, its 95 % interval; and over `response` too
-        `share`, that of each kind.
+        Variables over `restitution`: `chaotic` with the ends `chaotic_low` and `chaotic_high` of its 95 % interval.
+        Variable over `restitution` and `response`: `share`, the fraction of each response type.
     shares : tuple of Share
-        Those of the chaotic ones, as counts.
+        Fractions of chaotic responses, as counts.
+
+    Examples
+    --------
+    >>> import rocking as rk
+    >>> print(rk.chaos_share(restitution=0.9, period=(0.5, 1.0), amplitude=(0.1, 0.9), samples=10))
+    chaotic fraction: 0 % (0–27.8 %) at e = 0.9, of 10 responses each
     """
 
     dataset: xr.Dataset = field(repr=False)
@@ -103,24 +127,34 @@ class ChaosShare(NotebookPicture):
     def __str__(self) -> str:
         pairs = zip(self.dataset.restitution.values, self.shares, strict=True)
         told = ", ".join(f"{share} at e = {restitution:.6g}" for restitution, share in pairs)
-        return f"chaotic: {told}, of {self.shares[0].of:,} responses each"
+        return f"chaotic fraction: {told}, of {self.shares[0].of:,} responses each"
 
 
 @frozen
 class Repeatability(NotebookPicture):
-    """What comes of one experiment when its inputs are off by a little; made by `repeatability`.
+    """Outcomes of one experiment whose inputs are slightly uncertain; returned by `repeatability`.
 
     Attributes
     ----------
     system, start : System, State
-        What was meant.
+        Nominal system and initial state.
     relative : float
-        By how much of itself each input was off at most.
+        Largest relative error of each input.
     kinds : dict of Kind to Share
-        The share of the runs that ended in each kind of response, the largest first; undetermined, which is no outcome but
-        widens the intervals of all others, last.
+        Fraction of the runs with each response type, the largest first. Undetermined runs come last; they are no outcome
+        of their own but widen the intervals of all others.
     responses : dict of str to Share
-        The same with period, symmetry and impacts of periodic responses told apart.
+        Fractions with periodic responses distinguished by period, symmetry and number of impacts.
+
+    Examples
+    --------
+    >>> import rocking as rk
+    >>> system = rk.System(rk.Harmonic(amplitude=0.5, period=1.0), restitution=0.9)
+    >>> found = rk.repeatability(system, samples=100)
+    >>> print(found)
+    100 runs with inputs off by up to 1 %: rest 100 % (96.3–100 %)
+    >>> found.certain
+    True
     """
 
     system: System
@@ -131,33 +165,43 @@ class Repeatability(NotebookPicture):
 
     @property
     def certain(self) -> bool:
-        """Whether all runs ended in one kind of response; not where one is undetermined."""
+        """True if all runs have one response type and none is undetermined."""
         return len(self.kinds) == 1 and Kind.UNDETERMINED not in self.kinds
 
     @property
     def repeats(self) -> Share:
-        """The share of the most frequent kind; of none, where all are undetermined."""
+        """Fraction of the most frequent response type; 0 with all runs unknown if all are undetermined."""
         first, share = next(iter(self.kinds.items()))
         return Share(0, share.of, share.of) if first is Kind.UNDETERMINED else share
 
     def __str__(self) -> str:
         told = ", ".join(f"{name} {share}" for name, share in self.responses.items())
-        return f"{self.repeats.of:,} runs off by up to {100.0 * self.relative:.3g} %: {told}"
+        return f"{self.repeats.of:,} runs with inputs off by up to {100.0 * self.relative:.3g} %: {told}"
 
 
 @frozen(eq=False)
 class RepeatabilityMap(NotebookPicture):
-    """Where outcomes are certain and where not; made by `repeatability_map`.
+    """Map of the repeatability of outcomes over two quantities; returned by `repeatability_map`.
 
     Attributes
     ----------
     dataset : xarray.Dataset
-        Over both axes `kind`, the most frequent one of the runs at a point (undetermined only where all are); `agreeing`,
-        its share of them; `overturned` and `undetermined`, the shares that overturn and of which nothing is known.
+        Variables over both axes:
+
+        - `kind`: most frequent response type of the runs at a point, undetermined only if all runs are;
+        - `agreeing`: fraction of the runs with this type;
+        - `overturned`, `undetermined`: fractions of the runs with these types.
     uncertain : Share
-        The points at which not all runs ended in one kind of response; unknown where all that are known did.
+        Fraction of points at which the runs have different response types. Points with undetermined runs and otherwise
+        equal types count as unknown.
     overturning_uncertain : Share
-        The points at which some runs overturn and some do not; unknown likewise.
+        Fraction of points at which some runs overturn and others do not. Unknown points are counted likewise.
+
+    Examples
+    --------
+    >>> import rocking as rk
+    >>> print(rk.repeatability_map(amplitude=[0.2, 0.5], period=[1.0, 2.0], restitution=0.9, samples=10))
+    inputs off by up to 1 %: response type uncertain at 0 % (0–49.0 %), overturning uncertain at 0 % (0–49.0 %), of 4 points
     """
 
     dataset: xr.Dataset = field(repr=False)
@@ -167,6 +211,6 @@ class RepeatabilityMap(NotebookPicture):
     def __str__(self) -> str:
         off = 100.0 * self.dataset.attrs["relative"]
         return (
-            f"not certain when inputs are off by up to {off:.3g} %: the kind of response at {self.uncertain}, "
-            f"whether it overturns at {self.overturning_uncertain}, of {self.uncertain.of:,} points"
+            f"inputs off by up to {off:.3g} %: response type uncertain at {self.uncertain}, "
+            f"overturning uncertain at {self.overturning_uncertain}, of {self.uncertain.of:,} points"
         )

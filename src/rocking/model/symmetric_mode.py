@@ -1,4 +1,4 @@
-"""A symmetric mode: a periodic response that is known in closed form."""
+"""Symmetric mode: a periodic response in closed form."""
 
 from __future__ import annotations
 
@@ -11,38 +11,42 @@ from rocking.model.system import State, System
 
 @frozen
 class Mode:
-    """A symmetric (1, n) mode: one rocking cycle, two impacts, in n forcing cycles (eqs 8-10 of Yim & Lin 1991).
+    """Symmetric (1, n) mode: one rocking cycle, with two impacts, in n forcing cycles; returned by `theory.symmetric_modes`.
 
-    Made by `theory.symmetric_modes`. It leaves the base to the positive side with `velocity` when the forcing's phase is
-    `phase`, strikes again n half periods later, and does the same on the other side.
+    The block leaves the base to the positive side with `velocity` when the forcing phase is `phase`. The next impact is
+    n half periods later, and the motion on the other side is its mirror image: Yim & Lin (1991), Eqs. (8)–(10).
 
     Attributes
     ----------
     amplitude, period, restitution : float
         A, T and e of the system.
     n : int
-        Forcing cycles in a response; odd.
+        Number of forcing cycles per response period; odd.
     velocity : float
-        V, Θ' just after the impact onto the positive side.
+        V = Θ' just after the impact from which the block moves to the positive side.
     phase : float
-        φ, forcing phase at that impact, rad in (−π, π].
+        Forcing phase φ at that impact, rad, in (−π, π].
     trace : float
-        Of the half-cycle map, whose determinant is e²; infinite where it is beyond all numbers.
+        Trace of the half-cycle map, whose determinant is e²; infinite on overflow.
     half_multipliers : tuple of two complex
-        Eigenvalues of the half-cycle map (from an impact to the next, mirrored), the larger first.
+        Half-cycle multipliers, the larger first: eigenvalues of the map from an impact to the next, mirrored.
     multipliers : tuple of two complex
-        Floquet multipliers over the whole response, n forcing cycles: the squares of the others.
+        Floquet multipliers over the response period of n forcing cycles: the squares of the half-cycle multipliers.
     admissible : bool
-        Whether the block keeps its side between the impacts; if not, there is no such motion.
+        True if the block does not pass through Θ = 0 between the impacts. An inadmissible mode is not a motion.
     peak : float or None
-        Largest Θ; None of an inadmissible mode.
+        Largest Θ; None if inadmissible.
+
+    References
+    ----------
+    Spanos & Koh, J. Eng. Mech. 110, 1627–1642 (1984).
 
     Examples
     --------
     >>> import rocking as rk
     >>> mode = rk.theory.symmetric_modes(2.0, 1.0, 0.925, 1)[0]
     >>> print(mode)
-    (1,1) mode: V = 0.532017, φ = -1.67791, stable, admissible
+    (1, 1) mode: V = 0.532017, φ = -1.67791, stable, admissible
     >>> rk.classify(mode.system, mode.start).impacts_per_period
     2
     """
@@ -61,24 +65,24 @@ class Mode:
 
     @property
     def system(self) -> System:
-        """The system, its forcing at the phase of the impact, so that a motion from `start` is this mode."""
+        """System whose forcing starts at the phase of the impact, so that a motion from `start` is this mode."""
         return System(Harmonic(self.amplitude, period=self.period, phase=self.phase), self.restitution)
 
     @property
     def start(self) -> State:
-        """The state just after the impact onto the positive side."""
+        """State just after the impact from which the block moves to the positive side."""
         return State(velocity=self.velocity)
 
     @property
     def stability(self) -> Stability:
-        """Stable where |trace| < 1 + e², at e = 1 neutral there; unstable elsewhere."""
+        """Stability: stable if |trace| < 1 + e² (neutral if e = 1), else unstable."""
         return stability_of(self.trace, self.restitution**2)
 
     @property
     def stable(self) -> bool:
-        """Whether both multipliers lie inside the unit circle; at e = 1 none does."""
+        """True if both multipliers lie inside the unit circle; always False for e = 1."""
         return self.stability is Stability.STABLE
 
     def __str__(self) -> str:
         admissible = "admissible" if self.admissible else "inadmissible"
-        return f"(1,{self.n}) mode: V = {self.velocity:.6g}, φ = {self.phase:.6g}, {self.stability}, {admissible}"
+        return f"(1, {self.n}) mode: V = {self.velocity:.6g}, φ = {self.phase:.6g}, {self.stability}, {admissible}"

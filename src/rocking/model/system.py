@@ -1,4 +1,4 @@
-"""A block on its shaking base, normalised, and a state of it: Yim & Lin 1991, eqs. (2) and (4)."""
+"""Block on a shaking base, normalised, and its state: Yim & Lin (1991), Eqs. (2) and (4)."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from rocking.model.validation import finite, instance, refusal, within
 
 BRACE_ANGLES = (1e-3, 1e3)
 NO_BRACES = {"brace_angle": math.inf, "brace_restitution": 1.0}
-"""The quantities of braces, where there are none."""
+"""Quantities of braces for a system without braces."""
 MAX_STATE = 1e9
 MAX_START = 1e3
 RANGES = {
@@ -26,7 +26,7 @@ RANGES = {
     "frequency": FREQUENCIES,
     "period": PERIODS,
 }
-"""Ranges of the quantities of a system and a start. Of two axes the first in this order is a picture's upward one."""
+"""Ranges of the quantities of a system and an initial state. In a map, the first in this order is the vertical axis."""
 
 
 def _restitution(value: float) -> float:
@@ -51,19 +51,21 @@ def _forcing(value: Harmonic) -> Harmonic:
 
 @frozen
 class Braces:
-    """A brace on either side, which the block hits at |Θ| = Θb and leaves with Θ' → −r Θ'.
+    """Two side braces at Θ = ±Θb. An impact on a brace reverses the velocity: Θ' → −r Θ'.
 
     Parameters
     ----------
     angle : float
-        Θb, in units of the critical angle, in [0.001, 1000].
+        Brace angle Θb, in units of the critical angle, in [0.001, 1000].
     restitution : float
-        r, in [0, 1].
+        Coefficient of restitution r of a brace impact, in [0, 1]. Default: 1.
 
     Raises
     ------
-    TypeError, ValueError
-        In one line, for a value that is no real number or lies outside its range.
+    TypeError
+        If a value is not a real number.
+    ValueError
+        If a value lies outside its range.
 
     Examples
     --------
@@ -81,21 +83,27 @@ def _braces(value: Braces | None) -> Braces | None:
 
 @frozen
 class System:
-    """A slender block on a shaking base: Θ'' − Θ = −A cos(Ωτ + φ) ∓ 1 (Yim & Lin 1991, eq. 4), Θ' → eΘ' at Θ = 0 (eq. 2).
+    """Slender block on a shaking base, normalised: Yim & Lin (1991), Eqs. (2) and (4).
+
+    The equation of motion is Θ'' − Θ = −A cos(Ωτ + φ) ∓ 1, with − for Θ > 0 and + for Θ < 0. At an impact, Θ = 0, the
+    velocity changes from Θ' to eΘ'.
 
     Parameters
     ----------
     forcing : Harmonic
-        The base's acceleration, eq. (3).
+        Base acceleration, Eq. (3).
     restitution : float
-        e, velocity just after over velocity just before an impact at Θ = 0, in [0, 1].
+        Coefficient of restitution e, the ratio of the angular velocities just after and just before an impact at Θ = 0,
+        in [0, 1].
     braces : Braces, optional
-        Braces on either side; none by default.
+        Side braces. Default: no braces.
 
     Raises
     ------
-    TypeError, ValueError
-        In one line, for a value of the wrong type or outside its range.
+    TypeError
+        If an argument is of the wrong type.
+    ValueError
+        If `restitution` lies outside [0, 1].
 
     Examples
     --------
@@ -109,7 +117,7 @@ class System:
 
 
 def quantities(system: System) -> dict[str, float]:
-    """Return the quantities of a system by name; those of braces only where it has braces.
+    """Return the quantities of a system by name; those of braces only if it has braces.
 
     Examples
     --------
@@ -130,7 +138,7 @@ def quantities(system: System) -> dict[str, float]:
 
 
 def system_of(given: Mapping[str, float]) -> System:
-    """Return the system of these quantities, its forcing given by the period; one without braces where their angle is infinite.
+    """Return the system with these quantities, its forcing given by the period; without braces if their angle is infinite.
 
     Examples
     --------
@@ -148,19 +156,21 @@ def system_of(given: Mapping[str, float]) -> System:
 
 @frozen
 class State:
-    """An angle and a velocity of the block, normalised; at rest by default.
+    """State of the block: normalised angle and angular velocity.
 
     Parameters
     ----------
     angle : float
-        Θ = θ/θcr, of size up to 1e9; that of a start lies in [-1000, 1000].
+        Angle Θ = θ/θcr, of magnitude up to 1e9; for an initial state, in [-1000, 1000]. Default: 0.
     velocity : float
-        Θ' = dΘ/dτ, likewise; that of a start lies in [-1000, 1000].
+        Angular velocity Θ' = dΘ/dτ, of magnitude up to 1e9; for an initial state, in [-1000, 1000]. Default: 0.
 
     Raises
     ------
-    TypeError, ValueError
-        In one line, for a value that is no real number or lies outside its range.
+    TypeError
+        If a value is not a real number.
+    ValueError
+        If a value lies outside its range.
 
     Examples
     --------
@@ -173,14 +183,14 @@ class State:
 
 
 def check_start(system: System, start: State | None) -> State:
-    """Return the start of a motion, at rest by default.
+    """Return the initial state of a motion, by default at rest.
 
     Raises
     ------
     TypeError
-        If `system` is no System or `start` is no State.
+        If `system` is not a System or `start` is not a State.
     ValueError
-        If the start is far off or beyond a brace.
+        If the initial state lies outside [-1000, 1000] or beyond a brace.
     """
     instance("system", system, System)
     start = State() if start is None else instance("start", start, State)
@@ -192,6 +202,6 @@ def check_start(system: System, start: State | None) -> State:
 
 
 def check_between(angle: float, reach: float) -> None:
-    """Raise ValueError for an angle beyond braces at ±`reach`."""
+    """Raise ValueError if an angle lies beyond braces at ±`reach`."""
     if abs(angle) > reach:
         raise ValueError(refusal("angle", f"lie between the braces, in [{-reach:.6g}, {reach:.6g}]", angle))

@@ -1,4 +1,4 @@
-"""One-line refusals, shared by every room: the argument, its value, what is allowed, and the way out where there is one."""
+"""Validation of arguments, with one-line messages: the argument, the allowed values, the given value and the remedy."""
 
 from __future__ import annotations
 
@@ -18,29 +18,71 @@ WAYS = {
     "Braces": "make one: rk.Braces(angle=1.0)",
     "Block": "make one: rk.Block(height=2.0, width=0.5)",
     "System": "make one: rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925), or by rk.Block",
-    "Orbit": "rk.classify finds one only where the response is periodic; rk.find_orbits looks for all",
+    "Orbit": "rk.classify returns one only if the response is periodic; rk.find_orbits searches for all",
 }
-"""How one comes by a value of a kind."""
+"""Remedies for an argument of the wrong type."""
 
 
 class TooManyEvents(ValueError):
-    """The run met more events than it may keep; the message says how to ask for less."""
+    """Simulation with more events than can be recorded. The message states how to reduce them.
+
+    Examples
+    --------
+    >>> import rocking as rk
+    >>> system = rk.System(rk.Harmonic(amplitude=0.0, period=6000.0), restitution=1.0, braces=rk.Braces(0.001))
+    >>> rk.simulate(system, rk.State(velocity=1000.0), cycles=1, record="none")
+    Traceback (most recent call last):
+    rocking.model.validation.TooManyEvents: more than 10,000,000 events in one forcing cycle: ...
+    """
 
 
 class TooShort(ValueError):
-    """What was given is too short for a number with its error; `estimate` carries what it does support."""
+    """Motion that is too short for an estimate with an error.
+
+    Attributes
+    ----------
+    estimate : object
+        Result as far as the data support it, usually without a finite error.
+
+    Examples
+    --------
+    >>> import rocking as rk
+    >>> system = rk.System(rk.Harmonic(amplitude=10.103037, period=1.721328), restitution=0.8)
+    >>> try:
+    ...     _ = rk.lyapunov(system, cycles=20)
+    ... except rk.TooShort as error:
+    ...     print(type(error.estimate).__name__)
+    LyapunovSpectrum
+    """
 
     def __init__(self, message: str, estimate: Any) -> None:
         super().__init__(message)
         self.estimate = estimate
 
     def __reduce__(self) -> tuple[Any, ...]:
-        # by itself an exception is made again of its message alone
+        # An exception is unpickled from its message alone unless this is defined.
         return type(self), (str(self), self.estimate), self.__dict__
 
 
 class NoOrbit(ValueError):
-    """No periodic orbit was found; `state` is what was reached, at the forcing phase `phase`, `residual` its miss a period later."""
+    """Search that found no periodic orbit.
+
+    Attributes
+    ----------
+    phase : float
+        Forcing phase of the section, rad.
+    state : State
+        Last state of the search on this section.
+    residual : float
+        Distance between this state and the state one period later.
+
+    Examples
+    --------
+    >>> import rocking as rk
+    >>> error = rk.NoOrbit("no orbit", phase=0.0, state=rk.State(angle=0.1), residual=0.5)
+    >>> error.residual
+    0.5
+    """
 
     def __init__(self, message: str, phase: float, state: Any, residual: float) -> None:
         super().__init__(message)
@@ -53,18 +95,18 @@ class NoOrbit(ValueError):
 
 
 def shown(value: object) -> str:
-    """Show a value in one short line, NumPy's numbers as plain ones."""
+    """Return a value as one short line, with NumPy numbers as plain numbers."""
     if isinstance(value, np.generic):
         value = value.item()
     try:
         text = " ".join(repr(value).split())
-    except ValueError:  # a whole number of more digits than Python writes
-        text = "a number of too many digits"
+    except ValueError:  # an int with more digits than Python converts to text
+        text = "a number with too many digits"
     return text if len(text) <= MAX_SHOWN_LENGTH else text[: MAX_SHOWN_LENGTH - 1] + "…"
 
 
 def refusal(name: str, allowed: str, value: object, remedy: str = "") -> str:
-    """The one sentence in which every room refuses a value."""
+    """Return the message for an invalid value, in the form used by the whole package."""
     return f"{name} must {allowed}; got {shown(value)}" + (f" ({remedy})" if remedy else "")
 
 
@@ -75,16 +117,27 @@ def refuse_if(wrong: object, name: str, allowed: str, value: object, remedy: str
 
 
 def within(name: str, value: float, low: float, high: float, unit: str = "", if_below: str = "") -> float:
-    """Return `value` as a float that lies in [low, high]; NaN, infinities and whatever is no real number are refused.
+    """Return `value` as a float in [low, high].
 
-    `if_below` is the way out for a value that is too small.
+    Parameters
+    ----------
+    name : str
+        Name of the argument, for messages.
+    value : float
+        Value to check. NaN and infinities are rejected.
+    low, high : float
+        Range.
+    unit : str
+        Unit, for messages. Default: "".
+    if_below : str
+        Remedy for a value below the range. Default: "".
 
     Raises
     ------
     TypeError
-        `value` is no real number (a bool, a string, a complex number, an array, None).
+        If `value` is not a real number (a bool, a string, a complex number, an array, None).
     ValueError
-        `value` lies outside the range.
+        If `value` lies outside the range.
 
     Examples
     --------
@@ -102,7 +155,7 @@ def within(name: str, value: float, low: float, high: float, unit: str = "", if_
 
 
 def finite(name: str, value: float, largest: float) -> float:
-    """Return `value` as a float of size up to `largest`, which no sensible value comes near; errors as `within` has them."""
+    """Return `value` as a float of size up to `largest`, a bound above all sensible values; errors as in `within`."""
     allowed = f"be a finite real number of size up to {largest:g}"
     number = _real(name, value, allowed)
     if not abs(number) <= largest:
@@ -111,7 +164,7 @@ def finite(name: str, value: float, largest: float) -> float:
 
 
 def _real(name: str, value: float, allowed: str) -> float:
-    """A real number as a float, infinite beyond the range of floats; TypeError for anything else."""
+    """Return a real number as a float, infinite on overflow; TypeError for other types."""
     if isinstance(value, bool) or not isinstance(value, Real):
         raise TypeError(refusal(name, allowed, value))
     try:
@@ -121,9 +174,14 @@ def _real(name: str, value: float, allowed: str) -> float:
 
 
 def whole(name: str, value: int, low: int, high: int) -> int:
-    """Return `value` as an int in [low, high]; a float is taken where it is whole (1e6), a fraction never.
+    """Return `value` as an int in [low, high]; a float is accepted if it is whole (1e6).
 
-    Raises TypeError and ValueError as `within` does.
+    Raises
+    ------
+    TypeError
+        If `value` is not a real number.
+    ValueError
+        If `value` lies outside the range or has a fraction.
     """
     allowed = f"be a whole number in [{low}, {high}]"
     if isinstance(value, bool) or not isinstance(value, Real):
@@ -134,10 +192,14 @@ def whole(name: str, value: int, low: int, high: int) -> int:
 
 
 def reals(name: str, values: Any) -> Any:
-    """Return a real number as a float, anything array-like as an array of floats.
+    """Return a real number as a float, and anything array-like as an array of floats.
 
-    Raises TypeError where `values` holds something else than real numbers, ValueError for a number beyond all floats and
-    where values are masked.
+    Raises
+    ------
+    TypeError
+        If `values` holds anything but real numbers.
+    ValueError
+        If a number exceeds the range of floats, or if values are masked.
     """
     if isinstance(values, Real) and not isinstance(values, bool):
         try:
@@ -157,14 +219,14 @@ def reals(name: str, values: Any) -> Any:
 
 
 def _is_masked(values: Any) -> bool:
-    """Return whether a value is masked in an array, or in a list of arrays however deep."""
+    """Return whether a value is masked in an array, or in a list of arrays at any depth."""
     if isinstance(values, list | tuple):
         return any(map(_is_masked, values))
     return isinstance(values, np.ma.MaskedArray) and bool(np.ma.is_masked(values))
 
 
 def members(name: str, values: Any, allowed: str) -> tuple[Any, ...]:
-    """Return what a sequence holds; TypeError, which says what is `allowed`, for a text, a mapping and what holds nothing."""
+    """Return the members of a sequence; TypeError, with `allowed` in its message, for text, mappings and scalars."""
     if isinstance(values, str | bytes | Mapping) or not isinstance(values, Iterable):
         raise TypeError(refusal(name, allowed, values))
     try:
@@ -174,7 +236,7 @@ def members(name: str, values: Any, allowed: str) -> tuple[Any, ...]:
 
 
 def pair(name: str, values: Any, allowed: str) -> tuple[Any, Any]:
-    """Return both members of a pair; TypeError or ValueError, which says what is `allowed`, otherwise."""
+    """Return both members of a pair; TypeError or ValueError, with `allowed` in its message, for anything else."""
     found = members(name, values, allowed)
     if len(found) != 2:
         raise ValueError(refusal(name, allowed, values))
@@ -182,7 +244,7 @@ def pair(name: str, values: Any, allowed: str) -> tuple[Any, Any]:
 
 
 def instance(name: str, value: Value, kind: type) -> Value:
-    """Return `value` if it is a `kind`; TypeError otherwise, which says how to come by one."""
+    """Return `value` if it is an instance of `kind`; TypeError for anything else."""
     if not isinstance(value, kind):
         article = "an" if kind.__name__[0] in "AEIO" else "a"
         raise TypeError(refusal(name, f"be {article} {kind.__name__}", value, WAYS.get(kind.__name__, "")))
@@ -190,7 +252,7 @@ def instance(name: str, value: Value, kind: type) -> Value:
 
 
 def one_of(name: str, value: str, allowed: Sequence[str]) -> str:
-    """Return `value` if it is among the `allowed` words; TypeError or ValueError otherwise."""
+    """Return `value` if it is one of the `allowed` words; TypeError or ValueError for anything else."""
     choices = f"be one of {', '.join(map(repr, allowed))}"
     if not isinstance(value, str):
         raise TypeError(refusal(name, choices, value))
@@ -200,7 +262,7 @@ def one_of(name: str, value: str, allowed: Sequence[str]) -> str:
 
 
 def exactly_one(**values: object) -> str:
-    """Return the name of the only one of `values` that is not None; TypeError otherwise.
+    """Return the name of the only one of `values` that is not None; TypeError if there is not exactly one.
 
     Examples
     --------

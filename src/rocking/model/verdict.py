@@ -1,4 +1,4 @@
-"""What a response is, and how that is known."""
+"""Verdict on a response, its evidence, and the periodic orbit."""
 
 from __future__ import annotations
 
@@ -18,25 +18,32 @@ from rocking.model.orbit_stability import Stability, stability_of
 from rocking.model.system import NO_BRACES, State, System, quantities
 from rocking.model.validation import within
 
-# An event this near after an instant, in forcing periods, is at that instant: rounding must not put it on the other side.
+# An event within this time after an instant, in forcing periods, counts as at that instant, to be safe from rounding.
 SAME_INSTANT = 1e-12
 
 
 @frozen
 class Evidence:
-    """Why a response is called what it is called; reads as one sentence.
+    """Evidence for a verdict; as text, its sentence.
 
     Attributes
     ----------
     level : str
         "exact" (follows from the closed form), "verified" (a number meets a stated tolerance), "statistical"
-        (holds over the cycles watched, no further) or "none".
+        (holds over the simulated cycles only) or "none".
     shown : str
-        What was shown, in one sentence.
+        Finding, level and number of cycles in words; the remedy if the response is undetermined.
     tolerances : dict
-        The tolerances that were met, by name.
+        Tolerances that were met, by name.
     cycles : int
-        Forcing cycles spent.
+        Number of forcing cycles simulated.
+
+    Examples
+    --------
+    >>> import rocking as rk
+    >>> found = rk.classify(rk.System(rk.Harmonic(amplitude=0.5, period=1.0), restitution=0.9))
+    >>> print(found.evidence)
+    the block remains at rest, because A = 0.5 ≤ 1 cannot lift it off. Evidence: exact, from the initial state on.
     """
 
     level: str
@@ -50,28 +57,37 @@ class Evidence:
 
 @frozen
 class Orbit:
-    """A periodic orbit; found by `find_orbit`, `find_orbits`, `classify` and along a `Branch`.
+    """Periodic orbit; found by `find_orbit`, `find_orbits`, `classify` and along a `Branch`.
 
-    `simulate(orbit.system, orbit.start)` runs along it, and `orbit.motion()` is that run.
+    `orbit.motion()` simulates it, as does `simulate(orbit.system, orbit.start)`.
 
     Attributes
     ----------
     system : System
-        The system it belongs to, as it was passed in.
+        System of the orbit, as it was passed.
     state : State
-        Its state on the section at the forcing phase `phase`, which is usually not the forcing's own: `start` is the state there.
+        State on the section at the forcing phase `phase`. This is usually not the phase of the forcing at τ = 0; `start`
+        is the state there.
     phase : float
-        Forcing phase ψ of the section that `state` lies on, rad in [0, 2π). It is chosen away from all events.
+        Forcing phase ψ of the section of `state`, rad, in [0, 2π). It is chosen away from all events.
     period : int
-        Forcing cycles after which it repeats itself.
+        Number of forcing cycles per response period.
     symmetric : bool
-        Whether half a period later it is its own mirror image.
+        True if the orbit is its own mirror image half a period later.
     impacts, brace_hits : int or None
-        Impacts at Θ = 0 and hits on the braces in a period; None where infinitely many come before rest or leaning.
+        Number of impacts at Θ = 0 and on the braces per period. None if infinitely many precede rest or sustained
+        contact with a brace (complete chattering).
     multipliers : tuple of two complex
-        Floquet multipliers over a period, the larger first.
+        Floquet multipliers over one response period, the larger first.
     residual : float
-        Distance between `state` and the state a period later.
+        Distance between `state` and the state one period later.
+
+    Examples
+    --------
+    >>> import rocking as rk
+    >>> orbit = rk.classify(rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925)).orbit
+    >>> print(orbit)
+    symmetric orbit of period 1 with 2 impacts
     """
 
     system: System
@@ -89,29 +105,30 @@ class Orbit:
 
     @property
     def start(self) -> State:
-        """The state at the system's own forcing phase, at τ = 0: a motion from it is this orbit."""
+        """State at τ = 0, at the forcing phase of the system itself: a motion from this state is the orbit."""
         return self.at(self.system.forcing.phase)
 
     def at(self, phase: float) -> State:
-        """Give the state of the orbit at a forcing phase.
+        """Return the state of the orbit at a forcing phase.
 
-        It is marched from the nearest event of the orbit, forward or backward in time. So it lies on the orbit
-        even where a run leaves the orbit within one period.
+        The state is computed from the nearest event of the orbit, forward or backward in time. It therefore lies on the
+        orbit even if the orbit is so unstable that a simulation leaves it within one period.
 
         Parameters
         ----------
         phase : float
-            Forcing phase ψ, rad. It counts on from `start`, so that 2π more is one forcing cycle later.
+            Forcing phase ψ in radians, in [-1000, 1000]. It continues from `start`: an increase by 2π is one forcing
+            cycle.
 
         Returns
         -------
         State
-            Just after any event at that instant.
+            State at this phase, just after an event if there is one.
 
         Raises
         ------
         TypeError, ValueError
-            For a phase that is no number in [-1000, 1000].
+            If `phase` is not a real number in its range.
 
         Examples
         --------
@@ -138,13 +155,13 @@ class Orbit:
             return self._marched(
                 self.phase + last.turned, State(last.angle, last.after), max(since - hair, 0.0)
             )
-        # backward in time the base has the opposite phase, and velocities change their sign
+        # Time reversal negates the forcing phase and the velocities.
         there = State(following.angle, -following.before)
         state = self._marched(-self.phase - following.turned, there, until + hair)
         return State(state.angle, -state.velocity)
 
     def _marched(self, phase: float, state: State, turned: float) -> State:
-        """Return what a state at one forcing phase becomes, that much of the phase later."""
+        """Return the state after the forcing phase has advanced by `turned` from `phase`."""
         forcing = self.system.forcing
         time = turned / forcing.frequency
         begun = evolve(self.system, forcing=evolve(forcing, phase=phase % math.tau))
@@ -157,24 +174,25 @@ class Orbit:
     def motion(self, cycles: int | None = None, record: str = "all") -> Any:
         """Simulate the orbit from `start`.
 
-        A motion near an unstable orbit leaves it: rounding grows by |multiplier| in each period. `at` gives the
-        states of the orbit itself.
+        A simulated motion near an unstable orbit leaves it, because rounding errors grow by |multiplier| in each period.
+        `at` returns states of the orbit itself.
 
         Parameters
         ----------
         cycles : int, optional
-            Forcing cycles to run; one period by default.
+            Number of forcing cycles. Default: one response period.
         record : {"all", "section", "none"}
-            As in `simulate`.
+            Recorded data, as in `simulate`. Default: "all".
 
         Returns
         -------
         Motion
+            Simulated motion.
 
         Raises
         ------
         TypeError, ValueError
-            As `simulate`.
+            As in `simulate`.
 
         Examples
         --------
@@ -187,26 +205,26 @@ class Orbit:
 
     @property
     def stability(self) -> Stability:
-        """Whether neighbouring motions approach the orbit, leave it or, where it loses nothing, do neither."""
+        """Linear stability: stable, unstable or, without dissipation, neutral."""
         trace, determinant = sum(self.multipliers).real, self._determinant
         if self.symmetric:
-            # That of half the orbit, squared, less twice its determinant: only the upper bound can be reached.
+            # With t and d of the half period, trace = t² − 2d ≥ −2d, so only the upper bound can be reached.
             trace = max(trace, 0.0)
         return stability_of(trace, determinant)
 
     @property
     def superstable(self) -> bool:
-        """Whether both multipliers are zero, because the block rests or leans in every period."""
+        """True if both multipliers are zero, because each period contains rest or sustained contact with a brace."""
         return self.multipliers == (0j, 0j)
 
     @property
     def stable(self) -> bool:
-        """Whether both multipliers lie inside the unit circle, so that neighbouring motions approach the orbit."""
+        """True if both multipliers lie inside the unit circle, so that nearby motions converge to the orbit."""
         return self.stability is Stability.STABLE
 
     @property
     def _determinant(self) -> float:
-        """The product of the multipliers, from the events alone: exactly 1 where nothing is lost."""
+        """Product of the multipliers, computed from the number of impacts: exactly 1 without dissipation."""
         if self.impacts is None or self.brace_hits is None or self.multipliers == (0j, 0j):
             return 0.0
         system = NO_BRACES | quantities(self.system)
@@ -215,59 +233,64 @@ class Orbit:
         )
 
     def __str__(self) -> str:
-        symmetry = "symmetric" if self.symmetric else "unsymmetric"
+        symmetry = "symmetric" if self.symmetric else "asymmetric"
         impacts = "infinitely many impacts" if self.impacts is None else counted(self.impacts, "impact")
         return f"{symmetry} orbit of period {self.period} with {impacts}"
 
 
 @frozen
 class Verdict(NotebookPicture):
-    """What a response is, with its evidence; made by `classify`.
+    """Response type of a motion, with its evidence; returned by `classify`.
 
-    What does not apply is None. What describes an orbit (`period` to `multipliers`, `orbit`) is known of periodic responses
-    alone.
+    An attribute that does not apply is None. The attributes of an orbit (`period` to `multipliers`, and `orbit`) are given
+    for periodic responses only.
 
     Attributes
     ----------
     system, start : System, State
-        What was judged.
+        Classified system and initial state.
     kind : Kind
-        The label.
+        Response type.
     evidence : Evidence
-        Why; `print` shows it as one sentence.
+        Evidence; `print` shows it in words.
     period : int or None
-        Forcing cycles after which a periodic response repeats itself.
+        Number of forcing cycles per response period.
     impacts_per_period, brace_hits_per_period : int or None
-        Impacts at Θ = 0 and hits on the braces in that period; None where infinitely many come before the block rests or
-        leans.
+        Number of impacts at Θ = 0 and on the braces per response period. None if infinitely many precede rest or
+        sustained contact with a brace.
     symmetric : bool or None
-        Whether a periodic response is its own mirror image half a period later; never with an even period.
+        True if the periodic response is its own mirror image half a period later. Only an odd period can be symmetric.
     multipliers : tuple of two complex, or None
-        Floquet multipliers over a period, the larger first; zeros where the response rests or leans in between.
+        Floquet multipliers over one response period, the larger first. Both are zero for a superstable response.
     exponent, exponent_error : float or None
-        Largest Lyapunov exponent per τ and its standard error, measured where the response is chaotic or undetermined, else
-        what follows from the verdict: from the multipliers; 0 on a torus or a neutral orbit, then without an error; −∞ at rest, leaning and
-        where the response does so in between (superstable). None of a block that overturns, and where it was not weighed.
+        Largest Lyapunov exponent per τ and its standard error. It is measured for chaotic and undetermined responses, and
+        otherwise follows from the verdict:
+
+        - periodic: from the multipliers, −∞ if superstable;
+        - at rest or in permanent contact with a brace: −∞;
+        - quasi-periodic or neutrally stable: 0, without an error.
+
+        None if the block overturns, or if it was not measured.
     peak : float
-        Largest |Θ| of the motion from its start, as far as it was followed, and of the orbit that it approaches; until
-        the proof if it overturns.
+        Largest |Θ| over the simulated motion and over the orbit that it approaches. If the block overturns, up to the
+        instant from which overturning is certain.
     steady_peak : float or None
-        Largest |Θ| of a periodic response itself; |Θ| at rest or leaning.
+        Largest |Θ| of the periodic response itself; |Θ| at rest or in contact with a brace.
     transient : int or None
-        Forcing cycles after which the response was seen to be reached, at most; 0 on a torus; of an overturning block the
-        cycles before the one of the proof; None of chaotic and undetermined responses.
+        Number of forcing cycles after which the response was reached at the latest; 0 on a torus. If the block
+        overturns, the cycles before that of the proof. None for chaotic and undetermined responses.
     cycles : int
-        Forcing cycles followed.
+        Number of forcing cycles simulated.
     impacts : int
-        Impacts and brace hits computed, all work included.
+        Number of impacts computed, on the base and on the braces, including auxiliary computations.
     orbit : Orbit or None
-        The periodic orbit; of a response that rests or leans in between, a release.
+        Periodic orbit; for a superstable response, it begins at a lift-off or at a release from a brace.
 
     Examples
     --------
     >>> import rocking as rk
     >>> print(rk.classify(rk.System(rk.Harmonic(amplitude=1.75, period=2.0), restitution=0.95)))
-    overturned: proved after 4 impacts, at τ = 10.3092, never to return: the growing part of the motion can no longer be undone (exact)
+    overturned: overturning is certain from τ = 10.3092, after 4 impacts, because the growing ... Evidence: exact, within 6 cycles.
     """
 
     system: System
@@ -290,7 +313,7 @@ class Verdict(NotebookPicture):
 
     @property
     def superstable(self) -> bool:
-        """Whether the response forgets every small difference, at rest or leaning."""
+        """True if perturbations vanish at rest or in sustained contact with a brace, so that the exponent is −∞."""
         return self.exponent == -math.inf
 
     def __str__(self) -> str:

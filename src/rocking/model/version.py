@@ -1,3 +1,3 @@
-"""The version of the package, in the one place that is read by all."""
+"""Version of the package, the only definition."""
 
 VERSION = "0.1.0"

@@ -1,4 +1,4 @@
-"""Simulating one block, and what it did."""
+"""Simulation of one block: its motion, events and the validity of the model."""
 
 from rocking.motion.fall import FALLEN, end_shown, sample_step, time_of_fall
 from rocking.motion.march_loop import march_on, start_march

@@ -1,4 +1,4 @@
-"""Extremes of what a motion does between its events: a grid on every arc, refined around each point that can be the extreme."""
+"""Extremes of a function along a motion: a grid on every arc, refined around each possible extreme."""
 
 from __future__ import annotations
 
@@ -17,19 +17,19 @@ POINTS_AT_ONCE = 500_000
 
 
 class Arcs(NamedTuple):
-    """Stretches of a motion between two events, and the side (−1, 0 at rest, 1) of the block on each."""
+    """Arcs of a motion between two events, with the side (−1, 0 at rest, 1) of the block on each."""
 
     starts: Array
     ends: Array
     sides: Array
 
     def where(self, chosen: NDArray[np.bool_]) -> Arcs:
-        """The chosen ones."""
+        """Return the selected arcs."""
         return Arcs(*(column[chosen] for column in self))
 
 
 class Extreme(NamedTuple):
-    """A value and where it occurs; the lower, the earlier, the less."""
+    """Value and time of an extreme; of equal values, the earlier one is the smaller."""
 
     value: float
     time: float
@@ -39,10 +39,11 @@ NOTHING = Extreme(math.inf, 0.0)
 
 
 def global_minimum(measure: Measure, arcs: Arcs, scale: float) -> Extreme:
-    """Least value of a `measure` of times and sides over all `arcs`, on which it varies over times of `scale`.
+    """Return the smallest value of a function of times and sides over all arcs.
 
-    The least value can lie beside a grid point that is no higher than its neighbours, and no deeper below it than they
-    are above (the measure is convex there): where that is not above the best point of the grid, the search goes on.
+    The function varies over times of `scale`. The minimum can lie next to a grid point that is no higher than its
+    neighbours. It is then no further below this point than the neighbours are above it, because the function is convex
+    there. Only points where this bound is not above the lowest grid value are refined.
     """
     from scipy.optimize import elementwise
 
@@ -62,13 +63,16 @@ def global_minimum(measure: Measure, arcs: Arcs, scale: float) -> Extreme:
 
 
 def lowest(values: Array, times: Array) -> Extreme:
-    """The least of some values."""
+    """Return the smallest of the given values, with its time."""
     index = int(np.argmin(values))
     return Extreme(float(values[index]), float(times[index]))
 
 
 def grids(arcs: Arcs, scale: float) -> Iterator[tuple[Array, Array, NDArray[np.intp]]]:
-    """Times on the arcs, both ends included (the last instant is the one before the event), sides, and which arc each is on."""
+    """Yield times on the arcs, both ends included, with the side and the index of the arc of each.
+
+    The last time on an arc is the floating-point number before its final event.
+    """
     steps = 8 + np.ceil(POINTS_PER_PERIOD * (arcs.ends - arcs.starts) / scale)
     steps = np.minimum(steps, POINTS_AT_ONCE).astype(int)
     batches = np.cumsum(steps) // POINTS_AT_ONCE

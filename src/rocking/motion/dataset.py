@@ -1,4 +1,4 @@
-"""A motion as an xarray dataset that names its units, its parameters and the package that made it."""
+"""Motions as xarray datasets with units, parameters and the version of the package."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 MAX_STEPS = 100_000_000
 
 Unit = tuple[float, str]
-"""The size of the normalised unit, and the name of the unit that a quantity is given in."""
+"""Size of the normalised unit in the unit of the output, and name of the latter."""
 Variables = dict[str, tuple[str, Any, dict[str, str]]]
 
 EVENTS = {
@@ -27,36 +27,41 @@ EVENTS = {
     "angle": ("angle", "angle at the event"),
     "before": ("velocity", "angular velocity just before the event"),
     "after": ("velocity", "angular velocity just after the event"),
-    "kind": (None, "impact, brace (hit), rest, lift-off, lean (on a brace) or leave (it)"),
+    "kind": (
+        None,
+        "impact, brace (impact), rest, lift-off, lean (sustained contact with a brace) or leave (release from it)",
+    ),
 }
 
 
 def to_dataset(motion: Trajectory, step: float | None = None, block: Block | None = None) -> xr.Dataset:
-    """A motion sampled in time, with its events; of record="section" the section.
+    """Return a motion sampled in time, with its events, or its section.
 
     Parameters
     ----------
     motion : Motion
-        Recorded with record="all" or "section".
+        Motion recorded with record="all" or "section".
     step : float, optional
-        Between the samples, in τ, or in seconds with a block; a hundredth of the forcing period unless given. The
-        samples start at 0 and end at the last whole step of the run; those of an overturned block go on past the proof,
-        until |Θ| = 3, or for one unit of time where it starts beyond.
+        Time step of the samples in τ, or in seconds with a block. Default: a hundredth of the forcing period. The samples
+        start at 0 and end at the last whole step of the run. If the block overturns, they continue to |Θ| = 3, or for one
+        unit of time if the motion starts beyond.
     block : Block, optional
-        Gives everything in s, rad, m, and adds the displacement of the block's top; normalised without.
+        Block for output in s, rad and m, with the displacement of its top. Default: normalised output.
 
     Returns
     -------
     xarray.Dataset
-        record="all": `angle`, `velocity`, `acceleration`, `base_acceleration` (and `top_displacement`) along `time`;
-        `event_time`, `event_kind`, … along `event`. record="section": `angle`, `velocity` along `cycle`. The
-        attributes `units` and `long_name` are as in the CF conventions; the system, the start and the package's
-        version are attributes of the dataset, the normalised values always among them.
+        For record="all": `angle`, `velocity`, `acceleration`, `base_acceleration` (and `top_displacement`) along `time`, and
+        `event_time`, `event_kind`, … along `event`. For record="section": `angle` and `velocity` along `cycle`. The
+        attributes `units` and `long_name` follow the CF conventions. Attributes of the dataset are the system and the
+        initial state, always normalised, and the version of the package.
 
     Raises
     ------
-    TypeError, ValueError
-        For a step that is no number, not positive or longer than the motion, and for a motion that kept nothing.
+    TypeError
+        If `step` is not a number.
+    ValueError
+        If `step` is not positive or is longer than the motion, or if the motion recorded neither events nor section.
 
     Examples
     --------
@@ -69,7 +74,7 @@ def to_dataset(motion: Trajectory, step: float | None = None, block: Block | Non
 
     units = _units(block)
     if motion.record == "section":
-        refuse_if(step is not None, "step", 'be left out of a motion with record="section"', step)
+        refuse_if(step is not None, "step", 'be omitted for a motion with record="section"', step)
         variables, coordinates = _section(motion, units)
     else:
         variables, coordinates = _samples(motion, _times(motion, step, units), units, block)
@@ -143,9 +148,9 @@ def _section(motion: Trajectory, units: dict[str, Unit]) -> tuple[Variables, Var
     angle, velocity = motion.section().T
     cycles = np.arange(angle.size)
     variables = {
-        "angle": _variable("cycle", angle, units["angle"], "angle of the block, once a forcing cycle"),
+        "angle": _variable("cycle", angle, units["angle"], "angle of the block, once per forcing cycle"),
         "velocity": _variable(
-            "cycle", velocity, units["velocity"], "angular velocity of the block, once a forcing cycle"
+            "cycle", velocity, units["velocity"], "angular velocity of the block, once per forcing cycle"
         ),
     }
     return variables, {
@@ -155,15 +160,15 @@ def _section(motion: Trajectory, units: dict[str, Unit]) -> tuple[Variables, Var
 
 
 def _attributes(motion: Trajectory, block: Block | None) -> dict[str, Any]:
-    """What the motion is, in normalised values, and the block where there is one."""
+    """Return the attributes of the dataset: normalised system and initial state, results, and the block if there is one."""
     attributes = {
         "Conventions": "CF-1.11",
         "title": "Motion of a free-standing block on a shaking base",
         "source": f"rocking {VERSION}",
         "comment": (
-            "Attributes without a unit are normalised as in Yim and Lin (1991), eqs. 1-4; "
-            "the base's acceleration is amplitude cos(frequency time + phase). "
-            "Cycles are counted from 0, by event_cycle and overturning_cycle alike."
+            "Attributes without a unit are normalised as in Yim & Lin (1991), Eqs. (1)-(4). "
+            "The base acceleration is amplitude cos(frequency time + phase). "
+            "Cycles are counted from 0 in event_cycle and overturning_cycle."
         ),
         **quantities(motion.system),
         "start_angle": motion.start.angle,

@@ -1,4 +1,4 @@
-"""Events as a motion tells them, from the rows that the kernels write."""
+"""Table of events of a motion, from the event rows of the kernels."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ KINDS = np.array(["impact", "brace", "rest", "lift-off", "lean", "leave"])
 
 
 def events_of(system: System, rows: np.ndarray, duration: float) -> np.ndarray:
-    """Event rows of the kernel as `Motion.events` gives them."""
+    """Return event rows of the kernel as the structured array of `Motion.events`."""
     rows = rows[rows["event"] != kernel.NONE]
     forcing = system.forcing
     events = np.empty(len(rows), EVENT)
@@ -39,6 +39,6 @@ def events_of(system: System, rows: np.ndarray, duration: float) -> np.ndarray:
 
 
 def absolute(rows: np.ndarray, period: float, duration: float) -> np.ndarray:
-    """When the events of rows were, in τ from the start."""
-    # rounding must not put the last event after the end
+    """Return the times of event rows, in τ from the start."""
+    # Rounding could place the last event after the end of the run.
     return np.minimum(rows["cycle"] * period + rows["time"], duration)

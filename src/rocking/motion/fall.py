@@ -1,4 +1,4 @@
-"""How far the fall of an overturned block is followed, in pictures and in files."""
+"""End of the simulated fall of an overturned block, in figures and files."""
 
 from __future__ import annotations
 
@@ -10,25 +10,25 @@ if TYPE_CHECKING:
     from rocking.motion.trajectory import Trajectory
 
 STEPS = 100
-"""Samples of a period."""
+"""Samples per forcing period."""
 FALLEN = 3.0
-"""|Θ| up to which a fall is followed."""
+"""Value of |Θ| up to which a fall is shown."""
 
 
 def end_shown(motion: Trajectory) -> float:
-    """Last time τ shown of a motion: the end of its run, or where |Θ| = 3 in the fall of an overturned block."""
+    """Return the last time τ shown: the end of the run, or the instant with |Θ| = 3 in the fall of an overturned block."""
     if motion.overturning is None:
         return motion.duration
     return time_of_fall(motion, motion.overturning, FALLEN)
 
 
 def sample_step(motion: Trajectory) -> float:
-    """Time τ between samples unless one is given: a hundredth of a period, or of a motion that ends before."""
+    """Return the default sampling step in τ: a hundredth of a forcing period, or of a shorter motion."""
     return min(motion.system.forcing.period, end_shown(motion)) / STEPS
 
 
 def time_of_fall(motion: Trajectory, overturning: Overturning, angle: float) -> float:
-    """Time τ at which a motion that is past return reaches |Θ| = `angle`; one unit of time if it began beyond."""
+    """Return the time τ at which an overturning motion reaches |Θ| = `angle`; 1 if it starts beyond this angle."""
     from scipy.optimize import brentq
 
     def beyond(time: float) -> float:

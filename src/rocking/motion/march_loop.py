@@ -1,4 +1,4 @@
-"""Send a system through the compiled march, in breaths, and keep what was asked for."""
+"""Loop that calls the compiled march with event buffers of limited size, and collects the requested records."""
 
 from __future__ import annotations
 
@@ -19,12 +19,12 @@ MAX_RECORDED = 10_000_000
 
 
 def parameters(system: System) -> numbers.HarmonicParameters:
-    """Return a system as the kernels read it."""
+    """Return the parameters of a system for the kernels."""
     return numbers.harmonic_parameters(**NO_BRACES | quantities(system))
 
 
 def start_march(system: System, start: State) -> tuple[numbers.HarmonicParameters, Any]:
-    """Give the system as the kernels read it and the block at its start, for `march_on`."""
+    """Return the parameters of a system for the kernels, and the block at its initial state, for `march_on`."""
     p = parameters(system)
     return p, kernel.begin_march(p, start.angle, start.velocity)[0]
 
@@ -32,10 +32,20 @@ def start_march(system: System, start: State) -> tuple[numbers.HarmonicParameter
 def march_on(
     p: Any, progress: Any, cycles: int, columns: np.ndarray, growth: np.ndarray
 ) -> tuple[Outcome, Any]:
-    """March to the end of cycle ``cycles`` with differences: (outcome, progress).
+    """March to the end of cycle ``cycles`` together with two tangent vectors.
 
-    ``columns`` (2, 2) holds two orthonormal differences (δΘ, δΘ') as rows, kept so on the way; ``growth`` (2,) takes
-    the logarithms of what that takes out. Where the block rests or leans the rows become zero and both logarithms −∞.
+    Parameters
+    ----------
+    columns : ndarray, shape (2, 2)
+        Orthonormal tangent vectors (δΘ, δΘ') as rows, updated in place and kept orthonormal. They become zero at rest and
+        in sustained contact with a brace.
+    growth : ndarray, shape (2,)
+        Logarithms of the factors removed by orthonormalisation, added in place; −∞ where the vectors become zero.
+
+    Returns
+    -------
+    tuple of (Outcome, Progress)
+        Outcome and state of the march.
     """
     status, progress, _, _ = run(
         p, progress, cycles, 0.0, "none", want_peak=False, tangent=differences.TangentState(columns, growth)
@@ -54,7 +64,13 @@ def run(
     keep: Callable[[np.ndarray], np.ndarray] = np.copy,
     tangent: differences.TangentState = differences.NO_TANGENT,
 ) -> tuple[Any, ...]:
-    """March to the end, in breaths: (status, progress, section, what `keep` made of the event rows of each breath)."""
+    """March to the end, calling the kernel again whenever its event buffer is full.
+
+    Returns
+    -------
+    tuple
+        Status; state of the march; section; list of the results of `keep` for the event rows of each call.
+    """
     section = np.empty((cycles + 1 if record == "section" else 0, 2))
     events = np.empty(4096 if record == "all" else 0, event_rows.EVENT_ROW)
     kept: list[np.ndarray] = []
@@ -78,14 +94,16 @@ def run(
 def _crowded(status: int) -> str:
     if status == kernel.CROWDED:
         return (
-            f"more than {kernel.MAX_EVENTS:,} events in one forcing cycle: the block chatters almost without loss "
-            "(start it faster, or take a smaller restitution)"
+            f"more than {kernel.MAX_EVENTS:,} events in one forcing cycle: the block chatters with little energy loss "
+            "(increase the initial velocity, or reduce restitution)"
         )
-    return f'more than {MAX_RECORDED:,} events to keep (run fewer cycles, or record="section" or "none")'
+    return (
+        f'more than {MAX_RECORDED:,} events to record (run fewer cycles, or use record="section" or "none")'
+    )
 
 
 def section_of(system: System, start: State, cycles: int, phase: float) -> np.ndarray:
-    """Run a motion again for its section at another forcing phase."""
+    """Return the section of a motion at another forcing phase, by simulating it again."""
     forcing = system.forcing
     time = math.fmod(phase - forcing.phase, 2.0 * math.pi) / forcing.frequency
     p, progress = start_march(system, start)
@@ -93,11 +111,11 @@ def section_of(system: System, start: State, cycles: int, phase: float) -> np.nd
 
 
 def state_of(progress: Any) -> tuple[float, float]:
-    """Θ and Θ' of a block under way."""
+    """Return Θ and Θ' of a march in progress."""
     arc = progress.arc
     return arc.side * arc.angle + 0.0, arc.side * arc.velocity + 0.0
 
 
 def outcome_of(status: int) -> Outcome:
-    """What the way a march ended says about the motion."""
+    """Return the outcome that corresponds to the final status of a march."""
     return {kernel.OVERTURNED: Outcome.OVERTURNED, kernel.STILL: Outcome.AT_REST}.get(status, Outcome.BOUNDED)

@@ -1,4 +1,4 @@
-"""Where the slender model misjudges a block, whatever that does: its proportions, its lifting, its impacts."""
+"""Limits of the slender-block model for a given block: proportions, lift-off and impacts."""
 
 from __future__ import annotations
 
@@ -11,27 +11,41 @@ import numpy as np
 from rocking.model import GRAVITY, Block
 
 SLENDER_ERROR = 0.05
-"""Relative error up to which the block counts as slender: θcr = 18°, about three times as high as wide."""
+"""Relative error up to which a block counts as slender: θcr = 18°, a height of about three times the width."""
 
 
 def block_warnings(
     block: Block, amplitudes: Any, restitution: float = 1.0, angle: float | None = None
 ) -> Iterator[str]:
-    """One sentence for each assumption that fails of a block at these `amplitudes`.
+    """Yield one sentence for each assumption that does not hold for a block at the given amplitudes.
 
-    `restitution` is the least that is met, 1 where nothing is hit; `angle` the largest |θ| in radians, θcr unless given.
+    Parameters
+    ----------
+    block : Block
+        Block.
+    amplitudes : float or array
+        Normalised amplitudes A.
+    restitution : float
+        Smallest coefficient of restitution in use; 1 without impacts. Default: 1.
+    angle : float, optional
+        Largest |θ| in radians. Default: θcr.
+
+    Yields
+    ------
+    str
+        Warning.
     """
     yield from _proportions(block, block.critical_angle if angle is None else angle)
     yield from _lifting(block, np.atleast_1d(amplitudes))
     if restitution < block.housner_restitution * (1 - 1e-12):
         yield (
-            f"restitution {restitution:.4g} is less than Housner's {block.housner_restitution:.4g}: the base's "
-            "impulse at an impact would have to act outside the base"
+            f"restitution {restitution:.4g} is less than Housner's {block.housner_restitution:.4g}: the impulse at an "
+            "impact would have to act outside the bottom face of the block"
         )
 
 
 def slender_errors(block: Block, angle: float) -> tuple[float, float]:
-    """Largest δ/sin δ − 1 and 1/cos δ − 1 for |θ| up to `angle`; infinite from δ = −90° on."""
+    """Return the largest δ/sin δ − 1 and 1/cos δ − 1 for |θ| up to `angle`; infinite beyond δ = −90°."""
     worst = max(block.critical_angle, angle - block.critical_angle)
     if worst >= math.pi / 2:
         return math.inf, math.inf
@@ -39,7 +53,7 @@ def slender_errors(block: Block, angle: float) -> tuple[float, float]:
 
 
 def degrees_too(angle: float, digits: int = 3) -> str:
-    """An angle in radians, and in degrees."""
+    """Format an angle in radians and in degrees."""
     return f"{angle:.{digits}g} rad = {math.degrees(angle):.{digits}g}°"
 
 
@@ -47,14 +61,14 @@ def _proportions(block: Block, angle: float) -> Iterator[str]:
     moment, push = slender_errors(block, angle)
     if max(moment, push) <= SLENDER_ERROR:
         return
-    how = f"the restoring moment is overrated by up to {moment:.1%}, the base's push by up to {push:.1%}"
+    how = f"the restoring moment is overestimated by up to {moment:.1%}, that of the base acceleration by up to {push:.1%}"
     if push == math.inf:
-        how = "over a right angle from balance its moments do not apply"
+        how = "the slender-block model does not apply beyond 90° from the balance point"
     yield f"outside the slender range, θcr = {degrees_too(block.critical_angle)} and |θ| up to {degrees_too(angle)}: {how}"
 
 
 def _lifting(block: Block, amplitudes: np.ndarray) -> Iterator[str]:
-    """Whether some lift the block from rest in the model, a_x > g θcr, but not in truth: a_x ≤ g tan θcr = g B/H."""
+    """Yield a warning for amplitudes that lift off the slender model, a_x > g θcr, but not the real block, a_x ≤ g B/H."""
     model, truth = block.critical_angle, math.tan(block.critical_angle)
     between = amplitudes[(amplitudes > 1.0) & (amplitudes * model <= truth)]
     if not between.size:
@@ -63,8 +77,8 @@ def _lifting(block: Block, amplitudes: np.ndarray) -> Iterator[str]:
     if amplitudes.size == 1:
         which = f"{_acceleration(amplitudes[0] * model)} lies"
     yield (
-        f"lifting: the model lifts a standing block beyond {_acceleration(model)}, a real one of this shape lifts only beyond "
-        f"{_acceleration(truth)} (g width/height): {which} between, where the real one stands still"
+        f"lift-off: the model lifts a resting block off above {_acceleration(model)}, a real block of this shape only above "
+        f"{_acceleration(truth)} (g width/height); {which} between, where the real block remains at rest"
     )
 
 

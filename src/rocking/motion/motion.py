@@ -1,4 +1,4 @@
-"""A motion: what `simulate` returns, a trajectory that can be tabulated, judged and shown."""
+"""Motion: the result of `simulate`."""
 
 from __future__ import annotations
 
@@ -17,26 +17,31 @@ if TYPE_CHECKING:
 
 @frozen(eq=False, slots=False)
 class Motion(Trajectory, NotebookPicture):
-    """What one simulated block did; made by `simulate`.
+    """Simulated motion of one block; returned by `simulate`.
 
     Attributes
     ----------
     system, start : System, State
-        What was simulated.
+        System and initial state.
     record : str
-        "all", "section" or "none": what was kept.
+        Recorded data: "all", "section" or "none".
     cycles : int
-        Forcing cycles run: those asked for, fewer only if the block overturned; the cycle of that proof is the last.
+        Number of forcing cycles simulated. It is smaller than requested only if the block overturns; the last cycle is then
+        that of the proof.
     outcome : Outcome
-        OVERTURNED or AT_REST where that is proved, else BOUNDED, which says no more than that neither was.
+        OVERTURNED or AT_REST if that is proved, else BOUNDED.
     overturning : Overturning or None
-        When it was proved never to return.
+        Instant from which overturning is certain.
     impacts, brace_hits : int
-        Impacts at Θ = 0 and hits on the braces.
+        Number of impacts at Θ = 0 and on the braces.
     peak : float
         Largest |Θ| of the run, [0, `duration`].
     final : State
-        Θ, Θ' at its end, just after any event there.
+        Θ and Θ' at the end, just after an event if there is one.
+    duration : float
+        Length of the run, in τ.
+    events, peaks : structured ndarray
+        Events and local extremes of Θ; only with record="all".
 
     Examples
     --------
@@ -50,7 +55,26 @@ class Motion(Trajectory, NotebookPicture):
     """
 
     def to_xarray(self, step: float | None = None, block: Block | None = None) -> xr.Dataset:
-        """Sample the motion as a dataset with units; in SI with a block. See `rocking.motion.dataset.to_dataset`.
+        """Return the motion sampled in time, as a dataset with units.
+
+        Parameters
+        ----------
+        step : float, optional
+            Time step in τ, or in seconds with a block. Default: a hundredth of the forcing period.
+        block : Block, optional
+            Block for output in SI units. Default: normalised output.
+
+        Returns
+        -------
+        xarray.Dataset
+            Samples and events, or the section; see `rocking.motion.dataset.to_dataset`.
+
+        Raises
+        ------
+        TypeError
+            If `step` is not a number.
+        ValueError
+            If `step` is not positive or is longer than the motion, or if the motion recorded neither events nor section.
 
         Examples
         --------
@@ -62,7 +86,24 @@ class Motion(Trajectory, NotebookPicture):
         return to_dataset(self, step, block)
 
     def validity(self, block: Block) -> Validity:
-        """Say where the model applies to a block: friction, base reaction, slender range. See `rocking.motion.validity`.
+        """Assess whether the model applies to this motion of a real block: friction, base reaction and slenderness.
+
+        Parameters
+        ----------
+        block : Block
+            Block in SI units that performs the motion.
+
+        Returns
+        -------
+        Validity
+            Required friction, base reaction, errors of the slender-block model, and warnings; `print` shows them.
+
+        Raises
+        ------
+        TypeError
+            If `block` is not a Block.
+        ValueError
+            If the motion was not recorded with record="all".
 
         Examples
         --------
@@ -77,9 +118,9 @@ class Motion(Trajectory, NotebookPicture):
     def __str__(self) -> str:
         counts = [counted(self.impacts, "impact")]
         if self.system.braces is not None:
-            counts.append(counted(self.brace_hits, "brace hit"))
+            counts.append(counted(self.brace_hits, "brace impact"))
         if self.overturning is None:
             how = f"{self.outcome} over {counted(self.cycles, 'cycle')}"
         else:
-            how = f"overturned: proved at τ = {self.overturning.time:.6g} never to return"
+            how = f"overturned: overturning is certain from τ = {self.overturning.time:.6g}"
         return f"{how}; {', '.join(counts)}, peak |Θ| {self.peak:.4g}"

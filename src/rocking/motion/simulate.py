@@ -1,4 +1,4 @@
-"""Simulate one block: march it through its events, exactly, keeping what is asked for."""
+"""Simulation of one block: exact march from event to event."""
 
 from __future__ import annotations
 
@@ -19,40 +19,45 @@ MAX_SECTION_CYCLES = 100_000_000
 
 
 def simulate(system: System, start: State | None = None, cycles: int = 200, record: str = "all") -> Motion:
-    """Simulate a block from a start over whole forcing cycles, with exact, certified events.
+    """Simulate a block over a number of forcing cycles, with exact arcs and certified events.
 
-    Between events the motion is the closed form (5) of Yim & Lin (1991); the first crossing of the base or
-    of a brace is proved, not sampled. A motion that certainly never comes back ends with the cycle in which
-    that is proved.
+    Between events, the motion is the closed form of Yim & Lin (1991), Eq. (5). The first crossing of the base or of a brace
+    is proved, not sampled. If overturning becomes certain, the simulation ends with that forcing cycle.
 
     Parameters
     ----------
     system : System
-        The block, its forcing and its braces.
+        Block, base motion and braces.
     start : State, optional
-        Θ and Θ' at τ = 0; at rest by default.
+        Initial state (Θ, Θ') at τ = 0. Default: at rest.
     cycles : int
-        How many forcing cycles to run, 1 to 10⁹ (10⁸ with ``record="section"``).
+        Number of forcing cycles, in [1, 10⁹] (10⁸ with ``record="section"``). Default: 200.
     record : {"all", "section", "none"}
-        What to keep: every event, so that the motion is known at any time; the state once a cycle; or only
-        the counters, the peak and the final state. With "none", impacts that certainly accumulate to rest
-        within the run are cut short, so that their number is not infinite but smaller.
+        Recorded data. Default: "all".
+
+        - "all": every event, so that the state is known at any time;
+        - "section": the state once per forcing cycle;
+        - "none": only the counters, the peak and the final state. A sequence of impacts that provably ends in rest within
+          the run is then cut short, so that the number of impacts is smaller.
 
     Returns
     -------
     Motion
+        Simulated motion.
 
     Raises
     ------
-    TypeError, ValueError
-        In one line, for arguments of the wrong type or outside their range.
+    TypeError
+        If an argument is of the wrong type.
+    ValueError
+        If an argument lies outside its range.
     TooManyEvents
-        More than 10⁷ events to keep, or in a single cycle.
+        If there are more than 10⁷ events to record, or more than 10⁷ events in one cycle.
 
     Notes
     -----
-    `classify` and `parametric_map` may follow another chaotic transient of the same system and start. They stop at checkpoints,
-    or march many blocks at once, and therefore round differently.
+    `classify` and `parametric_map` may follow another chaotic transient of the same system and initial state. They stop at
+    checkpoints, or advance many blocks simultaneously, and therefore round differently.
 
     Examples
     --------
@@ -88,10 +93,10 @@ def simulate(system: System, start: State | None = None, cycles: int = 200, reco
 def kept_events(
     system: System, start: State | None, cycles: int, keep: Callable[[np.ndarray], np.ndarray]
 ) -> np.ndarray:
-    """March as `simulate` does, holding of the events after the start no more than `keep` makes of each breath's.
+    """March as `simulate` does, and keep of the events after the start only what `keep` returns.
 
-    `keep` is given events as `Motion.events` has them and returns an array; the arrays come back as one. Raises as
-    `simulate` does.
+    `keep` is called with the events of each filled buffer, in the form of `Motion.events`, and returns an array. The arrays
+    are concatenated. Errors are those of `simulate`.
     """
     start = check_start(system, start)
     cycles = whole("cycles", cycles, 1, MAX_CYCLES)

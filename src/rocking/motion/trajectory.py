@@ -1,4 +1,4 @@
-"""The trajectory of one simulated block: its events and its state at any time, exactly."""
+"""Trajectory of one simulated block: its events, and its exact state at any time."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ TURN = np.dtype([("time", "f8"), ("angle", "f8")])
 
 @frozen(eq=False, slots=False)
 class Trajectory(ReadOnlyArrays):
-    """The fields of a `Motion`, and the states between its events."""
+    """Fields of a `Motion`, and the states between its events."""
 
     system: System
     start: State
@@ -47,23 +47,27 @@ class Trajectory(ReadOnlyArrays):
 
     @property
     def duration(self) -> float:
-        """Length of the run, in τ: to the end of its cycles, or to the proof in the last of them that the block overturns."""
+        """Length of the run, in τ: to the end of its cycles, or to the instant from which overturning is certain."""
         end = self.cycles * self.system.forcing.period
         return end if self.overturning is None else min(end, self.overturning.time)
 
     @cached_property
     def events(self) -> np.ndarray:
-        """Every event in order, a structured array.
+        """All events in order, as a structured array.
 
-        Its fields are time (τ), cycle (from 0), phase (ψ in [0, 2π)), angle, the velocities before and after, and
-        kind. The kinds are "impact", "brace", "rest", "lift-off", "lean" and "leave". Needs
-        ``record="all"``, as `at` does.
+        Its fields are time (τ), cycle (counted from 0), phase (ψ in [0, 2π)), angle, before and after (velocities), and kind:
+
+        - "impact" at Θ = 0, "brace" impact;
+        - "rest", "lift-off": beginning and end of rest;
+        - "lean", "leave": beginning and end of sustained contact with a brace.
+
+        It requires ``record="all"``, as `at` does.
         """
         return read_only(events_of(self.system, self._rows(), self.duration))
 
     @cached_property
     def peaks(self) -> np.ndarray:
-        """Every local extreme of Θ between events, a structured array: time (τ), angle."""
+        """All local extremes of Θ between events, as a structured array with the fields time (τ) and angle."""
         rows = self._rows()
         begins = absolute(rows, self.system.forcing.period, self.duration)
         lasts = np.append(
@@ -81,23 +85,25 @@ class Trajectory(ReadOnlyArrays):
         return read_only(peaks)
 
     def at(self, times: Any) -> tuple[Any, Any]:
-        """Give Θ and Θ' at any times, exactly: the closed form (5) of Yim & Lin (1991) from the event before.
+        """Return Θ and Θ' at any times, exact: Yim & Lin (1991), Eq. (5), from the preceding event.
 
         Parameters
         ----------
         times : float or array_like
-            τ, from 0 to `duration`; later too where nothing more can happen: at rest, or overturned while
-            the angle, which grows like e^τ, is within the range of floats.
+            Time τ, from 0 to `duration`. Later times are allowed if no further event can occur. That is the case at rest,
+            and after overturning while the angle, which grows like e^τ, is within the range of floats.
 
         Returns
         -------
         angle, velocity : float or ndarray
-            Shape of `times`; just after an event at the event's instant.
+            Θ and Θ' in the shape of `times`; at the instant of an event, just after it.
 
         Raises
         ------
+        TypeError
+            If `times` holds anything but real numbers.
         ValueError
-            Outside these times, or where the motion was not recorded with ``record="all"``.
+            If a time lies outside this range, or if the motion was not recorded with ``record="all"``.
 
         Examples
         --------
@@ -111,7 +117,22 @@ class Trajectory(ReadOnlyArrays):
         return values[..., 0][()], values[..., 1][()]
 
     def acceleration(self, times: Any) -> Any:
-        """Give Θ'' at any times, as `at` gives Θ and Θ', eq. (4) of Yim & Lin (1991); 0 at rest and leaning.
+        """Return Θ'' at any times: Yim & Lin (1991), Eq. (4); 0 at rest and in sustained contact with a brace.
+
+        Parameters
+        ----------
+        times : float or array_like
+            Time τ, as in `at`.
+
+        Returns
+        -------
+        float or ndarray
+            Θ'' in the shape of `times`; at the instant of an event, just after it.
+
+        Raises
+        ------
+        TypeError, ValueError
+            If `at` raises it for these times.
 
         Examples
         --------
@@ -123,24 +144,26 @@ class Trajectory(ReadOnlyArrays):
         return self._sampled(times)[..., 2][()]
 
     def section(self, phase: float | None = None) -> np.ndarray:
-        """Give the stroboscopic section: Θ, Θ' at every instant with ψ ≡ ``phase`` (mod 2π).
+        """Return the stroboscopic section: Θ and Θ' at every instant with ψ ≡ ``phase`` (mod 2π).
 
         Parameters
         ----------
         phase : float, optional
-            The forcing's own by default: then the first of ``cycles + 1`` rows is the start (a block that
-            overturns has no rows past the proof). For another phase, or where no section was kept, the
-            motion is run again.
+            Forcing phase ψ of the section, rad, in [-1000, 1000]. Default: the phase φ of the forcing. The first of
+            ``cycles + 1`` rows is then the initial state; if the block overturns, there are no rows after the proof. For
+            another phase, or without a recorded section, the motion is simulated again.
 
         Returns
         -------
         ndarray, shape (n, 2)
-            Just after any event at that instant.
+            Θ and Θ', just after an event at that instant.
 
         Raises
         ------
-        TypeError, ValueError
-            For a phase that is no number in [-1000, 1000].
+        TypeError
+            If `phase` is not a real number.
+        ValueError
+            If `phase` lies outside its range.
 
         Examples
         --------
@@ -186,6 +209,6 @@ class Trajectory(ReadOnlyArrays):
         resample.sample(self._numbers, rows, index, elapsed, out)
         if not np.isfinite(out).all():
             first = float(flat[np.flatnonzero(~np.isfinite(out).all(axis=1))[0]])
-            allowed = f"lie in the run, [0, {self.duration:.6g}], or so soon after it that the angle is within the range of floats"
+            allowed = f"lie in the run, [0, {self.duration:.6g}], or little later, while the angle is within the range of floats"
             raise ValueError(refusal("times", allowed, first))
         return out.reshape(*times.shape, 3) + 0.0

@@ -1,4 +1,4 @@
-"""Whether the model applies to a motion: no sliding, a base that only pushes, a slender block (Housner 1963)."""
+"""Validity of the model for a motion: no sliding, no uplift, and a slender block (Housner 1963)."""
 
 from __future__ import annotations
 
@@ -17,56 +17,62 @@ if TYPE_CHECKING:
     from rocking.motion.trajectory import Trajectory
 
 ORDINARY_FRICTION = 0.5
-"""Dry stone, concrete or steel seldom offers less: a motion that needs more is warned of."""
+"""Coefficient of friction that dry stone, concrete and steel usually reach. A larger requirement gives a warning."""
 MIN_ARC = 1e-10
-"""In τ. The reaction on the shorter arcs of a chatter is that of their longer neighbours, to as many digits."""
+"""Shortest arc evaluated, in τ. On shorter arcs of a chatter, the reaction equals that on the longer ones before."""
 
 
 @frozen
 class Validity:
-    """How far a motion of a real block keeps to the model's assumptions.
+    """Validity of the model's assumptions for a motion of a real block; returned by `Motion.validity`.
 
     Attributes
     ----------
     until : float
-        Up to when the motion is judged, in τ: its end, or the proof that it never returns.
+        End of the assessed part of the motion, in τ: its end, or the instant from which overturning is certain.
     overturned : bool
-        Whether there is such a proof.
+        True if overturning is proved.
     friction : float or None
-        Least coefficient of friction with which the block never slides; infinite where the base would have to pull, None
-        where there is nothing to judge: a block that leans throughout, or is past return from the start.
+        Smallest coefficient of friction without sliding. Infinite if the base reaction vanishes. None if there is nothing to
+        assess: a block in permanent contact with a brace, or one whose overturning is certain from the start.
     friction_source : str or None
-        What asks for it: "motion" (largest |H|/N between events), "impact" (|J_x|/J_y) or "rest" (|a_g|/g).
+        Phase that requires this friction: "motion" (largest |H|/N between events), "impact" (|J_x|/J_y) or "rest" (|a_g|/g).
     friction_time, reaction_time : float or None
-        Where these occur, in τ (`block.seconds` converts).
+        Times of these extremes, in τ (`block.seconds` converts).
     reaction : float or None
-        Least N/(Mg) of the base's upward reaction over the motion; from 0 on the base would have to pull. None where there
-        is nothing to judge.
+        Smallest upward base reaction N/(Mg) over the motion. The model requires a positive value. None if there is nothing
+        to assess.
     angle, critical_angle : float
         Largest |θ| and θcr, in radians.
     moment_error, forcing_error : float
-        By how much, relatively, the slender model overrates the restoring moment (δ for sin δ) and the moment of the
-        base's acceleration (1 for cos δ) where they are worst, δ = θcr − |θ|; infinite from δ = −90° on.
+        Largest relative overestimate of the restoring moment, δ/sin δ − 1 with δ = θcr − |θ|, and of the moment of the
+        base acceleration, 1/cos δ − 1. Infinite beyond δ = −90°.
     time_unit : float
         1/α, in seconds.
     warnings : tuple of str
-        One sentence for each assumption that fails, and for each thing that the motion alone does not determine.
+        One sentence for each assumption that does not hold, and for each quantity that the motion does not determine.
 
     Notes
     -----
-    Not covered: while the block leans on a brace, and at the instant it hits one, the reactions depend on the height at
-    which the brace acts; both are left out, and a warning says so.
+    The reactions during contact with a brace, and at a brace impact, depend on the height of the brace. Both are excluded,
+    with a warning.
 
     Examples
     --------
     >>> from rocking import Block, simulate
     >>> block = Block(height=2.0, width=0.5)
-    >>> print(simulate(block.system(acceleration=3.0, frequency_hz=1.2)).validity(block))
-    judged up to τ = 15.5003, where it is proved never to return
-    least friction without sliding: 0.2587 (motion, t = 0 s, τ = 0)
+    >>> found = simulate(block.system(acceleration=3.0, frequency_hz=1.2)).validity(block)
+    >>> until, friction, reaction, angle, slender = str(found).splitlines()
+    >>> print(until)
+    assessed up to τ = 15.5003, where overturning is certain
+    >>> print(friction)
+    least coefficient of friction without sliding: 0.2587 (motion, t = 0 s, τ = 0)
+    >>> print(reaction)
     least base reaction: 0.8576 Mg (t = 4.651 s, τ = 12.4227)
+    >>> print(angle)
     largest angle: 0.1708 rad = 9.788°, 0.6973 of the critical angle
-    slender model: restoring moment up to 1.01%, base's push up to 3.08% too large
+    >>> print(slender)
+    slender-block model: overestimates the restoring moment by up to 1.01%, that of the base acceleration by up to 3.08%
     """
 
     until: float
@@ -84,40 +90,47 @@ class Validity:
     warnings: tuple[str, ...] = ()
 
     def __str__(self) -> str:
-        friction = reaction = "not judged"
+        friction = reaction = "not assessed"
         if self.friction is not None:
             least = f"{self.friction:.4g}"
             if self.friction == math.inf:
-                least = "none would do, for the base reaction vanishes"
+                least = "none suffices, because the base reaction vanishes"
             friction = f"{least} ({self.friction_source}, {self.instant(self.friction_time)})"
         if self.reaction is not None:
             reaction = f"{self.reaction:.4g} Mg ({self.instant(self.reaction_time)})"
-        slender = "does not apply over a right angle from balance"
+        slender = "does not apply beyond 90° from the balance point"
         if self.forcing_error < math.inf:
-            slender = f"restoring moment up to {self.moment_error:.2%}, base's push up to {self.forcing_error:.2%} too large"
+            slender = (
+                f"overestimates the restoring moment by up to {self.moment_error:.2%}, "
+                f"that of the base acceleration by up to {self.forcing_error:.2%}"
+            )
         lines = (
-            [f"judged up to τ = {self.until:.6g}, where it is proved never to return"]
-            if self.overturned
-            else []
+            [f"assessed up to τ = {self.until:.6g}, where overturning is certain"] if self.overturned else []
         )
         lines += [
-            f"least friction without sliding: {friction}",
+            f"least coefficient of friction without sliding: {friction}",
             f"least base reaction: {reaction}",
             f"largest angle: {degrees_too(self.angle, 4)}, {self.angle / self.critical_angle:.4g} of the critical angle",
-            f"slender model: {slender}",
+            f"slender-block model: {slender}",
         ]
         return "\n".join((*lines, *(f"warning: {warning}" for warning in self.warnings)))
 
     def instant(self, time: float | None) -> str:
-        """A time in seconds and in τ; empty for what did not occur."""
+        """Format a time in seconds and in τ; empty for None."""
         return "" if time is None else f"t = {time * self.time_unit:.4g} s, τ = {time:.6g}"
 
 
 def validity(motion: Trajectory, block: Block) -> Validity:
-    """Say whether `block` can perform `motion` as the model has it; `Validity` tells what is measured.
+    """Assess whether `block` can perform `motion` as the model assumes.
 
-    The extremes are those of the exact motion: a grid on every arc, refined around each point that can be the extreme.
-    Raises TypeError for another `block`, ValueError unless the motion was recorded with record="all".
+    The extremes are those of the exact motion, from a grid on every arc, refined around each possible extreme.
+
+    Raises
+    ------
+    TypeError
+        If `block` is not a Block.
+    ValueError
+        If the motion was not recorded with record="all".
 
     Examples
     --------
@@ -168,10 +181,11 @@ def validity(motion: Trajectory, block: Block) -> Validity:
 
 
 def base_reaction(motion: Trajectory, block: Block, times: Array, sides: Array) -> tuple[Array, Array]:
-    """(H/Mg, N/Mg) from the base while the block turns about one corner or rests; positive H pushes to +x.
+    """Return the base reactions H/Mg and N/Mg while the block turns about one corner or rests; positive H acts towards +x.
 
-    With δ = θcr − |θ| the centre of mass has x'' = R (cos δ θ'' ± sin δ θ'²), y'' = R (± sin δ θ'' − cos δ θ'²) relative
-    to the base (± the side), and H/M = a_g + x'', N/M = g + y''. In units of g: R α²/g = MR²/Io.
+    Relative to the base, the centre of mass has the accelerations ``x'' = R (cos δ θ'' ± sin δ θ'²)`` and
+    ``y'' = R (± sin δ θ'' − cos δ θ'²)``, with δ = θcr − |θ| and ± for the side. Then H/M = a_g + x'' and N/M = g + y''.
+    In units of g, R α²/g = MR²/Io.
     """
     angle, velocity = motion.at(times)
     lean = block.critical_angle - block.critical_angle * np.abs(angle)
@@ -183,7 +197,7 @@ def base_reaction(motion: Trajectory, block: Block, times: Array, sides: Array) 
 
 
 def impact_friction(motion: Trajectory, block: Block) -> Extreme:
-    """−|J_x|/J_y = −(1 − e)/((1 + e) tan θcr) of an impact, whatever its speed, and the time of the first one."""
+    """Return −|J_x|/J_y = −(1 − e)/((1 + e) tan θcr) of an impact at any speed, with the time of the first impact."""
     impacts = motion.events["time"][motion.events["kind"] == "impact"]
     if impacts.size == 0:
         return NOTHING
@@ -192,32 +206,35 @@ def impact_friction(motion: Trajectory, block: Block) -> Extreme:
 
 
 def largest_angle(motion: Trajectory, block: Block, until: float) -> float:
-    """Largest |θ| up to a time: at a turn, at an event, at either end."""
+    """Return the largest |θ| up to a time: at a turn, at an event or at either end."""
     angles = [motion.at([0.0, until])[0]]
     angles += [table["angle"][table["time"] <= until] for table in (motion.peaks, motion.events)]
     return float(np.max(np.abs(np.concatenate(angles)))) * block.critical_angle
 
 
 def warnings(found: Validity, motion: Trajectory, block: Block, leaning: Arcs) -> Iterator[str]:
-    """One sentence for each assumption that fails, and for each thing that is left out."""
+    """Yield one sentence for each assumption that does not hold, and for each excluded quantity."""
     if found.overturned and found.reaction is None:
-        yield "not judged: whether the block slides or jumps, for it is past return from the start"
+        yield "sliding and uplift are not assessed, because overturning is certain from the start"
     if found.friction is not None and ORDINARY_FRICTION < found.friction < math.inf:
         at = f"({found.friction_source}, {found.instant(found.friction_time)})"
-        yield f"sliding: only a coefficient of friction of {found.friction:.3g} or more prevents it {at}"
+        yield f"sliding: a coefficient of friction of at least {found.friction:.3g} is required {at}"
     if found.reaction is not None and found.reaction <= 0:
-        yield f"base reaction: {found.reaction:.3g} Mg at {found.instant(found.reaction_time)}, the base would have to pull the block down"
+        yield f"base reaction: {found.reaction:.3g} Mg at {found.instant(found.reaction_time)}; the base would have to pull the block down"
     hit = motion.system.restitution if motion.impacts else 1.0
     yield from block_warnings(block, motion.system.forcing.amplitude, hit, found.angle)
     if motion.brace_hits:
-        yield f"brace hits: {motion.brace_hits}, whose reactions at the base depend on where the brace acts, are left out"
+        yield f"brace impacts: {motion.brace_hits}, not assessed, because the base reactions depend on the height of the brace"
     if leaning.starts.size:
         share = np.sum(leaning.ends - leaning.starts) / motion.duration
-        yield f"leaning: the base reactions during {share:.1%} of the time depend on where the brace acts and are left out"
+        yield f"contact with a brace: {share:.1%} of the time, not assessed, because the base reactions depend on the height of the brace"
 
 
 def split(motion: Trajectory, until: float) -> tuple[Arcs, Arcs, Arcs]:
-    """The arcs up to a time on which the block moves, rests (a period of each: the base repeats itself), leans on a brace."""
+    """Split the arcs up to a time into moving, resting and in contact with a brace.
+
+    Arcs at rest are limited to one forcing period, because the base motion repeats.
+    """
     events = motion.events["time"]
     edges = np.unique(np.concatenate(([0.0], events[events < until], [until])))
     long = np.diff(edges) > MIN_ARC

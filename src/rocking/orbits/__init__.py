@@ -1,4 +1,4 @@
-"""Periodic orbits, found and followed through parameters; diagrams; the saddles' manifolds: how responses change with the system."""
+"""Periodic orbits, their continuation and bifurcations, orbit diagrams, and manifolds of the saddle orbits."""
 
 from rocking.orbits.bifurcation_curve import BifurcationCurve, bifurcation_curve
 from rocking.orbits.branch import Branch, SpecialPoint

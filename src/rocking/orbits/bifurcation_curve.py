@@ -1,4 +1,4 @@
-"""Curves in the plane of two parameters on which orbits change: fold, symmetry breaking, period doubling, grazing."""
+"""Bifurcation curves in the plane of two parameters: fold, symmetry breaking, period doubling and grazing."""
 
 from __future__ import annotations
 
@@ -17,20 +17,31 @@ from rocking.orbits.parameter import checked_range, value_of
 
 @frozen(eq=False)
 class BifurcationCurve(ReadOnlyArrays):
-    """Special points of one kind through two parameters; made by `bifurcation_curve`.
+    """Curve of special points of one kind in the plane of two parameters; returned by `bifurcation_curve`.
 
     Attributes
     ----------
     kind : str
         "fold", "symmetry-breaking", "period-doubling" or "grazing".
     names : tuple of two str
-        The parameters.
-    points : array (n, 2)
-        Their values, in order along the curve.
+        Names of the parameters.
+    points : ndarray, shape (n, 2)
+        Values of the parameters, in order along the curve.
     ends : tuple of two str
-        Why it ends at its first and at its last point.
-    period, impacts : int
-        Forcing cycles and impacts in a period of the orbits; those of a grazing without the impact that grazes.
+        Reasons why the curve ends at its first and at its last point.
+    period : int
+        Number of forcing cycles per response period of the orbits.
+    impacts : int
+        Number of impacts per response period; of a grazing, without the grazing impact.
+
+    Examples
+    --------
+    >>> import rocking as rk
+    >>> system = rk.System(rk.Harmonic(amplitude=15.0, period=1.0), restitution=0.9)
+    >>> branch = rk.continue_orbit(rk.classify(system).orbit, "amplitude", (10, 30))
+    >>> curve = rk.bifurcation_curve(branch.special[0], "period", "amplitude", ((1, 1.2), (1, 30)))
+    >>> curve.kind, curve.names, curve.period
+    ('symmetry-breaking', ('period', 'amplitude'), 1)
     """
 
     kind: str
@@ -60,33 +71,37 @@ def bifurcation_curve(
     step: float = 0.01,
     max_points: int = 10_000,
 ) -> BifurcationCurve:
-    """Follow a special point through two parameters, both ways, to the ends of its curve.
+    """Follow a special point through two parameters in both directions, to the ends of its curve.
 
     Parameters
     ----------
     special : SpecialPoint
-        From a branch that was followed in one of the two parameters, or in another.
+        Special point of a branch in one of the two parameters, or in another one.
     first, second : str
-        Two different parameters, as in `continue_orbit`, "period" and "frequency" not both.
+        Two different parameters, as in `continue_orbit`; not both "period" and "frequency".
     bounds : ((float, float), (float, float))
-        Lowest and highest value of each.
+        Lowest and highest value of each parameter.
     step : float
-        Largest step, in units of the ranges (and of a radian of phase).
+        Largest step, in units of the ranges (and of one radian of phase), in [1e-6, 0.1]. Default: 0.01.
     max_points : int
-        Points either way, at most.
+        Maximum number of points in each direction. Default: 10,000.
 
     Returns
     -------
     BifurcationCurve
+        Points of the curve, and the reasons for its ends.
 
     Raises
     ------
-    TypeError, ValueError
-        In one line, for what cannot be followed.
+    TypeError
+        If an argument is of the wrong type.
+    ValueError
+        If an argument lies outside its range, or if `bounds` does not contain the special point. Also if a grazing orbit has
+        no event other than the grazing one, or if no further point is found.
 
     Notes
     -----
-    Every point is marched to see that its motion is the block's own. Where a curve meets another grazing it ends.
+    Every point is checked by simulation. The curve ends where it meets another grazing.
 
     Examples
     --------
@@ -108,13 +123,15 @@ def bifurcation_curve(
     most = whole("max_points", max_points, 2, 1_000_000)
     here = [value_of(special.orbit.system, name) for name in (first, second)]
     if not all(low <= value <= high for value, (low, high) in zip(here, limits, strict=True)):
-        raise ValueError(refusal("bounds", f"hold the special point's own {first} and {second}", bounds))
+        raise ValueError(
+            refusal("bounds", f"contain the {first} and the {second} of the special point", bounds)
+        )
     chain, condition = _condition(special)
     problem = problem_of(chain, (first, second), limits, step, [high - low for low, high in limits])
     y = np.append(chain.phases, here)
     (back, start), (on, end) = (_half(problem, condition, y, sense, most) for sense in (-1.0, 1.0))
     if not len(back):
-        raise ValueError(f"special must be a point to follow from; got one that is not met again: {special}")
+        raise ValueError(f"special must be the start of a curve; no further point was found from {special}")
     if start == End.CLOSED:
         back, on, end = back[::-1], back[:1], start
     impacts, _ = chain.counts()
@@ -131,7 +148,13 @@ def bifurcation_curve(
 def _half(
     problem: arclength.Problem, condition: Condition, y: np.ndarray, sense: float, most: int
 ) -> tuple[np.ndarray, End]:
-    """The curve one way: its points, and why it ends."""
+    """Follow the curve in one direction.
+
+    Returns
+    -------
+    tuple of (ndarray, End)
+        Points; reason for the end.
+    """
     points, direction = np.empty((most, len(y))), np.zeros(len(y))
     direction[-2] = sense
     count, end = kernel.follow_curve(problem, arclength.Tangent(y, direction), condition, points)
@@ -139,13 +162,11 @@ def _half(
 
 
 def _condition(special: SpecialPoint) -> tuple[Chain, Condition]:
-    """What is followed: of a grazing the chain without the event that grazes."""
+    """Return the chain to follow and its condition; of a grazing, the chain without the grazing event."""
     if special.kind != "grazing":
         kind = Special.FOLD if special.kind == "fold" else Special.PERIOD_DOUBLING
         chain = special._chain._replace(system=special.orbit.system, phases=special._row[:-1])
         return chain, Condition(kind, -1, IMPACT, 0.0)
     if special._touch is None:
-        raise ValueError(
-            "special must have an event beside the one that grazes to be followed; got one without"
-        )
+        raise ValueError("special must have an event other than the grazing one to be followed; it has none")
     return special._touch

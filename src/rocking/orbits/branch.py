@@ -1,4 +1,4 @@
-"""A branch of periodic orbits, and the points on it where something changes."""
+"""Branches of periodic orbits, and their special points."""
 
 from __future__ import annotations
 
@@ -27,24 +27,40 @@ POINT = np.dtype(
 
 @frozen(eq=False)
 class SpecialPoint:
-    """A point of a branch where something changes.
+    """Special point of a branch: a bifurcation or a grazing.
 
     Attributes
     ----------
     kind : str
-        "fold" (two orbits meet and vanish), "symmetry-breaking" (two unsymmetric orbits, mirror images, part from a
-        symmetric one), "period-doubling" or "grazing" (the block just touches the base or a brace: beyond, an impact is
-        lost or gained).
+        Type of the point:
+
+        - "fold": two orbits meet and vanish;
+        - "symmetry-breaking": two asymmetric orbits, mirror images of each other, branch off a symmetric one;
+        - "period-doubling": an orbit of twice the period branches off;
+        - "grazing": the block just touches the base or a brace. Beyond, the orbit has an impact more or less.
     parameter : float
-        Value of the parameter that was followed.
+        Value of the parameter.
     orbit : Orbit
-        The orbit there. At a grazing it is the orbit without the impact that grazes, with which its multipliers would be infinite.
-        Rounding decides whether a run meets that impact; where it does, at a speed of about 10⁻⁸, the run leaves the orbit, and
-        `residual` says how far. So `continue_orbit` does not take it: take an orbit beside it, `branch.orbit(index)`.
+        Orbit at this point. At a grazing, it is the orbit without the grazing impact, because its multipliers would be
+        infinite with it.
     name : str
-        The parameter's name.
+        Name of the parameter.
     index : int
-        It lies between the points `index - 1` and `index` of its branch; a grazing is the branch's first or last point.
+        The point lies between the points `index - 1` and `index` of its branch. A grazing is the first or last point.
+
+    Notes
+    -----
+    In a simulation of a grazing orbit, rounding decides if the grazing impact occurs. If it does, with a speed of about
+    10⁻⁸, the motion leaves the orbit, and `orbit.residual` is the resulting distance. `continue_orbit` therefore rejects this
+    orbit. Use a neighbouring one, `branch.orbit(index)`.
+
+    Examples
+    --------
+    >>> import rocking as rk
+    >>> system = rk.System(rk.Harmonic(amplitude=15.0, period=1.0), restitution=0.9)
+    >>> branch = rk.continue_orbit(rk.classify(system).orbit, "amplitude", (10, 30))
+    >>> print(branch.special[0])
+    symmetry-breaking at amplitude 23.18505548: symmetric orbit of period 1 with 2 impacts
     """
 
     kind: str
@@ -62,27 +78,39 @@ class SpecialPoint:
 
 @frozen(eq=False)
 class Branch(ReadOnlyArrays, NotebookPicture):
-    """Periodic orbits along a parameter; made by `continue_orbit` and `switch_branch`.
+    """Branch of periodic orbits over a parameter; returned by `continue_orbit` and `switch_branch`.
 
     Attributes
     ----------
     name : str
-        The parameter followed.
+        Name of the parameter.
     period : int
-        Forcing cycles after which the orbits repeat themselves.
+        Number of forcing cycles per response period.
     symmetric : bool
-        Whether each is its own mirror image half a period later.
+        True if each orbit is its own mirror image half a period later.
     impacts, brace_hits : int
-        Impacts at Θ = 0 and brace hits in a period.
-    points : structured array
-        One row an orbit, in order along the branch: "parameter"; "phase" and "velocity", the forcing phase ψ (rad) of the
-        first event and the speed just after it; "multipliers" over a period, the larger first; "stability", see `Stability`,
-        and "stable", whether it is that; "peak", the largest |Θ|.
+        Number of impacts at Θ = 0 and on the braces per response period.
+    points : structured ndarray
+        One row per orbit, in order along the branch, with the fields
+
+        - "parameter": value of the parameter;
+        - "phase", "velocity": forcing phase ψ of the first event, rad, and speed just after it;
+        - "multipliers": Floquet multipliers over one period, the larger first;
+        - "stability", "stable": see `Stability`, and True if it is "stable";
+        - "peak": largest |Θ|.
     special : tuple of SpecialPoint
-        In order along the branch. A branch of unsymmetric orbits may pass a symmetry breaking and go on along their mirror
-        images. It then has each special point twice, once with either orbit.
+        Special points, in order along the branch. A branch of asymmetric orbits may pass a symmetry breaking and continue
+        along their mirror images. It then contains each special point twice, once with each orbit.
     ends : tuple of two str
-        Why the branch ends at its first and at its last point.
+        Reasons why the branch ends at its first and at its last point.
+
+    Examples
+    --------
+    >>> import rocking as rk
+    >>> system = rk.System(rk.Harmonic(amplitude=15.0, period=1.0), restitution=0.9)
+    >>> branch = rk.continue_orbit(rk.classify(system).orbit, "amplitude", (10, 20))
+    >>> branch.symmetric, branch.impacts, branch.ends
+    (True, 2, ('end of the range', 'end of the range'))
     """
 
     name: str
@@ -101,12 +129,62 @@ class Branch(ReadOnlyArrays, NotebookPicture):
         return len(self.points)
 
     def orbit(self, index: int) -> Orbit:
-        """The orbit of a point, by its index."""
+        """Return the orbit of a point.
+
+        Parameters
+        ----------
+        index : int
+            Index of the point.
+
+        Returns
+        -------
+        Orbit
+            Orbit of this point.
+
+        Raises
+        ------
+        IndexError
+            If the branch has no point with this index.
+
+        Examples
+        --------
+        >>> import rocking as rk
+        >>> system = rk.System(rk.Harmonic(amplitude=15.0, period=1.0), restitution=0.9)
+        >>> branch = rk.continue_orbit(rk.classify(system).orbit, "amplitude", (10, 20))
+        >>> print(branch.orbit(0))
+        symmetric orbit of period 1 with 2 impacts
+        """
         facts = self._facts[index]
         return orbit_of(self._chain, self.name, self._rows[index], facts["trace"], facts["determinant"])
 
     def at(self, value: float) -> list[Orbit]:
-        """Every orbit of the branch at a value of the parameter, in order along it, corrected there by Newton's method."""
+        """Return every orbit of the branch at a value of the parameter.
+
+        Parameters
+        ----------
+        value : float
+            Value of the parameter, within the range of the branch.
+
+        Returns
+        -------
+        list of Orbit
+            Orbits in order along the branch, each corrected by Newton's method.
+
+        Raises
+        ------
+        TypeError
+            If `value` is not a real number.
+        ValueError
+            If `value` lies outside the range of the branch.
+
+        Examples
+        --------
+        >>> import rocking as rk
+        >>> system = rk.System(rk.Harmonic(amplitude=15.0, period=1.0), restitution=0.9)
+        >>> branch = rk.continue_orbit(rk.classify(system).orbit, "amplitude", (10, 20))
+        >>> [orbit.system.forcing.amplitude for orbit in branch.at(12.0)]
+        [12.0]
+        """
         values = self.points["parameter"]
         value = within("value", value, float(values.min()), float(values.max()))
         before, after = values[:-1] - value, values[1:] - value
@@ -127,12 +205,31 @@ class Branch(ReadOnlyArrays, NotebookPicture):
         return orbit_of(self._chain, self.name, there.phases, there.trace, there.determinant)
 
     def section(self, phase: float = 0.0) -> NDArray[np.float64]:
-        """(Θ, Θ') of every point at a phase of the forcing, rad, in each cycle of its period: (points, period, 2)."""
+        """Return the section points of all orbits at a forcing phase.
+
+        Parameters
+        ----------
+        phase : float
+            Forcing phase ψ, rad. Default: 0.
+
+        Returns
+        -------
+        ndarray, shape (points, period, 2)
+            Θ and Θ' in each cycle of the response period.
+
+        Examples
+        --------
+        >>> import rocking as rk
+        >>> system = rk.System(rk.Harmonic(amplitude=15.0, period=1.0), restitution=0.9)
+        >>> branch = rk.continue_orbit(rk.classify(system).orbit, "amplitude", (10, 20))
+        >>> branch.section(0.5).shape == (len(branch), 1, 2)
+        True
+        """
         return states(self._chain, self.name, self._rows, phase, self.period)
 
     def __str__(self) -> str:
         low, high = float(self.points["parameter"].min()), float(self.points["parameter"].max())
-        symmetry = "symmetric" if self.symmetric else "unsymmetric"
+        symmetry = "symmetric" if self.symmetric else "asymmetric"
         found = ", ".join(f"{one.kind} at {one.parameter:.6g}" for one in self.special) or "no special point"
         return (
             f"branch of {symmetry} orbits of period {self.period}, {self.name} {low:.6g} to {high:.6g}, "
@@ -140,7 +237,7 @@ class Branch(ReadOnlyArrays, NotebookPicture):
         )
 
     def _stable_ranges(self) -> str:
-        """Return the ranges of the parameter on which the orbits do not repel, in order along the branch, in words."""
+        """Return the ranges of the parameter with stable or neutrally stable orbits, in order along the branch, as text."""
         said = [
             f"{stability} from " + " and from ".join(f"{low:.6g} to {high:.6g}" for low, high in ranges)
             for stability in (Stability.STABLE, Stability.NEUTRAL)
@@ -149,9 +246,9 @@ class Branch(ReadOnlyArrays, NotebookPicture):
         return ", ".join(said) or "nowhere stable"
 
     def _ranges_of(self, stability: Stability) -> list[tuple[float, float]]:
-        """Return the ranges of the parameter with one stability; a range ends at the special point beside it, if any.
+        """Return the ranges of the parameter with one stability; a range ends at the adjacent special point, if there is one.
 
-        The parameter may turn back within a range: what is told is how far it goes.
+        The parameter may turn back within a range; the range covers all its values.
         """
         values, changes = self.points["parameter"], {one.index: one.parameter for one in self.special}
         edges = np.flatnonzero(np.diff(self.points["stability"] == stability, prepend=False, append=False))
@@ -164,7 +261,7 @@ class Branch(ReadOnlyArrays, NotebookPicture):
 
 
 def table(rows: np.ndarray, facts: np.ndarray, mirrored: bool) -> NDArray[np.void]:
-    """The public table of a branch."""
+    """Return the public table of a branch."""
     points = np.empty(len(rows), POINT)
     points["parameter"] = rows[:, -1]
     points["phase"] = np.mod(rows[:, 0], math.tau)

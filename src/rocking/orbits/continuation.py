@@ -1,4 +1,4 @@
-"""Following a periodic orbit through a parameter, and from branch to branch."""
+"""Continuation of periodic orbits in one parameter, and switching between branches."""
 
 from __future__ import annotations
 
@@ -35,63 +35,66 @@ KINDS = {
     Special.GRAZING: "grazing",
 }
 MAX_SPECIAL = 1000
-BORN = "born at a special point"
+BORN = "branches off at a special point"
 ENDS = {
     End.RANGE: "end of the range",
     End.GRAZED: "grazing",
-    End.MERGED: "merges with the branch it was born from",
+    End.MERGED: "merges with the branch from which it bifurcates",
     End.CLOSED: "closed loop",
-    End.MANY: "as many points as allowed",
-    End.LOST: "lost: no further point was found, however near",
+    End.MANY: "maximum number of points",
+    End.LOST: "lost: no further point was found with the smallest step",
 }
-# The first point of a branch has the orbit's own value of the parameter to this, relatively.
+# Largest relative deviation of the parameter at the first point of a branch from its value for the given orbit.
 SAME_VALUE = 1e-8
-# A special point found again has the same phases and parameter to this.
+# Largest difference of phases and parameter for two special points to be identical.
 SAME_POINT = 1e-6
-# How far from a special point the first point of another branch lies, in steps.
+# Distance of the first point of a new branch from its special point, in steps.
 OFF = 0.1
-# How often that distance is halved at most.
+# Maximum number of halvings of this distance.
 MAX_HALVINGS = 20
 
 
 def continue_orbit(
     orbit: Orbit, parameter: str, bounds: tuple[float, float], step: float = 0.01, max_points: int = 10_000
 ) -> Branch:
-    """Follow a periodic orbit through a parameter, both ways, through folds, to the ends of its branch.
+    """Follow a periodic orbit through a parameter in both directions, through folds, to the ends of its branch.
 
-    The unknowns are the forcing phases of the orbit's events; between them every arc is known in closed form, eq. (5), so
-    that the equations are smooth and their derivatives exact. Every point is then marched to see that it meets nothing
-    else on its way. Special points are located to rounding.
+    The unknowns are the forcing phases of the orbit's events. The arcs in between are known in closed form, Yim & Lin (1991),
+    Eq. (5), so that the equations are smooth and their derivatives exact. Every point is then checked by simulation for
+    further events. Special points are accurate to rounding.
 
     Parameters
     ----------
     orbit : Orbit
-        From `find_orbit`, `find_orbits` or a verdict; one with impacts or brace hits that does not rest or lean.
+        Orbit from `find_orbit`, `find_orbits` or a verdict. It must have impacts or brace impacts, and neither rest nor
+        sustained contact with a brace.
     parameter : str
         "amplitude", "period", "frequency", "restitution", "brace_angle" or "brace_restitution".
     bounds : (float, float)
-        Lowest and highest value; the orbit's own must lie between them.
+        Lowest and highest value of the parameter; its value for `orbit` must lie in between.
     step : float
-        Largest step, in units of the range (and of a radian of phase).
+        Largest step, in units of the range (and of one radian of phase), in [1e-6, 0.1]. Default: 0.01.
     max_points : int
-        Points either way, at most.
+        Maximum number of points in each direction. Default: 10,000.
 
     Returns
     -------
     Branch
-        Its points in order, from one end to the other, its special points, and why it ends.
+        Points in order from one end to the other, special points, and the reasons for the ends.
 
     Raises
     ------
-    TypeError, ValueError
-        In one line: for an unknown parameter, an empty range, a range without the orbit's own value, a parameter of braces
-        of a system without, an orbit that rests or leans, the orbit of a grazing, the orbit at which a branch is born.
+    TypeError
+        If an argument is of the wrong type.
+    ValueError
+        If the parameter is unknown, or belongs to braces that the system does not have. If the range is empty or does not
+        contain the value for `orbit`. If the orbit rests, stays in contact with a brace, grazes, or is a branch point.
 
     Notes
     -----
-    Steps are shorter where the multipliers change fast, so that a special point lies between neighbouring points with different
-    signs of its test. Not guaranteed: that a multiplier is seen which passes ±1 and comes back within a single step; make the step
-    smaller.
+    Steps are shorter where the multipliers change fast. A special point then lies between neighbouring points with different
+    signs of its test function. Limit: a multiplier that passes ±1 and returns within one step is not detected. A smaller
+    `step` makes this less likely.
 
     Examples
     --------
@@ -104,7 +107,7 @@ def continue_orbit(
     instance("orbit", orbit, Orbit)
     if orbit._grazes:
         allowed = "not be that of a grazing, where its branch ends"
-        raise ValueError(refusal("orbit", allowed, str(orbit), "take another one: branch.orbit(index)"))
+        raise ValueError(refusal("orbit", allowed, str(orbit), "use a neighbouring one: branch.orbit(index)"))
     one_of("parameter", parameter, tuple(NAMES))
     here = value_of(orbit.system, parameter)
     low, high = checked_range(parameter, bounds)
@@ -120,7 +123,7 @@ def continue_orbit(
     direction = _first_direction(problem, row, equations(chain, parameter, row)[0])
     if direction is None:
         allowed = "close after its period and lie on one branch alone"
-        remedy = "take one beside it, branch.orbit(index), or find it again with find_orbit"
+        remedy = "use a neighbouring one, branch.orbit(index), or find it again with find_orbit"
         raise ValueError(refusal("orbit", allowed, str(orbit), remedy))
     halves = [_follow(problem, row, sense * direction, most) for sense in (-1.0, 1.0)]
     for half in halves:
@@ -132,24 +135,33 @@ def continue_orbit(
 def switch_branch(
     special: SpecialPoint, bounds: tuple[float, float], step: float = 0.01, max_points: int = 10_000
 ) -> tuple[Branch, ...]:
-    """Follow what is born at a symmetry breaking (two branches, mirror images of each other) or at a period doubling (one).
+    """Follow the branches that bifurcate at a symmetry breaking (two, mirror images of each other) or a period doubling (one).
 
     Parameters
     ----------
     special : SpecialPoint
-        Of kind "symmetry-breaking" or "period-doubling".
+        Special point of kind "symmetry-breaking" or "period-doubling".
     bounds, step, max_points
-        As in `continue_orbit`.
+        As in `continue_orbit`; the value of the parameter at `special` must lie within `bounds`.
 
     Returns
     -------
     tuple of Branch
-        Each begins at the special point.
+        Branches that begin at the special point.
 
     Raises
     ------
     TypeError, ValueError
-        In one line, as `continue_orbit`, and at a fold or a grazing, where there is nothing to switch to.
+        As in `continue_orbit`; also if `special` is a fold or a grazing, at which no branch bifurcates.
+
+    Examples
+    --------
+    >>> import rocking as rk
+    >>> system = rk.System(rk.Harmonic(amplitude=15.0, period=1.0), restitution=0.9)
+    >>> branch = rk.continue_orbit(rk.classify(system).orbit, "amplitude", (10, 30))
+    >>> born = rk.switch_branch(branch.special[0], (23, 24))
+    >>> len(born), born[0].symmetric, round(float(born[0].points["parameter"][0]), 6)
+    (2, False, 23.185055)
     """
     instance("special", special, SpecialPoint)
     if special.kind not in ("symmetry-breaking", "period-doubling"):
@@ -157,7 +169,10 @@ def switch_branch(
         raise ValueError(refusal("special", allowed, special.kind))
     low, high = checked_range(special.name, bounds)
     refuse_if(
-        not low <= special.parameter <= high, "bounds", f"hold the special point's own {special.name}", bounds
+        not low <= special.parameter <= high,
+        "bounds",
+        f"contain the {special.name} of the special point",
+        bounds,
     )
     step = within("step", step, 1e-6, 0.1)
     most = whole("max_points", max_points, 2, 1_000_000)
@@ -173,10 +188,10 @@ def switch_branch(
 
 
 def _first_direction(problem: arclength.Problem, row: np.ndarray, jacobian: np.ndarray) -> np.ndarray | None:
-    """Return a direction across which Newton's method finds the first point of a branch near ``row``; None for none.
+    """Return a direction across which Newton's method finds the first point of a branch near ``row``, or None.
 
-    If possible the parameter keeps its value. Near a special point the phases are too sensitive to it, and rounding keeps
-    Newton's method from settling. There the branch's own direction serves.
+    If possible, the parameter keeps its value. Near a special point, the phases are too sensitive to the parameter, and
+    rounding prevents convergence. The tangent of the branch is then used.
     """
     alone = np.append(np.zeros(len(row) - 1), 1.0)
     along = np.linalg.svd(jacobian)[2][-1]
@@ -188,11 +203,11 @@ def _first_direction(problem: arclength.Problem, row: np.ndarray, jacobian: np.n
 
 
 def _beside(problem: arclength.Problem, row: np.ndarray, direction: np.ndarray) -> np.ndarray:
-    """A first point of a branch born at ``row``, so near that its multipliers are still almost those there."""
+    """Return a first point of a branch that bifurcates at ``row``, so near that its multipliers are almost those at ``row``."""
     for halving in range(MAX_HALVINGS):
         off = row + OFF * problem.longest * 0.5**halving * direction
         facts = _follow(problem, off, direction, 1).table.facts
-        # at the special point a multiplier is 1: the angle is π/4
+        # At the special point a multiplier is 1, so the angle is π/4.
         if len(facts):
             angle = branch_point.multiplier_angle.py_func(facts["trace"][0], facts["determinant"][0])
             if abs(angle - 0.25 * np.pi) <= kernel.MAX_TURN:
@@ -201,14 +216,14 @@ def _beside(problem: arclength.Problem, row: np.ndarray, direction: np.ndarray) 
 
 
 class _Half(NamedTuple):
-    """A branch one way."""
+    """Branch in one direction."""
 
     table: kernel.BranchTable
     end: End
 
 
 def _follow(problem: arclength.Problem, y: np.ndarray, direction: np.ndarray, most: int) -> _Half:
-    """Follow a branch one way from an orbit."""
+    """Follow a branch in one direction from an orbit."""
     table = branch_table(len(y), most, MAX_SPECIAL)
     count, found, end = kernel.follow(problem, arclength.Tangent(y, direction), table)
     counts = count, count, found, found
@@ -216,7 +231,7 @@ def _follow(problem: arclength.Problem, y: np.ndarray, direction: np.ndarray, mo
 
 
 def _joined(chain: Chain, parameter: str, back: _Half, on: _Half) -> Branch:
-    """One branch of two halves that begin at the same orbit; of a closed one the first half is the whole."""
+    """Join the two halves of a branch that begin at the same orbit; of a closed branch, the first half is complete."""
     if back.end == End.CLOSED:
         return _branch(chain, parameter, _once(back.table), (ENDS[End.CLOSED], ENDS[End.CLOSED]))
     before = kernel.BranchTable(*(part[::-1] for part in back.table))
@@ -229,7 +244,7 @@ def _joined(chain: Chain, parameter: str, back: _Half, on: _Half) -> Branch:
 
 
 def _once(table: kernel.BranchTable) -> kernel.BranchTable:
-    """Return the points of a closed branch with every special point once: its last step goes on beyond its first point."""
+    """Return a closed branch with every special point once, because its last step overlaps its first point."""
     specials, last = table.specials, len(table.rows) - 1
     met = [(np.abs(specials[:i] - specials[i]) <= SAME_POINT).all(axis=1).any() for i in range(len(specials))]
     kept = (table.changes["index"] < last) | ~np.array(met, bool)
@@ -237,7 +252,7 @@ def _once(table: kernel.BranchTable) -> kernel.BranchTable:
 
 
 def _branch_from_special(chain: Chain, special: SpecialPoint, row: np.ndarray, half: _Half) -> Branch:
-    """A branch that begins at a special point."""
+    """Return the branch that begins at a special point."""
     _, links, trace, determinant = equations(chain, special.name, row)
     orbit = special.orbit
     peak = simulate(clocked(orbit.system, orbit.phase), orbit.state, cycles=orbit.period, record="none").peak
@@ -250,7 +265,7 @@ def _branch_from_special(chain: Chain, special: SpecialPoint, row: np.ndarray, h
 
 
 def _branch(chain: Chain, parameter: str, joined: kernel.BranchTable, ends: tuple[str, str]) -> Branch:
-    """The value that users get."""
+    """Return the public value of a branch."""
     impacts, brace_hits = chain.counts()
     special = tuple(
         _special(chain, parameter, row, Special(kind), index)
@@ -272,7 +287,7 @@ def _branch(chain: Chain, parameter: str, joined: kernel.BranchTable, ends: tupl
 
 
 def _special(chain: Chain, parameter: str, row: np.ndarray, kind: Special, index: int) -> SpecialPoint:
-    """A special point with its orbit."""
+    """Return a special point with its orbit."""
     touch = None
     if kind == Special.GRAZING:
         orbit, chain, row, touch = grazing_at(chain, parameter, row)
@@ -292,7 +307,10 @@ def _special(chain: Chain, parameter: str, row: np.ndarray, kind: Special, index
 
 
 def _twice(special: SpecialPoint) -> tuple[Chain, np.ndarray]:
-    """The chain of a special point gone round twice, and its phases: half an orbit becomes a whole one, a whole one its double."""
+    """Return the chain of a special point traversed twice, with its phases.
+
+    Half a symmetric orbit becomes the whole orbit; any other orbit becomes an orbit of twice the period.
+    """
     chain, row = special._chain, special._row
     twice = chain._replace(
         period=chain.period if chain.mirrored else 2 * chain.period,

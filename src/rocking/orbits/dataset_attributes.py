@@ -1,30 +1,30 @@
-"""How datasets of this room name their parameters and the package that made them."""
+"""Names of parameters, and attributes common to the datasets of this subpackage."""
 
 from __future__ import annotations
 
 from rocking.model import VERSION
 
 LONG_NAMES = {
-    "amplitude": "amplitude of the base's acceleration, A",
-    "period": "period of the base, T",
-    "frequency": "frequency of the base, Omega",
-    "phase": "phase of the base at the start, phi",
-    "restitution": "restitution at an impact, e",
-    "brace_angle": "angle of the braces, Theta_b",
-    "brace_restitution": "restitution at a brace, r",
+    "amplitude": "amplitude of the base acceleration, A",
+    "period": "forcing period, T",
+    "frequency": "angular frequency of the forcing, Omega",
+    "phase": "initial forcing phase, phi",
+    "restitution": "coefficient of restitution of an impact, e",
+    "brace_angle": "brace angle, Theta_b",
+    "brace_restitution": "coefficient of restitution of a brace impact, r",
 }
 
 
 def named(text: str) -> dict[str, str]:
-    """The attributes of a variable, normalised as all of them are."""
+    """Return the attributes of a normalised variable."""
     return {"long_name": text, "units": "1"}
 
 
 def described(what: str) -> dict[str, object]:
-    """The attributes of every dataset."""
+    """Return the attributes common to all datasets."""
     return {
         "Conventions": "CF-1.11",
         "title": f"{what} of a free-standing block on a shaking base",
         "source": f"rocking {VERSION}",
-        "comment": "Everything is normalised as in Yim and Lin (1991), eqs. 1-4.",
+        "comment": "All quantities are normalised as in Yim & Lin (1991), Eqs. (1)-(4).",
     }

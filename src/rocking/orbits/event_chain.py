@@ -1,4 +1,4 @@
-"""Between an orbit, as users have it, and the closed chain of its events, as the kernels follow it."""
+"""Conversion between a public orbit and the closed chain of its events, which the kernels continue."""
 
 from __future__ import annotations
 
@@ -33,9 +33,9 @@ NAMES = {
 
 
 class Chain(NamedTuple):
-    """The events of an orbit; of a symmetric one those of half a period."""
+    """Events of an orbit; of a symmetric one, those of half a period."""
 
-    system: System  # at some value of the parameter followed
+    system: System  # at one value of the continued parameter
     period: int
     mirrored: bool
     kinds: np.ndarray
@@ -49,37 +49,43 @@ class Chain(NamedTuple):
 
     @property
     def fixed(self) -> kernel.Chain:
-        """What does not change along a branch, as the kernels take it."""
+        """Constants of a branch, for the kernels."""
         return kernel.Chain(self.kinds, self.side, self.turn, self.mirrored)
 
     def counts(self) -> tuple[int, int]:
-        """Impacts and brace hits in a period."""
+        """Return the number of impacts and of brace impacts per period."""
         times = 2 if self.mirrored else 1
         return times * int((self.kinds == IMPACT).sum()), times * int((self.kinds == BRACE).sum())
 
 
 class Solved(NamedTuple):
-    """An orbit at one value of a parameter."""
+    """Orbit at one value of a parameter."""
 
     found: bool
-    phases: np.ndarray  # and the value, last
+    phases: np.ndarray  # phases, then the value of the parameter
     trace: float
     determinant: float
     peak: float
 
 
 def parameters(system: System) -> Any:
-    """A system as the kernels read it, its clock at the phase 0."""
+    """Return the parameters of a system for the kernels, with time measured from the forcing phase 0."""
     return numbers.harmonic_parameters(**NO_BRACES | quantities(system) | {"phase": 0.0})
 
 
 def clocked(system: System, phase: float) -> System:
-    """The same system with its clock at 0 when the forcing has a phase."""
+    """Return the system with time measured from the given forcing phase."""
     return evolve(system, forcing=evolve(system.forcing, phase=phase))
 
 
 def chain_of(orbit: Orbit) -> Chain:
-    """The events of an orbit; ValueError in one line where it has none, or rests or leans in between."""
+    """Return the chain of events of an orbit.
+
+    Raises
+    ------
+    ValueError
+        If the orbit has no events, rests, or stays in contact with a brace.
+    """
     if orbit.superstable:
         raise ValueError(
             refusal(
@@ -90,18 +96,21 @@ def chain_of(orbit: Orbit) -> Chain:
     events = events[np.isin(events["kind"], ("impact", "brace"))]
     if not len(events):
         raise ValueError(
-            "orbit must have an impact or a brace hit; got one without (it is ±1 + β cos ψ: see THEORY)"
+            "orbit must have an impact or a brace impact; it has none (it is the saddle orbit ±1 + β cos ψ)"
         )
     psi = orbit.phase + orbit.system.forcing.frequency * events["time"]
     kinds = np.where(events["kind"] == "impact", IMPACT, BRACE).astype(np.int64)
-    # the side that the block is on after an event
+    # side of the block after an event
     side = 1 if (events[0]["after"] > 0.0) == (kinds[0] == IMPACT) else -1
     count = len(events) // 2 if orbit.symmetric else len(events)
     return Chain(orbit.system, orbit.period, orbit.symmetric, kinds[:count], side, np.asarray(psi[:count]))
 
 
 def solved(chain: Chain, parameter: str, value: float, phases: np.ndarray) -> Solved:
-    """The orbit at one value of a parameter, by Newton's method from near phases; not found too where it is no motion of the block."""
+    """Solve for the orbit at one value of a parameter, by Newton's method from approximate phases.
+
+    The orbit counts as not found if a simulation deviates from the chain.
+    """
     k = len(chain.kinds)
     y, alone = np.append(phases[:k], value), np.zeros(k + 1)
     alone[k] = 1.0
@@ -120,7 +129,7 @@ def problem_of(
     longest: float,
     scales: Sequence[float],
 ) -> arclength.Problem:
-    """The problem of following a chain through one or two parameters within limits, each measured in its own scale."""
+    """Return the problem of following a chain through one or two parameters within limits, each with its own scale."""
     return arclength.Problem(
         parameters(chain.system),
         chain.fixed,
@@ -132,7 +141,7 @@ def problem_of(
 
 
 def branch_table(n: int, points: int, specials: int) -> following.BranchTable:
-    """Room for so many points and special points of a branch with n unknowns."""
+    """Return arrays for the points and special points of a branch with n unknowns."""
     return following.BranchTable(
         np.empty((points, n)),
         np.empty(points, following.FACTS),
@@ -142,7 +151,13 @@ def branch_table(n: int, points: int, specials: int) -> following.BranchTable:
 
 
 def equations(chain: Chain, parameter: str, row: np.ndarray) -> tuple[np.ndarray, np.ndarray, float, float]:
-    """(derivatives, what is known of each arc, trace, determinant) at a point of a branch."""
+    """Return the equations at a point of a branch.
+
+    Returns
+    -------
+    tuple of (ndarray, ndarray, float, float)
+        Jacobian; data of each arc; trace and determinant of the return map.
+    """
     k = len(chain.kinds)
     there = kernel.make_equations(k + 1)
     trace, determinant = chain_queries.equations_at(
@@ -152,14 +167,14 @@ def equations(chain: Chain, parameter: str, row: np.ndarray) -> tuple[np.ndarray
 
 
 def null_direction(chain: Chain, parameter: str, row: np.ndarray) -> np.ndarray:
-    """The direction of the phases, of mean square 1, in which an orbit may move at a special point."""
+    """Return the direction of the phases, of mean square 1, in which an orbit may move at a special point."""
     jacobian, *_ = equations(chain, parameter, row)
     direction = np.linalg.svd(jacobian[:, :-1])[2][-1]
     return direction / math.sqrt(np.mean(direction**2))
 
 
 def multipliers_of(trace: float, determinant: float, mirrored: bool) -> tuple[complex, complex]:
-    """Floquet multipliers over a period, the larger first, or that above the real axis."""
+    """Return the Floquet multipliers over one period, the larger first, or the one above the real axis."""
     trace, determinant = float(trace), float(determinant)
     first, second = floquet.multipliers_plain(
         0.5 * trace, 0.25 * trace * trace - determinant, determinant, mirrored
@@ -168,7 +183,7 @@ def multipliers_of(trace: float, determinant: float, mirrored: bool) -> tuple[co
 
 
 def orbit_of(chain: Chain, parameter: str, row: np.ndarray, trace: float, determinant: float) -> Orbit:
-    """The orbit at a point of a branch: ``row`` holds its phases and the value of the parameter."""
+    """Return the orbit at a point of a branch; ``row`` contains its phases and the value of the parameter."""
     system = with_value(chain.system, parameter, float(row[-1]))
     phase = quiet_phase(np.append(row[:-1], row[:-1] + math.pi if chain.mirrored else []))
     state = states(chain, parameter, row[None], phase, 1)[0, 0]
@@ -191,9 +206,9 @@ def orbit_of(chain: Chain, parameter: str, row: np.ndarray, trace: float, determ
 
 
 def _events(chain: Chain, parameter: str, row: np.ndarray, phase: float) -> tuple[OrbitEvent, ...]:
-    """Return the events of the orbit at a point of a branch, and how long after its state at a phase they come."""
+    """Return the events of the orbit at a point of a branch, each with its forcing phase after the state at `phase`."""
     braces = with_value(chain.system, parameter, float(row[-1])).braces
-    # the state is that of the first cycle after the chain's first event, as in `states`
+    # The state is that of the first cycle after the first event of the chain, as in `states`.
     begins, whole = phase + math.tau * math.ceil((row[0] - phase) / math.tau), math.tau * chain.period
     _, links, trace, _ = equations(chain, parameter, row)
     if math.isnan(trace):
@@ -219,9 +234,10 @@ def _events(chain: Chain, parameter: str, row: np.ndarray, phase: float) -> tupl
 
 
 def _arrivals(chain: Chain, parameter: str, row: np.ndarray, last_side: int) -> np.ndarray:
-    """Return the speeds towards the base or away from it at every event's end of the arc before, on the side of that arc.
+    """Return the speed just before each event, towards the base or away from it, on the side of the arc before.
 
-    Those are the speeds at which the arcs leave backward in time: along a long arc the speed at its start does not give them.
+    These are the initial speeds of the arcs in reversed time. On a long arc, the speed at its start does not determine the
+    speed at its end accurately.
     """
     phases = np.append(-row[0] - chain.turn, -row[-2:0:-1])
     backward = chain._replace(kinds=np.roll(chain.kinds[::-1], 1), side=last_side, phases=phases)
@@ -230,7 +246,7 @@ def _arrivals(chain: Chain, parameter: str, row: np.ndarray, last_side: int) -> 
 
 
 def states(chain: Chain, parameter: str, rows: np.ndarray, phase: float, count: int) -> np.ndarray:
-    """(Θ, Θ') of orbits at a phase of the forcing, in as many successive cycles: (rows, count, 2)."""
+    """Return Θ and Θ' of orbits at a forcing phase in successive cycles, shape (rows, count, 2)."""
     out = np.empty((len(rows), count, 2))
     chain_queries.states_at(
         parameters(chain.system), NAMES[parameter], chain.fixed, np.ascontiguousarray(rows), phase, out
@@ -239,7 +255,7 @@ def states(chain: Chain, parameter: str, rows: np.ndarray, phase: float, count: 
 
 
 def quiet_phase(phases: np.ndarray) -> float:
-    """The phase farthest from all events, in [0, 2π): a section there has sides, impacts and derivatives without doubt."""
+    """Return the phase in [0, 2π) farthest from all events, where sides, impacts and derivatives are unambiguous."""
     around = np.sort(np.mod(phases, math.tau))
     gaps = np.diff(around, append=around[0] + math.tau)
     widest = int(np.argmax(gaps > gaps.max() * (1.0 - 1e-9)))

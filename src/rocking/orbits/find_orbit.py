@@ -1,4 +1,4 @@
-"""Periodic orbits found: one near a guess."""
+"""Search for one periodic orbit near a guess."""
 
 from __future__ import annotations
 
@@ -16,42 +16,44 @@ from rocking.orbits.event_chain import IMPACT, Chain, chain_of, clocked, orbit_o
 from rocking.orbits.saddle_orbits import saddle_events
 
 MAX_PERIOD = 1000
-# States of an orbit as near as this are one.
+# Largest distance of two identical states of an orbit.
 SAME = 1e-8
-# Events of a block that rests at the base, and of one that leans on a brace.
+# Events of rest on the base, and of sustained contact with a brace.
 RESTING, LEANING = ("rest", "lift-off"), ("lean", "leave")
 
 
 def find_orbit(system: System, guess: State, period: int) -> Orbit:
-    """Find a periodic orbit, stable or not, near a guess: Newton's method with the exact Jacobian on the map over `period` cycles.
+    """Find a periodic orbit near a guess, stable or unstable, by Newton's method with the exact Jacobian.
 
-    The section is moved to the forcing phase farthest from all events of the guess's motion; what is found is solved once
-    more as a closed chain of arcs, to rounding.
+    The map over `period` cycles is solved on the section at the forcing phase farthest from all events of the guess. The
+    result is solved again as a closed chain of arcs, to rounding.
 
     Parameters
     ----------
     system : System
-        The block, its forcing and its braces.
+        Block, base motion and braces.
     guess : State
-        Θ and Θ' at τ = 0, at the forcing's own phase.
+        Approximate state (Θ, Θ') at τ = 0.
     period : int
-        Forcing cycles, 1 to 1000.
+        Number of forcing cycles, in [1, 1000].
 
     Returns
     -------
     Orbit
-        With its least period, a divisor of `period`.
+        Orbit with its least period, a divisor of `period`.
 
     Raises
     ------
-    TypeError, ValueError
-        In one line, for arguments of the wrong type or outside their range and for a guess that overturns.
+    TypeError
+        If an argument is of the wrong type.
+    ValueError
+        If an argument lies outside its range, or if the guess overturns within `period + 1` cycles.
     NoOrbit
-        A ValueError, where Newton's method ends without an orbit; it carries the `state` reached and its `residual`.
+        If Newton's method does not converge. The exception, a ValueError, has the last `state` and its `residual`.
 
     Notes
     -----
-    Not guaranteed: that it is the orbit nearest to the guess.
+    The orbit is not necessarily the one nearest to the guess.
 
     Examples
     --------
@@ -60,7 +62,7 @@ def find_orbit(system: System, guess: State, period: int) -> Orbit:
     >>> orbit = rk.find_orbit(system, rk.State(angle=0.18, velocity=-0.1), 1)
     >>> print(orbit)
     symmetric orbit of period 1 with 2 impacts
-    >>> round(abs(orbit.multipliers[0]), 6)  # e², for they are complex
+    >>> round(abs(orbit.multipliers[0]), 6)  # e², because they are complex
     0.855625
     """
     check_start(system, instance("start", guess, State))
@@ -68,7 +70,9 @@ def find_orbit(system: System, guess: State, period: int) -> Orbit:
     motion = simulate(system, guess, cycles=period + 1)
     if motion.outcome is Outcome.OVERTURNED:
         raise ValueError(
-            refusal("guess", f"not overturn within {period + 1} cycles", guess, "start nearer to the orbit")
+            refusal(
+                "guess", f"not overturn within {period + 1} cycles", guess, "use a guess nearer to the orbit"
+            )
         )
     frequency, own = system.forcing.frequency, system.forcing.phase
     phase = quiet_phase(own + frequency * motion.events["time"]) if len(motion.events) else own
@@ -80,7 +84,7 @@ def find_orbit(system: System, guess: State, period: int) -> Orbit:
     if orbit is None:
         raise NoOrbit(
             f"no orbit of period {period} was found from {guess}: Newton's method ends at {reached}, "
-            f"{out[3]:.3g} off a period later (start nearer, or try another period)",
+            f"with a residual of {out[3]:.3g} (use a nearer guess, or another period)",
             phase,
             reached,
             float(out[3]),
@@ -89,7 +93,10 @@ def find_orbit(system: System, guess: State, period: int) -> Orbit:
 
 
 def _half(chain: Chain) -> Chain | None:
-    """Return the events of half a period where the other half is its mirror image: a run may leave the orbit too soon to show it."""
+    """Return the events of half a period if the other half is its mirror image, or None.
+
+    A simulation may leave an unstable orbit too soon to show the symmetry.
+    """
     count = len(chain.kinds) // 2
     if (
         chain.mirrored
@@ -104,7 +111,13 @@ def _half(chain: Chain) -> Chain | None:
 
 
 def newton_from_starts(system: System, period: int, mirrored: bool, starts: np.ndarray) -> np.ndarray:
-    """What Newton's method made of every start, (found, Θ, Θ', residual): on the map over a period, or half of one and mirrored."""
+    """Run Newton's method from many initial states, on the map over a period, or over half a period and mirrored.
+
+    Returns
+    -------
+    ndarray, shape (starts, 4)
+        Found (1 or 0), Θ, Θ' and residual for each initial state.
+    """
     p, _ = start_march(system, State())
     out = np.empty((len(starts), 4))
     workspace = memory.make_workspace(1, 1)
@@ -113,9 +126,10 @@ def newton_from_starts(system: System, period: int, mirrored: bool, starts: np.n
 
 
 def orbit_from(system: System, phase: float, state: State, period: int) -> Orbit | None:
-    """The orbit through a state at a forcing phase that repeats itself after `period` cycles: its least period, symmetry and events.
+    """Return the orbit through a state at a forcing phase that repeats after `period` cycles, or None.
 
-    None if a run from there overturns within a period: the orbit is then more unstable than floats can follow.
+    Its least period, symmetry and events are determined. None: a motion from this state overturns within one period, so
+    that the orbit is too unstable for double precision.
     """
     motion = simulate(clocked(system, phase), state, cycles=period)
     if motion.outcome is Outcome.OVERTURNED:

@@ -1,4 +1,4 @@
-"""All periodic orbits up to a period, as far as a search can tell."""
+"""Search for all periodic orbits up to a period."""
 
 from __future__ import annotations
 
@@ -19,38 +19,46 @@ from rocking.orbits.orbit_registry import OrbitRegistry
 from rocking.orbits.saddle_orbits import response
 
 MAX_PERIOD = 64
-# The first round's starts a map, then twice as many, and so on.
+# Number of initial guesses per map in the first round; it doubles in later rounds.
 FIRST_ROUND = 2048
 MAX_ROUNDS = 6
-# How much faster than unforced a block between braces may be.
+# Speed limit for a block between braces, relative to the unforced one.
 FASTER = 2.0
-# The plane's own golden ratio: multiples of its powers fill a square evenly however many there are.
+# Plastic number: multiples of its inverse powers form a low-discrepancy sequence in the plane.
 PLASTIC = 1.324717957244746
 
 
 @frozen(eq=False)
 class Orbits(Sequence[Orbit]):
-    """The periodic orbits that `find_orbits` found: a sequence of `Orbit`, by period, the more stable first.
+    """Periodic orbits found by `find_orbits`: a sequence of `Orbit`, ordered by period, then from stable to unstable.
 
     Attributes
     ----------
     system : System
-        Whose orbits they are.
+        System of the orbits.
     max_period : int
-        Longest period looked for.
+        Longest period of the search.
     hits : tuple of int
-        How many starts led to each orbit or to its mirror image.
+        Number of initial guesses that led to each orbit or to its mirror image.
     starts : int
-        Starts in all, over all maps.
+        Number of initial guesses over all maps.
     settled : bool
-        Whether the last round, with as many starts as all before it, found nothing new.
+        True if the last round, with as many guesses as all rounds before, found no new orbit.
     orbits : tuple of Orbit
-        What the sequence holds.
+        Orbits of the sequence.
 
     Notes
     -----
-    Not guaranteed: completeness. An orbit that few starts lead to may be missing; the least of `hits` tells how near that
-    is. Orbits within 10⁻⁶ of each other count as one.
+    Completeness is not guaranteed. An orbit that few guesses lead to may be missing; a small minimum of `hits` is a sign of
+    that. Orbits within 10⁻⁶ of each other count as one.
+
+    Examples
+    --------
+    >>> import rocking as rk
+    >>> system = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925)
+    >>> found = rk.find_orbits(system, 1)
+    >>> len(found), found.settled, found[0].stable
+    (3, True, True)
     """
 
     system: System
@@ -82,13 +90,13 @@ class Orbits(Sequence[Orbit]):
             stable += f", {counts[Stability.NEUTRAL]} neutral"
         least = min(self.hits, default=0)
         last = (
-            "the last half of them found nothing new"
+            "the last half of them found no new orbit"
             if self.settled
-            else "the last of them still found new ones"
+            else "the last of them still found new orbits"
         )
         return (
-            f"{len(self)} orbits of period ≤ {self.max_period}, {stable}, from {self.starts} starts; "
-            f"{last}, each was met {least} times at least; completeness is not guaranteed"
+            f"{len(self)} orbits of period ≤ {self.max_period}, {stable}, from {self.starts} initial guesses; {last}, "
+            f"and each orbit was found from at least {least} guesses; completeness is not guaranteed"
         )
 
 
@@ -102,49 +110,51 @@ def find_orbits(
 ) -> Orbits:
     """Search for all periodic orbits up to a period, stable and unstable.
 
-    Newton's method with the exact Jacobian on the map over every period, and, for the symmetric orbits of odd periods, on the
-    map over half of one and mirrored, whose orbits are less unstable; from evenly spread starts, twice as many in each round,
-    until a round with as many starts as all before it finds nothing new.
+    Newton's method with the exact Jacobian is applied to the map over every period. For symmetric orbits of odd periods it
+    is also applied to the map over half a period and mirrored, whose orbits are less unstable. The initial guesses are evenly
+    distributed. Their number doubles in each round, until a round finds no new orbit.
 
     Parameters
     ----------
     system : System
-        The block, its forcing and its braces.
+        Block, base motion and braces.
     max_period : int
-        Longest period, in forcing cycles, 1 to 64.
+        Longest period, in forcing cycles, in [1, 64].
     angles, velocities : (float, float), optional
-        The box of starts. By default, without braces, the region in which every periodic orbit must lie: beyond it a
-        motion never returns, or never came from the base (the condition of no return, forward and backward in time). With
-        braces a box between them, at speeds up to twice what forcing and fall suggest.
+        Ranges of the initial guesses. Default without braces: the region that contains every periodic orbit, because
+        overturning is certain beyond it, forward or backward in time. Default with braces: all angles between them, and
+        speeds up to twice an estimate from forcing and fall.
     effort : float
-        Starts of the first round, as a multiple of 2048 a map, in [0.01, 1000].
+        Number of initial guesses per map in the first round, in units of 2048, in [0.01, 1000]. Default: 1.
     seed : int
-        Where the even spread begins.
+        First index of the sequence of guesses, in [0, 2³² − 1]. Default: 0.
 
     Returns
     -------
     Orbits
-        A sequence of `Orbit`; `print` says what was done, and what it does not guarantee.
+        Sequence of `Orbit`; `print` shows a summary of the search.
 
     Raises
     ------
-    TypeError, ValueError
-        In one line, for arguments of the wrong type or outside their range.
+    TypeError
+        If an argument is of the wrong type.
+    ValueError
+        If an argument lies outside its range.
 
     Notes
     -----
-    Not guaranteed: completeness, see `Orbits`. An orbit is left out if it is so unstable that a run from it overturns
+    Completeness is not guaranteed, see `Orbits`. An orbit is omitted if it is so unstable that a motion from it overturns
     within one period.
 
     Examples
     --------
     >>> import rocking as rk
     >>> system = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925)
-    >>> for orbit in rk.find_orbits(system, 1):
-    ...     print("stable  " if orbit.stable else "unstable", orbit)
-    stable   symmetric orbit of period 1 with 2 impacts
-    unstable unsymmetric orbit of period 1 with 0 impacts
-    unstable unsymmetric orbit of period 1 with 0 impacts
+    >>> orbits = rk.find_orbits(system, 1)
+    >>> [str(orbit.stability) for orbit in orbits]
+    ['stable', 'unstable', 'unstable']
+    >>> print(orbits[1])
+    asymmetric orbit of period 1 with 0 impacts
     """
     instance("system", system, System)
     max_period = whole("max_period", max_period, 1, MAX_PERIOD)
@@ -186,7 +196,13 @@ def _rank(orbit: Orbit) -> tuple[int, float, float]:
 
 
 def _box(system: System, angles: Any, velocities: Any) -> tuple[float, ...] | None:
-    """The box of starts, (lowest and highest angle, lowest and highest velocity); None for where all orbits without braces lie."""
+    """Return the ranges of the initial guesses, or None for the region of all orbits without braces.
+
+    Returns
+    -------
+    tuple of float, or None
+        Lowest and highest angle, lowest and highest velocity.
+    """
     if angles is None and velocities is None and system.braces is None:
         return None
     forcing, braces = system.forcing, system.braces
@@ -204,7 +220,7 @@ def _box(system: System, angles: Any, velocities: Any) -> tuple[float, ...] | No
 
 
 def _starts(system: System, box: tuple[float, ...] | None, count: int, first: int) -> np.ndarray:
-    """Evenly spread starts in the box, or where every periodic orbit without braces must lie."""
+    """Return evenly distributed initial guesses in the box, or in the region of all periodic orbits without braces."""
     index = np.arange(first, first + count)[:, None] + 0.5
     x, y = np.mod(index * np.array([1.0 / PLASTIC, 1.0 / PLASTIC**2]), 1.0).T
     if box is not None:
@@ -213,7 +229,7 @@ def _starts(system: System, box: tuple[float, ...] | None, count: int, first: in
     beta = response(system)
     in_phase = beta * math.cos(forcing.phase)
     quadrature = beta * forcing.frequency * math.sin(forcing.phase)
-    # On either side u + u' and u - u' have each their bound, and u >= 0: a triangle, a parallelogram folded over.
+    # On each side, u + u' and u - u' are bounded and u >= 0. The points of a parallelogram are folded into this triangle.
     side = np.where(x < 0.5, 1.0, -1.0)
     x = np.where(x < 0.5, 2.0 * x, 2.0 * x - 1.0)
     over = x + y > 1.0

@@ -1,4 +1,4 @@
-"""Peak rotation over the forcing's period: the branches of the (1, n) orbits, stable or not, and what a start from rest does."""
+"""Frequency response: peak rotation of the (1, n) orbits, and of the response from rest, over the forcing period."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ from rocking.theory import symmetric_modes
 
 MAX_VALUES = 100_000
 MAX_CYCLES_IN_MODE = 99
-# Phases as near as this are one; so are the values of two special points.
+# Largest difference of identical phases, and of the parameter at identical special points.
 SAME = 1e-6
 
 REST = np.dtype([("kind", "U14"), ("period", np.int64), ("peak", float), ("steady_peak", float)])
@@ -49,52 +49,57 @@ def frequency_response(
     step: float = 0.01,
     max_cycles: int = 10_000,
 ) -> FrequencyResponse:
-    """Follow the (1, n) orbits over the forcing's period at one amplitude, and judge a start from rest at each of its values.
+    """Compute the frequency response at one amplitude: branches of the (1, n) orbits, and verdicts on the response from rest.
 
-    Seeds are the symmetric modes of eqs (8)-(10) at the values given; their branches are followed both ways, through folds, and
-    the unsymmetric branches that are born where a symmetry breaks.
+    The branches start from the symmetric modes of Yim & Lin (1991), Eqs. (8)–(10), at the given values. They are followed in
+    both directions, through folds, together with the asymmetric branches that bifurcate at symmetry breakings.
 
     Parameters
     ----------
-    period, frequency : array
-        Values of T or of Ω: exactly one of the two, at least two values.
+    period, frequency : array_like
+        Forcing period T or angular frequency Ω, at least two values. Give exactly one.
     amplitude : float
-        A in (0, 1000].
+        Amplitude A, in (0, 1000]. Default: 1.
     restitution : float
-        e in [0.001, 1).
+        Coefficient of restitution e, in [0.001, 1). Default: 0.925.
     modes : sequence of int
-        The n to follow: odd, up to 99.
+        Numbers n of forcing cycles per response period: odd, up to 99. Default: (1, 3).
     step : float
-        As in `continue_orbit`.
+        Largest step, as in `continue_orbit`. Default: 0.01.
     max_cycles : int
-        Forcing cycles to follow a start from rest at most, as in `classify`; chaos needs 10⁴ to be called so.
+        Maximum number of forcing cycles for each response from rest, as in `classify`. A verdict of chaos needs 10⁴.
+        Default: 10,000.
 
     Returns
     -------
     FrequencyResponse
+        Branches, and verdicts on the response from rest at each value.
 
     Raises
     ------
-    TypeError, ValueError
-        In one line, for an argument of another kind or outside its range, and for an even n.
+    TypeError
+        If an argument is of the wrong type, or if not exactly one of `period` and `frequency` is given.
+    ValueError
+        If an argument lies outside its range, or if a number in `modes` is even.
 
     Notes
     -----
-    Not guaranteed: that a branch is found which lies wholly between two neighbouring values. Unsymmetric branches that are not
-    connected with a symmetric one, and what is born at period doublings, are left out: `find_orbits` and `switch_branch` lead
-    to them.
+    Limits: a branch that lies between two neighbouring values is not found. Asymmetric branches without a connection to a
+    symmetric one, and branches from period doublings, are not included. Use `find_orbits` and `switch_branch` for them.
 
     Examples
     --------
     >>> import numpy as np, rocking as rk
     >>> found = rk.frequency_response(period=np.linspace(0.5, 2.5, 9), amplitude=2.0, restitution=0.925)
     >>> print(found)
-    frequency response at amplitude 2, ...: (1,1) 1 symmetric, 0 unsymmetric, ...; (1,3) 2 symmetric, 1 unsymmetric, ...
+    frequency response at amplitude 2, ...: (1, 1) 1 symmetric, 0 asymmetric, ...; (1, 3) 2 symmetric, 1 asymmetric, ...
     """
     parameter = exactly_one(period=period, frequency=frequency)
     values = _values(parameter, period if frequency is None else frequency)
     amplitude = within("amplitude", amplitude, 0.0, MAX_AMPLITUDE)
-    refuse_if(amplitude == 0.0, "amplitude", "be above 0: an unshaken block has no (1, n) orbit", amplitude)
+    refuse_if(
+        amplitude == 0.0, "amplitude", "be above 0: without forcing there is no (1, n) orbit", amplitude
+    )
     restitution = _lossy(restitution)
     followed = tuple(dict.fromkeys(_odd(n) for n in _sequence(modes)))
     systems = [System(Harmonic(amplitude, **{parameter: value}), restitution) for value in values.tolist()]
@@ -123,7 +128,9 @@ def _values(name: str, values: Any) -> NDArray[np.float64]:
 def _lossy(restitution: float) -> float:
     restitution = within("restitution", restitution, 1e-3, 1.0)
     if restitution == 1.0:
-        remedy = "without losses no response is ever reached: theory.symmetric_modes has the modes"
+        remedy = (
+            "an undamped motion never reaches a steady response; theory.symmetric_modes returns the modes"
+        )
         raise ValueError(refusal("restitution", "lie in [0.001, 1)", restitution, remedy))
     return restitution
 
@@ -143,7 +150,7 @@ def _odd(n: int) -> int:
 def _branches(
     systems: Sequence[System], n: int, parameter: str, ends: np.ndarray, step: float
 ) -> list[Branch]:
-    """All branches of the (1, n) orbits: the symmetric ones, after each the unsymmetric ones born from it."""
+    """Return all branches of the (1, n) orbits: each symmetric one, followed by the asymmetric ones that bifurcate from it."""
     bounds = float(ends[0]), float(ends[1])
     symmetric: list[Branch] = []
     for system in systems:
@@ -160,14 +167,14 @@ def _branches(
 
 
 def _phases(branch: Branch, value: float) -> list[float]:
-    """Forcing phases at which the symmetric orbits of a branch rise to the positive side: different modes differ in them."""
+    """Return the forcing phases at which the symmetric orbits of a branch move to the positive side, which identify the mode."""
     values = branch.points["parameter"]
     chains = [chain_of(orbit) for orbit in branch.at(value)] if values.min() <= value <= values.max() else []
     return [float(chain.phases[0]) + (0.0 if chain.side > 0 else math.pi) for chain in chains]
 
 
 def _born(branch: Branch, bounds: tuple[float, float], step: float) -> list[Branch]:
-    """One of each two unsymmetric branches; those that run from one special point to another only once."""
+    """Return one of each pair of asymmetric branches; a branch between two special points is returned once."""
     born: list[Branch] = []
     for special in branch.special:
         met = [
@@ -182,7 +189,7 @@ def _born(branch: Branch, bounds: tuple[float, float], step: float) -> list[Bran
 
 
 def _orbit_of_mode(mode: Mode, system: System, parameter: str) -> Orbit | None:
-    """A symmetric mode as an orbit: half a period of one impact, at the phase of the closed form."""
+    """Return a symmetric mode as an orbit: half a period with one impact, at the phase of the closed form."""
     chain = Chain(system, mode.n, True, np.array([IMPACT]), 1, np.array([mode.phase]))
     there = solved(chain, parameter, getattr(system.forcing, parameter), chain.phases)
     if not there.found:

@@ -1,4 +1,4 @@
-"""A frequency response: the peaks of branches, and what starts from rest do."""
+"""Result of `frequency_response`: peaks along branches, and responses from rest."""
 
 from __future__ import annotations
 
@@ -20,24 +20,31 @@ if TYPE_CHECKING:
 
 @frozen(eq=False)
 class FrequencyResponse(ReadOnlyArrays, NotebookPicture):
-    """Peak rotation over the period or the frequency of the forcing; made by `frequency_response`.
+    """Peak rotation over the period or the frequency of the forcing; returned by `frequency_response`.
 
     Attributes
     ----------
     amplitude, restitution : float
         A and e.
     modes : tuple of int
-        The n of the (1, n) orbits followed: one rocking cycle in n forcing cycles.
+        Numbers n of the (1, n) orbits: one rocking cycle in n forcing cycles.
     parameter : str
         "period" or "frequency".
     values : ndarray, shape (m,)
-        Its values at which a start from rest was judged, ascending; the branches run from the first to the last.
+        Values of the parameter for the response from rest, ascending. The branches extend from the first to the last.
     branches : tuple of Branch
-        Of each n in turn the symmetric branches, each followed by the unsymmetric ones born from it; `points["peak"]` is the
-        largest |Θ|. Of two branches that are mirror images of each other, and so have the same peaks, one.
-    rest : structured array, shape (m,)
-        What a start from rest does: "kind" (see `Kind`), "period" in forcing cycles (0 where it has none), "peak", the largest
-        |Θ| from the start on, "steady_peak", that of the periodic response reached (NaN where there is none).
+        For each n, the symmetric branches, each followed by the asymmetric ones that bifurcate from it. `points["peak"]` is
+        the largest |Θ|. Of two branches that are mirror images, with equal peaks, one is included.
+    rest : structured ndarray, shape (m,)
+        Responses from rest, with the fields "kind" (see `Kind`), "period" in forcing cycles (0 if not periodic), "peak"
+        (largest |Θ| from τ = 0) and "steady_peak" (largest |Θ| of the periodic response, NaN if there is none).
+
+    Examples
+    --------
+    >>> import rocking as rk
+    >>> found = rk.frequency_response(period=[0.5, 1.0], amplitude=2.0, restitution=0.925, modes=(1,))
+    >>> found.rest["kind"].tolist(), len(found.of(1))
+    (['periodic', 'periodic'], 1)
     """
 
     amplitude: float
@@ -49,11 +56,28 @@ class FrequencyResponse(ReadOnlyArrays, NotebookPicture):
     rest: NDArray[np.void] = field(repr=False, converter=read_only)
 
     def of(self, n: int) -> tuple[Branch, ...]:
-        """The branches of the (1, n) orbits."""
+        """Return the branches of the (1, n) orbits.
+
+        Parameters
+        ----------
+        n : int
+            Number of forcing cycles per response period.
+
+        Returns
+        -------
+        tuple of Branch
+            Branches; empty if none was found.
+        """
         return tuple(branch for branch in self.branches if branch.period == n)
 
     def to_xarray(self) -> xr.Dataset:
-        """The start from rest along the parameter, and all branches, one after the other, along `point`."""
+        """Return the frequency response as a dataset.
+
+        Returns
+        -------
+        xarray.Dataset
+            Response from rest along the parameter; points of all branches, one branch after the other, along `point`.
+        """
         import xarray as xr
 
         name, rest = self.parameter, self.rest
@@ -61,24 +85,28 @@ class FrequencyResponse(ReadOnlyArrays, NotebookPicture):
         flags = {"flag_values": list(range(len(kinds))), "flag_meanings": " ".join(kinds)}
         codes = np.array([kinds.index(kind) for kind in rest["kind"]], np.uint8)
         variables = {
-            "rest_kind": (name, codes, {"long_name": "what a start from rest does"} | flags),
+            "rest_kind": (name, codes, {"long_name": "type of the response from rest"} | flags),
             "rest_period": (
                 name,
                 rest["period"],
-                named("forcing cycles of the response; 0 where it has none"),
+                named("forcing cycles per response period; 0 if not periodic"),
             ),
-            "rest_peak": (name, rest["peak"], named("largest size of the angle from the start on")),
+            "rest_peak": (
+                name,
+                rest["peak"],
+                named("largest magnitude of the angle from the initial state on"),
+            ),
             "rest_steady_peak": (
                 name,
                 rest["steady_peak"],
-                named("largest size of the angle of the response"),
+                named("largest magnitude of the angle of the steady response"),
             ),
         }
         counts = [len(branch) for branch in self.branches]
         for column, text in (
             ("parameter", LONG_NAMES[name]),
-            ("stable", "whether the orbit is stable"),
-            ("peak", "largest size of the angle of the orbit"),
+            ("stable", "1 if the orbit is stable"),
+            ("peak", "largest magnitude of the angle of the orbit"),
         ):
             points = [branch.points[column] for branch in self.branches]
             together = np.concatenate(points) if points else np.empty(0)
@@ -90,7 +118,11 @@ class FrequencyResponse(ReadOnlyArrays, NotebookPicture):
         for column, each, text in (
             ("number", range(len(counts)), "number of the branch"),
             ("mode", [branch.period for branch in self.branches], "n of the (1, n) orbits"),
-            ("symmetric", [int(branch.symmetric) for branch in self.branches], "whether they are symmetric"),
+            (
+                "symmetric",
+                [int(branch.symmetric) for branch in self.branches],
+                "1 if the orbits are symmetric",
+            ),
         ):
             variables[f"branch_{column}"] = (
                 "point",
@@ -118,7 +150,7 @@ class FrequencyResponse(ReadOnlyArrays, NotebookPicture):
 
 def _told(n: int, branches: Sequence[Branch]) -> str:
     if not branches:
-        return f"(1,{n}) none found"
+        return f"(1, {n}) none found"
     symmetric = sum(branch.symmetric for branch in branches)
     peak = max(float(np.nanmax(branch.points["peak"])) for branch in branches)
-    return f"(1,{n}) {symmetric} symmetric, {len(branches) - symmetric} unsymmetric, peak up to {peak:.4g}"
+    return f"(1, {n}) {symmetric} symmetric, {len(branches) - symmetric} asymmetric, peak up to {peak:.4g}"

@@ -1,7 +1,8 @@
-"""Grazings: which arc of an orbit just touches the base or a brace, and the orbit at which it does, to rounding.
+"""Grazings: the arc of an orbit that just touches the base or a brace, and the grazing orbit, accurate to rounding.
 
-An impact that grazes makes the orbit's equations singular: its multipliers grow without bound. So the orbit is solved without
-it. The condition is then that an arc turns just where it touches, and every quantity is a smooth function of the parameter.
+A grazing impact makes the equations of the orbit singular: its multipliers grow without bound. The orbit is therefore
+solved without this impact. The condition is that an arc has its turning point at the base or brace. All quantities are then
+smooth functions of the parameter.
 """
 
 from __future__ import annotations
@@ -30,37 +31,37 @@ from rocking.orbits.event_chain import (
 from rocking.orbits.parameter import value_of, with_value
 from rocking.orbits.saddle_orbits import response, saddle, saddle_events
 
-# An event this slow is the one that grazes.
+# Largest speed of an event that is taken as grazing.
 SLOW = 1e-4
 SAMPLES = 4096
-# The grazing lies this near to where the branch was seen to end, relatively.
+# Largest relative distance of the grazing from the end of the branch.
 NEAR = 1e-3
 
 
 class Touch(NamedTuple):
-    """An orbit without the events that graze, and where it touches instead."""
+    """Orbit without its grazing events, and the condition of contact."""
 
     chain: Chain
     condition: Condition
 
 
 class Grazing(NamedTuple):
-    """A grazing as a special point has it."""
+    """Grazing as stored in a special point."""
 
-    orbit: Orbit  # without the events that graze
+    orbit: Orbit  # without the grazing events
     chain: Chain
     row: np.ndarray
-    touch: Touch | None  # None where no event is left, or none was found
+    touch: Touch | None  # None if no other event exists, or no contact was found
 
 
 def grazing_at(chain: Chain, parameter: str, row: np.ndarray) -> Grazing:
-    """The grazing at which a branch ends, located to rounding; where that fails, as near as the branch was followed."""
+    """Return the grazing at which a branch ends, accurate to rounding; if that fails, the last point of the branch."""
     found = _located(chain, parameter, row)
     return found._replace(orbit=evolve(found.orbit, grazes=True))
 
 
 def _located(chain: Chain, parameter: str, row: np.ndarray) -> Grazing:
-    """Return the grazing with the orbit as it was solved."""
+    """Return the grazing with its orbit as solved."""
     touch = _touch_of(chain, parameter, row)
     if touch is not None and (solved := _solved(touch, parameter)):
         touch, row = solved
@@ -74,7 +75,7 @@ def _located(chain: Chain, parameter: str, row: np.ndarray) -> Grazing:
 
 
 def _touch_of(chain: Chain, parameter: str, row: np.ndarray) -> Touch | None:
-    """What an orbit all but touches at the end of its branch; None where nothing is found, or where no event is left."""
+    """Return the contact that an orbit has at the end of its branch; None if none is found, or if no event remains."""
     chain = chain._replace(system=with_value(chain.system, parameter, float(row[-1])), phases=row[:-1])
     links = equations(chain, parameter, row)[1]
     arrives, times, k = np.abs(links["arrives"]), links["time"], len(chain.phases)
@@ -84,7 +85,7 @@ def _touch_of(chain: Chain, parameter: str, row: np.ndarray) -> Touch | None:
         return _nearest(chain, orbit_of(chain, parameter, row, math.nan, math.nan))
     level, lost = int(chain.kinds[event]), 1
     if level == IMPACT:
-        # it falls through and comes back at once: two impacts with a short arc between them
+        # The block crosses Θ = 0 and returns at once: two impacts with a short arc in between.
         event, lost = (event if times[event] < times[slowest] else slowest), 2
     if k <= lost:
         return None
@@ -95,7 +96,7 @@ def _touch_of(chain: Chain, parameter: str, row: np.ndarray) -> Touch | None:
 
 
 def _rotated(chain: Chain, by: int) -> Chain:
-    """The same chain begun ``by`` events later."""
+    """Return the same chain, begun ``by`` events later."""
     side, kinds = chain.side, chain.kinds
     for j in range(by):
         side = -side if kinds[(j + 1) % len(kinds)] == IMPACT else side
@@ -104,14 +105,14 @@ def _rotated(chain: Chain, by: int) -> Chain:
 
 
 def _nearest(chain: Chain, orbit: Orbit) -> Touch | None:
-    """Where the motion turns nearest to the base or to a brace."""
+    """Return the turning point of the motion nearest to the base or to a brace."""
     forcing, phases = orbit.system.forcing, chain.phases
     motion = simulate(clocked(orbit.system, orbit.phase), orbit.state, cycles=orbit.period)
     times = np.linspace(0.0, orbit.period * forcing.period, SAMPLES * orbit.period)
     angles = motion.at(times)[0]
     size = np.abs(angles)
     inner, before, after = size[1:-1], size[:-2], size[2:]
-    # An impact has neighbours on both sides; a turn lies between samples of one side.
+    # An impact lies between samples on both sides, and a turning point between samples on one side.
     low = (inner < before) & (inner < after) & (np.diff(np.sign(angles))[1:] == 0.0)
     candidates = [(inner[i], IMPACT, times[i + 1]) for i in np.flatnonzero(low)]
     if orbit.system.braces is not None:
@@ -134,9 +135,9 @@ def _nearest(chain: Chain, orbit: Orbit) -> Touch | None:
 
 
 def _solved(touch: Touch, parameter: str) -> tuple[Touch, np.ndarray] | None:
-    """The orbit that just touches, and its phases and the value of the parameter; None where Newton's method fails.
+    """Return the grazing orbit, with its phases and the value of the parameter; None if Newton's method fails.
 
-    It is the first point of a curve of grazings, begun across a second parameter, which therefore keeps its value.
+    It is the first point of a curve of grazings that starts along a second parameter, which therefore keeps its value.
     """
     chain, k = touch.chain, len(touch.chain.phases)
     kept = "amplitude" if parameter in ("period", "frequency") else "frequency"
@@ -155,7 +156,7 @@ def _solved(touch: Touch, parameter: str) -> tuple[Touch, np.ndarray] | None:
 
 
 def _eventless(chain: Chain, parameter: str, row: np.ndarray) -> Orbit | None:
-    """The orbit Θ = ±1 + β cos ψ that just touches the base (β = 1) or a brace, near the end of a branch; None for none."""
+    """Return the orbit Θ = ±1 + β cos ψ that touches the base (β = 1) or a brace near the end of a branch, or None."""
     from scipy.optimize import brentq
 
     def clear(value: float) -> float:
@@ -170,7 +171,7 @@ def _eventless(chain: Chain, parameter: str, row: np.ndarray) -> Orbit | None:
     system = with_value(chain.system, parameter, value)
     times = equations(chain, parameter, row)[1]["time"]
     longest = _rotated(chain._replace(phases=row[:-1]), int(times.argmax()))
-    # half a forcing period away from the touch
+    # half a forcing period away from the contact
     phase = 0.0 if longest.side > 0 else math.pi
     start = State(*saddle(system, phase, longest.side))
     final = simulate(clocked(system, phase), start, cycles=1, record="none").final

@@ -1,4 +1,4 @@
-"""Where the manifolds of the two saddle orbits first touch, from the manifolds as they are grown."""
+"""First tangency of the manifolds of the two saddle orbits, from the numerically grown manifolds."""
 
 from __future__ import annotations
 
@@ -14,33 +14,35 @@ from rocking.orbits.parameter import with_value
 from rocking.orbits.saddle_orbits import check, parameters
 
 SAMPLES = 128
-# Until neighbouring times are one.
+# Number of bisections until neighbouring times coincide in double precision.
 HALVINGS = 53
-# On the interval of amplitudes at whose ends the gap is known to be negative and positive.
+# Ends of the amplitude bracket, relative to √(1 + Ω²). The gap is negative at the first and positive at the second.
 ENDS = (1e-9, 1.0 - 1e-9)
 
 
 def manifold_gap(system: System) -> float:
-    """Give the largest signed gap between two manifolds, grown up to their first impact, where they pass Θ = 0.
+    """Return the largest signed gap between two manifolds where they pass Θ = 0, grown to their first impact.
 
-    The unstable manifold of one saddle orbit arrives at Θ = 0 with speeds that depend on the forcing phase, and goes on with e times
-    these; the stable one of the other leaves it, backward in time, with others. Where the first are the larger ones, motions from the
-    one saddle orbit overturn over the other.
+    Motions on the unstable manifold of one saddle orbit arrive at Θ = 0 with a speed that depends on the forcing phase. They
+    continue with e times this speed. Motions on the stable manifold of the other saddle orbit leave Θ = 0 with another speed.
+    Where the first speed is larger, motions from one saddle orbit overturn past the other.
 
     Parameters
     ----------
     system : System
-        As in `saddle_manifolds`, and A < √(1 + Ω²), below which either manifold passes Θ = 0 once at every phase.
+        System as in `saddle_manifolds`, with A < √(1 + Ω²). Each manifold then passes Θ = 0 once at every phase.
 
     Returns
     -------
     float
-        The largest difference of the speeds, in units of θcr α: negative where the manifolds do not meet.
+        Largest difference of the speeds, in units of θcr α; negative if the manifolds do not intersect.
 
     Raises
     ------
-    TypeError, ValueError
-        In one line, for another system.
+    TypeError
+        If `system` is not a System.
+    ValueError
+        If the system has braces, e = 0 or an amplitude of √(1 + Ω²) or more.
 
     Examples
     --------
@@ -69,7 +71,7 @@ def manifold_gap(system: System) -> float:
 
 
 class _Passage(NamedTuple):
-    """How a manifold passes Θ = 0: of one that is followed backward in time all phases are negative."""
+    """Passage of a manifold through Θ = 0; in reversed time, phases have the opposite sign."""
 
     p: Any
     side: int
@@ -82,7 +84,7 @@ class _Passage(NamedTuple):
         return cls(p, side, -1.0 if backward else 1.0, float(_passages(p, side, np.zeros(1))[0, 0]))
 
     def speeds(self, phases: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Speeds at forcing phases, by bisection on when the motions were near the saddle orbit: the later, the later they pass."""
+        """Return speeds at forcing phases, by bisection on the time near the saddle orbit: the passage is monotone in it."""
         target = self.first + np.mod(self.sign * phases - self.first, math.tau)
         low, high = np.zeros(len(phases)), np.full(len(phases), self.p.period)
         for _ in range(HALVINGS):
@@ -93,32 +95,35 @@ class _Passage(NamedTuple):
 
 
 def _passages(p: Any, side: int, waits: NDArray[np.float64]) -> NDArray[np.float64]:
-    """(phase, speed) at Θ = 0 of motions near the saddle orbit at times."""
+    """Return phase and speed at Θ = 0 of motions near the saddle orbit at the given times."""
     met = np.empty((len(waits), 2))
     kernel.first_impacts(p, side, waits, met)
     return met
 
 
 def tangency_amplitude(system: System) -> float:
-    """Find the amplitude at which the manifolds of the two saddle orbits first touch, the zero of `manifold_gap`, bracketed.
+    """Compute the amplitude at which the manifolds of the two saddle orbits first touch: the zero of `manifold_gap`.
 
-    Beyond it the boundary between overturning and staying is fractal. `rocking.theory.heteroclinic_amplitude` has the same in closed
-    form, and `rocking.theory.melnikov_amplitude` Melnikov's approximation to it.
+    Beyond this amplitude the boundary between overturning and bounded motions is fractal.
+    `rocking.theory.heteroclinic_amplitude` is the same amplitude in closed form, and `rocking.theory.melnikov_amplitude` is
+    Melnikov's approximation.
 
     Parameters
     ----------
     system : System
-        Its period and restitution count; without braces, e in (0, 1).
+        System without braces, with e in (0, 1). Its period and coefficient of restitution are used, not its amplitude.
 
     Returns
     -------
     float
-        A*, to about 1e-9.
+        Amplitude A*, to about 1e-9.
 
     Raises
     ------
-    TypeError, ValueError
-        In one line, for another system.
+    TypeError
+        If `system` is not a System.
+    ValueError
+        If the system has braces, or if e is 0 or 1.
 
     Examples
     --------
@@ -129,7 +134,12 @@ def tangency_amplitude(system: System) -> float:
     check(with_value(system, "amplitude", 0.0))
     if system.restitution == 1.0:
         raise ValueError(
-            refusal("restitution", "be below 1", 1.0, "without losses the manifolds meet for every A > 0")
+            refusal(
+                "restitution",
+                "be below 1",
+                1.0,
+                "without dissipation the manifolds intersect for every A > 0",
+            )
         )
     from scipy.optimize import brentq
 

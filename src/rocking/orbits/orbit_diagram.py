@@ -1,4 +1,4 @@
-"""Orbit diagrams by brute force: what is left of a motion after a transient, one value of a parameter after another."""
+"""Orbit (bifurcation) diagrams by simulation: section points after a transient, over the values of a parameter."""
 
 from __future__ import annotations
 
@@ -33,9 +33,9 @@ from rocking.orbits.parameter import PARAMETERS, with_value
 
 SWEEPS = {"up": ("up",), "down": ("down",), "both": ("up", "down"), "rest": ("rest",)}
 MAX_CYCLES = 1_000_000
-# Two numbers each: half a gibibyte.
+# Two numbers per point: half a gibibyte.
 MAX_POINTS = 2**25
-# Compiled code cannot be interrupted: it comes up for air after so many cycles, or one value.
+# Compiled code cannot be interrupted. It returns after this number of cycles, or after one value.
 BREATH = 1_000_000
 
 
@@ -50,49 +50,52 @@ def orbit_diagram(
     section_phase: float | None = None,
     progress: Callable[[int], object] | None = None,
 ) -> OrbitDiagram:
-    """Run a system at one value of a parameter after another, and keep the section points after a transient.
+    """Compute an orbit (bifurcation) diagram: section points after a transient, over the values of a parameter.
 
-    Swept, the motion at each value begins where that at the value before has ended, so that a response is followed as
-    long as it attracts; up and down may follow different ones. What attracts is found by this, never what repels: for
-    that, see `continue_orbit`.
+    In a sweep, the motion at each value begins at the final state of the previous value. A response is thus followed as long
+    as it is stable, and upward and downward sweeps may follow different responses. Unstable orbits are never found; see
+    `continue_orbit`.
 
     Parameters
     ----------
     system : System
-        The block, its forcing and its braces; the value of the parameter itself does not count.
+        Block, base motion and braces. Its value of the parameter is not used.
     parameter : {"amplitude", "period", "frequency", "phase", "restitution", "brace_angle", "brace_restitution"}
-        What is varied.
+        Varied parameter.
     values : array_like
-        Its values, in any order.
+        Values of the parameter, in any order.
     start : State, optional
-        Θ and Θ' at τ = 0 of the first motion, or with ``sweep="rest"`` of each; at rest by default.
+        Initial state (Θ, Θ') at τ = 0 of the first motion, or of each motion with ``sweep="rest"``. Default: at rest.
     sweep : {"both", "up", "down", "rest"}
-        In which order, and whether the state is carried on.
+        Direction of the sweep; "rest": no sweep, each motion begins at `start`. Default: "both".
     transient : int
-        Forcing cycles left out at each value, 0 to 10⁶.
+        Number of forcing cycles discarded at each value, in [0, 10⁶]. Default: 300.
     cycles : int
-        Points kept at each value, at least 1; 2²⁵ ≈ 3.4·10⁷ points in all at most.
+        Number of points recorded at each value, at least 1, and at most 2²⁵ ≈ 3.4·10⁷ points in total. Default: 100.
     section_phase : float, optional
-        Forcing phase ψ of the section, rad; by default that of the system's forcing.
+        Forcing phase ψ of the section, rad. Default: the phase φ of the forcing.
     progress : callable, optional
-        Called with the number of values done since it was called last.
+        Function called with the number of values completed since its last call.
 
     Returns
     -------
     OrbitDiagram
+        Section points of each sweep.
 
     Raises
     ------
-    TypeError, ValueError
-        In one line, for arguments of the wrong type or outside their range, the values among them.
+    TypeError
+        If an argument is of the wrong type.
+    ValueError
+        If an argument, or one of the values, lies outside its range.
     TooManyEvents
-        More than 10⁷ events in a single cycle.
+        If there are more than 10⁷ events in one cycle.
 
     Notes
     -----
-    A motion that overturns has no state to carry on: the next one begins where it began. Braces that come nearer push a block
-    that stands beyond them back to them, at its speed. With braces a transient can outlast any number of cycles, and
-    without losses all motion is transient.
+    After a motion that overturns, the next one begins at the same state. If braces move closer, a block beyond them is
+    placed at the brace, with its velocity. With braces a transient can outlast any number of cycles. An undamped motion has
+    no steady state.
 
     Examples
     --------
@@ -123,7 +126,7 @@ def orbit_diagram(
         value = ordered[(statuses == march.CROWDED).any(axis=0)][0]
         raise TooManyEvents(
             f"more than {march.MAX_EVENTS:,} events in one forcing cycle at {parameter} {value:.6g}: the block chatters "
-            "almost without loss (leave that value out)"
+            "with little energy loss (omit this value)"
         )
     return OrbitDiagram(
         system=system,
@@ -147,13 +150,13 @@ def _values(values: ArrayLike) -> NDArray[np.float64]:
 
 
 def _row(system: System, start: State) -> tuple[float, ...]:
-    """What the kernel needs of a system; refused if it cannot begin at `start`."""
+    """Return the parameters of a system for the kernel, after checking that it can begin at `start`."""
     check_start(system, start)
     return start_march(system, start)[0][:7]
 
 
 class _Lane(NamedTuple):
-    """Systems in the order in which one thread takes them, and what comes out of them."""
+    """Systems in the order in which one thread processes them, with the output arrays."""
 
     way: str
     rows: NDArray[np.float64]
@@ -163,7 +166,7 @@ class _Lane(NamedTuple):
 
 
 def _lanes(rows: np.ndarray, ways: tuple[str, ...], cycles: int) -> list[_Lane]:
-    """One for each sweep; motions of their own share out among the processors."""
+    """Return one lane for each sweep; independent motions are distributed among the processors."""
     if ways == ("rest",):
         parts = [("rest", part) for part in np.array_split(rows, min(os.cpu_count() or 1, len(rows)))]
     else:
@@ -182,7 +185,7 @@ def _run(
     phase: float,
     progress: Callable[[int], object] | None,
 ) -> None:
-    """Fill the lanes, each in a thread, in batches so short that Ctrl-C and progress do not wait long."""
+    """Fill the lanes, one thread per lane, in batches short enough for Ctrl-C and progress reports."""
     nothing = workspace.no_recording()
     batch = max(BREATH // (transient + lanes[0].section.shape[1]), 1)
     states = [(start.angle, start.velocity)] * len(lanes)
@@ -200,6 +203,6 @@ def _run(
 
 
 def _ascending(lanes: list[_Lane], way: str, name: str) -> np.ndarray:
-    """One output of a sweep, over ascending values."""
+    """Return one output of a sweep, over ascending values."""
     found = np.concatenate([getattr(lane, name) for lane in lanes if lane.way == way])
     return found[::-1] if way == "down" else found

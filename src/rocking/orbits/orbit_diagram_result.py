@@ -1,4 +1,4 @@
-"""An orbit diagram: the points that sweeps left."""
+"""Result of `orbit_diagram`: section points of sweeps."""
 
 from __future__ import annotations
 
@@ -17,30 +17,38 @@ if TYPE_CHECKING:
 
 @frozen(eq=False)
 class OrbitDiagram(ReadOnlyArrays, NotebookPicture):
-    """Stroboscopic points over a parameter; made by `orbit_diagram`.
+    """Section points over the values of a parameter; returned by `orbit_diagram`.
 
     Attributes
     ----------
     system : System
-        The system of which one parameter is varied.
+        System of which one parameter is varied.
     parameter : str
-        Its name.
+        Name of the parameter.
     values : ndarray, shape (n,)
-        Its values, ascending.
+        Values of the parameter, ascending.
     sweeps : tuple of str
-        "up", "down" or both, or "rest": a row each of what follows.
+        "up", "down" or both, or "rest": the first axis of the following arrays.
     points : ndarray, shape (sweeps, n, m, 2)
-        (Θ, Θ') at the section, cycle after cycle; NaN where the block overturned.
+        Θ and Θ' on the section in successive cycles; NaN if the block overturned.
     overturned : ndarray of bool, shape (sweeps, n)
-        Where it was proved that it does not return.
+        True if overturning is proved.
     peak : ndarray, shape (sweeps, n)
-        Largest |Θ| over the m cycles after the transient; NaN where it overturned.
+        Largest |Θ| over the m cycles after the transient; NaN if the block overturned.
     start : State
-        Where the first motion began, or each.
+        Initial state of the first motion, or of each.
     transient : int
-        Cycles left out before.
+        Number of cycles discarded before.
     section_phase : float
         Forcing phase ψ of the section, rad.
+
+    Examples
+    --------
+    >>> import rocking as rk
+    >>> system = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925)
+    >>> diagram = rk.orbit_diagram(system, "amplitude", [1.5, 2.0], sweep="rest", cycles=4)
+    >>> diagram.points.shape, bool(diagram.overturned.any())
+    ((1, 2, 4, 2), False)
     """
 
     system: System
@@ -56,20 +64,23 @@ class OrbitDiagram(ReadOnlyArrays, NotebookPicture):
 
     @property
     def cycles(self) -> int:
-        """How many points each value has."""
+        """Number of points at each value."""
         return self.points.shape[2]
 
     @property
     def fixed(self) -> dict[str, float]:
-        """The parameters that were not varied, by name."""
+        """Parameters that were not varied, by name."""
         varied = "period" if self.parameter == "frequency" else self.parameter
         found = quantities(self.system)
         return {name: found[name] for name in found if name not in ("frequency", varied)}
 
     def to_xarray(self) -> xr.Dataset:
-        """The diagram as a dataset whose coordinates are `sweep`, the parameter and `cycle`.
+        """Return the diagram as a dataset.
 
-        `angle` and `velocity` lie along all three, `overturned` and `peak` along the first two.
+        Returns
+        -------
+        xarray.Dataset
+            `angle` and `velocity` over `sweep`, the parameter and `cycle`; `overturned` and `peak` over the first two.
         """
         import xarray as xr
 
@@ -78,11 +89,11 @@ class OrbitDiagram(ReadOnlyArrays, NotebookPicture):
         variables = {
             "angle": (all_cycles, self.points[..., 0], named("angle at the section")),
             "velocity": (all_cycles, self.points[..., 1], named("angular velocity at the section")),
-            "peak": (each, self.peak, named("largest size of the angle after the transient")),
+            "peak": (each, self.peak, named("largest magnitude of the angle after the transient")),
             "overturned": (
                 each,
                 self.overturned.astype(np.int8),
-                {"long_name": "whether it was proved that the block does not return", "flag_values": [0, 1]}
+                {"long_name": "1 if overturning is proved", "flag_values": [0, 1]}
                 | {"flag_meanings": "bounded overturned"},
             ),
         }
@@ -115,7 +126,7 @@ class OrbitDiagram(ReadOnlyArrays, NotebookPicture):
 
 
 def _overturnings(way: str, fell: np.ndarray, values: np.ndarray) -> str:
-    how = {"up": "swept up", "down": "swept down", "rest": "each from its start"}[way]
+    how = {"up": "swept up", "down": "swept down", "rest": "each from the initial state"}[way]
     if not fell.any():
         return f"{how}, never overturned"
     found = values[fell]

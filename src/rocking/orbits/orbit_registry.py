@@ -1,4 +1,4 @@
-"""The orbits that a search has found so far, each met once and counted."""
+"""Registry of the orbits found by a search, each stored once with its number of hits."""
 
 from __future__ import annotations
 
@@ -10,12 +10,12 @@ from attrs import evolve
 from rocking.model import Orbit, State, System
 from rocking.orbits.find_orbit import orbit_from
 
-# Starts that Newton's method leads this near to each other are one; orbits as near as this too.
+# Largest distance of two identical results of Newton's method, and of two identical orbits.
 SAME = 1e-6
 
 
 def mirrored(orbit: Orbit) -> Orbit:
-    """The mirror image of an orbit, which the other half of the forcing period makes an orbit too."""
+    """Return the mirror image of an orbit, which is an orbit half a forcing period later."""
     state = State(-orbit.state.angle, -orbit.state.velocity)
     events = tuple(
         evolve(one, angle=-one.angle, before=-one.before, after=-one.after) for one in orbit._events
@@ -24,7 +24,7 @@ def mirrored(orbit: Orbit) -> Orbit:
 
 
 class OrbitRegistry:
-    """The orbits found so far, with all their states on the section at a forcing phase."""
+    """Orbits found so far, with all their states on the section at a forcing phase."""
 
     def __init__(self, system: System, phase: float) -> None:
         self.system, self.phase = system, phase
@@ -36,11 +36,11 @@ class OrbitRegistry:
 
     @property
     def hits(self) -> list[int]:
-        """How many states belong to each orbit or to its mirror image."""
+        """Number of states that belong to each orbit or to its mirror image."""
         return [self.counts[pair] for pair in self.pairs]
 
     def add_states(self, states: np.ndarray, period: int) -> None:
-        """Count the states that belong to known orbits; add the orbits of the others, with their mirror images."""
+        """Count the states that belong to known orbits, and add the orbits of the others with their mirror images."""
         states = states[~self._counted(states)]
         while len(states):
             orbit = orbit_from(self.system, self.phase, State(*map(float, states[0])), period)
@@ -53,14 +53,14 @@ class OrbitRegistry:
             states = states[~self._counted(states)]
 
     def _counted(self, states: np.ndarray) -> np.ndarray:
-        """Which states belong to known orbits; their hits are counted."""
+        """Return which states belong to known orbits, and count them."""
         owners = self._owners(states)
         for owner, number in zip(*np.unique(owners[owners >= 0], return_counts=True), strict=True):
             self.counts[self.pairs[owner]] += int(number)
         return owners >= 0
 
     def _owners(self, states: np.ndarray) -> np.ndarray:
-        """Return the number of the known orbit that each state belongs to, -1 for none."""
+        """Return the number of the known orbit of each state, -1 for none."""
         if not len(self.rows):
             return np.full(len(states), -1)
         apart = np.hypot(states[:, 0, None] - self.rows[:, 0], states[:, 1, None] - self.rows[:, 1])
@@ -68,9 +68,9 @@ class OrbitRegistry:
         return np.where(apart[np.arange(len(states)), nearest] <= SAME, self.owner[nearest], -1)
 
     def _pair(self, orbit: Orbit) -> int:
-        """Return the number under which an orbit and its mirror image are counted; add them if they are new.
+        """Return the number under which an orbit and its mirror image are counted, and add them if they are new.
 
-        An orbit that is not new is one that Newton's method came near to, but not as near as `SAME`.
+        A known orbit may appear again if Newton's method came near to it, but not within `SAME`.
         """
         here = orbit.at(self.phase)
         (owner,) = self._owners(np.array([[here.angle, here.velocity]]))

@@ -1,4 +1,4 @@
-"""One parameter of a system, by its name: the range in which it is followed, and the same system with another value of it."""
+"""Parameters of a system by name: their ranges, and replacement of their values."""
 
 from __future__ import annotations
 
@@ -7,22 +7,20 @@ from attrs import evolve
 from rocking.model import RANGES, Braces, Harmonic, System, pair, quantities, refuse_if, within
 
 PARAMETERS = ("amplitude", "period", "frequency", "phase", "restitution", "brace_angle", "brace_restitution")
-# A model's own ranges; towards 0 nothing is left of a restitution to follow.
+# Ranges of the model. Towards a coefficient of restitution of 0, an orbit cannot be continued.
 ALLOWED = RANGES | dict.fromkeys(("restitution", "brace_restitution"), (1e-3, 1.0))
 
 
 def value_of(system: System, parameter: str) -> float:
-    """The value of a parameter of a system."""
+    """Return the value of a parameter of a system."""
     found = quantities(system)
     if parameter not in found:
-        raise ValueError(
-            f"{parameter} needs a system with braces; got one without (give it braces=Braces(…))"
-        )
+        raise ValueError(f"{parameter} needs a system with braces; got one without (give braces=Braces(…))")
     return found[parameter]
 
 
 def with_value(system: System, parameter: str, value: float) -> System:
-    """The same system with one parameter changed; a brace angle puts braces where there are none."""
+    """Return the system with one parameter changed; a brace angle adds braces if there are none."""
     if parameter == "brace_restitution":
         value_of(system, parameter)
     forcing = system.forcing
@@ -37,7 +35,7 @@ def with_value(system: System, parameter: str, value: float) -> System:
 
 
 def checked_range(parameter: str, bounds: tuple[float, float]) -> tuple[float, float]:
-    """The range of a parameter, ordered, not empty, and within what a system may have."""
+    """Return the bounds of a parameter, after checking that they are ordered and within its range."""
     allowed = "be (lowest, highest), the one below the other"
     ends = pair("bounds", bounds, allowed)
     low, high = (within(f"bounds of {parameter}", value, *ALLOWED[parameter]) for value in ends)

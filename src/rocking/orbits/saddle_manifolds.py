@@ -25,13 +25,13 @@ from rocking.orbits.saddle_orbits import check, parameters, response, saddle
 
 MAX_CYCLES = 100
 SPACINGS = (1e-5, 1.0)
-# Neighbouring pieces of a curve longer than this share of the spacing bend by no more than this angle, rad.
+# Largest angle between neighbouring pieces of a curve, rad, if they are longer than this fraction of the spacing.
 BEND, SHORT = 0.2, 1e-2
 FIRST_POINTS = 64
 MAX_POINTS = 400_000
-# Times of leaving nearer than this, in periods, are one to rounding.
+# Smallest difference of departure times, in periods, above rounding.
 FINEST = 1e-13
-# Around all that is bounded.
+# Margin around the region of bounded motions.
 MARGIN = 0.5
 
 
@@ -42,17 +42,25 @@ class Manifold(ReadOnlyArrays):
     Attributes
     ----------
     stable : bool
-        Whether motions on it end on the saddle orbit; on an unstable one they came from there.
+        True if motions on the manifold converge to the saddle orbit, False if they depart from it.
     side : int
         1 for the saddle orbit near Θ = 1, −1 for that near Θ = −1.
     points : ndarray, shape (n, 2)
-        (Θ, Θ') in order along the curve, which begins with its straight outer half and passes through the saddle; a row of
-        NaN separates what lies apart, where the curve leaves the picture for motions that never return.
+        Θ and Θ' in order along the curve. It begins with its straight outer half and passes through the saddle. A row of NaN
+        separates pieces where the curve leaves the region of bounded motions.
     times : ndarray, shape (n,)
-        How long before (unstable) or after (stable) the motion there is ½(1 − β)√2 from the saddle orbit, τ: a cycle
-        carries a point to the one a forcing period on. −∞ at the saddle, NaN on the outer half and between pieces.
+        Time τ since (unstable) or until (stable) a distance of ½(1 − β)√2 from the saddle orbit. One forcing period later, a
+        point is at the point whose time is one period larger. −∞ at the saddle, NaN on the outer half and between pieces.
     resolved : bool
-        Whether neighbours are nowhere farther apart than asked for; if not, the curve grew beyond 400,000 points.
+        True if no neighbouring points are farther apart than the spacing. False if this would need more than 400,000 points.
+
+    Examples
+    --------
+    >>> import rocking as rk
+    >>> system = rk.System(rk.Harmonic(amplitude=4.0, period=1.0), restitution=0.8)
+    >>> unstable = rk.saddle_manifolds(system, cycles=1).unstable[0]
+    >>> unstable.side, unstable.stable, unstable.length > 1.0
+    (1, False, True)
     """
 
     stable: bool
@@ -63,26 +71,34 @@ class Manifold(ReadOnlyArrays):
 
     @property
     def length(self) -> float:
-        """Of all pieces together, in the plane of Θ and Θ'."""
+        """Total length of all pieces in the plane of Θ and Θ'."""
         return float(np.nansum(np.hypot(*np.diff(self.points, axis=0).T)))
 
 
 @frozen(eq=False)
 class SaddleManifolds(ReadOnlyArrays, NotebookPicture):
-    """The manifolds of both saddle orbits on a section; made by `saddle_manifolds`.
+    """Manifolds of both saddle orbits on a section; returned by `saddle_manifolds`.
 
     Attributes
     ----------
     system : System
-        Whose they are.
+        System of the saddle orbits.
     phase : float
         Forcing phase ψ of the section, rad.
     cycles : int
-        Forcing cycles over which they were grown.
+        Number of forcing cycles over which the manifolds were grown.
     saddles : ndarray, shape (2, 2)
-        (Θ, Θ') of the saddles near Θ = 1 and Θ = −1.
+        Θ and Θ' of the saddles near Θ = 1 and Θ = −1.
     unstable, stable : tuple of two Manifold
-        Of the saddle near Θ = 1, and of that near Θ = −1.
+        Manifolds of the saddle near Θ = 1, and of that near Θ = −1.
+
+    Examples
+    --------
+    >>> import rocking as rk
+    >>> system = rk.System(rk.Harmonic(amplitude=4.0, period=1.0), restitution=0.8)
+    >>> manifolds = rk.saddle_manifolds(system, cycles=1)
+    >>> manifolds.saddles.shape, len(manifolds.unstable), len(manifolds.stable)
+    ((2, 2), 2, 2)
     """
 
     system: System
@@ -96,51 +112,55 @@ class SaddleManifolds(ReadOnlyArrays, NotebookPicture):
         curves = (*self.unstable, *self.stable)
         lengths = [sum(one.length for one in pair) for pair in (self.unstable, self.stable)]
         rough = sum(not one.resolved for one in curves)
-        gaps = f"; {rough} of 4 not resolved (take fewer cycles)" if rough else ""
+        gaps = f"; {rough} of 4 not resolved (reduce cycles)" if rough else ""
         return (
-            f"manifolds of the saddles at ψ = {self.phase:.4g}, {self.cycles} cycles long: unstable length {lengths[0]:.4g}, "
-            f"stable {lengths[1]:.4g}, {sum(len(one.points) for one in curves):,} points{gaps}"
+            f"manifolds of the saddles at ψ = {self.phase:.4g}, grown over {self.cycles} cycles: unstable length "
+            f"{lengths[0]:.4g}, stable length {lengths[1]:.4g}, {sum(len(one.points) for one in curves):,} points{gaps}"
         )
 
 
 def saddle_manifolds(
     system: System, phase: float | None = None, cycles: int = 4, spacing: float = 0.02
 ) -> SaddleManifolds:
-    """Grow the stable and unstable manifolds of the saddle orbits Θ = ±1 + β cos ψ (eq. 17 of Yim & Lin 1991, exact for A > 0).
+    """Compute the stable and unstable manifolds of the saddle orbits Θ = ±1 + β cos ψ.
 
-    Between two impacts motions near a saddle obey a linear equation, so that until they first touch the base its
-    manifolds are straight lines on every section; from there the engine carries them on, the stable ones backward in
-    time: with Θ' and φ negated and e replaced by 1/e the equations of motion are the same. Points are added until
-    neighbours are near each other and the curve bends by no more than 0.2 rad between them (Hobson 1993, J. Comput. Phys. 104, 14).
+    The saddle orbits are those of Yim & Lin (1991), Eq. (17), exact for A > 0. Between impacts, the equation of motion near a
+    saddle is linear. Its manifolds are therefore straight lines on every section up to their first contact with the base.
+    Beyond, they are continued by simulation, the stable ones backward in time. With Θ' and φ negated and e replaced by 1/e,
+    the equations of motion are the same. Points are added until neighbours are closer than the spacing and the curve bends by
+    at most 0.2 rad between them (Hobson 1993, J. Comput. Phys. 104, 14).
 
     Parameters
     ----------
     system : System
-        Without braces; β = A/(1 + Ω²) < 1, so that the saddle orbits keep to their sides, and e > 0, so that impacts can be
-        reversed.
+        System without braces, with β = A/(1 + Ω²) < 1, so that the saddle orbits do not pass through Θ = 0. e > 0, so that
+        impacts can be reversed in time.
     phase : float, optional
-        Forcing phase of the section, rad; by default the forcing's own.
+        Forcing phase ψ of the section, rad. Default: the phase φ of the forcing.
     cycles : int
-        Over how many forcing cycles the curves are grown, 1 to 100; their length grows exponentially.
+        Number of forcing cycles over which the curves are grown, in [1, 100]. Their length grows exponentially. Default: 4.
     spacing : float
-        Largest distance of neighbours, in [1e-5, 1].
+        Largest distance of neighbouring points, in [1e-5, 1]. Default: 0.02.
 
     Returns
     -------
     SaddleManifolds
+        Saddles and their four manifolds.
 
     Raises
     ------
-    TypeError, ValueError
-        In one line, for arguments of the wrong type or outside their range, and for a system without such saddle orbits.
+    TypeError
+        If an argument is of the wrong type.
+    ValueError
+        If an argument lies outside its range, or if the system has no such saddle orbits.
     TooManyEvents
-        More than 10⁷ impacts on the way to one point.
+        If there are more than 10⁷ impacts before one point.
 
     Notes
     -----
-    Not guaranteed: that a fold of the curve is seen that lies between two neighbours both near each other, or both beyond the
-    picture |Θ| < 3/2 + β, |Θ'| < 3/2 + β(1 + Ω), in which every bounded motion without braces lies. Where the block comes to rest
-    an unstable manifold ends in the point (0, 0).
+    Limits: a fold of the curve is not detected if it lies between two neighbours that are close to each other. The same holds
+    if both neighbours lie outside the region |Θ| < 3/2 + β, |Θ'| < 3/2 + β(1 + Ω), which contains every bounded motion without
+    braces. If the block comes to rest, an unstable manifold ends at (0, 0).
 
     Examples
     --------
@@ -180,7 +200,7 @@ def _manifold(
     centre = np.array(saddle(system, -phase if backward else phase, side))
     end = centre + side * (2.0 * box.max())
     rows = _within(points, box)
-    # An impact at the section's own instant tears the curve: Θ' jumps there to e Θ'.
+    # An impact at the phase of the section makes the curve discontinuous: Θ' jumps to e Θ'.
     torn = np.concatenate([[False], np.hypot(*np.diff(points, axis=0).T) > spacing])
     apart = np.flatnonzero((np.diff(rows) > 1) | torn[rows[1:]]) + 1
     curve = np.concatenate([[end, centre], np.insert(points[rows], apart, math.nan, axis=0)])
@@ -191,7 +211,7 @@ def _manifold(
 
 
 def _within(points: np.ndarray, box: np.ndarray) -> np.ndarray:
-    """Rows inside the box, and those beside them."""
+    """Return the indices of the points inside the box, and of their neighbours."""
     inside = (np.abs(points) <= box).all(axis=1)
     near = inside.copy()
     near[1:] |= inside[:-1]
@@ -202,7 +222,13 @@ def _within(points: np.ndarray, box: np.ndarray) -> np.ndarray:
 def _grown(
     p: Any, side: int, cycles: int, spacing: float, box: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray, bool]:
-    """(times, points, whether it is resolved) of the inner half of a manifold, points added until neighbours are near."""
+    """Grow the inner half of a manifold, with points added until neighbours are close.
+
+    Returns
+    -------
+    tuple of (ndarray, ndarray, bool)
+        Times; points; True if the curve is resolved.
+    """
     times = np.linspace(0.0, cycles * p.period, FIRST_POINTS * cycles + 1)
     points = _images(p, side, times)
     while True:
@@ -222,14 +248,14 @@ def _images(p: Any, side: int, times: np.ndarray) -> np.ndarray:
     out = np.empty((len(times), 2))
     if not kernel.images(p, side, times, out):
         raise TooManyEvents(
-            f"more than {march.MAX_EVENTS:,} impacts on the way to one point: the block chatters almost without loss "
-            "(take a smaller restitution, or fewer cycles)"
+            f"more than {march.MAX_EVENTS:,} impacts before one point: the block chatters with little energy loss "
+            "(reduce restitution or cycles)"
         )
     return out
 
 
 def _too_wide(points: np.ndarray, spacing: float, box: np.ndarray) -> np.ndarray:
-    """Which pieces between neighbours are to be halved: too long, too bent, or from beyond one end of the picture to another."""
+    """Return which pieces between neighbours must be halved: too long, too bent, or across the region of bounded motions."""
     with np.errstate(invalid="ignore", over="ignore"):
         steps = np.diff(points, axis=0)
         lengths = np.hypot(*steps.T)

@@ -1,4 +1,4 @@
-"""The saddle orbits near Θ = ±1 of a block without braces, and its motion forward and backward in time."""
+"""Saddle orbits near Θ = ±1 of a block without braces, and parameters of its motion forward and backward in time."""
 
 from __future__ import annotations
 
@@ -11,18 +11,20 @@ from rocking.model import OrbitEvent, State, System, instance, refusal, refuse_i
 from rocking.motion import start_march
 from rocking.theory import saddle_orbit
 
-# A state as near as this to a saddle orbit is on it.
+# Largest distance of a state from the saddle orbit that it belongs to.
 ON_IT = 1e-8
 
 
 def check(system: System) -> None:
-    """Refuse a system without saddle orbits that keep to their sides, or whose impacts cannot be reversed."""
+    """Raise ValueError for a system without saddle orbits on one side of Θ = 0, or with impacts that cannot be reversed."""
     instance("system", system, System)
     if system.braces is not None:
         raise ValueError(
-            refusal("system", "have no braces, between which there are no such saddles", system.braces)
+            refusal("system", "have no braces: there are no saddle orbits between them", system.braces)
         )
-    refuse_if(system.restitution == 0.0, "restitution", "be positive, for impacts to be reversed", 0.0)
+    refuse_if(
+        system.restitution == 0.0, "restitution", "be positive, so that impacts can be reversed in time", 0.0
+    )
     if response(system) >= 1.0:
         most = 1.0 + system.forcing.frequency**2
         allowed = f"be below 1 + Ω² = {most:.6g}, where the saddle orbits touch Θ = 0"
@@ -30,18 +32,18 @@ def check(system: System) -> None:
 
 
 def response(system: System) -> float:
-    """β = A/(1 + Ω²)."""
+    """Return β = A/(1 + Ω²)."""
     return float(start_march(system, State())[0].response)
 
 
 def saddle(system: System, phase: float, side: int) -> tuple[float, float]:
-    """(Θ, Θ') of the saddle orbit on a side at a forcing phase."""
+    """Return Θ and Θ' of the saddle orbit on one side at a forcing phase."""
     forcing = system.forcing
     return saddle_orbit(phase, forcing.amplitude, forcing.period, "upper" if side > 0 else "lower")
 
 
 def saddle_events(system: System, phase: float, state: State) -> tuple[OrbitEvent, ...]:
-    """Return the states of a saddle orbit once in every unit of τ, as its events; none if `state` does not lie on it at `phase`."""
+    """Return states of a saddle orbit at intervals of one unit of τ, as its events; none if `state` is not on it at `phase`."""
     side = 1 if state.angle > 0.0 else -1
     angle, velocity = saddle(system, phase, side)
     if math.hypot(state.angle - angle, state.velocity - velocity) > ON_IT:
@@ -54,7 +56,10 @@ def saddle_events(system: System, phase: float, state: State) -> tuple[OrbitEven
 
 
 def parameters(system: System, phase: float, backward: bool) -> Any:
-    """What the kernels read, the clock at 0 at a forcing phase; backward in time, where Θ' and φ are negated and e is 1/e."""
+    """Return the parameters for the kernels, with time measured from a forcing phase; reversed in time if `backward`.
+
+    In reversed time, Θ' and φ are negated and e is replaced by 1/e.
+    """
     p = start_march(system, State())[0]
     phase = math.remainder(phase, math.tau)
     return p._replace(phase=-phase, restitution=1.0 / p.restitution) if backward else p._replace(phase=phase)

@@ -1,4 +1,4 @@
-"""What a response is: its section, spectrum, exponents, dimension and frequencies, and a verdict with its evidence."""
+"""Analysis of responses: sections, spectra, Lyapunov exponents, dimensions, rotation numbers and classification."""
 
 from rocking.response.classify import KINDS, MAX_CYCLES, MAX_PERIOD, budget, classify
 from rocking.response.correlation_dimension import CorrelationDimension, correlation_dimension

@@ -1,4 +1,4 @@
-"""The mean of a long sequence and how far it can be trusted: batch means, and what to say of sums that stay bounded."""
+"""Mean of a long sequence with an error: batch means, and a drift estimate for sums that stay bounded."""
 
 from __future__ import annotations
 
@@ -14,28 +14,27 @@ from rocking.model import reals, refusal
 MAX_BATCHES = 256
 MIN_BATCHES = 32
 MIN_GROUPS = 16
-# Neighbouring groups of eight of the 256 batches are still bound to each other beyond this.
+# Above this, neighbouring groups of eight of the 256 batches are still correlated.
 MAX_CORRELATION_TIME = 4.0
 
 
 @frozen
 class BatchMean:
-    """The mean of a sequence, its error, and what the error rests on; made by `batch_mean`.
+    """Mean of a sequence with its error; returned by `batch_mean`.
 
     Attributes
     ----------
     value : float
-        The mean.
+        Mean.
     error : float
-        Its standard error where the sum spreads as a random walk does; where the sum stays within bounds, how far the
-        running mean moved over the last three quarters; infinite where the sequence supports neither.
+        Standard error if the sum spreads like a random walk. If the sum stays bounded, the largest drift of the running
+        mean over the last three quarters. Infinite if the sequence supports neither.
     correlation : float
-        Integrated correlation time, in batches: by how much the variance of the mean exceeds that of independent
-        batches.
+        Integrated correlation time, in batches: ratio of the variance of the mean to that of independent batches.
     bounded : bool
-        Whether the error is the second kind.
+        True if `error` is the drift.
     batches : int
-        How many batches were compared.
+        Number of batches compared.
     """
 
     value: float
@@ -48,29 +47,33 @@ class BatchMean:
 def batch_mean(sums: ArrayLike, lengths: ArrayLike | None = None) -> BatchMean:
     """Average a sequence and estimate the error from batches, halving their number while at least 16 remain.
 
-    Chaotic sequences: with batches long against the correlation time, the error of the mean is the spread of the
-    batches over the root of their number, and no longer changes when neighbours are joined; the largest of the
-    values found on the way is taken. On a periodic or quasi-periodic motion the sum keeps within bounds of its
-    mean growth, batches joined spread less and less, and no number of batches makes that a standard error: the
-    mean of N terms is off by O(1/N), or by O(log N/N) where neighbours part linearly. There the error is the
-    largest distance of the running mean from the last one over the last three quarters, which for each of these
-    is at least the distance still to go.
+    For a chaotic sequence, the error of the mean is the spread of the batches over the square root of their number. Merging
+    neighbours no longer changes it once the batches are longer than the correlation time. The largest of the estimates
+    found on the way is returned.
+
+    On a periodic or quasi-periodic motion, the sum stays within bounds of its mean growth. The spread of merged batches
+    decreases, and no number of batches gives a standard error. The mean of N terms is off by O(1/N), or by O(log N/N) if
+    nearby trajectories diverge linearly. The error is then the largest distance of the running mean from its last value
+    over the last three quarters. It is an upper bound of the remaining error in these cases.
 
     Parameters
     ----------
     sums : array_like, shape (n,)
-        Consecutive terms, or sums over consecutive stretches.
+        Consecutive terms, or sums over consecutive intervals.
     lengths : array_like, shape (n,), optional
-        How long those stretches are; 1 by default.
+        Lengths of these intervals. Default: 1.
 
     Returns
     -------
     BatchMean
+        Mean and error.
 
     Raises
     ------
-    TypeError, ValueError
-        Where there are no terms, or they are not finite numbers.
+    TypeError
+        If the terms are not real numbers.
+    ValueError
+        If there are no terms, or if some are not finite.
 
     Examples
     --------
@@ -92,7 +95,7 @@ def batch_mean(sums: ArrayLike, lengths: ArrayLike | None = None) -> BatchMean:
 def _terms(name: str, values: ArrayLike) -> NDArray[np.float64]:
     terms = np.atleast_1d(np.asarray(reals(name, values), dtype=float))
     if terms.ndim != 1 or not terms.size or not np.isfinite(terms).all():
-        raise ValueError(refusal(name, "be a sequence of finite numbers, one at least", values))
+        raise ValueError(refusal(name, "be a sequence of at least one finite number", values))
     return terms
 
 
@@ -102,7 +105,8 @@ def _judged(sums: NDArray[np.float64], lengths: NDArray[np.float64]) -> BatchMea
         return BatchMean(value, math.inf, math.nan, bounded=False, batches=batches)
     errors = _errors(sums - value * lengths) / lengths.sum()
     last, finest, largest = errors[-1], errors[0], errors.max()
-    # Joined r to one the spread of the mean stays, or falls by √r where sums are bounded: the line is between.
+    # With r batches merged into one, the spread of the mean is constant, or falls by √r if sums are bounded.
+    # The criterion lies in between.
     joined = 2.0 ** (len(errors) - 1)
     bounded = bool(last * joined**0.25 < finest) or bool(finest == 0.0)
     correlation = float((largest / finest) ** 2) if finest > 0.0 else 1.0
@@ -114,7 +118,7 @@ def _judged(sums: NDArray[np.float64], lengths: NDArray[np.float64]) -> BatchMea
 
 
 def _errors(departures: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Standard error of the sum with batches joined to 1, 2, 4, … at a time, as long as 16 groups remain."""
+    """Standard error of the sum with 1, 2, 4, … batches merged into one, as long as 16 groups remain."""
     errors = []
     size = 1
     while len(departures) >= MIN_GROUPS * size:

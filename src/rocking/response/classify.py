@@ -1,4 +1,4 @@
-"""What a response is, with its evidence: the compiled cascade, asked and put into words."""
+"""Classification of a response, with its evidence."""
 
 from __future__ import annotations
 
@@ -18,63 +18,74 @@ from rocking.response.evidence import Case, evidence_of
 
 MAX_CYCLES = 100_000_000
 MAX_PERIOD = 10_000
-# Rest is certain long before its last impact.
+# Rest is proved long before the last impact, so the simulation to the end takes longer by this factor.
 LONGER = 10
-# Two runs whose largest angles differ by more are not one motion.
+# Relative difference of the largest angles above which two runs are different motions.
 SAME_PEAK = 1e-6
-# How often, in seconds, it is looked whether Ctrl-C was pressed where waiting itself does not hear it.
+# Interval, in seconds, at which the waiting main thread checks for Ctrl-C.
 LISTENING = 0.1
 
 KINDS = tuple(Kind)
-"""The kinds by their numbers."""
+"""Response types in the order of their codes."""
 
 
 def classify(
     system: System, start: State | None = None, max_cycles: int = 100_000, max_period: int = 64
 ) -> Verdict:
-    """Tell what the response of a block is, and how that is known: the first evidence that suffices decides.
+    """Classify the response of a block, with evidence: the first test that succeeds determines the verdict.
 
-    In this order: that it never returns, or rests for ever, is proved. A motion that comes to rest or leans and is
-    released as it was before forgets all else. A periodic orbit is found by Newton's method with the exact Jacobian
-    from the closest return, and counts when it is stable and the motion approaches it as its multipliers say.
-    Motion that loses nothing is quasi-periodic where weighted Birkhoff averages over its flights converge and
-    neighbours part no faster than linearly, over the cycles watched. Chaotic is what has, at the end of the budget and not
-    before, a largest exponent 6 standard errors above zero, from independent batches, over which differences grew by e⁴⁰; and
-    what does not linger near an unstable orbit. Nothing is a default: what none of this shows is undetermined, and the evidence
-    says what was tried.
+    The tests, in this order:
+
+    1. *Overturned* or *rest*: overturning, or permanent rest, is proved.
+    2. *Periodic*, superstable: the motion comes to rest, or to sustained contact with a brace, and is released from the same
+       state as before.
+    3. *Periodic*: Newton's method with the exact Jacobian, started from the closest return, finds an orbit. It counts if it
+       is stable and the motion approaches it at the rate of its multipliers.
+    4. *Quasi-periodic*: no event dissipates energy, weighted Birkhoff averages over the arcs converge, and nearby
+       trajectories diverge no faster than linearly. Both hold over the simulated cycles.
+    5. *Chaotic*, only after `max_cycles`: the largest Lyapunov exponent lies 6 standard errors above zero, from independent
+       batches. Perturbations grew by a factor of e⁴⁰, and the motion does not linger near an unstable orbit.
+
+    There is no default type. If no test succeeds, the response is undetermined, and the evidence states the tests.
 
     Parameters
     ----------
     system : System
-        The block, its forcing and its braces.
+        Block, base motion and braces.
     start : State, optional
-        Θ and Θ' at τ = 0; at rest by default.
+        Initial state (Θ, Θ') at τ = 0. Default: at rest.
     max_cycles : int
-        Forcing cycles to follow at most, 1 to 10⁸. Most responses are settled within a hundred; chaotic ones use all, and
-        need 10⁴ (with braces 10⁵) to be called so.
+        Maximum number of forcing cycles, in [1, 10⁸]. Most responses are classified within a hundred. A verdict of chaos
+        uses all of them, and needs 10⁴ (with braces 10⁵). Default: 100,000.
     max_period : int
-        Longest period looked for, in forcing cycles, 1 to 10⁴; that of a motion released as before shows itself.
+        Longest period to search for, in forcing cycles, in [1, 10⁴]. The period of a superstable response may be longer.
+        Default: 64.
 
     Returns
     -------
     Verdict
-        `print` shows its evidence. Its tolerances: the residual is one relative to what differences grow to in a period,
-        `approach` is how far, as a share of what is left, a return may be from what the multipliers say (a hundredth of all
-        of the distance where that is more, if it comes nearer by three tenths of what they promise).
+        Response type with its evidence, which `print` shows. In `evidence.tolerances`, `residual` is relative to the growth
+        of perturbations over one period. `approach` is the largest deviation of a return from the prediction of the
+        multipliers, relative to the remaining distance. A hundredth of the whole distance is also accepted if the return
+        approaches at 30 % of the predicted rate or more.
 
     Raises
     ------
-    TypeError, ValueError
-        In one line, for arguments of the wrong type or outside their range.
+    TypeError
+        If an argument is of the wrong type.
+    ValueError
+        If an argument lies outside its range.
 
     Notes
     -----
-    Not guaranteed: that chaos lasts, for a chaotic transient may be longer than any budget; that a motion without losses that
-    sticks to a torus for long is not taken for quasi-periodic; and that an orbit is the only response, for another start may lead
-    to another one.
+    Limits:
 
-    `simulate` may follow another chaotic transient of the same system and start, and leave it in another cycle. It runs without
-    the checkpoints at which this function looks for evidence, and therefore rounds differently. So does `parametric_map`.
+    - A chaotic transient may last longer than any number of cycles, so chaos may end later.
+    - An undamped motion that stays near a torus for long may be classified as quasi-periodic.
+    - Another initial state may lead to another response.
+
+    `simulate` may follow another chaotic transient of the same system and initial state, and leave it in another cycle. It
+    runs without the checkpoints of this function, and therefore rounds differently. So does `parametric_map`.
 
     References
     ----------
@@ -97,7 +108,7 @@ def classify(
 
 
 def budget(max_cycles: int, max_period: int) -> dict[str, int]:
-    """For how many cycles a motion is followed at most, and up to which period an orbit is looked for; by name, checked."""
+    """Return the checked maximum number of cycles and longest period, by name."""
     return {
         "max_cycles": whole("max_cycles", max_cycles, 1, MAX_CYCLES),
         "max_period": whole("max_period", max_period, 1, MAX_PERIOD),
@@ -105,9 +116,10 @@ def budget(max_cycles: int, max_period: int) -> dict[str, int]:
 
 
 def _judged(system: System, start: State, max_cycles: int, max_period: int) -> kernel.Judgement:
-    """The cascade's answer, from a thread of its own: it holds no lock, and does not hear Ctrl-C; who waits does.
+    """Run the compiled decision sequence in a daemon thread, so that the main thread remains interruptible.
 
-    A thread that is no longer waited for goes on to its end, but keeps no process alive.
+    Compiled code releases the interpreter lock and does not react to Ctrl-C; the waiting main thread does. After an
+    interruption, the thread runs to its end but does not keep the process alive.
     """
     _compile()
     p, _ = start_march(system, start)
@@ -119,7 +131,7 @@ def _judged(system: System, start: State, max_cycles: int, max_period: int) -> k
             answer.set_result(
                 decision_cascade.judge_plain(p, start.angle, start.velocity, max_cycles, max_period, memory)
             )
-        except BaseException as error:  # noqa: BLE001 (it is raised where it is waited for)
+        except BaseException as error:  # noqa: BLE001 (raised again in the main thread)
             answer.set_exception(error)
 
     Thread(target=work, daemon=True).start()
@@ -130,16 +142,19 @@ def _judged(system: System, start: State, max_cycles: int, max_period: int) -> k
 
 @cache
 def _compile() -> None:
-    """Compile the cascade, or load it, before a thread needs it: a process that ends while another thread compiles may crash."""
+    """Compile or load the decision sequence in the main thread: a process that ends during compilation may crash."""
     still = numbers.harmonic_parameters(0.0, 1.0, math.tau, 0.0, 0.0)
     decision_cascade.judge_plain(still, 0.0, 0.0, 1, 1, workspace.make_workspace(1, 1))
 
 
 def _to_its_end(system: System, start: State, judgement: kernel.Judgement) -> Motion | None:
-    """The motion again, where its end is proved: the cascade does not tell when, nor where the block comes to rest.
+    """Simulate the motion to its proved end, because the decision sequence gives neither its time nor its place.
 
-    None too where the end came after a transient so chaotic that one rounding otherwise leads to another end, or to
-    the same at another time.
+    Returns
+    -------
+    Motion or None
+        None if no end is proved. None also if different rounding leads to another end, or to the same end at another time,
+        as after a chaotic transient.
     """
     ends = {kernel.NO_RETURN: Outcome.OVERTURNED, kernel.STILL_FOR_EVER: Outcome.AT_REST}
     if judgement.ground not in ends:
@@ -159,7 +174,7 @@ def _to_its_end(system: System, start: State, judgement: kernel.Judgement) -> Mo
 def _verdict(start: State, case: Case) -> Verdict:
     judged, motion = case.judgement, case.motion
     orbit = _orbit(case) if judged.kind == kernel.PERIODIC else None
-    # of what is undetermined only an exponent that was weighed is told
+    # For an undetermined response, the exponent is reported only if it was tested.
     measured = judged.kind != kernel.UNDETERMINED or judged.ground in kernel.WEIGHED
     steady, transient = _known(judged.steady_peak), None if judged.transient < 0 else judged.transient
     if judged.kind == kernel.REST and motion is not None:
@@ -185,7 +200,7 @@ def _verdict(start: State, case: Case) -> Verdict:
 
 
 def _of(orbit: Orbit | None) -> dict[str, Any]:
-    """What a verdict repeats of its orbit, or that there is none."""
+    """Return the attributes that a verdict repeats from its orbit; None without an orbit."""
     return {
         "period": orbit and orbit.period,
         "impacts_per_period": orbit and orbit.impacts,
@@ -196,7 +211,7 @@ def _of(orbit: Orbit | None) -> dict[str, Any]:
 
 
 def _orbit(case: Case) -> Orbit:
-    """The orbit found; where it rests or leans, at a release."""
+    """Return the orbit found; a superstable orbit begins at a release."""
     judged, forcing = case.judgement, case.system.forcing
     return Orbit(
         system=case.system,

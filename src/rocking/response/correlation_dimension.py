@@ -1,4 +1,4 @@
-"""Correlation dimension of a set of points: pairs within r, the range over which they scale, and an interval."""
+"""Correlation dimension of a set of points, with an interval and the scaling range."""
 
 from __future__ import annotations
 
@@ -17,37 +17,47 @@ Array = NDArray[np.float64]
 
 MIN_POINTS = 1_000
 MAX_POINTS = 10_000_000
-# Points closer than this share of the whole spread are one: converged orbits repeat to rounding.
+# Points closer than this fraction of the spread are identical: converged orbits repeat to rounding.
 SAME = 1e-9
-# A coordinate of size 1 that spreads by no more is constant.
+# A coordinate of magnitude 1 with a smaller spread is constant.
 ROUNDING = 1e-12
 
 
 @frozen(eq=False, slots=False)
 class CorrelationDimension(ReadOnlyArrays):
-    """The correlation dimension of a set of points, as an interval; made by `correlation_dimension`.
+    """Correlation dimension of a set of points, with an interval; returned by `correlation_dimension`.
 
     Attributes
     ----------
     value : float
         Slope of ln C against ln r over the scaling region.
     interval : tuple of float
-        Low and high: the slopes of the region and of five overlapping halves of it, and beyond them as much again as
-        these differ by and two standard errors.
+        Lower and upper end. The interval spans the slopes of the region and of five overlapping halves of it. It is
+        widened on both sides by the range of these slopes plus two standard errors.
     space : str
-        "section": the dimension of the points given. The flow that they are a section of has one more, `flow`.
+        "section": the dimension refers to the given points. The dimension of the flow is one more, see `flow`.
     points : int
-        How many there were.
+        Number of points.
     theiler : int
-        Pairs that follow each other by no more than this are left out.
+        Theiler window: pairs that follow each other by at most this number of points are excluded.
     scaling_region : tuple of float
-        Low and high radius.
-    radii, sums : ndarray, shape (n,)
-        r, in standard deviations of each coordinate, and the correlation sum C(r): the share of pairs within r.
+        Smallest and largest radius.
+    radii : ndarray, shape (n,)
+        Radii r, in standard deviations of each coordinate.
+    sums : ndarray, shape (n,)
+        Correlation sum C(r): fraction of pairs within r.
     slopes, slope_errors : ndarray, shape (n - 1,)
-        Local slopes between neighbouring radii and their standard errors.
+        Local slopes between neighbouring radii, and their standard errors.
     isolated : int or None
-        How many points there are, where they are so few that pairs do not scale: the dimension is then 0, exactly.
+        Number of distinct points, if they are too few for pairs to scale. The dimension is then exactly 0.
+
+    Examples
+    --------
+    >>> import rocking as rk
+    >>> system = rk.System(rk.Harmonic(amplitude=6.5, period=0.4), restitution=0.925)
+    >>> motion = rk.simulate(system, cycles=3000, record="section")
+    >>> print(rk.correlation_dimension(motion.section()[1000:]))
+    dimension 0 of the section: 3 isolated points, repeated over 2001 points
     """
 
     value: float
@@ -64,55 +74,59 @@ class CorrelationDimension(ReadOnlyArrays):
 
     @property
     def flow(self) -> float:
-        """The dimension of the flow that the points are a section of: one more."""
+        """Correlation dimension of the flow: that of the section plus 1."""
         return self.value + 1.0
 
     @property
     def decades(self) -> float:
-        """How far the scaling region reaches, in decades of r."""
+        """Width of the scaling region, in decades of r."""
         return 0.0 if self.isolated else math.log10(self.scaling_region[1] / self.scaling_region[0])
 
     def __str__(self) -> str:
         if self.isolated:
             what = "one point" if self.isolated == 1 else f"{self.isolated} isolated points"
-            return f"dimension 0 of the section: {what}, met {self.points} times"
+            return f"dimension 0 of the section: {what}, repeated over {self.points} points"
         return f"dimension {_interval(self)}, over {self.decades:.1f} decades of r from {self.points} points"
 
 
 def correlation_dimension(points: ArrayLike) -> CorrelationDimension:
-    """Estimate the correlation dimension of points on a section, after Grassberger & Procaccia, as an interval.
+    """Estimate the correlation dimension of points on a section (Grassberger & Procaccia), with an interval.
 
-    The correlation sum C(r), the share of pairs closer than r, is counted with k-d trees; coordinates are first divided
-    by their standard deviations, which changes no dimension. Pairs close in time are left out (Theiler): up to the
-    first lag at which the autocorrelation of every coordinate is below 1/e. The scaling region is found, not chosen:
-    the longest range of r, a decade at least, whose interval is narrower than 0.08, or else 0.12, 0.2, 0.4.
+    The correlation sum C(r) is the fraction of pairs closer than r. Pairs are counted with k-d trees, after division of each
+    coordinate by its standard deviation, which does not change the dimension. Pairs close in time are excluded (Theiler), up
+    to the first lag at which the autocorrelation of every coordinate is below 1/e. The scaling region is determined
+    automatically. It is the longest range of r of at least a decade with an interval narrower than 0.08. If there is none,
+    the limits 0.12, 0.2 and 0.4 are tried.
 
     Parameters
     ----------
     points : array_like, shape (n,) or (n, d)
-        In the order of time; 1,000 at least. 10⁴ resolve a dimension of 1 to 2 in the plane, 10⁵ to a few
-        hundredths.
+        At least 1,000 points in the order of time. 10⁴ points resolve a dimension of 1 to 2 in the plane, and 10⁵ resolve it
+        to a few hundredths.
 
     Returns
     -------
     CorrelationDimension
+        Dimension, interval, scaling region and correlation sums.
 
     Raises
     ------
-    TypeError, ValueError
-        In one line, for what holds no points, or points that are not finite; for fewer than 1,000 points, or points
-        correlated over a tenth of their number.
+    TypeError
+        If `points` does not hold points.
+    ValueError
+        If points are not finite, fewer than 1,000, or correlated over a tenth of their number.
     TooShort
-        Where no decade of r has a slope known to 0.4; its `estimate` is what the most even half decade gives.
+        If no decade of r has a slope with an interval narrower than 0.4. Its `estimate` is the result of the half decade
+        with the most uniform slope.
 
     Notes
     -----
-    A set of few points met again and again, as the section of a periodic motion is, has dimension 0 exactly
-    (`isolated`); points count as one where they agree to 1e-9 of the spread.
+    A set of few points that repeat, such as the section of a periodic motion, has dimension 0 exactly (`isolated`). Points
+    count as identical if they agree to 1e-9 of the spread.
 
-    Not guaranteed: that the region found is the one that goes on to r → 0. A set can scale with one exponent over the
-    radii that the points resolve, and with another below. With fewer than some 5,000 points the radii that hold enough
-    pairs are so large that boundaries lower the slope by more than the interval owns to.
+    Limits: the scaling region need not extend to r → 0. A set can scale with one exponent over the radii that the points
+    resolve, and with another below. With fewer than about 5,000 points, only large radii hold enough pairs. Boundaries then
+    lower the slope by more than the interval includes.
 
     References
     ----------
@@ -137,14 +151,14 @@ def correlation_dimension(points: ArrayLike) -> CorrelationDimension:
     scaling = scaling_region(radii, counts, pairs)
     if scaling is None:
         raise ValueError(
-            f"{len(cloud)} points are too few for a dimension: there are close pairs over less than half a decade of r "
-            "(take more points)"
+            f"{len(cloud)} points are too few for a dimension: close pairs span less than half a decade of r "
+            "(use more points)"
         )
     dimension = _dimension(len(cloud), theiler, radii, scaling)
     if not scaling.found:
         raise TooShort(
-            f"{len(cloud)} points do not scale over a decade of r; the most even range of radii gives "
-            f"{_interval(dimension)} (take more points, or from motion that has settled)",
+            f"{len(cloud)} points do not scale over a decade of r; the range of radii with the most uniform slope gives "
+            f"{_interval(dimension)} (use more points, or discard a longer transient)",
             dimension,
         )
     return dimension
@@ -191,9 +205,11 @@ def _cloud(points: ArrayLike) -> Array:
     if isinstance(points, Motion):
         if points.overturning is not None:
             raise ValueError(
-                f"the block must stay up for a dimension; it overturned in cycle {points.overturning.cycle}"
+                f"the block must stay upright for a dimension; it overturned in cycle {points.overturning.cycle}"
             )
-        raise TypeError(refusal("points", allowed, points, "take those of its section, motion.section()"))
+        raise TypeError(
+            refusal("points", allowed, points, "pass the points of its section, motion.section()")
+        )
     try:
         cloud = np.asarray(reals("points", points))
     except TypeError:
@@ -203,34 +219,34 @@ def _cloud(points: ArrayLike) -> Array:
     refuse_if(cloud.ndim != 2 or cloud.shape[1] == 0, "points", allowed, points)
     if len(cloud) < MIN_POINTS or len(cloud) > MAX_POINTS:
         raise ValueError(
-            f"points must be {MIN_POINTS:,} at least and {MAX_POINTS:,} at most; got {len(cloud):,} "
-            "(a section has one a cycle, as long as the block stays up)"
+            f"points must be {MIN_POINTS:,} to {MAX_POINTS:,} in number; got {len(cloud):,} "
+            "(a section has one point per cycle until the block overturns)"
         )
     if not np.isfinite(cloud).all():
         raise ValueError(
             f"points must be finite; row {int(np.argmin(np.isfinite(cloud).all(axis=1)))} is not"
         )
-    # of size 1: no square leaves the range of doubles
+    # scaled to magnitude 1, so that squares neither overflow nor underflow
     size = np.abs(cloud).max(axis=0)
     return cloud / np.where(size > 0.0, size, 1.0)
 
 
 def _distinct(cloud: Array) -> int:
-    """How many points there are when those within 1e-9 of the spread, or 1e-12 of their own size, count as one."""
+    """Number of distinct points; those within 1e-9 of the spread, or 1e-12 of their own magnitude, count as one."""
     same = np.maximum(SAME * np.ptp(cloud, axis=0), ROUNDING)
     cells = np.floor((cloud - cloud.min(axis=0)) / same + 0.5)
     return len(np.unique(cells, axis=0))
 
 
 def _scaled(cloud: Array) -> Array:
-    """The points about their mean, in standard deviations; 0 where a coordinate is constant."""
+    """Return the points relative to their mean, in standard deviations; 0 for a constant coordinate."""
     constant = np.ptp(cloud, axis=0) <= ROUNDING
     about = np.where(constant, 0.0, cloud - cloud.mean(axis=0))
     return about / np.where(constant, 1.0, about.std(axis=0))
 
 
 def _theiler(scaled: Array) -> int:
-    """The first lag at which every coordinate's autocorrelation is below 1/e."""
+    """Return the first lag at which the autocorrelation of every coordinate is below 1/e."""
     longest = len(scaled) // 10
     size = 2 ** math.ceil(math.log2(len(scaled) + longest))
     power = np.abs(np.fft.rfft(scaled, size, axis=0)) ** 2
@@ -238,7 +254,7 @@ def _theiler(scaled: Array) -> int:
     decayed = (correlation < correlation[0] / math.e) | (correlation[0] == 0.0)
     if not decayed.any(axis=0).all():
         raise ValueError(
-            f"{len(scaled)} points are too few for a dimension: they stay correlated over a tenth of their number "
-            "(take more of them, or farther apart in time)"
+            f"{len(scaled)} points are too few for a dimension: they are correlated over a tenth of their number "
+            "(use more points, or points farther apart in time)"
         )
     return int(np.argmax(decayed, axis=0).max())

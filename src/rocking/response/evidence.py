@@ -1,4 +1,4 @@
-"""Why a response is called what it is called: one sentence for each criterion of the compiled cascade."""
+"""Evidence of a verdict in words: one sentence for each criterion of the compiled decision sequence."""
 
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ from rocking.motion import Motion
 
 MAX_GROWTH = f"{math.exp(reset.MAX_STRAIN):.0e}".replace("e+0", "e")
 
-OTHERWISE = "but so sensitive until then that another rounding ends otherwise"
+OTHERWISE = "the motion before is so sensitive that different rounding leads to a different end"
 
 
 @frozen
 class Case:
-    """A judged response: what was asked, what the cascade answered, and the motion to its end where that is proved."""
+    """Classified response: system and limits, result of the decision sequence, and the motion to its end if that is proved."""
 
     system: System
     max_cycles: int
@@ -32,7 +32,7 @@ class Case:
 
 @frozen
 class Shown:
-    """What was shown, and a way out where it did not suffice."""
+    """Finding, and level of its evidence with the number of cycles or a remedy."""
 
     what: str
     remark: str
@@ -40,46 +40,54 @@ class Shown:
 
 
 def evidence_of(case: Case) -> Evidence:
-    """The evidence in one sentence."""
+    """Return the evidence in words."""
     criterion = Criterion(case.judgement.ground)
     shown = SHOWN[criterion](case)
     return Evidence(
-        criterion.level, f"{shown.what} ({shown.remark})", shown.tolerances, case.judgement.cycles
+        criterion.level, f"{shown.what}. Evidence: {shown.remark}.", shown.tolerances, case.judgement.cycles
     )
 
 
 def _no_return(case: Case) -> Shown:
     overturning = None if case.motion is None else case.motion.overturning
-    undone = "the growing part of the motion can no longer be undone"
+    undone = "the growing part of the motion cannot be reversed"
     if overturning is None:
-        return Shown(f"proved after {spent(case)} never to return: {undone}", f"exact; {OTHERWISE}")
+        return Shown(f"overturning is certain, because {undone}", f"exact, within {spent(case)}; {OTHERWISE}")
     when = f"after {counted(overturning.impacts, 'impact')}" if overturning.impacts else "without an impact"
-    return Shown(f"proved {when}, at τ = {overturning.time:.6g}, never to return: {undone}", "exact")
+    return Shown(
+        f"overturning is certain from τ = {overturning.time:.6g}, {when}, because {undone}",
+        f"exact, within {spent(case)}",
+    )
 
 
 def _still_for_ever(case: Case) -> Shown:
     if case.motion is None:
-        return Shown(f"rests or leans for ever after {spent(case)}", f"exact; {OTHERWISE}")
+        return Shown(
+            "the block remains at rest or in contact with a brace",
+            f"exact, within {spent(case)}; {OTHERWISE}",
+        )
     amplitude, angle, braces = case.system.forcing.amplitude, case.motion.final.angle, case.system.braces
     if angle != 0.0 and braces is not None:
         # f = −1 − σA cos ψ stays above −Θb
-        what = f"leans on the brace at Θ = {angle:.6g} for ever: A = {amplitude:.6g} ≤ Θb − 1 = {braces.angle - 1.0:.6g} never pulls it off"
+        what = (
+            f"the block remains in contact with the brace at Θ = {angle:.6g}, because A = {amplitude:.6g} ≤ Θb − 1 = "
+            f"{braces.angle - 1.0:.6g} cannot pull it off"
+        )
     else:
-        what = f"rests for ever: A = {amplitude:.6g} ≤ 1 never lifts it off"
+        what = f"the block remains at rest, because A = {amplitude:.6g} ≤ 1 cannot lift it off"
     moved = case.motion.impacts + case.motion.brace_hits > 0
-    return Shown(what, f"exact, within {spent(case)}" if moved else "exact")
+    return Shown(what, f"exact, within {spent(case)}" if moved else "exact, from the initial state on")
 
 
 def _reset(case: Case) -> Shown:
     judged = case.judgement
     which = "release from a brace" if judged.angle else "lift-off from rest"
     apart = counted(judged.period, "half cycle") if judged.symmetric else counted(judged.period, "cycle")
-    return Shown(
-        f"{_periodic(judged)}: every {which} is the same state{' but for its side' * judged.symmetric}, two of them are "
-        f"{apart} of the forcing apart, and differences grew less than {MAX_GROWTH}-fold between them",
-        f"verified, {_when(case)}",
-        {"growth": float(MAX_GROWTH)},
+    what = (
+        f"superstable {_periodic(judged)}: every {which} has the same state{', on alternating sides' * judged.symmetric}; "
+        f"successive ones are {apart} of the forcing apart, and perturbations grew less than {MAX_GROWTH}-fold in between"
     )
+    return Shown(what, f"verified, {_when(case)}", {"growth": float(MAX_GROWTH)})
 
 
 def _orbit(case: Case) -> Shown:
@@ -87,137 +95,138 @@ def _orbit(case: Case) -> Shown:
     if judged.distance <= periodicity.ROUNDING:
         reached = f"the motion lies on the orbit to within {periodicity.ROUNDING:.0e}"
     else:
-        reached = f"the motion, {judged.distance:.2g} away a period before, approaches the orbit as they say"
-    return Shown(
-        f"{_periodic(judged)}: Newton's method met |P(x) − x| ≤ {at_most(judged.residual)}, both multipliers are inside the "
-        f"unit circle (largest {_below_one(math.hypot(judged.real, judged.imaginary))}) and {reached}",
-        f"verified, {_when(case)}",
-        {
-            "residual": fixed_point.RESIDUAL,
-            "approach": periodicity.NONLINEAR,
-            "distance": periodicity.ROUNDING,
-        },
+        reached = f"the motion converges to it at the predicted rate (distance {judged.distance:.2g} one period earlier)"
+    what = (
+        f"stable {_periodic(judged)}: Newton residual |P(x) − x| ≤ {at_most(judged.residual)}, largest Floquet multiplier "
+        f"{_below_one(math.hypot(judged.real, judged.imaginary))} in modulus; {reached}"
     )
+    tolerances = {
+        "residual": fixed_point.RESIDUAL,
+        "approach": periodicity.NONLINEAR,
+        "distance": periodicity.ROUNDING,
+    }
+    return Shown(what, f"verified, {_when(case)}", tolerances)
 
 
 def _neutral_orbit(case: Case) -> Shown:
-    return Shown(
-        f"{_periodic(case.judgement)}: the motion comes back to within {decision_cascade.UNMOVED:.0e} of where it was, its averages over "
-        f"both halves of the run agree to {quasi_periodicity.ENOUGH_DIGITS:.0f} digits or more, and nothing is lost, so that neighbours "
-        "stay neighbours and need not approach",
-        f"verified, {_when(case)}",
-        {
-            "residual": fixed_point.RESIDUAL,
-            "distance": decision_cascade.UNMOVED,
-            "digits": quasi_periodicity.ENOUGH_DIGITS,
-        },
+    what = (
+        f"neutrally stable {_periodic(case.judgement)}: no event dissipates energy; the motion returns to within "
+        f"{decision_cascade.UNMOVED:.0e} of an earlier state, and its averages over both halves of the run agree to "
+        f"{quasi_periodicity.ENOUGH_DIGITS:.0f} digits or more; nearby motions stay near but need not converge"
     )
+    tolerances = {
+        "residual": fixed_point.RESIDUAL,
+        "distance": decision_cascade.UNMOVED,
+        "digits": quasi_periodicity.ENOUGH_DIGITS,
+    }
+    return Shown(what, f"verified, {_when(case)}", tolerances)
 
 
 def _torus(case: Case) -> Shown:
-    return Shown(
-        f"nothing is lost; the averages over both halves of the run agree as on a torus, to "
-        f"{quasi_periodicity.ENOUGH_DIGITS:.0f} digits or more "
-        f"for the flight times and {math.floor(case.judgement.digits)} for the squared speeds; neighbours part no faster than "
-        f"linearly; and it does not return to within {decision_cascade.UNMOVED:.0e} in {case.max_period} cycles",
-        f"statistical, over {spent(case)}: a motion that stays near a torus for long may leave it later",
-        {
-            "flight digits": quasi_periodicity.ENOUGH_DIGITS,
-            "speed digits": quasi_periodicity.CHAOTIC_DIGITS,
-            "log shear": quasi_periodicity.SHEAR,
-            f"log shear below {quasi_periodicity.SHEARED_FLIGHTS} flights": quasi_periodicity.SMALL_SHEAR,
-        },
+    what = (
+        f"motion on an invariant torus: no event dissipates energy; averages over both halves of the run agree to "
+        f"{quasi_periodicity.ENOUGH_DIGITS:.0f} digits or more for the times between impacts and to "
+        f"{math.floor(case.judgement.digits)} for the squared speeds; nearby trajectories diverge no faster than linearly; and "
+        f"the motion does not return to within {decision_cascade.UNMOVED:.0e} in {case.max_period} cycles"
     )
+    tolerances = {
+        "flight digits": quasi_periodicity.ENOUGH_DIGITS,
+        "speed digits": quasi_periodicity.CHAOTIC_DIGITS,
+        "log shear": quasi_periodicity.SHEAR,
+        f"log shear below {quasi_periodicity.SHEARED_FLIGHTS} flights": quasi_periodicity.SMALL_SHEAR,
+    }
+    remark = f"statistical, over {spent(case)}; a motion that stays near a torus for long may leave it later"
+    return Shown(what, remark, tolerances)
 
 
 def _exponent(case: Case) -> Shown:
     judged = case.judgement
-    return Shown(
-        f"largest exponent {plus_minus(judged.exponent, judged.error)} per τ, {judged.exponent / judged.error:.0f} standard "
-        f"errors above zero, watched for {spent(case)}",
-        "statistical: a longer run may find an end to it",
-        {"standard errors": kernel.CLEARLY},
+    what = (
+        f"largest Lyapunov exponent {plus_minus(judged.exponent, judged.error)} per τ, "
+        f"{judged.exponent / judged.error:.0f} standard errors above zero"
     )
+    remark = f"statistical, over {spent(case)}; a longer run may show that the chaos is transient"
+    return Shown(what, remark, {"standard errors": kernel.CLEARLY})
 
 
 def _little_growth(case: Case) -> Shown:
     grown = case.judgement.exponent * _measured_time(case)
-    return Shown(
-        f"{_seems_chaotic(case)}, but over the second half of the run differences grew by a factor of only e^{grown:.3g}: they "
-        "do so too while a motion leaves an unstable orbit",
-        _longer(case),
-        {"log growth": kernel.FAR},
+    what = (
+        f"{_seems_chaotic(case)}, but over the second half of the run perturbations grew only by a factor of e^{grown:.3g}, "
+        "as they also do while a motion leaves an unstable orbit"
     )
+    return Shown(what, _longer(case), {"log growth": kernel.FAR})
 
 
 def _correlated(case: Case) -> Shown:
-    return Shown(
-        f"{_seems_chaotic(case)}, but the {workspace.BATCHES} batches behind that error depend on each other: joined four to one "
-        f"they raise its variance more than {kernel.MAX_CORRELATION:.0f}-fold",
-        _longer(case),
-        {"correlation": kernel.MAX_CORRELATION},
+    what = (
+        f"{_seems_chaotic(case)}, but the {workspace.BATCHES} batches behind this error are correlated: merging them in fours "
+        f"increases its variance more than {kernel.MAX_CORRELATION:.0f}-fold"
     )
+    return Shown(what, _longer(case), {"correlation": kernel.MAX_CORRELATION})
 
 
 def _lingering(case: Case) -> Shown:
-    return Shown(
+    what = (
         f"{_seems_chaotic(case)}, but in its last cycles the motion stays within {decision_cascade.NEAR:.0e} of an unstable "
-        "orbit",
-        f"{_longer(case)}, or start elsewhere",
-        {"distance": decision_cascade.NEAR},
+        "orbit"
     )
+    return Shown(what, f"{_longer(case)} or change the initial state", {"distance": decision_cascade.NEAR})
 
 
 def _unresolved_reset(case: Case) -> Shown:
+    what = (
+        f"the block repeatedly comes to rest or into sustained contact with a brace, but perturbations grow more than "
+        f"{MAX_GROWTH}-fold between two releases, so that its period cannot be resolved in double precision"
+    )
     return Shown(
-        f"it comes to rest or leans and is released again, but between two releases differences grow more than "
-        f"{MAX_GROWTH}-fold: after how many cycles it repeats itself is not known in double precision",
-        "no longer run can tell; a slightly different system may",
+        what, f"none, after {spent(case)}; a longer run does not help, try slightly different parameters"
     )
 
 
 def _unwatched(case: Case) -> Shown:
     needed = kernel.CHAOS_NEEDS if case.system.braces is None else kernel.CHAOS_NEEDS_WITH_BRACES
-    return Shown(f"{_no_orbit(case)}, too few to call it chaotic", f"raise max_cycles to {needed:,} or more")
+    return Shown(
+        f"{_no_orbit(case)}, and {spent(case)} are too few to call the response chaotic",
+        f"none, after {spent(case)}; increase max_cycles to {needed:,} or more",
+    )
 
 
 def _indistinct(case: Case) -> Shown:
     judged, longer = case.judgement, _longer(case)
     if not 0.0 < judged.error < math.inf:
         return Shown(
-            f"{_no_orbit(case)}, and its largest exponent has no error that could be trusted", longer
+            f"{_no_orbit(case)}, and the largest Lyapunov exponent has no reliable error estimate", longer
         )
-    found = (
-        f"{_no_orbit(case)}, and its largest exponent, {plus_minus(judged.exponent, judged.error)} per τ, is"
-    )
+    found = f"{_no_orbit(case)}, and the largest Lyapunov exponent, {plus_minus(judged.exponent, judged.error)} per τ, is"
     if judged.exponent < -kernel.CLEARLY * judged.error:
-        longer = f"raise max_period above {case.max_period}, or max_cycles above {case.max_cycles:,}"
+        longer = f"none, after {spent(case)}; increase max_period above {case.max_period} or max_cycles above {case.max_cycles:,}"
         return Shown(f"{found} negative", longer)
     return Shown(f"{found} less than {kernel.CLEARLY:.0f} standard errors above zero", longer)
 
 
 def _between(case: Case) -> Shown:
-    return Shown(
-        f"nothing is lost, and the averages over both halves of {spent(case)} agree to {case.judgement.digits:.1f} digits: better "
-        f"than on chaotic motion (below {quasi_periodicity.CHAOTIC_DIGITS:.0f}), but not all is as on a torus",
-        _longer(case),
+    what = (
+        f"no event dissipates energy, and averages over both halves of the run agree to {case.judgement.digits:.1f} digits: more "
+        f"than in chaotic motion (below {quasi_periodicity.CHAOTIC_DIGITS:.0f}), but not all conditions for a torus are met"
     )
+    return Shown(what, _longer(case))
 
 
 def _crowded(case: Case) -> Shown:
+    what = f"more than {leg.MAX_EVENTS_A_CYCLE} impacts per cycle (chattering with little energy loss); simulation stopped"
     return Shown(
-        f"more impacts than are followed, over {leg.MAX_EVENTS_A_CYCLE} a cycle: it chatters almost without loss; given up "
-        f"after {spent(case)}",
-        "start it faster, or take a smaller restitution",
+        what,
+        f"none, after {spent(case)}; increase the initial speed or reduce the coefficient of restitution",
     )
 
 
 def _standing(case: Case) -> Shown:
-    return Shown(
-        f"it comes back to within {decision_cascade.UNMOVED:.0e} of where it was in {spent(case)}, and differences grow by "
-        f"{case.judgement.exponent:.4g} per τ: it stands on an unstable orbit",
-        "start it a little beside",
+    what = (
+        f"the motion remains on an unstable orbit; it returns to within {decision_cascade.UNMOVED:.0e} of an earlier state, "
+        f"and perturbations grow at a rate of {case.judgement.exponent:.4g} per τ"
     )
+    return Shown(what, f"none, after {spent(case)}; change the initial state slightly")
 
 
 SHOWN: dict[Criterion, Callable[[Case], Shown]] = {
@@ -241,46 +250,47 @@ SHOWN: dict[Criterion, Callable[[Case], Shown]] = {
 
 
 def spent(case: Case) -> str:
-    """How many cycles were followed."""
+    """Number of simulated cycles, as text."""
     return counted(case.judgement.cycles, "cycle")
 
 
 def _longer(case: Case) -> str:
-    """The remedy where a longer run may decide."""
-    return f"raise max_cycles above {case.max_cycles:,}"
+    """Level and remedy if a longer run may decide."""
+    return f"none, after {spent(case)}; increase max_cycles above {case.max_cycles:,}"
 
 
 def _measured_time(case: Case) -> float:
-    """The time, in τ, over which the exponent is measured: the batches of the second half."""
-    return workspace.BATCHES * (case.max_cycles // (2 * workspace.BATCHES)) * case.system.forcing.period
+    """Time, in τ, over which the exponent is measured: the batches of the second half of the run."""
+    batch = case.max_cycles // (2 * workspace.BATCHES)
+    return workspace.BATCHES * batch * case.system.forcing.period
 
 
 def _seems_chaotic(case: Case) -> str:
     judged = case.judgement
     return (
-        f"{_no_orbit(case)}, and its largest exponent, {plus_minus(judged.exponent, judged.error)} per τ, is "
+        f"{_no_orbit(case)}, and the largest Lyapunov exponent, {plus_minus(judged.exponent, judged.error)} per τ, is "
         f"{judged.exponent / judged.error:.0f} standard errors above zero"
     )
 
 
 def _when(case: Case) -> str:
-    """When it was shown: what is seen at once is seen before a cycle is over."""
+    """Time at which the evidence was found, in cycles, as text."""
     return f"after {spent(case)}" if case.judgement.cycles else "within the first cycle"
 
 
 def at_most(size: float) -> str:
-    """A size rounded up to one digit."""
+    """Format a magnitude, rounded up to one digit."""
     return f"{Context(prec=1, rounding=ROUND_UP).create_decimal(Decimal(size)):.0e}" if size else "0"
 
 
 def _below_one(size: float) -> str:
-    """A size below 1 to three digits, or to as many as tell it from 1."""
+    """Format a magnitude below 1 to three digits, or to as many as distinguish it from 1."""
     return next(text for digits in (3, 6, 9, 17) if (text := f"{size:.{digits}g}") != "1" or digits == 17)
 
 
 def _periodic(judged: kernel.Judgement) -> str:
-    parts = [f"period {judged.period}", "symmetric" if judged.symmetric else "unsymmetric"]
-    for number, what in ((judged.impacts, "impact"), (judged.brace_hits, "brace hit")):
+    parts = [f"orbit of period {judged.period}", "symmetric" if judged.symmetric else "asymmetric"]
+    for number, what in ((judged.impacts, "impact"), (judged.brace_hits, "brace impact")):
         if number < 0:
             parts.append(f"infinitely many {what}s")
         elif number or what == "impact":
@@ -289,4 +299,4 @@ def _periodic(judged: kernel.Judgement) -> str:
 
 
 def _no_orbit(case: Case) -> str:
-    return f"no orbit of period up to {case.max_period} was reached in {spent(case)}"
+    return f"no orbit of period up to {case.max_period} was reached"

@@ -1,4 +1,4 @@
-"""The impact section: the motion seen at its impacts, a map of phase and speed."""
+"""Impact section: forcing phase and velocity at each impact."""
 
 from __future__ import annotations
 
@@ -14,40 +14,49 @@ DEFAULT_CYCLES = 1000
 def impact_section(
     source: System | Motion, start: State | None = None, cycles: int | None = None, transient: int = 0
 ) -> np.ndarray:
-    """Give the impacts at Θ = 0, in order: phase and velocity of each determine the next (eqs 2, 5 of Yim & Lin 1991).
+    """Return the impacts at Θ = 0 in order, with forcing phase and velocities.
 
-    Beside the stroboscopic section, `Motion.section`, which has a point a cycle, this one has a point an impact. The map
-    from each to the next is analytic where no impact grazes; the stroboscopic map is only continuous.
+    The phase and velocity of an impact determine the next one: Yim & Lin (1991), Eqs. (2) and (5). The stroboscopic section,
+    `Motion.section`, has one point per forcing cycle; the impact section has one point per impact. The map from each impact
+    to the next is analytic unless an impact grazes. The stroboscopic map is only continuous.
 
     Parameters
     ----------
     source : System or Motion
-        A system, run here; or a motion recorded with ``record="all"``, whose impacts are read.
+        System to simulate, or a motion recorded with ``record="all"``.
     start : State, optional
-        Of a system: Θ and Θ' at τ = 0; at rest by default.
+        Initial state (Θ, Θ') at τ = 0; only with a system. Default: at rest.
     cycles : int, optional
-        Of a system: how many forcing cycles are run, 1 to 10⁹; 1,000 by default.
+        Number of forcing cycles, in [1, 10⁹]; only with a system. Default: 1,000.
     transient : int
-        How many of these cycles are left out at the beginning; at least one must stay.
+        Number of cycles discarded at the beginning; fewer than the number of cycles. Default: 0.
 
     Returns
     -------
     structured ndarray
-        One row an impact: time (τ), cycle (from 0), phase (ψ in [0, 2π)), and Θ' before and after. Empty where
-        nothing strikes: at rest, or where only braces are hit. A block that overturns has those before the proof.
+        One row per impact, with the fields
+
+        - `time`: τ;
+        - `cycle`: forcing cycle, counted from 0;
+        - `phase`: forcing phase ψ, rad, in [0, 2π);
+        - `before`, `after`: Θ' just before and just after the impact.
+
+        The array is empty at rest, or if only braces are hit. If the block overturns, it holds the impacts before
+        overturning is certain.
 
     Raises
     ------
-    TypeError, ValueError
-        For arguments of another kind or outside their range; `start` or `cycles` given with a motion; a motion that
-        kept no events.
+    TypeError
+        If an argument is of the wrong type, or if `start` or `cycles` is given with a motion.
+    ValueError
+        If an argument lies outside its range, or if the motion recorded no events.
     TooManyEvents
-        More than 10⁷ impacts to keep, or events in a single cycle.
+        If there are more than 10⁷ impacts to record, or more than 10⁷ events in one cycle.
 
     Notes
     -----
-    Memory grows with the impacts kept (40 bytes each), not with cycles, brace hits or the transient. A system and a
-    motion of it give the same impacts to the last bit. Hits on braces are no impacts.
+    Memory grows with the recorded impacts (40 bytes each). It does not grow with cycles, brace impacts or the transient. A
+    system and a simulated motion of it yield bit-identical impacts. Brace impacts are not included.
 
     Examples
     --------
@@ -60,7 +69,7 @@ def impact_section(
     if isinstance(source, Motion):
         for name, value in (("start", start), ("cycles", cycles)):
             if value is not None:
-                raise TypeError(refusal(name, "be left out with a motion, which has its own", value))
+                raise TypeError(refusal(name, "be omitted with a motion", value))
         transient = whole("transient", transient, 0, max(source.cycles - 1, 0))
         return _impacts(source.events, transient)
     if not isinstance(source, System):
@@ -71,7 +80,7 @@ def impact_section(
 
 
 def _impacts(events: np.ndarray, transient: int) -> np.ndarray:
-    """Of the events after a transient, the impacts at Θ = 0."""
+    """Return the impacts at Θ = 0 among the events after a transient."""
     found = events[(events["kind"] == "impact") & (events["cycle"] >= transient)]
     impacts = np.empty(len(found), IMPACT)
     for name in IMPACT.names or ():

@@ -1,4 +1,4 @@
-"""How points turn about the centre of their island, and of how many islands they are."""
+"""Rotation of points about the centre of their island, and the number of islands."""
 
 from __future__ import annotations
 
@@ -13,38 +13,45 @@ from rocking.kernels.numerics import averages
 Array = NDArray[np.float64]
 
 MIN_TURNS = 64
-# Digits in which both halves of a regular motion agree.
+# Number of digits to which averages over both halves of a regular motion agree.
 REGULAR_DIGITS = 9
 MAX_DIGITS = 15
 MAX_LOCK = 500
-# An island this small, against speeds and phases of order one, turns by rounding: it counts as its centre.
-# More digits than this an average over some ten thousand flights, each rounded, does not have, however well its halves agree.
+# An average over about ten thousand rounded arcs is accurate to no more digits, even if its halves agree better.
 CERTAIN_DIGITS = 14
+# A smaller island, compared with speeds and phases of order one, is dominated by rounding and counts as a point.
 POINT = 1e-6
-# Seen from inside, a curve of many points leaves no such gap.
+# Largest angular gap of a closed curve with many points, as seen from inside.
 WIDEST_GAP = 1.5
 WIDEST_JUMP = 0.25
 
 
 def average(values: Array) -> tuple[float, int]:
-    """The weighted Birkhoff average of a sequence, and to how many digits, 15 at most, those of its halves agree."""
+    """Return the weighted Birkhoff average of a sequence and the number of digits of agreement of its halves.
+
+    Returns
+    -------
+    tuple of (float, int)
+        Average; number of digits, 15 at most.
+    """
     values = np.ascontiguousarray(values)
     digits = math.floor(averages.digits_of_agreement_plain(values))
     return averages.weighted_mean_plain(values), min(max(digits, 0), MAX_DIGITS)
 
 
 def fraction_of(value: float, digits: int) -> Fraction | None:
-    """The fraction that a number is to all its digits, or None."""
+    """Return the fraction that equals a number to all its digits, or None."""
     near = Fraction(value).limit_denominator(MAX_LOCK)
     off = 10.0 ** (1 - min(digits, CERTAIN_DIGITS)) * max(abs(value), 1.0 / MAX_LOCK)
     return near if abs(value - near) <= off else None
 
 
 def deviations(phases: Array, speeds: Array) -> Array | None:
-    """Speed and phase about their means, (n, 2), scaled to 1 at most; None where all points are one.
+    """Return speeds and phases relative to their means, shape (n, 2), scaled to 1 at most; None if all points coincide.
 
-    In this order counter-clockwise here is counter-clockwise in (Θ, Θ'), whichever way Θ = 0 is crossed: Θ, Θ', ψ make a
-    right-handed system, the motion goes towards growing ψ on the one section and towards growing Θ (or −Θ) on the other.
+    In this order, counter-clockwise here is counter-clockwise in (Θ, Θ') for both directions of crossing Θ = 0. The reason
+    is that Θ, Θ', ψ form a right-handed system. The motion crosses one section towards growing ψ, and the other towards
+    growing Θ (or −Θ).
     """
     offsets = np.mod(phases - phases[0] + math.pi, 2.0 * math.pi) - math.pi
     speeds = np.ascontiguousarray(speeds)
@@ -56,9 +63,14 @@ def deviations(phases: Array, speeds: Array) -> Array | None:
 
 
 def turning_of(points: Array) -> tuple[float | None, int, int]:
-    """Mean turn from point to point about the origin, its digits, and of how many islands the points are; None on no curve.
+    """Return the mean rotation from point to point about the origin, its digits and the number of islands.
 
-    Points are taken as they are; or straightened, where they are bent like a banana about a mean outside.
+    Points on a curve that does not surround its mean are straightened first, by subtracting a parabola.
+
+    Returns
+    -------
+    tuple of (float or None, int, int)
+        Mean rotation in turns (None without a closed curve); digits of agreement; number of islands.
     """
     fast, late = points.T
     for x, y in ((fast, late), (_unbent(fast, late), late), (fast, _unbent(late, fast))):
@@ -73,13 +85,13 @@ def turning_of(points: Array) -> tuple[float | None, int, int]:
 
 
 def _unbent(bent: Array, along: Array) -> Array:
-    """What is left of one coordinate without its parabola over the other."""
+    """Return one coordinate minus its least-squares parabola over the other, scaled to 1 at most."""
     straight = bent - np.polynomial.Polynomial.fit(along, bent, 2)(along)
     return straight / max(float(np.abs(straight).max()), POINT)
 
 
 def _surrounds(angles: Array, radii: Array) -> bool:
-    """Whether points lie on one curve around the origin, met once in every direction."""
+    """Return whether points lie on one curve around the origin, with one point in every direction."""
     order = np.argsort(angles)
     gaps = np.diff(angles[order], append=angles[order[0]] + 2.0 * math.pi)
     jumps = np.abs(np.diff(radii[order], append=radii[order[0]]))

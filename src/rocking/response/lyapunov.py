@@ -1,4 +1,4 @@
-"""Lyapunov exponents: how fast small differences grow, with an error that the run itself supports."""
+"""Lyapunov exponents from the exact tangent map, with errors estimated from the run."""
 
 from __future__ import annotations
 
@@ -12,56 +12,56 @@ from rocking.response.batch_means import MAX_BATCHES, MIN_BATCHES
 from rocking.response.lyapunov_spectrum import LyapunovSpectrum, means_of
 
 MAX_CYCLES = 1_000_000_000
-# Relative rounding of one event's two logarithms, with room.
+# Bound of the relative rounding of the two logarithms of one event.
 ROUNDING = 4.0 * np.finfo(float).eps
 
 
 def lyapunov(
     system: System, start: State | None = None, cycles: int = 10_000, transient: int | None = None
 ) -> LyapunovSpectrum:
-    """Measure both Lyapunov exponents of a motion from its exact tangent map, with errors.
+    """Compute both Lyapunov exponents of a motion from its exact tangent map, with errors.
 
-    Two differences are carried along arcs, impacts and brace hits in closed form and made orthonormal again at every
-    event; λ₁ and λ₂ are the mean logarithms of what that takes out. They are orthonormal when the average begins and
-    have been carried through the transient, so that their first direction is the one that grows.
+    Two tangent vectors are propagated through arcs, impacts and brace impacts in closed form. They are orthonormalised at
+    every event, and λ₁ and λ₂ are the mean logarithms of the removed factors. The vectors are also propagated through the
+    transient, so that the first one has turned to the direction of growth.
 
     Parameters
     ----------
     system : System
-        The block, its forcing and its braces.
+        Block, base motion and braces.
     start : State, optional
-        Θ and Θ' at τ = 0; at rest by default.
+        Initial state (Θ, Θ') at τ = 0. Default: at rest.
     cycles : int
-        Forcing cycles averaged over, 1 to 10⁹; an error takes 32 at least, a good one 256 times the time over which
-        the motion remembers.
+        Number of forcing cycles of the average, in [1, 10⁹]. An error estimate needs at least 32. A good one needs 256
+        times the correlation time of the motion. Default: 10,000.
     transient : int, optional
-        Forcing cycles left out before; a tenth of `cycles` by default.
+        Number of forcing cycles discarded before the average. Default: a tenth of `cycles`.
 
     Returns
     -------
     LyapunovSpectrum
+        Exponents per τ, with errors.
 
     Raises
     ------
     TooShort
-        If the run cannot support an error: fewer than 32 cycles, or 256 batches of it still correlated, as where a
-        transient goes on, or where chaotic motion sticks to islands for times as long as the run. Its `estimate` is
-        the spectrum with infinite errors.
+        If the run does not support an error: fewer than 32 cycles, or 256 batches that are still correlated. Correlation
+        remains during a transient, and if the sojourns of a chaotic motion near islands are as long as the run. Its
+        `estimate` is the spectrum with infinite errors.
     ValueError
-        If the block overturns, or for an argument outside its range.
+        If the block overturns, or if an argument lies outside its range.
     TypeError
-        For an argument of the wrong type.
+        If an argument is of the wrong type.
 
     Notes
     -----
-    Without rest and leaning λ₁ + λ₂ is what impacts and brace hits take, 2 ln e and 2 ln r each; the difference is
-    kept as `sum_rule_error`. Rest and leaning forget: −∞, exactly, for the whole run, however seldom it happens. A
-    periodic motion with complex multipliers has λ₁ = λ₂ = ln e × impacts/τ. Without loss and without chaos λ₁ goes to
-    0 as ln N/N, because neighbours part linearly.
+    Without rest and sustained contact, λ₁ + λ₂ is the contraction per τ. It is 2 ln e for each impact and 2 ln r for each
+    brace impact. The difference is stored as `sum_rule_error`. Rest or sustained contact makes both exponents
+    exactly −∞, however rarely it occurs. A periodic motion with complex multipliers has λ₁ = λ₂ = ln e × impacts/τ. For a
+    regular undamped motion, λ₁ tends to 0 as ln N/N over N cycles, because nearby trajectories diverge linearly.
 
-    Not guaranteed: that the motion stays what it was. Chaotic transients may last longer than any run; an exponent
-    belongs to the cycles it was measured over. Where 256 batches are all shorter than the time for which a chaotic
-    motion sticks to islands, the run sees one sojourn and its error is that of the sojourn.
+    Limits: the exponents refer to the simulated cycles, and a chaotic transient may last longer than any run. If all 256
+    batches are shorter than a sojourn near islands, the run covers one sojourn only. The error then refers to this sojourn.
 
     References
     ----------
@@ -69,7 +69,7 @@ def lyapunov(
 
     Examples
     --------
-    The mode (1, 1): both exponents are ln e times two impacts a cycle.
+    For the (1, 1) mode, both exponents are ln e times two impacts per cycle.
 
     >>> import math
     >>> import rocking as rk
@@ -92,7 +92,7 @@ def lyapunov(
 
 
 class _Carried:
-    """A block under way with two orthonormal differences."""
+    """Motion in progress with two orthonormal tangent vectors."""
 
     def __init__(self, system: System, start: State) -> None:
         self.period = system.forcing.period
@@ -104,12 +104,12 @@ class _Carried:
         return self.progress.impacts, self.progress.brace_hits
 
     def begin_average(self) -> None:
-        """What was forgotten before the average does not count in it."""
+        """Restore tangent vectors that vanished before the average began."""
         if not self.columns.any():
             self.columns[:] = np.eye(2)
 
     def to(self, cycle: int) -> np.ndarray:
-        """March to the end of a cycle: the logarithms of what the differences grew by, shape (2,)."""
+        """March to the end of a cycle and return the logarithmic growth of both tangent vectors, shape (2,)."""
         growth = np.zeros(2)
         if cycle > self.progress.cycle:
             outcome, self.progress = march_on(self.p, self.progress, cycle, self.columns, growth)
@@ -122,8 +122,8 @@ class _Carried:
     def _overturned(self) -> str:
         proved = self.progress.cycle + math.floor(self.progress.no_return / self.period)
         return (
-            f"the block must stay up for an exponent; it overturns, proved in cycle {proved} counted from 0 "
-            "(take a weaker forcing, another start, or braces)"
+            f"the block must stay upright for an exponent; overturning is certain in cycle {proved}, counted from 0 "
+            "(reduce the forcing, change the initial state, or add braces)"
         )
 
 
@@ -136,8 +136,14 @@ def _spectrum(
     lengths: np.ndarray,
     counted: tuple[int, int],
 ) -> LyapunovSpectrum:
-    """The exponents of the growths in consecutive batches, the larger first; TooShort where they support no error."""
-    # Of equal exponents either direction may have grown more.
+    """Return the exponents from the growth in consecutive batches, the larger first.
+
+    Raises
+    ------
+    TooShort
+        If the batches support no error.
+    """
+    # If the exponents are equal, either vector may have grown more.
     growths = growths[:, np.argsort(-growths.sum(axis=0), kind="stable")]
     time = cycles * system.forcing.period
     means = means_of(growths, lengths * system.forcing.period)
@@ -163,7 +169,7 @@ def _spectrum(
 
 
 def _sum_rule_error(system: System, growths: np.ndarray, counted: tuple[int, int]) -> float:
-    """λ₁ + λ₂ less what the events take, times the time; 0 where both are −∞."""
+    """Return (λ₁ + λ₂) minus the contraction at events, times the averaging time; 0 if both are −∞."""
     if np.isinf(growths).any():
         return 0.0
     kept_by = NO_BRACES | quantities(system)
@@ -178,8 +184,8 @@ def _sum_rule_error(system: System, growths: np.ndarray, counted: tuple[int, int
 def _too_short(spectrum: LyapunovSpectrum) -> str:
     value = f"λ₁ = {spectrum.values[0]:.3g} per τ"
     if len(spectrum.lengths) < MIN_BATCHES:
-        return f"cycles must be {MIN_BATCHES} at least for an exponent with an error; got {spectrum.cycles} ({value})"
+        return f"cycles must be at least {MIN_BATCHES} for an exponent with an error; got {spectrum.cycles} ({value})"
     return (
-        f"{spectrum.cycles} cycles are too few for an exponent with an error: {len(spectrum.lengths)} batches of them still "
-        f"hang together ({value}; take more cycles, or a longer transient)"
+        f"{spectrum.cycles} cycles are too few for an exponent with an error: {len(spectrum.lengths)} batches are still "
+        f"correlated ({value}; increase cycles or transient)"
     )

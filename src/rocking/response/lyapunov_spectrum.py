@@ -1,4 +1,4 @@
-"""Both Lyapunov exponents of a motion, with what they rest on."""
+"""Both Lyapunov exponents of a motion, with the data behind their errors."""
 
 from __future__ import annotations
 
@@ -16,34 +16,32 @@ HISTORY = np.dtype([("cycles", "i8"), ("values", "f8", 2), ("errors", "f8", 2)])
 
 @frozen(eq=False, slots=False)
 class LyapunovSpectrum(ReadOnlyArrays):
-    """Both Lyapunov exponents of a motion, with errors; made by `lyapunov`.
+    """Both Lyapunov exponents of a motion, with errors; returned by `lyapunov`.
 
     Attributes
     ----------
     system, start : System, State
-        What was followed.
+        System and initial state.
     cycles, transient : int
-        Forcing cycles averaged over, and those left out before them.
+        Number of forcing cycles of the average, and number of cycles discarded before it.
     values : ndarray, shape (2,)
-        λ₁ ≥ λ₂ per τ; −∞ where the motion forgets every small difference.
+        λ₁ ≥ λ₂ per τ; −∞ if the motion rests or remains in contact with a brace (superstable).
     errors : ndarray, shape (2,)
-        Of each, per τ: a standard error, or a bound where `bounded`; 0 for −∞; infinite in the estimate that a
-        `TooShort` carries.
+        Errors per τ: standard errors, or bounds if `bounded`. 0 for −∞; infinite in the `estimate` of `TooShort`.
     bounded : bool
-        Whether the sum of λ₁ stays within bounds, as on periodic and quasi-periodic motions: the error is then how far
-        the running estimate moved over the last three quarters of the run, which is no standard error.
+        True if the sum of λ₁ stays bounded, as on periodic and quasi-periodic motions. The errors are then the largest
+        drift of the running estimate over the last three quarters of the run.
     correlation : float
-        Integrated correlation time of λ₁'s growth, in batches of `cycles`/256; where it is near 1 the batches are
-        long against it.
+        Integrated correlation time of the growth of λ₁, in batches of `cycles`/256. A value near 1 means that the batches
+        are long enough.
     sum_rule_error : float
-        λ₁ + λ₂ less what the events take, (2 ln e · impacts + 2 ln r · brace hits)/τ, per τ: rounding, and nothing
-        else.
+        Rounding error per τ: λ₁ + λ₂ minus (2 ln e · impacts + 2 ln r · brace hits)/τ.
     impacts, brace_hits : int
-        In the cycles averaged over.
+        Number of impacts at Θ = 0 and on the braces in the averaged cycles.
     growths : ndarray, shape (batches, 2)
-        Logarithms of growth along either direction, that of λ₁ first, summed over consecutive batches.
+        Logarithmic growth in consecutive batches, that of λ₁ first.
     lengths : ndarray, shape (batches,)
-        Cycles in each batch.
+        Number of cycles in each batch.
 
     Examples
     --------
@@ -70,7 +68,7 @@ class LyapunovSpectrum(ReadOnlyArrays):
 
     @property
     def superstable(self) -> bool:
-        """Whether every small difference is forgotten, at rest or leaning: both exponents are −∞."""
+        """True if both exponents are −∞, because perturbations vanish at rest or in sustained contact with a brace."""
         return bool(self.values[0] == -math.inf)
 
     @property
@@ -81,9 +79,9 @@ class LyapunovSpectrum(ReadOnlyArrays):
 
     @cached_property
     def history(self) -> np.ndarray:
-        """Running estimates per τ, a structured array: cycles, values (2), errors (2).
+        """Running estimates per τ, a structured array with the fields cycles, values (2) and errors (2).
 
-        The errors are infinite as long as there are too few batches for one. Empty where superstable.
+        Errors are infinite as long as there are too few batches. The array is empty if superstable.
         """
         if self.superstable:
             return np.empty(0, HISTORY)
@@ -101,32 +99,34 @@ class LyapunovSpectrum(ReadOnlyArrays):
 
     @property
     def kaplan_yorke(self) -> tuple[float, float]:
-        """Kaplan–Yorke dimension of the *section* and its error: 1 + λ₁/|λ₂|, or 0 where λ₁ < 0; that of the flow is one more.
+        """Kaplan–Yorke dimension of the section and its error: 1 + λ₁/|λ₂|, or 0 if λ₁ < 0.
+
+        The dimension of the flow is one more.
 
         Raises
         ------
         ValueError
-            Without contraction, λ₁ + λ₂ ≥ 0: nothing is attracted, and a motion without loss fills what it fills.
+            If there is no contraction, λ₁ + λ₂ ≥ 0: an undamped motion has no attractor. Also if the motion is
+            superstable.
         TooShort
-            Where λ₁ is within two errors of 0, so that its sign decides between 0 and more than 1.
+            If λ₁ is within two errors of 0, so that the dimension may be 0 or above 1.
         """
         if self.superstable:
             raise ValueError(
-                "a motion that forgets every difference has no Kaplan–Yorke dimension: its section is finite"
+                "a superstable motion has no Kaplan–Yorke dimension: its section is a finite set of points"
             )
         one, two = (float(value) for value in self.values)
         error, other = (float(value) for value in self.errors)
         if one + two >= -10.0 * abs(self.sum_rule_error):
             raise ValueError(
-                f"the Kaplan–Yorke dimension needs contraction, λ₁ + λ₂ < 0; got {one:.4g} and {two:.4g}: "
-                "a motion without loss has no attractor"
+                f"the Kaplan–Yorke dimension requires contraction, λ₁ + λ₂ < 0; got {one:.4g} and {two:.4g} "
+                "(an undamped motion has no attractor)"
             )
         if one < 0.0 and abs(one) > 2.0 * error:
             return 0.0, 0.0
         if one <= 2.0 * error:
             raise TooShort(
-                f"the sign of λ₁ = {one:.3g} ± {error:.2g} is not settled, and with it the dimension "
-                "(take more cycles)",
+                f"the sign of λ₁ = {one:.3g} ± {error:.2g}, and therefore the dimension, is undecided (increase cycles)",
                 1.0 + max(one, 0.0) / abs(two),
             )
         return 1.0 - one / two, error / abs(two) + one * other / two**2
@@ -134,13 +134,15 @@ class LyapunovSpectrum(ReadOnlyArrays):
     def __str__(self) -> str:
         over = f"over {counted(self.cycles, 'cycle')} after {self.transient:,}"
         if self.superstable:
-            return f"λ = −∞, −∞ {over}: superstable, at rest or leaning every small difference is forgotten"
+            return f"λ = −∞, −∞ {over}: superstable, perturbations vanish at rest or in contact with a brace"
         one, two = (plus_minus(*pair) for pair in zip(self.values, self.errors, strict=True))
-        return f"λ = {one}, {two} per τ {over}" + ("; bounds, no standard errors" if self.bounded else "")
+        return f"λ = {one}, {two} per τ {over}" + (
+            "; errors are bounds, not standard errors" if self.bounded else ""
+        )
 
 
 def means_of(growths: np.ndarray, times: np.ndarray) -> list[BatchMean]:
-    """The mean of either exponent, per unit of `times`; −∞ without an error where a batch forgets."""
+    """Mean of both exponents per unit of `times`; −∞ without an error if a batch contains rest or sustained contact."""
     return [
         batch_mean(column, times)
         if np.isfinite(column).all()

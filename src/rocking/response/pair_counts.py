@@ -1,4 +1,4 @@
-"""Pairs of points within radii, counted with k-d trees."""
+"""Numbers of pairs of points within given radii, counted with k-d trees."""
 
 from __future__ import annotations
 
@@ -12,20 +12,27 @@ Array = NDArray[np.float64]
 Places = NDArray[np.intp]
 
 STEPS_PER_OCTAVE = 4
-# Beyond the spread of the points themselves pairs only saturate.
+# Beyond the spread of the points, the pair count saturates.
 MAX_RADIUS = 0.5
 BLOCKS = 16
-# Fewer close pairs in a block than this, and its logarithm is noise.
+# With fewer close pairs in a block, the logarithm of their number is dominated by noise.
 MIN_PAIRS = 64
 REFERENCES = 2_000
-# Pairs listed one by one, which takes some 100 bytes each.
+# Largest number of pairs listed individually, at about 100 bytes each.
 MAX_PAIRS = 3e6
 
 
 def pairs_within(scaled: Array, theiler: int, same: float) -> tuple[Array, Array, Array]:
-    """Radii (n,) above ``same``; pairs within each, and all pairs, (blocks, n), of reference points in blocks in time.
+    """Count pairs within radii, for reference points in blocks that are consecutive in time.
 
-    Pairs that follow each other by no more than ``theiler`` are left out.
+    Pairs that follow each other by at most ``theiler`` points are excluded. Radii are larger than ``same``.
+
+    Returns
+    -------
+    radii : ndarray, shape (n,)
+        Radii in ascending order.
+    counts, pairs : ndarray, shape (blocks, n)
+        Number of pairs within each radius, and number of all pairs.
     """
     from scipy.spatial import cKDTree
 
@@ -34,7 +41,7 @@ def pairs_within(scaled: Array, theiler: int, same: float) -> tuple[Array, Array
     smallest = max(float(nearest[MIN_PAIRS]), same)
     octaves = max(math.log2(MAX_RADIUS / smallest), 0.0)
     radii = MAX_RADIUS * 2.0 ** (-np.arange(int(octaves * STEPS_PER_OCTAVE), -1, -1) / STEPS_PER_OCTAVE)
-    # A few reference points serve the large radii; the small ones take all.
+    # Large radii need few reference points; small radii use all points.
     few = np.sort(np.random.default_rng(0).permutation(len(scaled))[:REFERENCES])
     counts, pairs = _counted(tree, few, theiler, radii)
     near = int(np.searchsorted(0.5 * counts.sum(axis=0) * len(scaled) / len(few), MAX_PAIRS))
@@ -46,7 +53,7 @@ def pairs_within(scaled: Array, theiler: int, same: float) -> tuple[Array, Array
 
 
 def _counted(tree: Any, chosen: Places, theiler: int, radii: Array) -> tuple[Array, Array]:
-    """Pairs of some reference points with all points, counted a tree at a time."""
+    """Count pairs of selected reference points with all points, one tree per block."""
     from scipy.spatial import cKDTree
 
     counts = []
@@ -60,7 +67,7 @@ def _counted(tree: Any, chosen: Places, theiler: int, radii: Array) -> tuple[Arr
 
 
 def _listed(tree: Any, theiler: int, radii: Array) -> tuple[Array, Array]:
-    """Pairs of all points, listed one by one."""
+    """Count pairs of all points by listing them."""
     listed = tree.query_pairs(radii[-1], output_type="ndarray")
     listed = listed[np.abs(listed[:, 1] - listed[:, 0]) > theiler]
     distances = np.sqrt(((tree.data[listed[:, 0]] - tree.data[listed[:, 1]]) ** 2).sum(axis=1))
@@ -81,6 +88,6 @@ def _within(differences: Array, radii: Array) -> NDArray[np.intp]:
 
 
 def _admitted(chosen: Places, points: int, theiler: int) -> Array:
-    """How many points lie outside the Theiler window of the chosen ones, (blocks, 1)."""
+    """Number of points outside the Theiler windows of the selected points, shape (blocks, 1)."""
     outside = np.maximum(chosen - theiler, 0) + np.maximum(points - 1 - chosen - theiler, 0)
     return np.array([[float(block.sum())] for block in np.array_split(outside, BLOCKS)])

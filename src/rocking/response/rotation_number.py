@@ -1,4 +1,4 @@
-"""Rotation numbers of motion without loss, by weighted Birkhoff averages on the section of its impacts."""
+"""Rotation numbers of undamped motions, from weighted Birkhoff averages on the section of their impacts."""
 
 from __future__ import annotations
 
@@ -22,34 +22,40 @@ from rocking.response.island_rotation import (
 Array = NDArray[np.float64]
 
 MAX_CYCLES = 1_000_000
-# Chaotic motions do not agree in as many.
+# Averages over both halves of a chaotic motion agree to fewer digits.
 CHAOTIC_DIGITS = 6
 ISLANDS_WITHIN = 4
 
 
 @frozen
 class RotationNumber:
-    """How a motion without loss turns, in what is locked to the forcing and in what is free; made by `rotation_number`.
+    """Rotation numbers of an undamped motion: the part locked to the forcing and the free part; returned by `rotation_number`.
 
     Attributes
     ----------
     system, start : System, State
-        What was followed.
+        System and initial state.
     cycles : int
-        Forcing cycles followed.
+        Number of forcing cycles simulated.
     section : str
-        "impacts", or "brace hits" where no impact occurs.
+        "impacts", or "brace hits" if no impact at Θ = 0 occurs.
     per_cycle : float
-        Impacts (or brace hits) per forcing cycle.
+        Number of impacts (or brace impacts) per forcing cycle.
     locked : tuple of int, or None
-        (p, q): exactly p impacts in q cycles, to all the digits found; None where the two are incommensurate.
+        (p, q): p impacts in q cycles, to all digits found. None if the impacts are incommensurate with the forcing.
     period : int
-        Cycles after which the island comes back to itself, a multiple of q; 1 where nothing is locked.
+        Number of cycles after which the island returns to itself, a multiple of q; 1 if `locked` is None.
     free : float or None
-        Turns in `period` cycles, in [0, 1): about the centre of the island, counter-clockwise in the plane of Θ and Θ′.
-        Where nothing is locked `per_cycle` itself; None within 1e-6 of the centre, a periodic motion.
+        Turns about the island centre per `period` cycles, in [0, 1), counter-clockwise in the (Θ, Θ') plane. Equal to
+        `per_cycle` if `locked` is None. None within 1e-6 of the centre, that is, for a periodic motion.
     digits : int
-        In how many both halves of the run agree, on the worse of the numbers found.
+        Number of digits to which both halves of the run agree, for the least accurate of these numbers.
+
+    Examples
+    --------
+    >>> import rocking as rk
+    >>> print(rk.rotation_number(rk.System(rk.Harmonic(amplitude=4.0, period=0.4), restitution=1.0)))
+    locked: 2 impacts in 3 cycles; free: 0.47441508... turns in 3 cycles, to ... digits over 20000 cycles
     """
 
     system: System
@@ -69,50 +75,53 @@ class RotationNumber:
         strikes = counted(self.locked[0], self.section.removesuffix("s"))
         locked = f"locked: {strikes} in {counted(self.locked[1], 'cycle')}"
         if self.free is None:
-            return f"{locked}; nothing turns about them, {known}"
+            return f"{locked}; no rotation about the island centre (periodic motion), {known}"
         return (
             f"{locked}; free: {self.free:.{self.digits}g} turns in {counted(self.period, 'cycle')}, {known}"
         )
 
 
 def rotation_number(system: System, start: State | None = None, cycles: int = 20_000) -> RotationNumber:
-    """Measure how often a motion without loss strikes per cycle, and how it turns about what is locked to the forcing.
+    """Compute the rotation numbers of an undamped motion: impacts per cycle, and the rotation about the island centre.
 
-    Flight times between impacts, and speeds and phases at impacts, are analytic functions on the torus that a regular
-    motion fills; the stroboscopic states are not. So weighted Birkhoff averages over impacts find a frequency to many
-    digits. Where the impacts are locked to the forcing, p in q cycles, every p-th lies on a closed curve, and the
-    free frequency is its rotation about the curve's mean; a rotation that is a fraction itself belongs to islands within
-    islands, about whose own centres it is measured anew.
+    On a regular motion, which fills a torus, the times between impacts and the speeds and phases at impacts are analytic
+    functions on the torus. The stroboscopic states are not. Weighted Birkhoff averages over impacts therefore give the
+    frequencies to many digits.
+
+    If the impacts are locked to the forcing, p in q cycles, every p-th impact lies on a closed curve. The free rotation
+    number is that of these impacts about their mean. If it is a fraction, the motion lies on smaller islands. The rotation
+    is then measured about the centre of one of them.
 
     Parameters
     ----------
     system : System
-        The block, its forcing and its braces.
+        Block, base motion and braces, without dissipation in the motion.
     start : State, optional
-        Θ and Θ' at τ = 0; at rest by default.
+        Initial state (Θ, Θ') at τ = 0. Default: at rest.
     cycles : int
-        Forcing cycles to follow, 1 to 10⁶.
+        Number of forcing cycles, in [1, 10⁶]. Default: 20,000.
 
     Returns
     -------
     RotationNumber
+        Locked and free rotation numbers, with their digits.
 
     Raises
     ------
     TooShort
-        Where the halves of the run agree to fewer than 9 digits: chaotic motion, or too few cycles. Its `estimate` is
-        what was found.
+        If the halves of the run agree to fewer than 9 digits: chaotic motion, or too few cycles. Its `estimate` is the
+        result so far.
     ValueError
-        For motion that loses something (an impact with e < 1, a brace hit with r < 1, rest, leaning), that overturns
-        or that never strikes; for motion locked to the forcing that turns about nothing, as in an island so bent that
-        its mean lies outside; or for an argument outside its range.
+        If the motion dissipates energy: impacts with e < 1, brace impacts with r < 1, rest, sustained contact with a brace.
+        If the block overturns, or has no impacts. If the points of a locked motion surround no mean, as on a strongly bent
+        island. If an argument lies outside its range.
     TypeError
-        For an argument of the wrong type.
+        If an argument is of the wrong type.
 
     Notes
     -----
-    Not guaranteed: that a fraction with a denominator up to 500 met to all digits is one; an irrational number can
-    come as close, with a chance of about 10⁻⁴ at 9 digits.
+    Limit: a fraction with a denominator up to 500 that agrees to all digits is taken as exact. An irrational number can be
+    as close, with a probability of about 10⁻⁴ at 9 digits.
 
     References
     ----------
@@ -151,21 +160,34 @@ def rotation_number(system: System, start: State | None = None, cycles: int = 20
 
 
 def _strikes(motion: Motion) -> tuple[str, Array, Array]:
-    """What the section is made of, and forcing phase and speed just before, strike by strike; refused where anything is lost."""
+    """Return the impacts of an undamped motion.
+
+    Returns
+    -------
+    tuple of (str, ndarray, ndarray)
+        Type of section; forcing phases and speeds just before each impact.
+
+    Raises
+    ------
+    ValueError
+        If the motion dissipates energy, overturns or has too few impacts.
+    """
     system, kinds = motion.system, motion.events["kind"]
     if motion.outcome is Outcome.OVERTURNED:
-        raise ValueError("the block must stay up for a rotation number; it overturns (take a weaker forcing)")
+        raise ValueError(
+            "the block must stay upright for a rotation number; it overturns (reduce the forcing)"
+        )
     if np.isin(kinds, ("rest", "lean")).any() or motion.outcome is Outcome.AT_REST:
-        raise ValueError("a rotation number needs motion that goes on without loss; the block comes to rest")
+        raise ValueError("a rotation number requires a motion without dissipation; the block comes to rest")
     if motion.impacts and system.restitution < 1.0:
         raise ValueError(
-            refusal("restitution", "be 1 for a rotation number: motion without loss", system.restitution)
+            refusal("restitution", "be 1 for a rotation number (no dissipation)", system.restitution)
         )
     if motion.brace_hits and system.braces is not None and system.braces.restitution < 1.0:
         raise ValueError(
             refusal(
                 "braces.restitution",
-                "be 1 for a rotation number: motion without loss",
+                "be 1 for a rotation number (no dissipation)",
                 system.braces.restitution,
             )
         )
@@ -175,13 +197,13 @@ def _strikes(motion: Motion) -> tuple[str, Array, Array]:
     strikes = motion.events[kinds == kind]
     if len(strikes) < 4:
         raise ValueError(
-            f"too few {section} for a rotation number: {len(strikes)} in {counted(motion.cycles, 'cycle')} (take more cycles)"
+            f"too few {section} for a rotation number: {len(strikes)} in {counted(motion.cycles, 'cycle')} (increase cycles)"
         )
     return section, strikes["phase"], np.abs(strikes["before"])
 
 
 def _flights(motion: Motion, section: str) -> Array:
-    """Forcing cycles between strikes, each to full precision however late in the run."""
+    """Return the times between impacts in forcing cycles, to full precision at any time in the run."""
     strikes = motion.events[motion.events["kind"] == ("impact" if section == "impacts" else "brace")]
     parts = np.diff(strikes["phase"]) / (2.0 * math.pi)
     return parts + np.round(np.diff(strikes["time"]) / motion.system.forcing.period - parts)
@@ -190,20 +212,16 @@ def _flights(motion: Motion, section: str) -> Array:
 def _check(found: RotationNumber) -> None:
     if found.digits >= REGULAR_DIGITS:
         return
-    why = (
-        "as on chaotic motion, or over too few cycles"
-        if found.digits < CHAOTIC_DIGITS
-        else "take more cycles"
-    )
+    why = "the motion is chaotic, or cycles too few" if found.digits < CHAOTIC_DIGITS else "increase cycles"
     raise TooShort(
-        f"the halves of {found.cycles} cycles agree to {found.digits} digits where a rotation number needs "
+        f"both halves of {found.cycles} cycles agree to {found.digits} digits, but a rotation number requires "
         f"{REGULAR_DIGITS} ({why})",
         found,
     )
 
 
 def _about_the_centre(locked: RotationNumber, phases: Array, speeds: Array) -> RotationNumber:
-    """The rotation of every p-th strike about its mean, and, where that is a fraction, about the centres of smaller islands."""
+    """Measure the rotation of every p-th impact about its mean; if it is a fraction, about the centres of smaller islands."""
     assert locked.locked is not None
     found, stride = locked, locked.locked[0]
     for _ in range(ISLANDS_WITHIN):
@@ -212,7 +230,7 @@ def _about_the_centre(locked: RotationNumber, phases: Array, speeds: Array) -> R
             return found
         if len(points) < MIN_TURNS:
             raise TooShort(
-                f"{found.cycles} cycles are {len(points)} periods of the island: too few for a rotation number (take more cycles)",
+                f"{found.cycles} cycles are {len(points)} periods of the island, too few for a rotation number (increase cycles)",
                 found,
             )
         mean, digits, pieces = turning_of(points)
@@ -220,7 +238,7 @@ def _about_the_centre(locked: RotationNumber, phases: Array, speeds: Array) -> R
             each = "each" if stride == 1 else f"every {ordinal(stride)}"
             raise ValueError(
                 f"start must lie on a curve that surrounds its own mean; {each} of the {found.section}, {stride} in "
-                f"{counted(found.period, 'cycle')}, lies on none (the motion is chaotic, or its curve is bent: take another start)"
+                f"{counted(found.period, 'cycle')}, does not (the motion is chaotic, or its curve is strongly bent: change start)"
             )
         turning = evolve(found, free=mean, digits=min(found.digits, digits))
         _check(turning)

@@ -1,4 +1,4 @@
-"""Where a count of pairs scales with the radius, with which exponent, and how sure that is."""
+"""Scaling region of a pair count: range of radii, exponent and its interval."""
 
 from __future__ import annotations
 
@@ -12,19 +12,30 @@ Array = NDArray[np.float64]
 
 DECADE = math.log(10.0)
 MIN_LENGTH = 0.5 * DECADE
-# How wide the interval may be: the longest region within the first of these that leaves a decade is taken.
+# Limits of the width of the interval. The first that some region of a decade meets is used.
 WIDTHS = (0.08, 0.12, 0.2, 0.4)
 # Overlapping halves of a region whose slopes are compared.
 HALVES = 5
-# A pair counts twice, once from either end, in blocks that seem independent.
+# Each pair is counted from both ends, in two blocks, so the blocks underestimate the variance by a factor of 2.
 TWICE = math.sqrt(2.0)
 
 
 @frozen
 class Scaling:
-    """A scaling region (first and last radius), its slope and interval, and what was seen at every radius.
+    """Scaling region, with its slope and interval, and the data at every radius.
 
-    ``found`` says whether it spans a decade within the widest interval allowed.
+    Attributes
+    ----------
+    region : tuple of int
+        Indices of the first and last radius.
+    found : bool
+        True if the region spans a decade within the widest interval allowed.
+    slope : float
+        Slope of ln C against ln r.
+    interval : tuple of float
+        Interval of the slope.
+    sums, slopes, slope_errors : ndarray
+        Correlation sums, local slopes and their standard errors.
     """
 
     region: tuple[int, int]
@@ -37,20 +48,20 @@ class Scaling:
 
 
 def scaling_region(radii: Array, counts: Array, pairs: Array) -> Scaling | None:
-    """The longest range of radii over which ln C has one slope; None for less than half a decade of radii.
+    """Find the longest range of radii over which ln C has one slope; None for less than half a decade of radii.
 
     Parameters
     ----------
     radii : ndarray, shape (n,)
-        In geometric progression.
+        Radii in geometric progression.
     counts, pairs : ndarray, shape (blocks, n)
-        Pairs within each radius, and all pairs, for reference points in blocks.
+        Number of pairs within each radius, and number of all pairs, for reference points in blocks.
     """
     if len(radii) < 3 or math.log(radii[-1] / radii[0]) < MIN_LENGTH:
         return None
     x = np.log(radii)
     y = np.log(counts.sum(axis=0) / pairs.sum(axis=0))
-    # without one block each (jackknife)
+    # jackknife: each row omits one block
     fits = _Fits(x, np.vstack([y, np.log((counts.sum(axis=0) - counts) / (pairs.sum(axis=0) - pairs))]))
     first, last, found = _longest(fits)
     low, high = fits.interval(first, last)
@@ -67,7 +78,7 @@ def scaling_region(radii: Array, counts: Array, pairs: Array) -> Scaling | None:
 
 
 class _Fits:
-    """Straight lines through any range of the points, in constant time each."""
+    """Straight-line fits to any range of the points, in constant time each."""
 
     def __init__(self, x: Array, rows: Array) -> None:
         self.x = x - x.mean()
@@ -78,7 +89,7 @@ class _Fits:
         self.moments = [np.concatenate([[0.0], np.cumsum(self.x**power)]) for power in (1, 2)]
 
     def slope(self, first: int, last: int) -> tuple[float, float]:
-        """Slope over first … last, both included, and its standard error from the rows without one block each."""
+        """Return the slope over a range, ends included, and its jackknife standard error."""
         count = last - first + 1
         sy, sxy = (terms[:, last + 1] - terms[:, first] for terms in self.sums)
         sx, sxx = (moment[last + 1] - moment[first] for moment in self.moments)
@@ -88,7 +99,11 @@ class _Fits:
         return float(slopes[0]), TWICE * spread
 
     def interval(self, first: int, last: int) -> tuple[float, float]:
-        """Slopes of the whole range and of its halves, first to last; as much again beyond them as they differ, and two errors."""
+        """Return the interval of the slope of a range.
+
+        It spans the slopes of the whole range and of its halves. On both sides, the margin is the spread of these slopes
+        plus two standard errors.
+        """
         slope, error = self.slope(first, last)
         half = (last - first) // 2
         starts = first + np.round(np.linspace(0, last - first - half, HALVES)).astype(int)
@@ -98,7 +113,13 @@ class _Fits:
 
 
 def _longest(fits: _Fits) -> tuple[int, int, bool]:
-    """The longest region of a decade or more within the first width that leaves one (True), else the narrowest (False)."""
+    """Return the longest region of a decade or more within the first possible width.
+
+    Returns
+    -------
+    tuple of (int, int, bool)
+        Indices of the first and last radius; True. If there is none, the region with the narrowest interval; False.
+    """
     x = fits.x
     regions = []
     for first in range(len(x)):

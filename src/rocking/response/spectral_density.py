@@ -1,4 +1,4 @@
-"""A spectral density and the lines in it, as values."""
+"""Power spectral density and its spectral lines, as values."""
 
 from __future__ import annotations
 
@@ -16,24 +16,33 @@ SHARE_OF_LINES = 0.9
 
 @frozen
 class Peak:
-    """A line of a spectrum.
+    """Spectral line.
 
     Attributes
     ----------
     frequency : float
-        Of the line, refined over the whole record, in cycles per τ.
+        Frequency in cycles per τ, refined over the whole record.
     height : float
-        Spectral density at its bin, Θ² τ; it grows with the segment.
+        Spectral density at the frequency bin of the line, Θ² τ. It grows with the segment length.
     amplitude : float
-        Of its sine, Θ; it does not.
+        Amplitude of the sine, in Θ. It does not depend on the segment length.
     name : str
-        What it is, such as "f/3" or "f − 2f_r"; "" where no combination is it, or more than one.
+        Combination of the forcing frequency f and the rotation frequency f_r, such as "f/3" or "f − 2f_r". "" if no
+        combination fits, or more than one.
     forcing_multiple : Fraction or None
-        p, in p·f + q·f_r.
+        p in p·f + q·f_r.
     rotation_multiple : int or None
-        q.
+        q in p·f + q·f_r.
     offset : float or None
-        How far it lies from that combination, in cycles per τ.
+        Distance from this combination, in cycles per τ.
+
+    Examples
+    --------
+    >>> import rocking as rk
+    >>> system = rk.System(rk.Harmonic(amplitude=6.5, period=0.4), restitution=0.925)
+    >>> peak = rk.spectral_density(rk.simulate(system, cycles=1200), transient=600).peaks[0]
+    >>> peak.name, str(peak.forcing_multiple), round(peak.frequency, 6)
+    ('f/3', '1/3', 0.833333)
     """
 
     frequency: float
@@ -47,40 +56,50 @@ class Peak:
 
 @frozen(eq=False)
 class SpectralDensity(ReadOnlyArrays):
-    """One-sided power spectral density of Θ, in Θ² per (cycle per τ); made by `spectral_density`.
+    """One-sided power spectral density of Θ, in Θ² per (cycle per τ); returned by `spectral_density`.
 
     Attributes
     ----------
     system : System
-        Whose motion it is.
-    frequency, density : ndarray
-        In cycles per τ, from 0 to half the sampling rate; the forcing lies at f = 1/T.
+        System of the motion.
+    frequency : ndarray
+        Frequency in cycles per τ, from 0 to half the sampling rate. The forcing frequency is f = 1/T.
+    density : ndarray
+        Power spectral density, Θ² τ.
     window : str or tuple
-        As `scipy.signal.get_window` knows it.
+        Window, as in `scipy.signal.get_window`.
     segment, overlap, segments : int
-        Cycles in a segment, cycles by which neighbours overlap, and how many were averaged (Welch 1967).
+        Cycles per segment, cycles by which neighbouring segments overlap, and number of segments averaged (Welch 1967).
     transient, cycles : int
-        Forcing cycles left out, and used.
+        Number of forcing cycles discarded, and number of cycles used.
     samples : int
-        Exact states of the motion taken in each cycle.
+        Number of exact samples per forcing cycle.
     aliased : float
-        Share of the variance that lies above half the sampling rate and is folded back, as measured.
+        Fraction of the variance above half the sampling rate, which is aliased; measured.
     mean, variance : float
-        Of Θ over the cycles used; the mean is not part of the density.
+        Mean and variance of Θ over the cycles used. The mean is not part of the density.
     bandwidth : float
-        Of white noise in one bin under the window, in cycles per τ.
+        Noise bandwidth of the window, in cycles per τ.
     resolution : float
-        1 over the length of the record, in cycles per τ: how near a peak must be to what it is called.
+        1 over the length of the record, in cycles per τ: the largest distance of a line from its named combination.
     period : int or None
-        Forcing cycles after which the motion repeats itself.
+        Number of forcing cycles per response period; None if the motion is not periodic.
     symmetric : bool or None
-        Of a periodic motion: whether it is its own mirror image half a period later, so that no even multiple appears.
+        For a periodic motion, True if it is its own mirror image half a period later. It then has no even multiples.
     parts : int
-        n of the multiples of f/n.
+        n of the multiples of f/n in names.
     rotation : float or None
         Rotation frequency f_r, in cycles per forcing cycle.
     peaks : tuple of Peak
-        The lines, the strongest first.
+        Spectral lines, the strongest first.
+
+    Examples
+    --------
+    >>> import rocking as rk
+    >>> system = rk.System(rk.Harmonic(amplitude=6.5, period=0.4), restitution=0.925)
+    >>> density = rk.spectral_density(rk.simulate(system, cycles=1200), transient=600)
+    >>> density.period, density.segments, density.broad_band
+    (3, 14, False)
     """
 
     system: System
@@ -106,27 +125,27 @@ class SpectralDensity(ReadOnlyArrays):
 
     @property
     def forcing_multiples(self) -> np.ndarray:
-        """The frequencies, in units of the forcing's."""
+        """Frequencies in units of the forcing frequency."""
         return self.frequency * self.system.forcing.period
 
     @property
     def highest(self) -> float:
-        """Up to where lines are sought, a sixteenth of the sampling rate, in cycles per τ.
+        """Highest frequency of the search for lines, in cycles per τ: a sixteenth of the sampling rate.
 
-        A velocity that jumps gives amplitudes that fall as the square of the frequency. What is folded back onto a line at a
-        share x of the sampling rate is then up to (πx/sin πx)² − 1 of its amplitude: 1.3 % here, a sixteenth of that at a
-        quarter of this.
+        The amplitudes of a signal with jumps in its velocity fall as the square of the frequency. Aliasing then changes a
+        line at a fraction x of the sampling rate by up to (πx/sin πx)² − 1 of its amplitude. This is 1.3 % at a sixteenth,
+        and a sixteenth of that at a quarter of this frequency.
         """
         return self.samples / SHOWN / self.system.forcing.period
 
     @property
     def line_share(self) -> float:
-        """Share of the variance that the lines carry."""
+        """Fraction of the variance in spectral lines."""
         return min(1.0, sum(peak.amplitude**2 / 2 for peak in self.peaks) / self.variance)
 
     @property
     def broad_band(self) -> bool:
-        """Whether more than a tenth of the variance lies in no line."""
+        """True if more than a tenth of the variance lies outside the spectral lines."""
         return self.line_share < SHARE_OF_LINES
 
     def __str__(self) -> str:
@@ -140,6 +159,6 @@ class SpectralDensity(ReadOnlyArrays):
             f"{what}: {counted(len(self.peaks), 'line')} ({names}{', …' * (len(self.peaks) > 5)}"
             f"{turning}; {unnamed} unnamed) {'carries' if one else 'carry'} {100 * self.line_share:.4g} % of the variance; "
             f"{counted(self.segments, 'segment')} of {self.segment} cycles{shared}, "
-            f"window {self.window}, {self.samples} samples a cycle, {self.aliased:.1g} of the variance aliased, "
+            f"window {self.window}, {self.samples} samples per cycle, {self.aliased:.1g} of the variance aliased, "
             f"resolution {self.resolution:.3g} cycles per τ"
         )

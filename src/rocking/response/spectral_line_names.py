@@ -1,6 +1,6 @@
-"""Which whole-number combination of forcing and rotation frequency a line is; eq. (7) of Yim & Lin (1991).
+"""Names of spectral lines as combinations of forcing and rotation frequency: Yim & Lin (1991), Eq. (7).
 
-Frequencies are counted in those of the forcing here: the forcing itself is 1.
+Frequencies here are in units of the forcing frequency, which is 1.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ TELLING_LINES = 10
 
 @frozen
 class Combination:
-    """p·f + q·f_r, with p a multiple of 1/n and q whole, and how far a line lies from it."""
+    """Combination p·f + q·f_r, with p a multiple of 1/n and q an integer, and the distance of a line from it."""
 
     forcing: Fraction
     rotation: int
@@ -26,7 +26,7 @@ class Combination:
 
     @property
     def name(self) -> str:
-        """Such as "5f/3 − 2f_r"."""
+        """Text such as "5f/3 − 2f_r"."""
         terms = [(self.forcing, "f"), (Fraction(self.rotation), "f_r")]
         text = ""
         for factor, symbol in terms:
@@ -43,11 +43,11 @@ def _multiple(factor: Fraction, symbol: str) -> str:
 
 
 def combination(line: float, parts: int, rotation: float | None, resolution: float) -> Combination | None:
-    """The simplest combination within the resolution of a line; None without one, or where it is ambiguous.
+    """Return the simplest combination within the resolution of a line; None if there is none or it is ambiguous.
 
-    Multiples of 1/`parts` are combined with whole numbers q of rotations. The simplest has the fewest; it is ambiguous
-    where another has no more than 2|q| + 1. Only so many rotations are tried, 32 at most, that the combinations cover a
-    tenth of all frequencies: more would find one near any line.
+    Multiples of 1/`parts` are combined with integer multiples q of the rotation frequency. The simplest combination has the
+    smallest |q|. It is ambiguous if another one has at most 2|q| + 1. The largest |q| is 32, or fewer if the combinations
+    would cover more than a tenth of all frequencies: more combinations would fit any line.
     """
     most = min(MAX_ROTATIONS, int((CHANCE / (2 * resolution * parts) - 1) / 2)) if rotation else 0
     found = None
@@ -67,21 +67,25 @@ def combination(line: float, parts: int, rotation: float | None, resolution: flo
 def parts_and_rotation(
     lines: Sequence[float], parts: int | None, rotation: float | None, resolution: float
 ) -> tuple[int, float | None]:
-    """The n of the multiples f/n and the rotation frequency that name the most of the ten strongest lines.
+    """Return the n of f/n and the rotation frequency that name the most of the ten strongest lines.
 
     Parameters
     ----------
     lines : sequence of float
         Frequencies, the strongest first.
-    parts, rotation : int, float or None
-        What is known of the two. If not, the least n up to 16 is taken, and the strongest line that is no multiple
-        of f/n; one that names no line but itself is none.
+    parts : int or None
+        Given n. None: the smallest n up to 16 that names the most lines.
+    rotation : float or None
+        Given rotation frequency. None: the strongest line that is no multiple of f/n, if it names another line too.
     resolution : float
-        How near a line must be to what it is called.
+        Largest distance of a line from its combination.
 
     Returns
     -------
-    int, float or None
+    parts : int
+        n.
+    rotation : float or None
+        Rotation frequency; None if there is none.
     """
     telling = lines[:TELLING_LINES]
     best: tuple[int, int, float | None] = (-1, parts or 1, rotation)
@@ -97,7 +101,7 @@ def parts_and_rotation(
 
 
 def _free(lines: Sequence[float], parts: int, resolution: float) -> float | None:
-    """The strongest line that is no multiple of 1/`parts`."""
+    """Return the strongest line that is no multiple of 1/`parts`, or None."""
     for line in lines:
         if abs(line - round(line * parts) / parts) > resolution:
             return line

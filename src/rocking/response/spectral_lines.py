@@ -1,6 +1,6 @@
-"""The lines of a spectrum: which of its peaks are lines, and at which frequency exactly.
+"""Spectral lines: selection among the peaks of a density, and their refined frequencies.
 
-Frequencies are counted in those of the forcing, and densities accordingly; a record is an array (cycles, samples).
+Frequencies are in units of the forcing frequency, and densities accordingly. A record is an array (cycles, samples).
 """
 
 from __future__ import annotations
@@ -16,12 +16,12 @@ CHANCE = 1e-3
 COHERENCE = 0.8
 SURROUNDINGS = 24
 SIDES, HANN = np.array([-1.0, 0.0, 1.0]), np.array([-0.5, 1.0, -0.5])
-"""A Hann window's own spectrum: at so many resolutions, so much."""
+"""Spectrum of a Hann window: offsets in units of the resolution, and weights."""
 
 
 @frozen
 class Line:
-    """A line: frequency, amplitude of its sine, and the height of the density at its bin."""
+    """Spectral line: frequency, amplitude of its sine, and density at its bin."""
 
     frequency: float
     amplitude: float
@@ -30,46 +30,46 @@ class Line:
 
 @frozen(slots=False)
 class Taper:
-    """What a window does to a line: its main lobe, side lobes and noise bandwidth, and the sum of its squares."""
+    """Properties of a window: main lobe, side lobes, noise bandwidth and correlation of overlapping segments."""
 
     weights: np.ndarray
 
     @cached_property
     def _coarse(self) -> np.ndarray:
-        # what a window does does not depend on how finely it is sampled
+        # The lobes of a window do not depend on its sampling.
         return self.weights[:: max(1, len(self.weights) // 512)]
 
     @cached_property
     def _lobes(self) -> tuple[int, float]:
         power = np.abs(np.fft.rfft(self._coarse, 16 * len(self._coarse))) ** 2
-        # past its half, for the top of a flat one is not even
+        # Begin below half the height, because a flat-top window is not monotone at its top.
         half = int(np.argmax(power < power[0] / 2))
         first = half + int(np.argmax(np.diff(power[half:]) > 0))
         return math.ceil(first / 16), float(power[first:].max() / power[0])
 
     @property
     def lobe(self) -> int:
-        """Half the width of the main lobe, in bins."""
+        """Half width of the main lobe, in bins."""
         return self._lobes[0]
 
     @property
     def side_lobes(self) -> float:
-        """The highest of them, against the main lobe, as power."""
+        """Highest side lobe relative to the main lobe, as power."""
         return self._lobes[1]
 
     @property
     def bandwidth(self) -> float:
-        """Width of white noise, in bins, that has the power which a line of the same height has."""
+        """Noise bandwidth in bins: width of white noise with the power of a line of equal height."""
         return float(len(self.weights) * (self.weights**2).sum() / self.weights.sum() ** 2)
 
     def gain(self, bins: float) -> float:
-        """Power of a line `bins` off a bin, as the window shows it, over the power of the window."""
+        """Power of a line `bins` off a bin, as shown by the window, divided by the power of the window."""
         turns = np.exp(-2j * math.pi * bins * np.arange(len(self._coarse)) / len(self._coarse))
         kept = len(self._coarse) / len(self.weights)
         return float(abs((self._coarse * turns).sum()) ** 2 / (self._coarse**2).sum() / kept)
 
     def independent(self, count: int, step: int) -> float:
-        """How many independent segments `count` overlapping ones are worth (Welch 1967)."""
+        """Equivalent number of independent segments of `count` overlapping ones (Welch 1967)."""
         total, scale = 1.0, (self.weights**2).sum()
         for shift in range(1, count):
             if shift * step >= len(self.weights):
@@ -88,12 +88,15 @@ def find_lines(
     highest: float,
     period: int | None = None,
 ) -> list[Line]:
-    """The lines of a record among the peaks of its density, the strongest first; at most 40.
+    """Find the lines among the peaks of a density, the strongest first; at most 40.
 
-    They rise above ten times the side lobes of the strongest. Those of a response of `period` cycles lie on known bins.
-    Any other peak is a line if it (1) stands above the median of its 24 neighbours on either side, beyond its main lobe, by more
-    than noise would in one of a thousand spectra of `worth` independent segments, and (2) keeps four fifths of its
-    height under a window over the whole record; that of noise falls as the record gets longer.
+    A line rises above ten times the side lobes of the strongest. The lines of a response of `period` cycles lie on known
+    bins. Any other peak is a line if it meets two conditions:
+
+    1. It exceeds the median of its 24 neighbours on both sides, beyond its main lobe. The excess is larger than that of
+       noise in one of a thousand spectra of `worth` independent segments.
+    2. It keeps four fifths of its height under a window over the whole record. The height of noise falls as the record gets
+       longer.
     """
     floor = 10 * taper.side_lobes * density[taper.lobe :].max()
     last = min(int(highest * segment), len(density) - 2)
@@ -108,7 +111,7 @@ def find_lines(
 
 
 def _standing(density: np.ndarray, last: int, lobe: int, worth: float) -> np.ndarray:
-    """Bins of the peaks that stand out of their surroundings as noise does not."""
+    """Return the bins of the peaks that exceed their surroundings more than noise does."""
     from scipy.stats import chi2
 
     inner = density[1:-1]
@@ -136,7 +139,7 @@ def _refined_lines(
             break
         low, high = (math.floor((k + side) * cycles / segment) for side in (-1, 1))
         start = low + int(np.argmax(whole[low : high + 2]))
-        # half a bin off, the Hann window shows no less than .72 of a line's power
+        # The Hann window shows at least 0.72 of the power of a line half a bin off.
         if whole[start] ** 2 * 2 / 0.72 * taper.gain(0.0) / samples < COHERENCE * density[k]:
             continue
         frequency, amplitude = refined(record, start / cycles)
@@ -149,10 +152,11 @@ def _refined_lines(
 
 
 def refined(record: np.ndarray, start: float) -> tuple[float, float]:
-    """Frequency near `start` at which the Fourier integral of the whole record under a Hann window is largest, and its amplitude.
+    """Return the frequency near `start` with the largest Fourier integral of the record under a Hann window, and its amplitude.
 
-    This is the first step of the frequency analysis of Laskar (1990, Icarus 88, 266; 1993, Physica D 67, 257). Against other
-    lines at k resolutions its error falls as 1/k³ of a resolution; alone a line is found to rounding.
+    This is the first step of the frequency analysis of Laskar (1990, Icarus 88, 266; 1993, Physica D 67, 257). In the presence
+    of other lines at a distance of k resolutions, the error falls as 1/k³ of a resolution. A single line is accurate to
+    rounding.
     """
     near = Near.of(record, start)
     bin_width = 1 / len(record)
@@ -169,10 +173,10 @@ def refined(record: np.ndarray, start: float) -> tuple[float, float]:
 
 @frozen
 class Near:
-    """Fourier integrals of a record at frequencies a few resolutions from one, for the price of that one.
+    """Fourier integrals of a record at frequencies within a few resolutions of a given one, at the cost of one.
 
-    A cycle turns such a difference of frequencies by so little that a few terms of its exponential's series serve; they
-    are summed over each cycle once.
+    Over one cycle, the phase changes so little with such a difference of frequencies that a few terms of the exponential
+    series suffice. These terms are summed over each cycle once.
     """
 
     frequency: float
@@ -180,23 +184,23 @@ class Near:
 
     @classmethod
     def of(cls, record: np.ndarray, frequency: float) -> Near:
-        """Those of a record of 64 cycles or more; three resolutions away the series is good to rounding."""
+        """Return the sums of a record of at least 64 cycles; the series is accurate to rounding up to three resolutions."""
         cycles, samples = record.shape
         terms = 10 if cycles < 1000 else 6
         inside = np.arange(samples) / samples
         turns = np.exp(-2j * math.pi * frequency * inside)[:, None] * (inside[:, None] - 0.5) ** np.arange(
             terms
         )
-        # not @: for arrays this small the threads of a matrix library cost more than they save
+        # not @: for arrays this small, the threads of a matrix library cost more time than they save
         sums = np.einsum("cs,sk->ck", record, turns.real) + 1j * np.einsum("cs,sk->ck", record, turns.imag)
         return cls(frequency, sums / record.size)
 
     def windowed(self, offsets: np.ndarray) -> np.ndarray:
-        """(1/L) ∫ x (1 − cos(2πt/L)) e^{−2πiνt} dt over the whole record, at each of the offsets."""
+        """Return (1/L) ∫ x (1 − cos(2πt/L)) e^{−2πiνt} dt over the whole record, at each of the offsets."""
         return self.plain(offsets[..., None] + SIDES / len(self.sums)) @ HANN
 
     def plain(self, offsets: np.ndarray) -> np.ndarray:
-        """(1/L) ∫ x e^{−2πiνt} dt at each of the offsets."""
+        """Return (1/L) ∫ x e^{−2πiνt} dt at each of the offsets."""
         cycles, terms = self.sums.shape
         offset = offsets[..., None]
         ratios = -2j * math.pi * offset / np.arange(1, terms)

@@ -1,4 +1,4 @@
-"""A motion as an array of exact samples, (cycles, samples a cycle), and what can be read off it."""
+"""Exact samples of a motion as an array (cycles, samples per cycle), and their properties."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ RECURRENCE = 1e-8
 
 
 def sampled(motion: Motion, transient: int, samples: int, cycles: int | None = None) -> np.ndarray:
-    """Θ at whole fractions of the forcing cycles after the transient, exactly (`Motion.at`)."""
+    """Return Θ at equidistant times in the forcing cycles after the transient, exact (`Motion.at`)."""
     cycles = motion.cycles - transient if cycles is None else cycles
     record = np.empty((cycles, samples))
     inside = np.arange(samples) / samples
@@ -31,10 +31,15 @@ def sampled(motion: Motion, transient: int, samples: int, cycles: int | None = N
 
 
 def sampling(motion: Motion, transient: int, samples: int | None) -> tuple[int, float]:
-    """Samples a cycle, and the share of the variance which these alias.
+    """Return the number of samples per cycle and the fraction of the variance that is aliased.
 
-    That share is measured, over up to 256 cycles: what four times as many samples show above half the sampling rate.
-    Unless the number is given, it is doubled until the share is small.
+    The fraction is measured over up to 256 cycles, as the variance above half the sampling rate at four times as many
+    samples. If the number of samples is not given, it is doubled until the fraction is small.
+
+    Returns
+    -------
+    tuple of (int, float)
+        Samples per cycle; aliased fraction of the variance.
     """
     cycles = min(motion.cycles - transient, WATCHED)
     chosen = samples or MIN_SAMPLES
@@ -60,7 +65,7 @@ def _taper(values: int) -> np.ndarray:
 
 
 def recurrence(record: np.ndarray) -> int | None:
-    """The least number of cycles, up to 64, after which all samples repeat to 10⁻⁸ of their range."""
+    """Return the smallest number of cycles, up to 64, after which all samples repeat to 10⁻⁸ of their range, or None."""
     allowed = RECURRENCE * np.ptp(record)
     for period in range(1, min(MAX_FORCING_PERIOD, len(record) // 2) + 1):
         if np.abs(record[-1] - record[-1 - period]).max() > allowed:
@@ -71,16 +76,19 @@ def recurrence(record: np.ndarray) -> int | None:
 
 
 def is_mirrored(record: np.ndarray, period: int) -> bool:
-    """Whether a record of that period is its own mirror image half a period later."""
+    """Return whether a record of this period is its own mirror image half a period later."""
     values = record[:period].ravel() + 0.0
     half = np.roll(values, values.size // 2)
     return bool(np.abs(values - values.mean() + half - half.mean()).max() <= RECURRENCE * np.ptp(record))
 
 
 def welch(record: np.ndarray, segment: int, shared: int, taper: Taper) -> tuple[np.ndarray, np.ndarray, int]:
-    """One-sided density by the method of Welch (1967), IEEE Trans. Audio Electroacoust. 15, 70.
+    """Compute the one-sided density by the method of Welch (1967), IEEE Trans. Audio Electroacoust. 15, 70.
 
-    Returns frequencies in cycles per forcing cycle, the density, and the number of segments.
+    Returns
+    -------
+    tuple of (ndarray, ndarray, int)
+        Frequencies in cycles per forcing cycle; density; number of segments.
     """
     from scipy import signal
 

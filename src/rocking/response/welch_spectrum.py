@@ -1,4 +1,4 @@
-"""The spectral density of a motion: exact samples, Welch's average, and its lines, found and named."""
+"""Spectral density of a motion: exact samples, Welch's average, and named spectral lines."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ SEGMENTS = 8
 LEAST_SEGMENT = 8
 MIN_SAMPLES, MAX_SAMPLES = 16, 4096
 MAX_VALUES = 2**24
-# As power. What stands above ten times the side lobes is a line: from here on nothing would.
+# As power. A line must exceed ten times the side lobes, so no line could be found above this limit.
 HIGHEST_SIDE_LOBES = 0.1
 
 
@@ -34,51 +34,56 @@ def spectral_density(
     Parameters
     ----------
     motion : Motion
-        Recorded with ``record="all"``, and still moving at its end.
+        Motion recorded with ``record="all"`` that has not overturned or come to rest.
     transient : int
-        Forcing cycles left out at the beginning.
+        Number of forcing cycles discarded at the beginning. Default: 0.
     segment : int, optional
-        Forcing cycles in a segment, a multiple of the period of a periodic motion, so that its lines lie on bins;
-        an eighth of the record unless given.
+        Number of forcing cycles per segment. For a periodic motion, a multiple of its period, so that its lines lie on bins.
+        Default: an eighth of the record.
     overlap : float
-        Share of a segment that the next one uses again, in [0, 0.95].
+        Fraction of a segment shared with the next one, in [0, 0.95]. Default: 0.5.
     window : str or tuple
-        As `scipy.signal.get_window` knows it. The one of Blackman and Harris shows lines down to 10⁻⁸ of the strongest
-        (−92 dB side lobes), at four bins on either side; "hann" is narrower and shows those down to 10⁻² only.
+        Window, as in `scipy.signal.get_window`. The Blackman–Harris window shows lines down to 10⁻⁸ of the strongest, with
+        side lobes at −92 dB. Its main lobe is four bins wide on each side. "hann" is narrower and shows lines down to 10⁻²
+        only. Default: "blackmanharris".
     samples : int, optional
-        Samples in a forcing cycle, even; lines are sought up to a sixteenth of them, in forcing frequencies. By default 64,
-        doubled up to 1,024 until less than 10⁻⁷ of the variance is aliased.
+        Number of samples per forcing cycle, even, in [16, 4096]. Lines are searched up to a sixteenth of it, in forcing
+        frequencies. Default: 64, doubled up to 1,024 until less than 10⁻⁷ of the variance is aliased.
     period : int, optional
-        n of the multiples of f/n in names. By default that of the motion, if it repeats itself; else the least
-        n ≤ 16 that names most of the ten strongest lines.
+        n of the multiples of f/n in names. Default: the period of a periodic motion, else the smallest n ≤ 16 that names
+        the most of the ten strongest lines.
     rotation : float, optional
-        Rotation frequency f_r, in cycles per forcing cycle; of a motion that does not repeat itself by default the
-        strongest line that is no multiple of f/n, if it names another line too.
+        Rotation frequency f_r, in cycles per forcing cycle. Default for a motion that is not periodic: the strongest line
+        that is no multiple of f/n, if it names another line too.
 
     Returns
     -------
     SpectralDensity
+        Density over frequency, and named lines.
 
     Raises
     ------
-    TypeError, ValueError
-        In one line: an overturned motion, one that comes to rest or never moves, one of less than 64 cycles after the
-        transient, or than 64 periods of a periodic motion; arguments outside their range.
+    TypeError
+        If an argument is of the wrong type.
+    ValueError
+        If the motion overturns, comes to rest or never moves, or if an argument lies outside its range. If fewer than 64
+        cycles, or 64 periods of a periodic motion, follow the transient.
 
     Notes
     -----
-    A motion is periodic here if all its samples repeat to 10⁻⁸ of its range after n ≤ 64 cycles; then its lines lie on
-    known bins. Otherwise a peak is a line if it stands out of its surroundings as noise does not, and keeps four
-    fifths of its height under a window over the whole record. Frequencies are refined by Laskar's method: each maximises the
+    A motion counts as periodic if all its samples repeat to 10⁻⁸ of their range after n ≤ 64 cycles. Its lines then lie on
+    known bins. Any other peak is a line if it exceeds its surroundings more than noise does. It must also keep four fifths
+    of its height under a window over the whole record. Frequencies are refined by Laskar's method: each one maximises the
     Fourier integral of the whole record under a Hann window.
 
-    A name p·f + q·f_r (eq. 7 of Yim and Lin 1991) is given to a line within one resolution of that combination, if no
-    other is about as simple. q goes up to 32; in short records only so far that names cover a tenth of all
-    frequencies. In a broad band, where lines carry less than nine tenths of the variance, no rotation is sought. Whole samples
-    in a cycle fold each combination on another: aliasing shifts power, but adds no line that is none.
+    A line is named p·f + q·f_r (Yim & Lin 1991, Eq. (7)) if it lies within one resolution of this combination, and no other
+    combination is similarly simple. |q| is at most 32. For short records, it is limited so that names cover a tenth of all
+    frequencies. In a broad band, where lines hold less than nine tenths of the variance, no rotation is searched for. The
+    number of samples per cycle is an integer, so that aliasing maps each combination to another. It shifts power, but adds
+    no other lines.
 
-    What is not promised: lines nearer to each other than the window's main lobe are not told apart; a torus whose
-    frequencies are nearly commensurate within the record is named as if they were.
+    Limits: lines closer than the main lobe of the window are not separated. A torus whose frequencies are nearly
+    commensurate within the record is named as if they were commensurate.
 
     Examples
     --------
@@ -148,14 +153,14 @@ def spectral_density(
 
 
 def _check_motion(motion: Motion, transient: int) -> int:
-    """The cycles left after the transient of a motion that can have a spectrum."""
+    """Return the number of cycles after the transient; ValueError if the motion can have no spectrum."""
     instance("motion", motion, Motion)
     if motion.overturning is not None:
         raise ValueError(
-            f"motion must stay up for a spectrum; it overturned in cycle {motion.overturning.cycle}"
+            f"motion must not overturn for a spectrum; it overturned in cycle {motion.overturning.cycle}"
         )
     if motion.outcome is not Outcome.BOUNDED:
-        raise ValueError("motion must go on moving for a spectrum; it is at rest at its end")
+        raise ValueError("motion must not come to rest for a spectrum; it is at rest at its end")
     cycles = motion.cycles - whole("transient", transient, 0, motion.cycles - 1)
     if cycles < SEGMENTS * LEAST_SEGMENT:
         raise _too_short(cycles, SEGMENTS * LEAST_SEGMENT, "")
@@ -163,7 +168,7 @@ def _check_motion(motion: Motion, transient: int) -> int:
 
 
 def _segment(segment: int | None, cycles: int, repeats: int | None) -> int:
-    """Cycles in a segment: those asked for, or an eighth of the record; whole periods, enough of them."""
+    """Return the number of cycles per segment: as given, or an eighth of the record, in whole periods."""
     period = repeats or 1
     if segment is None:
         segment = cycles // SEGMENTS // period * period
@@ -172,7 +177,7 @@ def _segment(segment: int | None, cycles: int, repeats: int | None) -> int:
         return segment
     segment = whole("segment", segment, LEAST_SEGMENT, cycles)
     if segment % period or segment < LEAST_SEGMENT * period:
-        least = f"be a multiple of the response's {period} cycles, {LEAST_SEGMENT * period} at least"
+        least = f"be a multiple of the response period of {period} cycles, at least {LEAST_SEGMENT * period}"
         raise ValueError(refusal("segment", least, segment))
     return segment
 
@@ -184,7 +189,7 @@ def _taper(window: str | tuple, length: int) -> Taper:
         with np.errstate(all="ignore"):
             weights = get_window(window, length)
     except (TypeError, ValueError):
-        raise ValueError(refusal("window", "be one that scipy.signal.get_window knows", window)) from None
+        raise ValueError(refusal("window", "be a window of scipy.signal.get_window", window)) from None
     refuse_if(not np.isfinite(weights).all(), "window", "have finite weights", window)
     taper = Taper(weights)
     if taper.side_lobes > HIGHEST_SIDE_LOBES:
@@ -195,7 +200,7 @@ def _taper(window: str | tuple, length: int) -> Taper:
 def _parts_and_rotation(
     lines: list[Line], variance: float, parts: int | None, rotation: float | None, resolution: float
 ) -> tuple[int, float | None]:
-    """What names the lines; in a broad band none of them is sought, for some combination lies near any line."""
+    """Return the basis of the names of lines; none is searched for in a broad band, because some combination fits any line."""
     if sum(line.amplitude**2 / 2 for line in lines) < SHARE_OF_LINES * variance:
         return parts or 1, rotation
     return parts_and_rotation([line.frequency for line in lines], parts, rotation, resolution)

@@ -76,7 +76,7 @@ def repeatability(
     >>> import rocking as rk
     >>> system = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925)
     >>> print(rk.repeatability(system, samples=200))
-    200 runs off by up to 1 %: period 1, symmetric, 2 impacts 100 % (98.1–100 %)
+    200 runs with inputs off by up to 1 %: period 1, symmetric, 2 impacts 100 % (98.1–100 %)
     """
     start = check_start(system, start)
     off = within("relative", relative, 0, MAX_RELATIVE)

@@ -1,4 +1,4 @@
-"""What is known without running anything: modes, Melnikov's function, the exact tangency, free rocking; arrays in, arrays out."""
+"""Closed-form results: symmetric modes, Melnikov's function, exact tangency and free rocking, for numbers or arrays."""
 
 from rocking.theory.dimensional import (
     physical_acceleration,

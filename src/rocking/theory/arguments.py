@@ -1,4 +1,4 @@
-"""What the closed forms take: numbers or arrays that broadcast, refused in one line where any of them leaves its range."""
+"""Validation of arguments of the closed forms: numbers or arrays that broadcast."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ ORBITS = {"upper": 1.0, "lower": -1.0}
 
 
 def between(name: str, values: Any, low: float, high: float) -> Any:
-    """The values as floats that lie in [low, high]; the first that does not is named."""
+    """Return the values as floats in [low, high]; ValueError that names the first one outside."""
     array = np.asarray(reals(name, values))
     outside = ~((array >= low) & (array <= high))
     if outside.any():
@@ -24,39 +24,39 @@ def between(name: str, values: Any, low: float, high: float) -> Any:
 
 
 def amplitudes(values: Any) -> Any:
-    """A."""
+    """Return amplitudes A, checked."""
     return between("amplitude", values, 0.0, MAX_AMPLITUDE)
 
 
 def frequencies(period: Any) -> Any:
-    """Ω = 2π/T of periods T."""
+    """Return the angular frequencies Ω = 2π/T of periods T, checked."""
     return math.tau / between("period", period, *PERIODS)
 
 
 def restitutions(values: Any) -> Any:
-    """e."""
+    """Return coefficients of restitution e, checked."""
     return between("restitution", values, 0.0, 1.0)
 
 
 def odd(values: Any) -> Any:
-    """The forcing cycles n of symmetric modes, which are odd."""
+    """Return the numbers n of forcing cycles of symmetric modes, checked to be odd."""
     array = np.asarray(reals("n", values))
     wrong = ~((array >= 1) & (array <= MAX_CYCLES) & (array % 2 == 1))
     if wrong.any():
         first = array[wrong].flat[0] if array.ndim else values
         allowed = f"be an odd whole number in [1, {MAX_CYCLES}]"
         remedy = (
-            "no mode of even n is symmetric: half a response later the forcing is as before, not reversed"
+            "no mode with even n is symmetric: half a response later the forcing is unchanged, not reversed"
         )
         raise ValueError(refusal("n", allowed, first, remedy if first % 2 == 0 else ""))
     return array
 
 
 def side_of(orbit: str) -> float:
-    """The sign of the velocity on one of the two heteroclinic orbits."""
+    """Return the sign of the velocity on one of the two heteroclinic orbits."""
     return ORBITS[one_of("orbit", orbit, tuple(ORBITS))]
 
 
 def plain(values: Any) -> Any:
-    """A number where no argument was an array."""
+    """Return a float if no argument was an array."""
     return values.item() if np.ndim(values) == 0 else values

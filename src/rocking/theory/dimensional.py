@@ -1,7 +1,7 @@
-"""The paper's own variables: eqs (12)-(16) of Yim & Lin (1991) for a block in radians and seconds.
+"""Equations (12)–(16) of Yim & Lin (1991) in the variables of the paper, for a block in radians and seconds.
 
-Angles θ = Θ θcr, times t = τ/α, velocities θ' = Θ' α θcr. What follows from the normalised forms is stated here in the paper's
-quantities and computed by them. Forces and energies are per moment of inertia Io: rad/s².
+Angles are θ = Θ θcr, times t = τ/α and velocities θ' = Θ' α θcr. The functions take quantities of the paper and evaluate the
+normalised forms. Forces and energies are per moment of inertia Io.
 """
 
 from __future__ import annotations
@@ -16,26 +16,26 @@ from rocking.theory.melnikov import CRITICAL_ENERGY, damping, energy, heteroclin
 
 
 def physical_acceleration(block: Block, radians: Any, base_acceleration: Any) -> Any:
-    """θ'' between impacts: −(MgR/Io)(±θcr − θ) − (MR/Io) a_g, eqs (1) and (12); broadcasts.
+    """Angular acceleration θ'' between impacts, −(MgR/Io)(±θcr − θ) − (MR/Io) a_g: Eqs. (1) and (12).
 
     Parameters
     ----------
     block : Block
-        Gives MgR/Io = α² and θcr.
+        Block, for MgR/Io = α² and θcr.
     radians : float or array
-        θ in rad; its sign is the corner's.
+        Angle θ in radians; its sign determines the corner.
     base_acceleration : float or array
-        a_g in m/s².
+        Base acceleration a_g in m/s². The arguments broadcast.
 
     Returns
     -------
     float or ndarray
-        rad/s².
+        θ'' in rad/s².
 
     Raises
     ------
     TypeError
-        For arguments of another kind.
+        If `block` is not a Block, or another argument is not a real number or an array of real numbers.
 
     Examples
     --------
@@ -50,9 +50,32 @@ def physical_acceleration(block: Block, radians: Any, base_acceleration: Any) ->
 
 
 def physical_damping(block: Block, radians: Any, radians_per_second: Any, width: float) -> Any:
-    """F/Io of eq. (13), −½ θ'|θ'| (1 − e²) δ(θ/θcr)/θcr, the delta function spread over |θ/θcr| < `width`; in rad/s², broadcasts.
+    """Damping F/Io, −½ θ'|θ'| (1 − e²) δ(θ/θcr)/θcr, with the delta function spread over |θ/θcr| < `width`: Eq. (13).
 
-    The restitution is the block's. Along an orbit through θ = 0 its integral over θ is the energy an impact takes away, −½(1 − e²)θ'².
+    Along an orbit through θ = 0, its integral over θ is the energy dissipated by an impact, −½(1 − e²)θ'².
+
+    Parameters
+    ----------
+    block : Block
+        Block, with its coefficient of restitution e.
+    radians : float or array
+        Angle θ in radians.
+    radians_per_second : float or array
+        Angular velocity θ' in rad/s. The arguments broadcast.
+    width : float
+        Width of the smoothed delta function, in [1e-12, 1].
+
+    Returns
+    -------
+    float or ndarray
+        F/Io in rad/s².
+
+    Raises
+    ------
+    TypeError
+        If `block` is not a Block, or another argument is not a real number or an array of real numbers.
+    ValueError
+        If `width` lies outside its range.
 
     Examples
     --------
@@ -66,7 +89,26 @@ def physical_damping(block: Block, radians: Any, radians_per_second: Any, width:
 
 
 def physical_energy(block: Block, radians: Any, radians_per_second: Any) -> Any:
-    """H/Io of eq. (15), θ'²/2 − (MgR/2Io) θ² + (MgR/Io) θcr |θ|, in rad²/s²; broadcasts.
+    """Energy H/Io, θ'²/2 − (MgR/2Io) θ² + (MgR/Io) θcr |θ|: Eq. (15).
+
+    Parameters
+    ----------
+    block : Block
+        Block, for MgR/Io and θcr.
+    radians : float or array
+        Angle θ in radians.
+    radians_per_second : float or array
+        Angular velocity θ' in rad/s. The arguments broadcast.
+
+    Returns
+    -------
+    float or ndarray
+        H/Io in rad²/s².
+
+    Raises
+    ------
+    TypeError
+        If `block` is not a Block, or another argument is not a real number or an array of real numbers.
 
     Examples
     --------
@@ -81,7 +123,24 @@ def physical_energy(block: Block, radians: Any, radians_per_second: Any) -> Any:
 
 
 def physical_critical_energy(block: Block) -> float:
-    """MgRθcr²/2Io, in rad²/s²: with more a block is not held back by its weight, with less it is, if |θ| < θcr.
+    """Critical energy MgRθcr²/2Io, in rad²/s².
+
+    If |θ| < θcr, an unforced block with less energy remains bounded, and one with more overturns.
+
+    Parameters
+    ----------
+    block : Block
+        Block.
+
+    Returns
+    -------
+    float
+        Critical energy per Io, in rad²/s².
+
+    Raises
+    ------
+    TypeError
+        If `block` is not a Block.
 
     Examples
     --------
@@ -93,23 +152,31 @@ def physical_critical_energy(block: Block) -> float:
 
 
 def physical_heteroclinic_orbit(block: Block, seconds: Any, orbit: str = "upper") -> tuple[Any, Any]:
-    """θ in rad and θ' in rad/s on the orbit between −θcr and θcr: eq. (16).
+    """Heteroclinic orbit between −θcr and θcr: θ in rad and θ' in rad/s, Eq. (16).
 
-    For t ≥ 0 (θcr − e^−p, α e^−p) with p = αt − ln θcr; for t ≤ 0 (e^p − θcr, α e^p) with p = αt + ln θcr; the lower one negated.
+    For t ≥ 0 it is (θcr − e^−p, α e^−p) with p = αt − ln θcr. For t ≤ 0 it is (e^p − θcr, α e^p) with p = αt + ln θcr. The lower
+    orbit has the opposite signs.
 
     Parameters
     ----------
     block : Block
-        Gives α and θcr.
+        Block, for α and θcr.
     seconds : float or array
-        t, 0 at θ = 0.
+        Time t in seconds, 0 at θ = 0.
     orbit : str
-        "upper" or "lower".
+        "upper" or "lower". Default: "upper".
+
+    Returns
+    -------
+    radians, radians_per_second : float or ndarray
+        θ and θ' in the shape of `seconds`.
 
     Raises
     ------
-    TypeError, ValueError
-        In one line.
+    TypeError
+        If an argument is of the wrong type.
+    ValueError
+        If `orbit` is neither "upper" nor "lower".
 
     Examples
     --------
@@ -125,5 +192,5 @@ def physical_heteroclinic_orbit(block: Block, seconds: Any, orbit: str = "upper"
 
 
 def _per_inertia(block: Block) -> float:
-    """(MgR/Io) θcr: what a normalised acceleration of 1 is in rad/s²."""
+    """Return (MgR/Io) θcr, the unit of normalised acceleration in rad/s²."""
     return block.frequency_parameter**2 * block.critical_angle

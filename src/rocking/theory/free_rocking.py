@@ -10,22 +10,29 @@ import numpy as np
 from rocking.model import within
 from rocking.theory.arguments import between, plain, restitutions
 
-# Terms below this are summed by their power series.
+# Arguments below this are summed by the power series.
 SMALL = 1e-3
 
 
 def free_impact_speed(angle: Any) -> Any:
-    """Speed √(1 − (1 − Θ₀)²) with which a block released at Θ₀ strikes the base.
+    """Speed √(1 − (1 − Θ₀)²) of the first impact of a block released at Θ₀.
 
     Parameters
     ----------
     angle : float or array
-        Θ₀, in [0, 1]: from more than 1 it falls.
+        Initial angle Θ₀, in [0, 1]. Beyond 1 the block overturns.
+
+    Returns
+    -------
+    float or ndarray
+        Speed |Θ'|, in the shape of `angle`.
 
     Raises
     ------
-    TypeError, ValueError
-        In one line.
+    TypeError
+        If an argument is not a real number or an array of real numbers.
+    ValueError
+        If an argument lies outside its range.
 
     Examples
     --------
@@ -37,19 +44,26 @@ def free_impact_speed(angle: Any) -> Any:
 
 
 def free_quarter_period(angle: Any) -> Any:
-    """Time arccosh(1/(1 − Θ₀)) that a block released at Θ₀ takes to the base.
+    """Time arccosh(1/(1 − Θ₀)) to the first impact of a block released at Θ₀.
 
-    It is artanh of the impact's speed, the form that keeps its accuracy at small angles.
+    It is computed as artanh of the impact speed, which is accurate at small angles.
 
     Parameters
     ----------
     angle : float or array
-        Θ₀, in [0, 1]; infinite at 1, where the block stands on its corner.
+        Initial angle Θ₀, in [0, 1].
+
+    Returns
+    -------
+    float or ndarray
+        Time τ, in the shape of `angle`; infinite at Θ₀ = 1, where the block balances on its corner.
 
     Raises
     ------
-    TypeError, ValueError
-        In one line.
+    TypeError
+        If an argument is not a real number or an array of real numbers.
+    ValueError
+        If an argument lies outside its range.
 
     Examples
     --------
@@ -64,19 +78,26 @@ def free_quarter_period(angle: Any) -> Any:
 
 
 def free_peaks(angle: Any, restitution: Any, impacts: Any) -> Any:
-    """|Θ| of the turn after so many impacts of a block released at Θ₀: 1 − (1 − Θ_k)² = e^2k (1 − (1 − Θ₀)²).
+    """Peak |Θ_k| after k impacts of a block released at Θ₀: 1 − (1 − Θ_k)² = e^2k (1 − (1 − Θ₀)²).
 
     Parameters
     ----------
     angle, restitution : float or array
-        Θ₀ and e, both in [0, 1].
+        Initial angle Θ₀ and coefficient of restitution e, both in [0, 1].
     impacts : int or array
-        k ≥ 0; all of them broadcast.
+        Number of impacts k, in [0, 10⁹]. The arguments broadcast.
+
+    Returns
+    -------
+    float or ndarray
+        |Θ_k|.
 
     Raises
     ------
-    TypeError, ValueError
-        In one line.
+    TypeError
+        If an argument is not a real number or an array of real numbers.
+    ValueError
+        If an argument lies outside its range.
 
     Examples
     --------
@@ -89,24 +110,27 @@ def free_peaks(angle: Any, restitution: Any, impacts: Any) -> Any:
 
 
 def free_time_to_rest(angle: float, restitution: float) -> float:
-    """Time in which the impacts of a block released at Θ₀ accumulate and it comes to rest: finite for e < 1.
+    """Time to rest of a block released at Θ₀, at the end of infinitely many impacts; finite for e < 1.
 
     Parameters
     ----------
     angle : float
-        Θ₀, in [0, 1].
+        Initial angle Θ₀, in [0, 1].
     restitution : float
-        e, in [0, 1]. The effort grows like 1/(1 − e) up to 1 − e = 1e-6; above that, and below 1, it is refused.
+        Coefficient of restitution e, in [0, 1 − 1e-6] or 1. The cost grows like 1/(1 − e).
 
     Returns
     -------
     float
-        q₀ + 2(q₁ + q₂ + …) with the quarter periods q_k = artanh(e^k v); infinite at e = 1 (unless Θ₀ = 0) and at Θ₀ = 1.
+        Time τ = q₀ + 2(q₁ + q₂ + …), with the quarter periods q_k = artanh(e^k v). Infinite at e = 1 (unless Θ₀ = 0) and at
+        Θ₀ = 1.
 
     Raises
     ------
-    TypeError, ValueError
-        In one line.
+    TypeError
+        If an argument is not a real number.
+    ValueError
+        If an argument lies outside its range.
 
     Examples
     --------
@@ -127,7 +151,7 @@ def free_time_to_rest(angle: float, restitution: float) -> float:
         return first
     terms = max(math.ceil(math.log(SMALL / speed) / math.log(e)), 0)
     flights = 2.0 * float(np.sum(np.arctanh(speed * e ** np.arange(1, terms + 1))))
-    # artanh x = x + x³/3 + x⁵/5 + …, each a geometric series over the impacts that are left
+    # artanh x = x + x³/3 + x⁵/5 + …, each a geometric series over the remaining impacts
     rest = speed * e ** (terms + 1)
     tail = sum(rest**k / (k * -math.expm1(k * math.log(e))) for k in (1, 3, 5))
     return first + flights + 2.0 * tail

@@ -1,7 +1,8 @@
-"""The exact tangency that Melnikov's method approximates: saddle orbits, their manifolds where they pass Θ = 0, and A*.
+"""Exact heteroclinic tangency, which Melnikov's method approximates: saddle orbits, their manifolds at Θ = 0, and A*.
 
-For A > 0 the unstable equilibria become the saddle orbits Θ = ±1 + β cos ψ, β = A/(1+Ω²). Motions that leave the lower one for
-good, and those that reach the upper one, have closed forms up to Θ = 0 and from there, so that the distance of the manifolds is one too.
+For A > 0 the unstable equilibria become the saddle orbits Θ = ±1 + β cos ψ, β = A/(1+Ω²). Motions from
+the lower saddle orbit up to Θ = 0 are known in closed form. So are motions from Θ = 0 to the upper saddle orbit, and the
+distance of the manifolds.
 """
 
 from __future__ import annotations
@@ -16,28 +17,31 @@ from rocking.theory.arguments import amplitudes, frequencies, plain, restitution
 
 
 def heteroclinic_amplitude(period: Any, restitution: Any) -> Any:
-    """A*, at which the unstable manifold of one saddle orbit first touches the stable one of the other: exact.
+    """Amplitude A*, at which the unstable manifold of one saddle orbit first touches the stable one of the other; exact.
 
     Parameters
     ----------
     period, restitution : float or array
-        T in [0.00628, 6283] and e in [0, 1]; they broadcast.
+        Forcing period T, in [0.00628, 6283], and coefficient of restitution e, in [0, 1]. The arguments broadcast.
 
     Returns
     -------
     float or ndarray
-        A* = (1+Ω²)(1−e)/√((1+e)² + Ω²(1−e)²): the limit of `existence_amplitude` for large n. Above it the boundary between
-        overturning and staying is fractal.
+        A* = (1+Ω²)(1−e)/√((1+e)² + Ω²(1−e)²), the limit of `existence_amplitude` for large n. Above A* the boundary between
+        overturning and bounded motions is fractal.
 
     Raises
     ------
-    TypeError, ValueError
-        In one line, for an argument of another kind or outside its range.
+    TypeError
+        If an argument is not a real number or an array of real numbers.
+    ValueError
+        If an argument lies outside its range.
 
     Notes
     -----
-    `melnikov_amplitude` is its first order in 1 − e at given Ω: A_M/A* = ¼(1+e)²√(1 + Ω²((1−e)/(1+e))²), below 1 for slow
-    forcing, above it for fast. It takes the saddle orbits to keep their side, which they do as β < 1; at A* always.
+    `melnikov_amplitude` is its first order in 1 − e at given Ω: A_M/A* = ¼(1+e)²√(1 + Ω²((1−e)/(1+e))²). This ratio is below 1
+    for slow forcing and above 1 for fast forcing. The saddle orbits must not pass through Θ = 0, that is, β < 1; this always
+    holds at A*.
 
     Examples
     --------
@@ -50,26 +54,28 @@ def heteroclinic_amplitude(period: Any, restitution: Any) -> Any:
 
 
 def saddle_orbit(phase: Any, amplitude: Any, period: Any, orbit: str = "upper") -> tuple[Any, Any]:
-    """The unstable periodic motion about a corner, Θ = ±1 + β cos ψ, that the block would have to be balanced on.
+    """Unstable periodic motion near balance on a corner, Θ = ±1 + β cos ψ.
 
     Parameters
     ----------
     phase : float or array
-        ψ of the forcing A cos ψ.
+        Phase ψ of the forcing A cos ψ, rad.
     amplitude, period : float or array
-        A and T; all of them broadcast.
+        Amplitude A, in [0, 1000], and forcing period T, in [0.00628, 6283]. The arguments broadcast.
     orbit : str
-        "upper", near Θ = 1, or "lower", near −1.
+        "upper", near Θ = 1, or "lower", near Θ = −1. Default: "upper".
 
     Returns
     -------
-    tuple
-        (Θ, Θ'). It is a motion of the block while it keeps its side: for β < 1.
+    angle, velocity : float or ndarray
+        Θ and Θ'. They are a motion of the block if β < 1, so that Θ does not change its sign.
 
     Raises
     ------
-    TypeError, ValueError
-        In one line.
+    TypeError
+        If an argument is not a real number or an array of real numbers.
+    ValueError
+        If an argument lies outside its range.
 
     Examples
     --------
@@ -82,9 +88,24 @@ def saddle_orbit(phase: Any, amplitude: Any, period: Any, orbit: str = "upper") 
 
 
 def unstable_manifold_velocity(phase: Any, amplitude: Any, period: Any) -> Any:
-    """V_u = 1 − β(cos ψ + Ω sin ψ): velocity before the impact of the motions that come from the lower saddle orbit; broadcasts.
+    """Velocity V_u = 1 − β(cos ψ + Ω sin ψ) just before the impact of motions from the lower saddle orbit.
 
-    Parameters and errors as in `saddle_orbit`; ψ is the phase at the impact.
+    Parameters
+    ----------
+    phase, amplitude, period : float or array
+        Forcing phase ψ at the impact, rad; A and T as in `saddle_orbit`. The arguments broadcast.
+
+    Returns
+    -------
+    float or ndarray
+        V_u.
+
+    Raises
+    ------
+    TypeError
+        If an argument is not a real number or an array of real numbers.
+    ValueError
+        If an argument lies outside its range.
 
     Examples
     --------
@@ -96,9 +117,26 @@ def unstable_manifold_velocity(phase: Any, amplitude: Any, period: Any) -> Any:
 
 
 def stable_manifold_velocity(phase: Any, amplitude: Any, period: Any) -> Any:
-    """V_s = 1 + β(cos ψ − Ω sin ψ): velocity after the impact of the motions that go to the upper saddle orbit; broadcasts.
+    """Velocity V_s = 1 + β(cos ψ − Ω sin ψ) just after the impact of motions that converge to the upper saddle orbit.
 
-    A faster block overturns there; a slower one comes back. Parameters and errors as in `saddle_orbit`.
+    A faster block overturns, and a slower one returns to Θ = 0.
+
+    Parameters
+    ----------
+    phase, amplitude, period : float or array
+        Forcing phase ψ at the impact, rad; A and T as in `saddle_orbit`. The arguments broadcast.
+
+    Returns
+    -------
+    float or ndarray
+        V_s.
+
+    Raises
+    ------
+    TypeError
+        If an argument is not a real number or an array of real numbers.
+    ValueError
+        If an argument lies outside its range.
 
     Examples
     --------
@@ -110,21 +148,29 @@ def stable_manifold_velocity(phase: Any, amplitude: Any, period: Any) -> Any:
 
 
 def manifold_gap(phase: Any, amplitude: Any, period: Any, restitution: Any) -> Any:
-    """e V_u − V_s, signed: by how much the unstable manifold leaves the impact faster than the stable one; broadcasts.
+    """Signed gap e V_u − V_s between the velocities of the unstable and the stable manifold just after an impact.
 
-    Negative at every ψ below A*, zero at one for A*. `melnikov_function` at τ₀ = ψ/Ω is its first order in A and 1 − e.
+    It is negative at every ψ for A < A*, and its maximum over ψ is 0 at A*. `melnikov_function` at τ₀ = ψ/Ω is its first order
+    in A and 1 − e.
 
     Parameters
     ----------
     phase, amplitude, period : float or array
-        ψ at the impact, A and T.
+        Forcing phase ψ at the impact, rad; A and T as in `saddle_orbit`.
     restitution : float or array
-        e in [0, 1].
+        Coefficient of restitution e, in [0, 1]. The arguments broadcast.
+
+    Returns
+    -------
+    float or ndarray
+        e V_u − V_s.
 
     Raises
     ------
-    TypeError, ValueError
-        In one line.
+    TypeError
+        If an argument is not a real number or an array of real numbers.
+    ValueError
+        If an argument lies outside its range.
 
     Examples
     --------
@@ -141,7 +187,7 @@ def manifold_gap(phase: Any, amplitude: Any, period: Any, restitution: Any) -> A
 
 
 def _swing(phase: Any, amplitude: Any, period: Any) -> tuple[Any, Any]:
-    """(β cos ψ, −βΩ sin ψ): how far a saddle orbit is from ±1, and its velocity."""
+    """Return β cos ψ and −βΩ sin ψ: the deviation of a saddle orbit from ±1, and its velocity."""
     forcing = np.broadcast_arrays(amplitudes(amplitude), frequencies(period), reals("phase", phase))
     swing = np.empty((*forcing[0].shape, 2))
     saddle_manifold.swings(

@@ -1,11 +1,12 @@
-"""Melnikov's method for the rocking block, eqs (11)-(22) of Yim & Lin (1991), with every quantity normalised.
+"""Melnikov's method for the rocking block: Yim & Lin (1991), Eqs. (11)–(22), normalised.
 
-Without forcing and losses the block has the energy H = Θ'²/2 − Θ²/2 + |Θ| (15) and two orbits of energy 1/2 that connect its
-unstable equilibria Θ = ±1: the heteroclinic pair (17). Forcing and losses are added to first order: along such an orbit
+Without forcing and dissipation, the block has the energy H = Θ'²/2 − Θ²/2 + |Θ|, Eq. (15). Two orbits of energy 1/2 connect its
+unstable equilibria Θ = ±1: the heteroclinic pair, Eq. (17). Forcing and dissipation are added to first order along such an
+orbit, Eqs. (13) and (18):
 
-    M(τ₀) = ∫ Θ'(τ) [−A cos Ω(τ + τ₀) + F(Θ, Θ')] dτ,   F = −½ Θ'|Θ'| (1 − e²) δ(Θ)   (13), (18),
+    M(τ₀) = ∫ Θ'(τ) [−A cos Ω(τ + τ₀) + F(Θ, Θ')] dτ,   F = −½ Θ'|Θ'| (1 − e²) δ(Θ).
 
-where F, which opposes the velocity, takes away just what an impact does: ∫ F dΘ = −½(1 − e²)Θ'².
+F opposes the velocity and dissipates the energy of an impact: ∫ F dΘ = −½(1 − e²)Θ'².
 """
 
 from __future__ import annotations
@@ -25,9 +26,25 @@ MAX_TIME = 1e9
 
 
 def energy(angle: Any, velocity: Any) -> Any:
-    """H = Θ'²/2 − Θ²/2 + |Θ| of states, constant without forcing and losses: eq. (15); broadcasts.
+    """Energy H = Θ'²/2 − Θ²/2 + |Θ|, constant without forcing and dissipation: Eq. (15).
 
-    The critical value is 1/2. A state with less stays bounded if |Θ| < 1, and only then: at rest at Θ = 1.5 it has 3/8 and falls.
+    The critical value is 1/2. A state with less energy remains bounded if and only if |Θ| < 1: a block released at Θ = 1.5 has
+    the energy 3/8 and overturns.
+
+    Parameters
+    ----------
+    angle, velocity : float or array
+        Θ and Θ'. The arguments broadcast.
+
+    Returns
+    -------
+    float or ndarray
+        H.
+
+    Raises
+    ------
+    TypeError
+        If an argument is not a real number or an array of real numbers.
 
     Examples
     --------
@@ -39,24 +56,26 @@ def energy(angle: Any, velocity: Any) -> Any:
 
 
 def heteroclinic_orbit(time: Any, orbit: str = "upper") -> tuple[Any, Any]:
-    """The orbit between Θ = −1 and Θ = 1 of the free, undamped block: eq. (17).
+    """Heteroclinic orbit between Θ = −1 and Θ = 1 of the free, undamped block: Eq. (17).
 
     Parameters
     ----------
     time : float or array
-        τ, 0 at Θ = 0.
+        Time τ, 0 at Θ = 0.
     orbit : str
-        "upper", from −1 to 1, or "lower", back.
+        "upper", from −1 to 1, or "lower", from 1 to −1. Default: "upper".
 
     Returns
     -------
-    tuple
-        (Θ, Θ') in the shape of `time`: ±(1 − e^−|τ|) on the side of the sign of τ, and e^−|τ|; both negated on the lower one.
+    angle, velocity : float or ndarray
+        Θ = ±(1 − e^−|τ|), with the sign of τ, and Θ' = e^−|τ|, in the shape of `time`. The lower orbit has the opposite signs.
 
     Raises
     ------
-    TypeError, ValueError
-        In one line.
+    TypeError
+        If `time` is not a real number or an array of real numbers.
+    ValueError
+        If `orbit` is neither "upper" nor "lower".
 
     Examples
     --------
@@ -70,21 +89,29 @@ def heteroclinic_orbit(time: Any, orbit: str = "upper") -> tuple[Any, Any]:
 
 
 def damping(angle: Any, velocity: Any, restitution: Any, width: float) -> Any:
-    """F of eq. (13), −½ Θ'|Θ'| (1 − e²) δ(Θ), with the delta function spread over |Θ| < `width`; broadcasts.
+    """Damping F = −½ Θ'|Θ'| (1 − e²) δ(Θ), with the delta function spread over |Θ| < `width`: Eq. (13).
 
-    The delta function is a triangle of area 1. It opposes the velocity; the paper's −½Θ'²(1 − e²) δ(Θ) would feed the lower orbit.
+    The smoothed delta function is a triangle of area 1. F opposes the velocity. The paper's −½Θ'²(1 − e²) δ(Θ) would add energy
+    on the lower orbit.
 
     Parameters
     ----------
     angle, velocity, restitution : float or array
-        Θ, Θ' and e in [0, 1].
+        Θ, Θ' and coefficient of restitution e, in [0, 1]. The arguments broadcast.
     width : float
-        In [1e-12, 1]; ∫ F dΘ across it tends to −½(1 − e²)Θ'² as it goes to 0.
+        Width of the smoothed delta function, in [1e-12, 1]. ∫ F dΘ across it tends to −½(1 − e²)Θ'² for small widths.
+
+    Returns
+    -------
+    float or ndarray
+        F.
 
     Raises
     ------
-    TypeError, ValueError
-        In one line.
+    TypeError
+        If an argument is not a real number or an array of real numbers.
+    ValueError
+        If an argument lies outside its range.
 
     Examples
     --------
@@ -98,7 +125,24 @@ def damping(angle: Any, velocity: Any, restitution: Any, width: float) -> Any:
 
 
 def impact_loss(velocity: Any, restitution: Any) -> Any:
-    """Energy ½(1 − e²)Θ'² that an impact with velocity Θ' takes away, e in [0, 1]; broadcasts.
+    """Energy ½(1 − e²)Θ'² dissipated by an impact with velocity Θ'.
+
+    Parameters
+    ----------
+    velocity, restitution : float or array
+        Θ' and coefficient of restitution e, in [0, 1]. The arguments broadcast.
+
+    Returns
+    -------
+    float or ndarray
+        Dissipated energy.
+
+    Raises
+    ------
+    TypeError
+        If an argument is not a real number or an array of real numbers.
+    ValueError
+        If an argument lies outside its range.
 
     Examples
     --------
@@ -110,26 +154,28 @@ def impact_loss(velocity: Any, restitution: Any) -> Any:
 
 
 def melnikov_function(time: Any, amplitude: Any, period: Any, restitution: Any, orbit: str = "upper") -> Any:
-    """M⁺(τ₀) = −2A cos Ωτ₀/(1+Ω²) − (1−e²)/2, or on the lower orbit M⁻(τ₀) = M⁺(τ₀ + T/2): eqs (18)-(20).
+    """Melnikov's function M⁺(τ₀) = −2A cos Ωτ₀/(1+Ω²) − (1−e²)/2, or M⁻(τ₀) = M⁺(τ₀ + T/2): Eqs. (18)–(20).
 
     Parameters
     ----------
     time : float or array
-        τ₀: the forcing is A cos Ω(τ + τ₀), and the orbit passes Θ = 0 at τ = 0.
+        Time τ₀: the forcing is A cos Ω(τ + τ₀), and the orbit passes Θ = 0 at τ = 0.
     amplitude, period, restitution : float or array
-        A, T and e in [0, 1]; all of them broadcast.
+        A, in [0, 1000]; T, in [0.00628, 6283]; e, in [0, 1]. The arguments broadcast.
     orbit : str
-        "upper" (M⁺) or "lower" (M⁻).
+        "upper" (M⁺) or "lower" (M⁻). Default: "upper".
 
     Returns
     -------
     float or ndarray
-        The energy gained along the orbit, to first order in A and 1 − e. Zeros: the manifolds cross, to that order.
+        Energy gained along the orbit, to first order in A and 1 − e. Where it has zeros, the manifolds intersect to this order.
 
     Raises
     ------
-    TypeError, ValueError
-        In one line.
+    TypeError
+        If an argument is not a real number or an array of real numbers.
+    ValueError
+        If an argument lies outside its range.
 
     Examples
     --------
@@ -152,19 +198,31 @@ def melnikov_integral(
     orbit: str = "upper",
     width: float = 1e-6,
 ) -> float:
-    """The same by numerical integration along `heteroclinic_orbit`, the `damping` spread over a `width`: the test of the closed form.
+    """Melnikov's function by numerical integration along `heteroclinic_orbit`, a check of the closed form.
 
     Parameters
     ----------
-    time, amplitude, period, restitution, orbit
-        As in `melnikov_function`, numbers only, `time` of size up to 10⁹.
+    time : float
+        Time τ₀, of magnitude up to 10⁹.
+    amplitude, period, restitution : float
+        A, T and e, as in `melnikov_function`.
+    orbit : str
+        "upper" or "lower". Default: "upper".
     width : float
-        In [1e-12, 1]. The loss is too small by a share of at most about this, since the orbit slows down on either side of Θ = 0.
+        Width of the `damping`, in [1e-12, 1]. The velocity is lower on both sides of Θ = 0, so that the dissipation is too small
+        by a relative error of about `width` at most. Default: 1e-6.
+
+    Returns
+    -------
+    float
+        M⁺(τ₀) or M⁻(τ₀).
 
     Raises
     ------
-    TypeError, ValueError
-        In one line.
+    TypeError
+        If an argument is of the wrong type.
+    ValueError
+        If an argument lies outside its range.
 
     Examples
     --------
@@ -184,7 +242,7 @@ def melnikov_integral(
         angle, velocity = heteroclinic_orbit(tau, orbit)
         return velocity * damping(angle, velocity, restitution, width)
 
-    # Fourier integrals over either half, where the orbit is smooth: cos Ω(τ + τ₀) = cos Ωτ₀ cos Ωτ − sin Ωτ₀ sin Ωτ
+    # Fourier integrals over each half, on which the orbit is smooth: cos Ω(τ + τ₀) = cos Ωτ₀ cos Ωτ − sin Ωτ₀ sin Ωτ
     parts = {
         (weight, way): quad(lambda tau, way=way: speed(way * tau), 0.0, math.inf, weight=weight, wvar=omega)[
             0
@@ -195,26 +253,34 @@ def melnikov_integral(
     even = parts["cos", 1.0] + parts["cos", -1.0]
     odd = parts["sin", 1.0] - parts["sin", -1.0]
     work = -amplitude * (math.cos(omega * time) * even - math.sin(omega * time) * odd)
-    # the triangle's foot, at |Θ| = width
+    # foot of the triangle, at |Θ| = width
     foot = -math.log1p(-width) if width < 1.0 else math.inf
     return work + quad(loss, -foot, 0.0)[0] + quad(loss, 0.0, foot)[0]
 
 
 def melnikov_amplitude(period: Any, restitution: Any) -> Any:
-    """A_M = (1 − e²)(1 + Ω²)/4, from which on Melnikov's function has zeros: eq. (22), the paper's "lower bound for chaotic response".
+    """Amplitude A_M = (1 − e²)(1 + Ω²)/4, above which Melnikov's function has zeros: Eq. (22).
 
-    To first order in A and 1 − e the manifolds of the saddle orbits cross from here on. That is no bound on chaos: `heteroclinic_amplitude`
-    is the exact value, above it or below, and crossing manifolds make the boundary of the safe basin fractal, not a motion chaotic.
+    The paper calls it a "lower bound for chaotic response". To first order in A and 1 − e, the manifolds of the saddle orbits
+    intersect above A_M. It is not a bound for chaos: intersecting manifolds make the boundary of the safe basin fractal, and do
+    not make bounded motions chaotic. The exact value, `heteroclinic_amplitude`, may be larger or smaller.
 
     Parameters
     ----------
     period, restitution : float or array
-        T in [0.00628, 6283] and e in [0, 1]; they broadcast.
+        Forcing period T, in [0.00628, 6283], and coefficient of restitution e, in [0, 1]. The arguments broadcast.
+
+    Returns
+    -------
+    float or ndarray
+        A_M.
 
     Raises
     ------
-    TypeError, ValueError
-        In one line.
+    TypeError
+        If an argument is not a real number or an array of real numbers.
+    ValueError
+        If an argument lies outside its range.
 
     Examples
     --------

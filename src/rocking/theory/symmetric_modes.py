@@ -1,6 +1,7 @@
-"""Symmetric (1, n) modes in closed form: Spanos & Koh (1984), eqs (8)-(10) of Yim & Lin (1991).
+"""Symmetric (1, n) modes in closed form: Spanos & Koh (1984); Yim & Lin (1991), Eqs. (8)–(10).
 
-What they are follows from ``rocking.kernels.orbits.symmetric_mode``; here are the amplitudes between which they exist and are stable.
+The modes themselves are computed in ``rocking.kernels.orbits.symmetric_mode``. This module computes the amplitudes between
+which they exist and are stable.
 """
 
 from __future__ import annotations
@@ -17,31 +18,33 @@ from rocking.theory.arguments import MAX_CYCLES, frequencies, odd, plain, restit
 
 
 def existence_amplitude(period: Any, restitution: Any, n: Any) -> Any:
-    """A_E, from which on symmetric (1, n) modes exist: the fold at which two of them are born.
+    """Amplitude A_E, above which symmetric (1, n) modes exist: the fold at which two of them emerge.
 
     Parameters
     ----------
     period : float or array
-        T of the forcing, in [0.00628, 6283].
+        Forcing period T, in [0.00628, 6283].
     restitution : float or array
-        e in [0, 1].
+        Coefficient of restitution e, in [0, 1].
     n : int or array
-        Forcing cycles in a response: odd, 1 to 9,999. The arguments broadcast.
+        Number of forcing cycles per response period: odd, 1 to 9,999. The arguments broadcast.
 
     Returns
     -------
     float or ndarray
-        A_E; 0 at e = 1 (every amplitude above 0 has modes); NaN at e = 0, where there are none.
+        A_E; 0 at e = 1, where modes exist at every A > 0; NaN at e = 0, where there are none.
 
     Raises
     ------
-    TypeError, ValueError
-        In one line, for an argument of another kind or outside its range.
+    TypeError
+        If an argument is not a real number or an array of real numbers.
+    ValueError
+        If an argument lies outside its range.
 
     Notes
     -----
-    A_E = (1+Ω²) t² (1−e)/√((1+e)² + Ω²t²(1−e)²), t = tanh(nπ/2Ω), from eq. (8) of Yim & Lin (1991). A mode that exists need not be
-    stable (`symmetry_breaking_amplitude`) nor admissible (`symmetric_modes` tells).
+    A_E = (1+Ω²) t² (1−e)/√((1+e)² + Ω²t²(1−e)²), t = tanh(nπ/2Ω), from Eq. (8) of Yim & Lin (1991). A mode that exists need not be
+    stable (`symmetry_breaking_amplitude`) or admissible (`symmetric_modes`).
 
     Examples
     --------
@@ -57,9 +60,9 @@ def existence_amplitude(period: Any, restitution: Any, n: Any) -> Any:
 
 
 def symmetry_breaking_amplitude(period: Any, restitution: Any, n: Any) -> Any:
-    """A_SB, up to which the faster symmetric (1, n) mode is stable: there two unsymmetric ones branch off.
+    """Amplitude A_SB, up to which the faster symmetric (1, n) mode is stable: two asymmetric orbits branch off there.
 
-    This is the "upper bound" of figures 11 and 12 of Yim & Lin (1991), where the trace of eq. (10) is −(1 + e²).
+    This is the "upper bound" of figures 11 and 12 of Yim & Lin (1991), where the trace of Eq. (10) is −(1 + e²).
 
     Parameters
     ----------
@@ -73,13 +76,15 @@ def symmetry_breaking_amplitude(period: Any, restitution: Any, n: Any) -> Any:
 
     Raises
     ------
-    TypeError, ValueError
-        In one line, for an argument of another kind or outside its range.
+    TypeError
+        If an argument is not a real number or an array of real numbers.
+    ValueError
+        If an argument lies outside its range.
 
     Notes
     -----
-    V_SB = e(1+e)S/(2eC − (1+e²) + St(1−e)²(1+Ω²)/2) with S, C = sinh, cosh of nπ/Ω, and A_SB from it by eq. (8). At e = 1 it is
-    (1+Ω²)(1/t − t)/Ω.
+    ``V_SB = e(1+e)S/(2eC − (1+e²) + St(1−e)²(1+Ω²)/2)`` with S, C = sinh, cosh of nπ/Ω. A_SB follows from V_SB by Eq. (8).
+    At e = 1 it is (1+Ω²)(1/t − t)/Ω.
 
     Examples
     --------
@@ -101,17 +106,24 @@ def symmetry_breaking_amplitude(period: Any, restitution: Any, n: Any) -> Any:
 
 
 def slower_mode_amplitude(period: Any, n: Any) -> Any:
-    """Amplitude t(1+Ω²)/Ω at which the speed of the slower symmetric (1, n) mode has fallen to 0: below it there are two, above it one.
+    """Amplitude t(1+Ω²)/Ω at which the slower symmetric (1, n) mode ends with zero speed: two modes below, one above.
 
     Parameters
     ----------
     period, n : float or array
-        T and n as in `existence_amplitude`; whatever the restitution.
+        T and n as in `existence_amplitude`. The amplitude does not depend on e.
+
+    Returns
+    -------
+    float or ndarray
+        Amplitude A, with t = tanh(nπ/2Ω).
 
     Raises
     ------
-    TypeError, ValueError
-        In one line, for an argument of another kind or outside its range.
+    TypeError
+        If an argument is not a real number or an array of real numbers.
+    ValueError
+        If an argument lies outside its range.
 
     Examples
     --------
@@ -123,39 +135,41 @@ def slower_mode_amplitude(period: Any, n: Any) -> Any:
 
 
 def symmetric_modes(amplitude: float, period: float, restitution: float, n: int) -> list[Mode]:
-    """All symmetric (1, n) modes of a system: two, one or none, the faster first (eqs 8-10 of Yim & Lin 1991).
+    """Return all symmetric (1, n) modes of a system, the faster first: Yim & Lin (1991), Eqs. (8)–(10).
 
     Parameters
     ----------
     amplitude, period : float
-        A in [0, 1000] and T in [0.00628, 6283] of the forcing.
+        Amplitude A, in [0, 1000], and forcing period T, in [0.00628, 6283].
     restitution : float
-        e in (0, 1].
+        Coefficient of restitution e, in (0, 1].
     n : int
-        Forcing cycles in a response: odd, 1 to 9,999.
+        Number of forcing cycles per response period: odd, 1 to 9,999.
 
     Returns
     -------
     list of Mode
-        Empty below `existence_amplitude`; two up to `slower_mode_amplitude`, above that one. At A = 0 none: without forcing a
-        phase means nothing.
+        Empty below `existence_amplitude`, two modes up to `slower_mode_amplitude`, one above. Empty at A = 0, where the
+        forcing phase is undefined.
 
     Raises
     ------
-    TypeError, ValueError
-        In one line, for an argument of another kind or outside its range, for an even n and for e = 0.
+    TypeError
+        If an argument is not a real number.
+    ValueError
+        If an argument lies outside its range, or if n is even.
 
     Notes
     -----
-    Stability follows from the closed form. The slower mode has a trace above 1 + e² and is never stable. Whether a mode is
-    *admissible*, Θ > 0 for the whole half cycle, is proved by the search for the first crossing that `simulate` uses.
+    Stability follows from the closed form. The slower mode has a trace above 1 + e² and is never stable. A mode is *admissible*
+    if Θ > 0 for the whole half cycle. This is proved by the search for the first crossing that `simulate` uses.
 
     Examples
     --------
     >>> import rocking as rk
     >>> for mode in rk.theory.symmetric_modes(6.5, 0.4, 0.925, 3):
     ...     print(mode)
-    (1,3) mode: V = 0.658253, φ = -1.87161, stable, admissible
+    (1, 3) mode: V = 0.658253, φ = -1.87161, stable, admissible
     >>> rk.theory.symmetric_modes(0.2, 1.0, 0.8, 1)
     []
     """
@@ -178,7 +192,7 @@ def symmetric_modes(amplitude: float, period: float, restitution: float, n: int)
 def _mode(
     amplitude: float, period: float, e: float, n: int, speed: float, phase: float, trace: float
 ) -> Mode:
-    """One root with what follows from it."""
+    """Return one root with its derived quantities."""
     omega = math.tau / period
     p = numbers.harmonic_parameters(amplitude, omega, period, phase, e)
     length = n * math.pi / omega
