@@ -313,7 +313,7 @@ def test_mirror_images_have_shades_of_their_own():
     system = rk.System(rk.Harmonic(14.0, period=1.35), 0.925)
     found = rk.basin_map(system, angle=starts, velocity=starts, boundary_runs=0)
     attractor = found.dataset.attractor.transpose("velocity", "angle").values
-    twins = last.look == [look.name for look in LOOKS].index("1, unsymmetric")
+    twins = last.look == [look.name for look in LOOKS].index("period 1, asymmetric")
     pairs = set(zip(attractor[twins].tolist(), last.fields["orbit"][twins].tolist(), strict=True))
     assert len(pairs) == len(set(attractor[twins].tolist())) == 2
     assert {number for _, number in pairs} == {0, 1}
@@ -324,7 +324,7 @@ def test_mirror_images_have_shades_of_their_own():
     colours = {bokeh_figures.PALETTE[number] for shade in shades for number in shade}
     assert len(colours) == 2
     entries = texts.attractors(last.counts())
-    assert [each["name"] for each in entries] == ["1, unsymmetric", "another", "overturned"]
+    assert [each["name"] for each in entries] == ["period 1, asymmetric", "another", "overturned"]
     assert {each["colour"] for each in entries[:2]} == colours
     assert sorted(each["share"] for each in entries) == sorted(
         percent(share.value) for share in found.fractions
