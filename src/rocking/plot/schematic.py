@@ -128,6 +128,7 @@ def _angles(ax: Axes, tilted: NDArray, height: float, critical: float, angle: fl
             name,
             pivot + (radius + 0.08 * height) * np.array([math.cos(middle), math.sin(middle)]),
             colour,
+            style.BLOCK,
         )
 
 
@@ -136,5 +137,8 @@ def _arrow(ax: Axes, tail, head, colour: str, shape: str) -> None:
     ax.annotate("", head, tail, arrowprops=how | {"mutation_scale": 8})
 
 
-def _write(ax: Axes, text: str, place, colour: str = style.INK) -> None:
-    ax.text(place[0], place[1], text, color=colour, fontsize=style.TEXT + 1, ha="center", va="center")
+def _write(ax: Axes, text: str, place, colour: str = style.INK, behind: str = "none") -> None:
+    box = {"facecolor": behind, "edgecolor": "none", "pad": 0.5}
+    ax.text(
+        place[0], place[1], text, color=colour, fontsize=style.TEXT + 1, ha="center", va="center", bbox=box
+    )

@@ -127,7 +127,8 @@ def _apart(peaks: tuple[Peak, ...], most: int, ax: Axes, last: float) -> tuple[l
     root.draw_without_rendering()  # the width of the axes is known after the layout
     clear = 1.15 * style.SMALL / 72 * root.dpi / ax.get_window_extent().width * last
     shown = np.sort([peak.frequency for peak in peaks if peak.frequency <= last])
-    wide = bool(len(shown)) and np.diff(shown, prepend=0.0).min() > HORIZONTAL * clear
+    gaps = np.diff(shown, prepend=-shown[0], append=np.inf) if len(shown) else np.zeros(1)
+    wide = gaps.min() > HORIZONTAL * clear
     chosen: list[Peak] = []
     for rank, peak in enumerate(peaks):
         if len(chosen) == most:

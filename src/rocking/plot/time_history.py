@@ -89,3 +89,13 @@ def _guides(ax: Axes, system: System, shown: Quantities, largest: float) -> None
             ax.axhline(
                 shown.angle(side * level), color=colour, linestyle=dashes, linewidth=style.LINE, gid=name
             )
+        ax.text(
+            1.0,
+            shown.angle(level),
+            name,
+            transform=ax.get_yaxis_transform(),
+            ha="right",
+            va="bottom",
+            fontsize=style.SMALL,
+            color=style.INK,
+        )
