@@ -1,4 +1,4 @@
-"""What lies beyond the paper: titles and captions say what the points beside them show."""
+"""Additional figures: titles and captions describe the points that are drawn."""
 
 import inspect
 import itertools

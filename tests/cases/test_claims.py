@@ -92,7 +92,8 @@ def test_verdict_of_a_claim_that_does_not_hold_has_its_class_and_its_explanation
 
 
 @pytest.mark.parametrize(
-    "compute", [name for name in EXPLAINED if name not in {"frequent_hits", "sufficient", "dimension_chaotic"}]
+    "compute",
+    [name for name in EXPLAINED if name not in {"frequent_hits", "sufficient", "dimension_chaotic"}],
 )
 def test_explanation_is_shown_by_its_computation(compute):
     judged = one(compute).judged()
@@ -120,7 +121,7 @@ MACHINE = {
     "decimals of what is none or all": r"(?<![\d.])0\.0 %|100\.0",
     "a power of e": r"e\^",
 }
-"""What a computer prints and a journal does not, by its name."""
+"""Machine output that a journal does not print, by its name."""
 
 
 @pytest.mark.parametrize(

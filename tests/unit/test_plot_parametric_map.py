@@ -122,7 +122,9 @@ def test_large_map_is_thinned_evenly_and_its_shares_are_those_of_all_points(size
     ax = rk.plot.parametric_map(found)
     assert ax.images[0].get_array().shape == (shown, COUNT)
     share = 100 / size
-    assert float(re.search(r"\(([\d.]+) %\)", legend(ax)[-1])[1]) == pytest.approx(share, abs=0.05 if share >= 1 else 0.005)
+    assert float(re.search(r"\(([\d.]+) %\)", legend(ax)[-1])[1]) == pytest.approx(
+        share, abs=0.05 if share >= 1 else 0.005
+    )
 
 
 def test_rows_thinned_are_every_nth_of_the_map_however_it_is_read(monkeypatch):

@@ -96,7 +96,10 @@ def test_block_gives_hertz_and_keeps_the_power(periodic):
     block = rk.Block(height=2.0, width=0.5)
     ax = rk.plot.spectrum(periodic, block=block, highest=8.0)
     hertz, density = curve(ax)
-    assert (ax.get_xlabel(), ax.get_ylabel()) == ("frequency (Hz)", r"power spectral density $S_\theta$ (°²/Hz)")
+    assert (ax.get_xlabel(), ax.get_ylabel()) == (
+        "frequency (Hz)",
+        r"power spectral density $S_\theta$ (°²/Hz)",
+    )
     seconds = block.seconds(0.4)
     assert math.isclose(hertz[density.argmax()], 1 / (3 * seconds), rel_tol=1e-9)
     degrees = block.degrees(math.sqrt(periodic.variance))

@@ -85,7 +85,9 @@ def chaos_share(found: ChaosShare, ax: Axes | None = None) -> Axes:
         ticks = [conservative, *(place for place in DECADES if place > BREAK * conservative)]
         ax.axvline(BREAK * conservative, color=style.GUIDE, linewidth=style.THIN, linestyle=":", gid="break")
     ax.xaxis.set_major_locator(FixedLocator(ticks))
-    ax.xaxis.set_major_formatter(FuncFormatter(lambda place, _: "0" if place == conservative else f"{place:g}"))
+    ax.xaxis.set_major_formatter(
+        FuncFormatter(lambda place, _: "0" if place == conservative else f"{place:g}")
+    )
     ax.xaxis.set_minor_locator(NullLocator())
     counts = sorted({each.of for each in found.shares})
     style.note(ax, "$n = $ " + "–".join(f"{count:,}" for count in dict.fromkeys((counts[0], counts[-1]))))

@@ -1,6 +1,7 @@
-"""Figure 1: block and base, with the dimensions H and B, the corners O and O', the angles θ and θcr, and the base acceleration.
+"""Figure 1: block and base, with dimensions H, B, R, corners O, O', angles θ, θcr and base acceleration.
 
-The block is drawn at θ = θcr/2. Signs are those of Eqs. (1) to (3): angles are positive clockwise, accelerations to the right.
+The block is drawn at θ = θcr/2. Signs are those of Eqs. (1) to (3): angles are positive clockwise, accelerations to
+the right.
 """
 
 from matplotlib.figure import Figure

@@ -1,7 +1,7 @@
 """Figure 3: phase portraits of the three periodic responses of figure 2, in the same cycles.
 
-At each impact the velocity changes at Θ = 0 from the ring to the dot, by the factor e = 0.925 (Eq. (2)). Arrows give the direction of
-motion. The scale of (c) differs from the scale of (a) and (b).
+At each impact the velocity changes at Θ = 0 from the ring to the dot, by the factor e = 0.925 (Eq. (2)). Arrows give
+the direction of motion. The scale of (c) differs from the scale of (a) and (b).
 """
 
 from matplotlib.figure import Figure

@@ -1,7 +1,7 @@
 """Figure 4: overturning from rest, A = 1.75, T = 2, e = 0.95, φ = 0: (a) time history, (b) phase portrait.
 
-After four impacts, in the sixth cycle, overturning is certain. The motion is shown up to Θ = −1.6. Dotted lines in (a) mark the critical
-angle, arrows in (b) the direction of motion.
+After four impacts, in the sixth cycle, overturning is certain. The motion is shown up to Θ = −1.6. Dotted lines in
+(a) mark the critical angle, arrows in (b) the direction of motion.
 """
 
 from matplotlib.figure import Figure

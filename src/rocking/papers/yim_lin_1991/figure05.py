@@ -1,8 +1,8 @@
-"""Figure 5: quasi-periodic response from rest, A = 4, T = 0.4, e = 1, φ = 0: (a) time history, (b) phase portrait.
+"""Figure 5: quasi-periodic response from rest, A = 4, T = 0.4, e = 1: (a) time history, (b) phase portrait.
 
-The motion turns about the three points of a symmetric (1, 3) mode. It has no transient, because an undamped motion has none: (a) shows the
-first 60 cycles, (b) the first 21. Orange marks are impacts, at which the velocity does not change because e = 1. The arrow gives the
-direction of motion.
+The motion, from φ = 0, turns about the three points of a symmetric (1, 3) mode. It has no transient, because an
+undamped motion has none: (a) shows the first 60 cycles, (b) the first 21. Orange marks are impacts, at which the
+velocity does not change because e = 1. The arrow gives the direction of motion.
 """
 
 from matplotlib.figure import Figure

@@ -1,12 +1,13 @@
-"""Figure 12: stability bound A_SB of the symmetric (1, 1) mode and Melnikov's amplitude A_M over the period, e = 0.8 and 0.9.
+"""Figure 12: stability bound A_SB of the (1, 1) mode and Melnikov's amplitude A_M, e = 0.8 and 0.9.
 
-The (1, 1) mode is stable below A_SB, where its symmetry breaks. Melnikov's function has zeros above A_M (Eq. (22)). Both are closed forms; colour
-distinguishes the amplitudes, the dash the coefficient of restitution. The paper's axes are not known; here T runs from 0.2 to 3 and A from 0 to 16.
+The (1, 1) mode is stable below A_SB, where its symmetry breaks. Melnikov's function has zeros above A_M (Eq. (22)).
+Both are closed forms; colour distinguishes the amplitudes, the dash the coefficient of restitution. The paper's axes
+are not known; here T runs from 0.2 to 3 and A from 0 to 16.
 
-Difference from the paper: the paper takes A_M as a lower bound for chaotic responses, and regards chaos as likely between the curves, in a region
-that grows with e. A_M is the first-order approximation of the amplitude A* at which the manifolds of the saddle orbits touch. It lies below A*
-for slow forcing and above it for fast forcing. Intersecting manifolds make the boundary of overturning fractal; they do not make bounded motions
-chaotic.
+Difference from the paper: the paper takes A_M as a lower bound for chaotic responses. It regards chaos as likely
+between the curves, in a region that grows with e. A_M is the first-order approximation of the amplitude A* at which
+the manifolds of the saddle orbits touch. It lies below A* for slow forcing and above it for fast forcing.
+Intersecting manifolds make the boundary of overturning fractal; they do not make bounded motions chaotic.
 """
 
 import numpy as np

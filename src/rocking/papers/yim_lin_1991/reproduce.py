@@ -48,9 +48,9 @@ def reproduce(
     folder : str or Path
         Folder for the files; created if it does not exist.
     figures : iterable of str or int, optional
-        Figures of the paper, 1 to 12, "13a" and "13b"; the tables "exponents" and "claims"; or the additional figures
-        "chaos", "cascade", "crisis", "threshold", "coexistence" and "zoom". Default: all of them, and the report
-        index.html, also as PDF if WeasyPrint is installed.
+        Figures of the paper, 1 to 12, "13a" and "13b". Tables: "exponents" and "claims". Additional figures: "chaos", "cascade",
+        "crisis", "threshold", "coexistence" and "zoom". Default: all of them, and the report index.html, also as PDF if
+        WeasyPrint is installed.
     progress : callable, optional
         Called as ``progress(done, total, name)`` before each figure, table and claim, and once at the end.
     summary : callable, optional

@@ -1,12 +1,13 @@
 """Table of Lyapunov exponents and fractal dimensions: numbers of the paper and computed values with errors.
 
-The numbers of the paper stand in its sections "Response identification" and "Response of undamped systems". The exponents are 0, 0 and
-0.14, the dimensions 0, 2.0 and 2.3, for the periodic, the quasi-periodic and the chaotic response of figures 7 and 8. Units, lengths of
-the runs and spaces are not given, nor any number for the braced response of figure 13a.
+The numbers of the paper stand in its sections "Response identification" and "Response of undamped systems". They
+refer to the periodic, the quasi-periodic and the chaotic response of figures 7 and 8. The exponents are 0, 0 and
+0.14, the dimensions 0, 2.0 and 2.3. Units, lengths of the runs and spaces are not given, nor any number for the
+braced response of figure 13a.
 
-Difference from the paper: both exponents of a damped periodic response are negative; zero is the exponent along the flow, which every
-motion has. Dimensions refer to the section; the dimension in the flow is larger by one. Undamped motions have no attractor: the chaotic sea
-fills an area, and its exponent decreases with the length of the run.
+Difference from the paper: both exponents of a damped periodic response are negative; zero is the exponent along the
+flow, which every motion has. Dimensions refer to the section; the dimension in the flow is larger by one. Undamped
+motions have no attractor: the chaotic sea fills an area, and its exponent decreases with the length of the run.
 """
 
 from functools import cache
@@ -86,8 +87,8 @@ def _quasi_periodic() -> Row:
         _pair(spectrum.per_cycle),
         _pair((spectrum.values, spectrum.errors)),
         _dimension(system, 20_000),
-        "the estimate decreases as the logarithm of the length over the length. Curves have dimension 1 in the section; 2 is the dimension of "
-        "the torus in the flow",
+        "the estimate decreases as the logarithm of the length over the length. Curves have dimension 1 in the section; 2 is "
+        "the dimension of the torus in the flow",
     )
 
 

@@ -1,9 +1,10 @@
 """Period doubling to chaos over the amplitude, T = 1.721328, e = 0.8.
 
-(a) The symmetric orbit loses its symmetry at A = 7.333, as the closed form predicts. Two asymmetric orbits, mirror images of each other, branch
-off: the sweep up follows one of them, the sweep down the other. Period doubling begins at A = 10.47. (b) End of the cascade: period doublings at
-ever smaller distances, then chaos; above A = 10.75 or so the block overturns. (c) Responses from rest: another orbit, of period 3, doubles its period
-and becomes chaotic by A = 10.10; by A = 10.11 it has disappeared. Bars at the bottom mark overturning.
+(a) The symmetric orbit loses its symmetry at A = 7.333, as the closed form predicts. Two asymmetric orbits, mirror
+images of each other, branch off: the sweep up follows one of them, the sweep down the other. Period doubling begins
+at A = 10.47. (b) End of the cascade: period doublings at ever smaller distances, then chaos. Above A = 10.75 or so
+the block overturns. (c) Responses from rest: another orbit, of period 3, doubles its period and becomes chaotic by A
+= 10.10. By A = 10.11 it has disappeared. Bars at the bottom mark overturning.
 """
 
 import numpy as np

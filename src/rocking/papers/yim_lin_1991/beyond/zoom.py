@@ -1,9 +1,10 @@
 """Boundary of overturning of figure 11, and a part of it enlarged a thousand times, e = 0.925.
 
-(a) Part of the map above A*, around T₀ = 1.0914985576 and A₀ = 5.3120190162, 0.8 wide and 4 high, 240 × 240 points. (b) The part in the middle of (a),
-a thousandth as wide and as high, with as many points; the square in (a) marks its position, enlarged. Strips of overturning alternate with strips of
-bounded responses, in (b) as in (a); both also have large regions without a change. The titles give the fraction of neighbouring points, at the same
-amplitude, of which one overturns and the other does not. A single smooth boundary from top to bottom would give 1 in 239, or 0.42 %.
+(a) Part of the map above A*, around T₀ = 1.0914985576 and A₀ = 5.3120190162, 0.8 wide and 4 high, 240 × 240 points.
+(b) The part in the middle of (a), a thousandth as wide and as high, with as many points. The square in (a) marks its
+position, enlarged. Strips of overturning alternate with strips of bounded responses, in (b) as in (a). Both also have
+large regions without a change. The titles give the fraction of neighbouring points, at the same amplitude, of which
+one overturns and the other does not. A single smooth boundary from top to bottom would give 1 in 239, or 0.42 %.
 """
 
 import numpy as np
@@ -58,7 +59,9 @@ def _measure_from_centre(ax: Axes) -> None:
         axis.set_major_locator(FixedLocator([centre + unit * tick for tick in ticks]))
         axis.set_major_formatter(
             FuncFormatter(
-                lambda value, _, centre=centre, unit=unit: f"{round((value - centre) / unit)}".replace("-", "−")
+                lambda value, _, centre=centre, unit=unit: f"{round((value - centre) / unit)}".replace(
+                    "-", "−"
+                )
             )
         )
         axis.set_label_text(f"${symbol} - {symbol}_0$ ({small(unit).removeprefix('1·')})")

@@ -110,7 +110,8 @@ def region_periodic() -> Finding:
 
 
 @CHAPTER.claim(
-    "Figs. 10, 11", error="chaos does not fill the whole space without damping: at e = 1 most of the map overturns"
+    "Figs. 10, 11",
+    error="chaos does not fill the whole space without damping: at e = 1 most of the map overturns",
 )
 def region_chaotic() -> Finding:
     """Damping reduces chaos from the whole parametric space to scattered spots."""
