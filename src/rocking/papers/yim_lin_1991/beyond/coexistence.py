@@ -1,10 +1,10 @@
 """Basins of attraction at A = 5.5, T = 0.5, e = 0.925, φ = 0, the system of figure 2c.
 
-Basins over the initial states (Θ₀, Θ'₀), 240 × 240 points, with area fractions of 0.1 % or more. Lines lead to the
-largest connected part of each basin. Several periodic responses coexist with overturning; the initial state alone
-selects one of them. The uncertainty exponents of the boundaries stand below the figure, with 95 % intervals. The
-fraction of states with an uncertain response is proportional to the uncertainty of the initial state to the power of
-the exponent. The exponent is 1 for a smooth boundary and smaller for a fractal one.
+Basins over the initial states (Θ₀, Θ'₀), 240 × 240 points, with area fractions of 0.1 % or more. A line leads to the
+point of each basin that is farthest from its boundary. Several periodic responses coexist with overturning; the
+initial state alone selects one of them. The uncertainty exponents of the boundaries stand below the figure, with 95 %
+intervals. The fraction of states with an uncertain response is proportional to the uncertainty of the initial state
+to the power of the exponent. The exponent is 1 for a smooth boundary and smaller for a fractal one.
 """
 
 import numpy as np

@@ -1,4 +1,4 @@
-"""Chaotic transient and persistent chaos, e = 0.99, T = 0.33, from rest.
+"""Chaotic transient, and chaos up to the end of the run, e = 0.99, T = 0.33, from rest.
 
 Poincaré sections (ψ = 0) of two simulated runs over 2·10⁴ cycles: (a) A = 4.86, (b) A = 4.88. The first 100 cycles
 are omitted. If a run becomes periodic, its later points are orange, and the title gives the period and the cycle. The
