@@ -236,11 +236,11 @@ def _symbol_keys(counts: np.ndarray, symbols: Sequence[Symbol]) -> list[Line2D]:
 
 
 def _legend(ax: Axes, keys: Sequence[Patch | Line2D]) -> None:
-    """Draw the legend in two columns below the axes."""
+    """Draw the legend in two columns below the axes, under their vertical label too, where two long names fit."""
     ax.legend(
         handles=keys,
-        **style.BELOW | {"fontsize": style.SMALL - 0.5},
+        **style.BELOW | {"fontsize": style.SMALL - 1.0, "bbox_to_anchor": (0.43, 0.0)},
         ncols=2,
-        handlelength=1.8,
+        handlelength=1.5,
         columnspacing=0.8,
     )

@@ -57,7 +57,7 @@ def repeatability(found: Repeatability, ax: Axes | None = None) -> Axes:
     ax.set_yticks(up, [name for name, _ in pairs])
     ax.invert_yaxis()
     ax.set_xlim(0.0, 100.0)
-    off = f"inputs off by up to {100 * found.relative:.3g} %"
+    off = f"inputs vary by up to {100 * found.relative:.3g} %"
     style.note(ax, off)
     return ax
 

@@ -114,8 +114,8 @@ def _motion(verdict: Verdict, history: Axes, portrait: Axes, block: Block | None
     if verdict.period and not _repeats(motion.section()[-verdict.period - 1 :], verdict.period):
         style.note(history, OTHERWISE)
     if first > 0:
-        unit = quantities(block).time_unit
-        history.set_xlabel(f"time after cycle {first:,} ({unit})", fontsize=style.TEXT, color=style.INK)
+        label = rf"time $\tau$ after cycle {first:,}" if block is None else f"time after cycle {first:,} (s)"
+        history.set_xlabel(label, fontsize=style.TEXT, color=style.INK)
 
 
 def _window(verdict: Verdict) -> tuple[int, int]:
