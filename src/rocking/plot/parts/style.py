@@ -134,8 +134,9 @@ def label(ax: Axes, x: str, y: str) -> None:
     ax.tick_params(labelsize=SMALL, color=INK, labelcolor=INK, width=THIN)
     for axis in (ax.xaxis, ax.yaxis):
         axis.get_offset_text().set(fontsize=SMALL, color=INK)
-        if isinstance(axis.get_major_formatter(), ScalarFormatter):
-            axis.get_major_formatter().set_useOffset(False)
+        formatter = axis.get_major_formatter()
+        if isinstance(formatter, ScalarFormatter):
+            formatter.set_useOffset(False)
     for side, spine in ax.spines.items():
         spine.set(visible=side in ("left", "bottom"), linewidth=THIN, edgecolor=INK)
 

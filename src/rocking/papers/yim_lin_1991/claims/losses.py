@@ -70,7 +70,7 @@ def chaos_against_losses() -> Finding:
     "less than one in twenty at 0.6",
 )
 def chaos_above_095() -> Finding:
-    """Chaotic responses occur only at e above 0.95."""
+    """Chaotic responses were found only at e above 0.95."""
     shares = {e: share for e, share in _shares().items() if e <= 0.95}
     seen = [e for e, share in shares.items() if share.count]
     return Finding(

@@ -130,7 +130,7 @@ def _integrated(system: rk.System, impacts: int) -> tuple[np.ndarray, np.ndarray
 
 @CHAPTER.claim("Eqs. (4a), (4b)")
 def equation_4() -> Finding:
-    """Normalised, Θ'' − Θ = −A cos(Ωτ + φ) ∓ 1 on either side."""
+    """In normalised form, Θ'' − Θ = −A cos(Ωτ + φ) ∓ 1 on either side."""
     system = PERIODIC[0].system
     times, speeds = _integrated(system, 20)
     hits = rk.simulate(system, cycles=30).events
@@ -144,7 +144,7 @@ def equation_4() -> Finding:
 
 @CHAPTER.claim("Eqs. (5a), (5b)")
 def equation_5() -> Finding:
-    """Between impacts sinh, cosh, ±1 and β cos(Ωτ + φ), with β = A/(1 + Ω²)."""
+    """Between impacts Θ is a sum of sinh, cosh, ±1 and β cos(Ωτ + φ), with β = A/(1 + Ω²)."""
     system = PERIODIC[0].system
     motion = rk.simulate(system, cycles=30)
     forcing = system.forcing
