@@ -17,11 +17,10 @@ def small(value: float) -> str:
 
     Examples
     --------
-    >>> small(6.1e-14), small(0.0)
-    ('6·10⁻¹⁴', '0')
+    >>> small(6.1e-14), small(-1e-3), small(0.0)
+    ('6·10⁻¹⁴', '−10⁻³', '0')
     """
-    digit, _, power = f"{value:.0e}".partition("e")
-    return f"{digit}·10{str(int(power)).translate(SUPERSCRIPT)}" if value else "0"
+    return typeset(f"{value:.0e}") if value else "0"
 
 
 def agreement(value: float) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import base64
 import inspect
+import re
 from collections import Counter
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from importlib import import_module
@@ -113,12 +114,27 @@ def write(
         trim_blocks=True,
         lstrip_blocks=True,
     )
+    environment.filters["subscripts"] = subscripts
     page = environment.get_template("report.html").render(
         figures=figures, judgements=judgements, beyond=beyond, counts=counted(judgements), version=VERSION
     )
     with replacing(folder / PAGE) as temporary:
         temporary.write_text(page, encoding="utf-8")
     return [folder / PAGE, *_print(folder / TWIN, page)]
+
+
+def subscripts(text: str) -> str:
+    """Return text as HTML with the indices of its symbols as subscripts, such as A_M and θcr.
+
+    Examples
+    --------
+    >>> print(subscripts("A_M < A* & f_r, θcr"))
+    A<sub>M</sub> &lt; A* &amp; f<sub>r</sub>, θ<sub>cr</sub>
+    """
+    from markupsafe import Markup, escape
+
+    html = re.sub(r"\b([Af])_([A-Za-z]+)", r"\1<sub>\2</sub>", str(escape(text)))
+    return Markup(html.replace("θcr", "θ<sub>cr</sub>").replace("Θb", "Θ<sub>b</sub>"))
 
 
 def can_print() -> bool:

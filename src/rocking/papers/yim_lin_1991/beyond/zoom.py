@@ -64,4 +64,4 @@ def _measure_from_centre(ax: Axes) -> None:
                 )
             )
         )
-        axis.set_label_text(f"${symbol} - {symbol}_0$ ({small(unit).removeprefix('1·')})")
+        axis.set_label_text(f"${symbol} - {symbol}_0$ ({small(unit)})")
