@@ -197,7 +197,7 @@ def equation_16b() -> Finding:
 
 @CHAPTER.claim("Eqs. (17a), (17b)", misprint="V must be v/(αθcr): as printed the velocity keeps a factor α")
 def equation_17() -> Finding:
-    """In normalised form (1 − exp(−τ), exp(−τ)) and (exp τ − 1, exp τ), with V = v/θcr."""
+    """The normalised orbits (1 − exp(−τ), exp(−τ)) and (exp τ − 1, exp τ), with V = v/θcr."""
     alpha, critical = BLOCK.frequency_parameter, BLOCK.critical_angle
     seconds = np.linspace(-2.0, 2.0, 401)
     _, physical = rk.theory.physical_heteroclinic_orbit(BLOCK, seconds)

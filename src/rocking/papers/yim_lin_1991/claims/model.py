@@ -130,7 +130,7 @@ def _integrated(system: rk.System, impacts: int) -> tuple[np.ndarray, np.ndarray
 
 @CHAPTER.claim("Eqs. (4a), (4b)")
 def equation_4() -> Finding:
-    """In normalised form, Θ'' − Θ = −A cos(Ωτ + φ) ∓ 1 on either side."""
+    """The normalised equation Θ'' − Θ = −A cos(Ωτ + φ) ∓ 1 on either side."""
     system = PERIODIC[0].system
     times, speeds = _integrated(system, 20)
     hits = rk.simulate(system, cycles=30).events
