@@ -208,8 +208,8 @@ def test_basin_has_a_legend_of_its_attractors_mirror_images_apart(visit, width, 
     assert len(set(colours)) == 3
     visitor.finished()
     image = np.array(dict(json.loads(visitor.data("basin"))[0])["image"][0])
-    unsymmetric = 2
-    assert {unsymmetric, unsymmetric + len(LOOKS)} <= set(image.ravel().tolist())
+    asymmetric = 2
+    assert {asymmetric, asymmetric + len(LOOKS)} <= set(image.ravel().tolist())
     visitor.page.locator("#basin-picture").scroll_into_view_if_needed()
     visitor.see(f"twins-{width}-{scheme}")
     visitor.page.fill("#amplitude", "2")

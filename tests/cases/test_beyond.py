@@ -1,4 +1,4 @@
-"""What lies beyond the paper: titles and captions say what the points beside them show."""
+"""Additional figures: titles and captions describe the points that are drawn."""
 
 import inspect
 import itertools
@@ -7,6 +7,7 @@ import re
 import numpy as np
 
 import rocking as rk
+from rocking.model import percent
 from rocking.papers.yim_lin_1991 import cached_surveys, figure11
 from rocking.papers.yim_lin_1991.beyond import chaos, coexistence, crisis, zoom
 
@@ -45,7 +46,7 @@ def test_titles_of_the_crisis_are_those_of_the_runs_that_are_drawn(monkeypatch):
     assert crisis.CYCLES == 20_000
 
 
-def test_title_of_the_basins_has_the_exponents_that_were_computed(monkeypatch):
+def test_texts_of_the_basins_have_the_exponents_and_fractions_that_were_computed(monkeypatch):
     made, basin_map = [], rk.basin_map
     monkeypatch.setattr(coexistence, "COUNT", 40)
     monkeypatch.setattr(
@@ -53,9 +54,18 @@ def test_title_of_the_basins_has_the_exponents_that_were_computed(monkeypatch):
     )
     (ax,) = coexistence.draw().axes
     (found,) = made
-    assert title(ax) == (
-        f"uncertainty exponent\nof all boundaries: {found.attractor_exponent}\nof overturning: {found.uncertainty_exponent}"
-    )
+    texts = [text.get_text() for text in ax.texts]
+    assert (
+        f"uncertainty exponent\nof all boundaries: {found.attractor_exponent}\n"
+        f"of the boundary of overturning: {found.uncertainty_exponent}"
+    ) in texts
+    labels = {
+        f"{each.name}\n{percent(share.value)}"
+        for each, share in zip(found.attractors, found.fractions, strict=True)
+        if share.value >= 1e-3
+    }
+    assert labels < set(texts)
+    assert ax.get_legend() is None
     assert 0.0 < found.attractor_exponent.low < found.attractor_exponent.high < 1.0
 
 
@@ -68,7 +78,7 @@ def test_enlarged_boundary_is_as_finely_divided_as_its_title_says(monkeypatch):
     for ax, found in zip(figure.axes, made, strict=True):
         kinds = found.kind.transpose("amplitude", "period").values.tolist()
         pairs = [(one == 4) != (other == 4) for row in kinds for one, other in itertools.pairwise(row)]
-        told = float(re.search(r"one of two neighbours overturns: ([\d.]+) %", title(ax))[1])
+        told = float(re.search(r"([\d.]+) % of neighbouring points differ", title(ax))[1])
         assert told == round(100 * sum(pairs) / len(pairs), 1)
         assert told > 10 / 2.39  # more than ten times what one smooth boundary across would give
         # and yet there are regions without a change
@@ -78,13 +88,26 @@ def test_enlarged_boundary_is_as_finely_divided_as_its_title_says(monkeypatch):
         assert max(rows) > 24
 
 
+def test_axes_of_the_enlargement_count_from_its_centre_without_an_offset(monkeypatch):
+    monkeypatch.setattr(zoom, "COUNT", 24)
+    left, right = zoom.draw().axes
+    assert (right.get_xlabel(), right.get_ylabel()) == ("$T - T_0$ (10⁻⁴)", "$A - A_0$ (10⁻³)")
+    right.figure.draw_without_rendering()
+    assert [text.get_text() for text in right.get_xticklabels()] == ["−4", "−2", "0", "2", "4"]
+    assert [text.get_text() for text in right.get_yticklabels()] == ["−2", "−1", "0", "1", "2"]
+    for ax in (left, right):
+        assert {axis.get_offset_text().get_text() for axis in (ax.xaxis, ax.yaxis)} == {""}
+    square = [line.get_xydata()[0] for line in left.lines if line.get_marker() == "s"]
+    np.testing.assert_array_equal(square, [zoom.CENTRE] * 2)
+
+
 def test_caption_of_the_share_of_chaos_says_what_is_drawn(reproduced):
     shares = dict(zip(cached_surveys.RESTITUTIONS, cached_surveys.chaos().shares, strict=True))
     text = caption(chaos)
     assert "about every fifth system is chaotic at e = 0.2" in text
     assert shares[0.2].low <= 0.2 <= shares[0.2].high
     values = [share.value for e, share in shares.items() if e <= 0.8]
-    assert "falls as e grows to 0.8" in text
+    assert "decreases as e grows to 0.8" in text
     assert values == sorted(values, reverse=True)
     assert "no chaotic system was found at e = 0.8, 0.9, 0.925, 0.95 and 0.97" in text
     assert [e for e, share in shares.items() if not share.count] == [0.8, 0.9, 0.925, 0.95, 0.97]
@@ -99,6 +122,6 @@ def test_caption_of_figure_11_says_what_lies_beyond_the_first_curve(reproduced):
     beyond = found.amplitude.values[:, None] > breaking
     stay = beyond & (found.kind.values != 4)
     alike = (found.kind == 1) & (found.response_period == 1) & (found.symmetric == 0)
-    assert "most points overturn; nearly all others have period 1 and are unsymmetric" in caption(figure11)
+    assert "most points overturn; nearly all others have period 1 and are asymmetric" in caption(figure11)
     assert stay.sum() < 0.5 * beyond.sum()
     assert (stay & alike.values).sum() > 0.95 * stay.sum()

@@ -12,29 +12,32 @@ from rocking.papers.yim_lin_1991.claim import Chapter, Finding, Standing
 from rocking.papers.yim_lin_1991.claims import CHAPTERS
 
 PLACES = " | ".join(each.place for chapter in CHAPTERS for each in chapter)
-SLIPS = {
-    "equation_10": "A₁₁ + A₂₂",
-    "zeros_19": "(k + ½)π",
-    "equation_16b": "αt + ln θcr",
-    "equation_17": "v/(αθcr)",
-    "equation_13": "oppose",
-    "equation_20a": "signs",
-    "equation_21": "minus",
-    "lower_orbit": "half a forcing period",
-    "figure_2c": "(2,10)",
-    "less_energy": "|Θ| < 1",
-    "pairs": "one",
-    "eigenvalues": "unit circle",
-    "no_periodic": "neutrally stable",
-    "exponent_periodic": "along the flow",
-    "figure_7b": "three closed curves",
-    "figure_7c": "nothing attracts",
-    "damped_quasi_periodic": "contracts",
-    "frequent_hits": "periodic in the end",
-    "no_zeros": "A*",
-    "sufficient": "necessary",
+EXPLAINED = {
+    "equation_10": (Standing.MISPRINT, "A₁₁ + A₂₂"),
+    "equation_16b": (Standing.MISPRINT, "αt + ln θcr"),
+    "equation_17": (Standing.MISPRINT, "v/(αθcr)"),
+    "equation_20a": (Standing.MISPRINT, "signs"),
+    "equation_21": (Standing.MISPRINT, "minus"),
+    "figure_2_caption": (Standing.MISPRINT, "velocity"),
+    "zeros_19": (Standing.ERROR, "(k + ½)π"),
+    "equation_13": (Standing.ERROR, "oppose"),
+    "figure_2c": (Standing.ERROR, "(2, 10)"),
+    "pairs": (Standing.ERROR, "only one"),
+    "eigenvalues": (Standing.ERROR, "unit circle"),
+    "no_periodic": (Standing.ERROR, "neutrally stable"),
+    "asymmetric": (Standing.ERROR, "branch off"),
+    "damped_quasi_periodic": (Standing.ERROR, "contracts"),
+    "dimension_chaotic": (Standing.ERROR, "fills an area"),
+    "frequent_hits": (Standing.ERROR, "periodic in the end"),
+    "no_zeros": (Standing.ERROR, "A*"),
+    "sufficient": (Standing.ERROR, "necessary"),
+    "lower_orbit": (Standing.QUALIFIED, "half a forcing period"),
+    "less_energy": (Standing.QUALIFIED, "|Θ| < 1"),
+    "exponent_periodic": (Standing.QUALIFIED, "along the flow"),
+    "figure_7b": (Standing.QUALIFIED, "three closed curves"),
+    "figure_7c": (Standing.QUALIFIED, "nothing attracts"),
 }
-"""Where the paper slips, by what must be said in its place: THEORY's list, each shown by a computation of its own."""
+"""Claims that do not hold as printed: the verdict, and what the explanation must contain. Each has a computation of its own."""
 
 
 def one(compute):
@@ -82,11 +85,31 @@ def test_there_are_at_least_sixty_rows_and_no_two_are_the_same():
     assert all(each.place and len(each.says) > 10 for chapter in CHAPTERS for each in chapter)
 
 
-@pytest.mark.parametrize("compute", [name for name in SLIPS if name not in {"frequent_hits", "sufficient"}])
-def test_slip_of_the_paper_is_shown_by_its_computation(compute):
+@pytest.mark.parametrize("compute", EXPLAINED)
+def test_verdict_of_a_claim_that_does_not_hold_has_its_class_and_its_explanation(compute):
+    standing, text = EXPLAINED[compute]
+    assert (one(compute).otherwise, text in one(compute).because) == (standing, True)
+
+
+@pytest.mark.parametrize(
+    "compute",
+    [name for name in EXPLAINED if name not in {"frequent_hits", "sufficient", "dimension_chaotic"}],
+)
+def test_explanation_is_shown_by_its_computation(compute):
     judged = one(compute).judged()
-    assert judged.standing is Standing.SLIPS, judged.finding
-    assert SLIPS[compute] in judged.because
+    assert judged.standing is EXPLAINED[compute][0], judged.finding
+    assert EXPLAINED[compute][1] in judged.because
+
+
+def test_misprints_errors_and_qualifications_are_told_apart():
+    """Signs, factors and indices of formulas and captions are misprints; statements that are false are errors."""
+    misprints = {
+        each.compute.__name__
+        for chapter in CHAPTERS
+        for each in chapter
+        if each.otherwise is Standing.MISPRINT
+    }
+    assert misprints == {name for name, (standing, _) in EXPLAINED.items() if standing is Standing.MISPRINT}
 
 
 MACHINE = {
@@ -98,12 +121,12 @@ MACHINE = {
     "decimals of what is none or all": r"(?<![\d.])0\.0 %|100\.0",
     "a power of e": r"e\^",
 }
-"""What a computer prints and a journal does not, by its name."""
+"""Machine output that a journal does not print, by its name."""
 
 
 @pytest.mark.parametrize(
     "compute",
-    ["equation_2", "equation_3", "equation_6", "pairs", "lower_orbit", "exponent_periodic", "divergence", "unsymmetric",
+    ["equation_2", "equation_3", "equation_6", "pairs", "lower_orbit", "exponent_periodic", "divergence", "asymmetric",
      "damped_quasi_periodic", "eigenvalues", "figure_7c", "exponent_quasi_periodic"],
 )  # fmt: skip
 def test_figures_of_a_claim_are_printed_as_in_a_journal(compute):
@@ -128,15 +151,15 @@ def test_numbers_are_typeset_and_words_are_not():
 @pytest.mark.parametrize(
     ("holds", "shown", "standing", "because"),
     [
-        (True, False, Standing.REPRODUCED, ""),
-        (False, True, Standing.DIFFERS, "of this"),
-        (False, False, Standing.UNEXPLAINED, "of this"),
+        (True, False, Standing.CONFIRMED, ""),
+        (False, True, Standing.QUALIFIED, "of this"),
+        (False, False, Standing.NOT_CONFIRMED, "of this"),
     ],
 )
 def test_verdict_follows_from_what_was_computed(holds, shown, standing, because):
     chapter = Chapter("any")
 
-    @chapter.claim("anywhere", differs="of this")
+    @chapter.claim("anywhere", qualified="of this")
     def anything():
         """Something."""
         return Finding(holds, "1", shown)
@@ -182,7 +205,7 @@ def test_what_is_said_of_the_share_of_chaos_stands_only_with_the_numbers_of_its_
         return one(compute).judged()
 
     assert judged(COUNTS).standing is one(compute).otherwise
-    assert judged(COUNTS | other).standing is Standing.UNEXPLAINED
+    assert judged(COUNTS | other).standing is Standing.NOT_CONFIRMED
 
 
 def test_claim_without_another_explanation_is_unexplained_when_it_does_not_hold():
@@ -193,4 +216,4 @@ def test_claim_without_another_explanation_is_unexplained_when_it_does_not_hold(
         """Something."""
         return Finding(False, "1", shown=True)
 
-    assert chapter[0].judged().standing is claim.Standing.UNEXPLAINED
+    assert chapter[0].judged().standing is claim.Standing.NOT_CONFIRMED

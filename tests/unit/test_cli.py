@@ -351,13 +351,16 @@ def three_claims():
     chapter = Chapter("of three")
     chapter.claim("first")(lambda: Finding(True, "1"))
     chapter.claim("second")(lambda: Finding(True, "2"))
-    chapter.claim("third", slips="3")(lambda: Finding(False, "3", shown=True))
+    chapter.claim("third", error="3")(lambda: Finding(False, "3", shown=True))
     return (chapter,)
 
 
 @pytest.mark.parametrize(
     "figures, last",
-    [("claims", "3 claims of the paper: reproduced 2, the paper slips 1"), ("1", "wrote made/figure-01.svg")],
+    [
+        ("claims", "3 claims of the paper: confirmed (2), error in the paper (1)"),
+        ("1", "wrote made/figure-01.svg"),
+    ],
 )
 def test_paper_ends_with_how_its_claims_stand(rocking, monkeypatch, figures, last):
     monkeypatch.setattr(sys.modules[reproduce.__module__], "_chapters", three_claims)
@@ -366,11 +369,11 @@ def test_paper_ends_with_how_its_claims_stand(rocking, monkeypatch, figures, las
 
 def test_whole_paper_ends_with_the_page_to_open(rocking, monkeypatch):
     def nothing(folder, figures, progress, summary):
-        summary("3 claims of the paper: reproduced 3")
+        summary("3 claims of the paper: confirmed (3)")
         return [folder / "index.html"]
 
     monkeypatch.setattr("rocking.papers.yim_lin_1991.reproduce", nothing)
-    told = ["wrote made/index.html", "3 claims of the paper: reproduced 3; open made/index.html"]
+    told = ["wrote made/index.html", "3 claims of the paper: confirmed (3); open made/index.html"]
     assert rocking("paper --output made")[2].splitlines() == told
 
 

@@ -49,7 +49,7 @@ def test_every_special_point_has_its_marker_on_the_line(family):
 
 def test_stable_parts_are_solid_unstable_dashed_and_no_point_is_left_out(family):
     ax = rk.plot.branch(family, quantity="angle", phase=1.0)
-    for symmetry, branches in (("symmetric", family[:1]), ("unsymmetric", family[1:])):
+    for symmetry, branches in (("symmetric", family[:1]), ("asymmetric", family[1:])):
         for word, is_stable in (("stable", True), ("unstable", False)):
             lines = [line for line in ax.lines if line.get_gid() == f"{symmetry}, {word}"]
             assert {line.get_linestyle() for line in lines} == {"-" if is_stable else "--"}
@@ -81,7 +81,7 @@ def test_blocks_give_si_axes(family, response):
     assert most[1] == pytest.approx(BLOCK.degrees(family[0].points["peak"].max()))
     ax = rk.plot.frequency_response(response, block=BLOCK)
     assert ax.get_xlabel() == "period (s)"
-    assert np.nanmax(drawn(ax, "(1,1), unstable")[0][:, 0]) == pytest.approx(BLOCK.seconds(3.0))
+    assert np.nanmax(drawn(ax, "(1, 1), unstable")[0][:, 0]) == pytest.approx(BLOCK.seconds(3.0))
 
 
 def test_curves_have_a_look_a_kind():
@@ -94,7 +94,7 @@ def test_curves_have_a_look_a_kind():
     assert len({(line.get_color(), line.get_linestyle()) for line in ax.lines}) == len(curves) == 3
     for curve, line in zip(curves, ax.lines, strict=True):
         np.testing.assert_array_equal(line.get_xydata(), curve.points)
-    assert (ax.get_xlabel(), ax.get_ylabel()) == (r"period $T$ (–)", r"amplitude $A$ (–)")
+    assert (ax.get_xlabel(), ax.get_ylabel()) == ("period $T$", "amplitude $A$")
     across = rk.plot.bifurcation_curve(curves[0], block=BLOCK)
     np.testing.assert_allclose(across.lines[0].get_ydata(), BLOCK.acceleration(curves[0].points[:, 1]))
 
@@ -120,7 +120,7 @@ def test_every_mode_has_a_colour_and_every_branch_a_line(response):
     ax = rk.plot.frequency_response(response)
     colours = []
     for n in (1, 3):
-        lines = [line for line in ax.lines if str(line.get_gid()).startswith(f"(1,{n})")]
+        lines = [line for line in ax.lines if str(line.get_gid()).startswith(f"(1, {n})")]
         assert len({line.get_color() for line in lines}) == 1
         colours.append(lines[0].get_color())
         shown = np.concatenate([line.get_xydata() for line in lines])

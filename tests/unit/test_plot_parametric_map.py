@@ -2,6 +2,7 @@
 
 import io
 import math
+import re
 
 import numpy as np
 import pytest
@@ -20,11 +21,11 @@ COUNT = 7
 SEEN = {
     ("rest", 0, 2): "rest",
     ("periodic", 1, 1): "period 1",
-    ("periodic", 1, 0): "1, unsymmetric",
+    ("periodic", 1, 0): "period 1, asymmetric",
     ("periodic", 3, 1): "period 3",
-    ("periodic", 3, 0): "3, unsymmetric",
+    ("periodic", 3, 0): "period 3, asymmetric",
     ("periodic", 5, 1): "period 5, 7, …",
-    ("periodic", 63, 0): "5, 7, …, unsymmetric",
+    ("periodic", 63, 0): "5, 7, …, asymmetric",
     ("periodic", 2, 0): "even period",
     ("periodic", 64, 0): "even period",
     ("quasi-periodic", 0, 2): "quasi-periodic",
@@ -78,19 +79,32 @@ def test_each_point_has_its_colour_and_hatch(row, name):
         expected.add(colour(KINDS[name].hatch))
     assert colours_around(ax, 1.5, 2.0) == expected
     assert colours_around(ax, 1.5, 3.0) == {colour(KINDS[SEEN[other]].colour)}
-    assert f"{name} 33.3 %" in legend(ax)
+    assert f"{name} (33.3 %)" in legend(ax)
 
 
-def test_hatches_are_the_periodic_unsymmetric_and_the_undetermined_ones():
-    assert {name for name, look in KINDS.items() if look.hatch} == {
-        "1, unsymmetric", "3, unsymmetric", "5, 7, …, unsymmetric", "undetermined",
-    }  # fmt: skip
+def test_only_undetermined_responses_are_hatched():
+    assert {name for name, look in KINDS.items() if look.hatch} == {"undetermined"}
+
+
+@pytest.mark.parametrize("name", ["period 1", "period 3", "5, 7, …"])
+def test_asymmetric_responses_have_a_lighter_tint_than_symmetric_ones(name):
+    """Lightness of an equal mean of red, green and blue."""
+    symmetric = KINDS["period 5, 7, …" if name == "5, 7, …" else name]
+    assert np.mean(to_rgb(KINDS[f"{name}, asymmetric"].colour)) > 0.2 + np.mean(to_rgb(symmetric.colour))
+
+
+@pytest.mark.parametrize("size, named", [(9_999, True), (10_001, False)])
+def test_category_below_a_hundredth_of_a_percent_has_no_row_in_the_legend(size, named):
+    found = a_map([("rest", 0, 2)] * size)
+    found["kind"][-1] = NUMBERS["chaotic"]
+    texts = legend(rk.plot.parametric_map(found))
+    assert any(text.startswith("chaotic") for text in texts) == named
 
 
 def test_what_is_not_computed_is_white_and_told():
     ax = rk.plot.parametric_map(a_map([("rest", 0, 2), None, ("periodic", 1, 1), ("chaotic", 0, 2)]))
     assert colours_around(ax, 1.5, 2.0) == {(1.0, 1.0, 1.0)}
-    assert legend(ax) == ["rest 25.0 %", "period 1 25.0 %", "chaotic 25.0 %", "not computed 25.0 %"]
+    assert legend(ax) == ["rest (25.0 %)", "period 1 (25.0 %)", "chaotic (25.0 %)", "not computed (25.0 %)"]
 
 
 def test_budget_below_what_chaos_needs_shows_undetermined_and_never_chaotic():
@@ -108,7 +122,9 @@ def test_large_map_is_thinned_evenly_and_its_shares_are_those_of_all_points(size
     ax = rk.plot.parametric_map(found)
     assert ax.images[0].get_array().shape == (shown, COUNT)
     share = 100 / size
-    assert float(legend(ax)[-1].split()[1]) == pytest.approx(share, abs=0.05 if share >= 1 else 0.005)
+    assert float(re.search(r"\(([\d.]+) %\)", legend(ax)[-1])[1]) == pytest.approx(
+        share, abs=0.05 if share >= 1 else 0.005
+    )
 
 
 def test_rows_thinned_are_every_nth_of_the_map_however_it_is_read(monkeypatch):
@@ -218,7 +234,7 @@ def test_curve_ends_where_theory_knows_no_amplitude(name):
 def test_legend_says_of_a_curve_that_it_is_not_here():
     found = a_map([("rest", 0, 2)] * 5, restitution=0.9)
     high = found.assign_coords(amplitude=found.amplitude + 900.0)
-    for each, label in ((found, "zeros from $A_M$"), (high, "zeros from $A_M$: not here")):
+    for each, label in ((found, "$A_M$ (Melnikov)"), (high, "$A_M$ (Melnikov) (outside)")):
         legend = rk.plot.parametric_map(each, curves=["melnikov"]).get_legend()
         assert label in [text.get_text() for text in legend.get_texts()]
 

@@ -100,7 +100,7 @@ def test_key_names_the_kinds_of_impact_that_occur():
         return [text.get_text() for text in legend.get_texts()]
 
     assert names(SYSTEM) == ["before impact", "after impact"]
-    assert names(BRACED) == ["before impact", "after impact", "before brace hit", "after brace hit"]
+    assert names(BRACED) == ["before impact", "after impact", "before brace impact", "after brace impact"]
 
 
 def test_marks_of_the_key_can_be_read_however_many_impacts_there_are():

@@ -40,8 +40,8 @@ def test_density_is_drawn_to_the_multiple_asked_for(periodic):
 
 def test_axes_have_symbols_and_units_and_ten_decades(periodic):
     ax = rk.plot.spectrum(periodic)
-    assert ax.get_xlabel() == r"frequency (cycles per $\tau$)"
-    assert ax.get_ylabel() == r"density $S_\Theta$ ($\Theta^2$ per cycle/$\tau$)"
+    assert ax.get_xlabel() == r"frequency (cycles per unit of $\tau$)"
+    assert ax.get_ylabel() == r"power spectral density $S_\Theta$"
     assert ax.get_yscale() == "log"
     low, high = ax.get_ylim()
     assert math.isclose(low, periodic.density.max() * 1e-10, rel_tol=1e-9)
@@ -96,7 +96,10 @@ def test_block_gives_hertz_and_keeps_the_power(periodic):
     block = rk.Block(height=2.0, width=0.5)
     ax = rk.plot.spectrum(periodic, block=block, highest=8.0)
     hertz, density = curve(ax)
-    assert (ax.get_xlabel(), ax.get_ylabel()) == ("frequency (Hz)", r"density $S_\theta$ (°²/Hz)")
+    assert (ax.get_xlabel(), ax.get_ylabel()) == (
+        "frequency (Hz)",
+        r"power spectral density $S_\theta$ (°²/Hz)",
+    )
     seconds = block.seconds(0.4)
     assert math.isclose(hertz[density.argmax()], 1 / (3 * seconds), rel_tol=1e-9)
     degrees = block.degrees(math.sqrt(periodic.variance))

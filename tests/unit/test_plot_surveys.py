@@ -49,7 +49,7 @@ def test_colours_of_attractors_differ_however_many_there_are(basins):
 def test_a_legend_tells_names_and_shares(basins):
     texts = [text.get_text() for text in rk.plot.basins(basins).get_legend().get_texts()]
     pairs = zip(basins.attractors, basins.fractions, strict=True)
-    assert texts == [f"{each.name} {percent(share.value)}" for each, share in pairs]
+    assert texts == [f"{each.name} ({percent(share.value)})" for each, share in pairs]
 
 
 def test_all_is_a_hundred_percent():
@@ -60,7 +60,7 @@ def test_all_is_a_hundred_percent():
     )
     for ax in (one, rk.plot.repeatability_map(sure)):
         (text,) = ax.get_legend().get_texts()
-        assert text.get_text().endswith(" 100 %")
+        assert text.get_text().endswith(" (100 %)")
 
 
 def test_random_starts_are_points():

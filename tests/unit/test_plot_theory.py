@@ -134,7 +134,7 @@ def test_thresholds_are_dotted_where_they_do_not_hold():
         (lambda: rk.plot.thresholds([1, 2], {}), "^curves must hold 1 to 6 of them; got 0$"),
         (
             lambda: rk.plot.thresholds([1, 2], {"a": [1]}),
-            "^curves must have one amplitude a period, 2; got 'a: 1'$",
+            "^curves must have one amplitude per period, 2; got 'a: 1'$",
         ),
     ],
 )

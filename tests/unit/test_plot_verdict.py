@@ -62,7 +62,7 @@ def notes(figure):
     "name", ["periodic", "period 10", "chatter", "leaves the braces", "quasi-periodic", "chaotic"]
 )
 def test_run_that_is_drawn_agrees_with_the_verdict(name):
-    assert "this run of it ends otherwise" not in notes(rk.plot.verdict(verdict_of(name)))
+    assert "the run shown ends differently" not in notes(rk.plot.verdict(verdict_of(name)))
 
 
 def test_a_note_says_where_the_run_that_is_drawn_contradicts_the_verdict():
@@ -76,7 +76,7 @@ def test_a_note_says_where_the_run_that_is_drawn_contradicts_the_verdict():
     assert [str(verdict.kind) for verdict in verdicts.values()] == ["chaotic", "periodic"]
     for kind, start in (("chaotic", periodic), ("periodic", chaotic)):
         drawn = rk.plot.verdict(evolve(verdicts[kind], start=start))
-        assert notes(drawn).count("this run of it ends otherwise") == 1
+        assert notes(drawn).count("the run shown ends differently") == 1
 
 
 @pytest.mark.parametrize("name", ["periodic", "period 10"])

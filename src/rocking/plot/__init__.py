@@ -1,6 +1,6 @@
-"""Pictures: one file a kind; each takes a result and an Axes, and returns the Axes.
+"""Plot functions: each takes a result and an Axes, and returns the Axes.
 
-Units, labels, colours and sizes are set here and nowhere else; the user's matplotlib settings stay as they are.
+Units, labels, colours and sizes are set in this package only. The user's matplotlib settings stay unchanged.
 """
 
 from rocking.model import (

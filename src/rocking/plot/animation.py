@@ -1,4 +1,4 @@
-"""The block itself, rocking on its moving base."""
+"""Animation of the block on its moving base."""
 
 from __future__ import annotations
 
@@ -35,38 +35,41 @@ def animation(
     fps: float = 25.0,
     cycles: tuple[float, float] | None = None,
 ) -> Path:
-    """Films the block on its moving base, above its time history, as a GIF or an MP4.
+    """Animate the block on its moving base, above its time history, as a GIF or an MP4.
 
     Parameters
     ----------
     motion : Motion
-        Recorded with ``record="all"``.
+        Motion recorded with ``record="all"``.
     path : str or Path
-        The film; ``.gif`` or ``.mp4``.
+        Path of the animation; ``.gif`` or ``.mp4``.
     block : Block, optional
-        Gives proportions and SI units; a nominal block of 4 to 1 and normalised units if not given.
-    seconds, fps : float
-        Length of the film, 0.1 to 600 s, and its frames per second, 1 to 100; a GIF runs at exactly `fps` only if that
-        divides 100.
+        Block for proportions and SI units. Default: a nominal block of 4 to 1 and normalised units.
+    seconds : float
+        Length of the animation, 0.1 to 600 s. Default: 10.
+    fps : float
+        Frames per second, 1 to 100. A GIF runs at exactly `fps` only if `fps` divides 100. Default: 25.
     cycles : tuple of float, optional
-        First and last forcing cycle shown, counted from the start. The last ten cycles if not given (units of τ if the
-        base stands still); if the motion overturned, on to the end of the fall; if it came to rest, the last thirty
-        until shortly after.
+        First and last forcing cycle shown, counted from the start. Default: the last ten cycles. For a motion that
+        overturned, ten cycles and the complete fall; for a motion that came to rest, thirty cycles up to rest. Units of τ
+        replace cycles if the base does not move.
 
     Returns
     -------
     Path
-        The film, which appears under its name only once it is complete.
+        Path of the animation, which exists only once it is complete.
 
     Raises
     ------
-    TypeError, ValueError
-        If a value does not lie in its range, the motion kept no events, or an argument is of another kind.
+    TypeError
+        If an argument has the wrong type.
+    ValueError
+        If a value lies outside its range, or the motion kept no events.
 
     Notes
     -----
-    Small angles are exaggerated, and the base's displacement is drawn larger or smaller where otherwise it could not be
-    seen; the picture says by how much. A fall follows eq. 4 (Yim and Lin 1991), which holds for small angles, to 90°.
+    Small angles are exaggerated, and the displacement of the base is scaled to a visible size; the animation shows both
+    factors. A fall follows Eq. (4) (Yim & Lin 1991), which holds for small angles, up to 90°.
 
     Examples
     --------
@@ -99,13 +102,13 @@ def _window(motion: Motion, block: Block, cycles: tuple[float, float] | None) ->
 
 
 class _Film:
-    """The frames of a motion at the instants `times` (τ): a scene above the time history, with one dot on it."""
+    """Frames of a motion at the instants `times` (τ): a scene above the time history, with a moving dot."""
 
     def __init__(self, motion: Motion, block: Block | None, times: NDArray, seconds: float) -> None:
         body = block or NOMINAL
         self.times, self.shown = times, quantities(block)
         flat = body.angle(degrees=90)
-        # where it lies it stays: no more is asked of the motion
+        # a fallen block stays down: the motion is evaluated only up to the end of the fall
         end = (
             times[-1]
             if motion.overturning is None
@@ -145,7 +148,7 @@ class _Film:
         return self.figure.text(place, 0.98, text, fontsize=size, va="top", color=style.INK, **how)
 
     def _scene(self, ax: Axes, system: System, block: Block) -> tuple[float, float]:
-        """Draws block, braces and base, so that each can be seen to move; returns the factors in angle and displacement."""
+        """Draw block, braces and base, each with visible motion; return the factors of angle and displacement."""
         limit = float(np.abs(self.angles).max()) if system.braces is None else system.braces.angle
         factor = 1.0 if limit == 0 or limit > 0.35 else _round(0.35 / limit)
         brace = None if system.braces is None else factor * block.radians(limit)
@@ -158,7 +161,7 @@ class _Film:
         return factor, base_factor
 
     def frames(self) -> Iterator[NDArray]:
-        """The pictures one after the other, as RGB arrays; only what moves is drawn anew."""
+        """Yield the frames as RGB arrays; only moving parts are drawn again."""
         canvas = FigureCanvasAgg(self.figure)
         canvas.draw()
         still = canvas.copy_from_bbox(self.figure.bbox)
@@ -175,14 +178,14 @@ class _Film:
 
 
 def _number(largest: float) -> str:
-    """How angles up to `largest` are written: to three figures, and never a zero with a minus."""
+    """Return the format of angles up to `largest`: three significant digits, and zero without a minus sign."""
     if 0 < largest < 1e-6:
         return "+.2e"
     return f"+z.{max(2, 2 - math.floor(math.log10(largest))) if largest else 2}f"
 
 
 def _round(factor: float) -> float:
-    """The nearest of 1, 2, 5 times a power of ten."""
+    """Return the nearest of 1, 2 and 5 times a power of ten."""
     decade = 10.0 ** math.floor(math.log10(factor))
     return decade * min((1.0, 2.0, 5.0, 10.0), key=lambda step: abs(math.log(factor / (decade * step))))
 

@@ -1,4 +1,4 @@
-"""Basins: a colour an attractor."""
+"""Basins of attraction, one colour per attractor."""
 
 from __future__ import annotations
 
@@ -15,27 +15,29 @@ from rocking.plot.parts import style
 from rocking.plot.parts.axis_units import parameter
 from rocking.plot.parts.legend import COLOURS, paler
 
-# For the orbits, the largest basin first: those of Okabe and Ito that no other kind has, then paler ones.
+# Colours of the orbits, the largest basin first: those of Okabe and Ito that no type of response has, then paler shades.
 ORBITS = (style.MOTION, "#56B4E9", "#E69F00", "#CC79A7", "#8C6D31", "#B5A0D8", "#7FC8A9", "#F2B8A0")
 NAMED = 8
-"""Attractors in the legend; what is left is drawn too."""
+"""Maximum number of attractors in the legend; all attractors are drawn."""
 MAX_LENGTH = 12
-"""Letters of a name of which two fit side by side."""
+"""Longest name of which two fit in one row."""
+LEAST = 1e-4
+"""Smallest fraction with a row in the legend."""
 
 HATCH = "////"
 
 
 def basins(found: BasinMap, ax: Axes | None = None, block: Block | None = None) -> Axes:
-    """Draws where each start leads: a colour an attractor, with its share; overturning is dark, undetermined hatched.
+    """Plot basins of attraction, one colour per attractor; overturning is light grey, undetermined is hatched.
 
     Parameters
     ----------
     found : BasinMap
-        From `basin_map`, over a grid or of random starts.
+        Result of `basin_map`, over a grid or of random initial states.
     ax : matplotlib Axes, optional
-        Drawn into; a new figure, a column wide, if not given.
+        Axes to draw into. Default: a new figure, one column wide.
     block : Block, optional
-        Gives SI axes and a title; otherwise the axes are normalised.
+        Block for SI axes and a title. Default: normalised axes.
 
     Returns
     -------
@@ -44,12 +46,12 @@ def basins(found: BasinMap, ax: Axes | None = None, block: Block | None = None) 
     Raises
     ------
     TypeError
-        If `found` is no basin map, or `ax` no axes.
+        If `found` is not a BasinMap, or an argument has the wrong type.
 
     Notes
     -----
-    Of the attractors the eight with the largest shares are in the legend. Along an axis of more than 2,000 starts not every
-    one is drawn.
+    The legend lists the attractors of at least 0.01 % of the area, up to eight, with their area fractions. From axes of
+    more than 2,000 initial states not every one is drawn.
 
     Examples
     --------
@@ -98,7 +100,7 @@ def basins(found: BasinMap, ax: Axes | None = None, block: Block | None = None) 
 
 
 def colours(attractors: tuple[Attractor, ...]) -> list[str | tuple[float, float, float]]:
-    """A colour for each: of its own for each orbit, that of its kind for others, paler for each one more of a kind."""
+    """Return the colours of attractors: one per orbit; other attractors have the colour of their type or a paler shade."""
     hues: list[str | tuple[float, float, float]] = []
     met: Counter[Kind] = Counter()
     for each in attractors:
@@ -112,14 +114,15 @@ def colours(attractors: tuple[Attractor, ...]) -> list[str | tuple[float, float,
 
 
 def _legend(ax: Axes, found: BasinMap, hues: list) -> None:
-    named = list(zip(found.attractors, found.fractions, hues, strict=True))[:NAMED]
+    all_ = zip(found.attractors, found.fractions, hues, strict=True)
+    named = [(each, share, hue) for each, share, hue in all_ if share.value >= LEAST][:NAMED]
     handles = [
         Patch(
             facecolor=hue,
             hatch=HATCH if each.kind is Kind.UNDETERMINED else None,
             edgecolor=style.INK,
             linewidth=style.THIN,
-            label=f"{each.name} {percent(share.value)}",
+            label=f"{each.name} ({percent(share.value)})",
         )
         for each, share, hue in named
     ]

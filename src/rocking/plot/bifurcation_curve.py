@@ -1,4 +1,4 @@
-"""Curves on which orbits change, in the plane of two parameters."""
+"""Bifurcation curves of periodic orbits in the plane of two parameters."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -22,16 +22,16 @@ LOOKS: dict[str, tuple[str, Any]] = {
 def bifurcation_curve(
     result: BifurcationCurve | Sequence[BifurcationCurve], ax: Axes | None = None, block: Block | None = None
 ) -> Axes:
-    """Draws one or several curves in the plane of their two parameters, a colour and a dash for each kind of change.
+    """Plot one or several bifurcation curves in the plane of their two parameters, one colour and dash per type.
 
     Parameters
     ----------
     result : BifurcationCurve or sequence of BifurcationCurve
-        From `rocking.bifurcation_curve`, all through the same two parameters.
+        Results of `rocking.bifurcation_curve`, all over the same two parameters.
     ax : matplotlib Axes, optional
-        Drawn into; a new figure, a column wide, if not given.
+        Axes to draw into. Default: a new figure, one column wide.
     block : Block, optional
-        Gives SI axes; otherwise they are normalised.
+        Block for SI axes. Default: normalised axes.
 
     Returns
     -------
@@ -39,8 +39,10 @@ def bifurcation_curve(
 
     Raises
     ------
-    TypeError, ValueError
-        In one line: if `result` is no curve, or its curves lie in different planes.
+    TypeError
+        If `result` holds anything but bifurcation curves.
+    ValueError
+        If the curves have different parameters.
 
     Examples
     --------
@@ -49,7 +51,7 @@ def bifurcation_curve(
     >>> branch = rk.continue_orbit(rk.classify(system).orbit, "amplitude", (10, 30))
     >>> curve = rk.bifurcation_curve(branch.special[0], "period", "amplitude", ((1, 2), (1, 30)))
     >>> rk.plot.bifurcation_curve(curve).get_ylabel()
-    'amplitude $A$ (–)'
+    'amplitude $A$'
     """
     each = several(result, BifurcationCurve)
     plane = each[0].names

@@ -1,4 +1,4 @@
-"""Branches of periodic orbits over the parameter that was followed, with the points where something changes."""
+"""Branches of periodic orbits over the continuation parameter, with their special points."""
 
 from collections.abc import Sequence
 
@@ -10,7 +10,7 @@ from rocking.orbits import Branch
 from rocking.plot.parts import branch_lines, style
 from rocking.plot.parts.axis_units import parameter, quantities
 
-# By kind: marker, filled or not, name.
+# Type of special point: marker, whether it is filled, name.
 MARKERS = {
     "fold": ("o", False, "fold"),
     "symmetry-breaking": ("s", True, "symmetry breaking"),
@@ -27,20 +27,20 @@ def branch(
     phase: float = 0.0,
     block: Block | None = None,
 ) -> Axes:
-    """Draws one or several branches: stable orbits solid, unstable dashed, neutral dash-dotted, special points with a marker a kind.
+    """Plot branches of periodic orbits: stable solid, unstable dashed, neutral dash-dotted, one marker per special point.
 
     Parameters
     ----------
     result : Branch or sequence of Branch
-        From `continue_orbit` and `switch_branch`, over one parameter.
+        Results of `continue_orbit` and `switch_branch`, over one parameter.
     ax : matplotlib Axes, optional
-        Drawn into; a new figure, a column wide, if not given.
+        Axes to draw into. Default: a new figure, one column wide.
     quantity : {"peak", "angle", "velocity"}
-        What is drawn: the largest |Θ|, or Θ or Θ' at the section, a line a cycle of the period.
+        Quantity to draw: the largest |Θ|, or Θ or Θ' at the section, one line per cycle of the period. Default: "peak".
     phase : float
-        Forcing phase ψ of the section, rad.
+        Forcing phase ψ of the section, rad. Default: 0.
     block : Block, optional
-        Gives SI axes; otherwise they are normalised.
+        Block for SI axes. Default: normalised axes.
 
     Returns
     -------
@@ -48,8 +48,10 @@ def branch(
 
     Raises
     ------
-    TypeError, ValueError
-        In one line: if `result` is no branch, or its branches run over different parameters.
+    TypeError
+        If `result` holds anything but branches.
+    ValueError
+        If the branches have different parameters, `quantity` is unknown, or `phase` lies outside its range.
 
     Examples
     --------
@@ -59,7 +61,7 @@ def branch(
     >>> pair = rk.switch_branch(symmetric.special[0], (10, 30))
     >>> ax = rk.plot.branch([symmetric, *pair], quantity="angle")
     >>> [text.get_text() for text in ax.get_legend().get_texts()][:3]
-    ['symmetric, stable', 'symmetric, unstable', 'unsymmetric, stable']
+    ['symmetric, stable', 'symmetric, unstable', 'asymmetric, stable']
     """
     branches = _branches(result)
     quantity = one_of("quantity", quantity, branch_lines.QUANTITIES)
@@ -71,7 +73,7 @@ def branch(
     for one in sorted(branches, key=lambda one: not one.symmetric):
         line = branch_lines.line(one, quantity, phase).shown(across, upright)
         for stability in Stability:
-            name = f"{'' if one.symmetric else 'un'}symmetric, {stability}"
+            name = f"{'' if one.symmetric else 'a'}symmetric, {stability}"
             branch_lines.part(
                 ax, line, stability, name, color=COLOURS[one.symmetric], linewidth=style.LINE, gid=name
             )
@@ -92,7 +94,7 @@ def _branches(result: Branch | Sequence[Branch]) -> list[Branch]:
 
 
 def _marks(ax: Axes, branches: Sequence[Branch], heights, across) -> None:
-    """A marker on every special point, at each of its states on the section."""
+    """Draw a marker on every special point, at each of its states on the section."""
     for kind, (marker, filled, name) in MARKERS.items():
         found = [special for one in branches for special in one.special if special.kind == kind]
         if not found:

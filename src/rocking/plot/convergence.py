@@ -1,4 +1,4 @@
-"""A running Lyapunov exponent against the cycles averaged over."""
+"""Convergence of a Lyapunov exponent with the number of cycles."""
 
 import math
 
@@ -11,16 +11,16 @@ from rocking.response import LyapunovSpectrum
 
 
 def convergence(spectrum: LyapunovSpectrum, ax: Axes | None = None, exponent: int = 1) -> Axes:
-    """Draws an exponent as it settles, with its error as a band, against the cycles averaged over.
+    """Plot the running average of a Lyapunov exponent against the number of cycles, with its error as a band.
 
     Parameters
     ----------
     spectrum : LyapunovSpectrum
-        From `lyapunov`.
+        Result of `lyapunov`.
     ax : matplotlib Axes, optional
-        Drawn into; a new figure, a column wide, if not given.
+        Axes to draw into. Default: a new figure, one column wide.
     exponent : int
-        1 for λ₁, 2 for λ₂; not one that is −∞.
+        1 for λ₁, 2 for λ₂. An exponent of −∞ cannot be drawn. Default: 1.
 
     Returns
     -------
@@ -28,13 +28,15 @@ def convergence(spectrum: LyapunovSpectrum, ax: Axes | None = None, exponent: in
 
     Raises
     ------
-    TypeError, ValueError
-        If `spectrum` is none, or the exponent is −∞, or an argument is of another kind.
+    TypeError
+        If `spectrum` is not a LyapunovSpectrum, or an argument has the wrong type.
+    ValueError
+        If `exponent` is neither 1 nor 2, or the exponent is −∞.
 
     Notes
     -----
-    There is no band where the batches so far are too few for an error. The dashed line is the final value; zero is
-    drawn where it comes into view.
+    There is no band where the batches are too few for an error. The dashed line is the final value. A thin line marks
+    zero if zero lies within the axes.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""The correlation sum, its local slopes and the scaling region."""
+"""Correlation sum, its local slopes and the scaling region."""
 
 from matplotlib.axes import Axes
 
@@ -8,14 +8,14 @@ from rocking.response import CorrelationDimension
 
 
 def dimension(result: CorrelationDimension, ax: Axes | None = None) -> Axes:
-    """Draws the correlation sum against the radius, its local slopes on an axis at the right, and the scaling region.
+    """Plot the correlation sum against the radius, its local slopes on the right axis, and the scaling region.
 
     Parameters
     ----------
     result : CorrelationDimension
-        From `correlation_dimension`; not of isolated points, whose pairs do not scale.
+        Result of `correlation_dimension`, not of isolated points, whose pairs do not scale.
     ax : matplotlib Axes, optional
-        Drawn into; a new figure, a column wide, if not given.
+        Axes to draw into. Default: a new figure, one column wide.
 
     Returns
     -------
@@ -23,12 +23,15 @@ def dimension(result: CorrelationDimension, ax: Axes | None = None) -> Axes:
 
     Raises
     ------
-    TypeError, ValueError
-        If `result` is none, or of isolated points, or an argument is of another kind.
+    TypeError
+        If `result` is not a CorrelationDimension, or `ax` is not Axes.
+    ValueError
+        If `result` describes isolated points.
 
     Notes
     -----
-    Bars are standard errors of the slopes. The band across the scaling region is the interval of the dimension.
+    Bars are standard errors of the slopes. The grey band is the scaling region. The coloured band across it is the interval
+    of the dimension.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""Peak rotation over the forcing's period: branches of (1, n) orbits, and what a start from rest does."""
+"""Frequency response: branches of (1, n) orbits, and responses from rest."""
 
 from itertools import cycle
 
@@ -11,24 +11,24 @@ from rocking.plot.parts import branch_lines, style
 from rocking.plot.parts.axis_units import parameter, quantities
 from rocking.plot.parts.legend import COLOURS
 
-# One for each n, in turn: the colours of Okabe and Ito that no kind of response has.
+# One colour for each n: those of Okabe and Ito that no type of response has.
 LINES = ("#E69F00", "#CC79A7", "#56B4E9", style.GUIDE)
-# Of the axes' height: the bar that says where the block overturns, and the room below the lines for it.
+# Position of the bar that marks overturning, and the room for it below the lines, as fractions of the axes' height.
 BAR, ROOM = 0.02, 0.06
 THICK = 2.0
 
 
 def frequency_response(result: FrequencyResponse, ax: Axes | None = None, block: Block | None = None) -> Axes:
-    """Draws the largest |Θ| over period or frequency: stable orbits solid, unstable dashed; rings: reached from rest.
+    """Plot the largest |Θ| over period or frequency: stable orbits solid, unstable dashed, responses from rest as rings.
 
     Parameters
     ----------
     result : FrequencyResponse
-        From `rocking.frequency_response`.
+        Result of `rocking.frequency_response`.
     ax : matplotlib Axes, optional
-        Drawn into; a new figure, a column wide, if not given.
+        Axes to draw into. Default: a new figure, one column wide.
     block : Block, optional
-        Gives SI axes; otherwise they are normalised.
+        Block for SI axes. Default: normalised axes.
 
     Returns
     -------
@@ -37,19 +37,19 @@ def frequency_response(result: FrequencyResponse, ax: Axes | None = None, block:
     Raises
     ------
     TypeError
-        If `result` is none.
+        If `result` is not a FrequencyResponse, or an argument has the wrong type.
 
     Notes
     -----
-    Of what is reached from rest the largest |Θ| of the response itself is drawn where it is periodic or at rest, else that of the
-    motion from its start. A bar below lies where a start from rest overturns.
+    A ring shows the largest |Θ| of the response if it is periodic or at rest. For other responses it shows the largest |Θ| of
+    the motion from its start. A bar at the bottom marks overturning from rest.
 
     Examples
     --------
     >>> import numpy as np, rocking as rk
     >>> found = rk.frequency_response(period=np.linspace(0.5, 2.5, 9), amplitude=2.0, restitution=0.925)
     >>> [text.get_text() for text in rk.plot.frequency_response(found).get_legend().get_texts()]
-    ['(1,1), stable', '(1,3), stable', '(1,3), unstable', 'from rest: periodic', 'from rest: overturned']
+    ['(1, 1), stable', '(1, 3), stable', '(1, 3), unstable', 'from rest: periodic', 'from rest: overturned']
     """
     instance("result", result, FrequencyResponse)
     shown = quantities(block)
@@ -57,7 +57,7 @@ def frequency_response(result: FrequencyResponse, ax: Axes | None = None, block:
     ax = style.own(ax, height=3.0)
     for n, colour in zip(result.modes, cycle(LINES), strict=False):
         for stability in Stability:
-            name = f"(1,{n}), {stability}"
+            name = f"(1, {n}), {stability}"
             for branch in result.of(n):
                 line = branch_lines.line(branch, "peak", 0.0).shown(across, shown.angle)
                 branch_lines.part(ax, line, stability, name, color=colour, linewidth=style.LINE, gid=name)
@@ -70,7 +70,7 @@ def frequency_response(result: FrequencyResponse, ax: Axes | None = None, block:
 
 
 def _from_rest(ax: Axes, result: FrequencyResponse, across, upright) -> None:
-    """A ring for each response that is reached, in the colour of its kind, and bars where there is none."""
+    """Draw a ring for each response from rest, in the colour of its type, and bars where the block overturns."""
     rest, values = result.rest, result.values
     heights = np.where(np.isnan(rest["steady_peak"]), rest["peak"], rest["steady_peak"])
     for kind, colour in COLOURS.items():
@@ -97,7 +97,7 @@ def _from_rest(ax: Axes, result: FrequencyResponse, across, upright) -> None:
             across(ends),
             np.full(len(ends), BAR),
             transform=ax.get_xaxis_transform(),
-            color=COLOURS[Kind.OVERTURNED],
+            color=style.INK,
             linewidth=THICK,
             solid_capstyle="butt",
             label="from rest: overturned",

@@ -1,4 +1,4 @@
-"""Phase and speed of impacts."""
+"""Impact sections: phase and speed of base impacts."""
 
 import math
 
@@ -19,18 +19,18 @@ QUARTERS = ("0", r"$\pi/2$", r"$\pi$", r"$3\pi/2$", r"$2\pi$")
 def impact_section(
     result: Motion | np.ndarray, ax: Axes | None = None, block: Block | None = None, transient: int = 0
 ) -> Axes:
-    """Draws the impacts at Θ = 0: speed just after each against the forcing phase, the two sides in two colours.
+    """Plot the impacts at Θ = 0: speed after the impact against forcing phase, one colour per side.
 
     Parameters
     ----------
     result : Motion or structured array
-        A motion (recorded with ``record="all"``), or what `rocking.impact_section` gives.
+        Motion recorded with ``record="all"``, or the result of `rocking.impact_section`.
     ax : matplotlib Axes, optional
-        Drawn into; a new figure, a column wide, if not given.
+        Axes to draw into. Default: a new figure, one column wide.
     block : Block, optional
-        Gives the speed in degrees per second; otherwise it is normalised.
+        Block for the speed in degrees per second. Default: normalised speed.
     transient : int
-        How many forcing cycles are left out at the start.
+        Number of forcing cycles discarded at the start. Default: 0.
 
     Returns
     -------
@@ -38,13 +38,15 @@ def impact_section(
 
     Raises
     ------
-    TypeError, ValueError
-        If `result` holds no impact after the transient, or an argument is of another kind.
+    TypeError
+        If an argument has the wrong type.
+    ValueError
+        If `result` holds no impact after the transient.
 
     Notes
     -----
-    Phase, speed and side together are the state of the block just after an impact. Every point is drawn; marks
-    shrink, and more than 2,000 are an image inside a vector file, as in `section`.
+    Phase, speed and side are the complete state of the block just after an impact. Every point is drawn. Marks shrink as
+    their number grows, and more than 2,000 become an image inside a vector file, as in `section`.
 
     Examples
     --------

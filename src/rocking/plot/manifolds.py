@@ -1,4 +1,4 @@
-"""Stable and unstable manifolds of the saddles on a section."""
+"""Stable and unstable manifolds of the saddle orbits on a section."""
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -14,16 +14,16 @@ WIDER = 1.15
 
 
 def manifolds(result: SaddleManifolds, ax: Axes | None = None, block: Block | None = None) -> Axes:
-    """Draws the manifolds of the two saddles, stable and unstable in two colours, the saddles marked.
+    """Plot the stable and unstable manifolds of both saddle orbits, with the saddles marked.
 
     Parameters
     ----------
     result : SaddleManifolds
-        From `rocking.saddle_manifolds`.
+        Result of `rocking.saddle_manifolds`.
     ax : matplotlib Axes, optional
-        Drawn into; a new figure, a column wide, if not given.
+        Axes to draw into. Default: a new figure, one column wide.
     block : Block, optional
-        Gives SI axes, degrees and degrees per second; otherwise the axes are normalised.
+        Block for SI axes, degrees and degrees per second. Default: normalised axes.
 
     Returns
     -------
@@ -32,12 +32,12 @@ def manifolds(result: SaddleManifolds, ax: Axes | None = None, block: Block | No
     Raises
     ------
     TypeError
-        If `result` is none, or an argument is of another kind.
+        If `result` is not a SaddleManifolds, or an argument has the wrong type.
 
     Notes
     -----
-    The frame holds the saddles and what lies between them; curves go on beyond it. Lines are solid for the saddle near
-    Θ = 1 and dashed for that near Θ = −1.
+    The axes show the saddles and the region between them; the curves continue beyond the axes. Lines are solid for the
+    saddle near Θ = 1 and dashed for the saddle near Θ = −1.
 
     Examples
     --------
@@ -82,7 +82,7 @@ def manifolds(result: SaddleManifolds, ax: Axes | None = None, block: Block | No
 
 
 def _frame(ax: Axes, result: SaddleManifolds, shown) -> None:
-    """A little more than the saddles, and the speeds at which their straight lines meet Θ = 0."""
+    """Set the limits: slightly beyond the saddles, and beyond the speeds at which their tangents meet Θ = 0."""
     sizes = np.abs(result.saddles)
     wide, fast = WIDER * sizes[:, 0].max(), WIDER * sizes.sum(axis=1).max()
     ax.set_xlim(*(float(shown.angle(side * wide)) for side in (-1, 1)))

@@ -1,4 +1,4 @@
-"""Melnikov's functions, and the orbits along which they are taken."""
+"""Melnikov functions, and the heteroclinic orbits along which they are integrated."""
 
 import math
 
@@ -18,20 +18,24 @@ from rocking.theory import (
 )
 
 POINTS = 401
-# The heteroclinic orbits are shown until they are this near their ends.
+# Largest |τ| at which the heteroclinic orbits are drawn.
 MAX_TIME = 6.0
 INNER = (0.2, 0.4, 0.6, 0.8)
 
 
 def melnikov(amplitude: float, period: float, restitution: float, ax: Axes | None = None) -> Axes:
-    """Draws M⁺ and M⁻ over a period of the forcing, beside the exact gap of the manifolds that M⁺ approximates.
+    """Plot M⁺ and M⁻ over one forcing period, with the exact gap of the manifolds that M⁺ approximates.
 
     Parameters
     ----------
-    amplitude, period, restitution : float
-        A, T and e.
+    amplitude : float
+        Forcing amplitude A.
+    period : float
+        Forcing period T.
+    restitution : float
+        Coefficient of restitution e, in [0, 1].
     ax : matplotlib Axes, optional
-        Drawn into; a new figure, a column wide, if not given.
+        Axes to draw into. Default: a new figure, one column wide.
 
     Returns
     -------
@@ -39,13 +43,15 @@ def melnikov(amplitude: float, period: float, restitution: float, ax: Axes | Non
 
     Raises
     ------
-    TypeError, ValueError
-        In one line, for an argument of another kind or outside its range.
+    TypeError
+        If an argument has the wrong type.
+    ValueError
+        If an argument lies outside its range.
 
     Notes
     -----
-    Where M⁺ (M⁻ on the other side) is above zero, the unstable manifold passes beyond the stable one, to first order. The exact gap
-    is e V_u − V_s at the impact. The title gives the thresholds A_M of the one and A* of the other.
+    Where M⁺ (on the other side M⁻) is positive, the unstable manifold passes beyond the stable one, to first order. The exact
+    gap is e V_u − V_s at the impact. The title gives the threshold A_M of M⁺ and the threshold A* of the exact gap.
 
     Examples
     --------
@@ -69,7 +75,7 @@ def melnikov(amplitude: float, period: float, restitution: float, ax: Axes | Non
     ):
         ax.plot(turns, values, color=colour, linestyle=dashes, linewidth=style.LINE, label=label)
     ax.axhline(0.0, color=style.GUIDE, linewidth=style.THIN, zorder=0, gid="zero")
-    style.label(ax, r"time $\tau_0/T$ of the forcing (–)", r"energy gained $M(\tau_0)$ (–)")
+    style.label(ax, r"time $\tau_0/T$", r"energy gained $M(\tau_0)$")
     first, exact = melnikov_amplitude(period, restitution), heteroclinic_amplitude(period, restitution)
     style.note(ax, rf"$A = {amplitude:.4g}$: $A_M = {first:.4g}$, $A^* = {exact:.4g}$")
     style.key(ax)
@@ -77,14 +83,14 @@ def melnikov(amplitude: float, period: float, restitution: float, ax: Axes | Non
 
 
 def heteroclinic(ax: Axes | None = None, block: Block | None = None) -> Axes:
-    """Draws the heteroclinic orbits of the free, undamped block, and some of the closed orbits inside them.
+    """Plot the heteroclinic orbits of the free, undamped block, and some of the closed orbits inside them.
 
     Parameters
     ----------
     ax : matplotlib Axes, optional
-        Drawn into; a new figure, a column wide, if not given.
+        Axes to draw into. Default: a new figure, one column wide.
     block : Block, optional
-        Gives SI axes; otherwise they are normalised.
+        Block for SI axes. Default: normalised axes.
 
     Returns
     -------
@@ -112,9 +118,9 @@ def heteroclinic(ax: Axes | None = None, block: Block | None = None) -> Axes:
         for time in (-0.9, 0.5):
             _arrow(ax, shown, orbit, time)
     for turn in INNER:
-        _closed(ax, shown, turn, "orbits inside" if turn == INNER[0] else None)
+        _closed(ax, shown, turn, "closed orbits" if turn == INNER[0] else None)
     for angle, filled, label in (
-        (1.0, False, "unstable"),
+        (1.0, False, "unstable equilibria"),
         (-1.0, False, None),
         (0.0, True, "stable equilibrium"),
     ):
@@ -134,7 +140,7 @@ def heteroclinic(ax: Axes | None = None, block: Block | None = None) -> Axes:
 
 
 def _arrow(ax: Axes, shown, orbit: str, time: float) -> None:
-    """Which way an orbit is run through."""
+    """Draw an arrow in the direction of motion on an orbit."""
     (tail, head) = (heteroclinic_orbit(time + step, orbit) for step in (-0.02, 0.02))
     ax.annotate(
         "",
@@ -145,7 +151,7 @@ def _arrow(ax: Axes, shown, orbit: str, time: float) -> None:
 
 
 def _closed(ax: Axes, shown, turn: float, label: str | None) -> None:
-    """The orbit that turns at ±`turn`, from its energy."""
+    """Draw the closed orbit with the turning points ±`turn`, from its energy."""
     angle = turn * np.sin(np.linspace(0.0, math.tau, POINTS))
     left = np.maximum(2.0 * (energy(turn, 0.0) - energy(angle, 0.0)), 0.0)
     ax.plot(

@@ -1,4 +1,4 @@
-"""Symmetric modes over the amplitude."""
+"""Symmetric (1, n) modes over the forcing amplitude."""
 
 import math
 from typing import Any
@@ -18,9 +18,9 @@ from rocking.theory import (
 )
 
 POINTS = 400
-# The curves begin and end this near to where modes do, which rounding may leave without any.
+# Relative distance of the curves from the ends of the modes, where rounding may leave none.
 NEAR = 1e-9
-# The picture goes on this much beyond where symmetry breaks.
+# The axis extends to this multiple of the amplitude at which symmetry breaks.
 BEYOND = 1.25
 DASHES: dict[str, Any] = {
     **{str(name): dashes for name, dashes in branch_lines.DASHES.items()},
@@ -37,22 +37,25 @@ def modes(
     amplitude: float | None = None,
     block: Block | None = None,
 ) -> Axes:
-    """Draws speed or phase of the symmetric (1, n) modes over the amplitude: stable solid, unstable dashed, inadmissible dotted.
+    """Plot speed or phase of the symmetric (1, n) modes over the amplitude: stable solid, unstable dashed.
 
     Parameters
     ----------
-    period, restitution : float
-        T and e in (0, 1].
+    period : float
+        Forcing period T.
+    restitution : float
+        Coefficient of restitution e, in (0, 1].
     n : int
-        Forcing cycles in a response; odd.
+        Number of forcing cycles per response, odd. Default: 1.
     ax : matplotlib Axes, optional
-        Drawn into; a new figure, a column wide, if not given.
+        Axes to draw into. Default: a new figure, one column wide.
     quantity : str
-        "velocity", V after the impact, or "phase", φ of the forcing there, in [0, 2π).
+        "velocity", the velocity V after the impact, or "phase", the forcing phase φ at the impact, in [0, 2π). Default:
+        "velocity".
     amplitude : float, optional
-        A, drawn as a line with a ring on each mode there; the picture reaches at least that far.
+        Amplitude A to mark by a line, with a ring on each mode. Default: none.
     block : Block, optional
-        Gives SI axes; otherwise they are normalised.
+        Block for SI axes. Default: normalised axes.
 
     Returns
     -------
@@ -60,20 +63,23 @@ def modes(
 
     Raises
     ------
-    TypeError, ValueError
-        In one line, for an argument of another kind or outside its range.
+    TypeError
+        If an argument has the wrong type.
+    ValueError
+        If an argument lies outside its range.
 
     Notes
     -----
-    Modes begin at A_E and the faster one loses its stability at A_SB, 1.25 times which is shown, up to A = 1000. At e = 1 it is
-    neutral up to there, and dash-dotted. On the other side of an impact everything is mirrored: −V, φ + π.
+    Inadmissible modes are dotted. Modes exist from A_E, and the faster mode loses its stability at A_SB. The axis reaches
+    1.25 A_SB, at most A = 1000. At e = 1 the faster mode is neutral up to A_SB, and dash-dotted. An impact onto the
+    other side is the mirror image: −V, φ + π.
 
     Examples
     --------
     >>> import rocking as rk
     >>> ax = rk.plot.modes(1.0, 0.925, amplitude=2.0)
     >>> ax.get_title(loc="right")
-    '(1,1) modes, $T = 1$, $e = 0.925$'
+    '(1, 1) modes, $T = 1$, $e = 0.925$'
     """
     one_of("quantity", quantity, ("velocity", "phase"))
     marked = 0.0 if amplitude is None else within("amplitude", amplitude, 0.0, MAX_AMPLITUDE)
@@ -91,7 +97,7 @@ def modes(
         return shown.velocity(mode.velocity) if quantity == "velocity" else mode.phase % math.tau
 
     for root, colour in ((0, style.MOTION), (1, style.IMPACT)):
-        # close together near the fold, where both roots leave it like a square root
+        # dense near the fold, where both roots vary as a square root
         places = least + max(ends[root] - least, 0.0) * np.linspace(0.0, 1.0, POINTS) ** 2
         found = (symmetric_modes(float(place), period, restitution, n) for place in places)
         points = [
@@ -111,11 +117,11 @@ def modes(
             color=style.INK,
             gid="marked",
         )
-    label = shown.speed_label if quantity == "velocity" else r"phase $\varphi$ of the forcing there (rad)"
+    label = shown.speed_label if quantity == "velocity" else r"forcing phase $\varphi$ at the impact (rad)"
     style.label(ax, x_label, label)
     ax.set_xlim(left=0.0)
     forced = f"$T = {period:.6g}$" if block is None else f"{block.seconds(period):.4g} s"
-    style.note(ax, rf"(1,{n}) modes, {forced}, $e = {restitution:.4g}$")
+    style.note(ax, rf"(1, {n}) modes, {forced}, $e = {restitution:.4g}$")
     _explain(ax)
     return ax
 
@@ -125,7 +131,7 @@ def _kind(mode: Mode) -> str:
 
 
 def _draw(ax: Axes, points: list, colour: str, root: str) -> None:
-    """One root as one line a kind; each reaches to the next point, so that no gap is left where the kind changes."""
+    """Draw one root with one line per stability; each line ends at the next point, so that no gap remains."""
     if not points:
         return
     x, y, kinds = (np.array(column) for column in zip(*points, strict=True))
@@ -144,7 +150,7 @@ def _draw(ax: Axes, points: list, colour: str, root: str) -> None:
 
 
 def _explain(ax: Axes) -> None:
-    """A key to what is there."""
+    """Draw the legend of the lines that occur."""
     there = {line.get_gid() for line in ax.lines}
     for kind, dashes in DASHES.items():
         if any(str(gid).endswith(" " + kind) for gid in there):

@@ -1,4 +1,4 @@
-"""Stroboscopic points over a parameter, with the branches of periodic orbits that run through them."""
+"""Orbit (bifurcation) diagrams: stroboscopic points over a parameter, with branches of periodic orbits."""
 
 from collections.abc import Sequence
 
@@ -13,19 +13,17 @@ from rocking.plot.parts.axis_units import parameter, quantities
 WAYS = {
     "up": ("swept up", style.MOTION),
     "down": ("swept down", style.IMPACT),
-    "rest": ("each from its start", style.MOTION),
+    "rest": ("from the initial state", style.MOTION),
 }
-# Of the axes' height: the room below the points for bars that say where the block overturned, and from bar to bar.
+# Room below the points for the bars that mark overturning, and their distance, as fractions of the axes' height.
 ROOM, BAR = 0.07, 0.025
 THICK = 2.0
 ASIDE = 0.03
-# A stable branch is seen on both sides of the points on it.
+# A stable branch is visible on both sides of the points on it.
 OUTLINE = 1.8
-# Of what is drawn from its lowest to its highest point.
+# Distance of distinct points, as a fraction of the height of the diagram.
 FINEST = 1e-4
-# What is swept down lies below what is swept up, and looks out from under it.
-HALO = 1.6
-# Of the usual size of a mark: here points stand close in lines.
+# Size of a mark relative to the usual size, because the points lie close together in lines.
 MARK = 0.6
 
 
@@ -36,20 +34,21 @@ def orbit_diagram(
     quantity: str = "angle",
     block: Block | None = None,
 ) -> Axes:
-    """Draws a section's points over the parameter varied; bars below show where the block overturned.
+    """Plot an orbit (bifurcation) diagram; bars at the bottom mark overturning.
 
     Parameters
     ----------
     result : OrbitDiagram
-        From `rocking.orbit_diagram`.
+        Result of `rocking.orbit_diagram`.
     ax : matplotlib Axes, optional
-        Drawn into; a new figure, a column wide, if not given.
+        Axes to draw into. Default: a new figure, one column wide.
     branches : sequence of Branch
-        Of periodic orbits over the same parameter, from `rocking.continue_orbit`: stable solid, unstable dashed, neutral dash-dotted.
+        Branches of periodic orbits over the same parameter, from `rocking.continue_orbit`: stable solid, unstable dashed,
+        neutral dash-dotted. Default: none.
     quantity : {"angle", "velocity", "peak"}
-        What is drawn: Θ or Θ' at the section, or the largest |Θ| in between.
+        Quantity to draw: Θ or Θ' at the section, or the largest |Θ| between sections. Default: "angle".
     block : Block, optional
-        Gives SI axes; otherwise they are normalised.
+        Block for SI axes. Default: normalised axes.
 
     Returns
     -------
@@ -57,13 +56,15 @@ def orbit_diagram(
 
     Raises
     ------
-    TypeError, ValueError
-        If `result` or a branch is none, a branch runs over another parameter, or an argument is of another kind.
+    TypeError
+        If `result` is not an OrbitDiagram, or an argument has the wrong type.
+    ValueError
+        If a branch has another parameter, or `quantity` is unknown.
 
     Notes
     -----
-    Points of one value nearer than 1/10,000 of the picture's height are one. Marks shrink, and more than 2,000 are an image
-    inside a vector file, as in `section`.
+    Points at one value closer than 1/10,000 of the height are drawn once. Marks shrink as their number grows, and more than
+    2,000 become an image inside a vector file, as in `section`.
 
     Examples
     --------
@@ -71,7 +72,7 @@ def orbit_diagram(
     >>> system = rk.System(rk.Harmonic(amplitude=10.0, period=1.721328), restitution=0.8)
     >>> ax = rk.plot.orbit_diagram(rk.orbit_diagram(system, "amplitude", np.linspace(10.4, 10.8, 40), sweep="up"))
     >>> ax.get_xlabel(), len(ax.lines[0].get_xdata()) > 250
-    ('amplitude $A$ (–)', True)
+    ('amplitude $A$', True)
     """
     instance("result", result, OrbitDiagram)
     quantity = one_of("quantity", quantity, branch_lines.QUANTITIES)
@@ -85,21 +86,25 @@ def orbit_diagram(
         branch_lines.line(one, quantity, result.section_phase).shown(across, upright) for one in followed
     ]
     ax = style.own(ax, height=3.0)
-    for row, way in enumerate(result.sweeps):
-        _points(ax, result, row, way, quantity, across, upright)
+    sizes = [
+        _points(ax, result, row, way, quantity, across, upright) for row, way in enumerate(result.sweeps)
+    ]
+    for line in ax.lines[-len(sizes) :]:
+        line.set_markersize(min(sizes))
     for stability in Stability:
         _branches(ax, lines, stability)
     style.label(ax, x_label, branch_lines.height_label(quantity, shown))
     _bars(ax, result, across)
     ends = across(result.values[[0, -1]])
-    if ends[1] > ends[0]:  # where all overturned there are no points; branches may lead farther
+    if ends[1] > ends[0]:  # if all runs overturned there are no points; branches may extend farther
         margin = ASIDE * (ends[1] - ends[0])
         ax.set_xlim(ends[0] - margin, ends[1] + margin)
     style.key(ax)
     return ax
 
 
-def _points(ax: Axes, result: OrbitDiagram, row: int, way: str, quantity: str, across, upright) -> None:
+def _points(ax: Axes, result: OrbitDiagram, row: int, way: str, quantity: str, across, upright) -> float:
+    """Draw the points of one sweep; return the size of their marks."""
     name, colour = WAYS[way]
     heights = (
         result.peak[row][:, None]
@@ -108,12 +113,13 @@ def _points(ax: Axes, result: OrbitDiagram, row: int, way: str, quantity: str, a
     )
     values, heights = _distinct(result.values, heights)
     count = len(values)
+    size = MARK * style.point_size(count)
     ax.plot(
         across(values),
         upright(heights),
         linestyle="none",
         marker="o",
-        markersize=MARK * style.point_size(count) * (HALO if way == "down" else 1.0),
+        markersize=size,
         markeredgewidth=0,
         color=colour,
         rasterized=count > style.MAX_MARKS,
@@ -121,10 +127,11 @@ def _points(ax: Axes, result: OrbitDiagram, row: int, way: str, quantity: str, a
         gid=way,
         zorder=2.0 - 0.1 * row,
     )
+    return size
 
 
 def _distinct(values: np.ndarray, heights: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Every point once: a periodic motion comes back to the same ones, to less than can be drawn."""
+    """Return every distinguishable point once, because a periodic motion repeats its points."""
     heights = np.sort(heights, axis=1)
     span = np.nanmax(heights, initial=-np.inf) - np.nanmin(heights, initial=np.inf)
     place = np.round(heights / (FINEST * span)) if span > 0.0 else heights
@@ -144,7 +151,7 @@ def _checked(result: OrbitDiagram, branch: Branch) -> Branch:
 
 
 def _branches(ax: Axes, lines: Sequence[branch_lines.Line], stability: Stability) -> None:
-    """The parts of branches that have one stability."""
+    """Draw the parts of the branches that have one stability."""
     width = style.THIN if stability is Stability.UNSTABLE else OUTLINE
     for line in lines:
         branch_lines.part(
@@ -160,7 +167,7 @@ def _branches(ax: Axes, lines: Sequence[branch_lines.Line], stability: Stability
 
 
 def _bars(ax: Axes, result: OrbitDiagram, across) -> None:
-    """A bar a sweep, below the points, along the values at which the block overturned."""
+    """Draw one bar per sweep below the points, along the values at which the block overturned."""
     low, high = ax.get_ylim()
     ax.set_ylim(low - ROOM * (high - low), high)
     for row, way in enumerate(result.sweeps):

@@ -1,4 +1,4 @@
-"""Overturning from rest: the lowest amplitude, and at how many phases the block overturns above it."""
+"""Overturning from rest: the lowest amplitude, and the fraction of phases with overturning above it."""
 
 from __future__ import annotations
 
@@ -11,16 +11,16 @@ from rocking.plot.parts.axis_units import parameter
 
 
 def overturning(found: OverturningCurve, ax: Axes | None = None, block: Block | None = None) -> Axes:
-    """Draws the lowest overturning amplitude over what varies, and behind it the share of phases at which the block overturns.
+    """Plot the lowest overturning amplitude over one quantity, with the fraction of overturning phases in grey.
 
     Parameters
     ----------
     found : OverturningCurve
-        From `overturning_amplitude`; one quantity varies, or none, then the share is drawn over the amplitude.
+        Result of `overturning_amplitude`. If no quantity varies, the fraction is drawn over the amplitude.
     ax : matplotlib Axes, optional
-        Drawn into; a new figure, a column wide, if not given.
+        Axes to draw into. Default: a new figure, one column wide.
     block : Block, optional
-        Gives SI axes and a title; otherwise the axes are normalised.
+        Block for SI axes and a title. Default: normalised axes.
 
     Returns
     -------
@@ -28,8 +28,10 @@ def overturning(found: OverturningCurve, ax: Axes | None = None, block: Block | 
 
     Raises
     ------
-    TypeError, ValueError
-        If `found` is another result or two quantities vary, or `ax` is no axes.
+    TypeError
+        If `found` is not an OverturningCurve, or an argument has the wrong type.
+    ValueError
+        If two or more quantities vary.
 
     Examples
     --------
@@ -66,8 +68,8 @@ def overturning(found: OverturningCurve, ax: Axes | None = None, block: Block | 
                 float(level(data.lowest)), color=style.IMPACT, linewidth=style.LINE, label="lowest found"
             )
             style.key(ax)
-        style.label(ax, y_label, "phases at which it overturns [%]")
-        # a line at 0 or at 100 is seen as well
+        style.label(ax, y_label, "overturning phases (%)")
+        # a line at 0 or at 100 remains visible
         ax.set_ylim(-4.0, 104.0)
         return ax
     (name,) = data.lowest.dims
@@ -85,7 +87,7 @@ def overturning(found: OverturningCurve, ax: Axes | None = None, block: Block | 
         gid="share",
     )
     bar = ax.figure.colorbar(image, ax=ax, pad=0.02)
-    bar.set_label("phases at which it overturns [%]", fontsize=style.SMALL, color=style.INK)
+    bar.set_label("overturning phases (%)", fontsize=style.SMALL, color=style.INK)
     bar.ax.tick_params(labelsize=style.SMALL)
     ax.plot(
         across,
@@ -104,7 +106,7 @@ def overturning(found: OverturningCurve, ax: Axes | None = None, block: Block | 
 
 
 def _tangency(ax: Axes, across: np.ndarray, tangency: np.ndarray) -> None:
-    """A* where it is seen; the axes stay those of what was scanned."""
+    """Draw A* within the scanned amplitudes; the limits of the axes stay."""
     above = ax.get_ylim()
     if (tangency > above[0]).any():
         ax.plot(

@@ -1,4 +1,4 @@
-"""A motion at a glance: in a notebook, and for `rocking simulate --plot`."""
+"""Overview of a motion, for a notebook and for `rocking simulate --plot`."""
 
 from __future__ import annotations
 
@@ -16,17 +16,17 @@ CYCLES_SHOWN = 30
 
 
 def overview(motion: Motion, block: Block | None = None) -> Figure:
-    """Draws what was kept of a motion: time history beside phase portrait; or the section; or only the final state.
+    """Plot the time history and phase portrait of a motion, or its section or final state if only these were recorded.
 
-    A bounded motion is shown by its last 30 cycles: whole, a long one would be a band of ink. One that comes to rest is
-    shown until shortly after its last impact.
+    A bounded motion is shown by its last 30 cycles. A motion that comes to rest is shown until shortly after its last
+    impact.
 
     Parameters
     ----------
     motion : Motion
-        However recorded.
+        Motion with any setting of ``record``.
     block : Block, optional
-        Gives SI axes; otherwise they are normalised.
+        Block for SI axes. Default: normalised axes.
 
     Returns
     -------

@@ -1,4 +1,4 @@
-"""Maps of responses: what the response is at each point, told by colour or by symbols."""
+"""Maps of responses: the type of response at each point, in colour or in symbols."""
 
 from __future__ import annotations
 
@@ -22,14 +22,16 @@ if TYPE_CHECKING:
     import xarray as xr
 
 MAX_DRAWN = 2_000
-"""Cells along an axis; of more, every second, third, … point is drawn."""
+"""Maximum number of cells along an axis. From longer axes every second, third, … point is drawn."""
 MAX_SYMBOLS = 30
 HATCHED = 1_100
-"""Dots along each axis of the layer of hatches, some two to a dot of the picture."""
+"""Dots along each axis of the layer of hatches, about two per dot of the figure."""
 STRIPES, STRIPE = 30, 5
-"""Dots from one stripe to the next, and across one."""
+"""Distance of the stripes, and width of a stripe, in dots."""
 ROOM = 125.0
-"""Points of length that the marks of a row or a column take together, about."""
+"""Approximate total length of the marks of a row or a column, in points."""
+LEAST = 1e-4
+"""Smallest fraction with a row in the legend."""
 OTHER = "other"
 HEIGHT, ROW = 2.75, 0.165
 
@@ -41,23 +43,24 @@ def parametric_map(
     curves: Iterable[str] = (),
     symbols: str | None = None,
 ) -> Axes:
-    r"""Draws what the response is at each point of a map, with the share of each kind, period and symmetry.
+    r"""Plot a map of responses, with the fraction of each type, period and symmetry.
 
     Parameters
     ----------
     found : xarray.Dataset, path, or sequence of xarray.Dataset
-        As `rocking.parametric_map` gives it; or the folder of its store, or levels of one, coarse to fine: what a level
-        does not have yet is then taken from the one before it. What is not there at all stays white.
+        Result of `rocking.parametric_map`, the folder of its store, or levels of a store, coarse to fine. A missing point
+        of a level is taken from the next coarser level. Points that no level holds stay white.
     ax : matplotlib Axes, optional
-        Drawn into; a new figure, a column wide, if not given.
+        Axes to draw into. Default: a new figure, one column wide.
     block : Block, optional
-        Gives SI axes and a title; otherwise the axes are the map's own, normalised.
+        Block for SI axes and a title. Default: the normalised axes of the map.
     curves : sequence of str
-        Theory over a map of the amplitude and the period, frequency or restitution, for the block without braces:
-        "symmetry-breaking-1", "symmetry-breaking-3", "existence-1", "existence-3" (of the modes (1,1) and (1,3); dotted where the
-        mode is not admissible), "melnikov", "heteroclinic".
+        Theoretical amplitudes over a map of the amplitude and the period, frequency or restitution, without braces.
+        "symmetry-breaking-1", "symmetry-breaking-3", "existence-1" and "existence-3" belong to the (1, 1) and (1, 3) modes.
+        They are dotted where the mode is inadmissible. The others are "melnikov" and "heteroclinic". Default: none.
     symbols : {"kinds", "10", "11", "13b"}, optional
-        Marks instead of cells, of at most 30 points along an axis: ours, in colour, or those of a figure of the paper.
+        Marks instead of cells, at no more than 30 points along an axis. "kinds" has one coloured mark per category, the
+        others are the symbols of a figure of Yim & Lin (1991). Default: cells.
 
     Returns
     -------
@@ -65,13 +68,15 @@ def parametric_map(
 
     Raises
     ------
-    TypeError, ValueError
-        If it is no map over two axes, a curve does not belong over it, or an argument is of another kind.
+    TypeError
+        If `found` is not a map over two axes, or an argument has the wrong type.
+    ValueError
+        If a curve or a set of symbols is unknown, or a curve does not apply to the map.
 
     Notes
     -----
-    Along an axis of more than 2,000 points not every one is drawn; the shares are those of all that are there. Stripes
-    are hatches and no points: white where a response of odd period is unsymmetric, dark where it is undetermined.
+    From axes of more than 2,000 points not every point is drawn; the fractions count all points. A category below
+    0.01 % has no row in the legend. Dark stripes mark undetermined responses.
 
     Examples
     --------
@@ -82,11 +87,11 @@ def parametric_map(
     ... )
     >>> ax = rk.plot.parametric_map(found, curves=["symmetry-breaking-1", "melnikov"])
     >>> ax.get_xlabel(), ax.get_ylabel()
-    ('period $T$ (–)', 'amplitude $A$ (–)')
+    ('period $T$', 'amplitude $A$')
     """
     check_symbols(symbols)
     read = Responses(found)
-    curves = theory_curves.check(curves, read.names, read.told)
+    curves = theory_curves.check(curves, read.names, read.attributes)
     codes, up, across, counts = _thinned(read, MAX_DRAWN if symbols is None else MAX_SYMBOLS)
     (turn_up, y_label), (turn_across, x_label) = (parameter(name, block) for name in read.names)
     keys = _cell_keys(counts) if symbols is None else _symbol_keys(counts, _symbols(symbols))
@@ -101,25 +106,25 @@ def parametric_map(
         ax,
         curves,
         dict(zip(read.names, (read.up, read.across), strict=True)),
-        read.told,
+        read.attributes,
         dict(zip(read.names, (turn_up, turn_across), strict=True)),
     )
     style.label(ax, x_label, y_label)
     style.block_title(ax, block)
-    ax.set(xlim=turn_across(edges(read.across))[[0, -1]], ylim=turn_up(edges(read.up))[[0, -1]])
-    ax.legend(
-        handles=[*keys, *lines],
-        **style.BELOW | {"fontsize": style.SMALL - 0.5},
-        ncols=2,
-        handlelength=1.8,
-        columnspacing=0.8,
-        handletextpad=0.5,
-    )
+    frame = (read.across, read.up) if symbols is None else (across, up)
+    ax.set(xlim=turn_across(edges(frame[0]))[[0, -1]], ylim=turn_up(edges(frame[1]))[[0, -1]])
+    _legend(ax, [*keys, *lines])
     return ax
 
 
 def _thinned(read: Responses, most: int) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """What is drawn, over which values; and how many points of all have each look, and none."""
+    """Return the codes to draw, the values of both axes, and the number of points of each category.
+
+    Returns
+    -------
+    tuple of (array, array, array, array)
+        Codes; values of the vertical and of the horizontal axis; counts of all points by code.
+    """
     row_step, column_step = (-(-values.size // most) for values in (read.up, read.across))
     counts, kept = np.zeros(NONE + 1, np.int64), []
     for begin, codes in read.parts():
@@ -129,7 +134,7 @@ def _thinned(read: Responses, most: int) -> tuple[np.ndarray, np.ndarray, np.nda
 
 
 def _cells(ax: Axes, codes: np.ndarray, x: np.ndarray, y: np.ndarray) -> None:
-    """A cell a point, and stripes over those that are hatched."""
+    """Draw one cell per point, and stripes over hatched cells."""
     colours = ListedColormap([look.colour for look in LOOKS]).with_extremes(over="white")
     norm = BoundaryNorm(np.arange(len(LOOKS) + 1) - 0.5, len(LOOKS))
     ax.pcolorfast(x, y, codes, cmap=colours, norm=norm).set(gid="map", rasterized=True)
@@ -142,21 +147,20 @@ def _cells(ax: Axes, codes: np.ndarray, x: np.ndarray, y: np.ndarray) -> None:
 
 
 def _stripes(codes: np.ndarray, x: np.ndarray, y: np.ndarray) -> np.ndarray:
-    """The hatches as an image of their own, transparent where there are none: as fine on ten points as on millions."""
+    """Return the hatches as a separate, transparent image, whose stripes do not depend on the number of points."""
     at_x, at_y = (np.linspace(values[0], values[-1], 2 * HATCHED + 1)[1::2] for values in (x, y))
     seen = codes[np.ix_(np.searchsorted(y, at_y) - 1, np.searchsorted(x, at_x) - 1)]
     row, column = np.ogrid[:HATCHED, :HATCHED]
     layer = np.zeros((HATCHED, HATCHED, 4))
     for number, look in enumerate(LOOKS):
         if look.hatch is not None:
-            across = row + column if look.hatch == "white" else row - column
-            where = (seen == number) & (across % STRIPES < STRIPE)
+            where = (seen == number) & ((row - column) % STRIPES < STRIPE)
             layer[where] = (*to_rgb(look.hatch), 1.0)
     return layer
 
 
 def _marks(ax: Axes, codes: np.ndarray, x: np.ndarray, y: np.ndarray, symbols: str) -> None:
-    """A mark a point."""
+    """Draw one mark per point."""
     size = float(np.clip(ROOM / max(codes.shape), 1.5, 6.0))
     for symbol in _symbols(symbols):
         rows, columns = np.nonzero(np.isin(codes, symbol.looks))
@@ -167,7 +171,7 @@ def _marks(ax: Axes, codes: np.ndarray, x: np.ndarray, y: np.ndarray, symbols: s
 
 
 def _symbols(symbols: str) -> tuple[Symbol, ...]:
-    """The symbols of a set; in the paper's sets, what is not in the figure's legend is a dot."""
+    """Return the symbols of a set; a category that the paper's legend lacks becomes a dot."""
     if symbols == "kinds":
         return tuple(Symbol(look.marker, look.name, (number,)) for number, look in enumerate(LOOKS))
     known = {number for symbol in PAPER[symbols] for number in symbol.looks}
@@ -188,39 +192,52 @@ def _how(symbol: Symbol, symbols: str) -> dict[str, Any]:
 
 
 def _cell_keys(counts: np.ndarray) -> list[Patch]:
-    """A patch a look that is there, with its share."""
+    """Return one patch per category of at least `LEAST`, labelled with its fraction."""
     keys = []
     for look, count in zip(LOOKS, counts[: len(LOOKS)], strict=True):
-        if count:
-            hatch = {None: None, "white": "\\\\\\\\"}.get(look.hatch, "////")
+        if count and count >= LEAST * counts.sum():
             keys.append(
-                Patch(facecolor=look.colour, hatch=hatch, edgecolor=look.hatch or look.colour, linewidth=0.0,
-                      label=f"{look.name} {percent(count / counts.sum())}")
+                Patch(facecolor=look.colour, hatch="////" if look.hatch else None, edgecolor=look.hatch or look.colour,
+                      linewidth=0.0, label=f"{look.name} ({percent(count / counts.sum())})")
             )  # fmt: skip
     if counts[NONE]:
         share = percent(counts[NONE] / counts.sum())
         keys.append(
             Patch(
-                facecolor="white", edgecolor=style.GUIDE, linewidth=style.THIN, label=f"not computed {share}"
+                facecolor="white",
+                edgecolor=style.GUIDE,
+                linewidth=style.THIN,
+                label=f"not computed ({share})",
             )
         )
     return keys
 
 
 def _symbol_keys(counts: np.ndarray, symbols: Sequence[Symbol]) -> list[Line2D]:
-    """A mark a symbol that is there, with its share."""
+    """Return one mark per symbol that occurs; with its fraction if the marks are those of the categories."""
     kinds = len(symbols) == len(LOOKS)
     keys = []
     for symbol in symbols:
         count = counts[list(symbol.looks)].sum()
-        if count:
+        if count and count >= LEAST * counts.sum():
             keys.append(
                 Line2D(
                     [],
                     [],
                     **_how(symbol, "kinds" if kinds else "paper"),
                     markersize=style.MARK,
-                    label=f"{symbol.name} {percent(count / counts.sum())}",
+                    label=f"{symbol.name} ({percent(count / counts.sum())})" if kinds else symbol.name,
                 )
             )
     return keys
+
+
+def _legend(ax: Axes, keys: Sequence[Patch | Line2D]) -> None:
+    """Draw the legend in two columns below the axes, under their vertical label too, where two long names fit."""
+    ax.legend(
+        handles=keys,
+        **style.BELOW | {"fontsize": style.SMALL - 1.0, "bbox_to_anchor": (0.43, 0.0)},
+        ncols=2,
+        handlelength=1.5,
+        columnspacing=0.8,
+    )

@@ -1,4 +1,4 @@
-"""Velocity against angle, with the jumps at impacts."""
+"""Phase portrait: velocity against angle, with the jumps at impacts."""
 
 from __future__ import annotations
 
@@ -13,7 +13,9 @@ from rocking.plot.parts.axis_units import Quantities, quantities
 from rocking.plot.parts.sample_times import inside, trace, window
 
 STRIKES = {"impact": (style.IMPACT, "o"), "brace": (style.BRACE, "s")}
-NAMES = {"impact": "impact", "brace": "brace hit"}
+NAMES = {"impact": "impact", "brace": "brace impact"}
+# A ring before, a dot after an impact, in units of their common size: where both coincide, both are visible.
+RING, DOT = 1.3, 0.75
 
 
 def phase_portrait(
@@ -22,19 +24,19 @@ def phase_portrait(
     block: Block | None = None,
     cycles: tuple[float, float] | None = None,
 ) -> Axes:
-    """Draws velocity against angle; every impact is a stroke from the velocity before it (open) to the one after (full).
+    """Plot the phase portrait of a motion, with a stroke at each impact from the velocity before (ring) to after (dot).
 
     Parameters
     ----------
     motion : Motion
-        Recorded with ``record="all"``.
+        Motion recorded with ``record="all"``.
     ax : matplotlib Axes, optional
-        Drawn into; a new figure, a column wide, if not given.
+        Axes to draw into. Default: a new figure, one column wide.
     block : Block, optional
-        Gives SI axes, degrees and degrees per second; otherwise the axes are normalised.
+        Block for SI axes, degrees and degrees per second. Default: normalised axes.
     cycles : tuple of float, optional
-        First and last forcing cycle shown, counted from the start. The whole motion if not given; if it overturned,
-        on past the proof until three times the critical angle.
+        First and last forcing cycle shown, counted from the start. Default: the whole motion; if it overturned, up to
+        three times the critical angle.
 
     Returns
     -------
@@ -42,13 +44,15 @@ def phase_portrait(
 
     Raises
     ------
-    TypeError, ValueError
-        If `cycles` does not lie within the motion, the motion kept no events, or an argument is of another kind.
+    TypeError
+        If an argument has the wrong type.
+    ValueError
+        If `cycles` lies outside the motion, or the motion kept no events.
 
     Notes
     -----
-    Impacts on the base lie at Θ = 0 (round, eq. 2 of Yim and Lin 1991), those on a brace at ±Θb (square). At e = 1 the
-    open and the full mark of an impact coincide. Marks shrink as there are more of them. A block that never moves is a dot.
+    Base impacts lie at Θ = 0 (round; Eq. (2) of Yim & Lin 1991), brace impacts at ±Θb (square). At e = 1 the dot of an
+    impact lies within its ring. Marks shrink as their number grows. A block that never moves is drawn as a dot.
 
     Examples
     --------
@@ -95,13 +99,13 @@ def _strikes(ax: Axes, shown: Quantities, hits: NDArray, kind: str, colour: str,
     ax.vlines(
         angle, before, after, colors=colour, linewidth=style.LINE, rasterized=dense, gid=f"{kind} strokes"
     )
-    for when, velocity, face in (("before", before, "white"), ("after", after, colour)):
+    for when, velocity, face, scale in (("before", before, "none", RING), ("after", after, colour, DOT)):
         ax.plot(
             angle,
             velocity,
             linestyle="none",
             marker=marker,
-            markersize=size,
+            markersize=scale * size,
             markeredgewidth=min(0.8, size / 4),
             markeredgecolor=colour,
             markerfacecolor=face,

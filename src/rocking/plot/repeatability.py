@@ -1,4 +1,4 @@
-"""What comes of inputs that are off by a little: the shares of outcomes, and where in a map the outcome is certain."""
+"""Repeatability under inexact inputs: fractions of outcomes, and maps of certain outcomes."""
 
 from __future__ import annotations
 
@@ -14,17 +14,19 @@ from rocking.plot.parts.legend import COLOURS
 
 SHOWN = 12
 UNCERTAIN = "#CC79A7"
+LEAST = 1e-4
+"""Smallest fraction with a row in the legend."""
 
 
 def repeatability(found: Repeatability, ax: Axes | None = None) -> Axes:
-    """Draws the share of each outcome with its 95 % interval, the largest above; up to twelve.
+    """Plot the fraction of runs with each outcome and its 95 % interval, the largest at the top, up to twelve.
 
     Parameters
     ----------
     found : Repeatability
-        From `rocking.repeatability`.
+        Result of `rocking.repeatability`.
     ax : matplotlib Axes, optional
-        Drawn into; a new figure, a column wide, if not given.
+        Axes to draw into. Default: a new figure, one column wide.
 
     Returns
     -------
@@ -33,7 +35,7 @@ def repeatability(found: Repeatability, ax: Axes | None = None) -> Axes:
     Raises
     ------
     TypeError
-        If `found` is another result, or `ax` no axes.
+        If `found` is not a Repeatability, or `ax` is not Axes.
 
     Examples
     --------
@@ -51,23 +53,23 @@ def repeatability(found: Repeatability, ax: Axes | None = None) -> Axes:
     hues = [COLOURS[Kind(name)] if name in set(Kind) else COLOURS[Kind.PERIODIC] for name, _ in pairs]
     error = {"elinewidth": style.LINE, "capsize": 2.5, "ecolor": style.GUIDE}
     ax.barh(up, 100 * values, xerr=100 * ends, color=hues, height=0.7, error_kw=error, gid="shares")
-    style.label(ax, f"share of {found.repeats.of:,} runs [%]", "")
+    style.label(ax, f"fraction of {found.repeats.of:,} runs (%)", "")
     ax.set_yticks(up, [name for name, _ in pairs])
     ax.invert_yaxis()
     ax.set_xlim(0.0, 100.0)
-    style.note(ax, f"inputs off by up to {100 * found.relative:.3g} %")
+    style.note(ax, f"inputs vary by up to {100 * found.relative:.3g} %")
     return ax
 
 
 def repeatability_map(found: RepeatabilityMap, ax: Axes | None = None) -> Axes:
-    """Draws where all runs agree, a colour a kind, and where not, in a colour of its own; undetermined where nobody knows.
+    """Plot a map of certain outcomes, one colour per type of response; uncertain points have a separate colour.
 
     Parameters
     ----------
     found : RepeatabilityMap
-        From `rocking.repeatability_map`.
+        Result of `rocking.repeatability_map`.
     ax : matplotlib Axes, optional
-        Drawn into; a new figure, a column wide, if not given.
+        Axes to draw into. Default: a new figure, one column wide.
 
     Returns
     -------
@@ -76,7 +78,11 @@ def repeatability_map(found: RepeatabilityMap, ax: Axes | None = None) -> Axes:
     Raises
     ------
     TypeError
-        If `found` is another result, or `ax` no axes.
+        If `found` is not a RepeatabilityMap, or `ax` is not Axes.
+
+    Notes
+    -----
+    A point is certain if all runs end in one type of response, undetermined if a run of it is undetermined.
 
     Examples
     --------
@@ -94,7 +100,7 @@ def repeatability_map(found: RepeatabilityMap, ax: Axes | None = None) -> Axes:
     up, across = (data[name].values for name in data.kind.dims)
     seen, unknown = data.agreeing.values, data.undetermined.values
     values = np.where(unknown > 0.0, Kind.UNDETERMINED.code, data.kind.values)
-    # half a run: shares are rounded
+    # half a run, because fractions are rounded
     values = np.where(seen + unknown < 1.0 - 0.5 / data.attrs["samples"], count, values)
     hues = [*(COLOURS[kind] for kind in Kind), UNCERTAIN]
     ax.pcolormesh(
@@ -111,9 +117,9 @@ def repeatability_map(found: RepeatabilityMap, ax: Axes | None = None) -> Axes:
     names = [*(str(kind) for kind in Kind), "not certain"]
     shares = np.bincount(values.ravel(), minlength=count + 1) / values.size
     handles = [
-        Patch(facecolor=hue, edgecolor=style.INK, linewidth=style.THIN, label=f"{name} {percent(share)}")
+        Patch(facecolor=hue, edgecolor=style.INK, linewidth=style.THIN, label=f"{name} ({percent(share)})")
         for hue, name, share in zip(hues, names, shares, strict=True)
-        if share
+        if share >= LEAST
     ]
     style.patches(ax, handles)
     return ax

@@ -1,4 +1,4 @@
-"""The safe area over the amplitude, beside the thresholds A* and A_M."""
+"""Safe fraction of initial states over the amplitude, with the thresholds A* and A_M."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ from rocking.plot.parts.axis_units import PARAMETERS
 
 
 def safe_basin(found: SafeBasin, ax: Axes | None = None) -> Axes:
-    """Draws the share of starts that do not overturn, with its 95 % interval, over the amplitude.
+    """Plot the fraction of initial states that do not overturn, with its 95 % interval, over the amplitude.
 
     Parameters
     ----------
     found : SafeBasin
-        From `rocking.safe_basin`.
+        Result of `rocking.safe_basin`.
     ax : matplotlib Axes, optional
-        Drawn into; a new figure, a column wide, if not given.
+        Axes to draw into. Default: a new figure, one column wide.
 
     Returns
     -------
@@ -27,14 +27,14 @@ def safe_basin(found: SafeBasin, ax: Axes | None = None) -> Axes:
     Raises
     ------
     TypeError
-        If `found` is another result, or `ax` no axes.
+        If `found` is not a SafeBasin, or `ax` is not Axes.
 
     Examples
     --------
     >>> import rocking as rk
     >>> found = rk.safe_basin(amplitude=[3.3, 3.7, 5.5], period=1.0, restitution=0.8, samples=200)
     >>> rk.plot.safe_basin(found).get_ylabel()
-    'safe starts [%]'
+    'safe fraction (%)'
     """
     instance("found", found, SafeBasin)
     ax = style.own(ax, height=2.9)
@@ -50,8 +50,8 @@ def safe_basin(found: SafeBasin, ax: Axes | None = None) -> Axes:
         linewidth=style.LINE,
         marker="o",
         markersize=style.point_size(across.size),
-        label="safe, with its 95 % interval",
-        clip_on=False,  # where all are safe the points lie on the frame
+        label="safe, 95 % interval",
+        clip_on=False,  # points at 100 % lie on the frame
         gid="safe",
     )
     if np.isfinite(found.heteroclinic_amplitude):
@@ -68,7 +68,7 @@ def safe_basin(found: SafeBasin, ax: Axes | None = None) -> Axes:
             linestyle=(0, (5, 2)),
             label="Melnikov's $A_M$",
         )
-    style.label(ax, PARAMETERS["amplitude"], "safe starts [%]")
+    style.label(ax, PARAMETERS["amplitude"], "safe fraction (%)")
     ax.set_ylim(bottom=0.0)
     style.key(ax)
     return ax

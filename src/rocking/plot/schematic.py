@@ -1,4 +1,4 @@
-"""The block on its base, with the names of its dimensions and angles."""
+"""Schematic of the block on its base, with the symbols of its dimensions and angles."""
 
 import math
 
@@ -15,16 +15,16 @@ STOUT = Block(height=2.0, width=1.0)
 
 
 def schematic(ax: Axes | None = None, block: Block | None = None, lean: float = 0.5) -> Axes:
-    """Draws the block of eq. 1 (Yim and Lin 1991) leaning about its corner O: H, B, R, θ, θcr, O, O' and the base's motion.
+    """Draw the block of Eq. (1) (Yim & Lin 1991) tilted about its corner O, with H, B, R, θ, θcr, O, O' and the base motion.
 
     Parameters
     ----------
     ax : matplotlib Axes, optional
-        Drawn into; a new figure, a column wide, if not given.
+        Axes to draw into. Default: a new figure, one column wide.
     block : Block, optional
-        Gives the proportions; a stout block of 2 to 1, whose angles can be seen, if not given.
+        Block that gives the proportions. Default: a stout block of 2 to 1, whose angles are large enough to see.
     lean : float
-        The angle drawn, as a fraction of the critical angle.
+        Angle drawn, as a fraction of the critical angle, in [−1, 1]. Default: 0.5.
 
     Returns
     -------
@@ -32,8 +32,8 @@ def schematic(ax: Axes | None = None, block: Block | None = None, lean: float = 
 
     Notes
     -----
-    Angles and the base's acceleration a_g are positive as drawn: clockwise, and to the right. So a base accelerated to
-    the right throws the block to the left.
+    Angles and the base acceleration a_g are positive as drawn: clockwise, and to the right. A base accelerated to the
+    right therefore tilts the block to the left.
 
     Examples
     --------
@@ -74,7 +74,7 @@ def _base(ax: Axes, height: float, width: float) -> None:
 
 
 def _sides(ax: Axes, tilted: NDArray, height: float) -> None:
-    """Dimension lines: H beside the block's left side, B above its top."""
+    """Draw the dimension lines: H along the left side of the block, B above its top."""
     foot_left, foot_right, top_right, top_left = tilted
     gap = 0.08 * height
     for first, last, opposite, name in (
@@ -87,7 +87,7 @@ def _sides(ax: Axes, tilted: NDArray, height: float) -> None:
 
 
 def _centre(ax: Axes, tilted: NDArray, height: float) -> None:
-    """The centre of mass, its distance R from the corner O, and the weight."""
+    """Draw the centre of mass, its distance R from the corner O, and the weight."""
     pivot, centre = tilted[1], tilted.mean(axis=0)
     ax.plot(*zip(pivot, centre, strict=True), color=style.MOTION, linewidth=style.LINE)
     _write(ax, "$R$", pivot + 0.4 * (centre - pivot) - (0.06 * height, 0.0), style.MOTION)
@@ -97,11 +97,11 @@ def _centre(ax: Axes, tilted: NDArray, height: float) -> None:
 
 
 def _angles(ax: Axes, tilted: NDArray, height: float, critical: float, angle: float) -> None:
-    """θ between the vertical and the leaning side; θcr between that side and the line to the centre of mass."""
+    """Draw θ between the vertical through O and the tilted side, and θcr between that side and the line to the centre of mass."""
     pivot = tilted[1]
     ax.plot(
         [pivot[0]] * 2,
-        [0.52 * height, 1.1 * height],
+        [0.0, 1.1 * height],
         color=style.INK,
         linestyle="dotted",
         linewidth=style.LINE,
@@ -128,6 +128,7 @@ def _angles(ax: Axes, tilted: NDArray, height: float, critical: float, angle: fl
             name,
             pivot + (radius + 0.08 * height) * np.array([math.cos(middle), math.sin(middle)]),
             colour,
+            style.BLOCK,
         )
 
 
@@ -136,5 +137,8 @@ def _arrow(ax: Axes, tail, head, colour: str, shape: str) -> None:
     ax.annotate("", head, tail, arrowprops=how | {"mutation_scale": 8})
 
 
-def _write(ax: Axes, text: str, place, colour: str = style.INK) -> None:
-    ax.text(place[0], place[1], text, color=colour, fontsize=style.TEXT + 1, ha="center", va="center")
+def _write(ax: Axes, text: str, place, colour: str = style.INK, behind: str = "none") -> None:
+    box = {"facecolor": behind, "edgecolor": "none", "pad": 0.5}
+    ax.text(
+        place[0], place[1], text, color=colour, fontsize=style.TEXT + 1, ha="center", va="center", bbox=box
+    )

@@ -1,4 +1,4 @@
-"""Stroboscopic points."""
+"""Poincaré sections: stroboscopic points of a motion."""
 
 import math
 
@@ -19,20 +19,20 @@ def section(
     phase: float | None = None,
     transient: int = 0,
 ) -> Axes:
-    """Draws the states of a motion at one phase of the forcing, cycle after cycle (Poincaré map).
+    """Plot the Poincaré section of a motion: its states at one forcing phase, once per cycle.
 
     Parameters
     ----------
     result : Motion or array of shape (n, 2)
-        A motion (recorded with ``record="section"`` or ``"all"``), or points (Θ, Θ').
+        Motion recorded with ``record="section"`` or ``"all"``, or points (Θ, Θ').
     ax : matplotlib Axes, optional
-        Drawn into; a new figure, a column wide, if not given.
+        Axes to draw into. Default: a new figure, one column wide.
     block : Block, optional
-        Gives SI axes, degrees and degrees per second; otherwise the axes are normalised.
+        Block for SI axes, degrees and degrees per second. Default: normalised axes.
     phase : float, optional
-        Forcing phase of the section, rad; by default the forcing's own, at which the motion started.
+        Forcing phase ψ of the section, rad. Default: the phase of the forcing, at which the motion started.
     transient : int
-        How many points are left out at the start; at least one must stay.
+        Number of points discarded at the start; at least one point must remain. Default: 0.
 
     Returns
     -------
@@ -40,13 +40,15 @@ def section(
 
     Raises
     ------
-    TypeError, ValueError
-        If `result` holds no points, `transient` leaves none, or an argument is of another kind.
+    TypeError
+        If `result` is neither a Motion nor points, or an argument has the wrong type.
+    ValueError
+        If `result` holds no points, or `transient` leaves none.
 
     Notes
     -----
-    Every point is drawn; marks shrink from 5 pt (10 points) to a fraction of a point (10⁶), points met again not counted.
-    More than 2,000 are an image inside a vector file, so that the file stays small.
+    Every point is drawn. Marks shrink from 5 pt (10 distinct points) to a fraction of a point (10⁶). More than 2,000
+    points become an image inside a vector file, which keeps the file small.
 
     Examples
     --------
@@ -92,5 +94,5 @@ def _points(result) -> NDArray:
 
 
 def at_phase(phase: float) -> str:
-    """At which forcing phase a section is taken."""
+    """Return a note with the forcing phase of a section."""
     return rf"$\psi = {phase % (2 * math.pi):.4g}$ (mod $2\pi$)"

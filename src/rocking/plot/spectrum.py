@@ -1,4 +1,4 @@
-"""Spectral densities, with their lines named."""
+"""Power spectral densities with named lines."""
 
 import math
 
@@ -13,6 +13,8 @@ from rocking.response import Peak, SpectralDensity
 
 DECADES = 10
 ROOM_FOR_NAMES = 0.3
+# Distance of lines that leaves room for horizontal names, in heights of a name.
+HORIZONTAL = 3.0
 MAX_NAMES = 100
 
 
@@ -23,20 +25,21 @@ def spectrum(
     highest: float = 3.0,
     names: int = 12,
 ) -> Axes:
-    """Draws a spectral density on a logarithmic scale, with its strongest lines named and the forcing's multiples marked.
+    """Plot a power spectral density on a logarithmic scale, with the names of its strongest lines.
 
     Parameters
     ----------
     density : SpectralDensity
-        What `rocking.spectral_density` gives.
+        Result of `rocking.spectral_density`.
     ax : matplotlib Axes, optional
-        Drawn into; a new figure, a column wide, if not given.
+        Axes to draw into. Default: a new figure, one column wide.
     block : Block, optional
-        Gives hertz and square degrees per hertz; otherwise the axes are normalised.
+        Block for hertz and square degrees per hertz. Default: normalised axes.
     highest : float
-        Up to which multiple of the forcing frequency, in [0.1, 1000].
+        Highest frequency shown, as a multiple of the forcing frequency, in [0.1, 1000]. Default: 3.
     names : int
-        How many lines at most are named, the strongest first; one too near to a stronger one is left out.
+        Maximum number of named lines, 0 to 100, the strongest first. A line too close to a stronger one has no name.
+        Default: 12.
 
     Returns
     -------
@@ -44,13 +47,15 @@ def spectrum(
 
     Raises
     ------
-    TypeError, ValueError
-        If an argument is of another kind or outside its range.
+    TypeError
+        If an argument has the wrong type.
+    ValueError
+        If `highest` or `names` lies outside its range.
 
     Notes
     -----
-    Ten decades below the highest point are shown at most. f is the forcing frequency, f_r the rotation frequency. Beyond
-    `density.highest` no lines are sought.
+    At most ten decades below the highest point are shown. Dotted lines mark multiples of the forcing frequency f; f_r is
+    the rotation frequency. Lines are named up to `density.highest`.
 
     Examples
     --------
@@ -67,7 +72,7 @@ def spectrum(
     ax = style.own(ax, height=2.6)
     last = min(highest * (1 + 1e-9), density.forcing_multiples[-1])
     drawn = density.forcing_multiples <= last
-    drawn[0] = False  # the mean is not part of it
+    drawn[0] = False  # the mean is not part of the density
     heights = shown.density(density.density[drawn])
     ax.plot(
         shown.frequency(density.frequency[drawn]),
@@ -84,13 +89,14 @@ def spectrum(
     style.label(ax, shown.frequency_label, shown.density_label)
     _scale(ax, heights)
     ax.set_xlim(0.0, last * forcing * 1.02)
-    for peak in _apart(density.peaks, names, ax, last / density.system.forcing.period):
+    chosen, upright = _apart(density.peaks, names, ax, last / density.system.forcing.period)
+    for peak in chosen:
         ax.annotate(
             f"${peak.name}$",
             (shown.frequency(peak.frequency), shown.density(peak.height)),
             (0, 3),
             textcoords="offset points",
-            rotation=90,
+            rotation=90 if upright else 0,
             ha="center",
             va="bottom",
             fontsize=style.SMALL,
@@ -101,7 +107,7 @@ def spectrum(
 
 
 def _scale(ax: Axes, heights: np.ndarray) -> None:
-    """Ten decades at most, and room for names above the highest."""
+    """Show at most ten decades, with room for names above the highest point."""
     top = math.log10(heights.max())
     bottom = max(top - DECADES, math.log10(max(heights.min(), 1e-300)))
     ax.set_ylim(10**bottom, 10 ** (top + ROOM_FOR_NAMES * (top - bottom)))
@@ -109,11 +115,20 @@ def _scale(ax: Axes, heights: np.ndarray) -> None:
     ax.yaxis.set_minor_locator(NullLocator())
 
 
-def _apart(peaks: tuple[Peak, ...], most: int, ax: Axes, last: float) -> list[Peak]:
-    """The strongest named peaks whose names, written upwards, stand clear of stronger lines, of their names and of the axis."""
+def _apart(peaks: tuple[Peak, ...], most: int, ax: Axes, last: float) -> tuple[list[Peak], bool]:
+    """Choose the strongest named peaks whose names are clear of stronger lines, of each other and of the axis.
+
+    Returns
+    -------
+    tuple of (list of Peak, bool)
+        The peaks, and whether their names run upwards, because there is no room for horizontal names.
+    """
     root = ax.figure.canvas.figure
-    root.draw_without_rendering()  # only now is it known how wide the axes are
+    root.draw_without_rendering()  # the width of the axes is known after the layout
     clear = 1.15 * style.SMALL / 72 * root.dpi / ax.get_window_extent().width * last
+    shown = np.sort([peak.frequency for peak in peaks if peak.frequency <= last])
+    gaps = np.diff(shown, prepend=-shown[0], append=np.inf) if len(shown) else np.zeros(1)
+    wide = gaps.min() > HORIZONTAL * clear
     chosen: list[Peak] = []
     for rank, peak in enumerate(peaks):
         if len(chosen) == most:
@@ -122,4 +137,4 @@ def _apart(peaks: tuple[Peak, ...], most: int, ax: Axes, last: float) -> list[Pe
         on_name = any(abs(peak.frequency - other.frequency) < clear for other in chosen)
         if peak.name and not on_line and not on_name and clear / 2 <= peak.frequency <= last:
             chosen.append(peak)
-    return chosen
+    return chosen, not wide

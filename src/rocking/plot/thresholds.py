@@ -1,4 +1,4 @@
-"""Amplitudes at which something changes, over the period of the forcing."""
+"""Threshold amplitudes over the forcing period."""
 
 from collections.abc import Mapping
 
@@ -10,14 +10,11 @@ from rocking.model import Block, reals, refusal, refuse_if
 from rocking.plot.parts import style
 from rocking.plot.parts.axis_units import parameter
 
-# Colours, and dashes that tell them apart without colours.
-LINES = (
-    (style.MOTION, "-"),
-    (style.IMPACT, "-"),
-    (style.MOTION, (0, (5, 2))),
-    (style.IMPACT, (0, (5, 2))),
-    (style.BRACE, (0, (6, 2, 1, 2))),
-    (style.INK, (0, (3, 1, 1, 1, 1, 1))),
+# Two colours by three dashes: curves in pairs, such as two thresholds at three coefficients of restitution.
+LINES = tuple(
+    (colour, dashes)
+    for dashes in ("-", (0, (5, 2)), (0, (6, 2, 1, 2)))
+    for colour in (style.MOTION, style.IMPACT)
 )
 
 
@@ -27,18 +24,20 @@ def thresholds(
     ax: Axes | None = None,
     block: Block | None = None,
 ) -> Axes:
-    """Draws amplitudes over the period, such as those that bound modes.
+    """Plot threshold amplitudes over the forcing period.
 
     Parameters
     ----------
     periods : array
-        T, increasing.
+        Forcing periods T, increasing.
     curves : dict
-        By label, A at each period, NaN where there is none; or a pair of them and of booleans, dotted where False. Up to six.
+        One to six curves by label. A curve is the amplitude A at each period, NaN where it does not exist. A pair of
+        amplitudes and booleans is dotted where the boolean is False. Curves 1 and 2, 3 and 4, 5 and 6 share a dash. Odd
+        and even curves have one colour each.
     ax : matplotlib Axes, optional
-        Drawn into; a new figure, a column wide, if not given.
+        Axes to draw into. Default: a new figure, one column wide.
     block : Block, optional
-        Gives SI axes, s and m/s²; otherwise they are normalised.
+        Block for SI axes, s and m/s². Default: normalised axes.
 
     Returns
     -------
@@ -46,8 +45,10 @@ def thresholds(
 
     Raises
     ------
-    TypeError, ValueError
-        If there is no curve or too many, a curve and the periods differ in length, or an argument is of another kind.
+    TypeError
+        If `curves` is not a dict, or an argument has the wrong type.
+    ValueError
+        If there is no curve or more than six, or a curve and the periods differ in length.
 
     Examples
     --------
@@ -55,7 +56,7 @@ def thresholds(
     >>> import rocking as rk
     >>> periods = np.linspace(0.2, 3.0, 100)
     >>> breaking = rk.theory.symmetry_breaking_amplitude(periods, 0.9, 1)
-    >>> ax = rk.plot.thresholds(periods, {"mode (1,1) stable below": breaking})
+    >>> ax = rk.plot.thresholds(periods, {"(1, 1) mode stable below": breaking})
     >>> len(ax.lines)
     1
     """
@@ -70,12 +71,12 @@ def thresholds(
         values, holds = np.asarray(reals("curves", amplitudes)), np.asarray(holds, bool)
         if not across.ndim == values.ndim == holds.ndim == 1 or not len(across) == len(values) == len(holds):
             raise ValueError(
-                refusal("curves", f"have one amplitude a period, {across.size}", f"{name}: {values.size}")
+                refusal("curves", f"have one amplitude per period, {across.size}", f"{name}: {values.size}")
             )
         up = turn_up(values)
         for part, how, label in ((holds, dashes, name), (~holds, style.DOTTED, None)):
             if part.any():
-                # one point more, so that no gap is left where the dots begin
+                # one point more, so that no gap remains where the dots begin
                 drawn = part | np.concatenate(([False], part[:-1]))
                 line = np.where(drawn, up, np.nan)
                 ax.plot(

@@ -1,4 +1,4 @@
-"""The angle against time."""
+"""Time history of the angle."""
 
 from __future__ import annotations
 
@@ -18,19 +18,19 @@ def time_history(
     block: Block | None = None,
     cycles: tuple[float, float] | None = None,
 ) -> Axes:
-    r"""Draws the angle of a motion against time; its corners at impacts and its extremes are exact.
+    r"""Plot the angle of a motion against time, with exact corners at impacts and exact extremes.
 
     Parameters
     ----------
     motion : Motion
-        Recorded with ``record="all"``.
+        Motion recorded with ``record="all"``.
     ax : matplotlib Axes, optional
-        Drawn into; a new figure, a column wide, if not given.
+        Axes to draw into. Default: a new figure, one column wide.
     block : Block, optional
-        Gives SI axes, seconds and degrees; otherwise the axes are normalised.
+        Block for SI axes, seconds and degrees. Default: normalised axes.
     cycles : tuple of float, optional
-        First and last forcing cycle shown, counted from the start. The whole motion if not given; if it overturned,
-        on past the proof until three times the critical angle.
+        First and last forcing cycle shown, counted from the start. Default: the whole motion; if it overturned, up to
+        three times the critical angle.
 
     Returns
     -------
@@ -38,12 +38,14 @@ def time_history(
 
     Raises
     ------
-    TypeError, ValueError
-        If `cycles` does not lie within the motion, the motion kept no events, or an argument is of another kind.
+    TypeError
+        If an argument has the wrong type.
+    ValueError
+        If `cycles` lies outside the motion, or the motion kept no events.
 
     Notes
     -----
-    Dotted lines are the critical angle, dashed lines the braces; they are left out where the motion stays far below.
+    Dotted lines mark the critical angle, dashed lines the braces. They are omitted if the motion stays below half of it.
 
     Examples
     --------
@@ -51,14 +53,14 @@ def time_history(
     >>> system = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925)
     >>> ax = rk.plot.time_history(rk.simulate(system, cycles=60), cycles=(50, 60))
     >>> print(ax.get_xlabel())
-    time $\tau = \alpha t$ (–)
+    time $\tau = \alpha t$
     """
     start, stop = window(motion, cycles)
     return draw_history(style.own(ax), motion, start, stop, block)
 
 
 def draw_history(ax: Axes, motion: Motion, start: float, stop: float, block: Block | None) -> Axes:
-    """Draws the angle from time `start` to `stop`, in τ."""
+    """Draw the angle from time `start` to `stop`, in τ."""
     time, angle, _ = trace(motion, start, stop)
     shown = quantities(block)
     _guides(ax, motion.system, shown, float(np.abs(angle).max()))
@@ -76,7 +78,7 @@ def draw_history(ax: Axes, motion: Motion, start: float, stop: float, block: Blo
 
 
 def _guides(ax: Axes, system: System, shown: Quantities, largest: float) -> None:
-    """The angle 0, and the braces or else the critical angle, where the motion comes at least half as far."""
+    """Draw the angle 0, and the braces or the critical angle if the motion exceeds half of it."""
     ax.axhline(0.0, color=style.GUIDE, linewidth=style.THIN)
     if system.braces is None:
         level, colour, dashes, name = 1.0, style.GUIDE, "dotted", "critical angle"
@@ -87,3 +89,13 @@ def _guides(ax: Axes, system: System, shown: Quantities, largest: float) -> None
             ax.axhline(
                 shown.angle(side * level), color=colour, linestyle=dashes, linewidth=style.LINE, gid=name
             )
+        ax.text(
+            1.0,
+            shown.angle(level),
+            name,
+            transform=ax.get_yaxis_transform(),
+            ha="right",
+            va="bottom",
+            fontsize=style.SMALL,
+            color=style.INK,
+        )

@@ -1,4 +1,4 @@
-"""A response and what it is, at a glance: for `rocking classify --plot`, and in a notebook."""
+"""Overview of a classified response, for a notebook and for `rocking classify --plot`."""
 
 from __future__ import annotations
 
@@ -24,33 +24,33 @@ from rocking.plot.section import section
 from rocking.plot.time_history import time_history
 
 ENDS = (Kind.OVERTURNED, Kind.REST)
-# Cycles in the time history, of a periodic one at least a period, and points in the section.
+# Cycles in the time history (at least one period of a periodic response), and points in the section.
 SHOWN = 20
 DECAY_SHOWN = 200
 POINTS = 5_000
-# A longer run is not run again only to be drawn where it ended.
+# Last cycle up to which a run is repeated for drawing.
 LATEST = 100_000
 LETTERS = 122
-# Width of the band in the kind's colour, as a share of the figure's.
+# Width of the band in the colour of the type of response, as a fraction of the width of the figure.
 BAND = 0.007
-# What is left of the transient where the last cycles begin.
+# Remaining fraction of the transient at the start of the last cycles.
 LEFT = 1e-4
-# Points of the section nearer to each other than this are those of one periodic orbit.
+# Points of the section closer to each other than this belong to one periodic orbit.
 SAME = 1e-3
-# So many points of a run that has become periodic repeat themselves at its end.
+# Number of final points of a run that must repeat themselves if the run has become periodic.
 LAST = 200
-OTHERWISE = "this run of it ends otherwise"
+OTHERWISE = "the run shown ends differently"
 
 
 def verdict(verdict: Verdict, block: Block | None = None) -> Figure:
-    """Draws the last cycles of a response, its phase portrait and its section, under the sentence that says what it is.
+    """Plot the last cycles of a response, its phase portrait and its section, below the text of its verdict.
 
     Parameters
     ----------
     verdict : Verdict
-        From `classify`.
+        Result of `classify`.
     block : Block, optional
-        Gives SI axes; otherwise they are normalised.
+        Block for SI axes. Default: normalised axes.
 
     Returns
     -------
@@ -59,15 +59,15 @@ def verdict(verdict: Verdict, block: Block | None = None) -> Figure:
     Raises
     ------
     TypeError
-        If `verdict` is none, or `block` is of another kind.
+        If `verdict` is not a Verdict, or `block` is not a Block.
 
     Notes
     -----
-    A block that overturns or comes to rest is shown until it has, without a section. In the section of a periodic response
-    the points on the way lead to the orbit, which is ringed. The band at the left has the colour of the kind.
+    A motion that overturns or comes to rest is shown up to that event, without a section. In the section of a periodic
+    response, grey points are the transient and rings the orbit. The band at the left has the colour of the type of response.
 
-    The motion is drawn from a run of `simulate`. It may follow another chaotic transient than the run of `classify`, because
-    the two round differently. Where the run that is drawn contradicts the verdict, a note above it says so.
+    The motion is drawn from a run of `simulate`. This run may follow another chaotic transient than the run of `classify`,
+    because the two round differently. If the run contradicts the verdict, a note states it.
 
     Examples
     --------
@@ -94,7 +94,7 @@ def verdict(verdict: Verdict, block: Block | None = None) -> Figure:
 
 
 def _motion(verdict: Verdict, history: Axes, portrait: Axes, block: Block | None) -> None:
-    """The time history and the phase portrait of the last cycles, or a word where they hold too many events."""
+    """Draw the time history and the phase portrait of the last cycles, or a note if they hold too many events."""
     first, cycles = _window(verdict)
     try:
         motion = simulate(verdict.system, _after(verdict, first), cycles=cycles)
@@ -113,18 +113,24 @@ def _motion(verdict: Verdict, history: Axes, portrait: Axes, block: Block | None
     if verdict.period and not _repeats(motion.section()[-verdict.period - 1 :], verdict.period):
         style.note(history, OTHERWISE)
     if first > 0:
-        unit = quantities(block).time_unit
-        history.set_xlabel(f"time after cycle {first:,} ({unit})", fontsize=style.TEXT, color=style.INK)
+        label = rf"time $\tau$ after cycle {first:,}" if block is None else f"time after cycle {first:,} (s)"
+        history.set_xlabel(label, fontsize=style.TEXT, color=style.INK)
 
 
 def _window(verdict: Verdict) -> tuple[int, int]:
-    """(first cycle shown, how many): the end where there is one, else what comes after the cycles followed."""
+    """Return the cycles shown: the end of the motion, or the cycles after the simulated ones.
+
+    Returns
+    -------
+    tuple of (int, int)
+        First cycle, and number of cycles.
+    """
     if verdict.kind is Kind.OVERTURNED:
         first = max(verdict.cycles - SHOWN, 0)
         return first, max(verdict.cycles - first, 1)
     if verdict.kind is Kind.REST:
         first = max(verdict.cycles - DECAY_SHOWN, 0)
-        # rest is certain long before its last impact; what follows that is not drawn
+        # rest is certain long before the last impact; the motion after the last impact is not drawn
         return first, 10 * (verdict.cycles - first) + SHOWN
     period = verdict.period or 1
     first = verdict.cycles + (0 if verdict.orbit is None else _settling(verdict.orbit))
@@ -132,7 +138,7 @@ def _window(verdict: Verdict) -> tuple[int, int]:
 
 
 def _settling(orbit: Orbit) -> int:
-    """Cycles until its multipliers have made differences LEFT times as large; a neutral orbit has none."""
+    """Return the number of cycles after which perturbations have shrunk to LEFT of their size; 0 for a neutral orbit."""
     size = abs(orbit.multipliers[0])
     return orbit.period * math.ceil(math.log(LEFT) / math.log(size)) if 0.0 < size < 1.0 - 1e-6 else 0
 
@@ -144,7 +150,7 @@ def _after(verdict: Verdict, cycles: int) -> State:
 
 
 def _repeats(points: NDArray, period: int) -> bool:
-    """Whether all points of a section repeat themselves with a period, of which there is one at least."""
+    """Return whether all points of a section repeat themselves with a period; False for less than one period."""
     apart = np.hypot(*(points[period:] - points[:-period]).T)
     return apart.size > 0 and bool(apart.max() <= SAME)
 
@@ -165,7 +171,7 @@ def _section(verdict: Verdict, ax: Axes, block: Block | None) -> None:
     except TooManyEvents:
         ax.set_axis_off()
         return
-    # where it forgets, the orbit's own phase is that of a release, at which there is nothing to see
+    # a superstable orbit has the phase of a release, at which the block rests; a quarter period later it moves
     phase = (orbit.phase + 0.5 * math.pi) % math.tau if orbit.superstable else orbit.phase
     points = motion.section(phase)
     section(points[: -orbit.period], ax, block, phase)
@@ -173,7 +179,7 @@ def _section(verdict: Verdict, ax: Axes, block: Block | None) -> None:
 
 
 def _on(orbit: Orbit, points: NDArray) -> NDArray:
-    """The points of an orbit: from itself, or, where it forgets, the last ones, which lie on it."""
+    """Return the points of an orbit; those of a superstable orbit are the last points of the section."""
     if orbit.superstable:
         return points[-orbit.period :]
     system = evolve(orbit.system, forcing=evolve(orbit.system.forcing, phase=orbit.phase))
@@ -181,7 +187,7 @@ def _on(orbit: Orbit, points: NDArray) -> NDArray:
 
 
 def _ring(ax: Axes, points: NDArray, block: Block | None, kind: Kind) -> None:
-    ax.lines[-1].set(color=style.GUIDE, label="on the way")
+    ax.lines[-1].set(color=style.GUIDE, label="transient")
     shown = quantities(block)
     ax.plot(
         shown.angle(points[:, 0]),

@@ -1,4 +1,4 @@
-"""Maps of any size to look into: image tiles in a pyramid, and one page that pans and zooms them without a server."""
+"""Zoomable maps of any size: a pyramid of image tiles, and a page that pans and zooms them without a server."""
 
 from __future__ import annotations
 
@@ -23,11 +23,10 @@ if TYPE_CHECKING:
 
 EDGE = 256
 """Dots along an edge of a tile."""
-HATCHED = {
-    name: [number for number, look in enumerate(LOOKS) if look.hatch == colour]
-    for name, colour in (("white", "white"), ("dark", style.INK))
-}
-"""Looks with stripes, by what the images of their masks are called."""
+LEAST = 1e-4
+"""Smallest fraction with a row in the legend."""
+HATCHED = {"dark": [number for number, look in enumerate(LOOKS) if look.hatch == style.INK]}
+"""Categories with stripes, by the names of the images of their masks."""
 
 
 def tiles(
@@ -35,32 +34,36 @@ def tiles(
     folder: str | os.PathLike[str],
     block: Block | None = None,
 ) -> Path:
-    """Writes a map as image tiles, a dot a point, and a page that pans and zooms them: a browser opens it from the disk.
+    """Write a map as image tiles, one dot per point, and a page that pans and zooms them in a browser.
 
     Parameters
     ----------
     found : xarray.Dataset, path, or sequence of xarray.Dataset
-        As in `parametric_map`; it need not fit in memory.
+        Map as in `parametric_map`; it need not fit in memory.
     folder : path
-        A new one, an empty one, or one that holds just what this has written before, which is then replaced as a whole.
+        New or empty folder, or a folder written by this function, which is then replaced completely.
     block : Block, optional
-        Gives SI axes; otherwise they are the map's own, normalised.
+        Block for SI axes. Default: the normalised axes of the map.
 
     Returns
     -------
     Path
-        The page, `index.html`, in the folder; it needs nothing but the folder, and no other host.
+        Path of the page, `index.html`, in the folder. The page works from the disk, without a server.
 
     Raises
     ------
-    TypeError, ValueError, OSError
-        If it is no map over two axes, or the folder holds something else or cannot be written.
+    TypeError
+        If `found` is not a map over two axes.
+    ValueError
+        If the folder holds other files, or `found` is not a store.
+    OSError
+        If the folder cannot be written.
 
     Notes
     -----
-    Dots are points, also in the coarser images, which have every second, fourth, … of them: nothing is blended, so what is
-    rarer than that shows when one zooms in. Colours and hatches are those of `parametric_map`; the images are
-    named `tiles/LEVEL/ROW-COLUMN.png`, level 0 in one tile, rows from the top, with a mask beside those that have hatches.
+    Each dot is a point. The coarser images hold every second, fourth, … point, without blending, so that rare points may
+    appear only after zooming in. Colours and hatches are those of `parametric_map`. Images are named
+    `tiles/LEVEL/ROW-COLUMN.png`; level 0 is one tile, and rows count from the top. Images with hatches have a mask.
 
     Examples
     --------
@@ -87,13 +90,13 @@ def tiles(
 
 
 def _from_the_top(read: Responses) -> Iterator[np.ndarray]:
-    """Rows of tiles as they lie in an image, the largest value uppermost."""
+    """Yield the rows of tiles in the order of an image, the largest value at the top."""
     for top in range(read.up.size, 0, -EDGE):
         yield read.rows(max(top - EDGE, 0), top)[::-1]
 
 
 class Pyramid:
-    """Images of every level, written while rows come in from the top: each level keeps no more than one row of tiles."""
+    """Images of all levels, written as rows arrive from the top; each level holds at most one row of tiles in memory."""
 
     def __init__(self, folder: Path, rows: int, columns: int) -> None:
         self.folder = folder
@@ -105,11 +108,11 @@ class Pyramid:
         self.palette = [round(255 * part) for look in LOOKS for part in to_rgb(look.colour)]
 
     def add(self, codes: np.ndarray) -> None:
-        """Take rows of the deepest level."""
+        """Add rows of the deepest level."""
         self._add(self.deepest, codes)
 
     def finish(self) -> None:
-        """Write what is left of each level."""
+        """Write the remaining rows of each level."""
         for level in range(self.deepest, -1, -1):
             if self.waiting[level]:
                 self._write(level, np.concatenate(self.waiting[level]))
@@ -146,7 +149,7 @@ class Pyramid:
 
 
 def _page(read: Responses, counts: np.ndarray, pyramid: Pyramid, block: Block | None) -> str:
-    """The page, all of its style and script inside."""
+    """Return the page, with its style and script inside."""
     from jinja2 import Environment, StrictUndefined
 
     (turn_up, up), (turn_across, across) = (parameter(name, block) for name in read.names)
@@ -159,7 +162,7 @@ def _page(read: Responses, counts: np.ndarray, pyramid: Pyramid, block: Block | 
             "share": percent(count / counts.sum()),
         }
         for look, count in zip(LOOKS, counts[: len(LOOKS)], strict=True)
-        if count
+        if count and count >= LEAST * counts.sum()
     ]
     if counts[NONE]:
         legend.append(
@@ -177,17 +180,14 @@ def _page(read: Responses, counts: np.ndarray, pyramid: Pyramid, block: Block | 
         "across": {"values": _told(turn_across(read.across)), "name": _plain(across)},
         "up": {"values": _told(turn_up(read.up)), "name": _plain(up)},
     }
-    return (
-        Environment(autoescape=True, undefined=StrictUndefined)
-        .from_string(template)
-        .render(
-            view=view,
-            legend=legend,
-            fixed=({} if block is None else {"block": block.size})
-            | {name: f"{read.told[name]:.6g}" for name in FIXED if name in read.told},
-            points=f"{read.up.size:,} × {read.across.size:,}",
-            version=VERSION,
-        )
+    environment = Environment(autoescape=True, undefined=StrictUndefined)
+    return environment.from_string(template).render(
+        view=view,
+        legend=legend,
+        fixed=({} if block is None else {"block": block.size})
+        | {name: f"{read.attributes[name]:.6g}" for name in FIXED if name in read.attributes},
+        points=f"{read.up.size:,} × {read.across.size:,}",
+        version=VERSION,
     )
 
 
@@ -195,16 +195,16 @@ FIXED = (
     "amplitude", "period", "frequency", "restitution", "phase", "angle", "velocity", "brace_angle", "brace_restitution", "max_cycles",
 )  # fmt: skip
 TEX = {r"\tau": "τ", r"\Omega": "Ω", r"\varphi": "φ", r"\Theta": "Θ", r"\theta": "θ", r"\dot": "", r"\mathrm": "", "_0": "₀",
-       "_x": "ₓ", "_{b}": "b", "$": "", "(–)": ""}  # fmt: skip
+       "_x": "ₓ", "_{b}": "b", "$": ""}  # fmt: skip
 
 
 def _plain(label: str) -> str:
-    """A label of an axis without TeX."""
+    """Return a label of an axis without TeX."""
     for tex, sign in TEX.items():
         label = label.replace(tex, sign)
     return label.strip()
 
 
 def _told(values: Any) -> list[float]:
-    """Values to the nine digits that anybody reads off a page."""
+    """Return values to nine digits, which keeps the page small."""
     return [float(f"{value:.9g}") for value in np.asarray(values).tolist()]

@@ -1,6 +1,6 @@
-"""The surveys that the statistical statements of the paper are held against, each made once a run.
+"""Surveys that test the statistical statements of the paper, each computed once per run.
 
-Period 0.2 to 3, amplitude 0 to 16, from rest with φ = 0, as in all our maps.
+Period 0.2 to 3, amplitude 0 to 16, from rest with φ = 0.
 """
 
 from __future__ import annotations
@@ -23,41 +23,41 @@ SYSTEMS = 900
 
 
 def axes(count: int) -> dict[str, Any]:
-    """Evenly spaced axes of a map."""
+    """Return evenly spaced axes of a map."""
     return {"period": np.linspace(*PERIODS, count), "amplitude": np.linspace(*AMPLITUDES, count)}
 
 
 @cache
 def undamped() -> xr.Dataset:
-    """The map of figure 10, e = 1."""
+    """Compute the map of figure 10, e = 1."""
     return rk.parametric_map(**axes(160), restitution=1.0)
 
 
 @cache
 def damped() -> xr.Dataset:
-    """The map of figure 11, e = 0.925."""
+    """Compute the map of figure 11, e = 0.925."""
     return rk.parametric_map(**axes(400), restitution=0.925)
 
 
 @cache
 def braced() -> xr.Dataset:
-    """The map of figure 13b, e = 0.925 between perfectly elastic braces at the critical angle.
+    """Compute the map of figure 13b, e = 0.925 between perfectly elastic braces at the critical angle.
 
-    10⁵ cycles: before that a motion between braces is not called chaotic, most of those that look so for a thousand
-    cycles are on their way to a periodic one.
+    Motions between braces count as chaotic only after 10⁵ cycles. Most motions that appear chaotic for a thousand
+    cycles become periodic later.
     """
     return rk.parametric_map(**axes(50), restitution=0.925, brace_angle=1.0, max_cycles=100_000)
 
 
 @cache
 def chaos() -> rk.ChaosShare:
-    """The share of chaos among random periods and amplitudes, over e."""
+    """Estimate the fraction of chaotic responses at random periods and amplitudes, over e."""
     return rk.chaos_share(restitution=np.array(RESTITUTIONS), samples=SAMPLES)
 
 
 @cache
 def braced_chaos() -> rk.ChaosShare:
-    """The same between perfectly elastic braces at the critical angle."""
+    """Estimate the fraction of chaotic responses between perfectly elastic braces at the critical angle, over e."""
     return rk.chaos_share(
         restitution=np.array(BRACED_RESTITUTIONS), samples=BRACED_SAMPLES, brace_angle=1.0, max_cycles=100_000
     )
@@ -65,7 +65,7 @@ def braced_chaos() -> rk.ChaosShare:
 
 @cache
 def starts(amplitude: float, period: float, restitution: float) -> xr.Dataset:
-    """Over starts with |Θ| ≤ 1 and |Θ'| ≤ 1."""
+    """Compute a map over initial states with |Θ| ≤ 1 and |Θ'| ≤ 1."""
     axis = np.linspace(-1.0, 1.0, 30)
     return rk.parametric_map(
         angle=axis, velocity=axis, amplitude=amplitude, period=period, restitution=restitution
@@ -74,13 +74,16 @@ def starts(amplitude: float, period: float, restitution: float) -> xr.Dataset:
 
 @cache
 def repeatable(restitution: float) -> rk.RepeatabilityMap:
-    """Over a map, whether an experiment with inputs off by 1 % ends the same."""
+    """Compute a map of repeatability for inputs that vary by 1 %."""
     return rk.repeatability_map(**axes(REPEATED), restitution=restitution, samples=8, max_cycles=10_000)
 
 
 @cache
 def responses_uncertain(brace_angle: float | None = None) -> rk.Share:
-    """Of random systems with e = 0.925, those of which inputs off by 1 % give responses that differ, periods told apart."""
+    """Estimate the fraction of random systems with e = 0.925 whose response differs for inputs that vary by 1 %.
+
+    Responses of different period, symmetry or number of impacts count as different.
+    """
     rng = np.random.default_rng(13)
     braces = None if brace_angle is None else rk.Braces(brace_angle, 1.0)
     differ = 0
@@ -95,16 +98,16 @@ def responses_uncertain(brace_angle: float | None = None) -> rk.Share:
 
 @cache
 def torus_spectrum() -> rk.SpectralDensity:
-    """That of figure 8b."""
+    """Compute the power spectral density of figure 8b."""
     return rk.spectral_density(rk.simulate(QUASI_PERIODIC.system, cycles=8_192))
 
 
 @cache
 def torus_turns() -> rk.RotationNumber:
-    """How the quasi-periodic response turns."""
+    """Compute the rotation number of the quasi-periodic response."""
     return rk.rotation_number(QUASI_PERIODIC.system, cycles=20_000)
 
 
 def count(found: xr.Dataset, kind: rk.Kind) -> int:
-    """Points of one kind."""
+    """Return the number of points with one type of response."""
     return int((found.kind == kind.code).sum())

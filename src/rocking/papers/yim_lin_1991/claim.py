@@ -1,4 +1,4 @@
-"""A claim of the paper, and what comes of it when it is computed."""
+"""Claims of the paper, each with the computation that tests it and the resulting verdict."""
 
 from __future__ import annotations
 
@@ -13,30 +13,29 @@ SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 def small(value: float) -> str:
-    """A difference as a power of ten, to one digit.
+    """Return a difference in scientific notation, to one digit.
 
     Examples
     --------
-    >>> small(6.1e-14), small(0.0)
-    ('6·10⁻¹⁴', '0')
+    >>> small(6.1e-14), small(-1e-3), small(0.0)
+    ('6·10⁻¹⁴', '−10⁻³', '0')
     """
-    digit, _, power = f"{value:.0e}".partition("e")
-    return f"{digit}·10{str(int(power)).translate(SUPERSCRIPT)}" if value else "0"
+    return typeset(f"{value:.0e}") if value else "0"
 
 
 def agreement(value: float) -> str:
-    """How far two computed quantities are apart at most.
+    """Return the maximum difference of two computed quantities as text.
 
     Examples
     --------
     >>> agreement(6.1e-14), agreement(0.0)
-    ('apart by at most 6·10⁻¹⁴', 'equal bit for bit')
+    ('equal to within 6·10⁻¹⁴', 'equal bit for bit')
     """
-    return f"apart by at most {small(value)}" if value else "equal bit for bit"
+    return f"equal to within {small(value)}" if value else "equal bit for bit"
 
 
 def typeset(text: str) -> str:
-    """Text with its numbers as in print: a minus sign, and powers of ten.
+    """Return text with typeset numbers: a minus sign for a hyphen, and powers of ten for exponents.
 
     Examples
     --------
@@ -54,26 +53,27 @@ def typeset(text: str) -> str:
 
 
 class Standing(StrEnum):
-    """How a claim stands after the computation."""
+    """Verdict on a claim after the computation."""
 
-    REPRODUCED = "reproduced"
-    DIFFERS = "differs"
-    SLIPS = "the paper slips"
-    UNEXPLAINED = "not explained"
+    CONFIRMED = "confirmed"
+    QUALIFIED = "confirmed with qualification"
+    MISPRINT = "misprint"
+    ERROR = "error in the paper"
+    NOT_CONFIRMED = "not confirmed"
 
 
 @frozen
 class Finding:
-    """What was computed for a claim.
+    """Result of the computation for a claim.
 
     Attributes
     ----------
     holds : bool
-        Whether the figures bear the claim out.
+        Whether the figures support the claim as printed.
     figures : str
-        The figures.
+        Computed figures.
     shown : bool
-        Where the claim does not hold: whether what we say in its place was shown by the same computation.
+        For a claim that does not hold: whether the same computation shows the explanation given instead.
     """
 
     holds: bool
@@ -83,20 +83,20 @@ class Finding:
 
 @frozen
 class Claim:
-    """A claim of the paper, in our words, and the computation that judges it.
+    """Paraphrased claim of the paper, and the computation that tests it.
 
     Attributes
     ----------
     place : str
-        Where the paper makes it.
+        Place of the claim in the paper.
     says : str
-        What it says, with its numbers as printed.
+        Text of the claim, with its numbers as printed.
     compute : callable
-        Returns a `Finding`.
+        Computation that returns a `Finding`.
     otherwise : Standing
-        What it is if it does not hold and `because` is shown.
+        Verdict if the claim does not hold as printed and `because` is shown.
     because : str
-        What holds in its place.
+        Explanation, or the correct statement.
     """
 
     place: str
@@ -107,26 +107,26 @@ class Claim:
 
     @property
     def name(self) -> str:
-        """The function that computes it."""
+        """Name of the function that tests the claim."""
         return f"{self.compute.__module__.removeprefix('rocking.')}.{self.compute.__name__}"
 
     @property
     def source(self) -> str:
-        """Its text: how the claim was judged."""
+        """Source code of the function that tests the claim."""
         return inspect.getsource(self.compute)
 
     def judged(self) -> Judged:
-        """Computed now."""
+        """Run the computation and return the claim with its verdict."""
         finding = self.compute()
         finding = evolve(finding, figures=typeset(finding.figures))
         if finding.holds:
-            return Judged(self, Standing.REPRODUCED, finding)
-        return Judged(self, self.otherwise if finding.shown else Standing.UNEXPLAINED, finding)
+            return Judged(self, Standing.CONFIRMED, finding)
+        return Judged(self, self.otherwise if finding.shown else Standing.NOT_CONFIRMED, finding)
 
 
 @frozen
 class Judged:
-    """A claim with its finding."""
+    """Claim with its finding and its verdict."""
 
     claim: Claim
     standing: Standing
@@ -134,29 +134,33 @@ class Judged:
 
     @property
     def because(self) -> str:
-        """What holds in its place; empty where the claim does."""
-        return "" if self.standing is Standing.REPRODUCED else self.claim.because
+        """Explanation, or the correct statement; empty for a confirmed claim."""
+        return "" if self.standing is Standing.CONFIRMED else self.claim.because
 
 
 class Chapter(list[Claim]):
-    """The claims of one part of the paper, in their order."""
+    """Claims of one part of the paper, in their order."""
 
     def __init__(self, title: str) -> None:
         super().__init__()
         self.title = title
 
     def claim(
-        self, place: str, differs: str = "", slips: str = ""
+        self, place: str, qualified: str = "", misprint: str = "", error: str = ""
     ) -> Callable[[Callable[[], Finding]], Callable[[], Finding]]:
-        """Make the decorated function the judge of the claim that is its docstring.
+        """Register the decorated function as the test of the claim in its docstring.
 
-        `differs` or `slips` is what holds if the claim does not.
+        `qualified`, `misprint` or `error` is the explanation for a claim that does not hold as printed; its name selects
+        the verdict. The explanation counts only if the finding shows it.
         """
+        explained = {Standing.QUALIFIED: qualified, Standing.MISPRINT: misprint, Standing.ERROR: error}
+        otherwise, because = next(
+            ((standing, text) for standing, text in explained.items() if text), (Standing.NOT_CONFIRMED, "")
+        )
 
         def add(compute: Callable[[], Finding]) -> Callable[[], Finding]:
-            otherwise = Standing.SLIPS if slips else Standing.DIFFERS if differs else Standing.UNEXPLAINED
             says = " ".join((inspect.getdoc(compute) or "").split()).removesuffix(".")
-            self.append(Claim(place, says, compute, otherwise, slips or differs))
+            self.append(Claim(place, says, compute, otherwise, because))
             return compute
 
         return add

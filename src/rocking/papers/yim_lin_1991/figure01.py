@@ -1,6 +1,6 @@
-"""Figure 1: the block, its corners O and O', its dimensions H and B, the angles θ and θcr, and the base's acceleration.
+"""Figure 1: block and base, with dimensions H, B, R, corners O, O', angles θ, θcr and base acceleration.
 
-Ours is drawn with half the critical angle and with the signs of eqs. 1 to 3: angles count clockwise, accelerations to
+The block is drawn at θ = θcr/2. Signs are those of Eqs. (1) to (3): angles are positive clockwise, accelerations to
 the right.
 """
 
@@ -10,7 +10,7 @@ import rocking as rk
 
 
 def draw() -> Figure:
-    """Draws figure 1."""
+    """Draw figure 1."""
     figure, (ax,) = rk.plot.panels(height=3.6)
     rk.plot.schematic(ax)
     return figure

@@ -1,8 +1,8 @@
-"""Figure 5: quasi-periodic response, A = 4, T = 0.4, e = 1, from rest with φ = 0: (a) time history, (b) phase diagram.
+"""Figure 5: quasi-periodic response from rest, A = 4, T = 0.4, e = 1: (a) time history, (b) phase portrait.
 
-It winds around the three points of a symmetric (1, 3) mode. Without losses no part of it is transient: ours shows 60
-cycles of the time history and 120 of the phase diagram, from the start. An impact with e = 1 changes no velocity, so
-the marks before and after it coincide.
+The motion, from φ = 0, turns about the three points of a symmetric (1, 3) mode. It has no transient, because an
+undamped motion has none: (a) shows the first 60 cycles, (b) the first 21. Orange marks are impacts, at which the
+velocity does not change because e = 1. The arrow gives the direction of motion.
 """
 
 from matplotlib.figure import Figure
@@ -12,5 +12,5 @@ from rocking.papers.yim_lin_1991.history_and_portrait import draw_pair
 
 
 def draw() -> Figure:
-    """Draws figure 5."""
-    return draw_pair(QUASI_PERIODIC, history=(0, 60), portrait=(0, 120))
+    """Draw figure 5."""
+    return draw_pair(QUASI_PERIODIC, history=(0, 60), portrait=(0, 21), arrows=(16.93,))

@@ -1,7 +1,8 @@
-"""Figure 6: chaotic response, A = 2, T = 0.4, e = 1, from rest with φ = 0: (a) time history, (b) phase diagram.
+"""Figure 6: chaotic response from rest, A = 2, T = 0.4, e = 1, φ = 0: (a) time history, (b) phase portrait.
 
-Ours shows 60 cycles of the time history and 120 of the phase diagram, from the start. Neighbouring motions part by a
-factor e in some seven cycles: these 120 do not yet depend on rounding, cycles after about 250 would.
+(a) shows the first 60 cycles, (b) the first 30. Orange marks are impacts, at which the velocity does not change
+because e = 1. The arrow gives the direction of motion. Nearby trajectories diverge by a factor e in some seven
+cycles: the cycles shown do not depend on rounding, cycles after about 250 do.
 """
 
 from matplotlib.figure import Figure
@@ -11,5 +12,5 @@ from rocking.papers.yim_lin_1991.history_and_portrait import draw_pair
 
 
 def draw() -> Figure:
-    """Draws figure 6."""
-    return draw_pair(CHAOTIC, history=(0, 60), portrait=(0, 120))
+    """Draw figure 6."""
+    return draw_pair(CHAOTIC, history=(0, 60), portrait=(0, 30), arrows=(5.49,))

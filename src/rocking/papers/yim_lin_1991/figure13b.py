@@ -1,12 +1,14 @@
-"""Figure 13b: what the response from rest is over period and amplitude between braces, e = 0.925, Θb = 1, r = 1.
+"""Figure 13b: response of a block initially at rest between braces over period and amplitude, e = 0.925, r = 1.
 
-The paper's axes are not known; ours are T 0.2 to 3 and A 0 to 16, as in all our maps. Points that stay open are followed for
-10⁵ cycles, before which a motion between braces is not called chaotic: most of those that look so for a thousand cycles are
-on their way to a periodic one.
+The braces stand at the critical angle, Θb = 1. (a) 50 × 50 points, with the fraction of each type of response. (b)
+The symbols of the paper at 25 × 25 of these points; a dot is a response that the paper's legend lacks. The paper's
+axes are not known; here T runs from 0.2 to 3 and A from 0 to 16. Points are simulated for up to 10⁵ cycles, because
+motions between braces count as chaotic only then. Most motions that appear chaotic for a thousand cycles become
+periodic later.
 
-Where ours differs: nothing in the paper's legend stands for what is unsymmetric though its period is odd, which is much of the
-map; here it has the symbol of its period. Chaos does not dominate where the block hits its braces often: chaotic points are few
-even there.
+Difference from the paper: the paper's legend has no symbol for asymmetric responses of odd period, which fill much of
+the map. Here they have the symbol of their period. Chaos does not dominate where brace impacts are frequent: chaotic
+points are few even there.
 """
 
 from matplotlib.figure import Figure
@@ -16,5 +18,5 @@ from rocking.papers.yim_lin_1991.map_layout import draw_map
 
 
 def draw() -> Figure:
-    """Draws figure 13b."""
-    return draw_map(cached_surveys.braced(), "13b", r"braces at 1, $r = 1$, $e = 0.925$")
+    """Draw figure 13b."""
+    return draw_map(cached_surveys.braced(), "13b")

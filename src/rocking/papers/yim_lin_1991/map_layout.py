@@ -1,4 +1,4 @@
-"""The layout of the paper's maps: ours in colour, many points, beside the paper's symbols at a few."""
+"""Layout of the paper's maps: all points in colour, beside the paper's symbols at some of them."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ from matplotlib.figure import Figure
 import rocking as rk
 
 
-def draw_map(found: xr.Dataset, symbols: str, title: str, curves: Sequence[str] = ()) -> Figure:
-    """Draws a map over period and amplitude twice."""
+def draw_map(found: xr.Dataset, symbols: str, curves: Sequence[str] = ()) -> Figure:
+    """Draw a map over period and amplitude in colour and in symbols."""
     figure, (left, right) = rk.plot.panels(columns=2, height=4.4)
     rk.plot.parametric_map(found, left, curves=curves)
     rk.plot.parametric_map(found, right, curves=curves, symbols=symbols)
-    rk.plot.title(left, f"{title}, {found.period.size} × {found.amplitude.size} points")
-    rk.plot.title(right, "the same in the paper's symbols")
+    rk.plot.title(left, f"{found.period.size} × {found.amplitude.size} points")
+    rk.plot.title(right, "symbols of the paper")
     return figure

@@ -1,9 +1,10 @@
-"""The whole paper on one page: its figures, its claims with what came of them, and what lies beyond; and the same as a PDF."""
+"""Report on the paper as one HTML page and PDF: figures, claims with verdicts, and further results."""
 
 from __future__ import annotations
 
 import base64
 import inspect
+import re
 from collections import Counter
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from importlib import import_module
@@ -22,7 +23,7 @@ DOTS_PER_INCH = 200
 
 @frozen
 class Picture:
-    """A picture of the page, and what is said below it."""
+    """Figure of the report with its caption."""
 
     name: str
     title: str
@@ -31,33 +32,33 @@ class Picture:
 
     @property
     def inches(self) -> float:
-        """How wide it is on paper."""
+        """Width on paper, inches."""
         with Image.open(self.file.with_suffix(".png")) as image:
             return image.width / DOTS_PER_INCH
 
     @property
     def data(self) -> str:
-        """The picture in the page itself."""
+        """Data URL of the figure."""
         kind = "svg+xml" if self.file.suffix == ".svg" else "png"
         return f"data:image/{kind};base64,{base64.b64encode(self.file.read_bytes()).decode()}"
 
 
 @frozen
 class Judgement:
-    """A chapter with its claims judged."""
+    """Chapter with the verdicts on its claims."""
 
     title: str
     claims: Sequence[Judged]
 
 
 def pictured(name: str, module: str, file: Path) -> Picture:
-    """A figure with the caption that its module has for a docstring."""
+    """Return a figure with its caption, which is the docstring of its module."""
     title, _, text = inspect.cleandoc(import_module(module).__doc__ or "").partition("\n\n")
     return Picture(name, title.replace("\n", " "), text, file)
 
 
 def judged(chapters: Iterable[Chapter], said: Callable[[str], object]) -> list[Judgement]:
-    """Every claim computed now; `said` is told each one's place before it is."""
+    """Compute the verdicts on all claims; call `said` with the place of each claim before its computation."""
     judgements = []
     for chapter in chapters:
         claims = []
@@ -69,20 +70,20 @@ def judged(chapters: Iterable[Chapter], said: Callable[[str], object]) -> list[J
 
 
 def counted(judgements: Iterable[Judgement]) -> Mapping[Standing, int]:
-    """How many claims stand how."""
+    """Return the number of claims with each verdict."""
     found = Counter(claim.standing for judgement in judgements for claim in judgement.claims)
     return {standing: found[standing] for standing in Standing}
 
 
 def summed_up(judgements: Iterable[Judgement]) -> str:
-    """How many claims stand how, in one sentence."""
+    """Return the number of claims with each verdict as one line of text."""
     counts = counted(judgements)
-    told = ", ".join(f"{standing} {counts[standing]}" for standing in Standing if counts[standing])
-    return f"{sum(counts.values())} claims of the paper: {told}"
+    listed = ", ".join(f"{standing} ({counts[standing]})" for standing in Standing if counts[standing])
+    return f"{sum(counts.values())} claims of the paper: {listed}"
 
 
 def write_claims(folder: Path, judgements: Iterable[Judgement]) -> list[Path]:
-    """Writes the claims as a table of their own."""
+    """Write the claims and their verdicts as a table."""
     rows = [
         [
             judgement.title,
@@ -96,14 +97,14 @@ def write_claims(folder: Path, judgements: Iterable[Judgement]) -> list[Path]:
         for claim in judgement.claims
     ]
     return write_table(
-        folder, "claims", ["part", "place", "the paper says", "computed", "verdict", "because"], rows
+        folder, "claims", ["part", "place", "claim", "computed", "verdict", "explanation"], rows
     )
 
 
 def write(
     folder: Path, figures: Sequence[Picture], judgements: Sequence[Judgement], beyond: Sequence[Picture]
 ) -> list[Path]:
-    """Writes the page and, where the library for it is there (extra ``report``), its twin in PDF."""
+    """Write the HTML page and, if WeasyPrint (extra ``report``) is available, the same page as PDF."""
     from jinja2 import Environment, PackageLoader, StrictUndefined
 
     environment = Environment(
@@ -113,6 +114,7 @@ def write(
         trim_blocks=True,
         lstrip_blocks=True,
     )
+    environment.filters["subscripts"] = subscripts
     page = environment.get_template("report.html").render(
         figures=figures, judgements=judgements, beyond=beyond, counts=counted(judgements), version=VERSION
     )
@@ -121,8 +123,22 @@ def write(
     return [folder / PAGE, *_print(folder / TWIN, page)]
 
 
+def subscripts(text: str) -> str:
+    """Return text as HTML with the indices of its symbols as subscripts, such as A_M and θcr.
+
+    Examples
+    --------
+    >>> print(subscripts("A_M < A* & f_r, θcr"))
+    A<sub>M</sub> &lt; A* &amp; f<sub>r</sub>, θ<sub>cr</sub>
+    """
+    from markupsafe import Markup, escape
+
+    html = re.sub(r"\b([Af])_([A-Za-z]+)", r"\1<sub>\2</sub>", str(escape(text)))
+    return Markup(html.replace("θcr", "θ<sub>cr</sub>").replace("Θb", "Θ<sub>b</sub>"))
+
+
 def can_print() -> bool:
-    """Whether WeasyPrint (extra ``report``) and the libraries it needs from the system are there."""
+    """Return whether WeasyPrint (extra ``report``) and the system libraries that it needs are available."""
     try:
         import_module("weasyprint")
     except (ImportError, OSError):

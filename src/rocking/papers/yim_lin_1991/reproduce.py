@@ -1,4 +1,4 @@
-"""The paper's figures, numbers and claims into a folder, and one page of them all."""
+"""Figures, tables and claims of the paper as files, and a report on all of them."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ FIGURES = {
 }
 TABLES = ("exponents", "claims")
 ROOM = "rocking.papers.yim_lin_1991"
-# Drawn from so many points that a page had better show them as pixels.
+# Figures with many points, which the page shows as PNG.
 PIXELS = ("6", "7", "10", "11", "13a", "13b", "cascade", "crisis", "coexistence", "zoom")
 
 
@@ -41,33 +41,32 @@ def reproduce(
     progress: Callable[[int, int, str], object] | None = None,
     summary: Callable[[str], object] | None = None,
 ) -> list[Path]:
-    """Writes figures of Yim and Lin (1991) as PNG (200 dpi) and SVG, tables as CSV and Markdown; the same bytes every time.
+    """Write figures of Yim & Lin (1991) as PNG (200 dpi) and SVG, and tables as CSV and Markdown, with reproducible bytes.
 
     Parameters
     ----------
     folder : str or Path
-        Where they go; made if it does not exist.
+        Folder for the files; created if it does not exist.
     figures : iterable of str or int, optional
-        Which, by their numbers in the paper: 1 to 12, "13a" and "13b"; "exponents" and "claims", tables; or the name of a
-        picture beyond the paper: "chaos", "cascade", "crisis", "threshold", "coexistence" and "zoom". All of them if not
-        given, and then also index.html, one page of them all, with a twin in PDF where WeasyPrint is installed.
+        Figures of the paper, 1 to 12, "13a" and "13b". Tables: "exponents" and "claims". Additional figures: "chaos", "cascade",
+        "crisis", "threshold", "coexistence" and "zoom". Default: all of them, and the report index.html, also as PDF if
+        WeasyPrint is installed.
     progress : callable, optional
-        Called as ``progress(done, total, name)`` before each of them and each claim, and once at the end.
-
+        Called as ``progress(done, total, name)`` before each figure, table and claim, and once at the end.
     summary : callable, optional
-        Called as ``summary(sentence)`` once the claims are judged: how many there are, and how they stand.
+        Called as ``summary(line)`` after the claims, with the number of claims by verdict.
 
     Returns
     -------
     list of Path
-        The files, in the order of the figures; each appears under its name only once it is complete.
+        Paths of the files, in the order of the figures. A file exists only once it is complete.
 
     Raises
     ------
     ValueError
-        If there is no such figure here.
+        If a figure is unknown.
     OSError
-        If the folder cannot be made or written.
+        If the folder cannot be created or written.
 
     Examples
     --------
@@ -106,7 +105,7 @@ def reproduce(
 
 
 class Steps:
-    """Tells how far it has come."""
+    """Progress report."""
 
     def __init__(
         self, wanted: list[str], whole: bool, said: Callable[[int, int, str], object] | None
@@ -117,13 +116,13 @@ class Steps:
             self.total = 0
 
     def next(self, name: str) -> None:
-        """Before the next step."""
+        """Report the start of the next step."""
         self.done, self.name = self.done + 1, name
         if self.said is not None:
             self.said(self.done, self.total, name)
 
     def end(self) -> None:
-        """After the last."""
+        """Report the end of the last step."""
         if self.said is not None:
             self.said(self.total, self.total, self.name)
 
@@ -141,12 +140,12 @@ def _stem(name: str) -> str:
 
 
 def _shown(name: str, folder: Path) -> Path:
-    """Which of a picture's files the page shows."""
+    """Return the file of a figure that the page shows."""
     return folder / f"{_stem(name)}{'.png' if name in PIXELS else '.svg'}"
 
 
 def _draw(name: str, folder: Path) -> list[Path]:
-    # The reader's own style must not decide what the bytes are.
+    # The bytes must not depend on the user's matplotlib settings.
     with matplotlib.style.context("default"):
         figure = import_module(_module(name)).draw()
         return [rk.plot.save(figure, folder / f"{_stem(name)}{suffix}") for suffix in (".png", ".svg")]

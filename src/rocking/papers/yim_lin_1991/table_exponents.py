@@ -1,12 +1,13 @@
-"""Lyapunov exponents and fractal dimensions: the paper's numbers beside ours, with errors, and the convention that separates them.
+"""Table of Lyapunov exponents and fractal dimensions: numbers of the paper and computed values with errors.
 
-The paper's are in its sections "Response identification" and "Response of undamped systems": exponents 0, 0 and 0.14,
-dimensions 0, 2.0 and 2.3 of the periodic, the quasi-periodic and the chaotic response of figures 7 and 8. Their units,
-lengths of run and spaces are not given, nor any number for the braced response of figure 13a.
+The numbers of the paper stand in its sections "Response identification" and "Response of undamped systems". They
+refer to the periodic, the quasi-periodic and the chaotic response of figures 7 and 8. The exponents are 0, 0 and
+0.14, the dimensions 0, 2.0 and 2.3. Units, lengths of the runs and spaces are not given, nor any number for the
+braced response of figure 13a.
 
-Where ours differs: an exponent of a damped periodic response is negative; zero is the one along the flow, which every
-motion has. Dimensions are those of the section; the flow's is one more. Without damping nothing is attracted: the
-chaotic sea fills an area, and its exponent falls with the length of the run.
+Difference from the paper: both exponents of a damped periodic response are negative; zero is the exponent along the
+flow, which every motion has. Dimensions refer to the section; the dimension in the flow is larger by one. Undamped
+motions have no attractor: the chaotic sea fills an area, and its exponent decreases with the length of the run.
 """
 
 from functools import cache
@@ -20,17 +21,17 @@ from rocking.model import plus_minus
 from rocking.papers.yim_lin_1991.cases import BRACED, CHAOTIC, PERIODIC, QUASI_PERIODIC
 from rocking.papers.yim_lin_1991.table_files import write_table
 
-# Runs of the length of 1991, from phases that no experiment tells apart.
+# Number and length of runs as in 1991, and their range of phases, which no experiment can resolve.
 SEA_STARTS, SEA_CYCLES, SEA_PHASES = 100, 2_000, 1e-7
-# Points of the sea are taken from so many runs, after so many cycles in which they part.
+# Number of runs for the points of the sea, points per run, and cycles after which the runs have diverged.
 SEA_RUNS, SEA_POINTS, SEA_PARTED = 40, 5_000, 500
-# Radii, in standard deviations, that a section of some thousand points reaches down to.
+# Smallest radius, in standard deviations, that a section of some thousand points resolves.
 COARSE = 0.1
 
 
 @frozen
 class Row:
-    """A line of the table, as text: the paper's numbers, ours, and why they differ."""
+    """Row of the table, as text: the numbers of the paper, the computed values, and the reason for the difference."""
 
     response: str
     parameters: str
@@ -45,19 +46,19 @@ class Row:
 
 @frozen
 class Dimension:
-    """What was found of a section, and whether it scales."""
+    """Correlation dimension of a section, and whether the section scales."""
 
     found: rk.CorrelationDimension
     scales: bool
 
 
 def rows() -> list[Row]:
-    """The table, computed."""
+    """Compute the rows of the table."""
     return [_periodic(), _quasi_periodic(), _sea(), _braced()]
 
 
 def write(folder: Path) -> list[Path]:
-    """Writes the table as CSV and as Markdown."""
+    """Write the table as CSV and as Markdown."""
     table = [list(asdict(row).values()) for row in rows()]
     return write_table(folder, "exponents", [field.name.replace("_", " ") for field in fields(Row)], table)
 
@@ -72,7 +73,7 @@ def _periodic() -> Row:
         _pair(spectrum.per_cycle),
         _pair((spectrum.values, spectrum.errors)),
         _dimension(case.system, 2_000, transient=2_000),
-        "ln e for every impact, both exponents; 0 is the exponent along the flow. Points have dimension 0, in the section",
+        "both exponents are ln e per impact; 0 is the exponent along the flow. Points have dimension 0 in the section",
     )
 
 
@@ -86,12 +87,13 @@ def _quasi_periodic() -> Row:
         _pair(spectrum.per_cycle),
         _pair((spectrum.values, spectrum.errors)),
         _dimension(system, 20_000),
-        "0 as the logarithm of the length over the length. Curves have dimension 1 in the section, 2 is the torus in the flow",
+        "the estimate decreases as the logarithm of the length over the length. Curves have dimension 1 in the section; 2 is "
+        "the dimension of the torus in the flow",
     )
 
 
 def sea_systems(count: int) -> list[rk.System]:
-    """The chaotic system and others like it, from ``count`` phases that no experiment tells apart."""
+    """Return the chaotic system with ``count`` forcing phases that no experiment can distinguish."""
     forcing, restitution = CHAOTIC.system.forcing, CHAOTIC.system.restitution
     return [
         rk.System(rk.Harmonic(forcing.amplitude, period=forcing.period, phase=phase), restitution)
@@ -101,7 +103,7 @@ def sea_systems(count: int) -> list[rk.System]:
 
 @cache
 def sea() -> tuple[float, float]:
-    """Mean and standard deviation of λ₁ of the chaotic sea, in nats per cycle, over runs of the length of 1991."""
+    """Return mean and standard deviation of λ₁ of the chaotic sea over runs of the length of 1991, nats per cycle."""
     per_cycle = (
         np.array([_estimate(system) for system in sea_systems(SEA_STARTS)]) * CHAOTIC.system.forcing.period
     )
@@ -110,7 +112,10 @@ def sea() -> tuple[float, float]:
 
 @cache
 def sea_dimension() -> Dimension:
-    """The dimension of points of several runs: of 13 single ones, of 50,000 cycles, two stuck to islands for long and gave 1.6."""
+    """Estimate the dimension of points of several runs.
+
+    A single run is not representative: of 13 runs of 50,000 cycles, two stayed near islands for long and gave 1.6.
+    """
     runs = [
         rk.simulate(system, cycles=SEA_PARTED + SEA_POINTS - 1, record="section").section()[SEA_PARTED:]
         for system in sea_systems(SEA_RUNS)
@@ -119,7 +124,7 @@ def sea_dimension() -> Dimension:
 
 
 def _sea() -> Row:
-    """Many short runs: the sea is sticky, one long run is no sample of it."""
+    """Compute the row of the chaotic sea from many short runs, because one long run may stay near an island."""
     system, period = CHAOTIC.system, CHAOTIC.system.forcing.period
     mean, spread = sea()
     dimension = sea_dimension()
@@ -131,9 +136,9 @@ def _sea() -> Row:
         f"{mean:.2f}, single runs ± {spread:.2f}",
         f"{mean / period:.2f}, single runs ± {spread / period:.2f}",
         dimension,
-        f"nats per cycle, over {SEA_CYCLES} cycles from {SEA_STARTS} phases within {SEA_PHASES:g}; falls with the length. "
-        f"No attractor: the sea fills an area, 2 in the section and 3 in the flow; over radii above {COARSE} standard deviations, "
-        f"all that few points resolve, the slope is {coarse:.1f} in the section and {coarse + 1:.1f} in the flow",
+        f"nats per cycle over {SEA_CYCLES:,} cycles from {SEA_STARTS} phases within {SEA_PHASES:g}; decreases with the length. "
+        f"No attractor: the sea fills an area, 2 in the section and 3 in the flow. A small number of points resolves radii above {COARSE} "
+        f"standard deviations only; there the slope is {coarse:.1f} in the section and {coarse + 1:.1f} in the flow",
     )
 
 
@@ -147,7 +152,7 @@ def _braced() -> Row:
         _pair(spectrum.per_cycle),
         _pair((spectrum.values, spectrum.errors)),
         _dimension(BRACED, 50_000, transient=1_000),
-        f"a strange attractor: impacts contract area. Kaplan–Yorke in the section: {dimension:.3f} ± {error:.3f}",
+        f"a strange attractor: impacts contract area. Kaplan–Yorke dimension in the section: {dimension:.3f} ± {error:.3f}",
     )
 
 
@@ -163,7 +168,7 @@ def _row(
     forcing = system.forcing
     braces = f", Θb = {system.braces.angle:g}, r = {system.braces.restitution:g}" if system.braces else ""
     (low, high), isolated = dimension.found.interval, dimension.found.isolated
-    remark = "" if dimension.scales else ", no one slope over a decade of radii"
+    remark = "" if dimension.scales else ", no uniform slope over a decade of radii"
     return Row(
         response=response,
         parameters=f"A = {forcing.amplitude:g}, T = {forcing.period:g}, e = {system.restitution:g}{braces}",
@@ -184,7 +189,7 @@ def _pair(exponents: tuple[np.ndarray, np.ndarray]) -> str:
 
 
 def _estimate(system: rk.System) -> float:
-    """λ₁ per τ, whether or not a single run supports an error."""
+    """Return λ₁ per unit of τ, even if a single run is too short for an error."""
     try:
         return float(rk.lyapunov(system, cycles=SEA_CYCLES, transient=0).values[0])
     except rk.TooShort as short:

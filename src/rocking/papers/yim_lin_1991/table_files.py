@@ -12,7 +12,7 @@ from rocking.papers.yim_lin_1991.claim import typeset
 
 
 def write_table(folder: Path, name: str, header: Sequence[str], rows: Sequence[Sequence[str]]) -> list[Path]:
-    """Write a table as CSV, with plain numbers, and as Markdown, with numbers as in print."""
+    """Write a table as CSV, with plain numbers, and as Markdown, with typeset numbers."""
     stream = io.StringIO()
     csv.writer(stream, lineterminator="\n").writerows([header, *rows])
     lines = [

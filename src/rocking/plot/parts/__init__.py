@@ -1,1 +1,1 @@
-"""Parts of pictures: styles, axes, legends, scenes and files."""
+"""Parts of figures: styles, axes, legends, scenes and files."""

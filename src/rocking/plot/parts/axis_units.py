@@ -1,4 +1,4 @@
-"""Normalised or SI axes: what is drawn, in which unit, under which label."""
+"""Normalised or SI axes: conversion of values, units and labels."""
 
 from collections.abc import Callable
 from typing import Any
@@ -11,9 +11,10 @@ from rocking.model import Block, instance
 
 @frozen
 class Quantities:
-    """Turns normalised time, angle and velocity into what a picture shows, with the labels of axes.
+    """Conversions from normalised values to the units of a figure, with the labels of axes.
 
-    `reading` is a template for a line of text: a time, its digits after the point, an angle and how it is written.
+    A label reads "quantity (unit)"; a dimensionless quantity has no unit. `reading` is a template for a line of text. Its
+    fields are a time, the number of its decimals, an angle and the format of the angle.
     """
 
     time: Callable[[Any], Any]
@@ -43,19 +44,19 @@ NORMALISED = Quantities(
     velocity=_same,
     frequency=_same,
     density=_same,
-    time_label=r"time $\tau = \alpha t$ (–)",
-    angle_label=r"angle $\Theta = \theta/\theta_\mathrm{cr}$ (–)",
-    velocity_label=r"velocity $\Theta' = \mathrm{d}\Theta/\mathrm{d}\tau$ (–)",
-    speed_label=r"speed after impact $|\Theta'|$ (–)",
-    frequency_label=r"frequency (cycles per $\tau$)",
-    density_label=r"density $S_\Theta$ ($\Theta^2$ per cycle/$\tau$)",
+    time_label=r"time $\tau = \alpha t$",
+    angle_label=r"angle $\Theta = \theta/\theta_\mathrm{cr}$",
+    velocity_label=r"velocity $\Theta' = \mathrm{d}\Theta/\mathrm{d}\tau$",
+    speed_label=r"speed after impact $|\Theta'|$",
+    frequency_label=r"frequency (cycles per unit of $\tau$)",
+    density_label=r"power spectral density $S_\Theta$",
     time_unit="τ",
     reading="τ = {:.{}f}    Θ = {:{}}",
 )
 
 
 def quantities(block: Block | None) -> Quantities:
-    """Normalised quantities, or, for a `block`, seconds, degrees and degrees per second."""
+    """Return normalised quantities, or, for a `block`, seconds, degrees and degrees per second."""
     if block is None:
         return NORMALISED
     instance("block", block, Block)
@@ -71,35 +72,35 @@ def quantities(block: Block | None) -> Quantities:
         velocity_label=r"velocity $\dot\theta$ (°/s)",
         speed_label=r"speed after impact $|\dot\theta|$ (°/s)",
         frequency_label="frequency (Hz)",
-        density_label=r"density $S_\theta$ (°²/Hz)",
+        density_label=r"power spectral density $S_\theta$ (°²/Hz)",
         time_unit="s",
         reading="t = {:.{}f} s    θ = {:{}}°",
     )
 
 
 PARAMETERS = {
-    "amplitude": r"amplitude $A$ (–)",
-    "period": r"period $T$ (–)",
-    "frequency": r"frequency $\Omega$ (rad per $\tau$)",
+    "amplitude": r"amplitude $A$",
+    "period": r"period $T$",
+    "frequency": r"frequency $\Omega$",
     "phase": r"phase $\varphi$ (rad)",
-    "restitution": r"restitution $e$ (–)",
-    "brace_angle": r"brace angle $\Theta_\mathrm{b}$ (–)",
-    "brace_restitution": r"restitution at the braces $r$ (–)",
-    "angle": r"angle at the start $\Theta_0$ (–)",
-    "velocity": r"velocity at the start $\Theta'_0$ (–)",
+    "restitution": r"coefficient of restitution $e$",
+    "brace_angle": r"brace angle $\Theta_\mathrm{b}$",
+    "brace_restitution": r"coefficient of restitution of the braces $r$",
+    "angle": r"initial angle $\Theta_0$",
+    "velocity": r"initial velocity $\Theta'_0$",
 }
 SI_PARAMETERS = {
     "amplitude": r"amplitude $a_x$ (m/s²)",
     "period": r"period (s)",
     "frequency": r"frequency (Hz)",
     "brace_angle": r"brace angle $\theta_\mathrm{b}$ (°)",
-    "angle": r"angle at the start $\theta_0$ (°)",
-    "velocity": r"velocity at the start $\dot\theta_0$ (°/s)",
+    "angle": r"initial angle $\theta_0$ (°)",
+    "velocity": r"initial velocity $\dot\theta_0$ (°/s)",
 }
 
 
 def parameter(name: str, block: Block | None) -> tuple[Callable[[Any], Any], str]:
-    """How values of a parameter of a system or a start are shown, and under which label."""
+    """Return the conversion of a parameter of a system or an initial state, and the label of its axis."""
     if block is None or name not in SI_PARAMETERS:
         return np.asarray, PARAMETERS[name]
     shown = quantities(block)

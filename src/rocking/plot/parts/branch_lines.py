@@ -1,4 +1,4 @@
-"""What pictures over a parameter share: its axis, and branches of orbits as lines, in a dash for each stability."""
+"""Parts shared by the plots over a parameter: the axis, and branches of orbits as lines, one dash per stability."""
 
 from collections.abc import Callable
 from typing import Any, NamedTuple, TypeVar
@@ -23,16 +23,15 @@ DASHES: dict[Stability, Any] = {
 
 
 def height_label(quantity: str, shown: Quantities) -> str:
-    """The label of the upright axis for what is drawn of an orbit."""
+    """Return the label of the vertical axis for a quantity of an orbit."""
     if quantity == "peak":
-        unit = shown.angle_label.rpartition(" ")[2]
-        symbol = shown.angle_label.partition("$")[2].split(" = ")[0].rstrip("$ ").split("$")[0]
-        return f"largest $|{symbol}|$ {unit}"
+        symbol, _, unit = shown.angle_label.partition("$")[2].partition("$")
+        return f"largest $|{symbol.split(' = ')[0]}|${unit}"
     return shown.velocity_label if quantity == "velocity" else shown.angle_label
 
 
 class Line(NamedTuple):
-    """A branch as it is drawn: a row an orbit, and one more wherever something changes: ``between`` two stabilities."""
+    """Branch as it is drawn: one row per orbit, and one more row at each special point, ``between`` two stabilities."""
 
     values: np.ndarray
     stability: np.ndarray
@@ -40,12 +39,12 @@ class Line(NamedTuple):
     between: np.ndarray
 
     def shown(self, across: Callable[[Any], Any], upright: Callable[[Any], Any]) -> "Line":
-        """The same in the units of the axes."""
+        """Return the line in the units of the axes."""
         return self._replace(values=across(self.values), heights=upright(self.heights))
 
 
 def line(branch: Branch, quantity: str, phase: float) -> Line:
-    """A branch as a line a cycle of its period, or one of its peaks."""
+    """Return a branch as one line per cycle of its period, or as one line of its peaks."""
     points = branch.points
     values, stability = points["parameter"], points["stability"]
     heights = (
@@ -69,7 +68,7 @@ def line(branch: Branch, quantity: str, phase: float) -> Line:
 
 
 def heights_of(orbit: Orbit, quantity: str, phase: float) -> np.ndarray:
-    """The same of one orbit."""
+    """Return the heights of one orbit: its peak, or its angle or velocity at each section."""
     if quantity == "peak":
         return np.array([orbit.motion().peak])
     states = [orbit.at(phase + 2.0 * np.pi * cycle) for cycle in range(orbit.period)]
@@ -77,9 +76,9 @@ def heights_of(orbit: Orbit, quantity: str, phase: float) -> np.ndarray:
 
 
 def part(ax: Axes, drawn: Line, stability: Stability, label: str, **look: Any) -> None:
-    """The parts of a branch that have one stability, a line a column; they reach to where it becomes another.
+    """Draw the parts of a branch that have one stability, one line per column, up to the change of stability.
 
-    Of all that have a label the first is in the legend.
+    Only the first line with a label appears in the legend.
     """
     here = (drawn.stability == stability) & ~drawn.between
     near = np.zeros(len(here), bool)
@@ -95,12 +94,15 @@ def part(ax: Axes, drawn: Line, stability: Stability, label: str, **look: Any) -
 
 
 def unless_there(ax: Axes, label: str) -> str:
-    """A label, or none where something drawn has it already."""
+    """Return a label, or a hidden one if the axes have that label already."""
     return "_" if label in ax.get_legend_handles_labels()[1] else label
 
 
 def spans(values: np.ndarray, where: np.ndarray) -> np.ndarray:
-    """The ends of all runs of values that are chosen, NaN after each pair: half-way to the values beside, or at the last one."""
+    """Return the ends of all runs of chosen values, with NaN after each pair.
+
+    An end lies half-way to the next value, or at the last value.
+    """
     edges = np.concatenate([values[:1], 0.5 * (values[1:] + values[:-1]), values[-1:]])
     chosen = np.concatenate([[False], where, [False]])
     begins, ends = np.flatnonzero(~chosen[:-1] & chosen[1:]), np.flatnonzero(chosen[:-1] & ~chosen[1:])
@@ -108,7 +110,7 @@ def spans(values: np.ndarray, where: np.ndarray) -> np.ndarray:
 
 
 def several(result: Any, kind: type[Drawn]) -> list[Drawn]:
-    """One or several results of a kind; TypeError otherwise."""
+    """Return one or several results of a type as a list; raise TypeError for any other argument."""
     each = [result] if isinstance(result, kind) else list(result) if np.iterable(result) else []
     if not each or not all(isinstance(one, kind) for one in each):
         raise TypeError(refusal("result", f"be a {kind.__name__} or a sequence of them", result))

@@ -1,4 +1,4 @@
-"""What a film shows: the block, its braces and the table they stand on, before ground that stays where it is."""
+"""Scene of an animation: the block, its braces and the moving table, in front of fixed ground."""
 
 import math
 
@@ -16,18 +16,18 @@ from rocking.plot.parts import style
 
 
 class Scene:
-    """A block on a moving table, one frame after the other.
+    """Block on a moving table, drawn frame by frame.
 
     Parameters
     ----------
     ax : Axes
-        Drawn into, with equal scales and without a frame.
+        Axes to draw into; they get equal scales and no frame.
     block : Block
-        The proportions.
+        Block that gives the proportions.
     angles, base : arrays of shape (frames,)
-        The block's angle (rad, clockwise positive) and the table's displacement (m), both as they shall be drawn.
+        Angle of the block (rad, clockwise positive) and displacement of the table (m), as drawn.
     brace : float, optional
-        The angle (rad) at which braces stop the block, as it shall be drawn.
+        Angle (rad) at which the braces stop the block, as drawn. Default: no braces.
     """
 
     def __init__(
@@ -51,7 +51,7 @@ class Scene:
         if contact is not None:
             for side in (-contact - post, contact):
                 self.parts.append(Rectangle((side, 0), post, 1.04 * block.height, facecolor=style.BRACE))
-        # This mark passes those on the ground, so that the table is seen to move.
+        # This mark passes the marks on the ground and shows the motion of the table.
         self.parts.append(Line2D([0], [-0.6 * deep], marker="v", color=style.IMPACT, markersize=8))
         for part in self.parts:
             ax.add_artist(part)
@@ -65,14 +65,14 @@ class Scene:
         ax.set_axis_off()
 
     def move(self, frame: int) -> list[Artist]:
-        """Puts everything where it belongs in this frame; returns what has to be drawn, in that order."""
+        """Place block and table for a frame; return the artists in the order in which they are drawn."""
         self.shift.clear().translate(self.base[frame], 0.0)
         self.body.set_xy(self.outlines[frame])
         return self.parts
 
 
 def _ground(ax: Axes, deep: float, far: float) -> None:
-    """A line under the table with a mark every tenth of the block's height, a long one where the table's middle rests."""
+    """Draw the ground with a mark at each tenth of the block's height; the mark at the origin is longer."""
     ax.axhline(-deep, color=style.INK, linewidth=style.LINE)
     marks = np.arange(-far, far, deep)
     lengths = np.where(np.abs(marks) < deep / 2, 0.7, 0.3) * deep
@@ -81,10 +81,15 @@ def _ground(ax: Axes, deep: float, far: float) -> None:
 
 
 def corners(height: float, width: float, angle: float) -> NDArray:
-    """Corners of a block that leans by `angle` (rad, clockwise positive), (4, 2): foot left O', foot right O, top right, top left.
+    """Return the corners of a block tilted by `angle` (rad, clockwise positive).
 
-    The origin is the middle of its foot at rest. Positive angles turn it about its right corner O, negative ones about
-    the left one O' (eqs. 1a, 1b of Yim and Lin 1991).
+    Positive angles turn the block about its right corner O, negative angles about its left corner O' (Eqs. (1a), (1b) of
+    Yim & Lin 1991). The origin is the middle of the foot at rest.
+
+    Returns
+    -------
+    array of shape (4, 2)
+        Foot left O', foot right O, top right and top left, m.
     """
     upright = np.array([[-width / 2, 0.0], [width / 2, 0.0], [width / 2, height], [-width / 2, height]])
     pivot = upright[1] if angle >= 0 else upright[0]

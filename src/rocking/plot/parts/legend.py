@@ -1,7 +1,8 @@
-"""How kinds of response are drawn, the same in every picture and on the page: colours, marks and hatches.
+"""Colours, marks and hatches of the types of response, the same in all figures and in the explorer.
 
-The colours are told apart by who sees no red or no green (the tests simulate both). Periods are shades of blue, even ones,
-which are never symmetric, light green; what is not symmetric though its period is odd is hatched, and its marks are hollow.
+Readers with protanopia or deuteranopia can distinguish the colours (the tests simulate both). Odd periods have a dark
+colour if the response is symmetric and a lighter tint, with a hollow mark, if it is asymmetric. Responses of even period
+are always asymmetric and green.
 """
 
 from __future__ import annotations
@@ -15,22 +16,25 @@ from matplotlib.colors import to_rgb
 from rocking.model import Kind, one_of
 from rocking.plot.parts import style
 
-# Those of Okabe and Ito for what goes on moving; greys for what stands and what has fallen.
+# Colours of Okabe and Ito for bounded motions; dark grey for rest, light grey for overturning.
 COLOURS = {
-    Kind.REST: style.TABLE,
+    Kind.REST: "#4A4A4A",
     Kind.PERIODIC: style.MOTION,
     Kind.QUASI_PERIODIC: style.BRACE,
     Kind.CHAOTIC: style.IMPACT,
-    Kind.OVERTURNED: style.INK,
+    Kind.OVERTURNED: style.FALLEN,
     Kind.UNDETERMINED: "#F0E442",
 }
 PALER = 0.5
-THREE, ODD, EVEN = "#4170FF", "#A7C1FF", "#98ED8F"
+ONE_ASYMMETRIC = "#8CC2FD"
+THREE, THREE_ASYMMETRIC = "#3F0A6B", "#8D5DF9"
+ODD, ODD_ASYMMETRIC = "#5F3A12", "#F5E3B8"
+EVEN = "#81D361"
 
 
 @frozen
 class Look:
-    """How the points of a map are drawn that have a kind, and if they are periodic a period and a symmetry."""
+    """Appearance of a category of a map: a type of response, with the period and symmetry of a periodic response."""
 
     name: str
     colour: str
@@ -42,38 +46,38 @@ class Look:
 LOOKS = (
     Look("rest", COLOURS[Kind.REST], "_"),
     Look("period 1", COLOURS[Kind.PERIODIC], "o"),
-    Look("1, unsymmetric", COLOURS[Kind.PERIODIC], "o", "white", hollow=True),
+    Look("period 1, asymmetric", ONE_ASYMMETRIC, "o", hollow=True),
     Look("period 3", THREE, "^"),
-    Look("3, unsymmetric", THREE, "^", "white", hollow=True),
+    Look("period 3, asymmetric", THREE_ASYMMETRIC, "^", hollow=True),
     Look("period 5, 7, …", ODD, "p"),
-    Look("5, 7, …, unsymmetric", ODD, "p", "white", hollow=True),
+    Look("5, 7, …, asymmetric", ODD_ASYMMETRIC, "p", hollow=True),
     Look("even period", EVEN, "s"),
     Look("quasi-periodic", COLOURS[Kind.QUASI_PERIODIC], "D"),
     Look("chaotic", COLOURS[Kind.CHAOTIC], "+"),
     Look("overturned", COLOURS[Kind.OVERTURNED], "x"),
     Look("undetermined", COLOURS[Kind.UNDETERMINED], "*", style.INK),
 )
-"""Their places are the numbers that `looks` gives."""
+"""Categories of a map, in the order of the codes that `looks` returns."""
 NONE = 255
-"""The number of a point that is not yet computed."""
+"""Code of a point that is not yet computed."""
 _OF_KIND = np.array([0, 1, 8, 9, 10, 11], np.uint8)  # in the order of `Kind`
 
 
 def check_symbols(symbols: str | None) -> None:
-    """Raise TypeError or ValueError for a set of symbols that is unknown."""
+    """Raise TypeError or ValueError for an unknown set of symbols."""
     if symbols is not None:
         one_of("symbols", symbols, ("kinds", *PAPER))
 
 
 def paler(colour: str, times: int) -> tuple[float, float, float]:
-    """Another shade of a colour, for one more of its kind."""
+    """Return a paler shade of a colour, for a further member of its class."""
     hue, light, saturation = colorsys.rgb_to_hls(*to_rgb(colour))
     return colorsys.hls_to_rgb(hue, 1.0 - (1.0 - light) * PALER**times, saturation)
 
 
 @frozen
 class Symbol:
-    """A symbol of the paper, with the looks that it stands for."""
+    """Symbol of the paper, with the categories that it stands for."""
 
     marker: str
     name: str
@@ -100,11 +104,14 @@ PAPER = {
         Symbol("s", "even-order", (7,)),
     ),
 }
-"""The symbols of the paper's maps, by figure: they are not the same in all of them."""
+"""Symbols of the paper's maps, by figure; the paper changes them from figure to figure."""
 
 
 def looks(kind: np.ndarray, period: np.ndarray, symmetric: np.ndarray) -> np.ndarray:
-    """The places in `LOOKS` of points of a map, from its `kind`, `response_period` and `symmetric`; `NONE` where `kind` has its fill."""
+    """Return the indices in `LOOKS` of the points of a map; `NONE` where `kind` holds its fill value.
+
+    `kind`, `period` and `symmetric` are the variables `kind`, `response_period` and `symmetric` of the map.
+    """
     found = np.full(kind.shape, NONE, np.uint8)
     there = kind < len(_OF_KIND)
     found[there] = _OF_KIND[kind[there]]

@@ -1,4 +1,4 @@
-"""Maps as they are drawn: read a few rows at a time, what is not yet computed taken from coarser levels."""
+"""Maps as they are drawn: read in blocks of rows, with missing points taken from coarser levels."""
 
 from __future__ import annotations
 
@@ -17,21 +17,21 @@ if TYPE_CHECKING:
     import xarray as xr
 
 AT_ONCE = 1 << 20
-"""Points in memory at a time, about."""
+"""Approximate number of points held in memory."""
 NEEDED = ("kind", "response_period", "symmetric")
 
 
 class Responses:
-    """The responses over two axes, from a dataset or from the levels of a store, coarse to fine.
+    """Responses over two axes, from a dataset or from the levels of a store, coarse to fine.
 
     Attributes
     ----------
     names : (str, str)
-        Of the axes, the upward one first.
+        Names of the axes, the vertical axis first.
     up, across : array
-        Their values, on the finest level.
-    told : dict
-        The attributes of the map.
+        Values of the axes on the finest level.
+    attributes : dict
+        Attributes of the map.
     """
 
     def __init__(self, found: Any) -> None:
@@ -41,11 +41,11 @@ class Responses:
         first, second = map(str, finest.kind.dims)
         self.names = first, second
         self.up, self.across = (np.asarray(finest[name].values) for name in self.names)
-        self.told = dict(finest.attrs)
+        self.attributes = dict(finest.attrs)
         self._below: Responses | None = None
 
     def rows(self, begin: int, end: int) -> np.ndarray:
-        """The looks of some rows; `NONE` where no level has anything."""
+        """Return the categories of some rows; `NONE` for points that no level holds."""
         part = self.levels[-1][list(NEEDED)].isel({self.names[0]: slice(begin, end)})
         with _reading(self.folder):
             part = part.load()
@@ -56,13 +56,13 @@ class Responses:
         return found
 
     def parts(self) -> Iterator[tuple[int, np.ndarray]]:
-        """All rows, some at a time: the first one's number, and their looks."""
+        """Yield all rows in blocks: the index of the first row, and the categories of the block."""
         step = max(AT_ONCE // self.across.size, 1)
         for begin in range(0, self.up.size, step):
             yield begin, self.rows(begin, min(begin + step, self.up.size))
 
     def _coarser(self, begin: int, end: int) -> np.ndarray:
-        """What the nearest points of the level before are like."""
+        """Return the categories of the nearest points of the next coarser level."""
         if self._below is None:
             self._below = Responses(self.levels[:-1])
             self._below.folder = self.folder
@@ -72,7 +72,7 @@ class Responses:
 
 
 def edges(values: np.ndarray) -> np.ndarray:
-    """Where cells around the values end: half-way between them."""
+    """Return the edges of the cells around some values, half-way between neighbours."""
     middles = 0.5 * (values[1:] + values[:-1])
     return np.concatenate(
         [[1.5 * values[0] - 0.5 * values[1]], middles, [1.5 * values[-1] - 0.5 * values[-2]]]
@@ -80,7 +80,7 @@ def edges(values: np.ndarray) -> np.ndarray:
 
 
 def nearest(values: np.ndarray, places: np.ndarray) -> np.ndarray:
-    """The numbers of the values nearest to places."""
+    """Return the indices of the values nearest to some places."""
     return np.searchsorted(0.5 * (values[1:] + values[:-1]), places)
 
 
@@ -98,7 +98,7 @@ def _levels(found: Any) -> list[xr.Dataset]:
 
 
 def _opened(folder: Path) -> list[xr.Dataset]:
-    """The levels of a store, coarse to fine, read as they are used."""
+    """Open the levels of a store, coarse to fine; arrays are read on demand."""
     import xarray as xr
 
     count = sum(1 for each in folder.glob("level-*") if each.is_dir())
@@ -112,7 +112,7 @@ def _opened(folder: Path) -> list[xr.Dataset]:
 
 @contextmanager
 def _reading(folder: Path | None) -> Iterator[None]:
-    """Say of a store that cannot be read which it is, and how it is mended."""
+    """Raise OSError with the folder and the remedy for a store that cannot be read."""
     try:
         yield
     except Exception as error:
@@ -120,5 +120,5 @@ def _reading(folder: Path | None) -> Iterator[None]:
             raise
         raise OSError(
             f"found must be the folder of a store that can be read; got {str(folder)!r}, which is damaged: "
-            "the survey that made it says where, and mends it with repair"
+            "repeat the survey that made it with repair"
         ) from error

@@ -1,4 +1,4 @@
-"""Pictures of results as a notebook shows them."""
+"""Figures of results for display in a notebook."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ DOTS_PER_INCH = 110
 
 
 def picture(draw: Callable[[Any], Axes | Figure]) -> Callable[[Any], bytes]:
-    """What makes the bytes of a PNG of a result, from what draws it."""
+    """Return a function that renders a result as the bytes of a PNG, given the function that draws it."""
 
     def png(result: Any) -> bytes:
         stream = io.BytesIO()

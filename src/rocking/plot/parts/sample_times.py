@@ -1,4 +1,4 @@
-"""Instants at which a motion is sampled for a picture, chosen so that corners, jumps and extremes are exact."""
+"""Sampling of a motion for a figure, with exact corners, jumps and extremes."""
 
 from __future__ import annotations
 
@@ -15,9 +15,10 @@ STILLNESS_SHOWN = 0.15
 
 
 def window(motion: Motion, cycles: tuple[float, float] | None) -> tuple[float, float]:
-    """First and last instant shown, in τ, for `cycles` = (first, last) counted from the start; None is the whole motion.
+    """Return the first and the last instant shown, in τ.
 
-    An overturned motion goes on past the proof that it never returns, until |Θ| = 3.
+    `cycles` = (first, last) counts from the start; None selects the whole motion. An overturned motion is shown up to
+    |Θ| = 3, beyond the instant at which overturning is certain.
     """
     instance("motion", motion, Motion)
     end = end_shown(motion)
@@ -38,7 +39,7 @@ def window(motion: Motion, cycles: tuple[float, float] | None) -> tuple[float, f
 
 
 def settled(motion: Motion) -> float:
-    """Time τ shortly after the last event of a motion that came to rest: long enough to see that it stays there."""
+    """Return a time τ after the last event of a motion that came to rest, late enough to show that it stays there."""
     forcing, events = motion.system.forcing, motion.events
     last = float(events["time"][-1]) if len(events) else 0.0
     if last == 0:
@@ -48,10 +49,15 @@ def settled(motion: Motion) -> float:
 
 
 def trace(motion: Motion, start: float, stop: float) -> tuple[NDArray, NDArray, NDArray]:
-    """Times, angles and velocities from `start` to `stop`: a grid, every extreme, and every event twice, before and after.
+    """Sample a motion from `start` to `stop`: a grid, every extreme, and every event before and after it.
 
-    The grid is fine against the forcing's period, the block's own unit of time and the picture, and has no instant where
-    the block stands still; over a long motion it thins out (to 500,000 instants), the events and the extremes never do.
+    The grid resolves the forcing period, the unit of τ and the figure. It has no instant at which the block stands
+    still. Over a long motion the grid thins out (to 500,000 instants); events and extremes are always complete.
+
+    Returns
+    -------
+    tuple of (array, array, array)
+        Times, angles and velocities, normalised.
     """
     peaks, events = inside(motion.peaks, start, stop), inside(motion.events, start, stop)
     smooth = np.union1d(_grid(motion, start, stop, events["time"]), peaks["time"])
@@ -66,7 +72,7 @@ def trace(motion: Motion, start: float, stop: float) -> tuple[NDArray, NDArray, 
 
 
 def _grid(motion: Motion, start: float, stop: float, events: NDArray) -> NDArray:
-    """The ends, and equal steps inside every arc between two events on which the block moves."""
+    """Return both ends, and equal steps inside each arc on which the block moves."""
     ends = np.unique(np.concatenate([[start], events, [stop]]))
     lengths, middles = np.diff(ends), (ends[1:] + ends[:-1]) / 2
     moves = (motion.at(middles)[1] != 0) | (motion.acceleration(middles) != 0)
@@ -81,5 +87,5 @@ def _grid(motion: Motion, start: float, stop: float, events: NDArray) -> NDArray
 
 
 def inside(records: NDArray, start: float, stop: float) -> NDArray:
-    """Those of the structured `records` whose time lies in [start, stop]."""
+    """Return the structured `records` whose time lies in [start, stop]."""
     return records[(records["time"] >= start) & (records["time"] <= stop)]

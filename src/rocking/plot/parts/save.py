@@ -1,4 +1,4 @@
-"""Figures into files: whole or not at all, and the same bytes every time."""
+"""Figures as files: written completely or not at all, and with reproducible bytes."""
 
 import os
 from collections.abc import Sequence
@@ -19,26 +19,30 @@ METADATA = {
 
 
 def save(figure: Figure | Axes, path: str | Path, dpi: float = 200.0) -> Path:
-    """Writes a figure as PNG, SVG or PDF; the same figure gives the same bytes.
+    """Write a figure as PNG, SVG or PDF; the same figure gives the same bytes.
 
     Parameters
     ----------
     figure : matplotlib Figure or Axes
-        Of axes, the whole figure they are part of.
+        Figure to write. For axes, the whole figure that contains them.
     path : str or Path
-        Its suffix chooses the format: .png, .svg or .pdf.
+        Path of the file; the suffix selects the format: .png, .svg or .pdf.
     dpi : float
-        Dots per inch of a PNG, and of rasterised points inside SVG and PDF; 10 to 2400.
+        Resolution of a PNG, and of rasterised points inside SVG and PDF, in dots per inch, in [10, 2400]. Default: 200.
 
     Returns
     -------
     Path
-        The file, which appears under its name only once it is complete.
+        Path of the file, which exists only once it is complete.
 
     Raises
     ------
-    TypeError, ValueError, OSError
-        If there is nothing to draw, `path` cannot be written or ends otherwise, or `dpi` does not lie in its range.
+    TypeError
+        If `figure` is neither a Figure nor Axes, or `path` is not a path.
+    ValueError
+        If the suffix of `path` is not supported, or `dpi` lies outside its range.
+    OSError
+        If `path` cannot be written.
 
     Examples
     --------
@@ -60,7 +64,7 @@ def save(figure: Figure | Axes, path: str | Path, dpi: float = 200.0) -> Path:
 
 
 def check_path(path: str | Path, suffixes: Sequence[str]) -> Path:
-    """The `path`, unless it cannot become a file with one of these endings; refused in one line and before any work."""
+    """Return `path` if it can be written and has one of these suffixes; raise before any computation otherwise."""
     if not isinstance(path, str | os.PathLike):
         raise TypeError(refusal("path", f"be the name of a file that ends in {', '.join(suffixes)}", path))
     return check_writable("path", path, suffixes)

@@ -1,7 +1,7 @@
-"""How every picture looks: sizes, colours and labels, in one place.
+"""Sizes, colours and labels of all figures.
 
-Sizes are chosen for a journal's column (88 mm wide). The colours are those of Okabe and Ito, which colour-blind readers
-tell apart. Everything is set on the artists themselves; matplotlib's global settings and backend are never touched.
+Sizes fit a column of a journal (88 mm wide). The colours are those of Okabe and Ito, which colour-blind readers can
+distinguish. All properties are set on the artists themselves; matplotlib's global settings and backend stay unchanged.
 """
 
 from typing import Any
@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.axis import Axis
 from matplotlib.figure import Figure
-from matplotlib.ticker import LogLocator, MaxNLocator, NullLocator
+from matplotlib.ticker import LogLocator, MaxNLocator, NullLocator, ScalarFormatter
 from numpy.typing import NDArray
 
 from rocking.model import Block, instance, members, refuse_if, whole, within
@@ -22,8 +22,8 @@ SMALL = 8.0
 LINE = 1.0
 THIN = 0.6
 MARK = 4.0
-# More than these become an image inside a vector file, which would grow without end.
 MAX_PANELS = 100
+# More marks or corners become an image inside a vector file, which keeps the file small.
 MAX_MARKS = 2_000
 CELLS = 4096
 ROUNDING = 1e-9
@@ -36,15 +36,17 @@ TABLE = "#CFCFCF"
 BLOCK = "#E8C07D"
 INK = "#262626"
 GUIDE = "#9A9A9A"
+FALLEN = "#CCCCCC"
 
-# Of lines where what they say no longer holds.
+# Lines outside the range in which they are valid.
 DOTTED = (0, (1, 1.5))
 
-# A legend under the label of the horizontal axis, clear of titles and of what is drawn.
+# A legend below the label of the horizontal axis, clear of titles and data.
 BELOW: dict[str, Any] = {
     "loc": "upper center",
     "bbox_to_anchor": (0.5, 0.0),
-    "borderaxespad": 3.8,  # in sizes of its text: past the ticks' numbers and the label
+    "borderaxespad": 3.8,  # in sizes of its text: past the numbers of the ticks and the label
+    "handletextpad": 0.6,
     "fontsize": SMALL,
     "labelcolor": INK,
     "frameon": False,
@@ -52,33 +54,35 @@ BELOW: dict[str, Any] = {
 
 
 def own(ax: Axes | None, height: float = 2.4) -> Axes:
-    """The axes given, or those of a new figure, a column wide and `height` inches high, which needs no display."""
+    """Return the axes given, or new axes in a figure one column wide and `height` inches high."""
     if ax is not None:
         return instance("ax", ax, Axes)
     return Figure(figsize=(COLUMN, height), layout="constrained").add_subplot()
 
 
 def panels(rows: int = 1, columns: int = 1, height: float = 2.4, ratios: tuple[float, ...] | None = None):
-    """A new figure of `rows` × `columns` axes, each row `height` inches high: a column wide, or a page if they stand abreast.
+    """Create a figure of `rows` × `columns` axes, as wide as a journal's column, or its page for several columns.
 
     Parameters
     ----------
     rows, columns : int
-        How many axes, top to bottom and left to right.
+        Number of axes from top to bottom and from left to right, 1 to 100. Default: 1.
     height : float
-        Of one row, in inches.
+        Height of one row, inches. Default: 2.4.
     ratios : tuple of float, optional
-        Relative widths of the columns.
+        Relative widths of the columns. Default: equal widths.
 
     Returns
     -------
     tuple
-        The matplotlib figure and its axes in reading order, lettered (a), (b), … where there are several.
+        The matplotlib figure and its axes in reading order. Several axes carry the letters (a), (b), ….
 
     Raises
     ------
-    TypeError, ValueError
-        For numbers that lie outside their range, and for `ratios` that are not one a column.
+    TypeError
+        If an argument has the wrong type.
+    ValueError
+        If a number lies outside its range, or `ratios` does not hold one positive number per column.
 
     Examples
     --------
@@ -90,7 +94,7 @@ def panels(rows: int = 1, columns: int = 1, height: float = 2.4, ratios: tuple[f
     rows, columns = whole("rows", rows, 1, MAX_PANELS), whole("columns", columns, 1, MAX_PANELS)
     height = within("height", height, 0.1, 100.0)
     if ratios is not None:
-        allowed = f"be {columns} positive numbers, one a column"
+        allowed = f"be {columns} positive numbers, one per column"
         ratios = tuple(within("ratios", each, 0.0, 1e6) for each in members("ratios", ratios, allowed))
         refuse_if(len(ratios) != columns or min(ratios) == 0.0, "ratios", allowed, ratios)
     figure = Figure(figsize=(COLUMN if columns == 1 else PAGE, height * rows), layout="constrained")
@@ -102,36 +106,42 @@ def panels(rows: int = 1, columns: int = 1, height: float = 2.4, ratios: tuple[f
 
 
 def title(ax: Axes, text: str) -> None:
-    """Writes `text` above the axes at the left; a panel's letter already there stays in front of it."""
+    """Write `text` above the axes at the left, after the panel's letter if there is one."""
     letter = instance("ax", ax, Axes).get_title(loc="left")
     ax.set_title(f"{letter} {text}" if letter else text, loc="left", fontsize=TEXT, color=INK)
 
 
 def block_title(ax: Axes, block: Block | None) -> None:
-    """Names the block of a picture in SI above the axes at the left."""
+    """Write the size of the block above the axes at the left, for a figure in SI units."""
     if block is not None:
         title(ax, f"block {block.size}")
 
 
 def note(ax: Axes, text: str) -> None:
-    """Writes `text`, small, above the axes at the right."""
+    """Write `text` in small letters above the axes at the right."""
     ax.set_title(text, loc="right", fontsize=SMALL, color=INK)
 
 
 def label(ax: Axes, x: str, y: str) -> None:
-    """Labels both axes with symbol and unit, and gives ticks and frame their sizes; few ticks, so that numbers fit."""
+    """Label both axes and set the sizes of ticks and frame.
+
+    The horizontal axis has few ticks, so that their numbers fit. Numbers are complete: no axis has an offset text.
+    """
     ax.xaxis.set_major_locator(MaxNLocator(5, steps=[1, 2, 2.5, 5, 10]))
     ax.set_xlabel(x, fontsize=TEXT, color=INK)
     ax.set_ylabel(y, fontsize=TEXT, color=INK)
     ax.tick_params(labelsize=SMALL, color=INK, labelcolor=INK, width=THIN)
     for axis in (ax.xaxis, ax.yaxis):
         axis.get_offset_text().set(fontsize=SMALL, color=INK)
+        formatter = axis.get_major_formatter()
+        if isinstance(formatter, ScalarFormatter):
+            formatter.set_useOffset(False)
     for side, spine in ax.spines.items():
         spine.set(visible=side in ("left", "bottom"), linewidth=THIN, edgecolor=INK)
 
 
 def logarithmic(axis: Axis) -> None:
-    """Ticks of a logarithmic axis, already labelled: at powers of ten, five or so, and at 2 and 5 between a few; no others."""
+    """Set about five ticks of a logarithmic axis: at powers of ten, and at 2 and 5 over less than two decades."""
     low, high = axis.get_view_interval()
     between = (1.0, 2.0, 5.0) if high < 100.0 * low else (1.0,)
     axis.set_major_locator(LogLocator(subs=between, numticks=6))
@@ -139,29 +149,29 @@ def logarithmic(axis: Axis) -> None:
 
 
 def key(ax: Axes) -> None:
-    """A legend of what is drawn; its marks never shrink."""
-    for mark in ax.legend(**BELOW, ncols=2, handletextpad=0.2, columnspacing=1.2).get_lines():
+    """Draw a legend of all labelled artists, with marks of normal size."""
+    for mark in ax.legend(**BELOW, ncols=2, columnspacing=1.2).get_lines():
         mark.set(markersize=MARK, markeredgewidth=0.8)
 
 
 def patches(ax: Axes, handles: list, columns: int = 2) -> None:
-    """A legend of coloured patches."""
+    """Draw a legend of coloured patches."""
     ax.legend(handles=handles, **BELOW, ncols=columns)
 
 
 def point_size(count: int) -> float:
-    """Diameter in points of one of `count` markers: 10 are seen one by one, 10⁶ still show where they are dense.
+    """Return the diameter of one of `count` markers, in points: 10 markers are distinct, 10⁶ show their density.
 
-    The area falls as 1/√count, so that the ink grows with the number of points but does not flood the picture.
+    The area falls as 1/√count, so that the ink grows with the number of points without filling the figure.
     """
     return min(5.0, max(0.25, 5.0 * (max(count, 10) / 10) ** -0.25))
 
 
 def places(x: NDArray[np.float64], y: NDArray[np.float64]) -> int:
-    """How many of the points are seen apart: of those in one of 4096 × 4096 cells one counts, however often it is met."""
+    """Return the number of distinguishable points: the number of occupied cells of 4096 × 4096."""
     cells = np.zeros(len(x))
     for values in (x, y):
-        # a spread of rounding is none
+        # a spread of the size of the rounding error counts as zero
         span = max(float(np.ptp(values)), ROUNDING * float(np.abs(values).max()))
         if span > 0.0:
             cells = cells * (CELLS + 1) + np.rint((values - values.min()) * (CELLS / span))
@@ -169,5 +179,5 @@ def places(x: NDArray[np.float64], y: NDArray[np.float64]) -> int:
 
 
 def line_width(count: int) -> float:
-    """Width in points of a line that runs `count` times through the same region: it gets thinner from 20 times on."""
+    """Return the width in points of a line that crosses the same region `count` times, thinner from 20 times on."""
     return LINE * (max(count, 20) / 20) ** -0.35

@@ -1,4 +1,4 @@
-"""What theory says, as curves over a map."""
+"""Theoretical amplitudes as curves over a map."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ HALO = 2.4
 
 @frozen
 class Curve:
-    """An amplitude over period and restitution; with n, that of a (1, n) mode, which may not be admissible everywhere."""
+    """Amplitude over period and restitution; with `n`, the amplitude of a (1, n) mode, which may be inadmissible."""
 
     name: str
     amplitude: Callable[..., Any]
@@ -39,23 +39,21 @@ class Curve:
 
 
 CURVES = {
-    "symmetry-breaking-1": Curve(
-        "(1,1) stable to $A_{SB}$", partial(symmetry_breaking_amplitude, n=1), "-", 1
-    ),
+    "symmetry-breaking-1": Curve("$A_{SB}$, (1, 1) mode", partial(symmetry_breaking_amplitude, n=1), "-", 1),
     "symmetry-breaking-3": Curve(
-        "(1,3) stable to $A_{SB}$", partial(symmetry_breaking_amplitude, n=3), (0, (5, 2)), 3
+        "$A_{SB}$, (1, 3) mode", partial(symmetry_breaking_amplitude, n=3), (0, (5, 2)), 3
     ),
-    "existence-1": Curve("(1,1) from $A_E$", partial(existence_amplitude, n=1), (0, (1, 1)), 1),
-    "existence-3": Curve("(1,3) from $A_E$", partial(existence_amplitude, n=3), (0, (3, 1, 1, 1, 1, 1)), 3),
-    "melnikov": Curve("zeros from $A_M$", melnikov_amplitude, (0, (6, 2, 1, 2))),
-    "heteroclinic": Curve("tangency at $A^*$", heteroclinic_amplitude, (0, (9, 2))),
+    "existence-1": Curve("$A_E$, (1, 1) mode", partial(existence_amplitude, n=1), (0, (1, 1)), 1),
+    "existence-3": Curve("$A_E$, (1, 3) mode", partial(existence_amplitude, n=3), (0, (3, 1, 1, 1, 1, 1)), 3),
+    "melnikov": Curve("$A_M$ (Melnikov)", melnikov_amplitude, (0, (6, 2, 1, 2))),
+    "heteroclinic": Curve("$A^*$ (exact tangency)", heteroclinic_amplitude, (0, (9, 2))),
 }
 
 
 def check(names: Iterable[str], axes: Iterable[str], told: Mapping[str, Any]) -> tuple[str, ...]:
-    """Return the names of curves; TypeError or ValueError for a name that is unknown, and where the map admits no curve.
+    """Return the names of curves; raise for an unknown name, or if curves do not apply to the map.
 
-    `axes` are the names of the map's axes, upward first; `told` are its attributes.
+    `axes` are the names of the map's axes, the vertical axis first; `told` are its attributes.
     """
     if isinstance(names, str):
         names = (names,)
@@ -80,7 +78,7 @@ def check(names: Iterable[str], axes: Iterable[str], told: Mapping[str, Any]) ->
 def draw(
     ax: Axes, names: Iterable[str], axes: dict[str, np.ndarray], told: dict[str, Any], turns: dict[str, Any]
 ) -> list[Line2D]:
-    """Draw curves that were checked over a map; return the lines of a legend."""
+    """Draw checked curves over a map and return their legend handles."""
     return [_line(ax, CURVES[name], axes, told, turns) for name in names]
 
 
@@ -93,7 +91,7 @@ def _line(
     period = math.tau / given["frequency"] if "frequency" in given else given["period"]
     period, restitution = np.broadcast_arrays(period, given["restitution"])
     lines = lines_of(curve, period, restitution, heights[0], heights[-1])
-    there = "" if np.isfinite(lines).any() else ": not here"
+    there = "" if np.isfinite(lines).any() else " (outside)"
     for line, dashes in zip(lines, (curve.dashes, DOTTED), strict=True):
         ax.plot(
             turns[across](places),
@@ -114,13 +112,19 @@ def _line(
 def lines_of(
     curve: Curve, period: np.ndarray, restitution: np.ndarray, low: float, high: float
 ) -> tuple[np.ndarray, np.ndarray]:
-    """The amplitudes (n,) between `low` and `high`, NaN elsewhere: where the mode is admissible, and where it is not."""
+    """Return the amplitudes between `low` and `high`, split by the admissibility of the mode.
+
+    Returns
+    -------
+    tuple of (array, array)
+        Amplitudes of shape (n,) with an admissible and with an inadmissible mode; NaN elsewhere.
+    """
     amplitudes = np.asarray(curve.amplitude(period, restitution))
     seen = (amplitudes >= low) & (amplitudes <= high)
-    # as far as one point beyond what is seen, so that the line meets the frame
+    # one point beyond the visible range, so that the line meets the frame
     seen[1:] |= seen[:-1].copy()
     seen[:-1] |= seen[1:].copy()
-    # a neighbour may have no such amplitude, or one beyond all that may be asked for
+    # a neighbouring point may have no such amplitude, or one above the allowed maximum
     seen &= amplitudes <= MAX_AMPLITUDE
     sure = _admissible(curve, amplitudes, period, restitution, seen)
 
@@ -133,12 +137,12 @@ def lines_of(
 
 
 def _admissible(curve: Curve, amplitudes, period, restitution, seen) -> np.ndarray:
-    """Where a mode keeps its side for the half cycle, as the closed form takes for granted."""
+    """Return whether the mode is admissible at each point: Θ keeps its sign within the half-cycle, as assumed."""
     sure = np.ones(amplitudes.shape, bool)
     if curve.n is None:
         return sure
     for place in np.flatnonzero(seen):
-        # a hair above, so that rounding does not take a mode away where it begins
+        # slightly above, because rounding may remove a mode exactly at its onset
         above = float(amplitudes[place]) * (1.0 + 1e-12)
         modes = symmetric_modes(above, float(period[place]), float(restitution[place]), curve.n)
         sure[place] = bool(modes) and modes[0].admissible

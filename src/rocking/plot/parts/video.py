@@ -1,4 +1,4 @@
-"""Frames into a GIF or an MP4: whole or not at all."""
+"""Frames as a GIF or an MP4, written completely or not at all."""
 
 import errno
 from collections.abc import Iterator
@@ -19,14 +19,15 @@ COLOURS = ("white", style.INK, style.TABLE, style.BLOCK, style.IMPACT, style.BRA
 
 
 def check_film(path: str | Path) -> Path:
-    """Refuses, in one line and before any work, a path that cannot become a film."""
+    """Return `path` if it can become an animation; raise before any computation otherwise."""
     return check_path(path, tuple(WRITERS))
 
 
 def write_film(path: Path, frames: Iterator[NDArray], fps: float) -> Path:
-    """Writes RGB frames (height, width, 3; both multiples of 16) to `path`, whose suffix chooses between .gif and .mp4.
+    """Write RGB frames to `path`, whose suffix selects .gif or .mp4.
 
-    A GIF counts time in hundredths of a second, so it runs at exactly `fps` only if that divides 100.
+    Frames have the shape (height, width, 3); height and width are multiples of 16. A GIF counts time in hundredths of a
+    second, so that it runs at exactly `fps` only if `fps` divides 100.
     """
     with replacing(path) as partial:
         WRITERS[path.suffix.lower()](partial, frames, fps)
@@ -34,10 +35,10 @@ def write_film(path: Path, frames: Iterator[NDArray], fps: float) -> Path:
 
 
 def _gif(path: Path, frames: Iterator[NDArray], fps: float) -> None:
-    # One palette for all frames: nothing flickers, and what does not move costs nothing.
+    # One palette for all frames avoids flicker, and unchanged regions need no space.
     palette = _palette()
     images = (Image.fromarray(frame).quantize(palette=palette, dither=Image.Dither.NONE) for frame in frames)
-    # Opened here, because Pillow leaves a file open when it is interrupted.
+    # The file is opened here because Pillow leaves a file open when it is interrupted.
     with path.open("wb") as file:
         next(images).save(
             file, format="GIF", save_all=True, append_images=images, duration=10 * round(100 / fps), loop=0
@@ -45,10 +46,10 @@ def _gif(path: Path, frames: Iterator[NDArray], fps: float) -> None:
 
 
 def _palette() -> Image.Image:
-    """The colours of a film, each exact, and the blends of any two of them, as at the edge of one before the other.
+    """Return the palette of an animation: its exact colours, and blends of two of them, as at the edges of shapes.
 
-    Pillow looks for the nearest only after it has rounded red, green and blue down to multiples of 4, so is off by up
-    to 3 in each. Blends that are more than twice as far from every colour leave the colours exact.
+    Pillow rounds red, green and blue down to multiples of 4 before it looks for the nearest colour. Each is therefore
+    off by up to 3. Blends more than twice as far from every colour leave the colours exact.
     """
     colours = [np.round(255 * np.array(to_rgb(colour))) for colour in COLOURS]
     exact = np.array(colours)
@@ -77,7 +78,7 @@ def _mp4(path: Path, frames: Iterator[NDArray], fps: float) -> None:
         raise OSError(errno.EIO, "ffmpeg has ended") from error
     finally:
         writer.close()
-    # nobody is told how ffmpeg ended: on a full disk it leaves half a film
+    # the exit code of ffmpeg is not available; on a full disk it leaves an incomplete file
     with suppress(RuntimeError):
         if count_frames_and_secs(str(path))[0] == sent:
             return

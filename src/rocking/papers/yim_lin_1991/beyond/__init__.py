@@ -1,4 +1,4 @@
-"""Beyond the paper: what it could not see, one picture a file, each with `draw` and a docstring that is its caption."""
+"""Additional figures beyond the paper; each module has `draw`, and its docstring is the caption."""
 
 NAMES = ("chaos", "cascade", "crisis", "threshold", "coexistence", "zoom")
 

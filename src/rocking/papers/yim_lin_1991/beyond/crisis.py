@@ -1,8 +1,9 @@
-"""A crisis: chaos that ends and chaos that is not seen to end, e = 0.99, T = 0.33, from rest.
+"""Chaotic transient, and chaos up to the end of the run, e = 0.99, T = 0.33, from rest.
 
-Poincaré sections of two simulated runs over 2·10⁴ cycles, (a) A = 4.86 and (b) A = 4.88; the first 100 cycles are left out. If a run
-becomes periodic, its points from then on are orange, and the title gives the cycle. When a chaotic transient ends depends on rounding.
-Another run of the same system, such as that of `classify`, may end in another cycle.
+Poincaré sections (ψ = 0) of two simulated runs over 2·10⁴ cycles: (a) A = 4.86, (b) A = 4.88. The first 100 cycles
+are omitted. If a run becomes periodic, its later points are orange, and the title gives the period and the cycle. The
+end of a chaotic transient depends on rounding. Another run of the same system, such as the run of `classify`, may
+become periodic in another cycle.
 """
 
 import numpy as np
@@ -14,7 +15,7 @@ AMPLITUDES = (4.86, 4.88)
 CYCLES, LEFT_OUT = 20_000, 100
 MAX_FORCING_PERIOD = 16
 NEAR = 1e-3
-"""Points of the section that are nearer to each other than this count as the same."""
+"""Distance below which points of the section count as equal."""
 
 
 def draw() -> Figure:
@@ -24,7 +25,7 @@ def draw() -> Figure:
         system = rk.System(rk.Harmonic(amplitude, period=0.33), restitution=0.99)
         points = rk.simulate(system, cycles=CYCLES, record="section").section()
         cycle, period = settled(points)
-        rk.plot.section(points[LEFT_OUT:cycle], ax, phase=0.0)
+        rk.plot.section(points[LEFT_OUT:cycle], ax)
         text = f"not periodic within {CYCLES:,} cycles"
         if period:
             text = f"period {period} from cycle {cycle:,} on"
@@ -32,19 +33,21 @@ def draw() -> Figure:
                 *points[cycle:].T,
                 linestyle="none",
                 marker="o",
-                markersize=1.0,
+                markersize=4.0,
                 color="#E69F00",
                 gid="settled",
             )
-        # beside the second line stands the phase of the section
-        rk.plot.title(ax, f"{text}\n$A = {amplitude:g}$")
+        rk.plot.title(ax, f"$A = {amplitude:g}$: {text}")
     return figure
 
 
 def settled(points: np.ndarray) -> tuple[int, int]:
-    """(cycle, period) from which on a run repeats itself to its end; (number of points, 0) if it does not.
+    """Return the cycle from which a run repeats itself up to its end, for at least half of LEFT_OUT cycles.
 
-    At least half of LEFT_OUT cycles must repeat themselves.
+    Returns
+    -------
+    tuple of (int, int)
+        Cycle and period; the number of points and 0 if the run does not repeat itself.
     """
     for period in range(1, MAX_FORCING_PERIOD + 1):
         apart = np.hypot(*(points[period:] - points[:-period]).T)

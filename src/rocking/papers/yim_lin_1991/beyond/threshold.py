@@ -1,7 +1,8 @@
-"""The exact threshold against Melnikov's, e = 0.5, 0.8 and 0.925.
+"""Exact tangency amplitude A* and Melnikov's amplitude A_M over the period, e = 0.5, 0.8 and 0.925.
 
-A* is the amplitude at which the manifolds of the two saddle orbits touch, in closed form; A_M of eq. (22) is its first order in A and
-1 − e. Melnikov's is too low for slow forcing and too high for fast; the two agree in the limit e → 1.
+A* is the amplitude at which the manifolds of the two saddle orbits touch, in closed form. A_M of Eq. (22) is its
+first-order approximation in A and 1 − e. A_M is too low for slow forcing and too high for fast forcing; A_M and A*
+agree in the limit e → 1. Colour distinguishes A* and A_M, the dash the coefficient of restitution.
 """
 
 import numpy as np
@@ -14,7 +15,7 @@ RESTITUTIONS = (0.5, 0.8, 0.925)
 
 
 def draw() -> Figure:
-    """Draws A* and A_M over the period."""
+    """Draw A* and A_M over the period."""
     figure, (ax,) = rk.plot.panels(height=3.4)
     curves = {}
     for e in RESTITUTIONS:

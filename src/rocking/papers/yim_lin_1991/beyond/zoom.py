@@ -1,20 +1,27 @@
-"""Figure 11's boundary of overturning, and a part of it a thousand times larger.
+"""Boundary of overturning of figure 11, and a part of it enlarged a thousand times, e = 0.925.
 
-(a) A part of the map at e = 0.925 above A*, around T = 1.0915 and A = 5.3120, 240 × 240 points. (b) The part in the middle of (a), a
-thousandth as wide and as high, with as many points. Strips that overturn alternate with strips that do not, in (b) as in (a); both also
-have wide regions without a change. The titles give the share of neighbouring points, at the same amplitude, of which one overturns
-and the other does not. Of a single smooth boundary from top to bottom it would be 1 in 239, or 0.42 %.
+(a) Part of the map above A*, around T₀ = 1.0914985576 and A₀ = 5.3120190162, 0.8 wide and 4 high, 240 × 240 points.
+(b) The part in the middle of (a), a thousandth as wide and as high, with as many points. The square in (a) marks its
+position, enlarged. Strips of overturning alternate with strips of bounded responses, in (b) as in (a). Both also have
+large regions without a change. The titles give the fraction of neighbouring points, at the same amplitude, of which
+one overturns and the other does not. A single smooth boundary from top to bottom would give 1 in 239, or 0.42 %.
 """
 
 import numpy as np
 import xarray as xr
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.ticker import FixedLocator, FuncFormatter
 
 import rocking as rk
+from rocking.papers.yim_lin_1991.claim import small
 
 CENTRE = (1.0914985576, 5.3120190162)
 WIDTHS = ((0.8, 4.0), (8e-4, 4e-3))
 COUNT = 240
+# Units of the enlarged axes, and the ticks in these units.
+UNITS = (1e-4, 1e-3)
+TICKS = ((-4, -2, 0, 2, 4), (-2, -1, 0, 1, 2))
 
 
 def draw() -> Figure:
@@ -28,13 +35,33 @@ def draw() -> Figure:
             restitution=0.925,
         )
         rk.plot.parametric_map(found, ax)
-        rk.plot.title(
-            ax, f"{width:g} by {height:g}\none of two neighbours overturns: {100 * divided(found):.1f} %"
-        )
+        rk.plot.title(ax, f"{100 * divided(found):.1f} % of neighbouring points differ")
+    left, right = axes
+    for colour, thickness in (("white", 3.0), ("#262626", 1.2)):
+        left.plot(
+            *CENTRE, "s", markersize=8.0, markerfacecolor="none", markeredgecolor=colour, markeredgewidth=thickness
+        )  # fmt: skip
+    _measure_from_centre(right)
     return figure
 
 
 def divided(found: xr.Dataset) -> float:
-    """The share of points next to each other in period of which one overturns and the other does not."""
+    """Return the fraction of points adjacent in period of which one overturns and the other does not."""
     over = found.kind.transpose("amplitude", "period").values == rk.Kind.OVERTURNED.code
     return float((over[:, 1:] != over[:, :-1]).mean())
+
+
+def _measure_from_centre(ax: Axes) -> None:
+    """Label the axes with the distances from the centre, in powers of ten."""
+    for axis, symbol, centre, unit, ticks in zip(
+        (ax.xaxis, ax.yaxis), "TA", CENTRE, UNITS, TICKS, strict=True
+    ):
+        axis.set_major_locator(FixedLocator([centre + unit * tick for tick in ticks]))
+        axis.set_major_formatter(
+            FuncFormatter(
+                lambda value, _, centre=centre, unit=unit: f"{round((value - centre) / unit)}".replace(
+                    "-", "−"
+                )
+            )
+        )
+        axis.set_label_text(f"${symbol} - {symbol}_0$ ({small(unit)})")

@@ -1,4 +1,4 @@
-"""Every claim and number of the paper, each with the computation that judges it, a chapter a file."""
+"""All claims and numbers of the paper, each with the computation that tests it; one file per chapter."""
 
 from rocking.papers.yim_lin_1991.claims import (
     braced,

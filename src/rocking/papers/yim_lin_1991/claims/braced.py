@@ -1,4 +1,4 @@
-"""Claims on the block between braces: figure 13 and what is said of it."""
+"""Claims on the block between braces: figure 13 and its discussion."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ HITS_PER_CYCLE = 1.0
 
 @CHAPTER.claim("Braced system")
 def unfelt() -> Finding:
-    """Responses below the angle of the braces do not feel them."""
+    """The braces do not affect responses below the brace angle."""
     axes = cached_surveys.axes(30)
     free = rk.parametric_map(**axes, restitution=0.925)
     braced = rk.parametric_map(**axes, restitution=0.925, brace_angle=1.0, max_cycles=1_000)
@@ -24,12 +24,12 @@ def unfelt() -> Finding:
         np.array_equal(free[name].values[below], braced[name].values[below])
         for name in ("kind", "response_period", "symmetric")
     )
-    # long transients part by rounding, which the one way of finding events has and the other not
+    # long transients diverge by rounding, which differs between the two methods of event location
     close = np.isclose(free.peak.values[below], braced.peak.values[below], rtol=1e-6, atol=0.0)
     return Finding(
         alike and bool(close.mean() > 0.99),
-        f"at all {int(below.sum())} points of a map with |Θ| < 1 kind, period and symmetry are the same, at {int(close.sum())} "
-        "the peak too, to 10⁻⁶",
+        f"type, period and symmetry are equal at all {int(below.sum())} points of a map with |Θ| < 1; the largest |Θ| is equal to "
+        f"10⁻⁶ at {int(close.sum())} of them",
     )
 
 
@@ -40,16 +40,16 @@ def figure_13a() -> Finding:
     (first, second), (error, _) = spectrum.values, spectrum.errors
     return Finding(
         bool(first > 6.0 * error and first + second < 0.0),
-        f"λ₁ = {first:.4f} ± {error:.4f}, λ₂ = {second:.4f} per τ; {spectrum.impacts / 1e5:.2f} impacts and "
-        f"{spectrum.brace_hits / 1e5:.2f} brace hits per cycle",
+        f"λ₁ = {first:.4f} ± {error:.4f}, λ₂ = {second:.4f} per unit of τ; {spectrum.impacts / 1e5:.2f} base impacts and "
+        f"{spectrum.brace_hits / 1e5:.2f} brace impacts per cycle",
     )
 
 
 @CHAPTER.claim(
-    "Fig. 13b", slips="most such responses are periodic in the end; many look chaotic for a thousand cycles"
+    "Fig. 13b", error="most such responses are periodic in the end; many appear chaotic for a thousand cycles"
 )
 def frequent_hits() -> Finding:
-    """With frequent brace hits chaos dominates."""
+    """Chaos dominates if brace impacts are frequent."""
     found = cached_surveys.braced()
     amplitude, period = np.meshgrid(found.amplitude.values, found.period.values, indexing="ij")
     kinds = found.kind.transpose("amplitude", "period").values
@@ -63,7 +63,7 @@ def frequent_hits() -> Finding:
     periodic = rk.Share(sum(kind == rk.Kind.PERIODIC.code for kind in frequent), len(frequent))
     return Finding(
         chaotic.value > 0.5,
-        f"of {len(frequent)} points with a brace hit per cycle or more {periodic} are periodic, {chaotic} chaotic",
+        f"of {len(frequent)} points with one or more brace impacts per cycle, {periodic} are periodic and {chaotic} chaotic",
         shown=periodic.low > 0.5,
     )
 
@@ -75,7 +75,7 @@ def _hits_per_cycle(amplitude: float, period: float) -> float:
 
 @CHAPTER.claim("Fig. 13b")
 def scattered() -> Finding:
-    """Chaotic responses appear often, but scattered."""
+    """Chaotic responses occur often, but are scattered."""
     found = cached_surveys.braced()
     kind = found.kind.transpose("amplitude", "period").values
     share = rk.Share(int((kind == rk.Kind.CHAOTIC.code).sum()), kind.size)
@@ -87,19 +87,20 @@ def scattered() -> Finding:
     )
     return Finding(
         share.low > 0.01 and alone > len(rows) // 2,
-        f"{share} of the map at 10⁵ cycles; {alone} of {len(rows)} have fewer chaotic neighbours than others",
+        f"{share} of the map at 10⁵ cycles; at most half of the neighbours are chaotic at {alone} of {len(rows)} chaotic points",
     )
 
 
 @CHAPTER.claim("Fig. 13b")
 def dominant() -> Finding:
-    """The (1,1) mode dominates, with unsymmetric modes of even order."""
+    """The (1, 1) mode dominates, with asymmetric modes of even order."""
     found = cached_surveys.braced()
     periodic = found.kind == rk.Kind.PERIODIC.code
     first = rk.Share(int((periodic & (found.response_period == 1)).sum()), int(periodic.sum()))
     even = int((periodic & (found.response_period % 2 == 0)).sum())
     return Finding(
-        first.low > 0.5 and even > 0, f"of the periodic responses {first} have period 1, {even} an even one"
+        first.low > 0.5 and even > 0,
+        f"of the periodic responses {first} have period 1, and {even} an even period",
     )
 
 
@@ -115,7 +116,7 @@ def enlarged() -> Finding:
     text = "; ".join(f"{e:g}: {free[e]} and {share}" for e, share in braced.items())
     return Finding(
         maps[1].low > maps[0].high and all(share.high >= free[e].low for e, share in braced.items()),
-        f"share chaotic without and with braces: of the maps, e = 0.925, {maps[0]} and {maps[1]}; of random systems, e = {text}",
+        f"fraction chaotic without and with braces, of the maps at e = 0.925: {maps[0]} and {maps[1]}; of random systems, by e: {text}",
     )
 
 
@@ -125,6 +126,6 @@ def more_sensitive() -> Finding:
     without, with_ = cached_surveys.responses_uncertain(), cached_surveys.responses_uncertain(1.0)
     return Finding(
         with_.low > without.high,
-        f"share of {without.of} random systems, e = 0.925, in which inputs off by 1 % lead to responses of different kind, period or "
-        f"symmetry: {without} without braces, {with_} with them",
+        f"fraction of {without.of} random systems, e = 0.925, in which inputs that vary by 1 % lead to responses of different type, "
+        f"period or symmetry: {without} without braces, {with_} with braces",
     )

@@ -1,4 +1,4 @@
-"""The abstract and the numbered conclusions, as far as no other chapter computes them."""
+"""Claims of the abstract, the introduction and the conclusions that belong to no other chapter."""
 
 from __future__ import annotations
 
@@ -30,27 +30,28 @@ def coexist() -> Finding:
     present = {name: count for name, count in kinds.items() if count}
     return Finding(
         kinds["chaotic"] > 0 and kinds["periodic"] > 0,
-        f"A = 10.103, T = 1.721, e = 0.8, {found.kind.size} starts: "
+        f"A = 10.103, T = 1.721, e = 0.8, {found.kind.size} initial states: "
         + ", ".join(f"{n} {k}" for k, n in present.items()),
     )
 
 
 @CHAPTER.claim("Introduction")
 def unrepeatable() -> Finding:
-    """Experiments with the same set-up do not repeat themselves."""
-    told = {e: cached_surveys.repeatable(e) for e in (0.8, 0.925, 1.0)}
+    """Experiments with identical set-ups are not repeatable."""
+    maps = {e: cached_surveys.repeatable(e) for e in (0.8, 0.925, 1.0)}
     text = "; ".join(
-        f"{e:g}: {found.uncertain}, overturning {found.overturning_uncertain}" for e, found in told.items()
+        f"{e:g}: {found.uncertain}, overturning {found.overturning_uncertain}" for e, found in maps.items()
     )
     return Finding(
-        all(found.uncertain.low > 0.0 for found in told.values()),
-        f"share of the map where inputs off by 1 % do not all end in one kind of response, e = {text}",
+        all(found.uncertain.low > 0.0 for found in maps.values()),
+        "fraction of the map where inputs that vary by 1 % lead to more than one type of response, and fraction where overturning "
+        f"is uncertain, e = {text}",
     )
 
 
 @CHAPTER.claim(
     "Conclusion 2",
-    differs="a first approximation to one: the manifolds touch at A*, from which on the boundary of overturning is fractal",
+    qualified="a first approximation: the manifolds touch at A*, above which the boundary of overturning is fractal",
 )
 def boundary_given() -> Finding:
     """The analysis gives a boundary for the existence of chaotic response."""

@@ -1,4 +1,4 @@
-"""Claims on the damped block, e < 1: (20) to (22), figure 11 and what is said of it."""
+"""Claims on the damped block, e < 1: Eqs. (20) to (22), figure 11 and its discussion."""
 
 from __future__ import annotations
 
@@ -12,7 +12,13 @@ CHAPTER = Chapter("Response of damped systems")
 
 
 def _grid() -> tuple[np.ndarray, ...]:
-    """Of the map of figure 11: kind, period, symmetric, period and amplitude of the base at each point, flat."""
+    """Return the map of figure 11 as flat arrays.
+
+    Returns
+    -------
+    tuple of arrays
+        Type, response period, symmetry, forcing period and forcing amplitude of each point.
+    """
     found = cached_surveys.damped().transpose("amplitude", "period")
     amplitude, period = np.meshgrid(found.amplitude.values, found.period.values, indexing="ij")
     names = ("kind", "response_period", "symmetric")
@@ -21,18 +27,18 @@ def _grid() -> tuple[np.ndarray, ...]:
 
 @CHAPTER.claim(
     "Eq. (20a)",
-    slips="both signs are the other way: the base pushes with −, and F is a force already negative",
+    misprint="both signs must be reversed: the base acceleration enters with −, and F is already negative",
 )
 def equation_20a() -> Finding:
-    # the force's part changes sign with half a period, the damping's part is what is left of e = 0.8 without force
-    """Melnikov's integral with the force entering as + εα² cos ω(t + t₀) and damping as −F."""
+    # the forcing term changes its sign after half a period; without forcing the damping term remains
+    """Melnikov's integral with the forcing as + εα² cos ω(t + t₀) and the damping as −F."""
     closed = float(rk.theory.melnikov_function(0.1, 4.0, 1.0, 0.8))
     force = float(rk.theory.melnikov_function(0.1, 4.0, 1.0, 1.0))
     loss = rk.theory.melnikov_integral(0.1, 0.0, 1.0, 0.8)
     meant, printed = abs(force + loss - closed), abs(-force - loss - closed)
     return Finding(
         printed < 1e-5,
-        f"off from (20b) by {printed:.3g} as printed, by {small(meant)} with both signs turned",
+        f"differs from (20b) by {printed:.3g} as printed, by {small(meant)} with both signs reversed",
         meant < 2e-6,
     )
 
@@ -49,10 +55,13 @@ def equation_20b() -> Finding:
         for time in (0.0, 0.2, 0.7)
         for e in (0.2, 0.8, 0.95)
     )
-    return Finding(bool(off < 2e-6), f"the integral meets it to {small(off)} at nine phases and restitutions")
+    return Finding(
+        bool(off < 2e-6),
+        f"agrees with the integral to {small(off)} at nine combinations of phase and coefficient of restitution",
+    )
 
 
-@CHAPTER.claim("Eq. (21)", slips="the right side needs a minus; it makes no difference to (22)")
+@CHAPTER.claim("Eq. (21)", misprint="the right side needs a minus sign, which does not affect (22)")
 def equation_21() -> Finding:
     """Zeros where cos Ωτ₀ = (1 − e²)(1 + Ω²)/4A."""
     amplitude, period, e = 4.0, 1.0, 0.8
@@ -64,7 +73,7 @@ def equation_21() -> Finding:
     )
     return Finding(
         printed < 1e-12,
-        f"|M⁺| = {printed:.3g} there as printed, {small(meant)} with the minus",
+        f"|M⁺| = {printed:.3g} at the printed phase, {small(meant)} with the minus sign",
         meant < 1e-12,
     )
 
@@ -81,16 +90,16 @@ def equation_22() -> Finding:
         agreed += bool(values.max() >= 0.0) == ((1.0 - e * e) * (1.0 + omega**2) <= 4.0 * amplitude)
     return Finding(
         agreed == 1_000,
-        f"sign changes of M⁺ over a period agree with it in {agreed:,} of 1,000 random systems",
+        f"agrees with the sign changes of M⁺ over a period in {agreed:,} of 1,000 random systems",
     )
 
 
 @CHAPTER.claim("Fig. 11")
 def figure_11() -> Finding:
-    """From rest at e = 0.925: harmonic, one-third subharmonic, none and overturning."""
+    """From rest at e = 0.925: harmonic, one-third subharmonic, no response and overturning."""
     kind, order, *_ = _grid()
     parts = {
-        "none": kind == rk.Kind.REST.code,
+        "no response": kind == rk.Kind.REST.code,
         "overturned": kind == rk.Kind.OVERTURNED.code,
         "period 1": (kind == rk.Kind.PERIODIC.code) & (order == 1),
         "period 3": (kind == rk.Kind.PERIODIC.code) & (order == 3),
@@ -104,7 +113,7 @@ def figure_11() -> Finding:
 
 @CHAPTER.claim("Numerical results")
 def commonest() -> Finding:
-    """The most common response is the (1,1) mode, the second the (1,3) mode."""
+    """The most common response is the (1, 1) mode, the second the (1, 3) mode."""
     kind, order, symmetric, *_ = _grid()
     chosen = (kind == rk.Kind.PERIODIC.code) & (symmetric == 1)
     orders, counts = np.unique(order[chosen], return_counts=True)
@@ -113,23 +122,23 @@ def commonest() -> Finding:
         f"period {n}: {100 * c / len(kind):.2f} %"
         for c, n in sorted(zip(counts, orders, strict=True), reverse=True)[:4]
     )
-    return Finding(list(ranking[:2]) == [1, 3], f"symmetric responses, share of the map: {text}")
+    return Finding(list(ranking[:2]) == [1, 3], f"symmetric responses, fraction of the map: {text}")
 
 
 @CHAPTER.claim("Numerical results")
 def even_orders() -> Finding:
-    """Several unsymmetric modes of even order are found."""
+    """Several asymmetric modes of even order are found."""
     kind, order, symmetric, *_ = _grid()
     even = np.unique(order[(kind == rk.Kind.PERIODIC.code) & (order % 2 == 0) & (symmetric == 0)])
-    return Finding(len(even) > 1, f"orders {', '.join(map(str, even))}, from rest")
+    return Finding(len(even) > 1, f"from rest, orders {', '.join(map(str, even))}")
 
 
 @CHAPTER.claim(
     "Numerical results",
-    differs="they branch off the symmetric ones where these lose stability and can be continued from there",
+    error="they branch off the symmetric modes where these lose their stability, and can be continued from there",
 )
-def unsymmetric() -> Finding:
-    """Unsymmetric modes cannot be predicted by stability analysis, only simulated, and show no pattern."""
+def asymmetric() -> Finding:
+    """Asymmetric modes cannot be predicted by stability analysis, only simulated, and show no pattern."""
     mode = rk.theory.symmetric_modes(6.0, 1.721328, 0.8, 1)[0]
     orbit = rk.find_orbit(mode.system, mode.start, period=1)
     branch = rk.continue_orbit(orbit, "amplitude", (5.0, 9.0))
@@ -141,9 +150,9 @@ def unsymmetric() -> Finding:
     continued = predicted and abs(breaking.parameter - closed) < 1e-6 and simulated.symmetric is False
     return Finding(
         not continued,
-        f"T = 1.721, e = 0.8: from the point {breaking.parameter:.6f} where symmetry breaks (closed form {closed:.6f}) {len(pair)} "
-        f"stable unsymmetric branches; simulated at A = 9: period {simulated.period}, "
-        f"{'symmetric' if simulated.symmetric else 'unsymmetric'}",
+        f"T = 1.721, e = 0.8: {len(pair)} stable asymmetric branches from A = {breaking.parameter:.6f}, where the symmetry breaks "
+        f"(closed form {closed:.6f}); simulated at A = 9: period {simulated.period}, "
+        f"{'symmetric' if simulated.symmetric else 'asymmetric'}",
         shown=continued,
     )
 
@@ -160,8 +169,8 @@ def boundary() -> Finding:
         shares.append(rk.Share(int((within & above).sum()), int(chosen.sum())))
     return Finding(
         all(share.value > 0.95 for share in shares),
-        f"{shares[0]} of the symmetric responses of period 1 lie where the (1,1) mode is stable, {shares[1]} of those of period 3 "
-        "where the (1,3) mode is",
+        f"{shares[0]} of the symmetric responses of period 1 lie where the (1, 1) mode is stable; {shares[1]} of the symmetric "
+        "responses of period 3 lie where the (1, 3) mode is stable",
     )
 
 
@@ -176,18 +185,18 @@ def odd_orders() -> Finding:
 
 @CHAPTER.claim("Numerical results")
 def unstable_not_overturned() -> Finding:
-    """Where the analysis finds the modes unstable the block need not overturn."""
+    """The block need not overturn if the analysis finds the modes unstable."""
     kind, _, _, period, amplitude = _grid()
     beyond = np.ones_like(kind, bool)
     for n in (1, 3):
         beyond &= amplitude > rk.theory.symmetry_breaking_amplitude(period, 0.925, n)
     share = rk.Share(int((kind[beyond] == rk.Kind.PERIODIC.code).sum()), int(beyond.sum()))
-    return Finding(share.count > 0, f"beyond both stability curves {share} respond periodically")
+    return Finding(share.count > 0, f"beyond both stability curves {share} of the responses are periodic")
 
 
 @CHAPTER.claim(
     "Fig. 11",
-    differs="a finer map than the paper's has chaotic ones between them as well, less than one point in a thousand",
+    qualified="a finer map has chaotic responses between the curves too, at less than one point in a thousand",
 )
 def between_curves() -> Finding:
     """Between the curves, from rest, only periodic and overturning responses are found."""
@@ -201,17 +210,18 @@ def between_curves() -> Finding:
     }
     return Finding(
         not any(counts.values()),
-        f"of {int(between.sum()):,} points there {counts['chaotic']} are chaotic, {counts['quasi-periodic']} quasi-periodic",
+        f"of {int(between.sum()):,} points between the curves {counts['chaotic']} are chaotic, {counts['quasi-periodic']} quasi-periodic",
         shown=counts["quasi-periodic"] == 0 and rk.Share(counts["chaotic"], int(between.sum())).high < 1e-3,
     )
 
 
 @CHAPTER.claim(
     "Numerical results; conclusion 4",
-    slips="every impact contracts areas by e², so that no closed curve can stay: what looks so is a long transient",
+    error="every impact contracts areas by e², so that no invariant closed curve can exist; a motion on an apparent curve is a long "
+    "transient",
 )
 def damped_quasi_periodic() -> Finding:
-    """Other starts and parameters give damped quasi-periodic responses."""
+    """Other initial states and parameters give damped quasi-periodic responses."""
     counted, runs = 0, 0
     for e in (0.2, 0.5, 0.8, 0.925, 0.97, 0.99):
         found = cached_surveys.starts(4.0, 0.4, e)
@@ -223,15 +233,15 @@ def damped_quasi_periodic() -> Finding:
     )
     return Finding(
         counted > 0,
-        f"{counted} of {runs:,} starts at A = 4, T = 0.4, e from 0.2 to 0.99; at e = 0.97 and 0.99 areas shrink by a factor of "
-        f"exp({contracting:.2f}) or less per τ",
+        f"{counted} of {runs:,} initial states at A = 4, T = 0.4, e from 0.2 to 0.99. At e = 0.97 and 0.99 areas shrink by a factor "
+        f"of exp({contracting:.2f}) or less per unit of τ",
         shown=counted == 0 and contracting < 0.0,
     )
 
 
 @CHAPTER.claim("Numerical results")
 def damped_chaos() -> Finding:
-    """Other starts and parameters give damped chaotic responses."""
+    """Other initial states and parameters give damped chaotic responses."""
     found = rk.classify(rk.System(rk.Harmonic(10.103037, period=1.721328), 0.8))
     return Finding(
         found.kind is rk.Kind.CHAOTIC, f"A = 10.103037, T = 1.721328, e = 0.8 from rest: {found.evidence}"
@@ -240,10 +250,11 @@ def damped_chaos() -> Finding:
 
 @CHAPTER.claim(
     "After (22)",
-    slips="it is necessary at best, as the paper says itself later: crossing manifolds make a fractal boundary, no chaotic attractor",
+    error="the condition is at best necessary, as the paper states later: intersecting manifolds make a basin boundary fractal but "
+    "imply no chaotic attractor",
 )
 def sufficient() -> Finding:
-    """(22) tells where chaotic responses exist."""
+    """Condition (22) gives the parameters at which chaotic responses exist."""
     kind, _, _, period, amplitude = _grid()
     above = amplitude >= rk.theory.melnikov_amplitude(period, 0.925)
     share = rk.Share(int((kind[above] == rk.Kind.CHAOTIC.code).sum()), int(above.sum()))

@@ -1,4 +1,4 @@
-"""Claims on what losses do to the responses: figure 12, how rare chaos is, what is periodic and what is certain."""
+"""Claims on the effect of damping: figure 12, the rarity of chaos, periodic regions and sensitivity."""
 
 from __future__ import annotations
 
@@ -10,12 +10,12 @@ import rocking as rk
 from rocking.papers.yim_lin_1991 import cached_surveys
 from rocking.papers.yim_lin_1991.claim import Chapter, Finding
 
-CHAPTER = Chapter("What damping does")
+CHAPTER = Chapter("Effect of damping")
 
 
 @CHAPTER.claim("Fig. 12")
 def region_grows() -> Finding:
-    """The region between the (1,1) mode's bound and Melnikov's grows as e grows."""
+    """The region between the stability bound of the (1, 1) mode and Melnikov's bound grows with e."""
     low, high = cached_surveys.PERIODS
     periods = np.linspace(low, high, 561)
     areas = []
@@ -26,7 +26,7 @@ def region_grows() -> Finding:
     text = ", ".join(f"{area:.2f}" for area in areas)
     return Finding(
         areas == sorted(areas),
-        f"its area within our axes for e = 0.5, 0.6, 0.7, 0.8, 0.9, 0.925, 0.95: {text}",
+        f"its area within T from 0.2 to 3 and A from 0 to 16. For e = 0.5, 0.6, 0.7, 0.8, 0.9, 0.925, 0.95: {text}",
     )
 
 
@@ -35,7 +35,7 @@ def _shares() -> dict[float, rk.Share]:
 
 
 def _falls(shares: dict[float, rk.Share], highest: float) -> bool:
-    """Whether the shares fall from the lowest e to the highest one given."""
+    """Return whether the fractions decrease from the lowest e to the highest e given."""
     values = [share.value for e, share in shares.items() if e <= highest]
     return all(after < before for before, after in itertools.pairwise(values))
 
@@ -44,37 +44,38 @@ def _a_fifth(share: rk.Share) -> bool:
     return share.low <= 0.2 <= share.high and share.low > 0.1
 
 
-def _told(shares: dict[float, rk.Share]) -> str:
+def _listed(shares: dict[float, rk.Share]) -> str:
     return "; ".join(f"{e:g}: {share}" for e, share in shares.items())
 
 
 @CHAPTER.claim(
     "Numerical results",
-    slips="from rest over our axes the trend is the opposite: the share of chaos falls as e grows to about 0.8",
+    error="the opposite holds for responses from rest at T from 0.2 to 3 and A up to 16. The chaotic fraction decreases as e grows "
+    "to about 0.8",
 )
 def chaos_against_losses() -> Finding:
-    """Chaos is likelier for systems that lose little."""
+    """Chaos is more likely in lightly damped systems."""
     shares = {e: share for e, share in _shares().items() if e < 1.0}
     low, high = shares[0.2], shares[0.95]
     return Finding(
         high.low > low.high,
-        f"share chaotic, with 95 % intervals: {_told(shares)}",
+        f"fraction chaotic, with 95 % intervals, by e: {_listed(shares)}",
         shown=low.low > high.high and _falls(shares, 0.8),
     )
 
 
 @CHAPTER.claim(
     "Numerical results",
-    differs="they are found at every e from 0.2 to 0.6, and the share falls as e grows: about every fifth system is chaotic at "
-    "e = 0.2, less than one in twenty at 0.6",
+    error="they occur at every e from 0.2 to 0.6. The fraction decreases as e grows: about every fifth system is chaotic at e = 0.2, "
+    "less than one in twenty at 0.6",
 )
 def chaos_above_095() -> Finding:
-    """Chaotic responses were found only with e above 0.95."""
+    """Chaotic responses were found only at e above 0.95."""
     shares = {e: share for e, share in _shares().items() if e <= 0.95}
     seen = [e for e, share in shares.items() if share.count]
     return Finding(
         not seen,
-        f"seen at e = {', '.join(f'{e:g}' for e in seen)} ({_told(shares)})",
+        f"found at e = {', '.join(f'{e:g}' for e in seen)} ({_listed(shares)})",
         shown=_falls(shares, 0.6)
         and _a_fifth(shares[0.2])
         and shares[0.6].count > 0
@@ -84,21 +85,21 @@ def chaos_above_095() -> Finding:
 
 @CHAPTER.claim(
     "Numerical results; conclusion 4",
-    differs="rare for light damping, but not for heavy: at e = 0.2 about every fifth system",
+    qualified="rare for light damping, but not for heavy damping: about every fifth system is chaotic at e = 0.2",
 )
 def rare() -> Finding:
     """Chaotic responses of damped systems are rare and hard to find."""
     shares = {e: share for e, share in _shares().items() if e < 1.0}
     return Finding(
         all(share.value < 0.05 for share in shares.values()),
-        _told(shares),
+        _listed(shares),
         shown=shares[0.925].high < 0.02 and _a_fifth(shares[0.2]),
     )
 
 
 @CHAPTER.claim("Figs. 10, 11; conclusion 4")
 def region_periodic() -> Finding:
-    """Damping makes a large region periodic."""
+    """Damping produces a large region of periodic responses."""
     with_, without = (
         rk.Share(cached_surveys.count(found, rk.Kind.PERIODIC), found.kind.size)
         for found in (cached_surveys.damped(), cached_surveys.undamped())
@@ -108,7 +109,10 @@ def region_periodic() -> Finding:
     )
 
 
-@CHAPTER.claim("Figs. 10, 11", slips="it was never the whole: at e = 1 most of the map overturns")
+@CHAPTER.claim(
+    "Figs. 10, 11",
+    error="chaos does not fill the whole space without damping: at e = 1 most of the map overturns",
+)
 def region_chaotic() -> Finding:
     """Damping reduces chaos from the whole parametric space to scattered spots."""
     found = cached_surveys.undamped()
@@ -129,9 +133,10 @@ def region_chaotic() -> Finding:
 @CHAPTER.claim("Numerical results; conclusion 4")
 def sensitivity() -> Finding:
     """Damping lowers the sensitivity of the response."""
-    told = {e: cached_surveys.repeatable(e).uncertain for e in (1.0, 0.97, 0.925, 0.8, 0.5, 0.2)}
-    text = "; ".join(f"{e:g}: {share}" for e, share in told.items())
+    found = {e: cached_surveys.repeatable(e).uncertain for e in (1.0, 0.97, 0.925, 0.8, 0.5, 0.2)}
+    text = "; ".join(f"{e:g}: {share}" for e, share in found.items())
     return Finding(
-        all(told[e].high < told[1.0].low for e in told if e < 1.0),
-        f"share of the map whose outcome is not certain when amplitude, period, restitution and start are off by 1 %, e = {text}",
+        all(found[e].high < found[1.0].low for e in found if e < 1.0),
+        "fraction of the map whose outcome is uncertain if amplitude, period, coefficient of restitution and initial state vary by "
+        f"1 %, e = {text}",
     )

@@ -1,4 +1,4 @@
-"""Claims on the heteroclinic orbits and Melnikov's function, (11) to (18), and figure 9."""
+"""Claims on the heteroclinic orbits and Melnikov's function, Eqs. (11) to (18), and figure 9."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ BLOCK = rk.Block(height=2.0, width=0.5, restitution=0.8)
 
 @CHAPTER.claim("Eqs. (11a), (11b)")
 def equation_11() -> Finding:
-    """A system of first order: the undisturbed one with a Hamiltonian, and a small rest."""
+    """A first-order system: an unperturbed Hamiltonian part and a small perturbation."""
     rng = np.random.default_rng(11)
     angle, velocity = rng.uniform(-2.0, 2.0, 100), rng.uniform(-2.0, 2.0, 100)
     step = 1e-6
@@ -33,10 +33,10 @@ def equation_11() -> Finding:
 
 @CHAPTER.claim("Conditions 1, 2")
 def conditions() -> Finding:
-    """Two saddles joined by two orbits, the inside filled with periodic ones of ever longer period."""
+    """Two saddles joined by two orbits; inside them are periodic orbits whose period grows towards the saddles."""
     measured, closed = [], []
     for gap in (0.5, 1e-1, 1e-2, 1e-4, 1e-6):
-        # the first quarter: what follows starts from a speed that rounding has touched
+        # only the first quarter, because rounding affects the speed at its end
         measured.append(
             4.0 * float(rk.simulate(FREE, rk.State(angle=1.0 - gap), cycles=20).events["time"][0])
         )
@@ -45,14 +45,14 @@ def conditions() -> Finding:
     rising = measured == sorted(measured)
     return Finding(
         rising and off < 1e-8,
-        f"period {', '.join(f'{period:.2f}' for period in measured)} from 0.5 to 10⁻⁶ below it; these and 4 arccosh(1/(1 − Θ₀)) are "
-        f"{agreement(off)}",
+        f"periods of orbits with turning points from 0.5 to 10⁻⁶ below Θ = 1: {', '.join(f'{period:.2f}' for period in measured)}; these "
+        f"and 4 arccosh(1/(1 − Θ₀)) are {agreement(off)}",
     )
 
 
 @CHAPTER.claim("Eq. (12)")
 def equation_12() -> Finding:
-    """Base acceleration and damping enter as disturbances of the free block."""
+    """Base acceleration and damping are perturbations of the free block."""
     rng = np.random.default_rng(12)
     radians, base = rng.uniform(-0.2, 0.2, 100), rng.uniform(-3.0, 3.0, 100)
     pull = rk.theory.physical_acceleration(BLOCK, radians, base)
@@ -68,41 +68,43 @@ def equation_12() -> Finding:
 
 @CHAPTER.claim(
     "Eqs. (13), (14b)",
-    slips="the force must oppose the velocity: as printed it feeds the block on the lower orbit, where dθ < 0",
+    error="the force must oppose the velocity: as printed it supplies energy on the lower orbit, where dθ < 0",
 )
 def equation_13() -> Finding:
-    """Damping F = −½ Io θ'²(1 − e²) δ(θ/θcr)/θcr, whose integral is the energy lost at an impact."""
+    """The integral of the damping F = −½ Io θ'²(1 − e²) δ(θ/θcr)/θcr is the energy lost at an impact."""
     e, width = 0.8, 1e-3
     work = []
     for direction in (1.0, -1.0):
         angle = np.linspace(-width, width, 200_001)
-        # as printed F is the same whichever way the block moves; dΘ has the direction's sign
+        # as printed F does not depend on the direction of motion; dΘ has the sign of the direction
         printed = np.trapezoid(rk.theory.damping(angle, 1.0, e, width), angle) * direction
         opposed = np.trapezoid(rk.theory.damping(angle, direction, e, width), angle) * direction
         work.append((float(printed), float(opposed)))
     loss = -float(rk.theory.impact_loss(1.0, e))
     return Finding(
         all(abs(printed - loss) < 1e-6 for printed, _ in work),
-        f"an impact at Θ' = ±1, e = 0.8 takes {-loss:.3f}; the printed force gives {work[0][0]:.3f} upwards, {work[1][0]:+.3f} downwards",
+        f"an impact at Θ' = ±1, e = 0.8 dissipates {-loss:.3f}; the work of the printed force is {work[0][0]:.3f} on the upper and "
+        f"{work[1][0]:+.3f} on the lower orbit",
         shown=all(abs(opposed - loss) < 1e-6 for _, opposed in work),
     )
 
 
 @CHAPTER.claim("Eq. (14a)")
 def equation_14a() -> Finding:
-    """The rate of the angle is the velocity."""
+    """The time derivative of the angle is the velocity."""
     motion = rk.simulate(FREE, rk.State(angle=0.7), cycles=20)
     times, step = np.linspace(0.1, 19.0, 2_001), 1e-5
     rate = (motion.at(times + step)[0] - motion.at(times - step)[0]) / (2.0 * step)
     off = np.abs(rate - motion.at(times)[1]).max()
     return Finding(
-        bool(off < 1e-4), f"differences of Θ and Θ' apart by {small(off)}, a step across an impact included"
+        bool(off < 1e-4),
+        f"finite differences of Θ and Θ' differ by {small(off)}, including a step across an impact",
     )
 
 
 @CHAPTER.claim("Eq. (15)")
 def equation_15() -> Finding:
-    """A Hamiltonian, constant without forcing and losses."""
+    """A Hamiltonian that is constant without forcing and damping."""
     motion = rk.simulate(FREE, rk.State(angle=0.7, velocity=0.1), cycles=200)
     energies = rk.theory.energy(*motion.at(np.linspace(0.0, 200.0, 5_001)))
     spread = float(np.ptp(energies))
@@ -113,7 +115,7 @@ def equation_15() -> Finding:
 
 @CHAPTER.claim("After (15)")
 def more_energy() -> Finding:
-    """With more than the critical energy the response is unbounded."""
+    """Above the critical energy the response is unbounded."""
     rng = np.random.default_rng(15)
     starts = [
         rk.State(angle=a, velocity=v)
@@ -121,15 +123,17 @@ def more_energy() -> Finding:
     ]
     high = [start for start in starts if rk.theory.energy(start.angle, start.velocity) > 0.5]
     over = sum(rk.simulate(FREE, start, cycles=200).outcome is rk.Outcome.OVERTURNED for start in high)
-    return Finding(over == len(high), f"{over} of {len(high)} random starts with |Θ| < 1 and H > ½ overturn")
+    return Finding(
+        over == len(high), f"{over} of {len(high)} random initial states with |Θ| < 1 and H > ½ overturn"
+    )
 
 
 @CHAPTER.claim(
     "After (15)",
-    slips="only for |Θ| < 1: let go beyond the critical angle a block has less energy, and falls",
+    qualified="only for |Θ| < 1: a block released beyond the critical angle has less energy but overturns",
 )
 def less_energy() -> Finding:
-    """With less than the critical energy the response is bounded."""
+    """Below the critical energy the response is bounded."""
     rng = np.random.default_rng(16)
     inside: list[bool] = []
     outside: list[bool] = []
@@ -139,8 +143,8 @@ def less_energy() -> Finding:
             (inside if abs(angle) < 1.0 else outside).append(fell)
     return Finding(
         not any(inside + outside),
-        f"with H < ½: {sum(inside)} of {len(inside)} starts with |Θ| < 1 overturn, {sum(outside)} of {len(outside)} beyond it; "
-        f"Θ = 1.5 at rest has H = {rk.theory.energy(1.5, 0.0):g}",
+        f"with H < ½, {sum(inside)} of {len(inside)} initial states with |Θ| < 1 overturn, and {sum(outside)} of {len(outside)} with "
+        f"|Θ| > 1; Θ = 1.5 at rest has H = {rk.theory.energy(1.5, 0.0):g}",
         shown=not any(inside) and all(outside),
     )
 
@@ -151,11 +155,11 @@ def figure_9() -> Finding:
     times = np.linspace(0.0, 8.0, 801)
     angle, velocity = rk.simulate(FREE, rk.State(velocity=1.0), cycles=8).at(times)
     closed = rk.theory.heteroclinic_orbit(times)
-    # what rounding of the start has grown to
+    # growth of the rounding error of the initial state
     off = float(np.max(np.hypot(angle - closed[0], velocity - closed[1]) * np.exp(-times)))
     return Finding(
         off < 1e-14,
-        f"the block that leaves the base with Θ' = 1 stays on it for τ ≤ 8, to {small(off)} times exp τ",
+        f"a block that starts from Θ = 0 with Θ' = 1 stays on the orbit for τ ≤ 8, to {small(off)} times exp τ",
     )
 
 
@@ -169,12 +173,12 @@ def equation_16a() -> Finding:
         np.abs(BLOCK.critical_angle - np.exp(-p) - angle).max(),
         np.abs(BLOCK.frequency_parameter * np.exp(-p) - velocity).max(),
     )
-    return Finding(bool(off < 1e-14), f"to {small(off)} rad and rad/s over 2 s")
+    return Finding(bool(off < 1e-14), f"agrees to {small(off)} rad and rad/s over 2 s")
 
 
 @CHAPTER.claim(
     "Eq. (16b)",
-    slips="p must be αt + ln θcr here: with the printed one the orbit does not pass θ = 0 at t = 0",
+    misprint="p must be αt + ln θcr here: with the printed p the orbit does not pass θ = 0 at t = 0",
 )
 def equation_16b() -> Finding:
     """The upper orbit with θ < 0, with the same p = αt − ln θcr."""
@@ -186,16 +190,14 @@ def equation_16b() -> Finding:
         off[sign] = float(np.abs(np.exp(p) - BLOCK.critical_angle - angle).max())
     return Finding(
         off[-1.0] < 1e-12,
-        f"off by {off[-1.0]:.2g} rad as printed, by {small(off[1.0])} with the other sign",
+        f"differs by {off[-1.0]:.2g} rad as printed, by {small(off[1.0])} rad with the other sign",
         off[1.0] < 1e-14,
     )
 
 
-@CHAPTER.claim(
-    "Eqs. (17a), (17b)", slips="V must be v/(αθcr): with the printed one the velocity keeps a factor α"
-)
+@CHAPTER.claim("Eqs. (17a), (17b)", misprint="V must be v/(αθcr): as printed the velocity keeps a factor α")
 def equation_17() -> Finding:
-    """Normalised (1 − e^−τ, e^−τ) and (e^τ − 1, e^τ), with V = v/θcr."""
+    """The normalised orbits (1 − exp(−τ), exp(−τ)) and (exp τ − 1, exp τ), with V = v/θcr."""
     alpha, critical = BLOCK.frequency_parameter, BLOCK.critical_angle
     seconds = np.linspace(-2.0, 2.0, 401)
     _, physical = rk.theory.physical_heteroclinic_orbit(BLOCK, seconds)
@@ -203,7 +205,7 @@ def equation_17() -> Finding:
     printed = float(np.abs(physical / critical - normal).max())
     meant = float(np.abs(physical / (alpha * critical) - normal).max())
     return Finding(
-        printed < 1e-12, f"off by {printed:.3g} as printed, by {small(meant)} with α", shown=meant < 1e-13
+        printed < 1e-12, f"differs by {printed:.3g} as printed, by {small(meant)} with α", shown=meant < 1e-13
     )
 
 
@@ -218,12 +220,12 @@ def equation_18() -> Finding:
         for time in (0.0, 0.1, 0.37, 0.8)
         for orbit in ("upper", "lower")
     )
-    return Finding(off < 2e-6, f"numerical integration and closed form apart by {small(off)}, eight times")
+    return Finding(off < 2e-6, f"numerical integration and closed form differ by {small(off)} in eight cases")
 
 
 @CHAPTER.claim(
     "After (18)",
-    slips="M⁻ is M⁺ shifted by half a forcing period; it has zeros where M⁺ has, so that one suffices all the same",
+    qualified="M⁻ is M⁺ shifted by half a forcing period; it has zeros if and only if M⁺ has, so that one of them suffices",
 )
 def lower_orbit() -> Finding:
     """M⁺ and M⁻ are identical, so that one of them suffices."""
@@ -241,11 +243,11 @@ def lower_orbit() -> Finding:
 
 @CHAPTER.claim(
     "After (18)",
-    slips="strongly damped blocks move chaotically below A_M and even below A*, where the manifolds do not cross: "
-    "period doubling within the bounded motions needs no crossing",
+    error="strongly damped blocks move chaotically below A_M, and even below A*, where the manifolds do not intersect. Period doubling "
+    "of bounded motions needs no intersection",
 )
 def no_zeros() -> Finding:
-    """Without zeros there is no chaotic response."""
+    """Without zeros of Melnikov's function there is no chaotic response."""
     rng = np.random.default_rng(22)
     below, chaotic, untouched, most = 0, 0, 0, 16.0
     for e in (0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8):
@@ -261,6 +263,6 @@ def no_zeros() -> Finding:
                 untouched += bool(amplitude < tangency)
     return Finding(
         chaotic == 0,
-        f"{chaotic} chaotic of {below} responses from rest at random A < A_M, e from 0.2 to 0.8; {untouched} of them at A < A*",
+        f"{chaotic} of {below} responses from rest at random A < A_M, e from 0.2 to 0.8, are chaotic; {untouched} of these at A < A*",
         shown=untouched > 0,
     )

@@ -1,4 +1,4 @@
-"""Claims on the equations of motion, (1) to (5), and figure 1."""
+"""Claims on the equations of motion, Eqs. (1) to (5), and figure 1."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ from rocking.papers.yim_lin_1991.claim import Chapter, Finding, agreement, small
 
 CHAPTER = Chapter("Equations of motion")
 BLOCK = rk.Block(height=2.0, width=0.5, restitution=0.925)
-# A step and what central differences of that step leave of a second derivative, in units of the largest one.
+# Step of central differences, and their largest admissible error relative to the largest second derivative.
 STEP, LEFT = 1e-3, 1e-5
 
 
 def _physical_residual(side: int) -> float:
-    """The largest |θ'' by differences of an exact motion − θ'' by eq. (1)| on one side, as a share of the largest θ''."""
+    """Return the largest difference between θ'' of an exact motion and of Eq. (1), relative to the largest θ''."""
     system = BLOCK.system(acceleration=3.0, frequency_hz=1.2)
     motion = rk.simulate(system, cycles=20)
     seconds = np.linspace(0.5, 15.0, 20_000)
@@ -49,7 +49,7 @@ def figure_1() -> Finding:
     )
     return Finding(
         bool(holds),
-        f"H = 2 m, B = 0.5 m: θcr = {angle:.6f} rad; let go at 0.999 θcr it ends {stands}, at 1.001 θcr {falls}",
+        f"H = 2 m, B = 0.5 m: θcr = {angle:.6f} rad; released at 0.999 θcr the block is {stands} in the end, at 1.001 θcr {falls}",
     )
 
 
@@ -59,23 +59,23 @@ def equation_1a() -> Finding:
     residual = _physical_residual(1)
     return Finding(
         residual < LEFT,
-        f"second differences of our motion in SI units meet it to {small(residual)} of the largest θ''",
+        f"second differences of the computed motion in SI units satisfy it to {small(residual)} of the largest θ''",
     )
 
 
 @CHAPTER.claim("Eq. (1b)")
 def equation_1b() -> Finding:
-    """Rocking about O', θ < 0: the same with θcr + θ."""
+    """Rocking about O', θ < 0: as Eq. (1a), with θcr + θ."""
     residual = _physical_residual(-1)
     return Finding(
         residual < LEFT,
-        f"second differences of our motion in SI units meet it to {small(residual)} of the largest θ''",
+        f"second differences of the computed motion in SI units satisfy it to {small(residual)} of the largest θ''",
     )
 
 
 @CHAPTER.claim("Eq. (2)")
 def equation_2() -> Finding:
-    """An impact leaves e times the angular velocity, 0 ≤ e ≤ 1."""
+    """An impact reduces the angular velocity by the factor e, 0 ≤ e ≤ 1."""
     system = PERIODIC[0].system
     hits = rk.simulate(system, cycles=200).events
     hits = hits[hits["kind"] == "impact"]
@@ -85,7 +85,7 @@ def equation_2() -> Finding:
 
 @CHAPTER.claim("Eq. (3)")
 def equation_3() -> Finding:
-    """The base acceleration is harmonic, with one amplitude, frequency and phase."""
+    """The base acceleration is harmonic, with constant amplitude, frequency and phase."""
     forcing = rk.Harmonic(amplitude=2.0, frequency=3.0, phase=0.7)
     times = np.linspace(0.0, 50.0, 1001)
     off = np.abs(forcing.acceleration(times) - 2.0 * np.cos(3.0 * times + 0.7)).max()
@@ -103,7 +103,13 @@ _fallen.terminal, _fallen.direction = True, -1  # type: ignore[attr-defined]
 
 
 def _integrated(system: rk.System, impacts: int) -> tuple[np.ndarray, np.ndarray]:
-    """Times of, and speeds after, the first impacts by a Runge-Kutta method of order 8, from rest; u = side · Θ."""
+    """Integrate from rest by a Runge-Kutta method of order 8, with u = side · Θ.
+
+    Returns
+    -------
+    tuple of (array, array)
+        Times of the first impacts, and speeds after them.
+    """
     forcing, e = system.forcing, system.restitution
     time, speed, side, times, speeds = 0.0, 0.0, -1, [], []
     for _ in range(impacts):
@@ -111,7 +117,7 @@ def _integrated(system: rk.System, impacts: int) -> tuple[np.ndarray, np.ndarray
         def motion(tau: float, state: np.ndarray, side: int = side) -> tuple[float, float]:
             return state[1], state[0] - 1.0 - side * float(forcing.acceleration(tau))
 
-        # off the corner by a step too short to matter, so that the start is no event
+        # a negligibly short step away from Θ = 0, so that the start is not an event
         lifted = solve_ivp(motion, (time, time + 1e-6), (0.0, speed), "DOP853", rtol=1e-12, atol=1e-18)
         found = solve_ivp(
             motion, (time + 1e-6, time + 100.0), lifted.y[:, -1], "DOP853", events=_fallen, rtol=1e-13, atol=1e-15
@@ -124,7 +130,7 @@ def _integrated(system: rk.System, impacts: int) -> tuple[np.ndarray, np.ndarray
 
 @CHAPTER.claim("Eqs. (4a), (4b)")
 def equation_4() -> Finding:
-    """Normalised, Θ'' − Θ = −A cos(Ωτ + φ) ∓ 1 on either side."""
+    """The normalised equation Θ'' − Θ = −A cos(Ωτ + φ) ∓ 1 on either side."""
     system = PERIODIC[0].system
     times, speeds = _integrated(system, 20)
     hits = rk.simulate(system, cycles=30).events
@@ -132,13 +138,13 @@ def equation_4() -> Finding:
     apart = max(np.abs(hits["time"] - times).max(), np.abs(np.abs(hits["after"]) - speeds).max())
     return Finding(
         bool(apart < 1e-9),
-        f"the first 20 impacts of A = 2, T = 1, e = 0.925 by numerical integration: times and speeds apart by {small(apart)}",
+        f"first 20 impacts at A = 2, T = 1, e = 0.925 by numerical integration: times and speeds differ by {small(apart)}",
     )
 
 
 @CHAPTER.claim("Eqs. (5a), (5b)")
 def equation_5() -> Finding:
-    """Between impacts sinh, cosh, ±1 and β cos(Ωτ + φ), with β = A/(1 + Ω²)."""
+    """Between impacts Θ is a sum of sinh, cosh, ±1 and β cos(Ωτ + φ), with β = A/(1 + Ω²)."""
     system = PERIODIC[0].system
     motion = rk.simulate(system, cycles=30)
     forcing = system.forcing
@@ -155,5 +161,5 @@ def equation_5() -> Finding:
         fitted = np.linalg.lstsq(shape, rest, rcond=None)[0]
         worst = max(worst, float(np.abs(shape @ fitted - rest).max()))
     return Finding(
-        worst < 1e-13, f"two constants fit 50 points of each of 20 arcs, on both sides, to {small(worst)}"
+        worst < 1e-13, f"two constants fit 50 points on each of 20 arcs, on both sides, to {small(worst)}"
     )

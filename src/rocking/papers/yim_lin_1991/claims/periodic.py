@@ -1,4 +1,4 @@
-"""Claims on symmetric (1, n) modes, (8) to (10): existence and stability."""
+"""Claims on the existence and stability of symmetric (1, n) modes, Eqs. (8) to (10)."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ DRAWN = 2_000
 
 
 def _drawn() -> list[list[rk.Mode]]:
-    """Modes (1, n) of random systems, e from 0.2 to 1."""
+    """Return the (1, n) modes of random systems, e from 0.2 to 1."""
     rng = np.random.default_rng(1991)
     low, high = cached_surveys.PERIODS
     return [
@@ -28,7 +28,7 @@ def _drawn() -> list[list[rk.Mode]]:
 
 @CHAPTER.claim("Eq. (8)")
 def equation_8() -> Finding:
-    """A half-cycle of a (1, n) mode in closed form; the other by shift and sign."""
+    """The first half-cycle of a (1, n) mode in closed form; the second by time shift and change of sign."""
     worst, figures = 0.0, []
     for case, n in ((PERIODIC[0], 1), (PERIODIC[1], 3)):
         mode = rk.theory.symmetric_modes(case.system.forcing.amplitude, case.system.forcing.period, 0.925, n)[
@@ -42,15 +42,17 @@ def equation_8() -> Finding:
             np.abs(hits["time"] - half * np.arange(1, len(hits) + 1)).max(),
         )
         worst = max(worst, float(off))
-        figures.append(f"(1,{n}): V = {mode.velocity:.10f}")
+        figures.append(f"(1, {n}): V = {mode.velocity:.10f}")
     return Finding(
-        worst < 1e-10, f"{', '.join(figures)}; simulated, each of 20 impacts comes as said, to {small(worst)}"
+        worst < 1e-10,
+        f"{', '.join(figures)}; times and speeds of 20 simulated impacts agree with the closed form to {small(worst)}",
     )
 
 
 @CHAPTER.claim(
     "Existence",
-    slips="two only between the fold and A = t(1 + Ω²)/Ω, t = tanh(nπ/2Ω); above it the second would have a negative speed: one",
+    error="there are two only between the fold and A = t(1 + Ω²)/Ω, t = tanh(nπ/2Ω). Above that amplitude the second solution "
+    "would have a negative speed, and only one remains",
 )
 def pairs() -> Finding:
     """Either there is no solution, or there are two."""
@@ -68,27 +70,33 @@ def pairs() -> Finding:
     ]
     return Finding(
         one == 0,
-        f"of {DRAWN:,} random systems {counts.count(0)} have none, {one} one, {counts.count(2)} two; "
-        f"those of figures 2a, 2b and 5: {', '.join(map(str, of_figures))}",
+        f"solutions of {DRAWN:,} random systems: none in {counts.count(0)}, one in {one}, two in {counts.count(2)}; "
+        f"of the systems of figures 2a, 2b and 5: {', '.join(map(str, of_figures))}",
         shown=shown and one > 0,
     )
 
 
 @CHAPTER.claim("Existence")
 def lower_one() -> Finding:
-    """Of the two only one can be stable; the other is always unstable."""
+    """One of the two solutions can be stable; the other is always unstable."""
     two = [modes for modes in _drawn() if len(modes) == 2]
     slower = [min(modes, key=lambda mode: mode.velocity) for modes in two]
     stable = sum(mode.stable for mode in slower)
     faster = sum(max(modes, key=lambda mode: mode.velocity).stable for modes in two)
     return Finding(
         stable == 0 and faster > 0,
-        f"of {len(two)} pairs the slower is stable in {stable}, the faster in {faster}",
+        f"of {len(two)} pairs the slower mode is stable in {stable}, the faster in {faster}",
     )
 
 
 def _half_cycle(velocity: float, phase: float, mode: rk.Mode) -> tuple[float, float]:
-    """(phase, speed) just after the impact that follows one with that speed at that phase, mirrored."""
+    """Return the state after the next impact, mirrored, given speed and phase after an impact.
+
+    Returns
+    -------
+    tuple of (float, float)
+        Phase (rad) and speed.
+    """
     system = rk.System(
         rk.Harmonic(mode.amplitude, period=mode.period, phase=phase % (2.0 * np.pi)), mode.restitution
     )
@@ -98,7 +106,7 @@ def _half_cycle(velocity: float, phase: float, mode: rk.Mode) -> tuple[float, fl
 
 
 def _matrix(mode: rk.Mode) -> np.ndarray:
-    """That of eq. (9), in (phase, speed), by central differences of simulations."""
+    """Return the matrix of Eq. (9), in (phase, speed), by central differences of simulations."""
     step, columns = 1e-6, []
     for shift in ((step, 0.0), (0.0, step)):
         ahead = _half_cycle(mode.velocity + shift[1], mode.phase + shift[0], mode)
@@ -109,7 +117,7 @@ def _matrix(mode: rk.Mode) -> np.ndarray:
 
 @CHAPTER.claim("Eq. (9)")
 def equation_9() -> Finding:
-    """Small variations pass from impact to impact by a matrix."""
+    """A matrix maps small variations from impact to impact."""
     worst = 0.0
     for arguments in ((2.0, 1.0, 0.925, 1), (6.5, 0.4, 0.925, 3)):
         mode = rk.theory.symmetric_modes(*arguments)[0]
@@ -118,11 +126,11 @@ def equation_9() -> Finding:
         worst = max(worst, float(np.abs(np.sort_complex(eigenvalues) - np.sort_complex(closed)).max()))
     return Finding(
         worst < 1e-6,
-        f"its eigenvalues by differences of simulations and in closed form, for figures 2a and 2b: apart by {small(worst)}",
+        f"its eigenvalues by finite differences of simulations and in closed form, for figures 2a and 2b, differ by {small(worst)}",
     )
 
 
-@CHAPTER.claim("Eq. (10)", slips="a misprint: the first sum must be the trace, A₁₁ + A₂₂")
+@CHAPTER.claim("Eq. (10)", misprint="the first sum must be the trace, A₁₁ + A₂₂")
 def equation_10() -> Finding:
     """Stable where |A₁₁ + A₁₂ ± √((A₁₁ − A₂₂)² + 4A₁₂A₂₁)| < 2C."""
     printed, meant, modes = 0, 0, 0
@@ -138,14 +146,14 @@ def equation_10() -> Finding:
                 meant += mode.stable == (max(abs(a11 + a22 + root), abs(a11 + a22 - root)) < 2.0)
     return Finding(
         printed == modes,
-        f"of {modes} modes the printed criterion judges {printed} rightly, that with the trace {meant}",
+        f"the printed criterion is right for {printed} of {modes} modes, the criterion with the trace for {meant}",
         shown=meant == modes and modes > 5,
     )
 
 
 @CHAPTER.claim("Existence and stability (damped)")
 def mode_number() -> Finding:
-    """The stability of modes decreases with their number."""
+    """The stability of (1, n) modes decreases with n."""
     rows, falling = [], True
     low, high = cached_surveys.PERIODS
     periods = np.linspace(low, high, 57)
@@ -159,5 +167,5 @@ def mode_number() -> Finding:
         rows.append(f"{e:g}: " + ", ".join(f"{100 * width:.2f}" for width in widths))
     return Finding(
         falling,
-        f"% of the map in which (1, n) is stable, n = {', '.join(map(str, MODES))}; e = {'; '.join(rows)}",
+        f"percentage of the map in which the (1, n) mode is stable, n = {', '.join(map(str, MODES))}; e = {'; '.join(rows)}",
     )

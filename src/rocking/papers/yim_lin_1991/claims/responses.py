@@ -1,4 +1,4 @@
-"""Claims on the classes of response, (6) and (7), and figures 2 to 6."""
+"""Claims on the classes of response, Eqs. (6) and (7), and figures 2 to 6."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ def _periodic(case: Case, period: int, symmetric: bool, impacts: int) -> tuple[b
         symmetric,
         impacts,
     )
-    shape = "symmetric" if found.symmetric else "unsymmetric"
+    shape = "symmetric" if found.symmetric else "asymmetric"
     return as_said, (
-        f"{found.kind}, period {found.period}, {shape}, {found.impacts_per_period} impacts a period, peak {found.peak:.4f}"
+        f"{found.kind}, period {found.period}, {shape}, {found.impacts_per_period} impacts per period, largest |Θ| {found.peak:.4f}"
     )
 
 
@@ -45,35 +45,35 @@ def equation_7() -> Finding:
     density, turns = cached_surveys.torus_spectrum(), cached_surveys.torus_turns()
     named = [line for line in density.peaks if line.name]
     rotation, free = density.rotation or 0.0, turns.free or 0.0
-    # f_r and the turns about the island's centre are one frequency, up to multiples of f/3
+    # f_r and the rotation frequency about the centre of the island are equal up to multiples of f/3
     multiple = 3.0 * (rotation - free / 3.0), 3.0 * (rotation + free / 3.0)
     one = min(abs(m - round(m)) for m in multiple)
     nearest = min(abs(free - p / q) * q * q for q in range(1, 60) for p in range(q + 1))
     return Finding(
         len(density.peaks) > 3 and len(named) == len(density.peaks) and nearest > 0.05 and one < 1e-6,
-        f"figure 5: {len(density.peaks)} lines, {len(named)} of them combinations of f/3 and f_r = {rotation:.8f} f; the motion turns "
-        f"{free:.10f} times in 3 cycles, near no fraction with a denominator below 60",
+        f"figure 5: {len(density.peaks)} lines, {len(named)} of them combinations of f/3 and f_r = {rotation:.8f} f; the motion makes "
+        f"{free:.10f} turns in 3 cycles, not close to any fraction with a denominator below 60",
     )
 
 
 @CHAPTER.claim("Figs. 2a, 3a")
 def figure_2a() -> Finding:
-    """A = 2, T = 1, e = 0.925 from rest: the harmonic (1,1) mode."""
+    """A = 2, T = 1, e = 0.925 from rest: the harmonic (1, 1) mode."""
     return Finding(*_periodic(PERIODIC[0], 1, True, 2))
 
 
 @CHAPTER.claim("Figs. 2b, 3b")
 def figure_2b() -> Finding:
-    """A = 6.5, T = 0.4, e = 0.925 from rest: the one-third subharmonic, (1,3)."""
+    """A = 6.5, T = 0.4, e = 0.925 from rest: the one-third subharmonic, (1, 3)."""
     return Finding(*_periodic(PERIODIC[1], 3, True, 2))
 
 
 @CHAPTER.claim(
     "Figs. 2c, 3c",
-    slips="it is unsymmetric with period 10, but it has four impacts, so two rocking cycles: a (2,10) mode",
+    error="it is asymmetric with period 10, but has four impacts, hence two rocking cycles: a (2, 10) mode",
 )
 def figure_2c() -> Finding:
-    """A = 5.5, T = 0.5, e = 0.925 from 0.15 with φ = 1.8: an unsymmetric (1,10) mode, one rocking cycle in ten of the forcing."""
+    """A = 5.5, T = 0.5, e = 0.925 from 0.15, φ = 1.8: asymmetric (1, 10) mode, one rocking per ten forcing cycles."""
     case = PERIODIC[2]
     one, figures = _periodic(case, 10, False, 2)
     two, _ = _periodic(case, 10, False, 4)
@@ -82,17 +82,18 @@ def figure_2c() -> Finding:
 
 @CHAPTER.claim(
     "Fig. 2, caption",
-    slips="it is the velocity, as figure 3's caption has it; from the angle a symmetric period 7 comes out",
+    misprint="0.15 is the initial velocity, as in the caption of figure 3. An initial angle of 0.15 leads to a symmetric "
+    "response of period 7",
 )
 def figure_2_caption() -> Finding:
-    """The start of 2c is (θ, φ) = (0.15, 1.8): an angle."""
+    """The initial state of 2c is (θ, φ) = (0.15, 1.8): an angle."""
     system = PERIODIC[2].system
     angle, velocity = (
         rk.classify(system, start) for start in (rk.State(angle=0.15), rk.State(velocity=0.15))
     )
     return Finding(
         angle.period == 10,
-        f"from Θ = 0.15 period {angle.period}, from Θ' = 0.15 period {velocity.period}",
+        f"from Θ = 0.15: period {angle.period}; from Θ' = 0.15: period {velocity.period}",
         shown=velocity.period == 10 and angle.period == 7 and bool(angle.symmetric),
     )
 
@@ -105,7 +106,7 @@ def figure_4() -> Finding:
     cycle = fell.cycle + 1 if fell else 0
     return Finding(
         motion.outcome is rk.Outcome.OVERTURNED,
-        f"{motion.outcome} in cycle {cycle}, after {motion.impacts} impacts; proved never to return",
+        f"{motion.outcome} in cycle {cycle}, after {motion.impacts} impacts; overturning is certain (proved)",
     )
 
 
@@ -124,27 +125,27 @@ def figure_6() -> Finding:
     undetermined = kinds.count(rk.Kind.UNDETERMINED)
     return Finding(
         chaotic > len(kinds) // 2 and other == undetermined,
-        f"from {len(kinds)} phases within {table_exponents.SEA_PHASES:g}: {chaotic} chaotic, {undetermined} undetermined "
-        "(the sea is sticky), no other kind",
+        f"of {len(kinds)} runs with forcing phases within {table_exponents.SEA_PHASES:g} of each other, {chaotic} are chaotic and "
+        f"{undetermined} undetermined (long sojourns near islands)",
     )
 
 
 @CHAPTER.claim("Overturning response")
 def overturning_amplitudes() -> Finding:
-    """Overturning goes with large amplitudes of the base."""
+    """Overturning occurs at large amplitudes of the base acceleration."""
     found = cached_surveys.damped()
     overturned = (found.kind == rk.Kind.OVERTURNED.code).transpose("period", "amplitude").values
     quarters = [float(part.mean()) for part in np.array_split(overturned, 4, axis=1)]
     shares = ", ".join(f"{100 * share:.1f} %" for share in quarters)
     return Finding(
         quarters[0] == min(quarters) and quarters[-1] == max(quarters),
-        f"share overturned in the four quarters of A from 0 to 16, e = 0.925: {shares}",
+        f"fraction overturned in the four quarters of A from 0 to 16, e = 0.925: {shares}",
     )
 
 
 @CHAPTER.claim("Chaotic response")
 def divergence() -> Finding:
-    """Neighbouring trajectories of a chaotic response part exponentially."""
+    """Nearby trajectories of a chaotic response diverge exponentially."""
     system = CHAOTIC.system
     near, far = (
         rk.simulate(system, rk.State(velocity=v), cycles=400, record="section").section()
@@ -155,5 +156,6 @@ def divergence() -> Finding:
     rate = np.log(1e-2 / 1e-12) / max(reached, 1)
     return Finding(
         bool(apart.max() > 1e-2 and rate > 0.02),
-        f"figure 6 and a start 1e-12 beside it are 0.01 apart after {reached} cycles, {rate:.2f} nats per cycle on average",
+        f"figure 6: a trajectory that starts at a distance of 1e-12 is 0.01 away after {reached} cycles, {rate:.2f} nats per cycle on "
+        "average",
     )

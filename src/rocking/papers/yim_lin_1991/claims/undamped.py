@@ -1,4 +1,4 @@
-"""Claims on the undamped block, e = 1: (19), figure 10 and what is said of it."""
+"""Claims on the undamped block, e = 1: Eq. (19), figure 10 and its discussion."""
 
 from __future__ import annotations
 
@@ -13,10 +13,11 @@ CHAPTER = Chapter("Response of undamped systems")
 
 @CHAPTER.claim(
     "Existence and stability",
-    slips="their product is 1, and for tanh(h/2) < V < coth(h/2), h = nπ/Ω, both lie on the unit circle: neutrally stable modes",
+    error="the product of the eigenvalues is 1. For tanh(h/2) < V < coth(h/2), h = nπ/Ω, both lie on the unit circle, and the mode "
+    "is neutrally stable",
 )
 def eigenvalues() -> Finding:
-    """With e = 1 one eigenvalue is infinite and the other one, whatever the parameters: unstable, or neutrally stable at best."""
+    """With e = 1 one eigenvalue is infinite and the other is 1 for all parameters: unstable or at best neutrally stable."""
     rng = np.random.default_rng(10)
     low, high = cached_surveys.PERIODS
     modes = [
@@ -32,7 +33,8 @@ def eigenvalues() -> Finding:
     largest = max(abs(mode.half_multipliers[0]) for mode in modes)
     return Finding(
         bool(np.isinf(largest)),
-        f"of {len(modes)} modes {len(sizes)} have both on the unit circle, to {small(max(sizes))}; the largest of all is {largest:.3g}",
+        f"{len(sizes)} of {len(modes)} modes have both eigenvalues on the unit circle, to {small(max(sizes))}; the largest eigenvalue "
+        f"is {largest:.3g}",
         shown=products < 1e-6 and len(sizes) > 0 and max(sizes) < 1e-6,
     )
 
@@ -48,24 +50,28 @@ def equation_19() -> Finding:
         for time in (0.0, 0.2, 0.7)
         for period in (0.5, 1.0, 2.5)
     )
-    return Finding(bool(off < 1e-9), f"the integral meets it to {small(off)} at nine phases and periods")
+    return Finding(
+        bool(off < 1e-9), f"agrees with the integral to {small(off)} at nine combinations of phase and period"
+    )
 
 
-@CHAPTER.claim("After (19b)", slips="they are at Ωτ₀ = (k + ½)π; at τ₀ = 2nπ it has no zero in general")
+@CHAPTER.claim("After (19b)", error="the zeros are at Ωτ₀ = (k + ½)π; τ₀ = 2nπ is in general no zero")
 def zeros_19() -> Finding:
-    """Its zeros are at τ₀ = 2nπ."""
+    """The zeros of Melnikov's function for e = 1 are at τ₀ = 2nπ."""
     period = 1.3
     k = np.arange(10)
     printed = np.abs(rk.theory.melnikov_function(2.0 * np.pi * k, 3.0, period, 1.0)).max()
     meant = np.abs(rk.theory.melnikov_function((k + 0.5) * period / 2.0, 3.0, period, 1.0)).max()
     return Finding(
-        bool(printed < 1e-12), f"|M⁺| up to {printed:.3g} there, {small(meant)} at ours", bool(meant < 1e-12)
+        bool(printed < 1e-12),
+        f"|M⁺| up to {printed:.3g} at τ₀ = 2nπ, up to {small(meant)} at Ωτ₀ = (k + ½)π",
+        bool(meant < 1e-12),
     )
 
 
 @CHAPTER.claim("After (19b)")
 def always_zeros() -> Finding:
-    """For e = 1 it has zeros whatever the amplitude and frequency."""
+    """For e = 1 Melnikov's function has zeros at all amplitudes and frequencies."""
     periods = np.linspace(0.05, 20.0, 400)
     largest = float(np.max(rk.theory.melnikov_amplitude(periods, 1.0)))
     return Finding(largest == 0.0, f"A_M = {largest:g} at 400 periods from 0.05 to 20")
@@ -73,7 +79,7 @@ def always_zeros() -> Finding:
 
 @CHAPTER.claim("Fig. 10")
 def figure_10() -> Finding:
-    """Over period and amplitude: quasi-periodic, chaotic, none and overturning, nothing else."""
+    """Over period and amplitude only quasi-periodic, chaotic, no response and overturning occur."""
     found = cached_surveys.undamped()
     shares = {kind.value: rk.Share(cached_surveys.count(found, kind), found.kind.size) for kind in rk.Kind}
     text = ", ".join(f"{name} {share}" for name, share in shares.items())
@@ -83,7 +89,8 @@ def figure_10() -> Finding:
 
 @CHAPTER.claim(
     "Numerical results; conclusion 3",
-    slips="none attracts, and none is met from rest; but neutrally stable ones exist, and every island of figure 5 lies around one",
+    error="neutrally stable periodic responses exist, and the islands of figure 5 surround one; it is true that none attracts and "
+    "none is reached from rest",
 )
 def no_periodic() -> Finding:
     """With e = 1 no periodic response exists."""
@@ -94,12 +101,15 @@ def no_periodic() -> Finding:
     exists = mode.stability == "neutral" and off < 1e-6 and near.kind is rk.Kind.QUASI_PERIODIC
     return Finding(
         not exists,
-        f"(1,3) at A = 4, T = 0.4 repeats itself for 30,000 cycles to {small(off)}; from 10⁻³ beside it the motion is {near.kind}",
+        f"the (1, 3) mode at A = 4, T = 0.4 repeats itself for 30,000 cycles to {small(off)}; from a state at a distance of 10⁻³ the "
+        f"motion is {near.kind}",
         shown=exists,
     )
 
 
-@CHAPTER.claim("Numerical results", differs="often, but more of them lie in wide regions without any chaos")
+@CHAPTER.claim(
+    "Numerical results", qualified="often, but more of them lie in large regions without chaotic responses"
+)
 def neighbours() -> Finding:
     """Quasi-periodic responses usually appear together with chaotic ones."""
     kind = cached_surveys.undamped().kind.values
@@ -110,7 +120,7 @@ def neighbours() -> Finding:
     share = rk.Share(near, len(rows))
     return Finding(
         share.low > 0.5,
-        f"within two points of the map (0.035 in T, 0.2 in A) of {share} of the quasi-periodic ones there is one chaotic or open",
+        f"{share} of the quasi-periodic points have a chaotic or undetermined point within two points of the map (0.035 in T, 0.2 in A)",
         shown=share.low > 0.2,
     )
 
@@ -126,7 +136,7 @@ def bounded() -> Finding:
 
 @CHAPTER.claim("Numerical results")
 def folding() -> Finding:
-    """About one corner the motion diverges; the impacts fold it back."""
+    """Motions about one corner diverge; the impacts fold them back."""
     chaotic = rk.System(rk.Harmonic(amplitude=2.0, period=0.4), 1.0)
     motion = rk.simulate(chaotic, cycles=5_000)
     per_cycle, spread = table_exponents.sea()
@@ -136,6 +146,6 @@ def folding() -> Finding:
         and motion.outcome is rk.Outcome.BOUNDED
         and 0.0 < rate < 1.0
         and per_cycle > 3.0 * spread,
-        f"figure 6: an arc parts neighbours like exp τ, yet |Θ| ≤ {motion.peak:.3f} over 5,000 cycles and "
-        f"λ₁ = {rate:.2f} per τ, less than the 1 of an arc",
+        f"figure 6: nearby motions diverge as exp τ within an arc, but |Θ| ≤ {motion.peak:.3f} over 5,000 cycles; "
+        f"λ₁ = {rate:.2f} per unit of τ, less than the 1 of an arc",
     )
