@@ -49,6 +49,12 @@ def simulate(system: System, start: State | None = None, cycles: int = 200, reco
     TooManyEvents
         More than 10⁷ events to keep, or in a single cycle.
 
+    See Also
+    --------
+    classify : Classify the response instead of recording it.
+    rocking.plot.overview : Plot what was recorded.
+    rocking.plot.animation : Animate the motion.
+
     Notes
     -----
     `classify` and `parametric_map` may follow another chaotic transient of the same system and start. They stop at checkpoints,

@@ -84,6 +84,11 @@ def bifurcation_curve(
     TypeError, ValueError
         In one line, for what cannot be followed.
 
+    See Also
+    --------
+    continue_orbit : Find special points along a branch.
+    rocking.plot.bifurcation_curve : Plot curves of special points.
+
     Notes
     -----
     Every point is marched to see that its motion is the block's own. Where a curve meets another grazing it ends.

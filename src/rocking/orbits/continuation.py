@@ -91,6 +91,12 @@ def continue_orbit(
         In one line: for an unknown parameter, an empty range, a range without the orbit's own value, a parameter of braces
         of a system without, an orbit that rests or leans, the orbit of a grazing, the orbit at which a branch is born.
 
+    See Also
+    --------
+    switch_branch : Follow a branch that begins at a special point.
+    bifurcation_curve : Follow a special point through two parameters.
+    rocking.plot.branch : Plot branches.
+
     Notes
     -----
     Steps are shorter where the multipliers change fast, so that a special point lies between neighbouring points with different
@@ -153,6 +159,11 @@ def switch_branch(
     ------
     TypeError, ValueError
         In one line, as `continue_orbit`, and at a fold or a grazing, where there is nothing to switch to.
+
+    See Also
+    --------
+    continue_orbit : Follow an orbit through a parameter.
+    rocking.plot.branch : Plot branches.
     """
     instance("special", special, SpecialPoint)
     if special.kind not in ("symmetry-breaking", "period-doubling"):

@@ -49,6 +49,12 @@ def find_orbit(system: System, guess: State, period: int) -> Orbit:
     NoOrbit
         A ValueError, where Newton's method ends without an orbit; it carries the `state` reached and its `residual`.
 
+    See Also
+    --------
+    find_orbits : Search for all orbits up to a period.
+    continue_orbit : Follow an orbit through a parameter.
+    classify : Find the stable orbit that a motion approaches.
+
     Notes
     -----
     Not guaranteed: that it is the orbit nearest to the guess.

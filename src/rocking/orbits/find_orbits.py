@@ -132,6 +132,12 @@ def find_orbits(
     TypeError, ValueError
         In one line, for arguments of the wrong type or outside their range.
 
+    See Also
+    --------
+    find_orbit : Find one orbit near a guess.
+    basin_map : Basins of the attractors.
+    rocking.theory.symmetric_modes : Symmetric modes in closed form.
+
     Notes
     -----
     Not guaranteed: completeness, see `Orbits`. An orbit is left out if it is so unstable that a run from it overturns

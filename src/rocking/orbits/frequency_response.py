@@ -77,6 +77,11 @@ def frequency_response(
     TypeError, ValueError
         In one line, for an argument of another kind or outside its range, and for an even n.
 
+    See Also
+    --------
+    continue_orbit : Follow one orbit through any parameter.
+    rocking.plot.frequency_response : Plot the curve.
+
     Notes
     -----
     Not guaranteed: that a branch is found which lies wholly between two neighbouring values. Unsymmetric branches that are not

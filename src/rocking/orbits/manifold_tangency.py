@@ -42,6 +42,11 @@ def manifold_gap(system: System) -> float:
     TypeError, ValueError
         In one line, for another system.
 
+    See Also
+    --------
+    tangency_amplitude : Amplitude at which the gap is zero.
+    rocking.theory.manifold_gap : The gap in closed form.
+
     Examples
     --------
     >>> import rocking as rk
@@ -120,6 +125,11 @@ def tangency_amplitude(system: System) -> float:
     ------
     TypeError, ValueError
         In one line, for another system.
+
+    See Also
+    --------
+    manifold_gap : The gap that is zero there.
+    rocking.theory.heteroclinic_amplitude : The amplitude in closed form.
 
     Examples
     --------

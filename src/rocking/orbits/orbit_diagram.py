@@ -88,6 +88,12 @@ def orbit_diagram(
     TooManyEvents
         More than 10⁷ events in a single cycle.
 
+    See Also
+    --------
+    continue_orbit : Follow orbits, stable or not.
+    parametric_map : Vary two quantities.
+    rocking.plot.orbit_diagram : Plot the diagram.
+
     Notes
     -----
     A motion that overturns has no state to carry on: the next one begins where it began. Braces that come nearer push a block

@@ -138,6 +138,12 @@ def saddle_manifolds(
     TooManyEvents
         More than 10⁷ impacts on the way to one point.
 
+    See Also
+    --------
+    manifold_gap : Gap between two manifolds.
+    tangency_amplitude : Amplitude of the first tangency.
+    rocking.plot.manifolds : Plot the manifolds.
+
     Notes
     -----
     Not guaranteed: that a fold of the curve is seen that lies between two neighbours both near each other, or both beyond the

@@ -63,6 +63,11 @@ def animation(
     TypeError, ValueError
         If a value does not lie in its range, the motion kept no events, or an argument is of another kind.
 
+    See Also
+    --------
+    overview : Plot the motion.
+    time_history : Plot the time history alone.
+
     Notes
     -----
     Small angles are exaggerated, and the base's displacement is drawn larger or smaller where otherwise it could not be

@@ -46,6 +46,11 @@ def basins(found: BasinMap, ax: Axes | None = None, block: Block | None = None) 
     TypeError
         If `found` is no basin map, or `ax` no axes.
 
+    See Also
+    --------
+    safe_basin : Plot the safe fraction over the amplitude.
+    rocking.basin_map : Compute basins.
+
     Notes
     -----
     Of the attractors the eight with the largest shares are in the legend. Along an axis of more than 2,000 starts not every

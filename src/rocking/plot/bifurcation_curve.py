@@ -42,6 +42,11 @@ def bifurcation_curve(
     TypeError, ValueError
         In one line: if `result` is no curve, or its curves lie in different planes.
 
+    See Also
+    --------
+    branch : Plot branches.
+    rocking.bifurcation_curve : Compute a curve.
+
     Examples
     --------
     >>> import rocking as rk

@@ -58,6 +58,12 @@ def branch(
     TypeError, ValueError
         In one line: if `result` is no branch, or its branches run over different parameters.
 
+    See Also
+    --------
+    orbit_diagram : Plot branches over an orbit diagram.
+    rocking.continue_orbit : Compute a branch.
+    rocking.switch_branch : Compute the branches at a special point.
+
     Examples
     --------
     >>> import rocking as rk

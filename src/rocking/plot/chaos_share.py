@@ -29,6 +29,10 @@ def chaos_share(found: ChaosShare, ax: Axes | None = None) -> Axes:
     TypeError
         If `found` is another result, or `ax` no axes.
 
+    See Also
+    --------
+    rocking.chaos_share : Compute the fractions.
+
     Examples
     --------
     >>> import rocking as rk

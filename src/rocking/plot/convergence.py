@@ -31,6 +31,10 @@ def convergence(spectrum: LyapunovSpectrum, ax: Axes | None = None, exponent: in
     TypeError, ValueError
         If `spectrum` is none, or the exponent is −∞, or an argument is of another kind.
 
+    See Also
+    --------
+    rocking.lyapunov : Compute the exponents.
+
     Notes
     -----
     There is no band where the batches so far are too few for an error. The dashed line is the final value; zero is

@@ -26,6 +26,11 @@ def dimension(result: CorrelationDimension, ax: Axes | None = None) -> Axes:
     TypeError, ValueError
         If `result` is none, or of isolated points, or an argument is of another kind.
 
+    See Also
+    --------
+    section : Plot the points.
+    rocking.correlation_dimension : Compute the dimension.
+
     Notes
     -----
     Bars are standard errors of the slopes. The band across the scaling region is the interval of the dimension.

@@ -37,6 +37,11 @@ def frequency_response(result: FrequencyResponse, ax: Axes | None = None, block:
     TypeError
         If `result` is none.
 
+    See Also
+    --------
+    branch : Plot branches.
+    rocking.frequency_response : Compute the curve.
+
     Notes
     -----
     Of what is reached from rest the largest |Θ| of the response itself is drawn where it is periodic or at rest, else that of the

@@ -41,6 +41,11 @@ def impact_section(
     TypeError, ValueError
         If `result` holds no impact after the transient, or an argument is of another kind.
 
+    See Also
+    --------
+    section : Plot the stroboscopic section.
+    rocking.impact_section : Compute the impacts.
+
     Notes
     -----
     Phase, speed and side together are the state of the block just after an impact. Every point is drawn; marks

@@ -34,6 +34,11 @@ def manifolds(result: SaddleManifolds, ax: Axes | None = None, block: Block | No
     TypeError
         If `result` is none, or an argument is of another kind.
 
+    See Also
+    --------
+    heteroclinic : Plot the undamped case without forcing.
+    rocking.saddle_manifolds : Compute the manifolds.
+
     Notes
     -----
     The frame holds the saddles and what lies between them; curves go on beyond it. Lines are solid for the saddle near

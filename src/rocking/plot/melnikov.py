@@ -42,6 +42,12 @@ def melnikov(amplitude: float, period: float, restitution: float, ax: Axes | Non
     TypeError, ValueError
         In one line, for an argument of another kind or outside its range.
 
+    See Also
+    --------
+    thresholds : Plot amplitudes over the period.
+    rocking.theory.melnikov_function : Compute the function.
+    rocking.theory.manifold_gap : Compute the exact gap.
+
     Notes
     -----
     Where M⁺ (M⁻ on the other side) is above zero, the unstable manifold passes beyond the stable one, to first order. The exact gap
@@ -89,6 +95,11 @@ def heteroclinic(ax: Axes | None = None, block: Block | None = None) -> Axes:
     Returns
     -------
     matplotlib Axes
+
+    See Also
+    --------
+    manifolds : Plot the manifolds of a damped, forced block.
+    rocking.theory.heteroclinic_orbit : Compute the orbit.
 
     Examples
     --------

@@ -63,6 +63,11 @@ def modes(
     TypeError, ValueError
         In one line, for an argument of another kind or outside its range.
 
+    See Also
+    --------
+    thresholds : Plot the limits of the modes over the period.
+    rocking.theory.symmetric_modes : Compute the modes.
+
     Notes
     -----
     Modes begin at A_E and the faster one loses its stability at A_SB, 1.25 times which is shown, up to A = 1000. At e = 1 it is

@@ -60,6 +60,12 @@ def orbit_diagram(
     TypeError, ValueError
         If `result` or a branch is none, a branch runs over another parameter, or an argument is of another kind.
 
+    See Also
+    --------
+    branch : Plot branches alone.
+    rocking.orbit_diagram : Compute the diagram.
+    rocking.continue_orbit : Compute a branch.
+
     Notes
     -----
     Points of one value nearer than 1/10,000 of the picture's height are one. Marks shrink, and more than 2,000 are an image

@@ -31,6 +31,11 @@ def overturning(found: OverturningCurve, ax: Axes | None = None, block: Block | 
     TypeError, ValueError
         If `found` is another result or two quantities vary, or `ax` is no axes.
 
+    See Also
+    --------
+    thresholds : Plot amplitudes over the period.
+    rocking.overturning_amplitude : Compute the curve.
+
     Examples
     --------
     >>> import numpy as np

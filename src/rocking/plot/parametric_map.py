@@ -68,6 +68,12 @@ def parametric_map(
     TypeError, ValueError
         If it is no map over two axes, a curve does not belong over it, or an argument is of another kind.
 
+    See Also
+    --------
+    tiles : Write the map as a page that zooms.
+    repeatability_map : Plot a map of uncertain inputs.
+    rocking.parametric_map : Compute a map.
+
     Notes
     -----
     Along an axis of more than 2,000 points not every one is drawn; the shares are those of all that are there. Stripes

@@ -45,6 +45,12 @@ def phase_portrait(
     TypeError, ValueError
         If `cycles` does not lie within the motion, the motion kept no events, or an argument is of another kind.
 
+    See Also
+    --------
+    time_history : Plot the angle against time.
+    overview : Plot both.
+    rocking.simulate : Compute a motion.
+
     Notes
     -----
     Impacts on the base lie at Θ = 0 (round, eq. 2 of Yim and Lin 1991), those on a brace at ±Θb (square). At e = 1 the

@@ -35,6 +35,11 @@ def repeatability(found: Repeatability, ax: Axes | None = None) -> Axes:
     TypeError
         If `found` is another result, or `ax` no axes.
 
+    See Also
+    --------
+    repeatability_map : Plot a map of outcomes.
+    rocking.repeatability : Compute the fractions.
+
     Examples
     --------
     >>> import rocking as rk
@@ -78,6 +83,12 @@ def repeatability_map(found: RepeatabilityMap, ax: Axes | None = None) -> Axes:
     ------
     TypeError
         If `found` is another result, or `ax` no axes.
+
+    See Also
+    --------
+    repeatability : Plot the outcomes at one point.
+    parametric_map : Plot a map of exact inputs.
+    rocking.repeatability_map : Compute a map.
 
     Examples
     --------

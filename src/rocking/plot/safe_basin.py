@@ -29,6 +29,11 @@ def safe_basin(found: SafeBasin, ax: Axes | None = None) -> Axes:
     TypeError
         If `found` is another result, or `ax` no axes.
 
+    See Also
+    --------
+    basins : Plot the basins at one amplitude.
+    rocking.safe_basin : Compute the fractions.
+
     Examples
     --------
     >>> import rocking as rk

@@ -50,6 +50,12 @@ def section(
     TypeError, ValueError
         If `result` holds no points, `transient` leaves none, or an argument is of another kind.
 
+    See Also
+    --------
+    impact_section : Plot the impacts.
+    orbit_diagram : Plot sections over a parameter.
+    rocking.simulate : Compute a motion.
+
     Notes
     -----
     Every point is drawn; marks shrink from 5 pt (10 points) to a fraction of a point (10⁶), points met again not counted.

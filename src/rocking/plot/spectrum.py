@@ -47,6 +47,10 @@ def spectrum(
     TypeError, ValueError
         If an argument is of another kind or outside its range.
 
+    See Also
+    --------
+    rocking.spectral_density : Compute the spectral density.
+
     Notes
     -----
     Ten decades below the highest point are shown at most. f is the forcing frequency, f_r the rotation frequency. Beyond

@@ -49,6 +49,12 @@ def thresholds(
     TypeError, ValueError
         If there is no curve or too many, a curve and the periods differ in length, or an argument is of another kind.
 
+    See Also
+    --------
+    parametric_map : Plot theoretical curves over a map.
+    rocking.theory.melnikov_amplitude : Compute A_M.
+    rocking.theory.symmetry_breaking_amplitude : Compute A_SB.
+
     Examples
     --------
     >>> import numpy as np

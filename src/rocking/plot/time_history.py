@@ -41,6 +41,12 @@ def time_history(
     TypeError, ValueError
         If `cycles` does not lie within the motion, the motion kept no events, or an argument is of another kind.
 
+    See Also
+    --------
+    phase_portrait : Plot velocity against angle.
+    overview : Plot both.
+    rocking.simulate : Compute a motion.
+
     Notes
     -----
     Dotted lines are the critical angle, dashed lines the braces; they are left out where the motion stays far below.

@@ -61,6 +61,11 @@ def verdict(verdict: Verdict, block: Block | None = None) -> Figure:
     TypeError
         If `verdict` is none, or `block` is of another kind.
 
+    See Also
+    --------
+    overview : Plot a motion.
+    rocking.classify : Classify a response.
+
     Notes
     -----
     A block that overturns or comes to rest is shown until it has, without a section. In the section of a periodic response

@@ -56,6 +56,11 @@ def tiles(
     TypeError, ValueError, OSError
         If it is no map over two axes, or the folder holds something else or cannot be written.
 
+    See Also
+    --------
+    parametric_map : Plot the map as one figure.
+    rocking.parametric_map : Compute a map.
+
     Notes
     -----
     Dots are points, also in the coarser images, which have every second, fourth, … of them: nothing is blended, so what is

@@ -67,6 +67,13 @@ def classify(
     TypeError, ValueError
         In one line, for arguments of the wrong type or outside their range.
 
+    See Also
+    --------
+    simulate : Record the motion itself.
+    lyapunov : Lyapunov exponents with standard errors.
+    parametric_map : Classify every point of a grid.
+    rocking.plot.verdict : Plot the response with its verdict.
+
     Notes
     -----
     Not guaranteed: that chaos lasts, for a chaotic transient may be longer than any budget; that a motion without losses that

@@ -105,6 +105,11 @@ def correlation_dimension(points: ArrayLike) -> CorrelationDimension:
     TooShort
         Where no decade of r has a slope known to 0.4; its `estimate` is what the most even half decade gives.
 
+    See Also
+    --------
+    lyapunov : Lyapunov exponents.
+    rocking.plot.dimension : Plot the correlation sum and its slopes.
+
     Notes
     -----
     A set of few points met again and again, as the section of a periodic motion is, has dimension 0 exactly

@@ -44,6 +44,11 @@ def impact_section(
     TooManyEvents
         More than 10⁷ impacts to keep, or events in a single cycle.
 
+    See Also
+    --------
+    simulate : ``record="section"`` gives the stroboscopic section.
+    rocking.plot.impact_section : Plot the impacts.
+
     Notes
     -----
     Memory grows with the impacts kept (40 bytes each), not with cycles, brace hits or the transient. A system and a

@@ -52,6 +52,12 @@ def lyapunov(
     TypeError
         For an argument of the wrong type.
 
+    See Also
+    --------
+    classify : Response type with its evidence.
+    correlation_dimension : Dimension of a section.
+    rocking.plot.convergence : Plot the convergence of an exponent.
+
     Notes
     -----
     Without rest and leaning λ₁ + λ₂ is what impacts and brace hits take, 2 ln e and 2 ln r each; the difference is

@@ -109,6 +109,11 @@ def rotation_number(system: System, start: State | None = None, cycles: int = 20
     TypeError
         For an argument of the wrong type.
 
+    See Also
+    --------
+    spectral_density : Spectral lines of a motion.
+    classify : Response type with its evidence.
+
     Notes
     -----
     Not guaranteed: that a fraction with a denominator up to 500 met to all digits is one; an irrational number can

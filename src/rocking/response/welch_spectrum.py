@@ -65,6 +65,12 @@ def spectral_density(
         In one line: an overturned motion, one that comes to rest or never moves, one of less than 64 cycles after the
         transient, or than 64 periods of a periodic motion; arguments outside their range.
 
+    See Also
+    --------
+    simulate : The motion that is sampled.
+    rotation_number : Rotation numbers of an undamped motion.
+    rocking.plot.spectrum : Plot the spectral density.
+
     Notes
     -----
     A motion is periodic here if all its samples repeat to 10⁻⁸ of its range after n ≤ 64 cycles; then its lines lie on

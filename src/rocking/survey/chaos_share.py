@@ -60,6 +60,12 @@ def chaos_share(
     TypeError, ValueError
         In one line, for arguments of the wrong type or outside their range.
 
+    See Also
+    --------
+    classify : Classify one response.
+    parametric_map : Classify every point of a grid.
+    rocking.plot.chaos_share : Plot the fractions.
+
     Notes
     -----
     The intervals are Wilson's at 95 %, and cover that all that is undetermined is chaotic. Not guaranteed: that chaos

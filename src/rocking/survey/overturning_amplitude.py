@@ -69,6 +69,12 @@ def overturning_amplitude(
     TypeError, ValueError, OSError
         In one line, as in `parametric_map`.
 
+    See Also
+    --------
+    safe_basin : Fraction of safe initial states.
+    repeatability : Outcomes under uncertain inputs.
+    rocking.plot.overturning : Plot the curve.
+
     Notes
     -----
     Not guaranteed: that nothing overturns below `lowest`, between two amplitudes or two phases of the scan; `resolution` is

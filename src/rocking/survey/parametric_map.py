@@ -72,6 +72,14 @@ def parametric_map(
     OSError
         For a store that is no folder, is in use, is damaged or cannot be written; what it holds stays good.
 
+    See Also
+    --------
+    classify : Classify one response.
+    repeatability_map : Vary the inputs at every point.
+    basin_map : Vary the initial state.
+    rocking.plot.parametric_map : Plot the map.
+    rocking.plot.tiles : Write the map as a page that zooms.
+
     Notes
     -----
     Not guaranteed: what `classify` does not guarantee; and that nothing happens between the points. Points that are marched

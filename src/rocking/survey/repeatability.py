@@ -64,6 +64,11 @@ def repeatability(
     TypeError, ValueError
         In one line, for arguments of the wrong type or outside their range.
 
+    See Also
+    --------
+    repeatability_map : The outcomes at every point of a grid.
+    rocking.plot.repeatability : Plot the fractions.
+
     Notes
     -----
     The intervals are Wilson's at 95 %. What is undetermined after `max_cycles` is no outcome: it may be any, and so widens

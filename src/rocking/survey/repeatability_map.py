@@ -66,6 +66,12 @@ def repeatability_map(
     TypeError, ValueError, OSError
         In one line, as in `parametric_map`.
 
+    See Also
+    --------
+    repeatability : The outcomes of one experiment.
+    parametric_map : Exact inputs at every point.
+    rocking.plot.repeatability_map : Plot the map.
+
     Notes
     -----
     Not guaranteed: that a point at which all experiments agree is certain; an outcome with a share p is missed by

@@ -67,6 +67,12 @@ def safe_basin(
     TypeError, ValueError
         In one line, for arguments of the wrong type or outside their range.
 
+    See Also
+    --------
+    basin_map : Basins at one amplitude.
+    overturning_amplitude : Lowest overturning amplitude from rest.
+    rocking.plot.safe_basin : Plot the fraction.
+
     Notes
     -----
     The intervals are Wilson's at 95 %. Since the starts are the same, shares at two amplitudes differ by less than their

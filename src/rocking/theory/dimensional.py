@@ -37,6 +37,10 @@ def physical_acceleration(block: Block, radians: Any, base_acceleration: Any) ->
     TypeError
         For arguments of another kind.
 
+    See Also
+    --------
+    rocking.simulate : The motion of a block.
+
     Examples
     --------
     >>> import rocking as rk
@@ -55,6 +59,10 @@ def physical_damping(block: Block, radians: Any, radians_per_second: Any, width:
 
     The restitution is the block's. Along an orbit through θ = 0 its integral over θ is the energy an impact takes away, −½(1 − e²)θ'².
 
+    See Also
+    --------
+    damping : The normalised damping.
+
     Examples
     --------
     >>> import rocking as rk
@@ -70,6 +78,11 @@ def physical_damping(block: Block, radians: Any, radians_per_second: Any, width:
 def physical_energy(block: Block, radians: Any, radians_per_second: Any) -> Any:
     """H/Io of eq. (15), θ'²/2 − (MgR/2Io) θ² + (MgR/Io) θcr |θ|, in rad²/s²; broadcasts.
 
+    See Also
+    --------
+    energy : The normalised energy.
+    physical_critical_energy : Energy at the critical angle.
+
     Examples
     --------
     >>> import rocking as rk
@@ -84,6 +97,10 @@ def physical_energy(block: Block, radians: Any, radians_per_second: Any) -> Any:
 
 def physical_critical_energy(block: Block) -> float:
     """MgRθcr²/2Io, in rad²/s²: with more a block is not held back by its weight, with less it is, if |θ| < θcr.
+
+    See Also
+    --------
+    physical_energy : Energy of a state.
 
     Examples
     --------
@@ -112,6 +129,10 @@ def physical_heteroclinic_orbit(block: Block, seconds: Any, orbit: str = "upper"
     ------
     TypeError, ValueError
         In one line.
+
+    See Also
+    --------
+    heteroclinic_orbit : The normalised orbit.
 
     Examples
     --------

@@ -27,6 +27,11 @@ def free_impact_speed(angle: Any) -> Any:
     TypeError, ValueError
         In one line.
 
+    See Also
+    --------
+    free_quarter_period : Time of the first impact.
+    free_peaks : Angles of the turns after impacts.
+
     Examples
     --------
     >>> free_impact_speed([0.0, 0.4, 1.0]).tolist()
@@ -50,6 +55,11 @@ def free_quarter_period(angle: Any) -> Any:
     ------
     TypeError, ValueError
         In one line.
+
+    See Also
+    --------
+    free_time_to_rest : Total time until rest.
+    free_impact_speed : Speed at the first impact.
 
     Examples
     --------
@@ -77,6 +87,11 @@ def free_peaks(angle: Any, restitution: Any, impacts: Any) -> Any:
     ------
     TypeError, ValueError
         In one line.
+
+    See Also
+    --------
+    free_time_to_rest : Total time until rest.
+    free_impact_speed : Speed at the first impact.
 
     Examples
     --------
@@ -108,6 +123,11 @@ def free_time_to_rest(angle: float, restitution: float) -> float:
     ------
     TypeError, ValueError
         In one line.
+
+    See Also
+    --------
+    free_peaks : Angles of the turns after impacts.
+    free_quarter_period : Time of the first impact.
 
     Examples
     --------

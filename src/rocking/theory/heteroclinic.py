@@ -34,6 +34,12 @@ def heteroclinic_amplitude(period: Any, restitution: Any) -> Any:
     TypeError, ValueError
         In one line, for an argument of another kind or outside its range.
 
+    See Also
+    --------
+    melnikov_amplitude : The amplitude to first order.
+    manifold_gap : The gap that is zero there.
+    rocking.tangency_amplitude : The amplitude from computed manifolds, with braces too.
+
     Notes
     -----
     `melnikov_amplitude` is its first order in 1 − e at given Ω: A_M/A* = ¼(1+e)²√(1 + Ω²((1−e)/(1+e))²), below 1 for slow
@@ -71,6 +77,12 @@ def saddle_orbit(phase: Any, amplitude: Any, period: Any, orbit: str = "upper") 
     TypeError, ValueError
         In one line.
 
+    See Also
+    --------
+    stable_manifold_velocity : Stable manifold at an impact.
+    unstable_manifold_velocity : Unstable manifold at an impact.
+    rocking.saddle_manifolds : The manifolds on a section.
+
     Examples
     --------
     >>> angle, velocity = saddle_orbit(0.0, 2.0, 1.0)
@@ -86,6 +98,11 @@ def unstable_manifold_velocity(phase: Any, amplitude: Any, period: Any) -> Any:
 
     Parameters and errors as in `saddle_orbit`; ψ is the phase at the impact.
 
+    See Also
+    --------
+    stable_manifold_velocity : The velocity on the stable manifold.
+    manifold_gap : The gap between both.
+
     Examples
     --------
     >>> unstable_manifold_velocity(0.3, 0.0, 1.0)
@@ -99,6 +116,11 @@ def stable_manifold_velocity(phase: Any, amplitude: Any, period: Any) -> Any:
     """V_s = 1 + β(cos ψ − Ω sin ψ): velocity after the impact of the motions that go to the upper saddle orbit; broadcasts.
 
     A faster block overturns there; a slower one comes back. Parameters and errors as in `saddle_orbit`.
+
+    See Also
+    --------
+    unstable_manifold_velocity : The velocity on the unstable manifold.
+    manifold_gap : The gap between both.
 
     Examples
     --------
@@ -125,6 +147,12 @@ def manifold_gap(phase: Any, amplitude: Any, period: Any, restitution: Any) -> A
     ------
     TypeError, ValueError
         In one line.
+
+    See Also
+    --------
+    heteroclinic_amplitude : Amplitude at which the gap is zero.
+    melnikov_function : The gap to first order.
+    rocking.manifold_gap : The gap of computed manifolds.
 
     Examples
     --------

@@ -36,6 +36,11 @@ def energy(angle: Any, velocity: Any) -> Any:
 
     The critical value is 1/2. A state with less stays bounded if |Θ| < 1, and only then: at rest at Θ = 1.5 it has 3/8 and falls.
 
+    See Also
+    --------
+    impact_loss : Energy lost at an impact.
+    physical_energy : The energy in rad²/s².
+
     Examples
     --------
     >>> energy(0.0, 1.0), energy(1.5, 0.0)
@@ -65,6 +70,11 @@ def heteroclinic_orbit(time: Any, orbit: str = "upper") -> tuple[Any, Any]:
     TypeError, ValueError
         In one line.
 
+    See Also
+    --------
+    physical_heteroclinic_orbit : The orbit in rad and rad/s.
+    rocking.plot.heteroclinic : Plot the orbit.
+
     Examples
     --------
     >>> angle, velocity = heteroclinic_orbit([-1.0, 0.0, 1.0])
@@ -93,6 +103,11 @@ def damping(angle: Any, velocity: Any, restitution: Any, width: float) -> Any:
     TypeError, ValueError
         In one line.
 
+    See Also
+    --------
+    melnikov_integral : The integral with this damping.
+    physical_damping : The damping in rad/s².
+
     Examples
     --------
     >>> round(damping(0.0, 1.0, 0.8, width=0.1), 9), damping(0.2, 1.0, 0.8, width=0.1)
@@ -106,6 +121,10 @@ def damping(angle: Any, velocity: Any, restitution: Any, width: float) -> Any:
 
 def impact_loss(velocity: Any, restitution: Any) -> Any:
     """Energy ½(1 − e²)Θ'² that an impact with velocity Θ' takes away, e in [0, 1]; broadcasts.
+
+    See Also
+    --------
+    energy : Energy of a state.
 
     Examples
     --------
@@ -137,6 +156,13 @@ def melnikov_function(time: Any, amplitude: Any, period: Any, restitution: Any, 
     ------
     TypeError, ValueError
         In one line.
+
+    See Also
+    --------
+    melnikov_integral : The same function by numerical integration.
+    melnikov_amplitude : Lowest amplitude with zeros.
+    manifold_gap : The exact gap.
+    rocking.plot.melnikov : Plot both.
 
     Examples
     --------
@@ -172,6 +198,12 @@ def melnikov_integral(
     ------
     TypeError, ValueError
         In one line.
+
+    See Also
+    --------
+    melnikov_function : The closed form.
+    heteroclinic_orbit : The path of the integral.
+    damping : The damping term.
 
     Examples
     --------
@@ -222,6 +254,12 @@ def melnikov_amplitude(period: Any, restitution: Any) -> Any:
     ------
     TypeError, ValueError
         In one line.
+
+    See Also
+    --------
+    heteroclinic_amplitude : The exact amplitude of tangency.
+    melnikov_function : The function with the zeros.
+    rocking.plot.thresholds : Plot amplitudes over the period.
 
     Examples
     --------

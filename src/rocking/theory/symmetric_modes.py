@@ -45,6 +45,12 @@ def existence_amplitude(period: Any, restitution: Any, n: Any) -> Any:
     TypeError, ValueError
         In one line, for an argument of another kind or outside its range.
 
+    See Also
+    --------
+    symmetric_modes : The modes themselves.
+    symmetry_breaking_amplitude : Stability limit of the faster mode.
+    slower_mode_amplitude : Limit of the slower mode.
+
     Notes
     -----
     A_E = (1+Ω²) t² (1−e)/√((1+e)² + Ω²t²(1−e)²), t = tanh(nπ/2Ω), from eq. (8) of Yim & Lin (1991). A mode that exists need not be
@@ -84,6 +90,12 @@ def symmetry_breaking_amplitude(period: Any, restitution: Any, n: Any) -> Any:
     TypeError, ValueError
         In one line, for an argument of another kind or outside its range.
 
+    See Also
+    --------
+    symmetric_modes : The modes themselves.
+    existence_amplitude : Lowest amplitude with symmetric modes.
+    rocking.plot.thresholds : Plot amplitudes over the period.
+
     Notes
     -----
     V_SB = e(1+e)S/(2eC − (1+e²) + St(1−e)²(1+Ω²)/2) with S, C = sinh, cosh of nπ/Ω, and A_SB from it by eq. (8). At e = 1 it is
@@ -121,6 +133,11 @@ def slower_mode_amplitude(period: Any, n: Any) -> Any:
     TypeError, ValueError
         In one line, for an argument of another kind or outside its range.
 
+    See Also
+    --------
+    symmetric_modes : The modes themselves.
+    existence_amplitude : Lowest amplitude with symmetric modes.
+
     Examples
     --------
     >>> round(slower_mode_amplitude(1.0, 1), 6)
@@ -152,6 +169,14 @@ def symmetric_modes(amplitude: float, period: float, restitution: float, n: int)
     ------
     TypeError, ValueError
         In one line, for an argument of another kind or outside its range, for an even n and for e = 0.
+
+    See Also
+    --------
+    existence_amplitude : Lowest amplitude with symmetric modes.
+    symmetry_breaking_amplitude : Stability limit of the faster mode.
+    slower_mode_amplitude : Limit of the slower mode.
+    rocking.find_orbit : Periodic orbits of any kind.
+    rocking.plot.modes : Plot the modes.
 
     Notes
     -----

@@ -40,6 +40,11 @@ def save(figure: Figure | Axes, path: str | Path, dpi: float = 200.0) -> Path:
     TypeError, ValueError, OSError
         If there is nothing to draw, `path` cannot be written or ends otherwise, or `dpi` does not lie in its range.
 
+    See Also
+    --------
+    panels : Make a figure.
+    animation : Write an animation.
+
     Examples
     --------
     >>> import rocking as rk, tempfile

@@ -80,6 +80,11 @@ def panels(rows: int = 1, columns: int = 1, height: float = 2.4, ratios: tuple[f
     TypeError, ValueError
         For numbers that lie outside their range, and for `ratios` that are not one a column.
 
+    See Also
+    --------
+    title : Write a title above a panel.
+    save : Write a figure to a file.
+
     Examples
     --------
     >>> import rocking as rk
@@ -103,7 +108,12 @@ def panels(rows: int = 1, columns: int = 1, height: float = 2.4, ratios: tuple[f
 
 
 def title(ax: Axes, text: str) -> None:
-    """Writes `text` above the axes at the left; a panel's letter already there stays in front of it."""
+    """Writes `text` above the axes at the left; a panel's letter already there stays in front of it.
+
+    See Also
+    --------
+    panels : Make a figure with panels.
+    """
     letter = instance("ax", ax, Axes).get_title(loc="left")
     ax.set_title(f"{letter} {text}" if letter else text, loc="left", fontsize=TEXT, color=INK)
 
