@@ -16,8 +16,10 @@ from pathlib import Path
 
 
 def pictures():
-    """Every PNG file of the folder, with what tells one writing of it from the next."""
-    return {path.name: path.stat().st_mtime_ns for path in Path().glob("*.png")}
+    """Map each picture and animation of the folder to the time at which it was written."""
+    return {
+        path.name: path.stat().st_mtime_ns for path in Path().iterdir() if path.suffix in (".png", ".gif")
+    }
 
 
 def run_python(code, namespace):

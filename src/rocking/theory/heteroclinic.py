@@ -38,7 +38,7 @@ def heteroclinic_amplitude(period: Any, restitution: Any) -> Any:
     --------
     melnikov_amplitude : The amplitude to first order.
     manifold_gap : The gap that is zero there.
-    rocking.tangency_amplitude : The amplitude from computed manifolds, with braces too.
+    rocking.tangency_amplitude : The amplitude from computed manifolds.
 
     Notes
     -----

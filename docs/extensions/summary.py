@@ -1,0 +1,28 @@
+"""Summary tables of the reference: ``{summary}`` lists the entries of its page with the first sentence of each docstring.
+
+The tables are those of ``sphinx.ext.autosummary``. The names are read from the page, so that each stands there once.
+"""
+
+from docutils import nodes
+from docutils.statemachine import StringList
+from entries import sections
+from sphinx.ext.autosummary import Autosummary
+
+
+class Summary(Autosummary):
+    """Tables of the page's entries, one table for each section."""
+
+    has_content = False
+
+    def run(self):
+        made = []
+        for title, names in sections(self.env.doc2path(self.env.docname)):
+            self.options = {"nosignatures": None}
+            self.content = StringList([f"~{name}" for name in names], source="summary")
+            made += [nodes.rubric("", title, classes=["summary-title"]), *super().run()]
+        return made
+
+
+def setup(app):
+    app.setup_extension("sphinx.ext.autosummary")
+    app.add_directive("summary", Summary)
