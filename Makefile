@@ -72,7 +72,7 @@ docs: ## the pages, every block of them run: build/docs/index.html
 	@$(bin)/python -m sphinx --quiet --fail-on-warning --keep-going -d build/docs-pages docs build/docs
 	@echo wrote build/docs/index.html
 
-site: reproduce docs ## the report of Yim & Lin (1991), and then the pages with it: minutes more than docs
+site: reproduce docs ## the report of Yim & Lin (1991), then the pages with it: minutes longer than docs
 
 constraints: ## pin the newest versions anew; PYTHONS names an interpreter of each minor version
 	@scripts/constraints.sh $(or $(PYTHONS),python3.11 python3.12 python3.13)

@@ -1,4 +1,4 @@
-"""How the pages are made: `make docs`."""
+"""Configuration of Sphinx, which builds the pages: `make docs`."""
 
 import sys
 from pathlib import Path
@@ -17,7 +17,7 @@ extensions = [
     "myst_parser",
     "sphinx.ext.autodoc",
     "sphinx.ext.mathjax",
-    "sphinx-mathjax-offline",  # MathJax in the pages themselves, asked of no other host
+    "sphinx-mathjax-offline",  # MathJax is part of the pages: no request to another host
     "numpydoc",
     "bars",
     "checked",
