@@ -6,6 +6,8 @@ from pathlib import Path
 HERE = Path(__file__).parent
 sys.path.insert(0, str(HERE / "extensions"))
 
+from numpydoc.xref import DEFAULT_LINKS  # noqa: E402
+
 import rocking  # noqa: E402
 
 project = "rocking"
@@ -41,10 +43,11 @@ autodoc_member_order = "bysource"
 autosummary_generate = False
 numpydoc_show_class_members = False
 
-# Public classes in the types of parameters and results are links. Other projects are not linked: that needs the network.
+# Public classes in the types of parameters and results are links. The words that numpydoc would link to the pages of other
+# projects stay words, because such links need the network when the pages are built.
 numpydoc_xref_param_type = True
 numpydoc_xref_ignore = "all"
-numpydoc_xref_aliases = {
+numpydoc_xref_aliases = {word: word for word in DEFAULT_LINKS} | {
     name: f"rocking.{name}" for name in rocking.__all__ if isinstance(getattr(rocking, name), type)
 }
 

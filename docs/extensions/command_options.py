@@ -15,6 +15,7 @@ GROUPS = {
     "Initial state": option_names.START,
 }
 REST = "Runs and files"
+AXIS = "|AXIS"  # end of the placeholder of a value that may be an axis
 
 
 class Option(NamedTuple):
@@ -27,8 +28,13 @@ class Option(NamedTuple):
 
     @property
     def signature(self):
-        """Spelling with the placeholder of its value."""
-        return f"{self.typed} {self.value}".strip()
+        """Spelling with the placeholder of its value, without the axis that some commands allow."""
+        return f"{self.typed} {self.value.removesuffix(AXIS)}".strip()
+
+    @property
+    def meaning(self):
+        """Signature and text, which are equal in all commands that share the option."""
+        return self.signature, self.text
 
 
 @cache
@@ -61,19 +67,20 @@ def described(parameter):
 
 @cache
 def shared():
-    """Map (spelling, text) of each option that means the same in several commands to those commands.
+    """Map the meaning of each option that several commands share to those commands.
 
-    Where a spelling has two meanings, the more frequent one is shared.
+    If a spelling has two meanings, the more frequent one is shared.
     """
     users = {}
     for command in commands():
         for one in options(command):
-            users.setdefault((one.typed, one.text), []).append(command)
+            users.setdefault(one.meaning, []).append(command)
     most = {}
-    for (typed, text), names in users.items():
-        if len(names) > len(most.get(typed, (text, [0]))[1]):
-            most[typed] = (text, names)
-    return {(typed, text): names for typed, (text, names) in most.items()}
+    for meaning, names in users.items():
+        spelling = meaning[0].partition(" ")[0]
+        if len(names) > len(most.get(spelling, (meaning, [""]))[1]):
+            most[spelling] = (meaning, names)
+    return dict(most.values())
 
 
 def group_of(name):

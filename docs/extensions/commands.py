@@ -7,7 +7,7 @@
 import inspect
 import re
 
-from command_options import GROUPS, REST, commands, group_of, options, shared
+from command_options import AXIS, GROUPS, REST, commands, group_of, options, shared
 from docutils import nodes
 from docutils.parsers.rst import Directive
 from docutils.statemachine import StringList
@@ -19,9 +19,9 @@ def markdown(text):
     return re.sub(r"(?<![\w-])(--?[a-z][\w-]*|[A-Z]+(?::[A-Z]+)+)", r"`\1`", escaped)
 
 
-def entry(one, note=""):
+def entry(signature, text):
     """Return the lines that describe an option."""
-    return [f"```{{option}} {one.signature}", markdown(one.text) + note, "```", ""]
+    return [f"```{{option}} {signature}", markdown(text), "```", ""]
 
 
 class Made(Directive):
@@ -51,41 +51,20 @@ class Shared(Made):
 
     def lines(self):
         yield from ("```{program} rocking", "```", "")
-        described = {}
+        found = {}
         for command in commands():
             for one in options(command):
-                if (one.typed, one.text) in shared():
-                    described.setdefault(group_of(one.name), {}).setdefault((one.typed, one.text), one)
+                if one.meaning in shared():
+                    found.setdefault(group_of(one.name), {})[one.meaning] = None
         for title in (*GROUPS, REST):
-            if title in described:
+            if title in found:
                 yield from (f"```{{rubric}} {title}", "```", "")
-                for key, one in described[title].items():
-                    yield from entry(self.plain(one, shared()[key]), self.note(one, shared()[key]))
-
-    def values(self, one, users):
-        """Group the commands by the value that the option takes in them."""
-        found = {}
-        for command in users:
-            value = next(other.value for other in options(command) if other.typed == one.typed)
-            found.setdefault(value, []).append(command)
-        return found
-
-    def plain(self, one, users):
-        """Return the option with the shortest of its values."""
-        return one._replace(value=min(self.values(one, users), key=len))
-
-    def note(self, one, users):
-        """Return a sentence on the commands in which the value may be something else."""
-        plain = self.plain(one, users).value
-        return "".join(
-            f" `{value}` in {', '.join(f'`rocking {name}`' for name in names)}."
-            for value, names in self.values(one, users).items()
-            if value != plain
-        )
+                for meaning in found[title]:
+                    yield from entry(*meaning)
 
 
 class Command(Made):
-    """One command: usage, own options, links to the shared options."""
+    """One command: usage, links to the shared options, own options."""
 
     required_arguments = 1
 
@@ -97,18 +76,22 @@ class Command(Made):
             f" [{one.metavar}]..." for one in command.params if one.param_type_name == "argument"
         )
         yield from ("", f"Usage: `rocking {name} [OPTIONS]{arguments}`", "")
-        common = [one for one in options(name) if (one.typed, one.text) in shared()]
-        own = [one for one in options(name) if one not in common]
-        for title in (*GROUPS, REST):
-            links = [link(one) for one in common if group_of(one.name) == title]
-            if links:
-                yield from (f"- {title}: {', '.join(links)}",)
+        common = [one for one in options(name) if one.meaning in shared()]
+        axes = [one for one in common if one.value.endswith(AXIS)]
+        groups = [
+            (title, [one for one in common if group_of(one.name) == title]) for title in (*GROUPS, REST)
+        ]
+        for title, members in [*groups, ("An axis is possible for", axes)]:
+            if members:
+                yield f"- {title}: {', '.join(map(link, members))}"
         yield from ("", f"```{{program}} rocking {name}", "```", "")
-        for one in own:
-            yield from entry(one)
+        for one in options(name):
+            if one not in common:
+                yield from entry(f"{one.typed} {one.value}".strip(), one.text)
 
     def more(self):
         examples = (commands()[self.arguments[0]].epilog or "").replace("\b", "").strip()
+        examples = examples.removeprefix("Examples:").strip()
         return [nodes.literal_block(examples, examples, language="sh", shown=True)] if examples else []
 
 

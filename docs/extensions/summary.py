@@ -1,12 +1,14 @@
-"""Summary tables of the reference: ``{summary}`` lists the entries of its page with the first sentence of each docstring.
+"""Summary tables of the reference: ``.. summary::`` lists the entries of its page with the first line of each docstring.
 
 The tables are those of ``sphinx.ext.autosummary``. The names are read from the page, so that each stands there once.
 """
 
+import inspect
+
 from docutils import nodes
 from docutils.statemachine import StringList
 from entries import sections
-from sphinx.ext.autosummary import Autosummary
+from sphinx.ext.autosummary import Autosummary, import_by_name
 
 
 class Summary(Autosummary):
@@ -21,6 +23,13 @@ class Summary(Autosummary):
             self.content = StringList([f"~{name}" for name in names], source="summary")
             made += [nodes.rubric("", title, classes=["summary-title"]), *super().run()]
         return made
+
+    def get_items(self, names):
+        """Return the rows of a table with whole first lines: autosummary would end them at the point of "Eq. (1)"."""
+        return [
+            (shown, signature, inspect.getdoc(import_by_name(name)[1]).partition("\n")[0], name)
+            for shown, signature, _, name in super().get_items(names)
+        ]
 
 
 def setup(app):
