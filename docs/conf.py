@@ -21,6 +21,7 @@ extensions = [
     "sphinx.ext.mathjax",
     "sphinx-mathjax-offline",  # MathJax is part of the pages: no request to another host
     "numpydoc",
+    "attrs_signatures",
     "bars",
     "checked",
     "commands",

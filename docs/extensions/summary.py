@@ -20,6 +20,7 @@ class Summary(Autosummary):
         made = []
         for title, names in sections(self.env.doc2path(self.env.docname)):
             self.options = {"nosignatures": None}
+            self.env.ref_context["py:module"] = names[0].rpartition(".")[0]  # for links in the first lines
             self.content = StringList([f"~{name}" for name in names], source="summary")
             made += [nodes.rubric("", title, classes=["summary-title"]), *super().run()]
         return made

@@ -170,7 +170,7 @@ def test_every_option_is_documented_once_for_each_command():
 def test_every_reference_page_begins_with_a_summary_of_its_entries(page):
     text = page.read_text(encoding="utf-8")
     summary = "{command-summary}" if page.stem == "reference-commands" else "{eval-rst}\n.. summary::"
-    assert re.match(rf"# .+\n\n```{re.escape(summary)}\n```\n", text)
+    assert re.match(rf"# .+\n\n(?:(?!```).+\n)+\n```{re.escape(summary)}\n```\n", text)
     listed = [name for section in sections(page) for name in section.names]
     assert listed == list(entries(page.name))
 
