@@ -20,17 +20,21 @@ class Summary(Autosummary):
         made = []
         for title, names in sections(self.env.doc2path(self.env.docname)):
             self.options = {"nosignatures": None}
-            self.env.ref_context["py:module"] = names[0].rpartition(".")[0]  # for links in the first lines
             self.content = StringList([f"~{name}" for name in names], source="summary")
             made += [nodes.rubric("", title, classes=["summary-title"]), *super().run()]
         return made
 
     def get_items(self, names):
         """Return the rows of a table with whole first lines: autosummary would end them at the point of "Eq. (1)"."""
-        return [
+        self.env.ref_context.pop("py:module", None)  # autosummary warns of full names within a module
+        rows = [
             (shown, signature, inspect.getdoc(import_by_name(name)[1]).partition("\n")[0], name)
             for shown, signature, _, name in super().get_items(names)
         ]
+        self.env.ref_context["py:module"] = (
+            names[0].lstrip("~").rpartition(".")[0]
+        )  # for links in the first lines
+        return rows
 
 
 def setup(app):
