@@ -1,18 +1,13 @@
 """Signatures of attrs classes: defaults are shown as values, because the source of a generated `__init__` names none."""
 
-import inspect
-
 GENERATED = "attr_dict["
 
 
-def restored(app, what, name, obj, options, signature, returned):
-    """Return the signature of an attrs class with the values of its defaults; leave any other signature as it is."""
-    if what != "class" or GENERATED not in (signature or ""):
-        return None
-    found = inspect.signature(obj)
-    parameters = [one.replace(annotation=one.empty) for one in found.parameters.values()]
-    return str(found.replace(parameters=parameters, return_annotation=found.empty)), returned
+def restore(app, obj, bound_method):
+    """Remove the signature that `autodoc_preserve_defaults` made of the source of a generated `__init__`."""
+    if GENERATED in str(getattr(obj, "__dict__", {}).get("__signature__", "")):
+        del obj.__signature__
 
 
 def setup(app):
-    app.connect("autodoc-process-signature", restored)
+    app.connect("autodoc-before-process-signature", restore, priority=900)  # after that of autodoc

@@ -34,11 +34,9 @@ class Report(Directive):
                 nodes.literal("", "make site"),
                 nodes.Text(" to make the report and build the pages with it."),
             ]
-        for path, title in zip(files, ("Open the report", "as PDF"), strict=False):
-            paragraph += [
-                nodes.reference("", title, internal=True, refuri=f"{PUBLISHED}/{path.name}"),
-                nodes.Text(" "),
-            ]
+        for path, title in zip(files, ("Open the report", "Open the PDF"), strict=False):
+            paragraph += [nodes.Text(" · ")] if len(paragraph) else []
+            paragraph += nodes.reference("", title, internal=True, refuri=f"{PUBLISHED}/{path.name}")
         return [paragraph]
 
 
