@@ -17,7 +17,7 @@ chromium = [ -x /usr/bin/chromium ] || scripts/debian.sh chromium || echo 'witho
 # What the PDF twin of the report is made with; without it there is the page alone.
 print = scripts/debian.sh libpango-1.0-0 libpangoft2-1.0-0 libharfbuzz-subset0 || true
 
-.PHONY: help setup reproduce explore test test-long test-exhaustive bench bench-against lint format docs constraints
+.PHONY: help setup reproduce explore test test-long test-exhaustive bench bench-against lint format docs site constraints
 
 help:
 	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' Makefile | while IFS=$$'\t' read -r name what; do printf 'make %-15s %s\n' "$$name" "$$what"; done
@@ -71,6 +71,8 @@ docs: ## the pages, every block of them run: build/docs/index.html
 	@$(compile)
 	@$(bin)/python -m sphinx --quiet --fail-on-warning --keep-going -d build/docs-pages docs build/docs
 	@echo wrote build/docs/index.html
+
+site: reproduce docs ## the report of Yim & Lin (1991), then the pages with it: minutes longer than docs
 
 constraints: ## pin the newest versions anew; PYTHONS names an interpreter of each minor version
 	@scripts/constraints.sh $(or $(PYTHONS),python3.11 python3.12 python3.13)

@@ -1,4 +1,4 @@
-"""How the pages are made: `make docs`."""
+"""Configuration of Sphinx, which builds the pages: `make docs`."""
 
 import sys
 from pathlib import Path
@@ -6,26 +6,33 @@ from pathlib import Path
 HERE = Path(__file__).parent
 sys.path.insert(0, str(HERE / "extensions"))
 
-from rocking import __version__  # noqa: E402
+from numpydoc.xref import DEFAULT_LINKS  # noqa: E402
+
+import rocking  # noqa: E402
 
 project = "rocking"
 author = "The rocking authors"
 copyright = "2026, The rocking authors"  # noqa: A001
-version = release = __version__
+version = release = rocking.__version__
 
 extensions = [
     "myst_parser",
     "sphinx.ext.autodoc",
     "sphinx.ext.mathjax",
-    "sphinx-mathjax-offline",  # MathJax in the pages themselves, asked of no other host
+    "sphinx-mathjax-offline",  # MathJax is part of the pages: no request to another host
     "numpydoc",
+    "attrs_signatures",
     "bars",
     "checked",
+    "commands",
     "executed",
+    "report",
     "seen",
+    "summary",
+    "thumbnails",
 ]
 exclude_patterns = ["images"]
-default_role = "literal"
+default_role = "py:obj"  # a public name in a docstring is a link; anything else stays code
 smartquotes = False  # Θ' is a derivative
 
 myst_enable_extensions = ["deflist", "dollarmath"]
@@ -34,7 +41,16 @@ myst_heading_anchors = 3
 autodoc_preserve_defaults = True
 autodoc_typehints = "none"
 autodoc_member_order = "bysource"
+autosummary_generate = False
 numpydoc_show_class_members = False
+
+# Public classes in the types of parameters and results are links. The words that numpydoc would link to the pages of other
+# projects stay words, because such links need the network when the pages are built.
+numpydoc_xref_param_type = True
+numpydoc_xref_ignore = "all"
+numpydoc_xref_aliases = {word: word for word in DEFAULT_LINKS} | {
+    name: f"rocking.{name}" for name in rocking.__all__ if isinstance(getattr(rocking, name), type)
+}
 
 html_theme = "furo"
 html_title = f"rocking {release}"

@@ -1,11 +1,11 @@
-"""|Θ| is a size here: bars in a docstring name no substitution."""
+"""Vertical bars in docstrings: |Θ| is an absolute value, not a substitution of reStructuredText."""
 
 from docutils import nodes
 from sphinx.transforms import SphinxTransform
 
 
 class Bars(SphinxTransform):
-    """Puts back the bars that were read as a reference, before it is looked for."""
+    """Restore bars that were parsed as a reference, before Sphinx resolves the reference."""
 
     default_priority = 205
 

@@ -1,4 +1,4 @@
-"""What is built is checked: no link within the pages is dead, and nothing is asked of another host."""
+"""Check of the built pages: every link within them has a target, and nothing is loaded from another host."""
 
 import re
 from html.parser import HTMLParser
@@ -28,7 +28,7 @@ IN_STYLES = re.compile(r"""(?:url\(|@import\s)\s*["']?([^"')\s;]+)""")
 
 
 class Page(HTMLParser):
-    """What a page names (`ids`), what it links to (`links`) and what it loads (`loads`)."""
+    """Parsed page: its anchors (`ids`), the addresses it links to (`links`) and those it loads (`loads`)."""
 
     def __init__(self, text):
         super().__init__()
@@ -51,12 +51,12 @@ class Page(HTMLParser):
 
 
 def is_elsewhere(address):
-    """Whether it names another host."""
+    """Return whether an address names another host."""
     return bool(urlsplit(address).netloc)
 
 
 def faults(folder):
-    """One sentence for each dead link and each request to another host in the pages and styles of a folder."""
+    """Yield one sentence for each dead link and each request to another host in the pages and styles of a folder."""
     folder = folder.resolve()
     pages = {path: Page(path.read_text(encoding="utf-8")) for path in sorted(folder.rglob("*.html"))}
     for path, page in pages.items():
@@ -80,7 +80,7 @@ def faults(folder):
 
 
 def check(app, failure):
-    """Says each fault as a warning, at which `make docs` fails."""
+    """Report each fault as a warning, which makes `make docs` fail."""
     from sphinx.util.logging import getLogger
 
     if failure is None and app.builder.format == "html":

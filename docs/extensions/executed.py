@@ -1,7 +1,6 @@
-"""Every `python` and `sh` block of a page is run when the page is made; what it prints and the pictures it writes stand below it.
+"""Execution of every `python` and `sh` block when its page is built: output and pictures follow the block.
 
-A script is shown by the directive ``{script}``: its docstring, what it printed, its picture and its source. Nothing that a page shows was
-computed at another time or place.
+The directive ``{script}`` shows a script: its docstring, its output, its picture and its source.
 """
 
 import ast
@@ -22,15 +21,15 @@ from sphinx.transforms import SphinxTransform
 from sphinx.util import logging
 
 ROOT = Path(__file__).parents[2]
-RUNS = ROOT / "build" / "docs-runs"  # a folder a page: what its blocks write
+RUNS = ROOT / "build" / "docs-runs"  # one folder per page, for the files that its blocks write
 DOTS_PER_INCH, CSS_PIXELS_PER_INCH = 200, 96
-LONG_LINE = 100  # such a line is a sentence, no row of a table
+LONG_LINE = 100  # a longer line is a sentence, not a row of a table
 TABLE = re.compile(r"\S {3,}\S")  # two columns
 logger = logging.getLogger(__name__)
 
 
 class Executed(SphinxTransform):
-    """Runs the blocks of a page and shows what comes of them."""
+    """Run the blocks of a page and insert their output and pictures."""
 
     default_priority = 200
 
@@ -38,7 +37,7 @@ class Executed(SphinxTransform):
         blocks = [node for node in self.document.findall(nodes.literal_block) if language_of(node)]
         if not blocks:
             return
-        for source in (ROOT / "src").rglob("*.py"):  # a package that changed makes other pages
+        for source in (ROOT / "src").rglob("*.py"):  # the output depends on the package
             self.env.note_dependency(str(source))
         folder = RUNS / self.env.docname
         results = run(folder, [(language_of(node), node.astext()) for node in blocks])
@@ -52,13 +51,13 @@ class Executed(SphinxTransform):
 
 
 def language_of(node):
-    """`python` or `sh` of a block that is to be run; None of others, among them what is shown of a file."""
+    """Return `python` or `sh` if a block is to be run, otherwise None; the source of a script is not run."""
     language = node.get("language")
     return language if language in ("python", "sh") and "shown" not in node else None
 
 
 def run(folder, blocks):
-    """What each block printed, and the names of the pictures it wrote into the folder."""
+    """Return the output of each block and the names of the pictures that it wrote into the folder."""
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
     logger.info("running %d blocks of %s", len(blocks), folder.name)
@@ -72,10 +71,10 @@ def run(folder, blocks):
 
 
 def output(printed):
-    """What was printed, to be told from code by its looks."""
+    """Return the node of an output, with a style that distinguishes it from code."""
     lines = printed.rstrip().splitlines()
     if any(TABLE.search(line) for line in lines):
-        # Rows must not be broken where the page is narrow, so that sentences among them are broken here.
+        # Rows of a table must not wrap on a narrow page, so long sentences among them are wrapped here.
         lines, classes = (
             [textwrap.fill(line, LONG_LINE) if len(line) > LONG_LINE else line for line in lines],
             [],
@@ -87,7 +86,7 @@ def output(printed):
 
 
 def picture(path):
-    """The picture at the size it has on paper."""
+    """Return the node of a picture, at its size on paper."""
     with Image.open(path) as image:
         width = image.width * CSS_PIXELS_PER_INCH // DOTS_PER_INCH
     return nodes.image(
@@ -96,7 +95,7 @@ def picture(path):
 
 
 class Script(Directive):
-    """``{script} examples/tangle.py``: a section with the script's docstring, what came of running it, and its source."""
+    """Section with the docstring of a script, its output, its pictures and its source."""
 
     required_arguments = 1
 
@@ -109,7 +108,7 @@ class Script(Directive):
         section += nodes.title("", " ".join(first.split()).rstrip("."))
         self.state.nested_parse(rest.splitlines(), self.content_offset, section)
         code = source
-        if "__main__" not in source:  # a figure of a paper: its module draws, and that is all
+        if "__main__" not in source:  # a figure of a paper: its module only defines `draw`
             module = ".".join(Path(self.arguments[0]).with_suffix("").parts[1:])
             code = f"import rocking as rk\nfrom {module} import draw\nrk.plot.save(draw(), {path.stem + '.png'!r})"
         section += nodes.literal_block(code, code, **{"language": "python", "from-script": True})

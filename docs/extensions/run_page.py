@@ -1,7 +1,7 @@
-"""Runs the blocks of one page in a fresh interpreter: JSON in, JSON out.
+"""Program that runs the blocks of one page in a new interpreter.
 
-In comes a list of [language, code], out goes for each what it printed and the names of the pictures that it wrote into the current
-folder. The blocks of a page build on each other, as for its reader; the first that fails ends the run, with its traceback.
+The input is a list of [language, code] in JSON. The output is a list with the printed text of each block and the names of the pictures
+that it wrote into the current folder. Each block sees the names of the blocks before it. The first error ends the run.
 """
 
 import contextlib
@@ -16,12 +16,14 @@ from pathlib import Path
 
 
 def pictures():
-    """Every PNG file of the folder, with what tells one writing of it from the next."""
-    return {path.name: path.stat().st_mtime_ns for path in Path().glob("*.png")}
+    """Map each picture and animation of the folder to the time at which it was written."""
+    return {
+        path.name: path.stat().st_mtime_ns for path in Path().iterdir() if path.suffix in (".png", ".gif")
+    }
 
 
 def run_python(code, namespace):
-    """The block as it stands; what it prints."""
+    """Run a block of Python and return its output."""
     printed = io.StringIO()
     with contextlib.redirect_stdout(printed):
         exec(compile(code, "<block>", "exec"), namespace)
@@ -29,7 +31,7 @@ def run_python(code, namespace):
 
 
 def run_commands(code):
-    """Each line as a command of this environment; what they print."""
+    """Run each line as a command of this environment and return the output."""
     printed = []
     for line in code.replace("\\\n", " ").splitlines():
         name, *options = shlex.split(line)
@@ -42,7 +44,7 @@ def run_commands(code):
 
 
 def run(blocks):
-    """[printed, pictures written] of each block."""
+    """Return [output, names of pictures] of each block."""
     namespace, found = {"__name__": "__main__"}, []
     for language, code in blocks:
         before = pictures()

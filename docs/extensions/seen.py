@@ -1,4 +1,4 @@
-"""What is built is looked at in a browser, on a desk and on a phone: all of it fits, no picture is missing, no other host is asked."""
+"""Check of the built pages in a browser, at two widths: no page is too wide, no picture is missing, no other host is contacted."""
 
 from contextlib import contextmanager
 from pathlib import Path
@@ -15,7 +15,7 @@ FLAGS = [
     "--disable-sync",
 ]
 SCREENS = ((1280, 800), (390, 844))
-# Formulas are set by a script, and what lies far below is loaded when the reader comes there.
+# MathJax sets formulas in the browser, and pictures far below are loaded late.
 LOOK = """async () => {
     await window.MathJax?.startup?.promise;
     const pictures = [...document.images];
@@ -28,7 +28,7 @@ LOOK = """async () => {
 
 @contextmanager
 def chromium():
-    """A browser without a window."""
+    """Start a browser without a window."""
     from playwright.sync_api import sync_playwright
 
     with sync_playwright() as playwright:
@@ -38,7 +38,7 @@ def chromium():
 
 
 def faults(browser, folder):
-    """One sentence for each thing that a reader of the pages in a folder would miss, on either screen."""
+    """Yield one sentence for each fault of the pages in a folder, at each width."""
     for width, height in SCREENS:
         with browser.new_context(viewport={"width": width, "height": height}) as context:
             page, heard = context.new_page(), []
@@ -64,7 +64,7 @@ def faults(browser, folder):
 
 
 def look(app, failure):
-    """Says each fault as a warning, at which `make docs` fails; nothing where there is no browser."""
+    """Report each fault as a warning, which makes `make docs` fail; without a browser, do nothing."""
     from sphinx.util.logging import getLogger
 
     if failure is None and app.builder.format == "html" and CHROMIUM.exists():

@@ -1,5 +1,6 @@
 """The pages: all of them are found, nothing on them leads nowhere, every public name has its entry, and every block is run."""
 
+import inspect
 import re
 import subprocess
 import sys
@@ -10,6 +11,8 @@ from sybil import Document
 from sybil.parsers.myst import CodeBlockParser, PythonCodeBlockParser
 
 import rocking
+from docs.extensions import command_options
+from docs.extensions.entries import sections
 from rocking.cli.app import app
 
 ROOT = Path(__file__).parents[2]
@@ -19,6 +22,19 @@ FRONT = [ROOT / name for name in ("README.md", "CONTRIBUTING.md", "CHANGELOG.md"
 EXAMPLES = sorted((ROOT / "examples").glob("*.py"))
 FIGURES = sorted((ROOT / "src" / "rocking" / "papers").rglob("figure*.py"))
 FENCE = re.compile(r"^```(.*?)\n(.*?)^```", re.MULTILINE | re.DOTALL)
+
+
+# Fenced blocks of which Sphinx makes a part of the page.
+DIRECTIVES = {
+    "{command-summary}",
+    "{command}",
+    "{eval-rst}",
+    "{report}",
+    "{script}",
+    "{shared-options}",
+    "{thumbnails}",
+    "{toctree}",
+}
 
 
 def name_of(path):
@@ -112,9 +128,9 @@ PUBLIC = {
 }
 
 
-def entries():
+def entries(pages="reference*.md"):
     """The names that the reference documents, in full."""
-    for page in sorted(DOCS.glob("reference*.md")):
+    for page in sorted(DOCS.glob(pages)):
         module = ""
         for directive, name in re.findall(
             r"^\.\. (\w+):: ([\w.]+)", page.read_text(encoding="utf-8"), re.MULTILINE
@@ -133,7 +149,74 @@ def test_every_public_name_has_one_entry_in_the_reference(name):
 def test_every_command_has_its_entry():
     commands = [one.name or one.callback.__name__.replace("_", "-") for one in app.registered_commands]
     page = (DOCS / "reference-commands.md").read_text(encoding="utf-8")
-    assert re.findall(r"^## rocking (\S+)$", page, re.MULTILINE) == commands
+    assert re.findall(r"^## rocking (\S+)\n\n```{command} \1\n```$", page, re.MULTILINE) == commands
+    assert page.count("```{command-summary}\n") == page.count("```{shared-options}\n") == 1
+
+
+def test_every_option_is_documented_once_for_each_command():
+    """It stands among the shared options, or among those of the command alone, whose text no other command has."""
+    shared = command_options.shared()
+    spellings = [signature.split()[0] for signature, _ in shared]
+    assert len(spellings) == len(set(spellings))
+    assert {"--amplitude", "--height", "--restitution", "--angle", "--json"} <= set(spellings)
+    for command in command_options.commands():
+        meanings = [one.meaning for one in command_options.options(command)]
+        assert len(meanings) == len(set(meanings))
+        assert all(text.endswith(".") for _, text in meanings)
+        assert all((command in users) == (meaning in meanings) for meaning, users in shared.items())
+    assert all(len(users) > 1 for users in shared.values())
+
+
+@pytest.mark.parametrize("page", sorted(DOCS.glob("reference-*.md")), ids=name_of)
+def test_every_reference_page_begins_with_a_summary_of_its_entries(page):
+    text = page.read_text(encoding="utf-8")
+    summary = "{command-summary}" if page.stem == "reference-commands" else "{eval-rst}\n.. summary::"
+    assert re.match(rf"# .+\n\n(?:(?!```).+\n)+\n```{re.escape(summary)}\n```\n", text)
+    listed = [name for section in sections(page) for name in section.names]
+    assert listed == list(entries(page.name))
+
+
+def test_every_plot_function_has_a_picture_below_its_entry():
+    """The block below the entry of a function calls it, and writes a picture or a folder that is called like it."""
+    page = (DOCS / "reference-plot.md").read_text(encoding="utf-8")
+    below = re.findall(
+        r"^\.\. autofunction:: (\w+)\n```\n\n[A-Z][^\n]*:\n\n```python\n(.*?)^```",
+        page,
+        re.MULTILINE | re.DOTALL,
+    )
+    assert sorted(name for name, _ in below) == sorted(rocking.plot.__all__)
+    for name, code in below:
+        called = name.replace("_", "-")
+        assert f"rk.plot.{name}(" in code
+        assert re.search(rf'"{called}(?:\.(?:png|gif|\{{suffix\}}))?"', code), name
+
+
+def test_the_gallery_shows_every_plot_example_and_figure():
+    shown = [kind for kind, _ in fences(DOCS / "gallery.md") if kind.startswith("{thumbnails}")]
+    assert shown == [
+        f"{{thumbnails}} {page}" for page in ("reference-plot", "gallery-examples", "gallery-yim-lin-1991")
+    ]
+    pages = {
+        kind.split()[1]: page.stem
+        for page in PAGES
+        for kind, _ in fences(page)
+        if kind.startswith("{script}")
+    }
+    assert {pages[name_of(script)] for script in EXAMPLES} == {"gallery-examples"}
+    assert {pages[name_of(script)] for script in FIGURES} == {"gallery-yim-lin-1991"}
+
+
+def test_every_public_function_names_related_functions():
+    lone = {"rocking.cite"}
+    for name in PUBLIC - lone:
+        module, _, short = name.rpartition(".")
+        found = getattr(sys.modules[module], short)
+        if not inspect.isfunction(found):
+            continue
+        _, _, related = inspect.getdoc(found).partition("\nSee Also\n--------\n")
+        assert related, name
+        for target in re.findall(r"^([\w.]+) : [A-Z`].*\.$", related.partition("\n\n")[0], re.MULTILINE):
+            assert (target if "." in target else f"{module}.{target}") in PUBLIC - {name}, (name, target)
 
 
 def test_every_example_and_every_figure_is_in_the_gallery():
@@ -146,7 +229,7 @@ def test_every_block_of_code_is_run(page):
     """There are no blocks but those that the tests run and those of which Sphinx makes pages."""
     blocks = [kind for kind, _ in fences(page) if kind in ("python", "sh")]
     others = {kind.partition(" ")[0] for kind, _ in fences(page)} - {"python", "sh"}
-    assert others <= ({"", "toml"} if page in FRONT else {"{toctree}", "{eval-rst}", "{script}"})
+    assert others <= ({"", "toml"} if page in FRONT else DIRECTIVES)
     document = Document.parse(str(page), PythonCodeBlockParser(), CodeBlockParser("sh", evaluator=print))
     assert len(list(document.examples())) == len(blocks)
     assert page.parent in (ROOT, DOCS)  # where the tests look for them

@@ -8,6 +8,8 @@ from pathlib import Path
 import pytest
 
 from docs.extensions.checked import faults
+from docs.extensions.command_options import options
+from docs.extensions.entries import sections
 
 RUN_PAGE = Path(__file__).parents[2] / "docs" / "extensions" / "run_page.py"
 
@@ -83,3 +85,22 @@ def test_each_fault_is_said(tmp_path, text, fault):
 def test_a_font_of_another_host_is_seen_in_a_style(tmp_path):
     (tmp_path / "a.css").write_text('@font-face { src: url("https://example.org/font.woff2") }')
     assert list(faults(tmp_path)) == ["a.css asks another host for https://example.org/font.woff2"]
+
+
+def test_an_option_is_described_with_its_default():
+    described = {one.typed: one for one in options("simulate")}
+    assert described["--cycles"].text.endswith(" Default: 200.")
+    assert described["--phase"].text.endswith(" Default: 0.")
+    assert "Default" not in described["--json"].text
+    assert described["--cycles"].signature == "--cycles NUMBER"
+    assert next(one for one in options("map") if one.typed == "--period").signature == "--period NUMBER"
+    assert options("paper")[0].typed == "FIGURE"
+
+
+def test_sections_of_a_page_hold_full_names(tmp_path):
+    page = tmp_path / "page.md"
+    page.write_text(
+        "# Title\n\n## Empty\n\n## Two\n\n.. currentmodule:: rocking.plot\n\n.. autofunction:: save\n\n"
+        ".. autoclass:: rocking.Mode()\n   :members:\n"
+    )
+    assert sections(page) == [("Two", ["rocking.plot.save", "rocking.Mode"])]

@@ -54,6 +54,12 @@ def simulate(system: System, start: State | None = None, cycles: int = 200, reco
     TooManyEvents
         If there are more than 10⁷ events to record, or more than 10⁷ events in one cycle.
 
+    See Also
+    --------
+    classify : Classify the response instead of recording it.
+    rocking.plot.overview : Plot what was recorded.
+    rocking.plot.animation : Animate the motion.
+
     Notes
     -----
     `classify` and `parametric_map` may follow another chaotic transient of the same system and initial state. They stop at

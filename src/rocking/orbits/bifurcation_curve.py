@@ -99,6 +99,11 @@ def bifurcation_curve(
         If an argument lies outside its range, or if `bounds` does not contain the special point. Also if a grazing orbit has
         no event other than the grazing one, or if no further point is found.
 
+    See Also
+    --------
+    continue_orbit : Find special points along a branch.
+    rocking.plot.bifurcation_curve : Plot curves of special points.
+
     Notes
     -----
     Every point is checked by simulation. The curve ends where it meets another grazing.

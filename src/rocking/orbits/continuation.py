@@ -90,6 +90,12 @@ def continue_orbit(
         If the parameter is unknown, or belongs to braces that the system does not have. If the range is empty or does not
         contain the value for `orbit`. If the orbit rests, stays in contact with a brace, grazes, or is a branch point.
 
+    See Also
+    --------
+    switch_branch : Follow a branch that begins at a special point.
+    bifurcation_curve : Follow a special point through two parameters.
+    rocking.plot.branch : Plot branches.
+
     Notes
     -----
     Steps are shorter where the multipliers change fast. A special point then lies between neighbouring points with different
@@ -153,6 +159,11 @@ def switch_branch(
     ------
     TypeError, ValueError
         As in `continue_orbit`; also if `special` is a fold or a grazing, at which no branch bifurcates.
+
+    See Also
+    --------
+    continue_orbit : Follow an orbit through a parameter.
+    rocking.plot.branch : Plot branches.
 
     Examples
     --------

@@ -51,6 +51,12 @@ def find_orbit(system: System, guess: State, period: int) -> Orbit:
     NoOrbit
         If Newton's method does not converge. The exception, a ValueError, has the last `state` and its `residual`.
 
+    See Also
+    --------
+    find_orbits : Search for all orbits up to a period.
+    continue_orbit : Follow an orbit through a parameter.
+    classify : Find the stable orbit that a motion approaches.
+
     Notes
     -----
     The orbit is not necessarily the one nearest to the guess.

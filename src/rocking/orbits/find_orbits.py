@@ -141,6 +141,12 @@ def find_orbits(
     ValueError
         If an argument lies outside its range.
 
+    See Also
+    --------
+    find_orbit : Find one orbit near a guess.
+    basin_map : Basins of the attractors.
+    rocking.theory.symmetric_modes : Symmetric modes in closed form.
+
     Notes
     -----
     Completeness is not guaranteed, see `Orbits`. An orbit is omitted if it is so unstable that a motion from it overturns

@@ -82,6 +82,11 @@ def frequency_response(
     ValueError
         If an argument lies outside its range, or if a number in `modes` is even.
 
+    See Also
+    --------
+    continue_orbit : Follow one orbit through any parameter.
+    rocking.plot.frequency_response : Plot the curve.
+
     Notes
     -----
     Limits: a branch that lies between two neighbouring values is not found. Asymmetric branches without a connection to a

@@ -44,6 +44,11 @@ def manifold_gap(system: System) -> float:
     ValueError
         If the system has braces, e = 0 or an amplitude of √(1 + Ω²) or more.
 
+    See Also
+    --------
+    tangency_amplitude : Amplitude at which the gap is zero.
+    rocking.theory.manifold_gap : The gap in closed form.
+
     Examples
     --------
     >>> import rocking as rk
@@ -124,6 +129,11 @@ def tangency_amplitude(system: System) -> float:
         If `system` is not a System.
     ValueError
         If the system has braces, or if e is 0 or 1.
+
+    See Also
+    --------
+    manifold_gap : The gap that is zero there.
+    rocking.theory.heteroclinic_amplitude : The amplitude in closed form.
 
     Examples
     --------

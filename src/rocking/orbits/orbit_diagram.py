@@ -91,6 +91,12 @@ def orbit_diagram(
     TooManyEvents
         If there are more than 10⁷ events in one cycle.
 
+    See Also
+    --------
+    continue_orbit : Follow orbits, stable or not.
+    parametric_map : Vary two quantities.
+    rocking.plot.orbit_diagram : Plot the diagram.
+
     Notes
     -----
     After a motion that overturns, the next one begins at the same state. If braces move closer, a block beyond them is

@@ -156,6 +156,12 @@ def saddle_manifolds(
     TooManyEvents
         If there are more than 10⁷ impacts before one point.
 
+    See Also
+    --------
+    manifold_gap : Gap between two manifolds.
+    tangency_amplitude : Amplitude of the first tangency.
+    rocking.plot.manifolds : Plot the manifolds.
+
     Notes
     -----
     Limits: a fold of the curve is not detected if it lies between two neighbours that are close to each other. The same holds

@@ -66,6 +66,11 @@ def animation(
     ValueError
         If a value lies outside its range, or the motion kept no events.
 
+    See Also
+    --------
+    overview : Plot the motion.
+    time_history : Plot the time history alone.
+
     Notes
     -----
     Small angles are exaggerated, and the displacement of the base is scaled to a visible size; the animation shows both

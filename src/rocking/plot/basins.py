@@ -48,6 +48,11 @@ def basins(found: BasinMap, ax: Axes | None = None, block: Block | None = None) 
     TypeError
         If `found` is not a BasinMap, or an argument has the wrong type.
 
+    See Also
+    --------
+    safe_basin : Plot the safe fraction over the amplitude.
+    rocking.basin_map : Compute basins.
+
     Notes
     -----
     The legend lists the attractors of at least 0.01 % of the area, up to eight, with their area fractions. From axes of

@@ -44,6 +44,11 @@ def bifurcation_curve(
     ValueError
         If the curves have different parameters.
 
+    See Also
+    --------
+    branch : Plot branches.
+    rocking.bifurcation_curve : Compute a curve.
+
     Examples
     --------
     >>> import rocking as rk

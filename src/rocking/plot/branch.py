@@ -53,6 +53,12 @@ def branch(
     ValueError
         If the branches have different parameters, `quantity` is unknown, or `phase` lies outside its range.
 
+    See Also
+    --------
+    orbit_diagram : Plot branches over an orbit diagram.
+    rocking.continue_orbit : Compute a branch.
+    rocking.switch_branch : Compute the branches at a special point.
+
     Examples
     --------
     >>> import rocking as rk

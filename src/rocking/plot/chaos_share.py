@@ -39,6 +39,10 @@ def chaos_share(found: ChaosShare, ax: Axes | None = None) -> Axes:
     The horizontal axis is 1 − e, logarithmic; a dotted line separates e = 1. The note gives the number n of systems per
     point. A hollow mark means no chaotic system among them; its interval is one-sided.
 
+    See Also
+    --------
+    rocking.chaos_share : Compute the fractions.
+
     Examples
     --------
     >>> import rocking as rk

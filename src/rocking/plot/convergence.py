@@ -33,6 +33,10 @@ def convergence(spectrum: LyapunovSpectrum, ax: Axes | None = None, exponent: in
     ValueError
         If `exponent` is neither 1 nor 2, or the exponent is −∞.
 
+    See Also
+    --------
+    rocking.lyapunov : Compute the exponents.
+
     Notes
     -----
     There is no band where the batches are too few for an error. The dashed line is the final value. A thin line marks

@@ -28,6 +28,11 @@ def dimension(result: CorrelationDimension, ax: Axes | None = None) -> Axes:
     ValueError
         If `result` describes isolated points.
 
+    See Also
+    --------
+    section : Plot the points.
+    rocking.correlation_dimension : Compute the dimension.
+
     Notes
     -----
     Bars are standard errors of the slopes. The grey band is the scaling region. The coloured band across it is the interval

@@ -39,6 +39,11 @@ def frequency_response(result: FrequencyResponse, ax: Axes | None = None, block:
     TypeError
         If `result` is not a FrequencyResponse, or an argument has the wrong type.
 
+    See Also
+    --------
+    branch : Plot branches.
+    rocking.frequency_response : Compute the curve.
+
     Notes
     -----
     A ring shows the largest |Θ| of the response if it is periodic or at rest. For other responses it shows the largest |Θ| of

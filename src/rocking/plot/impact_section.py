@@ -43,6 +43,11 @@ def impact_section(
     ValueError
         If `result` holds no impact after the transient.
 
+    See Also
+    --------
+    section : Plot the stroboscopic section.
+    rocking.impact_section : Compute the impacts.
+
     Notes
     -----
     Phase, speed and side are the complete state of the block just after an impact. Every point is drawn. Marks shrink as

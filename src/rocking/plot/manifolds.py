@@ -34,6 +34,11 @@ def manifolds(result: SaddleManifolds, ax: Axes | None = None, block: Block | No
     TypeError
         If `result` is not a SaddleManifolds, or an argument has the wrong type.
 
+    See Also
+    --------
+    heteroclinic : Plot the undamped case without forcing.
+    rocking.saddle_manifolds : Compute the manifolds.
+
     Notes
     -----
     The axes show the saddles and the region between them; the curves continue beyond the axes. Lines are solid for the

@@ -48,6 +48,12 @@ def melnikov(amplitude: float, period: float, restitution: float, ax: Axes | Non
     ValueError
         If an argument lies outside its range.
 
+    See Also
+    --------
+    thresholds : Plot amplitudes over the period.
+    rocking.theory.melnikov_function : Compute the function.
+    rocking.theory.manifold_gap : Compute the exact gap.
+
     Notes
     -----
     Where M⁺ (on the other side M⁻) is positive, the unstable manifold passes beyond the stable one, to first order. The exact
@@ -95,6 +101,11 @@ def heteroclinic(ax: Axes | None = None, block: Block | None = None) -> Axes:
     Returns
     -------
     matplotlib Axes
+
+    See Also
+    --------
+    manifolds : Plot the manifolds of a damped, forced block.
+    rocking.theory.heteroclinic_orbit : Compute the orbit.
 
     Examples
     --------

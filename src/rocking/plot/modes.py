@@ -68,6 +68,11 @@ def modes(
     ValueError
         If an argument lies outside its range.
 
+    See Also
+    --------
+    thresholds : Plot the limits of the modes over the period.
+    rocking.theory.symmetric_modes : Compute the modes.
+
     Notes
     -----
     Inadmissible modes are dotted. Modes exist from A_E, and the faster mode loses its stability at A_SB. The axis reaches

@@ -61,6 +61,12 @@ def orbit_diagram(
     ValueError
         If a branch has another parameter, or `quantity` is unknown.
 
+    See Also
+    --------
+    branch : Plot branches alone.
+    rocking.orbit_diagram : Compute the diagram.
+    rocking.continue_orbit : Compute a branch.
+
     Notes
     -----
     Points at one value closer than 1/10,000 of the height are drawn once. Marks shrink as their number grows, and more than

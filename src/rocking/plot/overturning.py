@@ -33,6 +33,11 @@ def overturning(found: OverturningCurve, ax: Axes | None = None, block: Block | 
     ValueError
         If two or more quantities vary.
 
+    See Also
+    --------
+    thresholds : Plot amplitudes over the period.
+    rocking.overturning_amplitude : Compute the curve.
+
     Examples
     --------
     >>> import numpy as np

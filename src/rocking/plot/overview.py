@@ -32,6 +32,12 @@ def overview(motion: Motion, block: Block | None = None) -> Figure:
     -------
     matplotlib Figure
 
+    See Also
+    --------
+    time_history : Plot the time history alone.
+    phase_portrait : Plot the phase portrait alone.
+    animation : Animate the motion.
+
     Examples
     --------
     >>> import rocking as rk

@@ -73,6 +73,12 @@ def parametric_map(
     ValueError
         If a curve or a set of symbols is unknown, or a curve does not apply to the map.
 
+    See Also
+    --------
+    tiles : Write the map as a page that zooms.
+    repeatability_map : Plot a map of uncertain inputs.
+    rocking.parametric_map : Compute a map.
+
     Notes
     -----
     From axes of more than 2,000 points not every point is drawn; the fractions count all points. A category below

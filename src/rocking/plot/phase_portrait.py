@@ -49,6 +49,12 @@ def phase_portrait(
     ValueError
         If `cycles` lies outside the motion, or the motion kept no events.
 
+    See Also
+    --------
+    time_history : Plot the angle against time.
+    overview : Plot both.
+    rocking.simulate : Compute a motion.
+
     Notes
     -----
     Base impacts lie at Θ = 0 (round; Eq. (2) of Yim & Lin 1991), brace impacts at ±Θb (square). At e = 1 the dot of an

@@ -37,6 +37,11 @@ def repeatability(found: Repeatability, ax: Axes | None = None) -> Axes:
     TypeError
         If `found` is not a Repeatability, or `ax` is not Axes.
 
+    See Also
+    --------
+    repeatability_map : Plot a map of outcomes.
+    rocking.repeatability : Compute the fractions.
+
     Examples
     --------
     >>> import rocking as rk
@@ -83,6 +88,12 @@ def repeatability_map(found: RepeatabilityMap, ax: Axes | None = None) -> Axes:
     Notes
     -----
     A point is certain if all runs end in one type of response, undetermined if a run of it is undetermined.
+
+    See Also
+    --------
+    repeatability : Plot the outcomes at one point.
+    parametric_map : Plot a map of exact inputs.
+    rocking.repeatability_map : Compute a map.
 
     Examples
     --------

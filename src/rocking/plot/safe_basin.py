@@ -29,6 +29,11 @@ def safe_basin(found: SafeBasin, ax: Axes | None = None) -> Axes:
     TypeError
         If `found` is not a SafeBasin, or `ax` is not Axes.
 
+    See Also
+    --------
+    basins : Plot the basins at one amplitude.
+    rocking.safe_basin : Compute the fractions.
+
     Examples
     --------
     >>> import rocking as rk

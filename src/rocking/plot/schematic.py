@@ -30,6 +30,10 @@ def schematic(ax: Axes | None = None, block: Block | None = None, lean: float = 
     -------
     matplotlib Axes
 
+    See Also
+    --------
+    animation : Animate a motion of the block.
+
     Notes
     -----
     Angles and the base acceleration a_g are positive as drawn: clockwise, and to the right. A base accelerated to the

@@ -45,6 +45,12 @@ def section(
     ValueError
         If `result` holds no points, or `transient` leaves none.
 
+    See Also
+    --------
+    impact_section : Plot the impacts.
+    orbit_diagram : Plot sections over a parameter.
+    rocking.simulate : Compute a motion.
+
     Notes
     -----
     Every point is drawn. Marks shrink from 5 pt (10 distinct points) to a fraction of a point (10⁶). More than 2,000

@@ -52,6 +52,10 @@ def spectrum(
     ValueError
         If `highest` or `names` lies outside its range.
 
+    See Also
+    --------
+    rocking.spectral_density : Compute the spectral density.
+
     Notes
     -----
     At most ten decades below the highest point are shown. Dotted lines mark multiples of the forcing frequency f; f_r is

@@ -50,6 +50,12 @@ def thresholds(
     ValueError
         If there is no curve or more than six, or a curve and the periods differ in length.
 
+    See Also
+    --------
+    parametric_map : Plot theoretical curves over a map.
+    rocking.theory.melnikov_amplitude : Compute A_M.
+    rocking.theory.symmetry_breaking_amplitude : Compute A_SB.
+
     Examples
     --------
     >>> import numpy as np

@@ -43,6 +43,12 @@ def time_history(
     ValueError
         If `cycles` lies outside the motion, or the motion kept no events.
 
+    See Also
+    --------
+    phase_portrait : Plot velocity against angle.
+    overview : Plot both.
+    rocking.simulate : Compute a motion.
+
     Notes
     -----
     Dotted lines mark the critical angle, dashed lines the braces. They are omitted if the motion stays below half of it.

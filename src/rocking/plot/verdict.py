@@ -61,6 +61,11 @@ def verdict(verdict: Verdict, block: Block | None = None) -> Figure:
     TypeError
         If `verdict` is not a Verdict, or `block` is not a Block.
 
+    See Also
+    --------
+    overview : Plot a motion.
+    rocking.classify : Classify a response.
+
     Notes
     -----
     A motion that overturns or comes to rest is shown up to that event, without a section. In the section of a periodic

@@ -59,6 +59,11 @@ def tiles(
     OSError
         If the folder cannot be written.
 
+    See Also
+    --------
+    parametric_map : Plot the map as one figure.
+    rocking.parametric_map : Compute a map.
+
     Notes
     -----
     Each dot is a point. The coarser images hold every second, fourth, … point, without blending, so that rare points may

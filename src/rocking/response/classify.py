@@ -76,6 +76,13 @@ def classify(
     ValueError
         If an argument lies outside its range.
 
+    See Also
+    --------
+    simulate : Record the motion itself.
+    lyapunov : Lyapunov exponents with standard errors.
+    parametric_map : Classify every point of a grid.
+    rocking.plot.verdict : Plot the response with its verdict.
+
     Notes
     -----
     Limits:

@@ -119,6 +119,11 @@ def correlation_dimension(points: ArrayLike) -> CorrelationDimension:
         If no decade of r has a slope with an interval narrower than 0.4. Its `estimate` is the result of the half decade
         with the most uniform slope.
 
+    See Also
+    --------
+    lyapunov : Lyapunov exponents.
+    rocking.plot.dimension : Plot the correlation sum and its slopes.
+
     Notes
     -----
     A set of few points that repeat, such as the section of a periodic motion, has dimension 0 exactly (`isolated`). Points

@@ -53,6 +53,11 @@ def impact_section(
     TooManyEvents
         If there are more than 10⁷ impacts to record, or more than 10⁷ events in one cycle.
 
+    See Also
+    --------
+    simulate : ``record="section"`` gives the stroboscopic section.
+    rocking.plot.impact_section : Plot the impacts.
+
     Notes
     -----
     Memory grows with the recorded impacts (40 bytes each). It does not grow with cycles, brace impacts or the transient. A

@@ -53,6 +53,12 @@ def lyapunov(
     TypeError
         If an argument is of the wrong type.
 
+    See Also
+    --------
+    classify : Response type with its evidence.
+    correlation_dimension : Dimension of a section.
+    rocking.plot.convergence : Plot the convergence of an exponent.
+
     Notes
     -----
     Without rest and sustained contact, λ₁ + λ₂ is the contraction per τ. It is 2 ln e for each impact and 2 ln r for each

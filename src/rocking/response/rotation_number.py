@@ -118,6 +118,11 @@ def rotation_number(system: System, start: State | None = None, cycles: int = 20
     TypeError
         If an argument is of the wrong type.
 
+    See Also
+    --------
+    spectral_density : Spectral lines of a motion.
+    classify : Response type with its evidence.
+
     Notes
     -----
     Limit: a fraction with a denominator up to 500 that agrees to all digits is taken as exact. An irrational number can be

@@ -69,6 +69,12 @@ def spectral_density(
         If the motion overturns, comes to rest or never moves, or if an argument lies outside its range. If fewer than 64
         cycles, or 64 periods of a periodic motion, follow the transient.
 
+    See Also
+    --------
+    simulate : The motion that is sampled.
+    rotation_number : Rotation numbers of an undamped motion.
+    rocking.plot.spectrum : Plot the spectral density.
+
     Notes
     -----
     A motion counts as periodic if all its samples repeat to 10⁻⁸ of their range after n ≤ 64 cycles. Its lines then lie on

@@ -85,6 +85,12 @@ def basin_map(
     TypeError, ValueError, OSError
         As in `parametric_map`.
 
+    See Also
+    --------
+    safe_basin : Fraction of safe initial states over the amplitude.
+    find_orbits : Search for periodic orbits.
+    rocking.plot.basins : Plot the basins.
+
     Notes
     -----
     The intervals of the fractions are Wilson's at 95 %. Their upper ends assume that all undetermined initial states

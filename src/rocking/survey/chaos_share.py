@@ -62,6 +62,12 @@ def chaos_share(
     TypeError, ValueError
         If an argument has the wrong type or lies outside its range.
 
+    See Also
+    --------
+    classify : Classify one response.
+    parametric_map : Classify every point of a grid.
+    rocking.plot.chaos_share : Plot the fractions.
+
     Notes
     -----
     The intervals are Wilson's at 95 %. Their upper ends assume that all undetermined responses are chaotic.

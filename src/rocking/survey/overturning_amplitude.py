@@ -70,6 +70,12 @@ def overturning_amplitude(
     TypeError, ValueError, OSError
         As in `parametric_map`.
 
+    See Also
+    --------
+    safe_basin : Fraction of safe initial states.
+    repeatability : Outcomes under uncertain inputs.
+    rocking.plot.overturning : Plot the curve.
+
     Notes
     -----
     Not guaranteed: that the block survives all amplitudes below `lowest`, because the scan skips amplitudes and phases

@@ -75,6 +75,14 @@ def parametric_map(
     OSError
         If the store is not a folder, is in use by another run, is damaged or cannot be written. Its data stay intact.
 
+    See Also
+    --------
+    classify : Classify one response.
+    repeatability_map : Vary the inputs at every point.
+    basin_map : Vary the initial state.
+    rocking.plot.parametric_map : Plot the map.
+    rocking.plot.tiles : Write the map as a page that zooms.
+
     Notes
     -----
     Not guaranteed: what `classify` does not guarantee, and the responses between the points of the grid. Long runs are

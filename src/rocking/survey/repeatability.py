@@ -64,6 +64,11 @@ def repeatability(
     TypeError, ValueError
         If an argument has the wrong type or lies outside its range.
 
+    See Also
+    --------
+    repeatability_map : The outcomes at every point of a grid.
+    rocking.plot.repeatability : Plot the fractions.
+
     Notes
     -----
     The intervals are Wilson's at 95 %. A run that is undetermined after `max_cycles` may have any outcome, so that it

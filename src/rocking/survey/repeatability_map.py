@@ -67,6 +67,12 @@ def repeatability_map(
     TypeError, ValueError, OSError
         As in `parametric_map`.
 
+    See Also
+    --------
+    repeatability : The outcomes of one experiment.
+    parametric_map : Exact inputs at every point.
+    rocking.plot.repeatability_map : Plot the map.
+
     Notes
     -----
     Not guaranteed: that the outcome is certain at a point at which all runs agree. An outcome of probability p does not

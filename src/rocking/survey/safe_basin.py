@@ -69,6 +69,12 @@ def safe_basin(
     TypeError, ValueError
         If an argument has the wrong type or lies outside its range.
 
+    See Also
+    --------
+    basin_map : Basins at one amplitude.
+    overturning_amplitude : Lowest overturning amplitude from rest.
+    rocking.plot.safe_basin : Plot the fraction.
+
     Notes
     -----
     The intervals are Wilson's at 95 %. Because the initial states are the same, the difference of the fractions at two

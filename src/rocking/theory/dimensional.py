@@ -37,6 +37,10 @@ def physical_acceleration(block: Block, radians: Any, base_acceleration: Any) ->
     TypeError
         If `block` is not a Block, or another argument is not a real number or an array of real numbers.
 
+    See Also
+    --------
+    rocking.simulate : The motion of a block.
+
     Examples
     --------
     >>> import rocking as rk
@@ -77,6 +81,10 @@ def physical_damping(block: Block, radians: Any, radians_per_second: Any, width:
     ValueError
         If `width` lies outside its range.
 
+    See Also
+    --------
+    damping : The normalised damping.
+
     Examples
     --------
     >>> import rocking as rk
@@ -110,6 +118,11 @@ def physical_energy(block: Block, radians: Any, radians_per_second: Any) -> Any:
     TypeError
         If `block` is not a Block, or another argument is not a real number or an array of real numbers.
 
+    See Also
+    --------
+    energy : The normalised energy.
+    physical_critical_energy : Energy at the critical angle.
+
     Examples
     --------
     >>> import rocking as rk
@@ -141,6 +154,10 @@ def physical_critical_energy(block: Block) -> float:
     ------
     TypeError
         If `block` is not a Block.
+
+    See Also
+    --------
+    physical_energy : Energy of a state.
 
     Examples
     --------
@@ -177,6 +194,10 @@ def physical_heteroclinic_orbit(block: Block, seconds: Any, orbit: str = "upper"
         If an argument is of the wrong type.
     ValueError
         If `orbit` is neither "upper" nor "lower".
+
+    See Also
+    --------
+    heteroclinic_orbit : The normalised orbit.
 
     Examples
     --------

@@ -34,6 +34,11 @@ def free_impact_speed(angle: Any) -> Any:
     ValueError
         If an argument lies outside its range.
 
+    See Also
+    --------
+    free_quarter_period : Time of the first impact.
+    free_peaks : Angles of the turns after impacts.
+
     Examples
     --------
     >>> free_impact_speed([0.0, 0.4, 1.0]).tolist()
@@ -64,6 +69,11 @@ def free_quarter_period(angle: Any) -> Any:
         If an argument is not a real number or an array of real numbers.
     ValueError
         If an argument lies outside its range.
+
+    See Also
+    --------
+    free_time_to_rest : Total time until rest.
+    free_impact_speed : Speed at the first impact.
 
     Examples
     --------
@@ -99,6 +109,11 @@ def free_peaks(angle: Any, restitution: Any, impacts: Any) -> Any:
     ValueError
         If an argument lies outside its range.
 
+    See Also
+    --------
+    free_time_to_rest : Total time until rest.
+    free_impact_speed : Speed at the first impact.
+
     Examples
     --------
     >>> free_peaks(0.4, 0.75, [0, 1]).round(12).tolist()
@@ -131,6 +146,11 @@ def free_time_to_rest(angle: float, restitution: float) -> float:
         If an argument is not a real number.
     ValueError
         If an argument lies outside its range.
+
+    See Also
+    --------
+    free_peaks : Angles of the turns after impacts.
+    free_quarter_period : Time of the first impact.
 
     Examples
     --------

@@ -37,6 +37,12 @@ def heteroclinic_amplitude(period: Any, restitution: Any) -> Any:
     ValueError
         If an argument lies outside its range.
 
+    See Also
+    --------
+    melnikov_amplitude : The amplitude to first order.
+    manifold_gap : The gap that is zero there.
+    rocking.tangency_amplitude : The amplitude from computed manifolds.
+
     Notes
     -----
     `melnikov_amplitude` is its first order in 1 − e at given Ω: A_M/A* = ¼(1+e)²√(1 + Ω²((1−e)/(1+e))²). This ratio is below 1
@@ -77,6 +83,12 @@ def saddle_orbit(phase: Any, amplitude: Any, period: Any, orbit: str = "upper") 
     ValueError
         If an argument lies outside its range.
 
+    See Also
+    --------
+    stable_manifold_velocity : Stable manifold at an impact.
+    unstable_manifold_velocity : Unstable manifold at an impact.
+    rocking.saddle_manifolds : The manifolds on a section.
+
     Examples
     --------
     >>> angle, velocity = saddle_orbit(0.0, 2.0, 1.0)
@@ -106,6 +118,11 @@ def unstable_manifold_velocity(phase: Any, amplitude: Any, period: Any) -> Any:
         If an argument is not a real number or an array of real numbers.
     ValueError
         If an argument lies outside its range.
+
+    See Also
+    --------
+    stable_manifold_velocity : The velocity on the stable manifold.
+    manifold_gap : The gap between both.
 
     Examples
     --------
@@ -137,6 +154,11 @@ def stable_manifold_velocity(phase: Any, amplitude: Any, period: Any) -> Any:
         If an argument is not a real number or an array of real numbers.
     ValueError
         If an argument lies outside its range.
+
+    See Also
+    --------
+    unstable_manifold_velocity : The velocity on the unstable manifold.
+    manifold_gap : The gap between both.
 
     Examples
     --------
@@ -171,6 +193,12 @@ def manifold_gap(phase: Any, amplitude: Any, period: Any, restitution: Any) -> A
         If an argument is not a real number or an array of real numbers.
     ValueError
         If an argument lies outside its range.
+
+    See Also
+    --------
+    heteroclinic_amplitude : Amplitude at which the gap is zero.
+    melnikov_function : The gap to first order.
+    rocking.manifold_gap : The gap of computed manifolds.
 
     Examples
     --------

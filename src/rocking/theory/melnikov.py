@@ -46,6 +46,11 @@ def energy(angle: Any, velocity: Any) -> Any:
     TypeError
         If an argument is not a real number or an array of real numbers.
 
+    See Also
+    --------
+    impact_loss : Energy lost at an impact.
+    physical_energy : The energy in rad²/s².
+
     Examples
     --------
     >>> energy(0.0, 1.0), energy(1.5, 0.0)
@@ -76,6 +81,11 @@ def heteroclinic_orbit(time: Any, orbit: str = "upper") -> tuple[Any, Any]:
         If `time` is not a real number or an array of real numbers.
     ValueError
         If `orbit` is neither "upper" nor "lower".
+
+    See Also
+    --------
+    physical_heteroclinic_orbit : The orbit in rad and rad/s.
+    rocking.plot.heteroclinic : Plot the orbit.
 
     Examples
     --------
@@ -113,6 +123,11 @@ def damping(angle: Any, velocity: Any, restitution: Any, width: float) -> Any:
     ValueError
         If an argument lies outside its range.
 
+    See Also
+    --------
+    melnikov_integral : The integral with this damping.
+    physical_damping : The damping in rad/s².
+
     Examples
     --------
     >>> round(damping(0.0, 1.0, 0.8, width=0.1), 9), damping(0.2, 1.0, 0.8, width=0.1)
@@ -143,6 +158,10 @@ def impact_loss(velocity: Any, restitution: Any) -> Any:
         If an argument is not a real number or an array of real numbers.
     ValueError
         If an argument lies outside its range.
+
+    See Also
+    --------
+    energy : Energy of a state.
 
     Examples
     --------
@@ -176,6 +195,13 @@ def melnikov_function(time: Any, amplitude: Any, period: Any, restitution: Any, 
         If an argument is not a real number or an array of real numbers.
     ValueError
         If an argument lies outside its range.
+
+    See Also
+    --------
+    melnikov_integral : The same function by numerical integration.
+    melnikov_amplitude : Lowest amplitude with zeros.
+    manifold_gap : The exact gap.
+    rocking.plot.melnikov : Plot both.
 
     Examples
     --------
@@ -223,6 +249,12 @@ def melnikov_integral(
         If an argument is of the wrong type.
     ValueError
         If an argument lies outside its range.
+
+    See Also
+    --------
+    melnikov_function : The closed form.
+    heteroclinic_orbit : The path of the integral.
+    damping : The damping term.
 
     Examples
     --------
@@ -281,6 +313,12 @@ def melnikov_amplitude(period: Any, restitution: Any) -> Any:
         If an argument is not a real number or an array of real numbers.
     ValueError
         If an argument lies outside its range.
+
+    See Also
+    --------
+    heteroclinic_amplitude : The exact amplitude of tangency.
+    melnikov_function : The function with the zeros.
+    rocking.plot.thresholds : Plot amplitudes over the period.
 
     Examples
     --------

@@ -41,6 +41,12 @@ def existence_amplitude(period: Any, restitution: Any, n: Any) -> Any:
     ValueError
         If an argument lies outside its range.
 
+    See Also
+    --------
+    symmetric_modes : The modes themselves.
+    symmetry_breaking_amplitude : Stability limit of the faster mode.
+    slower_mode_amplitude : Limit of the slower mode.
+
     Notes
     -----
     A_E = (1+Ω²) t² (1−e)/√((1+e)² + Ω²t²(1−e)²), t = tanh(nπ/2Ω), from Eq. (8) of Yim & Lin (1991). A mode that exists need not be
@@ -80,6 +86,12 @@ def symmetry_breaking_amplitude(period: Any, restitution: Any, n: Any) -> Any:
         If an argument is not a real number or an array of real numbers.
     ValueError
         If an argument lies outside its range.
+
+    See Also
+    --------
+    symmetric_modes : The modes themselves.
+    existence_amplitude : Lowest amplitude with symmetric modes.
+    rocking.plot.thresholds : Plot amplitudes over the period.
 
     Notes
     -----
@@ -125,6 +137,11 @@ def slower_mode_amplitude(period: Any, n: Any) -> Any:
     ValueError
         If an argument lies outside its range.
 
+    See Also
+    --------
+    symmetric_modes : The modes themselves.
+    existence_amplitude : Lowest amplitude with symmetric modes.
+
     Examples
     --------
     >>> round(slower_mode_amplitude(1.0, 1), 6)
@@ -158,6 +175,14 @@ def symmetric_modes(amplitude: float, period: float, restitution: float, n: int)
         If an argument is not a real number.
     ValueError
         If an argument lies outside its range, or if n is even.
+
+    See Also
+    --------
+    existence_amplitude : Lowest amplitude with symmetric modes.
+    symmetry_breaking_amplitude : Stability limit of the faster mode.
+    slower_mode_amplitude : Limit of the slower mode.
+    rocking.find_orbit : Periodic orbits of any kind.
+    rocking.plot.modes : Plot the modes.
 
     Notes
     -----

@@ -44,6 +44,11 @@ def save(figure: Figure | Axes, path: str | Path, dpi: float = 200.0) -> Path:
     OSError
         If `path` cannot be written.
 
+    See Also
+    --------
+    panels : Make a figure.
+    animation : Write an animation.
+
     Examples
     --------
     >>> import rocking as rk, tempfile

@@ -84,6 +84,11 @@ def panels(rows: int = 1, columns: int = 1, height: float = 2.4, ratios: tuple[f
     ValueError
         If a number lies outside its range, or `ratios` does not hold one positive number per column.
 
+    See Also
+    --------
+    title : Write a title above a panel.
+    save : Write a figure to a file.
+
     Examples
     --------
     >>> import rocking as rk
@@ -106,7 +111,12 @@ def panels(rows: int = 1, columns: int = 1, height: float = 2.4, ratios: tuple[f
 
 
 def title(ax: Axes, text: str) -> None:
-    """Write `text` above the axes at the left, after the panel's letter if there is one."""
+    """Write `text` above the axes at the left, after the panel's letter if there is one.
+
+    See Also
+    --------
+    panels : Make a figure with panels.
+    """
     letter = instance("ax", ax, Axes).get_title(loc="left")
     ax.set_title(f"{letter} {text}" if letter else text, loc="left", fontsize=TEXT, color=INK)
 

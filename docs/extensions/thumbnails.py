@@ -1,0 +1,125 @@
+"""Grids of thumbnails: ``{thumbnails} PAGE`` shows each picture of another page, small, with a link to its place there.
+
+The pictures are those that the blocks and scripts of the other page wrote when it was built. In a reference page the
+picture of the function ``time_history`` is called ``time-history.png`` or ``time-history.gif``. A function that writes a folder
+is shown by the largest picture in it.
+"""
+
+import ast
+import inspect
+import re
+from importlib import import_module
+from pathlib import Path
+from typing import NamedTuple
+
+from docutils import nodes
+from docutils.parsers.rst import Directive
+from entries import sections
+from executed import ROOT, RUNS
+from PIL import Image
+from sphinx.errors import ExtensionError
+
+MADE = ROOT / "build" / "docs-thumbnails"
+SIZE = (440, 330)  # pixels, at twice the density of a screen
+SUFFIXES = (".png", ".gif")
+
+
+class Card(NamedTuple):
+    """Thumbnail with its title, its text and its target on the other page."""
+
+    picture: Path
+    title: str
+    text: str
+    anchor: str
+
+
+def cards_of_entries(page):
+    """List (title of a section, cards) of a reference page."""
+    for title, names in sections(page):
+        cards = []
+        for name in names:
+            module, _, short = name.rpartition(".")
+            text = inspect.getdoc(getattr(import_module(module), short)).partition("\n")[0]
+            picture = picture_called(RUNS / page.stem, short.replace("_", "-"))
+            cards.append(Card(picture, short, text.replace("`", ""), name))
+        yield title, cards
+
+
+def cards_of_scripts(page):
+    """List the one group of cards of a page of scripts, under no title."""
+    cards = []
+    for script in re.findall(r"^```\{script\} (\S+)$", page.read_text(encoding="utf-8"), re.MULTILINE):
+        stem = Path(script).stem
+        source = (ROOT / script).read_text(encoding="utf-8")
+        first = inspect.cleandoc(ast.get_docstring(ast.parse(source))).partition("\n\n")[0]
+        title = " ".join(first.split()).rstrip(".")
+        called = stem if "__main__" not in source else stem.replace("_", "-")
+        cards.append(Card(picture_called(RUNS / page.stem, called), title, "", nodes.make_id(stem)))
+    return [("", cards)]
+
+
+def picture_called(folder, stem):
+    """Return the picture of that name, which a block of the page must have written."""
+    for suffix in SUFFIXES:
+        if (folder / f"{stem}{suffix}").exists():
+            return folder / f"{stem}{suffix}"
+    inside = sorted((folder / stem).rglob("*.png"), key=lambda path: (path.stat().st_size, path))
+    if inside:
+        return inside[-1]
+    raise ExtensionError(f"no block of the page {folder.name} writes the picture {stem}.png")
+
+
+def made_small(path):
+    """Write a small copy of a picture, of an animation its frame in the middle, and return its path."""
+    small = MADE / ("-".join(path.relative_to(RUNS).with_suffix("").parts) + ".png")
+    small.parent.mkdir(parents=True, exist_ok=True)
+    with Image.open(path) as image:
+        image.seek(getattr(image, "n_frames", 1) // 2)
+        copy = image.convert("RGB")
+    copy.thumbnail(SIZE, Image.Resampling.LANCZOS)
+    copy.save(small)
+    return small
+
+
+class Thumbnails(Directive):
+    """Grid with a card for each picture of a page."""
+
+    required_arguments = 1
+
+    def run(self):
+        environment = self.state.document.settings.env
+        (docname,) = self.arguments
+        page = Path(environment.doc2path(docname))
+        environment.note_dependency(str(page))
+        groups = list(cards_of_entries(page)) or cards_of_scripts(page)
+        made = []
+        for title, cards in groups:
+            made += [nodes.rubric("", title)] if title else []
+            made.append(
+                nodes.bullet_list("", *(self.item(docname, card) for card in cards), classes=["thumbnails"])
+            )
+        return made
+
+    def item(self, docname, card):
+        """Make one card: picture and title are the link."""
+        small = made_small(card.picture).relative_to(ROOT).as_posix()
+        link = nodes.reference("", "", internal=True, refuri=f"{docname}.html#{card.anchor}")
+        link += nodes.image(uri=f"/../{small}", alt="")
+        link += nodes.inline("", card.title, classes=["name"] if card.text else [])
+        return nodes.list_item("", nodes.paragraph("", "", link, nodes.inline("", card.text)))
+
+
+def read_last(app, environment, docnames):
+    """Read pages of thumbnails after all others, and again whenever a page is read: its pictures may be new."""
+    showing = [
+        name
+        for name in sorted(environment.found_docs)
+        if "```{thumbnails}" in Path(environment.doc2path(name)).read_text(encoding="utf-8")
+    ]
+    if docnames:
+        docnames[:] = [*(name for name in docnames if name not in showing), *showing]
+
+
+def setup(app):
+    app.add_directive("thumbnails", Thumbnails)
+    app.connect("env-before-read-docs", read_last)
