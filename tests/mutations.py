@@ -45,7 +45,9 @@ class Mutation:
     def apply(self, source):
         """Return the changed source."""
         if source.count(self.old) != 1:
-            raise ValueError(f"{self.file} must contain {self.old!r} once; got {source.count(self.old)} times")
+            raise ValueError(
+                f"{self.file} must contain {self.old!r} once; got {source.count(self.old)} times"
+            )
         return source.replace(self.old, self.new)
 
 
@@ -81,39 +83,39 @@ class Copies:
         try:
             file.write_text(mutation.apply(source.decode()), encoding="utf-8")
             if not mutation.file.startswith(KERNELS):
-                return self.run(copy, self.folder / "cache", [mutation.test])
+                return self.detect(mutation, copy, self.folder / "cache")
             with tempfile.TemporaryDirectory(dir=self.folder) as cache:
-                return self.run(copy, cache, [mutation.test])
+                return self.detect(mutation, copy, cache)
         finally:
             # The compiler's cache compares the time of a file, so the file gets its old time back.
             file.write_bytes(source)
             os.utime(file, ns=(status.st_atime_ns, status.st_mtime_ns))
             self.free.put(copy)
 
+    def detect(self, mutation, copy, cache):
+        """Run the test of a mutation that is applied in a copy. Returns as `check`."""
+        code, output = self.pytest(copy, cache, [mutation.test], self.seconds)
+        if code is None:
+            return False, f"no result within {self.seconds:g} s"
+        return code == TESTS_FAILED, describe(code, output) or "the test passes"
+
     def check_unchanged(self, tests):
-        """Run tests in an unchanged copy. Returns as `check`."""
+        """Run tests in an unchanged copy. Returns None if they pass, else the reason in one line."""
         copy = self.free.get()
         try:
-            return self.run(copy, self.folder / "cache", tests, seconds=None)
+            return describe(*self.pytest(copy, self.folder / "cache", tests, seconds=None))
         finally:
             self.free.put(copy)
 
-    def run(self, copy, cache, tests, seconds=0):
-        code, output = self.pytest(copy, cache, tests, self.seconds if seconds == 0 else seconds)
-        lines = output.strip().splitlines()
-        if code is None:
-            return False, f"no result within {self.seconds} s"
-        if code == 0:
-            return False, "the test passes"
-        if code != TESTS_FAILED:
-            return False, f"no test ran: {lines[-1] if lines else f'exit code {code}'}"
-        return True, next((line[1:].strip() for line in lines if line.startswith("E ")), "failed")
-
     def pytest(self, copy, cache, tests, seconds):
         """Run tests in a copy. Returns the exit code, None after the time limit, and the output."""
-        options = ["-q", "-x", "--tb=short", "-p", "no:cacheprovider", "-m", "long or not long", "--timeout=0"]
-        command = [sys.executable, "-B", "-m", "pytest", *options, *tests]
-        environment = os.environ | {"PYTHONPATH": str(copy / "src"), "NUMBA_CACHE_DIR": str(cache)}
+        options = "-q -x --tb=short --timeout=0 -p no:cacheprovider".split()
+        command = [sys.executable, "-m", "pytest", *options, "-m", "long or not long", *tests]
+        environment = os.environ | {
+            "PYTHONPATH": str(copy / "src"),
+            "NUMBA_CACHE_DIR": str(cache),
+            "PYTHONDONTWRITEBYTECODE": "1",
+        }
         with subprocess.Popen(
             command,
             cwd=copy,
@@ -143,6 +145,16 @@ class Copies:
             kill(process)
 
 
+def describe(code, output):
+    """Describe the end of pytest in one line; None if all tests passed."""
+    lines = output.strip().splitlines()
+    if code == 0:
+        return None
+    if code != TESTS_FAILED:
+        return f"no test ran: {lines[-1] if lines else f'exit code {code}'}"
+    return next((line[1:].strip() for line in lines if line.startswith("E ")), "failed")
+
+
 def kill(process):
     """End a process and all processes that it started."""
     with suppress(ProcessLookupError):
@@ -157,21 +169,20 @@ def select(mutations, words, kernels):
 
 
 def rerun(mutations, copies, workers):
-    """Rerun mutations and print one line for each. Returns those whose tests did not fail."""
+    """Rerun mutations and print two lines for each. Returns those whose tests did not fail."""
     missed = []
+
+    def check(mutation):
+        begun = time.monotonic()
+        return *copies.check(mutation), time.monotonic() - begun
+
     with ThreadPoolExecutor(workers) as pool:
         try:
-            began = {}
-
-            def check(mutation):
-                began[mutation] = time.monotonic()
-                return copies.check(mutation)
-
             tasks = {pool.submit(check, mutation): mutation for mutation in mutations}
             for task in as_completed(tasks):
-                mutation, (failed, reason) = tasks[task], task.result()
-                seconds = time.monotonic() - began[mutation]
-                print(f"{'caught' if failed else 'MISSED'} {seconds:4.0f} s  {mutation}\n       {mutation.test}: {reason}", flush=True)
+                mutation, (failed, reason, seconds) = tasks[task], task.result()
+                print(f"{'caught' if failed else 'MISSED'} {seconds:4.0f} s  {mutation}")
+                print(f"{'':15}{mutation.test}: {reason}", flush=True)
                 if not failed:
                     missed.append(mutation)
         except BaseException:
@@ -183,15 +194,21 @@ def rerun(mutations, copies, workers):
 
 def main():
     parser = argparse.ArgumentParser(description="Break the code on purpose and expect a test to fail.")
-    parser.add_argument("words", nargs="*", metavar="FILE", help="part of a path, such as plot/ or march.py; default: all")
+    parser.add_argument(
+        "words", nargs="*", metavar="FILE", help="part of a path, such as plot/; default: all"
+    )
     parser.add_argument("--workers", type=int, default=1, help="number of mutations at a time; default: 1")
-    group = parser.add_mutually_exclusive_group()
-    group.add_argument("--kernels", action="store_true", default=None, help="only mutations that compile kernels again")
-    group.add_argument("--no-kernels", dest="kernels", action="store_false", help="only mutations that do not")
-    parser.add_argument("--seconds", type=float, default=1800, help="time limit for each mutation; default: 1800")
-    parser.add_argument("--trust", action="store_true", help="do not first run the selected tests on the unchanged code")
-    parser.add_argument("--folder", type=Path, help="folder to work in, which is kept; default: a temporary one")
-    parser.add_argument("--list", type=Path, default=LIST, help="list of mutations; default: tests/mutations.toml")
+    kinds = parser.add_mutually_exclusive_group()
+    kinds.add_argument("--kernels", action="store_true", default=None, help="only mutations of kernels")
+    kinds.add_argument("--no-kernels", dest="kernels", action="store_false", help="no mutations of kernels")
+    parser.add_argument("--seconds", type=float, default=1800, help="time limit per mutation; default: 1800")
+    parser.add_argument(
+        "--trust", action="store_true", help="do not run the tests on the unchanged code first"
+    )
+    parser.add_argument("--folder", type=Path, help="working folder, which is kept; default: a temporary one")
+    parser.add_argument(
+        "--list", type=Path, default=LIST, help="list of mutations; default: tests/mutations.toml"
+    )
     given = parser.parse_args()
     mutations = select(read_mutations(given.list), given.words, given.kernels)
     if not mutations:
@@ -199,8 +216,8 @@ def main():
     with tempfile.TemporaryDirectory(prefix="rocking-mutations-") as temporary:
         copies = Copies(given.folder or temporary, given.workers, given.seconds)
         if not given.trust:
-            failed, reason = copies.check_unchanged(sorted({mutation.test for mutation in mutations}))
-            if reason != "the test passes":
+            reason = copies.check_unchanged(sorted({mutation.test for mutation in mutations}))
+            if reason is not None:
                 raise SystemExit(f"the selected tests must pass on the unchanged code: {reason}")
         missed = rerun(mutations, copies, given.workers)
     print(f"{len(mutations)} mutations, {len(mutations) - len(missed)} caught, {len(missed)} missed")

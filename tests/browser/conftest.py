@@ -60,7 +60,7 @@ def browser():
 
 
 class Visitor:
-    """A page with what it complained of and which hosts it asked."""
+    """Page with the errors that it logged and the hosts that it contacted."""
 
     def __init__(self, context, address):
         self.address, self.complaints, self.hosts = address, [], set()
@@ -103,7 +103,7 @@ class Visitor:
         )
 
     def place(self, name, across, up):
-        """Where on the page a place in a figure is, told by shares of its frame."""
+        """Return the page coordinates of a point in a figure, given as fractions of its frame."""
         left, top, width, height = self.page.evaluate(
             """name => { const view = Bokeh.index.find_one(Bokeh.documents[0].get_model_by_name(name));
                  const box = view.el.getBoundingClientRect(), inner = view.frame.bbox;

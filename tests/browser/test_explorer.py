@@ -1,4 +1,4 @@
-"""What a visitor sees in a real browser."""
+"""The explorer in a real browser."""
 
 import json
 import re

@@ -22,7 +22,7 @@ ALLOWED = 30e6
 
 
 def run(coroutine):
-    """In a thread of its own: where a browser was, this one has a loop already."""
+    """Run a coroutine in a new thread, because a browser leaves an event loop in this one."""
     with ThreadPoolExecutor(1) as pool:
         return pool.submit(asyncio.run, coroutine).result()
 
@@ -61,7 +61,7 @@ async def ask(connection, link, text):
 
 
 async def begun(address, number):
-    """A visit that has asked for a map of its own: its connection."""
+    """Open a session that computes its own map; return its connection."""
     connection, link = await opened(address)
     view = f"version=1&amplitude={2 + number % 9}&period=1&restitution=1"
     await ask(connection, link, json.dumps({"what": "open", "fields": {"address": view}}))
@@ -69,7 +69,7 @@ async def begun(address, number):
 
 
 async def drop_many(address, count):
-    """Begin so many visits and drop each at once."""
+    """Open ``count`` sessions and drop each immediately."""
     for number in range(count):
         (await begun(address, number)).close()
     await asyncio.sleep(FORGOTTEN)
@@ -89,7 +89,7 @@ async def watch_together(address, server):
 
 
 async def comes_to_rest(server):
-    """Whether the server ends its work, within ten minutes: a slow machine with other tests beside it takes more than two."""
+    """Return whether the server ends its work within ten minutes. A slow, busy machine needs more than two."""
     for _ in range(600):
         before = server.cpu_times().user
         await asyncio.sleep(1.0)

@@ -1,4 +1,4 @@
-"""What lies beyond the paper: titles and captions say what the points beside them show."""
+"""Figures beyond the paper: titles and captions agree with the points shown."""
 
 import inspect
 import itertools

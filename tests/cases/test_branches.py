@@ -314,7 +314,7 @@ def test_a_closed_branch_has_each_special_point_once_wherever_it_starts():
 
 
 def isolated_orbit():
-    """Of period 5 with 12 impacts at A = 15, T = 2, e = .925, braces at 1."""
+    """Orbit of period 5 with 12 impacts at A = 15, T = 2, e = .925, braces at 1."""
     forcing = rk.Harmonic(amplitude=15.0, period=2.0, phase=1.9605848019)
     braced = rk.System(forcing, 0.925, rk.Braces(angle=1.0, restitution=1.0))
     return rk.find_orbit(braced, rk.State(-0.5728344694, 4.3332188138), 5)
@@ -336,14 +336,14 @@ def test_curves_of_period_doubling_are_where_branches_at_other_periods_double(th
 
 
 def doubling_of(symmetric):
-    """Where the period of the unsymmetric orbit doubles that is born from a symmetric one."""
+    """Find the period doubling of the asymmetric orbit that branches off from a symmetric one."""
     branch = rk.continue_orbit(symmetric, "amplitude", (3.0, 20.0))
     breaking = special(branch, "symmetry-breaking")[0]
     return special(rk.switch_branch(breaking, (3.0, 20.0))[0], "period-doubling")[0]
 
 
 def begun_before(orbit, kind):
-    """The same orbit, begun between an event of that kind and the one before it."""
+    """Return the orbit with its initial state between an event of that kind and the event before."""
     forcing, braces = orbit.system.forcing, orbit.system.braces
     clocked = rk.Harmonic(forcing.amplitude, period=forcing.period, phase=orbit.phase)
     motion = rk.simulate(rk.System(clocked, orbit.system.restitution, braces), orbit.state, cycles=2)

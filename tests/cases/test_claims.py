@@ -34,7 +34,7 @@ SLIPS = {
     "no_zeros": "A*",
     "sufficient": "necessary",
 }
-"""Where the paper slips, by what must be said in its place: THEORY's list, each shown by a computation of its own."""
+"""Claims of the paper that are errors, with the words required in the correction; each error is shown by a computation."""
 
 
 def one(compute):
@@ -98,7 +98,7 @@ MACHINE = {
     "decimals of what is none or all": r"(?<![\d.])0\.0 %|100\.0",
     "a power of e": r"e\^",
 }
-"""What a computer prints and a journal does not, by its name."""
+"""Machine output that a journal does not print, by name."""
 
 
 @pytest.mark.parametrize(

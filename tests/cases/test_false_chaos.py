@@ -71,7 +71,7 @@ def verdicts(cases):
 
 
 def is_chaotic(system, start):
-    """Whether a million cycles show chaos: no recurrence at their end, and differences that grow by 10 standard errors."""
+    """Return whether a million cycles show chaos: no recurrence at the end, and an exponent of 10 standard errors."""
     amplitude, _, period, phase, restitution, brace, brace_restitution = (float(each) for each in system)
     braces = None if math.isinf(brace) else rk.Braces(brace, brace_restitution)
     found = rk.System(rk.Harmonic(amplitude, period=period, phase=phase), restitution, braces)

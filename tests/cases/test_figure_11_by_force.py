@@ -33,7 +33,7 @@ def compared(axes, places, cycles):
 
 
 def why(amplitude, period, ours, cycles):
-    """What brute force itself shows of a point at which it says otherwise; None if it shows nothing."""
+    """Explain a point at which brute force has another result; None if brute force shows no reason."""
     if brute.label(amplitude, period, RESTITUTION, LONGER * cycles) == ours:
         return "the transient is longer than the budget"
     beside = {brute.label(amplitude, period, RESTITUTION, cycles)}

@@ -19,7 +19,7 @@ def orbits():
 
 
 def impacts_of(orbit):
-    """(phase of the forcing mod 2π, speed just after) of every impact in a period."""
+    """Return the forcing phase mod 2π and the speed just after every impact in a period."""
     forcing = rk.Harmonic(
         amplitude=orbit.system.forcing.amplitude, period=orbit.system.forcing.period, phase=orbit.phase
     )
@@ -39,7 +39,7 @@ def section_of(orbit, phase=1.0):
 
 
 def distances(orbits, orbit):
-    """How far, at nearest, each of the orbits of its period lies from an orbit."""
+    """Return the least distance of each orbit of the same period from an orbit."""
     here = section_of(orbit)
     return [
         np.hypot(*(section_of(other)[:, None] - here[0]).T).min()
@@ -72,7 +72,7 @@ def test_every_admissible_symmetric_mode_is_in_the_list(orbits, n):
 
 
 def is_admissible(mode, n):
-    """Whether the block stays on its side for half a period: by dense samples of eq. (5)."""
+    """Return whether the block stays on its side for half a period, by dense samples of eq. (5)."""
     frequency = 2 * math.pi / 0.5
     beta = 5.5 / (1 + frequency**2)
     t = np.linspace(0, n * 0.25, 100_001)[1:-1]

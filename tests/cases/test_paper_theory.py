@@ -1,4 +1,4 @@
-"""Where the closed forms and statements of Yim & Lin (1991) do not hold, each shown by a computation."""
+"""Closed forms and statements of Yim & Lin (1991) that do not hold, each shown by a computation."""
 
 import math
 import runpy
@@ -137,7 +137,7 @@ def test_example_finds_the_periods_at_which_both_thresholds_are_the_same(capsys)
 
 
 def test_start_of_figure_2c_is_a_velocity():
-    """(Θ', φ) = (.15, 1.8) leads to period 10 with four impacts, two rocking cycles; as an angle to a symmetric period 7."""
+    """As a velocity, .15 leads at φ = 1.8 to period 10 with four impacts, two rocking cycles; as an angle to a symmetric period 7."""
     system = rk.System(rk.Harmonic(5.5, period=0.5, phase=1.8), 0.925)
     velocity, angle = (
         rk.classify(system, start) for start in (rk.State(velocity=0.15), rk.State(angle=0.15))
@@ -179,7 +179,7 @@ def test_damping_must_oppose_the_velocity():
 
 
 def test_the_two_sections_of_the_orbit_meet_only_with_the_sign_of_the_logarithm_turned_in_the_second():
-    """(16b) with the p of (16a), αt − ln θcr, starts at 1/θcr − θcr; with αt + ln θcr at 0, where (16a) is."""
+    """With the p of (16a), αt − ln θcr, (16b) starts at 1/θcr − θcr; with αt + ln θcr at 0, as (16a) does."""
     block = rk.Block(2.0, 0.5)
     critical, alpha = block.critical_angle, block.frequency_parameter
     printed, right = (math.exp(-sign * math.log(critical)) - critical for sign in (1, -1))

@@ -106,7 +106,7 @@ def chosen():
 
 
 def drawn(kind, count, seed, braced, most_growth, restitution):
-    """Random motions from random starts that do not overturn and grow no more than asked."""
+    """Random motions that do not overturn and whose tangent vectors grow by at most ``most_growth``."""
     rng = np.random.default_rng(seed)
     while count:
         T, e = round(float(np.exp(rng.uniform(np.log(0.1), np.log(4)))), 4), float(rng.choice(restitution))

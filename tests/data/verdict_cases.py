@@ -6,7 +6,7 @@ from data.verdict_families import case
 
 
 def symmetric_mode(A, T, e, n):
-    """(V, φ) just after an impact of the stable mode (1, n), eqs. (8)–(10)."""
+    """Return (V, φ) just after an impact of the stable mode (1, n), eqs. (8)–(10)."""
     omega = 2 * math.pi / T
     beta, t = A / (1 + omega**2), math.tanh(n * math.pi / omega / 2)
     less, more = (1 - e) / (2 * e), (1 + e) / (2 * e)

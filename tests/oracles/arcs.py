@@ -158,7 +158,7 @@ def grazing_base(rng):
 
 
 def grazing_brace(rng):
-    """The same at a brace."""
+    """Dips that touch a brace to ±32 roundings of their terms."""
     return _grazing(rng, "brace")
 
 

@@ -20,7 +20,7 @@ def chebyshev(most):
 
 
 def economised(coefficients, widest, terms):
-    """Of a polynomial by increasing powers so many coefficients, (``terms``,), of one nearly equal to it on [0, ``widest``]."""
+    """Return ``terms`` coefficients, by increasing powers, of a polynomial nearly equal to a longer one on [0, ``widest``]."""
     width, polynomials = Fraction(widest), chebyshev(len(coefficients) - 1)
     left = [Fraction(c) * width**k for k, c in enumerate(coefficients)]
     while len(left) > terms:

@@ -201,7 +201,7 @@ def _growth(tangents):
 
 
 def first_crossing(arc, digits=100):
-    """(kind, time) of the first event of an `oracles.distance.Arc`; kind "base", "brace" or "none"."""
+    """Return (kind, time) of the first event of an `oracles.distance.Arc`; kind "base", "brace" or "none"."""
     before = ctx.dps
     ctx.dps = digits
     try:

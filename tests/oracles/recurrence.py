@@ -1,8 +1,8 @@
-"""What a response is, the slow way: run it long, then look whether it comes back.
+"""Slow classification of a response: a long run, then a test for recurrence.
 
 Periodic by brute recurrence after 10⁵ cycles and more, and once around again in 80 digits; overturned and at rest in 80
-digits; quasi-periodic where averages of two halves agree; chaotic by an exponent far from zero. What its own route cannot
-establish raises `Unsettled`.
+digits; quasi-periodic if averages of two halves agree; chaotic by an exponent far from zero. A verdict that this method
+cannot establish raises `Unsettled`.
 """
 
 import math
@@ -30,7 +30,7 @@ from rocking.kernels.march import march as kernel
 PATIENCE = 5_000
 BESIDE = (1e-8, 3e-9, 1e-9, 1e-10)  # a verdict must hold for a hundredth of the largest
 RETURN = 1e-11
-LOOSE = 1e-9  # nothing chaotic returns so near; what rests or leans in between may return no nearer, but anew each time
+LOOSE = 1e-9  # closer than any chaotic return; a motion with rest or contact in between may return no closer, but repeatedly
 GLANCE = 200_000
 LATEST_PROOF = 3000  # cycles that are followed in many digits
 NONE = {
@@ -136,7 +136,7 @@ def _bounded(case, system, final, confirm, chaos_cycles):
 
 
 def _forgets(system, final, period):
-    """Whether every period holds a rest or a lean, after which nothing is left of what was before."""
+    """Return whether every period contains rest or sustained contact, which erases all perturbations."""
     kinds = rk.simulate(system, final, cycles=3 * period, record="all").events["kind"]
     return np.sum((kinds == "rest") | (kinds == "lean")) >= 2
 

@@ -25,7 +25,7 @@ def rocking(monkeypatch, tmp_path, capsys):
 
 @pytest.fixture
 def interrupted(tmp_path):
-    """Types a command line in an empty folder, and Ctrl-C so many seconds later: (exit code, stdout, stderr)."""
+    """Type a command line in an empty folder, and Ctrl-C ``seconds`` later; return exit code, stdout and stderr."""
 
     def type_line(line, seconds):
         with subprocess.Popen(

@@ -97,7 +97,7 @@ def log(*_, **more):
 Harmonic = System = lambda *_, **more: None
 simulate = parametric_map = log
 """
-"""In the place of the package: it says who runs, and computes nothing."""
+"""Stand-in for the package that reports which side runs and computes nothing."""
 
 
 @pytest.fixture

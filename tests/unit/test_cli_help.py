@@ -1,4 +1,4 @@
-"""What `--help` says: whole sentences, and examples that work as they stand, but for their size."""
+"""Output of `--help`: whole sentences, and examples that work as printed, tried at a smaller size."""
 
 import re
 import shlex
@@ -17,7 +17,7 @@ def examples(told, command):
 
 
 def made_small(example):
-    """The same with fewer points, cycles or samples: 300 along an axis say no more of it than 9."""
+    """Return the example with fewer points, cycles or samples: 9 along an axis test as much as 300."""
     example = re.sub(r"(:\d+)\b(?= |$)", lambda count: f":{min(int(count[0][1:]), 9)}", example)
     return re.sub(r"--samples \d+", "--samples 50", example)
 

@@ -26,7 +26,7 @@ def name_of(path):
 
 
 def fences(path):
-    """(what it is, what it holds) of every fenced block of a page."""
+    """Return (language, content) of every fenced block of a page."""
     return [(kind.strip(), body) for kind, body in FENCE.findall(path.read_text(encoding="utf-8"))]
 
 
@@ -36,7 +36,7 @@ def prose(path):
 
 
 def anchors(path):
-    """What its headings are called in links."""
+    """Return the names of a page's headings in links."""
     headings = re.findall(r"^#+ (.*)$", FENCE.sub("", path.read_text(encoding="utf-8")), re.MULTILINE)
     return {re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") for heading in headings}
 
@@ -152,7 +152,7 @@ def test_every_block_of_code_is_run(page):
 
 
 def test_no_two_pages_write_to_one_store():
-    """Who tries one after the other in a folder of his own is not refused."""
+    """A reader who tries the pages in one folder, one after another, gets no error."""
     texts = {name_of(page): page.read_text(encoding="utf-8") for page in [*PAGES, ROOT / "README.md"]}
     texts |= {f"help of {one.callback.__name__}": one.epilog or "" for one in app.registered_commands}
     stores = [

@@ -1,4 +1,4 @@
-"""What the page shows is a value: to an address and back; nothing typed breaks it; its pictures are the map's."""
+"""State of the page: to an address and back; invalid input does no harm; its images are those of the map."""
 
 import asyncio
 import itertools
@@ -233,7 +233,7 @@ def test_narrowest_view_still_has_a_double_for_every_point():
 
 
 def alone(coroutine):
-    """In a thread of its own: where a browser was, this one has a loop already."""
+    """Run a coroutine in a new thread, because a browser leaves an event loop in this one."""
     with ThreadPoolExecutor(1) as pool:
         return pool.submit(asyncio.run, coroutine).result()
 
@@ -264,7 +264,7 @@ def test_refined_map_is_the_packages_map():
 
 
 def pieces(monkeypatch, seconds):
-    """How many points each piece of a refinement has, if a point takes so long."""
+    """Return the numbers of points in the pieces of a refinement, if each point takes ``seconds``."""
     plane = Plane(("period", Span(0.2, 3.0)), ("amplitude", Span(0.0, 16.0)), {"restitution": 0.925}, 33)
     sizes, judge = [], Refinement._timed
 
@@ -278,7 +278,7 @@ def pieces(monkeypatch, seconds):
 
 
 def test_pieces_have_one_point_where_points_are_dear_and_many_where_they_are_cheap(monkeypatch):
-    """So threads turn to something else, and what is known is shown, however long one point takes."""
+    """Threads can change to other work, and results appear early, however long one point takes."""
     dear = pieces(monkeypatch, 1.0)
     assert dear[0] == START
     assert set(dear[AHEAD * cores() :]) == {1}

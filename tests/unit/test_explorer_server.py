@@ -20,7 +20,7 @@ SECONDS = 60.0
 
 
 def run(coroutine):
-    """In a thread of its own: where a browser was, this one has a loop already."""
+    """Run a coroutine in a new thread, because a browser leaves an event loop in this one."""
     with ThreadPoolExecutor(1) as pool:
         return pool.submit(asyncio.run, asyncio.wait_for(coroutine, SECONDS)).result()
 
@@ -70,7 +70,7 @@ def test_no_other_name_gets_a_page_a_file_or_a_connection():
                 host = name.format(port=port)
                 for path in (*PATHS, "/autoload.js", "/ws", "/nothing"):
                     assert await answer(port, path, host) == 403, (host, path)
-                # as a browser asks that was told that this machine is the other host
+                # the request of a browser that takes this machine for the other host
                 assert await connected(port, host, f"http://{host}") == 403, host
 
     run(visit())

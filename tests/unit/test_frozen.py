@@ -44,7 +44,7 @@ def value(request):
 
 PROPERTIES = ("events", "peaks", "history")
 INNER = ("_rows", "_facts", "_chain")
-"""What compiled code reads, and nobody is told."""
+"""Private arrays that compiled code reads."""
 
 
 def arrays(value):

@@ -88,7 +88,7 @@ def drawn(count, seed):
 
 
 def test_first_impacts_are_those_of_one_block():
-    """Of random arcs, those included that dip towards the base without reaching it: never a later zero, never another.
+    """Random arcs, also those that approach the base without reaching it: never a later zero, never another.
 
     Time and speed agree to rounding, 16 ulp of what they are made of; a rounding of u moves them by its ratio to the speed.
     """
@@ -161,7 +161,7 @@ def test_arc_that_rises_above_the_peak_is_always_looked_at_and_few_others():
 
 
 def test_lanes_leave_little_to_the_functions_for_one_block():
-    """What comes down at all comes down in its lane, but for a few in a hundred."""
+    """All but a few per cent of the arcs that come down do so in their lanes."""
     systems, starts = drawn(2048, 4)
     _, certain = oracle.first_events(systems, starts)
     comes_down = [

@@ -8,8 +8,9 @@ import sys
 import time
 from functools import cache
 
-import mutations
 import pytest
+
+import mutations
 from mutations import ROOT, Mutation
 
 ENTRIES = mutations.read_mutations()
@@ -113,5 +114,9 @@ def test_an_interrupted_run_leaves_nothing(project, tmp_path):
     [([], None, 3), (["plot/"], None, 1), ([], True, 1), ([], False, 2), (["march", "plot/"], False, 1)],
 )
 def test_entries_are_selected_by_file(words, kernels, count):
-    files = ["src/rocking/plot/section.py", "src/rocking/kernels/march/march.py", "src/rocking/model/block.py"]
+    files = [
+        "src/rocking/plot/section.py",
+        "src/rocking/kernels/march/march.py",
+        "src/rocking/model/block.py",
+    ]
     assert len(mutations.select([Mutation(file, "", "", "") for file in files], words, kernels)) == count

@@ -1,4 +1,4 @@
-"""What cannot be found or followed is refused in one line, or ends with its reason."""
+"""Orbits that cannot be found or continued raise an error in one line, or end with the reason."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""Rotation numbers of motion without loss: many digits, locked and free told apart, and refusals where there is none."""
+"""Rotation numbers of undamped motion: many digits, locked and free distinguished, and errors if there is none."""
 
 import math
 import re
@@ -34,7 +34,7 @@ def test_weighted_average_of_noise_agrees_in_few_digits():
 
 
 def test_islands_of_figure_5_are_locked_and_turn_by_the_known_number():
-    """A = 4, T = .4, e = 1 from rest: 2 impacts in 3 cycles; .4744150886 about the centre, which nobody is told."""
+    """A = 4, T = .4, e = 1 from rest: 2 impacts in 3 cycles; .4744150886 about the centre, which is not reported."""
     turning = rk.rotation_number(ISLANDS)
     assert turning.locked == (2, 3)
     assert turning.period == 3

@@ -46,7 +46,7 @@ def made(tmp_path_factory):
 
 @pytest.fixture
 def copied(made, tmp_path):
-    """The same, to be changed."""
+    """Copy of the store, to be changed."""
     return shutil.copytree(made, tmp_path / "map.zarr")
 
 
@@ -446,7 +446,7 @@ def test_damage_is_found_named_and_mended_on_request(copied, what, name, compute
 @pytest.mark.parametrize("draw", [rk.plot.parametric_map, lambda store: rk.plot.tiles(store, "look")])
 def test_damaged_store_is_not_drawn(copied, name, draw, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    if name.startswith("level-1"):  # which is asked where the finer one has nothing
+    if name.startswith("level-1"):  # which serves where the finer one has nothing
         (copied / "level-2/kind/c/0/0").unlink()
     (copied / name).write_bytes(b"[]")
     message = f"found must be the folder of a store that can be read; got {str(copied)!r}, which is damaged: "
