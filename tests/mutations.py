@@ -109,7 +109,7 @@ class Copies:
 
     def pytest(self, copy, cache, tests, seconds):
         """Run tests in a copy. Returns the exit code, None after the time limit, and the output."""
-        options = "-q -x --tb=short --timeout=0 -p no:cacheprovider".split()
+        options = ["-q", "-x", "--tb=short", "--timeout=0", "-p", "no:cacheprovider"]
         command = [sys.executable, "-m", "pytest", *options, "-m", "long or not long", *tests]
         environment = os.environ | {
             "PYTHONPATH": str(copy / "src"),

@@ -1,4 +1,4 @@
-"""The command, typed in this process, or in one of its own that somebody ends with Ctrl-C."""
+"""The command line, run in this process, or in a separate one that Ctrl-C ends."""
 
 import signal
 import subprocess
@@ -12,7 +12,7 @@ from rocking.cli.main import run
 
 @pytest.fixture
 def rocking(monkeypatch, tmp_path, capsys):
-    """Types a command line in an empty folder: (exit code, what it says of it, stdout)."""
+    """Type a command line in an empty folder; return exit code, message and stdout."""
     monkeypatch.chdir(tmp_path)
 
     def type_line(line):

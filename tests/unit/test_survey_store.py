@@ -201,7 +201,7 @@ def test_full_disk_while_a_store_is_made_is_said_once(tmp_path, monkeypatch, cap
 
 
 def test_damaged_coordinate_is_written_again(copied, plain):
-    (copied / "level-1" / "period" / "c" / "0").write_bytes(b"no number")
+    (copied / "level-2" / "period" / "c" / "0").write_bytes(b"no number")
     assert rk.parametric_map(**ASKED, store=copied).load().equals(plain)
 
 
