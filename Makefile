@@ -17,7 +17,7 @@ chromium = [ -x /usr/bin/chromium ] || scripts/debian.sh chromium || echo 'witho
 # Libraries for the PDF version of the report; without them only the HTML page is written.
 print = scripts/debian.sh libpango-1.0-0 libpangoft2-1.0-0 libharfbuzz-subset0 || true
 
-.PHONY: help setup reproduce explore test test-long test-exhaustive bench bench-against lint format docs constraints
+.PHONY: help setup reproduce explore test test-long test-exhaustive mutations bench bench-against lint format docs constraints
 
 help:
 	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' Makefile | while IFS=$$'\t' read -r name what; do printf 'make %-15s %s\n' "$$name" "$$what"; done
@@ -47,6 +47,9 @@ test-exhaustive: setup ## tests of a sample, such as 300 points of a map, on all
 	@$(print)
 	@$(compile)
 	@$(bin)/python -m pytest -q -n $(workers) -m 'long or not long' --exhaustive --timeout 0 -rP tests
+
+mutations: setup ## break the code on purpose and expect tests to fail; files="plot/ melnikov" selects, workers=N at a time
+	@$(bin)/python tests/mutations.py --workers $(workers) $(options) $(files)
 
 bench: setup ## benchmarks, as ratios to peers measured in the same run
 	@$(chromium)

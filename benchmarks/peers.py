@@ -107,7 +107,7 @@ def variational_impact(case, count, views):
 
 
 def within_tolerance(tangent):
-    """Normalise the tangent: heyoka's error is relative to the largest component, and a large tangent would cost digits."""
+    """Shrink a tangent of size above 1: heyoka's error is relative to the largest component, so it would cost digits."""
     return tangent * 1e-3 if abs(tangent).max() > 1 else tangent
 
 

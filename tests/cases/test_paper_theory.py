@@ -132,7 +132,7 @@ def test_example_finds_the_periods_at_which_both_thresholds_are_the_same(capsys)
         exact = rk.theory.heteroclinic_amplitude(period, e)
         assert rk.theory.melnikov_amplitude(period, e) == pytest.approx(exact, rel=1e-14, abs=0)
     example["table"]()
-    assert "the same at T = 0.9643" in capsys.readouterr().out
+    assert "equal at T = 0.9643" in capsys.readouterr().out
     assert [len(ax.lines) for ax in example["draw"]().axes] == [2, 4]
 
 
