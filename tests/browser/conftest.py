@@ -1,4 +1,4 @@
-"""A real browser and the page's server, each in a process of its own; pictures of what was seen go into `results`."""
+"""A real browser and the page's server, each in a separate process; screenshots go into `results`."""
 
 import re
 import subprocess

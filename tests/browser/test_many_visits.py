@@ -1,4 +1,4 @@
-"""Visits that are opened and dropped leave nothing behind, and no message of a stranger ends the server."""
+"""Sessions that are opened and dropped leave nothing behind, and invalid messages do not end the server."""
 
 import asyncio
 import json
@@ -16,7 +16,7 @@ from rocking.survey import cores
 
 VISITS = 200
 FORGOTTEN = 8.0
-"""Seconds after which the server has dropped a visit that nobody looks at, and looked for such."""
+"""Seconds after which the server has searched for sessions without a connection and dropped them."""
 ALLOWED = 30e6
 """Bytes that the memory may have grown by, however many visits: one alone takes some 10⁷."""
 
@@ -110,7 +110,7 @@ def test_visits_opened_and_dropped_leave_nothing_behind(running):
     run(drop_many(running.address, VISITS))
     assert server.num_threads() <= threads
     assert run(comes_to_rest(server)), "the server goes on computing for nobody"
-    # at rest, for a map under way has memory of its own
+    # at rest, because a map under way uses additional memory
     assert server.memory_info().rss < memory + ALLOWED
 
 

@@ -1,4 +1,4 @@
-"""The paper's claims: all of them are there, each judged by a computation, and none is left unexplained."""
+"""The paper's claims: complete, each with a verdict from a computation, and none unexplained."""
 
 import csv
 import re

@@ -1,4 +1,4 @@
-"""Orbits found: against what random starts reach, closed forms, a harder search and extended precision."""
+"""Orbits found, compared with random initial states, closed forms, a larger search and extended precision."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""Lanes against one block: reference states, events, and the map of what loses nothing."""
+"""Lanes against one block: reference states, events, and undamped maps."""
 
 import json
 import math

@@ -1,4 +1,4 @@
-"""Periodic orbits as they are run: from their start, at any phase, in the user's own system; and their stability at e = 1."""
+"""Simulation of periodic orbits: from their initial state, at any phase, in the user's system; stability at e = 1."""
 
 import math
 

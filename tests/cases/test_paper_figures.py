@@ -1,4 +1,4 @@
-"""The motions of Yim & Lin (1991), figures 2–6 and 13a: what kind they are, how often they strike, where they overturn."""
+"""The motions of Yim & Lin (1991), figures 2–6 and 13a: response types, numbers of impacts, overturning."""
 
 import math
 

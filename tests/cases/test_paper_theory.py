@@ -15,7 +15,7 @@ EXAMPLE = Path(__file__).parents[2] / "examples" / "melnikov_and_exact.py"
 
 
 def undamped():
-    """Faster (1, n) modes without losses, from t < V < 1/t."""
+    """Faster undamped (1, n) modes, from t < V < 1/t."""
     for n in (1, 3, 5):
         for period in (0.2, 0.4, 1.0, 2.0, 3.0):
             ends = rk.theory.symmetry_breaking_amplitude(period, 1.0, n)

@@ -1,4 +1,4 @@
-"""The paper's figures: all there, not blank, the same bytes every time, and what they show is what they say."""
+"""The paper's figures: complete, not blank, reproducible bit by bit, and in agreement with their captions."""
 
 import csv
 import io

@@ -203,7 +203,7 @@ def test_the_grazing_of_the_period_8_branch_does_not_depend_on_the_step():
 
 
 def test_a_branch_ends_at_its_grazing_wherever_it_is_begun():
-    """Very near a grazing the multipliers are beyond 10⁸, and no step is short enough: that is the end, and nothing is lost."""
+    """Very near a grazing the multipliers are beyond 10⁸, and no step is short enough: the branch ends there, complete."""
     ends, found = Counter(), []
     for amplitude in (7.758823529411765, 8.818181818181818, *np.linspace(7.45, 10.4, 13)):
         system = rk.System(rk.Harmonic(amplitude, period=1.721328), 0.8)

@@ -1,4 +1,4 @@
-"""Base reactions, impulses and the slender range, against a rigid rectangle whose corners and centre are placed by geometry alone."""
+"""Base reactions, impulses and the slender range, against the geometry of a rigid rectangle."""
 
 import math
 from itertools import pairwise

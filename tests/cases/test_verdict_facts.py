@@ -39,7 +39,7 @@ def test_published_cases_are_what_their_figures_show(figure):
 
 
 def test_figure_6_is_chaotic_from_most_starts_and_never_anything_else():
-    """The sea is sticky: a run of 10⁵ cycles may see little else than an island's shore, and which one does is rounding."""
+    """A run of 10⁵ cycles may stay near an island most of the time. Rounding decides which run does."""
     kinds = [str(classify(2.0, 0.4, 1.0, phase=1e-8 * k).kind) for k in range(16)]
     assert set(kinds) <= {"chaotic", "undetermined"}
     assert kinds.count("chaotic") >= 8

@@ -1,4 +1,4 @@
-"""Verdicts that were wrong, or never came, once: each is kept by the numbers at which it was met."""
+"""Verdicts that were once wrong or missing, each with the parameters at which it was found."""
 
 import itertools
 import math

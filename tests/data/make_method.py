@@ -1,7 +1,7 @@
-"""Write `method.json`: what the method that surveys use answers to some questions, all of them far from any boundary.
+"""Write `method.json`: results of the surveys' method for some systems, all of them far from any boundary.
 
-`python tests/data/make_method.py`, after METHOD in `kernels/batch.py` was raised. A case whose counts change with the last
-digits of the amplitude, or whose numbers change by more than these do, is refused.
+Run `python tests/data/make_method.py` after METHOD in `kernels/batch.py` was raised. A case is rejected if its counts
+change with the last digits of the amplitude, or if its numbers change by more than these digits.
 """
 
 import json

@@ -1,7 +1,7 @@
 """Write `states_own.json`: final states of many motions by the brute-force oracle, each run twice.
 
-`python tests/data/make_states.py` (minutes). A state is kept as printed only if 40 more digits and thrice the samples give
-the same 30 digits and the same events.
+`python tests/data/make_states.py` (minutes). A state is kept as printed only if 40 more digits and three times the samples
+give the same 30 digits and the same events.
 """
 
 import json

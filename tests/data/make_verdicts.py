@@ -1,8 +1,8 @@
-"""Write `verdicts.json`: what many responses are, each established without the verdict's own means (`oracles.recurrence`).
+"""Write `verdicts.json`: the types of many responses, each from an independent method (`oracles.recurrence`).
 
-`python tests/data/make_verdicts.py` (many minutes). Families of systems are drawn at random; of each family no more than a
-few responses of a kind, period and symmetry are kept, so that the common ones do not crowd out the rare. What its route
-cannot establish is thrown away and counted.
+`python tests/data/make_verdicts.py` (many minutes). Families of systems are drawn at random; of each family at most a
+few responses of each type, period and symmetry are kept, so that common ones do not displace rare ones. Cases that the
+method cannot establish are rejected and counted.
 """
 
 import json

@@ -1,4 +1,4 @@
-"""Any valid system, however odd, runs to the end of its budget: no hang, no crash, no NaN, and the same outcome whatever is recorded."""
+"""Any valid system, however extreme, runs to the end of its budget: no hang, crash or NaN; recording changes no outcome."""
 
 import math
 import random

@@ -1,4 +1,4 @@
-"""Seeded arcs that try the first crossing where it is weakest.
+"""Seeded arcs for which the first crossing is hardest to find.
 
 A family is a function of a random generator that returns one Arc. `arcs(family, count, seed)` lists them.
 """

@@ -1,4 +1,4 @@
-"""A periodic response: its events, its symmetry, and once around in many digits."""
+"""Periodic response: events, symmetry, and one period in many digits."""
 
 import math
 

@@ -1,8 +1,8 @@
 """Responses from rest by brute force: textbook closed form in plain doubles, sample by sample, to the last cycle.
 
-Nothing is decided early: a label is read off the states of the last cycles alone. Compiled, and otherwise as plain as that;
-it shares nothing with the package but the equations of motion. Samples lie so close that what hides between two of them
-is smaller than rounding makes of it anyway.
+Nothing is decided early: the label follows from the states of the last cycles alone. The code is compiled, and shares
+nothing with the package except the equations of motion. Samples are so close that an event missed between two of them
+is smaller than rounding.
 """
 
 import math

@@ -1,8 +1,8 @@
 """First event of one arc, proved by branch and bound in ball arithmetic.
 
-The doubles that describe an arc are taken as exact. The time axis is cut adaptively; on each piece Taylor enclosures of
-the distance left, of its first and of its second derivative decide: no zero, one zero, one dip, or cut again. Nothing here
-uses how the sign of the forcing divides an arc.
+The numbers that describe an arc are taken as exact. The time axis is divided adaptively. On each interval Taylor
+enclosures of the distance, of its first and of its second derivative decide: no zero, one zero, one dip, or divide again.
+The method does not use the sign intervals of the forcing.
 """
 
 import math

@@ -1,4 +1,4 @@
-"""Long runs of the package's own engine, and what can be read off them: returns, averages, exponents."""
+"""Long runs of the package's engine, with their returns, averages and exponents."""
 
 import math
 

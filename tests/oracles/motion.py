@@ -1,7 +1,7 @@
 """The whole block by brute force: textbook closed form, dense scan, bracketed roots, many digits.
 
-Times add up from the start, events are looked for sample by sample, chatter is followed impact by impact down to 1e-24:
-slow and plain, so that it shares nothing with the package but the equations of motion.
+Times add up from the start, events are searched sample by sample, and chattering is followed impact by impact down to
+1e-24. The slow and plain method shares nothing with the package except the equations of motion.
 """
 
 from dataclasses import dataclass

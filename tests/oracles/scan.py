@@ -1,4 +1,4 @@
-"""The next event of an arc sample by sample: sign changes bracketed, dips between samples looked into."""
+"""Next event of an arc, sample by sample: sign changes are bracketed, dips between samples are examined."""
 
 from flint import arb, ctx
 

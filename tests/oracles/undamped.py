@@ -1,7 +1,7 @@
-"""An undamped block from rest, in forty digits: does a motion leave its torus, or do its doubles?
+"""An undamped block from rest in forty digits: test whether the motion leaves its torus, or only its rounded computation.
 
-A torus through the state of rest touches an impact: at the phase of the start the angle is zero and so is the velocity. The motion
-comes back there ever closer, and after some 10⁴ impacts doubles may round it through the base.
+A torus through the state of rest is tangent to an impact: at the initial phase both angle and velocity are zero. The
+motion returns ever closer to that state, and after some 10⁴ impacts rounding may move it through the base.
 """
 
 import math

@@ -1,4 +1,4 @@
-"""The map that a search for orbits iterates: against the plain march, and its events against the oracle of first crossings."""
+"""Return map of the search for orbits, against the plain march; its events, against the oracle of first crossings."""
 
 import math
 from functools import cache

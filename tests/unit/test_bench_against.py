@@ -1,4 +1,4 @@
-"""Two commits are compared pair by pair: what the intervals mean, what is called slower, and that nothing is left behind."""
+"""Comparison of two commits pair by pair: intervals, verdicts, and no files left behind."""
 
 import math
 import random

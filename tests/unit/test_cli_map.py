@@ -1,4 +1,4 @@
-"""`rocking map`: options and study files say the same, and what is wrong is said in one line."""
+"""`rocking map`: options and study files are equivalent, and errors are reported in one line."""
 
 import csv
 import json

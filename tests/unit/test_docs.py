@@ -1,4 +1,4 @@
-"""The pages: all of them are found, nothing on them leads nowhere, every public name has its entry, and every block is run."""
+"""The pages: complete, without dead links, with an entry for every public name, and all code blocks are run."""
 
 import re
 import subprocess

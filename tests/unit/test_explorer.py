@@ -566,7 +566,7 @@ CASES = pytest.mark.parametrize("case", presets.CASES, ids=lambda case: case.nam
 
 @CASES
 def test_case_of_the_gallery_is_what_it_says(case):
-    """The sea of figure 6 is sticky: from one phase in six, of those that nobody tells apart, a run clings to an island's shore."""
+    """One run in six in the chaotic sea of figure 6, with phases that differ by rounding, stays near an island for long."""
     verdict = rk.classify(case.shown.system, case.shown.start)
     kinds, period = KINDS[case.name]
     assert verdict.kind in kinds.split(" or ")

@@ -1,4 +1,4 @@
-"""The page's server answers this machine's own names alone; messages that make no sense are refused without a traceback."""
+"""The page's server answers only to names of this machine; invalid messages are rejected without a traceback."""
 
 import asyncio
 import json

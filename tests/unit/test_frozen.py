@@ -1,4 +1,4 @@
-"""Values are frozen: they have a hash, and their arrays refuse to be written to, also in a copy or from another process."""
+"""Results are frozen: they are hashable, and their arrays are read-only, also in a copy or from another process."""
 
 import copy
 import pickle

@@ -1,4 +1,4 @@
-"""The compiled part keeps its promises: fresh machine code after every edit, no allocation per event, the state renewed without a trace."""
+"""Compiled code: new machine code after every edit, no allocation per event, and resumed marches without a trace."""
 
 import importlib
 import json
@@ -336,7 +336,7 @@ def test_compiling_is_told_once(caplog):
     def compile_one():
         numba.njit(lambda x: x + 1)(1.0)
 
-    compile_one()  # whoever still listened has heard it
+    compile_one()  # any listener that is left has reported it
     kernels._tell_of_compiling()
     with caplog.at_level("INFO", "rocking"):
         compile_one()

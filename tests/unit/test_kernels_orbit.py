@@ -1,4 +1,4 @@
-"""Periodic orbits in the kernels: what returns point to, Newton's method, multipliers and the norm in which they shrink."""
+"""Periodic orbits in the kernels: limits of returns, Newton's method, multipliers and the adapted norm."""
 
 import math
 
@@ -295,7 +295,7 @@ def test_the_cycle_at_which_an_orbit_is_reached_is_foretold(period, turn):
             assert answer == periodicity.NOT_YET
             assert coming % period == 0
             assert row + coming <= reached + period
-            # further away the distance shrinks otherwise than the multipliers say
+            # further away the distance shrinks at a rate different from that of the multipliers
             if row >= reached - 5 * period:
                 assert row + coming >= reached - period
         else:

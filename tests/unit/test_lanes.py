@@ -1,4 +1,4 @@
-"""Lanes: many blocks in lockstep do what each does alone."""
+"""Lanes: many blocks in lockstep behave as each does alone."""
 
 import math
 
@@ -226,7 +226,7 @@ def test_first_events_between_braces_are_those_of_one_block():
     ],
 )
 def test_what_a_lane_does_hangs_on_no_other(amplitude, period, restitution, brace):
-    """Every bit of it, wherever the block sits and whoever sits beside it."""
+    """Results are bit-identical in every lane, whatever the other lanes contain."""
     p = harmonic_parameters(amplitude, math.tau / period, period, 0.3, restitution, brace, 0.8)
     random = np.random.default_rng(5)
     blocks = [

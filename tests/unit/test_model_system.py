@@ -1,4 +1,4 @@
-"""Normalised values: what they accept, what they refuse and how, and what they say of themselves."""
+"""Normalised values: valid and invalid arguments, messages and printed forms."""
 
 import copy
 import math

@@ -1,4 +1,4 @@
-"""Orbit diagrams against plain runs, one after another, and against what is known of one cascade."""
+"""Orbit diagrams against plain runs, and against a known period-doubling cascade."""
 
 import math
 

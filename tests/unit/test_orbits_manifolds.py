@@ -1,4 +1,4 @@
-"""Manifolds of the saddles: each point goes where it must, nothing is left out, and they touch where theory says."""
+"""Manifolds of the saddles: correct images of each point, no gaps, and tangency at the amplitude of the theory."""
 
 import math
 import sys

@@ -1,4 +1,4 @@
-"""The picture of an orbit diagram: every point, few or many, the branches given, and where the block overturned."""
+"""Figure of an orbit diagram: all points, few or many, the given branches, and overturning."""
 
 import io
 import math

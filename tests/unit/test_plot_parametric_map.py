@@ -1,4 +1,4 @@
-"""A map shows each point in the colour of its kind, period and symmetry, upright, with the shares of all its points."""
+"""Figure of a map: each point in the colour of its type, period and symmetry, upright, with fractions of all points."""
 
 import io
 import math

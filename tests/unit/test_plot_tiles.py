@@ -1,4 +1,4 @@
-"""Tiles: a dot is a point of the map in its colour, coarser images have every second one; the page needs nothing else."""
+"""Tiles: one pixel per point of the map, every second one in coarser images; the page needs no other file."""
 
 import json
 import re

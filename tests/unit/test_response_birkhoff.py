@@ -108,7 +108,7 @@ def test_bouncing_on_a_lossless_brace_turns_without_an_impact():
 
 
 def test_chaos_is_refused_with_what_was_found():
-    """From most of the phases that nobody tells apart: a run may cling to an island, which turns almost evenly."""
+    """Most phases that differ by rounding: a run may stay near an island for long, where it turns almost evenly."""
     message = re.compile(
         r"the halves of 20000 cycles agree to [0-5] digits where a rotation number needs 9 "
         r"\(as on chaotic motion, or over too few cycles\)"

@@ -1,4 +1,4 @@
-"""Rest is certified only where it comes: the bound on accumulating impacts against the motion followed impact by impact."""
+"""Rest is certified only if it occurs: the bound on chattering against the motion followed impact by impact."""
 
 import math
 

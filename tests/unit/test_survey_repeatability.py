@@ -1,4 +1,4 @@
-"""Chaos among random systems, and what comes of inputs that are off: each run is what `classify` says of it."""
+"""Chaos among random systems, and responses to perturbed inputs: each run has the result of `classify`."""
 
 import re
 from collections import Counter

@@ -1,4 +1,4 @@
-"""Stores: what is in them is the same as without, is never computed twice, and goes with nothing else."""
+"""Stores: results equal those in memory, are never computed twice, and belong to one survey only."""
 
 import errno
 import gc
@@ -38,7 +38,7 @@ def plain():
 
 @pytest.fixture(scope="module")
 def made(tmp_path_factory):
-    """The map in a store, which nobody may change."""
+    """The map in a store that tests must not change."""
     folder = tmp_path_factory.mktemp("made") / "map.zarr"
     rk.parametric_map(**ASKED, store=folder)
     return folder

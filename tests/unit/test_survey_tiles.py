@@ -1,4 +1,4 @@
-"""Tiles: what is said of a point depends on nobody beside it, and the work is that of the points."""
+"""Tiles: the result of a point depends on no other point, and the work is that of the points."""
 
 import math
 
