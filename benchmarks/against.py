@@ -42,7 +42,7 @@ class Side(NamedTuple):
 
 
 class Worker:
-    """A process of its own that runs cases of one side on request."""
+    """Separate process that runs cases of one side on request."""
 
     def __init__(self, side, core="any"):
         # Ctrl-C is for the parent process; this process ends with its input.
@@ -105,7 +105,7 @@ def compile_kernels(sides, names):
 
 
 def measure_pairs(sides, names, order):
-    """Measure (REF, new) seconds of each case once, in processes of their own on one core.
+    """Measure (REF, new) seconds of each case once, in separate processes on one core.
 
     The memory layout of a process changes its speed by some per cent, so new processes make the pairs independent.
     """

@@ -28,7 +28,7 @@ def run(coroutine):
 
 
 async def opened(address):
-    """A page that was loaded and has its connection: (connection, number of its `link`)."""
+    """Load a page and open its connection; return the connection and the number of its `link`."""
     page = await AsyncHTTPClient().fetch(address)
     token = re.search(rb'"token":"([^"]+)"', page.body)[1].decode()
     connection = await websocket_connect(
@@ -76,7 +76,7 @@ async def drop_many(address, count):
 
 
 async def watch_together(address, server):
-    """Begin more visits than there are threads for maps and watch them to their end: none of the threads is left out."""
+    """Open more sessions than threads for maps and wait for all of them: every thread is used."""
     connections = [await begun(address, number) for number in range(2 * cores())]
     watching = [asyncio.create_task(frames(each, sys.maxsize)) for each in connections]
     rested = await comes_to_rest(server)

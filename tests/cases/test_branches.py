@@ -89,7 +89,7 @@ def section(orbit, phase):
 
 
 def assert_stable_as_judged(orbit):
-    """A verdict from next to the orbit finds the orbit if it is stable, and something else if not."""
+    """Check that a verdict from a state next to the orbit finds the orbit exactly if it is stable."""
     forcing = orbit.system.forcing
     there = rk.System(
         rk.Harmonic(amplitude=forcing.amplitude, period=forcing.period, phase=orbit.phase),
@@ -221,7 +221,7 @@ def test_followed_in_the_brace_angle_it_grazes_where_the_brace_is_its_peak():
 
 
 def peak_of(orbit):
-    """The largest |Θ| of an orbit: by the march, from where it is."""
+    """Return the largest |Θ| of an orbit, by a march from its state."""
     forcing = rk.Harmonic(
         amplitude=orbit.system.forcing.amplitude, period=orbit.system.forcing.period, phase=orbit.phase
     )
@@ -387,7 +387,7 @@ def test_a_curve_of_grazing_with_the_base_is_where_the_slower_mode_comes_back_to
 
 
 def comes_back(period):
-    """The amplitude at which the slower (1,1) mode at e = .8 turns on the base."""
+    """Return the amplitude at which the slower (1, 1) mode at e = .8 touches the base."""
 
     def lowest(amplitude):
         _, mode = symmetric_modes(amplitude, period, 0.8, 1)
@@ -413,7 +413,7 @@ def comes_back(period):
 
 
 def no_speed(period):
-    """The amplitude t(1 + Ω²)/Ω at which the slower (1,1) mode has none left."""
+    """Return the amplitude t(1 + Ω²)/Ω at which the speed of the slower (1, 1) mode vanishes."""
     frequency = 2 * math.pi / period
     return math.tanh(math.pi / (2 * frequency)) * (1 + frequency**2) / frequency
 

@@ -116,7 +116,7 @@ def test_everything_found_returns_to_where_it_began():
 
 
 def precise_map(orbit, angle, velocity):
-    """The state a period later, in 40 digits, from the orbit's own sequence of impacts: eq. (5) and nothing else."""
+    """The state a period later, in 40 digits, from the orbit's sequence of impacts, by eq. (5) alone."""
     forcing, restitution = orbit.system.forcing, mpmath.mpf(orbit.system.restitution)
     period, amplitude = mpmath.mpf(forcing.period), mpmath.mpf(forcing.amplitude)
     frequency = 2 * mpmath.pi / period

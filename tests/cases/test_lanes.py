@@ -96,7 +96,7 @@ def test_the_same_events_between_braces_in_the_same_order(
 
 
 def asked(count, phase=0.0, brace=math.inf):
-    """Systems that lose nothing, or between braces, over the periods and amplitudes of the paper's maps, and their starts."""
+    """Return systems, undamped or between braces, over the periods and amplitudes of the paper's maps, at rest."""
     period, amplitude = (
         axis.ravel() for axis in np.meshgrid(np.linspace(0.2, 3.0, count), np.linspace(0.0, 16.0, count))
     )
@@ -109,7 +109,7 @@ def asked(count, phase=0.0, brace=math.inf):
 
 
 def one_by_one(systems, starts, cycles):
-    """The kind of each point, judged alone."""
+    """Return the kind of each point, classified alone."""
     answers, go_on = empty_results(len(systems)), np.zeros(1, np.int64)
     assert batch.classify_batch_scalar(
         systems, starts, cycles, 64, make_workspace(cycles, 64), answers, go_on

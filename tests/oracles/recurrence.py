@@ -95,7 +95,7 @@ def _overturned(case, system, confirm):
 
 
 def _rest(case, confirm):
-    """Nothing lifts A ≤ 1 off the base, nor A ≤ Θb − 1 off a brace."""
+    """Rest is permanent at the base for A ≤ 1, at a brace for A ≤ Θb − 1."""
     base, brace = case["A"] <= 1, case["brace"] is not None and case["brace"] - 1 >= case["A"]
     for cycles in (30, 300, 3000) if confirm else ():
         counts = simulate(case | {"N": cycles}, DIGITS).counts
@@ -142,7 +142,7 @@ def _forgets(system, final, period):
 
 
 def _patience(case, system, final, lag, cycles):
-    """Cycles to allow a response that is reached so late that a last digit can make it later still: a million at least."""
+    """Return the number of cycles allowed for a response that is reached late: at least a million, as rounding may delay it."""
     rows = run(system, start_of(case), cycles, keep=True)[3]
     orbit = run(system, final, lag, keep=True)[3]
     distance = np.min([np.abs(rows - state).max(axis=1) for state in orbit], axis=0)

@@ -36,7 +36,7 @@ def _agrees(arc, event, found):
 
 
 def _guesses(arc, events):
-    """No guess; a good one; one beyond: a guess may cost time, never the answer."""
+    """Yield no guess, a good one and one beyond the event: a guess may cost time, but never changes the result."""
     time = float(events[-1].time)
     return (None, time * 1.001, time * 2.5) if events[-1].kind == "base" else (None, 1.0)
 

@@ -42,7 +42,7 @@ def anchors(path):
 
 
 def listed(page):
-    """The pages that its tables of contents name."""
+    """Return the pages in the tables of contents of a page."""
     return [
         page.parent / f"{line}.md"
         for kind, body in fences(page)

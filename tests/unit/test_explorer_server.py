@@ -27,7 +27,7 @@ def run(coroutine):
 
 @asynccontextmanager
 async def served():
-    """A server of an empty page on loopback: its port."""
+    """Serve an empty page on the loopback interface; return the port."""
     server = local_server(Application(FunctionHandler(lambda document: None)), 0)
     server.start()
     try:
@@ -37,13 +37,13 @@ async def served():
 
 
 async def answer(port, path, host):
-    """The status of what a client gets that takes this machine for ``host``."""
+    """Return the HTTP status of a request that names this machine ``host``."""
     request = HTTPRequest(f"http://127.0.0.1:{port}{path}", headers={"Host": host})
     return (await AsyncHTTPClient().fetch(request, raise_error=False)).code
 
 
 async def connected(port, host, origin):
-    """A connection for a page that the server itself has handed out; the status where there is none."""
+    """Connect for a page from the server; return the connection, or the HTTP status if it is rejected."""
     page = await AsyncHTTPClient().fetch(f"http://localhost:{port}/")
     token = re.search(rb'"token":"([^"]+)"', page.body)[1].decode()
     request = HTTPRequest(f"ws://127.0.0.1:{port}/ws", headers={"Host": host, "Origin": origin})

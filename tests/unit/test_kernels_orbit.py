@@ -74,7 +74,7 @@ def compare(p, section, row, period, angle, velocity, a, b, c, d, impacts):
 
 
 def linear_returns(matrix, orbit_rows, off, count):
-    """Rows that come to the points of an orbit in turn, what is missing multiplied by a matrix each time around."""
+    """Return rows that approach the points of an orbit in turn; a matrix multiplies the distance in each period."""
     lag = len(orbit_rows)
     rows = np.zeros((count, 4))
     for k in range(count):

@@ -18,7 +18,7 @@ def points(ax):
 
 
 def ink(ax):
-    """Share of the picture that is blue."""
+    """Return the blue fraction of the figure."""
     stream = io.BytesIO()
     ax.figure.savefig(stream, dpi=150)
     red, _, blue = np.asarray(Image.open(stream).convert("RGB"), dtype=int).transpose(2, 0, 1)
