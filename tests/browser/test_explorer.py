@@ -12,10 +12,10 @@ from rocking.papers.yim_lin_1991.cases import PERIODIC
 from rocking.plot.parts.legend import LOOKS
 
 PICTURES = ("history", "portrait", "section", "spectrum", "basin")
-# amplitude, period, restitution: THEORY's cases
+# amplitude, period, restitution, and the known verdict
 KNOWN = {
-    "(1,1)": ((2.0, 1.0, 0.925), "periodic", "1 cycle, symmetric", "2 impacts"),
-    "(1,3)": ((6.5, 0.4, 0.925), "periodic", "3 cycles, symmetric", "2 impacts"),
+    "(1,1)": ((2.0, 1.0, 0.925), "periodic", "1 cycle, symmetric", "impacts per period\n2\n"),
+    "(1,3)": ((6.5, 0.4, 0.925), "periodic", "3 cycles, symmetric", "impacts per period\n2\n"),
     "overturning": ((1.75, 2.0, 0.95), "overturned", None, None),
 }
 
@@ -107,7 +107,7 @@ def test_map_stops_and_says_so_where_double_precision_ends(visit):
         visitor.page.keyboard.press("+")
         visitor.page.wait_for_timeout(400)
     visitor.finished()
-    assert visitor.text("depth") == "as deep as double precision goes"
+    assert visitor.text("depth") == "Zoom limit of double precision"
     low, high = map(float, re.search(r"periods=([^&:]*):([^&]*)", visitor.page.url).groups())
     assert 0 < high - low < 1e-12
     assert np.unique(np.linspace(low, high, 513)).size == 513
@@ -199,7 +199,7 @@ NAMED = (
 def test_basin_has_a_legend_of_its_attractors_mirror_images_apart(visit, width, height, scheme):
     visitor = visit(width, height, scheme)
     visitor.open("?version=1&amplitude=14&period=1.35&restitution=0.925")
-    visitor.page.wait_for_function(f"{NAMED} === 'overturned; 1, unsymmetric; another'")
+    visitor.page.wait_for_function(f"{NAMED} === 'overturned; {LOOKS[2].name}; another orbit'")
     shares = re.findall(r"([\d.]+) %", visitor.text("attractors"))
     assert sum(map(float, shares)) == pytest.approx(100, abs=0.2)
     colours = visitor.page.evaluate(
@@ -238,7 +238,7 @@ def test_two_visitors_do_not_disturb_each_other(visit):
 def test_block_in_metres_stands_on_the_map_with_axes_in_si(visit):
     visitor = visit()
     visitor.open()
-    visitor.page.click("text=Real units")
+    visitor.page.click("text=SI units")
     for name, text in (("height", "2"), ("width", "0.5"), ("acceleration", "0.4"), ("frequency_hz", "1.2")):
         visitor.page.fill(f"#m-{name}", text)
     visitor.page.select_option("#metres [name=unit]", "g")
@@ -253,7 +253,7 @@ def test_block_in_metres_stands_on_the_map_with_axes_in_si(visit):
         assert float(visitor.page.input_value(f"#{name}")) == pytest.approx(value, rel=1e-15)
     visitor.page.press("#restitution", "Tab")
     assert visitor.page.input_value("#restitution").startswith("≈")
-    assert "base\n3.923 m/s² (0.4 g), 0.8333 s (1.2 Hz)" in visitor.text("facts")
+    assert "forcing\n3.923 m/s² (0.4 g), 0.8333 s (1.2 Hz)" in visitor.text("facts")
     assert (
         visitor.page.evaluate("Bokeh.documents[0].get_model_by_name('map').above[0].axis_label")
         == "period (s)"
@@ -276,7 +276,7 @@ SCREENS = pytest.mark.parametrize("width, height", [(1280, 800), (390, 844)])
 def test_what_a_block_in_metres_lacks_is_asked_for_without_covering_anything(visit, width, height):
     visitor = visit(width, height)
     visitor.open()
-    visitor.page.click("text=Real units")
+    visitor.page.click("text=SI units")
     for name, text in (("height", "2"), ("width", "x"), ("acceleration", "3")):
         visitor.page.fill(f"#m-{name}", text)
     visitor.page.click("text=Show this block")
@@ -325,7 +325,7 @@ def test_what_is_taken_along_gives_the_same(visit, tmp_path):
     visitor = visit()
     visitor.open("?version=1&amplitude=6.5&period=0.4&restitution=0.925")
     visitor.finished()
-    visitor.page.click("text=Take it with you")
+    visitor.page.click("text=Export")
     visitor.see("take")
     evidence = visitor.text("evidence")
     saved = {}
@@ -360,7 +360,7 @@ def test_pointing_at_the_map_tells_kind_period_evidence_and_exponent(visit):
     visitor.page.mouse.move(*visitor.place("map", 0.05, 0.35))
     told = visitor.text("readout")
     assert re.search(
-        r"T = 0\.3\d*, A = 5\.\d*: period 3; repeats after 3 cycles, 2 impacts; .*\(verified\); λ₁ = −0\.\d",
+        r"T = 0\.3\d*, A = 5\.\d*: period 3; repeats after 3 cycles, 2 impacts; .*\(verified\); λ₁ = −0\.\d+ per τ",
         told,
     )
     visitor.is_content()
@@ -370,9 +370,9 @@ def test_section_grows_to_a_hundred_thousand_points(visit):
     visitor = visit()
     visitor.open("?version=1&amplitude=10.103037&period=1.721328&restitution=0.8")
     label = "Bokeh.documents[0].get_model_by_name('section').below[0].axis_label"
-    steps = [int(visitor.page.evaluate(label).partition("(")[2].partition(" ")[0].replace(",", ""))]
-    visitor.page.wait_for_function(f"{label}.includes('100,000 cycles')")
-    assert steps[0] < 100_000
+    first = int(visitor.page.evaluate(label).partition("–")[2].replace(",", ""))
+    visitor.page.wait_for_function(f"{label} === 'angle Θ, cycles 10,001–100,000'")
+    assert first < 100_000
     visitor.see("chaotic")
     visitor.is_content()
 

@@ -121,7 +121,7 @@ def test_full_disk_is_said_and_what_was_written_stays_good(tmp_path):
     done = ran(FULL, folder)
     assert done.stdout == (
         f"store {str(folder)!r} cannot be written: File too large; "
-        "what is there stays good: make room, then ask the same again\n"
+        "the existing data are intact: free some space and run again\n"
     )
     # a tile of the first level takes less than that limit, one of the second more
     written = xr.open_zarr(folder, group="level-0", chunks=None, consolidated=False).load()
@@ -147,7 +147,7 @@ def running(tmp_path):
 
 def test_second_run_on_a_store_is_refused_until_the_first_is_gone(running):
     folder, process = running
-    with pytest.raises(OSError, match="is being written by another run; wait for its end, or stop it$"):
+    with pytest.raises(OSError, match="is in use by another run; wait until that run ends, or stop it$"):
         rk.parametric_map(**ASKED, store=folder)
     assert process.poll() is None
     process.kill()
@@ -197,7 +197,7 @@ def test_interrupted_run_ends_soon_and_says_how_to_go_on(running):
     _, error = process.communicate(timeout=20)
     assert error.splitlines()[-2:] == [
         "KeyboardInterrupt",
-        f"The survey was interrupted; what is done is in {str(folder)!r}, and the same call goes on with it.",
+        f"The survey was interrupted; completed tiles are in {str(folder)!r}; run it again to resume.",
     ]
     assert process.returncode == -signal.SIGINT
     kept = xr.open_zarr(folder, group="level-0", chunks=None, consolidated=False)
@@ -227,7 +227,7 @@ def test_interrupted_command_says_how_to_go_on_and_goes_on(tmp_path):
     assert (process.returncode, error.splitlines()) == (
         130,
         [
-            "rocking: The survey was interrupted; what is done is in 'map.zarr', and the same call goes on with it.",
+            "rocking: The survey was interrupted; completed tiles are in 'map.zarr'; run it again to resume.",
             "rocking: interrupted",
         ],
     )

@@ -29,15 +29,15 @@ def test_verdict_comes_first_then_the_question_and_the_answer(rocking):
     assert text == [
         "forcing A = 5.5, T = 0.5, φ = 1.8",
         "restitution e = 0.925",
-        "start Θ = 0, Θ' = 0.15",
+        "initial state Θ = 0, Θ' = 0.15",
         "period 10 cycles, τ = 5",
         "impacts per period 4",
-        f"multipliers {verdict.multipliers[0].real:.6g} ± {verdict.multipliers[0].imag:.6g}i",
-        f"largest exponent {verdict.exponent:.6g} per τ",
+        f"Floquet multipliers {verdict.multipliers[0].real:.6g} ± {verdict.multipliers[0].imag:.6g}i",
+        f"largest Lyapunov exponent {verdict.exponent:.6g} per τ",
         f"largest |Θ| {verdict.peak:.6g}",
-        f"after the transient {verdict.steady_peak:.6g}",
+        f"largest |Θ| after the transient {verdict.steady_peak:.6g}",
         f"transient at most {verdict.transient} cycles",
-        f"followed {verdict.cycles} cycles, {verdict.impacts} events computed",
+        f"simulated {verdict.cycles} cycles, {verdict.impacts} events computed",
     ]
 
 
@@ -49,7 +49,7 @@ def test_summary_in_si_shows_degrees_the_top_and_seconds(rocking):
     assert f"largest |Θ| {verdict.peak:.6g} {degrees:.4g}°, top {top:.4g} m" in out
     assert f"{verdict.exponent:.6g} per τ {verdict.exponent * block.frequency_parameter:.4g} per s" in out
     assert "period 1 cycle, τ = 2.22601 0.8333 s" in out
-    assert "e = 0.911765 Housner's for this block" in out
+    assert "e = 0.911765 Housner's value for this block" in out
 
 
 def test_json_agrees_with_the_verdict(rocking):
@@ -79,7 +79,7 @@ def test_json_of_a_response_that_forgets_has_null_and_says_superstable(rocking):
     read = told(rocking, RESET)
     assert (read["exponent"], read["superstable"]) == (None, True)
     assert (read["impacts_per_period"], read["multipliers"]) == (None, [[0.0, 0.0], [0.0, 0.0]])
-    assert "largest exponent −∞" in " ".join(rocking(f"classify {RESET}")[2].split())
+    assert "largest Lyapunov exponent −∞ (superstable)" in " ".join(rocking(f"classify {RESET}")[2].split())
 
 
 def test_json_of_an_overturned_block_has_neither_orbit_nor_exponent(rocking):
@@ -124,7 +124,7 @@ REFUSED = {
     f"{NORMALISED} --max-cycles 1e9": "--max-cycles must be a whole number in [1, 100000000]; got 1000000000.0",
     f"{NORMALISED} --max-cycles inf": "--max-cycles must be a whole number in [1, 100000000]; got inf",
     f"{NORMALISED} --max-period 2.5": "--max-period must be a whole number in [1, 10000]; got 2.5",
-    f"{NORMALISED} --max-period many": "Invalid value for '--max-period': must be a number alone, such as 0.6; got 'many'",
+    f"{NORMALISED} --max-period many": "Invalid value for '--max-period': must be a number without a unit, such as 0.6; got 'many'",
     f"{NORMALISED} --angle nan": "--angle must lie in [-1000, 1000]; got nan",
     f"{NORMALISED} --brace-angle 0.5 --angle 0.6": "--angle must lie between the braces, in [-0.5, 0.5]; got 0.6",
     f"{NORMALISED} --plot a.gif": "--plot must end in .png, .svg, .pdf; got 'a.gif'",
@@ -151,7 +151,7 @@ def test_failure_of_our_own_is_one_line_and_exit_code_1(rocking, monkeypatch):
 
     monkeypatch.setattr("rocking.kernels.classify.decision_cascade.judge_plain", fail)
     code, message, out = rocking(f"classify {NORMALISED}")
-    assert (code, message.strip(), out) == (1, "failed, and should not have: MemoryError:", "")
+    assert (code, message.strip(), out) == (1, "internal error: MemoryError:", "")
 
 
 def test_interrupted_verdict_says_so_and_leaves_no_file(interrupted, tmp_path):
@@ -168,7 +168,7 @@ def test_real_block_is_judged_over_a_period_of_its_response(rocking):
     begun = block.system(acceleration_g=1.2, frequency_hz=1.5, phase=orbit.phase)
     found = rk.simulate(begun, orbit.state, cycles=orbit.period).validity(block)
     assert found.reaction < 0
-    assert "the model is judged over a period of the response" in out
+    assert "\nmodel validity over one response period (τ measured from its start):\n" in out
     assert str(found) in out
     assert told(rocking, line)["validity"]["warnings"] == list(found.warnings)
 
@@ -178,7 +178,7 @@ def test_real_block_whose_response_has_no_period_is_judged_from_its_start(rockin
     block = rk.Block(2.0, 0.5)
     motion = rk.simulate(block.system(acceleration=6.0, frequency_hz=1.2))
     out = rocking(f"classify {line}")[2]
-    assert f"the model is judged over the first {motion.cycles} cycle" in out
+    assert f"\nmodel validity over the first {motion.cycles} cycle" in out
     assert str(motion.validity(block)) in out
 
 
@@ -193,6 +193,6 @@ def test_start_in_degrees_is_hinted_at(rocking):
     for command in ("classify", "simulate"):
         out = rocking(f"{command} {line} 3")[2]
         assert "\nwarning: --angle 3 is 3 θcr = 55.3°, beyond the critical angle" in out
-        assert f"; 3° is --angle {degrees:.4g}\n" in out
+        assert f"; 3° is --angle {degrees:.4g})\n" in out
         assert "warning: --angle" not in rocking(f"{command} {line} 0.9")[2]
         assert "not in degrees" in " ".join(rocking(f"{command} --help")[2].split())

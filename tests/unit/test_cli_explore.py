@@ -21,8 +21,8 @@ def test_port_in_use_is_told_with_the_way_out(rocking):
         port = taken.getsockname()[1]
         code, message, _ = rocking(f"explore --no-browser --port={port}")
     assert code == 2
-    assert message.startswith(f"--port {port} cannot be listened at: ")
-    assert message.endswith("(give another, or 0, which takes any that is free)")
+    assert message.startswith(f"cannot listen on --port {port}: ")
+    assert message.endswith("(give another port, or --port 0 for a free one)")
 
 
 def test_control_c_ends_what_is_served_quietly_and_is_no_failure():

@@ -1,4 +1,4 @@
-"""Output of `--help`: whole sentences, and examples that work as printed, tried at a smaller size."""
+"""Help pages: whole sentences, groups of options, defaults, and examples that run as printed, apart from their size."""
 
 import re
 import shlex
@@ -10,14 +10,19 @@ from rocking.cli.app import app
 
 COMMANDS = list(typer.main.get_command(app).commands)
 WITHOUT_EXAMPLES = {"explore", "cite"}
+WITH_SYSTEM = set(COMMANDS) - {"explore", "paper", "cite"}
 
 
-def examples(told, command):
-    return re.findall(rf"^  (rocking {command} .+)$", told, re.MULTILINE)
+def examples(printed, command):
+    """Return the examples at the end of a help page, each on one line."""
+    lines = printed.partition("\n  Examples:\n")[2].replace("\\\n", " ")
+    return [
+        " ".join(line.split()) for line in re.findall(rf"^  (rocking {command} .+)$", lines, re.MULTILINE)
+    ]
 
 
 def made_small(example):
-    """Return the example with fewer points, cycles or samples: 9 along an axis test as much as 300."""
+    """Return an example with fewer points, cycles or samples, which run the same code in less time."""
     example = re.sub(r"(:\d+)\b(?= |$)", lambda count: f":{min(int(count[0][1:]), 9)}", example)
     return re.sub(r"--samples \d+", "--samples 50", example)
 
@@ -35,12 +40,55 @@ def test_short_name_of_the_option_is_known_to_all(rocking):
         assert rocking(f"{command} -h") == rocking(f"{command} --help")
 
 
+@pytest.mark.parametrize("columns", [80, 120])
+@pytest.mark.parametrize("command", ["", *COMMANDS])
+def test_help_fits_the_terminal_and_breaks_no_name(rocking, monkeypatch, command, columns):
+    monkeypatch.setenv("COLUMNS", str(columns))
+    printed = rocking(f"{command} --help")[2]
+    assert max(map(len, printed.splitlines())) <= columns
+    assert not re.search(r"\w-$|Default:$", printed, re.MULTILINE)
+    assert not set(printed) & {"\u2011", "\u00a0", "\b"}
+
+
 @pytest.mark.parametrize("command", COMMANDS)
-def test_each_example_stands_on_a_line_of_its_own_and_runs(rocking, tmp_path, command):
+def test_options_stand_in_their_groups_with_their_defaults(rocking, command):
+    printed = rocking(f"{command} --help")[2]
+    assert "[default:" not in printed
+    assert ("Normalised input:\n" in printed) == ("SI input:\n" in printed) == (command in WITH_SYSTEM)
+    assert ("AXIS" in printed.partition("Examples:")[0]) == ("START:STOP:COUNT" in printed)
+    if command in WITH_SYSTEM:
+        normalised, _, rest = printed.partition("Normalised input:\n")[2].partition("\nSI input:\n")
+        physical, _, others = rest.partition("\nOptions:\n")
+        assert re.findall(r"^  --([\w-]+)", normalised, re.MULTILINE) == [
+            name
+            for name in re.findall(r"^  --([\w-]+)", printed, re.MULTILINE)
+            if name in ("amplitude", "period", "frequency")
+        ]
+        assert {"height", "width", "frequency-hz"} <= set(
+            re.findall(r"^  --([\w-]+)", physical, re.MULTILINE)
+        )
+        assert others.startswith("  --restitution ")
+
+
+@pytest.mark.parametrize(
+    "command, default",
+    [
+        ("simulate", "simulate. Default: 200."),
+        ("simulate", "rad. Default: 0."),
+        ("classify", "forcing cycles. Default: 100,000."),
+        ("explore", "a free port. Default: 5006."),
+        ("paper", "written. Default: results/yim-lin-1991."),
+    ],
+)
+def test_default_is_a_sentence(rocking, command, default):
+    assert default in " ".join(rocking(f"{command} --help")[2].split())
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_each_example_can_be_copied_and_runs(rocking, tmp_path, command):
     code, _, told = rocking(f"{command} --help")
     found = examples(told, command)
     assert code == 0
-    assert not set(told) & {"\\", "\b"}
     assert bool(found) == (command not in WITHOUT_EXAMPLES)
     for number, example in enumerate(found):
         code, message, _ = rocking(made_small(example).removeprefix("rocking "))

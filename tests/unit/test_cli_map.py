@@ -147,8 +147,8 @@ def test_curves_and_symbols_are_drawn_into_the_picture(rocking, monkeypatch):
     [
         ("--curves melnikow --plot a.png", "--curves must be one of 'symmetry-breaking-1', "),
         ("--symbols 12 --plot a.png", "--symbols must be one of 'kinds', '10', '11', '13b'; got '12'"),
-        ("--curves melnikov", "--curves is drawn into a picture: give --plot FILE as well"),
-        ("--symbols 11 --tiles map", "--symbols is drawn into a picture: give --plot FILE as well"),
+        ("--curves melnikov", "--curves needs a plot: give --plot FILE as well"),
+        ("--symbols 11 --tiles map", "--symbols needs a plot: give --plot FILE as well"),
         (
             "--curves melnikov --plot a.png --brace-angle 0.3",
             "--curves must lie over a map of a block without braces; got 'brace_angle = 0.3'",
@@ -202,13 +202,13 @@ def test_all_errors_of_a_study_file_are_told_at_once(rocking):
     code, message, out = rocking("map --study study.toml")
     assert (code, out) == (2, "")
     for part in (
-        "unknown 'amplitud' (do you mean 'amplitude'?)",
+        "unknown 'amplitud' (did you mean 'amplitude'?)",
         "period must lie in [0.00628319, 6283.19]; got -1.0",
         "restitution must lie in [0, 1]; got 1.2",
         "max_cycles must be a whole number in [1, 100000000]; got 0",
         "plot must be a path; got 3",
-        "phase must be a number or START:STOP:COUNT, two different numbers and a whole one from 2 to 1,000,000; got '1:2:3:4'",
-        "angle must be a number, START:STOP:COUNT, or hold start, stop and perhaps count; got start",
+        "phase must be a number or START:STOP:COUNT with START ≠ STOP and a whole COUNT in [2, 1000000]; got '1:2:3:4' (example: 1:3:60)",
+        "angle must be a number, START:STOP:COUNT, or a table of start, stop and optionally count; got start",
     ):
         assert part in message
     assert message.startswith("study 'study.toml': ")
@@ -220,22 +220,22 @@ REFUSED = {
         "missing --period: give --amplitude, --period (or --frequency) and --restitution"
     ),
     "map --amplitude 0:16:20 --period 1 --restitution 0.9": (
-        "a parametric map needs two quantities to vary, given as axes; got --amplitude"
+        "a parametric map needs two quantities as axes, START:STOP:COUNT; got --amplitude"
     ),
     f"{LINE} --phase one": (
-        "Invalid value for '--phase': must be a number or START:STOP:COUNT, two different numbers and a whole one from 2 to "
-        "1,000,000; got 'one'"
+        "Invalid value for '--phase': must be a number or START:STOP:COUNT with START ≠ STOP and a whole COUNT "
+        "in [2, 1000000]; got 'one' (example: 1:3:60)"
     ),
     f"{LINE} --phase 1:2:2.5": (
-        "Invalid value for '--phase': must be a number or START:STOP:COUNT, two different numbers and a whole one from 2 to "
-        "1,000,000; got '1:2:2.5'"
+        "Invalid value for '--phase': must be a number or START:STOP:COUNT with START ≠ STOP and a whole COUNT "
+        "in [2, 1000000]; got '1:2:2.5' (example: 1:3:60)"
     ),
-    f"{LINE} --max-cycles many": "Invalid value for '--max-cycles': must be a number alone, such as 0.6; got 'many'",
+    f"{LINE} --max-cycles many": "Invalid value for '--max-cycles': must be a number without a unit, such as 0.6; got 'many'",
     f"{LINE} --period 3:0.2:18": (
         "--period must hold two numbers or more in [0.00628319, 6283.19], ascending; got 3.0 before 2.835294117647059 at index 1"
     ),
     "map --height 2 --width 0.5 --displacement 0.1 --frequency-hz 1:2:9": (
-        "--displacement with an axis of the frequency varies two things: give --acceleration instead"
+        "--displacement with an axis of the frequency varies amplitude and frequency: use --acceleration instead"
     ),
     f"{LINE} --plot map.gif": "--plot must end in .png, .svg, .pdf; got 'map.gif'",
     f"{LINE} --tiles {Path(__file__).parent}": (
@@ -244,10 +244,10 @@ REFUSED = {
     ),
     f"{LINE} --tiles .": "--tiles must be another folder than the one this runs in; got '.'",
     f"{LINE} --tiles look --csv look/map.csv": (
-        "--tiles and --csv must lie beside each other; got 'look/map.csv' for --csv"
+        "--tiles and --csv must not lie inside each other; got 'look/map.csv' for --csv"
     ),
     f"{LINE} --store look/map.zarr --tiles look": (
-        "--store and --tiles must lie beside each other; got 'look' for --tiles"
+        "--store and --tiles must not lie inside each other; got 'look' for --tiles"
     ),
     f"{LINE} --store map --tiles ./map": "--store and --tiles must differ; got 'map' for both",
     f"{LINE} --plot map.png --tiles map.png": "--tiles and --plot must differ; got 'map.png' for both",
@@ -269,8 +269,8 @@ def test_store_of_another_map_is_refused_by_the_names_of_options(rocking):
     assert (code, message) == (
         2,
         (
-            "--store 'map.zarr' holds another survey: --restitution is 0.9 there and 0.8 here; --max-cycles is 100 there "
-            "and 50 here (give another folder, or ask for the same)"
+            "--store 'map.zarr' holds a different survey: --restitution is 0.9 there and 0.8 here; --max-cycles is 100 there "
+            "and 50 here (give another folder, or the same values)"
         ),
     )
 
@@ -278,10 +278,10 @@ def test_store_of_another_map_is_refused_by_the_names_of_options(rocking):
 def test_store_of_another_block_is_refused_by_what_follows_from_the_block(rocking):
     line = "map --height 2 --acceleration 1:8:2 --frequency-hz 1:3:2 --max-cycles 5 --store map.zarr"
     rocking(f"{line} --width 0.6")
-    told = "--store 'map.zarr' holds another survey: restitution, which follows from the block, is 0.876147 there and "
+    told = "--store 'map.zarr' holds a different survey: restitution, which follows from the block, is 0.876147 there and "
     assert rocking(f"{line} --width 0.5")[:2] == (
         2,
-        f"{told}0.911765 here (give another folder, or ask for the same)",
+        f"{told}0.911765 here (give another folder, or the same values)",
     )
     assert (
         "--restitution is 0.876147 there and 0.9 here" in rocking(f"{line} --width 0.5 --restitution 0.9")[1]
@@ -303,21 +303,24 @@ def test_who_interrupts_a_picture_is_told_that_the_store_is_complete(rocking, mo
     monkeypatch.setitem(WRITERS, "plot", interrupt)
     monkeypatch.setattr("sys.argv", ["rocking", *f"{LINE} --store map.zarr --plot map.png".split()])
     assert run()[0] == 130
-    told = "rocking: --store 'map.zarr' is complete; the same command makes what was not yet written\n"
+    told = "rocking: --store 'map.zarr' is complete; repeat the command to write the remaining files\n"
     assert capsys.readouterr().err == told
 
 
 def test_study_that_is_no_file_is_refused_before_it_is_read(rocking):
     os.mkfifo("pipe")
     for name in ("/dev/zero", "pipe"):
-        told = f"--study must name a TOML file; got '{name}': it is no file but a device, a pipe or a socket"
+        told = f"--study must name a TOML file; got '{name}': not a regular file but a device, a pipe or a socket"
         assert rocking(f"map --study {name}")[:2] == (2, told)
 
 
 def test_study_too_long_or_nested_too_deeply_is_refused(rocking):
     Path("long.toml").write_text("#" * 1_000_001)
     Path("deep.toml").write_text("a=" + "[" * 5000 + "]" * 5000)
-    for name, why in (("long", "it has more than 1,000,000 bytes"), ("deep", "it is nested too deeply")):
+    for name, why in (
+        ("long", "the file has more than 1,000,000 bytes"),
+        ("deep", "the file is nested too deeply"),
+    ):
         told = f"--study must name a TOML file; got '{name}.toml': {why}"
         assert rocking(f"map --study {name}.toml")[:2] == (2, told)
     Path("long.toml").write_text((STUDY + "#" * 1_000_000)[:1_000_000])

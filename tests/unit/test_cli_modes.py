@@ -29,14 +29,14 @@ def test_modes_stand_side_by_side_under_the_amplitudes_that_bound_them(rocking):
     fast, slow = rk.theory.symmetric_modes(5.5, 0.5, 0.925, 7)
     lines = words(out)
     assert (code, message) == (0, "")
-    assert lines[0] == "2 symmetric (1,7) modes, 2 admissible, 1 of them stable"
+    assert lines[0] == "2 symmetric (1, 7) modes: 2 admissible, 1 of these stable"
     assert f"modes exist from A_E A = {rk.theory.existence_amplitude(0.5, 0.925, 7):.6g}" in lines
     assert f"stable up to A_SB A = {rk.theory.symmetry_breaking_amplitude(0.5, 0.925, 7):.6g}" in lines
     assert f"speed V after impact {fast.velocity:.6g} {slow.velocity:.6g}" in lines
-    assert f"phase φ there {fast.phase:.6g} rad {slow.phase:.6g} rad" in lines
-    assert f"trace of half a cycle {fast.trace:.6g} {slow.trace:.6g}" in lines
+    assert f"phase φ at impact {fast.phase:.6g} rad {slow.phase:.6g} rad" in lines
+    assert f"trace of the half-cycle map {fast.trace:.6g} {slow.trace:.6g}" in lines
     assert "stability stable unstable" in lines
-    assert "keeps its side yes, admissible yes, admissible" in lines
+    assert "admissible yes yes" in lines
 
 
 def test_where_there_is_no_mode_it_says_by_how_much(rocking, tmp_path):
@@ -44,19 +44,19 @@ def test_where_there_is_no_mode_it_says_by_how_much(rocking, tmp_path):
     begins = rk.theory.existence_amplitude(1.0, 0.8, 1)
     first = out.splitlines()[0]
     below = f"A = 0.2 lies {begins - 0.2:.3g} below A_E = {begins:.6g}"
-    assert (code, first) == (0, f"no symmetric (1,1) mode: {below}, where they begin")
+    assert (code, first) == (0, f"no symmetric (1, 1) mode: {below}, the lowest amplitude with such modes")
     assert (tmp_path / "a.png").stat().st_size > 20_000
     assert told(rocking, NONE)["modes"] == []
 
 
 def test_without_forcing_it_says_why_there_is_none(rocking):
     out = rocking("modes --amplitude 0 --period 1 --restitution 1")[2]
-    assert out.startswith("no symmetric (1,1) mode at A = 0: without forcing")
+    assert out.startswith("no symmetric (1, 1) mode at A = 0: without forcing")
 
 
 def test_without_losses_a_mode_is_neutrally_stable(rocking):
     out = rocking(f"modes {UNDAMPED}")[2]
-    assert out.startswith("1 symmetric (1,1) mode, 1 admissible, 1 of them neutral")
+    assert out.startswith("1 symmetric (1, 1) mode: 1 admissible, 1 of these neutral")
 
 
 def test_json_agrees_with_the_closed_forms(rocking):
@@ -103,7 +103,8 @@ EVEN = "no mode of even n is symmetric: half a response later the forcing is as 
 REFUSED = {
     "--amplitude 2": "missing --period and --restitution: give --amplitude, --period (or --frequency) and --restitution",
     "--amplitude 2 --period 1 --restitution 0.9 -n 2": f"n must be an odd whole number in [1, 9999]; got 2 ({EVEN})",
-    "--amplitude 2 --period 1 --restitution 0.9 -n some": "Invalid value for '-n': must be a number alone, such as 0.6; got 'some'",
+    "--amplitude 2 --period 1 --restitution 0.9 -n some": "Invalid value for '-n': must be a number without a unit, "
+    "such as 0.6; got 'some'",
     "--amplitude 2 --period 1 --restitution 0": "--restitution must lie in (0, 1] for symmetric modes; got 0.0 "
     "(an impact that stops the block leaves no mode)",
     "--amplitude 2 --period 0 --restitution 0.9": "--period must lie in [0.00628319, 6283.19]; got 0",

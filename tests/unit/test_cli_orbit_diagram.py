@@ -127,10 +127,10 @@ NORMALISED = "--period 1 --restitution 0.9"
 @pytest.mark.parametrize(
     "line, message",
     [
-        (f"--amplitude 2 {NORMALISED}", "give exactly one option as an axis, START:STOP:COUNT; got none"),
+        (f"--amplitude 2 {NORMALISED}", "exactly one option must be an axis, START:STOP:COUNT; got none"),
         (
             "--amplitude 1:2 --period 1:2 --restitution 0.9",
-            "give exactly one option as an axis, START:STOP:COUNT; got --amplitude and --period",
+            "exactly one option must be an axis, START:STOP:COUNT; got --amplitude and --period",
         ),
         (
             f"--amplitude 1:2:1 {NORMALISED}",
@@ -164,12 +164,12 @@ NORMALISED = "--period 1 --restitution 0.9"
         (f"--amplitude 2 {NORMALISED} --brace-restitution 0:1", "--brace-restitution needs --brace-angle"),
         (
             "--height 2 --width 0.5 --displacement 0.1 --frequency-hz 1:2",
-            "--displacement with --frequency-hz varies two things: give --acceleration instead",
+            "--displacement with an axis of --frequency-hz varies amplitude and frequency: use --acceleration instead",
         ),
         ("--amplitude 1:2 --period 1", "missing --restitution: give --amplitude"),
         (
             "--height 1:2 --width 0.5",
-            "Invalid value for '--height': must be a number alone, such as 0.6; got '1:2'",
+            "Invalid value for '--height': must be a number without a unit, such as 0.6; got '1:2'",
         ),
     ],
 )
@@ -187,7 +187,7 @@ def test_failure_of_our_own_is_one_line_and_exit_code_1(rocking, monkeypatch):
 
     monkeypatch.setattr("rocking.kernels.march.sweep.sweep", fail)
     code, message, out = rocking(f"orbit-diagram {LINE}")
-    assert (code, message.strip(), out) == (1, "failed, and should not have: MemoryError:", "")
+    assert (code, message.strip(), out) == (1, "internal error: MemoryError:", "")
 
 
 def test_long_run_in_a_terminal_shows_a_bar_that_leaves_nothing_behind(rocking, monkeypatch, capsys):

@@ -19,7 +19,7 @@ def test_basins_lists_the_attractors_with_their_shares(rocking, tmp_path):
     system = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), 0.925)
     found = rk.basin_map(system, angle=starts, velocity=starts, boundary_runs=4000)
     lines = [" ".join(line.split()) for line in out.splitlines()]
-    assert lines[0] == f"basins, 441 starts: {len(found.attractors)} responses to be told apart"
+    assert lines[0] == f"basins of 441 initial states: {len(found.attractors)} attractors"
     for each, share in zip(found.attractors, found.fractions, strict=True):
         assert any(line.startswith(f"{each.name} {share}") for line in lines)
     assert any(f"uncertainty exponent {found.uncertainty_exponent}" in line for line in lines)
@@ -43,7 +43,7 @@ def test_basins_above_the_tangency_are_not_called_smooth(rocking):
     _, _, below = rocking(
         "basins --amplitude 3.6 --period 1 --restitution 0.8 --angle=-1:1:5 --velocity=-1:1:5 --boundary-runs 0"
     )
-    assert "by theory" not in below
+    assert "theoretical boundary" not in below
 
 
 def test_basins_for_a_program(rocking):
@@ -109,7 +109,7 @@ def test_basins_draws_random_starts_between_the_ends_of_a_study_files_axes(rocki
 
 def test_random_starts_are_said_to_be_random_whatever_the_count_of_their_range(rocking):
     title = rocking(f"{BASINS} --samples 50 --boundary-runs 0")[2].splitlines()[0]
-    assert title.startswith("basins, 50 starts at random between the ends of both ranges: ")
+    assert title.startswith("basins of 50 initial states, random within both ranges: ")
 
 
 def test_basins_of_a_braced_block_begin_between_its_braces(rocking):
@@ -121,7 +121,7 @@ def test_basins_of_a_braced_block_begin_between_its_braces(rocking):
 
 def test_what_a_study_file_says_twice_is_refused(rocking):
     Path("study.toml").write_text("max-cycles = 5\nmax_cycles = 6\n")
-    told = "study 'study.toml': 'max-cycles' is said twice, once with underscores"
+    told = "study 'study.toml': 'max-cycles' occurs twice, with hyphens and with underscores (remove one)"
     assert rocking("basins --study study.toml")[:2] == (2, told)
 
 
@@ -131,7 +131,7 @@ def test_a_block_of_many_sizes_is_refused(rocking, command):
         'height = "1:2:3"\nwidth = 0.5\nfrequency-hz = "1:2:3"\nacceleration = "2:4:3"\n'
     )
     code, told, _ = rocking(f"{command} --study study.toml")
-    assert (code, told) == (2, "--height must be one number of metres: a survey is of one block")
+    assert (code, told) == (2, "--height must be one number, in m: a survey has a single block")
 
 
 def test_a_path_is_told_as_it_was_typed(rocking):
@@ -144,7 +144,7 @@ def test_a_path_is_told_as_it_was_typed(rocking):
     chunk.write_bytes(chunk.read_bytes()[:-1])
     code, told, _ = rocking(line)
     assert code == 2
-    assert f"is damaged at '{chunk}'; with --repair" in told
+    assert f"is damaged at '{chunk}' (recompute these tiles with --repair)" in told
 
 
 def test_a_study_that_begins_with_a_mark_of_its_byte_order_is_read(rocking):
@@ -171,18 +171,18 @@ def test_overturning_reads_a_study_file(rocking):
                 "restitution must lie in [0, 1]; got 1.2",
                 "samples must be a whole number in [1, 10000000]; got 0",
                 "plot must be a path; got 3",
-                "unknown 'seeds' (do you mean 'seed'?)",
-                "unknown 'tiles' (keys are the names of options)",
+                "unknown 'seeds' (did you mean 'seed'?)",
+                "unknown 'tiles' (keys are the names of options of this command)",
             ],
         ),
         (
             "overturning",
             "restitution = [0.9, 0.8]\nperiod = '1:2:1'\nphases = 0\nangle = 0.1\n",
             [
-                "period must be a number or START:STOP:COUNT, two different numbers and a whole one from 2",
+                "period must be a number or START:STOP:COUNT with START ≠ STOP and a whole COUNT in [2, 1000000]; got '1:2:1'",
                 "restitution must hold two numbers or more in [0, 1], ascending; got 0.9 before 0.8 at index 1",
                 "phases must be a whole number in [1, 100000]; got 0",
-                "unknown 'angle' (keys are the names of options)",
+                "unknown 'angle' (keys are the names of options of this command)",
             ],
         ),
     ],
@@ -215,13 +215,13 @@ def test_all_errors_of_a_study_file_are_told_at_once(rocking, command, wrong, to
         ("overturning --restitution 0.9", "missing --period: give"),
         (
             "overturning --restitution 0.9 --period 1 --acceleration 1:3:10",
-            "--period is normalised, --acceleration is SI: give one kind",
+            "--period is normalised and --acceleration is SI: use one of the two",
         ),
         (f"{CURVE} --phases 1.5", "--phases must be a whole number"),
         (f"{BASINS} --store a.nc --netcdf a.nc", "--store and --netcdf must differ; got 'a.nc' for both"),
         (
             f"{CURVE.replace('0.925', '0.8:0.9:2')} --plot b.png",
-            "--plot draws over one axis; got --period and --restitution",
+            "--plot needs a single axis; got --period and --restitution (give one of them as a number)",
         ),
     ],
 )
@@ -282,8 +282,11 @@ def test_overturning_of_a_block_scans_the_usual_amplitudes_and_says_where_nothin
     [
         ("--frequency-hz 1", "missing --width: give --height, --width"),
         ("--width 0.5", "missing --frequency-hz: give --height, --width and --frequency-hz (or"),
-        ("--width 0.5 --frequency-hz 1 --amplitude 1:2", "--amplitude is normalised, --height is SI"),
-        ("--width 0.5 --frequency-hz 1 --acceleration 3", "--acceleration must be an axis, START:STOP:COUNT"),
+        ("--width 0.5 --frequency-hz 1 --amplitude 1:2", "--amplitude is normalised and --height is SI"),
+        (
+            "--width 0.5 --frequency-hz 1 --acceleration 3",
+            "--acceleration must be an axis to scan, START:STOP:COUNT",
+        ),
     ],
 )
 def test_overturning_in_si_is_refused_in_the_words_of_its_options(rocking, line, message):
@@ -308,4 +311,7 @@ def test_a_picture_of_two_lists_in_a_study_file_is_refused_before_the_scan(rocki
     monkeypatch.setattr("rocking.cli.input.overturning_request.compute", lambda _: pytest.fail("computed"))
     Path("study.toml").write_text("period = [1, 2]\nrestitution = [0.8, 0.9]\nplot = 'b.png'\n")
     code, message, _ = rocking("overturning --study study.toml")
-    assert (code, message) == (2, "--plot draws over one axis; got --period and --restitution")
+    assert (code, message) == (
+        2,
+        "--plot needs a single axis; got --period and --restitution (give one of them as a number)",
+    )

@@ -31,6 +31,8 @@ from rocking.plot.parts.legend import LOOKS, NONE, looks
 from rocking.survey import cores
 from rocking.survey.measures import attractors
 
+ASYMMETRIC = 2
+"""Place in `LOOKS` of an asymmetric response of period 1."""
 numbers = st.floats(allow_nan=False, allow_infinity=False)
 
 
@@ -113,7 +115,7 @@ def test_any_message_is_heard_or_refused(text):
         ({"first": "-1"}, "first", "first cycle must be a whole number in [0, 100000]; got '-1'"),
         ({"vary": "phase"}, "vary", "vary must be one of amplitude, period; got 'phase'"),
         ({"brace_angle": "0.5", "angle": "0.9"}, "angle", "angle must lie between the braces, in [-0.5, 0.5]; got 0.9"),
-        ({"periods": "2:1"}, "periods", "periods must be LOW:HIGH, LOW below HIGH, no closer than doubles can tell; got '2:1'"),
+        ({"periods": "2:1"}, "periods", "periods must be LOW:HIGH, with LOW < HIGH and a range that double precision resolves; got '2:1'"),
     ],
 )  # fmt: skip
 def test_field_is_refused_in_one_sentence(typed, field, sentence):
@@ -196,10 +198,10 @@ def test_verdict_on_a_block_says_in_si_what_the_units_are():
     shown = in_metres(DEFAULT, METRES | {"acceleration": "4", "frequency_hz": "2.5"})
     verdict = rk.classify(shown.system)
     facts = dict(texts.verdict(verdict, shown.block)["facts"])
-    assert facts["base"] == "4 m/s² (0.4079 g), 0.4 s (2.5 Hz)"
-    assert facts["units"] == "A 2.402 m/s², τ 0.3744 s, Θ 14.04°"
+    assert facts["forcing"] == "4 m/s² (0.4079 g), 0.4 s (2.5 Hz)"
+    assert facts["unit of"] == "A: 2.402 m/s², τ: 0.3744 s, Θ: 14.04°"
     assert facts["period"].endswith(f"symmetric ({0.4 * verdict.period:.4g} s)")
-    assert "base" not in dict(texts.verdict(verdict, None)["facts"])
+    assert "forcing" not in dict(texts.verdict(verdict, None)["facts"])
 
 
 @pytest.mark.parametrize(
@@ -313,7 +315,7 @@ def test_mirror_images_have_shades_of_their_own():
     system = rk.System(rk.Harmonic(14.0, period=1.35), 0.925)
     found = rk.basin_map(system, angle=starts, velocity=starts, boundary_runs=0)
     attractor = found.dataset.attractor.transpose("velocity", "angle").values
-    twins = last.look == [look.name for look in LOOKS].index("1, unsymmetric")
+    twins = last.look == ASYMMETRIC
     pairs = set(zip(attractor[twins].tolist(), last.fields["orbit"][twins].tolist(), strict=True))
     assert len(pairs) == len(set(attractor[twins].tolist())) == 2
     assert {number for _, number in pairs} == {0, 1}
@@ -324,7 +326,7 @@ def test_mirror_images_have_shades_of_their_own():
     colours = {bokeh_figures.PALETTE[number] for shade in shades for number in shade}
     assert len(colours) == 2
     entries = texts.attractors(last.counts())
-    assert [each["name"] for each in entries] == ["1, unsymmetric", "another", "overturned"]
+    assert [each["name"] for each in entries] == [LOOKS[ASYMMETRIC].name, "another orbit", "overturned"]
     assert {each["colour"] for each in entries[:2]} == colours
     assert sorted(each["share"] for each in entries) == sorted(
         percent(share.value) for share in found.fractions
@@ -382,6 +384,31 @@ def test_motion_that_becomes_faster_than_any_start_is_drawn():
     section = figure_data.Section(shown)
     section.grow(100)
     assert section.ended == "too fast"
+
+
+@pytest.mark.parametrize(
+    "typed, label",
+    [
+        ({}, "angle Θ, cycles 201–1,000"),
+        ({"restitution": "1", "period": "0.4"}, "angle Θ, cycles 1–1,000"),
+        ({"restitution": "1", "brace_angle": "0.5", "brace_restitution": "0.9"}, "angle Θ, cycles 201–1,000"),
+        ({"amplitude": "1.75", "period": "2", "restitution": "0.95"}, "angle Θ, cycles 1–5, overturned"),
+        ({"amplitude": "0", "angle": "0.3"}, "angle Θ, cycles 1–1,000, at rest"),
+    ],
+)
+def test_section_omits_the_transient_of_a_damped_motion_that_goes_on(typed, label):
+    section = figure_data.Section(changed(DEFAULT, typed))
+    section.grow(1_000)
+    assert section.drawn(None).label == label
+
+
+def test_legends_have_no_number_and_no_attractor_below_a_hundredth_of_a_percent():
+    counts = np.zeros((3, len(LOOKS)), int)
+    counts[0, 1], counts[0, 10], counts[1, 1] = 99_990, 10, 9
+    assert [each["name"] for each in texts.attractors(counts)] == ["period 1"]
+    shares = {each["name"]: each["share"] for each in texts.legend(counts.sum(axis=0))}
+    assert len(shares) == len(LOOKS)
+    assert {name for name, share in shares.items() if share} == {"period 1"}
 
 
 def test_names_of_a_spectrum_do_not_run_into_each_other():
@@ -592,7 +619,7 @@ def test_codes_of_criteria_in_a_map_have_the_level_that_classify_gives():
 def test_multipliers_are_told_as_a_pair():
     def told_of(amplitude, period):
         verdict = rk.classify(rk.System(rk.Harmonic(amplitude, period=period), 0.925))
-        return verdict.multipliers, dict(texts.verdict(verdict, None)["facts"])["multipliers"]
+        return verdict.multipliers, dict(texts.verdict(verdict, None)["facts"])["Floquet multipliers"]
 
     (complex_one, _), text = told_of(2.0, 1.0)
     assert text == f"−{-complex_one.real:.4g} ± {abs(complex_one.imag):.4g}i"
@@ -603,8 +630,8 @@ def test_response_that_forgets_is_told_in_the_words_of_the_command_line(rocking)
     code, _, out = rocking("classify --amplitude 0.5 --period 1 --restitution 0.925")
     verdict = rk.classify(rk.System(rk.Harmonic(0.5, period=1.0), 0.925))
     facts = dict(texts.verdict(verdict, None)["facts"])
-    assert (code, facts["exponent λ₁"]) == (0, "−∞ (forgets every small difference)")
-    assert facts["exponent λ₁"] in out
+    assert (code, facts["largest Lyapunov exponent λ₁"]) == (0, "−∞ (superstable)")
+    assert facts["largest Lyapunov exponent λ₁"] in out
 
 
 READY = """

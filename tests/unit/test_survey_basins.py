@@ -51,7 +51,7 @@ def test_every_start_ends_on_the_orbit_of_its_attractor_and_on_no_other(system):
 
 def test_two_mirror_images_are_two_attractors():
     found = grid(PAIR, count=15)
-    a, b = (each.orbit for each in found.attractors if each.name.startswith("period 1, unsymmetric ("))
+    a, b = (each.orbit for each in found.attractors if each.name.startswith("period 1, asymmetric ("))
     forcing = PAIR.forcing
     half_later = rk.System(
         rk.Harmonic(forcing.amplitude, period=forcing.period, phase=a.phase + math.pi), 0.8, PAIR.braces
@@ -156,7 +156,7 @@ def test_a_basin_map_in_a_store_is_the_same(tmp_path):
 @pytest.mark.parametrize(
     "options, message",
     [
-        ({"angle": [0.0, 1.0], "velocity": 0.5}, "a basin map needs two quantities to vary"),
+        ({"angle": [0.0, 1.0], "velocity": 0.5}, "a basin map needs two quantities as arrays"),
         ({"angle": [1.0, 0.0], "velocity": [0.0, 1.0]}, "angle must hold two numbers or more"),
         ({"angle": 1.0, "velocity": (0, 1), "samples": 5}, "angle must be a pair (low, high)"),
         ({"angle": (1, 0), "velocity": (0, 1), "samples": 5}, "angle must be a pair (low, high)"),
@@ -167,7 +167,7 @@ def test_a_basin_map_in_a_store_is_the_same(tmp_path):
         ({"angle": (0, 1), "velocity": (0, 1), "samples": 5, "seed": -1}, "seed must be a whole number"),
         (
             {"angle": (0, 1), "velocity": (0, 1), "samples": 5, "store": "a"},
-            "store must come without samples",
+            "store must be used without samples",
         ),
         ({"angle": (0, 1), "velocity": (0, 1), "boundary_runs": 0.5}, "boundary_runs must be a whole number"),
     ],
@@ -218,7 +218,7 @@ def test_between_braces_every_start_is_safe():
     assert "A*" not in str(found)
     assert [line.get_gid() for line in rk.plot.safe_basin(found).lines] == ["safe"]
     with pytest.raises(
-        ValueError, match=r"^angle must be a pair \(low, high\) in \[-0.5, 0.5\], low below high"
+        ValueError, match=r"^angle must be a pair \(low, high\) in \[-0.5, 0.5\] with low < high"
     ):
         rk.safe_basin(**asked)
 
@@ -240,7 +240,7 @@ def test_the_safe_area_need_not_fall_above_the_tangency():
 def test_a_safe_basin_needs_amplitudes():
     with pytest.raises(TypeError, match="amplitude must be an axis of amplitudes"):
         rk.safe_basin(amplitude=1.0, period=[1.0, 2.0], restitution=0.8)
-    with pytest.raises(TypeError, match="a safe basin needs one quantity to vary"):
+    with pytest.raises(TypeError, match="a safe basin needs one quantity as an array; got none$"):
         rk.safe_basin(amplitude=1.0, period=1.0, restitution=0.8)
 
 

@@ -109,7 +109,7 @@ REFUSED = {
         {"amplitude": [1.0]},
         (
             "amplitude must hold two numbers or more in [0, 1000], ascending; got an array of shape (1,) "
-            "(give a plain number for what does not vary)"
+            "(give a number for a quantity that does not vary)"
         ),
     ),
     "descending": (
@@ -150,18 +150,18 @@ REFUSED = {
     "nothing to write to": ({"store": ""}, "store must be the path of a folder; got ''"),
     "rebound without braces": (
         {"brace_restitution": 0.5},
-        "brace_restitution must come with brace_angle; got 0.5",
+        "brace_restitution must be used with brace_angle; got 0.5",
     ),
     "three axes": (
         {"restitution": [0.8, 0.9]},
         (
-            "a parametric map needs two quantities to vary, given as axes; got amplitude and restitution and period "
-            "(give one of them a single number)"
+            "a parametric map needs two quantities as arrays; got amplitude and restitution and period "
+            "(give one of them as a number)"
         ),
     ),
     "one axis": (
         {"amplitude": 1.0},
-        "a parametric map needs two quantities to vary, given as axes; got period",
+        "a parametric map needs two quantities as arrays; got period",
     ),
     "fixed out of range": ({"restitution": 1.2}, "restitution must lie in [0, 1]; got 1.2"),
     "nothing given": ({"restitution": None}, "a parametric map needs restitution; got none"),
@@ -171,7 +171,7 @@ REFUSED = {
     ),
     "no brace to vary": (
         {"amplitude": 1.0, "brace_restitution": [0.5, 1.0]},
-        "brace_restitution must come with brace_angle; got [0.5, 1.0]",
+        "brace_restitution must be used with brace_angle; got [0.5, 1.0]",
     ),
     "start beyond a brace": (
         {"angle": -0.7, "brace_angle": 0.6},

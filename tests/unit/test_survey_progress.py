@@ -35,7 +35,7 @@ def test_what_an_earlier_run_did_counts_as_done(capsys, monkeypatch, tmp_path):
     rk.parametric_map(**ASKED, store=tmp_path / "map.zarr")
     rk.parametric_map(**ASKED, store=tmp_path / "map.zarr", progress=True)
     told = words(capsys.readouterr().err)
-    assert "6,400 points in 13 tiles, 6,400 of them done, about 0 s on" in told
+    assert "6,400 points in 13 tiles, 6,400 of them computed before, about 0 s on" in told
     assert "100%" in told
     assert "periodic" in told
 

@@ -187,5 +187,5 @@ def test_bad_input_for_repeatability_is_refused_in_one_line():
 
 
 def test_a_restitution_of_braces_that_are_not_there_is_refused():
-    with pytest.raises(TypeError, match=r"^brace_restitution must come with brace_angle; got 0.5"):
+    with pytest.raises(TypeError, match=r"^brace_restitution must be used with brace_angle; got 0.5"):
         rk.chaos_share(restitution=0.3, samples=25, brace_restitution=0.5)

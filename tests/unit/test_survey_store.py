@@ -192,7 +192,8 @@ def test_full_disk_while_a_store_is_made_is_said_once(tmp_path, monkeypatch, cap
     with monkeypatch.context() as patch:
         patch.setattr(Files, "set_sync", full)
         with pytest.raises(
-            OSError, match=r"cannot be written: No space left on device; what is there stays good"
+            OSError,
+            match=r"cannot be written: No space left on device; the existing data are intact: free some space and run again",
         ):
             rk.parametric_map(**ASKED, store=tmp_path / "map.zarr")
     gc.collect()
@@ -212,7 +213,7 @@ def test_who_interrupts_the_reading_of_a_store_is_told_that_it_is_complete(tmp_p
     monkeypatch.setattr(store.Store, "dataset", interrupt)
     with pytest.raises(KeyboardInterrupt) as caught:
         rk.parametric_map(**ASKED, store=tmp_path / "map.zarr")
-    told = f"The survey is complete in {str(tmp_path / 'map.zarr')!r}, and the same call reads it."
+    told = f"The survey is complete in {str(tmp_path / 'map.zarr')!r}; run it again to read the results."
     assert caught.value.__notes__ == [told]
 
 
@@ -233,7 +234,7 @@ STRANGERS = {
     "braces": ({"brace_angle": 1.0}, "brace_angle is not given there and 1 here; brace_restitution is not"),
     "other axes": (
         {"period": None, "frequency": np.linspace(1.0, 2.0, 9)},
-        "it varies amplitude and period there, amplitude and frequency here",
+        "the axes are amplitude and period there and amplitude and frequency here",
     ),
 }
 
@@ -242,7 +243,7 @@ STRANGERS = {
 def test_store_of_another_survey_is_refused_with_what_differs(made, what):
     changed, differences = STRANGERS[what]
     before = files(made)
-    with pytest.raises(ValueError, match=f"holds another survey: {re.escape(differences)}"):
+    with pytest.raises(ValueError, match=f"holds a different survey: {re.escape(differences)}"):
         rk.parametric_map(**(ASKED | changed), store=made)
     assert files(made) == before
 
@@ -259,7 +260,7 @@ def test_store_of_other_variables_is_told_by_those_that_only_one_has():
 def test_store_of_another_method_is_refused(made, monkeypatch):
     monkeypatch.setattr("rocking.kernels.batch.METHOD", METHOD + 1)
     with pytest.raises(
-        ValueError, match=f"holds another survey: method is {METHOD} there and {METHOD + 1} here"
+        ValueError, match=f"holds a different survey: method is {METHOD} there and {METHOD + 1} here"
     ):
         rk.parametric_map(**ASKED, store=made)
 
@@ -270,7 +271,7 @@ def test_store_of_another_format_is_refused(copied):
     del described["attributes"]["rocking_survey"]["format"]
     root.write_text(json.dumps(described))
     before = files(copied)
-    with pytest.raises(ValueError, match="holds another survey: format is not given there and 2 here"):
+    with pytest.raises(ValueError, match="holds a different survey: format is not given there and 2 here"):
         rk.parametric_map(**ASKED, store=copied)
     assert files(copied) == before
 
@@ -280,13 +281,13 @@ def test_store_of_another_format_is_refused(copied):
 )
 def test_axes_that_leave_out_what_is_there_are_refused(made, axis):
     with pytest.raises(
-        ValueError, match="holds 130 values of amplitude from 0 to 16, and .* leave some of them out"
+        ValueError, match="holds 130 values of amplitude from 0 to 16; the requested .* omit some of them"
     ):
         rk.parametric_map(**(ASKED | {"amplitude": axis}), store=made)
 
 
 def test_repair_without_a_store_is_refused():
-    with pytest.raises(ValueError, match="repair must go with store, whose damaged tiles it computes again"):
+    with pytest.raises(ValueError, match="repair must be used with store, whose damaged tiles it recomputes"):
         rk.parametric_map(**ASKED, repair=True)
 
 
@@ -298,7 +299,7 @@ def refused(folder, message):
 def test_store_that_is_a_file_is_refused(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     Path("map.zarr").write_text("mine")
-    refused("map.zarr", "store must be a folder's name; got 'map.zarr', which is a file")
+    refused("map.zarr", "store must be the path of a folder; got 'map.zarr', which is a file")
     refused("map.zarr/in", "store must be a folder that can be written; got 'map.zarr/in'")
     assert Path("map.zarr").read_text() == "mine"
 
@@ -318,7 +319,8 @@ def test_folder_of_somebodys_unfinished_files_is_refused_and_they_stay(tmp_path,
     Path("download").mkdir()
     Path("download", name).write_text("mine")
     with pytest.raises(
-        OSError, match="^store must be a new folder, or one of a survey; got 'download', which is"
+        OSError,
+        match="^store must be a new folder, or the folder of an earlier survey; got 'download', which is",
     ):
         rk.parametric_map(**ASKED, store="download")
     assert [each.name for each in Path("download").iterdir()] == [name]
@@ -358,7 +360,7 @@ def test_what_others_keep_in_a_store_is_passed_over_without_a_warning(copied, pl
 def test_store_of_another_survey_is_left_as_a_killed_run_left_it(copied):
     left = copied / f"zarr.{'0123' * 8}.partial"
     left.touch()
-    with pytest.raises(ValueError, match="holds another survey"):
+    with pytest.raises(ValueError, match="holds a different survey"):
         rk.parametric_map(**(ASKED | {"max_cycles": 50}), store=copied)
     assert left.exists()
 
@@ -389,7 +391,7 @@ def test_folder_that_holds_something_else_is_refused(tmp_path, monkeypatch):
     Path("map.zarr/notes.txt").write_text("mine")
     refused(
         "map.zarr",
-        "store must be a new folder, or one of a survey; got 'map.zarr', which is a folder with 'notes.txt' in it",
+        "store must be a new folder, or the folder of an earlier survey; got 'map.zarr', which is a folder that contains 'notes.txt'",
     )
     assert [path.name for path in Path("map.zarr").iterdir()] == ["notes.txt"]
 
@@ -400,7 +402,7 @@ def test_zarr_store_of_somebody_else_is_refused(tmp_path, monkeypatch):
     before = files(Path("map.zarr"))
     refused(
         "map.zarr",
-        "store must be a new folder, or one of a survey; got 'map.zarr', which is a Zarr store of something else",
+        "store must be a new folder, or the folder of an earlier survey; got 'map.zarr', which is a Zarr store of other data",
     )
     assert files(Path("map.zarr")) == before
 
@@ -433,7 +435,8 @@ def test_damage_is_found_named_and_mended_on_request(copied, what, name, compute
         chunk.write_bytes(DAMAGE[what](chunk.read_bytes()))
     if (what, name) != ("missing", "cycles"):  # that is a tile which was never done
         with pytest.raises(
-            OSError, match=f"is damaged at {re.escape(repr(str(chunk)))}; with repair these tiles"
+            OSError,
+            match=f"is damaged at {re.escape(repr(str(chunk)))} \\(recompute these tiles with repair\\)",
         ):
             rk.parametric_map(**ASKED, store=copied)
     assert rk.parametric_map(**ASKED, store=copied, repair=True).load().equals(plain)
@@ -498,7 +501,9 @@ def test_damage_in_a_coarse_level_is_mended_there(copied, plain):
     whole = files(copied)
     for chunk in ("level-0/peak/c/0/0", "level-1/kind/c/0/1"):
         (copied / chunk).write_bytes(b"")
-    with pytest.raises(OSError, match="level-0/peak/c/0/0', .*level-1/kind/c/0/1'; with repair"):
+    with pytest.raises(
+        OSError, match="level-0/peak/c/0/0', .*level-1/kind/c/0/1' \\(recompute these tiles with repair\\)$"
+    ):
         rk.parametric_map(**ASKED, store=copied)
     rk.parametric_map(**ASKED, store=copied, repair=True)
     assert files(copied) == whole

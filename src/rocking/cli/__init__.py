@@ -1,1 +1,1 @@
-"""The command `rocking`: one file a command, each of which parses, calls one public function and shows what it returns."""
+"""Command `rocking`: each file of `commands` parses options, calls one public function and prints its result."""

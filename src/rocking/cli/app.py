@@ -1,4 +1,4 @@
-"""The commands, gathered."""
+"""Command-line application: all commands of `rocking`."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from typing import Annotated
 
 import typer
 
+from rocking.cli.command_help import CommandHelp
 from rocking.cli.commands import (
     basins,
     cite,
@@ -19,14 +20,14 @@ from rocking.cli.commands import (
 )
 from rocking.cli.commands import map as map_
 
-VERSION = typer.Option("--version", help="Show the version and stop.")
+VERSION = typer.Option("--version", help="Show the version and exit.")
 
-# Rich help would take longer to load than all the rest of `rocking --help`.
+# Help in plain text: Rich takes longer to load than the rest of `rocking --help`.
 app = typer.Typer(
     pretty_exceptions_enable=False,
     add_completion=False,
     rich_markup_mode=None,
-    context_settings={"help_option_names": ["-h", "--help"]},
+    context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 120},
 )
 
 
@@ -42,13 +43,16 @@ for name, command, examples in (
     ("paper", paper.paper, paper.EXAMPLES),
     ("cite", cite.cite, None),
 ):
-    # The control character keeps the lines of the examples, under the help, as they are.
-    app.command(name, epilog=examples and f"\b\n{examples}")(command)
+    # The control character keeps the line breaks of the examples below the options.
+    app.command(name, cls=CommandHelp, epilog=examples and f"\b\nExamples:\n{examples}")(command)
 
 
 @app.callback(invoke_without_command=True)
 def rocking(context: typer.Context, version: Annotated[bool, VERSION] = False) -> None:
-    """Free-standing blocks on a shaking base: exact simulation and nonlinear dynamics."""
+    """Simulate and analyse free-standing blocks that rock on a harmonically moving base.
+
+    Run rocking COMMAND --help for the options and examples of a command.
+    """
     if version:
         from rocking import __version__
 

@@ -1,4 +1,7 @@
-"""The command `rocking` and how it ends: 0, 2 (your input), 1 (we failed), 130 (Ctrl-C); one line on stderr, no traceback."""
+"""Entry point of the command `rocking`.
+
+Exit codes: 0 success, 1 internal error, 2 invalid input, 130 interrupted (Ctrl-C). An error is one line on stderr.
+"""
 
 from __future__ import annotations
 
@@ -13,10 +16,10 @@ INTERRUPTED = 130
 
 
 class Terminal(logging.Handler):
-    """What is logged, as a line on stderr; over a bar, if one is there now."""
+    """Logging handler that prints each record as one line on stderr."""
 
     def emit(self, record: logging.LogRecord) -> None:
-        """Print it."""
+        """Print the message of a record."""
         print("rocking:", record.getMessage(), file=sys.stderr)
 
 
@@ -25,17 +28,17 @@ def main() -> NoReturn:
     interrupts = []
 
     def interrupt(*_: object) -> NoReturn:
-        # While numba compiles, Ctrl-C can be swallowed on the way and come out as another error, or as none.
+        # While numba compiles, a KeyboardInterrupt can be lost or turned into another error: so it is recorded here.
         interrupts.append(True)
         sys.unraisablehook = lambda _: None
         raise KeyboardInterrupt
 
     signal.signal(signal.SIGINT, interrupt)
     for name in ("stdout", "stderr"):
-        if getattr(sys, name) is None:  # closed by who started us
+        if getattr(sys, name) is None:  # closed by the calling process
             setattr(sys, name, Path(os.devnull).open("w", encoding="utf-8"))  # noqa: SIM115
     for stream in (sys.stdout, sys.stderr):
-        # A terminal without Greek letters shows question marks.
+        # A terminal whose encoding lacks Greek letters shows question marks.
         stream.reconfigure(errors="replace")  # type: ignore[union-attr]
     if sys.stderr.isatty():
         log = logging.getLogger("rocking")
@@ -50,23 +53,23 @@ def main() -> NoReturn:
 
 
 def run() -> tuple[int, str]:
-    """Run the command line: the exit code, and what to say of it in one line."""
+    """Run the command line; return the exit code and a message of one line, empty if there is nothing to report."""
     try:
         from rocking.cli.app import app
 
-        # Typer turns Ctrl-C into an exit code, which it returns.
+        # Typer returns the exit code of Ctrl-C instead of raising KeyboardInterrupt.
         code = app(prog_name="rocking", standalone_mode=False)
         sys.stdout.flush()
     except KeyboardInterrupt:
         return INTERRUPTED, ""
-    except Exception as error:  # noqa: BLE001 (a traceback helps nobody at a prompt)
+    except Exception as error:  # noqa: BLE001 (the user gets one line, not a traceback)
         code, message = refused(error)
         return code, " ".join(message.split())
     return code or 0, ""
 
 
 def refused(error: Exception) -> tuple[int, str]:
-    """The exit code of a command that an error ended, and what to say of it."""
+    """Return the exit code and the message for an error that ended a command."""
     from typer import TyperException
 
     from rocking.model import FULL, WriteError
@@ -75,15 +78,15 @@ def refused(error: Exception) -> tuple[int, str]:
         return 2, error.format_message()
     if isinstance(error, WriteError):
         return 2, str(error)
-    if isinstance(error, BrokenPipeError):  # nobody reads on
+    if isinstance(error, BrokenPipeError):  # the reader of the pipe has closed it
         discard_stdout()
         return 1, ""
     if isinstance(error, OSError) and error.errno in FULL:
         discard_stdout()
-        return 2, f"the output cannot be written: {error.strerror} (make room, or send it elsewhere)"
-    return 1, f"failed, and should not have: {type(error).__name__}: {error}"
+        return 2, f"the output cannot be written: {error.strerror} (free some space, or redirect the output)"
+    return 1, f"internal error: {type(error).__name__}: {error}"
 
 
 def discard_stdout() -> None:
-    """Send the rest of stdout nowhere: the interpreter complains of what it cannot write at its end."""
+    """Discard the rest of stdout: at exit the interpreter reports output that it cannot flush."""
     os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

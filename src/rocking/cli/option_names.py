@@ -1,4 +1,4 @@
-"""How the arguments of public functions are typed as options, and refusals that name them so."""
+"""Option names of the arguments of public functions, and error messages that use these names."""
 
 from __future__ import annotations
 
@@ -14,21 +14,21 @@ FORCED = (*NORMALISED, *SI, "restitution")
 SYSTEM = (*FORCED, "phase", "brace_angle", "brace_restitution")
 START = ("angle", "velocity")
 TOLD = tuple(name for name in (*SYSTEM, *START) if name not in SI)
-"""Quantities of a survey, in the order in which they are listed."""
+"""Quantities of a survey, in the order in which they are printed."""
 COUNTS = ("max_cycles", "max_period")
 
 
 class YourInput(typer.TyperException):
-    """What was typed cannot be done; the message says why in one line."""
+    """Invalid input; the message states the reason in one line."""
 
 
 def option(name: str) -> str:
-    """How the argument `name` is typed."""
+    """Return the option name of the argument `name`."""
     return "--" + name.replace("_", "-")
 
 
 def options(*names: str) -> dict[str, str]:
-    """How arguments are typed whose options are named like them."""
+    """Return the option names of arguments, by argument."""
     return {name: option(name) for name in names}
 
 
@@ -37,7 +37,7 @@ ARGUMENTS = options(*FORCED, "phase", *START, "cycles", *COUNTS)
 
 @contextmanager
 def your_input(typed: Mapping[str, str] | None = None) -> Iterator[None]:
-    """Turn a refusal inside the block into one of yours, the arguments in it named as they are `typed`."""
+    """Convert errors raised in the block to `YourInput`, with arguments replaced by their names in `typed`."""
     try:
         yield
     except (ValueError, TypeError, OSError) as error:
@@ -45,7 +45,7 @@ def your_input(typed: Mapping[str, str] | None = None) -> Iterator[None]:
 
 
 def as_typed(text: str, typed: Mapping[str, str]) -> str:
-    """The same with arguments named as they are `typed`, but for what stands in quotes: a path, say."""
+    """Replace arguments in a text by their names in `typed`, except inside quotation marks, which may hold a path."""
     if not typed:
         return text
     words = r"(?<!\w)(?:'[^']*'|\"[^\"]*\")|(?<![\w-])(" + "|".join(typed) + r")(?!['\w])"

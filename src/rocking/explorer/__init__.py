@@ -1,4 +1,4 @@
-"""The explorer: a page that shows a system from all sides, computed as one looks; `rocking explore` serves it."""
+"""Interactive explorer in the browser, served by `rocking explore`."""
 
 from rocking.explorer.application import serve
 

@@ -1,4 +1,4 @@
-"""The page's server: on this machine alone, a document a visitor."""
+"""Explorer application: the page, its server and the compilation at the start."""
 
 from __future__ import annotations
 
@@ -23,45 +23,58 @@ from rocking.model import VERSION, Criterion
 from rocking.plot.parts import legend
 
 FIELDS = (
-    ("amplitude", "A", "amplitude of the base, in g θcr"),
-    ("period", "T", "period of the base, in 1/α"),
-    ("restitution", "e", "restitution at an impact"),
-    ("phase", "φ", "phase of the base, rad"),
-    ("angle", "Θ₀", "angle at the start, in θcr"),
-    ("velocity", "Θ′₀", "velocity at the start, in α θcr"),
-    ("brace_angle", "Θb", "angle of the braces; empty: none"),
-    ("brace_restitution", "r", "restitution at a brace"),
-    ("first", "", "first cycle drawn"),
-    ("cycles", "", "cycles drawn"),
+    ("amplitude", "A", "Amplitude A of the base acceleration, in units of g θcr"),
+    ("period", "T", "Forcing period T, in units of 1/α"),
+    ("restitution", "e", "Coefficient of restitution e of base impacts, 0 to 1"),
+    ("phase", "φ", "Forcing phase φ at the start of the motion, rad"),
+    ("angle", "Θ₀", "Initial angle Θ₀, in units of θcr"),
+    ("velocity", "Θ′₀", "Initial angular velocity Θ′₀, in units of α θcr"),
+    ("brace_angle", "Θb", "Brace angle Θb, in units of θcr; empty for no braces"),
+    ("brace_restitution", "r", "Coefficient of restitution r of brace impacts, 0 to 1"),
+    ("first", "", "First forcing cycle shown in the time history and the phase portrait"),
+    ("cycles", "", "Number of forcing cycles shown in the time history and the phase portrait"),
 )
 
 
 def serve(port: int = 0) -> BaseServer:
-    """A server that is ready to be started (`run_until_shutdown`), for this machine alone; port 0: any that is free.
+    """Create the local server of the explorer; `run_until_shutdown` starts it.
 
-    Raises OSError where the port cannot be listened at.
+    Parameters
+    ----------
+    port : int
+        Port, in [0, 65535]. Default: 0, which selects a free port.
+
+    Returns
+    -------
+    BaseServer
+        Server, not yet started.
+
+    Raises
+    ------
+    OSError
+        If the port cannot be opened.
     """
     workers = Workers()
 
     def open_visit(document: Document) -> None:
         document.title = "rocking explorer"
-        document.template = _text("page.html")  # type: ignore[assignment]  # its hint forgets the text that its setter takes
+        document.template = _text("page.html")  # type: ignore[assignment]  # the type hint lacks the text that the setter accepts
         document.template_variables.update(_page())
         Session(document, workers)
 
     server = local_server(Application(FunctionHandler(open_visit)), port)
     warm_up()
-    gc.freeze()  # whenever a visit is dropped all garbage is looked for: not among what stays for ever
+    gc.freeze()  # each closed session triggers a full collection; permanent objects need not be searched
     return server
 
 
 def warm_up() -> None:
-    """Compile, or load, what every visit needs, before any thread does: a process that ends while one compiles may crash."""
+    """Compile or load all kernels in the main thread, because a process that ends during a compilation may crash."""
     figure_data.response(DEFAULT)
     figure_data.spectrum(DEFAULT)
     figure_data.diagram(DEFAULT, np.zeros(1, np.int64))
     figure_data.Section(DEFAULT).grow(2)
-    for restitution in (DEFAULT.restitution, 1.0):  # without loss blocks march in lanes
+    for restitution in (DEFAULT.restitution, 1.0):  # undamped systems use the kernels of the lanes
         plane = Plane(
             ("period", DEFAULT.periods),
             ("amplitude", DEFAULT.amplitudes),
@@ -77,7 +90,7 @@ def _text(name: str) -> str:
 
 
 def _page() -> dict[str, object]:
-    """What the page is filled with: the same for everybody."""
+    """Return the variables of the page template, equal for all sessions."""
     given = {
         "looks": [look.name for look in legend.LOOKS],
         "colours": [look.colour for look in legend.LOOKS],

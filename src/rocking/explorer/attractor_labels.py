@@ -1,4 +1,4 @@
-"""Which orbit of its look each point of a picture comes to, so that mirror images do not look like one."""
+"""Labels of the attractors in a basin map, so that mirror images have different shades."""
 
 from __future__ import annotations
 
@@ -7,17 +7,30 @@ import numpy as np
 from rocking.survey import alike
 
 MAX_ATTRACTORS = 16
-"""Orbits of one look that are told apart: more are no list of attractors."""
+"""Maximum number of distinct orbits per category; a longer list is of no use as a legend."""
 
 
 class Orbits:
-    """The orbits met so far, numbered from 0 within each look in the order in which they were met."""
+    """Orbits found so far, numbered from 0 within each category of `LOOKS`, in order of discovery."""
 
     def __init__(self) -> None:
         self.met: dict[int, list[np.ndarray]] = {}
 
     def numbers(self, looks: np.ndarray, states: np.ndarray) -> np.ndarray:
-        """The numbers (n,) of the orbits that these states (n, 2) stand for; 0 too where there is none, or are too many."""
+        """Return the number of the orbit of each state, and add new orbits.
+
+        Parameters
+        ----------
+        looks : array of int (n,)
+            Indices in `LOOKS`.
+        states : array of float (n, 2)
+            Reference states (Θ, Θ') of the orbits; NaN without an orbit.
+
+        Returns
+        -------
+        array of uint8 (n,)
+            Numbers of the orbits; 0 also without an orbit and beyond `MAX_ATTRACTORS`.
+        """
         found = np.zeros(len(looks), np.uint8)
         there = np.isfinite(states).all(axis=1)
         for look in np.unique(looks[there]).tolist():

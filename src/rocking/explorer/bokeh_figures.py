@@ -1,4 +1,4 @@
-"""The figures of the page, empty: what they are made of, and what the page finds them by."""
+"""Empty Bokeh figures of the page, with the names by which the page finds their parts."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 from bokeh.models import ColumnDataSource, LinearAxis, LinearColorMapper, Range1d
-from bokeh.models.annotations import Span
+from bokeh.models.annotations import Span, Title
 from bokeh.models.tickers import BasicTicker
 from bokeh.plotting import figure
 from matplotlib.colors import to_hex
@@ -15,10 +15,10 @@ from rocking.explorer.progressive_map import SHADES
 from rocking.plot.parts import legend, style
 
 ACCENT = "#D81B60"
-"""Of what is selected; no kind of response has it."""
+"""Colour of the selection; no response type uses it."""
 SHADED = [to_hex(legend.paler(look.colour, shade)) for shade in range(SHADES) for look in legend.LOOKS]
 PALETTE = [*SHADED, "#FFFFFF", style.INK, "#00000000"]
-"""Colours of a picture of a plane, by its numbers: the shades of the looks, both hatches, nothing."""
+"""Palette of a map, indexed by `Picture.colours`: shades of all categories, white and dark hatch, transparent."""
 FONT = "11px"
 AXIS = {
     "axis_label_text_font_style": "normal",
@@ -27,14 +27,15 @@ AXIS = {
     "axis_label_standoff": 4,
     "minor_tick_line_color": None,
 }
+BASIN_LABELS = "initial angle Θ₀", "initial velocity Θ′₀"
 LEFT = 64
-"""Room left of a figure for its numbers and its label: the same for all, so that their frames stand below each other."""
+"""Left border of every figure, px, for tick labels and axis label. One width aligns the frames."""
 FEW = 3
-"""Numbers along an axis that is short."""
+"""Number of ticks along a short axis."""
 
 
 def no_image() -> dict[str, Any]:
-    """The columns of an image of nothing."""
+    """Return the columns of an empty image."""
     return {"image": [np.zeros((2, 2), np.uint8)], "x": [0.0], "y": [0.0], "w": [0.0], "h": [0.0]}
 
 
@@ -42,9 +43,16 @@ def _empty(name: str, *columns: str) -> ColumnDataSource:
     return ColumnDataSource({column: [] for column in columns}, name=name)
 
 
-def _figure(name: str, across: str, up: str, tools: str = "", ticks: int = 5, **more: Any) -> Any:
+def _figure(name: str, title: str, across: str, up: str, tools: str = "", ticks: int = 5, **more: Any) -> Any:
     made = figure(
         name=name,
+        title=Title(  # type: ignore[call-arg]  # its type hints lack the offset
+            text=title,
+            text_font_size="12px",
+            text_font="system-ui, sans-serif",
+            standoff=7,
+            offset=8 - LEFT,  # flush with the left edge of the figure
+        ),
         tools=tools,
         toolbar_location=None,
         sizing_mode="stretch_both",
@@ -65,9 +73,9 @@ def _figure(name: str, across: str, up: str, tools: str = "", ticks: int = 5, **
     return made
 
 
-def _plane(name: str, across: str, up: str) -> Any:
-    """A picture of two quantities that is zoomed and moved, with the point that is selected."""
-    made = _figure(name, across, up, tools="pan,wheel_zoom,tap", active_scroll="wheel_zoom")
+def _plane(name: str, title: str, across: str, up: str) -> Any:
+    """Return a map of two quantities with zoom, pan and a mark at the selected point."""
+    made = _figure(name, title, across, up, tools="pan,wheel_zoom,tap", active_scroll="wheel_zoom")
     made.yaxis.ticker = BasicTicker(desired_num_ticks=6)
     made.grid.visible = False
     colours = LinearColorMapper(palette=PALETTE, low=-0.5, high=len(PALETTE) - 0.5)
@@ -81,8 +89,8 @@ def _plane(name: str, across: str, up: str) -> Any:
 
 
 def plane_of_systems() -> Any:
-    """The map over period and amplitude, with the curves of the theory, and axes in SI at its other sides."""
-    made = _plane("map", "", "")
+    """Return the map over period and amplitude, with theoretical curves, and SI axes above and at the right."""
+    made = _plane("map", "Response type", "period T", "amplitude A")
     curves = _empty("curves", "xs", "ys", "dash")
     for colour, width in (("white", 4.0), (style.INK, 1.4)):
         made.multi_line("xs", "ys", source=curves, line_color=colour, line_width=width, line_dash="dash")
@@ -98,21 +106,21 @@ def plane_of_systems() -> Any:
 
 
 def plane_of_starts() -> Any:
-    """The basin over angle and velocity of the start."""
-    return _plane("basin", "angle at the start Θ₀", "velocity at the start Θ′₀")
+    """Return the basins of attraction over initial angle and velocity."""
+    return _plane("basin", "Basins of attraction", *BASIN_LABELS)
 
 
 def history() -> Any:
-    """The angle over time."""
-    made = _figure("history", "time τ", "angle Θ")
+    """Return the time history of the angle."""
+    made = _figure("history", "Time history", "time τ", "angle Θ")
     line = _empty("line", "time", "angle", "velocity")
     made.line("time", "angle", source=line, name="line", line_color=style.MOTION, line_width=1.4)
     return made
 
 
 def portrait() -> Any:
-    """The velocity over the angle, with impacts."""
-    made = _figure("portrait", "angle Θ", "velocity Θ′", ticks=FEW)
+    """Return the phase portrait, with a mark at each impact."""
+    made = _figure("portrait", "Phase portrait with impacts", "angle Θ", "velocity Θ′", ticks=FEW)
     line, hits = _empty("line", "angle", "velocity"), _empty("hits", "angle", "velocity", "colour")
     made.line(
         "angle", "velocity", source=line, name="line", line_color=style.MOTION, line_width=1.0, line_alpha=0.8
@@ -122,8 +130,8 @@ def portrait() -> Any:
 
 
 def section() -> Any:
-    """The state once a cycle: single points, or where they are many how dense they lie."""
-    made = _figure("section", "angle Θ", "velocity Θ′", ticks=FEW)
+    """Return the Poincaré section, once per forcing cycle: single points, or an image of their density."""
+    made = _figure("section", "Poincaré section", "angle Θ", "velocity Θ′", ticks=FEW)
     dense = ColumnDataSource(no_image(), name="dense")
     shades = [f"{style.MOTION}{round(255 * share):02X}" for share in (0.0, *np.linspace(0.35, 1.0, 8))]
     made.image(
@@ -147,8 +155,14 @@ def section() -> Any:
 
 
 def spectrum() -> Any:
-    """The spectral density over the frequency in units of the forcing's, with the strongest lines named."""
-    made = _figure("spectrum", "frequency over that of the base", "density S", y_axis_type="log")
+    """Return the power spectral density over frequency / forcing frequency, with names at its strongest lines."""
+    made = _figure(
+        "spectrum",
+        "Power spectral density",
+        "frequency / forcing frequency",
+        "density S (τ)",
+        y_axis_type="log",
+    )
     line, names = _empty("line", "frequency", "density"), _empty("names", "frequency", "density", "name")
     made.line("frequency", "density", source=line, name="line", line_color=style.MOTION, line_width=1.2)
     made.text(
@@ -167,8 +181,8 @@ def spectrum() -> Any:
 
 
 def diagram() -> Any:
-    """What is left of the motion after a transient, over the amplitude or the period."""
-    made = _figure("diagram", "", "angle Θ", tools="tap")
+    """Return the orbit (bifurcation) diagram over the amplitude or the period."""
+    made = _figure("diagram", "Orbit (bifurcation) diagram", "", "angle Θ", tools="tap")
     made.scatter(
         "value",
         "angle",

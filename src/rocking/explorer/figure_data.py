@@ -1,4 +1,4 @@
-"""From what is shown to what is drawn of one motion: numbers alone, computed on any thread."""
+"""Data of the figures of one motion; every function may run on any thread."""
 
 from __future__ import annotations
 
@@ -23,35 +23,43 @@ Columns = dict[str, Any]
 Ranges = tuple[float, float, float, float]
 
 SOON, LATER = 10_000, 100_000
-"""Cycles that a click waits for to be judged; and those after which what is then still open is judged again."""
+"""Maximum number of cycles of the first classification, and of the second one if the response is undetermined."""
 PROBED = 3
+"""Cycles of the run that estimates the cost of a cycle."""
 SOON_HITS, LATER_HITS = 3e5, 3e6
-"""Impacts and brace hits that a picture may take, of those that a click waits for, and of the others."""
+"""Maximum number of impacts per figure: for the figures that a click waits for, and for the others."""
 PERIOD = 64
+"""Largest response period that is sought, in forcing cycles."""
 SETTLING, RECORD = 128, 256
-"""Cycles left out before a spectrum, and taken for it."""
+"""Cycles discarded before the spectrum, and cycles used for it."""
 HIGHEST, DECADES, NAMES = 3.05, 10.0, 6
-"""Of a spectrum: up to which multiple of the base's frequency, how deep, and how many lines are named."""
+"""Spectrum: highest multiple of the forcing frequency, decades shown below the maximum, and maximum number of named lines."""
 NAME_ACROSS, NAME_UP = 0.45, 1.2
-"""Names nearer than this, in multiples across and in decades up, would run into each other."""
-NO_SPECTRUM = "no spectrum: the motion ends, or has too many events"
+"""Distances below which two names of lines overlap: in multiples of the forcing frequency and in decades."""
+NO_SPECTRUM = "No spectrum: the motion ends or has too many impacts"
 SINGLE = 1_500
-"""Places in a section that are drawn as points; of more it is shown how dense they lie."""
+"""Maximum number of points drawn singly in a section. Beyond it, an image shows their density."""
 CELLS = 360
+"""Cells of that image along each side."""
 MAX_RINGS = 64
+"""Maximum number of points of a periodic orbit that are marked in a section."""
 VALUES, TRANSIENT, KEPT = 240, 200, 32
+"""Orbit diagram: parameter values, cycles discarded at each value and cycles recorded."""
 PIECE_HITS = 3e5
-"""Impacts and brace hits of a piece of a diagram, about: it cannot end before a piece does."""
+"""Approximate number of impacts per part of an orbit diagram. The computation can stop only between two parts."""
 FARTHEST = 1e6
-"""Angle up to which a block is drawn that starts beyond return: no double holds where a long cycle takes it."""
+"""Largest angle drawn of a block that overturns. Within a long cycle the angle can exceed the range of doubles."""
 ROOM = 0.06
+"""Margin of an axis, as a fraction of the range of the values."""
 MARGIN = 1e-9
+"""Minimum length of the time axis."""
 SAME = 1e-6
+"""Relative range below which values differ only by rounding."""
 
 
 @lru_cache(256)
 def hits_per_cycle(system: System, start: State) -> float:
-    """Impacts and brace hits in one of the first cycles, at least 1: what a cycle costs; infinite where it costs too much."""
+    """Estimate the impacts per cycle, at least 1, from the first cycles; infinite if there are too many to compute."""
     for cycles in (1, PROBED):
         try:
             motion = simulate(system, start, cycles=cycles, record="none")
@@ -64,18 +72,18 @@ def hits_per_cycle(system: System, start: State) -> float:
 
 
 def crowded(shown: ViewState) -> bool:
-    """Whether a cycle has more events than a picture can follow."""
+    """Return whether a cycle has too many impacts for a figure."""
     return math.isinf(hits_per_cycle(shown.system, shown.start))
 
 
 def affordable(shown: ViewState, cycles: int, hits: float = SOON_HITS) -> int:
-    """So many cycles, or as many as may be computed for one picture."""
+    """Reduce a number of cycles to those that one figure may take; at least 1."""
     return int(max(min(cycles, hits / hits_per_cycle(shown.system, shown.start)), 1))
 
 
 @frozen(eq=False)
 class Response:
-    """What a system does from its start, as it is drawn."""
+    """Verdict, time history and phase portrait of a motion, with the ranges of the axes."""
 
     verdict: Verdict
     history: Columns
@@ -86,7 +94,7 @@ class Response:
 
 @frozen(eq=False)
 class Spectrum:
-    """A spectral density as it is drawn, or why there is none."""
+    """Power spectral density with named lines; `why` gives the reason if there is none."""
 
     line: Columns
     names: Columns
@@ -96,16 +104,17 @@ class Spectrum:
 
 @frozen(eq=False)
 class Drawn:
-    """A section as it is drawn: single points, or how dense they lie; and the orbit that it comes to."""
+    """Section to draw: single points or an image of their density, the periodic orbit, and the cycles shown."""
 
     points: Columns
     dense: Columns
     orbit: Columns
     ranges: Ranges
+    label: str
 
 
 def response(shown: ViewState) -> Response:
-    """The motion over the cycles shown, and what it is."""
+    """Classify the response and simulate the cycles shown."""
     found = classify(shown.system, shown.start, affordable(shown, SOON), PERIOD)
     try:
         if crowded(shown):
@@ -136,7 +145,13 @@ def response(shown: ViewState) -> Response:
 
 
 def _motion(shown: ViewState) -> tuple[Motion, float]:
-    """The cycles shown with all their events, and the time at which they begin; those before it leave no trace."""
+    """Simulate the cycles shown; the cycles before them are not recorded.
+
+    Returns
+    -------
+    tuple of (Motion, float)
+        Motion with all events, and its initial time τ.
+    """
     system, start, before = shown.system, shown.start, 0
     if shown.first:
         earlier = simulate(system, start, cycles=affordable(shown, shown.first), record="none")
@@ -146,7 +161,7 @@ def _motion(shown: ViewState) -> tuple[Motion, float]:
 
 
 def _is_start(state: State) -> bool:
-    """Whether a motion can begin there: what a long one reaches may lie beyond."""
+    """Return whether a state is a valid initial state; a long motion can leave the allowed range."""
     return max(abs(state.angle), abs(state.velocity)) <= MAX_START
 
 
@@ -157,7 +172,7 @@ def _shown_of(motion: Motion) -> tuple[float, float]:
 
 
 def _around(values: np.ndarray) -> tuple[float, float]:
-    """A range with some room around values, and more where they are all the same but for rounding."""
+    """Return the range of values with a margin, a wider one if they differ only by rounding."""
     low, high = (float(values.min()), float(values.max())) if len(values) else (0.0, 0.0)
     size = max(abs(low), abs(high))
     room = ROOM * (high - low) if high - low > SAME * size else max(0.5 * size, 0.1)
@@ -165,7 +180,7 @@ def _around(values: np.ndarray) -> tuple[float, float]:
 
 
 def spectrum(shown: ViewState) -> Spectrum:
-    """The spectral density after the transient, in units of the base's frequency."""
+    """Return the power spectral density after the transient, over multiples of the forcing frequency."""
     try:
         if crowded(shown):
             raise TooManyEvents(NO_SPECTRUM)
@@ -178,7 +193,7 @@ def spectrum(shown: ViewState) -> Spectrum:
     kept = (multiples > 0) & (multiples <= HIGHEST) & (density.density > 0)
     heights = density.density[kept]
     top = float(heights.max()) if heights.size else 1.0
-    bottom = max(top * 10.0**-DECADES, float(heights.min()) if heights.size else 0.0)
+    bottom = top * 10.0**-DECADES  # with fewer decades, the labels of all of them overlap
     named: list[tuple[float, float, str]] = []
     for peak in density.peaks:
         multiple = peak.frequency * shown.period
@@ -194,7 +209,7 @@ def spectrum(shown: ViewState) -> Spectrum:
 
 
 class Section:
-    """A section that grows: the motion goes on from where it was."""
+    """Poincaré section that grows by continuing the motion."""
 
     def __init__(self, shown: ViewState) -> None:
         self.shown, self.last = shown, shown.start
@@ -202,26 +217,29 @@ class Section:
         self.ended = ""
 
     def grow(self, cycles: int) -> None:
-        """So many cycles more, unless the block overturned or rests, or has too many events."""
+        """Add cycles, unless the block overturned, rests or has too many impacts."""
         if crowded(self.shown) or len(self.points) + cycles > affordable(self.shown, LATER, LATER_HITS):
-            self.ended = "too many events"
+            self.ended = "too many impacts"
             return
         motion = simulate(self.shown.system, self.last, cycles=cycles, record="section")
         self.points = np.concatenate([self.points, motion.section()[:-1]])
         self.last = motion.final
         if motion.outcome is not Outcome.BOUNDED:
-            self.ended = str(motion.outcome)
+            self.ended = motion.outcome.replace("-", " ")
         elif not _is_start(self.last):
             self.ended = "too fast"
 
     def drawn(self, period: int | None) -> Drawn:
-        """What is there of it, with the orbit of that period that it comes to."""
-        points, last = self.points, self.points[len(self.points) - (period or 0) :]
+        """Return the section without the transient, with the periodic orbit that the motion reaches."""
+        omitted = self._omitted()
+        points, last = self.points[omitted:], self.points[len(self.points) - (period or 0) :]
+        label = _section_label(omitted, len(self.points), self.ended)
         spans = *_around(points[:, 0]), *_around(points[:, 1])
         orbit = {"angle": last[:MAX_RINGS, 0], "velocity": last[:MAX_RINGS, 1]}
         places, first, counts = np.unique(_cells(points, spans), return_index=True, return_counts=True)
         if len(places) <= SINGLE:
-            return Drawn({"angle": points[first, 0], "velocity": points[first, 1]}, no_image(), orbit, spans)
+            single = {"angle": points[first, 0], "velocity": points[first, 1]}
+            return Drawn(single, no_image(), orbit, spans, label)
         image = np.zeros(CELLS * CELLS, np.uint8)
         image[places] = np.minimum(1 + np.log2(counts), 8)
         left, right, bottom, top = spans
@@ -232,11 +250,29 @@ class Section:
             "w": [right - left],
             "h": [top - bottom],
         }
-        return Drawn({"angle": [], "velocity": []}, dense, orbit, spans)
+        return Drawn({"angle": [], "velocity": []}, dense, orbit, spans, label)
+
+    def _omitted(self) -> int:
+        """Return the number of cycles omitted as transient: a tenth of all, at least `TRANSIENT`, at most nine tenths.
+
+        A motion that overturned or rests is all transient and is shown whole. An undamped motion has no transient.
+        """
+        braced = self.shown.brace_angle is not None
+        undamped = self.shown.restitution == 1.0 and not (braced and self.shown.brace_restitution < 1.0)
+        if undamped or self.ended in ("overturned", "at rest"):
+            return 0
+        computed = len(self.points)
+        return min(max(computed // 10, TRANSIENT), 9 * computed // 10)
+
+
+def _section_label(omitted: int, last: int, ended: str) -> str:
+    """Return the label of the angle, with the cycles shown, counted from 1, and the reason if the motion ended."""
+    cycles = f"cycle{'s' * (last > 1)} {omitted + 1:,}{f'–{last:,}' * (last > 1)}" if last else ""
+    return ", ".join(filter(None, ("angle Θ", cycles, ended)))
 
 
 def _cells(points: np.ndarray, spans: Ranges) -> np.ndarray:
-    """The cell of each point, counted in C order, upward first."""
+    """Return the index of the cell of each point, in C order: rows upward, then columns."""
     left, right, bottom, top = spans
     columns = np.clip((points[:, 0] - left) / (right - left) * CELLS, 0, CELLS - 1).astype(int)
     rows = np.clip((points[:, 1] - bottom) / (top - bottom) * CELLS, 0, CELLS - 1).astype(int)
@@ -244,9 +280,17 @@ def _cells(points: np.ndarray, spans: Ranges) -> np.ndarray:
 
 
 def diagram(shown: ViewState, stop: np.ndarray) -> tuple[Columns, Ranges]:
-    """What is left of the motion after a transient, at values all along the map's axis, each from the start.
+    """Return the orbit diagram along an axis of the map, with every run from the initial state.
 
-    CancelledError once another thread has set `stop[0]`.
+    Returns
+    -------
+    tuple of (Columns, Ranges)
+        Values and angles of the points, and the ranges of the axes.
+
+    Raises
+    ------
+    CancelledError
+        If another thread has set `stop[0]`.
     """
     span: Span = shown.varied
     values = np.linspace(span.low, span.high, VALUES)
@@ -278,5 +322,5 @@ def diagram(shown: ViewState, stop: np.ndarray) -> tuple[Columns, Ranges]:
 
 
 def judge_longer(shown: ViewState) -> Verdict:
-    """What is open after `SOON` cycles, after `LATER`."""
+    """Classify again, with up to `LATER` cycles, a response that is undetermined after `SOON` cycles."""
     return classify(shown.system, shown.start, affordable(shown, LATER, LATER_HITS), PERIOD)

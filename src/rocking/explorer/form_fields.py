@@ -1,4 +1,4 @@
-"""Fields as they are typed and as they stand in an address: read, refused in a sentence each, and written."""
+"""Fields as text, in the form and in links: reading, validation and writing."""
 
 from __future__ import annotations
 
@@ -24,11 +24,13 @@ from rocking.model import (
 from rocking.plot.parts import theory_curves
 
 VERSION = 1
-"""Of an address: raised when one of before would show something else."""
+"""Version of links; increased when an earlier link would show a different view."""
 MAX_LENGTH = 40
-"""Signs in a number that is typed."""
+"""Maximum number of characters of a number."""
 MAX_ADDRESS = 2000
+"""Maximum number of characters of a link."""
 LATEST, MAX_SHOWN = 100_000, 200
+"""Largest first cycle, and largest number of cycles, of the time history."""
 WORDS = {
     "brace_angle": "brace angle",
     "brace_restitution": "brace restitution",
@@ -36,11 +38,11 @@ WORDS = {
     "acceleration_g": "acceleration",
     "frequency_hz": "frequency",
 }
-"""What a field is called where it is not called by its name: at the field, and where what is typed there is refused."""
+"""Labels of fields, in the form and in error messages, if they differ from the names."""
 
 
 class Refused(ValueError):
-    """What was typed cannot be shown: a sentence for each field."""
+    """Invalid input: `fields` holds one error message per field."""
 
     def __init__(self, fields: Mapping[str, str]) -> None:
         super().__init__("; ".join(fields.values()))
@@ -51,7 +53,7 @@ class Refused(ValueError):
 
 
 def _given(name: str, text: str) -> str:
-    """What was typed, if anything was."""
+    """Return the text without surrounding spaces; raise ValueError if it is empty."""
     if not text.strip():
         raise ValueError(f"give the {name}")
     return text.strip()
@@ -87,10 +89,10 @@ def _span(low: float, high: float) -> Callable[[str, str], Span]:
     def read(name: str, text: str) -> Span:
         first, _, last = text.partition(":")
         span = Span(number(name, first), number(name, last))
-        # a hair: the narrowest one itself must survive rounding
+        # tolerance for rounding, so that the narrowest range itself is valid
         if not span.width >= closest(span) * (1.0 - 1e-3):
             raise ValueError(
-                refusal(name, "be LOW:HIGH, LOW below HIGH, no closer than doubles can tell", text)
+                refusal(name, "be LOW:HIGH, with LOW < HIGH and a range that double precision resolves", text)
             )
         return span
 
@@ -140,7 +142,7 @@ READ: dict[str, Callable[[str, str], Any]] = {
     "height": _optional(_number(1e-3, 1e3)),
     "width": _optional(_number(1e-3, 1e3)),
 }
-"""How what is typed for a field, or stands in an address, is read."""
+"""Reader of each field, for the form and for links."""
 PHYSICAL = {
     "height": _number(1e-3, 1e3),
     "width": _number(1e-3, 1e3),
@@ -150,12 +152,24 @@ PHYSICAL = {
 
 
 def changed(shown: ViewState, typed: Mapping[str, str]) -> ViewState:
-    """The same with some fields as they are typed.
+    """Return the view with new values of some fields.
+
+    Parameters
+    ----------
+    shown : ViewState
+        Current view.
+    typed : mapping of str to str
+        Field names and their text.
+
+    Returns
+    -------
+    ViewState
+        New view.
 
     Raises
     ------
     Refused
-        With a sentence for each field that cannot be as it is typed.
+        If a field is invalid, with one message per field.
     """
     read, refused = _read(READ, typed)
     if refused:
@@ -169,9 +183,24 @@ def changed(shown: ViewState, typed: Mapping[str, str]) -> ViewState:
 
 
 def in_metres(shown: ViewState, typed: Mapping[str, str]) -> ViewState:
-    """The same with the block and the shaking in SI: height, width, acceleration (`unit` "g" or "m/s²"), frequency_hz.
+    """Return the view with a block and its forcing in SI units.
 
-    Raises Refused as `changed` does.
+    Parameters
+    ----------
+    shown : ViewState
+        Current view.
+    typed : mapping of str to str
+        Text of `height` and `width` in m, `acceleration` in the `unit` "g" or "m/s²", and `frequency_hz` in Hz.
+
+    Returns
+    -------
+    ViewState
+        New view, with Housner's coefficient of restitution. Its map includes the new system.
+
+    Raises
+    ------
+    Refused
+        If a field is invalid, with one message per field.
     """
     read, refused = _read(PHYSICAL, {name: typed.get(name, "") for name in PHYSICAL})
     if refused:
@@ -196,15 +225,15 @@ def in_metres(shown: ViewState, typed: Mapping[str, str]) -> ViewState:
 
 
 def _at_its_field(sentence: str) -> dict[str, str]:
-    """What the package refuses of a block or its shaking, at the field that it is about and in that field's words."""
+    """Assign an error message of the package to its field, with the label of the field."""
     name, _, rest = sentence.partition(" ")
-    if name == "restitution":  # Housner's, which follows from the sizes
+    if name == "restitution":  # Housner's value, which follows from height and width
         return {"width": f"{sentence.partition(':')[0]}: make the block narrower or taller"}
     return {name.removesuffix("_g"): f"{WORDS.get(name, name)} {rest}"}
 
 
 def _reaching(span: Span, value: float, most: float) -> Span:
-    """A stretch that holds a value: as it is, or longer."""
+    """Return the range, extended if necessary to contain a value."""
     if span.low <= value <= span.high:
         return span
     return Span(min(span.low, value * 0.8), min(max(span.high, value * 1.25), most))
@@ -213,7 +242,13 @@ def _reaching(span: Span, value: float, most: float) -> Span:
 def _read(
     how: Mapping[str, Callable[[str, str], Any]], typed: Mapping[str, str]
 ) -> tuple[dict[str, Any], dict[str, str]]:
-    """What was read, and what was refused."""
+    """Read fields.
+
+    Returns
+    -------
+    tuple of (dict, dict)
+        Values by name, and error messages by name.
+    """
     read, refused = {}, {}
     for name, text in typed.items():
         if name not in how:
@@ -227,7 +262,7 @@ def _read(
 
 
 def address(shown: ViewState) -> str:
-    """The parameters of an address that shows the same: the system, and whatever is not as at the beginning."""
+    """Return the query string of a view: the system, and all other fields that differ from their defaults."""
     system = ("amplitude", "period", "restitution")
     parts = {
         each.name: written(getattr(shown, each.name))
@@ -238,7 +273,7 @@ def address(shown: ViewState) -> str:
 
 
 def written(value: Any) -> str:
-    """A field as it is typed: every digit that a double has, and no more."""
+    """Write a field as text, with the fewest digits that give the value back."""
     if value is None:
         return ""
     if isinstance(value, Span):
@@ -249,13 +284,21 @@ def written(value: Any) -> str:
 
 
 def from_address(text: str) -> tuple[ViewState, dict[str, str]]:
-    """What the parameters of an address show, and a sentence for each that cannot be: it is left as at the beginning."""
+    """Return the view of a query string; invalid parameters keep their defaults.
+
+    Returns
+    -------
+    tuple of (ViewState, dict of str)
+        View, and an error message for each invalid parameter.
+    """
     if len(text) > MAX_ADDRESS:
-        return DEFAULT, {"page": f"address must have at most {MAX_ADDRESS} signs; got {len(text)}"}
+        return DEFAULT, {"page": f"link must have at most {MAX_ADDRESS} characters; got {len(text)}"}
     typed = dict(parse_qsl(text.removeprefix("?"), keep_blank_values=True, max_num_fields=None))
     version = typed.pop("version", str(VERSION))
     if version != str(VERSION):
-        return DEFAULT, {"page": refusal("version", f"be {VERSION}, of addresses made here", version)}
+        return DEFAULT, {
+            "page": refusal("version", f"be {VERSION}, the version of the links of this explorer", version)
+        }
     read, refused = _read(READ, typed)
     shown = attrs.evolve(DEFAULT, **read)
     try:

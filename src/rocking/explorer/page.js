@@ -3,9 +3,9 @@ const given = JSON.parse(document.getElementById("given").textContent);
 const find = id => document.getElementById(id);
 const all = selector => [...document.querySelectorAll(selector)];
 let link, shown, models = {}, playing = !matchMedia("(prefers-reduced-motion: reduce)").matches, asked = 0;
-const still = new Set(); // planes that we move ourselves just now
+const still = new Set(); // maps whose ranges the page itself is setting
 
-// ---- what we ask for, and what we are told
+// ---- requests and messages
 
 function ask(what, fields, push = true) {
   link.asked = JSON.stringify({ n: ++asked, what, fields, push: push ? "yes" : "no" });
@@ -51,7 +51,7 @@ const waiting = setInterval(() => {
 
 const depth = () => history.state?.n ?? 0;
 
-// as many digits as a field has room for; all of them are there to be edited
+// Rounded to the width of a field. In the field with the focus, all digits can be edited.
 function brief(text) {
   if (text.length <= 8) return text;
   const rounded = [4, 3, 2, 1].map(digits => String(Number(Number(text).toPrecision(digits))));
@@ -78,7 +78,7 @@ function show(told) {
   }
   stack();
   for (const name of ["map", "basin"]) steady(name);
-  find("depth").textContent = told.planes.map.deepest ? "as deep as double precision goes" : "";
+  find("depth").textContent = told.planes.map.deepest ? "Zoom limit of double precision" : "";
   find("vary").value = told.fields.vary;
   const [low, high, value] = told.slider;
   if (document.activeElement !== find("slider") || !sliding) find("slider").value = 1000 * (value - low) / (high - low);
@@ -86,7 +86,7 @@ function show(told) {
   find("commands").textContent = told.commands;
   find("link-text").textContent = location.href;
   if (told.moved) find("verdict").classList.add("stale");
-  find("units").close(); // what it asked for is seen
+  find("units").close(); // uncovers the new view
   if (told.fields.height) { find("m-height").value = told.fields.height; find("m-width").value = told.fields.width; }
 }
 
@@ -99,10 +99,10 @@ window.addEventListener("popstate", () => { if (link) ask("open", { address: loc
 find("undo").onclick = () => history.back();
 find("redo").onclick = () => history.forward();
 
-// ---- what figures show
+// ---- contents of the figures
 
 const parts = told => (told instanceof Map ? [...told] : Object.entries(told));
-let answers = {}; // of the map, at each point
+let answers = {}; // results at each point of the map
 
 function draw(drawn) {
   for (const [name, told] of parts(drawn)) if (models[name]) for (const [part, value] of parts(told)) fill(name, part, value);
@@ -119,7 +119,7 @@ function fill(name, part, value) {
   } else change(figure.renderers.find(each => each.data_source.name === part).data_source, { data: value });
 }
 
-// ---- planes: zoomed and moved here, computed there
+// ---- maps: the browser zooms and pans, the server computes
 
 const timers = {};
 
@@ -174,7 +174,7 @@ for (const name of ["map", "basin"]) {
   find(name).addEventListener("pointermove", event => point(name, event));
 }
 
-// ---- what the map says at a point
+// ---- readout of the map at a point
 
 function point(name, event) {
   if (name !== "map" || !shown) return;
@@ -190,11 +190,11 @@ function point(name, event) {
   if (column < 0 || row < 0 || column >= side || row >= side) return;
   const at = row * side + column, look = source.look[at], period = source.response_period[at], impacts = source.impacts_per_period[at];
   const ground = source.evidence[at], exponent = source.exponent[at], [baseX, baseY] = shown.planes.map.base;
-  const parts = [given.looks[look] ?? "no start"];
-  if (period > 0) parts.push(`repeats after ${period} cycle${period > 1 ? "s" : ""}` + (impacts >= 0 ? `, ${impacts} impacts` : ""));
+  const parts = [given.looks[look] ?? "invalid initial state"];
+  if (period > 0) parts.push(`repeats after ${period} cycle${period > 1 ? "s" : ""}` + (impacts >= 0 ? `, ${impacts} impact${impacts === 1 ? "" : "s"}` : ""));
   const level = given.levels[ground] === "none" ? "" : ` (${given.levels[ground]})`;
   parts.push(given.grounds[ground] + level);
-  if (exponent === -Infinity) parts.push("λ₁ = −∞"); else if (Number.isFinite(exponent)) parts.push(`λ₁ = ${exponent.toPrecision(3).replace("-", "−")}`);
+  if (exponent === -Infinity) parts.push("λ₁ = −∞"); else if (Number.isFinite(exponent)) parts.push(`λ₁ = ${exponent.toPrecision(3).replace("-", "−")} per τ`);
   const readout = find("readout");
   const digits = span => Math.min(17, Math.max(4, 3 - Math.floor(Math.log10(span))));
   readout.replaceChildren(`T = ${(baseX + x).toPrecision(digits((right - left) / Math.abs(baseX + x)))}, A = ${(baseY + y).toPrecision(digits((top - bottom) / Math.max(Math.abs(baseY + y), 1e-9)))}: `);
@@ -203,7 +203,7 @@ function point(name, event) {
   readout.append(strong, "; " + parts.join("; "));
 }
 
-// ---- words
+// ---- verdict, legends and messages
 
 function judge(told) {
   find("verdict").classList.remove("stale");
@@ -226,28 +226,28 @@ function entries(legend) {
     const row = document.createElement("li"), swatch = document.createElement("i"), share = document.createElement("small");
     const stripes = each.hatch ? `repeating-linear-gradient(${each.hatch === "white" ? 45 : 135}deg, ${each.hatch} 0 2px, transparent 2px 5px), ` : "";
     swatch.style.background = stripes + each.colour;
-    share.textContent = each.share;
+    share.textContent = each.share && `(${each.share})`;
     row.append(swatch, each.name, share);
     row.classList.toggle("none", !each.share);
     return row;
   });
 }
 
-const shares = legend => legend.filter(each => each.share).map(each => `${each.name} ${each.share}`).join(", ");
+const shares = legend => legend.filter(each => each.share).map(each => `${each.name} (${each.share})`).join(", ");
 
 function legend({ legend }) {
   find("legend").replaceChildren(...entries(legend));
-  find("map").setAttribute("aria-label", `Map of responses over period and amplitude: ${shares(legend)}. Arrow keys move it, plus and minus zoom, 0 shows all; type A and T to select a system.`);
+  find("map").setAttribute("aria-label", `Map of responses over period and amplitude: ${shares(legend)}. Arrow keys move the view, plus and minus zoom, 0 resets it. Enter A and T to select a point.`);
 }
 
 function attractors({ legend }) {
   find("attractors").replaceChildren(...entries(legend));
-  find("basin").setAttribute("aria-label", `Basin, where each start leads: ${shares(legend)}. Arrow keys move it, plus and minus zoom, 0 shows all; type Θ₀ and Θ′₀ to select a start.`);
+  find("basin").setAttribute("aria-label", `Basins of attraction: ${shares(legend)}. Arrow keys move the view, plus and minus zoom, 0 resets it. Enter Θ₀ and Θ′₀ to select an initial state.`);
 }
 
 function progress(told) {
   const bar = document.querySelector("#bar i");
-  find("progress").textContent = told.done ? "" : `computing: ${told.text}`;
+  find("progress").textContent = told.done ? "" : `Computing the map: ${told.text}`;
   bar.style.opacity = told.done ? 0 : 1;
   bar.style.width = `${100 * told.share}%`;
   document.body.dataset.map = told.done ? "done" : String(told.side);
@@ -289,7 +289,7 @@ for (const input of all("#fields input")) {
   input.addEventListener("focus", () => {
     if (!input.value.startsWith("≈")) return;
     input.value = shown.fields[input.name];
-    input.select(); // as it was when it came here by a key; a click then sets the caret
+    input.select(); // as after Tab; a click then sets the caret
   });
   input.addEventListener("blur", () => { if (input.value === shown?.fields[input.name]) input.value = brief(input.value); });
   input.addEventListener("input", () => { input.dataset.typing = "yes"; });
@@ -305,7 +305,7 @@ find("vary").onchange = event => ask("fields", { vary: event.target.value });
 let sliding = 0, pending = false;
 const slid = push => {
   const [low, high] = shown.slider, value = low + (high - low) * find("slider").value / 1000;
-  // as few digits as tell one step from the next
+  // the fewest digits that distinguish two steps
   const short = Number(value.toFixed(Math.max(Math.ceil(-Math.log10((high - low) / 1000)), 0)));
   ask("fields", { [shown.fields.vary]: String(Math.min(Math.max(short, low), high)) }, push);
 };
@@ -381,6 +381,7 @@ function theme(name) {
   }
   const style = getComputedStyle(document.documentElement), colour = name => ({ value: style.getPropertyValue(name) });
   for (const name of ["line", "accent"]) inks[name] = style.getPropertyValue(`--${name}`);
+  for (const model of Object.values(models)) model.title.setv({ text_color: colour("--ink").value.trim() }, { sync: false });
   for (const { name, glyph } of Object.values(models).flatMap(model => model.renderers)) {
     if (name === "words") glyph.setv({ text_color: colour("--soft") }, { sync: false });
     if (name === "line") glyph.setv({ line_color: colour("--motion") }, { sync: false });
@@ -397,8 +398,7 @@ find("theme").onclick = () => {
 // ---- the block
 
 let film = null, clock = 0, last = 0;
-const inks = {}; // read once a theme: a frame that reads a style has all of them computed anew
-const DEPTH = 7; // seconds that a forcing cycle may take at most is one; the film of few cycles runs slower
+const inks = {}; // read once per theme, because reading a style in a frame forces a recalculation of all styles
 
 function scene() {
   const data = models.history.renderers[0].data_source.data, column = key => data instanceof Map ? data.get(key) : data[key];
@@ -408,15 +408,15 @@ function scene() {
   const critical = Math.atan2(width, height), radius = Math.hypot(height, width) / 2;
   let peak = 0;
   for (const value of angle) peak = Math.max(peak, Math.abs(value));
-  // a_x/ω² in the block's own units: A g θcr/(Ω α)², α² = 3g/4R
+  // displacement amplitude a_x/ω² in the units of height and width: A g θcr/(Ω α)², α² = 3g/4R
   const base = amplitude * critical * (4 * radius / 3) / frequency ** 2;
   film = { time, angle, height, width, critical, frequency, period, base, phase: Number(fields.phase),
     angles: Math.min(Math.max(0.35 / (peak * critical || 1), 1), 12), moves: Math.min(Math.max(0.06 * height / (base || 1), 1), 60) };
   clock = time[0] ?? 0;
   const told = [];
-  if (film.angles > 1.05) told.push(`angles × ${film.angles.toPrecision(2)}`);
-  if (film.moves > 1.05 && base) told.push(`base × ${film.moves.toPrecision(2)}`);
-  find("scene-told").textContent = told.join(", ") || "drawn to scale";
+  if (film.angles > 1.05) told.push(`angle × ${film.angles.toPrecision(2)}`);
+  if (film.moves > 1.05 && base) told.push(`base motion × ${film.moves.toPrecision(2)}`);
+  find("scene-told").textContent = told.join(", ") || "true to scale";
   frame();
 }
 

@@ -1,4 +1,4 @@
-"""What the page and its server tell each other: one line of JSON a matter."""
+"""Messages between the page and its server, each a line of JSON."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ from bokeh.model import DataModel
 from rocking.explorer.form_fields import Refused
 
 MAX_LENGTH = 4_000
-STRANGE = "the page asked for something that is not known here: load it again"
+STRANGE = "Unknown request. Please reload the page."
 
 
 _numbers = count()
 
 
 class Link(DataModel):
-    """`asked` comes from the page, all others go to it."""
+    """Shared model of page and server: the page writes `asked`, the server all other properties."""
 
     asked = String(default="")
     drawn = Anything()
@@ -32,19 +32,19 @@ class Link(DataModel):
     refused = String(default="")
 
     def send(self, name: str, message: dict[str, Any]) -> None:
-        """Tell the page, which hears only of what differs: hence the number."""
+        """Send a message to the page. Its serial number makes each message differ, because equal values are not sent."""
         setattr(self, name, json.dumps({"n": next(_numbers), **message}, ensure_ascii=False, allow_nan=False))
 
     def draw(self, **figures: dict[str, Any]) -> None:
-        """What is new in figures, by their names: columns by the names of their sources; `ranges`, `label` and `here` where these change.
+        """Send new contents of figures, by figure name: columns by source name, and changed `ranges`, `label`, `here`.
 
-        One matter, whatever it holds: the server goes through all models for each, and the browser paints after each.
+        All changes go in one message, because the server visits all models and the browser repaints after each message.
         """
-        self.drawn = {"n": next(_numbers), **figures}  # type: ignore[assignment]  # its hint knows of no value
+        self.drawn = {"n": next(_numbers), **figures}  # type: ignore[assignment]  # the type hint of the property lacks values
 
 
 def message(text: str) -> dict[str, Any]:
-    """A message of the page: `what` it asks for, and `fields` as they are typed; anything else is refused."""
+    """Parse a message of the page: the request `what` and its `fields` as text. Raise Refused for anything else."""
     try:
         asked = json.loads(text) if len(text) <= MAX_LENGTH else {}
         whole = isinstance(asked["what"], str) and all(

@@ -1,4 +1,4 @@
-"""Pictures of planes: where they lie, however deep one looks, and the theory's curves over the map."""
+"""Axes and contents of the two maps: ranges at any zoom, images, marks and theoretical curves."""
 
 from __future__ import annotations
 
@@ -15,8 +15,9 @@ from rocking.model import Block
 from rocking.plot.parts import theory_curves
 
 DEEP = 1e-6
-"""A stretch shorter than this share of its numbers is told as a difference from one of them, lest the browser round."""
+"""Relative length of a range below which an axis shows differences from an offset, to avoid rounding in the browser."""
 CURVE_POINTS = 300
+"""Periods at which a theoretical curve is evaluated."""
 DASHES = {
     "existence-1": "2 3",
     "existence-3": "8 3 2 3 2 3",
@@ -25,20 +26,28 @@ DASHES = {
     "melnikov": "14 4 2 4",
     "heteroclinic": "20 4",
 }
+"""Dash patterns of the theoretical curves."""
 DOTTED = "1 3"
-"""As in a map of the package."""
+"""Dash pattern where the mode is not admissible, as in `rocking.plot.parametric_map`."""
 NAMES = {
-    "existence-1": "(1,1) from A<sub>E</sub>",
-    "existence-3": "(1,3) from A<sub>E</sub>",
-    "symmetry-breaking-1": "(1,1) to A<sub>SB</sub>",
-    "symmetry-breaking-3": "(1,3) to A<sub>SB</sub>",
-    "melnikov": "Melnikov A<sub>M</sub>",
-    "heteroclinic": "tangency A<sup>*</sup>",
+    "existence-1": ("A<sub>E</sub>, (1, 1)", "Amplitude A_E above which the symmetric (1, 1) mode exists"),
+    "existence-3": ("A<sub>E</sub>, (1, 3)", "Amplitude A_E above which the symmetric (1, 3) mode exists"),
+    "symmetry-breaking-1": (
+        "A<sub>SB</sub>, (1, 1)",
+        "Amplitude A_SB up to which the symmetric (1, 1) mode is stable; dotted where the mode is not admissible",
+    ),
+    "symmetry-breaking-3": (
+        "A<sub>SB</sub>, (1, 3)",
+        "Amplitude A_SB up to which the symmetric (1, 3) mode is stable; dotted where the mode is not admissible",
+    ),
+    "melnikov": ("A<sub>M</sub> (Melnikov)", "Amplitude A_M above which the Melnikov function has zeros"),
+    "heteroclinic": ("A<sup>*</sup> (tangency)", "Amplitude A* of the exact heteroclinic tangency"),
 }
+"""Labels of the theoretical curves, and their descriptions."""
 
 
 def base_of(span: Span) -> float:
-    """The number that a stretch is drawn as a difference from: 0 unless it lies deep."""
+    """Return the offset of an axis: 0 unless its range is very short."""
     middle = 0.5 * (span.low + span.high)
     if span.width > DEEP * abs(middle):
         return 0.0
@@ -47,23 +56,23 @@ def base_of(span: Span) -> float:
 
 @frozen
 class Corner:
-    """The bases of both axes of a plane."""
+    """Offsets of both axes of a map."""
 
     across: float
     up: float
 
     def ranges(self, across: Span, up: Span) -> tuple[float, float, float, float]:
-        """Left, right, bottom and top as they are drawn."""
+        """Return left, right, bottom and top, less the offsets."""
         return (across.low - self.across, across.high - self.across, up.low - self.up, up.high - self.up)
 
 
 def corner_of(across: Span, up: Span) -> Corner:
-    """The bases that these stretches need."""
+    """Return the offsets for two ranges."""
     return Corner(base_of(across), base_of(up))
 
 
 def place(made: Any, corner: Corner, across: Span, up: Span, limits: tuple[Span, Span]) -> None:
-    """Move the axes, and say how far one may move and zoom."""
+    """Set the ranges of the axes, and the limits of pan and zoom."""
     pairs = (made.x_range, across, corner.across), (made.y_range, up, corner.up)
     for (axis, span, base), limit in zip(pairs, limits, strict=True):
         axis.update(
@@ -75,18 +84,18 @@ def place(made: Any, corner: Corner, across: Span, up: Span, limits: tuple[Span,
 
 
 def label(made: Any, corner: Corner, names: tuple[str, str]) -> None:
-    """Say what the axes are, and which number they count from."""
+    """Set the labels of the axes, with their offsets."""
     for axis, name, base in ((made.below[0], names[0], corner.across), (made.left[0], names[1], corner.up)):
         axis.axis_label = f"{name} − {base!r}" if base else name
 
 
 def point(corner: Corner, across: float, up: float) -> dict[str, Any]:
-    """A place in a plane as a figure draws it."""
+    """Return the coordinates of a point, less the offsets."""
     return {"x": [across - corner.across], "y": [up - corner.up]}
 
 
 def image(picture: Picture, corner: Corner, across: Span, up: Span) -> dict[str, Any]:
-    """The picture as a figure draws it: the points at its edges are the middles of their cells."""
+    """Return the columns of the image. Grid points lie at the centres of their cells, also at the edges."""
     left, right, bottom, top = corner.ranges(across, up)
     wide, high = ((end - begin) / (picture.points - 1) for begin, end in ((left, right), (bottom, top)))
     return {
@@ -99,7 +108,7 @@ def image(picture: Picture, corner: Corner, across: Span, up: Span) -> dict[str,
 
 
 def answers(picture: Picture) -> dict[str, np.ndarray]:
-    """What the page tells of a point, and writes into a table: flat, upward first."""
+    """Return the results of all points, for the readout and the table; flat, rows upward."""
     kept = picture.fields
     narrow = np.iinfo(np.int16)
     counts = {
@@ -114,7 +123,7 @@ def answers(picture: Picture) -> dict[str, np.ndarray]:
 
 
 def curves(shown: ViewState, corner: Corner) -> dict[str, Any]:
-    """The curves asked for, as far as they are seen, none between braces; dotted where the mode is not admissible."""
+    """Return the visible part of the selected curves, dotted where the mode is not admissible; none with braces."""
     columns: dict[str, Any] = {"xs": [], "ys": [], "dash": []}
     for name in shown.curves if shown.brace_angle is None else ():
         periods, *lines = _curve(name, shown.periods, shown.amplitudes, shown.restitution)
@@ -128,7 +137,7 @@ def curves(shown: ViewState, corner: Corner) -> dict[str, Any]:
 
 @lru_cache(64)
 def _curve(name: str, across: Span, up: Span, restitution: float) -> tuple[np.ndarray, ...]:
-    """Periods, and the amplitudes of a curve over them: where it holds, and where its mode is not admissible."""
+    """Return the periods, and the amplitudes of a curve where its mode is admissible and where it is not."""
     periods = np.linspace(across.low, across.high, CURVE_POINTS)
     return periods, *theory_curves.lines_of(
         theory_curves.CURVES[name], periods, np.full(CURVE_POINTS, restitution), up.low, up.high
@@ -136,7 +145,7 @@ def _curve(name: str, across: Span, up: Span, restitution: float) -> tuple[np.nd
 
 
 def metres(made: Any, corner: Corner, shown: ViewState, block: Block | None) -> None:
-    """The axes at the other sides: the same in SI where there is a block."""
+    """Set the SI axes above and at the right; they are visible only with a block."""
     above, right = made.above[0], made.right[0]
     for axis in (above, right):
         axis.visible = block is not None

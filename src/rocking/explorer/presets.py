@@ -1,4 +1,4 @@
-"""Cases worth seeing: the paper's, and what lies beyond it. THEORY tells them; each opens with one click."""
+"""Gallery of systems: cases of Yim & Lin (1991), and cases beyond the paper."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from rocking.explorer.view_state import DEFAULT, Span, ViewState
 
 @frozen
 class Case:
-    """A case by its name, with one line on what there is to see."""
+    """Case of the gallery: name, group, title and a one-line description."""
 
     name: str
     group: str
@@ -22,7 +22,7 @@ class Case:
 
     @property
     def shown(self) -> ViewState:
-        """What it shows."""
+        """View of the case."""
         return attrs.evolve(DEFAULT, **self.fields)
 
 
@@ -37,57 +37,57 @@ CASES = (
     Case(
         "figure-2a",
         PAPER,
-        "2a, 3a: mode (1,1)",
-        "Symmetric, two impacts a cycle.",
+        "2a, 3a: (1, 1) mode",
+        "Symmetric, two impacts per forcing cycle.",
         _system(2.0, 1.0, 0.925, first=200, cycles=10),
     ),
     Case(
         "figure-2b",
         PAPER,
-        "2b, 3b: mode (1,3)",
-        "Symmetric, repeats after three cycles.",
+        "2b, 3b: (1, 3) mode",
+        "Symmetric, repeats after three forcing cycles.",
         _system(6.5, 0.4, 0.925, first=600, cycles=24),
     ),
     Case(
         "figure-2c",
         PAPER,
-        "2c, 3c: mode (2,10)",
-        "Unsymmetric, four impacts in ten cycles.",
+        "2c, 3c: (2, 10) mode",
+        "Asymmetric, four impacts in ten forcing cycles.",
         _system(5.5, 0.5, 0.925, velocity=0.15, phase=1.8, first=600, cycles=30),
     ),
     Case(
         "figure-4",
         PAPER,
         "4: overturning",
-        "Falls in the sixth cycle, after four impacts.",
+        "Overturning is certain in the sixth cycle, after four impacts.",
         _system(1.75, 2.0, 0.95, cycles=20),
     ),
     Case(
         "figure-5",
         PAPER,
         "5: quasi-periodic",
-        "Three islands around the (1,3) mode.",
+        "Undamped (e = 1): three islands around the (1, 3) mode.",
         _system(4.0, 0.4, 1.0, cycles=60),
     ),
     Case(
         "figure-6",
         PAPER,
-        "6: chaotic, e = 1",
-        "Nothing is lost: a sticky sea, no attractor.",
+        "6: chaotic",
+        "Undamped (e = 1): a chaotic sea with long sojourns near islands, no attractor.",
         _system(2.0, 0.4, 1.0, cycles=60),
     ),
     Case(
         "figure-11",
         PAPER,
-        "11: the map, e = .925",
-        "With the curves of the theory.",
+        "11: map at e = 0.925",
+        "Response types, with theoretical curves.",
         _system(2.0, 1.0, 0.925, curves=("symmetry-breaking-1", "symmetry-breaking-3", "melnikov")),
     ),
     Case(
         "figure-13a",
         PAPER,
         "13a: between braces",
-        "Chaotic: braces at Θ = 1 that lose nothing.",
+        "Chaotic motion between elastic braces at Θ = ±1.",
         _system(
             15.0,
             2.0,
@@ -103,14 +103,14 @@ CASES = (
         "coexisting",
         BEYOND,
         "Coexisting attractors",
-        "Period 1 and period 3 share the starts; the rest falls.",
+        "Basins of a period-1 and a period-3 orbit; all other initial states overturn.",
         _system(3.5, 1.0, 0.8, angles=Span(-1.0, 1.0), velocities=Span(-1.0, 1.0)),
     ),
     Case(
         "fractal",
         BEYOND,
-        "A fractal boundary",
-        "Above A* the boundary of overturning has no end of detail.",
+        "Fractal basin boundary",
+        "Above A*, the boundary between bounded and overturning motions has detail at every scale.",
         _system(
             5.0,
             1.0,
@@ -125,22 +125,22 @@ CASES = (
     Case(
         "cascade",
         BEYOND,
-        "Doublings to chaos",
-        "The diagram over A: 1, 2, 4, … and a period-3 branch beside it.",
+        "Period doublings to chaos",
+        "Orbit diagram over A: periods 1, 2, 4, …, and a separate period-3 branch.",
         _system(10.103037, 1.721328, 0.8, first=200, amplitudes=Span(9.8, 10.9), periods=Span(1.6, 1.85)),
     ),
     Case(
         "chaos-more-loss",
         BEYOND,
-        "Chaos at e = .3",
-        "Where much is lost chaos is commoner than where little is.",
+        "Chaos at e = 0.3",
+        "Chaos is more common with strong than with weak dissipation.",
         _system(7.0, 1.15, 0.3, first=200),
     ),
     Case(
         "crisis",
         BEYOND,
-        "A crisis at e = .99",
-        "At A = 4.86 chaos ends, often after 10⁴ cycles or more; at 4.88 no end was seen.",
+        "Crisis at e = 0.99",
+        "At A = 4.86 chaos ends, often after 10⁴ cycles or more; at A = 4.88 no end was observed.",
         _system(4.88, 0.33, 0.99, amplitudes=Span(4.7, 5.0), periods=Span(0.3, 0.36)),
     ),
 )

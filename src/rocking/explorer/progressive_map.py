@@ -1,4 +1,4 @@
-"""What the response is at every point of a square of a plane, from coarse to fine."""
+"""Map of responses over two quantities, computed from coarse to fine."""
 
 from __future__ import annotations
 
@@ -18,6 +18,7 @@ from rocking.plot.parts import legend
 from rocking.survey import classify_points, classify_with_anchor
 
 PERIOD = 64
+"""Largest response period that is sought, in forcing cycles."""
 FIELDS = {
     "look": np.uint8,
     "kind": np.uint8,
@@ -28,44 +29,62 @@ FIELDS = {
     "exponent": np.float64,
     "orbit": np.uint8,
 }
-"""What is kept of each point: how it is drawn, and of the answers."""
+"""Stored fields of each point, with their types; `look` is the index in `LOOKS`."""
 UNDETERMINED = Kind.UNDETERMINED.code
 FIRST, ALL = 60, 10_000
-"""Cycles a point that stays open so long: of the first, coarse picture; of the finer ones."""
+"""Maximum number of cycles per point: in the first, coarse map, and in the finer maps."""
 COARSEST = 8
+"""Ratio of the intervals of the finest grid to those of the first."""
 PIECE = 0.12
-"""Seconds that a piece of work takes, about: so long does a thread need to turn to something else."""
+"""Target duration of a batch, s. A thread takes up other work only between two batches."""
 AHEAD = 2
-"""Pieces that wait or are under way for each thread, lest it idle until the page's own thread comes to think of the next."""
+"""Batches queued or running per thread, so that no thread waits for the event loop."""
 START, FEW, LARGEST = 16, 256, 16_384
-"""Points of the first piece, of the last ones of a grid, and at most; fewer wherever they are dear."""
+"""Points of the first batch, of the last batches of a grid, and of the largest; fewer if points are expensive."""
 FASTER = 8
-"""Times the size of a piece that the next one may have: a few cheap points say little of the others."""
+"""Maximum growth factor between two batches, because a few cheap points do not represent the others."""
 SHOWN_EVERY = 0.5
-"""Seconds between two pictures of a grid that is not yet full."""
+"""Minimum time between two images of an incomplete grid, s."""
 STRIPES, STRIPE = 7, 2
-"""Points from one stripe of a hatch to the next, and across one."""
+"""Spacing and width of the stripes of a hatch, in points."""
 SHADES = 3
-"""Of each look: orbits of one look have one after the other."""
+"""Shades per category; the orbits of a category use them in turn."""
 PLAIN = SHADES * len(legend.LOOKS)
+"""Number of shades of all categories."""
 WHITE, DARK, NOTHING = PLAIN, PLAIN + 1, PLAIN + 2
-"""Numbers of a picture's colours after those of the looks, shade by shade."""
+"""Palette indices after the shades: white hatch, dark hatch, transparent."""
 
 
 @frozen
 class Plane:
-    """Two quantities that vary, by name, with their stretches, and what is fixed; `points` along either side in the end."""
+    """Definition of a map.
+
+    Attributes
+    ----------
+    across, up : tuple of (str, Span)
+        Names and ranges of the two quantities.
+    fixed : dict of str to float
+        Constant parameters, by name.
+    points : int
+        Points along each side of the finest grid.
+    reach : float
+        Largest |Θ₀| of a valid initial state: the brace angle. Default: unlimited.
+    first : int
+        Maximum number of cycles per point in the first map; fewer if cycles are expensive.
+    apart : bool
+        True to distinguish orbits of one category, for the initial states of one system. Default: False.
+    """
 
     across: tuple[str, Span]
     up: tuple[str, Span]
     fixed: dict[str, float]
     points: int
-    reach: float = np.inf  # no start lies beyond the braces
-    first: int = FIRST  # cycles a point of the first picture: fewer where they are dear
-    apart: bool = False  # whether orbits of one look are told apart: where one system has many starts
+    reach: float = np.inf
+    first: int = FIRST
+    apart: bool = False
 
     def values(self, places: np.ndarray, side: int) -> dict[str, np.ndarray]:
-        """The quantities at places, counted in C order, upward first, of a grid with `side` points along either side."""
+        """Return the two quantities at points of a grid of `side` × `side`, given by indices in C order, rows upward."""
         rows, columns = np.divmod(places, side)
         return {
             name: np.linspace(span.low, span.high, side)[at]
@@ -75,18 +94,18 @@ class Plane:
 
 @frozen(eq=False)
 class Picture:
-    """A plane as far as it is known.
+    """Map at one stage of the refinement.
 
     Attributes
     ----------
     fields : dict of arrays (n, n)
-        `FIELDS`, upward first.
+        `FIELDS` of the current grid, rows upward.
     points : int
-        Along either side of the finest grid.
+        Points along each side of the finest grid.
     settled, of : int
-        Points of this grid that are judged, and all.
+        Number of classified points of the current grid, and number of points to classify.
     done : bool
-        Whether nothing more will come.
+        True if the finest grid is complete.
     """
 
     fields: dict[str, np.ndarray] = field(repr=False)
@@ -97,28 +116,28 @@ class Picture:
 
     @property
     def look(self) -> np.ndarray:
-        """Places in `LOOKS` (n, n); `NONE` where there is no start."""
+        """Indices in `LOOKS`, shape (n, n); `NONE` for an invalid initial state."""
         return self.fields["look"]
 
     def colours(self) -> np.ndarray:
-        """The picture (points, points), of the finest grid whatever is known: stripes stay while it refines."""
+        """Return palette indices, shape (points, points). The finest grid is used at all stages, to keep hatches in place."""
         side = len(self.look)
         stride = (self.points - 1) // (side - 1)
         nearest = (np.arange(self.points) + stride // 2) // stride
         return _COLOURS[_stripes(self.points), self._drawn()[np.ix_(nearest, nearest)]]
 
     def counts(self) -> np.ndarray:
-        """How many points of this grid have each shade (rows) of each look (columns)."""
+        """Return the number of points per shade (rows) and category (columns)."""
         return np.bincount(self._drawn().ravel(), minlength=PLAIN + 1)[:PLAIN].reshape(SHADES, -1)
 
     def _drawn(self) -> np.ndarray:
-        """The numbers of the shades of the looks; `PLAIN` where there is no start."""
+        """Return the indices of the shades; `PLAIN` for an invalid initial state."""
         shade = self.fields["orbit"] % SHADES
         return np.where(self.look == legend.NONE, PLAIN, self.look + len(legend.LOOKS) * shade)
 
 
 def _colours() -> np.ndarray:
-    """The number of the colour of each shade and of nothing: off all stripes, on one of either hatch, where both cross."""
+    """Return the palette indices of all shades and of `PLAIN`: off the stripes, on each hatch, and on both."""
     hatches = np.array([look.hatch or "" for look in legend.LOOKS] * SHADES + [""])
     plain = np.append(np.arange(PLAIN), NOTHING)
     white = np.where(hatches == "white", WHITE, plain)
@@ -131,13 +150,13 @@ _COLOURS = _colours()
 
 @cache
 def _stripes(points: int) -> np.ndarray:
-    """Where the stripes of the hatches lie: 1 those of white ones, 2 those of dark ones, 3 both."""
+    """Return the stripes of the hatches: 1 on a white stripe, 2 on a dark stripe, 3 on both, otherwise 0."""
     up, across = np.ogrid[:points, :points]
     return ((up + across) % STRIPES < STRIPE) + 2 * ((up - across) % STRIPES < STRIPE).astype(np.uint8)
 
 
 class Refinement:
-    """A plane, judged from coarse to fine on the workers' threads, until `stop[0]` is set."""
+    """Refinement of a map on the worker threads, from coarse to fine, until `stop[0]` is set."""
 
     def __init__(self, plane: Plane, workers: Workers, stop: np.ndarray) -> None:
         self.plane, self.workers, self.stop = plane, workers, stop
@@ -146,14 +165,14 @@ class Refinement:
         self.fields: dict[str, np.ndarray] = {}
 
     def coarse(self) -> Picture:
-        """The first picture, all of it at once: the only one that waits for no thread."""
+        """Compute the first, coarse map in the calling thread."""
         self._begin((self.plane.points - 1) // COARSEST + 1)
         places = np.flatnonzero(self.inside)
         self._keep(places, self._judge(places, self.plane.first))
         return self._picture(places.size, places.size)
 
     async def finer(self) -> AsyncIterator[Picture]:
-        """One picture after the other, after `coarse`; the last one is done."""
+        """Yield successive maps after `coarse`; the last one is complete."""
         side, open_ = len(self.fields["kind"]), self.fields["kind"] == UNDETERMINED
         while side < self.plane.points:
             side = 2 * side - 1
@@ -165,8 +184,8 @@ class Refinement:
             open_ = np.zeros((side, side), bool)
 
     async def _settle(self, places: np.ndarray) -> AsyncIterator[Picture]:
-        """Judge the points at these places, a few at a time, and show how far it is now and then."""
-        # all over the picture, and each piece as dear as the next
+        """Classify points in batches and yield intermediate maps."""
+        # random order, so that batches cover the whole map and cost about the same
         order = np.random.default_rng(0).permutation(places)
         under_way: dict[asyncio.Future[tuple[dict[str, np.ndarray], float]], np.ndarray] = {}
         begun, settled, shown = 0, 0, time.perf_counter()
@@ -189,7 +208,7 @@ class Refinement:
         yield self._picture(settled, order.size)
 
     def _next(self, left: int) -> int:
-        """How many points the next piece has; the last ones have few, so that all threads come to the end together."""
+        """Return the size of the next batch. The last batches are small, so that all threads finish together."""
         return min(self.piece, max(left // (AHEAD * self.workers.count), FEW))
 
     def _timed(self, places: np.ndarray) -> tuple[dict[str, np.ndarray], float]:
@@ -204,7 +223,7 @@ class Refinement:
         return answers
 
     def _begin(self, side: int) -> None:
-        """A grid of `side` × `side` points, each as the nearest one of the grid before."""
+        """Start a grid of `side` × `side` points, filled with the nearest points of the previous grid."""
         self.side = side
         nearest = (np.arange(side) + 1) // 2
         for name, dtype in FIELDS.items():

@@ -1,4 +1,4 @@
-"""The figures of one visitor, and how they are filled: at once with what a click asks for, then finer and finer."""
+"""Figures of one session: computed at once for each selection, then refined."""
 
 from __future__ import annotations
 
@@ -19,26 +19,25 @@ from rocking.model import MAX_AMPLITUDE, MAX_START, PERIODS, Kind, Verdict
 
 BASIN_POINTS = 257
 FIRST_HITS = 3e3
-"""Impacts and brace hits that a point of a first picture may take."""
+"""Maximum number of impacts per point of a first, coarse map."""
 GROWTH = (1_000, 2_000, 7_000, 20_000, 30_000, 40_000)
-"""Cycles that a section grows by, one step after another: 10⁵ in all."""
+"""Cycles added to a section, step by step: 10⁵ in total."""
 BREATH = 0.2
-"""Seconds between two steps of it, so that it is seen to grow, and before a basin is refined."""
+"""Pause between two steps of a section and before a basin map is refined, s, so that the page can repaint."""
 MAP_FIRST = 1.0
-"""Seconds at most for which a basin leaves all cores to a map that refines."""
+"""Maximum delay of a basin map in favour of the map of responses, s."""
 MAP_LIMITS = Span(*PERIODS), Span(0.0, MAX_AMPLITUDE)
 BASIN_LIMITS = Span(-MAX_START, MAX_START), Span(-MAX_START, MAX_START)
-BASIN_LABELS = "angle at the start Θ₀", "velocity at the start Θ′₀"
 VARIED = {"amplitude": "amplitude A", "period": "period T"}
 
 
 def _first(shown: ViewState) -> int:
-    """Cycles a point of a first picture: all its points take no more than a click may wait for, if they are like this one."""
+    """Return the cycles per point of a first map; the estimate assumes that all points cost as much as the selected one."""
     return figure_data.affordable(shown, FIRST, FIRST_HITS)
 
 
 class SessionRenderer:
-    """All figures of a document, and the jobs that fill them. What is no longer shown is not drawn."""
+    """Figures of a document and the jobs that fill them. Results of an earlier selection are discarded."""
 
     def __init__(self, document: Document, link: Link, workers: Workers) -> None:
         self.document, self.link, self.workers = document, link, workers
@@ -51,34 +50,34 @@ class SessionRenderer:
         self.corner = self.basin_corner = plane_axes.Corner(0.0, 0.0)
 
     def attach(self) -> None:
-        """Put the figures into the document; it hears only of events that were listened to before."""
+        """Add the figures to the document. Event handlers must be attached before, or the document ignores the events."""
         others = (
             bokeh_figures.history(),
             bokeh_figures.portrait(),
             bokeh_figures.section(),
             bokeh_figures.spectrum(),
         )
-        with self.document.models.freeze():  # else it goes through all of them once a root
+        with self.document.models.freeze():  # otherwise the document visits all models once per root
             for root in (self.map, self.basin, self.diagram, *others, self.link):
                 self.document.add_root(root)
 
-    # what stands still
+    # axes and marks
 
     def place_map(self, shown: ViewState) -> None:
-        """Move the map to where it is looked at."""
+        """Set the ranges and labels of the map."""
         self.corner = plane_axes.corner_of(shown.periods, shown.amplitudes)
         plane_axes.place(self.map, self.corner, shown.periods, shown.amplitudes, MAP_LIMITS)
         plane_axes.label(self.map, self.corner, ("period T", "amplitude A"))
         plane_axes.metres(self.map, self.corner, shown, shown.block)
 
     def place_basin(self, shown: ViewState) -> None:
-        """Move the basin to where it is looked at."""
+        """Set the ranges and labels of the basin map."""
         self.basin_corner = plane_axes.corner_of(shown.angles, shown.velocities)
         plane_axes.place(self.basin, self.basin_corner, shown.angles, shown.velocities, BASIN_LIMITS)
-        plane_axes.label(self.basin, self.basin_corner, BASIN_LABELS)
+        plane_axes.label(self.basin, self.basin_corner, bokeh_figures.BASIN_LABELS)
 
     def mark(self, shown: ViewState) -> None:
-        """Ring what is selected, and draw the curves asked for."""
+        """Mark the selected point and draw the selected theoretical curves."""
         system = plane_axes.point(self.corner, shown.period, shown.amplitude)
         self.link.draw(
             map={"point": system, "curves": plane_axes.curves(shown, self.corner)},
@@ -87,7 +86,7 @@ class SessionRenderer:
         )
 
     async def _draw(self, change: Callable[[], None]) -> None:
-        """Change the document in its own time, with its lock held."""
+        """Change the document in its event loop, with its lock held."""
         done = asyncio.get_running_loop().create_future()
 
         def act() -> None:
@@ -97,7 +96,7 @@ class SessionRenderer:
                 return
             try:
                 change()
-            except Exception as error:  # noqa: BLE001 (it is raised where it is waited for)
+            except Exception as error:  # noqa: BLE001 (raised again in the awaiting task)
                 done.set_exception(error)
             else:
                 done.set_result(None)
@@ -106,14 +105,14 @@ class SessionRenderer:
         await done
 
     def _alone(self) -> bool:
-        """Whether the visitor's connection is closed: the session lives on for a while, in case he comes back."""
+        """Return whether the connection is closed. The session is kept for a while, so that the browser can reconnect."""
         session = getattr(self.document.session_context, "session", None)
         return session is not None and session.connection_count == 0
 
     # the map
 
     async def refine_map(self, shown: ViewState, stop: np.ndarray) -> None:
-        """The map, from coarse to fine."""
+        """Compute and draw the map, from coarse to fine."""
         plane = Plane(
             ("period", shown.periods),
             ("amplitude", shown.amplitudes),
@@ -138,7 +137,7 @@ class SessionRenderer:
     # one system
 
     async def respond(self, shown: ViewState, stop: np.ndarray) -> None:
-        """All pictures of one system at once; then what refines."""
+        """Draw all figures of one system at once, then start their refinement."""
         section = figure_data.Section(shown)
         found, spectrum, _, (basin, picture) = await asyncio.gather(
             self.workers.soon(partial(figure_data.response, shown)),
@@ -154,7 +153,7 @@ class SessionRenderer:
                 history={"ranges": found.spans["history"], "line": found.history},
                 portrait={"ranges": found.spans["portrait"], "line": found.portrait, "hits": found.hits},
                 spectrum={"ranges": spectrum.ranges, "line": spectrum.line, "names": spectrum.names},
-                section=_section(drawn, section),
+                section=_section(drawn),
                 basin=self._basin(shown, picture),
             )
             self._tell_attractors(picture)
@@ -169,8 +168,8 @@ class SessionRenderer:
     def _tell_verdict(self, shown: ViewState, verdict: Verdict, why: str) -> None:
         self.link.send("verdict", texts.verdict(verdict, shown.block) | {"spectrum": why})
 
-    def _draw_section(self, drawn: figure_data.Drawn, grown: figure_data.Section) -> None:
-        self.link.draw(section=_section(drawn, grown))
+    def _draw_section(self, drawn: figure_data.Drawn) -> None:
+        self.link.draw(section=_section(drawn))
 
     async def _grow(self, section: figure_data.Section, period: int | None, stop: np.ndarray) -> None:
         for cycles in GROWTH[1:]:
@@ -179,7 +178,7 @@ class SessionRenderer:
             await asyncio.sleep(BREATH)
             await self.workers.later(partial(section.grow, cycles))
             drawn = await self.workers.later(partial(section.drawn, period))
-            await self._draw(partial(self._draw_section, drawn, section))
+            await self._draw(partial(self._draw_section, drawn))
 
     async def _judge_longer(self, shown: ViewState, why: str, stop: np.ndarray) -> None:
         found = await self.workers.later(partial(figure_data.judge_longer, shown))
@@ -188,12 +187,12 @@ class SessionRenderer:
     # the basin
 
     def _first_basin(self, shown: ViewState, stop: np.ndarray) -> tuple[Refinement, Picture]:
-        """The basin, to be refined, with its first picture."""
+        """Return the refinement of the basin map and its first, coarse map."""
         fixed = shown.fixed | {"amplitude": shown.amplitude, "period": shown.period}
         del fixed["angle"], fixed["velocity"]
         reach = np.inf if shown.brace_angle is None else shown.brace_angle
         if figure_data.crowded(shown):
-            reach = -1.0  # no start can be afforded
+            reach = -1.0  # every initial state is too expensive
         plane = Plane(
             ("angle", shown.angles),
             ("velocity", shown.velocities),
@@ -201,20 +200,20 @@ class SessionRenderer:
             BASIN_POINTS,
             reach,
             _first(shown),
-            apart=shown.restitution < 1.0,  # else nothing attracts
+            apart=shown.restitution < 1.0,  # an undamped motion has no attractor
         )
         basin = Refinement(plane, self.workers, stop)
         return basin, basin.coarse()
 
     async def refine_basin(self, shown: ViewState, stop: np.ndarray) -> None:
-        """The basin alone, from coarse to fine."""
+        """Compute and draw the basin map alone, from coarse to fine."""
         basin, picture = await self.workers.soon(partial(self._first_basin, shown, stop))
         await self._draw(partial(self._draw_basin, shown, picture))
         await self._finish_basin(shown, basin, stop)
 
     async def _finish_basin(self, shown: ViewState, basin: Refinement, stop: np.ndarray) -> None:
         basin.stop = stop
-        await asyncio.sleep(BREATH)  # what there is is painted before all cores are taken
+        await asyncio.sleep(BREATH)  # the page repaints before all cores are busy
         await self.jobs.over("map", MAP_FIRST)
         async for picture in basin.finer():
             await self._draw(partial(self._draw_basin, shown, picture))
@@ -232,15 +231,13 @@ class SessionRenderer:
     # the diagram
 
     async def draw_diagram(self, shown: ViewState, stop: np.ndarray) -> None:
-        """The orbit diagram along the map's axis; what a click asks for comes first."""
+        """Draw the orbit diagram along an axis of the map, after the other figures of the selection."""
         await self.jobs.over("response")
         columns, ranges = await self.workers.later(partial(figure_data.diagram, shown, stop))
         drawn = {"ranges": ranges, "label": VARIED[shown.vary], "points": columns}
         await self._draw(partial(self.link.draw, diagram=drawn))
 
 
-def _section(drawn: figure_data.Drawn, grown: figure_data.Section) -> dict[str, Any]:
-    ended = f", then {grown.ended.replace('-', ' ')}" if grown.ended else ""
-    label = f"angle Θ ({len(grown.points):,} cycles{ended})"
+def _section(drawn: figure_data.Drawn) -> dict[str, Any]:
     columns = {"points": drawn.points, "dense": drawn.dense, "orbit": drawn.orbit}
-    return {"ranges": drawn.ranges, "label": label, **columns}
+    return {"ranges": drawn.ranges, "label": drawn.label, **columns}

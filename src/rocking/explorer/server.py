@@ -1,4 +1,4 @@
-"""The page's server: it listens on this machine's own address, and answers requests for this machine's own names alone."""
+"""HTTP server of the explorer: it listens on the loopback address and answers only requests for local host names."""
 
 from __future__ import annotations
 
@@ -18,15 +18,33 @@ from tornado.web import ErrorHandler, RequestHandler
 
 HOST = "127.0.0.1"
 NAMES = ("localhost", HOST, "[::1]")
-"""What this machine is called where it asks itself, at any port: that of a tunnel may be another."""
+"""Allowed host names. The port may differ, because a tunnel can map it."""
 LOGGERS = ("bokeh.server.protocol_handler", "bokeh.server.views.ws", "tornado.application")
-"""Who tells of messages and connections that fail."""
+"""Loggers of failed messages and connections."""
 UNUSED = 5_000
-"""Milliseconds after which a visit is dropped that nobody looks at; looked for every two seconds."""
+"""Lifetime of a session without a connection, ms; checked every two seconds."""
 
 
 def local_server(application: Application, port: int) -> BaseServer:
-    """A server of an application, a document a visitor; port 0: any that is free. OSError where it cannot listen."""
+    """Create a local server of an application, with one document per session.
+
+    Parameters
+    ----------
+    application : Application
+        Application to serve.
+    port : int
+        Port, in [0, 65535]; 0 selects a free port.
+
+    Returns
+    -------
+    BaseServer
+        Server, not yet started.
+
+    Raises
+    ------
+    OSError
+        If the port cannot be opened.
+    """
     listening = socket.create_server((HOST, port))
     listening.setblocking(False)
     port = listening.getsockname()[1]
@@ -47,10 +65,10 @@ def local_server(application: Application, port: int) -> BaseServer:
 
 
 def only_local(pages: Router) -> Router:
-    """Pass on what is asked of this machine by one of its own names, and refuse the rest before any handler sees it.
+    """Route requests for the allowed host names, and reject all others before any handler.
 
-    A page of another host can make the browser take this machine for that host (DNS rebinding). Its requests then have
-    matching headers Origin and Host, so that a list of allowed origins does not see them.
+    A page of another host can make the browser resolve that host name to this machine (DNS rebinding). The headers Origin
+    and Host of its requests then agree, so that a list of allowed origins does not reject them.
     """
     names = "|".join(map(re.escape, NAMES))
     return RuleRouter(
@@ -63,7 +81,7 @@ def only_local(pages: Router) -> Router:
 
 
 def is_ours(record: logging.LogRecord) -> bool:
-    """Whether a record tells of no error, or of one that our code took part in: not of messages that Bokeh refused."""
+    """Return whether to keep a log record: without an exception, or with code of `rocking` in its traceback."""
     if not record.exc_info:
         return True
     frames = (frame for frame, _ in traceback.walk_tb(record.exc_info[2]))
@@ -75,4 +93,4 @@ def _refusing(status: int) -> Pages:
 
 
 def _keep_silent(handler: RequestHandler) -> None:
-    """Say nothing of a request in the terminal."""
+    """Suppress the log line of a request."""

@@ -1,4 +1,4 @@
-"""One visitor: what he looks at, what he asks for next, and what has to be computed anew for that."""
+"""Session of one browser page: its view, its requests, and the figures that each request recomputes."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ SYSTEM = ("amplitude", "period", *SHAKEN)
 
 
 class Session:
-    """A document, and what is shown in it."""
+    """Bokeh document with its current view."""
 
     def __init__(self, document: Document, workers: Workers) -> None:
         self.link = Link(name="link")
@@ -36,7 +36,7 @@ class Session:
         document.on_session_destroyed(lambda _context: self.painter.jobs.end_all())
 
     def hear(self, text: str) -> None:
-        """Do what the page asks for; refuse in a sentence what cannot be done, and leave what is shown as it is."""
+        """Carry out a request of the page. An invalid request returns one sentence per field and leaves the view unchanged."""
         try:
             asked = message(text)
             new, refused = self._asked(asked["what"], asked["fields"])
@@ -47,7 +47,18 @@ class Session:
         self.show(new, push=asked.get("push") == "yes")
 
     def _asked(self, what: str, typed: dict[str, str]) -> tuple[ViewState, dict[str, str]]:
-        """What shall be shown, and a sentence for each parameter of an address that cannot be."""
+        """Return the requested view.
+
+        Returns
+        -------
+        tuple of (ViewState, dict of str)
+            New view, and an error message for each invalid parameter of a link.
+
+        Raises
+        ------
+        Refused
+            If the request is unknown or a field is invalid.
+        """
         if what == "open":
             return from_address(typed.get("address", ""))
         if what == "fields":
@@ -76,17 +87,17 @@ class Session:
         self._choose(**{self.shown.vary: (event.x, 0.0, self.shown.varied)})
 
     def _choose(self, **taps: tuple[Any, float, Span]) -> None:
-        """A click: a place in a picture, counted from the number that its axis counts from."""
+        """Select the point of a click, given per field as (coordinate, offset of the axis, range of the axis)."""
         try:
             fields = {
                 name: written(nearby(base + float(at), span)) for name, (at, base, span) in taps.items()
             }
         except (TypeError, ValueError):
-            return  # no number: not from our page
+            return  # not a number, so not a message of this page
         self.hear(json.dumps({"what": "fields", "fields": fields, "push": "yes"}))
 
     def show(self, new: ViewState, *, push: bool) -> None:
-        """Show something else, and compute what differs."""
+        """Change the view and recompute the figures that differ."""
         old, first = self.shown, not self.opened
         self.shown, self.opened = new, True
 
@@ -128,6 +139,6 @@ class Session:
 
 
 def _plane(corner: plane_axes.Corner, across: Span, up: Span) -> dict[str, Any]:
-    """Where a plane lies, and whether one can look no deeper."""
+    """Return offsets and ranges of a map, and whether it is at the zoom limit of double precision."""
     deepest = any(span.width <= closest(span) * 1.01 for span in (across, up))
     return {"base": [corner.across, corner.up], "ranges": list(corner.ranges(across, up)), "deepest": deepest}

@@ -1,4 +1,4 @@
-"""What the page says in words: the verdict, the legend, and how to get the same without the page."""
+"""Texts of the page: verdict, legends, progress, and the equivalent Python code and commands."""
 
 from __future__ import annotations
 
@@ -12,28 +12,32 @@ from rocking.explorer.bokeh_figures import SHADED
 from rocking.explorer.form_fields import written
 from rocking.explorer.progressive_map import Picture
 from rocking.explorer.view_state import DEFAULT, ViewState
-from rocking.model import GRAVITY, Block, Harmonic, Verdict, counted, percent
+from rocking.model import GRAVITY, Block, Harmonic, Kind, Verdict, counted, percent
 from rocking.plot.parts import legend as looks
 
 Facts = list[tuple[str, str]]
 
+MIN_SHARE = 1e-4
+"""Smallest area fraction in a legend."""
+
 
 def verdict(found: Verdict, block: Block | None) -> dict[str, Any]:
-    """A verdict for the page: its kind, numbers with what they are, and the evidence in one sentence."""
+    """Return a verdict for the page: response type, colour, named values and evidence."""
     forcing = found.system.forcing
     facts: Facts = [] if block is None else _physical(forcing, block)
     if found.period is not None:
-        symmetry = "symmetric" if found.symmetric else "unsymmetric"
+        symmetry = "symmetric" if found.symmetric else "asymmetric"
         seconds = "" if block is None else f" ({block.seconds(found.period * forcing.period):.4g} s)"
         facts.append(("period", f"{counted(found.period, 'cycle')}, {symmetry}{seconds}"))
-        hits = [(found.impacts_per_period, "impact"), (found.brace_hits_per_period, "brace hit")]
-        facts.append(("in a period", ", ".join(hits_in_period(*hit) for hit in hits if hit[0] != 0)))
-    facts.append(("peak |Θ|", f"{found.peak:.6g}" + _reach(found.peak, block)))
+        hits = [("impacts", found.impacts_per_period), ("brace impacts", found.brace_hits_per_period)]
+        facts += [(f"{what} per period", impacts(number)) for what, number in hits if number != 0]
+    largest = "largest |Θ|" + " until the proof" * (found.kind == Kind.OVERTURNED)
+    facts.append((largest, f"{found.peak:.6g}" + _reach(found.peak, block)))
     if found.multipliers is not None:
-        facts.append(("multipliers", _pair(*found.multipliers)))
+        facts.append(("Floquet multipliers", _pair(*found.multipliers)))
     if found.exponent is not None:
-        facts.append(("exponent λ₁", exponent(found.exponent, found.exponent_error)))
-    facts.append(("followed", counted(found.cycles, "cycle")))
+        facts.append(("largest Lyapunov exponent λ₁", exponent(found.exponent, found.exponent_error)))
+    facts.append(("simulated", counted(found.cycles, "cycle")))
     return {
         "kind": str(found.kind),
         "colour": looks.COLOURS[found.kind],
@@ -42,29 +46,33 @@ def verdict(found: Verdict, block: Block | None) -> dict[str, Any]:
     }
 
 
-def hits_in_period(number: int | None, what: str) -> str:
-    """How many hits a period has; infinitely many come before rest or leaning."""
-    return f"infinitely many {what}s" if number is None else counted(number, what)
+def impacts(number: int | None) -> str:
+    """Write a number of impacts per period; None stands for infinitely many, before rest or contact with a brace."""
+    return "infinitely many" if number is None else f"{number:,}"
 
 
 def exponent(value: float, error: float | None) -> str:
-    """An exponent with its error."""
+    """Write an exponent with its error."""
     if value == -math.inf:
-        return "−∞ (forgets every small difference)"
+        return "−∞ (superstable)"
     return f"{_signed(value)} ± {error:.2g} per τ" if error else f"{_signed(value)} per τ"
 
 
 def _physical(forcing: Harmonic, block: Block) -> Facts:
-    """The base's motion in SI, and what the normalised units are there."""
+    """Return the forcing in SI units, and the SI values of the normalised units."""
     acceleration, seconds = block.acceleration(forcing.amplitude), block.seconds(forcing.period)
     base = f"{acceleration:.4g} m/s² ({acceleration / GRAVITY:.4g} g), {seconds:.4g} s ({1 / seconds:.4g} Hz)"
-    units = f"A {block.acceleration(1.0):.4g} m/s², τ {block.seconds(1.0):.4g} s, Θ {block.degrees(1.0):.4g}°"
-    return [("base", base), ("units", units)]
+    units = (
+        f"A: {block.acceleration(1.0):.4g} m/s², τ: {block.seconds(1.0):.4g} s, Θ: {block.degrees(1.0):.4g}°"
+    )
+    return [("forcing", base), ("unit of", units)]
 
 
 def _reach(angle: float, block: Block | None) -> str:
     return (
-        "" if block is None else f" ({block.degrees(angle):.3g}°, top {block.top_displacement(angle):.3g} m)"
+        ""
+        if block is None
+        else f" ({block.degrees(angle):.3g}°, top displacement {block.top_displacement(angle):.3g} m)"
     )
 
 
@@ -79,7 +87,10 @@ def _pair(larger: complex, smaller: complex) -> str:
 
 
 def legend(counts: np.ndarray) -> list[dict[str, str]]:
-    """All looks, each always in its place, with the shares of those that a picture has: `counts` (looks,)."""
+    """Return all categories of the map, in fixed order, with their area fractions.
+
+    A fraction below `MIN_SHARE` has no number. `counts`, shape (categories,), are numbers of points.
+    """
     total = max(int(counts.sum()), 1)
     return [
         _entry(look.name, look.colour, look, count / total)
@@ -88,15 +99,18 @@ def legend(counts: np.ndarray) -> list[dict[str, str]]:
 
 
 def attractors(counts: np.ndarray) -> list[dict[str, str]]:
-    """What starts lead to, with shares: the looks that a picture has, and their shades, the largest first; `counts` (shades, looks)."""
+    """Return the attractors of a basin map with their area fractions, the largest category first.
+
+    Attractors of a fraction below `MIN_SHARE` are left out. `counts`, shape (shades, categories), are numbers of points.
+    """
     total, entries = max(int(counts.sum()), 1), []
     for place in np.argsort(-counts.sum(axis=0), kind="stable").tolist():
         name, look = looks.LOOKS[place].name, looks.LOOKS[place]
         for shade in np.argsort(-counts[:, place], kind="stable").tolist():
-            if counts[shade, place]:
+            if counts[shade, place] >= MIN_SHARE * total:
                 colour = SHADED[shade * len(looks.LOOKS) + place]
                 entries.append(_entry(name, colour, look, counts[shade, place] / total))
-                name = "another"
+                name = "another orbit"
     return entries
 
 
@@ -105,23 +119,23 @@ def _entry(name: str, colour: str, look: looks.Look, share: float) -> dict[str, 
         "name": name,
         "colour": colour,
         "hatch": look.hatch or "",
-        "share": percent(share) if share else "",
+        "share": percent(share) if share >= MIN_SHARE else "",
     }
 
 
 def progress(picture: Picture) -> dict[str, Any]:
-    """How far the map is: in words, and as a share of all points."""
+    """Return the progress of the map, as text and as a fraction."""
     side = len(picture.look)
     share = (
         1.0
         if picture.done
         else 0.25 * (side / picture.points) ** 2 * (1.0 + 3.0 * picture.settled / max(picture.of, 1))
     )
-    return {"text": f"map of {side} × {side} points", "share": share, "side": side, "done": picture.done}
+    return {"text": f"{side} × {side} points", "share": share, "side": side, "done": picture.done}
 
 
 def python(shown: ViewState) -> str:
-    """The lines of Python that give what is shown."""
+    """Return Python code that reproduces the view."""
     lines = ["import numpy as np", "import rocking as rk", ""]
     phase = "" if shown.phase == 0.0 else f", phase={shown.phase!r}"
     braces = ""
@@ -153,7 +167,7 @@ def _axis(span: Any) -> str:
 
 
 def commands(shown: ViewState) -> str:
-    """The same at a prompt, in SI where there is a block: what the response is, its motion, and the map."""
+    """Return commands for verdict, motion and map of the view; with a block in SI units."""
     usual = ("phase", "angle", "velocity", "brace_angle", "brace_restitution")
     named = [name for name in usual if name in shown.fixed and getattr(shown, name) != getattr(DEFAULT, name)]
     block = shown.block
@@ -169,7 +183,7 @@ def commands(shown: ViewState) -> str:
 
 
 def _normalised(shown: ViewState) -> tuple[str, str]:
-    """Options of the forcing selected, and of those of the map."""
+    """Return the options of the selected forcing and of the map, normalised."""
     return (
         f"--amplitude {written(shown.amplitude)} --period {written(shown.period)}",
         f"--amplitude {written(shown.amplitudes)}:101 --period {written(shown.periods)}:101",
@@ -177,7 +191,10 @@ def _normalised(shown: ViewState) -> tuple[str, str]:
 
 
 def _in_metres(shown: ViewState, block: Block) -> tuple[str, str]:
-    """The same of a block in SI; the map over seconds, for even steps of the frequency are not even ones of the period."""
+    """Return the options of the selected forcing and of the map, in SI units.
+
+    The map is over the period in s, because even steps of the frequency are not even steps of the period.
+    """
 
     def acceleration(amplitude: float) -> str:
         return _digits(amplitude, block.acceleration, block.amplitude)
@@ -200,7 +217,7 @@ def _in_metres(shown: ViewState, block: Block) -> tuple[str, str]:
 
 
 def _digits(value: float, physical: Callable[[float], float], normalised: Callable[[float], float]) -> str:
-    """What is in SI, in the fewest digits that give the normalised value back: 3 where 3 was typed."""
+    """Write an SI value with the fewest digits that give the normalised value back, so that a typed 3 stays 3."""
     for digits in (15, 16, 17):
         text = f"{physical(value):.{digits}g}"
         if normalised(float(text)) == value:

@@ -1,4 +1,4 @@
-"""What is shown, as one frozen value."""
+"""View of a session as one frozen value."""
 
 from __future__ import annotations
 
@@ -9,38 +9,38 @@ from attrs import asdict, evolve, frozen
 from rocking.model import NO_BRACES, Block, State, System, system_of
 
 POINTS = 513
-"""Points along each side of a map in the end: 2⁹ + 1, so that each grid has every second point of the next."""
+"""Points along each side of the finest map: 2⁹ + 1, so that each grid consists of every second point of the next."""
 APART = 8.0
-"""The nearest points may come in units of the last place, unless they lie about zero."""
+"""Minimum distance of two points of a map, in units of the last place."""
 
 
 @frozen
 class Span:
-    """A stretch of an axis, from `low` to `high`."""
+    """Range of an axis, from `low` to `high`."""
 
     low: float
     high: float
 
     @property
     def width(self) -> float:
-        """From one end to the other."""
+        """Length of the range."""
         return self.high - self.low
 
 
 def closest(span: Span) -> float:
-    """The narrowest that a stretch here may be for double precision to tell its points apart."""
+    """Return the smallest length of a range here whose points double precision can resolve."""
     return APART * (POINTS - 1) * math.ulp(max(abs(span.low), abs(span.high), 1e-3))
 
 
 def nearby(value: float, span: Span) -> float:
-    """The number with the fewest digits that a click at `value` cannot be told from: no further off than half a point."""
+    """Round the coordinate of a click to the fewest digits within half a point of the map."""
     digits = math.ceil(-math.log10(span.width / (POINTS - 1)))
     return min(max(round(value, digits), span.low), span.high)
 
 
 @frozen
 class ViewState:
-    """What a visitor looks at: a system and its start, the map around it, its basin, and how they are drawn.
+    """View of a session: system, initial state, ranges of the maps and options of the figures.
 
     Names and units are those of `Harmonic`, `System`, `Braces` and `State`.
     """
@@ -66,24 +66,24 @@ class ViewState:
 
     @property
     def system(self) -> System:
-        """The system selected."""
+        """Selected system."""
         return system_of(asdict(self, recurse=False) | (NO_BRACES if self.brace_angle is None else {}))
 
     @property
     def start(self) -> State:
-        """Its start."""
+        """Initial state."""
         return State(self.angle, self.velocity)
 
     @property
     def block(self) -> Block | None:
-        """The block in metres, where one was given."""
+        """Block in SI units, if its height and width are given."""
         if self.height is None or self.width is None:
             return None
         return Block(self.height, self.width, self.restitution)
 
     @property
     def fixed(self) -> dict[str, float]:
-        """What does not vary over the map, by name."""
+        """Parameters that are constant over the map, by name."""
         names = ["restitution", "phase", "angle", "velocity"]
         if self.brace_angle is not None:
             names += ["brace_angle", "brace_restitution"]
@@ -91,11 +91,11 @@ class ViewState:
 
     @property
     def varied(self) -> Span:
-        """The values of the orbit diagram: those of the map along that axis."""
+        """Parameter range of the orbit diagram: the range of the map along that axis."""
         return self.amplitudes if self.vary == "amplitude" else self.periods
 
     def at(self, value: float) -> ViewState:
-        """The same at another place of the orbit diagram."""
+        """Return the view at another parameter value of the orbit diagram."""
         return evolve(self, amplitude=value) if self.vary == "amplitude" else evolve(self, period=value)
 
 

@@ -1,4 +1,4 @@
-"""Who computes for the visitors, and how what is no longer wanted ends."""
+"""Thread pools and cancellable jobs of all sessions."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ LOG = logging.getLogger(__name__)
 
 
 class Workers:
-    """Threads that all visitors share: quick ones, for what a click asks for, and patient ones, for what refines.
+    """Thread pools shared by all sessions: `quick` for selections, `patient` for refinement.
 
-    Two sets, so that no click waits for a map; compiled code holds no lock, so the page's own thread goes on meanwhile.
+    With two pools, no selection waits for a map. Compiled code releases the GIL, so that the event loop keeps running.
     """
 
     def __init__(self) -> None:
@@ -28,27 +28,27 @@ class Workers:
         self.patient = ThreadPoolExecutor(self.count, "patient")
 
     async def soon(self, work: Callable[[], Value]) -> Value:
-        """The result of what a click asks for."""
+        """Run the work of a selection and return its result."""
         return await asyncio.get_running_loop().run_in_executor(self.quick, work)
 
     async def later(self, work: Callable[[], Value]) -> Value:
-        """The result of a piece of what refines."""
+        """Run a batch of a refinement and return its result."""
         return await asyncio.get_running_loop().run_in_executor(self.patient, work)
 
     def close(self) -> None:
-        """End the threads once they are done with what they are at."""
+        """Shut down the threads after their current work."""
         for pool in (self.quick, self.patient):
             pool.shutdown(wait=False, cancel_futures=True)
 
 
 class Jobs:
-    """What is under way for one visitor: one job a name. A new one of a name ends the one before."""
+    """Running jobs of one session, by name. A new job cancels the earlier job of the same name."""
 
     def __init__(self) -> None:
         self._jobs: dict[str, tuple[asyncio.Task[None], np.ndarray]] = {}
 
     def start(self, name: str, work: Callable[[np.ndarray], Awaitable[None]]) -> None:
-        """Begin `work(stop)`; `stop[0]` is set when it is no longer wanted, for compiled code to see."""
+        """Start `work(stop)`. Cancellation sets `stop[0]`, which compiled code checks."""
         self.end(name)
         stop = np.zeros(1, np.int64)
         task = asyncio.ensure_future(work(stop))
@@ -56,25 +56,25 @@ class Jobs:
         task.add_done_callback(lambda done: self._ended(name, done))
 
     def end(self, name: str) -> None:
-        """End the job of that name, if there is one."""
+        """Cancel the job of this name, if it is running."""
         if name in self._jobs:
             task, stop = self._jobs.pop(name)
             stop[0] = 1
             task.cancel()
 
     async def over(self, name: str, most: float | None = None) -> None:
-        """Wait for the end of the job of that name, if there is one, however it ends; for so many seconds at most."""
+        """Wait until the job of this name has finished, failed or been cancelled; for `most` seconds at most."""
         if name in self._jobs:
             await asyncio.wait([self._jobs[name][0]], timeout=most)
 
     def end_all(self) -> None:
-        """End whatever is under way."""
+        """Cancel all jobs."""
         for name in tuple(self._jobs):
             self.end(name)
 
     @property
     def busy(self) -> bool:
-        """Whether anything is under way."""
+        """Return whether a job is running."""
         return bool(self._jobs)
 
     def _ended(self, name: str, task: asyncio.Task[None]) -> None:

@@ -1,4 +1,4 @@
-"""Surveys: one question asked at every point of a grid, on all cores or a cluster, in memory or in a store."""
+"""Surveys: responses at the points of a grid or sample, on all cores or a cluster, in memory or in a store."""
 
 from rocking.survey import notebook
 from rocking.survey.basin_map import basin_map

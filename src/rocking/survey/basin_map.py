@@ -1,4 +1,4 @@
-"""Basins of attraction: which start leads where, and how sharp the boundaries between them are."""
+"""Basins of attraction and the uncertainty exponents of their boundaries."""
 
 from __future__ import annotations
 
@@ -52,48 +52,51 @@ def basin_map(
     progress: bool = False,
     repair: bool = False,
 ) -> BasinMap:
-    """Tell where each of many starts leads: to which orbit, to rest, to chaos, or over.
+    """Compute basins of attraction: the attractor, rest or overturning to which each initial state leads.
 
     Parameters
     ----------
     system : System
         The block, its forcing and its braces.
     angle, velocity : array (n,) or pair
-        Θ and Θ' of the starts: the axes of a grid, ascending; with `samples` ranges (low, high) to draw from.
+        Initial angles Θ and angular velocities Θ'. Without `samples` the axes of a grid, ascending; with `samples`
+        ranges (low, high) from which the initial states are drawn.
     samples : int, optional
-        Random starts instead of a grid, up to 10⁷.
+        Number of random initial states, which replace the grid, in [1, 10⁷]. Default: a grid.
     seed : int
-        Of everything drawn at random, 0 to 2³² − 1: the same seed gives the same starts.
+        Random seed in [0, 2³² − 1]. The same seed gives the same initial states. Default: 0.
     max_cycles, max_period : int
-        As in `classify`. Chaotic responses need 10⁴ cycles (with braces 10⁵) to be called so.
+        As in `classify`. A response is classified as chaotic after 10⁴ cycles at the earliest (with braces 10⁵).
+        Default: 10,000 and 64.
     boundary_runs : int
-        Runs, about, for the exponents of the boundaries, which need starts of their own; 0 leaves them out.
+        Approximate number of additional runs for the uncertainty exponents; 0 disables them. Default: 100,000.
     store, executor, progress, repair
-        As in `parametric_map`; a store holds a grid.
+        As in `parametric_map`. A store holds a grid, so that it excludes `samples`.
 
     Returns
     -------
     BasinMap
-        `.attractors` with their `.fractions`, `.uncertainty_exponent`, `.attractor_exponent` and `.dataset`; `print` shows
-        one line. Two attractors are told apart by their orbits: two unsymmetric ones that are each other's mirror image are two.
+        `.attractors` with their `.fractions`, `.uncertainty_exponent`, `.attractor_exponent` and `.dataset`; `print`
+        shows one line. Attractors are distinguished by their orbits, so that an asymmetric orbit and its mirror image
+        count as two.
 
     Raises
     ------
     TypeError, ValueError, OSError
-        In one line, as in `parametric_map`.
+        As in `parametric_map`.
 
     Notes
     -----
-    The intervals of the fractions are Wilson's at 95 %, and cover that all that is undetermined leads there. They hold for
-    random starts. For a grid they are those of as many
-    random starts: its error is about the share of the cells that a boundary cuts, over the root of how many they are,
-    and so most often smaller; but nothing that happens between its points is known.
+    The intervals of the fractions are Wilson's at 95 %. Their upper ends assume that all undetermined initial states
+    belong to the attractor. They hold for random initial states; a grid is treated as an equal number of random ones.
+    The error of a grid is usually smaller: about the fraction of cells on a boundary, divided by the square root of
+    their number. A grid does not resolve structure between its points.
 
-    Not guaranteed: what `classify` does not guarantee. Orbits nearer to each other than 10⁻⁶ count as one. So do all
-    quasi-periodic responses, all chaotic ones without losses, and all others whose mean angle on the section differs by less
-    than ten standard errors: two chaotic attractors that are each other's mirror image are told apart by it, but two that
-    lie the same on average are not. An exponent is of the distances tried, 2⁻⁶ to 2⁻¹³ of the width of the
-    starts; a boundary may be smooth on a finer scale.
+    Not guaranteed: what `classify` does not guarantee. Orbits closer to each other than 10⁻⁶ count as one. All
+    quasi-periodic responses count as one, and so do all undamped chaotic responses. Other chaotic responses count as
+    one if their mean angles on the section differ by less than ten standard errors. This distinguishes two chaotic
+    attractors that are mirror images of each other, but not two with equal means. An exponent holds for the tested
+    distances, 2⁻⁶ to 2⁻¹³ of the width of the range of initial states. A boundary may be smooth on a finer scale.
 
     References
     ----------
@@ -120,7 +123,7 @@ def basin_map(
         starts = grid_starts(asked)
     else:
         if store is not None:
-            raise TypeError(refusal("store", "come without samples: it holds a grid", str(store)))
+            raise TypeError(refusal("store", "be used without samples, because it holds a grid", str(store)))
         ends = {name: span(name, v) for name, v in (("velocity", velocity), ("angle", angle))}
         reach = MAX_START if system.braces is None else system.braces.angle
         check_between(max(ends["angle"], key=abs), reach)
@@ -135,7 +138,7 @@ def basin_map(
 
 
 def _fractions(counts: np.ndarray, attractors: tuple[Attractor, ...]) -> tuple[Share, ...]:
-    """The share of each attractor; what is undetermined may belong to any."""
+    """Return the fraction of each attractor; undetermined initial states may belong to any of them."""
     undetermined = [each.kind is Kind.UNDETERMINED for each in attractors]
     unknown = int(counts[undetermined].sum())
     return tuple(
@@ -145,24 +148,24 @@ def _fractions(counts: np.ndarray, attractors: tuple[Attractor, ...]) -> tuple[S
 
 
 def asked_of(system: System) -> dict[str, float]:
-    """Return the quantities of a system as a survey takes them: of period and frequency the period."""
+    """Return the quantities of a system as a survey takes them: the period but not the frequency."""
     found = quantities(system)
     return {name: found[name] for name in found if name != "frequency"}
 
 
 def points_of(system: System, starts: np.ndarray) -> Points:
-    """One system from starts (n, 2)."""
+    """Return the points of one system with initial states (n, 2)."""
     return points({"angle": starts[:, 0], "velocity": starts[:, 1]}, asked_of(system))
 
 
 def grid_starts(asked: SurveySpec) -> np.ndarray:
-    """The starts (n, 2) of a grid, in C order."""
+    """Return the initial states (n, 2) of a grid, in C order."""
     grid = dict(zip(asked.axes, np.meshgrid(*asked.axes.values(), indexing="ij"), strict=True))
     return np.column_stack([grid["angle"].ravel(), grid["velocity"].ravel()])
 
 
 def _corners(ends: dict[str, tuple[float, float]]) -> tuple[tuple[float, float], tuple[float, float]]:
-    """The lowest and the highest start."""
+    """Return the lowest and the highest initial state."""
     (a, b), (c, d) = ends["angle"], ends["velocity"]
     return (a, c), (b, d)
 
@@ -170,7 +173,7 @@ def _corners(ends: dict[str, tuple[float, float]]) -> tuple[tuple[float, float],
 def _random_dataset(
     system: System, starts: np.ndarray, measure: Measurement, executor: Executor | None
 ) -> xr.Dataset:
-    """What random starts lead to, start by start."""
+    """Return the dataset of random initial states."""
     import xarray as xr
 
     answers = sampled(points_of(system, starts), measure, executor)
@@ -185,10 +188,10 @@ def _random_dataset(
 
 
 def _attach(found: xr.Dataset, labels: np.ndarray, names: list[str]) -> None:
-    """Write into the dataset which attractor each start leads to."""
+    """Add the variable `attractor`, the attractor of each initial state, to a dataset."""
     words = [name.replace(",", "").replace("(", "").replace(")", "").replace(" ", "-") for name in names]
     told = {
-        "long_name": "attractor that the start leads to, the largest share first",
+        "long_name": "attractor of the initial state, in descending order of area fraction",
         "flag_values": np.arange(len(names), dtype=np.int32),
         "flag_meanings": " ".join(words),
     }
@@ -203,7 +206,7 @@ def _exponents(
     measure: Measurement,
     executor: Executor | None,
 ) -> tuple[UncertaintyExponent | None, UncertaintyExponent | None]:
-    """(of the boundary of overturning, of all boundaries)."""
+    """Return the uncertainty exponents of the boundary of overturning and of all boundaries."""
     low, high = _corners(ends)
     tried = perturbed_triples(low, high, runs, random)
     starts = tried.reshape(-1, 2)

@@ -1,4 +1,4 @@
-"""How common chaos is: its share among random periods and amplitudes."""
+"""Fraction of chaotic responses among random periods and amplitudes."""
 
 from __future__ import annotations
 
@@ -31,24 +31,26 @@ def chaos_share(
     max_period: int = 64,
     executor: Executor | None = None,
 ) -> ChaosShare:
-    """Tell which share of responses from rest is chaotic, over the restitution, from random periods and amplitudes.
+    """Estimate the fraction of chaotic responses from rest over the restitution, for random periods and amplitudes.
 
     Parameters
     ----------
     restitution : float or array (n,)
-        e, ascending.
+        Coefficient of restitution e in [0, 1]; an array is ascending.
     period, amplitude : pair
-        Ranges (low, high) of T and A, from which they are drawn evenly.
+        Ranges (low, high) of the forcing period T and the amplitude A, which are uniformly distributed.
+        Default: (0.2, 3) and (0, 16).
     brace_angle, brace_restitution : float
-        As in `Braces`; none by default.
+        As in `Braces`. Default: no braces.
     samples : int
-        Responses at each restitution, 1 to 10⁷; drawn anew for each.
+        Number of responses at each restitution, in [1, 10⁷], with independent samples. Default: 3,000.
     seed : int
-        Of the draw, 0 to 2³² − 1.
+        Random seed in [0, 2³² − 1]. Default: 0.
     max_cycles, max_period : int
-        As in `classify`. Nothing is called chaotic before 10⁴ cycles (with braces 10⁵).
+        As in `classify`. A response is classified as chaotic after 10⁴ cycles at the earliest (with braces 10⁵).
+        Default: 20,000 and 64.
     executor : concurrent.futures.Executor, optional
-        Who computes: threads on all cores unless given.
+        Executor that runs the computation. Default: threads on all cores.
 
     Returns
     -------
@@ -58,14 +60,14 @@ def chaos_share(
     Raises
     ------
     TypeError, ValueError
-        In one line, for arguments of the wrong type or outside their range.
+        If an argument has the wrong type or lies outside its range.
 
     Notes
     -----
-    The intervals are Wilson's at 95 %, and cover that all that is undetermined is chaotic. Not guaranteed: that chaos
-    lasts; a longer run may find an end to it.
+    The intervals are Wilson's at 95 %. Their upper ends assume that all undetermined responses are chaotic.
+    Not guaranteed: that a chaotic response is an attractor. A longer run may show a chaotic transient.
 
-    There is no store: a thousand responses take seconds, and a seed gives them again.
+    There is no store: a thousand responses take seconds, and the same seed reproduces them.
 
     Examples
     --------
@@ -87,7 +89,7 @@ def chaos_share(
         braces = Braces(brace_angle, brace_restitution)
         fixed = {"brace_angle": braces.angle, "brace_restitution": braces.restitution}
     elif brace_restitution != 1.0:
-        raise TypeError(refusal("brace_restitution", "come with brace_angle", brace_restitution))
+        raise TypeError(refusal("brace_restitution", "be used with brace_angle", brace_restitution))
     count = whole("samples", samples, 1, MAX_SAMPLES)
     random = generator(seed)
     counts = []
@@ -111,12 +113,12 @@ def _summed_up(
     of = int(counts[0].sum())
     shares = tuple(Share(each[kernel.CHAOTIC], of, each[kernel.UNDETERMINED]) for each in counts)
     variables: dict[str, Any] = dict(
-        interval_variables("chaotic", shares, "restitution", "share of chaotic responses")
+        interval_variables("chaotic", shares, "restitution", "fraction of chaotic responses")
     )
     variables["share"] = (
         ("restitution", "response"),
         counts / of,
-        {"long_name": "share of the responses of each kind", "units": "1"},
+        {"long_name": "fraction of the responses of each kind", "units": "1"},
     )
     coordinates = {
         "restitution": ("restitution", restitutions, coordinate("restitution")),

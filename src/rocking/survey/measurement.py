@@ -1,4 +1,4 @@
-"""One tile, pure: the same points give the same answers, whoever computes them, together with whichever others."""
+"""Computation of one tile as a pure function: results depend on neither the process nor the other points."""
 
 from __future__ import annotations
 
@@ -13,23 +13,23 @@ from rocking.survey.spec import Points, points
 from rocking.survey.tiling import Tile
 
 BATCH = 8192
-"""Points computed as one piece of work: enough to keep lanes full, few enough to keep all workers busy to the end."""
+"""Points per batch: enough to fill the lanes, few enough to occupy all workers until the end."""
 
 Arrays = dict[str, np.ndarray]
 
 
 @frozen(eq=False)
 class Variable:
-    """A number that a survey finds at each point.
+    """Variable of a survey: one number at each point.
 
     Attributes
     ----------
     name : str
-        Its name in the dataset.
+        Name in the dataset.
     dtype : str
-        As NumPy has it.
+        NumPy type.
     fill : float
-        "Not computed": a value that it never takes.
+        Value of points that are not computed; never a valid result.
     attributes : dict
         `long_name`, `units`, `flag_values`, `flag_meanings` as in the CF conventions.
     """
@@ -42,25 +42,25 @@ class Variable:
 
 @frozen(eq=False)
 class Measurement:
-    """What a survey finds at each point.
+    """Measurement of a survey: the function computed at each point, its variables and options.
 
     Attributes
     ----------
     title : str
-        What the dataset is called.
+        Title of the dataset.
     judge : callable
-        (points, options, stop) → an array (n,) a variable, by name; of a module, so that another process finds it. A
-        pure function of the points; None when another thread set `stop[0]` on the way.
+        (points, options, stop) → one array (n,) per variable, by name. A pure function of the points, defined in a
+        module so that other processes can import it. Returns None if another thread sets `stop[0]`.
     compile : callable
-        Compiles, or loads, what `judge` runs; told whether some points may have to be marched for long.
+        Function that compiles or loads the kernels of `judge`. Its argument states whether some runs may be long.
     variables : tuple of Variable
-        The last one is written last: where it is there, all are.
+        Variables; the last one is written last and so marks a point as complete.
     options : dict
-        Whole numbers, by name, that `judge` is given; they are told in the dataset, and a store keeps to them.
+        Integer options of `judge` by name. They are attributes of the dataset, and a store accepts no others.
     method : int
-        Version of what is answered.
+        Version of the method.
     shares : str
-        The variable, one with flags, whose shares are told while it runs.
+        Name of the variable with flags whose fractions the progress bar shows.
     """
 
     title: str
@@ -72,38 +72,38 @@ class Measurement:
     shares: str = "kind"
 
     def blank(self, shape: tuple[int, ...]) -> Arrays:
-        """Arrays in which nothing is computed."""
+        """Return arrays in which no point is computed."""
         return {each.name: np.full(shape, each.fill, each.dtype) for each in self.variables}
 
     @property
     def marker(self) -> Variable:
-        """The variable that tells whether a point is computed."""
+        """Variable that marks a point as computed."""
         return self.variables[-1]
 
 
 @frozen(eq=False)
 class Batch:
-    """Points of a tile to be computed as one piece of work, in any process."""
+    """Batch of points of a tile, computed in any process."""
 
     axes: dict[str, np.ndarray]
     fixed: dict[str, float]
-    wanted: np.ndarray = field(repr=False)  # their places in the tile, counted in C order
+    wanted: np.ndarray = field(repr=False)  # indices in the tile, in C order
     judge: Callable[[Points, Mapping[str, int], np.ndarray], Arrays | None]
     options: dict[str, int]
 
 
 def batches(tile: Tile, fixed: dict[str, float], wanted: np.ndarray, measure: Measurement) -> Iterator[Batch]:
-    """The work of a tile, in pieces that each reach all over it: then none is much dearer than the others."""
+    """Split a tile into strided batches, for load balance."""
     parts = -(-wanted.size // BATCH)
     for part in range(parts):
         yield Batch(tile.axes(), fixed, wanted[part::parts], measure.judge, measure.options)
 
 
 def compute(batch: Batch, stop: np.ndarray) -> Arrays:
-    """The answers at the points of a batch, in their order; CancelledError if told to stop."""
+    """Return the results at the points of a batch, in their order; CancelledError if `stop` is set."""
     places = np.unravel_index(batch.wanted, tuple(values.size for values in batch.axes.values()))
     values = {name: axis[at] for (name, axis), at in zip(batch.axes.items(), places, strict=True)}
     answers = batch.judge(points(values, batch.fixed), batch.options, stop)
     if answers is None:
-        raise CancelledError("told to stop")
+        raise CancelledError("the survey was stopped")
     return answers

@@ -1,4 +1,4 @@
-"""Maps show themselves in a notebook, though they are xarray's datasets: the notebook is told how."""
+"""Display of maps in notebooks, although maps are plain xarray datasets."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ KIND = "map"
 
 
 def register() -> None:
-    """Where a notebook runs, have it show maps with their picture; all other datasets stay as they are."""
+    """Register the display of maps if IPython runs; other datasets keep their display."""
     notebook = sys.modules.get("IPython")
     shell = notebook.get_ipython() if notebook is not None else None
     if shell is not None:
@@ -25,7 +25,7 @@ def register() -> None:
 
 
 def html(found: xr.Dataset) -> str:
-    """A map's picture and line, and what xarray shows of every dataset."""
+    """Return the HTML of a dataset; a map begins with its plot and a summary."""
     shown = found._repr_html_()
     if (
         getattr(found, "kind", None) is None
@@ -37,7 +37,7 @@ def html(found: xr.Dataset) -> str:
 
 
 def line(found: xr.Dataset) -> str:
-    """A map in one line: its size, and the shares of its kinds.
+    """Return a map in one line: its size and the fractions of the response types.
 
     Examples
     --------

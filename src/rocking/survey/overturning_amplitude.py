@@ -1,4 +1,4 @@
-"""How hard the base must shake to overturn a block from rest, over periods and restitutions."""
+"""Lowest amplitude that overturns a block from rest, over periods and restitutions."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from rocking.theory import heteroclinic_amplitude
 MAX_PHASES = 100_000
 TITLE = "Overturning of a free-standing block from rest on a shaking base"
 SCANNED = np.linspace(1.0, 16.0, 301)
-"""Amplitudes scanned unless others are given; up to 1 nothing moves from rest."""
+"""Default amplitudes of the scan. Up to A = 1 a block at rest does not move."""
 
 
 def overturning_amplitude(
@@ -37,24 +37,25 @@ def overturning_amplitude(
     progress: bool = False,
     repair: bool = False,
 ) -> OverturningCurve:
-    """Find the lowest amplitude that overturns a block from rest, over all phases at which the shaking may begin.
+    """Find the lowest amplitude that overturns a block from rest, over the initial phases of the forcing.
 
-    Overturning is not monotone in the amplitude: a block may survive far above the lowest one. So amplitudes are scanned, at
-    every phase; between the last one up to which everything survived and the first that overturns the block at some
-    phase, the change is refined by bisection.
+    Overturning is not monotone in the amplitude: a block may survive far above the lowest overturning amplitude. So
+    amplitudes are scanned at each phase. All runs survive up to some scanned amplitude, and the next one overturns the
+    block at some phase. Bisection refines the change between these two.
 
     Parameters
     ----------
     period, frequency : float or array (n,)
-        T or Ω (exactly one of them), ascending if several.
+        Forcing period T or forcing frequency Ω (exactly one of them); an array is ascending.
     restitution : float or array (n,)
-        e, likewise.
+        Coefficient of restitution e in [0, 1]; an array is ascending.
     amplitude : array (n,), optional
-        The amplitudes to scan, ascending; 301 from 1 to 16 unless given.
+        Amplitudes A to scan, ascending. Default: 301 values from 1 to 16.
     phases : int
-        How many phases φ, evenly over half a turn: from rest those of the other half only swap left and right.
+        Number of initial phases φ, evenly spaced over [0, π). From rest, the other half of the phases only mirrors the
+        motion. Default: 16.
     max_cycles, max_period : int
-        As in `classify`; what has not overturned in so many cycles survived.
+        As in `classify`. A run that has not overturned after `max_cycles` counts as survived. Default: 1,000 and 64.
     store, executor, progress, repair
         As in `parametric_map`, for the scan.
 
@@ -67,14 +68,14 @@ def overturning_amplitude(
     Raises
     ------
     TypeError, ValueError, OSError
-        In one line, as in `parametric_map`.
+        As in `parametric_map`.
 
     Notes
     -----
-    Not guaranteed: that nothing overturns below `lowest`, between two amplitudes or two phases of the scan; `resolution` is
-    how far apart the amplitudes are there. Where it lies in a fractal set, and not at a plain edge, the last digits of the
-    system move it: for one cabinet at 1 Hz by 1e-5. Where the lowest amplitude scanned overturns
-    already, it is `lowest`, and `survived_up_to` is NaN.
+    Not guaranteed: that the block survives all amplitudes below `lowest`, because the scan skips amplitudes and phases
+    between its values. `resolution` is the distance between scanned amplitudes there. If `lowest` lies in a fractal
+    set, it depends on the last digits of the system: for one cabinet at 1 Hz it varies by 1e-5.
+    If the block overturns at the lowest scanned amplitude, `lowest` is that amplitude and `survived_up_to` is NaN.
 
     Examples
     --------
@@ -109,7 +110,7 @@ def overturning_amplitude(
 
 
 def _summed_up(scan: Scan, lowest: np.ndarray, phase: np.ndarray) -> OverturningCurve:
-    """The curve as a dataset."""
+    """Return the curve as a dataset."""
     import xarray as xr
 
     cells, first, amplitudes, over = scan.cells, scan.first, scan.amplitudes, scan.over
@@ -123,33 +124,33 @@ def _summed_up(scan: Scan, lowest: np.ndarray, phase: np.ndarray) -> Overturning
     none = "NaN: none"
     columns: dict[str, tuple[tuple[str, ...], np.ndarray, str, str, str]] = {
         "lowest": (over, lowest, "lowest overturning amplitude found", "1", none),
-        "resolution": (over, steps[first], "distance of the amplitudes scanned there", "1", none),
+        "resolution": (over, steps[first], "distance between the amplitudes scanned there", "1", none),
         "lowest_phase": (over, phase, "phase at which it overturns", "rad", none),
         "survived_up_to": (
             over,
             before[first],
-            "highest amplitude scanned up to which all survived",
+            "highest scanned amplitude up to which all runs survived",
             "1",
             none,
         ),
         "surviving_above": (
             over,
             surviving,
-            "share of what was scanned from there on that survives",
+            "fraction of the runs scanned from there on that survive",
             "1",
             none,
         ),
         "overturning_share": (
             (*over, "amplitude"),
             cells.mean(axis=1),
-            "share of the phases at which the block overturns",
+            "fraction of the phases at which the block overturns",
             "1",
             "",
         ),
         "changes": (
             (*over, "phase"),
             changes,
-            "changes along the scanned amplitudes between overturning and not",
+            "number of changes between survival and overturning along the scanned amplitudes",
             "1",
             "",
         ),
@@ -157,7 +158,7 @@ def _summed_up(scan: Scan, lowest: np.ndarray, phase: np.ndarray) -> Overturning
         "undetermined": (
             over,
             undetermined,
-            "share of what was scanned whose response is undetermined",
+            "fraction of the scanned runs whose response is undetermined",
             "1",
             "",
         ),
@@ -176,7 +177,7 @@ def _summed_up(scan: Scan, lowest: np.ndarray, phase: np.ndarray) -> Overturning
 
 
 def _thresholds(scan: Scan) -> np.ndarray:
-    """A* of each cell."""
+    """Return A* of each cell."""
     grids = np.meshgrid(*(scan.kinds[name].values for name in scan.over), indexing="ij")
     at: dict[str, Any] = scan.asked.fixed | dict(zip(scan.over, grids, strict=True))
     period = at["period"] if "period" in at else 2.0 * np.pi / at["frequency"]

@@ -1,4 +1,4 @@
-"""Maps of responses over two quantities."""
+"""Parametric maps: responses over two quantities."""
 
 from __future__ import annotations
 
@@ -32,51 +32,54 @@ def parametric_map(
     progress: bool = False,
     repair: bool = False,
 ) -> xr.Dataset:
-    """Tell what the response is at every point of a grid over any two quantities, each point with its evidence.
+    """Classify the response at each point of a grid over any two quantities, with the evidence at each point.
 
     Parameters
     ----------
     amplitude, period, frequency, restitution, phase, angle, velocity, brace_angle, brace_restitution : float or array (n,)
-        As in `Harmonic` (either `period` or `frequency`), `System`, `Braces` and `State`, normalised. Two of them are
-        arrays, ascending: the axes of the map. A sequence holds the values themselves, so that a range of them is
-        ``np.linspace(0, 16, 60)``. Those of a block in SI: ``block.amplitude(accelerations)``,
-        ``block.frequency(hertz)``, ``block.restitution``.
+        Normalised quantities as in `Harmonic` (either `period` or `frequency`), `System`, `Braces` and `State`. Two of
+        them are ascending arrays, the axes of the map, for example ``np.linspace(0, 16, 60)``. For a block in SI use
+        ``block.amplitude(accelerations)``, ``block.frequency(hertz)`` and ``block.restitution``.
     max_cycles, max_period : int
-        As in `classify`. Chaotic responses need 10⁴ cycles (with braces 10⁵) to be called so.
+        As in `classify`. A response is classified as chaotic after 10⁴ cycles at the earliest (with braces 10⁵).
+        Default: 10,000 and 64.
     store : path, optional
-        A folder that is written to while the map is computed, in Zarr's third format, one group a level from coarse to
-        fine, each of which opens in plain xarray. The same call goes on with what is there after any interruption; longer
-        axes extend it, axes of half the spacing refine it, without computing anything twice. A second run on a store in
-        use is refused.
+        Folder of a Zarr store (format 3), written during the computation. It has one group for each level, from coarse
+        to fine, and each group opens in plain xarray. Repeating the call after an interruption resumes it. Longer axes
+        extend the map and axes of half the spacing refine it; no point is computed twice. Default: results are kept in
+        memory.
     executor : concurrent.futures.Executor, optional
-        Who computes: threads on all cores unless given. Every executor gives the same bytes on the same kind of
-        processor.
+        Executor that runs the computation. Results are bit-identical for all executors on the same type of processor.
+        Default: threads on all cores.
     progress : bool
-        Whether to show, on stderr, what the map will cost, then a bar with the rate, the time left and the shares by kind.
+        Whether to print the estimated cost and a progress bar on stderr. The bar shows the rate, the remaining time and
+        the fraction of each response type. Default: False.
     repair : bool
-        Whether tiles of the store found damaged are computed again; refused otherwise.
+        Whether to recompute damaged tiles of the store. Default: False, so that damage raises OSError.
 
     Returns
     -------
     xarray.Dataset
-        Over both axes `kind`, `evidence`, `symmetric` (numbers whose meanings are in their attributes `flag_values` and
+        Variables over both axes: `kind`, `evidence`, `symmetric` (codes explained by their attributes `flag_values` and
         `flag_meanings`), `response_period`, `impacts_per_period`, `brace_hits_per_period`, `exponent`,
-        `exponent_error`, `peak`, `transient` and `cycles`, as in `Verdict`. With a store its finest level, read as it is
-        used.
+        `exponent_error`, `peak`, `transient` and `cycles`, as in `Verdict`. With a store, its finest level, which is
+        read on access.
 
     Raises
     ------
-    TypeError, ValueError
-        In one line, for arguments of the wrong type or outside their range, unless two quantities vary, for more points
-        than memory holds without a store, and for a store that holds another survey, which says what differs.
+    TypeError
+        If an argument has the wrong type, or if the number of varying quantities is not two.
+    ValueError
+        If an argument lies outside its range, if a map without store exceeds the memory, or if the store holds a
+        different survey.
     OSError
-        For a store that is no folder, is in use, is damaged or cannot be written; what it holds stays good.
+        If the store is not a folder, is in use by another run, is damaged or cannot be written. Its data stay intact.
 
     Notes
     -----
-    Not guaranteed: what `classify` does not guarantee; and that nothing happens between the points. Points that are marched
-    long are marched many at once, which rounds otherwise than `classify` does: where an answer hangs on the last
-    digit, in chaos and after chaotic transients, the two may differ.
+    Not guaranteed: what `classify` does not guarantee, and the responses between the points of the grid. Long runs are
+    advanced many at a time, which rounds differently from `classify`. The two may disagree where the outcome depends on
+    the last digit, in chaos and after chaotic transients.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""Whether an experiment can be repeated: what comes of inputs that are off by a little."""
+"""Repeatability of an experiment: outcomes of runs with slightly perturbed inputs."""
 
 from __future__ import annotations
 
@@ -31,45 +31,45 @@ def repeatability(
     max_period: int = 64,
     executor: Executor | None = None,
 ) -> Repeatability:
-    """Tell what comes of an experiment whose inputs are off by a little: the share of each outcome, with its interval.
+    """Estimate the fraction of each outcome of an experiment whose inputs vary slightly.
 
-    A, T, e and both numbers of the start are each drawn evenly from within `relative` of themselves, e not above 1. Where that
-    goes beyond what A, T or the angle may be, a brace say, they are at that limit. What is zero stays so: a block at rest
-    is at rest.
+    A, T, e, Θ and Θ' are uniformly distributed within ± `relative` of their values; e does not exceed 1. Values of A, T
+    and Θ beyond their limits, for example beyond a brace, are set to the limit. Zero values stay zero, so that a block
+    at rest stays at rest.
 
     Parameters
     ----------
     system : System
-        What is meant.
+        Nominal system.
     start : State, optional
-        Θ and Θ' at τ = 0; at rest by default.
+        Nominal initial state at τ = 0. Default: at rest.
     relative : float
-        By which share of itself an input may be off, in [0, 0.5].
+        Largest relative deviation of an input, in [0, 0.5]. Default: 0.01.
     samples : int
-        How many experiments, 1 to 10⁷.
+        Number of runs, in [1, 10⁷]. Default: 1000.
     seed : int
-        Of the draw, 0 to 2³² − 1.
+        Random seed in [0, 2³² − 1]. Default: 0.
     max_cycles, max_period : int
-        As in `classify`.
+        As in `classify`. Default: 10,000 and 64.
     executor : concurrent.futures.Executor, optional
-        Who computes: threads on all cores unless given.
+        Executor that runs the computation. Default: threads on all cores.
 
     Returns
     -------
     Repeatability
-        `.kinds` and `.responses`, shares with their intervals; `print` shows one line.
+        `.kinds` and `.responses`, fractions with their intervals; `print` shows one line.
 
     Raises
     ------
     TypeError, ValueError
-        In one line, for arguments of the wrong type or outside their range.
+        If an argument has the wrong type or lies outside its range.
 
     Notes
     -----
-    The intervals are Wilson's at 95 %. What is undetermined after `max_cycles` is no outcome: it may be any, and so widens
-    the intervals of all. Two unsymmetric responses that are each other's mirror image count as one.
+    The intervals are Wilson's at 95 %. A run that is undetermined after `max_cycles` may have any outcome, so that it
+    raises the upper ends of all intervals. An asymmetric response and its mirror image count as one.
 
-    There is no store: a thousand runs take seconds, and a seed gives them again.
+    There is no store: a thousand runs take seconds, and the same seed reproduces them.
 
     Examples
     --------
@@ -100,15 +100,15 @@ def repeatability(
 
 
 def _shares(counts: Mapping[Name, int], unknown: int, of: int) -> dict[Name, Share]:
-    """Shares by name, the largest first; the undetermined, which may belong to any of the others, last."""
+    """Return fractions by name in descending order; undetermined runs, which may belong to any other, come last."""
     known = sorted((each for each in counts if each != Kind.UNDETERMINED), key=lambda each: -counts[each])
     shares = {name: Share(counts[name], of, unknown) for name in known}
     return shares | {name: Share(unknown, of) for name in counts if name == Kind.UNDETERMINED and unknown}
 
 
 def _told(kind: int, period: int, symmetric: int, impacts: int) -> str:
-    """A response in a few words."""
+    """Return a short description of a response."""
     if kind != kernel.PERIODIC:
         return str(KINDS[kind])
     many_impacts = "infinitely many impacts" if impacts < 0 else counted(impacts, "impact")
-    return f"period {period}, {'symmetric' if symmetric == 1 else 'unsymmetric'}, {many_impacts}"
+    return f"period {period}, {'symmetric' if symmetric == 1 else 'asymmetric'}, {many_impacts}"

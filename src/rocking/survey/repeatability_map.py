@@ -1,4 +1,4 @@
-"""Where an experiment can be repeated: at every point of a grid, what comes of inputs that are off by a little."""
+"""Map of repeatability: outcomes of runs with slightly perturbed inputs at each point of a grid."""
 
 from __future__ import annotations
 
@@ -43,34 +43,36 @@ def repeatability_map(
     progress: bool = False,
     repair: bool = False,
 ) -> RepeatabilityMap:
-    """Tell at every point of a grid whether the outcome is certain when the inputs are off by a little, and at which share not.
+    """Compute at each point of a grid whether all runs with slightly perturbed inputs have the same outcome.
 
     Parameters
     ----------
     amplitude, period, frequency, restitution, phase, angle, velocity, brace_angle, brace_restitution : float or array (n,)
-        As in `parametric_map`: two of them are arrays, the axes.
+        As in `parametric_map`. Two of them are arrays, the axes of the map.
     relative : float
-        By which share of itself A, T, e and the start may be off, in [0, 0.5], to a millionth.
+        Largest relative deviation of A, T, e, Θ and Θ', in [0, 0.5], rounded to 10⁻⁶. Default: 0.01.
     samples : int
-        Experiments at each point, 2 to 1000: evenly spread over what the inputs may be, the same at every point.
+        Number of runs at each point, in [2, 1000]. Their deviations are evenly spread and the same at each point.
+        Default: 16.
     max_cycles, max_period, store, executor, progress, repair
         As in `parametric_map`.
 
     Returns
     -------
     RepeatabilityMap
-        `.dataset`, and the shares `.uncertain` and `.overturning_uncertain` of the points; `print` shows one line.
+        `.dataset`, and the fractions `.uncertain` and `.overturning_uncertain` of the points; `print` shows one line.
 
     Raises
     ------
     TypeError, ValueError, OSError
-        In one line, as in `parametric_map`.
+        As in `parametric_map`.
 
     Notes
     -----
-    Not guaranteed: that a point at which all experiments agree is certain; an outcome with a share p is missed by
-    (1 − p)ⁿ of n experiments. Undetermined is no outcome: a point is not certain only where two others are seen, and where
-    it is not known the shares have a wider interval, which is that of as many random points.
+    Not guaranteed: that the outcome is certain at a point at which all runs agree. An outcome of probability p does not
+    occur among n runs with probability (1 − p)ⁿ. Undetermined is not an outcome: a point counts as uncertain only if
+    two other outcomes occur. Points that undetermined runs leave open widen the intervals of the fractions. These are
+    the intervals of an equal number of random points.
 
     Examples
     --------
@@ -116,7 +118,7 @@ def repeatability_map(
 
 
 def _divided(one: np.ndarray, unknown: np.ndarray, of: int) -> Share:
-    """The points at which some of so many runs are of one sort and some of another."""
+    """Return the fraction of points at which some of the runs have the outcome counted in `one` and others do not."""
     divided = (one > 0) & (one + unknown < of)
     return Share(np.count_nonzero(divided), one.size, np.count_nonzero((unknown > 0) & ~divided))
 
@@ -125,24 +127,26 @@ VARIABLES = (
     Variable(
         "kind", KIND.dtype, KIND.fill, KIND.attributes | {"long_name": "most frequent kind of response"}
     ),
-    Variable("overturned", "float32", -1.0, {"long_name": "share of the runs that overturn", "units": "1"}),
+    Variable(
+        "overturned", "float32", -1.0, {"long_name": "fraction of the runs that overturn", "units": "1"}
+    ),
     Variable(
         "undetermined",
         "float32",
         -1.0,
-        {"long_name": "share of the runs whose response is undetermined", "units": "1"},
+        {"long_name": "fraction of the runs whose response is undetermined", "units": "1"},
     ),
     Variable(
         "agreeing",
         "float32",
         -1.0,
-        {"long_name": "share of the runs of the most frequent kind", "units": "1"},
+        {"long_name": "fraction of the runs of the most frequent kind", "units": "1"},
     ),
 )
 
 
 def judge(at: Points, options: Mapping[str, int], stop: np.ndarray) -> Arrays | None:
-    """How many of the experiments at each point end in each kind of response."""
+    """Return the most frequent kind of response and the fractions of the runs at each point."""
     counts = np.zeros((len(at.systems), len(KINDS)), np.int64)
     for units in spread(options["samples"]):
         tried = perturbed(

@@ -1,4 +1,4 @@
-"""The safe basin: how many of the starts do not overturn, and what becomes of them as the amplitude grows."""
+"""Safe basin: fraction of initial states that do not overturn, over the amplitude."""
 
 from __future__ import annotations
 
@@ -35,27 +35,29 @@ def safe_basin(
     max_period: int = 64,
     executor: Executor | None = None,
 ) -> SafeBasin:
-    """Tell which share of starts does not overturn at each of several amplitudes, beside the thresholds A* and A_M.
+    """Estimate the fraction of initial states that do not overturn, over the amplitude.
 
-    Above A* the boundary of the starts that overturn is fractal; that is what those thresholds are for. The safe area
-    need not fall from there on. Both are of the block without braces: between braces they are NaN.
+    The result includes the thresholds A* and A_M of the amplitude.
+
+    Above A* the boundary of the overturning initial states is fractal. The safe fraction does not necessarily decrease
+    from there on. Both thresholds hold for a block without braces; with braces they are NaN.
 
     Parameters
     ----------
     amplitude : array (n,)
-        A, ascending.
+        Amplitudes A, ascending.
     period, frequency, restitution, phase, brace_angle, brace_restitution : float
         As in `Harmonic` (either `period` or `frequency`), `System` and `Braces`.
     angle, velocity : pair
-        Ranges (low, high) of Θ and Θ' from which the starts are drawn.
+        Ranges (low, high) from which the initial states (Θ, Θ') are drawn. Default: (−1, 1).
     samples : int
-        How many, 1 to 10⁷; the same at every amplitude.
+        Number of initial states, in [1, 10⁷], the same ones at each amplitude. Default: 10,000.
     seed : int
-        Of the draw, 0 to 2³² − 1.
+        Random seed in [0, 2³² − 1]. Default: 0.
     max_cycles, max_period : int
-        As in `classify`.
+        As in `classify`. Default: 10,000 and 64.
     executor : concurrent.futures.Executor, optional
-        Who computes: threads on all cores unless given.
+        Executor that runs the computation. Default: threads on all cores.
 
     Returns
     -------
@@ -65,13 +67,14 @@ def safe_basin(
     Raises
     ------
     TypeError, ValueError
-        In one line, for arguments of the wrong type or outside their range.
+        If an argument has the wrong type or lies outside its range.
 
     Notes
     -----
-    The intervals are Wilson's at 95 %. Since the starts are the same, shares at two amplitudes differ by less than their
-    intervals suggest. There is no store: a seed gives the same starts again, and `basin_map` keeps a grid of them.
-    Not guaranteed: that what stayed undetermined or chaotic never overturns; both count as safe.
+    The intervals are Wilson's at 95 %. Because the initial states are the same, the difference of the fractions at two
+    amplitudes is more certain than their intervals suggest. There is no store: the same seed reproduces the initial
+    states, and `basin_map` stores a grid of them.
+    Not guaranteed: that undetermined and chaotic responses never overturn. Both count as safe.
 
     Examples
     --------
@@ -120,11 +123,13 @@ def _summed_up(asked: SurveySpec, measure: Any, kinds: list[np.ndarray], drawn: 
     if "brace_angle" not in asked.fixed:
         exact = heteroclinic_amplitude(period, asked.fixed["restitution"])
         first_order = melnikov_amplitude(period, asked.fixed["restitution"])
-    variables = interval_variables("safe", shares, "amplitude", "share of the starts that do not overturn")
+    variables = interval_variables(
+        "safe", shares, "amplitude", "fraction of the initial states that do not overturn"
+    )
     variables["undetermined"] = (
         "amplitude",
         open_ones,
-        {"long_name": "share of the starts whose response is undetermined", "units": "1"},
+        {"long_name": "fraction of the initial states whose response is undetermined", "units": "1"},
     )
     told = attributes(asked, measure) | {
         "samples": shares[0].of,

@@ -1,4 +1,4 @@
-"""What is asked: which quantities vary, over which values, and what the others are."""
+"""Specification of a survey: axes of the varying quantities and values of the others."""
 
 from __future__ import annotations
 
@@ -16,15 +16,15 @@ from rocking.model import NO_BRACES, RANGES, check_between, exactly_one, reals, 
 Values = Mapping[str, np.ndarray]
 
 SYMBOLS = {
-    "amplitude": ("A", "amplitude of the base's acceleration in units of g theta_cr"),
-    "velocity": ("Θ'", "angular velocity at the start in units of alpha theta_cr"),
+    "amplitude": ("A", "amplitude of the base acceleration in units of g theta_cr"),
+    "velocity": ("Θ'", "initial angular velocity in units of alpha theta_cr"),
     "restitution": ("e", "coefficient of restitution"),
     "brace_angle": ("Θb", "angle of the braces in units of theta_cr"),
     "brace_restitution": ("r", "coefficient of restitution of the braces"),
-    "phase": ("φ", "phase of the base's acceleration"),
-    "angle": ("Θ", "angle at the start in units of theta_cr"),
-    "frequency": ("Ω", "frequency of the base in radians per normalised time"),
-    "period": ("T", "period of the base in normalised time"),
+    "phase": ("φ", "phase of the base acceleration"),
+    "angle": ("Θ", "initial angle in units of theta_cr"),
+    "frequency": ("Ω", "forcing frequency in radians per normalised time"),
+    "period": ("T", "forcing period in normalised time"),
 }
 
 
@@ -33,27 +33,27 @@ START = ("angle", "velocity")
 
 
 class Points(NamedTuple):
-    """Points as the kernels read them."""
+    """Systems and initial states of points, as arrays for the kernels."""
 
     systems: np.ndarray  # (n, 7), SYSTEM, as `kernels.parameters.make` takes it
     starts: np.ndarray  # (n, 2), START
 
     @property
     def lossless(self) -> np.ndarray:
-        """Which of them lose nothing at impacts."""
+        """Mask of the undamped points (e = 1)."""
         return np.asarray(self.systems[:, SYSTEM.index("restitution")] == 1.0)
 
     @property
     def may_last(self) -> np.ndarray:
-        """Which of them may have to be marched for long: they lose nothing at impacts, or stand between braces."""
+        """Mask of the points whose runs may be long: undamped blocks and blocks between braces."""
         return self.lossless | (self.systems[:, SYSTEM.index("brace_angle")] < math.inf)
 
 
 @frozen(eq=False)
 class SurveySpec:
-    """A survey's axes, by name in the order of its dimensions, and the values of all that does not vary.
+    """Axes of a survey by name, in the order of its dimensions, and the values of the other quantities.
 
-    Without braces there is neither `brace_angle` nor `brace_restitution`; of `period` and `frequency` there is one.
+    `brace_angle` and `brace_restitution` are absent without braces; either `period` or `frequency` is present.
     """
 
     axes: dict[str, np.ndarray]
@@ -61,29 +61,33 @@ class SurveySpec:
 
     @property
     def shape(self) -> tuple[int, ...]:
-        """Points along each axis."""
+        """Number of points along each axis."""
         return tuple(values.size for values in self.axes.values())
 
     @property
     def points(self) -> int:
-        """Points in all."""
+        """Total number of points."""
         return math.prod(self.shape)
 
     @property
     def may_last(self) -> bool:
-        """Whether some points may have to be marched for long: they lose nothing at impacts, or stand between braces."""
+        """Flag: some runs may be long, because blocks are undamped or stand between braces."""
         return "brace_angle" in (self.axes.keys() | self.fixed.keys()) or 1.0 in (
             self.axes["restitution"] if "restitution" in self.axes else [self.fixed["restitution"]]
         )
 
 
 def question(asked: Mapping[str, Any], count: int, what: str) -> SurveySpec:
-    """Check what is asked: `count` of the quantities are arrays, their axes, and the others numbers (None: not given).
+    """Check the quantities of a survey: `count` of them are arrays, the axes, and the others are numbers or None.
+
+    `what` names the survey in messages.
 
     Raises
     ------
-    TypeError, ValueError
-        In one line that starts with the argument's name; `what` says what needs that many axes.
+    TypeError
+        If a quantity is missing or has the wrong type, or if the number of axes is not `count`.
+    ValueError
+        If a value lies outside its range.
     """
     exactly_one(period=asked.get("period"), frequency=asked.get("frequency"))
     given = {name: asked[name] for name in RANGES if asked.get(name) is not None}
@@ -92,20 +96,20 @@ def question(asked: Mapping[str, Any], count: int, what: str) -> SurveySpec:
         raise TypeError(f"{what} needs {' and '.join(missing)}; got none")
     rebound = 1.0 if "brace_angle" in given else given.pop("brace_restitution", 1.0)
     if _is_axis(rebound) or rebound != 1.0:
-        raise TypeError(refusal("brace_restitution", "come with brace_angle", rebound))
+        raise TypeError(refusal("brace_restitution", "be used with brace_angle", rebound))
     axes = {name: axis(name, value) for name, value in given.items() if _is_axis(value)}
     fixed = {name: _number(name, value) for name, value in given.items() if name not in axes}
     if len(axes) != count:
         got, more = " and ".join(axes) or "none", len(axes) - count
-        way_out = f" (give {'one' if more == 1 else more} of them a single number)" if more > 0 else ""
-        raise TypeError(f"{what} needs {_counted(count)} to vary, given as axes; got {got}{way_out}")
+        way_out = f" (give {'one' if more == 1 else more} of them as a number)" if more > 0 else ""
+        raise TypeError(f"{what} needs {_counted(count)}; got {got}{way_out}")
     asked_for = SurveySpec(axes, fixed)
     _check_braces(asked_for)
     return asked_for
 
 
 def axis(name: str, values: Any) -> np.ndarray:
-    """Check an axis: finite numbers in range, ascending, two or more; TypeError or ValueError in one line otherwise."""
+    """Check an axis: two or more finite numbers in range, ascending; raises TypeError or ValueError."""
     low, high = RANGES[name]
     allowed = f"hold two numbers or more in [{low:.6g}, {high:.6g}], ascending"
     try:
@@ -114,7 +118,7 @@ def axis(name: str, values: Any) -> np.ndarray:
         raise TypeError(refusal(name, allowed, values)) from None
     if array.ndim != 1 or array.size < 2:
         found = "an empty array" if array.size == 0 else f"an array of shape {array.shape}"
-        way_out = " (give a plain number for what does not vary)" if array.size == 1 else ""
+        way_out = " (give a number for a quantity that does not vary)" if array.size == 1 else ""
         raise ValueError(f"{name} must {allowed}; got {found}{way_out}")
     inside = (array >= low) & (array <= high)
     if not inside.all():
@@ -130,7 +134,7 @@ def axis(name: str, values: Any) -> np.ndarray:
 
 
 def check_quantity(name: str, value: Any) -> float | np.ndarray:
-    """Check a number, or an axis, for one of the quantities."""
+    """Check a number or an axis of one quantity."""
     return axis(name, value) if _is_axis(value) else _number(name, value)
 
 
@@ -151,11 +155,12 @@ def _is_axis(value: Any) -> bool:
 
 
 def _counted(count: int) -> str:
-    return {1: "one quantity", 2: "two quantities"}.get(count, f"{count} quantities")
+    words = {1: "one quantity as an array", 2: "two quantities as arrays"}
+    return words.get(count, f"{count} quantities as arrays")
 
 
 def _check_braces(asked: SurveySpec) -> None:
-    """Refuse starts beyond the braces."""
+    """Raise ValueError for initial angles beyond the braces."""
     if "brace_angle" not in asked.axes and "brace_angle" not in asked.fixed:
         return
     check_between(max(_values(asked, "angle"), key=abs), min(_values(asked, "brace_angle")))
@@ -166,7 +171,10 @@ def _values(asked: SurveySpec, name: str) -> list[float]:
 
 
 def points(values: Values, fixed: Mapping[str, float]) -> Points:
-    """Systems and starts of n points, `values` (n,) each, as exactly as `System` and `State` make them."""
+    """Return the systems and initial states of n points, with the same rounding as `System` and `State`.
+
+    Each of the `values` has the shape (n,).
+    """
     count = next(iter(values.values())).size
     usual = {"phase": 0.0, **NO_BRACES, "angle": 0.0, "velocity": 0.0}
     given = {name: np.full(count, value) for name, value in (usual | dict(fixed)).items()} | dict(values)
@@ -188,5 +196,5 @@ def _within_a_turn(phases: np.ndarray) -> np.ndarray:
 
 
 def described(asked: SurveySpec) -> dict[str, float]:
-    """What does not vary, by name, in the order in which it is told."""
+    """Return the quantities that do not vary, by name, in the order of the dataset attributes."""
     return {name: asked.fixed[name] for name in RANGES if name in asked.fixed}

@@ -1,4 +1,4 @@
-"""How a survey is gone through: grids from coarse to fine, cut into tiles, and what that will cost."""
+"""Levels and tiles of a survey: grids from coarse to fine, divided into tiles."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ from attrs import frozen
 from rocking.survey.spec import SurveySpec
 
 COARSEST = 64
-"""A grid with more points than this along an axis has a coarser one before it."""
+"""Largest number of points along an axis of the coarsest grid."""
 MAX_IN_A_TILE = 1 << 16
 MIN_TILES = 4
-"""Along an axis of the finest grid, so that a run stopped in the middle has something to keep."""
+"""Minimum number of tiles along an axis of the finest grid, so that an interrupted run keeps some of them."""
 MIN_EDGE = 32
 
 Slices = tuple[slice, ...]
@@ -21,18 +21,18 @@ Slices = tuple[slice, ...]
 
 @frozen(eq=False)
 class Level:
-    """A plain grid of the survey.
+    """Level of a survey: a rectangular grid.
 
     Attributes
     ----------
     number : int
-        0 is the coarsest.
+        Index of the level; 0 is the coarsest.
     axes : dict of str to array
-        Its values by name, in the order of the dimensions.
+        Axis values by name, in the order of the dimensions.
     halved : tuple of bool, or None
-        Along which axes every second value, the first among them, is one of the level before; None for the coarsest.
+        For each axis, whether values 0, 2, 4, … are those of the previous level. None for the coarsest level.
     tile : tuple of int
-        Points along each edge of a tile; those at the far ends may be smaller.
+        Number of points along each edge of a tile. Tiles at the upper ends may be smaller.
     """
 
     number: int
@@ -42,32 +42,32 @@ class Level:
 
     @property
     def name(self) -> str:
-        """That of its group in a store."""
+        """Name of the group of the level in a store."""
         return f"level-{self.number}"
 
     @property
     def shape(self) -> tuple[int, ...]:
-        """Points along each axis."""
+        """Number of points along each axis."""
         return tuple(values.size for values in self.axes.values())
 
     @property
     def tile_counts(self) -> tuple[int, ...]:
-        """Tiles along each axis."""
+        """Number of tiles along each axis."""
         return tuple(-(-points // edge) for points, edge in zip(self.shape, self.tile, strict=True))
 
     def tiles(self) -> Iterator[Tile]:
-        """Its tiles, row by row."""
+        """Yield the tiles, row by row."""
         yield from map(self.at, np.ndindex(*self.tile_counts))
 
     def at(self, index: tuple[int, ...]) -> Tile:
-        """One of its tiles."""
+        """Return the tile with an index."""
         spans = zip(index, self.tile, self.shape, strict=True)
         return Tile(self, index, tuple(slice(i * edge, min((i + 1) * edge, n)) for i, edge, n in spans))
 
 
 @frozen(eq=False)
 class Tile:
-    """A rectangular part of a level, computed and stored as one."""
+    """Rectangular part of a level, computed and stored as a unit."""
 
     level: Level
     index: tuple[int, ...]
@@ -75,15 +75,21 @@ class Tile:
 
     @property
     def shape(self) -> tuple[int, ...]:
-        """Points along each axis."""
+        """Number of points along each axis."""
         return tuple(part.stop - part.start for part in self.region)
 
     def axes(self) -> dict[str, np.ndarray]:
-        """The values along its edges, by name."""
+        """Return the axis values of the tile, by name."""
         return {n: v[part] for (n, v), part in zip(self.level.axes.items(), self.region, strict=True)}
 
     def shared(self) -> tuple[Slices, Slices] | None:
-        """Where the points of the coarser level lie: (in this tile, in that level); None in the coarsest."""
+        """Return the slices of the points shared with the coarser level; None for the coarsest level.
+
+        Returns
+        -------
+        tuple of (tuple of slice, tuple of slice), or None
+            Slices in this tile and in the coarser level.
+        """
         if self.level.halved is None:
             return None
         here, there = [], []
@@ -95,7 +101,7 @@ class Tile:
         return tuple(here), tuple(there)
 
     def own(self, which: np.ndarray) -> np.ndarray:
-        """Of some of its points those that no coarser level has."""
+        """Return the mask `which` without the points shared with the coarser level."""
         shared = self.shared()
         if shared is None:
             return which
@@ -105,7 +111,7 @@ class Tile:
 
 
 def levels(asked: SurveySpec) -> list[Level]:
-    """The grids of a survey that begins, the coarsest first: each next one has half the spacing along the long axes."""
+    """Return the levels of a new survey, the coarsest first; each level halves the spacing along the long axes."""
     grids = [asked.axes]
     halvings: list[tuple[bool, ...]] = []
     while any(values.size > COARSEST for values in grids[0].values()):
@@ -119,18 +125,18 @@ def levels(asked: SurveySpec) -> list[Level]:
 
 
 def thinned(axes: dict[str, np.ndarray], halved: tuple[bool, ...]) -> dict[str, np.ndarray]:
-    """The axes of the level before."""
+    """Return the axes of the previous level."""
     pairs = zip(axes.items(), halved, strict=True)
     return {name: values[::2] if half else values for (name, values), half in pairs}
 
 
 def finest(asked: SurveySpec) -> list[Level]:
-    """The one grid of a survey of which nobody sees a part."""
+    """Return the finest level alone, for a survey in memory, which needs no coarser one."""
     return [Level(0, asked.axes, None, even_edges(asked.axes, tile_edges(asked.shape)))]
 
 
 def tile_edges(shape: Sequence[int]) -> tuple[int, ...]:
-    """Edges of the tiles of a grid: short axes whole, the others shared out evenly, a tile no larger than it may be."""
+    """Return the edges of tiles of limited size: short axes are undivided, the others divided evenly."""
     edges, room = [0] * len(shape), MAX_IN_A_TILE
     for left, place in enumerate(sorted(range(len(shape)), key=lambda place: shape[place])):
         most = int(room ** (1 / (len(shape) - left)) + 1e-9)
@@ -140,6 +146,6 @@ def tile_edges(shape: Sequence[int]) -> tuple[int, ...]:
 
 
 def even_edges(axes: dict[str, np.ndarray], edges: Sequence[int]) -> tuple[int, ...]:
-    """Edges no longer than those, such that the tiles are about equal."""
+    """Return edges no longer than `edges` that give tiles of about equal size."""
     sizes = (values.size for values in axes.values())
     return tuple(-(-n // -(-n // edge)) for n, edge in zip(sizes, edges, strict=True))

@@ -1,1 +1,1 @@
-"""The commands, one file each: options and the order of steps."""
+"""Commands, one file for each: options and order of steps."""

@@ -13,27 +13,41 @@ from rocking.cli.input.study_file import Study
 from rocking.cli.option_names import SYSTEM
 
 EXAMPLES = """\
-rocking basins --amplitude 5.5 --period 1 --restitution 0.8 --angle=-1:1:300 --velocity=-1:1:300 --plot basins.png
-rocking basins --amplitude 5.5 --period 1 --restitution 0.8 --samples 10000 --json"""
+# A grid of 300 × 300 initial states, plotted.
+rocking basins --amplitude 5.5 --period 1 --restitution 0.8 \\
+    --angle=-1:1:300 --velocity=-1:1:300 --plot basins.png
+# 10,000 random initial states.
+rocking basins --amplitude 5.5 --period 1 --restitution 0.8 --samples 10000"""
 
 Angle = Annotated[
     Any,
-    axis_option("--angle", "Θ at the start, in θcr, not degrees: START:STOP:COUNT; -1:1:200 unless given."),
+    axis_option(
+        "--angle",
+        "Initial angles Θ, in units of the critical angle θcr, not in degrees. Default: -1:1:200, or the range between narrower braces.",
+    ),
 ]
-Velocity = Annotated[Any, axis_option("--velocity", "Θ' at the start, in θcr per τ, likewise.")]
+Velocity = Annotated[
+    Any, axis_option("--velocity", "Initial angular velocities Θ', in units of α θcr. Default: -1:1:200.")
+]
 Samples = Annotated[
     ask.Number,
-    ask.number_option("--samples", "Random starts in those ranges, not a grid: their COUNT is not used."),
+    ask.number_option(
+        "--samples", "Number of random initial states in these ranges; replaces the grid. COUNT is ignored."
+    ),
 ]
-Seed = Annotated[ask.Number, ask.number_option("--seed", "Of all that is drawn at random; 0 unless given.")]
+Seed = Annotated[ask.Number, ask.number_option("--seed", "Random seed. Default: 0.")]
 BoundaryRuns = Annotated[
     ask.Number,
     ask.number_option(
-        "--boundary-runs", "Runs for the exponents of the boundaries; 100,000 unless given, 0: none."
+        "--boundary-runs",
+        "Number of runs used for the uncertainty exponents; 0 disables them. Default: 100,000.",
     ),
 ]
 Plot = Annotated[
-    Path | None, ask.file_option("--plot", "The basins, a colour an attractor, with shares (.png .svg .pdf).")
+    Path | None,
+    ask.file_option(
+        "--plot", "Plot the basins, one colour per attractor, with their area fractions (.png .svg .pdf)."
+    ),
 ]
 
 
@@ -55,9 +69,10 @@ def basins(
     json: ask.Json = False,
     **shared: Any,
 ) -> None:
-    """Tell which start leads where.
+    """Compute basins of attraction and uncertainty exponents.
 
-    And how sharp the boundaries between them are.
+    The initial states form a grid over --angle and --velocity. AXIS is START:STOP:COUNT: COUNT evenly spaced values,
+    both ends included. COUNT is optional. Default: 200.
     """
     from rocking.cli.input import basins_request
     from rocking.cli.output import survey_run

@@ -10,7 +10,10 @@ from rocking.cli.input import options as ask
 from rocking.cli.option_names import ARGUMENTS, START, SYSTEM, your_input
 
 EXAMPLES = """\
-rocking classify --amplitude 6.5 --period 0.4 --restitution 0.925 --plot verdict.png
+# Normalised input.
+rocking classify --amplitude 6.5 --period 0.4 --restitution 0.925 \\
+    --plot verdict.png
+# A block of 2 m × 0.5 m, in SI units.
 rocking classify --height 2 --width 0.5 --acceleration 4 --frequency-hz 1.2"""
 
 
@@ -23,7 +26,7 @@ def classify(
     json: ask.Json = False,
     **shared: Any,
 ) -> None:
-    """Tell what a response is, and how that is known."""
+    """Classify the response and report the evidence."""
     from rocking.cli.output import motion_files
     from rocking.cli.reports import classify as report
     from rocking.response import classify as judge

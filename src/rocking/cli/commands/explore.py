@@ -18,7 +18,7 @@ MAX_PORT = 65_535
 
 
 def port_number(text: str | int) -> int:
-    """A port as it is typed."""
+    """Return the port number in a text."""
     with suppress(ValueError):
         if 0 <= int(text) <= MAX_PORT:
             return int(text)
@@ -32,20 +32,23 @@ def explore(
             "--port",
             parser=port_number,
             metavar="NUMBER",
-            help="Where on this machine the page is; 0: any port that is free.",
+            help="Port of the local server; 0 selects a free port.",
         ),
     ] = PORT,
-    no_browser: Annotated[bool, typer.Option("--no-browser", help="Only say where the page is.")] = False,
+    no_browser: Annotated[
+        bool, typer.Option("--no-browser", help="Print the address without opening a browser.")
+    ] = False,
 ) -> None:
-    """Open a page that shows a system from all sides.
+    """Open the interactive explorer in the browser.
 
-    It is computed as you look.
+    Shows a map of responses. For each point of the map: time history, Poincaré section, spectrum, basins and verdict.
+    The server runs until Ctrl-C.
     """
     from importlib.util import find_spec
 
     if find_spec("bokeh") is None:
         raise YourInput(
-            "the page needs the extra explorer: pip install '.[explorer]' in a copy of the repository"
+            "the explorer needs the package bokeh: run pip install '.[explorer]' in a copy of the repository"
         )
     from rocking.explorer import serve
 
@@ -53,11 +56,11 @@ def explore(
         server = serve(port)
     except OSError as error:
         raise YourInput(
-            f"--port {port} cannot be listened at: {error.strerror or error} (give another, or 0, which takes any that is free)"
+            f"cannot listen on --port {port}: {error.strerror or error} (give another port, or --port 0 for a free one)"
         ) from error
     _end_on_control_c(server.io_loop)
     address = f"http://localhost:{server.port}/"
-    print(f"{address}  (for this machine alone; Ctrl-C ends it)", flush=True)
+    print(f"{address}  (accessible from this computer only; press Ctrl-C to stop)", flush=True)
     server.start()
     if not no_browser:
         server.io_loop.add_callback(server.show, "/")
@@ -68,7 +71,7 @@ def explore(
 
 
 def _end_on_control_c(loop: IOLoop) -> None:
-    """Ctrl-C is how a page ends that is served, and no failure; a second one ends it where it is."""
+    """Stop the server on Ctrl-C with exit code 0; a second Ctrl-C interrupts at once."""
     at_once = signal.getsignal(signal.SIGINT)
 
     def end(*_: object) -> None:

@@ -13,30 +13,42 @@ from rocking.cli.input.study_file import Study
 from rocking.cli.option_names import START, SYSTEM
 
 EXAMPLES = """\
-rocking map --amplitude 0:16:100 --period 0.2:3:100 --restitution 0.925 --plot map.png
-rocking map --height 2 --width 0.5 --acceleration 1:8:50 --frequency-hz 0.5:3:50 --store block.zarr"""
+# Responses over amplitude and period, plotted.
+rocking map --amplitude 0:16:100 --period 0.2:3:100 --restitution 0.925 \\
+    --plot map.png
+# A block of 2 m × 0.5 m, in SI units. Repeat the command to resume it.
+rocking map --height 2 --width 0.5 --acceleration 1:8:50 \\
+    --frequency-hz 0.5:3:50 --store block.zarr"""
 
-
-Plot = Annotated[Path | None, ask.file_option("--plot", "The map in colours, with shares (.png .svg .pdf).")]
+Plot = Annotated[
+    Path | None, ask.file_option("--plot", "Plot the map, with area fractions (.png .svg .pdf).")
+]
 Tiles = Annotated[
     Path | None,
     typer.Option(
-        "--tiles", metavar="DIR", help="Image tiles, and a page that pans and zooms them without a server."
+        "--tiles",
+        metavar="DIR",
+        help="Write image tiles and a page that pans and zooms them without a server.",
     ),
 ]
 Curves = Annotated[
     str | None,
     typer.Option(
-        "--curves", metavar="NAMES", help="Theory over the picture: melnikov,symmetry-breaking-1, …."
+        "--curves",
+        metavar="NAMES",
+        help="Theoretical curves to overlay, separated by commas: symmetry-breaking-1, symmetry-breaking-3, existence-1, "
+        "existence-3, melnikov, heteroclinic.",
     ),
 ]
 Symbols = Annotated[
     str | None,
     typer.Option(
-        "--symbols", metavar="SET", help="Marks for cells in it: kinds, or those of figure 10, 11 or 13b."
+        "--symbols",
+        metavar="SET",
+        help="Draw symbols instead of cells: kinds, or the symbols of figure 10, 11 or 13b of Yim & Lin (1991).",
     ),
 ]
-Csv = Annotated[Path | None, ask.file_option("--csv", "A row a point (.csv).")]
+Csv = Annotated[Path | None, ask.file_option("--csv", "Write one row per point (.csv).")]
 
 
 @ask.with_options(*SYSTEM, *START, declare=axis.value_option)
@@ -56,9 +68,10 @@ def map_(
     json: ask.Json = False,
     **shared: Any,
 ) -> None:
-    """Tell what the response is at every point of a grid.
+    """Classify the response at each point of a grid.
 
-    Two options are its axes, START:STOP:COUNT.
+    Give exactly two options as an AXIS, START:STOP:COUNT: COUNT evenly spaced values, both ends included. COUNT is
+    optional. Default: 200.
     """
     from rocking.cli.input import map_request
     from rocking.cli.output import survey_run

@@ -10,7 +10,10 @@ from rocking.cli.input import options as ask
 from rocking.cli.option_names import ARGUMENTS, FORCED, your_input
 
 EXAMPLES = """\
-rocking modes --amplitude 6.5 --period 0.4 --restitution 0.925 -n 3 --plot modes.png
+# The (1, 3) modes, plotted over the amplitude.
+rocking modes --amplitude 6.5 --period 0.4 --restitution 0.925 -n 3 \\
+    --plot modes.png
+# The (1, 1) modes of a block of 2 m × 0.5 m, in SI units.
 rocking modes --height 2 --width 0.5 --acceleration 4 --frequency-hz 1.2"""
 
 
@@ -22,9 +25,9 @@ def modes(
     json: ask.Json = False,
     **shared: Any,
 ) -> None:
-    """Give the symmetric (1, n) modes in closed form.
+    """Compute the symmetric (1, n) modes in closed form.
 
-    With their speed, phase and stability, and whether they exist.
+    Prints their velocity and phase at impact, their stability and their admissibility.
     """
     from rocking.cli.output import motion_files
     from rocking.cli.reports import modes as report

@@ -12,25 +12,41 @@ from rocking.cli.input import options as ask
 from rocking.cli.option_names import START, SYSTEM
 
 EXAMPLES = """\
-rocking orbit-diagram --amplitude 7:10.9:1000 --period 1.721328 --restitution 0.8 --plot diagram.png
-rocking orbit-diagram --height 2 --width 0.5 --acceleration 2:6 --frequency-hz 1.2 --sweep rest"""
+# Vary the amplitude, upwards and downwards.
+rocking orbit-diagram --amplitude 7:10.9:1000 --period 1.721328 \\
+    --restitution 0.8 --plot diagram.png
+# A block of 2 m × 0.5 m, in SI units, from rest at each acceleration.
+rocking orbit-diagram --height 2 --width 0.5 --acceleration 2:6 \\
+    --frequency-hz 1.2 --sweep rest"""
 
 Sweep = Annotated[
     str,
     typer.Option(
         "--sweep",
-        metavar="WAY",
-        help="up, down or both, each from where the last ended; or rest, each from its start.",
+        metavar="DIRECTION",
+        help="Sweep direction: up, down or both (each run starts from the previous end state), or rest (each run starts from "
+        "the initial state).",
     ),
 ]
-Transient = Annotated[int, ask.number_option("--transient", "Cycles left out at each.")]
-Cycles = Annotated[int, ask.number_option("--cycles", "Cycles, and points, kept at each.")]
+Transient = Annotated[
+    int, ask.number_option("--transient", "Transient cycles discarded at each parameter value.")
+]
+Cycles = Annotated[
+    int, ask.number_option("--cycles", "Cycles recorded at each parameter value, one point per cycle.")
+]
 SectionPhase = Annotated[
     float | None,
-    ask.number_option("--section-phase", "Phase of the base at which points are taken, rad; φ unless given."),
+    ask.number_option(
+        "--section-phase", "Forcing phase of the Poincaré section, rad. Default: the value of --phase."
+    ),
 ]
-Plot = Annotated[Path | None, ask.file_option("--plot", "Points over the parameter (.png .svg .pdf).")]
-Csv = Annotated[Path | None, ask.file_option("--csv", "A row a point, and a row where it overturned (.csv).")]
+Plot = Annotated[
+    Path | None, ask.file_option("--plot", "Plot the points over the parameter (.png .svg .pdf).")
+]
+Csv = Annotated[
+    Path | None,
+    ask.file_option("--csv", "Write one row per point, and one row per run that overturned (.csv)."),
+]
 
 
 @ask.with_options(*SYSTEM, declare=axis.value_option, phase=0.0)
@@ -47,9 +63,10 @@ def orbit_diagram(
     json: ask.Json = False,
     **shared: Any,
 ) -> None:
-    """Vary one option and show which responses are left.
+    """Compute an orbit (bifurcation) diagram.
 
-    It is given as START:STOP:COUNT; a transient is left out.
+    Give exactly one option as an AXIS, START:STOP:COUNT: COUNT evenly spaced values, both ends included. COUNT is
+    optional. Default: 200.
     """
     from rocking.cli.input import orbit_diagram_request
     from rocking.cli.output.files import check_files

@@ -12,32 +12,46 @@ from rocking.cli.input import options as ask
 from rocking.cli.input.study_file import Study
 
 EXAMPLES = """\
-rocking overturning --period 0.4:3:50 --restitution 0.925 --plot overturning.png
-rocking overturning --period 1 --restitution 0.925 --amplitude 1:16:1501 --phases 1 --json
+# The lowest overturning amplitude over the forcing period, plotted.
+rocking overturning --period 0.4:3:50 --restitution 0.925 \\
+    --plot overturning.png
+# One period, one phase, a fine scan of the amplitude.
+rocking overturning --period 1 --restitution 0.925 --amplitude 1:16:1501 \\
+    --phases 1 --json
+# A block of 2 m × 0.5 m, in SI units.
 rocking overturning --height 2 --width 0.5 --frequency-hz 1:2:10"""
 
 SHAKEN = ("period", "frequency", "height", "width", "frequency_hz", "period_s", "restitution")
 Amplitude = Annotated[
     Any,
     axis.axis_option(
-        "--amplitude", "Normalised: amplitudes to scan, START:STOP:COUNT; 1:16:301 unless given."
+        "--amplitude",
+        "Amplitudes A of the base acceleration to scan, in units of g θcr. Default: 1:16:301.",
     ),
 ]
 Acceleration = Annotated[
     Any,
-    axis.axis_option("--acceleration", "SI: accelerations to scan, m/s²; 1:16:301 times g θcr unless given."),
+    axis.axis_option(
+        "--acceleration",
+        "Amplitudes of the base acceleration to scan, m/s². Default: 1:16:301 times g θcr.",
+    ),
 ]
-AccelerationG = Annotated[Any, axis.axis_option("--acceleration-g", "SI: the same in units of g.")]
+AccelerationG = Annotated[
+    Any, axis.axis_option("--acceleration-g", "Amplitudes to scan, in units of g; replaces --acceleration.")
+]
 Phases = Annotated[
-    ask.Number, ask.number_option("--phases", "Phases at which the shaking begins; 16 unless given.")
+    ask.Number,
+    ask.number_option("--phases", "Number of initial forcing phases. Default: 16."),
 ]
 MaxCycles = Annotated[
-    ask.Number, ask.number_option("--max-cycles", "Cycles of the base to follow at most; 1,000 unless given.")
+    ask.Number,
+    ask.number_option("--max-cycles", "Maximum number of forcing cycles per run. Default: 1,000."),
 ]
 Plot = Annotated[
     Path | None,
     ask.file_option(
-        "--plot", "The lowest amplitude, over the share of phases that overturn (.png .svg .pdf)."
+        "--plot",
+        "Plot the lowest amplitude and the fraction of phases that overturn (.png .svg .pdf).",
     ),
 ]
 
@@ -61,7 +75,8 @@ def overturning(
 ) -> None:
     """Find the lowest amplitude that overturns a block from rest.
 
-    It is the lowest over the phases at which the shaking may begin.
+    The minimum is taken over the initial phases of the forcing. AXIS is START:STOP:COUNT: COUNT evenly spaced values,
+    both ends included. COUNT is optional. Default: 200.
     """
     from rocking.cli.input import overturning_request
     from rocking.cli.output import survey_run

@@ -9,21 +9,23 @@ import typer
 
 from rocking.cli.option_names import YourInput, your_input
 
-EXAMPLES = "rocking paper 1 4 --output figures"
+EXAMPLES = """\
+# Figures 1 and 4 only.
+rocking paper 1 4 --output figures"""
 
 FIGURES = typer.Argument(
     metavar="FIGURE",
-    help="Numbers in the paper, such as 2 13a; exponents or claims, tables; chaos, cascade, crisis, threshold, coexistence or zoom, "
-    "beyond it. All, and one page of them, unless given.",
+    help="Figures of the paper (1 to 12, 13a, 13b), tables (exponents, claims) or additional figures (chaos, cascade, crisis, "
+    "threshold, coexistence, zoom). Default: all of them, and an HTML report.",
 )
-OUTPUT = typer.Option("--output", metavar="DIR", help="Folder for the files.")
+OUTPUT = typer.Option("--output", metavar="DIR", help="Folder in which the files are written.")
 
 
 def paper(
     figures: Annotated[list[str] | None, FIGURES] = None,
     output: Annotated[Path, OUTPUT] = Path("results/yim-lin-1991"),
 ) -> None:
-    """Reproduce the figures and numbers of Yim and Lin (1991)."""
+    """Reproduce the figures and numbers of Yim & Lin (1991)."""
     from rich.console import Console
     from rich.progress import Progress
 
@@ -45,7 +47,7 @@ def paper(
         files = yim_lin_1991.reproduce(output, figures or None, advance, last.append)
     except (ValueError, OSError) as error:
         if bar.tasks:
-            raise  # it was drawing already: the fault is not in what was typed
+            raise  # drawing has begun: the error is not in the input
         raise YourInput(str(error)) from error
     finally:
         if bar.tasks:

@@ -10,7 +10,10 @@ from rocking.cli.input import options as ask
 from rocking.cli.option_names import ARGUMENTS, START, SYSTEM, your_input
 
 EXAMPLES = """\
-rocking simulate --amplitude 2 --period 1 --restitution 0.925 --plot motion.png
+# Normalised input.
+rocking simulate --amplitude 2 --period 1 --restitution 0.925 \\
+    --plot motion.png
+# A block of 2 m × 0.5 m, in SI units.
 rocking simulate --height 2 --width 0.5 --acceleration 3 --frequency-hz 1.2"""
 
 
@@ -24,7 +27,7 @@ def simulate(
     json: ask.Json = False,
     **shared: Any,
 ) -> None:
-    """Run one block and tell what it did."""
+    """Simulate one block and summarise its motion."""
     from rocking.cli.output import motion_files
     from rocking.cli.reports import motion as report
 

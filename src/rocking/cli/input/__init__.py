@@ -1,1 +1,1 @@
-"""Options and study files, made into the arguments of public functions."""
+"""Conversion of options and study files to the arguments of public functions."""

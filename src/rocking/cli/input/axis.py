@@ -1,4 +1,4 @@
-"""Options that may be an axis, START:STOP:COUNT, and what that asks for."""
+"""Options whose value may be an axis, START:STOP:COUNT."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ FORM = "START:STOP:COUNT"
 
 
 class Axis(NamedTuple):
-    """Evenly spaced values, both ends among them."""
+    """Evenly spaced values, both ends included."""
 
     start: float
     stop: float
@@ -23,7 +23,7 @@ class Axis(NamedTuple):
 
 
 def number_or_axis(text: str) -> float | Axis:
-    """A number, or an axis START:STOP:COUNT, the count optional."""
+    """Return the number or the axis START:STOP:COUNT in a text; COUNT is optional."""
     if not isinstance(text, str):  # a default
         return text
     with suppress(typer.BadParameter):
@@ -34,23 +34,23 @@ def number_or_axis(text: str) -> float | Axis:
         if axis.start != axis.stop and 2 <= axis.points <= MAX_POINTS:
             return axis
     raise typer.BadParameter(
-        f"must be a number or {FORM}, two different numbers and a whole one from 2 to {MAX_POINTS:,}; got {text!r}"
+        f"must be a number or {FORM} with START ≠ STOP and a whole COUNT in [2, {MAX_POINTS}]; got {text!r} (example: 1:3:60)"
     )
 
 
 def axis_option(name: str, text: str) -> Any:
-    """An option that is an axis."""
+    """Declare an option whose value is an axis."""
     return typer.Option(name, parser=number_or_axis, metavar="AXIS", help=text)
 
 
 def value_option(name: str, text: str) -> Any:
-    """An option that is a number or an axis; a block has one height and one width."""
+    """Declare an option whose value is a number or an axis; height and width of the block are numbers."""
     if name in ("--height", "--width"):
         return number_option(name, text)
     return typer.Option(name, parser=number_or_axis, metavar="NUMBER|AXIS", help=text)
 
 
-# What an option in SI varies.
+# SI option → the normalised quantity that it varies.
 VARIES = {
     "acceleration": "amplitude",
     "acceleration_g": "amplitude",

@@ -1,4 +1,4 @@
-"""Basins that a command requests: from options and a study file to the basins."""
+"""Computation of basins from options and a study file."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ if TYPE_CHECKING:
     from rocking.model import BasinMap, Block
 
 DEFAULT_STARTS = 200
-"""Number of starts along an axis from -1 to 1, or from brace to brace."""
+"""Number of initial states along an axis from -1 to 1, or from brace to brace."""
 
 
 def question(typed: Mapping[str, Any], file: Path | None) -> dict[str, Any]:
-    """Return what options and study file request; options take precedence."""
+    """Return the arguments given by options and study file; options take precedence."""
     checks = {
         **survey_quantities.fixed(*SYSTEM),
         **survey_quantities.varying(*START),
@@ -44,7 +44,7 @@ def compute(given: Mapping[str, Any]) -> tuple[BasinMap, Block | None]:
 
 
 def _starts(asked: Any, *, random: bool) -> Any:
-    """Return the starts along an axis of a grid, or the ends of the axis if starts are random."""
+    """Return the initial values along an axis of a grid, or the ends of the axis for random initial states."""
     return (
         [asked.start, asked.stop] if random and isinstance(asked, Axis) else survey_quantities.values(asked)
     )

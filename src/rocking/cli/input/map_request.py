@@ -1,4 +1,4 @@
-"""The map that a command asks for: from options and a study file to the map and its files."""
+"""Computation of a parametric map from options and a study file, and its output files."""
 
 from __future__ import annotations
 
@@ -23,21 +23,21 @@ if TYPE_CHECKING:
 THEORY = ("curves", "symbols")
 PLACES = ("store", "tiles", *SUFFIXES)
 OWN = (*COUNTS, "repair")
-"""Arguments of `parametric_map` beside the quantities."""
+"""Arguments of `parametric_map` other than quantities."""
 
 
 @frozen
 class Question:
-    """A map to be made: the arguments of `parametric_map`, what is drawn over it, and where it goes."""
+    """Request of a map: arguments of `parametric_map`, overlays of its plot, and output paths."""
 
     arguments: dict[str, Any]
-    drawn: dict[str, Any]  # arguments of its picture
-    places: dict[str, Path]  # of its store and its files
-    block: Block | None  # of a map in SI, whose pictures have SI axes
+    drawn: dict[str, Any]  # arguments of the plot
+    places: dict[str, Path]  # store and output files
+    block: Block | None  # with SI input: plots then have SI axes
 
 
 def question(typed: Mapping[str, Any], file: Path | None) -> Question:
-    """Return what options and study file request; options take precedence."""
+    """Return the request given by options and study file; options take precedence."""
     checks: dict[str, study_file.Check] = {
         **survey_quantities.varying(*SYSTEM, *START),
         **survey_quantities.counts(*COUNTS),
@@ -58,20 +58,20 @@ def question(typed: Mapping[str, Any], file: Path | None) -> Question:
 
 
 def _names(entry: Any) -> tuple[str, ...]:
-    """Names from a text with commas, or a list."""
+    """Return names from a list, or from a text that separates them by commas."""
     parts = entry.split(",") if isinstance(entry, str) else entry
     if not isinstance(parts, list | tuple) or not all(isinstance(part, str) for part in parts):
-        raise TypeError(refusal("curves", "be names, in a list or with commas", entry))
+        raise TypeError(refusal("curves", "be names in a list, or in one text separated by commas", entry))
     return tuple(part.strip() for part in parts)
 
 
 def _check_theory(asked: Question) -> None:
-    """Reject what cannot be drawn before the map is computed."""
+    """Raise YourInput for overlays that cannot be drawn, before the map is computed."""
     if not asked.drawn:
         return
     name = next(iter(asked.drawn))
     if "plot" not in asked.places:
-        raise YourInput(f"{option(name)} is drawn into a picture: give --plot FILE as well")
+        raise YourInput(f"{option(name)} needs a plot: give --plot FILE as well")
     from rocking.plot.parts import legend, theory_curves
     from rocking.survey import question as spec_of
 
@@ -82,7 +82,7 @@ def _check_theory(asked: Question) -> None:
 
 
 def files_of(asked: Question) -> dict[str, Path]:
-    """The files asked for, of tiles their page; refused where they cannot be written."""
+    """Return the requested output files, for tiles the page; YourInput if a file cannot be written."""
     check_apart({name: asked.places.get(name) for name in PLACES})
     files = check_files({name: asked.places.get(name) for name in SUFFIXES})
     if "tiles" in asked.places:
@@ -93,35 +93,35 @@ def files_of(asked: Question) -> dict[str, Path]:
 
 
 def compute(asked: Question) -> xr.Dataset:
-    """The map."""
+    """Compute the map."""
     from rocking.survey import parametric_map
 
     return carried_out(parametric_map, asked.arguments | {"store": asked.places.get("store")}, asked.block)
 
 
 def write_plot(found: xr.Dataset, path: Path, asked: Question) -> None:
-    """The map as a picture."""
+    """Write the plot of the map."""
     from rocking import plot
 
     plot.save(plot.parametric_map(found, block=asked.block, **asked.drawn), path)
 
 
 def write_tiles(found: xr.Dataset, path: Path, asked: Question) -> None:
-    """The map as image tiles with their page."""
+    """Write the map as image tiles with a page."""
     from rocking import plot
 
     plot.tiles(found, path.parent, asked.block)
 
 
 def write_netcdf(found: xr.Dataset, path: Path, asked: Question) -> None:
-    """The map as it is, tile by tile; of a block with its axes in SI as well."""
+    """Write the map as netCDF, in parts; with SI input also its axes in SI."""
     from rocking.survey import to_netcdf
 
     to_netcdf(files.with_block(found, asked.block), path)
 
 
 def write_csv(found: xr.Dataset, path: Path, asked: Question) -> None:
-    """A row a point: the axes, then all that was found, flags as words; of a block then what has a unit in SI."""
+    """Write one row per point as CSV: axes and variables, flags as words; with a block also in SI."""
     from rocking.survey import tables
 
     block = asked.block

@@ -1,4 +1,4 @@
-"""The options that commands share, declared once, and what they mean: a system, normalised or of a block in SI, and a start."""
+"""Options shared by several commands, and their conversion to a system, an initial state and a block."""
 
 from __future__ import annotations
 
@@ -20,67 +20,68 @@ Command = TypeVar("Command", bound=Callable[..., None])
 
 
 def number(text: str) -> float:
-    """An int or a float, as it is written."""
+    """Return the number in a text: an int if possible, else a float."""
     for kind in (int, float):
         with suppress(ValueError):
             return kind(text)
-    raise typer.BadParameter(f"must be a number alone, such as 0.6; got {text!r}")
+    raise typer.BadParameter(f"must be a number without a unit, such as 0.6; got {text!r}")
 
 
 def number_option(name: str, text: str) -> Any:
-    """An option that is a number."""
+    """Declare an option whose value is a number."""
     return typer.Option(name, parser=number, metavar="NUMBER", help=text)
 
 
 def folder(text: str) -> Path:
-    """A folder's name, which what is not set is not."""
+    """Return the path of a folder; an empty text, as from an unset shell variable, is invalid."""
     if not text:
         raise typer.BadParameter("must be the path of a folder; got ''")
     return Path(text)
 
 
 def file_option(name: str, text: str) -> Any:
-    """An option that is a file to be written."""
+    """Declare an option whose value is the path of an output file."""
     return typer.Option(name, metavar="FILE", help=text)
 
 
 Number = float | None
 
 HELP = {
-    "amplitude": "Normalised: A of the base, in units of g θcr.",
-    "period": "Normalised: T of the base, in τ.",
-    "frequency": "Normalised: Ω of the base, instead of --period.",
-    "height": "SI: of the block, m.",
-    "width": "SI: of the block, m.",
-    "acceleration": "SI: amplitude of the base, m/s².",
-    "acceleration_g": "SI: the same in units of g.",
-    "displacement": "SI: or of the base's displacement, m.",
-    "frequency_hz": "SI: of the base, Hz.",
-    "period_s": "SI: of the base, s, instead of --frequency-hz.",
-    "restitution": "e at an impact; in SI Housner's unless given.",
-    "phase": "φ of the base's acceleration, rad.",
-    "brace_angle": "Θb of side braces, in θcr; no braces unless given.",
-    "brace_restitution": "r at a brace; 1 unless given.",
-    "angle": "Θ at the start, in units of the critical angle θcr, not in degrees.",
-    "velocity": "Θ' at the start, in θcr per τ.",
+    "amplitude": "Amplitude A of the base acceleration, in units of g θcr.",
+    "period": "Forcing period T, in units of 1/α.",
+    "frequency": "Forcing frequency Ω, in units of α; replaces --period.",
+    "height": "Height of the block, m.",
+    "width": "Width of the block, m.",
+    "acceleration": "Amplitude of the base acceleration, m/s².",
+    "acceleration_g": "Amplitude of the base acceleration, in units of g; replaces --acceleration.",
+    "displacement": "Amplitude of the base displacement, m; replaces --acceleration.",
+    "frequency_hz": "Forcing frequency, Hz.",
+    "period_s": "Forcing period, s; replaces --frequency-hz.",
+    "restitution": "Coefficient of restitution e. Required with normalised input. Default with SI input: Housner's value.",
+    "phase": "Phase φ of the base acceleration, rad.",
+    "brace_angle": "Brace angle Θb, in units of θcr. Default: no braces.",
+    "brace_restitution": "Coefficient of restitution r at a brace. Default: 1.",
+    "angle": "Initial angle Θ, in units of the critical angle θcr, not in degrees.",
+    "velocity": "Initial angular velocity Θ', in units of α θcr.",
 }
-"""What an option of a system or a start says, whoever asks for it."""
+"""Help of the options of a system and an initial state, the same in all commands."""
 ZERO = ("phase", *START)
-"""What is 0 unless given, where nothing else is said of it."""
+"""Options whose default is 0."""
 
 
 def with_options(
     *names: str, declare: Callable[[str, str], Any] = number_option, **usual: float
 ) -> Callable[[Command], Command]:
-    """Give a command these options before its own; it takes them as ``**shared``, and all are in its context.
+    """Return a decorator that adds options before those of a command.
 
-    ``declare`` makes an option of its name and what it says; ``usual`` is what one is unless given.
+    The command takes them as ``**shared``; the values of all options are in its context. ``declare`` makes an option
+    from its name and its help. ``usual`` holds the defaults.
     """
     shared = []
     for name in names:
         text = HELP[name]
         if name in ZERO and name not in usual:
-            text = f"{text.removesuffix('.')}; 0 unless given."
+            text = f"{text} Default: 0."
         kind = Annotated[Number, declare(option(name), text)]
         shared.append(Parameter(name, Parameter.KEYWORD_ONLY, default=usual.get(name), annotation=kind))
 
@@ -95,28 +96,41 @@ def with_options(
     return declared
 
 
-Cycles = Annotated[int, number_option("--cycles", "Cycles of the base to run.")]
+Cycles = Annotated[int, number_option("--cycles", "Number of forcing cycles to simulate.")]
 
 Plot = Annotated[
     Path | None,
     file_option(
         "--plot",
-        "History and phase portrait, of a long run its last 30 cycles (.png .svg .pdf), or film (.gif .mp4).",
+        "Plot the time history and phase portrait, for a long run the last 30 cycles (.png .svg .pdf), or write an animation "
+        "(.gif .mp4).",
     ),
 ]
 Csv = Annotated[
-    Path | None, file_option("--csv", "Time, angle and velocity at even steps, a fall up to |Θ| = 3 (.csv).")
+    Path | None,
+    file_option(
+        "--csv",
+        "Write time, angle and velocity at equal time steps; an overturning motion up to |Θ| = 3 (.csv).",
+    ),
 ]
-Netcdf = Annotated[Path | None, file_option("--netcdf", "The same with its description (.nc).")]
+Netcdf = Annotated[
+    Path | None, file_option("--netcdf", "Write the computed data with units and parameters (.nc).")
+]
 VerdictPlot = Annotated[
     Path | None,
-    file_option("--plot", "Last cycles, phase portrait and section, with the verdict (.png .svg .pdf)."),
+    file_option(
+        "--plot",
+        "Plot the last cycles, the phase portrait, the Poincaré section and the verdict (.png .svg .pdf).",
+    ),
 ]
-MaxCycles = Annotated[int, number_option("--max-cycles", "Cycles of the base to follow at most.")]
-MaxPeriod = Annotated[int, number_option("--max-period", "Longest period looked for, in cycles of the base.")]
-ModeCycles = Annotated[int, number_option("-n", "Forcing cycles in a response: 1, 3, 5, ….")]
+MaxCycles = Annotated[int, number_option("--max-cycles", "Maximum number of forcing cycles.")]
+MaxPeriod = Annotated[
+    int, number_option("--max-period", "Longest response period sought, in forcing cycles.")
+]
+ModeCycles = Annotated[int, number_option("-n", "Response period in forcing cycles: 1, 3, 5, ….")]
 ModesPlot = Annotated[
-    Path | None, file_option("--plot", "Speed and phase of the modes over the amplitude (.png .svg .pdf).")
+    Path | None,
+    file_option("--plot", "Plot the velocity and phase of the modes over the amplitude (.png .svg .pdf)."),
 ]
 Store = Annotated[
     Path | None,
@@ -124,54 +138,52 @@ Store = Annotated[
         "--store",
         parser=folder,
         metavar="DIR",
-        help="Zarr store, written while it runs; the same command goes on with it.",
+        help="Zarr store, written during the run; repeating the command resumes it.",
     ),
 ]
-Repair = Annotated[
-    bool, typer.Option("--repair", help="Compute tiles of the store again that are found damaged.")
-]
+Repair = Annotated[bool, typer.Option("--repair", help="Recompute damaged tiles of the store.")]
 SurveyCycles = Annotated[
-    Number, number_option("--max-cycles", "Cycles of the base to follow at most; 10,000 unless given.")
+    Number, number_option("--max-cycles", "Maximum number of forcing cycles. Default: 10,000.")
 ]
 SurveyPeriod = Annotated[
     Number,
-    number_option("--max-period", "Longest period looked for, in cycles of the base; 64 unless given."),
+    number_option("--max-period", "Longest response period sought, in forcing cycles. Default: 64."),
 ]
 SurveyNetcdf = Annotated[
-    Path | None, file_option("--netcdf", "All that was found, with its description (.nc).")
+    Path | None, file_option("--netcdf", "Write all results with their description (.nc).")
 ]
 Json = Annotated[bool, typer.Option("--json", help="Print the summary as JSON.")]
 
 
 IN_SI = {"amplitude": "acceleration", "period": "period_s", "frequency": "frequency_hz"}
 DEFAULTS: dict[str, Any] = dict.fromkeys((*SYSTEM, *START)) | dict.fromkeys(ZERO, 0.0)
-"""What is meant where nothing is said."""
+"""Values of the options that are not given."""
 BRACES = {"angle": option("brace_angle"), "restitution": option("brace_restitution")}
 NORMALISED_NEEDS = "--amplitude, --period (or --frequency) and --restitution"
 SI_NEEDS = "--height, --width, --acceleration (or --acceleration-g, --displacement) and --frequency-hz (or --period-s)"
 
 
 def kinds(given: Mapping[str, Any]) -> tuple[list[str], list[str]]:
-    """What is given normalised, and what in SI; refused as `YourInput` where it is both."""
+    """Return the names of the given normalised options and SI options; YourInput if both kinds are given."""
     normalised, physical = (
         [name for name in kind if given.get(name) is not None] for kind in (NORMALISED, SI)
     )
     if normalised and physical:
         name = normalised[0]
         raise YourInput(
-            f"{option(name)} is normalised, {option(physical[0])} is SI: give one kind (in SI it is {option(IN_SI[name])})"
+            f"{option(name)} is normalised and {option(physical[0])} is SI: use one of the two (the SI option is {option(IN_SI[name])})"
         )
     return normalised, physical
 
 
 def question(given: Mapping[str, Any]) -> tuple[System, State, Block | None]:
-    """The system and the start that the options ask for, and the block if they are in SI; refused as `YourInput`."""
+    """Return the system, the initial state and, with SI input, the block of the options; YourInput if invalid."""
     from rocking.model import MAX_START, Block, Harmonic, State, System, within
 
     given = DEFAULTS | dict(given)
     normalised, physical = kinds(given)
     if not normalised and not physical:
-        raise YourInput(f"give {NORMALISED_NEEDS}, or in SI {SI_NEEDS}")
+        raise YourInput(f"no system is given: give {NORMALISED_NEEDS}, or in SI {SI_NEEDS}")
     if normalised:
         require(given, (("amplitude",), ("period", "frequency"), ("restitution",)), NORMALISED_NEEDS)
     else:
@@ -199,7 +211,7 @@ def _braces(given: Mapping[str, Any]) -> Any:
 
 
 def require(given: Mapping[str, Any], groups: Iterable[tuple[str, ...]], needs: str) -> None:
-    """Refuse as `YourInput` what lacks all of a group of options, one of which is needed."""
+    """Raise YourInput if all options of a group are missing; each group needs one of its options."""
     missing = [option(group[0]) for group in groups if all(given.get(name) is None for name in group)]
     if missing:
         raise YourInput(f"missing {' and '.join(missing)}: give {needs}")

@@ -1,4 +1,4 @@
-"""Orbit diagram that a command requests: from options, one of which is an axis, to the diagram."""
+"""Computation of an orbit diagram from options, one of which is an axis."""
 
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ if TYPE_CHECKING:
     from rocking.orbits import OrbitDiagram
 
 OWN = options("sweep", "transient", "section_phase", "brace_angle", "brace_restitution")
-# Below about a second a bar would only flicker.
+# Total number of cycles, below which the run takes about a second and shows no bar.
 LONG = 2_000_000
 
 
 class Study(NamedTuple):
-    """One parameter varied, all else fixed."""
+    """Orbit diagram to compute: one varied parameter, all others fixed."""
 
     system: System
     start: State
@@ -32,24 +32,26 @@ class Study(NamedTuple):
 
 
 def study(given: Mapping[str, Any]) -> Study:
-    """Return the study that the options request; `YourInput` unless exactly one of them is an axis."""
+    """Return the study described by the options; YourInput unless exactly one of them is an axis."""
     import numpy as np
 
     axes = [name for name, value in given.items() if isinstance(value, Axis)]
     if len(axes) != 1:
         got = " and ".join(map(option, axes)) or "none"
-        raise YourInput(f"give exactly one option as an axis, {FORM}; got {got}")
+        raise YourInput(f"exactly one option must be an axis, {FORM}; got {got}")
     name, axis = axes[0], given[axes[0]]
     if given["displacement"] is not None and name in ("frequency_hz", "period_s"):
-        raise YourInput(f"--displacement with {option(name)} varies two things: give --acceleration instead")
+        raise YourInput(
+            f"--displacement with an axis of {option(name)} varies amplitude and frequency: use --acceleration instead"
+        )
     values = np.linspace(axis.start, axis.stop, axis.points)
-    # Ranges are intervals: what both ends pass, all between them do.
+    # Valid ranges are intervals, so that two valid ends imply valid values between them.
     system, start, block = question({**given, name: axis.start})
     last, _, _ = question({**given, name: axis.stop})
     typed = f"{option(name)} {axis.start:.6g} to {axis.stop:.6g}"
     if name not in VARIES:
         return Study(system, start, block, name, values, typed)
-    # Each is proportional to what it varies.
+    # Each SI quantity is proportional to the normalised one.
     varied = VARIES[name]
     first, final = (getattr(one.forcing, varied) for one in (system, last))
     return Study(system, start, block, varied, np.linspace(first, final, axis.points), typed)

@@ -1,4 +1,4 @@
-"""Lowest overturning amplitudes that a command requests: from options and a study file to the curve."""
+"""Computation of the lowest overturning amplitudes from options and a study file."""
 
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ if TYPE_CHECKING:
     from rocking.model import Block, OverturningCurve
 
 SCANNED_SI = tuple(name for name in SI if name != "displacement")
-"""Options in SI except the displacement, whose acceleration depends on the frequency."""
+"""SI options except the displacement, whose acceleration depends on the frequency."""
 ASKED = ("period", "frequency", "restitution", "amplitude")
 
 
 def question(typed: Mapping[str, Any], file: Path | None) -> dict[str, Any]:
-    """Return what options and study file request; options take precedence."""
+    """Return the arguments given by options and study file; options take precedence."""
     checks = {
         **survey_quantities.varying(*ASKED, *SCANNED_SI),
         **survey_quantities.counts("phases", *COUNTS),
@@ -43,7 +43,9 @@ def question(typed: Mapping[str, Any], file: Path | None) -> dict[str, Any]:
         and not isinstance(each, int | float)
     ]
     if "plot" in given and len(varied) > 1:
-        raise YourInput(f"--plot draws over one axis; got {' and '.join(map(option, varied))}")
+        raise YourInput(
+            f"--plot needs a single axis; got {' and '.join(map(option, varied))} (give one of them as a number)"
+        )
     return given
 
 
@@ -62,10 +64,10 @@ def compute(given: Mapping[str, Any]) -> tuple[OverturningCurve, Block | None]:
 
 
 def _normalised(given: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the normalised arguments of a request in SI; no amplitude unless accelerations are given."""
+    """Return the normalised arguments of a request in SI, without amplitude if no acceleration is given."""
     levels = [name for name in ("acceleration", "acceleration_g") if name in given]
     for name in levels:
         if not isinstance(given[name], Axis):
-            raise YourInput(f"{option(name)} must be an axis, {FORM}, of what is scanned; got {given[name]}")
+            raise YourInput(f"{option(name)} must be an axis to scan, {FORM}; got {given[name]}")
     asked = survey_quantities.normalised(given if levels else {**given, "acceleration": 0.0})
     return {name: asked[name] for name in ASKED if name in asked and (levels or name != "amplitude")}

@@ -1,4 +1,4 @@
-"""Study files: the options of a command in TOML, all errors of a file told at once."""
+"""Study files: options of a command in TOML; all errors of a file are reported together."""
 
 from __future__ import annotations
 
@@ -13,17 +13,20 @@ from rocking.cli.input.axis import DEFAULT_COUNT, FORM, MAX_POINTS, Axis, number
 from rocking.cli.option_names import YourInput
 
 STUDY = (
-    "All this in a TOML file, a line an option: restitution = 0.9, an axis in quotes, such as "
-    'period = "1:3:60"; what is typed here wins.'
+    'Read options from a TOML file, for example restitution = 0.9 or period = "1:3:60". '
+    "Options on the command line take precedence."
 )
 Study = Annotated[Path | None, typer.Option("--study", metavar="FILE", help=STUDY)]
 MAX_BYTES = 1_000_000
-"""In a study file, which has some ten lines."""
+"""Maximum size of a study file; a typical one has ten lines."""
 Check = Callable[[Any], Any]
 
 
 def quantity(name: str, given: Any) -> Any:
-    """A number, an `Axis`, or a list of values: from a number, a text as it is typed, a table of start, stop and count, a list."""
+    """Return an entry as a number, an `Axis` or a list of values.
+
+    The entry is a number, a text as on the command line, a table of start, stop and count, or a list.
+    """
     from rocking.model import reals, whole
 
     if isinstance(given, str):
@@ -35,14 +38,14 @@ def quantity(name: str, given: Any) -> Any:
         return reals(name, given)
     if not {"start", "stop"} <= given.keys() <= {"start", "stop", "count"}:
         raise ValueError(
-            f"{name} must be a number, {FORM}, or hold start, stop and perhaps count; got {', '.join(given) or 'nothing'}"
+            f"{name} must be a number, {FORM}, or a table of start, stop and optionally count; got {', '.join(given) or 'an empty table'}"
         )
     start, stop = (float(reals(f"{part} of {name}", given[part])) for part in ("start", "stop"))
     return Axis(start, stop, whole(f"count of {name}", given.get("count", DEFAULT_COUNT), 2, MAX_POINTS))
 
 
 def asked(typed: Mapping[str, Any], file: Path | None, checks: Mapping[str, Check]) -> dict[str, Any]:
-    """What options and a study file ask for; what is typed wins."""
+    """Return the values given by options and by a study file; options take precedence."""
     given = {} if file is None else read(file, checks)
     return given | {
         name: typed[name] for name in checks if typed[name] is not None and typed[name] is not False
@@ -50,9 +53,9 @@ def asked(typed: Mapping[str, Any], file: Path | None, checks: Mapping[str, Chec
 
 
 def read(path: Path, checks: Mapping[str, Check]) -> dict[str, Any]:
-    """What a study file says, each entry as its check returns it; `YourInput` with all errors of the file at once.
+    """Return the entries of a study file as returned by their checks; YourInput with all errors of the file.
 
-    Its keys are the names of options, with dashes or underscores.
+    Keys are the names of options, with hyphens or underscores.
     """
     import tomllib
 
@@ -61,7 +64,7 @@ def read(path: Path, checks: Mapping[str, Check]) -> dict[str, Any]:
     except (OSError, ValueError, RecursionError) as error:
         why = getattr(error, "strerror", None) or error
         if isinstance(error, RecursionError):
-            why = "it is nested too deeply"
+            why = "the file is nested too deeply"
         raise YourInput(f"--study must name a TOML file; got {str(path)!r}: {why}") from error
     _check_once(path, said)
     given = {key.replace("-", "_"): entry for key, entry in said.items()}
@@ -79,25 +82,27 @@ def read(path: Path, checks: Mapping[str, Check]) -> dict[str, Any]:
 
 
 def _text(path: Path) -> str:
-    """What is in a file of the usual kind and size: a device may have no end, and a pipe may wait for ever."""
+    """Return the text of a regular file of limited size: reading a device or a pipe may never end."""
     if path.exists() and not path.is_file() and not path.is_dir():
-        raise ValueError("it is no file but a device, a pipe or a socket")
+        raise ValueError("not a regular file but a device, a pipe or a socket")
     with path.open("rb") as file:
         content = file.read(MAX_BYTES + 1)
     if len(content) > MAX_BYTES:
-        raise ValueError(f"it has more than {MAX_BYTES:,} bytes")
+        raise ValueError(f"the file has more than {MAX_BYTES:,} bytes")
     return content.decode("utf-8-sig")
 
 
 def _check_once(path: Path, said: Mapping[str, Any]) -> None:
-    """Refuse what is said twice, once with dashes and once with underscores."""
+    """Raise YourInput for a key that occurs with hyphens and with underscores."""
     twice = [key for key in said if "-" in key and key.replace("-", "_") in said]
     if twice:
-        raise YourInput(f"study {str(path)!r}: {twice[0]!r} is said twice, once with underscores")
+        raise YourInput(
+            f"study {str(path)!r}: {twice[0]!r} occurs twice, with hyphens and with underscores (remove one)"
+        )
 
 
 def _unknown(name: str, checks: Mapping[str, Check]) -> str:
-    """Say of an unknown key which one may be meant."""
+    """Return the message for an unknown key, with the most similar known one."""
     close = difflib.get_close_matches(name, checks, 1)
-    meant = f"do you mean {close[0]!r}?" if close else "keys are the names of options"
+    meant = f"did you mean {close[0]!r}?" if close else "keys are the names of options of this command"
     return f"unknown {name!r} ({meant})"

@@ -1,4 +1,4 @@
-"""Numbers and axes that surveys ask for, typed or in a study file, and what they are when normalised."""
+"""Quantities of a survey from options or a study file: checks and normalisation."""
 
 from __future__ import annotations
 
@@ -15,18 +15,18 @@ from rocking.model import Block, instance, quantities, reals, refusal, whole
 
 
 def normalised(given: Mapping[str, Any]) -> dict[str, Any]:
-    """Numbers and arrays, normalised, of quantities given as numbers, axes and lists."""
+    """Return normalised numbers and arrays of quantities given as numbers, axes and lists."""
     import numpy as np
 
     varied = {name: each for name, each in given.items() if isinstance(each, Axis)}
     lists = {name: each for name, each in given.items() if np.ndim(each) > 0 and name not in varied}
     if any(name in SI for name in lists):
-        raise YourInput(f"{option(next(iter(lists)))} in SI must be a number or {FORM}; got a list")
+        raise YourInput(f"{option(next(iter(lists)))} with SI input must be a number or {FORM}; got a list")
     if "displacement" in given and ("frequency_hz" in varied or "period_s" in varied):
         raise YourInput(
-            "--displacement with an axis of the frequency varies two things: give --acceleration instead"
+            "--displacement with an axis of the frequency varies amplitude and frequency: use --acceleration instead"
         )
-    # Ranges are intervals: what both ends pass, all between them do.
+    # Valid ranges are intervals, so that two valid ends imply valid values between them.
     ends = []
     for end in ("start", "stop"):
         at = {name: getattr(each, end) if isinstance(each, Axis) else each for name, each in given.items()}
@@ -43,7 +43,7 @@ def normalised(given: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _numbers(given: Mapping[str, Any]) -> dict[str, Any]:
-    """A system and a start as `parametric_map` has them."""
+    """Return the quantities of a system and an initial state by their names in `parametric_map`."""
     system, start, _ = question(given)
     told = quantities(system) | {"angle": start.angle, "velocity": start.velocity}
     del told["period" if "frequency" in given or "frequency_hz" in given else "frequency"]
@@ -51,33 +51,33 @@ def _numbers(given: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def block_of(given: Mapping[str, Any]) -> Block | None:
-    """The block of what is asked in SI; where the restitution varies, with the first."""
+    """Return the block of SI input, else None; a varying restitution is replaced by its first value."""
     from rocking.model import Block
 
     if "height" not in given:
         return None
     for name in ("height", "width"):
         if isinstance(given[name], Axis | list):
-            raise YourInput(f"{option(name)} must be one number of metres: a survey is of one block")
+            raise YourInput(f"{option(name)} must be one number, in m: a survey has a single block")
     restitution = given.get("restitution")
     first = restitution.start if isinstance(restitution, Axis) else restitution
     return Block(given["height"], given["width"], first[0] if isinstance(first, list) else first)
 
 
 def values(asked: Any) -> Any:
-    """A number or a list as it is, an axis as its values."""
+    """Return a number or a list unchanged, an axis as its values."""
     import numpy as np
 
     return np.linspace(asked.start, asked.stop, asked.points) if isinstance(asked, Axis) else asked
 
 
 def varying(*names: str) -> dict[str, Check]:
-    """How entries of a study file are read that are numbers, axes or lists."""
+    """Return the checks of entries that are numbers, axes or lists."""
     return {name: partial(quantity, name) if name in SI else partial(_in_range, name) for name in names}
 
 
 def fixed(*names: str) -> dict[str, Check]:
-    """How entries are read that are numbers."""
+    """Return the checks of entries that are numbers."""
     return {name: partial(_number, name) for name in names}
 
 
@@ -98,7 +98,7 @@ def counts(*names: str) -> dict[str, Check]:
 
 
 def path_checks(*names: str) -> dict[str, Check]:
-    """How entries are read that are paths; and `repair`, which goes with a store."""
+    """Return the checks of entries that are paths, and of `repair`, which belongs to a store."""
     return {
         **{name: partial(_path, name) for name in names},
         "repair": partial(instance, "repair", kind=bool),

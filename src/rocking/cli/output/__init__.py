@@ -1,1 +1,1 @@
-"""Files and the console."""
+"""Output to files and to the console."""

@@ -1,4 +1,4 @@
-"""How findings are shown on stdout: a title with aligned rows and the files written, or JSON."""
+"""Printing of results on stdout: a title, aligned rows and the files written, or JSON."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ WARNING = "warning: "
 
 
 def screen() -> Console:
-    """Stdout, on which nothing is coloured by what it says, and no line is cut."""
+    """Return a console on stdout without automatic colours, markup or line breaks."""
     from rich.console import Console
 
     return Console(highlight=False, markup=False, emoji=False, soft_wrap=True)
 
 
 def print_table(title: str, rows: Iterable[Row], files: Iterable[Path], more: Iterable[str] = ()) -> None:
-    """Print a title, rows as columns, more lines below them, and where files are."""
+    """Print a title, rows as columns, further lines, and the paths of the files written."""
     console = screen()
     console.print(title, style="bold")
     for line in aligned(list(rows)):
@@ -35,19 +35,19 @@ def print_table(title: str, rows: Iterable[Row], files: Iterable[Path], more: It
 
 
 def print_json(told: dict[str, Any]) -> None:
-    """Print what is told for a program."""
+    """Print a JSON object."""
     print(json.dumps(finite(told), indent=2, ensure_ascii=False, allow_nan=False))
 
 
 def aligned(rows: Sequence[Row]) -> Iterator[str]:
-    """The rows as lines of a table, as long as they need be: no terminal is so narrow that a number may be cut."""
+    """Yield the rows as lines of a table; lines are never cut, so that numbers stay whole in a narrow terminal."""
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
     for row in rows:
         yield "   ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip()
 
 
 def finite(value: Any) -> Any:
-    """The same with null for what is infinite, for which JSON has no number."""
+    """Replace infinities and NaN by None, because JSON has no such numbers."""
     if isinstance(value, dict):
         return {name: finite(part) for name, part in value.items()}
     if isinstance(value, list):

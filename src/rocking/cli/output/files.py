@@ -1,4 +1,4 @@
-"""What commands write: refused before anything is run, written whole or not at all."""
+"""Output files: checked before a computation starts, written completely or not at all."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ SUFFIXES = {"plot": PICTURES, "csv": (".csv",), "netcdf": (".nc",)}
 def check_files(
     paths: Mapping[str, Path | None], suffixes: Mapping[str, tuple[str, ...]] = SUFFIXES
 ) -> dict[str, Path]:
-    """The files asked for, by the names of their options; `YourInput` for one that cannot be written."""
+    """Return the requested files by the names of their options; YourInput if a file cannot be written."""
     asked = {name: path for name, path in paths.items() if path is not None}
     for name, path in asked.items():
         with your_input():
@@ -37,7 +37,7 @@ def check_files(
 
 
 def check_apart(paths: Mapping[str, Path | None]) -> None:
-    """`YourInput` for two outputs at one place, or one inside another, which is written as a whole."""
+    """Raise YourInput for two outputs at one path, or one output inside another."""
     taken: dict[Path, str] = {}
     for name, path in paths.items():
         if path is None:
@@ -49,13 +49,13 @@ def check_apart(paths: Mapping[str, Path | None]) -> None:
                 raise YourInput(f"{option(other)} and {option(name)} must differ; got {str(path)!r} for both")
             if place.is_relative_to(there) or there.is_relative_to(place):
                 raise YourInput(
-                    f"{option(other)} and {option(name)} must lie beside each other; got {str(path)!r} for {option(name)}"
+                    f"{option(other)} and {option(name)} must not lie inside each other; got {str(path)!r} for {option(name)}"
                 )
         taken[place] = name
 
 
 def write_csv(tables: Iterable[Mapping[str, Any]], path: Path) -> None:
-    """Tables with the same headings as one: columns, each an array, by their headings."""
+    """Write tables with the same headings as one CSV file; a table maps headings to arrays."""
     import csv
 
     with replacing(path) as temporary, temporary.open("w", newline="", encoding="utf-8") as file:
@@ -67,7 +67,7 @@ def write_csv(tables: Iterable[Mapping[str, Any]], path: Path) -> None:
 
 
 def columns(table: Mapping[str, Any], block: Block | None) -> dict[str, Any]:
-    """Normalised columns with their units in the headings; those of a block are repeated in SI."""
+    """Return columns with units in their headings; with a block, its quantities are repeated in SI."""
     known = {name: PHYSICAL[name] for name in table if name in PHYSICAL}
     told = {
         f"{name} [{known[name].normalised}]" if name in known else name: column
@@ -79,7 +79,7 @@ def columns(table: Mapping[str, Any], block: Block | None) -> dict[str, Any]:
 
 
 def with_block(data: xr.Dataset, block: Block | None) -> xr.Dataset:
-    """The dataset with its block: coordinates in SI beside the normalised ones, and what block it is."""
+    """Return the dataset with additional coordinates in SI and with the block in its attributes."""
     if block is None:
         return data
     beside = {
@@ -95,6 +95,6 @@ def with_block(data: xr.Dataset, block: Block | None) -> xr.Dataset:
 
 
 def write_dataset(data: xr.Dataset, path: Path) -> None:
-    """A dataset that is in memory, as netCDF."""
+    """Write a dataset held in memory as netCDF."""
     with replacing_hdf5(path) as file:
         data.to_netcdf(file, engine="h5netcdf")

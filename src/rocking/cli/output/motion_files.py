@@ -1,4 +1,4 @@
-"""What a motion can be written to: checked before it is run, written whole or not at all."""
+"""Output files of a motion: checked before the simulation, written completely or not at all."""
 
 from __future__ import annotations
 
@@ -17,13 +17,13 @@ if TYPE_CHECKING:
 FILMS = (".gif", ".mp4")
 ROWS_AT_ONCE = 100_000
 MAX_CYCLES_KEPT = 100_000
-"""Of a longer run only the counters, the peak and the end are kept."""
+"""Longest run whose events are kept; a longer one keeps only the counters, the peak and the final state."""
 
 
 def run(system: System, start: State, cycles: int, wanted: tuple[str, ...]) -> Motion:
-    """The motion with all its events, so that what is told of it is the same whatever files are `wanted`.
+    """Simulate a motion with all its events, so that the summary does not depend on the files `wanted`.
 
-    Without them where there are too many: too many cycles, or too many events if no file needs them.
+    Events are dropped for too many cycles, and for too many events if no file needs them.
     """
     from rocking.model import TooManyEvents
     from rocking.motion import simulate as march
@@ -32,18 +32,18 @@ def run(system: System, start: State, cycles: int, wanted: tuple[str, ...]) -> M
         counted = march(system, start, cycles=cycles, record="none")
         if counted.cycles > MAX_CYCLES_KEPT:
             return counted
-        cycles = counted.cycles  # it overturned long before
+        cycles = counted.cycles  # the block overturned early
     try:
         return march(system, start, cycles=cycles)
     except TooManyEvents as error:
         if wanted:
             names = ", ".join(map(option, wanted))
-            raise YourInput(f"too many events for {names}: run fewer cycles, or leave {names} out") from error
+            raise YourInput(f"too many events for {names}: reduce --cycles, or omit {names}") from error
         return march(system, start, cycles=cycles, record="none")
 
 
 def check(cycles: float, **paths: Path | None) -> dict[str, Path]:
-    """The outputs asked for; `YourInput` for one that cannot be written, or for more cycles than are kept for it."""
+    """Return the requested files; YourInput if a file cannot be written or needs the events of too many cycles."""
     asked = check_files(paths, SUFFIXES | {"plot": PICTURES + FILMS})
     if asked and cycles > MAX_CYCLES_KEPT:
         wanted = ", ".join(map(option, asked))
@@ -52,19 +52,19 @@ def check(cycles: float, **paths: Path | None) -> dict[str, Path]:
 
 
 def check_picture(path: Path | None) -> None:
-    """`YourInput` for a picture that cannot be written."""
+    """Raise YourInput for a plot that cannot be written."""
     check_files({"plot": path})
 
 
 def write_verdict(verdict: Verdict, block: Block | None, path: Path) -> None:
-    """The response and what it is."""
+    """Write the plot of a response with its verdict."""
     from rocking import plot
 
     plot.save(plot.verdict(verdict, block), path)
 
 
 def write_modes(system: System, n: int, block: Block | None, path: Path) -> None:
-    """The modes over the amplitude."""
+    """Write the plot of the modes over the amplitude."""
     from rocking import plot
 
     forcing = system.forcing
@@ -75,7 +75,7 @@ def write_modes(system: System, n: int, block: Block | None, path: Path) -> None
 
 
 def write_plot(motion: Motion, block: Block | None, path: Path) -> None:
-    """The motion at a glance, or the block as a film, as the suffix says."""
+    """Write the overview plot of a motion, or an animation of the block, depending on the suffix."""
     from rocking import plot
 
     if path.suffix.lower() in FILMS:
@@ -85,12 +85,15 @@ def write_plot(motion: Motion, block: Block | None, path: Path) -> None:
 
 
 def write_csv(motion: Motion, block: Block | None, path: Path) -> None:
-    """A hundred rows a cycle, or a motion that ends sooner, normalised, then in SI if there is a block; the header names the units."""
+    """Write a motion as CSV with units in the header, also in SI if there is a block.
+
+    There are 100 rows per cycle, or 100 rows of a motion that ends earlier.
+    """
     files.write_csv(tables(motion, block), path)
 
 
 def tables(motion: Motion, block: Block | None) -> Iterator[dict[str, Any]]:
-    """Columns by their heading, so many rows at once that a long motion needs no more memory than a short one."""
+    """Yield tables (columns by heading) of limited length, so that memory does not grow with the motion."""
     import numpy as np
 
     from rocking.motion import end_shown, sample_step
@@ -107,7 +110,7 @@ def tables(motion: Motion, block: Block | None) -> Iterator[dict[str, Any]]:
 
 
 def write_netcdf(motion: Motion, block: Block | None, path: Path) -> None:
-    """The motion's dataset, with its units and parameters."""
+    """Write the dataset of a motion, with units and parameters."""
     write_dataset(motion.to_xarray(block=block), path)
 
 

@@ -1,4 +1,4 @@
-"""What the commands of surveys share: how they are carried out, and what they write."""
+"""Run and output files shared by the commands of surveys."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from rocking.cli.input.axis import FORM
 from rocking.cli.option_names import ARGUMENTS as SYSTEM_ARGUMENTS
 from rocking.cli.option_names import NORMALISED, as_typed, option, options, your_input
 from rocking.cli.output.files import check_apart, check_files, with_block, write_dataset
@@ -16,15 +17,16 @@ if TYPE_CHECKING:
     from rocking.model import BasinMap, Block, OverturningCurve, Share
 
 OWN = ("samples", "seed", "boundary_runs", "phases", "store", "repair", "brace_angle", "brace_restitution")
-ARGUMENTS = SYSTEM_ARGUMENTS | options(*OWN)
+# On the command line an array is typed as an axis.
+ARGUMENTS = SYSTEM_ARGUMENTS | options(*OWN) | {"as arrays": f"as axes, {FORM}"}
 FILES = ("plot", "netcdf")
 MAX_ROWS = 20
 
 
 def carried_out(survey: Callable[..., Any], arguments: Mapping[str, Any], block: Block | None = None) -> Any:
-    """What a survey finds, with a bar where somebody watches; interrupted, it says how to go on.
+    """Run a survey, with a progress bar on a terminal; an interruption prints how to resume it.
 
-    What a block in SI was made into is not named by options, for none of them was typed.
+    Messages name quantities derived from a block in SI in words, because the user gave no such option.
     """
     with your_input(ARGUMENTS | _made_of(block)):
         try:
@@ -45,18 +47,18 @@ def _made_of(block: Block | None) -> dict[str, str]:
 
 @contextmanager
 def complete(store: Path | None) -> Iterator[None]:
-    """Say to who interrupts what is written after the survey that its store is complete."""
+    """Report that the store is complete if the output after the survey is interrupted."""
     try:
         yield
     except KeyboardInterrupt:
         if store is not None:
-            told = f"{option('store')} {str(store)!r} is complete; the same command makes what was not yet written"
+            told = f"{option('store')} {str(store)!r} is complete; repeat the command to write the remaining files"
             print(f"rocking: {told}", file=sys.stderr)
         raise
 
 
 def files_of(asked: Mapping[str, Any]) -> dict[str, Path]:
-    """The files asked for; refused where they cannot be written."""
+    """Return the requested files; YourInput if a file cannot be written."""
     check_apart({name: asked.get(name) for name in ("store", *FILES)})
     return check_files({name: asked.get(name) for name in FILES})
 
@@ -64,7 +66,7 @@ def files_of(asked: Mapping[str, Any]) -> dict[str, Path]:
 def write(
     found: BasinMap | OverturningCurve, picture: str, files: Mapping[str, Path], block: Block | None
 ) -> None:
-    """Write a picture and the dataset, with SI axes if there is a block."""
+    """Write a plot and the dataset, with SI axes if there is a block."""
     if "plot" in files:
         from rocking import plot
 
@@ -74,10 +76,10 @@ def write(
 
 
 def written(asked: Mapping[str, Any], files: Mapping[str, Path]) -> list[Path]:
-    """Where all that was found is."""
+    """Return the paths of the store and the files."""
     return [*([asked["store"]] if "store" in asked else []), *files.values()]
 
 
 def share_record(share: Share) -> dict[str, Any]:
-    """A share with its interval."""
+    """Return a fraction with its interval as a JSON object."""
     return {name: getattr(share, name) for name in ("value", "low", "high", "count", "of", "unknown")}

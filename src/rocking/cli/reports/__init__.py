@@ -1,1 +1,1 @@
-"""Printed results."""
+"""Printed reports of the commands."""

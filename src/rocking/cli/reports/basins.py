@@ -1,4 +1,4 @@
-"""Basins of attraction, in a few lines or as JSON."""
+"""Report of basins of attraction, as text or JSON."""
 
 from __future__ import annotations
 
@@ -17,22 +17,22 @@ from rocking.model import BasinMap, Block, System, UncertaintyExponent, counted
 
 
 def show(found: BasinMap, block: Block | None, files: list[Path], *, as_json: bool) -> None:
-    """Print the attractors, their shares and the exponents of the boundaries."""
+    """Print the attractors, their area fractions and the uncertainty exponents of the boundaries."""
     doubts = warnings(block, found.system.forcing.amplitude, found.system.restitution)
     if as_json:
         told = {} if block is None else {"block": physical_of(found.system, block), "warnings": doubts}
         print_json(record(found, files) | told)
         return
-    responses = counted(len(found.attractors), "response")
-    starts = f"{found.fractions[0].of:,} starts"
+    responses = counted(len(found.attractors), "attractor")
+    starts = f"{found.fractions[0].of:,} initial states"
     if "sample" in found.dataset.dims:
-        starts += " at random between the ends of both ranges"
-    title = f"basins, {starts}: {responses} to be told apart"
+        starts += ", random within both ranges"
+    title = f"basins of {starts}: {responses}"
     print_table(title, [*asked_of(found.system, block), *rows(found)], files, warned(doubts))
 
 
 def rows(found: BasinMap) -> Iterator[Row]:
-    """A row an attractor, then the exponents."""
+    """Yield one row per attractor, then the exponents."""
     for each, share in list(zip(found.attractors, found.fractions, strict=True))[:MAX_ROWS]:
         yield (
             each.name,
@@ -40,7 +40,7 @@ def rows(found: BasinMap) -> Iterator[Row]:
             f"e.g. from Θ = {each.verdict.start.angle:.6g}, Θ' = {each.verdict.start.velocity:.6g}",
         )
     if len(found.attractors) > MAX_ROWS:
-        yield "and others", f"{len(found.attractors) - MAX_ROWS}", ""
+        yield "other attractors", f"{len(found.attractors) - MAX_ROWS}", ""
     names = {
         "boundary of overturning": found.uncertainty_exponent,
         "all boundaries": found.attractor_exponent,
@@ -49,11 +49,15 @@ def rows(found: BasinMap) -> Iterator[Row]:
         if exponent is not None:
             yield name, f"uncertainty exponent {exponent}", exponent.meaning
     if tangency := tangled_from(found.system):
-        yield "boundary by theory", f"fractal above A* = {tangency:.6g}", "the saddles' manifolds cross"
+        yield (
+            "theoretical boundary",
+            f"fractal above A* = {tangency:.6g}",
+            "the manifolds of the saddles intersect",
+        )
 
 
 def tangled_from(system: System) -> float | None:
-    """A*, where theory proves that the boundary of overturning is fractal at this amplitude: A* < A < √(1 + Ω²); else None."""
+    """Return A* if the boundary of overturning is provably fractal, A* < A < √(1 + Ω²), else None."""
     from rocking.theory import heteroclinic_amplitude
 
     forcing = system.forcing
@@ -64,7 +68,7 @@ def tangled_from(system: System) -> float | None:
 
 
 def record(found: BasinMap, files: list[Path]) -> dict[str, Any]:
-    """The same for a program to read."""
+    """Return the result as a JSON object."""
     return {
         **question_of(found.system),
         "starts": found.fractions[0].of,
@@ -87,7 +91,7 @@ def record(found: BasinMap, files: list[Path]) -> dict[str, Any]:
 
 
 def exponent_record(exponent: UncertaintyExponent | None) -> dict[str, Any] | None:
-    """An exponent with its interval."""
+    """Return an exponent with its interval as a JSON object."""
     if exponent is None:
         return None
     return {name: getattr(exponent, name) for name in ("value", "low", "high", "misfit", "meaning")}

@@ -1,4 +1,4 @@
-"""What a response is, on one screen or as JSON."""
+"""Report of a verdict, as text or JSON."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ BUDGET = options("max_cycles", "max_period")
 
 
 def show(verdict: Verdict, block: Block | None, file: Path | None, *, as_json: bool) -> None:
-    """Print the verdict on stdout, and where its picture is."""
+    """Print the verdict on stdout, and the path of its plot."""
     if as_json:
         print_json(record(verdict, block, file))
         return
@@ -27,12 +27,12 @@ def show(verdict: Verdict, block: Block | None, file: Path | None, *, as_json: b
     more = list(beyond(verdict.start.angle, block))
     if block is not None:
         over, motion = validity.validity_motion(verdict)
-        more += [over, *validity.lines(motion, block)]
+        more += [f"{over}:", *validity.lines(motion, block)]
     print_table(as_typed(str(verdict), BUDGET), rows, [] if file is None else [file], more)
 
 
 def found(verdict: Verdict, block: Block | None) -> Iterator[Row]:
-    """Rows that answer the question; none for what does not apply."""
+    """Yield the rows of the result; quantities that do not apply are left out."""
     orbit, exponent = verdict.orbit, verdict.exponent
     if orbit is not None:
         time = orbit.period * verdict.system.forcing.period
@@ -40,25 +40,29 @@ def found(verdict: Verdict, block: Block | None) -> Iterator[Row]:
         yield "period", f"{counted(orbit.period, 'cycle')}, τ = {time:.6g}", seconds
         yield "impacts per period", _count(orbit.impacts), ""
         if verdict.system.braces is not None:
-            yield "brace hits per period", _count(orbit.brace_hits), ""
-        yield "multipliers", _pair(*orbit.multipliers), ""
+            yield "brace impacts per period", _count(orbit.brace_hits), ""
+        yield "Floquet multipliers", _pair(*orbit.multipliers), ""
     if exponent is not None:
-        yield "largest exponent", *_exponent(exponent, verdict.exponent_error, block)
+        yield "largest Lyapunov exponent", *_exponent(exponent, verdict.exponent_error, block)
     peak = "largest |Θ| until the proof" if verdict.kind == "overturned" else "largest |Θ|"
     yield peak, f"{verdict.peak:.6g}", reach(verdict.peak, block)
     if verdict.steady_peak is not None:
-        yield "after the transient", f"{verdict.steady_peak:.6g}", reach(verdict.steady_peak, block)
+        yield (
+            "largest |Θ| after the transient",
+            f"{verdict.steady_peak:.6g}",
+            reach(verdict.steady_peak, block),
+        )
     if verdict.transient and verdict.kind != "overturned":
         yield "transient", f"at most {counted(verdict.transient, 'cycle')}", ""
     yield (
-        "followed",
+        "simulated",
         f"{counted(verdict.cycles, 'cycle')}, {counted(verdict.impacts, 'event')} computed",
         "",
     )
 
 
 def record(verdict: Verdict, block: Block | None, file: Path | None) -> dict[str, Any]:
-    """The same for a program to read; multipliers are pairs [real, imaginary]."""
+    """Return the verdict as a JSON object; multipliers are pairs [real, imaginary]."""
     orbit = verdict.orbit
     told = {
         "kind": str(verdict.kind),
@@ -90,7 +94,7 @@ def record(verdict: Verdict, block: Block | None, file: Path | None) -> dict[str
 
 
 def _count(hits: int | None) -> str:
-    return "infinitely many, before rest or leaning" if hits is None else f"{hits}"
+    return "infinitely many, before rest or sustained contact with a brace" if hits is None else f"{hits}"
 
 
 def _pair(larger: complex, smaller: complex) -> str:
@@ -100,9 +104,9 @@ def _pair(larger: complex, smaller: complex) -> str:
 
 
 def _exponent(value: float, error: float | None, block: Block | None) -> tuple[str, str]:
-    """The exponent per τ, and per second."""
+    """Return the exponent per τ and, with a block, per second."""
     if value == -math.inf:
-        return "−∞ (forgets every small difference)", ""
+        return "−∞ (superstable)", ""
     shown = plus_minus(value, error) if error else f"{value:.6g}"
     physical = "" if block is None else f"{value * block.frequency_parameter:.4g} per s"
     return f"{shown} per τ", physical

@@ -1,4 +1,4 @@
-"""What a map shows, in a few lines or as JSON."""
+"""Report of a parametric map, as text or JSON."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 def show(found: xr.Dataset, block: Block | None, files: list[Path], *, as_json: bool) -> None:
-    """Print what was found on stdout, and where its files are."""
+    """Print the fractions of the response types on stdout, and the paths of the files."""
     from rocking.survey import counts
 
     kinds, criteria = counts(found, "kind"), counts(found, "evidence")
@@ -36,7 +36,7 @@ def show(found: xr.Dataset, block: Block | None, files: list[Path], *, as_json: 
 
 
 def _values(found: xr.Dataset, name: str) -> Any:
-    """Those of an axis, or the one that does not vary."""
+    """Return the values of an axis, or the value of a quantity that does not vary."""
     return found[name].values if name in found.coords else found.attrs[name]
 
 
@@ -64,7 +64,7 @@ def _found(kinds: dict[str, int], criteria: dict[str, int]) -> Iterator[Row]:
 def record(
     found: xr.Dataset, kinds: dict[str, int], criteria: dict[str, int], files: list[Path]
 ) -> dict[str, Any]:
-    """The same for a program to read."""
+    """Return the result as a JSON object."""
     axes = {
         str(name): {
             "start": float(found[name][0]),

@@ -1,4 +1,4 @@
-"""The modes of a system, on one screen or as JSON."""
+"""Report of the symmetric modes of a system, as text or JSON."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from rocking.model import Block, Mode, System, counted
 
 @frozen
 class Answer:
-    """The modes that there are, and the amplitudes that bound them."""
+    """Symmetric (1, n) modes of a system, and the amplitudes that bound them."""
 
     system: System
     n: int
@@ -25,34 +25,38 @@ class Answer:
     amplitudes: dict[str, float]
 
     def __str__(self) -> str:
-        name, amplitude, begins = f"symmetric (1,{self.n}) mode", self.amplitude, self.amplitudes["existence"]
+        name, amplitude, begins = (
+            f"symmetric (1, {self.n}) mode",
+            self.amplitude,
+            self.amplitudes["existence"],
+        )
         count = len(self.modes)
         if count == 0 and amplitude == 0.0:
-            return f"no {name} at A = 0: without forcing there is none whose phase is determined"
+            return f"no {name} at A = 0: without forcing the phase is not determined"
         if count == 0:
             below = f"A = {amplitude:.6g} lies {begins - amplitude:.3g} below A_E = {begins:.6g}"
-            return f"no {name}: {below}, where they begin"
+            return f"no {name}: {below}, the lowest amplitude with such modes"
         real = [mode for mode in self.modes if mode.admissible]
         word = "neutral" if self.system.restitution == 1.0 else "stable"
         found = [mode for mode in real if mode.stability == word]
-        return f"{counted(count, name)}, {len(real)} admissible, {len(found)} of them {word}"
+        return f"{counted(count, name)}: {len(real)} admissible, {len(found)} of these {word}"
 
     @property
     def amplitude(self) -> float:
-        """A of the forcing."""
+        """Amplitude A of the base acceleration."""
         return self.system.forcing.amplitude
 
 
 LABELS = {
     "existence": "modes exist from A_E",
     "symmetry_breaking": "stable up to A_SB",
-    "melnikov": "Melnikov's A_M",
+    "melnikov": "Melnikov amplitude A_M",
     "heteroclinic": "exact tangency A*",
 }
 
 
 def find(system: System, n: int) -> Answer:
-    """The closed forms of a system; errors as `theory` has them."""
+    """Return the modes and amplitudes of a system in closed form; raises as in `theory`."""
     from rocking import theory
 
     forcing, e = system.forcing, system.restitution
@@ -67,7 +71,7 @@ def find(system: System, n: int) -> Answer:
 
 
 def show(answer: Answer, block: Block | None, file: Path | None, *, as_json: bool) -> None:
-    """Print the modes on stdout, and where their picture is."""
+    """Print the modes on stdout, and the path of their plot."""
     if as_json:
         print_json(record(answer, block, file))
         return
@@ -78,24 +82,24 @@ def show(answer: Answer, block: Block | None, file: Path | None, *, as_json: boo
 
 
 def bounds(answer: Answer, block: Block | None) -> Iterator[tuple[str, str, str]]:
-    """Rows of the amplitudes that bound the modes, and of the two for crossing manifolds."""
+    """Yield the rows of the amplitudes that bound the modes, and of the two thresholds for intersecting manifolds."""
     for name, label in LABELS.items():
         value = answer.amplitudes[name]
         yield label, f"A = {value:.6g}", in_si("amplitude", value, block)
 
 
 def table(modes: list[Mode], block: Block | None) -> Iterator[tuple[str, ...]]:
-    """A column of names, then one a mode."""
+    """Yield a column of names, then one column per mode."""
     yield (
         "mode",
         "speed V after impact",
-        "phase φ there",
-        "trace of half a cycle",
-        f"multipliers over {counted(modes[0].n, 'cycle')}",
+        "phase φ at impact",
+        "trace of the half-cycle map",
+        f"Floquet multipliers over {counted(modes[0].n, 'cycle')}",
         "",
         "largest |Θ|",
         "stability",
-        "keeps its side",
+        "admissible",
     )
     for name, mode in zip(("faster", "slower"), modes, strict=False):
         yield (
@@ -106,12 +110,12 @@ def table(modes: list[Mode], block: Block | None) -> Iterator[tuple[str, ...]]:
             *(_complex(value) for value in mode.multipliers),
             "–" if mode.peak is None else f"{mode.peak:.6g}{_reach(mode.peak, block)}",
             mode.stability,
-            "yes, admissible" if mode.admissible else "no, inadmissible",
+            "yes" if mode.admissible else "no, passes through Θ = 0",
         )
 
 
 def record(answer: Answer, block: Block | None, file: Path | None) -> dict[str, Any]:
-    """The same for a program to read; multipliers are pairs [real, imaginary], infinite numbers null."""
+    """Return the modes as a JSON object; multipliers are pairs [real, imaginary], infinite numbers null."""
     forcing = answer.system.forcing
     told: dict[str, Any] = {
         "amplitude": forcing.amplitude,

@@ -1,4 +1,4 @@
-"""What a motion did, on one screen or as JSON."""
+"""Report of a motion, as text or JSON; rows shared by the other reports."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 
 def show(motion: Motion, block: Block | None, files: Sequence[Path], *, as_json: bool) -> None:
-    """Print the summary on stdout, and where its files are."""
+    """Print the summary on stdout, and the paths of the files."""
     if as_json:
         print_json(record(motion, block, files))
     else:
@@ -30,28 +30,28 @@ def show(motion: Motion, block: Block | None, files: Sequence[Path], *, as_json:
 
 
 def verdict(motion: Motion) -> str:
-    """The outcome in a sentence."""
+    """Return the outcome in one line."""
     overturning = motion.overturning
     if overturning is not None:
         cycle = ordinal(overturning.cycle + 1)
-        return f"overturned: proved at τ = {overturning.time:.6g}, in the {cycle} cycle, never to return"
+        return f"overturned (proved at τ = {overturning.time:.6g}, in the {cycle} cycle)"
     if motion.outcome == "at-rest":
-        return "at rest, and stays so"
+        return "at rest permanently"
     return f"bounded over {counted(motion.cycles, 'cycle')} (neither rest nor overturning was proved)"
 
 
 def asked(result: Motion | Verdict, block: Block | None) -> Iterator[Row]:
-    """Rows that repeat the question, normalised and in SI."""
+    """Yield the rows of the input, normalised and in SI."""
     yield from asked_of(result.system, block)
     yield (
-        "start",
+        "initial state",
         f"Θ = {result.start.angle:.6g}, Θ' = {result.start.velocity:.6g}",
         _state(result.start, block),
     )
 
 
 def asked_of(system: System, block: Block | None) -> Iterator[Row]:
-    """The rows of the system alone."""
+    """Yield the rows of the system."""
     forcing, restitution, braces = system.forcing, system.restitution, system.braces
     if block is None:
         yield "forcing", f"A = {forcing.amplitude:.6g}, T = {forcing.period:.6g}, φ = {forcing.phase:.6g}", ""
@@ -63,7 +63,7 @@ def asked_of(system: System, block: Block | None) -> Iterator[Row]:
         yield "amplitude", f"A = {forcing.amplitude:.6g}", in_si("amplitude", forcing.amplitude, block)
         yield "period", f"T = {forcing.period:.6g}", in_si("period", forcing.period, block)
         yield "phase", f"φ = {forcing.phase:.6g}", f"{math.degrees(forcing.phase):.4g}°"
-        chosen = "Housner's for this block" if block.has_housner_restitution else "as chosen"
+        chosen = "Housner's value for this block" if block.has_housner_restitution else "as given"
         yield "restitution", f"e = {restitution:.6g}", chosen
     if braces is not None:
         at = "" if block is None else f"{block.degrees(braces.angle):.4g}°"
@@ -71,7 +71,7 @@ def asked_of(system: System, block: Block | None) -> Iterator[Row]:
 
 
 def in_si(name: str, values: Any, block: Block | None) -> str:
-    """What a block makes of a quantity, or of the ends of a range of it; of an acceleration in m/s² and in g."""
+    """Return a quantity, or the ends of its range, in SI units; an acceleration in m/s² and in g."""
     if block is None or name not in SHOWN:
         return ""
     turn, unit = SHOWN[name]
@@ -95,28 +95,28 @@ SHOWN: dict[str, tuple[Callable[[Block, Any], Any], str]] = {
     "velocity": (_degrees_per_second, "°/s"),
     "brace_angle": (Block.degrees, "°"),
 }
-"""What a block makes of each, and in which unit it is read."""
+"""Quantity → its conversion by a block and the unit printed."""
 
 
 def beyond(angle: float, block: Block | None) -> Iterator[str]:
-    """A hint where the block starts beyond the angle at which it falls by itself: degrees may have been meant."""
+    """Yield a warning for an initial angle beyond the critical angle, which may have been meant in degrees."""
     if abs(angle) <= 1.0:
         return
     meant = "" if block is None else f"; {angle:.6g}° is --angle {block.angle(degrees=angle):.4g}"
     at = "" if block is None else f" = {block.degrees(angle):.4g}°"
     yield (
-        f"{WARNING}--angle {angle:.6g} is {angle:.6g} θcr{at}, beyond the critical angle θcr, from which the block falls by its own "
-        f"weight: it is in units of θcr, not in degrees{meant}"
+        f"{WARNING}--angle {angle:.6g} is {angle:.6g} θcr{at}, beyond the critical angle, where the block overturns under its "
+        f"own weight (the unit is θcr, not degrees{meant})"
     )
 
 
 def found(motion: Motion, block: Block | None) -> Iterator[Row]:
-    """Rows that answer it."""
+    """Yield the rows of the result."""
     time = "" if block is None else f"{block.seconds(motion.duration):.4g} s"
-    yield "run", f"{counted(motion.cycles, 'cycle')}, τ = {motion.duration:.6g}", time
+    yield "simulated", f"{counted(motion.cycles, 'cycle')}, τ = {motion.duration:.6g}", time
     yield "impacts", f"{motion.impacts}{_cut(motion, 'rest')}", ""
     if motion.system.braces is not None:
-        yield "brace hits", f"{motion.brace_hits}{_cut(motion, 'leaning')}", ""
+        yield "brace impacts", f"{motion.brace_hits}{_cut(motion, 'sustained contact')}", ""
     proved = motion.overturning is not None
     yield (
         "largest |Θ| until the proof" if proved else "largest |Θ|",
@@ -124,20 +124,20 @@ def found(motion: Motion, block: Block | None) -> Iterator[Row]:
         reach(motion.peak, block),
     )
     yield (
-        "state at the proof" if proved else "end",
+        "state at the proof" if proved else "final state",
         f"Θ = {motion.final.angle:.6g}, Θ' = {motion.final.velocity:.6g}",
         _state(motion.final, block),
     )
 
 
 def reach(angle: float, block: Block | None) -> str:
-    """An angle of a block in degrees, and how far its top is out."""
+    """Return an angle of a block in degrees, and the displacement of its top."""
     return "" if block is None else f"{block.degrees(angle):.4g}°, top {block.top_displacement(angle):.4g} m"
 
 
 def _cut(motion: Motion, end: str) -> str:
-    """What a count leaves out."""
-    return "" if motion.record == "all" else f" (any that accumulate are cut short at {end})"
+    """Return the note on a count of impacts that is incomplete, else an empty text."""
+    return "" if motion.record == "all" else f" (without the last ones of chattering before {end})"
 
 
 def _state(state: Any, block: Block | None) -> str:
@@ -147,7 +147,7 @@ def _state(state: Any, block: Block | None) -> str:
 
 
 def record(motion: Motion, block: Block | None, files: Sequence[Path]) -> dict[str, Any]:
-    """The same for a program to read."""
+    """Return the summary as a JSON object."""
     summary: dict[str, Any] = {
         "outcome": str(motion.outcome),
         "overturning": None if motion.overturning is None else attrs.asdict(motion.overturning),
@@ -168,19 +168,19 @@ def record(motion: Motion, block: Block | None, files: Sequence[Path]) -> dict[s
 
 
 def question(result: Motion | Verdict) -> dict[str, Any]:
-    """The system and the start, for a program."""
+    """Return the system and the initial state as a JSON object."""
     return question_of(result.system) | {"start": attrs.asdict(result.start)}
 
 
 def question_of(system: System) -> dict[str, Any]:
-    """The system alone."""
+    """Return the system as a JSON object."""
     found = quantities(system)
     alone = {name: found[name] for name in found if not name.startswith("brace_")}
     return alone | {"braces": None if system.braces is None else attrs.asdict(system.braces)}
 
 
 def physical(result: Motion | Verdict, block: Block) -> dict[str, Any]:
-    """The block, its base and its largest angle in SI, for a program."""
+    """Return the block, its base motion and its largest angle in SI as a JSON object."""
     return physical_of(result.system, block) | {
         "peak_deg": float(block.degrees(result.peak)),
         "peak_top_displacement_m": float(block.top_displacement(result.peak)),
@@ -188,7 +188,7 @@ def physical(result: Motion | Verdict, block: Block) -> dict[str, Any]:
 
 
 def size_of(block: Block) -> dict[str, float]:
-    """The block alone."""
+    """Return the size of a block and its units of angle and time as a JSON object."""
     return {
         "height_m": block.height,
         "width_m": block.width,
@@ -198,7 +198,7 @@ def size_of(block: Block) -> dict[str, float]:
 
 
 def asked_in_si(data: xr.Dataset, block: Block) -> dict[str, Any]:
-    """The block, and what its survey varies or keeps, in SI."""
+    """Return the block and the quantities of its survey in SI as a JSON object."""
     asked: dict[str, Any] = {}
     for name, each in PHYSICAL.items():
         if name in data.coords:
@@ -210,7 +210,7 @@ def asked_in_si(data: xr.Dataset, block: Block) -> dict[str, Any]:
 
 
 def physical_of(system: System, block: Block) -> dict[str, Any]:
-    """The block and its base alone."""
+    """Return the block and its base motion in SI as a JSON object."""
     forcing = system.forcing
     return size_of(block) | {
         "acceleration_m_per_s2": block.acceleration(forcing.amplitude),

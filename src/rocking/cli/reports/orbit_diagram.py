@@ -1,4 +1,4 @@
-"""An orbit diagram as a command shows it and writes it."""
+"""Report and output files of an orbit diagram."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 def show(
     diagram: OrbitDiagram, block: Block | None, typed: str, files: Sequence[Path], *, as_json: bool
 ) -> None:
-    """Print what was found on stdout, and where its files are."""
+    """Print a summary on stdout, and the paths of the files."""
     if as_json:
         print_json(record(diagram, block, files))
         return
@@ -40,7 +40,7 @@ def show(
 
 
 def _in_si(diagram: OrbitDiagram, block: Block) -> Iterator[Row]:
-    """Rows that say in SI what the title says normalised: the values, and those at which the block overturned."""
+    """Yield rows of the varied values, and of those at which the block overturned, in SI."""
     places = {diagram.parameter: diagram.values} | {
         f"overturned, {way}": diagram.values[fell]
         for way, fell in zip(diagram.sweeps, diagram.overturned, strict=True)
@@ -58,7 +58,7 @@ def _warnings(diagram: OrbitDiagram, block: Block | None) -> list[str]:
 
 
 def record(diagram: OrbitDiagram, block: Block | None, files: Sequence[Path]) -> dict[str, Any]:
-    """The same for a program to read."""
+    """Return the result as a JSON object."""
     told: dict[str, Any] = {
         "parameter": diagram.parameter,
         "first": float(diagram.values[0]),
@@ -91,19 +91,19 @@ def record(diagram: OrbitDiagram, block: Block | None, files: Sequence[Path]) ->
 
 
 def write_plot(diagram: OrbitDiagram, block: Block | None, path: Path) -> None:
-    """The points."""
+    """Write the plot of the points."""
     from rocking import plot
 
     plot.save(plot.orbit_diagram(diagram, block=block), path)
 
 
 def write_csv(diagram: OrbitDiagram, block: Block | None, path: Path) -> None:
-    """A row a point, normalised, then in SI if there is a block; where the block overturned one row without numbers."""
+    """Write one row per point, normalised and with a block in SI; a run that overturned has one row without numbers."""
     files.write_csv(_tables(diagram, block), path)
 
 
 def _tables(diagram: OrbitDiagram, block: Block | None) -> Iterator[dict[str, Any]]:
-    """Columns by their heading, of one value after another."""
+    """Yield one table (columns by heading) per sweep and parameter value."""
     for way, fell, points in zip(diagram.sweeps, diagram.overturned, diagram.points, strict=True):
         for value, gone, rows in zip(diagram.values, fell, points, strict=True):
             count = 1 if gone else len(rows)
@@ -117,12 +117,12 @@ def _tables(diagram: OrbitDiagram, block: Block | None) -> Iterator[dict[str, An
 
 
 def _empty(column: np.ndarray) -> bool:
-    """Whether it holds no numbers, for there the block overturned."""
+    """Return whether a column holds no numbers, because the block overturned."""
     return column.dtype.kind == "f" and bool(np.isnan(column).all())
 
 
 def write_netcdf(diagram: OrbitDiagram, block: Block | None, path: Path) -> None:
-    """The diagram's dataset, with its values in SI if there is a block."""
+    """Write the dataset of the diagram, with its values in SI if there is a block."""
     files.write_dataset(files.with_block(diagram.to_xarray(), block), path)
 
 

@@ -1,4 +1,4 @@
-"""Lowest overturning amplitudes, in a few lines or as JSON."""
+"""Report of the lowest overturning amplitudes, as text or JSON."""
 
 from __future__ import annotations
 
@@ -19,11 +19,11 @@ if TYPE_CHECKING:
 
 
 LEVELS = ("lowest", "resolution", "survived_up_to")
-"""What is an amplitude of the answer."""
+"""Variables of the result that are amplitudes."""
 
 
 def write(found: OverturningCurve, files: Mapping[str, Path], block: Block | None) -> None:
-    """Write the picture and the dataset, of a block with the levels in SI as well."""
+    """Write the plot and the dataset; with a block, amplitudes also in SI."""
     data = found.dataset
     if block is not None:
         levels = {_key(name): block.acceleration(data[name].values) for name in LEVELS}
@@ -47,7 +47,7 @@ def show(found: OverturningCurve, block: Block | None, files: list[Path], *, as_
 
 
 def title(found: OverturningCurve, block: Block | None) -> str:
-    """The least of all, of a block first in SI."""
+    """Return the lowest amplitude of all in one line; with a block, in SI first."""
     lowest = found.dataset.lowest
     if block is None:
         return str(found)
@@ -70,12 +70,12 @@ COLUMNS = (*LEVELS, "surviving_above")
 
 
 def rows(found: OverturningCurve, block: Block | None) -> Iterator[Row]:
-    """A row a value of what varies, then the same in SI."""
+    """Yield one row per value of the varied quantities; with a block, also in SI."""
     data = found.dataset
     over = [str(name) for name in data.lowest.dims]
     known = [] if block is None else [name for name in over if name in PHYSICAL]
-    heading = (*over, "lowest A", "scanned at steps of", "all survive up to", "survive above")
-    in_units = () if block is None else ("m/s²", "g", "steps, m/s²", "up to, m/s²")
+    heading = (*over, "lowest A", "scan step", "all survive up to", "survive above")
+    in_units = () if block is None else ("m/s²", "g", "scan step, m/s²", "up to, m/s²")
     yield (*heading, *(PHYSICAL[name].unit for name in known), *in_units)
     for index in list(_places(data))[:MAX_ROWS]:
         at = {name: data[name].values[k] for name, k in zip(over, index, strict=True)}
@@ -95,11 +95,11 @@ def rows(found: OverturningCurve, block: Block | None) -> Iterator[Row]:
     left = data.lowest.size - MAX_ROWS
     if left > 0:
         rest = len(heading) + len(known) + len(in_units) - 1
-        yield (f"and {left} more (--json, --netcdf and --plot have all)", *[""] * rest)
+        yield (f"and {left} more (all of them with --json, --netcdf or --plot)", *[""] * rest)
 
 
 def record(found: OverturningCurve, block: Block | None, files: list[Path]) -> dict[str, Any]:
-    """The same for a program to read."""
+    """Return the result as a JSON object."""
     data = found.dataset
     over = [str(name) for name in data.lowest.dims]
     amplitudes = data.amplitude.values

@@ -1,4 +1,4 @@
-"""Whether the model applies to the block of an answer in SI: as `simulate` says it, and as the others do."""
+"""Validity of the model for a block in SI: lines and JSON of the reports."""
 
 from __future__ import annotations
 
@@ -14,38 +14,41 @@ if TYPE_CHECKING:
     from rocking.motion import Motion
 
 FIRST = 200
-"""Cycles from the start over which a response is judged that is not periodic."""
+"""Number of initial cycles over which the validity of a non-periodic response is evaluated."""
 
 
 def lines(motion: Motion, block: Block | None) -> list[str]:
-    """How far a motion keeps to the model, in a few lines; nothing for a normalised system."""
+    """Return the lines of the validity report of a motion; none without a block."""
     if block is None:
         return []
     if motion.record != "all":
         long = motion.cycles > MAX_CYCLES_KEPT
-        why = f"more than {MAX_CYCLES_KEPT:,} cycles" if long else "more events than are kept"
-        return [f"{WARNING}whether the block slides or jumps is not judged: {why}"]
+        why = f"more than {MAX_CYCLES_KEPT:,} cycles" if long else "too many events to keep"
+        return [f"{WARNING}sliding and jumping of the block were not checked: {why}"]
     return str(motion.validity(block)).splitlines()
 
 
 def record(motion: Motion, block: Block) -> dict[str, Any] | None:
-    """The same for a program to read."""
+    """Return the validity report as a JSON object; None if the events were not kept."""
     return attrs.asdict(motion.validity(block)) if motion.record == "all" else None
 
 
 def validity_motion(verdict: Verdict) -> tuple[str, Motion]:
-    """The motion by which a response is judged, and what it is: a period of its orbit, else how it begins."""
+    """Return a description of the motion over which validity is evaluated, and the motion.
+
+    The motion is one period of the orbit or, without orbit, the first cycles.
+    """
     system, orbit = verdict.system, verdict.orbit
     if orbit is None:
         motion = run(system, verdict.start, min(max(verdict.cycles, 1), FIRST), ())
-        return f"the model is judged over the first {counted(motion.cycles, 'cycle')}", motion
+        return f"model validity over the first {counted(motion.cycles, 'cycle')}", motion
     begun = attrs.evolve(system, forcing=attrs.evolve(system.forcing, phase=orbit.phase))
     motion = run(begun, orbit.state, orbit.period, ())
-    return "the model is judged over a period of the response, τ from its beginning", motion
+    return "model validity over one response period (τ measured from its start)", motion
 
 
 def warnings(block: Block | None, amplitudes: Any, restitutions: Any) -> list[str]:
-    """What concerns the block itself, whatever its motions; nothing for a normalised system."""
+    """Return the warnings about the block itself, independent of its motion; none without a block."""
     if block is None:
         return []
     import numpy as np
@@ -56,5 +59,5 @@ def warnings(block: Block | None, amplitudes: Any, restitutions: Any) -> list[st
 
 
 def warned(sentences: list[str]) -> list[str]:
-    """The same as lines under a table."""
+    """Return sentences as warning lines below a table."""
     return [f"{WARNING}{sentence}" for sentence in sentences]

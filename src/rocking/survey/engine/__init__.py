@@ -1,1 +1,1 @@
-"""The run of a survey: its tiles, their cost, progress, and the loop over them."""
+"""Run of a survey: cost estimate, progress and the loop over its tiles."""

@@ -1,4 +1,4 @@
-"""What a survey will cost, told before it starts."""
+"""Estimate of the cost of a survey, before it starts."""
 
 from __future__ import annotations
 
@@ -15,22 +15,23 @@ from rocking.survey.tiling import Level
 
 PILOTS, AT_ONCE = 512, 16
 MAX_SECONDS = 0.5
-"""Seconds that the estimate itself may take, about."""
+"""Approximate time limit of the estimate itself, s."""
 GOLDEN = (math.sqrt(5.0) - 1.0) / 2.0
 
 
 @frozen
 class Cost:
-    """Points and tiles of a survey, and the time that it will take.
+    """Cost of a survey: points, tiles and computing time.
 
     Attributes
     ----------
     points, tiles : int
-        In all.
+        Total numbers.
     done : int
-        Points that an earlier run has done.
+        Number of points computed by an earlier run.
     seconds : float
-        Of one core, for the others, from a few hundred spread over the survey; rough where a few points are very dear.
+        Estimated time of one core for the remaining points, from a sample of up to 512 points. The estimate is rough if
+        a few points are very expensive.
     """
 
     points: int
@@ -39,19 +40,19 @@ class Cost:
     seconds: float
 
     def told(self, workers: int | None) -> str:
-        """In one line, for so many workers; None where nobody knows how many."""
+        """Return the cost in one line, for a number of workers; None if their number is unknown."""
         what = f"{self.points:,} points in {self.tiles:,} tiles"
         if self.done:
-            what += f", {self.done:,} of them done"
+            what += f", {self.done:,} of them computed before"
         if workers is None:
-            return f"{what}, about {duration(self.seconds)} of one core"
+            return f"{what}, about {duration(self.seconds)} on one core"
         return f"{what}, about {duration(self.seconds / workers)} on {counted(workers, 'core')}"
 
 
 def cost(asked: SurveySpec, measure: Measurement, levels: list[Level], there: int) -> Cost:
-    """The cost of a survey of which so many points are there, from a few of its points."""
+    """Estimate the cost of a survey, of which `there` points exist, from a sample of its points."""
     tiles = sum(math.prod(level.tile_counts) for level in levels)
-    # multiples of the golden section, as whole numbers prime to the count, are spread evenly over the points
+    # multiples of the golden section, rounded to integers, spread the sample evenly over the points
     stride = round(GOLDEN * asked.points)
     places = (np.arange(min(PILOTS, asked.points), dtype=object) * stride % asked.points).astype(np.int64)
     begun, done = time.perf_counter(), 0
@@ -64,7 +65,7 @@ def cost(asked: SurveySpec, measure: Measurement, levels: list[Level], there: in
 
 
 def duration(seconds: float) -> str:
-    """A time that nobody reads to more than two digits."""
+    """Return a time with two digits and its unit."""
     for size, unit in ((86400.0, "days"), (3600.0, "hours"), (60.0, "minutes")):
         if seconds >= 2.0 * size:
             return f"{seconds / size:.2g} {unit}"

@@ -1,4 +1,4 @@
-"""How far a survey is: a bar with the rate, the time left, and the shares of what was found."""
+"""Progress bar of a survey: rate, remaining time and fractions of the response types."""
 
 from __future__ import annotations
 
@@ -25,15 +25,15 @@ from rocking.survey.store.export import flags
 
 
 class Rate(ProgressColumn):
-    """Points a second, of this run."""
+    """Column with the points per second of this run."""
 
     def render(self, task: Task) -> Text:
-        """The rate, once there is one."""
+        """Return the rate as text, empty while it is unknown."""
         return Text(f"{task.speed:,.0f}/s" if task.speed else "")
 
 
 class Bar:
-    """A bar on stderr, which says first what the survey will cost; to be entered before it runs."""
+    """Progress bar on stderr, below a line with the estimated cost; a context manager around the run."""
 
     def __init__(self, cost: Cost, measure: Measurement, workers: int | None) -> None:
         self.cost, self.workers = cost, workers
@@ -66,7 +66,7 @@ class Bar:
         self.bar.stop()
 
     def settled(self, found: np.ndarray, *, before: bool) -> None:
-        """Points were settled: these; the rate leaves out those of an earlier run."""
+        """Add completed points, given by their values of the variable shown; the rate excludes points of an earlier run."""
         values, counts = np.unique(found, return_counts=True)
         for value, count in zip(values.tolist(), counts.tolist(), strict=True):
             self.counts[value] += count
@@ -77,7 +77,7 @@ class Bar:
         self.bar.update(self.task, completed=self.settled_points, shares=self.shares())
 
     def shares(self) -> str:
-        """The shares of what was found so far, the largest first."""
+        """Return the fractions of the response types so far, in descending order."""
         largest = sorted(
             ((count, self.meanings[value]) for value, count in self.counts.items() if count), reverse=True
         )

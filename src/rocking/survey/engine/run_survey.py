@@ -1,4 +1,4 @@
-"""A survey from its question to its answer, in memory or in a store."""
+"""Run of a survey from its specification to its dataset, in memory or in a store."""
 
 from __future__ import annotations
 
@@ -29,29 +29,27 @@ def run_survey(
     progress: bool = False,
     repair: bool = False,
 ) -> xr.Dataset:
-    """Carry a survey out, or go on with one in a store."""
+    """Run a survey, or resume it in a store; return its dataset."""
     if executor is not None:
         instance("executor", executor, Executor)
     refuse_if(
-        store is None and repair, "repair", "go with store, whose damaged tiles it computes again", repair
+        store is None and repair, "repair", "be used with store, whose damaged tiles it recomputes", repair
     )
     if store is None:
         check_fits(asked, measure)
         results = Memory(asked, measure)
         _carry_out(
-            results, executor, progress, "nothing of it is kept (with store, the same call would go on)"
+            results, executor, progress, "no results are kept (with store, running it again would resume it)"
         )
         return results.dataset()
     with opened(store, asked, measure, repair=repair) as kept:
-        _carry_out(
-            kept, executor, progress, f"what is done is in {str(store)!r}, and the same call goes on with it"
-        )
-    with _noted(f"The survey is complete in {str(store)!r}, and the same call reads it."):
+        _carry_out(kept, executor, progress, f"completed tiles are in {str(store)!r}; run it again to resume")
+    with _noted(f"The survey is complete in {str(store)!r}; run it again to read the results."):
         return kept.dataset()
 
 
 def _carry_out(results: Memory | Store, executor: Executor | None, progress: bool, interrupted: str) -> None:
-    # Before other threads begin: a process that ends while one of them compiles may crash.
+    # Compile before other threads start: a process that ends while one of them compiles may crash.
     results.measure.compile(results.asked.may_last)
     with _noted(f"The survey was interrupted; {interrupted}."):
         if not progress:
@@ -67,7 +65,7 @@ def _carry_out(results: Memory | Store, executor: Executor | None, progress: boo
 
 @contextmanager
 def _noted(note: str) -> Iterator[None]:
-    """Tell who types Ctrl-C what it means for the survey."""
+    """Add a note to KeyboardInterrupt that states the consequence for the survey."""
     try:
         yield
     except KeyboardInterrupt as error:

@@ -1,4 +1,4 @@
-"""The loop: tiles from coarse to fine, their batches on any executor, their results kept in the order of the plan."""
+"""Loop over tiles from coarse to fine: batches run on any executor, results are kept in the order of the tiles."""
 
 from __future__ import annotations
 
@@ -22,12 +22,12 @@ if TYPE_CHECKING:
     from rocking.survey.store.store import Store
 
 MAX_UNDER_WAY = 512
-"""Batches under way or waiting for an earlier tile, at most: what they answer takes some 0.2 GB."""
+"""Maximum number of batches that run or wait for an earlier tile; their results take about 0.2 GB."""
 
 
 @frozen(eq=False)
 class Pending:
-    """A tile under way."""
+    """Tile whose batches have been submitted."""
 
     tile: Tile
     known: np.ndarray
@@ -36,7 +36,7 @@ class Pending:
 
 
 def run(results: Memory | Store, executor: Executor | None = None, watcher: Bar | None = None) -> None:
-    """Compute what is not there yet; on Ctrl-C, and whatever else happens, what is kept stays good."""
+    """Compute all missing points; after any interruption, including Ctrl-C, the results kept so far are valid."""
     with engine(executor) as (pool, stop):
         pending: deque[Pending] = deque()
         under_way = 0
@@ -62,7 +62,7 @@ def run(results: Memory | Store, executor: Executor | None = None, watcher: Bar 
 def _submit(
     pool: Executor, stop: np.ndarray, results: Memory | Store, tile: Tile, known: np.ndarray
 ) -> Pending:
-    """Send off what neither an earlier run nor a coarser level has found."""
+    """Submit the points of a tile that neither an earlier run nor a coarser level has computed."""
     wanted = np.flatnonzero(tile.own(~known)).astype(np.int32)
     work = list(batches(tile, results.asked.fixed, wanted, results.measure))
     return Pending(
@@ -71,7 +71,10 @@ def _submit(
 
 
 def _settle(pending: deque[Pending], results: Memory | Store, watcher: Bar | None) -> int:
-    """Wait for the first tile under way and keep it; how many batches it had. Tiles are kept in the order of the plan."""
+    """Keep the results of the first submitted tile when they are complete; return its number of batches.
+
+    Tiles are kept in the order of submission.
+    """
     first = pending[0]
     wait(first.futures, return_when=FIRST_EXCEPTION)
     tile, shared = first.tile, first.tile.shared()
@@ -99,14 +102,14 @@ def _tell(
     *,
     before: bool,
 ) -> None:
-    """Tell who watches what was found at the points that are in no coarser level."""
+    """Report the results at the points that no coarser level contains."""
     if watcher is not None:
         watcher.settled(answers[results.measure.shares][tile.own(which)], before=before)
 
 
 @contextmanager
 def engine(executor: Executor | None) -> Iterator[tuple[Executor, np.ndarray]]:
-    """The executor, with a flag that ends the work of threads soon; one's own threads, one a core, unless given."""
+    """Provide an executor and a flag that stops the work of threads. Default: a thread pool, one thread per core."""
     stop = np.zeros(1, np.int64)
     own = ThreadPoolExecutor(cores(), "survey") if executor is None else None
     try:
@@ -120,5 +123,5 @@ def engine(executor: Executor | None) -> Iterator[tuple[Executor, np.ndarray]]:
 
 
 def cores() -> int:
-    """Cores that this process may use."""
+    """Return the number of cores that this process may use."""
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1

@@ -1,4 +1,4 @@
-"""What starts lead to: the attractors told apart by their orbits, not only by their periods."""
+"""Attractors of initial states, distinguished by their orbits and not only by their periods."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from rocking.survey.measures.response import VARIABLES, judged
 from rocking.survey.spec import Points, points
 
 SAME = 1e-6
-"""Orbits that come as near as this to each other on the section count as one."""
+"""Largest distance on the section of orbits that count as one."""
 KEPT = ("kind", "evidence", "response_period", "impacts_per_period", "brace_hits_per_period", "symmetric")
 ANCHORS = tuple(
     Variable(
@@ -28,7 +28,7 @@ ANCHORS = tuple(
         "float64",
         math.inf,
         {
-            "long_name": f"{what} of the state that stands for the attractor in units of {unit}",
+            "long_name": f"{what} of the representative state of the attractor in units of {unit}",
             "units": "1",
             "comment": f"at {kernel.SECTION:.6g} of a forcing cycle; NaN: neither periodic nor at rest",
         },
@@ -43,7 +43,7 @@ AVERAGES = (
         {
             "long_name": "mean angle on the section in units of theta_cr",
             "units": "1",
-            "comment": "NaN: not chaotic, or lossless",
+            "comment": "NaN: not chaotic, or undamped",
         },
     ),
     Variable(
@@ -54,11 +54,11 @@ AVERAGES = (
     ),
 )
 CLASS = ("kind", "response_period", "impacts_per_period", "brace_hits_per_period", "symmetric")
-"""What differs between two attractors, if anything but their states does."""
+"""Properties of an attractor other than its states."""
 
 
 def destination(max_cycles: int, max_period: int, title: str) -> Measurement:
-    """What the cascade of `classify` says at each start, and a state that stands for where it leads."""
+    """Return the measurement of the verdict and a representative state of the attractor."""
     by_name = {each.name: each for each in VARIABLES}
     variables = (
         *(by_name[name] for name in KEPT),
@@ -71,7 +71,7 @@ def destination(max_cycles: int, max_period: int, title: str) -> Measurement:
 
 
 def compile_both(may_last: bool) -> None:
-    """Compile the cascade, and what follows orbits."""
+    """Compile the classification and the functions that follow orbits."""
     batch.compile_many(may_last)
     still = np.array([[0.0, 1.0, math.tau, 0.0, 0.0, math.inf, 1.0]])
     kernel.anchors_of(still, np.zeros((1, 2)), results.empty_results(1))
@@ -85,7 +85,10 @@ def classify_with_anchor(
     max_period: int,
     stop: np.ndarray,
 ) -> Arrays | None:
-    """What `respond` says, with the state that stands for each orbit: `orbit_angle` and `orbit_velocity`."""
+    """Return the classification at points with the representative state of each orbit.
+
+    The state is in `orbit_angle` and `orbit_velocity`. Returns None if another thread sets `stop`.
+    """
     asked = points(values, fixed)
     told = batch.classify_batch(*asked, max_cycles, max_period, stop)
     if told is None:
@@ -95,12 +98,12 @@ def classify_with_anchor(
 
 
 def judge(points: Points, options: Mapping[str, int], stop: np.ndarray) -> Arrays | None:
-    """The cascade's answers, with the state that stands for each orbit."""
+    """Return the classification with the representative state and the chaotic mean of each attractor."""
     told = batch.classify_batch(*points, options["max_cycles"], options["max_period"], stop)
     if told is None:
         return None
     anchors = kernel.anchors_of(*points, told)
-    # without losses there is no attractor, and a mean takes for ever to settle
+    # an undamped system has no attractor, and its mean angle does not converge in any practical time
     means = averages(
         points, (told.kind == verdict_record.CHAOTIC) & ~points.lossless, options["max_cycles"], stop
     )
@@ -114,17 +117,23 @@ def judge(points: Points, options: Mapping[str, int], stop: np.ndarray) -> Array
 
 
 def label_attractors(system: System, answers: Mapping[str, Any]) -> tuple[np.ndarray, np.ndarray]:
-    """(labels (n,), first (m,)): which attractor each of n starts leads to, the largest share first, and a start of each.
+    """Assign initial states to attractors, in descending order of the number of initial states.
 
-    Orbits of one class (kind, period, impacts, symmetry) are one where the states that stand for them are, or where one's
-    state is any of the other's. Chaotic responses are one where their means are, to within their errors.
+    Two orbits of one class (kind, period, impacts, symmetry) are the same attractor in two cases. Their representative
+    states coincide, or the representative state of one is a state of the other. Chaotic responses are the same
+    attractor if their means agree within their errors.
+
+    Returns
+    -------
+    tuple of (array (n,) of int, array (m,) of int)
+        Attractor of each initial state; index of one initial state per attractor.
     """
     named_by = (*CLASS, *(each.name for each in (*ANCHORS, *AVERAGES)))
     flat = {name: np.asarray(answers[name]).ravel() for name in named_by}
     columns = [flat[name].astype(float) for name in CLASS]
     anchors = np.column_stack([flat["orbit_angle"], flat["orbit_velocity"]])
     unanchored = np.isnan(anchors).any(axis=1)
-    # + 0.0: no negative zeros, which differ in their bytes
+    # + 0.0 removes negative zeros, whose bytes differ
     rounded = np.where(unanchored[:, None], 0.0, np.round(anchors / SAME)) + 0.0
     means = grouped(flat["mean_angle"], flat["mean_angle_error"])
     keys = np.column_stack([*columns, unanchored, means, rounded])
@@ -138,7 +147,7 @@ def label_attractors(system: System, answers: Mapping[str, Any]) -> tuple[np.nda
 
 
 def _joined(system: System, distinct: np.ndarray, anchors: np.ndarray) -> np.ndarray:
-    """A number for each distinct row, the same for rows of one attractor."""
+    """Return a number for each distinct row, the same for rows of one attractor."""
     from scipy.sparse import coo_array
     from scipy.sparse.csgraph import connected_components
 
@@ -150,7 +159,7 @@ def _joined(system: System, distinct: np.ndarray, anchors: np.ndarray) -> np.nda
             continue
         pairs.append(members[alike(anchors[members], anchors[members])])
         period = int(distinct[members[0], 1])
-        # a class of thousands is no list of attractors, but near a torus
+        # a class of thousands of orbits lies near a torus and is no list of attractors
         if period > 1 and members.size <= 1000:
             pairs.append(_shared(system, members, anchors, period))
     links = np.concatenate(pairs)
@@ -159,14 +168,14 @@ def _joined(system: System, distinct: np.ndarray, anchors: np.ndarray) -> np.nda
 
 
 def _shared(system: System, members: np.ndarray, anchors: np.ndarray, period: int) -> np.ndarray:
-    """Pairs of orbits of one period of which one's state is any of the other's."""
+    """Return pairs of orbits of one period in which the representative state of one is a state of the other."""
     states = np.concatenate([section_of(system, anchors[each], period) for each in members])
     rows, others = alike(states, anchors[members]).T
     return np.column_stack([np.repeat(members, period)[rows], members[others]])
 
 
 def alike(states: np.ndarray, others: np.ndarray) -> np.ndarray:
-    """Pairs (m, 2) of rows of `states` (n, 2) and of `others` (k, 2) that stand for one attractor: as near as SAME to each other."""
+    """Return pairs (m, 2) of rows of `states` (n, 2) and `others` (k, 2) at a distance of at most SAME."""
     from scipy.spatial import cKDTree
 
     near = cKDTree(states).query_ball_point(others, SAME)
@@ -176,7 +185,7 @@ def alike(states: np.ndarray, others: np.ndarray) -> np.ndarray:
 
 
 def section_of(system: System, anchor: np.ndarray, period: int) -> np.ndarray:
-    """The states (n, 2) of an orbit on the section, from the one that stands for it."""
+    """Return the states (n, 2) of an orbit on the section, beginning with its representative state."""
     phase = system.forcing.phase + math.tau * kernel.SECTION
     clocked = system_of(NO_BRACES | quantities(system) | {"phase": phase})
     return np.asarray(simulate(clocked, State(*anchor), cycles=period, record="section").section()[:period])
@@ -185,7 +194,7 @@ def section_of(system: System, anchor: np.ndarray, period: int) -> np.ndarray:
 def make_attractors(
     system: System, starts: np.ndarray, first: np.ndarray, max_cycles: int, max_period: int
 ) -> tuple[Attractor, ...]:
-    """The attractors to which these of the starts lead, each with a name of its own."""
+    """Return the attractors of the initial states with indices `first`, each with a unique name."""
     verdicts = [classify(system, State(*starts[k]), max_cycles, max_period) for k in first]
     plain = [_name(each) for each in verdicts]
     names, seen = [], dict.fromkeys(plain, 0)
@@ -200,10 +209,10 @@ def _name(verdict: Verdict) -> str:
     if verdict.orbit is None:
         leans = verdict.kind is Kind.REST and verdict.steady_peak
         return "leaning" if leans else str(verdict.kind)
-    return f"period {verdict.period}, {'symmetric' if verdict.symmetric else 'unsymmetric'}"
+    return f"period {verdict.period}, {'symmetric' if verdict.symmetric else 'asymmetric'}"
 
 
 def _letters(number: int) -> str:
-    """a, b, …, z, aa, ab, …."""
+    """Return the letters of a number: a, b, …, z, aa, ab, …."""
     before, last = divmod(number, 26)
     return (_letters(before - 1) if before else "") + "abcdefghijklmnopqrstuvwxyz"[last]

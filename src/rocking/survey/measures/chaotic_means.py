@@ -1,4 +1,4 @@
-"""Chaotic responses told apart by where they are on average, as unsymmetric ones are from their mirror images."""
+"""Mean angles of chaotic responses, which distinguish an asymmetric chaotic attractor from its mirror image."""
 
 from __future__ import annotations
 
@@ -11,18 +11,23 @@ from rocking.motion import simulate
 from rocking.survey.spec import SYSTEM, Points
 
 MAX_FOLLOWED = 20_000
-"""Cycles, of which the second half is averaged."""
+"""Maximum number of cycles; the second half is averaged."""
 BATCHES = 20
 MAX_NUDGES, NUDGE = 100, 1e-15
-"""A start that rounding decides may overturn when it is followed again; one beside it is taken then."""
+"""Number and size of perturbations of an initial state that overturns in a second run because of rounding."""
 APART = 10.0
-"""Standard errors between two averages that are not of one attractor."""
+"""Standard errors between the means of different attractors."""
 
 
 def averages(points: Points, chaotic: np.ndarray, cycles: int, stop: np.ndarray) -> np.ndarray:
-    """(mean Θ on the section, its standard error) of those points; NaN of all others.
+    """Compute the mean angle of chaotic points on the section, with its standard error from long batches.
 
-    The error is that of the means of long batches. Once another thread sets `stop[0]` no more of them are followed.
+    The computation ends early if another thread sets `stop[0]`.
+
+    Returns
+    -------
+    array (n, 2)
+        Mean Θ and its standard error; NaN for points that are not chaotic.
     """
     found = np.full((len(points.systems), 2), math.nan)
     count = min(cycles, MAX_FOLLOWED)
@@ -37,7 +42,7 @@ def averages(points: Points, chaotic: np.ndarray, cycles: int, stop: np.ndarray)
 
 
 def _late_angles(system: System, start: State, cycles: int) -> np.ndarray:
-    """Θ on the section in the second half of so many cycles; NaN if nothing stays that begins there, but for rounding."""
+    """Return Θ on the section in the second half of the cycles; NaN if the run and all perturbed runs overturn."""
     for nudge in range(MAX_NUDGES):
         beside = State(start.angle, start.velocity + nudge * NUDGE)
         motion = simulate(system, beside, cycles=cycles, record="section")
@@ -47,7 +52,7 @@ def _late_angles(system: System, start: State, cycles: int) -> np.ndarray:
 
 
 def grouped(means: np.ndarray, errors: np.ndarray) -> np.ndarray:
-    """A number for each mean: another one where no mean lies within `APART` standard errors; 0 where it is NaN."""
+    """Return a group number for each mean; groups are `APART` standard errors apart. NaN has the number 0."""
     groups = np.zeros(means.size, int)
     known = np.flatnonzero(~np.isnan(means))
     if known.size == 0:

@@ -1,4 +1,4 @@
-"""What surveys that only count need to know of a point: the kind of its response, in a byte."""
+"""Measurement of the kind of response alone, one byte per point, for surveys that only count."""
 
 from __future__ import annotations
 
@@ -17,14 +17,14 @@ KIND = VARIABLES[0]
 
 
 def outcome(max_cycles: int, max_period: int, title: str) -> Measurement:
-    """The kind of each response, by the cascade of `classify`."""
+    """Return the measurement of the kind of response, as classified by `classify`."""
     return Measurement(
         title, judge, batch.compile_many, (KIND,), budget(max_cycles, max_period), batch.METHOD
     )
 
 
 def judge(points: Points, options: Mapping[str, int], stop: np.ndarray) -> Arrays | None:
-    """The cascade's answers, of which only the kind is kept."""
+    """Return the kind of response at points; None if another thread sets `stop`."""
     told = batch.classify_batch(*points, options["max_cycles"], options["max_period"], stop)
     return None if told is None else {"kind": told.kind}
 
@@ -32,7 +32,7 @@ def judge(points: Points, options: Mapping[str, int], stop: np.ndarray) -> Array
 def interval_variables(
     name: str, shares: Sequence[Share], dimension: str, meaning: str
 ) -> dict[str, tuple[str, np.ndarray, dict[str, str]]]:
-    """Shares along a dimension as three variables of a dataset: the share, and both ends of its interval."""
+    """Return fractions along a dimension as three dataset variables: the fraction and both ends of its interval."""
     parts = {
         name: ([each.value for each in shares], meaning),
         f"{name}_low": ([each.low for each in shares], f"{meaning}, lower end of its 95 % interval"),

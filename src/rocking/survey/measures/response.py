@@ -1,4 +1,4 @@
-"""What every map finds at a point: the response, the evidence for it, and the numbers that go with it."""
+"""Measurement of maps: the response at a point, its evidence and the associated numbers."""
 
 from __future__ import annotations
 
@@ -23,13 +23,15 @@ def meanings(enum: type[Kind] | type[Criterion]) -> dict[str, object]:
 
 SYMMETRY = {
     "flag_values": np.arange(3, dtype=np.uint8),
-    "flag_meanings": "unsymmetric symmetric not-periodic",
+    "flag_meanings": "asymmetric symmetric not-periodic",
 }
 NOT_PERIODIC = 2
 
 VARIABLES = (
     Variable("kind", "uint8", 255, {"long_name": "kind of response", **meanings(Kind)}),
-    Variable("evidence", "uint8", 255, {"long_name": "ground of the label", **meanings(Criterion)}),
+    Variable(
+        "evidence", "uint8", 255, {"long_name": "evidence for the kind of response", **meanings(Criterion)}
+    ),
     Variable(
         "response_period",
         "int32",
@@ -41,8 +43,8 @@ VARIABLES = (
         "int32",
         -2,
         {
-            "long_name": "impacts in a period of the response",
-            "comment": "-1: not periodic, or infinitely many before rest or leaning",
+            "long_name": "impacts per period of the response",
+            "comment": "-1: not periodic, or infinitely many before rest or sustained contact with a brace",
         },
     ),
     Variable(
@@ -50,8 +52,8 @@ VARIABLES = (
         "int32",
         -2,
         {
-            "long_name": "brace hits in a period of the response",
-            "comment": "-1: not periodic, or infinitely many before rest or leaning",
+            "long_name": "brace impacts per period of the response",
+            "comment": "-1: not periodic, or infinitely many before rest or sustained contact with a brace",
         },
     ),
     Variable("symmetric", "uint8", 255, {"long_name": "symmetry of the response", **SYMMETRY}),
@@ -62,7 +64,7 @@ VARIABLES = (
         {
             "long_name": "largest Lyapunov exponent per normalised time",
             "units": "1",
-            "comment": "-inf: superstable; NaN: none, or not weighed",
+            "comment": "-inf: superstable; NaN: none, or not evaluated",
         },
     ),
     Variable(
@@ -79,27 +81,30 @@ VARIABLES = (
         "peak",
         "float64",
         -1.0,
-        {"long_name": "largest angle from the start in units of theta_cr", "units": "1"},
+        {"long_name": "largest absolute angle of the run in units of theta_cr", "units": "1"},
     ),
     Variable(
         "transient",
         "int32",
         -2,
-        {"long_name": "forcing cycles before the response was reached, at most", "comment": "-1: not known"},
+        {
+            "long_name": "upper bound of the forcing cycles before the response was reached",
+            "comment": "-1: unknown",
+        },
     ),
-    Variable("cycles", "int32", -1, {"long_name": "forcing cycles followed"}),
+    Variable("cycles", "int32", -1, {"long_name": "forcing cycles simulated"}),
 )
 
 
 def response(max_cycles: int, max_period: int, title: str) -> Measurement:
-    """What the cascade of `classify` says at each point."""
+    """Return the measurement of the verdict of `classify` at each point."""
     return Measurement(
         title, judge, batch.compile_many, VARIABLES, budget(max_cycles, max_period), batch.METHOD
     )
 
 
 def judge(points: Points, options: Mapping[str, int], stop: np.ndarray) -> Arrays | None:
-    """The cascade's answers, told as `classify` tells them."""
+    """Return the verdicts at points, with the conventions of `classify`; None if another thread sets `stop`."""
     told = batch.classify_batch(*points, options["max_cycles"], options["max_period"], stop)
     return None if told is None else judged(told)
 
@@ -111,15 +116,15 @@ def classify_points(
     max_period: int,
     stop: np.ndarray,
 ) -> Arrays | None:
-    """What a map says at n points: `values` (n,) and the `fixed` ones by the names of the quantities, all in range.
+    """Return the variables of a map at n points; None if another thread sets `stop` (1,).
 
-    None where another thread set `stop` (1,) on the way. A survey has checked, and compiled, before it comes to this.
+    `values` (n,) and `fixed` hold the quantities by name. They are not checked, and kernels must have been compiled.
     """
     return judge(points(values, fixed), {"max_cycles": max_cycles, "max_period": max_period}, stop)
 
 
 def judged(told: results.ResultArrays) -> Arrays:
-    """The cascade's answers by the names of the variables."""
+    """Return the results of the classification by the names of the variables."""
     unweighed = (told.kind == kernel.UNDETERMINED) & ~np.isin(told.ground, kernel.WEIGHED)
     overturns, periodic = told.kind == kernel.OVERTURNS, told.kind == kernel.PERIODIC
     return {

@@ -1,1 +1,1 @@
-"""Points of a survey that are not on a grid."""
+"""Points of a survey that do not lie on a grid."""

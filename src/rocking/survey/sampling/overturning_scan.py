@@ -1,4 +1,4 @@
-"""A scan over amplitudes and phases, at each of which a block overturns or not; its first hits refined by bisection."""
+"""Scan of overturning over amplitudes and phases; bisection refines the lowest overturning amplitude."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ SETTLED = 1e-12
 
 @frozen(eq=False)
 class Scan:
-    """What was found at each amplitude and phase (the last two dimensions) of each cell (those before, `over`)."""
+    """Kinds of response over phase and amplitude (the last two dimensions) in each cell of the dimensions `over`."""
 
     asked: SurveySpec
     measure: Measurement
@@ -32,29 +32,35 @@ class Scan:
 
     @property
     def amplitudes(self) -> np.ndarray:
-        """A, ascending."""
+        """Amplitudes A, ascending."""
         return self.kinds.amplitude.values
 
     @property
     def phases(self) -> np.ndarray:
-        """φ."""
+        """Initial phases φ of the forcing."""
         return self.kinds.phase.values
 
     @property
     def cells(self) -> np.ndarray:
-        """Whether the block overturned: (cells, phases, amplitudes)."""
+        """Mask of the runs that overturned, of shape (cells, phases, amplitudes)."""
         fell: np.ndarray = np.asarray(self.kinds.values == kernel.OVERTURNS)
         return fell.reshape(-1, *fell.shape[-2:])
 
     @property
     def first(self) -> np.ndarray:
-        """The place of the first amplitude of each cell that overturns it at any phase; one past the last if none does."""
+        """Index of the lowest amplitude that overturns at any phase of each cell; the number of amplitudes if none."""
         hit: np.ndarray = np.any(self.cells, axis=1)
         return np.where(hit.any(axis=1), hit.argmax(axis=1), self.amplitudes.size)
 
 
 def refined(scan: Scan, executor: Executor | None) -> tuple[np.ndarray, np.ndarray]:
-    """(lowest amplitude, its phase) of each cell: the first hit, at each phase that has one, bisected back to a survivor."""
+    """Refine the lowest overturning amplitude of each cell by bisection, at each phase that overturns there.
+
+    Returns
+    -------
+    tuple of (array (cells,), array (cells,))
+        Lowest overturning amplitude and its phase; NaN if no run overturned.
+    """
     amplitudes, turned, cells, first = scan.amplitudes, scan.phases, scan.cells, scan.first
     there = np.take_along_axis(cells, first[:, None, None].clip(max=amplitudes.size - 1), axis=2)[..., 0]
     rows, columns = np.nonzero(there & (first < amplitudes.size)[:, None])
@@ -74,7 +80,7 @@ def refined(scan: Scan, executor: Executor | None) -> tuple[np.ndarray, np.ndarr
         fell = sampled(tried, scan.measure, executor)["kind"] == kernel.OVERTURNS
         high[wide[fell]], low[wide[~fell]] = middle[fell], middle[~fell]
     lowest, phase = np.full(first.size, np.nan), np.full(first.size, np.nan)
-    # the last written is the lowest
+    # in descending order, so that the lowest amplitude is written last
     order = np.argsort(-high, kind="stable")
     lowest[rows[order]], phase[rows[order]] = high[order], turned[columns[order]]
     return lowest, phase

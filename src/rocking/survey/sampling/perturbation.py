@@ -1,4 +1,4 @@
-"""Inputs that are off by a little: the same share of themselves at most, drawn at random or spread evenly."""
+"""Perturbed inputs: relative deviations of limited size, random or evenly spread."""
 
 from __future__ import annotations
 
@@ -10,11 +10,14 @@ from rocking.survey.spec import SYSTEM, Points
 TITLE = "Repeatability of the response of a free-standing block on a shaking base"
 MAX_RELATIVE = 0.5
 INPUTS = 5
-"""A, T, e, Θ and Θ' at the start."""
+"""Number of perturbed inputs: A, T, e and the initial Θ and Θ'."""
 
 
 def spread(count: int) -> np.ndarray:
-    """Points (count, INPUTS) spread evenly over [-1, 1]: multiples of powers of the root of g⁶ = g + 1, modulo one."""
+    """Return points (count, INPUTS) that are evenly spread over [-1, 1].
+
+    They are multiples, modulo one, of powers of the root of g⁶ = g + 1.
+    """
     root = 1.0
     for _ in range(60):
         root = (1.0 + root) ** (1.0 / (INPUTS + 1))
@@ -23,7 +26,7 @@ def spread(count: int) -> np.ndarray:
 
 
 def perturbed(meant: Points, units: np.ndarray, off: float) -> Points:
-    """Points (n) with A, T, e, Θ and Θ' off by that share of themselves times `units` (n, INPUTS), which lie in [-1, 1]."""
+    """Return n points whose A, T, e, Θ and Θ' deviate by the fraction `off` times `units` (n, INPUTS) in [-1, 1]."""
     factors = 1.0 + off * units
     systems, starts = meant.systems.copy(), meant.starts.copy()
     place = {name: k for k, name in enumerate(SYSTEM)}
@@ -33,7 +36,7 @@ def perturbed(meant: Points, units: np.ndarray, off: float) -> Points:
     np.minimum(amplitude * factors[:, 0], MAX_AMPLITUDE, out=amplitude)
     np.clip(period * factors[:, 1], *PERIODS, out=period)
     systems[:, place["frequency"]] = 2.0 * np.pi / period
-    # drawn evenly from what is possible
+    # uniform over the part of the range that is possible
     low, high = restitution * (1.0 - off), np.minimum(restitution * (1.0 + off), 1.0)
     restitution[:] = 0.5 * (low + high) + 0.5 * (high - low) * units[:, 2]
     reach = systems[:, place["brace_angle"]]

@@ -1,4 +1,4 @@
-"""Points that lie on no grid: drawn at random, or refined one by one."""
+"""Evaluation of a measurement at points that do not lie on a grid, and random numbers."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ from rocking.survey.measurement import Arrays, Measurement
 from rocking.survey.spec import Points
 
 AT_ONCE = 2048
-"""Points of one piece of work."""
+"""Points per batch."""
 MAX_SAMPLES = 10_000_000
 MAX_SEED = 2**32 - 1
 
 
 def sampled(points: Points, measure: Measurement, executor: Executor | None = None) -> Arrays:
-    """The answers of a measure at points, in their order."""
+    """Return the results of a measurement at points, in their order."""
     if executor is not None:
         instance("executor", executor, Executor)
     measure.compile(bool(points.may_last.any()))
@@ -35,19 +35,19 @@ def sampled(points: Points, measure: Measurement, executor: Executor | None = No
             for future in futures:
                 future.cancel()
     if len(answers) < len(futures):
-        raise CancelledError("told to stop")
+        raise CancelledError("the survey was stopped")
     return {name: np.concatenate([each[name] for each in answers]) for name in answers[0]}
 
 
 def generator(seed: int) -> np.random.Generator:
-    """Random numbers, the same for the same seed."""
+    """Return a random number generator; equal seeds give equal numbers."""
     return np.random.default_rng(whole("seed", seed, 0, MAX_SEED))
 
 
 def span(name: str, values: Any, widest: tuple[float, float] | None = None) -> tuple[float, float]:
-    """Check a range to draw from: (low, high), low < high, within what the quantity may be."""
+    """Check a range (low, high) of random numbers: low < high, both within the range of the quantity."""
     low, high = widest or RANGES[name]
-    allowed = f"be a pair (low, high) in [{low:.6g}, {high:.6g}], low below high"
+    allowed = f"be a pair (low, high) in [{low:.6g}, {high:.6g}] with low < high"
     try:
         pair = np.asarray(reals(name, values))
     except TypeError:

@@ -1,4 +1,4 @@
-"""How uncertain starts are: the share that a small error leads elsewhere, and the exponent with which it falls."""
+"""Uncertainty exponent: scaling of the fraction of initial states whose outcome changes under a small error."""
 
 from __future__ import annotations
 
@@ -9,21 +9,24 @@ import numpy as np
 from rocking.model import LEVEL, Share, UncertaintyExponent
 
 FINEST, COARSEST = 13, 6
-"""Distances are the mean width of the starts times 2⁻ᵏ for k between these."""
+"""Range of k of the distances, which are 2⁻ᵏ times the mean width of the range of initial states."""
 MIN_BOUNDARY = 10
-"""Uncertain starts at several distances together; fewer tell no exponent."""
+"""Minimum number of uncertain initial states at all distances for an estimate of the exponent."""
 MAX_STEPS = 50
 
 
 def distances(widths: tuple[float, float]) -> np.ndarray:
-    """The errors ε that are tried, the largest first."""
+    """Return the tested errors ε in descending order."""
     return np.sqrt(widths[0] * widths[1]) * 0.5 ** np.arange(COARSEST, FINEST + 1)
 
 
 def perturbed_triples(
     low: tuple[float, float], high: tuple[float, float], runs: int, random: np.random.Generator
 ) -> np.ndarray:
-    """Starts (distances, n, 3, 2): random ones anew at each distance, and two beside each, in opposite directions."""
+    """Return triples of initial states (distances, n, 3, 2): a random one and two neighbours in opposite directions.
+
+    Each distance has its own random initial states.
+    """
     reach = distances((high[0] - low[0], high[1] - low[1]))
     each = max(runs // (3 * reach.size), 1)
     middle = random.uniform(low, high, (reach.size, each, 2))
@@ -33,10 +36,11 @@ def perturbed_triples(
 
 
 def exponent(reach: np.ndarray, labels: np.ndarray) -> UncertaintyExponent | None:
-    """The uncertainty exponent from the labels (distances, n, 3) of trios; None where next to none is uncertain.
+    """Estimate the uncertainty exponent from the labels (distances, n, 3) of triples; None if too few are uncertain.
 
-    The counts are binomial with log f = a + α log ε: the likelihood is maximised by Fisher's scoring, and the interval is
-    that of its information, widened by the root of the misfit where the counts scatter more than binomial ones do.
+    The counts are binomial with log f = a + α log ε. The likelihood is maximised by Fisher's scoring. The interval
+    follows from the Fisher information. It is widened by the square root of the misfit if the counts scatter more than
+    binomial ones.
     """
     elsewhere = (labels[..., 1:] != labels[..., :1]).any(axis=-1)
     counts, each = elsewhere.sum(axis=1), elsewhere.shape[1]
@@ -57,7 +61,13 @@ def exponent(reach: np.ndarray, labels: np.ndarray) -> UncertaintyExponent | Non
 
 
 def _scored(design: np.ndarray, counts: np.ndarray, each: float) -> tuple[np.ndarray, np.ndarray]:
-    """(parameters, information) of a binomial model with a logarithmic link."""
+    """Fit a binomial model with a logarithmic link by Fisher's scoring.
+
+    Returns
+    -------
+    tuple of (array (2,), array (2, 2))
+        Parameters and their Fisher information.
+    """
     weights = counts + 0.5
     start = np.log(weights / (each + 1.0))
     fitted = np.linalg.lstsq(design * np.sqrt(weights)[:, None], start * np.sqrt(weights), rcond=None)[0]

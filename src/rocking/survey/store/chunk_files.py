@@ -1,4 +1,4 @@
-"""The files of a store: where they are written, and how a variable's chunk becomes one."""
+"""Files of a store: synchronous access, and the encoding of chunks."""
 
 from __future__ import annotations
 
@@ -16,46 +16,46 @@ from zarr.storage import LocalStore
 from rocking.survey.store.locking import ROOT
 
 SHRINK = Blosc("lz4", clevel=1, shuffle=Blosc.SHUFFLE)
-"""A map takes a sixth of the room, and less time: to shrink a chunk takes a tenth of what writing the rest of it would."""
+"""Compression of chunks to a sixth of their size; it takes a tenth of the time to write the bytes saved."""
 CHECK = CRC32C()
 
 
 class Files(LocalStore):
-    """A folder whose files are read and written where that is asked.
+    """Local Zarr store that reads and writes files in the calling thread.
 
-    Zarr hands each file to a thread of its own pool. Files are small here, and all cores compute meanwhile: the handing
-    over would cost more than the file.
+    Zarr passes each file to a thread of its pool. The files of a survey are small and all cores are busy, so that
+    passing a file would cost more than writing it.
     """
 
     async def get(
         self, key: str, prototype: BufferPrototype | None = None, byte_range: ByteRequest | None = None
     ) -> Buffer | None:
-        """What a file holds, or None."""
+        """Return the content of a file, or None if it is missing."""
         return self.get_sync(key, prototype=prototype, byte_range=byte_range)
 
     async def set(self, key: str, value: Buffer) -> None:
-        """Write a file, under another name first."""
+        """Write a file under a temporary name, then rename it."""
         self.set_sync(key, value)
 
     async def list_dir(self, prefix: str) -> AsyncIterator[str]:
-        """Give the names of the groups and arrays in a folder. Zarr would warn of all that others keep there."""
+        """Yield the names of the groups and arrays in a folder; Zarr would warn of all other files."""
         folder = self.root / prefix
         async for name in super().list_dir(prefix):
             if (folder / name / ROOT).exists():
                 yield name
 
     def kept(self, key: str) -> bytes | None:
-        """The bytes of a file, or None."""
+        """Return the bytes of a file, or None if it is missing."""
         found = self.get_sync(key)
         return None if found is None else found.to_bytes()
 
     def keep(self, key: str, content: bytes) -> None:
-        """Write these bytes."""
+        """Write bytes to a file."""
         self.set_sync(key, default_buffer_prototype().buffer.from_bytes(content))
 
 
 def codecs(dtype: str) -> list[dict[str, Any]]:
-    """What `encoded` does, as Zarr's third format describes it."""
+    """Return the codecs of `encoded` in the Zarr format 3."""
     shrink = {
         "cname": SHRINK.cname,
         "clevel": SHRINK.clevel,
@@ -71,9 +71,9 @@ def codecs(dtype: str) -> list[dict[str, Any]]:
 
 
 def encoded(values: np.ndarray, chunk: tuple[int, ...], fill: float) -> bytes:
-    """A chunk with these values, or with these at its beginning if an axis ends within it.
+    """Return the bytes of a chunk that begins with the values; the rest, beyond the end of an axis, is `fill`.
 
-    Zarr's own writing of it has the same bytes, after two hand-overs between threads.
+    The bytes equal those that Zarr writes, without passing the chunk between threads.
     """
     whole = values
     if values.shape != chunk:

@@ -1,4 +1,4 @@
-"""A survey as an xarray dataset, which names its parameters, its flags, and the package and method that made it."""
+"""Survey as an xarray dataset with its parameters, flags, package version and method."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 def dataset(asked: SurveySpec, measure: Measurement, arrays: Arrays) -> xr.Dataset:
-    """The arrays, each over all axes, with their coordinates and attributes."""
+    """Return the dataset of arrays over all axes, with coordinates and attributes."""
     import xarray as xr
 
     names = tuple(asked.axes)
@@ -23,21 +23,21 @@ def dataset(asked: SurveySpec, measure: Measurement, arrays: Arrays) -> xr.Datas
 
 
 def coordinate(name: str) -> dict[str, str]:
-    """The attributes of a coordinate."""
+    """Return the attributes of a coordinate."""
     symbol, long_name = SYMBOLS[name]
     return {"long_name": long_name, "symbol": symbol, "units": "rad" if name == "phase" else "1"}
 
 
 def attributes(asked: SurveySpec, measure: Measurement) -> dict[str, Any]:
-    """What the survey is: every parameter that does not vary, the options, and who made it."""
+    """Return the attributes of a survey: the quantities that do not vary, the options and the package version."""
     return {
         "Conventions": "CF-1.11",
         "title": measure.title,
         "source": f"rocking {VERSION}",
         "method": measure.method,
         "comment": (
-            "Attributes and coordinates are normalised as in Yim and Lin (1991), eqs. 1-4; "
-            "the base's acceleration is amplitude cos(frequency time + phase)."
+            "Attributes and coordinates are normalised as in Yim & Lin (1991), Eqs. (1)-(4); "
+            "the base acceleration is amplitude cos(frequency time + phase)."
         ),
         **described(asked),
         **measure.options,

@@ -1,4 +1,4 @@
-"""What was found, taken out: counts, tables and netCDF, a part at a time, so that a survey of any size passes through."""
+"""Export of a survey of any size in parts: counts, tables and netCDF."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ if TYPE_CHECKING:
     import xarray as xr
 
 AT_ONCE = 1 << 20
-"""Points in memory at a time, about."""
+"""Approximate number of points in memory at a time."""
 
 
 def parts(found: xr.Dataset) -> Iterator[xr.Dataset]:
-    """The dataset in parts along its first axis, each in memory."""
+    """Yield the dataset in parts along its first axis, each in memory."""
     first = next(iter(found.data_vars.values())).dims[0]
     count = found.sizes[first]
     step = max(AT_ONCE * count // math.prod(found.sizes.values()), 1)
@@ -28,7 +28,7 @@ def parts(found: xr.Dataset) -> Iterator[xr.Dataset]:
 
 
 def counts(found: xr.Dataset, name: str) -> dict[str, int]:
-    """How many points have each of a variable's flags, by its meaning."""
+    """Return the number of points with each flag of a variable, by the meaning of the flag."""
     meanings = flags(found[name].attrs)
     total = np.zeros(256, np.int64)
     for part in parts(found[[name]]):
@@ -37,12 +37,12 @@ def counts(found: xr.Dataset, name: str) -> dict[str, int]:
 
 
 def flags(told: Mapping[str, Any]) -> dict[int, str]:
-    """What the values of a variable with these attributes mean."""
+    """Return the meanings of the values of a variable from its attributes."""
     return dict(zip(np.asarray(told["flag_values"]).tolist(), told["flag_meanings"].split(), strict=True))
 
 
 def tables(found: xr.Dataset) -> Iterator[dict[str, np.ndarray]]:
-    """Columns by name, of a part at a time: the axes, then all variables, flags as words."""
+    """Yield tables (columns by name) of the dataset in parts: the axes, then all variables, flags as words."""
     words = {
         name: np.array([flags(found[name].attrs).get(value, "") for value in range(256)])
         for name in map(str, found.data_vars)
@@ -59,7 +59,7 @@ def tables(found: xr.Dataset) -> Iterator[dict[str, np.ndarray]]:
 
 
 def to_netcdf(found: xr.Dataset, path: str | os.PathLike[str]) -> None:
-    """Write a dataset to a netCDF file, whole or not at all; it need not fit in memory."""
+    """Write a dataset of any size to a netCDF file, completely or not at all."""
     import h5netcdf
 
     target = check_writable("path", path, (".nc",))
@@ -88,7 +88,7 @@ def to_netcdf(found: xr.Dataset, path: str | os.PathLike[str]) -> None:
 
 
 def _plain(told: dict[Any, Any], dtype: Any = None) -> dict[str, Any]:
-    """Attributes as netCDF has them: flags are of the type of their variable."""
+    """Convert attributes for netCDF; flags get the type of their variable."""
     return {
         str(name): np.asarray(value, dtype) if isinstance(value, list | np.ndarray) else value
         for name, value in told.items()

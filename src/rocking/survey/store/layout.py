@@ -1,4 +1,4 @@
-"""What a store holds, and whether what is asked is the same, goes further, or lies closer."""
+"""Layout of a store, and its comparison with a survey that repeats, extends or refines it."""
 
 from __future__ import annotations
 
@@ -14,24 +14,24 @@ from rocking.survey.spec import SurveySpec, described
 from rocking.survey.tiling import Level, even_edges, levels, thinned, tile_edges
 
 SAME = 1e-9
-"""Axis values closer than this share of their distance from the next are the same: an axis made longer rounds otherwise."""
+"""Tolerance of equal axis values, relative to their spacing: extending an axis changes its rounding."""
 
 FORMAT = 2
-"""Of the files: raised when what is written is no longer what a store made before says of its arrays."""
+"""Version of the file format; increased when files no longer match the metadata of older stores."""
 DEFAULT_DIGITS, ALL_DIGITS = 6, 17
-"""Of numbers that differ as many are told as tell them apart."""
+"""Digits of differing numbers in messages: as many as show the difference."""
 
 
 @frozen(eq=False)
 class Layout:
-    """The grids of a store: the finest one's axes, along which axes each but the first halves the one before, their tiles."""
+    """Layout of a store: axes of the finest level, axes halved from level to level, and tiles of each level."""
 
     axes: dict[str, np.ndarray]
     halved: list[tuple[bool, ...]]
     tiles: list[tuple[int, ...]]
 
     def levels(self) -> list[Level]:
-        """Its grids, the coarsest first."""
+        """Return the levels, the coarsest first."""
         grids = [self.axes]
         for halved in reversed(self.halved):
             grids.insert(0, thinned(grids[0], halved))
@@ -40,17 +40,17 @@ class Layout:
 
 
 def new_layout(asked: SurveySpec) -> Layout:
-    """The layout of a store that begins."""
+    """Return the layout of a new store."""
     grids = levels(asked)
     halved = [each.halved for each in grids if each.halved is not None]
     return Layout(asked.axes, halved, [each.tile for each in grids])
 
 
 def read_layout(stored: Mapping[str, Any]) -> Layout:
-    """A layout as a store describes it; ValueError or TypeError where no `described_layout` says that."""
+    """Return the layout from the metadata of a store; ValueError or TypeError if the metadata are invalid."""
     missing = [name for name in ("axes", "halved", "tiles") if name not in stored]
     if missing:
-        raise ValueError(f"it does not say {missing[0]}")
+        raise ValueError(f"{missing[0]} is missing")
     axes = {name: np.array(values, float) for name, values in dict(stored["axes"]).items()}
     halved = [tuple(each) for each in stored["halved"]]
     tiles = [tuple(each) for each in stored["tiles"]]
@@ -61,22 +61,22 @@ def read_layout(stored: Mapping[str, Any]) -> Layout:
             or not np.isfinite(values).all()
             or (np.diff(values) <= 0).any()
         ):
-            raise ValueError(f"{name} is no axis")
+            raise ValueError(f"{name} is not an axis")
     if (
         list(axes) != stored["over"]
         or len(tiles) != len(halved) + 1
         or any(len(each) != len(axes) for each in (*halved, *tiles))
     ):
-        raise ValueError("its levels, axes and tiles do not go together")
+        raise ValueError("levels, axes and tiles do not match")
     if not all(type(flag) is bool for each in halved for flag in each):
-        raise ValueError("what is halved must be true or false")
+        raise ValueError("halved must be true or false")
     if not all(type(edge) is int and edge > 0 for each in tiles for edge in each):
-        raise ValueError("tiles must have whole numbers of points")
+        raise ValueError("tiles must have positive whole numbers of points")
     return Layout(axes, halved, tiles)
 
 
 def described_layout(layout: Layout) -> dict[str, Any]:
-    """A layout as JSON has it."""
+    """Return a layout as a JSON object."""
     return {
         "axes": {name: values.tolist() for name, values in layout.axes.items()},
         "halved": [list(each) for each in layout.halved],
@@ -85,7 +85,7 @@ def described_layout(layout: Layout) -> dict[str, Any]:
 
 
 def fingerprint(asked: SurveySpec, measure: Measurement) -> dict[str, Any]:
-    """What must be the same for a store to be gone on with, and who made it."""
+    """Return the properties that must agree to resume a store, and the version and processor that made it."""
     import llvmlite.binding as llvm
 
     return {
@@ -101,17 +101,17 @@ def fingerprint(asked: SurveySpec, measure: Measurement) -> dict[str, Any]:
 
 
 def check_described(stored: Any) -> None:
-    """Refuse what `fingerprint` never says, whatever the survey; TypeError."""
+    """Raise TypeError for metadata that `fingerprint` never returns."""
     kinds = {"fixed": dict, "options": dict, "over": list, "variables": list}
     if not isinstance(stored, dict):
-        raise TypeError(f"it says {shown(stored)}")
+        raise TypeError(f"the metadata are {shown(stored)}")
     for name, kind in kinds.items():
         if not isinstance(stored.get(name, kind()), kind):
-            raise TypeError(f"it says {name} = {shown(stored[name])}")
+            raise TypeError(f"the metadata have {name} = {shown(stored[name])}")
 
 
 def check_same(path: str, stored: Mapping[str, Any], mine: Mapping[str, Any]) -> None:
-    """Refuse a store that was made otherwise; ValueError that says what differs."""
+    """Raise ValueError for a store of a different survey; the message lists the differences."""
     ours, theirs = _flat(mine), _flat(stored)
     differences = [
         _difference(name, theirs.get(name), ours.get(name))
@@ -120,14 +120,14 @@ def check_same(path: str, stored: Mapping[str, Any], mine: Mapping[str, Any]) ->
     ]
     if differences:
         raise ValueError(
-            f"store {path!r} holds another survey: {'; '.join(differences)} (give another folder, or ask for the same)"
+            f"store {path!r} holds a different survey: {'; '.join(differences)} (give another folder, or the same values)"
         )
 
 
 def joined(path: str, stored: Layout, asked: SurveySpec) -> Layout:
-    """What a store holds together with what is asked: the same axes, longer ones, or ones of half the spacing (or a quarter, …).
+    """Return the layout of a store together with a survey whose axes are equal, longer or finer (by powers of two).
 
-    Raises ValueError for axes that leave out or move what is there.
+    Raises ValueError for axes that omit or move values of the store.
     """
     pairs = [_join(path, name, values, asked.axes[name]) for name, values in stored.axes.items()]
     axes = {name: values for name, (values, _) in zip(stored.axes, pairs, strict=True)}
@@ -141,7 +141,7 @@ def joined(path: str, stored: Layout, asked: SurveySpec) -> Layout:
 
 
 def _join(path: str, name: str, there: np.ndarray, here: np.ndarray) -> tuple[np.ndarray, int]:
-    """The values asked for, exactly as stored where they are the same; how often the spacing is halved."""
+    """Return the requested axis values, with equal values exactly as stored, and the number of halvings."""
     for times in range(32):
         step = 2**times
         reach = step * (there.size - 1) + 1
@@ -153,22 +153,22 @@ def _join(path: str, name: str, there: np.ndarray, here: np.ndarray) -> tuple[np
             exact[:reach:step] = there
             return exact, times
     raise ValueError(
-        f"store {path!r} holds {there.size} values of {name} from {there[0]:.6g} to {there[-1]:.6g}, and {here.size} from "
-        f"{here[0]:.6g} to {here[-1]:.6g} leave some of them out: ask for these, for more beyond the last, or for half the "
-        "spacing, these among them"
+        f"store {path!r} holds {there.size} values of {name} from {there[0]:.6g} to {there[-1]:.6g}; the requested {here.size} "
+        f"from {here[0]:.6g} to {here[-1]:.6g} omit some of them (give these values; more values beyond "
+        "the last or at half the spacing are possible)"
     )
 
 
 def _flat(told: Mapping[str, Any]) -> dict[str, Any]:
-    """What is compared, by the name that it is told by."""
+    """Return the compared properties by their names in messages."""
     alone = {name: told.get(name) for name in ("survey", "over", "variables", "method", "format")}
     return alone | dict(told.get("fixed", {})) | dict(told.get("options", {}))
 
 
 def _difference(name: str, there: Any, here: Any) -> str:
     if name == "over":
-        return f"it varies {' and '.join(map(str, there or ()))} there, {' and '.join(here)} here"
-    if isinstance(there, list) and isinstance(here, list):  # what only one of them has
+        return f"the axes are {' and '.join(map(str, there or ()))} there and {' and '.join(here)} here"
+    if isinstance(there, list) and isinstance(here, list):  # entries of only one of the lists
         there, here = (
             [each for each in there if each not in here],
             [each for each in here if each not in there],

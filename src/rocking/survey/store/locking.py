@@ -1,4 +1,4 @@
-"""What keeps a store whole: one run at a time, errors that say how to go on, nothing left of a killed one."""
+"""Integrity of a store: exclusive access, error messages with a remedy, removal of unfinished files."""
 
 from __future__ import annotations
 
@@ -14,40 +14,40 @@ from rocking.model import check_folder, refusal, resolve_path
 
 ROOT = "zarr.json"
 UNFINISHED = re.compile(r"(zarr|\d+)\.[0-9a-f]{32}\.partial")
-"""The name of a description or of a chunk while Zarr writes it."""
+"""File name of metadata or of a chunk while Zarr writes it."""
 
 
 class StoreError(OSError):
-    """A store that cannot be written, that another run writes, or that is damaged; the message says what to do."""
+    """Store that cannot be written, is in use by another run or is damaged; the message states the remedy."""
 
 
 def check_store(path: str | os.PathLike[str]) -> Path:
-    """Refuse what is neither a survey's store nor a folder that may become one."""
+    """Return the path of a store; StoreError if it is neither a store of a survey nor a new or empty folder."""
     if not isinstance(path, str | os.PathLike) or not os.fspath(path):
         raise TypeError(refusal("store", "be the path of a folder", path))
     folder = Path(path)
     place = resolve_path("store", folder)
     if place.exists() and not place.is_dir():
-        raise StoreError(f"store must be a folder's name; got {str(path)!r}, which is a file")
+        raise StoreError(f"store must be the path of a folder; got {str(path)!r}, which is a file")
     check_folder("store", folder)
     names = {each.name for each in place.iterdir()} if place.exists() else set()
     held = {name for name in names if not UNFINISHED.fullmatch(name)}
     if held and ROOT not in held:
-        raise StoreError(something_else(folder, f"a folder with {min(held)!r} in it"))
+        raise StoreError(something_else(folder, f"a folder that contains {min(held)!r}"))
     return folder
 
 
 def something_else(folder: Path, what: str) -> str:
-    """How a folder that is no survey's store is refused."""
-    return f"store must be a new folder, or one of a survey; got {str(folder)!r}, which is {what}"
+    """Return the message for a folder that is not a store of a survey."""
+    return f"store must be a new folder, or the folder of an earlier survey; got {str(folder)!r}, which is {what}"
 
 
 @contextmanager
 def exclusive_lock(folder: Path) -> Iterator[None]:
-    """Refuse a second run on one store. The system ends the lock with the process, however that ends."""
+    """Lock a store; StoreError if another run uses it. The system releases the lock when the process ends."""
     try:
         import fcntl
-    except ImportError:  # elsewhere than on Unix nothing keeps a second run away
+    except ImportError:  # only Unix has this lock
         yield
         return
     handle = os.open(folder, os.O_RDONLY)
@@ -56,7 +56,7 @@ def exclusive_lock(folder: Path) -> Iterator[None]:
             fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError:
             raise StoreError(
-                f"store {str(folder)!r} is being written by another run; wait for its end, or stop it"
+                f"store {str(folder)!r} is in use by another run; wait until that run ends, or stop it"
             ) from None
         yield
     finally:
@@ -65,8 +65,8 @@ def exclusive_lock(folder: Path) -> Iterator[None]:
 
 @contextmanager
 def defer_interrupt() -> Iterator[None]:
-    """Ctrl-C waits for the end of what is done with a store: in the midst of it zarr would leave a warning behind."""
-    # Ctrl-C is the main thread's; None: its handler is not Python's
+    """Defer SIGINT until the store operation has finished; an interrupted one makes Zarr print a warning."""
+    # only the main thread handles SIGINT; None: the handler was not installed from Python
     if current_thread() is not main_thread() or signal.getsignal(signal.SIGINT) is None:
         yield
         return
@@ -82,7 +82,7 @@ def defer_interrupt() -> Iterator[None]:
 
 @contextmanager
 def wrap_write_errors(folder: Path) -> Iterator[None]:
-    """Say of a write that failed which store it was, and how to go on."""
+    """Convert a failed write to a StoreError that names the store and the remedy."""
     try:
         yield
     except StoreError:
@@ -90,26 +90,26 @@ def wrap_write_errors(folder: Path) -> Iterator[None]:
     except OSError as error:
         why = error.strerror or str(error)
         raise StoreError(
-            f"store {str(folder)!r} cannot be written: {why}; what is there stays good: make room, then ask the same again"
+            f"store {str(folder)!r} cannot be written: {why}; the existing data are intact: free some space and run again"
         ) from error
 
 
 @contextmanager
 def reading(folder: Path) -> Iterator[None]:
-    """Say of descriptions that cannot be read which store they are of."""
+    """Convert unreadable metadata to a StoreError that names the store and the remedy."""
     try:
         yield
     except Exception as error:
         raise StoreError(
             f"store {str(folder)!r} is damaged: one of its files {ROOT} cannot be read ({error}); "
-            "put it back from a copy, or give another folder"
+            "restore it from a backup, or give another folder"
         ) from error
 
 
 def remove_unfinished(folder: Path, arrays: Iterable[str]) -> None:
-    """Remove what a killed run left in a survey's store: unfinished files, and folders of its `arrays` that hold nothing.
+    """Remove unfinished files and empty folders of `arrays` that a killed run left in a store.
 
-    All other names in the store are left alone.
+    All other files and folders in the store remain.
     """
     own = re.compile(rf"\.|level-\d+(/({'|'.join(map(re.escape, arrays))})(/c(/\d+)*)?)?")
     for place, _, files in os.walk(folder, topdown=False):
@@ -119,5 +119,5 @@ def remove_unfinished(folder: Path, arrays: Iterable[str]) -> None:
         for name in filter(UNFINISHED.fullmatch, files):
             Path(place, name).unlink(missing_ok=True)
         if below != ".":
-            with suppress(OSError):  # it holds something
+            with suppress(OSError):  # the folder is not empty
                 Path(place).rmdir()

@@ -1,4 +1,4 @@
-"""Results of a survey that are kept in memory."""
+"""Results of a survey in memory."""
 
 from __future__ import annotations
 
@@ -18,11 +18,11 @@ if TYPE_CHECKING:
 
 
 SHARE = 0.5
-"""Of a machine's memory, that a survey may take."""
+"""Largest fraction of the memory that a survey may take."""
 
 
 class Memory:
-    """Arrays of the whole survey; only its finest grid, since nobody sees it before it is done."""
+    """Arrays of the complete survey; a single level, because partial results are not accessible."""
 
     def __init__(self, asked: SurveySpec, measure: Measurement) -> None:
         self.asked, self.measure = asked, measure
@@ -31,39 +31,39 @@ class Memory:
         self.arrays = measure.blank(asked.shape)
 
     def known(self, tile: Tile) -> np.ndarray:
-        """Which points of a tile are there."""
+        """Return the mask of the computed points of a tile."""
         return self.arrays[self.measure.marker.name][tile.region] != self.measure.marker.fill
 
     def read(self, tile: Tile, names: tuple[str, ...] = ()) -> Arrays:
-        """What is there of a tile, of all variables unless some are named."""
+        """Return the results of a tile for the named variables. Default: all variables."""
         return {name: self.arrays[name][tile.region].copy() for name in names or self.arrays}
 
     def coarser(self, tile: Tile) -> Arrays:
-        """Of the level before, the points that a tile shares: there is none."""
+        """Raise LookupError, because there is no previous level."""
         raise LookupError(f"a survey in memory has one level, not {tile.level.number + 1}")
 
     def write(self, tile: Tile, answers: Arrays) -> None:
-        """Keep a tile."""
+        """Keep the results of a tile."""
         for name, values in answers.items():
             self.arrays[name][tile.region] = values
 
     def dataset(self) -> xr.Dataset:
-        """All of it."""
+        """Return the dataset of the survey."""
         return dataset(self.asked, self.measure, self.arrays)
 
 
 def check_fits(asked: SurveySpec, measure: Measurement) -> None:
-    """Refuse a survey that memory does not hold; ValueError with the way out."""
+    """Raise ValueError for a survey that exceeds the memory."""
     needed = asked.points * sum(np.dtype(each.dtype).itemsize for each in measure.variables)
     if needed > SHARE * memory_size():
         raise ValueError(
-            f"{asked.points:,} points take {needed / 1e9:.3g} GB, too much for this machine's memory of "
-            f"{memory_size() / 1e9:.3g} GB (give store, a folder that they are written to)"
+            f"{asked.points:,} points take {needed / 1e9:.3g} GB, too much for the memory of this machine, "
+            f"{memory_size() / 1e9:.3g} GB (give store, a folder for the results)"
         )
 
 
 def memory_size() -> float:
-    """Bytes of this machine's memory; infinite where the system does not tell."""
+    """Return the memory of this machine in bytes; infinite if unknown."""
     try:
         return os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
     except (AttributeError, ValueError, OSError):

@@ -1,4 +1,4 @@
-"""Results of a survey in a folder, in Zarr's third format: written while it runs, gone on with after any interruption."""
+"""Results of a survey in a Zarr store (format 3): written during the run, resumable after any interruption."""
 
 from __future__ import annotations
 
@@ -42,17 +42,17 @@ if TYPE_CHECKING:
     import zarr
 
 NAME = "rocking_survey"
-"""The attribute of the root group that tells a survey's store from other folders."""
+"""Attribute of the root group that identifies the store of a survey."""
 MAX_NAMED = 5
 MAX_HELD = 1 << 20
-"""Points of a level, some 50 MB, that is held in memory for the next one's sake; all of them together are less than twice that."""
+"""Largest level, in points, held in memory for the next one: about 50 MB, with all others less than twice that."""
 
 
 class Store:
-    """A store that is open for this run alone; made by `opened`.
+    """Store opened exclusively for this run by `opened`.
 
-    Only the last step of a tile marks it done: its chunk of the last variable. So whatever is marked is whole, and
-    whatever is not is computed again. Every file is written under another name and renamed.
+    The chunk of the last variable is written last and marks a tile as complete. Tiles without this mark are recomputed.
+    Every file is written under a temporary name and renamed.
     """
 
     def __init__(self, path: Path, asked: SurveySpec, measure: Measurement, *, repair: bool) -> None:
@@ -67,24 +67,24 @@ class Store:
             remove_unfinished(path, [*self.layout.axes, *(each.name for each in measure.variables)])
             self.arrays = self._arranged()
         self.done = 0
-        self.begun: set[tuple[int, tuple[int, ...]]] = set()  # tiles of which something sound is there
-        self.held: dict[int, Arrays] = {}  # small levels that others follow, by their number
+        self.begun: set[tuple[int, tuple[int, ...]]] = set()  # tiles with valid data
+        self.held: dict[int, Arrays] = {}  # small levels other than the finest, by number
         self.check(repair=repair)
 
     def known(self, tile: Tile) -> np.ndarray:
-        """Which points of a tile are there."""
+        """Return the mask of the computed points of a tile."""
         if (tile.level.number, tile.index) not in self.begun:
             return np.zeros(tile.shape, bool)
         marker = self.measure.marker
         return self._read(tile.level, marker.name, tile.region) != marker.fill
 
     def read(self, tile: Tile, names: tuple[str, ...] = ()) -> Arrays:
-        """What is there of a tile, of all variables unless some are named."""
+        """Return the results of a tile for the named variables. Default: all variables."""
         wanted = names or tuple(self.arrays[tile.level.number])
         return {name: self._read(tile.level, name, tile.region) for name in wanted}
 
     def coarser(self, tile: Tile) -> Arrays:
-        """Of the level before, the points that a tile shares."""
+        """Return the results that a tile shares with the previous level."""
         level, shared = self.levels[tile.level.number - 1], tile.shared()
         assert shared is not None
         held = self._held(level)
@@ -93,7 +93,7 @@ class Store:
         return {name: values[shared[1]] for name, values in held.items()}
 
     def write(self, tile: Tile, answers: Arrays) -> None:
-        """Keep a tile; its last variable, which marks it done, last."""
+        """Write the results of a tile; the last variable, which marks the tile as complete, is written last."""
         from rocking.survey.store.chunk_files import encoded
 
         held = self._held(tile.level)
@@ -106,7 +106,7 @@ class Store:
                 held[name][tile.region] = values
 
     def _held(self, level: Level) -> Arrays | None:
-        """What is there of a small level that another one follows; None of others."""
+        """Return the results of a small level other than the finest; None for other levels."""
         if level is self.levels[-1] or math.prod(level.shape) > MAX_HELD:
             return None
         if level.number not in self.held:
@@ -117,11 +117,11 @@ class Store:
         return self.held[level.number]
 
     def dataset(self) -> xr.Dataset:
-        """The finest level, read when it is used."""
+        """Return the finest level, which is read on access."""
         return open_level(self.path, self.levels[-1].number)[[each.name for each in self.measure.variables]]
 
     def check(self, *, repair: bool) -> None:
-        """Read all that is marked done: damage is refused by name, or with `repair` computed again."""
+        """Read all complete tiles; damage raises StoreError or, with `repair`, the tiles are recomputed."""
         found: list[str] = []
         for tile in (tile for level in self.levels for tile in self._marked(level)):
             known, damaged = self._inspected(tile)
@@ -132,23 +132,29 @@ class Store:
         if found and not repair:
             more = f" and {len(found) - MAX_NAMED} more" if len(found) > MAX_NAMED else ""
             raise StoreError(
-                f"store {str(self.path)!r} is damaged at {', '.join(found[:MAX_NAMED])}{more}; with repair these tiles are computed again"
+                f"store {str(self.path)!r} is damaged at {', '.join(found[:MAX_NAMED])}{more} (recompute these tiles with repair)"
             )
 
     def _marked(self, level: Level) -> list[Tile]:
-        """The tiles of a level whose marker is there: of many that are not, nobody asks one by one."""
+        """Return the tiles of a level whose marker exists, from a list of the folder instead of a test of each tile."""
         folder = self.path / self._chunks(level, self.measure.marker.name)
         found = (path.relative_to(folder).parts for path in folder.glob("/".join("*" * len(level.shape))))
         numbered = (tuple(map(int, parts)) for parts in found if all(map(str.isdecimal, parts)))
         return [level.at(index) for index in sorted(numbered)]
 
     def _inspected(self, tile: Tile) -> tuple[np.ndarray, list[str]]:
-        """Which points of a tile are there; the variables that cannot be read, or miss what the marker says is there."""
+        """Inspect the chunks of a tile.
+
+        Returns
+        -------
+        tuple of (array of bool, list of str)
+            Mask of the computed points, and the variables that are unreadable or incomplete.
+        """
         marker, known, damaged = self.measure.marker, np.zeros(tile.shape, bool), []
         for variable in reversed(self.measure.variables):
             try:
                 there = self._read(tile.level, variable.name, tile.region) != variable.fill
-            except Exception:  # noqa: BLE001 (a broken chunk is met in many ways)
+            except Exception:  # noqa: BLE001 (a damaged chunk raises many types of error)
                 damaged.append(variable.name)
                 continue
             if variable is marker:
@@ -160,18 +166,18 @@ class Store:
         return known, damaged
 
     def _chunk(self, tile: Tile, name: str) -> str:
-        """The file of a tile's variable, below the store's folder."""
+        """Return the path of the chunk of a tile, relative to the store."""
         return "/".join((self._chunks(tile.level, name), *map(str, tile.index)))
 
     def _chunks(self, level: Level, name: str) -> str:
-        """The folder of a variable's files, below the store's."""
+        """Return the path of the chunks of a variable, relative to the store."""
         return f"{level.name}/{name}/c"
 
     def _read(self, level: Level, name: str, region: Slices) -> np.ndarray:
         return np.asarray(self.arrays[level.number][name].get_basic_selection(region))
 
     def _agreed(self, asked: SurveySpec) -> tuple[Layout, zarr.Group]:
-        """What the store holds together with what is asked, as its root says; refused if they do not go together."""
+        """Return the layout of the store and the survey, and the root group; an error if they do not match."""
         import zarr
 
         mine = fingerprint(asked, self.measure)
@@ -183,7 +189,7 @@ class Store:
             root = zarr.open_group(self.files, mode="r+", zarr_format=3, use_consolidated=False)
         stored: Any = root.attrs.get(NAME)
         if stored is None:
-            raise StoreError(something_else(self.path, "a Zarr store of something else"))
+            raise StoreError(something_else(self.path, "a Zarr store of other data"))
         with reading(self.path):
             check_described(stored)
         check_same(str(self.path), stored, mine)
@@ -195,7 +201,7 @@ class Store:
         return layout, root
 
     def _arranged(self) -> list[dict[str, zarr.Array]]:
-        """The arrays of each level, made or made larger where need be."""
+        """Return the arrays of each level, created or enlarged as needed."""
         with reading(self.path):
             known = {level.name: self.root.get(level.name) for level in self.levels}
         groups = zarr_metadata.make_groups(self.files, self.asked, self.measure, self.levels, known)
@@ -208,14 +214,14 @@ class Store:
 def opened(
     path: str | os.PathLike[str], asked: SurveySpec, measure: Measurement, *, repair: bool
 ) -> Iterator[Store]:
-    """A store for this run alone, made if it is not there.
+    """Open a store exclusively for this run; create it if it does not exist.
 
     Raises
     ------
     ValueError
-        It holds another survey; the message says what differs.
+        If the store holds a different survey; the message lists the differences.
     OSError
-        It is no folder, holds something else, is written by another run, cannot be written, or is damaged.
+        If the path is not a folder, or the store holds other data, is in use, cannot be written or is damaged.
     """
     folder = check_store(path)
     with wrap_write_errors(folder):
@@ -225,7 +231,7 @@ def opened(
 
 
 def open_level(path: Path, number: int) -> xr.Dataset:
-    """A level of a store, read when it is used."""
+    """Return a level of a store, which is read on access."""
     import xarray as xr
 
     from rocking.survey.store.chunk_files import Files

@@ -1,4 +1,4 @@
-"""The groups and arrays of a store, as Zarr's third format describes them."""
+"""Groups and arrays of a store in the Zarr format 3."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 def make_groups(
     files: Files, asked: SurveySpec, measure: Measurement, levels: list[Level], there: dict[str, Any]
 ) -> list[zarr.Group]:
-    """A group a level, each of which says what the survey is; made where it is not ``there``."""
+    """Return one group for each level, with the attributes of the survey; groups that are not ``there`` are created."""
     from zarr.core.group import GroupMetadata
 
     told = _plain(attributes(asked, measure))
@@ -36,9 +36,9 @@ def make_groups(
 def make_arrays(
     files: Files, measure: Measurement, levels: list[Level], there: list[dict[str, Any]]
 ) -> list[dict[str, zarr.Array]]:
-    """The variables of each level by name, beside its coordinates: made, or made larger, where need be.
+    """Return the variables of each level by name; variables and coordinates are created or enlarged as needed.
 
-    ``there`` are the arrays that each level has already.
+    ``there`` holds the existing arrays of each level.
     """
     wanted = {
         f"{level.name}/{name}": description
@@ -55,7 +55,7 @@ def make_arrays(
         for name, values in level.axes.items():
             array = _sized(found[f"{level.name}/{name}"], values.shape)
             for key, content in _chunks(array, values):
-                if files.kept(key) != content:  # not there, or damaged: what it must hold is known
+                if files.kept(key) != content:  # missing or damaged: the content is known
                     files.keep(key, content)
     return [
         {each.name: _sized(found[f"{level.name}/{each.name}"], level.shape) for each in measure.variables}
@@ -64,9 +64,9 @@ def make_arrays(
 
 
 def _made(files: Files, wanted: Mapping[str, Any], there: Mapping[str, Any]) -> dict[str, Any]:
-    """What is wanted, by its path: as it is there, else made as described.
+    """Return the wanted groups or arrays by path; missing ones are created from their metadata.
 
-    One at a time: of several that fail together, Zarr would report all but the first to stderr.
+    They are created one at a time, because Zarr prints all but the first of several simultaneous errors on stderr.
     """
     from zarr import create_hierarchy
 
@@ -77,7 +77,7 @@ def _made(files: Files, wanted: Mapping[str, Any], there: Mapping[str, Any]) -> 
 
 
 def _descriptions(level: Level, measure: Measurement) -> dict[str, Any]:
-    """The coordinates and variables of a level: a coordinate in one chunk, a variable in one a tile."""
+    """Return the metadata of a level: coordinates have a single chunk, variables one chunk per tile."""
     names = list(level.axes)
     along = {
         name: _array(values.shape, values.shape, "float64", math.nan, [name], coordinate(name))
@@ -118,14 +118,14 @@ def _array(
 
 
 def _sized(array: zarr.Array, shape: tuple[int, ...]) -> zarr.Array:
-    """The same array, made larger where need be."""
+    """Return an array, enlarged to a shape as needed."""
     if array.shape != shape:
         array.resize(shape)
     return array
 
 
 def _chunks(array: zarr.Array, values: np.ndarray) -> Iterator[tuple[str, bytes]]:
-    """The files of a coordinate, which an axis made longer has several of: (key, what it holds)."""
+    """Yield the key and the content of each file of a coordinate; an extended axis has several files."""
     from rocking.survey.store.chunk_files import encoded
 
     (edge,) = array.chunks
@@ -134,5 +134,5 @@ def _chunks(array: zarr.Array, values: np.ndarray) -> Iterator[tuple[str, bytes]
 
 
 def _plain(told: dict[str, Any]) -> dict[str, Any]:
-    """The same with lists for arrays, as JSON has them."""
+    """Return attributes with lists instead of arrays, for JSON."""
     return {name: value.tolist() if isinstance(value, np.ndarray) else value for name, value in told.items()}
