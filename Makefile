@@ -1,4 +1,4 @@
-# `make` alone lists the targets. Each sets up .venv first; PYTHON=python3.12 chooses the interpreter.
+# `make` alone lists the targets. Each target sets up .venv first; PYTHON=python3.12 selects the interpreter.
 SHELL := bash
 .SHELLFLAGS := -euo pipefail -c
 .DEFAULT_GOAL := help
@@ -6,53 +6,56 @@ export PYTHON
 
 bin := .venv/bin
 workers ?= 2
-# Compiled once here, before the workers would each compile the same kernels.
+# The kernels are compiled once here, so that the workers do not each compile them.
 case = --amplitude 2 --period 1 --restitution 0.925
 compile = $(bin)/rocking simulate $(case) --cycles 1 >/dev/null; \
 	$(bin)/rocking classify $(case) >/dev/null & \
 	$(bin)/rocking map --amplitude 1:2:2 --period 1:2:2 --restitution 1 --max-cycles 1 >/dev/null 2>&1; wait
-# What the page is looked at with; its tests are left out where there is none and none can be installed.
-chromium = [ -x /usr/bin/chromium ] || scripts/debian.sh chromium || echo 'without it the tests of the page are left out'
+# Chromium for the tests of the page, which are skipped if it cannot be installed.
+chromium = [ -x /usr/bin/chromium ] || scripts/debian.sh chromium || echo 'without it the tests of the page are skipped'
 
-# What the PDF twin of the report is made with; without it there is the page alone.
+# Libraries for the PDF version of the report; without them only the HTML page is written.
 print = scripts/debian.sh libpango-1.0-0 libpangoft2-1.0-0 libharfbuzz-subset0 || true
 
-.PHONY: help setup reproduce explore test test-long test-exhaustive bench bench-against lint format docs site constraints
+.PHONY: help setup reproduce explore test test-long test-exhaustive mutations bench bench-against lint format docs site constraints
 
 help:
 	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' Makefile | while IFS=$$'\t' read -r name what; do printf 'make %-15s %s\n' "$$name" "$$what"; done
 
-setup: ## make .venv with pinned versions, or bring it up to date
+setup: ## make .venv with the pinned versions, or bring it up to date
 	@scripts/setup.sh
 
-reproduce: setup ## the whole of Yim & Lin (1991), judged on one page: results/yim-lin-1991/index.html
+reproduce: setup ## report on Yim & Lin (1991), all figures and claims: results/yim-lin-1991/index.html
 	@$(print)
 	@$(bin)/rocking paper
 
-explore: setup ## a page that shows a system from all sides; port=N chooses where
+explore: setup ## interactive explorer in the browser; port=N selects the port
 	@$(bin)/rocking explore $(if $(port),--port $(port))
 
-test: lint ## lint, then the tests, the examples in docstrings and the README
+test: lint ## lint, then the fast tests, the examples in docstrings and the pages
 	@$(print)
 	@$(compile)
 	@$(chromium)
 	@$(bin)/python -m pytest -q -n $(workers)
 
-test-long: setup ## the tests that take minutes: millions of crossings, systems and cycles, the report
+test-long: setup ## tests that take minutes: millions of crossings, systems and cycles, the report
 	@$(compile)
 	@$(chromium)
 	@$(bin)/python -m pytest -q -n $(workers) -m long --timeout 3600
 
-test-exhaustive: setup ## the tests that look at a part of something, such as 300 points of a map, at the whole: hours
+test-exhaustive: setup ## tests of a sample, such as 300 points of a map, on all points: hours
 	@$(print)
 	@$(compile)
 	@$(bin)/python -m pytest -q -n $(workers) -m 'long or not long' --exhaustive --timeout 0 -rP tests
 
-bench: setup ## what it costs, as ratios against peers measured in the same run
+mutations: setup ## break the code on purpose and expect tests to fail; files="plot/ melnikov" selects, workers=N at a time
+	@$(bin)/python tests/mutations.py --workers $(workers) $(options) $(files)
+
+bench: setup ## benchmarks, as ratios to peers measured in the same run
 	@$(chromium)
 	@$(bin)/python -m benchmarks
 
-bench-against: setup ## its speed against that at a commit, such as REF=main, in some ten minutes; seed=N repeats an order of runs
+bench-against: setup ## compare the speed with a commit, such as REF=main: ten minutes; seed=N repeats an order of runs
 	@$(bin)/python -m benchmarks.against "$(REF)" $(if $(seed),--seed $(seed))
 
 lint: setup ## ruff, mypy, import-linter
@@ -61,11 +64,11 @@ lint: setup ## ruff, mypy, import-linter
 	@$(bin)/mypy --no-error-summary
 	@$(bin)/lint-imports --no-logo
 
-format: setup ## rewrite the sources in the one style
+format: setup ## format the sources
 	@$(bin)/ruff check --quiet --fix-only
 	@$(bin)/ruff format
 
-docs: ## the pages, every block of them run: build/docs/index.html
+docs: ## the pages, with all code blocks executed: build/docs/index.html
 	@scripts/setup.sh docs
 	@$(chromium)
 	@$(compile)
@@ -74,5 +77,5 @@ docs: ## the pages, every block of them run: build/docs/index.html
 
 site: reproduce docs ## the report of Yim & Lin (1991), then the pages with it: minutes longer than docs
 
-constraints: ## pin the newest versions anew; PYTHONS names an interpreter of each minor version
+constraints: ## pin the newest versions again; PYTHONS names an interpreter of each minor version
 	@scripts/constraints.sh $(or $(PYTHONS),python3.11 python3.12 python3.13)

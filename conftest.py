@@ -1,4 +1,4 @@
-"""What every test has: pictures without a screen; and the code of the README and of the pages, run as it stands."""
+"""Common to all tests: figures without a screen, and the code blocks of the README and of the pages as tests."""
 
 import os
 import shlex
@@ -13,10 +13,10 @@ from sybil.parsers.myst import CodeBlockParser, PythonCodeBlockParser
 
 os.environ["MPLBACKEND"] = "Agg"
 
-# Whoever starts the tests in the background has them ignore Ctrl-C, and what they start would too.
+# A process in the background ignores Ctrl-C, and so do the processes that it starts.
 signal.signal(signal.SIGINT, signal.default_int_handler)
 
-# What makes the pages needs the parts that only `make docs` installs, and is tried by making them.
+# The extensions of the pages need packages that only `make docs` installs. `make docs` tests them.
 collect_ignore = ["docs/extensions"]
 
 
@@ -25,14 +25,14 @@ FOLDERS = {}
 
 @pytest.fixture
 def readers_folder(request, tmp_path_factory, monkeypatch):
-    """The reader's own folder, one a page: what an example writes goes there, where the next one finds it."""
+    """Folder of a reader, one per page: a block finds the files that earlier blocks of the page wrote."""
     if request.path not in FOLDERS:
         FOLDERS[request.path] = tmp_path_factory.mktemp(request.path.stem)
     monkeypatch.chdir(FOLDERS[request.path])
 
 
 def run_commands(example):
-    """The commands of an `sh` block, each of which must succeed."""
+    """Run the commands of an `sh` block, each of which must succeed."""
     scripts = Path(sysconfig.get_path("scripts"))
     for line in example.parsed.replace("\\\n", " ").splitlines():
         name, *options = shlex.split(line)
@@ -40,13 +40,13 @@ def run_commands(example):
 
 
 def keep_study(example):
-    """A `toml` block: the study file of the commands after it."""
+    """Write a `toml` block as the study file of the commands after it."""
     Path("study.toml").write_text(example.parsed, encoding="utf-8")
 
 
-@pytest.hookimpl(tryfirst=True)  # before the workers' items are grouped by their marks
+@pytest.hookimpl(tryfirst=True)  # before the items are grouped by their marks for the workers
 def pytest_collection_modifyitems(items):
-    """The blocks of one page build on each other: one worker runs them all."""
+    """Let one worker run all blocks of a page, because they depend on each other."""
     for item in items:
         if item.path.suffix == ".md":
             item.add_marker(pytest.mark.xdist_group(item.path.name))

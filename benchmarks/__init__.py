@@ -1,1 +1,1 @@
-"""What the engine costs, beside peers measured in the same run: `python -m benchmarks`."""
+"""Benchmarks: cost of the engine, next to peers measured in the same run (`python -m benchmarks`)."""

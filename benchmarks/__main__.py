@@ -6,20 +6,20 @@ from benchmarks.table import Report
 
 def main():
     report = Report()
-    report.section("One block: time per impact, and how many times longer the peers take", one_block.speed())
+    report.section("One block: time per impact, and ratio of the peers' time to it", one_block.speed())
     report.section("Error after 20 cycles against 40 digits", one_block.accuracy())
     report.section("Two threads against one", one_block.threads())
     report.section("Compiling the march", processes.compiling())
     report.section("Whole processes", processes.commands())
     report.section("A long run", processes.long_run())
-    report.section("What a response is, over the paper's map", verdicts.maps())
+    report.section("Classification over the paper's map", verdicts.maps())
     report.section("Lanes", lanes.against_one())
     report.section("Maps", survey.maps())
     report.section("Maps: workers, stores, memory", survey.engines())
     report.section("Periodic orbits", orbits.following())
     report.section("Dimension", verdicts.dimension())
-    report.section("The theory", closed_forms.amplitudes())
-    report.section("The page, in a browser", explorer.page())
+    report.section("Closed forms of the theory", closed_forms.amplitudes())
+    report.section("Explorer in a browser", explorer.page())
     report.close()
 
 

@@ -42,10 +42,10 @@ class Side(NamedTuple):
 
 
 class Worker:
-    """A process of its own that runs cases of one side on request."""
+    """Separate process that runs cases of one side on request."""
 
     def __init__(self, side, core="any"):
-        # Ctrl-C is for the process that asks; this one ends with its input.
+        # Ctrl-C is for the parent process; this process ends with its input.
         self.process = subprocess.Popen(
             [sys.executable, "-P", WORKER, side.source, str(core)],
             env=side.environment | {"PYTHONPATH": str(side.source)},
@@ -83,7 +83,7 @@ def git(root, *arguments):
 
 @contextmanager
 def checked_out(root, commit):
-    """Check a commit out into a temporary folder, as the side REF; its machine code is kept there too."""
+    """Check a commit out into a temporary folder, as the side REF; its machine code is cached there too."""
     with tempfile.TemporaryDirectory(prefix="rocking-against-") as folder:
         tree = Path(folder, "tree")
         git(root, "worktree", "add", "--detach", str(tree), commit)
@@ -94,7 +94,7 @@ def checked_out(root, commit):
 
 
 def compile_kernels(sides, names):
-    """Run every case once on both sides at the same time: what is compiled is kept on disk."""
+    """Run every case once on both sides at the same time: the machine code is cached on disk."""
     with ExitStack() as stack:
         workers = [stack.enter_context(Worker(side)) for side in sides]
         for name in names:
@@ -105,9 +105,9 @@ def compile_kernels(sides, names):
 
 
 def measure_pairs(sides, names, order):
-    """Measure (REF, new) seconds of each case once, in processes of their own on one core.
+    """Measure (REF, new) seconds of each case once, in separate processes on one core.
 
-    The memory layout of a process moves its speed by some per cent, so new processes make the pairs independent.
+    The memory layout of a process changes its speed by some per cent, so new processes make the pairs independent.
     """
     core = max(os.sched_getaffinity(0))
     with Worker(sides[0], core) as ref, Worker(sides[1], core) as new:
@@ -167,7 +167,7 @@ def compare(root, commit, names, seed, console):
 
 
 def table_of(pairs):
-    """Make the table, and the answer of each case."""
+    """Return the table, and the result of each case."""
     table, answers = Table(box=None, pad_edge=False), {}
     table.add_column("case", min_width=20)
     for title in ("REF, ms", "new, ms", "ratio", "interval", "pairs"):
@@ -184,13 +184,13 @@ def table_of(pairs):
 
 
 def end_on_signals():
-    """Let Ctrl-C and `kill` end the comparison in order, also where it was started in the background, which ignores Ctrl-C."""
+    """Let Ctrl-C and `kill` end the comparison in order. A process in the background ignores Ctrl-C by default."""
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, signal.default_int_handler)
 
 
 def main(arguments=None):
-    """Print one row a case; returns 0 only where none is slower or undecided."""
+    """Print one row per case; return 0 only if none is slower or undecided."""
     parser = argparse.ArgumentParser("python -m benchmarks.against", description=__doc__.partition(": ")[2])
     parser.add_argument("ref", metavar="REF", help="a commit, a branch or a tag")
     parser.add_argument(

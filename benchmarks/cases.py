@@ -1,17 +1,19 @@
-"""The three motions that every engine marches: two periodic ones and a chaotic one, all from rest at phase 0."""
+"""Three motions that every engine computes: two periodic ones and a chaotic one, all from rest at phase 0."""
 
 from math import cos, cosh, pi, sin, sinh
 from typing import NamedTuple
 
 
 class Case(NamedTuple):
-    """A harmonic case in normalised values (frequency and period per τ)."""
+    """Harmonic case in normalised values (frequency and period in units of τ)."""
 
     name: str
     amplitude: float
     period: float
     restitution: float
-    tangent_cycles: int  # in so many a tangent grows or fades by no more than e^650, a number still
+    tangent_cycles: (
+        int  # in these a tangent vector grows or shrinks by at most e^650, within the range of floats
+    )
 
     @property
     def frequency(self):
@@ -19,7 +21,7 @@ class Case(NamedTuple):
 
 
 class Point(NamedTuple):
-    """A state of the block at a time: what a general integrator can start from."""
+    """State of the block at a time, from which a general integrator can start."""
 
     time: float
     angle: float
@@ -36,8 +38,8 @@ CASES = (
 def lift_off(case, time):
     """State at `time` of the arc that leaves rest at time 0 (to the side −1).
 
-    A general integrator cannot find the first crossing of an arc that starts on Θ = 0 with Θ' = 0, so the peers
-    start a little later, from the closed form (Yim & Lin 1991, eq. 5).
+    A general integrator cannot find the first crossing of an arc that starts on Θ = 0 with Θ' = 0. So the peers
+    start later, from the closed form (Yim & Lin 1991, eq. 5).
     """
     beta, x = case.amplitude / (1 + case.frequency**2), case.frequency * time
     height = 1 - cosh(time) - beta * (cos(x) - cosh(time))

@@ -1,11 +1,11 @@
-"""How times are taken: medians of several runs, warmed up once; or the quickest of them."""
+"""Timing: medians of several runs after a warm-up run, or the quickest of them."""
 
 from statistics import median
 from time import perf_counter, thread_time
 
 
 def seconds(repeats, work, *arguments, clock=perf_counter):
-    """Median time of `work(*arguments)` over the runs after one that does not count, and what it returned last."""
+    """Return the median time of `work(*arguments)` after a warm-up run, and its last result."""
     work(*arguments)
     times = []
     for _ in range(repeats):
@@ -16,7 +16,7 @@ def seconds(repeats, work, *arguments, clock=perf_counter):
 
 
 def quickest(repeats, work, clock=perf_counter):
-    """Time of the quickest run of `work()`, and what the last returned."""
+    """Return the time of the quickest run of `work()`, and its last result."""
     times = []
     for _ in range(repeats):
         begun = clock()
@@ -26,12 +26,12 @@ def quickest(repeats, work, clock=perf_counter):
 
 
 def quickest_in_turn(turns, ways, clock=perf_counter):
-    """``quickest`` of each of several ways, run one after another in every turn: none alone meets a bad moment of the machine."""
+    """Return ``quickest`` of several functions, run alternately, so that load on the machine affects all of them."""
     runs = [[quickest(1, way, clock) for way in ways] for _ in range(turns)]
     return [min(of_one, key=lambda run: run[0]) for of_one in zip(*runs, strict=True)]
 
 
 def nanoseconds_per_impact(repeats, march, *arguments):
-    """Of a march on one thread, in processor time: whatever else the machine does counts as little as it can."""
+    """Time a march on one thread in processor time, which depends least on other load."""
     time, (impacts, _) = seconds(repeats, march, *arguments, clock=thread_time)
     return 1e9 * time / impacts

@@ -1,4 +1,4 @@
-"""What the closed forms of the theory cost, over arrays and one by one."""
+"""Cost of the closed forms of the theory, over arrays and one by one."""
 
 from time import thread_time
 
@@ -13,7 +13,7 @@ RUNS = 5
 
 
 def amplitudes():
-    """A million periods and restitutions."""
+    """Time closed forms at a million periods and restitutions, and the modes of single systems."""
     random = np.random.default_rng(1984)
     periods, e = random.uniform(0.2, 3.0, COUNT), random.uniform(0.1, 1.0, COUNT)
     for name in ("existence", "symmetry_breaking", "melnikov", "heteroclinic"):

@@ -1,4 +1,4 @@
-"""The page in a real browser: from a click to all pictures, from a new map asked for to its first picture and its last."""
+"""The explorer in a real browser: time from a click to all figures, and from a new map to its first and last image."""
 
 import re
 import subprocess
@@ -12,7 +12,7 @@ CLICKS = [(across / 7, up / 5) for across in range(1, 7) for up in range(1, 5)]
 RESTITUTIONS = 0.92, 0.91, 0.9
 PATIENCE = 60_000
 APART = 500
-"""Milliseconds between two clicks: sooner they are a double click."""
+"""Milliseconds between two clicks; a shorter interval makes a double click."""
 WATCH = """() => {
   window.seen = {};
   const painted = name => requestAnimationFrame(() => requestAnimationFrame(() => { seen[name] ??= performance.now(); }));
@@ -28,7 +28,7 @@ PLACE = """() => {
 
 
 def page():
-    """Figures of the page; none where there is no browser."""
+    """Time the page; no result without a browser."""
     if not seen.CHROMIUM.exists():
         return
     command = [sys.executable, "-m", "rocking", "explore", "--port", "0", "--no-browser"]
@@ -74,6 +74,6 @@ def _figures(browser, address):
 
 
 def waited(page, name):
-    """Milliseconds from what was asked for to when it was painted."""
+    """Return the milliseconds from a request to the painting of its result."""
     page.wait_for_function("name => name in window.seen", arg=name)
     return page.evaluate("name => window.seen[name] - window.seen.begun", name)

@@ -1,4 +1,4 @@
-"""Many blocks in lockstep against one after another, on the map of what loses nothing and on that between braces."""
+"""SIMD lanes compared with one block after another, on undamped maps and on maps with braces."""
 
 import math
 from time import thread_time
@@ -21,7 +21,7 @@ STILL_OPEN = (Kind.CHAOTIC.code, Kind.UNDETERMINED.code)
 
 
 def one_by_one(systems, cycles=CYCLES):
-    """Every point judged alone."""
+    """Classify the points one by one."""
     answers = empty_results(len(systems))
     starts, go_on = np.zeros((len(systems), 2)), np.zeros(1, np.int64)
     batch.classify_batch_scalar(
@@ -31,14 +31,14 @@ def one_by_one(systems, cycles=CYCLES):
 
 
 def in_lanes(systems, cycles=CYCLES):
-    """What a survey does."""
+    """Classify the points as a survey does."""
     return batch.classify_batch(
         systems, np.zeros((len(systems), 2)), cycles, MAX_PERIOD, np.zeros(1, np.int64)
     )
 
 
 def systems_of(points, restitution=1.0, brace_angle=math.inf):
-    """The map, so many points along either axis."""
+    """Return the systems of a map with ``points`` along each axis."""
     period, amplitude = (
         axis.ravel() for axis in np.meshgrid(np.linspace(*PERIODS, points), np.linspace(*AMPLITUDES, points))
     )
@@ -49,46 +49,46 @@ def systems_of(points, restitution=1.0, brace_angle=math.inf):
 
 
 def against_one():
-    """The map at e = 1, those points of a finer one that are marched to the end of the budget, and the map between braces."""
+    """Time the map at e = 1, the points of a finer map that reach the last cycle, and the map with braces."""
     batch.compile_many(True)
     systems = systems_of(POINTS)
     together, answers = quickest(RUNS, lambda: in_lanes(systems), thread_time)
     alone, told = quickest(RUNS, lambda: one_by_one(systems), thread_time)
     note = f"{1e6 * alone / len(systems):.3g} µs one by one"
-    yield Figure("e = 1, 10⁴ cycles, a point", 1e6 * together / len(systems), "µs", 40, note=note)
+    yield Figure("e = 1, 10⁴ cycles, per point", 1e6 * together / len(systems), "µs", 40, note=note)
     yield Figure(
-        "  against one by one",
+        "  compared with one by one",
         alone / together,
         "×",
         1,
         least=True,
-        note="" if batch.has_simd() else "no vectors here",
+        note="" if batch.has_simd() else "no SIMD on this machine",
     )
     share = 100.0 * np.mean(answers.kind != told.kind)
     yield Figure(
-        "  told otherwise", share, "%", note="as many as a change of the last digit of the phase does"
+        "  other result", share, "%", note="the fraction that a change of the last digit of the phase gives"
     )
     systems = systems_of(FINER)
     longest = systems[np.isin(in_lanes(systems).kind, STILL_OPEN)]
     together, _ = quickest(RUNS, lambda: in_lanes(longest), thread_time)
     alone, _ = quickest(RUNS, lambda: one_by_one(longest), thread_time)
     yield Figure(
-        "  those marched to the end: against one by one",
+        "  points marched to the end: compared with one by one",
         alone / together,
         "×",
         1,
         least=True,
-        note=f"{len(longest):,} points, that the lanes stay full; with all that is asked on the way",
+        note=f"{len(longest):,} points, which keep the lanes full; with all checkpoints",
     )
     yield from marching.against_one(longest)
     braced = systems_of(POINTS, 0.925, 1.0)
     together, _ = quickest(RUNS, lambda: in_lanes(braced, BRACED_CYCLES), thread_time)
     alone, _ = quickest(RUNS, lambda: one_by_one(braced, BRACED_CYCLES), thread_time)
     yield Figure(
-        "with braces, 10³ cycles: against one by one",
+        "with braces, 10³ cycles: compared with one by one",
         alone / together,
         "×",
         1,
         least=True,
-        note=f"{1e6 * together / len(braced):.3g} µs a point",
+        note=f"{1e6 * together / len(braced):.3g} µs per point",
     )

@@ -1,4 +1,4 @@
-"""Marching and nothing else, from impact to impact without loss: many blocks in lanes against one after another."""
+"""Plain marching of undamped motion from impact to impact: lanes compared with one block after another."""
 
 import math
 from time import thread_time
@@ -11,7 +11,7 @@ from benchmarks.table import Figure
 from rocking.kernels.classify.classifier_state import Run
 from rocking.kernels.classify.leg import follow_flights
 from rocking.kernels.classify.quasi_periodicity import under_way
-from rocking.kernels.classify.reset import begin_tangent, watched
+from rocking.kernels.classify.reset import begin_tangent, new_tracker
 from rocking.kernels.classify.workspace import make_workspace
 from rocking.kernels.compile_options import ALLOCATING, KERNEL
 from rocking.kernels.lanes.log import log_arcs
@@ -31,15 +31,15 @@ TURNS = 7
 
 @njit(**KERNEL)
 def marched(p, progress, cycles, memory):
-    """The progress of a block that loses nothing after so many cycles."""
+    """Return the progress of an undamped block after ``cycles``."""
     begin_tangent(memory.tangent)
-    run = Run(watched(progress), under_way(progress), 0.0, 0, True, True)
-    return follow_flights(p, run, cycles, MAX_EVENTS, memory, False)[1].watch.progress
+    run = Run(new_tracker(progress), under_way(progress), 0.0, 0, True, True)
+    return follow_flights(p, run, cycles, MAX_EVENTS, memory, False)[1].tracker.progress
 
 
 @njit(**KERNEL)
 def last_impacts(systems, cycles, memory, phases, speeds):
-    """Of each block that starts at rest the phase of its last impact within so many cycles, and its speed after that."""
+    """Write phase and speed of the last impact of each block within ``cycles`` from rest."""
     for k in range(systems.shape[0]):
         p = parameters_from_row(systems[k])
         progress = begin(p, 0.0, 0.0, UNKNOWN)[0]
@@ -49,7 +49,7 @@ def last_impacts(systems, cycles, memory, phases, speeds):
 
 @njit(**KERNEL)
 def alone(systems, speeds, cycles, memory):
-    """How many impacts there were."""
+    """March the blocks one by one; return the number of impacts."""
     impacts = 0
     for k in range(systems.shape[0]):
         p = parameters_from_row(systems[k])
@@ -60,7 +60,7 @@ def alone(systems, speeds, cycles, memory):
 
 @njit(**ALLOCATING)
 def in_lanes(systems, speeds, cycles, memory):
-    """How many impacts there were; a lane that ends, or has to leave, takes the next block."""
+    """March the blocks in lanes; return the number of impacts. A lane that ends takes the next block."""
     s, queue, blocks, impacts = memory.state[0], 0, LANES, 0.0
     guests = [parameters_from_row(systems[0])] * LANES
     for i in range(LANES):
@@ -95,7 +95,7 @@ def in_lanes(systems, speeds, cycles, memory):
 
 
 def against_one(systems):
-    """Of ``systems`` that go on for long so many blocks that the lanes stay full."""
+    """Time the first BLOCKS of ``systems`` whose motions are long, so that the lanes stay full."""
     systems = systems[:BLOCKS].copy()
     speeds, memory, lanes = np.empty(len(systems)), make_workspace(CYCLES, 1), make_lane_workspace(CYCLES, 1)
     last_impacts(systems, BEFORE, memory, systems[:, 3], speeds)
@@ -104,5 +104,5 @@ def against_one(systems):
     ways = [lambda: alone(systems, speeds, CYCLES, memory), lambda: in_lanes(systems, speeds, CYCLES, lanes)]
     taken = quickest_in_turn(TURNS, ways, thread_time)
     one, together = (1e9 * seconds / impacts for seconds, impacts in taken)
-    yield Figure("marching without loss, an impact in lanes", together, "ns", note=f"{one:.3g} ns one by one")
-    yield Figure("  against one by one", one / together, "×", 5, least=True)
+    yield Figure("undamped marching, per impact in lanes", together, "ns", note=f"{one:.3g} ns one by one")
+    yield Figure("  compared with one by one", one / together, "×", 5, least=True)

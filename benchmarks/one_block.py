@@ -1,4 +1,4 @@
-"""One block in the compiled kernel, against the peers, against 40 digits, and two at once."""
+"""One block in the compiled kernel: compared with the peers, with 40 digits, and two blocks on two threads."""
 
 from concurrent.futures import ThreadPoolExecutor
 from os import getloadavg
@@ -31,11 +31,11 @@ OVER_HEYOKA = {False: (45, 70, 25), True: (100, 120, 50)}
 
 
 def march(case, cycles):
-    """One block from rest with its tangent, the kernel alone; returns (impacts, final point), as the peers do."""
+    """March one block from rest with its tangent vectors, in the kernel alone; return (impacts, final point)."""
     p = harmonic_parameters(case.amplitude, case.frequency, case.period, 0.0, case.restitution)
     progress, _ = kernel.begin_march(p, 0.0, 0.0)
     while progress.cycle < cycles:
-        # The tangent begins anew every so often: it neither overflows nor fades into subnormal numbers.
+        # The tangent restarts every ``tangent_cycles``, before it overflows or becomes subnormal.
         tangent, until = (
             TangentState(np.eye(2), np.empty(0)),
             min(cycles, progress.cycle + case.tangent_cycles),
@@ -46,10 +46,10 @@ def march(case, cycles):
 
 
 def speed():
-    """Nanoseconds per impact, and how many times longer the peers take on the same motion in the same run."""
+    """Time the kernel per impact, and the ratio of the peers' times on the same motion in the same run."""
     for index, case in enumerate(CASES):
         ours = nanoseconds_per_impact(7, march, case, CYCLES_OF_THE_KERNEL)
-        yield Figure(case.name, ours, "ns", NANOSECONDS[index], note="per impact, tangent in")
+        yield Figure(case.name, ours, "ns", NANOSECONDS[index], note="per impact, with tangent")
         start = lift_off(case, case.period / 20)
         theirs = nanoseconds_per_impact(3, scipy_march, case, start, CYCLES_OF_SCIPY * case.period)
         yield ratio("SciPy DOP853, rtol 1e-12", theirs, ours, OVER_SCIPY[index])
@@ -66,9 +66,9 @@ def ratio(peer, theirs, ours, goal):
 
 
 def accuracy():
-    """Median error of the state after 20 cycles over random starts, against 40 digits, ours and heyoka's.
+    """Median error of the state after 20 cycles from random initial states, against 40 digits: kernel and heyoka.
 
-    Each is judged on the very numbers it takes: ours a period, heyoka a frequency, both as the doubles they are.
+    Each error refers to the exact input: the kernel takes a period, heyoka a frequency, both in double precision.
     """
     for case in CASES:
         system = System(Harmonic(amplitude=case.amplitude, period=case.period), restitution=case.restitution)
@@ -95,7 +95,7 @@ def error(point, exact):
 
 
 def threads():
-    """Twice the work on two threads, against once the work on one: both cores must be free for it."""
+    """Compare twice the work on two threads with the work on one; both cores must be free."""
     load = f"load average before: {getloadavg()[0]:.1f}"
     with ThreadPoolExecutor(2) as pool:
         for case in CASES:

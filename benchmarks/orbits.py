@@ -8,7 +8,7 @@ RUNS = 5
 
 
 def following():
-    """The symmetric period-1 branch in the amplitude, its symmetry breaking in period and amplitude, all orbits of figure 2c's system."""
+    """Time a symmetric branch of period 1, its symmetry-breaking curve in two parameters, and a search for all orbits."""
     system = rk.System(rk.Harmonic(amplitude=15.0, period=1.0), restitution=0.9)
     orbit = rk.find_orbit(system, rk.State(0.1, 0.1), 1)
     seconds, branch = quickest(RUNS, lambda: rk.continue_orbit(orbit, "amplitude", (0.1, 30.0), step=0.004))

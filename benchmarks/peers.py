@@ -1,6 +1,6 @@
-"""The same motion by general integrators that detect the impacts: SciPy's DOP853, heyoka's Taylor series.
+"""Peers: general integrators that detect the impacts, SciPy's DOP853 and heyoka's Taylor series.
 
-Both are given their best: scalar right-hand sides, one event function, no dense output, compiled once outside the clock.
+Both run in their fastest form: scalar right-hand sides, one event function, no dense output, compiled before timing.
 """
 
 from math import cos
@@ -13,7 +13,7 @@ from benchmarks.cases import Point
 
 
 def scipy_march(case, start, until):
-    """DOP853 at rtol 1e-12, stopped at Θ = 0 and restarted after each impact; returns (impacts, final point)."""
+    """March by DOP853 at rtol 1e-12, restarted after each impact; return (impacts, final point)."""
     amplitude, frequency = case.amplitude, case.frequency
     side = 1.0 if start.angle > 0 else -1.0
 
@@ -35,10 +35,10 @@ def scipy_march(case, start, until):
 
 
 class Heyoka:
-    """heyoka at its default tolerance (2.2e-16), the impacts in the callback of a terminal event.
+    """Integrator heyoka at its default tolerance (2.2e-16), with impacts in the callback of a terminal event.
 
     `variations` adds the first-order variational equations and their jump at each impact. `lean` writes through
-    memory views kept from the start; otherwise the callback asks the integrator for its arrays, the manual's way.
+    memory views kept from the start; else the callback gets the arrays from the integrator, as in the manual.
     """
 
     def __init__(self, case, variations=False, lean=False):
@@ -55,7 +55,7 @@ class Heyoka:
         self.rest = self.integrator.state.copy()
 
     def march(self, start, until):
-        """From `start` to the time `until`; returns (impacts, final point)."""
+        """March from `start` to the time `until`; return (impacts, final point)."""
         block = self.integrator
         block.state[:] = self.rest
         block.state[:2] = start.angle, start.velocity
@@ -107,7 +107,7 @@ def variational_impact(case, count, views):
 
 
 def within_tolerance(tangent):
-    """heyoka's error is relative to the largest component: a tangent that grew beyond 1 would cost the state its digits."""
+    """Shrink a tangent of size above 1: heyoka's error is relative to the largest component, so it would cost digits."""
     return tangent * 1e-3 if abs(tangent).max() > 1 else tangent
 
 

@@ -1,4 +1,4 @@
-"""Whole processes: what a command costs from start to end, what compiling costs, what a long run holds in memory."""
+"""Whole processes: cost of commands from start to end, cost of compilation, and memory of a long run."""
 
 import os
 import subprocess
@@ -14,7 +14,7 @@ SIMULATE = ["simulate", "--amplitude", "2", "--period", "1", "--restitution", "0
 
 
 def command(*arguments, folder=None, **environment):
-    """Run `rocking ARGUMENTS`; returns its wall seconds."""
+    """Run `rocking ARGUMENTS`; return its wall-clock seconds."""
     program = Path(sys.executable).with_name("rocking")
     begun = perf_counter()
     environment = os.environ | environment
@@ -23,7 +23,7 @@ def command(*arguments, folder=None, **environment):
 
 
 def commands():
-    """What a user of the command line waits for."""
+    """Time commands as a user waits for them."""
     with tempfile.TemporaryDirectory() as folder:
         help_ = median(command("--help") for _ in range(9))
         first = command(*SIMULATE, folder=folder, NUMBA_CACHE_DIR=folder)
@@ -48,7 +48,7 @@ print(perf_counter() - loaded)
 
 
 def compiling():
-    """All kernels of a march with the tangent: compiled with an empty cache, and read back from it; imports left out."""
+    """Time all kernels of a march with tangent: compiled, and loaded from the cache, without imports."""
     with tempfile.TemporaryDirectory() as folder:
         first, *again = (float(python(COMPILE, NUMBA_CACHE_DIR=folder)) for _ in range(4))
     yield Figure("compile, first ever", first, "s", 10)
@@ -68,13 +68,13 @@ print(time.perf_counter() - begun, resource.getrusage(resource.RUSAGE_SELF).ru_m
 
 
 def long_run(cycles=10**7):
-    """One block over 10⁷ cycles: the growth of the largest resident memory over that of 10 cycles."""
+    """Measure the growth of peak memory over 10⁷ cycles of one block, compared with 10 cycles."""
     seconds, kilobytes = map(float, python(LONG_RUN, str(cycles)).split())
     note = f"in {seconds:.2f} s"
     yield Figure(f"{cycles:,} cycles, growth of peak memory", kilobytes / 1024, "MiB", 1.0, note=note)
 
 
 def python(program, *arguments, **environment):
-    """What a fresh interpreter prints for a program."""
+    """Run a program in a new interpreter; return its output."""
     line, environment = [sys.executable, "-c", program, *arguments], os.environ | environment
     return subprocess.run(line, env=environment, check=True, text=True, stdout=subprocess.PIPE).stdout

@@ -1,6 +1,7 @@
-"""The motion to 40 digits: eq. (5) of Yim & Lin (1991) in mpmath, each impact bracketed on a dense grid and refined by Newton.
+"""Motion to 40 digits: eq. (5) of Yim & Lin (1991) in mpmath, impacts bracketed on a dense grid and refined by Newton.
 
-Every input is taken as the double it is. For starts in general position only: a grazing dip between two points of the grid would be missed.
+Inputs are exact double-precision numbers. It is for initial states in general position only: a grazing dip between two
+points of the grid would be missed.
 """
 
 import mpmath as mp
@@ -11,9 +12,9 @@ POINTS_PER_PERIOD = 2000
 
 
 def state_at(case, start, until, frequency):
-    """(angle, velocity) in mpmath at `until` from `start` at time 0, or None once the block has left |angle| < 3.
+    """Return (angle, velocity) in mpmath at `until`, from `start` at time 0; None if |angle| reaches 3.
 
-    `frequency` is the exact one: a double, or 2π over an exact period.
+    `frequency` is exact: a double-precision number, or 2π over an exact period.
     """
     with mp.workdps(DIGITS):
         amplitude, restitution = mp.mpf(case.amplitude), mp.mpf(case.restitution)
@@ -29,7 +30,7 @@ def state_at(case, start, until, frequency):
 
 
 class Arc:
-    """One flight on one side: height u and speed u' at a time after its start, in mpmath or in NumPy."""
+    """Arc on one side: height u and speed u' at a time after its start, in mpmath or in NumPy."""
 
     def __init__(self, amplitude, frequency, side, phase, height, speed):
         self.frequency, self.phase, self.push = frequency, phase, side * amplitude / (1 + frequency**2)
@@ -47,7 +48,7 @@ class Arc:
 
 
 def first_crossing(arc, longest, spacing):
-    """The time at which the height first falls through 0, or None."""
+    """Return the time at which the height first falls through 0, or None."""
     times = np.arange(1, int(min(float(longest), 30.0) / spacing) + 1) * spacing
     below = np.flatnonzero(arc.grid(times) < 0)
     if below.size == 0:

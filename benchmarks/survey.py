@@ -1,4 +1,4 @@
-"""Maps of a million points: what they cost with one worker and two, in memory and in a store, against marching every point."""
+"""Maps of a million points: cost with one and two workers, in memory and in a store, and compared with plain marching."""
 
 import itertools
 import subprocess
@@ -31,10 +31,10 @@ from rocking.model import Criterion
 POINTS = 1000
 PERIODS, AMPLITUDES = (0.2, 3.0), (0.0, 16.0)
 MARCHED = 1000
-"""Cycles of a map that marches every point before anything is asked of it, or asks nothing."""
+"""Cycles of a map that marches every point to the end before the first checkpoint, or has no checkpoint."""
 TURNS = 7
 PAIRS = 15
-"""Turns of one worker and two: what either core gets done differs by a tenth from one to the next."""
+"""Alternating runs of one and two workers: the speed of a core changes by a tenth from run to run."""
 PEAK = """
 import pathlib, resource, sys
 import numpy as np, rocking
@@ -42,7 +42,7 @@ count, store = int(sys.argv[1]), sys.argv[2]
 rocking.parametric_map(
     amplitude=np.linspace(0, 16, count), period=np.linspace(0.2, 3, count), restitution=0.925, store=store, max_cycles=20
 )
-# what getrusage tells on Linux begins with the memory of the process that started this one
+# On Linux getrusage includes the memory of the parent process.
 status = pathlib.Path("/proc/self/status")
 most = [line.split()[1] for line in status.read_text().splitlines() if line.startswith("VmHWM")] if status.exists() else []
 print(int(most[0] if most else resource.getrusage(resource.RUSAGE_SELF).ru_maxrss) / 1024)
@@ -58,26 +58,26 @@ def asked(points, restitution=0.925):
 
 
 def taken(**arguments):
-    """(seconds, processor seconds of all threads, the map)."""
+    """Compute a map; return (seconds, processor seconds of all threads, map)."""
     begun, worked = time.perf_counter(), time.process_time()
     found = rk.parametric_map(**arguments)
     return time.perf_counter() - begun, time.process_time() - worked, found
 
 
 def in_turn(*questions, turns=TURNS):
-    """Of each question the (seconds, processor seconds) of every turn, one asked after another: none alone meets a bad moment."""
+    """Time maps alternately, so that load on the machine affects all; return (seconds, processor seconds) of each."""
     runs = [[taken(**question())[:2] for question in questions] for _ in range(turns)]
     return [np.transpose(of_one) for of_one in zip(*runs, strict=True)]
 
 
 def by_one_worker(points):
-    """Seconds of a map by a single thread, for a process of its own."""
+    """Return the seconds of a map on a single thread; runs in a separate process."""
     with ThreadPoolExecutor(1) as alone:
         return taken(**asked(points), executor=alone)[0]
 
 
 def side_by_side():
-    """What two cores do against one on this machine: the speeds of two processes, a map each, against that of one alone."""
+    """Compare two cores with one on this machine: the speed of two processes with one map each, over that of one."""
     with ProcessPoolExecutor(2, get_context("spawn")) as apart:
         for _ in range(2):
             list(apart.map(by_one_worker, [20, 20]))
@@ -87,7 +87,7 @@ def side_by_side():
 
 
 def maps():
-    """The goals of a million points, and how the cost grows."""
+    """Time maps of a million points, and the growth of the cost."""
     rk.parametric_map(**asked(20))
     (walls, works), (_, quarters) = in_turn(lambda: asked(POINTS), lambda: asked(POINTS // 2))
     note = f"the quickest of {TURNS}; {min(works):.3g} s of processors"
@@ -98,15 +98,15 @@ def maps():
     yield Figure("  undetermined, resets left out", float(undetermined.sum()), "points", 0)
     yield Figure("  resets of unresolved period", 100.0 * unresolved.mean(), "%", 0.02)
     grown = median(works) / median(quarters) / 4.0
-    yield Figure("  a point's cost, against a quarter of the points", grown, "×", 1.1)
+    yield Figure("  cost per point, compared with a quarter of the points", grown, "×", 1.1)
     early, late, marched = kernels()
     yield Figure(
-        "  kernels: marching 1,000 cycles at every point before it is judged takes",
+        "  kernels: 1,000 cycles at every point before the first checkpoint, relative",
         late / early,
         "times",
         10,
         least=True,
-        note=f"{marched / early:.3g} times where nothing is kept and nothing judged",
+        note=f"{marched / early:.3g} times without classification",
     )
     rk.parametric_map(**asked(20, 1.0), max_cycles=200)
     wall, work, found = taken(**asked(POINTS, 1.0))
@@ -119,7 +119,7 @@ def maps():
 
 
 def engines():
-    """Workers and stores, on the map of figure 11."""
+    """Compare workers and stores on the map of figure 11."""
     rk.parametric_map(**asked(20))
     with ThreadPoolExecutor(1) as alone, ThreadPoolExecutor(2) as both:
         (one, _), (two, work) = in_turn(
@@ -128,8 +128,8 @@ def engines():
             turns=PAIRS,
         )
     note = f"median of {PAIRS} pairs; {median(work / two):.3g} cores at work"
-    yield Figure("one worker, against two", median(one / two), "×", 1.9, least=True, note=note)
-    yield Figure("  one process, against two with a map each", median(side_by_side()), "×")
+    yield Figure("one worker, compared with two", median(one / two), "×", 1.9, least=True, note=note)
+    yield Figure("  one process, compared with two with one map each", median(side_by_side()), "×")
     with tempfile.TemporaryDirectory() as folder:
         rk.parametric_map(**asked(20), store=f"{folder}/warm.zarr")
         stores = (Path(folder, f"{turn}.zarr") for turn in itertools.count())
@@ -137,7 +137,7 @@ def engines():
             lambda: asked(POINTS), lambda: asked(POINTS) | {"store": next(stores)}
         )
         share = 100.0 * (median(stored) / median(plain) - 1.0)
-        yield Figure("storing, of the processors' time", share, "%", 10)
+        yield Figure("storing, fraction of the processor time", share, "%", 10)
         size = sum(path.stat().st_size for path in Path(folder, "0.zarr").rglob("*"))
         yield Figure("  on disk", size / 1e6, "MB")
         for count in (1000, 4000):
@@ -157,7 +157,7 @@ at_the_end = replacing(classifier_state.ClassifierState, "checkpoint", "batches"
 
 @njit(**KERNEL)
 def judge_late(systems, cycles, memory, answers):
-    """The cascade of a map without its early looks: the first comes after so many cycles."""
+    """Classify by the decision cascade without early checkpoints: the first comes after ``cycles``."""
     for k in range(systems.shape[0]):
         p = parameters_from_row(systems[k])
         case = classifier_state.opened(p, 0.0, 0.0, cycles)
@@ -169,7 +169,7 @@ def judge_late(systems, cycles, memory, answers):
 
 @njit(**KERNEL)
 def march_all(systems, cycles, memory, answers):
-    """Every point from rest to the end of its cycles, unless it overturns or rests for ever before."""
+    """March every point from rest to its last cycle, unless it overturns or stays at rest before."""
     nothing = memory.nothing
     for k in range(systems.shape[0]):
         p = parameters_from_row(systems[k])
@@ -180,7 +180,7 @@ def march_all(systems, cycles, memory, answers):
 
 
 def kernels():
-    """Seconds of one thread for every tenth point of the map along either axis: by the cascade, by it without early looks, marched."""
+    """Time every tenth point along each axis on one thread: by the cascade, without early checkpoints, by plain marching."""
     systems, memory = systems_of(POINTS // 10, 0.925), make_workspace(10_000, MAX_PERIOD)
     starts, go_on, answers = np.zeros((len(systems), 2)), np.zeros(1, np.int64), empty_results(len(systems))
 

@@ -1,4 +1,4 @@
-"""One table of figures, each beside its goal."""
+"""Table of measured figures, each with its goal."""
 
 from typing import NamedTuple
 
@@ -7,7 +7,7 @@ from rich.table import Table
 
 
 class Figure(NamedTuple):
-    """A measured figure; `goal` is its bound from above or, with `least`, from below; None where there is no goal."""
+    """Measured figure; `goal` is its upper bound or, with `least`, its lower bound. Default: no goal."""
 
     what: str
     value: float
@@ -32,7 +32,7 @@ def shown(value, unit):
 
 
 class Report:
-    """Shows each section as soon as it is measured."""
+    """Report that prints each section as soon as it is measured."""
 
     def __init__(self):
         self.console = Console(width=118, highlight=False)

@@ -1,4 +1,4 @@
-"""What a response is, point by point over the paper's map: the work of the cascade, and what it leaves open."""
+"""Classification over the paper's map: work of the decision cascade, and the points that it leaves undetermined."""
 
 import math
 import subprocess
@@ -24,7 +24,7 @@ points = np.random.default_rng(1991).random((100_000, 2))
 begun = time.perf_counter()
 rocking.correlation_dimension(points)
 seconds = time.perf_counter() - begun
-# what getrusage tells on Linux begins with the memory of the process that started this one
+# On Linux getrusage includes the memory of the parent process.
 status = pathlib.Path("/proc/self/status")
 most = [line.split()[1] for line in status.read_text().splitlines() if line.startswith("VmHWM")] if status.exists() else []
 print(seconds, int(most[0] if most else resource.getrusage(resource.RUSAGE_SELF).ru_maxrss) / 1024)
@@ -33,7 +33,7 @@ print(seconds, int(most[0] if most else resource.getrusage(resource.RUSAGE_SELF)
 
 @njit(**KERNEL)
 def judge_all(amplitudes, periods, restitution, max_cycles, memory, kinds, grounds, work):
-    """Every point from rest, phase 0."""
+    """Classify every point from rest at phase 0."""
     for k in range(amplitudes.shape[0]):
         frequency = 2.0 * math.pi / periods[k]
         p = make(amplitudes[k], frequency, periods[k], 0.0, restitution, math.inf, 1.0)
@@ -42,7 +42,7 @@ def judge_all(amplitudes, periods, restitution, max_cycles, memory, kinds, groun
 
 
 def judged(restitution, max_cycles):
-    """(kinds, grounds, events computed) over the map, and the seconds of one core."""
+    """Classify the map; return kinds, criteria, events computed, and the seconds of one core."""
     grid = np.meshgrid(np.linspace(*AMPLITUDES, POINTS), np.linspace(*PERIODS, POINTS))
     amplitudes, periods = (axis.ravel() for axis in grid)
     kinds, grounds, work = (np.zeros(amplitudes.size, np.int64) for _ in range(3))
@@ -55,23 +55,23 @@ def judged(restitution, max_cycles):
 
 
 def maps():
-    """The map of figure 11 (e = .925) and of figure 10 (e = 1)."""
+    """Time the map of figure 11 (e = .925) and that of figure 10 (e = 1)."""
     judge_all(np.ones(1), np.ones(1), 0.9, 100, make_workspace(100, 64), *np.zeros((3, 1), np.int64))
     kinds, grounds, work, seconds = judged(0.925, 100_000)
     undetermined, resets = kinds == verdict_record.UNDETERMINED, grounds == verdict_record.UNRESOLVED_RESET
-    yield Figure("e = .925, impacts a point, all work", work.mean(), "", 40)
+    yield Figure("e = .925, impacts per point, all work", work.mean(), "", 40)
     yield Figure("  one core", seconds, "s", 0.15, note=f"{POINTS} × {POINTS} points, ≤ 100,000 cycles")
     yield Figure("  undetermined, resets left out", float((undetermined & ~resets).sum()), "points", 0)
     yield Figure("  resets of unresolved period", float(resets.sum()), "points")
     kinds, grounds, work, seconds = judged(1.0, 10_000)
     open_share = 100.0 * np.isin(kinds, (verdict_record.CHAOTIC, verdict_record.UNDETERMINED)).mean()
-    yield Figure("e = 1, impacts a point, all work", work.mean(), "", 600, note="≤ 10,000 cycles")
+    yield Figure("e = 1, impacts per point, all work", work.mean(), "", 600, note="≤ 10,000 cycles")
     yield Figure("  still chaotic or undetermined", open_share, "%", 3.5)
     yield Figure("  one core", seconds, "s")
 
 
 def dimension():
-    """The correlation dimension of 10⁵ points, a process of its own for its memory."""
+    """Time the correlation dimension of 10⁵ points, in a separate process to measure its memory."""
     done = subprocess.run([sys.executable, "-c", DIMENSION], capture_output=True, text=True, check=True)
     seconds, megabytes = map(float, done.stdout.split())
     yield Figure("correlation dimension of 10⁵ points", seconds, "s", 10)

@@ -1,7 +1,7 @@
-"""Melnikov's threshold A_M beside the exact one A*: where, and by how much, they part.
+"""Melnikov's threshold A_M compared with the exact tangency amplitude A*.
 
-Run it as ``python examples/melnikov_and_exact.py [FILE]``; it prints a table and writes ``melnikov-and-exact.png`` into the current folder
-unless told otherwise.
+Run ``python examples/melnikov_and_exact.py [FILE]``. It prints a table and writes the figure to FILE. Default:
+``melnikov-and-exact.png`` in the current folder.
 """
 
 import sys
@@ -15,25 +15,25 @@ RESTITUTIONS = (0.5, 0.8, 0.925)
 
 
 def equal_at(restitution):
-    """The period at which both are the same: ((1+e)²/4)² (1 + Ω²((1−e)/(1+e))²) = 1."""
+    """Return the period at which both are equal: ((1+e)²/4)² (1 + Ω²((1−e)/(1+e))²) = 1."""
     share = (1 - restitution) / (1 + restitution)
     omega = np.sqrt((4 / (1 + restitution) ** 2) ** 2 - 1) / share
     return 2 * np.pi / omega
 
 
 def table():
-    """Both thresholds and their ratio, over periods and restitutions."""
+    """Print both thresholds and their ratio, over periods and restitutions."""
     print("   e      T       A_M        A*    A_M/A*")
     for restitution in RESTITUTIONS:
         for period in (0.2, 0.5, 1.0, 2.0, 5.0):
             first = rk.theory.melnikov_amplitude(period, restitution)
             exact = rk.theory.heteroclinic_amplitude(period, restitution)
             print(f"{restitution:5.3f} {period:5.1f} {first:10.5f} {exact:9.5f} {first / exact:8.4f}")
-        print(f"      the same at T = {equal_at(restitution):.4f}")
+        print(f"      equal at T = {equal_at(restitution):.4f}")
 
 
 def draw():
-    """Draws the thresholds at e = 0.5 and their ratio at each restitution."""
+    """Draw the thresholds at e = 0.5 and their ratio at each restitution."""
     figure, (left, right) = rk.plot.panels(columns=2, height=3.2)
     shown = PERIODS[(PERIODS > 0.5) & (PERIODS < 6)]
     curves = {

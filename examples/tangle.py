@@ -1,6 +1,7 @@
-"""Where overturning gets a fractal boundary: the saddles' manifolds below, at and above their first touch, a picture each.
+"""Heteroclinic tangle: manifolds of the saddles below, at and above the amplitude of their tangency.
 
-Run it as ``python examples/tangle.py [FILE]``; it writes ``tangle.png`` into the current folder unless told otherwise.
+Above that amplitude the boundary of overturning is fractal. Run ``python examples/tangle.py [FILE]``. It writes the
+figure to FILE. Default: ``tangle.png`` in the current folder.
 """
 
 import sys
@@ -9,7 +10,7 @@ import rocking as rk
 
 
 def draw():
-    """Draws three panels: apart, touching, entangled."""
+    """Draw three panels: separate, tangent and intersecting manifolds."""
     touching = rk.tangency_amplitude(rk.System(rk.Harmonic(amplitude=1.0, period=1.0), restitution=0.8))
     figure, axes = rk.plot.panels(columns=3, height=3.6)
     for ax, share in zip(axes, (0.8, 1.0, 1.2), strict=True):

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# constraints.sh PYTHON...: writes constraints/python-X.Y.txt afresh for each, the newest versions that install together there and import.
+# constraints.sh PYTHON...: write constraints/python-X.Y.txt for each, with the newest versions that install and import together.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# debian.sh PACKAGE...: installs Debian packages by name, those that are missing; where it may not, says which in one line.
+# debian.sh PACKAGE...: install missing Debian packages; without permission, name them in one line.
 set -euo pipefail
 
 missing=()

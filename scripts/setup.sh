@@ -1,14 +1,13 @@
 #!/usr/bin/env bash
-# setup.sh [EXTRA...]: makes .venv with the pinned versions, or brings it up to date; does nothing when nothing changed.
-# An EXTRA, such as docs, is added where it is asked for. PYTHON=... names the interpreter; otherwise the newest one that has a
-# constraint file.
+# setup.sh [EXTRA...]: make .venv with the pinned versions, or bring it up to date; without changes, do nothing.
+# An EXTRA, such as docs, is added on request. PYTHON=... names the interpreter. Default: the newest one with a constraint file.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
 readonly STAMP=.venv/made-from
 export PIP_DISABLE_PIP_VERSION_CHECK=1
 
-# The minor version of an interpreter that can make environments; fails for one that cannot or is not there.
+# Print the minor version of an interpreter; fail if it is missing or cannot make environments.
 version_of() {
     "$1" -c 'import sys, venv, ensurepip; print("%d.%d" % sys.version_info[:2])' 2>/dev/null
 }
@@ -17,7 +16,7 @@ pinned_versions() {
     ls constraints | sed -n 's/^python-\(.*\)\.txt$/\1/p' | sort -V -r
 }
 
-# What .venv is made from, after its own place: the scripts in it start with that path.
+# Print the path of the repository, which the scripts in .venv contain, and a checksum of all inputs of .venv.
 fingerprint() {
     pwd
     cat pyproject.toml scripts/setup.sh constraints/*.txt | cksum
@@ -35,11 +34,11 @@ choose_python() {
             return
         fi
     done
-    # Debian keeps a part of Python's own venv in a package of its own.
+    # Debian has a part of Python's venv in a separate package.
     scripts/debian.sh python3 python3-venv && echo python3
 }
 
-# The file for this version, or the newest one for a Python that is newer than all of them.
+# Print the file for this version, or the newest file for a Python that is newer than all of them.
 constraints_for() {
     local newest
     newest=$(pinned_versions | head -n 1)
@@ -52,7 +51,7 @@ constraints_for() {
     fi
 }
 
-# Whether .venv was finished, in this place and with the Python asked for; else it is made again.
+# Succeed if .venv is complete, in this place and with the requested Python; else it is made again.
 is_usable() {
     [ -x .venv/bin/python ] && [ "$(head -n 1 "$STAMP" 2>/dev/null)" = "$(pwd)" ] || return 1
     [ -z "${PYTHON:-}" ] || [ "$(version_of "$PYTHON")" = "$(version_of .venv/bin/python)" ]
@@ -63,17 +62,17 @@ refuse() {
     exit 1
 }
 
-# install CONSTRAINTS WHAT: this package with extras, everything as pinned.
+# install CONSTRAINTS WHAT: install this package with extras, in the pinned versions.
 install() {
     .venv/bin/python -m pip install --quiet --constraint "$1" --no-build-isolation --editable "$2"
 }
 
-# Adds those extras that were not yet added to this .venv as it is now.
+# Add the extras that the present .venv lacks.
 add() {
     local extra
     for extra in "$@"; do
         [ "$(cat "$STAMP-$extra" 2>/dev/null)" != "$wanted" ] || continue
-        echo "Adding what the extra $extra needs ..."
+        echo "Installing the extra $extra ..."
         install "$(constraints_for "$(version_of .venv/bin/python)")" ".[$extra]"
         echo "$wanted" >"$STAMP-$extra"
     done

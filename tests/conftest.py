@@ -1,4 +1,4 @@
-"""The whole of the paper, made once for all that look at it; and what the tests look at in part, or with --exhaustive whole."""
+"""Fixtures of all tests: the report on the paper, made once, and samples that --exhaustive replaces by the whole."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -11,7 +11,7 @@ from rocking.papers.yim_lin_1991 import reproduce
 
 
 class Reproduced(NamedTuple):
-    """As `make reproduce` makes it: where it is, what was written, and how far it said to be."""
+    """Report as `make reproduce` writes it: folder, files written, and progress calls."""
 
     folder: Path
     paths: Sequence[Path]
@@ -26,13 +26,13 @@ def reproduced(tmp_path_factory):
 
 
 def pytest_addoption(parser):
-    what = "run those tests alone that look at a part of something, and have them look at the whole"
+    what = "run only the tests that check a sample, and let them check the whole"
     parser.addoption("--exhaustive", action="store_true", help=what)
 
 
 @pytest.fixture
 def thin(request):
-    """Take ``count`` of some items, evenly spread, or at random with a seed, which is printed; with --exhaustive all of them."""
+    """Take ``count`` of some items, evenly spread, or at random with a printed seed; with --exhaustive all."""
 
     def take(items, count, seed=None):
         if request.config.getoption("exhaustive"):
@@ -46,9 +46,9 @@ def thin(request):
     return take
 
 
-@pytest.hookimpl(tryfirst=True)  # before items are chosen, and those of the workers grouped, by their marks
+@pytest.hookimpl(tryfirst=True)  # before items are selected and grouped by their marks
 def pytest_collection_modifyitems(config, items):
-    """Mark what looks at the whole of the paper: it takes minutes, and one worker runs it. Choose what --exhaustive asks for."""
+    """Mark the tests of the whole report as long, for one worker. Select the tests of --exhaustive."""
     for item in items:
         if "reproduced" in getattr(item, "fixturenames", ()):
             item.add_marker(pytest.mark.xdist_group("reproduced"))

@@ -1,4 +1,4 @@
-"""A real browser and the page's server, each in a process of its own; pictures of what was seen go into `results`."""
+"""A real browser and the page's server, each in a separate process; screenshots go into `results`."""
 
 import re
 import subprocess
@@ -18,14 +18,14 @@ PATIENCE = 60_000
 
 @pytest.hookimpl(tryfirst=True)  # before the workers' items are grouped by their marks
 def pytest_collection_modifyitems(items):
-    """One server and one browser for all: one worker runs them. What looks at the report goes where that is made."""
+    """Let one worker run all tests of the page, with one server and one browser; tests of the report run where it is made."""
     for item in items:
         if item.path.parent == Path(__file__).parent and "reproduced" not in item.fixturenames:
             item.add_marker(pytest.mark.xdist_group("browser"))
 
 
 class Running(NamedTuple):
-    """The explorer in a process of its own."""
+    """The explorer in a separate process."""
 
     address: str
     process: subprocess.Popen
@@ -33,7 +33,7 @@ class Running(NamedTuple):
 
 @pytest.fixture(scope="session")
 def running():
-    """An explorer that must come to its end without a complaint."""
+    """Run an explorer that must end without messages."""
     command = [sys.executable, "-m", "rocking", "explore", "--port", "0", "--no-browser"]
     with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
         try:
@@ -60,7 +60,7 @@ def browser():
 
 
 class Visitor:
-    """A page with what it complained of and which hosts it asked."""
+    """Page with the errors that it logged and the hosts that it contacted."""
 
     def __init__(self, context, address):
         self.address, self.complaints, self.hosts = address, [], set()
@@ -81,11 +81,11 @@ class Visitor:
         self.judged()
 
     def judged(self):
-        """Wait for the verdict on what is shown."""
+        """Wait for the verdict on the selected system."""
         self.page.wait_for_selector("#verdict:not(.stale)")
 
     def finished(self):
-        """Wait for the map to be whole."""
+        """Wait until the map is complete."""
         self.page.wait_for_function("document.body.dataset.map === 'done'")
 
     def text(self, name):
@@ -103,7 +103,7 @@ class Visitor:
         )
 
     def place(self, name, across, up):
-        """Where on the page a place in a figure is, told by shares of its frame."""
+        """Return the page coordinates of a point in a figure, given as fractions of its frame."""
         left, top, width, height = self.page.evaluate(
             """name => { const view = Bokeh.index.find_one(Bokeh.documents[0].get_model_by_name(name));
                  const box = view.el.getBoundingClientRect(), inner = view.frame.bbox;
@@ -120,7 +120,7 @@ class Visitor:
         self.page.mouse.wheel(0, turns)
 
     def see(self, name):
-        """Keep a picture of the page."""
+        """Save a screenshot of the page."""
         SEEN.mkdir(parents=True, exist_ok=True)
         self.page.screenshot(path=SEEN / f"{name}.png")
 
@@ -131,7 +131,7 @@ class Visitor:
 
 @pytest.fixture
 def visit(browser, server):
-    """Open the page as a visitor of one's own: width, height and scheme as given."""
+    """Open the page in a new session with the given width, height and colour scheme."""
     contexts = []
 
     def come(width=1280, height=800, scheme="light"):

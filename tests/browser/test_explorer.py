@@ -1,4 +1,4 @@
-"""What a visitor sees in a real browser."""
+"""The explorer in a real browser."""
 
 import json
 import re
@@ -65,7 +65,7 @@ def test_numbers_typed_give_the_known_verdict(visit, case):
 
 
 def picture_of(visitor):
-    """The map's colours, upward first, and its stretches."""
+    """Return the colours of the map, upward axis first, and its ranges."""
     columns = dict(json.loads(visitor.data("map"))[0])
     image = np.array(columns["image"][0]).reshape(513, 513)
     return image, [columns[name][0] for name in ("x", "y", "w", "h")]

@@ -1,4 +1,4 @@
-"""Visits that are opened and dropped leave nothing behind, and no message of a stranger ends the server."""
+"""Sessions that are opened and dropped leave nothing behind, and invalid messages do not end the server."""
 
 import asyncio
 import json
@@ -16,19 +16,19 @@ from rocking.survey import cores
 
 VISITS = 200
 FORGOTTEN = 8.0
-"""Seconds after which the server has dropped a visit that nobody looks at, and looked for such."""
+"""Seconds after which the server has searched for sessions without a connection and dropped them."""
 ALLOWED = 30e6
 """Bytes that the memory may have grown by, however many visits: one alone takes some 10⁷."""
 
 
 def run(coroutine):
-    """In a thread of its own: where a browser was, this one has a loop already."""
+    """Run a coroutine in a new thread, because a browser leaves an event loop in this one."""
     with ThreadPoolExecutor(1) as pool:
         return pool.submit(asyncio.run, coroutine).result()
 
 
 async def opened(address):
-    """A page that was loaded and has its connection: (connection, number of its `link`)."""
+    """Load a page and open its connection; return the connection and the number of its `link`."""
     page = await AsyncHTTPClient().fetch(address)
     token = re.search(rb'"token":"([^"]+)"', page.body)[1].decode()
     connection = await websocket_connect(
@@ -61,7 +61,7 @@ async def ask(connection, link, text):
 
 
 async def begun(address, number):
-    """A visit that has asked for a map of its own: its connection."""
+    """Open a session that computes its own map; return its connection."""
     connection, link = await opened(address)
     view = f"version=1&amplitude={2 + number % 9}&period=1&restitution=1"
     await ask(connection, link, json.dumps({"what": "open", "fields": {"address": view}}))
@@ -69,14 +69,14 @@ async def begun(address, number):
 
 
 async def drop_many(address, count):
-    """Begin so many visits and drop each at once."""
+    """Open ``count`` sessions and drop each immediately."""
     for number in range(count):
         (await begun(address, number)).close()
     await asyncio.sleep(FORGOTTEN)
 
 
 async def watch_together(address, server):
-    """Begin more visits than there are threads for maps and watch them to their end: none of the threads is left out."""
+    """Open more sessions than threads for maps and wait for all of them: every thread is used."""
     connections = [await begun(address, number) for number in range(2 * cores())]
     watching = [asyncio.create_task(frames(each, sys.maxsize)) for each in connections]
     rested = await comes_to_rest(server)
@@ -89,7 +89,7 @@ async def watch_together(address, server):
 
 
 async def comes_to_rest(server):
-    """Whether the server ends its work, within ten minutes: a slow machine with other tests beside it takes more than two."""
+    """Return whether the server ends its work within ten minutes. A slow, busy machine needs more than two."""
     for _ in range(600):
         before = server.cpu_times().user
         await asyncio.sleep(1.0)
@@ -110,7 +110,7 @@ def test_visits_opened_and_dropped_leave_nothing_behind(running):
     run(drop_many(running.address, VISITS))
     assert server.num_threads() <= threads
     assert run(comes_to_rest(server)), "the server goes on computing for nobody"
-    # at rest, for a map under way has memory of its own
+    # at rest, because a map under way uses additional memory
     assert server.memory_info().rss < memory + ALLOWED
 
 

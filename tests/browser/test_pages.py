@@ -1,4 +1,4 @@
-"""Pages that are made once and read anywhere: the report on the paper here, those of `docs` where they are made."""
+"""Static pages in a browser: the report on the paper. Those of `docs` are tested where they are built."""
 
 import pytest
 

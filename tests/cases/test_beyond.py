@@ -1,4 +1,4 @@
-"""Additional figures: titles and captions describe the points that are drawn."""
+"""Figures beyond the paper: titles and captions agree with the points shown."""
 
 import inspect
 import itertools

@@ -89,7 +89,7 @@ def section(orbit, phase):
 
 
 def assert_stable_as_judged(orbit):
-    """A verdict from next to the orbit finds the orbit if it is stable, and something else if not."""
+    """Check that a verdict from a state next to the orbit finds the orbit exactly if it is stable."""
     forcing = orbit.system.forcing
     there = rk.System(
         rk.Harmonic(amplitude=forcing.amplitude, period=forcing.period, phase=orbit.phase),
@@ -221,7 +221,7 @@ def test_followed_in_the_brace_angle_it_grazes_where_the_brace_is_its_peak():
 
 
 def peak_of(orbit):
-    """The largest |Θ| of an orbit: by the march, from where it is."""
+    """Return the largest |Θ| of an orbit, by a march from its state."""
     forcing = rk.Harmonic(
         amplitude=orbit.system.forcing.amplitude, period=orbit.system.forcing.period, phase=orbit.phase
     )
@@ -314,7 +314,7 @@ def test_a_closed_branch_has_each_special_point_once_wherever_it_starts():
 
 
 def isolated_orbit():
-    """Of period 5 with 12 impacts at A = 15, T = 2, e = .925, braces at 1."""
+    """Orbit of period 5 with 12 impacts at A = 15, T = 2, e = .925, braces at 1."""
     forcing = rk.Harmonic(amplitude=15.0, period=2.0, phase=1.9605848019)
     braced = rk.System(forcing, 0.925, rk.Braces(angle=1.0, restitution=1.0))
     return rk.find_orbit(braced, rk.State(-0.5728344694, 4.3332188138), 5)
@@ -336,14 +336,14 @@ def test_curves_of_period_doubling_are_where_branches_at_other_periods_double(th
 
 
 def doubling_of(symmetric):
-    """Where the period of the unsymmetric orbit doubles that is born from a symmetric one."""
+    """Find the period doubling of the asymmetric orbit that branches off from a symmetric one."""
     branch = rk.continue_orbit(symmetric, "amplitude", (3.0, 20.0))
     breaking = special(branch, "symmetry-breaking")[0]
     return special(rk.switch_branch(breaking, (3.0, 20.0))[0], "period-doubling")[0]
 
 
 def begun_before(orbit, kind):
-    """The same orbit, begun between an event of that kind and the one before it."""
+    """Return the orbit with its initial state between an event of that kind and the event before."""
     forcing, braces = orbit.system.forcing, orbit.system.braces
     clocked = rk.Harmonic(forcing.amplitude, period=forcing.period, phase=orbit.phase)
     motion = rk.simulate(rk.System(clocked, orbit.system.restitution, braces), orbit.state, cycles=2)
@@ -387,7 +387,7 @@ def test_a_curve_of_grazing_with_the_base_is_where_the_slower_mode_comes_back_to
 
 
 def comes_back(period):
-    """The amplitude at which the slower (1,1) mode at e = .8 turns on the base."""
+    """Return the amplitude at which the slower (1, 1) mode at e = .8 touches the base."""
 
     def lowest(amplitude):
         _, mode = symmetric_modes(amplitude, period, 0.8, 1)
@@ -413,7 +413,7 @@ def comes_back(period):
 
 
 def no_speed(period):
-    """The amplitude t(1 + Ω²)/Ω at which the slower (1,1) mode has none left."""
+    """Return the amplitude t(1 + Ω²)/Ω at which the speed of the slower (1, 1) mode vanishes."""
     frequency = 2 * math.pi / period
     return math.tanh(math.pi / (2 * frequency)) * (1 + frequency**2) / frequency
 

@@ -1,4 +1,4 @@
-"""The paper's claims: all of them are there, each judged by a computation, and none is left unexplained."""
+"""The paper's claims: complete, each with a verdict from a computation, and none unexplained."""
 
 import csv
 import re
@@ -121,7 +121,7 @@ MACHINE = {
     "decimals of what is none or all": r"(?<![\d.])0\.0 %|100\.0",
     "a power of e": r"e\^",
 }
-"""Machine output that a journal does not print, by its name."""
+"""Machine output that a journal does not print, by name."""
 
 
 @pytest.mark.parametrize(

@@ -1,4 +1,4 @@
-"""Lyapunov exponents of the paper's motions, and of the chaos that it did not look for."""
+"""Lyapunov exponents of the paper's motions, and of chaotic motions that it does not study."""
 
 import math
 
@@ -107,7 +107,7 @@ def test_exponent_of_the_undamped_sea_falls_with_the_length_of_the_run(cycles, m
     phases = np.linspace(0.0, 1e-7, 200)
     runs = [_estimate(_system(*SEA, phase=phase), cycles=cycles, transient=0) for phase in phases]
     values = np.array([run.per_cycle[0][0] for run in runs])
-    # the mean of 200 to four of its standard errors, the last digit of what is known, and the spread likewise
+    # mean and spread of 200, to four standard errors and the last known digit
     assert abs(values.mean() - mean) < 4 * spread / math.sqrt(200) + 0.005
     assert abs(values.std() - spread) < 4 * spread / math.sqrt(400)
     assert values.min() < 0.14 < values.max()

@@ -1,8 +1,8 @@
-"""Motions near bifurcations: what slowly leaves a weakly unstable orbit is not chaos.
+"""Motions near bifurcations: motion that slowly leaves a weakly unstable orbit is not chaotic.
 
-Such a motion shows a small, steady growth of differences, whose standard error is tiny. `data/bifurcations.json` holds
-symmetry breakings, period doublings and folds of orbits with and without braces, found by continuation; a case is a point
-beside one of them and a start beside its orbit.
+The tangent vectors of such a motion grow steadily and slowly, with a tiny standard error. `data/bifurcations.json` holds
+symmetry breakings, period doublings and folds of orbits with and without braces, found by continuation. A case is a
+parameter point next to one of them and an initial state next to its orbit.
 """
 
 import json
@@ -71,7 +71,7 @@ def verdicts(cases):
 
 
 def is_chaotic(system, start):
-    """Whether a million cycles show chaos: no recurrence at their end, and differences that grow by 10 standard errors."""
+    """Return whether a million cycles show chaos: no recurrence at the end, and an exponent of 10 standard errors."""
     amplitude, _, period, phase, restitution, brace, brace_restitution = (float(each) for each in system)
     braces = None if math.isinf(brace) else rk.Braces(brace, brace_restitution)
     found = rk.System(rk.Harmonic(amplitude, period=period, phase=phase), restitution, braces)

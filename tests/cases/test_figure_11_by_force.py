@@ -1,8 +1,8 @@
-"""Figure 11 against brute force: points run to the last of thousands of cycles and labelled by their last states alone.
+"""Figure 11 against brute force: points run for thousands of cycles and labelled by their last states alone.
 
-Where the two differ, brute force itself must show why: its run was too short, or a change of the amplitude by a millionth
-and less changes its own label. Of 3,000 random points 3 were of that kind, after chaotic transients of some 60 to 230
-cycles, and 3 more undetermined, at A = 1.043, where what is left after a rest hangs on the last digits.
+If the two differ, brute force itself must show the reason: its run was too short, or a change of the amplitude by at most
+a millionth changes its own label. Of 3,000 random points 3 were of that kind, after chaotic transients of some 60 to 230
+cycles. Three more were undetermined, at A = 1.043, where the motion after a rest depends on the last digits.
 """
 
 import numpy as np
@@ -19,7 +19,7 @@ LONGER = 20
 
 
 def compared(axes, places, cycles):
-    """The points of a grid at which brute force says otherwise: (A, T, ours, theirs, why)."""
+    """Return the points at which brute force differs: (A, T, label of the package, label by brute force, reason)."""
     found = rk.parametric_map(amplitude=axes[0], period=axes[1], restitution=RESTITUTION)
     kinds, periods = found.kind.values.ravel(), found.response_period.values.ravel()
     for place in places:
@@ -33,7 +33,7 @@ def compared(axes, places, cycles):
 
 
 def why(amplitude, period, ours, cycles):
-    """What brute force itself shows of a point at which it says otherwise; None if it shows nothing."""
+    """Explain a point at which brute force has another result; None if brute force shows no reason."""
     if brute.label(amplitude, period, RESTITUTION, LONGER * cycles) == ours:
         return "the transient is longer than the budget"
     beside = {brute.label(amplitude, period, RESTITUTION, cycles)}

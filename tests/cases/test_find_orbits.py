@@ -1,4 +1,4 @@
-"""Orbits found: against what random starts reach, closed forms, a harder search and extended precision."""
+"""Orbits found, compared with random initial states, closed forms, a larger search and extended precision."""
 
 import math
 
@@ -19,7 +19,7 @@ def orbits():
 
 
 def impacts_of(orbit):
-    """(phase of the forcing mod 2π, speed just after) of every impact in a period."""
+    """Return the forcing phase mod 2π and the speed just after every impact in a period."""
     forcing = rk.Harmonic(
         amplitude=orbit.system.forcing.amplitude, period=orbit.system.forcing.period, phase=orbit.phase
     )
@@ -39,7 +39,7 @@ def section_of(orbit, phase=1.0):
 
 
 def distances(orbits, orbit):
-    """How far, at nearest, each of the orbits of its period lies from an orbit."""
+    """Return the least distance of each orbit of the same period from an orbit."""
     here = section_of(orbit)
     return [
         np.hypot(*(section_of(other)[:, None] - here[0]).T).min()
@@ -72,7 +72,7 @@ def test_every_admissible_symmetric_mode_is_in_the_list(orbits, n):
 
 
 def is_admissible(mode, n):
-    """Whether the block stays on its side for half a period: by dense samples of eq. (5)."""
+    """Return whether the block stays on its side for half a period, by dense samples of eq. (5)."""
     frequency = 2 * math.pi / 0.5
     beta = 5.5 / (1 + frequency**2)
     t = np.linspace(0, n * 0.25, 100_001)[1:-1]
@@ -116,7 +116,7 @@ def test_everything_found_returns_to_where_it_began():
 
 
 def precise_map(orbit, angle, velocity):
-    """The state a period later, in 40 digits, from the orbit's own sequence of impacts: eq. (5) and nothing else."""
+    """The state a period later, in 40 digits, from the orbit's sequence of impacts, by eq. (5) alone."""
     forcing, restitution = orbit.system.forcing, mpmath.mpf(orbit.system.restitution)
     period, amplitude = mpmath.mpf(forcing.period), mpmath.mpf(forcing.amplitude)
     frequency = 2 * mpmath.pi / period

@@ -90,7 +90,7 @@ def test_rest_is_reached_whatever_is_recorded(record):
 
 
 def test_energy_is_kept_without_loss_for_ten_thousand_periods():
-    """e = 1: period 4 arccosh(1/(1 − Θ₀)), the same peaks for ever."""
+    """e = 1: period 4 arccosh(1/(1 − Θ₀)), the same peaks permanently."""
     angle = 0.4
     period = 4 * math.acosh(1 / (1 - angle))
     system = rk.System(rk.Harmonic(amplitude=0.0, period=period), 1.0)

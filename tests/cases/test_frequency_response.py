@@ -31,7 +31,7 @@ def clocked(orbit):
 
 
 def distance_after(orbit, angle, velocity, periods):
-    """How far a run started next to the orbit is from it after so many of its periods."""
+    """Return the distance from the orbit, after ``periods``, of a run that starts next to it."""
     start = rk.State(orbit.state.angle + angle, orbit.state.velocity + velocity)
     end = rk.simulate(clocked(orbit), start, cycles=periods * orbit.period, record="none")
     if end.overturning is not None:
@@ -40,10 +40,10 @@ def distance_after(orbit, angle, velocity, periods):
 
 
 def told_by_runs(branch, is_stable):
-    """(orbit, larger multiplier) of the points that are stable, or not; without those that no run can tell.
+    """Return (orbit, larger multiplier) of the stable or unstable points that a run can distinguish.
 
-    These are the special points themselves and what is so near to one that a run would need 20,000 periods, and a last point
-    that grazes, where the motions on one side of it are others.
+    Left out are special points, points so near to one that a run would need 20,000 periods, and a last point that
+    grazes, because the motions on one side of it differ.
     """
     grazes = {
         0 if special.index == 0 else len(branch) - 1
@@ -98,7 +98,7 @@ def test_every_admissible_mode_lies_on_a_branch(found):
 
 
 def stays_up(amplitude, period, n, mode):
-    """Whether a mode keeps its side for half its period: by dense samples of eq. (5)."""
+    """Return whether a mode stays on its side for half its period, by dense samples of eq. (5)."""
     frequency = 2 * math.pi / period
     beta = amplitude / (1 + frequency**2)
     t = np.linspace(0, n * period / 2, 20_001)[1:-1]

@@ -1,4 +1,4 @@
-"""Lanes against one block: reference states, events, and the map of what loses nothing."""
+"""Lanes against one block: reference states, events, and undamped maps."""
 
 import json
 import math
@@ -22,7 +22,7 @@ PLAIN = [
 
 
 def marched(system, event, cycles):
-    """(events after it, final state) of a motion from one of its impacts to the end of cycle ``cycles``, every lane the same."""
+    """Return the later events and the final state of a motion from an impact to the end of ``cycles``, equal in all lanes."""
     forcing = system.forcing
     braces = () if system.braces is None else (system.braces.angle, system.braces.restitution)
     p = harmonic_parameters(
@@ -96,7 +96,7 @@ def test_the_same_events_between_braces_in_the_same_order(
 
 
 def asked(count, phase=0.0, brace=math.inf):
-    """Systems that lose nothing, or between braces, over the periods and amplitudes of the paper's maps, and their starts."""
+    """Return systems, undamped or between braces, over the periods and amplitudes of the paper's maps, at rest."""
     period, amplitude = (
         axis.ravel() for axis in np.meshgrid(np.linspace(0.2, 3.0, count), np.linspace(0.0, 16.0, count))
     )
@@ -109,7 +109,7 @@ def asked(count, phase=0.0, brace=math.inf):
 
 
 def one_by_one(systems, starts, cycles):
-    """The kind of each point, judged alone."""
+    """Return the kind of each point, classified alone."""
     answers, go_on = empty_results(len(systems)), np.zeros(1, np.int64)
     assert batch.classify_batch_scalar(
         systems, starts, cycles, 64, make_workspace(cycles, 64), answers, go_on
@@ -122,21 +122,21 @@ def together(systems, starts, cycles):
 
 
 def stands_firm(system, kind, count, cycles, random):
-    """Whether one block tells the same of so many changes of 1e-13 in the amplitude and the phase of a system at rest."""
+    """Return whether one block has the same result for ``count`` changes of 1e-13 in amplitude and phase, from rest."""
     changed = np.repeat(system[None], count, 0)
     changed[:, [0, 3]] += 1e-13 * random.uniform(-1, 1, (count, 2))
     return np.all(one_by_one(changed, np.zeros((count, 2)), cycles) == kind)
 
 
 def differing(count, cycles, brace=math.inf):
-    """(points, those that lanes tell otherwise, those that one block tells otherwise 2e-16 further on in phase)."""
+    """Count points, those with another result in lanes, and those with another result of one block 2e-16 later in phase."""
     systems, starts = asked(count, 0.0, brace)
     alone = one_by_one(systems, starts, cycles)
     other = np.flatnonzero(together(systems, starts, cycles).kind != alone)
     flips = one_by_one(*asked(count, 2e-16, brace), cycles) != alone
-    # Each of them is told otherwise by one block too, for some change of 1e-13: mostly one of the first 16, but where nearly all
-    # neighbours overturn in time it takes more to meet one that does not (all but one in 300, at two of 90,000 points; at a third
-    # all but one in 7,000, in lanes and alone).
+    # One block has another result for each of them too, after some change of 1e-13. In most cases one of the first 16 changes
+    # suffices. More are needed if nearly all neighbours overturn in time: all but one in 300, at two of 90,000 points, and all
+    # but one in 7,000 at a third, in lanes and alone.
     random, stands = np.random.default_rng(11), other
     for changes in (16, 256, 4096, 65_536):
         stands = [k for k in stands if stands_firm(systems[k], alone[k], changes, cycles, random)]
@@ -157,7 +157,7 @@ def test_of_the_whole_map_lanes_tell_otherwise_at_most_twice_as_often_as_the_las
     points, lanes, one = differing(300, cycles, brace)
     print(f"of {points} points lanes tell {lanes} otherwise, one block {one}")
     assert lanes <= 2 * one
-    # so many of them lie between two answers
+    # fraction of points that lie between two results
     assert lanes <= (0.02 if brace == math.inf else 0.05) * points
 
 
@@ -203,7 +203,7 @@ def test_answers_hang_on_no_neighbour(cycles, brace):
             assert np.array_equal(found, getattr(whole, name)[part], equal_nan=True), name
 
 
-# A, T, φ, e, Θb, r, cycles, the longest period: what settles, comes to rest or leans on its way, or repeats itself too late to be told
+# A, T, φ, e, Θb, r, cycles, the longest period: motions that settle, rest or stay in contact, or repeat too late to be detected
 BETWEEN = [
     (6.022018400548217, 1.9750950957845779, 0.29689638055990913, 0.925, 1.019706035213965, 0.0, 300, 16),
     (11.878404776566112, 3.106661053765255, 5.027015349696704, 0.0, 2.0974020582417823, 0.5, 300, 16),

@@ -1,4 +1,4 @@
-"""Periodic orbits as they are run: from their start, at any phase, in the user's own system; and their stability at e = 1."""
+"""Simulation of periodic orbits: from their initial state, at any phase, in the user's system; stability at e = 1."""
 
 import math
 
@@ -174,7 +174,7 @@ def test_every_found_orbit_was_met_once_at_least_and_its_mirror_image_as_often()
 
 
 def is_mirror_image(other, orbit):
-    """Whether some half-odd number of cycles on, one orbit is the other's start mirrored."""
+    """Return whether an orbit reaches the mirror image of the other's initial state after a half-odd number of cycles."""
     phase = orbit.system.forcing.phase
     states = (orbit.at(phase + math.pi * (2 * cycle + 1)) for cycle in range(orbit.period))
     return other.period == orbit.period and any(

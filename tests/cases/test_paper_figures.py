@@ -1,4 +1,4 @@
-"""The motions of Yim & Lin (1991), figures 2–6 and 13a: what kind they are, how often they strike, where they overturn."""
+"""The motions of Yim & Lin (1991), figures 2–6 and 13a: response types, numbers of impacts, overturning."""
 
 import math
 
@@ -22,7 +22,7 @@ def _period(section):
 
 
 def _asymmetry(motion, cycles):
-    """How far Θ(τ + n T/2) is from −Θ(τ) over the last response."""
+    """Return the largest distance of Θ(τ + n T/2) from −Θ(τ) over the last response."""
     length = cycles * motion.system.forcing.period
     times = motion.duration - length * np.linspace(1.0, 0.5, 500)
     early, late = motion.at(times), motion.at(times + length / 2)
@@ -130,7 +130,7 @@ def test_islands_without_loss_hold_for_a_million_cycles():
 @pytest.mark.parametrize(("amplitude", "period"), [(1.0, 1.0), (3.0, 0.8), (2.0, 2.0)])
 @pytest.mark.parametrize("off", [0.0, 0.005])
 def test_neutrally_stable_1_1_modes_without_loss_hold_for_a_million_cycles(amplitude, period, off):
-    """V = t + Ωβ, φ = −π/2 with t < V < 1/t: two impacts a cycle for ever, the peak that of the first thousand cycles."""
+    """V = t + Ωβ, φ = −π/2 with t < V < 1/t: two impacts a cycle permanently, the peak that of the first thousand cycles."""
     frequency = 2 * math.pi / period
     t = math.tanh(math.pi / frequency / 2)
     speed = t + frequency * amplitude / (1 + frequency**2)

@@ -1,4 +1,4 @@
-"""What the paper's maps, figures 10, 11 and 13b, show, on grids of their own; the shares are those of THEORY's larger grids."""
+"""The maps of figures 10, 11 and 13b on coarser grids; the expected fractions are those of THEORY's larger grids."""
 
 import numpy as np
 import pytest
@@ -33,7 +33,7 @@ def damped():
 
 
 def test_undamped_responses_are_those_of_the_caption_and_none_is_periodic():
-    """Of 3,600: quasi-periodic 12.8 %, chaotic 2.6 %, overturned 77.9 %, rest 6.7 %, to four standard errors of counts."""
+    """Quasi-periodic 12.8 %, chaotic 2.6 %, overturned 77.9 %, rest 6.7 % of 3,600 points, to four standard errors."""
     found = a_map(48, restitution=1.0)
     for kind, known in (
         ("quasi-periodic", 0.128),

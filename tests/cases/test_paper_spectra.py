@@ -1,4 +1,4 @@
-"""Figures 7 and 8 of Yim & Lin (1991): the points of the sections, and where the lines of the spectra lie."""
+"""Figures 7 and 8 of Yim & Lin (1991): points of the sections and lines of the spectra."""
 
 import numpy as np
 import pytest

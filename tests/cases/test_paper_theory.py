@@ -1,4 +1,4 @@
-"""Where the closed forms and statements of Yim & Lin (1991) do not hold, each shown by a computation."""
+"""Closed forms and statements of Yim & Lin (1991) that do not hold, each shown by a computation."""
 
 import math
 import runpy
@@ -15,7 +15,7 @@ EXAMPLE = Path(__file__).parents[2] / "examples" / "melnikov_and_exact.py"
 
 
 def undamped():
-    """Faster (1, n) modes without losses, from t < V < 1/t."""
+    """Faster undamped (1, n) modes, from t < V < 1/t."""
     for n in (1, 3, 5):
         for period in (0.2, 0.4, 1.0, 2.0, 3.0):
             ends = rk.theory.symmetry_breaking_amplitude(period, 1.0, n)
@@ -132,12 +132,12 @@ def test_example_finds_the_periods_at_which_both_thresholds_are_the_same(capsys)
         exact = rk.theory.heteroclinic_amplitude(period, e)
         assert rk.theory.melnikov_amplitude(period, e) == pytest.approx(exact, rel=1e-14, abs=0)
     example["table"]()
-    assert "the same at T = 0.9643" in capsys.readouterr().out
+    assert "equal at T = 0.9643" in capsys.readouterr().out
     assert [len(ax.lines) for ax in example["draw"]().axes] == [2, 4]
 
 
 def test_start_of_figure_2c_is_a_velocity():
-    """(Θ', φ) = (.15, 1.8) leads to period 10 with four impacts, two rocking cycles; as an angle to a symmetric period 7."""
+    """As a velocity, .15 leads at φ = 1.8 to period 10 with four impacts, two rocking cycles; as an angle to a symmetric period 7."""
     system = rk.System(rk.Harmonic(5.5, period=0.5, phase=1.8), 0.925)
     velocity, angle = (
         rk.classify(system, start) for start in (rk.State(velocity=0.15), rk.State(angle=0.15))
@@ -179,7 +179,7 @@ def test_damping_must_oppose_the_velocity():
 
 
 def test_the_two_sections_of_the_orbit_meet_only_with_the_sign_of_the_logarithm_turned_in_the_second():
-    """(16b) with the p of (16a), αt − ln θcr, starts at 1/θcr − θcr; with αt + ln θcr at 0, where (16a) is."""
+    """With the p of (16a), αt − ln θcr, (16b) starts at 1/θcr − θcr; with αt + ln θcr at 0, as (16a) does."""
     block = rk.Block(2.0, 0.5)
     critical, alpha = block.critical_angle, block.frequency_parameter
     printed, right = (math.exp(-sign * math.log(critical)) - critical for sign in (1, -1))

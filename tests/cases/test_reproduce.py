@@ -1,4 +1,4 @@
-"""The paper's figures: all there, not blank, the same bytes every time, and what they show is what they say."""
+"""The paper's figures: complete, not blank, reproducible bit by bit, and in agreement with their captions."""
 
 import csv
 import io
@@ -44,7 +44,7 @@ def test_progress_counts_figures_and_claims(reproduced):
 
 
 def test_table_sets_the_papers_numbers_beside_ours(reproduced):
-    """What is typed in is the paper's; what is computed is what tests/cases/test_exponents.py holds."""
+    """Typed numbers are the paper's; computed ones agree with tests/cases/test_exponents.py."""
     paths = [path for path in reproduced.paths if path.name.startswith("table-exponents")]
     with paths[0].open(encoding="utf-8", newline="") as file:
         rows = list(csv.DictReader(file))

@@ -30,7 +30,7 @@ def symmetry_breaking(period, restitution, step=0.01):
 
 
 def cascade(period, restitution, step=0.01):
-    """The first doublings of the unsymmetric orbit, as far as they are found."""
+    """The first doublings of the asymmetric orbit, as far as they are found."""
     point, found = symmetry_breaking(period, restitution, step), []
     bounds = 0.9 * point.parameter, 2.0 * point.parameter
     while len(found) < DEPTH:
@@ -116,7 +116,7 @@ def test_the_unsymmetric_orbit_ends_where_the_saddle_orbit_touches_the_base(step
 
 
 def test_an_orbit_at_a_grazing_is_not_followed():
-    """Whether a run meets the impact that grazes is a matter of rounding: with it the orbit is another one."""
+    """Rounding decides whether a run meets the grazing impact, and with that impact the orbit is different."""
     pair = rk.switch_branch(symmetry_breaking(*TUTORIAL), (7.0, 20.0))
     mode = rk.theory.symmetric_modes(2.0, 1.0, 0.925, 1)[0]
     braced = rk.System(mode.system.forcing, 0.925, rk.Braces(1.0, 0.9))
@@ -203,7 +203,7 @@ def test_the_grazing_of_the_period_8_branch_does_not_depend_on_the_step():
 
 
 def test_a_branch_ends_at_its_grazing_wherever_it_is_begun():
-    """Very near a grazing the multipliers are beyond 10⁸, and no step is short enough: that is the end, and nothing is lost."""
+    """Very near a grazing the multipliers are beyond 10⁸, and no step is short enough: the branch ends there, complete."""
     ends, found = Counter(), []
     for amplitude in (7.758823529411765, 8.818181818181818, *np.linspace(7.45, 10.4, 13)):
         system = rk.System(rk.Harmonic(amplitude, period=1.721328), 0.8)
@@ -215,7 +215,7 @@ def test_a_branch_ends_at_its_grazing_wherever_it_is_begun():
 
 
 def test_a_grazing_with_a_brace_is_where_the_brace_is_the_peak():
-    """Of the symmetric mode without braces, whose peak the closed form has."""
+    """The peak is that of the symmetric mode without braces, known in closed form."""
     mode = rk.theory.symmetric_modes(2.0, 1.0, 0.925, 1)[0]
     braced = rk.System(mode.system.forcing, 0.925, rk.Braces(1.0, 0.9))
     branch = rk.continue_orbit(rk.find_orbit(braced, mode.start, 1), "brace_angle", (0.05, 2.0))

@@ -1,4 +1,4 @@
-"""Small differences carried through every kind of event are the derivatives of the motion itself."""
+"""Tangent vectors, propagated through all types of events, are the derivatives of the motion."""
 
 import math
 

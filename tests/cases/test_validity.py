@@ -1,4 +1,4 @@
-"""Base reactions, impulses and the slender range, against a rigid rectangle whose corners and centre are placed by geometry alone."""
+"""Base reactions, impulses and the slender range, against the geometry of a rigid rectangle."""
 
 import math
 from itertools import pairwise
@@ -41,7 +41,7 @@ def centre(block, angle, height=0):
 
 
 def flights(motion, thin):
-    """(start, end, side, Θ') of some arcs between two impacts at Θ = 0."""
+    """Return (start, end, side, Θ') of some arcs between two impacts at Θ = 0."""
     events = motion.events
     inner = [
         (before, after)
@@ -52,7 +52,7 @@ def flights(motion, thin):
 
 
 def reactions_from_positions(motion, block, begun, side, velocity, time):
-    """(H/Mg, N/Mg) from second differences of the centre's position, to 20 digits: eq. (5) gives only the angle."""
+    """Return (H/Mg, N/Mg) from second differences of the centre's position, to 20 digits. Eq. (5) gives only the angle."""
     with mp.workdps(60):
         forcing = motion.system.forcing
         frequency, begun = mp.mpf(forcing.frequency), mp.mpf(begun)

@@ -39,7 +39,7 @@ def test_published_cases_are_what_their_figures_show(figure):
 
 
 def test_figure_6_is_chaotic_from_most_starts_and_never_anything_else():
-    """The sea is sticky: a run of 10⁵ cycles may see little else than an island's shore, and which one does is rounding."""
+    """A run of 10⁵ cycles may stay near an island most of the time. Rounding decides which run does."""
     kinds = [str(classify(2.0, 0.4, 1.0, phase=1e-8 * k).kind) for k in range(16)]
     assert set(kinds) <= {"chaotic", "undetermined"}
     assert kinds.count("chaotic") >= 8
@@ -64,7 +64,7 @@ def test_weakly_attracting_orbit_is_the_one_that_a_million_cycles_end_on(across,
 
 
 def test_chaotic_is_what_has_an_exponent_of_six_standard_errors_and_nothing_with_less():
-    """In the sticky sea of figure 6 they are from two to twenty-five after 20,000 cycles."""
+    """The ratios range from 2 to 25 after 20,000 cycles in the chaotic sea of figure 6, with long sojourns near islands."""
     found = [classify(2.0, 0.4, 1.0, phase=1e-8 * k, max_cycles=20_000) for k in range(48)]
     weighed = [verdict for verdict in found if verdict.exponent_error is not None]
     errors = [verdict.exponent / verdict.exponent_error for verdict in weighed]
@@ -84,7 +84,7 @@ def test_figure_13a_has_the_exponents_of_a_long_run():
 
 
 def symmetric_mode(amplitude, period, restitution):
-    """(V, φ) at an impact of the symmetric mode (1, 1), the root that is stable: from its two conditions, eqs. (8)–(10)."""
+    """Return (V, φ) at an impact of the stable symmetric mode (1, 1), from its two conditions, eqs. (8)–(10)."""
     frequency = 2 * math.pi / period
     t = math.tanh(math.pi / frequency / 2)
     less, more = (1 - restitution) / (2 * restitution), (1 + restitution) / (2 * restitution)
@@ -95,7 +95,7 @@ def symmetric_mode(amplitude, period, restitution):
 
 
 def symmetry_breaking_amplitude(period, e):
-    """Where the half-cycle trace reaches −(1 + e²)."""
+    """Return the amplitude at which the half-cycle trace reaches −(1 + e²)."""
     frequency = 2 * math.pi / period
     h = math.pi / frequency
     t, sinh, cosh = math.tanh(h / 2), math.sinh(h), math.cosh(h)

@@ -1,4 +1,4 @@
-"""Verdicts that were wrong, or never came, once: each is kept by the numbers at which it was met."""
+"""Verdicts that were once wrong or missing, each with the parameters at which it was found."""
 
 import itertools
 import math
@@ -30,7 +30,7 @@ print(status == march.DONE, progress.cycle, progress.peak)
 
 
 def test_a_turn_that_rounding_meets_again_ends_the_search_for_the_peak():
-    """The march to the peak stood still here: the turn at the arc's start was found again after itself, for ever."""
+    """The search for the peak once did not end here: it found the turn at the start of the arc repeatedly."""
     done = subprocess.run(
         [sys.executable, "-c", PEAK], capture_output=True, text=True, timeout=120, check=True
     )
@@ -166,7 +166,7 @@ def test_what_stuck_to_a_torus_overturns_in_the_end(amplitude, period, watched):
 
 
 def test_a_torus_whose_averages_agree_late_is_found_when_it_is_watched_for_long():
-    """At the rim of an island: after 37,000 cycles they agree to nine digits, and more are not asked for however long the run is."""
+    """Near the boundary of an island they agree to nine digits after 37,000 cycles. No run needs more digits, however long."""
     system = rk.System(rk.Harmonic(2.0, period=0.4), 1.0)
     found = {
         cycles: str(rk.classify(system, rk.State(0.018, 0.168), max_cycles=cycles).kind)
@@ -224,10 +224,10 @@ def agreement_of_halves(values):
 
 
 def leaves_its_torus_in_doubles(system):
-    """Whether an undamped motion from rest overturns or turns chaotic within 30,000 cycles, followed in doubles.
+    """Return whether an undamped motion from rest overturns or is chaotic within 30,000 cycles, in double precision.
 
-    Chaotic is what has averages over both halves that differ in the sixth digit, and within ten times as many cycles
-    overturns or lets differences grow by e⁴⁰.
+    It counts as chaotic if averages over both halves differ in the sixth digit, and it overturns within ten times as
+    many cycles or its tangent vectors grow by e⁴⁰ until then.
     """
     amplitude, frequency, period = system[:3].tolist()
     p = harmonic_parameters(amplitude, frequency, period, 0.0, 1.0)
@@ -245,7 +245,7 @@ def leaves_its_torus_in_doubles(system):
 
 
 def leaves_its_torus(system):
-    """Whether it does so in forty digits too, where averages over both halves that differ in the sixth digit are enough."""
+    """Return whether it does so in forty digits too, where averages that differ in the sixth digit suffice."""
     amplitude, _, period = system[:3].tolist()
     values, overturned = undamped.squared_speeds(amplitude, period, 30_000)
     return overturned or agreement_of_halves(np.array(values)) >= 1e-6

@@ -1,6 +1,6 @@
-"""Verdicts against labels established without their means: long brute-force recurrence, many digits, averages, exponents.
+"""Verdicts against labels from independent methods: long brute-force recurrence, many digits, averages, exponents.
 
-`data/verdicts.json` is written by `data/make_verdicts.py`; `data/labels.json` was labelled elsewhere by the same routes. A
+`data/make_verdicts.py` writes `data/verdicts.json`. `data/labels.json` was labelled elsewhere by the same methods. A
 verdict may be undetermined, rarely; it is never wrong.
 """
 
@@ -43,7 +43,7 @@ def verdict(name, number, factor):
 
 
 def differing(found, case):
-    """Return what a verdict says otherwise than the table, as {name: (said, true)}; infinitely many hits are None."""
+    """Return the differences of a verdict from the table, as {name: (said, true)}; infinitely many hits are None."""
     if found.kind != case["kind"]:
         return {"kind": (str(found.kind), case["kind"])}
     names = {"period", "impacts_per_period", "brace_hits_per_period", "symmetric"} & case.keys()

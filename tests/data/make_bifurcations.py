@@ -1,8 +1,8 @@
 """Write `bifurcations.json`: symmetry breakings, period doublings and folds of orbits, half of them between braces.
 
-`python tests/data/make_bifurcations.py` (seconds). Systems are drawn at random; each periodic response is continued in
-the amplitude, and what is met on the way is kept until there are enough of a kind. Newton's method alone decides here
-what a bifurcation is: the verdicts that are tested on the table have no part in it but to find a first orbit.
+`python tests/data/make_bifurcations.py` (seconds). Systems are drawn at random. Each periodic response is continued in
+the amplitude, and the bifurcations on the way are kept until there are enough of each type. Newton's method alone decides
+here what a bifurcation is. The verdicts that are tested on the table only find the first orbit.
 """
 
 import json

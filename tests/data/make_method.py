@@ -1,7 +1,7 @@
-"""Write `method.json`: what the method that surveys use answers to some questions, all of them far from any boundary.
+"""Write `method.json`: results of the surveys' method for some systems, all of them far from any boundary.
 
-`python tests/data/make_method.py`, after METHOD in `kernels/batch.py` was raised. A case whose counts change with the last
-digits of the amplitude, or whose numbers change by more than these do, is refused.
+Run `python tests/data/make_method.py` after METHOD in `kernels/batch.py` was raised. A case is rejected if its counts
+change with the last digits of the amplitude, or if its numbers change by more than these digits.
 """
 
 import json
@@ -32,7 +32,7 @@ CASES = [
     (1.2, 1.5, 0.0, 0.9, math.inf, 1.0, 0.0, 0.0),
     (1.1, 0.7, 0.0, 0.5, math.inf, 1.0, 0.0, 0.0),  # rests in every period
     (9.0, 1.6, 0.0, 0.8, math.inf, 1.0, 0.0, 0.0),
-    (9.0, 1.721328, 0.0, 0.8, math.inf, 1.0, 0.0, 0.0),  # unsymmetric
+    (9.0, 1.721328, 0.0, 0.8, math.inf, 1.0, 0.0, 0.0),  # asymmetric
     (12.0, 1.0, 0.0, 0.95, math.inf, 1.0, 0.0, 0.0),
     (3.0, 0.6, 0.5, 0.7, math.inf, 1.0, 0.0, 0.0),
     (4.0, 0.3, 0.0, 0.0, math.inf, 1.0, 0.0, 0.0),  # falls dead
@@ -49,7 +49,7 @@ CASES = [
 
 
 def answers(cases):
-    """A record a case: whole numbers, and floats with None for what there is not."""
+    """Return one record per case: whole numbers, and floats with None for missing values."""
     table = np.array(cases)
     systems = np.column_stack([table[:, 0], math.tau / table[:, 1], table[:, 1:6]])
     told = batch.classify_batch(systems, table[:, 6:8], MAX_CYCLES, MAX_PERIOD, np.zeros(1, np.int64))

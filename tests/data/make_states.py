@@ -1,7 +1,7 @@
 """Write `states_own.json`: final states of many motions by the brute-force oracle, each run twice.
 
-`python tests/data/make_states.py` (minutes). A state is kept as printed only if 40 more digits and thrice the samples give
-the same 30 digits and the same events.
+`python tests/data/make_states.py` (minutes). A state is kept as printed only if 40 more digits and three times the samples
+give the same 30 digits and the same events.
 """
 
 import json
@@ -106,7 +106,7 @@ def chosen():
 
 
 def drawn(kind, count, seed, braced, most_growth, restitution):
-    """Random motions from random starts that do not overturn and grow no more than asked."""
+    """Random motions that do not overturn and whose tangent vectors grow by at most ``most_growth``."""
     rng = np.random.default_rng(seed)
     while count:
         T, e = round(float(np.exp(rng.uniform(np.log(0.1), np.log(4)))), 4), float(rng.choice(restitution))

@@ -1,8 +1,8 @@
-"""Write `verdicts.json`: what many responses are, each established without the verdict's own means (`oracles.recurrence`).
+"""Write `verdicts.json`: the types of many responses, each from an independent method (`oracles.recurrence`).
 
-`python tests/data/make_verdicts.py` (many minutes). Families of systems are drawn at random; of each family no more than a
-few responses of a kind, period and symmetry are kept, so that the common ones do not crowd out the rare. What its route
-cannot establish is thrown away and counted.
+`python tests/data/make_verdicts.py` (many minutes). Families of systems are drawn at random; of each family at most a
+few responses of each type, period and symmetry are kept, so that common ones do not displace rare ones. Cases that the
+method cannot establish are rejected and counted.
 """
 
 import json
@@ -24,7 +24,7 @@ PROCESSES = min(2, os.cpu_count() or 1)
 
 
 def on_its_orbit(numbers):
-    """The same system, started on what it comes to: the small basins of long periods forgive nothing else."""
+    """Return the system with an initial state on its orbit, because basins of long periods are small."""
     _, reached, _, _ = run(system_of(numbers), start_of(numbers), 100_000)
     state = {"Theta0": round(reached.angle, 6), "dTheta0": round(reached.velocity, 6)}
     return numbers | {"family": "on its orbit"} | state
@@ -42,7 +42,7 @@ def long_periods(candidates, looks):
 
 
 def tried(numbers, settle):
-    """(label or None, why not)."""
+    """Return the label or None, and the reason if it is None."""
     try:
         return settle(numbers), None
     except Unsettled as error:
@@ -73,7 +73,7 @@ def select(candidates, looks):
 
 
 def settle_all(pool, cases):
-    """(records, counts of what was thrown away)."""
+    """Return the records and the numbers of rejected cases."""
     records, thrown = [], Counter()
     for numbers, (record, reason) in zip(cases, pool.map(in_full, cases), strict=True):
         if record is None:

@@ -1,4 +1,4 @@
-"""Cases known by name: the paper's, those at bifurcations by their closed forms, and rare ones found in many draws."""
+"""Named cases: those of the paper, those at bifurcations by closed forms, and rare ones found in many random draws."""
 
 import math
 
@@ -6,7 +6,7 @@ from data.verdict_families import case
 
 
 def symmetric_mode(A, T, e, n):
-    """(V, φ) just after an impact of the stable mode (1, n), eqs. (8)–(10)."""
+    """Return (V, φ) just after an impact of the stable mode (1, n), eqs. (8)–(10)."""
     omega = 2 * math.pi / T
     beta, t = A / (1 + omega**2), math.tanh(n * math.pi / omega / 2)
     less, more = (1 - e) / (2 * e), (1 + e) / (2 * e)
@@ -110,7 +110,7 @@ EVEN_PERIODS = (
 
 
 def found():
-    """Long periods from starts on their orbits, even periods with braces, and chatter almost without loss."""
+    """Long periods from starts on their orbits, even periods with braces, and chattering that is almost undamped."""
     for numbers in LONG_PERIODS:
         yield case("on its orbit", *numbers, digits=6)
     for numbers in EVEN_PERIODS:

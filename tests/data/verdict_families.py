@@ -1,4 +1,4 @@
-"""Families of systems to draw verdicts' cases from at random."""
+"""Families of systems, from which cases of verdicts are drawn at random."""
 
 import math
 

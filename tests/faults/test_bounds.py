@@ -1,4 +1,4 @@
-"""No compiled function writes or reads beyond an array: where that is not checked it damages what lies beside it."""
+"""No compiled function writes or reads beyond an array. Without a check that would damage other data."""
 
 import os
 import subprocess
@@ -13,7 +13,7 @@ from rocking.kernels import batch
 from rocking.kernels.classify.results import empty_results
 from rocking.kernels.classify.workspace import make_workspace
 
-# chaos and tori without loss; a cycle, chaos, resets and overturning with losses; braces
+# undamped chaos and tori; dissipative cycle, chaos, resets and overturning; braces
 cases = [(2.0, 0.4, 1.0), (4.0, 0.4, 1.0), (1.75, 0.9, 1.0), (2.0, 1.0, 0.925), (10.103037, 1.721328, 0.8), (1.1, 0.7, 0.5),
          (1.75, 2.0, 0.95), (15.0, 2.0, 0.925)]
 systems = np.array([(a, math.tau / t, t, 0.0, e, 1.0 if a == 15.0 else math.inf, 1.0) for a, t, e in cases])
@@ -24,13 +24,13 @@ for max_cycles, max_period in ((1, 1), (129, 1), (200, 64), (639, 64), (1_000, 3
     batch.classify_batch(systems, starts, max_cycles, max_period, stop)
 print(*answers.kind)
 
-# of short periods, without loss: motions that stick to tori and leave them again, many flying less than once a cycle
+# undamped, short periods: long sojourns near tori, often fewer impacts than cycles
 amplitude, period = (axis.ravel() for axis in np.meshgrid(np.linspace(1.01, 7.0, 24), np.linspace(0.1, 0.6, 24)))
 one = np.ones(period.size)
 systems = np.column_stack([amplitude, math.tau / period, period, 0.0 * one, one, math.inf * one, one])
 batch.classify_batch(systems, np.tile((0.0, 0.3), (len(systems), 1)), 20_000, 1, np.zeros(1, np.int64))
 
-# between braces with hardly any loss: long legs of few events
+# between braces, weak dissipation: long legs with few events
 systems[:, 4], systems[:, 5], systems[:, 6] = 0.9999, 3.0, 0.9999
 for max_cycles, max_period in ((6_000, 1), (10_000, 64)):
     batch.classify_batch(systems[::3], np.tile((0.0, 0.3), (len(systems[::3]), 1)), max_cycles, max_period, np.zeros(1, np.int64))

@@ -1,4 +1,4 @@
-"""Where the system refuses to write more, one line says which output cannot be written; half a file is never left."""
+"""On a full disk one line names the output that cannot be written, and no partial file stays."""
 
 import subprocess
 import sys
@@ -19,7 +19,7 @@ main()
 
 
 def limited(line, limit, folder):
-    """A command whose files may have so many bytes."""
+    """Return a command whose files are limited to ``limit`` bytes."""
     return subprocess.run(
         [sys.executable, "-c", LIMITED, str(limit), *line.split()],
         cwd=folder, capture_output=True, text=True, timeout=200, check=False,

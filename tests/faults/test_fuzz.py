@@ -1,4 +1,4 @@
-"""Any valid system, however odd, runs to the end of its budget: no hang, no crash, no NaN, and the same outcome whatever is recorded."""
+"""Any valid system, however extreme, runs to the end of its budget: no hang, crash or NaN; recording changes no outcome."""
 
 import math
 import random
@@ -12,7 +12,7 @@ from rocking import Braces, Harmonic, Outcome, State, System, TooManyEvents, sim
 
 LONGEST = 100.0  # τ
 SYSTEMS = 10_000
-MAX_CROWDED = 1  # of so many
+MAX_CROWDED = 1  # of the whole sample
 MAX_FLOWN = 20_000  # events
 
 
@@ -39,7 +39,7 @@ def check(system, start, cycles):
 
 
 def recorded(motion):
-    """What holds of every motion that kept its events."""
+    """Check the properties of every motion with recorded events."""
     events, braces = motion.events, motion.system.braces
     kinds = events["kind"].tolist()
     assert (kinds.count("impact"), kinds.count("brace")) == (motion.impacts, motion.brace_hits)
@@ -83,7 +83,7 @@ def flown(system, events):
 
 
 def consistent(motion, cycles):
-    """What holds of every motion."""
+    """Check the properties of every motion."""
     final, braces = motion.final, motion.system.braces
     reach = math.inf if braces is None else braces.angle
     assert math.isfinite(final.angle)

@@ -1,4 +1,4 @@
-"""Ctrl-C in the middle of a simulation is a KeyboardInterrupt, soon, and never the end of the process."""
+"""Ctrl-C in a simulation raises KeyboardInterrupt soon, and never ends the process."""
 
 import signal
 import subprocess

@@ -1,4 +1,4 @@
-"""What a process of a pool raises or returns arrives in the process that asked for it."""
+"""Results and errors of a pool's worker process arrive in the calling process."""
 
 import subprocess
 import sys

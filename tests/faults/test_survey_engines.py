@@ -1,4 +1,4 @@
-"""Every executor gives the same bytes, with any number of workers, and when one of them is killed."""
+"""All executors give bit-identical results, with any number of workers, also if one of them is killed."""
 
 import multiprocessing
 import os

@@ -1,4 +1,4 @@
-"""Surveys that are killed, interrupted, run twice at once or out of disk lose nothing that was kept."""
+"""Surveys that are killed, interrupted, run twice at once or out of disk space keep all stored results."""
 
 import os
 import shutil

@@ -1,4 +1,4 @@
-"""Seeded arcs that try the first crossing where it is weakest.
+"""Seeded arcs for which the first crossing is hardest to find.
 
 A family is a function of a random generator that returns one Arc. `arcs(family, count, seed)` lists them.
 """
@@ -158,7 +158,7 @@ def grazing_base(rng):
 
 
 def grazing_brace(rng):
-    """The same at a brace."""
+    """Dips that touch a brace to ±32 roundings of their terms."""
     return _grazing(rng, "brace")
 
 

@@ -1,4 +1,4 @@
-"""A periodic response: its events, its symmetry, and once around in many digits."""
+"""Periodic response: events, symmetry, and one period in many digits."""
 
 import math
 
@@ -58,7 +58,7 @@ def _counts(events, begin, length):
 
 
 def _symmetric(motion, quiet, length):
-    """Whether Θ, which is continuous at impacts, is negated half a response period later."""
+    """Return whether Θ, which is continuous at impacts, changes its sign after half a response period."""
     times = quiet + np.linspace(0, length, 401)
     off = np.abs(motion.at(times + length / 2)[0] + motion.at(times)[0]).max()
     if 1e-9 < off < 1e-6:

@@ -1,8 +1,8 @@
 """Responses from rest by brute force: textbook closed form in plain doubles, sample by sample, to the last cycle.
 
-Nothing is decided early: a label is read off the states of the last cycles alone. Compiled, and otherwise as plain as that;
-it shares nothing with the package but the equations of motion. Samples lie so close that what hides between two of them
-is smaller than rounding makes of it anyway.
+Nothing is decided early: the label follows from the states of the last cycles alone. The code is compiled, and shares
+nothing with the package except the equations of motion. Samples are so close that an event missed between two of them
+is smaller than rounding.
 """
 
 import math
@@ -18,7 +18,7 @@ BOUNDED, OVERTURNED, AT_REST = range(3)
 
 
 def label(amplitude, period, restitution, cycles):
-    """("overturned" | "rest" | "else", 0) or ("periodic", n) of the response from rest, after so many cycles."""
+    """Return ("overturned" | "rest" | "else", 0) or ("periodic", n) for the response from rest after ``cycles``."""
     ended, rows = march(amplitude, 2 * math.pi / period, restitution, cycles, np.empty((2 * LONGEST, 2)))
     if ended != BOUNDED:
         return ("overturned", 0) if ended == OVERTURNED else ("rest", 0)
@@ -44,7 +44,7 @@ def at(time, u, v, side, psi, omega, ripple):
 
 @njit
 def root(which, left, right, u, v, side, psi, omega, ripple):
-    """Where u (0) or u' (1) changes its sign between two times: secants and bisections in turn."""
+    """Find the sign change of u (0) or u' (1) between two times, by secants and bisections in turn."""
     low = at(left, u, v, side, psi, omega, ripple)[which]
     high = at(right, u, v, side, psi, omega, ripple)[which]
     for turn in range(200):
@@ -63,7 +63,7 @@ def root(which, left, right, u, v, side, psi, omega, ripple):
 
 @njit
 def impact(time, u, v, side, psi, omega, ripple):
-    """When u first reaches zero within a time, in which it turns twice at most; infinite if it does not."""
+    """Return the time at which u first reaches zero, with two extrema at most before; infinite if it does not."""
     later, speed = at(time, u, v, side, psi, omega, ripple)
     begin = 0.0
     if later <= 0:
@@ -79,7 +79,7 @@ def impact(time, u, v, side, psi, omega, ripple):
 
 @njit
 def march(amplitude, omega, restitution, cycles, rows):
-    """How a run from rest at ψ = 0 ends; into `rows` go Θ and Θ' at the ends of its last cycles."""
+    """Return the end of a run from rest at ψ = 0; `rows` takes Θ and Θ' at the ends of its last cycles."""
     if amplitude <= 1:
         return AT_REST, rows
     ripple, turn = amplitude / (1 + omega**2), 2 * math.pi

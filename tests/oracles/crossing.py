@@ -1,8 +1,8 @@
 """First event of one arc, proved by branch and bound in ball arithmetic.
 
-The doubles that describe an arc are taken as exact. The time axis is cut adaptively; on each piece Taylor enclosures of
-the distance left, of its first and of its second derivative decide: no zero, one zero, one dip, or cut again. Nothing here
-uses how the sign of the forcing divides an arc.
+The numbers that describe an arc are taken as exact. The time axis is divided adaptively. On each interval Taylor
+enclosures of the distance, of its first and of its second derivative decide: no zero, one zero, one dip, or divide again.
+The method does not use the sign intervals of the forcing.
 """
 
 import math
@@ -16,7 +16,7 @@ MAX_PIECES = 100_000
 
 
 class Event(NamedTuple):
-    """A zero (or a dip too shallow to be told from one) of the distance to the base or to a brace.
+    """Zero, or indistinguishably shallow minimum, of the distance to the base or to a brace.
 
     velocity is d|Θ|/dτ just before the event. depth is the least distance in units of 2⁻⁵³ times the sum of the
     magnitudes of its terms, infinite where the distance falls through zero far beyond it, nan where it only sinks below
@@ -34,7 +34,7 @@ CLEAR, UNDECIDED, SHALLOW = "clear", "undecided", "shallow"
 
 
 def _inspect(distance, left, right):
-    """What [left, right] holds, w(left) > 0 (or the start itself) known: CLEAR, UNDECIDED or an Event.
+    """Classify [left, right] as CLEAR, UNDECIDED or an Event; w(left) > 0, or left is the start.
 
     SHALLOW: w has its one zero here, but at the right end it is not yet below zero by more than rounding.
     """
@@ -77,7 +77,7 @@ def _event(distance, time, depth, definite):
 
 
 def _fall(distance, zero, left, step):
-    """(Event, time): a zero known, w falling at left: followed down until it lies beyond rounding, or to the bottom of its dip."""
+    """Follow w, which falls at left, below its known zero until it exceeds rounding or turns. Returns (Event, time)."""
     for _ in range(MAX_PIECES):
         right = (left + step).mid()
         _, first, second = distance.enclose(left, right)
@@ -95,7 +95,7 @@ def _fall(distance, zero, left, step):
 
 
 def _resurface(distance, left, step):
-    """(time, False) once w > 0 again after a dip lost in rounding; (time, True) where it sinks below rounding first."""
+    """Return (time, False) if w > 0 again after a dip within rounding, (time, True) if it sinks below rounding first."""
     for _ in range(MAX_PIECES):
         value = distance.at(left)[0]
         if value > 0:
@@ -146,7 +146,7 @@ def _zeros(distance, arc, limit):
 
 
 def first_events(arc):
-    """What an arc may meet first: shallow dips in order, then the first definite event ("none": proved never to return)."""
+    """Return the possible first events of an arc: shallow dips in order, then the first definite one ("none": no return)."""
     events = _zeros(Distance(arc, "base"), arc, arb(10) ** 6)
     if math.isfinite(arc.brace):
         limit = events[-1].time if events and events[-1].definite else arb(10) ** 6

@@ -1,4 +1,4 @@
-"""What an arc has left to the base or to a brace, and enclosures of it, in ball arithmetic."""
+"""Distance of an arc from the base or from a brace, and enclosures of it, in ball arithmetic."""
 
 from typing import NamedTuple
 
@@ -75,7 +75,7 @@ class Distance:
         return even + self.with_sinh * sinh + self.with_p * p + self.with_q * q
 
     def rate_size(self, time):
-        """The same for w'."""
+        """Bound the sum of the magnitudes of the terms of w'."""
         sinh, cosh = time.sinh_cosh()
         sine, cosine = (self.frequency * time).sin_cos()
         share = 1 / (1 + self.frequency**2)
@@ -127,7 +127,7 @@ class Distance:
         return self.p * grow > abs(self.q) / grow + abs(self.k) + abs(self.d) + AMBIGUOUS * terms
 
     def knife_edge(self):
-        """Whether the growing part is lost in rounding: then double precision cannot tell what comes last."""
+        """Return whether the growing part is lost in rounding. Then double precision cannot decide the last event."""
         return not abs(self.p) > AMBIGUOUS * self.growth_size
 
     def zero(self, left, right):

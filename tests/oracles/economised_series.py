@@ -1,9 +1,8 @@
-"""Short polynomials that are as good on a short range as long ones: Lanczos's economisation.
+"""Lanczos's economisation: short polynomials that are as accurate on a short range as long ones.
 
-A polynomial's last power is replaced by lower ones, the others of the Chebyshev polynomial of its degree, which is
-small all over the range. What that changes is its coefficient over 2**(2n - 1), n its degree, times the range to that
-power; to leave the power out would change 2**(2n - 1) times as much. In fractions, so that every machine has the same
-coefficients.
+The last power of a polynomial is replaced by the other terms of the Chebyshev polynomial of its degree n, which is small
+on the whole range. The error is the coefficient over 2**(2n - 1) times the range to the power n. Without the replacement
+it would be 2**(2n - 1) times as large. Fractions give the same coefficients on every machine.
 """
 
 from fractions import Fraction
@@ -20,7 +19,7 @@ def chebyshev(most):
 
 
 def economised(coefficients, widest, terms):
-    """Of a polynomial by increasing powers so many coefficients, (``terms``,), of one nearly equal to it on [0, ``widest``]."""
+    """Return ``terms`` coefficients, by increasing powers, of a polynomial nearly equal to a longer one on [0, ``widest``]."""
     width, polynomials = Fraction(widest), chebyshev(len(coefficients) - 1)
     left = [Fraction(c) * width**k for k, c in enumerate(coefficients)]
     while len(left) > terms:

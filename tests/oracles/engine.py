@@ -11,7 +11,10 @@ KINDS = {event_kinds.IMPACT: "base", event_kinds.BRACE: "brace"}
 
 
 def first_event(arc, guess=None):
-    """(kind, time, d|Θ|/dτ) of an `oracles.distance.Arc`: kind "base", "brace" or "none"; from a guess of the time or without one."""
+    """Return the first event of an `oracles.distance.Arc`, from a guess of its time or without one.
+
+    The result is (kind, time, d|Θ|/dτ), of kind "base", "brace" or "none".
+    """
     system = harmonic_parameters(
         arc.amplitude, arc.frequency, 2 * math.pi / arc.frequency, arc.phase, 1.0, arc.brace, 1.0
     )

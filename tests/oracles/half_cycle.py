@@ -12,7 +12,7 @@ from rocking.kernels.march import next_event, tangent
 
 
 def _flight(amplitude, omega, phase, velocity, t):
-    """(Θ, Θ') a time t after leaving the base, eq. (5) solved for a start at Θ = 0."""
+    """Return (Θ, Θ') a time t after leaving the base, eq. (5) solved for a start at Θ = 0."""
     beta = amplitude / (1 + omega**2)
     cosine, sine = mp.cos(phase), mp.sin(phase)
     later = omega * t + phase
@@ -24,7 +24,7 @@ def _flight(amplitude, omega, phase, velocity, t):
 
 
 def solved(amplitude, period, restitution, n, velocity, phase):
-    """(V, φ) of the mode near a guess: Θ = 0 and Θ' = −V/e half a response later."""
+    """Return (V, φ) of the mode near a guess: Θ = 0 and Θ' = −V/e half a response later."""
     a, omega, e = mp.mpf(amplitude), 2 * mp.pi / mp.mpf(period), mp.mpf(restitution)
     length = n * mp.pi / omega
 
@@ -37,7 +37,7 @@ def solved(amplitude, period, restitution, n, velocity, phase):
 
 
 def trace_and_determinant(amplitude, period, restitution, n, v, phi):
-    """Of the map (φ, V) → (φ', V') from an impact to the next, mirrored, differentiated numerically in many digits."""
+    """Differentiate the mirrored map (φ, V) → (φ', V') from an impact to the next numerically, in many digits."""
     a, omega, e = mp.mpf(amplitude), 2 * mp.pi / mp.mpf(period), mp.mpf(restitution)
     length = n * mp.pi / omega
 
@@ -55,7 +55,7 @@ def trace_and_determinant(amplitude, period, restitution, n, v, phi):
 
 
 def sampled(mode, points=20_001):
-    """(the least Θ inside the half cycle over its distance from the nearer end, the largest Θ), by brute force."""
+    """Return the least Θ over its distance from the nearer end of the half cycle, and the largest Θ, by brute force."""
     omega = 2 * math.pi / mode.period
     h = mode.n * math.pi / omega
     beta = mode.amplitude / (1 + omega**2)
@@ -69,9 +69,9 @@ def sampled(mode, points=20_001):
 
 
 def engine(mode, faster=0.0):
-    """(time to the first impact, speed after it, mirrored 2 × 2 tangent from just after one impact to just after the next).
+    """Return time of the first impact, speed after it, and mirrored 2 × 2 tangent between two impacts.
 
-    It starts on the mode, or so much faster.
+    The arc starts on the mode, or ``faster`` by the given speed.
     """
     p = harmonic_parameters(
         mode.amplitude, 2 * math.pi / mode.period, mode.period, mode.phase, mode.restitution

@@ -1,4 +1,4 @@
-"""Blocks marched in lanes and nothing else: every lane to the end of so many cycles, what is not certain by the functions for one block."""
+"""March in lanes only, up to a given cycle; uncertain events are left to the functions for one block."""
 
 import math
 
@@ -55,7 +55,7 @@ def advance_all(s, braced):
 
 @njit(**KERNEL)
 def pass_on(s, passes):
-    """So many passes without any attention."""
+    """Advance all lanes ``passes`` times without serving requests."""
     for _ in range(passes):
         advance(s)
 
@@ -85,7 +85,7 @@ def to_the_end(s, p, events):
 
 @njit(**KERNEL)
 def states(s, p, out):
-    """Where the blocks are at their targets."""
+    """Write the states of the blocks at their targets."""
     for i in range(LANES):
         cycles = s.target[i] - s.cycle[i]
         arc = shift_clock(arc_of(s, i, p), cycles * p.period)
@@ -98,7 +98,7 @@ def empty():
 
 
 def first_events(systems, starts):
-    """((wait, speed, cos, sin, sinh, cosh - 1, whether at a brace) of each first event as lanes find it, whether they are certain).
+    """Find the first event of each arc in lanes: its row (wait, speed, cos, sin, sinh, cosh - 1, at a brace) and its certainty.
 
     ``starts`` are (side, start, velocity) or, between braces, where all systems have some, (side, start, velocity, angle).
     """
@@ -128,7 +128,7 @@ def step_from(s, p, instants):
 
 
 def steps_to_zero(p, instants):
-    """((wait, speed) of each zero as a step from (u, u', cos eta, sin eta) finds it, whether it says so)."""
+    """Return (wait, speed) of each zero after one step from (u, u', cos eta, sin eta), and whether it is reached."""
     found, arrived = np.empty((len(instants), 2)), np.zeros(len(instants), bool)
     for first in range(0, len(instants), LANES):
         s, part = empty(), instants[first : first + LANES]
@@ -140,7 +140,7 @@ def steps_to_zero(p, instants):
 
 
 def may_exceed(systems, starts, peaks):
-    """Whether the lanes look at these first arcs, where the largest angle so far is so large."""
+    """Return whether lanes search the maximum of these first arcs, given the largest angles so far."""
     answers = np.empty(len(systems))
     for first in range(0, len(systems), LANES):
         s, here = empty(), range(first, min(first + LANES, len(systems)))

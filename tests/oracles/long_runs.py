@@ -1,4 +1,4 @@
-"""Long runs of the package's own engine, and what can be read off them: returns, averages, exponents."""
+"""Long runs of the package's engine, with their returns, averages and exponents."""
 
 import math
 
@@ -19,7 +19,7 @@ HALF = 100_000  # cycles of each half whose averages must agree
 
 
 class Unsettled(Exception):
-    """What cannot be established by this route, and why."""
+    """Verdict that this method cannot establish, with the reason."""
 
 
 def system_of(case, factor=1.0):
@@ -34,7 +34,7 @@ def start_of(case):
 
 
 def run(system, start, cycles, *, keep=False, place=0.0):
-    """(status, state at the end, (impacts, brace hits), section at a place within the cycle) of a run without peaks and events."""
+    """Run without peaks and events: status, final state, (impacts, brace impacts) and section at a place in the cycle."""
     p = _numbers(system)
     progress, _ = kernel.begin_march(p, start.angle, start.velocity)
     rows, done, status = np.empty((cycles if keep else 0, 2)), 0, kernel.PAUSED
@@ -85,7 +85,7 @@ def first_return(rows, tolerance):
 
 
 def is_lossless(system, final):
-    """Whether nothing that happens costs energy."""
+    """Return whether no impact dissipates energy."""
     _, _, (impacts, hits), _ = run(system, final, STAGES[0])
     lossy = system.braces is not None and system.braces.restitution < 1
     return not (impacts and system.restitution < 1) and not (hits and lossy)

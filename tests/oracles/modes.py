@@ -1,4 +1,4 @@
-"""Symmetric (1, n) modes in closed form, eqs (8)-(10) of Spanos and Koh as Yim & Lin (1991) give them: plain numbers, nothing shared."""
+"""Symmetric (1, n) modes in closed form, eqs (8)-(10) of Spanos and Koh as Yim & Lin (1991) give them, in plain numbers."""
 
 import math
 from typing import NamedTuple

@@ -1,7 +1,7 @@
 """The whole block by brute force: textbook closed form, dense scan, bracketed roots, many digits.
 
-Times add up from the start, events are looked for sample by sample, chatter is followed impact by impact down to 1e-24:
-slow and plain, so that it shares nothing with the package but the equations of motion.
+Times add up from the start, events are searched sample by sample, and chattering is followed impact by impact down to
+1e-24. The slow and plain method shares nothing with the package except the equations of motion.
 """
 
 from dataclasses import dataclass
@@ -201,7 +201,7 @@ def _growth(tangents):
 
 
 def first_crossing(arc, digits=100):
-    """(kind, time) of the first event of an `oracles.distance.Arc`; kind "base", "brace" or "none"."""
+    """Return (kind, time) of the first event of an `oracles.distance.Arc`; kind "base", "brace" or "none"."""
     before = ctx.dps
     ctx.dps = digits
     try:

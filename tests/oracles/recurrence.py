@@ -1,8 +1,8 @@
-"""What a response is, the slow way: run it long, then look whether it comes back.
+"""Slow classification of a response: a long run, then a test for recurrence.
 
 Periodic by brute recurrence after 10⁵ cycles and more, and once around again in 80 digits; overturned and at rest in 80
-digits; quasi-periodic where averages of two halves agree; chaotic by an exponent far from zero. What its own route cannot
-establish raises `Unsettled`.
+digits; quasi-periodic if averages of two halves agree; chaotic by an exponent far from zero. A verdict that this method
+cannot establish raises `Unsettled`.
 """
 
 import math
@@ -30,7 +30,7 @@ from rocking.kernels.march import march as kernel
 PATIENCE = 5_000
 BESIDE = (1e-8, 3e-9, 1e-9, 1e-10)  # a verdict must hold for a hundredth of the largest
 RETURN = 1e-11
-LOOSE = 1e-9  # nothing chaotic returns so near; what rests or leans in between may return no nearer, but anew each time
+LOOSE = 1e-9  # closer than any chaotic return; a motion with rest or contact in between may return no closer, but repeatedly
 GLANCE = 200_000
 LATEST_PROOF = 3000  # cycles that are followed in many digits
 NONE = {
@@ -95,7 +95,7 @@ def _overturned(case, system, confirm):
 
 
 def _rest(case, confirm):
-    """Nothing lifts A ≤ 1 off the base, nor A ≤ Θb − 1 off a brace."""
+    """Rest is permanent at the base for A ≤ 1, at a brace for A ≤ Θb − 1."""
     base, brace = case["A"] <= 1, case["brace"] is not None and case["brace"] - 1 >= case["A"]
     for cycles in (30, 300, 3000) if confirm else ():
         counts = simulate(case | {"N": cycles}, DIGITS).counts
@@ -136,13 +136,13 @@ def _bounded(case, system, final, confirm, chaos_cycles):
 
 
 def _forgets(system, final, period):
-    """Whether every period holds a rest or a lean, after which nothing is left of what was before."""
+    """Return whether every period contains rest or sustained contact, which erases all perturbations."""
     kinds = rk.simulate(system, final, cycles=3 * period, record="all").events["kind"]
     return np.sum((kinds == "rest") | (kinds == "lean")) >= 2
 
 
 def _patience(case, system, final, lag, cycles):
-    """Cycles to allow a response that is reached so late that a last digit can make it later still: a million at least."""
+    """Return the number of cycles allowed for a response that is reached late: at least a million, as rounding may delay it."""
     rows = run(system, start_of(case), cycles, keep=True)[3]
     orbit = run(system, final, lag, keep=True)[3]
     distance = np.min([np.abs(rows - state).max(axis=1) for state in orbit], axis=0)

@@ -1,4 +1,4 @@
-"""The next event of an arc sample by sample: sign changes bracketed, dips between samples looked into."""
+"""Next event of an arc, sample by sample: sign changes are bracketed, dips between samples are examined."""
 
 from flint import arb, ctx
 
@@ -25,7 +25,7 @@ def _root(function, left, right):
 
 
 def _zero_between(height, slope, left, right):
-    """Where a height, positive at left, first reaches zero up to right; None if it does not, dips looked into."""
+    """Find the first zero, up to right, of a height that is positive at left; None if there is none. Dips are examined."""
     if height(right) < 0:
         if slope(left) > 0:  # it rises first, so the zero lies beyond a top
             left = _root(slope, left, right)
@@ -38,7 +38,7 @@ def _zero_between(height, slope, left, right):
 
 
 def next_event(block, motion, side, growing):
-    """(time, kind) of the next event of an arc, or (None, None) where the run ends or the block overturns first."""
+    """Return (time, kind) of the next event of an arc, (None, None) if the run ends or the block overturns first."""
     left, step, rest = arb(0), block.step_start(), block.end - block.now
     gaps = {"impact": (lambda t: side * motion(t)[0], lambda t: side * motion(t)[1])}
     if block.brace is not None:

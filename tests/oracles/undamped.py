@@ -1,7 +1,7 @@
-"""An undamped block from rest, in forty digits: does a motion leave its torus, or do its doubles?
+"""An undamped block from rest in forty digits: test whether the motion leaves its torus, or only its rounded computation.
 
-A torus through the state of rest touches an impact: at the phase of the start the angle is zero and so is the velocity. The motion
-comes back there ever closer, and after some 10⁴ impacts doubles may round it through the base.
+A torus through the state of rest is tangent to an impact: at the initial phase both angle and velocity are zero. The
+motion returns ever closer to that state, and after some 10⁴ impacts rounding may move it through the base.
 """
 
 import math
@@ -24,7 +24,7 @@ class Arc:
         self.numbers = tuple(float(each) for each in (side * ripple, frequency, phase, self.grow, self.decay))
 
     def coarse(self, time):
-        """(u, u') in doubles."""
+        """Return (u, u') in double precision."""
         ripple, frequency, phase, grow, decay = self.numbers
         out, psi = math.exp(time), phase + frequency * time
         rising, falling = grow * out, decay / out
@@ -33,7 +33,7 @@ class Arc:
         ) + rising + falling, rising - falling - ripple * frequency * math.sin(psi)
 
     def fine(self, time):
-        """(u, u', u'') in all digits."""
+        """Return (u, u', u'') in all digits."""
         out, (sine, cosine) = time.exp(), (self.phase + self.frequency * time).sin_cos()
         rising, falling, forced = self.grow * out, self.decay / out, self.side * self.ripple * cosine
         speed = rising - falling - self.side * self.ripple * self.frequency * sine
@@ -51,7 +51,7 @@ class Arc:
         return time
 
     def dip(self, guess):
-        """Whether the minimum of u near a guess is below zero, and a guess of the zero before it."""
+        """Return whether the minimum of u near a guess is below zero, and a guess of the zero before it."""
         time = arb(guess)
         for _ in range(8):
             angle, speed, pull = self.fine(time)
@@ -79,7 +79,7 @@ class Arc:
 
 
 def _bisect(function, low, high):
-    """Where a function that rises through zero between two numbers does so, to doubles."""
+    """Find the zero of a function that rises between two numbers, to double precision."""
     for _ in range(60):
         middle = 0.5 * (low + high)
         low, high = (low, middle) if function(middle) > 0.0 else (middle, high)
@@ -87,7 +87,7 @@ def _bisect(function, low, high):
 
 
 def squared_speeds(amplitude, period, cycles):
-    """(squares of the speeds of all impacts within so many cycles of a start from rest at phase 0, whether it overturned)."""
+    """Return the squared speeds of all impacts within ``cycles`` from rest at phase 0, and whether it overturned."""
     bits, ctx.prec = ctx.prec, BITS
     try:
         frequency = 2 * arb.pi() / arb(period)

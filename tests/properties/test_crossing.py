@@ -20,7 +20,7 @@ ACCURACY = 5e-15
 
 
 def _agrees(arc, event, found):
-    """Whether what the package found is this event: the kind, the place, a zero of the distance to rounding, the way through it."""
+    """Return whether the package found this event: kind, place, distance zero to rounding, direction."""
     kind, time, velocity = found
     if event.kind in ("any", "none"):
         return event.kind in ("any", kind)
@@ -36,7 +36,7 @@ def _agrees(arc, event, found):
 
 
 def _guesses(arc, events):
-    """No guess; a good one; one beyond: a guess may cost time, never the answer."""
+    """Yield no guess, a good one and one beyond the event: a guess may cost time, but never changes the result."""
     time = float(events[-1].time)
     return (None, time * 1.001, time * 2.5) if events[-1].kind == "base" else (None, 1.0)
 
@@ -75,7 +75,7 @@ def test_no_first_crossing_is_missed_or_misread_in_a_million_arcs(family, chunk)
 
 
 def _misses(arc, off):
-    """(condition numbers of time and speed, their relative errors) of a plain impact, guessed so far off; None for other arcs."""
+    """Return condition numbers and relative errors of time and speed of an impact guessed ``off``; None for other arcs."""
     event, *more = first_events(arc)
     if more or event.kind != "base" or not math.isinf(event.depth):
         return None
@@ -85,7 +85,7 @@ def _misses(arc, off):
 
 
 def _share(conditions, misses, inputs):
-    """The larger relative error over 5e-15 times the arc's condition number, the largest with respect to so many inputs."""
+    """Return the larger relative error over 5e-15 times the largest condition number for the first ``inputs``."""
     largest = max(max(numbers[:inputs]) for numbers in conditions)
     return max(misses) / (ACCURACY * max(1.0, largest))
 
@@ -114,7 +114,7 @@ def test_impact_time_and_speed_to_five_parts_in_1e15_times_their_condition(chunk
 
 @pytest.mark.parametrize("family", ["stretch_boundary", "grazing_slow"])
 def test_impact_time_and_speed_of_adverse_arcs_to_five_parts_in_1e15_times_their_condition(family):
-    """The same where the pull at the start all but vanishes; there the amplitude's last digit counts like the others'."""
+    """The acceleration at the start nearly vanishes: the last digit of the amplitude matters like those of the others."""
     slow = [arc for arc in arcs(family, 1200, 60) if arc.angle == 0 and arc.velocity <= 0.3]
     found = [(_share(*result, 4), arc) for arc in slow if (result := _misses(arc, None))]
     worst, arc = max(found)

@@ -1,4 +1,4 @@
-"""The largest angle of a run is the largest of what its arcs reach, by a plain search over all of them."""
+"""The largest angle of a run is the maximum over its arcs, by a plain search over all of them."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""The map that a search for orbits iterates: against the plain march, and its events against the oracle of first crossings."""
+"""Return map of the search for orbits, against the plain march; its events, against the oracle of first crossings."""
 
 import math
 from functools import cache
@@ -32,7 +32,7 @@ LONG = 16.0
 
 @njit(**KERNEL)
 def images(systems, starts, periods, mirrored, nothing, columns, out):
-    """(certain, Θ, Θ') of each state under the map of ``newton_search``, with the waits of a state nearby, as in Newton's method."""
+    """Map each state by ``newton_search``, with the waits of a state nearby, as Newton's method does: (certain, Θ, Θ')."""
     for k in range(len(systems)):
         mapping = newton_search.return_map(parameters_from_row(systems[k]), periods[k], mirrored)
         recording = Recording(0.0, nothing.section, nothing.events, False, False)
@@ -50,7 +50,7 @@ def images(systems, starts, periods, mirrored, nothing, columns, out):
 
 
 def plain_image(system, angle, velocity, period, mirrored):
-    """(Θ, Θ') by the plain march: after ``period`` cycles, or where they are half over and mirrored; NaN where it overturns."""
+    """Return (Θ, Θ') of the plain march after ``period`` cycles, or after half of them and mirrored; NaN if it overturns."""
     p = harmonic_parameters(*system)
     progress, _ = begin_march(p, angle, velocity)
     if not mirrored:
@@ -63,7 +63,7 @@ def plain_image(system, angle, velocity, period, mirrored):
 
 
 def random_systems(count, braced, seed):
-    """(systems, starts): amplitudes, periods, restitutions, braces and starts over a decade or more."""
+    """Draw systems and initial states: amplitudes, periods, restitutions, braces and states over a decade or more."""
     random = np.random.default_rng(seed)
     period = 10.0 ** random.uniform(-1.0, 0.5, count)
     brace = 10.0 ** random.uniform(-1, 0.3, count) if braced else np.full(count, math.inf)
@@ -112,7 +112,7 @@ def test_map_of_the_search_is_that_of_the_plain_march(mirrored, braced):
 
 @njit(**KERNEL)
 def first_event(p, period, mirrored, side, angle, velocity, guess):
-    """(ψ at the start, event, time) of the first event of an arc as the search computes it, from a guess of the time."""
+    """Return (ψ at the start, event, time) of the first event of an arc as the search finds it from a guess of the time."""
     q, _, start, _ = newton_search.return_map(p, period, mirrored)
     arc = arc_from(q, side, start, angle, velocity)
     coming, _ = next_event.next_event(q, event_kinds.FLIGHT, arc, propagator_or_none(q, guess))
@@ -121,7 +121,7 @@ def first_event(p, period, mirrored, side, angle, velocity, guess):
 
 @njit(**KERNEL)
 def is_certified(p, period, mirrored, arc, time, rate):
-    """Whether the search would take a zero of u for the first."""
+    """Return whether the search would accept a zero of u as the first."""
     q, _, start, _ = newton_search.return_map(p, period, mirrored)
     side, angle, velocity = arc
     flight = arc_from(q, side, start, angle, velocity)

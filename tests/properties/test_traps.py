@@ -1,4 +1,4 @@
-"""Where an event-driven march of this system has gone wrong before, one test each."""
+"""Known faults of event-driven marches of this system, one test each."""
 
 import math
 
@@ -92,7 +92,7 @@ def test_rest_at_the_very_end_of_a_push_is_rest(amplitude, ulps):
 
 
 def test_who_comes_back_to_a_brace_before_the_clock_has_moved_waits_for_the_next_release():
-    """It left at the very end of a release: leaving again at once, it would hit and leave for ever at one instant."""
+    """It left at the very end of a release. If it left again at once, impact and departure would alternate at one instant."""
     amplitude, period, phase, start = (
         0.5000000004857583,
         2.8376377022183688,
@@ -162,5 +162,5 @@ def test_overturning_is_proved_where_brute_force_sees_it_and_nowhere_else():
             assert motion.impacts == exact.counts["impact"], case
             overturned += 1
         else:
-            assert exact.counts["impact"] >= motion.impacts, case  # it happens after the last cycle asked for
+            assert exact.counts["impact"] >= motion.impacts, case  # it happens after the last cycle requested
     assert overturned >= 15

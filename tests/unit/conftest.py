@@ -1,4 +1,4 @@
-"""The command, typed in this process, or in one of its own that somebody ends with Ctrl-C."""
+"""The command line, run in this process, or in a separate one that Ctrl-C ends."""
 
 import signal
 import subprocess
@@ -12,7 +12,7 @@ from rocking.cli.main import run
 
 @pytest.fixture
 def rocking(monkeypatch, tmp_path, capsys):
-    """Types a command line in an empty folder: (exit code, what it says of it, stdout)."""
+    """Type a command line in an empty folder; return exit code, message and stdout."""
     monkeypatch.chdir(tmp_path)
 
     def type_line(line):
@@ -25,7 +25,7 @@ def rocking(monkeypatch, tmp_path, capsys):
 
 @pytest.fixture
 def interrupted(tmp_path):
-    """Types a command line in an empty folder, and Ctrl-C so many seconds later: (exit code, stdout, stderr)."""
+    """Type a command line in an empty folder, and Ctrl-C ``seconds`` later; return exit code, stdout and stderr."""
 
     def type_line(line, seconds):
         with subprocess.Popen(

@@ -1,4 +1,4 @@
-"""Two commits are compared pair by pair: what the intervals mean, what is called slower, and that nothing is left behind."""
+"""Comparison of two commits pair by pair: intervals, verdicts, and no files left behind."""
 
 import math
 import random
@@ -34,7 +34,7 @@ def test_interval_is_the_shortest_pair_of_ranks_that_holds_the_median_in_95_of_1
     assert low + high == count + 1
 
     def confidence(rank):
-        """Chance that the median lies between the value of this rank and its mirror: no tail of coins reaches the rank."""
+        """Return the probability that the median lies between the values of this rank and of its mirror image."""
         return 1 - 2 * sum(math.comb(count, k) for k in range(rank)) / 2**count
 
     assert confidence(low) >= 0.95
@@ -97,7 +97,7 @@ def log(*_, **more):
 Harmonic = System = lambda *_, **more: None
 simulate = parametric_map = log
 """
-"""In the place of the package: it says who runs, and computes nothing."""
+"""Stand-in for the package that reports which side runs and computes nothing."""
 
 
 @pytest.fixture
@@ -119,7 +119,7 @@ def repository(tmp_path, monkeypatch):
 
 
 def left_behind(repository):
-    """Worktrees beside the repository itself, and temporary files."""
+    """Return additional worktrees of the repository, and temporary files."""
     trees = against.git(repository, "worktree", "list", "--porcelain").count("worktree ") - 1
     return trees, [path.name for path in Path(tempfile.gettempdir()).iterdir()]
 

@@ -1,4 +1,4 @@
-"""That what is timed is what a user gets."""
+"""Benchmarks time the computation that users run."""
 
 import numpy as np
 import pytest

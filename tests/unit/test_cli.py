@@ -1,4 +1,4 @@
-"""The command as a stranger types it: what it prints, what it writes, how it refuses and how it ends."""
+"""`rocking simulate` and common behaviour of the commands: output, files, error messages and exit codes."""
 
 import csv
 import json

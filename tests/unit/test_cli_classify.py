@@ -1,4 +1,4 @@
-"""`rocking classify` as a stranger types it: what it says, what a program reads, how it refuses and how it ends."""
+"""`rocking classify`: output, JSON, error messages and exit codes."""
 
 import json
 

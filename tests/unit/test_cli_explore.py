@@ -1,4 +1,4 @@
-"""`rocking explore`: what is refused before a server begins, and how it ends. What it serves, tests/browser looks at."""
+"""`rocking explore`: errors before the server starts, and its end. tests/browser tests the page."""
 
 import signal
 import socket

@@ -1,4 +1,4 @@
-"""`rocking map`: options and study files say the same, and what is wrong is said in one line."""
+"""`rocking map`: options and study files are equivalent, and errors are reported in one line."""
 
 import csv
 import json
@@ -115,7 +115,7 @@ def test_a_typed_zero_wins_too(rocking):
 
 
 def drawn(monkeypatch):
-    """What the command has drawn, as the arguments of its last picture."""
+    """Arguments of the last figure that the command has drawn."""
     calls = []
     draw = rk.plot.parametric_map
 

@@ -1,4 +1,4 @@
-"""`rocking modes` as a stranger types it."""
+"""`rocking modes`: output, files and error messages."""
 
 import json
 import math

@@ -1,4 +1,4 @@
-"""`rocking orbit-diagram` as a stranger types it: one axis among the options, what it says, writes and refuses."""
+"""`rocking orbit-diagram`: one axis among the options, output, files and error messages."""
 
 import csv
 import json

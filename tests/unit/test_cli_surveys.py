@@ -1,4 +1,4 @@
-"""`rocking basins` and `rocking overturning` as a stranger types them."""
+"""`rocking basins` and `rocking overturning`: output, files and error messages."""
 
 import json
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""A motion as a dataset: sizes, units, names, and the way through a file."""
+"""Motions as datasets: sizes, units, names, and a round trip through a file."""
 
 import math
 

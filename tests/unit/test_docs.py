@@ -1,4 +1,4 @@
-"""The pages: all of them are found, nothing on them leads nowhere, every public name has its entry, and every block is run."""
+"""The pages: complete, without dead links, with an entry for every public name, and all code blocks are run."""
 
 import inspect
 import re
@@ -42,7 +42,7 @@ def name_of(path):
 
 
 def fences(path):
-    """(what it is, what it holds) of every fenced block of a page."""
+    """Return (language, content) of every fenced block of a page."""
     return [(kind.strip(), body) for kind, body in FENCE.findall(path.read_text(encoding="utf-8"))]
 
 
@@ -52,13 +52,13 @@ def prose(path):
 
 
 def anchors(path):
-    """What its headings are called in links."""
+    """Return the names of a page's headings in links."""
     headings = re.findall(r"^#+ (.*)$", FENCE.sub("", path.read_text(encoding="utf-8")), re.MULTILINE)
     return {re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") for heading in headings}
 
 
 def listed(page):
-    """The pages that its tables of contents name."""
+    """Return the pages in the tables of contents of a page."""
     return [
         page.parent / f"{line}.md"
         for kind, body in fences(page)
@@ -236,7 +236,7 @@ def test_every_block_of_code_is_run(page):
 
 
 def test_no_two_pages_write_to_one_store():
-    """Who tries one after the other in a folder of his own is not refused."""
+    """A reader who tries the pages in one folder, one after another, gets no error."""
     texts = {name_of(page): page.read_text(encoding="utf-8") for page in [*PAGES, ROOT / "README.md"]}
     texts |= {f"help of {one.callback.__name__}": one.epilog or "" for one in app.registered_commands}
     stores = [

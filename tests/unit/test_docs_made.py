@@ -1,4 +1,4 @@
-"""What makes the pages: blocks are run as for a reader, and what is built is searched for dead links and for other hosts."""
+"""Build of the pages: blocks run as for a reader, and the result is searched for dead links and for other hosts."""
 
 import json
 import subprocess

@@ -20,7 +20,7 @@ def test_chebyshev_polynomials_are_cosines_of_multiples():
 
 
 def test_one_power_less_costs_what_the_chebyshev_polynomial_is_high():
-    """Of x⁵ on [0, w]: w⁵/2⁹, as often above as below; no polynomial of degree 4 is nearer."""
+    """The error for x⁵ on [0, w] is w⁵/2⁹, as often above as below; no polynomial of degree 4 is nearer."""
     w = 0.7
     short = economised([0, 0, 0, 0, 0, 1], w, 5)
     turns = 0.5 * w * (1.0 + np.cos(np.arange(6) * math.pi / 5))

@@ -1,4 +1,4 @@
-"""What the page shows is a value: to an address and back; nothing typed breaks it; its pictures are the map's."""
+"""State of the page: to an address and back; invalid input does no harm; its images are those of the map."""
 
 import asyncio
 import itertools
@@ -235,7 +235,7 @@ def test_narrowest_view_still_has_a_double_for_every_point():
 
 
 def alone(coroutine):
-    """In a thread of its own: where a browser was, this one has a loop already."""
+    """Run a coroutine in a new thread, because a browser leaves an event loop in this one."""
     with ThreadPoolExecutor(1) as pool:
         return pool.submit(asyncio.run, coroutine).result()
 
@@ -266,7 +266,7 @@ def test_refined_map_is_the_packages_map():
 
 
 def pieces(monkeypatch, seconds):
-    """How many points each piece of a refinement has, if a point takes so long."""
+    """Return the numbers of points in the pieces of a refinement, if each point takes ``seconds``."""
     plane = Plane(("period", Span(0.2, 3.0)), ("amplitude", Span(0.0, 16.0)), {"restitution": 0.925}, 33)
     sizes, judge = [], Refinement._timed
 
@@ -280,7 +280,7 @@ def pieces(monkeypatch, seconds):
 
 
 def test_pieces_have_one_point_where_points_are_dear_and_many_where_they_are_cheap(monkeypatch):
-    """So threads turn to something else, and what is known is shown, however long one point takes."""
+    """Threads can change to other work, and results appear early, however long one point takes."""
     dear = pieces(monkeypatch, 1.0)
     assert dear[0] == START
     assert set(dear[AHEAD * cores() :]) == {1}
@@ -593,7 +593,7 @@ CASES = pytest.mark.parametrize("case", presets.CASES, ids=lambda case: case.nam
 
 @CASES
 def test_case_of_the_gallery_is_what_it_says(case):
-    """The sea of figure 6 is sticky: from one phase in six, of those that nobody tells apart, a run clings to an island's shore."""
+    """One run in six in the chaotic sea of figure 6, with phases that differ by rounding, stays near an island for long."""
     verdict = rk.classify(case.shown.system, case.shown.start)
     kinds, period = KINDS[case.name]
     assert verdict.kind in kinds.split(" or ")

@@ -1,4 +1,4 @@
-"""The page's server answers this machine's own names alone; messages that make no sense are refused without a traceback."""
+"""The page's server answers only to names of this machine; invalid messages are rejected without a traceback."""
 
 import asyncio
 import json
@@ -20,14 +20,14 @@ SECONDS = 60.0
 
 
 def run(coroutine):
-    """In a thread of its own: where a browser was, this one has a loop already."""
+    """Run a coroutine in a new thread, because a browser leaves an event loop in this one."""
     with ThreadPoolExecutor(1) as pool:
         return pool.submit(asyncio.run, asyncio.wait_for(coroutine, SECONDS)).result()
 
 
 @asynccontextmanager
 async def served():
-    """A server of an empty page on loopback: its port."""
+    """Serve an empty page on the loopback interface; return the port."""
     server = local_server(Application(FunctionHandler(lambda document: None)), 0)
     server.start()
     try:
@@ -37,13 +37,13 @@ async def served():
 
 
 async def answer(port, path, host):
-    """The status of what a client gets that takes this machine for ``host``."""
+    """Return the HTTP status of a request that names this machine ``host``."""
     request = HTTPRequest(f"http://127.0.0.1:{port}{path}", headers={"Host": host})
     return (await AsyncHTTPClient().fetch(request, raise_error=False)).code
 
 
 async def connected(port, host, origin):
-    """A connection for a page that the server itself has handed out; the status where there is none."""
+    """Connect for a page from the server; return the connection, or the HTTP status if it is rejected."""
     page = await AsyncHTTPClient().fetch(f"http://localhost:{port}/")
     token = re.search(rb'"token":"([^"]+)"', page.body)[1].decode()
     request = HTTPRequest(f"ws://127.0.0.1:{port}/ws", headers={"Host": host, "Origin": origin})
@@ -70,7 +70,7 @@ def test_no_other_name_gets_a_page_a_file_or_a_connection():
                 host = name.format(port=port)
                 for path in (*PATHS, "/autoload.js", "/ws", "/nothing"):
                     assert await answer(port, path, host) == 403, (host, path)
-                # as a browser asks that was told that this machine is the other host
+                # the request of a browser that takes this machine for the other host
                 assert await connected(port, host, f"http://{host}") == 403, host
 
     run(visit())

@@ -1,4 +1,4 @@
-"""Values are frozen: they have a hash, and their arrays refuse to be written to, also in a copy or from another process."""
+"""Results are frozen: they are hashable, and their arrays are read-only, also in a copy or from another process."""
 
 import copy
 import pickle
@@ -44,7 +44,7 @@ def value(request):
 
 PROPERTIES = ("events", "peaks", "history")
 INNER = ("_rows", "_facts", "_chain")
-"""What compiled code reads, and nobody is told."""
+"""Private arrays that compiled code reads."""
 
 
 def arrays(value):

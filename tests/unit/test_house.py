@@ -1,4 +1,4 @@
-"""What a machine can check of the house: sizes, docstrings, doors, pinned versions, and that nothing points outside."""
+"""Structure of the package: sizes, docstrings, imports, pinned versions, and no path outside the repository."""
 
 import ast
 import re
@@ -69,7 +69,7 @@ def body_length(function):
 
 
 def statements(body):
-    """How many statements there are, without docstrings and nested functions; an assignment to n names is n."""
+    """Count statements, without docstrings and nested functions; an assignment to n names counts as n."""
     count = 0
     for node in body:
         if isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant):

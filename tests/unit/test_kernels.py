@@ -1,4 +1,4 @@
-"""The compiled part keeps its promises: fresh machine code after every edit, no allocation per event, the state renewed without a trace."""
+"""Compiled code: new machine code after every edit, no allocation per event, and resumed marches without a trace."""
 
 import importlib
 import json
@@ -92,7 +92,7 @@ def entry():
 
 
 def cache_paths(source, home):
-    """Where each entry of the kernels keeps its machine code, as {name: path}."""
+    """Return the path of the cached machine code of each entry point, by name."""
     environment = {**os.environ, "PYTHONPATH": str(source), "NUMBA_CACHE_DIR": str(home)}
     command = [sys.executable, "-c", PRINT_CACHE_PATHS]
     told = subprocess.run(command, env=environment, capture_output=True, text=True, check=True).stdout
@@ -100,7 +100,7 @@ def cache_paths(source, home):
 
 
 def test_an_edit_of_any_source_moves_the_machine_code_of_every_entry(tmp_path):
-    """Of one in a package within the package too; and an entry there keeps its code as all others do."""
+    """This holds for a subpackage too, and an entry point there has its code in the same folder."""
     source, home = tmp_path / "src", tmp_path / "cache"
     shutil.copytree(SOURCES, source, ignore=COPY)
     package = source / "rocking/kernels"
@@ -336,7 +336,7 @@ def test_compiling_is_told_once(caplog):
     def compile_one():
         numba.njit(lambda x: x + 1)(1.0)
 
-    compile_one()  # whoever still listened has heard it
+    compile_one()  # any listener that is left has reported it
     kernels._tell_of_compiling()
     with caplog.at_level("INFO", "rocking"):
         compile_one()

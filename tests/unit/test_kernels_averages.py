@@ -1,4 +1,4 @@
-"""Averages along a motion in the kernels: against their definitions in numpy, and on sequences whose averages are known."""
+"""Averages along a motion: against their definitions in NumPy, and on sequences with known averages."""
 
 import math
 

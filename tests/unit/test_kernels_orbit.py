@@ -1,4 +1,4 @@
-"""Periodic orbits in the kernels: what returns point to, Newton's method, multipliers and the norm in which they shrink."""
+"""Periodic orbits in the kernels: limits of returns, Newton's method, multipliers and the adapted norm."""
 
 import math
 
@@ -18,7 +18,7 @@ RANDOM = np.random.default_rng(1991)
 
 @pytest.fixture(scope="module", autouse=True)
 def kept_on_disk():
-    """What lies on disk has copies of the same kernels: they must not be taken for those that are compiled here."""
+    """Cached machine code contains copies of the same kernels, which must not replace those compiled here."""
     rk.classify(rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925))
 
 
@@ -74,7 +74,7 @@ def compare(p, section, row, period, angle, velocity, a, b, c, d, impacts):
 
 
 def linear_returns(matrix, orbit_rows, off, count):
-    """Rows that come to the points of an orbit in turn, what is missing multiplied by a matrix each time around."""
+    """Return rows that approach the points of an orbit in turn; a matrix multiplies the distance in each period."""
     lag = len(orbit_rows)
     rows = np.zeros((count, 4))
     for k in range(count):
@@ -165,7 +165,7 @@ def test_in_the_adapted_norm_every_vector_shrinks_at_least_as_fast_as_asked():
 
 
 def mode_1_1(amplitude, period, e):
-    """(parameters, state, half-cycle trace) of the stable symmetric mode (1, 1), a quarter cycle after an impact, eqs. (5), (8)-(10)."""
+    """Return (parameters, state, half-cycle trace) of the stable mode (1, 1) a quarter cycle after an impact, eqs. (5), (8)-(10)."""
     omega = 2 * math.pi / period
     h, beta = math.pi / omega, amplitude / (1 + omega**2)
     t, sinh, cosh = math.tanh(h / 2), math.sinh(h), math.cosh(h)
@@ -250,7 +250,7 @@ def test_of_the_three_states_of_a_mode_the_nearest_is_told(phase):
     ("period", "e", "order"), [(1.0, 0.8, 1), (0.4, 0.925, 3), (0.01, 0.2, 1), (0.3, 0.6, 3)]
 )
 def test_a_mode_that_repels_is_no_place_to_begin_at(period, e, order):
-    """Beyond A_SB it lies between the two unsymmetric orbits that motions come to."""
+    """Beyond A_SB it lies between the two asymmetric orbits that attract."""
     breaks = rk.theory.symmetry_breaking_amplitude(period, e, order)
     there = [
         nearest(harmonic_parameters(share * breaks, 2 * math.pi / period, period, 0.3, e), order, 0.0, 0.0)[0]
@@ -295,7 +295,7 @@ def test_the_cycle_at_which_an_orbit_is_reached_is_foretold(period, turn):
             assert answer == periodicity.NOT_YET
             assert coming % period == 0
             assert row + coming <= reached + period
-            # further away the distance shrinks otherwise than the multipliers say
+            # further away the distance shrinks at a rate different from that of the multipliers
             if row >= reached - 5 * period:
                 assert row + coming >= reached - period
         else:

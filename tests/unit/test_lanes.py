@@ -1,4 +1,4 @@
-"""Lanes: many blocks in lockstep do what each does alone."""
+"""Lanes: many blocks in lockstep behave as each does alone."""
 
 import math
 
@@ -88,7 +88,7 @@ def drawn(count, seed):
 
 
 def test_first_impacts_are_those_of_one_block():
-    """Of random arcs, those included that dip towards the base without reaching it: never a later zero, never another.
+    """Random arcs, also those that approach the base without reaching it: never a later zero, never another.
 
     Time and speed agree to rounding, 16 ulp of what they are made of; a rounding of u moves them by its ratio to the speed.
     """
@@ -161,7 +161,7 @@ def test_arc_that_rises_above_the_peak_is_always_looked_at_and_few_others():
 
 
 def test_lanes_leave_little_to_the_functions_for_one_block():
-    """What comes down at all comes down in its lane, but for a few in a hundred."""
+    """All but a few per cent of the arcs that come down do so in their lanes."""
     systems, starts = drawn(2048, 4)
     _, certain = oracle.first_events(systems, starts)
     comes_down = [
@@ -226,7 +226,7 @@ def test_first_events_between_braces_are_those_of_one_block():
     ],
 )
 def test_what_a_lane_does_hangs_on_no_other(amplitude, period, restitution, brace):
-    """Every bit of it, wherever the block sits and whoever sits beside it."""
+    """Results are bit-identical in every lane, whatever the other lanes contain."""
     p = harmonic_parameters(amplitude, math.tau / period, period, 0.3, restitution, brace, 0.8)
     random = np.random.default_rng(5)
     blocks = [

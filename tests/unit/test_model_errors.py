@@ -1,4 +1,4 @@
-"""Checks shared by every room."""
+"""Checks of arguments that all subpackages share."""
 
 import copy
 import inspect

@@ -1,4 +1,4 @@
-"""Files are whole or not there, and what stood there before stays until the new one is whole."""
+"""Files are complete or absent, and an earlier file stays until the new one is complete."""
 
 import errno
 import re

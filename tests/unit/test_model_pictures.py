@@ -1,4 +1,4 @@
-"""Results show themselves by what a room above has hung up, asked for only when the first is shown."""
+"""Results show themselves by renderers that a higher package registers, imported only when the first is shown."""
 
 import base64
 

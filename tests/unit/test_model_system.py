@@ -1,4 +1,4 @@
-"""Normalised values: what they accept, what they refuse and how, and what they say of themselves."""
+"""Normalised values: valid and invalid arguments, messages and printed forms."""
 
 import copy
 import math
@@ -37,7 +37,7 @@ def refusal(call, kind=(ValueError, TypeError)):
 
 
 def allowed(name, words):
-    """How a refusal begins; a state that is reached knows no range but that of sensible numbers."""
+    """Return the start of an error message; a state that a motion reaches has the widest range."""
     if name in ("angle", "velocity"):
         words = "be a finite real number of size up to 1e+09; got "
     return f"{name.split()[-1]} must {words}"

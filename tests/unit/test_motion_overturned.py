@@ -1,4 +1,4 @@
-"""The run of an overturned motion ends at the proof; what shows it follows the fall to |Θ| = 3; all values are finite."""
+"""The run of an overturned motion ends at the proof; figures follow the fall to |Θ| = 3; all values are finite."""
 
 import csv
 import math

@@ -1,4 +1,4 @@
-"""Orbit diagrams against plain runs, one after another, and against what is known of one cascade."""
+"""Orbit diagrams against plain runs, and against a known period-doubling cascade."""
 
 import math
 
@@ -13,7 +13,7 @@ BRACED = rk.System(rk.Harmonic(amplitude=6.0, period=2.0), 0.925, rk.Braces(angl
 
 
 def with_value(system, name, value):
-    """The same system with one parameter changed, written out."""
+    """Return the system with one parameter changed, written out."""
     forcing, braces = system.forcing, system.braces
     asked = {"amplitude": forcing.amplitude, "phase": forcing.phase, "period": forcing.period}
     asked |= {"restitution": system.restitution, name: value}
@@ -28,7 +28,7 @@ def with_value(system, name, value):
 
 
 def one(system, start, transient, cycles, section_phase):
-    """(section points or None where it overturned, peak, state at the end) by two plain runs."""
+    """Return section points (None if it overturned), peak and final state by two plain runs."""
     if transient:
         start = rk.simulate(system, start, transient, record="none")
         if start.outcome == "overturned":
@@ -41,7 +41,7 @@ def one(system, start, transient, cycles, section_phase):
 
 
 def distinct(points):
-    """How many different points each value has."""
+    """Count the different points of each value."""
     return [len(np.unique(rows[:, 0].round(7))) for rows in points]
 
 

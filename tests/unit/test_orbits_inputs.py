@@ -1,4 +1,4 @@
-"""What cannot be found or followed is refused in one line, or ends with its reason."""
+"""Orbits that cannot be found or continued raise an error in one line, or end with the reason."""
 
 import pytest
 
@@ -96,7 +96,7 @@ def test_few_points_end_what_is_born_and_a_curve_as_well():
 
 
 def test_orbits_are_looked_for_from_the_box_that_is_given():
-    """From where every block is past return none is found."""
+    """From initial states at which overturning is certain no orbit is found."""
     assert len(rk.find_orbits(SYSTEM, 1, angles=(3.0, 4.0), velocities=(3.0, 4.0), effort=0.05)) == 0
     with pytest.raises(
         ValueError, match=r"^velocities must be \(lowest, highest\), the one below the other; got"

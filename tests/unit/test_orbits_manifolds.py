@@ -1,4 +1,4 @@
-"""Manifolds of the saddles: each point goes where it must, nothing is left out, and they touch where theory says."""
+"""Manifolds of the saddles: correct images of each point, no gaps, and tangency at the amplitude of the theory."""
 
 import math
 import sys
@@ -19,14 +19,14 @@ def name(curve):
 
 
 def saddle(system, side, phase):
-    """(Θ, Θ') of ±1 + β cos ψ."""
+    """Return (Θ, Θ') of ±1 + β cos ψ."""
     forcing = system.forcing
     beta = forcing.amplitude / (1 + forcing.frequency**2)
     return np.array([side + beta * np.cos(phase), -beta * forcing.frequency * np.sin(phase)])
 
 
 def clocked(system, phase):
-    """The same system with τ = 0 at another phase of the forcing."""
+    """Return the system with τ = 0 at another phase of the forcing."""
     forcing = rk.Harmonic(system.forcing.amplitude, period=system.forcing.period, phase=phase)
     return rk.System(forcing, system.restitution)
 

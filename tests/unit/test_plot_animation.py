@@ -1,4 +1,4 @@
-"""Films show what the motion does: every frame there, the block at its angle, the base where its acceleration puts it."""
+"""Animations: all frames, the block at its angle, and the base at the displacement of its acceleration."""
 
 import itertools
 import math

@@ -1,4 +1,4 @@
-"""Pictures of branches, of curves of special points and of frequency responses."""
+"""Figures of branches, of curves of special points and of frequency responses."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""The picture of an exponent as it settles shows the running estimates, their errors and the final value."""
+"""Convergence figure of an exponent: running estimates, their errors and the final value."""
 
 import math
 

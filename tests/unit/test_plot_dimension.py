@@ -1,4 +1,4 @@
-"""The picture of a dimension shows what was counted, the local slopes and the region that decides."""
+"""Figure of a dimension: counts, local slopes and the scaling region."""
 
 import numpy as np
 import pytest

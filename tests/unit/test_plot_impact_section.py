@@ -1,4 +1,4 @@
-"""The picture of an impact section shows every impact on its side, with phase and speed."""
+"""Figure of an impact section: every impact on its side, with phase and speed."""
 
 import math
 

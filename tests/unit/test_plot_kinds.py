@@ -1,4 +1,4 @@
-"""Every kind has a colour of its own, also for who sees no red or no green."""
+"""Every response type has a distinct colour, also for readers who cannot see red or green."""
 
 from itertools import combinations
 

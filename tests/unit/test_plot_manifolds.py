@@ -1,4 +1,4 @@
-"""The picture of manifolds: two colours, every curve as it was grown, the saddles marked."""
+"""Figure of manifolds: two colours, all curves as computed, and markers at the saddles."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""The picture of an orbit diagram: every point, few or many, the branches given, and where the block overturned."""
+"""Figure of an orbit diagram: all points, few or many, the given branches, and overturning."""
 
 import io
 import math
@@ -22,7 +22,7 @@ def drawn(ax, gid):
 
 @pytest.fixture(scope="module")
 def branch():
-    """The unsymmetric branch on which the diagram lies: of period 1, unstable from its doubling near 10.4725 on."""
+    """The asymmetric branch on which the diagram lies: of period 1, unstable from its doubling near 10.4725 on."""
     system = rk.System(rk.Harmonic(amplitude=7.0, period=1.721328), restitution=0.8)
     symmetric = rk.continue_orbit(rk.classify(system).orbit, "amplitude", (5.0, 11.0))
     (breaking,) = (point for point in symmetric.special if point.kind == "symmetry-breaking")
@@ -31,7 +31,7 @@ def branch():
 
 @pytest.fixture(scope="module")
 def twice(branch):
-    """What is born at that doubling, of period 2."""
+    """The orbit of period 2 that branches off at that doubling."""
     return rk.switch_branch(doubling_of(branch), (10.4, 10.8))[0]
 
 

@@ -1,4 +1,4 @@
-"""A notebook shows a motion as a picture over its line, however it was recorded."""
+"""A notebook shows a motion as a figure above its printed line, for every type of recording."""
 
 import base64
 import io

@@ -1,4 +1,4 @@
-"""A map shows each point in the colour of its kind, period and symmetry, upright, with the shares of all its points."""
+"""Figure of a map: each point in the colour of its type, period and symmetry, upright, with fractions of all points."""
 
 import io
 import math
@@ -240,7 +240,7 @@ def test_legend_says_of_a_curve_that_it_is_not_here():
 
 
 def test_curve_of_a_mode_is_dotted_where_the_mode_is_not_admissible():
-    """(1,3) at e = .925 is not there at A_SB below T = .8 or so."""
+    """The (1, 3) mode at e = .925 is not admissible at A_SB below about T = .8."""
     found = a_map([("rest", 0, 2)] * 16, restitution=0.925)
     found = found.assign_coords(period=np.linspace(0.3, 2.0, COUNT))
     dashed, dotted = rk.plot.parametric_map(found, curves=["symmetry-breaking-3"]).lines

@@ -1,4 +1,4 @@
-"""The phase portrait shows the jumps as strokes, the arcs as curves, and nothing else."""
+"""The phase portrait shows jumps as vertical lines, arcs as curves, and nothing else."""
 
 import math
 

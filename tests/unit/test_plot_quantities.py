@@ -1,4 +1,4 @@
-"""Labels of axes: one quantity has one label, in whatever picture it stands."""
+"""Axis labels: one quantity has the same label in all figures."""
 
 import numpy as np
 import pytest

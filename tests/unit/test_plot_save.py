@@ -1,4 +1,4 @@
-"""Files are whole, the same every time, and the user's settings stay as they are."""
+"""Files are complete and reproducible bit by bit, and the user's settings do not change."""
 
 import subprocess
 import sys

@@ -18,7 +18,7 @@ def points(ax):
 
 
 def ink(ax):
-    """Share of the picture that is blue."""
+    """Return the blue fraction of the figure."""
     stream = io.BytesIO()
     ax.figure.savefig(stream, dpi=150)
     red, _, blue = np.asarray(Image.open(stream).convert("RGB"), dtype=int).transpose(2, 0, 1)
@@ -124,7 +124,7 @@ def test_argument_of_another_kind_is_refused_in_one_line(how, message):
 @pytest.mark.parametrize("drawn", [rk.plot.section, rk.plot.impact_section])
 @pytest.mark.parametrize(("amplitude", "period"), [(6.5, 0.4), (2.0, 1.0)])
 def test_few_points_met_again_and_again_are_as_large_as_few(drawn, amplitude, period):
-    """(1, 3) and (1, 1): three states or one, and two impacts, of 20,000 cycles differ by rounding."""
+    """Modes (1, 3) and (1, 1): three states or one, and two impacts, of 20,000 cycles differ by rounding."""
     system = rk.System(rk.Harmonic(amplitude, period=period), 0.925)
     motion = rk.simulate(system, cycles=20_000)
     line = drawn(motion, transient=1_000).lines[0]

@@ -1,4 +1,4 @@
-"""The picture of a spectrum shows the density and names its lines, none over another."""
+"""Figure of a spectrum: the density, and names of its lines that do not overlap."""
 
 import itertools
 import math

@@ -1,4 +1,4 @@
-"""Pictures of surveys show what was found: a colour an attractor, thresholds where theory has them, intervals."""
+"""Figures of surveys: one colour per attractor, thresholds of the theory, intervals."""
 
 import base64
 import re

@@ -1,4 +1,4 @@
-"""Pictures of the closed forms show just those."""
+"""Figures of the closed forms show exactly these forms."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""Tiles: a dot is a point of the map in its colour, coarser images have every second one; the page needs nothing else."""
+"""Tiles: one pixel per point of the map, every second one in coarser images; the page needs no other file."""
 
 import json
 import re
@@ -43,7 +43,7 @@ def page(found, tmp_path_factory):
 
 
 def image_of(page, level, suffix=""):
-    """A level put together again, as RGBA."""
+    """Return the tiles of a level as one RGBA image."""
     names = [
         re.fullmatch(rf"(\d+)-(\d+){suffix}", path.stem)
         for path in (page.parent / "tiles" / str(level)).iterdir()
@@ -61,7 +61,7 @@ def image_of(page, level, suffix=""):
 
 
 def colours_of(found):
-    """The map's colours as an image, the largest amplitude uppermost; transparent where nothing was computed."""
+    """Return the map's colours as an image, largest amplitude on top; missing points are transparent."""
     codes = looks(*(found[name].values for name in ("kind", "response_period", "symmetric")))[::-1]
     table = np.zeros((NONE + 1, 4), np.uint8)
     for number, look in enumerate(LOOKS):

@@ -1,4 +1,4 @@
-"""The picture of a verdict shows the response itself, its section with the orbit, and the evidence in full."""
+"""Figure of a verdict: the response, its section with the orbit, and the complete evidence."""
 
 import base64
 import io

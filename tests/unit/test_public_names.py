@@ -1,4 +1,4 @@
-"""The door of the package: every public name is there, and none is paid for before it is used."""
+"""Public names: all are exported, and each is imported only when it is used."""
 
 import ast
 import json

@@ -1,4 +1,4 @@
-"""What is no pair, no sequence, no executor or no number is refused in one line that names the argument."""
+"""An argument that is no pair, sequence, executor or number raises an error in one line that names it."""
 
 import inspect
 import re

@@ -1,4 +1,4 @@
-"""Rotation numbers of motion without loss: many digits, locked and free told apart, and refusals where there is none."""
+"""Rotation numbers of undamped motion: many digits, locked and free distinguished, and errors if there is none."""
 
 import math
 import re
@@ -34,7 +34,7 @@ def test_weighted_average_of_noise_agrees_in_few_digits():
 
 
 def test_islands_of_figure_5_are_locked_and_turn_by_the_known_number():
-    """A = 4, T = .4, e = 1 from rest: 2 impacts in 3 cycles; .4744150886 about the centre, which nobody is told."""
+    """A = 4, T = .4, e = 1 from rest: 2 impacts in 3 cycles; .4744150886 about the centre, which is not reported."""
     turning = rk.rotation_number(ISLANDS)
     assert turning.locked == (2, 3)
     assert turning.period == 3
@@ -108,7 +108,7 @@ def test_bouncing_on_a_lossless_brace_turns_without_an_impact():
 
 
 def test_chaos_is_refused_with_what_was_found():
-    """From most of the phases that nobody tells apart: a run may cling to an island, which turns almost evenly."""
+    """Most phases that differ by rounding: a run may stay near an island for long, where it turns almost evenly."""
     message = re.compile(
         r"both halves of 20000 cycles agree to [0-5] digits, but a rotation number requires 9 "
         r"\(the motion is chaotic, or cycles too few\)"

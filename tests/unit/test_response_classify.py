@@ -1,4 +1,4 @@
-"""Verdicts on motions that are understood: every kind, every ground, its sentence, and what does not apply."""
+"""Verdicts on known motions: all response types, all criteria, their sentences, and values that do not apply."""
 
 import math
 import re

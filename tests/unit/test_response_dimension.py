@@ -1,4 +1,4 @@
-"""Dimensions of sets that are known lie inside the interval given, and the interval is narrow."""
+"""Known dimensions of sets lie inside the reported interval, and the interval is narrow."""
 
 import math
 import subprocess

@@ -1,4 +1,4 @@
-"""Exponents and their errors: what batch means say of sequences that are understood, and what is refused in one line."""
+"""Exponents and their errors: batch means of known sequences, and invalid input."""
 
 import math
 import re

@@ -1,4 +1,4 @@
-"""The impact section holds every impact at Θ = 0, in order, and each follows from the one before."""
+"""The impact section contains all impacts at Θ = 0, in order, and each follows from the one before."""
 
 import math
 import tracemalloc

@@ -1,4 +1,4 @@
-"""Spectral densities have the right level and power; their lines are found, refined and named, and noise has none."""
+"""Spectral densities have the correct level and power; lines are found, refined and named; noise has none."""
 
 import itertools
 import math

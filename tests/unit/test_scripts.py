@@ -1,4 +1,4 @@
-"""Debian packages are asked for by name: those that are there are left alone, those that may not be installed are named."""
+"""Debian packages: installed ones are left alone, and those that the user may not install are named."""
 
 import os
 import subprocess
@@ -12,7 +12,7 @@ THERE = 'echo "installed"'
 
 @pytest.fixture
 def debian(tmp_path):
-    """Runs the script where these commands say what is given: (exit code, stderr, what was asked of apt-get)."""
+    """Run the script with these stand-in commands; return exit code, stderr and the arguments of apt-get."""
 
     def run(**commands):
         asked = tmp_path / "asked"

@@ -1,4 +1,4 @@
-"""Rest is certified only where it comes: the bound on accumulating impacts against the motion followed impact by impact."""
+"""Rest is certified only if it occurs: the bound on chattering against the motion followed impact by impact."""
 
 import math
 
@@ -14,7 +14,7 @@ from rocking.kernels.march.progress import Recording
 
 
 def first_reset(p, speed):
-    """(time, whether it is rest) of the first event that is no impact, from the base at this speed."""
+    """Return the time of the first event other than an impact, from the base at this speed, and whether it is rest."""
     progress, _ = kernel.begin_march(p, 0.0, speed)
     rows = np.empty(20_000, EVENT_ROW)
     _, _, _, written = kernel.march(p, progress, 1, Recording(events=rows))

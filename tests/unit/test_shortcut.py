@@ -1,4 +1,4 @@
-"""What is proved of a flight without a search: that it meets nothing on its way; and what is not."""
+"""Proofs without a search that an arc meets nothing on its way, and their limits."""
 
 import math
 
@@ -24,7 +24,7 @@ def stays_between(p, t, angle, velocity, end, arrival):
 
 @njit(**KERNEL)
 def misread(systems, starts, told):
-    """How many first events are not those of the search; ``told`` (n,) takes whether the search was not asked."""
+    """Count first events that differ from those of the search; ``told`` (n,) takes which of them needed no search."""
     count = 0
     for k in range(len(systems)):
         amplitude, period, brace = systems[k]
@@ -42,7 +42,7 @@ def misread(systems, starts, told):
 
 @njit(**KERNEL)
 def first_events(p, start, angle, velocity):
-    """(event, time) of the first event: without a search where that is certain; by the search."""
+    """Return (event, time) of the first event without a search, if certain, and of that by the search."""
     arc = arc_from(p, 1, start, angle, velocity)
     likely, _ = next_event.next_event(p, event_kinds.FLIGHT, arc, NONE_YET)
     sure = next_event.any_event(p, event_kinds.FLIGHT, arc)
@@ -50,7 +50,7 @@ def first_events(p, start, angle, velocity):
 
 
 def exponentials(amplitude, frequency, psi, angle, velocity):
-    """(c+, c-, beta) of the exponential form of eq. (5)."""
+    """Return (c+, c-, beta) of the exponential form of eq. (5)."""
     beta = amplitude / (1.0 + frequency**2)
     mean = angle - 1.0 - beta * math.cos(psi)
     rate = velocity + beta * frequency * math.sin(psi)
@@ -69,7 +69,7 @@ def velocities(amplitude, frequency, psi, angle, velocity, times):
 
 
 def test_flight_that_is_said_to_stay_between_meets_nothing():
-    """Of random flights the least distance to the base and to the braces, at 300 instants; also of those that end beyond."""
+    """Random arcs, also those that end beyond: the least distance to the base and to the braces, at 300 instants."""
     random = np.random.default_rng(17)
     left = claimed = stayed = 0
     for _ in range(40_000):
@@ -97,7 +97,7 @@ def test_flight_that_is_said_to_stay_between_meets_nothing():
 
 @pytest.mark.parametrize("place", ["on the base", "on a brace", "between", "just off a brace"])
 def test_first_event_between_braces_is_that_of_the_search(place):
-    """Of random flights: amplitudes, periods, braces and speeds over several decades; most are told without the search."""
+    """Random arcs with amplitudes, periods, braces and speeds over several decades; most need no search."""
     random, count = np.random.default_rng(31), 100_000
     amplitude, period = 1.0 + 10.0 ** random.uniform(-3, 1.3, count), 10.0 ** random.uniform(-1, 1, count)
     brace, speed = 10.0 ** random.uniform(-2, 0.5, count), 10.0 ** random.uniform(-5, 1, count)

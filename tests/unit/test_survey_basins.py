@@ -1,4 +1,4 @@
-"""Basins: each start leads where its own motion ends, and attractors are told apart by their orbits."""
+"""Basins: each initial state leads to the end of its own motion, and orbits distinguish attractors."""
 
 import math
 import re
@@ -9,7 +9,7 @@ import pytest
 
 import rocking as rk
 
-# a symmetric orbit and a pair of mirror images, told by marching from many starts
+# a symmetric orbit and a pair of mirror images, found by marching from many initial states
 PAIR = rk.System(rk.Harmonic(amplitude=8.0, period=1.721328), 0.8, rk.Braces(1.0, 0.8))
 MANY = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), 0.925)
 RESTING = rk.System(rk.Harmonic(amplitude=0.378, period=2.0), 0.925)

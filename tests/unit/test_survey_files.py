@@ -1,4 +1,4 @@
-"""Files of a store: what is written without Zarr is, byte for byte, what Zarr would have written."""
+"""Files of a store: those written without Zarr are identical to those that Zarr would write."""
 
 import numpy as np
 import pytest

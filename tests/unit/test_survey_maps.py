@@ -1,4 +1,4 @@
-"""Parametric maps: each point is what `classify` says of it."""
+"""Parametric maps: each point has the result of `classify`."""
 
 import math
 import re
@@ -36,7 +36,7 @@ def check_against_classify(found, axes, fixed, max_cycles=200, max_period=64):
         assert at["impacts_per_period"] == told(verdict.impacts_per_period, -1)
         assert at["brace_hits_per_period"] == told(verdict.brace_hits_per_period, -1)
         assert at["symmetric"] == (2 if verdict.symmetric is None else verdict.symmetric)
-        # A map marches in lanes, where other roundings are made, what loses nothing or stands between braces.
+        # A map marches undamped blocks, and blocks between braces, in lanes, which round differently.
         in_lanes = verdict.system.restitution == 1.0 or verdict.system.braces is not None
         tolerance = 1e-9 if in_lanes else 0.0
         for name in ("exponent", "exponent_error"):

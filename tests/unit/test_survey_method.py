@@ -1,4 +1,4 @@
-"""METHOD names what is answered: a store that holds other answers than ours has another number."""
+"""METHOD identifies the results: if they change, the number changes."""
 
 import json
 import math

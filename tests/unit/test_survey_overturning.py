@@ -1,4 +1,4 @@
-"""Overturning curves: what a plain scan of motions says, refined, and no claim beyond it."""
+"""Overturning curves: results of a plain scan of motions, refined, and no claim beyond it."""
 
 import math
 import re

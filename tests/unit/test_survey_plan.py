@@ -1,4 +1,4 @@
-"""Plans: every point lies in one tile, and every coarse level is part of the next."""
+"""Tilings: every point lies in one tile, and every coarse level is part of the next."""
 
 import math
 from itertools import pairwise

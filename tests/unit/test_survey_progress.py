@@ -1,4 +1,4 @@
-"""While a survey runs: what it will cost, and how far it is."""
+"""Reports during a survey: predicted cost and progress."""
 
 import re
 

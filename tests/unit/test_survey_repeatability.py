@@ -1,4 +1,4 @@
-"""Chaos among random systems, and what comes of inputs that are off: each run is what `classify` says of it."""
+"""Chaos among random systems, and responses to perturbed inputs: each run has the result of `classify`."""
 
 import re
 from collections import Counter
@@ -16,7 +16,7 @@ EDGE = rk.System(rk.Harmonic(amplitude=1.75, period=2.0), 0.95)
 
 
 def disturbed(system, start, units, off):
-    """The system and the start off by those shares of themselves, each a few roundings from how a survey has it."""
+    """Return system and initial state changed by the given fractions, equal to those of a survey up to rounding."""
     a, t, _, angle, velocity = 1.0 + off * np.asarray(units)
     forcing = rk.Harmonic(
         amplitude=system.forcing.amplitude * a, period=system.forcing.period * t, phase=system.forcing.phase

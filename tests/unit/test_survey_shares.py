@@ -1,4 +1,4 @@
-"""Shares with their intervals, and exponents of boundaries: against counts, geometry and the equations they solve."""
+"""Fractions with intervals, and uncertainty exponents, against counts, geometry and the equations they solve."""
 
 import numpy as np
 import pytest

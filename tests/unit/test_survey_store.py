@@ -1,4 +1,4 @@
-"""Stores: what is in them is the same as without, is never computed twice, and goes with nothing else."""
+"""Stores: results equal those in memory, are never computed twice, and belong to one survey only."""
 
 import errno
 import gc
@@ -38,7 +38,7 @@ def plain():
 
 @pytest.fixture(scope="module")
 def made(tmp_path_factory):
-    """The map in a store, which nobody may change."""
+    """The map in a store that tests must not change."""
     folder = tmp_path_factory.mktemp("made") / "map.zarr"
     rk.parametric_map(**ASKED, store=folder)
     return folder
@@ -46,7 +46,7 @@ def made(tmp_path_factory):
 
 @pytest.fixture
 def copied(made, tmp_path):
-    """The same, to be changed."""
+    """Copy of the store, to be changed."""
     return shutil.copytree(made, tmp_path / "map.zarr")
 
 
@@ -202,7 +202,7 @@ def test_full_disk_while_a_store_is_made_is_said_once(tmp_path, monkeypatch, cap
 
 
 def test_damaged_coordinate_is_written_again(copied, plain):
-    (copied / "level-1" / "period" / "c" / "0").write_bytes(b"no number")
+    (copied / "level-2" / "period" / "c" / "0").write_bytes(b"no number")
     assert rk.parametric_map(**ASKED, store=copied).load().equals(plain)
 
 
@@ -449,7 +449,7 @@ def test_damage_is_found_named_and_mended_on_request(copied, what, name, compute
 @pytest.mark.parametrize("draw", [rk.plot.parametric_map, lambda store: rk.plot.tiles(store, "look")])
 def test_damaged_store_is_not_drawn(copied, name, draw, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    if name.startswith("level-1"):  # which is asked where the finer one has nothing
+    if name.startswith("level-1"):  # which serves where the finer one has nothing
         (copied / "level-2/kind/c/0/0").unlink()
     (copied / name).write_bytes(b"[]")
     message = f"found must be the folder of a store that can be read; got {str(copied)!r}, which is damaged: "

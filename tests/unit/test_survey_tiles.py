@@ -1,4 +1,4 @@
-"""Tiles: what is said of a point depends on nobody beside it, and the work is that of the points."""
+"""Tiles: the result of a point depends on no other point, and the work is that of the points."""
 
 import math
 
@@ -24,7 +24,7 @@ def answered(wanted, fixed):
     "fixed", [{"restitution": 0.9}, {"restitution": 1.0}, {"restitution": 0.9, "brace_angle": 1.0}]
 )
 def test_what_is_said_of_a_point_depends_on_nobody_beside_it(fixed):
-    """The same bytes whichever points are judged together, in whatever order, or each alone."""
+    """Results are bit-identical whichever points are classified together, in any order, or each alone."""
     whole = answered(range(24**2), fixed)
     order = np.random.default_rng(2).permutation(24**2)
     for wanted in (order, order[:100], order[-1:], *order[:20, None]):

@@ -148,7 +148,7 @@ BLOCK = rk.Block(2.0, 0.5)
 
 
 def test_physical_orbit_is_equation_16_in_the_papers_symbols():
-    """(θcr − e^−p, α e^−p), p = αt − ln θcr, and (e^p − θcr, α e^p), p = αt + ln θcr."""
+    """The orbit is (θcr − e^−p, α e^−p), p = αt − ln θcr, and (e^p − θcr, α e^p), p = αt + ln θcr."""
     alpha, critical = BLOCK.frequency_parameter, BLOCK.critical_angle
     for t in (-0.9, -0.1, 0.0, 0.3, 1.2):
         if t >= 0:

@@ -226,7 +226,7 @@ def test_nothing_overflows_in_long_half_cycles(period, n):
 
 
 def slow():
-    """Modes of long half cycles, most of them a stand on a corner."""
+    """Return modes with long half cycles, during most of which the block stands on a corner."""
     for n in (1, 3):
         for period in (9.0, 25.0, 60.0, 300.0):
             for e in (0.5, 0.9, 1.0):

@@ -1,4 +1,4 @@
-"""What is installed is whole: the wheel alone, without the repository around it, draws figures of the paper."""
+"""The wheel alone, without the repository, draws figures of the paper."""
 
 import os
 import shutil
