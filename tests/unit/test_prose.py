@@ -56,8 +56,9 @@ def named(path):
 
 
 def without_code(text):
-    """Text without inline code, doctests and links' targets."""
+    """Text without inline code, doctests, entries of BibTeX and links' targets."""
     text = re.sub(r"^\s*(?:>>>|\.\.\. ).*$", "", text, flags=re.MULTILINE)
+    text = re.sub(r"^@\w+\{.*?^\}", "", text, flags=re.MULTILINE | re.DOTALL)
     return re.sub(r"``.+?``|`[^`]*`|\]\([^)]*\)|\$\$.*?\$\$", " … ", text, flags=re.DOTALL)
 
 
