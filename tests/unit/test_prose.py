@@ -1,4 +1,4 @@
-"""Plain words: no first line that is a riddle, and no word of the forbidden list in prose.
+"""Plain words: first lines that name something, short sentences, and no forbidden word in prose.
 
 Prose is docstrings, comments, pages, help and messages. Code, names and quotations in backticks are not.
 """
@@ -56,14 +56,14 @@ def named(path):
 
 
 def without_code(text):
-    """Text without inline code, doctests, entries of BibTeX and links' targets."""
+    """Return a text without inline code, doctests, entries of BibTeX and links' targets."""
     text = re.sub(r"^\s*(?:>>>|\.\.\. ).*$", "", text, flags=re.MULTILINE)
     text = re.sub(r"^@\w+\{.*?^\}", "", text, flags=re.MULTILINE | re.DOTALL)
     return re.sub(r"``.+?``|`[^`]*`|\]\([^)]*\)|\$\$.*?\$\$", " … ", text, flags=re.DOTALL)
 
 
 def docstrings(tree):
-    """The constants that document a module, a class or a function, or an attribute above them."""
+    """Yield the constants that document a module, a class or a function, or an attribute above them."""
     for node in ast.walk(tree):
         for statement in getattr(node, "body", []) if not isinstance(node, ast.Lambda | ast.IfExp) else []:
             value = statement.value if isinstance(statement, ast.Expr) else None
@@ -72,7 +72,7 @@ def docstrings(tree):
 
 
 def python_prose(source, messages):
-    """(line, text) of each docstring and comment, and of each string with a space where `messages`."""
+    """Yield line and text of each docstring and comment; with `messages` also of each string with a space."""
     tree = ast.parse(source)
     documents = list(docstrings(tree))
     yield from ((node.lineno, node.value) for node in documents)
@@ -87,7 +87,7 @@ def python_prose(source, messages):
 
 
 class Page(HTMLParser):
-    """The words of an HTML page: what stands between tags, and what tags show."""
+    """Words of an HTML page: between tags, and in the attributes that are shown."""
 
     def __init__(self):
         super().__init__()
@@ -110,7 +110,7 @@ class Page(HTMLParser):
 
 
 def script_prose(source):
-    """(line, text) of comments, and of strings with a space, in JavaScript or CSS."""
+    """Yield line and text of comments, and of strings with a space, in JavaScript or CSS."""
     for found in re.finditer(
         r"/\*.*?\*/|(?<!:)//.*|\"[^\"\n]* [^\"\n]*\"|'[^'\n]* [^'\n]*'|`[^`]* [^`]*`", source, re.DOTALL
     ):
@@ -119,7 +119,7 @@ def script_prose(source):
 
 
 def page_prose(source):
-    """(line, text) of a page of Markdown, with the docstrings and comments of its blocks of Python."""
+    """Yield line and text of a page of Markdown, with the docstrings and comments of its blocks of Python."""
     for fence in re.finditer(r"^```(.*?)\n(.*?)^```", source, re.MULTILINE | re.DOTALL):
         if fence[1].strip() == "python":
             start = source.count("\n", 0, fence.start()) + 1
@@ -134,7 +134,7 @@ def page_prose(source):
 
 
 def prose(path):
-    """(line, text) of each piece of prose in a file."""
+    """List line and text of each piece of prose in a file."""
     source = path.read_text(encoding="utf-8")
     if path.suffix == ".py":
         return list(python_prose(source, messages="src" in path.relative_to(ROOT).parts))
@@ -150,7 +150,7 @@ def prose(path):
 
 
 def forbidden(path):
-    """Each forbidden word in the prose of a file, as `file:line: words`."""
+    """Yield each forbidden word in the prose of a file, as `file:line: words`."""
     for line, text in prose(path):
         for found in WORDS.finditer(" ".join(without_code(text).split())):
             if (named(path), found.group()) not in EXCEPTIONS:
@@ -158,7 +158,10 @@ def forbidden(path):
 
 
 def long_sentences(path):
-    """Each sentence of more than 25 words, as `file:line: its beginning`; a list, a table or a parameter ends one."""
+    """Yield each sentence of more than 25 words, as `file:line: its beginning`.
+
+    An item of a list, a row of a table or a parameter ends a sentence.
+    """
     breaks = r"\n\s*\n|\n\s*(?:[-*]|\d+\.) |\n\s*(?=[\w, ]+ : )|\n(?=#)|\|"
     for line, text in prose(path):
         for part in re.split(breaks, without_code(text)):
@@ -168,7 +171,7 @@ def long_sentences(path):
 
 
 def riddles(path):
-    """Each docstring whose first line begins with a word that names nothing, as `file:line: line`."""
+    """Yield each docstring whose first line begins with a word that names nothing, as `file:line: line`."""
     for node in docstrings(ast.parse(path.read_text(encoding="utf-8"))):
         first = node.value.strip().partition("\n")[0]
         if FIRST.match(first):
