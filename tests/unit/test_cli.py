@@ -356,7 +356,10 @@ def three_claims():
 
 @pytest.mark.parametrize(
     "figures, last",
-    [("claims", "3 claims of the paper: confirmed (2), error in the paper (1)"), ("1", "wrote made/figure-01.svg")],
+    [
+        ("claims", "3 claims of the paper: confirmed (2), error in the paper (1)"),
+        ("1", "wrote made/figure-01.svg"),
+    ],
 )
 def test_paper_ends_with_how_its_claims_stand(rocking, monkeypatch, figures, last):
     monkeypatch.setattr(sys.modules[reproduce.__module__], "_chapters", three_claims)
