@@ -1,7 +1,7 @@
 """Periodic orbits, their continuation and bifurcations, orbit diagrams, and manifolds of the saddle orbits."""
 
 from rocking.orbits.bifurcation_curve import BifurcationCurve, bifurcation_curve
-from rocking.orbits.branch import Branch, SpecialPoint
+from rocking.orbits.branch import BRANCHES_OFF, Branch, SpecialPoint
 from rocking.orbits.continuation import continue_orbit, switch_branch
 from rocking.orbits.find_orbit import find_orbit
 from rocking.orbits.find_orbits import Orbits, find_orbits
@@ -13,6 +13,7 @@ from rocking.orbits.orbit_diagram_result import OrbitDiagram
 from rocking.orbits.saddle_manifolds import Manifold, SaddleManifolds, saddle_manifolds
 
 __all__ = [
+    "BRANCHES_OFF",
     "BifurcationCurve",
     "Branch",
     "FrequencyResponse",

@@ -12,6 +12,8 @@ from rocking.model import NotebookPicture, Orbit, ReadOnlyArrays, Stability, rea
 from rocking.orbits.event_chain import Chain, multipliers_of, orbit_of, solved, states
 from rocking.orbits.grazing import Touch
 
+# End of a branch at the special point from which ``switch_branch`` follows it.
+BRANCHES_OFF = "branches off at a special point"
 POINT = np.dtype(
     [
         ("parameter", float),

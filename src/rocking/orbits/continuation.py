@@ -10,7 +10,7 @@ from rocking.kernels.orbits import arclength, branch_point
 from rocking.kernels.orbits import continuation as kernel
 from rocking.model import Orbit, instance, one_of, refusal, refuse_if, whole, within
 from rocking.motion import simulate
-from rocking.orbits.branch import Branch, SpecialPoint, table
+from rocking.orbits.branch import BRANCHES_OFF, Branch, SpecialPoint, table
 from rocking.orbits.event_chain import (
     NAMES,
     Chain,
@@ -35,7 +35,6 @@ KINDS = {
     Special.GRAZING: "grazing",
 }
 MAX_SPECIAL = 1000
-BORN = "branches off at a special point"
 ENDS = {
     End.RANGE: "end of the range",
     End.GRAZED: "grazing",
@@ -272,7 +271,7 @@ def _branch_from_special(chain: Chain, special: SpecialPoint, row: np.ndarray, h
     joined = half.table._replace(
         rows=np.concatenate([row[None], half.table.rows]), facts=np.concatenate([first, half.table.facts])
     )
-    return _branch(chain, special.name, joined, (BORN, ENDS[half.end]))
+    return _branch(chain, special.name, joined, (BRANCHES_OFF, ENDS[half.end]))
 
 
 def _branch(chain: Chain, parameter: str, joined: kernel.BranchTable, ends: tuple[str, str]) -> Branch:

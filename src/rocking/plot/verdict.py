@@ -30,7 +30,7 @@ DECAY_SHOWN = 200
 POINTS = 5_000
 # Last cycle up to which a run is repeated for drawing.
 LATEST = 100_000
-LETTERS = 122
+LETTERS = 118
 # Width of the band in the colour of the type of response, as a fraction of the width of the figure.
 BAND = 0.007
 # Remaining fraction of the transient at the start of the last cycles.

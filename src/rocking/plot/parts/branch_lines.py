@@ -7,14 +7,13 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from rocking.model import Orbit, Stability, refusal
-from rocking.orbits import Branch
+from rocking.orbits import BRANCHES_OFF, Branch
 from rocking.plot.parts.axis_units import Quantities
 
 Drawn = TypeVar("Drawn")
 
 COLUMNS = {"angle": 0, "velocity": 1}
 QUANTITIES = (*COLUMNS, "peak")
-BORN = "born"
 DASHES: dict[Stability, Any] = {
     Stability.STABLE: "-",
     Stability.NEUTRAL: (0, (5, 1.5, 1, 1.5)),
@@ -58,7 +57,7 @@ def line(branch: Branch, quantity: str, phase: float) -> Line:
     share[(share < 0.0) | (share > 1.0)] = 0.5  # a fold lies beyond both of its neighbours
     tips = heights[places - 1] + share[:, None] * (heights[places] - heights[places - 1])
     between = np.zeros(len(values), bool)
-    between[0] = BORN in branch.ends[0]  # at a multiplier of 1
+    between[0] = branch.ends[0] == BRANCHES_OFF  # at a multiplier of 1
     return Line(
         np.insert(values, places, added),
         np.insert(stability, places, Stability.UNSTABLE),
