@@ -58,6 +58,7 @@ while killed < 10:
 FULL = (
     BEGIN
     + """
+batch.compile_many(True)  # under the limit machine code could not be cached
 resource.setrlimit(resource.RLIMIT_FSIZE, (15_000, 15_000))
 asked["period"] = np.linspace(0.2, 3.0, 300)
 try:
