@@ -16,6 +16,7 @@ START = ("angle", "velocity")
 TOLD = tuple(name for name in (*SYSTEM, *START) if name not in SI)
 """Quantities of a survey, in the order in which they are printed."""
 COUNTS = ("max_cycles", "max_period")
+AXIS_FORM = "START:STOP:COUNT"
 
 
 class YourInput(typer.TyperException):

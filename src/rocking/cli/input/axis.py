@@ -8,10 +8,10 @@ from typing import Any, NamedTuple
 import typer
 
 from rocking.cli.input.options import number, number_option
+from rocking.cli.option_names import AXIS_FORM
 
 DEFAULT_COUNT = 200
 MAX_POINTS = 1_000_000
-FORM = "START:STOP:COUNT"
 
 
 class Axis(NamedTuple):
@@ -34,7 +34,7 @@ def number_or_axis(text: str) -> float | Axis:
         if axis.start != axis.stop and 2 <= axis.points <= MAX_POINTS:
             return axis
     raise typer.BadParameter(
-        f"must be a number or {FORM} with START ≠ STOP and a whole COUNT in [2, {MAX_POINTS}]; got {text!r} (example: 1:3:60)"
+        f"must be a number or {AXIS_FORM} with START ≠ STOP and a whole COUNT in [2, {MAX_POINTS}]; got {text!r} (example: 1:3:60)"
     )
 
 

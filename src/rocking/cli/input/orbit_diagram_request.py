@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from rocking.cli.input.axis import FORM, VARIES, Axis
+from rocking.cli.input.axis import VARIES, Axis
 from rocking.cli.input.options import question
-from rocking.cli.option_names import ARGUMENTS, YourInput, option, options, your_input
+from rocking.cli.option_names import ARGUMENTS, AXIS_FORM, YourInput, option, options, your_input
 
 if TYPE_CHECKING:
     import numpy as np
@@ -38,7 +38,7 @@ def study(given: Mapping[str, Any]) -> Study:
     axes = [name for name, value in given.items() if isinstance(value, Axis)]
     if len(axes) != 1:
         got = " and ".join(map(option, axes)) or "none"
-        raise YourInput(f"exactly one option must be an axis, {FORM}; got {got}")
+        raise YourInput(f"exactly one option must be an axis, {AXIS_FORM}; got {got}")
     name, axis = axes[0], given[axes[0]]
     if given["displacement"] is not None and name in ("frequency_hz", "period_s"):
         raise YourInput(

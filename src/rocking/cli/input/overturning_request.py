@@ -7,9 +7,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from rocking.cli.input import study_file, survey_quantities
-from rocking.cli.input.axis import FORM, Axis
+from rocking.cli.input.axis import Axis
 from rocking.cli.input.options import kinds, require
-from rocking.cli.option_names import COUNTS, SI, YourInput, option
+from rocking.cli.option_names import AXIS_FORM, COUNTS, SI, YourInput, option
 from rocking.cli.output.survey_run import FILES, carried_out
 
 if TYPE_CHECKING:
@@ -68,6 +68,6 @@ def _normalised(given: Mapping[str, Any]) -> dict[str, Any]:
     levels = [name for name in ("acceleration", "acceleration_g") if name in given]
     for name in levels:
         if not isinstance(given[name], Axis):
-            raise YourInput(f"{option(name)} must be an axis to scan, {FORM}; got {given[name]}")
+            raise YourInput(f"{option(name)} must be an axis to scan, {AXIS_FORM}; got {given[name]}")
     asked = survey_quantities.normalised(given if levels else {**given, "acceleration": 0.0})
     return {name: asked[name] for name in ASKED if name in asked and (levels or name != "amplitude")}

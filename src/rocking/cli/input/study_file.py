@@ -9,8 +9,8 @@ from typing import Annotated, Any
 
 import typer
 
-from rocking.cli.input.axis import DEFAULT_COUNT, FORM, MAX_POINTS, Axis, number_or_axis
-from rocking.cli.option_names import YourInput
+from rocking.cli.input.axis import DEFAULT_COUNT, MAX_POINTS, Axis, number_or_axis
+from rocking.cli.option_names import AXIS_FORM, YourInput
 
 STUDY = (
     'Read options from a TOML file, for example restitution = 0.9 or period = "1:3:60". '
@@ -38,7 +38,7 @@ def quantity(name: str, given: Any) -> Any:
         return reals(name, given)
     if not {"start", "stop"} <= given.keys() <= {"start", "stop", "count"}:
         raise ValueError(
-            f"{name} must be a number, {FORM}, or a table of start, stop and optionally count; got {', '.join(given) or 'an empty table'}"
+            f"{name} must be a number, {AXIS_FORM}, or a table of start, stop and optionally count; got {', '.join(given) or 'an empty table'}"
         )
     start, stop = (float(reals(f"{part} of {name}", given[part])) for part in ("start", "stop"))
     return Axis(start, stop, whole(f"count of {name}", given.get("count", DEFAULT_COUNT), 2, MAX_POINTS))

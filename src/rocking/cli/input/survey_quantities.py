@@ -7,10 +7,10 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from rocking.cli.input.axis import FORM, VARIES, Axis
+from rocking.cli.input.axis import VARIES, Axis
 from rocking.cli.input.options import question
 from rocking.cli.input.study_file import Check, quantity
-from rocking.cli.option_names import SI, TOLD, YourInput, option
+from rocking.cli.option_names import AXIS_FORM, SI, TOLD, YourInput, option
 from rocking.model import Block, instance, quantities, reals, refusal, whole
 
 
@@ -21,7 +21,9 @@ def normalised(given: Mapping[str, Any]) -> dict[str, Any]:
     varied = {name: each for name, each in given.items() if isinstance(each, Axis)}
     lists = {name: each for name, each in given.items() if np.ndim(each) > 0 and name not in varied}
     if any(name in SI for name in lists):
-        raise YourInput(f"{option(next(iter(lists)))} with SI input must be a number or {FORM}; got a list")
+        raise YourInput(
+            f"{option(next(iter(lists)))} with SI input must be a number or {AXIS_FORM}; got a list"
+        )
     if "displacement" in given and ("frequency_hz" in varied or "period_s" in varied):
         raise YourInput(
             "--displacement with an axis of the frequency varies amplitude and frequency: use --acceleration instead"

@@ -8,9 +8,8 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from rocking.cli.input.axis import FORM
 from rocking.cli.option_names import ARGUMENTS as SYSTEM_ARGUMENTS
-from rocking.cli.option_names import NORMALISED, as_typed, option, options, your_input
+from rocking.cli.option_names import AXIS_FORM, NORMALISED, as_typed, option, options, your_input
 from rocking.cli.output.files import check_apart, check_files, with_block, write_dataset
 
 if TYPE_CHECKING:
@@ -18,7 +17,7 @@ if TYPE_CHECKING:
 
 OWN = ("samples", "seed", "boundary_runs", "phases", "store", "repair", "brace_angle", "brace_restitution")
 # On the command line an array is typed as an axis.
-ARGUMENTS = SYSTEM_ARGUMENTS | options(*OWN) | {"as arrays": f"as axes, {FORM}"}
+ARGUMENTS = SYSTEM_ARGUMENTS | options(*OWN) | {"as arrays": f"as axes, {AXIS_FORM}"}
 FILES = ("plot", "netcdf")
 MAX_ROWS = 20
 
