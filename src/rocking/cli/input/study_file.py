@@ -38,7 +38,8 @@ def quantity(name: str, given: Any) -> Any:
         return reals(name, given)
     if not {"start", "stop"} <= given.keys() <= {"start", "stop", "count"}:
         raise ValueError(
-            f"{name} must be a number, {AXIS_FORM}, or a table of start, stop and optionally count; got {', '.join(given) or 'an empty table'}"
+            f"{name} must be a number, {AXIS_FORM}, or a table of start, stop and optionally count; "
+            f"got {', '.join(given) or 'an empty table'}"
         )
     start, stop = (float(reals(f"{part} of {name}", given[part])) for part in ("start", "stop"))
     return Axis(start, stop, whole(f"count of {name}", given.get("count", DEFAULT_COUNT), 2, MAX_POINTS))
