@@ -56,8 +56,8 @@ CALLS = {
     "half a panel": (lambda v: rk.plot.panels(1, 1.5), r"columns must be a whole number in \[1, 100\]; got 1\.5"),
     "panels by name": (lambda v: rk.plot.panels("2"), r"rows must be a whole number in \[1, 100\]; got '2'"),
     "flat panels": (lambda v: rk.plot.panels(height=0), r"height must lie in \[0\.1, 100\]; got 0"),
-    "one ratio": (lambda v: rk.plot.panels(columns=2, ratios=3), "ratios must be 2 positive numbers, one a column; got 3"),
-    "too few ratios": (lambda v: rk.plot.panels(columns=2, ratios=(3,)), "ratios must be 2 positive numbers, one a column"),
+    "one ratio": (lambda v: rk.plot.panels(columns=2, ratios=3), "ratios must be 2 positive numbers, one per column; got 3"),
+    "too few ratios": (lambda v: rk.plot.panels(columns=2, ratios=(3,)), "ratios must be 2 positive numbers, one per column"),
     "an array of times": (lambda v: rk.theory.melnikov_integral([0.3], 2.0, 1.0, 0.9), "time must be a finite real number "),
     "no time": (lambda v: rk.theory.melnikov_integral(float("inf"), 2.0, 1.0, 0.9), "time must be a finite real number "),
 }  # fmt: skip
