@@ -16,8 +16,8 @@ os.environ["MPLBACKEND"] = "Agg"
 # A process in the background ignores Ctrl-C, and so do the processes that it starts.
 signal.signal(signal.SIGINT, signal.default_int_handler)
 
-# The extensions of the pages need packages that only `make docs` installs. `make docs` tests them.
-collect_ignore = ["docs/extensions"]
+# The settings and the extensions of the pages need packages that only `make docs` installs. `make docs` tests them.
+collect_ignore = ["docs/conf.py", "docs/extensions"]
 
 
 FOLDERS = {}

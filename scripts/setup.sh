@@ -95,7 +95,7 @@ if is_usable; then
     echo "Bringing .venv up to date with $constraints ..."
     rm "$STAMP"
 else
-    echo "Setting up .venv with Python $version: a minute or more, some 300 MB the first time ..."
+    echo "Setting up .venv with Python $version: a minute or more, about 300 MB to download the first time ..."
     rm -f "$STAMP"
     rm -rf .venv
     "$python" -m venv .venv

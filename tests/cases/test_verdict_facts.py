@@ -204,7 +204,7 @@ def test_impacts_between_two_leans_are_counted():
     assert (kinds["lean"] - fewer["lean"], kinds["rest"]) == (6, 0)
     assert 3 * found.impacts_per_period == kinds["impact"] - fewer["impact"] == 6
     assert found.brace_hits_per_period is None
-    assert "infinitely many brace hits" in str(found)
+    assert "infinitely many brace impacts" in str(found)
 
 
 @pytest.mark.parametrize(("amplitude", "period"), [(2.0, 1.5), (3.2, 1.5), (4.0, 0.3), (4.0, 1.0)])

@@ -62,6 +62,6 @@ def test_stdout_that_finds_no_room_is_said(line, unbuffered, monkeypatch):
             check=False,
         )
     assert done.stderr == (
-        "rocking: the output cannot be written: No space left on device (make room, or send it elsewhere)\n"
+        "rocking: the output cannot be written: No space left on device (free some space, or redirect the output)\n"
     )
     assert done.returncode == 2

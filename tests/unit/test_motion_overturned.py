@@ -101,7 +101,7 @@ def test_files_hold_the_run_and_no_infinity(rocking, tmp_path):
 def test_what_is_summed_up_says_the_same_end(rocking):
     out = rocking("simulate --amplitude 1.75 --period 2 --restitution 0.95")[2]
     motion = rk.simulate(USUAL)
-    assert re.search(rf"^run +6 cycles, τ = {motion.overturning.time:.6g}$", out, re.MULTILINE)
+    assert re.search(rf"^simulated +6 cycles, τ = {motion.overturning.time:.6g}$", out, re.MULTILINE)
     assert re.search(rf"^largest \|Θ\| until the proof +{motion.peak:.6g}$", out, re.MULTILINE)
 
 

@@ -453,7 +453,7 @@ def test_damaged_store_is_not_drawn(copied, name, draw, tmp_path, monkeypatch):
         (copied / "level-2/kind/c/0/0").unlink()
     (copied / name).write_bytes(b"[]")
     message = f"found must be the folder of a store that can be read; got {str(copied)!r}, which is damaged: "
-    with pytest.raises(OSError, match=re.escape(message) + "the survey that made it says where"):
+    with pytest.raises(OSError, match=re.escape(message) + "repeat the survey that made it with repair"):
         draw(copied)
     assert not Path("look").exists()
 

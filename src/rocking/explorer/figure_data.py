@@ -273,24 +273,15 @@ def _section_label(omitted: int, last: int, ended: str) -> str:
 
 def _cells(points: np.ndarray, spans: Ranges) -> np.ndarray:
     """Return the index of the cell of each point, in C order: rows upward, then columns."""
-    left, right, bottom, top = spans
-    columns = np.clip((points[:, 0] - left) / (right - left) * CELLS, 0, CELLS - 1).astype(int)
-    rows = np.clip((points[:, 1] - bottom) / (top - bottom) * CELLS, 0, CELLS - 1).astype(int)
+    low, high = np.array(spans[::2]), np.array(spans[1::2])
+    columns, rows = np.clip((points - low) / (high - low) * CELLS, 0, CELLS - 1).astype(int).T
     return rows * CELLS + columns
 
 
 def diagram(shown: ViewState, stop: np.ndarray) -> tuple[Columns, Ranges]:
-    """Return the orbit diagram along an axis of the map, with every run from the initial state.
+    """Return the points of the orbit diagram along an axis of the map, and the ranges of its axes.
 
-    Returns
-    -------
-    tuple of (Columns, Ranges)
-        Values and angles of the points, and the ranges of the axes.
-
-    Raises
-    ------
-    CancelledError
-        If another thread has set `stop[0]`.
+    Every run starts from the initial state. CancelledError: if another thread has set `stop[0]`.
     """
     span: Span = shown.varied
     values = np.linspace(span.low, span.high, VALUES)

@@ -10,7 +10,7 @@ from rocking.kernels.orbits import arclength
 from rocking.kernels.orbits import bifurcation_curve as kernel
 from rocking.model import ReadOnlyArrays, instance, one_of, pair, read_only, refusal, whole, within
 from rocking.orbits.branch import SpecialPoint
-from rocking.orbits.continuation import ENDS
+from rocking.orbits.branch_result import ENDS
 from rocking.orbits.event_chain import IMPACT, NAMES, Chain, Condition, End, Special, problem_of
 from rocking.orbits.parameter import checked_range, value_of
 

@@ -10,39 +10,23 @@ from rocking.kernels.orbits import arclength, branch_point
 from rocking.kernels.orbits import continuation as kernel
 from rocking.model import Orbit, instance, one_of, refusal, refuse_if, whole, within
 from rocking.motion import simulate
-from rocking.orbits.branch import BRANCHES_OFF, Branch, SpecialPoint, table
+from rocking.orbits.branch import BRANCHES_OFF, Branch, SpecialPoint
+from rocking.orbits.branch_result import ENDS, branch_of
 from rocking.orbits.event_chain import (
     NAMES,
     Chain,
     End,
-    Special,
     branch_table,
     chain_of,
     clocked,
     equations,
     null_direction,
-    orbit_of,
     problem_of,
     solved,
 )
-from rocking.orbits.grazing import grazing_at
 from rocking.orbits.parameter import checked_range, value_of
 
-KINDS = {
-    Special.FOLD: "fold",
-    Special.SYMMETRY_BREAKING: "symmetry-breaking",
-    Special.PERIOD_DOUBLING: "period-doubling",
-    Special.GRAZING: "grazing",
-}
 MAX_SPECIAL = 1000
-ENDS = {
-    End.RANGE: "end of the range",
-    End.GRAZED: "grazing",
-    End.MERGED: "merges with the branch from which it bifurcates",
-    End.CLOSED: "closed loop",
-    End.MANY: "maximum number of points",
-    End.LOST: "lost: no further point was found with the smallest step",
-}
 # Largest relative deviation of the parameter at the first point of a branch from its value for the given orbit.
 SAME_VALUE = 1e-8
 # Largest difference of phases and parameter for two special points to be identical.
@@ -243,14 +227,14 @@ def _follow(problem: arclength.Problem, y: np.ndarray, direction: np.ndarray, mo
 def _joined(chain: Chain, parameter: str, back: _Half, on: _Half) -> Branch:
     """Join the two halves of a branch that begin at the same orbit; of a closed branch, the first half is complete."""
     if back.end == End.CLOSED:
-        return _branch(chain, parameter, _once(back.table), (ENDS[End.CLOSED], ENDS[End.CLOSED]))
+        return branch_of(chain, parameter, _once(back.table), (ENDS[End.CLOSED], ENDS[End.CLOSED]))
     before = kernel.BranchTable(*(part[::-1] for part in back.table))
     first = len(before.rows) - 1
     before.changes["index"] = first + 1 - before.changes["index"]
     on.table.changes["index"] += first
     after = on.table._replace(rows=on.table.rows[1:], facts=on.table.facts[1:])
     joined = kernel.BranchTable(*(np.concatenate(parts) for parts in zip(before, after, strict=True)))
-    return _branch(chain, parameter, joined, (ENDS[back.end], ENDS[on.end]))
+    return branch_of(chain, parameter, joined, (ENDS[back.end], ENDS[on.end]))
 
 
 def _once(table: kernel.BranchTable) -> kernel.BranchTable:
@@ -271,49 +255,7 @@ def _branch_from_special(chain: Chain, special: SpecialPoint, row: np.ndarray, h
     joined = half.table._replace(
         rows=np.concatenate([row[None], half.table.rows]), facts=np.concatenate([first, half.table.facts])
     )
-    return _branch(chain, special.name, joined, (BRANCHES_OFF, ENDS[half.end]))
-
-
-def _branch(chain: Chain, parameter: str, joined: kernel.BranchTable, ends: tuple[str, str]) -> Branch:
-    """Return the public value of a branch."""
-    impacts, brace_hits = chain.counts()
-    special = tuple(
-        _special(chain, parameter, row, Special(kind), index)
-        for row, (kind, index) in zip(joined.specials, joined.changes.tolist(), strict=True)
-    )
-    return Branch(
-        name=parameter,
-        period=chain.period,
-        symmetric=chain.mirrored,
-        impacts=impacts,
-        brace_hits=brace_hits,
-        points=table(joined.rows, joined.facts, chain.mirrored),
-        special=special,
-        ends=ends,
-        chain=chain,
-        rows=joined.rows,
-        facts=joined.facts,
-    )
-
-
-def _special(chain: Chain, parameter: str, row: np.ndarray, kind: Special, index: int) -> SpecialPoint:
-    """Return a special point with its orbit."""
-    touch = None
-    if kind == Special.GRAZING:
-        orbit, chain, row, touch = grazing_at(chain, parameter, row)
-    else:
-        *_, trace, determinant = equations(chain, parameter, row)
-        orbit = orbit_of(chain, parameter, row, trace, determinant)
-    return SpecialPoint(
-        kind=KINDS[kind],
-        parameter=float(row[-1]),
-        orbit=orbit,
-        name=parameter,
-        index=index,
-        chain=chain,
-        row=row.copy(),
-        touch=touch,
-    )
+    return branch_of(chain, special.name, joined, (BRANCHES_OFF, ENDS[half.end]))
 
 
 def _twice(special: SpecialPoint) -> tuple[Chain, np.ndarray]:

@@ -17,8 +17,6 @@ from rocking.theory.heteroclinic import (
 )
 from rocking.theory.melnikov import (
     damping,
-    energy,
-    heteroclinic_orbit,
     impact_loss,
     melnikov_amplitude,
     melnikov_function,
@@ -30,6 +28,7 @@ from rocking.theory.symmetric_modes import (
     symmetric_modes,
     symmetry_breaking_amplitude,
 )
+from rocking.theory.unforced_block import energy, heteroclinic_orbit
 
 __all__ = [
     "damping",

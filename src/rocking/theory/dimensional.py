@@ -12,7 +12,8 @@ import numpy as np
 
 from rocking.model import Block, instance, reals
 from rocking.theory.arguments import plain
-from rocking.theory.melnikov import CRITICAL_ENERGY, damping, energy, heteroclinic_orbit
+from rocking.theory.melnikov import damping
+from rocking.theory.unforced_block import CRITICAL_ENERGY, energy, heteroclinic_orbit
 
 
 def physical_acceleration(block: Block, radians: Any, base_acceleration: Any) -> Any:

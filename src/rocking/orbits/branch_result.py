@@ -1,0 +1,67 @@
+"""Public values of a branch and of its special points, from the table of the kernel."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from rocking.kernels.orbits import continuation as kernel
+from rocking.orbits.branch import Branch, SpecialPoint, table
+from rocking.orbits.event_chain import Chain, End, Special, equations, orbit_of
+from rocking.orbits.grazing import grazing_at
+
+KINDS = {
+    Special.FOLD: "fold",
+    Special.SYMMETRY_BREAKING: "symmetry-breaking",
+    Special.PERIOD_DOUBLING: "period-doubling",
+    Special.GRAZING: "grazing",
+}
+ENDS = {
+    End.RANGE: "end of the range",
+    End.GRAZED: "grazing",
+    End.MERGED: "merges with the branch from which it bifurcates",
+    End.CLOSED: "closed loop",
+    End.MANY: "maximum number of points",
+    End.LOST: "lost: no further point was found with the smallest step",
+}
+
+
+def branch_of(chain: Chain, parameter: str, joined: kernel.BranchTable, ends: tuple[str, str]) -> Branch:
+    """Return the public value of a branch."""
+    impacts, brace_hits = chain.counts()
+    special = tuple(
+        special_of(chain, parameter, row, Special(kind), index)
+        for row, (kind, index) in zip(joined.specials, joined.changes.tolist(), strict=True)
+    )
+    return Branch(
+        name=parameter,
+        period=chain.period,
+        symmetric=chain.mirrored,
+        impacts=impacts,
+        brace_hits=brace_hits,
+        points=table(joined.rows, joined.facts, chain.mirrored),
+        special=special,
+        ends=ends,
+        chain=chain,
+        rows=joined.rows,
+        facts=joined.facts,
+    )
+
+
+def special_of(chain: Chain, parameter: str, row: np.ndarray, kind: Special, index: int) -> SpecialPoint:
+    """Return a special point with its orbit."""
+    touch = None
+    if kind == Special.GRAZING:
+        orbit, chain, row, touch = grazing_at(chain, parameter, row)
+    else:
+        *_, trace, determinant = equations(chain, parameter, row)
+        orbit = orbit_of(chain, parameter, row, trace, determinant)
+    return SpecialPoint(
+        kind=KINDS[kind],
+        parameter=float(row[-1]),
+        orbit=orbit,
+        name=parameter,
+        index=index,
+        chain=chain,
+        row=row.copy(),
+        touch=touch,
+    )
