@@ -22,11 +22,12 @@ from rocking.explorer import bokeh_figures, figure_data, plane_axes, presets, te
 from rocking.explorer.attractor_labels import Orbits
 from rocking.explorer.form_fields import READ, Refused, address, changed, from_address, in_metres, written
 from rocking.explorer.page_channel import message
-from rocking.explorer.progressive_map import AHEAD, START, UNDETERMINED, WHITE, Picture, Plane, Refinement
+from rocking.explorer.progressive_map import AHEAD, START, UNDETERMINED, Picture, Plane, Refinement
 from rocking.explorer.session import Session
 from rocking.explorer.view_state import DEFAULT, POINTS, Span, ViewState, closest, nearby
 from rocking.explorer.worker_pools import Jobs, Workers
 from rocking.model import Criterion, percent
+from rocking.plot.parts import style
 from rocking.plot.parts.legend import LOOKS, NONE, looks
 from rocking.survey import cores
 from rocking.survey.measures import attractors
@@ -227,6 +228,19 @@ def test_points_of_a_picture_are_the_middles_of_its_cells():
         np.testing.assert_allclose(middles, np.linspace(span.low, span.high, 5), atol=1e-14)
 
 
+def test_stripes_lie_on_undetermined_points_alone():
+    undetermined = next(number for number, look in enumerate(LOOKS) if look.name == "undetermined")
+    looks = np.full((9, 9), undetermined)
+    looks[:, :4] = 0
+    fields = {"look": looks, "orbit": np.zeros((9, 9), int)}
+    drawn = Picture(fields, points=9, settled=81, of=81, done=True).colours()
+    assert set(drawn[:, :4].ravel().tolist()) == {0}
+    assert {bokeh_figures.PALETTE[number] for number in set(drawn[:, 4:].ravel().tolist())} == {
+        bokeh_figures.SHADED[undetermined],
+        style.INK,
+    }
+
+
 def test_narrowest_view_still_has_a_double_for_every_point():
     for middle in (0.2, 1.0, 3.0, 16.0, 999.0):
         span = Span(middle, middle + closest(Span(middle, middle)))
@@ -281,9 +295,9 @@ def pieces(monkeypatch, seconds):
 
 def test_pieces_have_one_point_where_points_are_dear_and_many_where_they_are_cheap(monkeypatch):
     """Threads can change to other work, and results appear early, however long one point takes."""
-    dear = pieces(monkeypatch, 1.0)
-    assert dear[0] == START
-    assert set(dear[AHEAD * cores() :]) == {1}
+    costly = pieces(monkeypatch, 1.0)
+    assert costly[0] == START
+    assert set(costly[AHEAD * cores() :]) == {1}
     monkeypatch.undo()
     assert max(pieces(monkeypatch, 1e-6)) > 8 * START
 
@@ -319,9 +333,7 @@ def test_mirror_images_have_shades_of_their_own():
     pairs = set(zip(attractor[twins].tolist(), last.fields["orbit"][twins].tolist(), strict=True))
     assert len(pairs) == len(set(attractor[twins].tolist())) == 2
     assert {number for _, number in pairs} == {0, 1}
-    shades = [
-        set(last.colours()[twins & (last.fields["orbit"] == number)].tolist()) - {WHITE} for number in (0, 1)
-    ]
+    shades = [set(last.colours()[twins & (last.fields["orbit"] == number)].tolist()) for number in (0, 1)]
     assert [len(shade) for shade in shades] == [1, 1]
     colours = {bokeh_figures.PALETTE[number] for shade in shades for number in shade}
     assert len(colours) == 2

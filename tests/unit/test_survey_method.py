@@ -7,7 +7,7 @@ from data.make_method import TABLE, answers, differs
 from rocking.kernels import batch
 
 KEPT = json.loads(TABLE.read_text())
-RAISE = "raise METHOD in kernels/batch.py, then write the table anew: python tests/data/make_method.py"
+RAISE = "raise METHOD in kernels/batch.py, then write the table again: python tests/data/make_method.py"
 
 
 def test_answers_are_those_of_the_method_that_the_table_names():
@@ -18,7 +18,7 @@ def test_answers_are_those_of_the_method_that_the_table_names():
         for record, now in zip(KEPT["answers"], answers(cases), strict=True)
         if (name := differs(record, now, 1e-9))
     ]
-    assert KEPT["method"] == batch.METHOD, "METHOD has been raised: write the table anew"
+    assert KEPT["method"] == batch.METHOD, "METHOD has been raised: write the table again"
     assert not changed, f"answers have changed ({RAISE}): " + "; ".join(changed)
 
 

@@ -17,8 +17,8 @@ from rocking.plot.parts import legend, style
 ACCENT = "#D81B60"
 """Colour of the selection; no response type uses it."""
 SHADED = [to_hex(legend.paler(look.colour, shade)) for shade in range(SHADES) for look in legend.LOOKS]
-PALETTE = [*SHADED, "#FFFFFF", style.INK, "#00000000"]
-"""Palette of a map, indexed by `Picture.colours`: shades of all categories, white and dark hatch, transparent."""
+PALETTE = [*SHADED, style.INK, "#00000000"]
+"""Palette of a map, indexed by `Picture.colours`: shades of all categories, stripe of a hatch, transparent."""
 FONT = "11px"
 AXIS = {
     "axis_label_text_font_style": "normal",

@@ -224,7 +224,7 @@ function judge(told) {
 function entries(legend) {
   return legend.map(each => {
     const row = document.createElement("li"), swatch = document.createElement("i"), share = document.createElement("small");
-    const stripes = each.hatch ? `repeating-linear-gradient(${each.hatch === "white" ? 45 : 135}deg, ${each.hatch} 0 2px, transparent 2px 5px), ` : "";
+    const stripes = each.hatch ? `repeating-linear-gradient(135deg, ${each.hatch} 0 2px, transparent 2px 5px), ` : "";
     swatch.style.background = stripes + each.colour;
     share.textContent = each.share && `(${each.share})`;
     row.append(swatch, each.name, share);

@@ -51,8 +51,8 @@ SHADES = 3
 """Shades per category; the orbits of a category use them in turn."""
 PLAIN = SHADES * len(legend.LOOKS)
 """Number of shades of all categories."""
-WHITE, DARK, NOTHING = PLAIN, PLAIN + 1, PLAIN + 2
-"""Palette indices after the shades: white hatch, dark hatch, transparent."""
+HATCH, NOTHING = PLAIN, PLAIN + 1
+"""Palette indices after the shades: stripe of a hatch, transparent."""
 
 
 @frozen
@@ -137,12 +137,10 @@ class Picture:
 
 
 def _colours() -> np.ndarray:
-    """Return the palette indices of all shades and of `PLAIN`: off the stripes, on each hatch, and on both."""
-    hatches = np.array([look.hatch or "" for look in legend.LOOKS] * SHADES + [""])
+    """Return the palette indices of all shades and of `PLAIN`: between the stripes (row 0) and on them (row 1)."""
+    hatched = [look.hatch is not None for look in legend.LOOKS] * SHADES + [False]
     plain = np.append(np.arange(PLAIN), NOTHING)
-    white = np.where(hatches == "white", WHITE, plain)
-    dark = np.where((hatches != "white") & (hatches != ""), DARK, plain)
-    return np.array([plain, white, dark, np.where(hatches == "white", white, dark)], np.uint8)
+    return np.array([plain, np.where(hatched, HATCH, plain)], np.uint8)
 
 
 _COLOURS = _colours()
@@ -150,9 +148,9 @@ _COLOURS = _colours()
 
 @cache
 def _stripes(points: int) -> np.ndarray:
-    """Return the stripes of the hatches: 1 on a white stripe, 2 on a dark stripe, 3 on both, otherwise 0."""
+    """Return the stripes of a hatch: 1 on a stripe, otherwise 0."""
     up, across = np.ogrid[:points, :points]
-    return ((up + across) % STRIPES < STRIPE) + 2 * ((up - across) % STRIPES < STRIPE).astype(np.uint8)
+    return ((up - across) % STRIPES < STRIPE).astype(np.uint8)
 
 
 class Refinement:

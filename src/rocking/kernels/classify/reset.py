@@ -158,10 +158,10 @@ def at_release(p, tracker, progress):
         strain=-math.inf,
         peak=0.0,
     )
-    anew = from_release(progress, arc.angle, -math.inf)
+    restarted = from_release(progress, arc.angle, -math.inf)
     peak = max(tracker.peak, progress.peak)
     base, brace = (now, brace) if lifts else (base, now)
-    return ResetTracker(anew, base, brace, half_periods, impacts, brace_hits, visit.peak, peak)
+    return ResetTracker(restarted, base, brace, half_periods, impacts, brace_hits, visit.peak, peak)
 
 
 @njit(**AST_INLINE)
