@@ -8,8 +8,18 @@ import pytest
 
 JUDGED = """
 import math
+import numba
 import numpy as np
 from rocking.kernels import batch
+from rocking.kernels.compile_options import KERNEL
+from rocking.kernels.deferred import bind_compiled, import_all
+
+# Machine code of the builders has no checks, and could not raise an error.
+import_all()
+bind_compiled()
+for name in ("classify_batch_scalar", "classify_batch_lanes"):
+    setattr(batch, name, numba.njit(**KERNEL)(getattr(batch, name).function))
+
 from rocking.kernels.classify.results import empty_results
 from rocking.kernels.classify.workspace import make_workspace
 

@@ -35,7 +35,7 @@ import rocking as rk
 from rocking.kernels import batch
 import xarray, zarr
 
-batch.compile_many(False)
+batch.load_kernels(False)
 asked = dict(amplitude=np.linspace(0.0, 16.0, {SIZE}), period=np.linspace(0.2, 3.0, {SIZE}), restitution=1.0, max_cycles=100)
 folder = sys.argv[1]
 """
@@ -58,7 +58,7 @@ while killed < 10:
 FULL = (
     BEGIN
     + """
-batch.compile_many(True)  # under the limit machine code could not be cached
+batch.load_kernels(True)  # under the limit machine code could not be cached
 resource.setrlimit(resource.RLIMIT_FSIZE, (15_000, 15_000))
 asked["period"] = np.linspace(0.2, 3.0, 300)
 try:

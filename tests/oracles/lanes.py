@@ -3,10 +3,10 @@
 import math
 
 import numpy as np
-from numba import njit
 
 from rocking.kernels.arc.solution import arc_from, shift_clock
 from rocking.kernels.compile_options import KERNEL
+from rocking.kernels.deferred import njit
 from rocking.kernels.event_kinds import FLIGHT
 from rocking.kernels.lanes.root import step
 from rocking.kernels.lanes.scalar_fallback import find_event, leg_done

@@ -5,7 +5,6 @@ from functools import cache
 
 import numpy as np
 import pytest
-from numba import njit
 
 from oracles.arcs import arcs
 from oracles.crossing import first_events
@@ -15,6 +14,7 @@ from rocking.kernels.arc import bracket
 from rocking.kernels.arc.solution import arc_from, propagator_or_none
 from rocking.kernels.classify import workspace
 from rocking.kernels.compile_options import KERNEL
+from rocking.kernels.deferred import njit
 from rocking.kernels.march import next_event
 from rocking.kernels.march.march import DONE, UNKNOWN, begin_march, march
 from rocking.kernels.march.progress import Recording

@@ -151,7 +151,7 @@ def test_failure_of_our_own_is_one_line_and_exit_code_1(rocking, monkeypatch):
     def fail(*_):
         raise MemoryError
 
-    monkeypatch.setattr("rocking.kernels.classify.decision_cascade.judge_plain", fail)
+    monkeypatch.setattr("rocking.kernels.batch.classify_one", fail)
     code, message, out = rocking(f"classify {NORMALISED}")
     assert (code, message.strip(), out) == (1, "internal error: MemoryError:", "")
 

@@ -112,7 +112,7 @@ def test_kernels_that_kernels_call_have_few_parameters(path):
     """Entry points may have more: Python gives them numbers and arrays one by one."""
     functions = [node for node in ast.walk(ast.parse(path.read_text())) if isinstance(node, ast.FunctionDef)]
     options = {f.name: " ".join(map(ast.unparse, f.decorator_list)) for f in functions}
-    internal = [f for f in functions if "ENTRY" not in options[f.name]]
+    internal = [f for f in functions if "entry_point" not in options[f.name]]
     assert [f.name for f in internal if len(f.args.args) > 8] == []
 
 

@@ -4,10 +4,10 @@ import math
 
 import numpy as np
 import pytest
-from numba import njit
 
 import rocking as rk
 from rocking.kernels.classify import periodicity, recurrence, workspace
+from rocking.kernels.deferred import njit
 from rocking.kernels.march.march import UNKNOWN
 from rocking.kernels.march.tangent import Tangent
 from rocking.kernels.orbits import fixed_point, floquet, symmetric_mode
@@ -23,22 +23,22 @@ def kept_on_disk():
 
 
 # Kernels have no way in from Python but through a compiled function.
-@njit
+@njit()
 def closest_return(section, most_lag):
     return recurrence.closest_return(section, len(section), most_lag)
 
 
-@njit
+@njit()
 def approached(section, most_lag):
     return recurrence.approached(section, len(section), most_lag)
 
 
-@njit
+@njit()
 def multipliers(a, b, c, d):
     return floquet.multipliers(Tangent(a, b, c, d))
 
 
-@njit
+@njit()
 def adapted_norm(a, b, c, d, radius):
     return floquet.adapted_norm(Tangent(a, b, c, d), radius)
 

@@ -5,12 +5,12 @@ import math
 import mpmath as mp
 import numpy as np
 import pytest
-from numba import njit
 
 from oracles import lanes as oracle
 from rocking.kernels import event_kinds
 from rocking.kernels.arc.solution import arc_from
 from rocking.kernels.compile_options import KERNEL
+from rocking.kernels.deferred import njit
 from rocking.kernels.lanes import state
 from rocking.kernels.march import next_event
 from rocking.kernels.numerics import simd

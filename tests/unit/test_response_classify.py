@@ -424,7 +424,7 @@ def test_failure_in_the_thread_is_raised_where_it_is_waited_for(monkeypatch):
         raise MemoryError
 
     rk.classify(RESTING)
-    monkeypatch.setattr("rocking.kernels.classify.decision_cascade.judge_plain", fail)
+    monkeypatch.setattr("rocking.kernels.batch.classify_one", fail)
     with pytest.raises(MemoryError):
         rk.classify(RESTING)
 

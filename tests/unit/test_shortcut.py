@@ -4,12 +4,12 @@ import math
 
 import numpy as np
 import pytest
-from numba import njit
 
 from rocking.kernels import event_kinds
 from rocking.kernels.arc import bracket, enclosure, fast_path
 from rocking.kernels.arc.solution import NONE_YET, arc_from
 from rocking.kernels.compile_options import KERNEL
+from rocking.kernels.deferred import njit
 from rocking.kernels.march import next_event
 from rocking.kernels.parameters import harmonic_parameters, make
 

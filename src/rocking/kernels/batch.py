@@ -1,28 +1,35 @@
 """Classification of a batch of systems, in SIMD lanes or one by one, in a single call from Python."""
 
 import math
-from functools import cache
 
-import llvmlite.binding as llvm
-import numba
 import numpy as np
-from numba import njit
 
 from rocking.kernels.classify.decision_cascade import judge
-from rocking.kernels.classify.results import empty_results, store_result
-from rocking.kernels.classify.workspace import make_workspace
-from rocking.kernels.compile_options import ENTRY_POINT
+from rocking.kernels.classify.results import ResultArrays, empty_results, judgement_of, store_result
+from rocking.kernels.classify.workspace import Workspace, make_workspace
+from rocking.kernels.compile_options import KERNEL
+from rocking.kernels.entry_point import entry_point
 from rocking.kernels.lanes.scheduler import MIN_LANE_PERIOD, classify_batch_lanes
 from rocking.kernels.lanes.workspace import make_lane_workspace
-from rocking.kernels.parameters import parameters_from_row
+from rocking.kernels.machine_code import CLASSES, processor_class
+from rocking.kernels.parameters import parameters_from_row, row_of
+from rocking.kernels.signature import Floats2, Integers1
 
 # Version of the results. It is raised whenever a result for the same request may change, so that a store
 # never mixes two versions.
 METHOD = 19
 
 
-@njit(**ENTRY_POINT)
-def classify_batch_scalar(systems, starts, max_cycles, max_period, memory, answers, stop):
+@entry_point(**KERNEL)
+def classify_batch_scalar(
+    systems: Floats2,
+    starts: Floats2,
+    max_cycles: int,
+    max_period: int,
+    memory: Workspace,
+    answers: ResultArrays,
+    stop: Integers1,
+) -> bool:
     """Classify the points of a batch one by one.
 
     A row of ``systems`` holds the arguments of ``make``, a row of ``starts`` is (angle, velocity). Returns
@@ -36,15 +43,17 @@ def classify_batch_scalar(systems, starts, max_cycles, max_period, memory, answe
     return True
 
 
-@cache
-def has_simd():
-    """Return whether this processor fuses multiplication and addition of four or more numbers at a time.
+def classify_one(p, angle, velocity, max_cycles, max_period):
+    """Return the ``Judgement`` on one motion, by the same machine code as for a batch."""
+    results, start = empty_results(1), np.array([[angle, velocity]])
+    memory, go_on = make_workspace(max_cycles, max_period), np.zeros(1, np.int64)
+    classify_batch_scalar(np.array([row_of(p)]), start, max_cycles, max_period, memory, results, go_on)
+    return judgement_of(results, 0)
 
-    On other processors lanes are not faster.
-    """
-    told = numba.config.CPU_FEATURES
-    features = (llvm.get_host_cpu_features().flatten() if told is None else told).split(",")
-    return {"+avx2", "+fma"} <= set(features)
+
+def has_simd():
+    """Return whether this processor adds products of four numbers at a time, or more; on others lanes gain nothing."""
+    return processor_class() in CLASSES
 
 
 def lane_masks(systems):
@@ -84,13 +93,8 @@ def classify_batch(systems, starts, max_cycles, max_period, stop):
     return answers
 
 
-def compile_many(may_last):
-    """Compile or load the kernels of ``classify_batch``.
-
-    A process that ends while another thread compiles may crash. The lanes are compiled only if some points
-    may need a long march (``may_last``).
-    """
-    still = np.array(
-        [[0.0, 1.0, math.tau, 0.0, 0.0, math.inf, 1.0], [2.0, math.tau, 1.0, 0.0, 1.0, math.inf, 1.0]]
-    )
-    classify_batch(still[: 1 + may_last], np.zeros((1 + may_last, 2)), 1, 1, np.zeros(1, np.int64))
+def load_kernels(may_last):
+    """Load or compile the kernels of ``classify_batch``; those of the lanes only if some points may need a long march."""
+    classify_batch_scalar.load()
+    if may_last:
+        classify_batch_lanes.load()

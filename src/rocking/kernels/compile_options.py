@@ -1,8 +1,5 @@
 """Options of the compiler: one set for each kind of kernel."""
 
-from rocking.kernels.compiler import WholeCompiler
-from rocking.kernels.machine_code import FOLDER
-
 # Kernels borrow arrays. Reference counting at every call took a fifth of the time of a map, so it is off.
 KERNEL = dict(
     nogil=True,
@@ -12,18 +9,9 @@ KERNEL = dict(
     forceinline=False,
     _nrt=False,
 )
-# Python calls entry points. Each is cached on disk with private copies of all its callees. A cached function
-# is not inlined into compiled callers: speed and last digits would then depend on the state of the cache. So
-# no kernel calls an entry point. Nothing is cached without a cache folder, because the compiler would write
-# next to the sources.
-CACHED = dict(cache=FOLDER is not None, pipeline_class=WholeCompiler)
-ENTRY_POINT = dict(KERNEL, **CACHED)
 # Internal kernels are called by kernels only. They have no wrapper for Python, which takes as long to compile
 # as the kernel itself. A call from Python would end the process.
 INTERNAL = dict(KERNEL, no_cpython_wrapper=True)
-# Kernels that allocate arrays or lists need reference counting.
-ALLOCATING = dict(KERNEL, _nrt=True)
-ALLOCATING_ENTRY = dict(ALLOCATING, **CACHED)
 KERNEL_INLINE = dict(KERNEL, forceinline=True)
 INTERNAL_INLINE = dict(INTERNAL, forceinline=True)
 # The compiler optimises a callee again in each caller. A short kernel between a caller and the march is

@@ -4,9 +4,9 @@ import math
 from fractions import Fraction
 from typing import NamedTuple
 
-from numba import njit
-
-from rocking.kernels.compile_options import ENTRY_POINT, INTERNAL
+from rocking.kernels.compile_options import INTERNAL, KERNEL
+from rocking.kernels.deferred import njit
+from rocking.kernels.entry_point import entry_point
 from rocking.kernels.numerics.elementary import fma
 
 TURN = Fraction("6.28318530717958647692528676655900576839433879875021")
@@ -103,17 +103,29 @@ def make(amplitude, frequency, period, phase, restitution, brace_angle, brace_re
     )
 
 
+def row_of(p: HarmonicParameters) -> tuple[float, ...]:
+    """Return the arguments of ``make`` that gave these parameters."""
+    return p[:7]
+
+
 @njit(**INTERNAL)
 def parameters_from_row(row):
     """Return the parameters of a system from a row that holds the arguments of ``make``."""
     return make(row[0], row[1], row[2], row[3], row[4], row[5], row[6])
 
 
-@njit(**ENTRY_POINT)
-def make_plain(amplitude, frequency, period, phase, restitution, brace_angle, brace_restitution):
-    """Return ``make`` as a plain tuple; entry point for Python (reason: ``progress.to_tuple``)."""
-    p = make(amplitude, frequency, period, phase, restitution, brace_angle, brace_restitution)
-    return p[:]
+@entry_point(**KERNEL)
+def make_plain(
+    amplitude: float,
+    frequency: float,
+    period: float,
+    phase: float,
+    restitution: float,
+    brace_angle: float,
+    brace_restitution: float,
+) -> HarmonicParameters:
+    """Return ``make``; entry point for Python."""
+    return make(amplitude, frequency, period, phase, restitution, brace_angle, brace_restitution)
 
 
 def harmonic_parameters(
@@ -127,7 +139,7 @@ def harmonic_parameters(
 ) -> HarmonicParameters:
     """Return the parameters of a system with harmonic forcing."""
     values = amplitude, frequency, period, within_a_turn(phase), restitution, brace_angle, brace_restitution
-    return HarmonicParameters(*make_plain(*map(float, values)))
+    return make_plain(*map(float, values))
 
 
 def within_a_turn(phase: float) -> float:

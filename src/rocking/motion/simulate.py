@@ -122,7 +122,7 @@ def kept_events(
 
 def _first_rows(progress: Any, start: State, hit: bool) -> np.ndarray:
     rows = np.empty(2, event_rows.EVENT_ROW)
-    return rows[: event_rows.note_start(rows, progress, hit, start.velocity)]
+    return rows[: kernel.note_start(rows, progress, hit, start.velocity)]
 
 
 def _overturning(status: int, progress: Any, system: System) -> Overturning | None:

@@ -133,8 +133,8 @@ def problem_of(
     return arclength.Problem(
         parameters(chain.system),
         chain.fixed,
-        tuple(NAMES[name] for name in names),
-        tuple(limits),
+        np.array([NAMES[name] for name in names]),
+        np.array(limits, float),
         longest,
         arclength.make_workspace(len(chain.kinds), scales),
     )

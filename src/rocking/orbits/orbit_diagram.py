@@ -11,8 +11,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from rocking.kernels.classify import workspace
-from rocking.kernels.march import march
+from rocking.kernels.march import march, no_recording
 from rocking.kernels.march import sweep as kernel
 from rocking.model import (
     MAX_PHASE,
@@ -192,7 +191,7 @@ def _run(
     progress: Callable[[int], object] | None,
 ) -> None:
     """Fill the lanes, one thread per lane, in batches short enough for Ctrl-C and progress reports."""
-    nothing = workspace.no_recording()
+    nothing = no_recording.no_recording()
     batch = max(BREATH // (transient + lanes[0].section.shape[1]), 1)
     states = [(start.angle, start.velocity)] * len(lanes)
 

@@ -5,12 +5,10 @@ from __future__ import annotations
 import math
 from concurrent.futures import Future
 from contextlib import suppress
-from functools import cache
 from threading import Thread
 from typing import Any
 
-from rocking.kernels import parameters as numbers
-from rocking.kernels.classify import decision_cascade, workspace
+from rocking.kernels import batch
 from rocking.kernels.classify import verdict_record as kernel
 from rocking.model import Kind, Orbit, Outcome, State, System, Verdict, check_start, whole
 from rocking.motion import Motion, simulate, start_march
@@ -128,30 +126,19 @@ def _judged(system: System, start: State, max_cycles: int, max_period: int) -> k
     Compiled code releases the interpreter lock and does not react to Ctrl-C; the waiting main thread does. After an
     interruption, the thread runs to its end but does not keep the process alive.
     """
-    _compile()
     p, _ = start_march(system, start)
     answer: Future[Any] = Future()
 
     def work() -> None:
         try:
-            memory = workspace.make_workspace(max_cycles, max_period)
-            answer.set_result(
-                decision_cascade.judge_plain(p, start.angle, start.velocity, max_cycles, max_period, memory)
-            )
+            answer.set_result(batch.classify_one(p, start.angle, start.velocity, max_cycles, max_period))
         except BaseException as error:  # noqa: BLE001 (raised again in the main thread)
             answer.set_exception(error)
 
     Thread(target=work, daemon=True).start()
     while True:
         with suppress(TimeoutError):
-            return kernel.Judgement(*answer.result(LISTENING))
-
-
-@cache
-def _compile() -> None:
-    """Compile or load the decision sequence in the main thread: a process that ends during compilation may crash."""
-    still = numbers.harmonic_parameters(0.0, 1.0, math.tau, 0.0, 0.0)
-    decision_cascade.judge_plain(still, 0.0, 0.0, 1, 1, workspace.make_workspace(1, 1))
+            return answer.result(LISTENING)
 
 
 def _to_its_end(system: System, start: State, judgement: kernel.Judgement) -> Motion | None:

@@ -35,8 +35,9 @@ def average(values: Array) -> tuple[float, int]:
         Average; number of digits, 15 at most.
     """
     values = np.ascontiguousarray(values)
-    digits = math.floor(averages.digits_of_agreement_plain(values))
-    return averages.weighted_mean_plain(values), min(max(digits, 0), MAX_DIGITS)
+    weights = np.empty((len(values) + 1) // 2)
+    digits = math.floor(averages.digits_of_agreement_plain(values, weights))
+    return averages.weighted_mean_plain(values, weights), min(max(digits, 0), MAX_DIGITS)
 
 
 def fraction_of(value: float, digits: int) -> Fraction | None:
@@ -55,8 +56,12 @@ def deviations(phases: Array, speeds: Array) -> Array | None:
     """
     offsets = np.mod(phases - phases[0] + math.pi, 2.0 * math.pi) - math.pi
     speeds = np.ascontiguousarray(speeds)
+    weights = np.empty((len(speeds) + 1) // 2)
     points = np.column_stack(
-        [speeds - averages.weighted_mean_plain(speeds), offsets - averages.weighted_mean_plain(offsets)]
+        [
+            speeds - averages.weighted_mean_plain(speeds, weights),
+            offsets - averages.weighted_mean_plain(offsets, weights),
+        ]
     )
     sizes = np.abs(points).max(axis=0)
     return None if sizes.max() < POINT else points / np.maximum(sizes, POINT)

@@ -15,7 +15,6 @@ import math
 from typing import Any
 
 import numpy as np
-from scipy.integrate import quad
 
 from rocking.model import MAX_AMPLITUDE, PERIODS, finite, reals, within
 from rocking.theory.arguments import amplitudes, between, frequencies, plain, restitutions, side_of
@@ -189,6 +188,8 @@ def melnikov_integral(
     >>> abs(melnikov_integral(0.3, 4.0, 1.0, 0.8) - closed) < 1e-6
     True
     """
+    from scipy.integrate import quad
+
     time = finite("time", time, MAX_TIME)
     amplitude = within("amplitude", amplitude, 0.0, MAX_AMPLITUDE)
     omega = math.tau / within("period", period, *PERIODS)

@@ -8,10 +8,9 @@ wide margin, it is UNSURE and ``first_zero`` decides.
 import math
 from typing import NamedTuple
 
-from numba import njit
-
 from rocking.kernels.arc.solution import exponentials, propagate, propagator_of
 from rocking.kernels.compile_options import INTERNAL, INTERNAL_INLINE, SIMD_INLINE
+from rocking.kernels.deferred import njit
 from rocking.kernels.forcing.harmonic import first_sign_change, forcing_rates, forcing_term
 from rocking.kernels.numerics.elementary import fma
 

@@ -3,12 +3,12 @@
 import math
 
 import numpy as np
-from numba import njit
 
 from rocking.kernels.arc.first_zero import CROSSING, LATER, EventFunction, first_zero, step_to_zero
 from rocking.kernels.arc.solution import evaluate, exponentials, within_reach
 from rocking.kernels.arc.taylor import I2, I4, I6, I8
 from rocking.kernels.compile_options import INTERNAL, INTERNAL_INLINE, KERNEL_INLINE, SIMD_INLINE
+from rocking.kernels.deferred import njit
 from rocking.kernels.event_kinds import BRACE, IMPACT
 from rocking.kernels.forcing.harmonic import TURN, forcing_rates, forcing_term
 from rocking.kernels.numerics.elementary import fma

@@ -13,14 +13,13 @@ ends proves that nothing is met before. Results that are not certain by a wide m
 
 import math
 
-from numba import njit
-
 from rocking.kernels.arc.bracket import UNSURE, ZERO, Jet, bracket_first_zero, knot, start_knot, stays_clear
 from rocking.kernels.arc.enclosure import stays_between
 from rocking.kernels.arc.first_zero import MAX_ARC_TIME, corrected_step, step_to_zero
 from rocking.kernels.arc.solution import Instant, propagate, propagator_of
 from rocking.kernels.arc.taylor import series, velocity_after
 from rocking.kernels.compile_options import INTERNAL_INLINE
+from rocking.kernels.deferred import njit
 from rocking.kernels.forcing.harmonic import forcing_rates, forcing_term
 
 TRIES = 6

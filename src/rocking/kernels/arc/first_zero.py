@@ -22,11 +22,10 @@ import math
 from enum import IntEnum
 from typing import NamedTuple
 
-from numba import njit
-
 from rocking.kernels.arc.solution import evaluate, exponentials, propagate, propagator_or_none
 from rocking.kernels.arc.taylor import reversion
 from rocking.kernels.compile_options import INTERNAL, KERNEL, KERNEL_INLINE
+from rocking.kernels.deferred import njit
 from rocking.kernels.forcing.harmonic import first_sign_change, forcing_rates, forcing_term, next_sign_change
 
 # After this long an arc restarts from its own state: at e^32 the closed form has used up double precision.

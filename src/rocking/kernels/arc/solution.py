@@ -11,9 +11,8 @@ Here ``steady`` is a constant part of u0 - 1 - A cos eta, and G the response fro
 
 from typing import NamedTuple
 
-from numba import njit
-
 from rocking.kernels.compile_options import INTERNAL_INLINE, KERNEL, KERNEL_INLINE
+from rocking.kernels.deferred import njit
 from rocking.kernels.forcing.harmonic import (
     ForcedStep,
     forced_response,

@@ -2,9 +2,8 @@
 
 import math
 
-from numba import njit
-
 from rocking.kernels.compile_options import SIMD_INLINE
+from rocking.kernels.deferred import njit
 from rocking.kernels.numerics.elementary import fma
 from rocking.kernels.numerics.simd import choose
 

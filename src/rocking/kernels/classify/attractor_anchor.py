@@ -3,15 +3,18 @@
 import math
 
 import numpy as np
-from numba import njit
 
 from rocking.kernels.classify.classifier_state import FIRST_SECTION
+from rocking.kernels.classify.results import ResultArrays
 from rocking.kernels.classify.verdict_record import PERIODIC, REST
-from rocking.kernels.classify.workspace import no_recording
-from rocking.kernels.compile_options import ALLOCATING_ENTRY, INTERNAL
+from rocking.kernels.compile_options import INTERNAL, KERNEL
+from rocking.kernels.deferred import njit
+from rocking.kernels.entry_point import entry_point
 from rocking.kernels.march.march import DONE, STILL, UNKNOWN, begin, march_through
+from rocking.kernels.march.no_recording import NoRecording, no_recording
 from rocking.kernels.march.progress import Recording
 from rocking.kernels.parameters import later, parameters_from_row
+from rocking.kernels.signature import Floats2
 
 # Phase of the section on which attractors are compared, in cycles. An event of a symmetric mode lies there
 # only by chance.
@@ -44,44 +47,44 @@ def foremost(states, first):
     return best
 
 
-@njit(**ALLOCATING_ENTRY)
-def anchor_each(systems, starts, kind, period, cycles, orbit, nothing, anchors):
+@entry_point(**KERNEL)
+def anchor_each(
+    systems: Floats2,
+    starts: Floats2,
+    results: ResultArrays,
+    nothing: NoRecording,
+    scratch: Floats2,
+    anchors: Floats2,
+) -> None:
     """Write the canonical state (angle, velocity) of the attractor of each of n points; NaN if there is none.
 
     For a periodic orbit it is the foremost state on the section at SECTION, for rest the state of rest.
-    ``kind``, ``period``, ``cycles`` and ``orbit`` are fields of ``ResultArrays``.
+    ``scratch`` has two rows per cycle of the longest period.
     """
     for k in range(systems.shape[0]):
         anchors[k, 0], anchors[k, 1] = math.nan, math.nan
-        if kind[k] != PERIODIC and kind[k] != REST:
+        if results.kind[k] != PERIODIC and results.kind[k] != REST:
             continue
         p = parameters_from_row(systems[k])
-        if kind[k] == REST:
-            anchors[k, 0], anchors[k, 1] = rest_angle(p, starts[k, 0], starts[k, 1], cycles[k], nothing), 0.0
+        if results.kind[k] == REST:
+            cycles = results.cycles[k]
+            anchors[k, 0], anchors[k, 1] = rest_angle(p, starts[k, 0], starts[k, 1], cycles, nothing), 0.0
             continue
         # The second repetition is used, because an orbit with rest is known at a release, whose time is
         # rounded.
-        states = np.empty((2 * period[k], 2))
-        at = (SECTION * p.period - orbit[k, 0]) % p.period
-        q, recording = later(p, orbit[k, 0]), Recording(at, states, nothing.events, False, False)
-        progress = begin(q, orbit[k, 1], orbit[k, 2], UNKNOWN)[0]
-        status, _ = march_through(q, progress, 2 * period[k], recording, nothing.tangent)
+        period, time = results.period[k], results.section_time[k]
+        states = scratch[: 2 * period]
+        at = (SECTION * p.period - time) % p.period
+        q, recording = later(p, time), Recording(at, states, nothing.events, False, False)
+        progress = begin(q, results.angle[k], results.velocity[k], UNKNOWN)[0]
+        status, _ = march_through(q, progress, 2 * period, recording, nothing.tangent)
         if status == DONE:
-            best = foremost(states, period[k])
+            best = foremost(states, period)
             anchors[k, 0], anchors[k, 1] = states[best, 0], states[best, 1]
 
 
 def anchors_of(systems, starts, answers):
     """Return ``anchor_each`` for the results of ``batch.classify_batch``: an array (n, 2)."""
-    anchors = np.empty((len(systems), 2))
-    anchor_each(
-        systems,
-        starts,
-        answers.kind,
-        answers.period,
-        answers.cycles,
-        answers.orbit,
-        no_recording(),
-        anchors,
-    )
+    anchors, scratch = np.empty((len(systems), 2)), np.empty((2 * answers.period.max(initial=1), 2))
+    anchor_each(systems, starts, answers, no_recording(), scratch, anchors)
     return anchors

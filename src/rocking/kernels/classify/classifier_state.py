@@ -2,13 +2,12 @@
 
 from typing import NamedTuple
 
-from numba import njit
-
 from rocking.kernels.classify.periodicity import PeriodicityCheck, no_cycle
 from rocking.kernels.classify.quasi_periodicity import MIN_FLIGHTS, Flights, no_flights
 from rocking.kernels.classify.reset import ResetTracker, new_tracker
 from rocking.kernels.classify.workspace import BATCHES
 from rocking.kernels.compile_options import INTERNAL, INTERNAL_INLINE
+from rocking.kernels.deferred import njit
 from rocking.kernels.march.march import UNKNOWN, begin
 from rocking.kernels.numerics.replace_fields import replacing
 

@@ -13,8 +13,6 @@ Else the motion is undetermined.
 
 import math
 
-from numba import njit
-
 from rocking.kernels.classify.classifier_state import (
     Averages,
     Batches,
@@ -63,7 +61,8 @@ from rocking.kernels.classify.verdict_record import (
     unsettled,
 )
 from rocking.kernels.classify.workspace import LEG
-from rocking.kernels.compile_options import AST_INLINE, ENTRY_POINT, INTERNAL, INTERNAL_INLINE
+from rocking.kernels.compile_options import AST_INLINE, INTERNAL, INTERNAL_INLINE
+from rocking.kernels.deferred import njit
 from rocking.kernels.march.march import DONE
 from rocking.kernels.numerics.elementary import size
 
@@ -309,9 +308,3 @@ def judge(p, angle, velocity, max_cycles, max_period, workspace):
         verdict, case = evaluate_checkpoint(p, case, status, run, max_cycles, max_period, workspace)
         if verdict[0] != OPEN:
             return verdict
-
-
-@njit(**ENTRY_POINT)
-def judge_plain(p, angle, velocity, max_cycles, max_period, workspace):
-    """Return ``judge``; entry point for Python."""
-    return judge(p, angle, velocity, max_cycles, max_period, workspace)

@@ -1,12 +1,12 @@
 """March of a classification from one checkpoint to the next (one leg)."""
 
 import numpy as np
-from numba import njit
 
 from rocking.kernels.classify.classifier_state import Run
 from rocking.kernels.classify.quasi_periodicity import append_lazy_rows, collect, section_needed
 from rocking.kernels.classify.reset import follow, moved_on
 from rocking.kernels.compile_options import AST_INLINE, INTERNAL, INTERNAL_INLINE
+from rocking.kernels.deferred import njit
 from rocking.kernels.march.march import DONE, PAUSED, RELEASED, march_on
 from rocking.kernels.march.progress import Recording
 from rocking.kernels.march.tangent import TangentState

@@ -3,11 +3,11 @@
 import math
 from typing import NamedTuple
 
-from numba import njit
-
 from rocking.kernels.arc.extrema import largest_on
 from rocking.kernels.classify.recurrence import apart, approached, closest_return
-from rocking.kernels.compile_options import AST_INLINE, ENTRY_POINT, INTERNAL
+from rocking.kernels.compile_options import AST_INLINE, INTERNAL, KERNEL
+from rocking.kernels.deferred import njit
+from rocking.kernels.entry_point import entry_point
 from rocking.kernels.march.march import UNKNOWN
 from rocking.kernels.march.progress import Recording
 from rocking.kernels.march.tangent import Tangent
@@ -26,6 +26,7 @@ from rocking.kernels.orbits.fixed_point import (
 from rocking.kernels.orbits.floquet import adapted_norm, length, spectral_radius
 from rocking.kernels.orbits.symmetric_mode import Nearest, nearest
 from rocking.kernels.parameters import later
+from rocking.kernels.signature import Floats2
 
 # Candidates for Newton's method, in this order. REFINED repeats the search with the least period of the orbit
 # found.
@@ -238,8 +239,10 @@ def repetition(rows, halves, angle, velocity, lag, same):
     return period, mirrored
 
 
-@njit(**ENTRY_POINT)
-def repetition_plain(rows, halves, angle, velocity, lag, same):
+@entry_point(**KERNEL)
+def repetition_plain(
+    rows: Floats2, halves: Floats2, angle: float, velocity: float, lag: int, same: float
+) -> tuple[int, bool]:
     """Return ``repetition``; entry point for Python."""
     return repetition(rows, halves, angle, velocity, lag, same)
 

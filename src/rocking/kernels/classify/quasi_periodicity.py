@@ -6,10 +6,9 @@ The map from impact to impact is analytic.
 import math
 from typing import NamedTuple
 
-from numba import njit
-
 from rocking.kernels.arc.solution import arc_from
 from rocking.kernels.compile_options import INTERNAL
+from rocking.kernels.deferred import njit
 from rocking.kernels.event_kinds import BRACE, FLIGHT, IMPACT, NONE
 from rocking.kernels.march.event_rows import state_at
 from rocking.kernels.numerics.averages import bumps, digits_with

@@ -2,9 +2,8 @@
 
 import math
 
-from numba import njit
-
 from rocking.kernels.compile_options import INTERNAL
+from rocking.kernels.deferred import njit
 from rocking.kernels.march.tangent import Tangent
 from rocking.kernels.numerics.elementary import size
 from rocking.kernels.orbits.floquet import multipliers

@@ -6,9 +6,8 @@ A release is either of the two. It follows rest or sustained contact with a brac
 import math
 from typing import NamedTuple
 
-from numba import njit
-
 from rocking.kernels.compile_options import AST_INLINE, INTERNAL
+from rocking.kernels.deferred import njit
 from rocking.kernels.event_kinds import FLIGHT
 from rocking.kernels.march.march import PAUSED, RELEASED, march_on
 from rocking.kernels.march.progress import Progress, Recording

@@ -4,14 +4,13 @@ import math
 from enum import IntEnum
 from typing import NamedTuple
 
-from numba import njit
-
 from rocking.kernels.classify.classifier_state import batch_of
 from rocking.kernels.classify.periodicity import REACHED, PeriodicityCheck, constant_image, no_cycle
 from rocking.kernels.classify.quasi_periodicity import CHAOTIC_DIGITS
 from rocking.kernels.classify.reset import largest_angle
 from rocking.kernels.classify.workspace import BATCHES
 from rocking.kernels.compile_options import INTERNAL
+from rocking.kernels.deferred import njit
 from rocking.kernels.march.march import OVERTURNED, RELEASED, STILL
 from rocking.kernels.numerics.averages import batch_error
 from rocking.kernels.orbits.fixed_point import FixedPoint

@@ -4,8 +4,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from rocking.kernels.march.event_rows import EVENT_ROW
+from rocking.kernels.march.event_rows import EVENT_ROW, EventRows
+from rocking.kernels.march.no_recording import NoRecording, no_recording
 from rocking.kernels.march.tangent import TangentState
+from rocking.kernels.signature import Floats1, Floats2
 
 # Cycles between checkpoints of an undamped motion.
 LEG = 128
@@ -15,25 +17,17 @@ SPARE = 3
 BATCHES = 64
 
 
-class NoRecording(NamedTuple):
-    """Empty arrays for disabled recordings, allocated once: an allocation costs as much as half an impact."""
-
-    section: np.ndarray  # (0, 4)
-    events: np.ndarray  # (0,)
-    tangent: TangentState  # (0, 2), (0,)
-
-
 class Workspace(NamedTuple):
     """Preallocated arrays for the classification of one system after another."""
 
-    section: np.ndarray  # (n, 8), the last cycles: ``note_state``, then ``append_lazy_rows``
-    scratch: np.ndarray  # (n, 4), states of a trial orbit; n also limits the number of last cycles used
-    events: np.ndarray  # (n,)
-    flights: np.ndarray  # (n, 2)
-    weights: np.ndarray  # (n/4 + 1,)
-    batches: np.ndarray
+    section: Floats2  # (n, 8), the last cycles: ``note_state``, then ``append_lazy_rows``
+    scratch: Floats2  # (n, 4), states of a trial orbit; n also limits the number of last cycles used
+    events: EventRows  # (n,)
+    flights: Floats2  # (n, 2)
+    weights: Floats1  # (n/4 + 1,)
+    batches: Floats1
     tangent: TangentState  # (2, 2), (1,)
-    trial: np.ndarray  # (2, 2), tangent vectors of a trial orbit
+    trial: Floats2  # (2, 2), tangent vectors of a trial orbit
     nothing: NoRecording
 
 
@@ -61,8 +55,3 @@ def make_workspace(max_cycles, max_period):
         np.empty((2, 2)),
         no_recording(),
     )
-
-
-def no_recording():
-    """Allocate the arrays of ``NoRecording``."""
-    return NoRecording(np.empty((0, 4)), np.empty(0, EVENT_ROW), TangentState(np.empty((0, 2)), np.empty(0)))

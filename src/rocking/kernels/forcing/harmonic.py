@@ -10,9 +10,9 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from rocking.kernels.compile_options import INTERNAL_INLINE
+from rocking.kernels.deferred import njit
 from rocking.kernels.numerics.elementary import SHORT, circular, direction, fma
 
 TURN = 2.0 * math.pi

@@ -1,8 +1,7 @@
 """Requests before events between braces, and the events themselves: eq. (2) and the impact on a brace."""
 
-from numba import njit
-
 from rocking.kernels.compile_options import SIMD_INLINE
+from rocking.kernels.deferred import njit
 from rocking.kernels.lanes.impact import next_forcing_term, propagate_tangent, set_request, turn_clock
 from rocking.kernels.lanes.state import AT_EVENT, BRACKET, CHECK_ZENO, NEW_ARC, NO_REQUEST, UPDATE_PEAK
 from rocking.kernels.march.impact_law import SLOW

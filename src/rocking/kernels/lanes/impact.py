@@ -3,10 +3,10 @@
 import math
 
 import numpy as np
-from numba import njit
 
 from rocking.kernels.arc.extrema import may_rise_above
 from rocking.kernels.compile_options import SIMD_INLINE
+from rocking.kernels.deferred import njit
 from rocking.kernels.lanes.state import (
     AT_EVENT,
     BRACKET,

@@ -1,9 +1,9 @@
 """Log of each lane: arcs from which section states may be needed, and the arcs of an undamped motion."""
 
 import numpy as np
-from numba import njit
 
 from rocking.kernels.compile_options import INTERNAL, INTERNAL_INLINE, SIMD_INLINE
+from rocking.kernels.deferred import njit
 from rocking.kernels.event_kinds import BRACE, FLIGHT, IMPACT
 from rocking.kernels.forcing.harmonic import clock
 from rocking.kernels.lanes.state import BRACKET, LANES

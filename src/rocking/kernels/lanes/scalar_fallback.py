@@ -1,11 +1,10 @@
 """Scalar fallback of a lane, by the functions for one block: uncertain events, maxima of the angle, chattering."""
 
-from numba import njit
-
 from rocking.kernels.arc.extrema import largest_on
 from rocking.kernels.arc.first_zero import MAX_ARC_TIME
 from rocking.kernels.arc.solution import NONE_YET
 from rocking.kernels.compile_options import INTERNAL, INTERNAL_INLINE
+from rocking.kernels.deferred import njit
 from rocking.kernels.event_kinds import BRACE, FLIGHT, IMPACT
 from rocking.kernels.lanes.state import (
     AT_EVENT,

@@ -8,7 +8,6 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from rocking.kernels.classify.classifier_state import ClassifierState, next_look, opened, with_run
 from rocking.kernels.classify.decision_cascade import checkpoint_unstable, evaluate_checkpoint, over_batch
@@ -18,7 +17,9 @@ from rocking.kernels.classify.reset import begin_tangent
 from rocking.kernels.classify.results import ResultArrays, store_result
 from rocking.kernels.classify.verdict_record import OPEN, undecided
 from rocking.kernels.classify.workspace import LEG
-from rocking.kernels.compile_options import ALLOCATING_ENTRY, INTERNAL, INTERNAL_INLINE
+from rocking.kernels.compile_options import INTERNAL, INTERNAL_INLINE, KERNEL
+from rocking.kernels.deferred import njit
+from rocking.kernels.entry_point import entry_point
 from rocking.kernels.event_kinds import FLIGHT, IMPACT
 from rocking.kernels.lanes.log import log_arcs
 from rocking.kernels.lanes.scalar_fallback import request_at_event, resolve_alone, update_peak
@@ -42,8 +43,9 @@ from rocking.kernels.lanes.transfer import (
     status_of,
     unload_block,
 )
-from rocking.kernels.lanes.workspace import lane_workspace
+from rocking.kernels.lanes.workspace import LaneWorkspace, lane_workspace, load_work, store_work
 from rocking.kernels.parameters import HarmonicParameters, parameters_from_row
+from rocking.kernels.signature import Floats2, Integers1
 
 # With a shorter forcing period an arc has too many sign intervals for a search in lockstep.
 MIN_LANE_PERIOD = 0.1
@@ -204,8 +206,16 @@ def run_lanes(s, flights, log, braced, stop):
             return
 
 
-@njit(**ALLOCATING_ENTRY)
-def classify_batch_lanes(systems, starts, max_cycles, max_period, workspace, results, stop):
+@entry_point(**KERNEL)
+def classify_batch_lanes(
+    systems: Floats2,
+    starts: Floats2,
+    max_cycles: int,
+    max_period: int,
+    workspace: LaneWorkspace,
+    results: ResultArrays,
+    stop: Integers1,
+) -> bool:
     """Classify a batch in lanes, all points with braces or all without.
 
     The arguments are those of ``batch.classify_batch_scalar``. Returns True if all points were classified,
@@ -214,19 +224,22 @@ def classify_batch_lanes(systems, starts, max_cycles, max_period, workspace, res
     batch = BatchRequest(systems, starts, max_cycles, max_period, results)
     s, p, queue, busy = workspace.state[0], parameters_from_row(systems[0]), np.int64(0), LANES
     braced = p.brace_angle < math.inf
-    works = [LaneWork(-1, p, opened(p, 0.0, 0.0, max_cycles))] * LANES
+    idle, works = LaneWork(-1, p, opened(p, 0.0, 0.0, max_cycles)), workspace.works.ctypes.data
     for i in range(LANES):
+        store_work(works, i, idle)
         s.stage[i] = IDLE
         s.request[i] = LOAD_NEXT
     while stop[0] == 0:
         for i in range(LANES):
             if s.request[i] == NO_REQUEST:
                 continue
-            request = resolve_alone(s, i, works[i].p)
+            work = load_work(works, i, idle)
+            request = resolve_alone(s, i, work.p)
             if request > UPDATE_PEAK:
-                works[i], queue = service_until_ready(s, i, request, works[i], queue, batch, workspace)
-                busy -= works[i].point < 0
-            update_peak(s, i, works[i].p)
+                work, queue = service_until_ready(s, i, request, work, queue, batch, workspace)
+                store_work(works, i, work)
+                busy -= work.point < 0
+            update_peak(s, i, work.p)
         if busy == 0:
             break
         run_lanes(s, workspace.flights, workspace.log, braced, stop)

@@ -16,10 +16,10 @@ one checkpoint of its classification to the next is its *leg*.
 import math
 
 import numpy as np
-from numba import njit
 
 from rocking.kernels.arc.bracket import MARGIN
 from rocking.kernels.compile_options import SIMD_INLINE
+from rocking.kernels.deferred import njit
 from rocking.kernels.numerics.simd import SHORT_ANGLE, SHORT_TIME
 
 LANES = 48

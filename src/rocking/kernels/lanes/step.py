@@ -1,8 +1,7 @@
 """Pass over all lanes: every lane executes its next stage. The compiler vectorises each short loop."""
 
-from numba import njit
-
 from rocking.kernels.compile_options import SIMD
+from rocking.kernels.deferred import njit
 from rocking.kernels.lanes.braced_arc import correct_event, predict_event
 from rocking.kernels.lanes.braced_event import apply_event, carry_through_event, request_before_event
 from rocking.kernels.lanes.bracket import skip_clear_period, walk

@@ -2,14 +2,13 @@
 
 import math
 
-from numba import njit
-
 from rocking.kernels.arc.solution import arc_after, shift_clock
 from rocking.kernels.classify.classifier_state import Run
 from rocking.kernels.classify.leg import make_room, most_events
 from rocking.kernels.classify.quasi_periodicity import Flights, append_lazy_rows
 from rocking.kernels.classify.reset import moved_on
 from rocking.kernels.compile_options import INTERNAL, INTERNAL_INLINE
+from rocking.kernels.deferred import njit
 from rocking.kernels.event_kinds import FLIGHT, IMPACT
 from rocking.kernels.lanes.state import AT_EVENT, END_LEG, NEW_ARC, set_system
 from rocking.kernels.march.march import CROWDED, DONE, UNKNOWN

@@ -1,22 +1,24 @@
 """Workspace of all lanes, allocated once and used for many batches."""
 
-from typing import NamedTuple
+from typing import Annotated, NamedTuple
 
 import numpy as np
 from llvmlite import ir
-from numba import njit, types
-from numba.extending import intrinsic
 
-from rocking.kernels.classify.workspace import NoRecording, Workspace, make_workspace
+from rocking.kernels.classify.workspace import Workspace, make_workspace
 from rocking.kernels.compile_options import INTERNAL
+from rocking.kernels.deferred import intrinsic, njit
 from rocking.kernels.lanes.state import LANE_STATE, LANES, LOG_ROWS
-from rocking.kernels.march.event_rows import EVENT_ROW
+from rocking.kernels.march.event_rows import EVENT_ROW, EventRows
+from rocking.kernels.march.no_recording import NoRecording
 from rocking.kernels.march.tangent import TangentState
+from rocking.kernels.signature import Bytes1, Floats1, Floats2, Floats3
 
 
 @intrinsic
 def prefetch_for_write(typingctx, address):
     """Prefetch the cache line at an address for writing. The processor ignores invalid addresses."""
+    from numba import types
 
     def generate(context, builder, signature, arguments):
         pointer, number = ir.IntType(8).as_pointer(), ir.IntType(32)
@@ -29,19 +31,68 @@ def prefetch_for_write(typingctx, address):
     return types.void(types.intp), generate
 
 
+# Room for the work item of a lane: its system and its classification.
+WORK_BYTES = 2048
+
+LaneStates = Annotated[np.ndarray, LANE_STATE, 1]
+LaneLogs = Annotated[np.ndarray, EVENT_ROW, 2]
+
+
+@intrinsic
+def store_work(typingctx, address, lane, work):
+    """Store the work item of a lane in memory at an address: a list of them would be an allocation in compiled code."""
+    from numba import types
+
+    def generate(context, builder, signature, arguments):
+        place = work_place(context, builder, signature.args[2], arguments)
+        builder.store(arguments[2], place)
+        return context.get_dummy_value()
+
+    return types.void(types.intp, types.intp, work), generate
+
+
+@intrinsic
+def load_work(typingctx, address, lane, like):
+    """Return the work item of a lane that ``store_work`` stored, of the type of ``like``."""
+    from numba import types
+
+    def generate(context, builder, signature, arguments):
+        return builder.load(work_place(context, builder, signature.args[2], arguments))
+
+    return like(types.intp, types.intp, like), generate
+
+
+def work_place(context, builder, work, arguments):
+    """Return the code of the address of the work item of a lane. ValueError: if it is longer than WORK_BYTES."""
+    kind = context.get_value_type(work)
+    size = context.get_abi_sizeof(kind)
+    if size > WORK_BYTES:
+        raise ValueError(f"a work item has {size} bytes, more than {WORK_BYTES}")
+    offset = builder.mul(arguments[1], ir.IntType(64)(WORK_BYTES))
+    return builder.inttoptr(builder.add(arguments[0], offset), kind.as_pointer())
+
+
+class LaneTangents(NamedTuple):
+    """Tangent vectors of all lanes: a ``TangentState`` for each."""
+
+    columns: Floats3  # (lanes, 2, 2)
+    growth: Floats2  # (lanes, 1)
+
+
 class LaneWorkspace(NamedTuple):
     """Workspace of all lanes: arrays that each lane keeps from leg to leg, and shared ones."""
 
-    state: np.ndarray  # (1,), LANE_STATE
-    log: np.ndarray  # (lanes, n), EVENT_ROW: the arcs since the last read
-    section: np.ndarray
-    scratch: np.ndarray
-    events: np.ndarray
-    flights: np.ndarray
-    weights: np.ndarray
-    batches: np.ndarray
-    tangent: TangentState
-    trial: np.ndarray
+    state: LaneStates  # (1,), LANE_STATE
+    log: LaneLogs  # (lanes, n), EVENT_ROW: the arcs since the last read
+    section: Floats3
+    scratch: Floats2
+    events: EventRows
+    flights: Floats3
+    weights: Floats1
+    batches: Floats2
+    tangent: LaneTangents
+    trial: Floats2
+    works: Bytes1  # (lanes WORK_BYTES,), by ``store_work``
     nothing: NoRecording
 
 
@@ -64,8 +115,9 @@ def make_lane_workspace(max_cycles, max_period):
         flights,
         one.weights,
         batches,
-        TangentState(columns, growth),
+        LaneTangents(columns, growth),
         one.trial,
+        np.zeros(LANES * WORK_BYTES, np.uint8),
         one.nothing,
     )
 

@@ -2,9 +2,8 @@
 
 import math
 
-from numba import njit
-
 from rocking.kernels.compile_options import INTERNAL, KERNEL
+from rocking.kernels.deferred import njit
 from rocking.kernels.forcing.harmonic import acceleration_change_bound, forcing_term
 
 

@@ -1,16 +1,19 @@
 """Row layout of sections and events, and the functions that write rows."""
 
+from typing import Annotated
+
 import numpy as np
-from numba import njit
 
 from rocking.kernels.arc.solution import evaluate, within_reach
-from rocking.kernels.compile_options import ENTRY_POINT, INTERNAL
-from rocking.kernels.event_kinds import BRACE, FLIGHT, LEAN, LEANS, NONE, REST, RESTS
+from rocking.kernels.compile_options import INTERNAL
+from rocking.kernels.deferred import njit
+from rocking.kernels.event_kinds import FLIGHT, LEAN, LEANS, REST, RESTS
 
 # An event: its cycle and the time within it; its kind; mode, side, u and u' of the arc that follows; Theta'
 # just before.
 NAMES = "cycle", "time", "event", "mode", "side", "angle", "velocity", "before"
 EVENT_ROW = np.dtype([(name, np.float64) for name in NAMES], align=True)
+EventRows = Annotated[np.ndarray, EVENT_ROW, 1]
 
 
 @njit(**INTERNAL)
@@ -54,14 +57,3 @@ def note_event(events, count, progress, event, before):
     if progress.mode == FLIGHT:
         return count
     return note(events, count, progress, RESTS if progress.mode == REST else LEANS, 0.0)
-
-
-@njit(**ENTRY_POINT)
-def note_start(events, progress, hit, velocity):
-    """Write the first rows of a motion: its first arc, after a brace impact if it starts with one.
-
-    Returns the number of events written. A sustained contact with the brace at the start is a second event.
-    """
-    if hit:
-        return note_event(events, 0, progress, BRACE, velocity)
-    return note(events, 0, progress, NONE, velocity)

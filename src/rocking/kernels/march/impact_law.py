@@ -2,10 +2,9 @@
 
 import math
 
-from numba import njit
-
 from rocking.kernels.arc.solution import arc_after, arc_from
 from rocking.kernels.compile_options import INTERNAL, KERNEL_INLINE
+from rocking.kernels.deferred import njit
 from rocking.kernels.event_kinds import BRACE, FLIGHT, IMPACT, LEAN, LEAVE, LIFT_OFF, REST
 from rocking.kernels.march.chatter import base_settling_time, brace_settling_time
 from rocking.kernels.march.next_event import side_to_lift, stays_leaning

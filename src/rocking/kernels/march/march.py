@@ -7,8 +7,6 @@ run. Sections lie inside arcs and do not interrupt them.
 import math
 from enum import IntEnum
 
-from numba import njit
-
 from rocking.kernels.arc.extrema import largest_on, peak_with
 from rocking.kernels.arc.first_zero import MAX_ARC_TIME, no_return_time
 from rocking.kernels.arc.solution import (
@@ -18,16 +16,16 @@ from rocking.kernels.arc.solution import (
     shift_clock,
     within_reach,
 )
-from rocking.kernels.compile_options import ENTRY_POINT, INTERNAL, INTERNAL_INLINE
-from rocking.kernels.event_kinds import BRACE, FLIGHT, IMPACT, LEAN, REST
-from rocking.kernels.march.event_rows import note_event, note_state
+from rocking.kernels.compile_options import INTERNAL, INTERNAL_INLINE, KERNEL
+from rocking.kernels.deferred import njit
+from rocking.kernels.entry_point import entry_point
+from rocking.kernels.event_kinds import BRACE, FLIGHT, IMPACT, LEAN, NONE, REST
+from rocking.kernels.march.event_rows import EventRows, note, note_event, note_state
 from rocking.kernels.march.impact_law import after_event
 from rocking.kernels.march.next_event import next_event, side_to_lift, stays_leaning
 from rocking.kernels.march.progress import (
     Progress,
     Recording,
-    from_tuple,
-    to_tuple,
     with_arc,
     with_clock,
     with_no_return,
@@ -38,6 +36,7 @@ from rocking.kernels.march.progress import (
 )
 from rocking.kernels.march.tangent import (
     NO_TANGENT,
+    TangentState,
     carry,
     carry_arc,
     finish_tangent,
@@ -46,6 +45,7 @@ from rocking.kernels.march.tangent import (
     strain_of,
     write_registers,
 )
+from rocking.kernels.parameters import HarmonicParameters
 
 MAX_EVENTS = 10_000_000
 # Compiled code cannot be interrupted, so a march returns after this number of events.
@@ -112,11 +112,21 @@ def begin(p, angle, velocity, waits, start=0.0):
     ), hit
 
 
-@njit(**ENTRY_POINT)
-def begin_plain(p, angle, velocity):
-    """Return the result of ``begin`` with the progress as nested tuples; entry point for Python."""
-    progress, hit = begin(p, angle, velocity, UNKNOWN)
-    return to_tuple(progress), hit
+@entry_point(**KERNEL)
+def begin_march(p: HarmonicParameters, angle: float, velocity: float) -> tuple[Progress, bool]:
+    """Begin a march as ``begin`` does, without guesses of the first two waits."""
+    return begin(p, angle, velocity, UNKNOWN)
+
+
+@entry_point(**KERNEL)
+def note_start(events: EventRows, progress: Progress, hit: bool, velocity: float) -> int:
+    """Write the first rows of a motion: its first arc, after a brace impact if it starts with one.
+
+    Returns the number of events written. A sustained contact with the brace at the start is a second event.
+    """
+    if hit:
+        return note_event(events, 0, progress, BRACE, velocity)
+    return note(events, 0, progress, NONE, velocity)
 
 
 @njit(**INTERNAL)
@@ -290,20 +300,14 @@ def march_through(p, progress, cycles, recording, state):
             return status, progress
 
 
-@njit(**ENTRY_POINT)
-def march_plain(p, progress, cycles, recording, state):
-    """March by ``march_on`` and return the progress as nested tuples; entry point for Python."""
-    status, reached, rows, written = march_on(p, progress, cycles, recording, state)
-    return status, to_tuple(reached), rows, written
-
-
-def begin_march(p, angle, velocity):
-    """Return the progress at the start and whether a brace is hit there: ``begin_plain`` for Python."""
-    fields, hit = begin_plain(p, angle, velocity)
-    return from_tuple(fields), hit
+@entry_point(**KERNEL)
+def march_plain(
+    p: HarmonicParameters, progress: Progress, cycles: int, recording: Recording, state: TangentState
+) -> tuple[int, Progress, int, int]:
+    """March by ``march_on``; entry point for Python."""
+    return march_on(p, progress, cycles, recording, state)
 
 
 def march(p, progress, cycles, recording, state=NO_TANGENT):
-    """Return status, progress and the numbers of section and event rows written: ``march_plain`` for Python."""
-    status, fields, rows, written = march_plain(p, progress, cycles, recording, state)
-    return status, from_tuple(fields), rows, written
+    """March by ``march_on``, by default without tangent vectors."""
+    return march_plain(p, progress, cycles, recording, state)

@@ -3,8 +3,6 @@
 import math
 from typing import NamedTuple
 
-from numba import njit
-
 from rocking.kernels.arc.bracket import NEVER as NEVER_MORE
 from rocking.kernels.arc.bracket import ZERO
 from rocking.kernels.arc.enclosure import grazes
@@ -19,6 +17,7 @@ from rocking.kernels.arc.first_zero import (
 )
 from rocking.kernels.arc.solution import NONE_YET, evaluate, propagator_or_none
 from rocking.kernels.compile_options import INTERNAL, KERNEL, KERNEL_INLINE
+from rocking.kernels.deferred import njit
 from rocking.kernels.event_kinds import BRACE, FLIGHT, IMPACT, LEAN, LEAVE, LIFT_OFF, NONE, REST
 from rocking.kernels.forcing.harmonic import first_sign_change, next_sign_change
 

@@ -3,12 +3,11 @@
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from rocking.kernels.arc.solution import Arc
-from rocking.kernels.compile_options import KERNEL_INLINE
-from rocking.kernels.march.event_rows import EVENT_ROW
+from rocking.kernels.march.event_rows import EVENT_ROW, EventRows
 from rocking.kernels.numerics.replace_fields import replacing
+from rocking.kernels.signature import Floats2
 
 
 class Progress(NamedTuple):
@@ -36,8 +35,8 @@ class Recording(NamedTuple):
     section_time: float = 0.0  # within each cycle
     # (n, 2): states at that time, just after any event there, in order and up to the proof of overturning.
     # (n, 4): with the numbers of impacts and brace impacts so far.
-    section: np.ndarray = np.empty((0, 2))
-    events: np.ndarray = np.empty(0, EVENT_ROW)  # one row per event
+    section: Floats2 = np.empty((0, 2))
+    events: EventRows = np.empty(0, EVENT_ROW)  # one row per event
     peak: bool = False
     releases: bool = False  # stop after each lift-off and each departure from a brace
 
@@ -49,32 +48,3 @@ with_no_return = replacing(Progress, "no_return")
 with_peak = replacing(Progress, "peak")
 with_strain = replacing(Progress, "strain")
 with_waits = replacing(Progress, "last_wait", "wait_before")
-
-
-@njit(**KERNEL_INLINE)
-def to_tuple(progress):
-    """Return a progress as nested tuples, for Python.
-
-    A named tuple is created by a call of its class. An interrupt (Ctrl-C) during that call, on the return
-    from compiled code, would end the whole process.
-    """
-    arc = progress.arc
-    return (
-        progress.mode,
-        progress.cycle,
-        (arc.side, arc.start, arc.angle, arc.velocity, arc.cosine, arc.sine, arc.psi, arc.acceleration),
-        progress.pending,
-        progress.crowd,
-        progress.impacts,
-        progress.brace_hits,
-        progress.peak,
-        progress.no_return,
-        progress.last_wait,
-        progress.wait_before,
-        progress.strain,
-    )
-
-
-def from_tuple(fields):
-    """Return the progress that ``to_tuple`` converted."""
-    return Progress(*fields[:2], Arc(*fields[2]), *fields[3:])

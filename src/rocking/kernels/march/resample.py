@@ -2,14 +2,17 @@
 
 import math
 
-from numba import njit
-
 from rocking.kernels.arc.extrema import first_turn_sign, next_turn
 from rocking.kernels.arc.first_zero import CROSSING
 from rocking.kernels.arc.solution import arc_from, evaluate, within_reach
-from rocking.kernels.compile_options import ENTRY_POINT, INTERNAL
+from rocking.kernels.compile_options import INTERNAL, KERNEL
+from rocking.kernels.deferred import njit
+from rocking.kernels.entry_point import entry_point
 from rocking.kernels.event_kinds import FLIGHT
 from rocking.kernels.forcing.harmonic import forcing_term
+from rocking.kernels.march.event_rows import EventRows
+from rocking.kernels.parameters import HarmonicParameters
+from rocking.kernels.signature import Floats1, Floats2, Integers1
 
 
 @njit(**INTERNAL)
@@ -18,8 +21,8 @@ def arc_of(p, row):
     return arc_from(p, int(row.side), row.time, row.angle, row.velocity)
 
 
-@njit(**ENTRY_POINT)
-def sample(p, rows, index, elapsed, out):
+@entry_point(**KERNEL)
+def sample(p: HarmonicParameters, rows: EventRows, index: Integers1, elapsed: Floats1, out: Floats2) -> None:
     """Write (Theta, Theta', Theta'') into ``out`` (n, 3) at given times.
 
     Row k is taken a time ``elapsed[k]`` after the event of row ``index[k]``.
@@ -37,8 +40,8 @@ def sample(p, rows, index, elapsed, out):
                 out[k, :] = side * math.inf
 
 
-@njit(**ENTRY_POINT)
-def turns(p, rows, until, out):
+@entry_point(**KERNEL)
+def turns(p: HarmonicParameters, rows: EventRows, until: Floats1, out: Floats2) -> int:
     """Write (row, time into its arc, Theta) of every local extremum of the angle.
 
     ``until[k]`` is the duration of the arc of row k. Returns the number of extrema, including those for which

@@ -2,12 +2,14 @@
 
 import math
 
-from numba import njit
-
-from rocking.kernels.compile_options import ENTRY_POINT, INTERNAL
+from rocking.kernels.compile_options import INTERNAL, KERNEL
+from rocking.kernels.deferred import njit
+from rocking.kernels.entry_point import entry_point
 from rocking.kernels.march.march import CROWDED, DONE, OVERTURNED, UNKNOWN, begin, march_through
+from rocking.kernels.march.no_recording import NoRecording
 from rocking.kernels.march.progress import Recording
 from rocking.kernels.parameters import parameters_from_row
+from rocking.kernels.signature import Floats1, Floats2, Floats3, Integers1
 
 
 @njit(**INTERNAL)
@@ -24,8 +26,19 @@ def march_state(p, angle, velocity, cycles, recording, tangent):
     return status, arc.side * arc.angle + 0.0, arc.side * arc.velocity + 0.0, progress.peak
 
 
-@njit(**ENTRY_POINT)
-def sweep(systems, angle, velocity, carry, transient, section_phase, section, peaks, statuses, nothing):
+@entry_point(**KERNEL)
+def sweep(
+    systems: Floats2,
+    angle: float,
+    velocity: float,
+    carry: bool,
+    transient: int,
+    section_phase: float,
+    section: Floats3,
+    peaks: Floats1,
+    statuses: Integers1,
+    nothing: NoRecording,
+) -> tuple[float, float]:
     """March through all ``systems`` (n, 7) in turn, and write sections, peaks and statuses.
 
     1. A row of ``systems`` holds the arguments of ``make``. Each system runs for ``transient`` cycles, then for one cycle

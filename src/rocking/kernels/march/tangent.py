@@ -10,12 +10,13 @@ from enum import IntEnum
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from rocking.kernels.compile_options import INTERNAL, INTERNAL_INLINE, KERNEL_INLINE, SIMD_INLINE
+from rocking.kernels.deferred import njit
 from rocking.kernels.event_kinds import BRACE, FLIGHT, IMPACT, LEAVE, NONE
 from rocking.kernels.forcing.harmonic import forcing_term, sensitivities
 from rocking.kernels.numerics.elementary import fma, hyperbolic
+from rocking.kernels.signature import Floats1, Floats2
 
 TANGENT = 2
 SENSITIVITIES = 8
@@ -37,10 +38,10 @@ class Row(IntEnum):
 class TangentState(NamedTuple):
     """Tangent vectors that a march propagates."""
 
-    columns: np.ndarray  # (0 | 2 | 8, 2), one (delta Theta, delta Theta') per row
+    columns: Floats2  # (0 | 2 | 8, 2), one (delta Theta, delta Theta') per row
     # (2,): the rows are re-orthonormalised at every event. (1,): the first is normalised if necessary, and at
     # the end. In both cases the logarithms of the factors removed are added here. (0,): neither.
-    growth: np.ndarray
+    growth: Floats1
 
 
 NO_TANGENT = TangentState(np.empty((0, 2)), np.empty(0))

@@ -2,11 +2,11 @@
 
 import math
 
-import numpy as np
-from numba import njit
-
-from rocking.kernels.compile_options import ALLOCATING, ALLOCATING_ENTRY, ENTRY_POINT, INTERNAL, KERNEL, SIMD
+from rocking.kernels.compile_options import INTERNAL, KERNEL, SIMD
+from rocking.kernels.deferred import njit
+from rocking.kernels.entry_point import entry_point
 from rocking.kernels.numerics.simd import both_exponentials
+from rocking.kernels.signature import Floats1
 
 # A weight below e to the power of minus this does not change a sum.
 UNSEEN = 700.0
@@ -27,26 +27,29 @@ def bumps(count, weights):
         weights[half - 1] *= 0.5
 
 
-@njit(**ALLOCATING)
-def weighted_mean(values):
+@njit(**INTERNAL)
+def weighted_mean(values, weights):
     """Return the Birkhoff average with the weight exp(-1/(x(1 - x))), where x runs from 0 to 1 along ``values``.
 
+    ``weights`` takes half the number of weights, rounded up.
     Das, Saiki, Sander and Yorke (2017), Nonlinearity 30: on a quasi-periodic motion it converges faster than
     any power of the length.
     """
     total, count = 0.0, values.shape[0]
-    weights = np.empty((count + 1) // 2)
     bumps(count, weights)
-    for k in range(weights.shape[0]):
-        total += weights[k] * (values[k] + values[count - 1 - k])
-    return total / (2.0 * weights.sum())
+    half = weights[: (count + 1) // 2]
+    for k in range(half.shape[0]):
+        total += half[k] * (values[k] + values[count - 1 - k])
+    return total / (2.0 * half.sum())
 
 
-@njit(**ALLOCATING)
-def digits_of_agreement(values):
+@njit(**INTERNAL)
+def digits_of_agreement(values, weights):
     """Return the number of decimal digits to which the weighted means of both halves of ``values`` agree."""
     half = values.shape[0] // 2
-    return digits_alike(weighted_mean(values[:half]), weighted_mean(values[half : 2 * half]))
+    return digits_alike(
+        weighted_mean(values[:half], weights), weighted_mean(values[half : 2 * half], weights)
+    )
 
 
 @njit(**INTERNAL)
@@ -83,13 +86,14 @@ def error_of_sum(departures, width):
     return math.sqrt(spread * groups / (groups - 1))
 
 
-@njit(**ALLOCATING)
+@njit(**KERNEL)
 def batch_error(batches):
     """Estimate the mean of a series and its standard error from batch means.
 
     The error is the largest of three estimates: from all batches, from pairs and from groups of four. If the
     batches are long compared with the correlation time, merging them changes the error by chance only.
-    Otherwise the error grows; ``correlation`` is the factor by which merging raises the variance.
+    Otherwise the error grows; ``correlation`` is the factor by which merging raises the variance. The batches
+    are replaced by their deviations from the mean.
 
     Returns
     -------
@@ -97,28 +101,29 @@ def batch_error(batches):
         Mean, standard error and correlation.
     """
     mean = batches.mean()
-    departures = batches - mean
-    finest = error_of_sum(departures, 1)
+    for k in range(batches.shape[0]):
+        batches[k] -= mean
+    finest = error_of_sum(batches, 1)
     largest = finest
     for width in (2, 4):
-        largest = max(largest, error_of_sum(departures, width))
+        largest = max(largest, error_of_sum(batches, width))
     correlation = (largest / finest) ** 2 if finest > 0.0 else 1.0
     return mean, largest / batches.shape[0], correlation
 
 
-@njit(**ALLOCATING_ENTRY)
-def weighted_mean_plain(values):
+@entry_point(**KERNEL)
+def weighted_mean_plain(values: Floats1, weights: Floats1) -> float:
     """Return ``weighted_mean``; entry point for Python."""
-    return weighted_mean(values)
+    return weighted_mean(values, weights)
 
 
-@njit(**ALLOCATING_ENTRY)
-def digits_of_agreement_plain(values):
+@entry_point(**KERNEL)
+def digits_of_agreement_plain(values: Floats1, weights: Floats1) -> float:
     """Return ``digits_of_agreement``; entry point for Python."""
-    return digits_of_agreement(values)
+    return digits_of_agreement(values, weights)
 
 
-@njit(**ENTRY_POINT)
-def error_of_sum_plain(departures, width):
+@entry_point(**KERNEL)
+def error_of_sum_plain(departures: Floats1, width: int) -> float:
     """Return ``error_of_sum``; entry point for Python."""
     return error_of_sum(departures, width)

@@ -8,10 +8,9 @@ use exponentials, and the sine and cosine of an argument reduced by pi/2 in thre
 import math
 
 import numpy as np
-from numba import njit, types
-from numba.extending import intrinsic
 
 from rocking.kernels.compile_options import KERNEL_INLINE
+from rocking.kernels.deferred import intrinsic, njit
 
 # Coefficients by increasing power of the squared argument: 1/3!, 1/5!, ... and 1/4!, 1/6!, .... The first
 # omitted term is below 2**-55 of the sum at 2.
@@ -28,6 +27,7 @@ TWO_OVER_PI = 2.0 / math.pi
 @intrinsic
 def fma(typingctx, a, b, c):
     """Return ``a*b + c`` with one rounding."""
+    from numba import types
 
     def generate(context, builder, signature, arguments):
         return builder.fma(*arguments)

@@ -1,8 +1,7 @@
 """Solution of a small dense linear system in place, without allocation or a library call."""
 
-from numba import njit
-
 from rocking.kernels.compile_options import INTERNAL
+from rocking.kernels.deferred import njit
 
 
 @njit(**INTERNAL)

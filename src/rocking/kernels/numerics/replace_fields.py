@@ -1,8 +1,7 @@
 """Copies of named tuples with some fields replaced: compiled code lacks Python's ``_replace``."""
 
-from numba import njit
-
 from rocking.kernels.compile_options import INTERNAL_INLINE
+from rocking.kernels.deferred import njit
 
 
 def replacing(kind, *fields):
@@ -14,6 +13,6 @@ def replacing(kind, *fields):
     if unknown:
         raise ValueError(f"{kind.__name__} has no field {', '.join(sorted(unknown))}")
     values = ", ".join(field if field in fields else f"old.{field}" for field in kind._fields)
-    scope = {"kind": kind}
+    scope = {"kind": kind, "__name__": __name__}
     exec(f"def replace(old, {', '.join(fields)}):\n    return kind({values})", scope)
     return njit(**INTERNAL_INLINE)(scope["replace"])

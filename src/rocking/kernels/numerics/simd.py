@@ -9,10 +9,9 @@ import math
 
 import numpy as np
 from llvmlite import ir
-from numba import njit, types
-from numba.extending import intrinsic
 
 from rocking.kernels.compile_options import SIMD_INLINE
+from rocking.kernels.deferred import intrinsic, njit
 from rocking.kernels.numerics.elementary import HALF_PI, TWO_OVER_PI, fma
 
 # Adding and subtracting this rounds a number to an integer, which is then held in its last bits.
@@ -75,6 +74,7 @@ LOGARITHM = (
 @intrinsic
 def choose(typingctx, condition, yes, no):
     """Return ``yes if condition else no`` without a branch; both numbers are already computed."""
+    from numba import types
 
     def generate(context, builder, signature, arguments):
         return builder.select(*arguments)
@@ -85,6 +85,7 @@ def choose(typingctx, condition, yes, no):
 @intrinsic
 def bits_of(typingctx, x):
     """Return the bits of a number as an integer."""
+    from numba import types
 
     def generate(context, builder, signature, arguments):
         return builder.bitcast(arguments[0], ir.IntType(64))
@@ -95,6 +96,7 @@ def bits_of(typingctx, x):
 @intrinsic
 def from_bits(typingctx, n):
     """Return the number with the given bits."""
+    from numba import types
 
     def generate(context, builder, signature, arguments):
         return builder.bitcast(arguments[0], ir.DoubleType())

@@ -8,12 +8,13 @@ from enum import IntEnum
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
-from rocking.kernels.compile_options import ALLOCATING, INTERNAL
+from rocking.kernels.compile_options import INTERNAL
+from rocking.kernels.deferred import njit
 from rocking.kernels.numerics.linear_solve import solve
 from rocking.kernels.orbits.event_chain import Chain, Equations, make_equations, with_value
 from rocking.kernels.parameters import HarmonicParameters
+from rocking.kernels.signature import Floats1, Floats2, Integers1
 
 MAX_CORRECTIONS = 10
 CONVERGED = 1e-11
@@ -45,14 +46,16 @@ class End(IntEnum):
 class Workspace(NamedTuple):
     """Working memory for n unknowns: the phases and the parameters of a chain."""
 
-    weights: np.ndarray  # weight of the square of each unknown in the squared length
+    weights: Floats1  # weight of the square of each unknown in the squared length
     equations: Equations
     differences: Equations  # at neighbouring points, for finite differences
-    matrix: np.ndarray
-    right: np.ndarray
-    predicted: np.ndarray  # the point predicted
-    corrected: np.ndarray  # the point corrected
-    direction: np.ndarray  # the curve's direction there
+    matrix: Floats2
+    right: Floats1
+    predicted: Floats1  # the point predicted
+    corrected: Floats1  # the point corrected
+    direction: Floats1  # the curve's direction there
+    along: Floats1  # the direction at the point before
+    first: Floats1  # the direction at the first point
 
 
 class Problem(NamedTuple):
@@ -60,8 +63,8 @@ class Problem(NamedTuple):
 
     p: HarmonicParameters
     chain: Chain
-    which: tuple  # the parameters that vary
-    limits: tuple  # (lowest, highest) of each parameter
+    which: Integers1  # (1,) or (2,), the parameters that vary
+    limits: Floats2  # (lowest, highest) of each parameter
     longest: float  # greatest length of a step
     workspace: Workspace
 
@@ -69,8 +72,8 @@ class Problem(NamedTuple):
 class Tangent(NamedTuple):
     """Point of a curve and the direction of the curve there, of length 1."""
 
-    point: np.ndarray
-    direction: np.ndarray
+    point: Floats1
+    direction: Floats1
 
 
 def make_workspace(phases, scales):
@@ -81,14 +84,14 @@ def make_workspace(phases, scales):
     n = phases + len(scales)
     weights = np.full(n, 1.0 / phases)
     weights[phases:] = [1.0 / scale**2 for scale in scales]
-    return Workspace(weights, make_equations(n), make_equations(n), np.zeros((n, n)), *np.zeros((4, n)))
+    return Workspace(weights, make_equations(n), make_equations(n), np.zeros((n, n)), *np.zeros((6, n)))
 
 
 @njit(**INTERNAL)
 def system_at(problem, y):
     """Return the system at a point."""
     system, k = problem.p, problem.chain.kinds.shape[0]
-    for i in range(len(problem.which)):
+    for i in range(problem.which.shape[0]):
         system = with_value(system, problem.which[i], y[k + i])
     return system
 
@@ -104,8 +107,8 @@ def crossed_limit(problem, y):
         The limit that it has crossed.
     """
     k = problem.chain.kinds.shape[0]
-    for i in range(len(problem.limits)):
-        low, high = problem.limits[i]
+    for i in range(problem.limits.shape[0]):
+        low, high = problem.limits[i, 0], problem.limits[i, 1]
         if not low <= y[k + i] <= high:
             return k + i, (low if y[k + i] < low else high)
     return -1, 0.0
@@ -118,8 +121,8 @@ def within_bounds(problem, y):
     The margin is needed because a limit is found from both of its sides.
     """
     k = problem.chain.kinds.shape[0]
-    for i in range(len(problem.limits)):
-        low, high = problem.limits[i]
+    for i in range(problem.limits.shape[0]):
+        low, high = problem.limits[i, 0], problem.limits[i, 1]
         beyond = 2.0 * problem.longest * (high - low)
         if not max(low - beyond, 0.5 * low) <= y[k + i] <= high + beyond:
             return False
@@ -237,13 +240,16 @@ def bends_little(direction, workspace):
     )
 
 
-@njit(**ALLOCATING)
+@njit(**INTERNAL)
 def has_closed(start, points, count, problem):
     """Return whether a curve has returned to its start between the last two of its first ``count`` points."""
     if count <= MIN_LOOP:
         return False
     weights = problem.workspace.weights
-    before, now = points[count - 2] - start.point, points[count - 1] - start.point
+    before, now = problem.workspace.predicted, problem.workspace.right
+    for j in range(now.shape[0]):
+        before[j] = points[count - 2, j] - start.point[j]
+        now[j] = points[count - 1, j] - start.point[j]
     passes = inner(start.direction, before, weights) < 0.0 <= inner(start.direction, now, weights)
     return passes and math.sqrt(inner(now, now, weights)) < 2.0 * problem.longest
 

@@ -6,15 +6,16 @@ The condition is exact. Only its derivatives, which Newton's method uses, are fi
 import math
 from typing import NamedTuple
 
-import numpy as np
-from numba import njit
-
-from rocking.kernels.compile_options import ALLOCATING, ALLOCATING_ENTRY, INTERNAL
+from rocking.kernels.compile_options import INTERNAL, KERNEL
+from rocking.kernels.deferred import njit
+from rocking.kernels.entry_point import entry_point
+from rocking.kernels.numerics.copy import copy_into
 from rocking.kernels.orbits.arclength import (
     GRAZING_STEP,
     MIN_STEP,
     SHRINK,
     End,
+    Problem,
     Tangent,
     bends_little,
     correct,
@@ -28,6 +29,7 @@ from rocking.kernels.orbits.arclength import (
 from rocking.kernels.orbits.branch_point import Special, special_value
 from rocking.kernels.orbits.chain_validation import Condition, clearance, verify_chain
 from rocking.kernels.orbits.event_chain import assemble, monodromy
+from rocking.kernels.signature import Floats2
 
 DIFFERENCE = 1e-6
 
@@ -108,24 +110,25 @@ def next_point(problem, tangent, length, condition):
             return CurveStep(End.LOST, length, corrections, moved)
 
 
-@njit(**ALLOCATING)
+@njit(**INTERNAL)
 def converge_to_limit(problem, y, index, limit, condition):
     """Return whether the point of the curve at a limit was found, between ``y`` and ``workspace.corrected``.
 
     The point is left in ``workspace.corrected``.
     """
     point, predicted = problem.workspace.corrected, problem.workspace.predicted
-    across = np.zeros(y.shape[0])
-    across[index] = 1.0
+    across = problem.workspace.along
     share = (limit - y[index]) / (point[index] - y[index])
-    point[:] = y + share * (point - y)
-    predicted[:] = point
+    for j in range(y.shape[0]):
+        across[j] = 1.0 if j == index else 0.0
+        point[j] = y[j] + share * (point[j] - y[j])
+    copy_into(predicted, point)
     predicted[index] = limit
     return correct(assemble_curve, problem, point, across, condition)[0] >= 0
 
 
-@njit(**ALLOCATING_ENTRY)
-def follow_curve(problem, start, condition, points):
+@entry_point(**KERNEL)
+def follow_curve(problem: Problem, start: Tangent, condition: Condition, points: Floats2) -> tuple[int, int]:
     """Follow a curve of special points from near ``start``, a tangent, in its direction.
 
     ``points`` (n, k + 2) takes the phases and both parameters.
@@ -141,9 +144,11 @@ def follow_curve(problem, start, condition, points):
     corrections, condition = correct(assemble_curve, problem, workspace.corrected, start.direction, condition)
     if corrections < 0 or not find_direction(start.direction, workspace):
         return 0, End.LOST
-    points[0] = workspace.corrected
-    first = Tangent(points[0], workspace.direction.copy())
-    tangent, length = first, 0.1 * problem.longest
+    copy_into(points[0], workspace.corrected)
+    copy_into(workspace.first, workspace.direction)
+    copy_into(workspace.along, workspace.direction)
+    first, tangent = Tangent(points[0], workspace.first), Tangent(points[0], workspace.along)
+    length = 0.1 * problem.longest
     for count in range(1, points.shape[0]):
         step = next_point(problem, tangent, length, condition)
         if step.end != End.GOING:
@@ -152,11 +157,13 @@ def follow_curve(problem, start, condition, points):
         if index >= 0:
             found = converge_to_limit(problem, tangent.point, index, limit, condition)
             if found:
-                points[count] = workspace.corrected
+                copy_into(points[count], workspace.corrected)
             return count + found, End.RANGE
-        points[count], condition = workspace.corrected, step.condition
+        copy_into(points[count], workspace.corrected)
+        condition = step.condition
         if has_closed(first, points, count + 1, problem):
             return count + 1, End.CLOSED
-        tangent = Tangent(points[count], workspace.direction.copy())
+        copy_into(workspace.along, workspace.direction)
+        tangent = Tangent(points[count], workspace.along)
         length = next_length(problem, step.length, step.corrections)
     return points.shape[0], End.MANY

@@ -4,9 +4,8 @@ import math
 from enum import IntEnum
 from typing import NamedTuple
 
-from numba import njit
-
 from rocking.kernels.compile_options import INTERNAL
+from rocking.kernels.deferred import njit
 from rocking.kernels.orbits.arclength import correct, predict, system_at
 from rocking.kernels.orbits.chain_validation import UNCONDITIONAL, verify_chain
 from rocking.kernels.orbits.event_chain import assemble, monodromy

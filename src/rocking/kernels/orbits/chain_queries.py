@@ -2,11 +2,12 @@
 
 import math
 
-from numba import njit
-
 from rocking.kernels.arc.solution import evaluate, within_reach
-from rocking.kernels.compile_options import ENTRY_POINT
+from rocking.kernels.compile_options import KERNEL
+from rocking.kernels.entry_point import entry_point
 from rocking.kernels.orbits.event_chain import (
+    Chain,
+    Equations,
     arc_at,
     assemble,
     duration,
@@ -17,10 +18,14 @@ from rocking.kernels.orbits.event_chain import (
     side_after,
     with_value,
 )
+from rocking.kernels.parameters import HarmonicParameters
+from rocking.kernels.signature import Floats1, Floats2, Floats3
 
 
-@njit(**ENTRY_POINT)
-def states_at(p, which, chain, rows, psi, out):
+@entry_point(**KERNEL)
+def states_at(
+    p: HarmonicParameters, which: int, chain: Chain, rows: Floats2, psi: float, out: Floats3
+) -> None:
     """Write (Theta, Theta') of each of the orbits ``rows`` (n, k + 1) at a forcing phase into ``out`` (n, m, 2).
 
     The states are those at the phases ``psi`` + 2 pi m of the chain, which begin at its first event. A
@@ -48,8 +53,10 @@ def states_at(p, which, chain, rows, psi, out):
             out[i, m, 1] = mirror * side * now.velocity
 
 
-@njit(**ENTRY_POINT)
-def equations_at(p, which, chain, y, equations):
+@entry_point(**KERNEL)
+def equations_at(
+    p: HarmonicParameters, which: int, chain: Chain, y: Floats1, equations: Equations
+) -> tuple[float, float]:
     """Assemble the ``equations`` of a chain at a point; the parameter is the last entry of ``y``.
 
     Returns

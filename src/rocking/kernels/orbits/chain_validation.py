@@ -3,11 +3,10 @@
 import math
 from typing import NamedTuple
 
-from numba import njit
-
 from rocking.kernels.arc.extrema import peak_with
 from rocking.kernels.arc.solution import evaluate, propagator_or_none
 from rocking.kernels.compile_options import INTERNAL
+from rocking.kernels.deferred import njit
 from rocking.kernels.event_kinds import BRACE, FLIGHT, IMPACT, NONE
 from rocking.kernels.forcing.harmonic import forcing_term
 from rocking.kernels.march.impact_law import after_event

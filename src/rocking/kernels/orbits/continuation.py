@@ -1,17 +1,20 @@
 """Continuation of a branch of periodic orbits in one parameter, with its special points."""
 
 import math
-from typing import NamedTuple
+from typing import Annotated, NamedTuple
 
 import numpy as np
-from numba import njit
 
-from rocking.kernels.compile_options import ALLOCATING, ALLOCATING_ENTRY, INTERNAL
+from rocking.kernels.compile_options import INTERNAL, KERNEL
+from rocking.kernels.deferred import njit
+from rocking.kernels.entry_point import entry_point
+from rocking.kernels.numerics.copy import copy_into
 from rocking.kernels.orbits.arclength import (
     GRAZING_STEP,
     MIN_STEP,
     SHRINK,
     End,
+    Problem,
     Tangent,
     bends_little,
     crossed_limit,
@@ -30,6 +33,7 @@ from rocking.kernels.orbits.branch_point import (
     special_value,
     validated_point_at,
 )
+from rocking.kernels.signature import Floats2
 
 # Maximum change of ``multiplier_angle`` in a step; a fold and a flip are pi/2 apart.
 MAX_TURN = 0.3
@@ -48,14 +52,17 @@ SAME_PHASE = 1e-5
 FACTS = np.dtype([(name, float) for name in ("trace", "determinant", "peak", "velocity")])
 CHANGE = np.dtype([("kind", np.int64), ("index", np.int64)])
 
+Facts = Annotated[np.ndarray, FACTS, 1]
+Changes = Annotated[np.ndarray, CHANGE, 1]
+
 
 class BranchTable(NamedTuple):
     """Arrays for n points and m special points of a branch of chains of k events."""
 
-    rows: np.ndarray  # (n, k + 1): the phases and the parameter
-    facts: np.ndarray  # (n,) of FACTS; the velocity is that after the first event
-    specials: np.ndarray  # (m, k + 1)
-    changes: np.ndarray  # (m,) of CHANGE: a ``Special``, and the number of points before
+    rows: Floats2  # (n, k + 1): the phases and the parameter
+    facts: Facts  # (n,) of FACTS; the velocity is that after the first event
+    specials: Floats2  # (m, k + 1)
+    changes: Changes  # (m,) of CHANGE: a ``Special``, and the number of points before
 
 
 class State(NamedTuple):
@@ -111,21 +118,21 @@ def kind_of(what, chain, y):
     return (Special.PERIOD_DOUBLING if half_turns % 2 == 0 else Special.SYMMETRY_BREAKING), True
 
 
-@njit(**ALLOCATING)
+@njit(**INTERNAL)
 def store_point(table, row, point, workspace):
     """Write the point in ``workspace.corrected``."""
-    table.rows[row] = workspace.corrected
+    copy_into(table.rows[row], workspace.corrected)
     facts = table.facts[row]
     facts.trace, facts.determinant, facts.peak = point.trace, point.determinant, point.peak
     facts.velocity = workspace.equations.links[0].leaves
 
 
-@njit(**ALLOCATING)
+@njit(**INTERNAL)
 def store_special(table, found, y, kind, index):
     """Write a special point if the table has room; return the number of special points."""
     if found == table.changes.shape[0]:
         return found
-    table.specials[found] = y
+    copy_into(table.specials[found], y)
     table.changes[found].kind, table.changes[found].index = kind, index
     return found + 1
 
@@ -202,7 +209,7 @@ def length_to_limit(problem, tangent, length, limit):
     return locate(problem, tangent, length, Special.BOUND, limit, start, stop)
 
 
-@njit(**ALLOCATING)
+@njit(**INTERNAL)
 def store_specials(problem, state, step, table, found, count):
     """Write the special points along a step.
 
@@ -229,8 +236,8 @@ def store_specials(problem, state, step, table, found, count):
     return found, math.nan
 
 
-@njit(**ALLOCATING_ENTRY)
-def follow(problem, start, table):
+@entry_point(**KERNEL)
+def follow(problem: Problem, start: Tangent, table: BranchTable) -> tuple[int, int, int]:
     """Follow a branch from the orbit near ``start``, a tangent, in its direction.
 
     Returns
@@ -246,9 +253,11 @@ def follow(problem, start, table):
     store_point(table, 0, point, workspace)
     if rows.shape[0] > 1 and not find_direction(start.direction, workspace):
         return 1, found, End.LOST
-    first = Tangent(rows[0], workspace.direction.copy())
+    copy_into(workspace.first, workspace.direction)
+    copy_into(workspace.along, workspace.direction)
+    first = Tangent(rows[0], workspace.first)
     none = Point(-1, math.nan, math.nan, False, math.nan)
-    state = State(first, point, none, 1.0, 0.1 * problem.longest)
+    state = State(Tangent(rows[0], workspace.along), point, none, 1.0, 0.1 * problem.longest)
     for count in range(1, rows.shape[0]):
         step = next_step(problem, state)
         if step.length == 0.0:
@@ -267,6 +276,6 @@ def follow(problem, start, table):
         if has_closed(first, rows, count + 1, problem):
             return count + 1, found, End.CLOSED
         length = next_length(problem, step.length, step.point.corrections)
-        tangent = Tangent(rows[count], workspace.direction.copy())
-        state = State(tangent, step.point, state.point, step.length, length)
+        copy_into(workspace.along, workspace.direction)
+        state = State(Tangent(rows[count], workspace.along), step.point, state.point, step.length, length)
     return rows.shape[0], found, End.MANY

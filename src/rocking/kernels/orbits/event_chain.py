@@ -7,16 +7,17 @@ is not. ``verify_chain`` checks afterwards whether an arc of the solution reache
 """
 
 import math
-from typing import NamedTuple
+from typing import Annotated, NamedTuple
 
 import numpy as np
-from numba import njit
 
 from rocking.kernels.arc.solution import arc_from, evaluate
 from rocking.kernels.compile_options import INTERNAL, INTERNAL_INLINE, KERNEL_INLINE
+from rocking.kernels.deferred import njit
 from rocking.kernels.event_kinds import BRACE, IMPACT
 from rocking.kernels.forcing.harmonic import forcing_term, sensitivities
 from rocking.kernels.parameters import make
+from rocking.kernels.signature import Floats1, Floats2, Integers1
 
 AMPLITUDE, FREQUENCY, PERIOD, RESTITUTION, BRACE_ANGLE, BRACE_RESTITUTION = range(6)
 # Fields stored for each arc of a chain, as in ``Link``.
@@ -24,11 +25,13 @@ LINK = np.dtype(
     [(name, float) for name in ("leaves", "arrives", "sinh", "cosh", "acceleration", "push", "time")]
 )
 
+Links = Annotated[np.ndarray, LINK, 1]
+
 
 class Chain(NamedTuple):
     """Constant data along a branch: the events in their order, and the closure of the chain."""
 
-    kinds: np.ndarray  # IMPACT or BRACE: event j, at which arc j begins
+    kinds: Integers1  # IMPACT or BRACE: event j, at which arc j begins
     side: int  # of arc 0
     turn: float  # forcing phase between event 0 and its repetition
     mirrored: bool  # whether that repetition is a mirror image, half a period later
@@ -37,9 +40,9 @@ class Chain(NamedTuple):
 class Equations(NamedTuple):
     """Equations of a chain of k events at a point, and its arcs, as ``assemble`` writes them."""
 
-    jacobian: np.ndarray  # (k, k + 1): derivatives by the phases and by one parameter
-    residuals: np.ndarray  # (k,): the residual of each equation
-    links: np.ndarray  # (k,) of LINK
+    jacobian: Floats2  # (k, k + 1): derivatives by the phases and by one parameter
+    residuals: Floats1  # (k,): the residual of each equation
+    links: Links  # (k,) of LINK
 
 
 class Link(NamedTuple):
@@ -170,6 +173,21 @@ def excess_of(t):
     return q * t / 6.0 * total
 
 
+@njit(**INTERNAL_INLINE)
+def derivatives_by(one, which):
+    """Return the derivatives of both speeds of an arc by a parameter: no index of a tuple can be out of range."""
+    by_amplitude, by_frequency, by_period, by_restitution, by_brace, by_brace_restitution = one.by_parameter
+    if which == AMPLITUDE:
+        return by_amplitude
+    if which == FREQUENCY:
+        return by_frequency
+    if which == PERIOD:
+        return by_period
+    if which == BRACE_ANGLE:
+        return by_brace
+    return by_restitution if which == RESTITUTION else by_brace_restitution
+
+
 @njit(**INTERNAL)
 def assemble(p, which, chain, y, equations):
     """Write the equations of a chain at the phases ``y``, and their derivatives.
@@ -195,7 +213,7 @@ def assemble(p, which, chain, y, equations):
         jacobian[j, after] -= one.by_end[0]
         jacobian[after, j] += kept * one.by_place[1]
         jacobian[after, after] += kept * one.by_end[1]
-        by = one.by_parameter[which]
+        by = derivatives_by(one, which)
         jacobian[j, k] -= by[0]
         jacobian[after, k] += kept * by[1]
         if which == (RESTITUTION if chain.kinds[after] == IMPACT else BRACE_RESTITUTION):

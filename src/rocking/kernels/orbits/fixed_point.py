@@ -3,9 +3,8 @@
 import math
 from typing import NamedTuple
 
-from numba import njit
-
 from rocking.kernels.compile_options import AST_INLINE, INTERNAL, INTERNAL_INLINE
+from rocking.kernels.deferred import njit
 from rocking.kernels.march.march import DONE, begin, march_on
 from rocking.kernels.march.progress import Recording
 from rocking.kernels.march.tangent import Tangent, TangentState, read_tangent, write_tangent

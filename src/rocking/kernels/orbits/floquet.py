@@ -6,9 +6,9 @@ the unit circle.
 
 import math
 
-from numba import njit
-
-from rocking.kernels.compile_options import ENTRY_POINT, INTERNAL
+from rocking.kernels.compile_options import INTERNAL, KERNEL
+from rocking.kernels.deferred import njit
+from rocking.kernels.entry_point import entry_point
 from rocking.kernels.numerics.elementary import fma, size
 
 
@@ -44,9 +44,11 @@ def multipliers(tangent):
     return eigenvalues(0.5 * (tangent.a + tangent.d), fma(apart, apart, crossed), determinant)
 
 
-@njit(**ENTRY_POINT)
-def multipliers_plain(middle, square, determinant, mirrored):
-    """Return ``eigenvalues`` as two complex numbers; entry point for Python.
+@entry_point(**KERNEL)
+def multiplier_parts(
+    middle: float, square: float, determinant: float, mirrored: bool
+) -> tuple[float, float, float, float]:
+    """Return ``eigenvalues``; entry point for Python.
 
     If ``mirrored``, the map is over half a period, and the results are the squares of its eigenvalues.
     """
@@ -55,6 +57,12 @@ def multipliers_plain(middle, square, determinant, mirrored):
         turned = 2.0 * abs(real * above)
         real, other = real * real - above * above, other * other - below * below
         above, below = (turned, -turned) if turned > 0.0 else (0.0, 0.0)
+    return real, above, other, below
+
+
+def multipliers_plain(middle, square, determinant, mirrored):
+    """Return ``multiplier_parts`` as two complex numbers."""
+    real, above, other, below = multiplier_parts(middle, square, determinant, mirrored)
     return complex(real, above), complex(other, below)
 
 

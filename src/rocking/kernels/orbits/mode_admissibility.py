@@ -11,15 +11,15 @@ most e^PIECE, and no tolerance is needed for the impact at the far end.
 
 import math
 
-from numba import njit
-
 from rocking.kernels.arc.extrema import arc_peak
 from rocking.kernels.arc.first_zero import CROSSING, base_event_function, first_zero
 from rocking.kernels.arc.solution import arc_from
-from rocking.kernels.compile_options import ENTRY_POINT, INTERNAL
+from rocking.kernels.compile_options import INTERNAL, KERNEL
+from rocking.kernels.deferred import njit
+from rocking.kernels.entry_point import entry_point
 from rocking.kernels.forcing.harmonic import particular
 from rocking.kernels.numerics.elementary import direction
-from rocking.kernels.parameters import at_phase
+from rocking.kernels.parameters import HarmonicParameters, at_phase
 
 PIECE = 4.0
 
@@ -54,8 +54,10 @@ def first_half(p, speed, near, far, length):
     return True, peak
 
 
-@njit(**ENTRY_POINT)
-def half_cycle(p, speed, near, far, length):
+@entry_point(**KERNEL)
+def half_cycle(
+    p: HarmonicParameters, speed: float, near: float, far: float, length: float
+) -> tuple[bool, float]:
     """Follow a mode that leaves the base with ``speed`` at phase ``p.phase`` through its half-cycle.
 
     In reversed time the half-cycle begins at phase pi - phi with the speed before the impact.

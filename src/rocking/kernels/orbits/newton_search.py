@@ -5,12 +5,14 @@ The map is over a whole period, or over half a period followed by reflection.
 
 import math
 
-from numba import njit
-
-from rocking.kernels.compile_options import ENTRY_POINT, INTERNAL
+from rocking.kernels.compile_options import INTERNAL, KERNEL
+from rocking.kernels.deferred import njit
+from rocking.kernels.entry_point import entry_point
 from rocking.kernels.march.march import UNKNOWN
+from rocking.kernels.march.no_recording import NoRecording
 from rocking.kernels.orbits.fixed_point import ANYWHERE, UNBOUNDED, Guess, ReturnMap, find_fixed_point
-from rocking.kernels.parameters import later
+from rocking.kernels.parameters import HarmonicParameters, later
+from rocking.kernels.signature import Floats2
 
 
 @njit(**INTERNAL)
@@ -25,8 +27,16 @@ def return_map(p, period, mirrored):
     return ReturnMap(later(p, -half), (period + 1) // 2, half, -1.0)
 
 
-@njit(**ENTRY_POINT)
-def newton_from_starts(p, period, mirrored, starts, nothing, columns, out):
+@entry_point(**KERNEL)
+def newton_from_starts(
+    p: HarmonicParameters,
+    period: int,
+    mirrored: bool,
+    starts: Floats2,
+    nothing: NoRecording,
+    columns: Floats2,
+    out: Floats2,
+) -> int:
     """Search for fixed points of ``return_map`` by Newton's method from every initial state.
 
     ``out`` (n, 4) takes (found, angle, velocity, residual). Initial states beyond a brace are skipped.

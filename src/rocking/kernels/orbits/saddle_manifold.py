@@ -7,24 +7,25 @@ saddle, and the time spent near it does not magnify rounding.
 
 import math
 
-from numba import njit
-
 from rocking.kernels.arc.solution import shift_clock
-from rocking.kernels.compile_options import ENTRY_POINT, INTERNAL
+from rocking.kernels.compile_options import INTERNAL, KERNEL
+from rocking.kernels.deferred import njit
+from rocking.kernels.entry_point import entry_point
 from rocking.kernels.event_kinds import FLIGHT, IMPACT
 from rocking.kernels.forcing.harmonic import particular
 from rocking.kernels.march.event_rows import state_at
 from rocking.kernels.march.impact_law import after_event
 from rocking.kernels.march.march import MAX_EVENTS, UNKNOWN, begin
 from rocking.kernels.march.next_event import any_event
-from rocking.kernels.parameters import later, make
+from rocking.kernels.parameters import HarmonicParameters, later, make
+from rocking.kernels.signature import Floats1, Floats2
 
 # Distance from the saddle orbit, over 1 - beta, at which a motion is started.
 NEAR = 0.5
 
 
-@njit(**ENTRY_POINT)
-def swings(amplitudes, frequencies, phases, out):
+@entry_point(**KERNEL)
+def swings(amplitudes: Floats1, frequencies: Floats1, phases: Floats1, out: Floats2) -> None:
     """Write beta cos psi and its derivative into ``out`` (n, 2): the deviation of a saddle orbit from its corner."""
     for k in range(out.shape[0]):
         frequency = frequencies[k]
@@ -40,8 +41,8 @@ def leaving(p, side):
     return side * (1.0 + displacement - distance), side * (forced_velocity - distance)
 
 
-@njit(**ENTRY_POINT)
-def images(p, side, times, out):
+@entry_point(**KERNEL)
+def images(p: HarmonicParameters, side: int, times: Floats1, out: Floats2) -> bool:
     """Write (Theta, Theta') into ``out`` (n, 2), at the section psi = phase, a time ``times[k]`` after ``leaving``.
 
     Returns False if a motion has too many events.
@@ -69,8 +70,8 @@ def images(p, side, times, out):
     return True
 
 
-@njit(**ENTRY_POINT)
-def first_impacts(p, side, waits, out):
+@entry_point(**KERNEL)
+def first_impacts(p: HarmonicParameters, side: int, waits: Floats1, out: Floats2) -> None:
     """Write (psi, speed just before) of the first impact into ``out`` (n, 2).
 
     Motion k starts ``leaving`` at ``waits[k]``. NaN if its first event is no impact.

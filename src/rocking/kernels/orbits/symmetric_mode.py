@@ -16,10 +16,11 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from rocking.kernels.arc.solution import Arc, arc_from, evaluate
-from rocking.kernels.compile_options import ENTRY_POINT, INTERNAL, INTERNAL_INLINE
+from rocking.kernels.compile_options import INTERNAL, INTERNAL_INLINE, KERNEL
+from rocking.kernels.deferred import njit
+from rocking.kernels.entry_point import entry_point
 from rocking.kernels.forcing.harmonic import TURN
 from rocking.kernels.numerics.elementary import size
 
@@ -71,8 +72,10 @@ def closed_form(frequency, response, restitution, order, faster):
     return speed, math.atan2(sine, -t * lost * (speed / twice)), trace
 
 
-@njit(**ENTRY_POINT)
-def closed_form_plain(frequency, response, restitution, order, faster):
+@entry_point(**KERNEL)
+def closed_form_plain(
+    frequency: float, response: float, restitution: float, order: int, faster: bool
+) -> tuple[float, float, float]:
     """Return ``closed_form``; entry point for Python."""
     return closed_form(frequency, response, restitution, order, faster)
 

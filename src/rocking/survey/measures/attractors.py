@@ -10,7 +10,7 @@ import numpy as np
 
 from rocking.kernels import batch
 from rocking.kernels.classify import attractor_anchor as kernel
-from rocking.kernels.classify import results, verdict_record
+from rocking.kernels.classify import verdict_record
 from rocking.model import NO_BRACES, Attractor, Harmonic, Kind, State, System, Verdict, quantities, system_of
 from rocking.motion import simulate
 from rocking.response import budget, classify
@@ -67,14 +67,13 @@ def destination(max_cycles: int, max_period: int, title: str) -> Measurement:
         by_name["transient"],
         by_name["cycles"],
     )
-    return Measurement(title, judge, compile_both, variables, budget(max_cycles, max_period), batch.METHOD)
+    return Measurement(title, judge, load_kernels, variables, budget(max_cycles, max_period), batch.METHOD)
 
 
-def compile_both(may_last: bool) -> None:
-    """Compile the classification and the functions that follow orbits."""
-    batch.compile_many(may_last)
-    still = np.array([[0.0, 1.0, math.tau, 0.0, 0.0, math.inf, 1.0]])
-    kernel.anchors_of(still, np.zeros((1, 2)), results.empty_results(1))
+def load_kernels(may_last: bool) -> None:
+    """Load or compile the classification and the functions that follow orbits."""
+    batch.load_kernels(may_last)
+    kernel.anchor_each.load()
     simulate(System(Harmonic(0.0, period=1.0), 0.0), cycles=1, record="section")
 
 

@@ -19,7 +19,7 @@ KIND = VARIABLES[0]
 def outcome(max_cycles: int, max_period: int, title: str) -> Measurement:
     """Return the measurement of the kind of response, as classified by `classify`."""
     return Measurement(
-        title, judge, batch.compile_many, (KIND,), budget(max_cycles, max_period), batch.METHOD
+        title, judge, batch.load_kernels, (KIND,), budget(max_cycles, max_period), batch.METHOD
     )
 
 

@@ -99,7 +99,7 @@ VARIABLES = (
 def response(max_cycles: int, max_period: int, title: str) -> Measurement:
     """Return the measurement of the verdict of `classify` at each point."""
     return Measurement(
-        title, judge, batch.compile_many, VARIABLES, budget(max_cycles, max_period), batch.METHOD
+        title, judge, batch.load_kernels, VARIABLES, budget(max_cycles, max_period), batch.METHOD
     )
 
 

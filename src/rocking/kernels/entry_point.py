@@ -1,0 +1,103 @@
+"""Entry points: kernels that Python calls. Each has one set of types and machine code of its own."""
+
+import ctypes
+import threading
+from collections.abc import Callable
+from functools import cached_property, reduce
+from operator import getitem
+from typing import Any, get_args, get_type_hints
+
+from rocking.kernels import build_processes, machine_code
+from rocking.kernels.deferred import UNBOUND, bind_compiled
+from rocking.kernels.signature import Signature, place_of_union
+
+ENTRY_POINTS: dict[str, "EntryPoint"] = {}
+"""All entry points of the modules that were imported, by name."""
+
+
+class EntryPoint:
+    """A kernel that Python calls, by an address in machine code that is loaded at its first call."""
+
+    def __init__(
+        self, function: Callable[..., Any], options: dict[str, Any], chosen: type | None = None
+    ) -> None:
+        self.function, self.options, self.chosen = function, options, chosen
+        self.name = f"{function.__module__.rpartition('.')[2]}.{function.__name__}"
+        if chosen is not None:
+            self.name += f".{chosen.__name__}"
+        self.__doc__ = function.__doc__
+        self._run: Callable[[int], None] | None = None
+        self._lock = threading.Lock()
+        if self.name in ENTRY_POINTS:
+            raise ValueError(f"two entry points have the name {self.name}")
+        ENTRY_POINTS[self.name] = self
+        UNBOUND.add(function.__module__)
+
+    @cached_property
+    def signature(self) -> Signature:
+        """Types of its arguments and of its result."""
+        return Signature(self.function, self.chosen)
+
+    def compile(self) -> bytes:
+        """Compile it in this process, and return its object file."""
+        from rocking.kernels.compiler import compile_entry
+
+        bind_compiled()
+        return compile_entry(self.name, self.function, self.signature, self.options)
+
+    @property
+    def is_loaded(self) -> bool:
+        """True if this process has loaded the machine code."""
+        return self._run is not None
+
+    def load(self) -> Callable[[int], None]:
+        """Load the machine code, and wait until it is compiled if it is not."""
+        with self._lock:
+            if self._run is None:
+                code = (
+                    machine_code.read(self.name) or build_processes.request_code(self.name) or self.compile()
+                )
+                address = machine_code.loader().load(code, machine_code.symbol_of(self.name))
+                self._run = ctypes.CFUNCTYPE(None, ctypes.c_int64)(address)
+        return self._run
+
+    def __call__(self, *arguments: Any) -> Any:
+        """Run the machine code."""
+        block = self.signature.pack(arguments)
+        (self._run or self.load())(ctypes.addressof(ctypes.c_char.from_buffer(block)))
+        return self.signature.unpack(block)
+
+
+class Choice:
+    """Entry points of one function whose annotations have a union, one for each member; the arguments choose."""
+
+    def __init__(
+        self, function: Callable[..., Any], options: dict[str, Any], place: tuple[int, ...], union: Any
+    ) -> None:
+        self.__doc__ = function.__doc__
+        self._place = place
+        self._rows = {kind: EntryPoint(function, options, kind) for kind in get_args(union)}
+
+    def __call__(self, *arguments: Any) -> Any:
+        """Run the machine code for the type of the arguments."""
+        return self._rows[type(reduce(getitem, self._place, arguments))](*arguments)
+
+    def load(self) -> None:
+        """Load the machine code for all types."""
+        for entry in self._rows.values():
+            entry.load()
+
+
+def entry_point(**options: Any) -> Callable[[Callable[..., Any]], Any]:
+    """Mark a function as an entry point. All its arguments and its result must be annotated.
+
+    A union among the annotations, such as that of the parameters of several forcings, makes one entry point for each
+    member.
+    """
+
+    def mark(function: Callable[..., Any]) -> Any:
+        hints = get_type_hints(function, include_extras=True)
+        found = place_of_union(list(hints.values()))
+        return Choice(function, options, *found) if found else EntryPoint(function, options)
+
+    return mark

@@ -1,0 +1,117 @@
+"""Arguments and results of entry points as rows of words: round trips, and refusals of arrays of the wrong kind."""
+
+import struct
+from typing import Annotated, NamedTuple
+
+import numpy as np
+import pytest
+
+from rocking.kernels.signature import Bytes1, Floats2, Signature, place_of_union
+
+ROW = np.dtype([("time", float), ("side", float)])
+Rows = Annotated[np.ndarray, ROW, 1]
+
+
+class Inner(NamedTuple):
+    weight: float
+    found: bool
+
+
+class Outer(NamedTuple):
+    count: int
+    inner: Inner
+    table: Floats2
+
+
+def function(outer: Outer, rows: Rows, flags: Bytes1, scale: float) -> tuple[int, Inner, bool]:
+    """Only the annotations matter."""
+
+
+SIGNATURE = Signature(function)
+
+
+def arguments(**other):
+    given = {
+        "table": np.zeros((3, 4)),
+        "rows": np.zeros(5, ROW),
+        "flags": np.zeros(0, np.uint8),
+    } | other
+    return Outer(-7, Inner(0.1, True), given["table"]), given["rows"], given["flags"], -np.inf
+
+
+def test_words_of_arguments_are_numbers_addresses_and_shapes():
+    given = arguments()
+    block = SIGNATURE.pack(given)
+    words = struct.unpack_from("=qdqqqqqqqqd", block)
+    assert words[:3] == (-7, 0.1, 1)
+    assert words[3:8] == (given[0].table.ctypes.data, 3, 4, given[1].ctypes.data, 5)
+    assert words[9:] == (0, -np.inf)
+    assert len(block) == 8 * (SIGNATURE.offset + 4)
+
+
+def test_result_is_made_of_the_words_behind_the_arguments():
+    block = SIGNATURE.pack(arguments())
+    struct.pack_into("=qdqq", block, 8 * SIGNATURE.offset, 3, 2.5, 0, 1)
+    found = SIGNATURE.unpack(block)
+    assert found == (3, Inner(2.5, False), True)
+    assert [type(part) for part in (found[0], *found[1], found[2])] == [int, float, bool, bool]
+
+
+def test_array_that_cannot_be_written_has_its_own_address():
+    table = np.ones((3, 4))
+    table.flags.writeable = False
+    words = struct.unpack_from("=qdqq", SIGNATURE.pack(arguments(table=table)))
+    assert words[3] == table.ctypes.data
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        {"table": np.zeros((4, 3)).T},
+        {"table": np.zeros((3, 8))[:, ::2]},
+        {"table": np.zeros(12)},
+        {"table": np.zeros((3, 4), np.float32)},
+        {"table": np.zeros((3, 4), int)},
+        {"rows": np.zeros(5)},
+        {"flags": np.zeros(3, np.int8)},
+    ],
+)
+def test_array_of_the_wrong_kind_is_refused(wrong):
+    """Compiled code would read and write beyond it."""
+    with pytest.raises(TypeError, match="^an array must be contiguous, .*; got "):
+        SIGNATURE.pack(arguments(**wrong))
+
+
+def test_too_few_arguments_are_refused():
+    with pytest.raises(ValueError, match="zip"):
+        SIGNATURE.pack(arguments()[:-1])
+
+
+class One(NamedTuple):
+    first: float
+
+
+class Two(NamedTuple):
+    first: float
+    second: float
+
+
+class Problem(NamedTuple):
+    count: int
+    p: One | Two
+
+
+def test_union_is_found_at_its_place_and_replaced_by_what_is_chosen():
+    def solve(scale: float, problem: Problem) -> One | Two: ...
+
+    place, union = place_of_union(list(solve.__annotations__.values())[:2])
+    assert (place, union) == ((1, 1), One | Two)
+    assert place_of_union([float, Outer]) is None
+    for chosen, words in ((One, 3), (Two, 4)):
+        signature = Signature(solve, chosen)
+        value = chosen(*range(len(chosen._fields)))
+        block = signature.pack((0.5, Problem(9, value)))
+        assert signature.offset == words
+        struct.pack_into(f"={len(value)}d", block, 8 * words, *value)
+        assert signature.unpack(block) == value
+        assert type(signature.unpack(block)) is chosen
