@@ -12,6 +12,9 @@ import sys
 from pathlib import Path
 from typing import NoReturn
 
+from rocking.cli.output.compile_bar import CompileBar
+from rocking.kernels.waiting import LISTENERS
+
 INTERRUPTED = 130
 
 
@@ -25,10 +28,10 @@ class Terminal(logging.Handler):
 
 def main() -> NoReturn:
     """Run the command line and exit."""
-    interrupts = []
+    interrupts, bar = [], CompileBar()
 
     def interrupt(*_: object) -> NoReturn:
-        # While numba compiles, a KeyboardInterrupt can be lost or turned into another error: so it is recorded here.
+        # Some libraries lose a KeyboardInterrupt or turn it into another error: so it is recorded here.
         interrupts.append(True)
         sys.unraisablehook = lambda _: None
         raise KeyboardInterrupt
@@ -44,7 +47,11 @@ def main() -> NoReturn:
         log = logging.getLogger("rocking")
         log.addHandler(Terminal(logging.INFO))
         log.setLevel(logging.INFO)
-    code, message = run()
+        LISTENERS.append(bar)
+    try:
+        code, message = run()
+    finally:
+        bar.close()
     if interrupts or code == INTERRUPTED:
         code, message = INTERRUPTED, "interrupted"
     if message:
