@@ -18,7 +18,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import rocking as rk
-from rocking.explorer import bokeh_figures, figure_data, plane_axes, presets, texts
+from rocking.explorer import bokeh_figures, compilation, figure_data, plane_axes, presets, texts
 from rocking.explorer.attractor_labels import Orbits
 from rocking.explorer.form_fields import READ, Refused, address, changed, from_address, in_metres, written
 from rocking.explorer.page_channel import message
@@ -377,7 +377,7 @@ def test_start_far_beyond_return_is_drawn_as_far_as_doubles_hold():
         "cycles": "1",
     }
     shown = changed(DEFAULT, typed)
-    drawn = figure_data.response(shown)
+    drawn = figure_data.traces(shown)
     assert np.isfinite([*drawn.spans["history"], *drawn.spans["portrait"]]).all()
     assert drawn.history["angle"][0] == -1000.0
 
@@ -392,7 +392,7 @@ def test_motion_that_becomes_faster_than_any_start_is_drawn():
         "first": "100",
     }
     shown = changed(DEFAULT, typed)
-    assert len(figure_data.response(shown).history["time"]) > 2
+    assert len(figure_data.traces(shown).history["time"]) > 2
     section = figure_data.Section(shown)
     section.grow(100)
     assert section.ended == "too fast"
@@ -438,7 +438,7 @@ def test_motion_of_too_many_events_has_no_pictures(monkeypatch):
     assert figure_data.crowded(shown)
     assert figure_data.spectrum(shown).why == figure_data.NO_SPECTRUM
     assert (
-        len(figure_data.response(shown).history["time"])
+        len(figure_data.traces(shown).history["time"])
         == len(figure_data.diagram(shown, np.zeros(1, np.int64))[0]["angle"])
         == 0
     )
@@ -466,7 +466,7 @@ def test_what_is_under_way_for_one_system_ends_when_another_is_chosen():
 
     async def run():
         stops, workers = {}, Workers()
-        visit = Session(Document(), workers)
+        visit = Session(Document(), workers, compilation.Compilation())
         visit.hear(json.dumps({"what": "open", "fields": {}}))
 
         async def endless(name, stop):
@@ -646,15 +646,42 @@ def test_response_that_forgets_is_told_in_the_words_of_the_command_line(rocking)
     assert facts["largest Lyapunov exponent λ₁"] in out
 
 
-READY = """
-from rocking.explorer.application import warm_up
-warm_up()
-from rocking.kernels import batch
-print(bool(batch.classify_batch_scalar.signatures and batch.classify_batch_lanes.signatures))
+LOADED = """
+import sys
+from attrs import evolve
+import numpy as np
+from rocking.explorer import compilation, figure_data
+from rocking.explorer.progressive_map import COARSEST, Plane, Refinement
+from rocking.explorer.view_state import DEFAULT
+from rocking.explorer.worker_pools import Workers
+from rocking.kernels.entry_point import ENTRY_POINTS
+
+figure, restitution, brace_angle = sys.argv[1], float(sys.argv[2]), float(sys.argv[3]) or None
+shown = evolve(DEFAULT, restitution=restitution, brace_angle=brace_angle, first=3)
+stop = np.zeros(1, np.int64)
+if figure in ("map", "basin"):
+    plane = Plane(("period", shown.periods), ("amplitude", shown.amplitudes), shown.fixed, COARSEST + 1, apart=figure == "basin")
+    Refinement(plane, Workers(), stop).coarse()
+    figure_data.affordable(shown, 10)
+elif figure == "diagram":
+    figure_data.diagram(shown, stop)
+elif figure == "section":
+    figure_data.Section(shown).grow(2)
+else:
+    {"motion": figure_data.traces, "spectrum": figure_data.spectrum, "verdict": figure_data.verdict}[figure](shown)
+loaded = {name for name, entry in ENTRY_POINTS.items() if entry.is_loaded}
+print(sorted(loaded - set(compilation.needed(figure, shown))), len(loaded) > 2)
 """
 
 
-def test_maps_with_and_without_loss_are_compiled_before_the_first_visit():
-    """Else the first one that asks for them waits a minute, and all others with it."""
-    told = subprocess.run([sys.executable, "-c", READY], capture_output=True, text=True, check=True)
-    assert told.stdout == "True\n"
+@pytest.mark.parametrize("restitution, brace_angle", [(0.925, 0.0), (1.0, 0.0), (0.925, 1.0)])
+@pytest.mark.parametrize("figure", compilation.NEEDED)
+def test_figure_waits_for_all_machine_code_that_it_needs(figure, restitution, brace_angle):
+    """Else a thread of the explorer waits for it, and other figures for the thread."""
+    told = subprocess.run(
+        [sys.executable, "-c", LOADED, figure, str(restitution), str(brace_angle)],
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    assert told.stdout == "[] True\n"

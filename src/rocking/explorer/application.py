@@ -1,4 +1,4 @@
-"""Explorer application: the page, its server and the compilation at the start."""
+"""Explorer application: the page and its server."""
 
 from __future__ import annotations
 
@@ -6,18 +6,16 @@ import gc
 import json
 from importlib.resources import files
 
-import numpy as np
 from bokeh.application import Application
 from bokeh.application.handlers.function import FunctionHandler
 from bokeh.document import Document
 from bokeh.server.server import BaseServer
 
-from rocking.explorer import figure_data, plane_axes, presets
+from rocking.explorer import plane_axes, presets
+from rocking.explorer.compilation import Compilation
 from rocking.explorer.form_fields import WORDS
-from rocking.explorer.progressive_map import COARSEST, Plane, Refinement
 from rocking.explorer.server import local_server
 from rocking.explorer.session import Session
-from rocking.explorer.view_state import DEFAULT
 from rocking.explorer.worker_pools import Workers
 from rocking.model import VERSION, Criterion
 from rocking.plot.parts import legend
@@ -54,35 +52,17 @@ def serve(port: int = 0) -> BaseServer:
     OSError
         If the port cannot be opened.
     """
-    workers = Workers()
+    workers, compilation = Workers(), Compilation()
 
     def open_visit(document: Document) -> None:
         document.title = "rocking explorer"
         document.template = _text("page.html")  # type: ignore[assignment]  # the type hint lacks the text that the setter accepts
         document.template_variables.update(_page())
-        Session(document, workers)
+        Session(document, workers, compilation)
 
     server = local_server(Application(FunctionHandler(open_visit)), port)
-    warm_up()
     gc.freeze()  # each closed session triggers a full collection; permanent objects need not be searched
     return server
-
-
-def warm_up() -> None:
-    """Compile or load all kernels in the main thread, because a process that ends during a compilation may crash."""
-    figure_data.response(DEFAULT)
-    figure_data.spectrum(DEFAULT)
-    figure_data.diagram(DEFAULT, np.zeros(1, np.int64))
-    figure_data.Section(DEFAULT).grow(2)
-    for restitution in (DEFAULT.restitution, 1.0):  # undamped systems use the kernels of the lanes
-        plane = Plane(
-            ("period", DEFAULT.periods),
-            ("amplitude", DEFAULT.amplitudes),
-            DEFAULT.fixed | {"restitution": restitution},
-            COARSEST + 1,
-            apart=True,
-        )
-        Refinement(plane, Workers(), np.zeros(1, np.int64)).coarse()
 
 
 def _text(name: str) -> str:

@@ -82,10 +82,9 @@ def affordable(shown: ViewState, cycles: int, hits: float = SOON_HITS) -> int:
 
 
 @frozen(eq=False)
-class Response:
-    """Verdict, time history and phase portrait of a motion, with the ranges of the axes."""
+class Traces:
+    """Time history and phase portrait of a motion, with the ranges of the axes."""
 
-    verdict: Verdict
     history: Columns
     portrait: Columns
     hits: Columns
@@ -113,9 +112,13 @@ class Drawn:
     label: str
 
 
-def response(shown: ViewState) -> Response:
-    """Classify the response and simulate the cycles shown."""
-    found = classify(shown.system, shown.start, affordable(shown, SOON), PERIOD)
+def verdict(shown: ViewState) -> Verdict:
+    """Classify the response."""
+    return classify(shown.system, shown.start, affordable(shown, SOON), PERIOD)
+
+
+def traces(shown: ViewState) -> Traces:
+    """Simulate the cycles shown."""
     try:
         if crowded(shown):
             raise TooManyEvents(NO_SPECTRUM)
@@ -124,7 +127,7 @@ def response(shown: ViewState) -> Response:
         nothing: Columns = {"time": [], "angle": [], "velocity": []}
         empty: Columns = {"angle": [], "velocity": [], "colour": []}
         plain = (0.0, 1.0, -1.0, 1.0)
-        return Response(found, nothing, nothing, empty, {"history": plain, "portrait": plain})
+        return Traces(nothing, nothing, empty, {"history": plain, "portrait": plain})
     start, stop = _shown_of(motion)
     trace = np.array(instants.trace(motion, start, stop))
     time, angle, velocity = trace[:, np.abs(trace[1]) <= FARTHEST]
@@ -132,8 +135,7 @@ def response(shown: ViewState) -> Response:
     hits = events[np.isin(events["kind"], ("impact", "brace"))]
     colours = np.where(hits["kind"] == "brace", style.BRACE, style.IMPACT)
     time = time + begin
-    return Response(
-        verdict=found,
+    return Traces(
         history={"time": time, "angle": angle, "velocity": velocity},
         portrait={"angle": angle, "velocity": velocity},
         hits={"angle": hits["angle"], "velocity": hits["after"], "colour": colours.tolist()},

@@ -26,6 +26,7 @@ function begin(doc) {
   listen("verdict", judge);
   listen("legend", legend);
   listen("progress", progress);
+  listen("compiling", compiling);
   listen("basin", attractors);
   listen("refused", refuse);
   for (const name of ["map", "basin"]) {
@@ -105,12 +106,17 @@ const parts = told => (told instanceof Map ? [...told] : Object.entries(told));
 let answers = {}; // results at each point of the map
 
 function draw(drawn) {
+  for (const [name, told] of parts(drawn)) {
+    if (parts(told).some(([part]) => ["image", "line", "points", "dense"].includes(part))) find(name).dataset.waits = "";
+  }
   for (const [name, told] of parts(drawn)) if (models[name]) for (const [part, value] of parts(told)) fill(name, part, value);
+  if (parts(drawn).some(([name]) => name === "history")) scene();
 }
 
 function fill(name, part, value) {
   const figure = models[name], change = (model, to) => model.setv(to, { sync: false });
   if (part === "answers") answers = Object.fromEntries(parts(value));
+  else if (part === "why") find(name).dataset.why = value;
   else if (part === "label") change(figure.below[0], { axis_label: value });
   else if (part === "here") change(figure.center.find(each => each.name === part), { location: value });
   else if (part === "ranges") {
@@ -217,8 +223,6 @@ function judge(told) {
     return row;
   }));
   find("evidence").textContent = told.evidence;
-  find("spectrum").dataset.why = told.spectrum;
-  scene();
 }
 
 function entries(legend) {
@@ -245,12 +249,24 @@ function attractors({ legend }) {
   find("basin").setAttribute("aria-label", `Basins of attraction: ${shares(legend)}. Arrow keys move the view, plus and minus zoom, 0 resets it. Enter Θ₀ and Θ′₀ to select an initial state.`);
 }
 
+const bar = document.querySelector("#bar i");
+
 function progress(told) {
-  const bar = document.querySelector("#bar i");
   find("progress").textContent = told.done ? "" : `Computing the map: ${told.text}`;
   bar.style.opacity = told.done ? 0 : 1;
   bar.style.width = `${100 * told.share}%`;
   document.body.dataset.map = told.done ? "done" : String(told.side);
+}
+
+// Figures wait for their own part of the machine code.
+function compiling({ share }) {
+  const done = share >= 1, waits = Object.keys(models).map(find).filter(plot => plot.dataset.waits !== "");
+  for (const plot of waits) plot.dataset.waits = done ? "" : "Compiling …";
+  if (/^(Compiling )?…$/.test(find("kind").textContent)) find("kind").textContent = done ? "…" : "Compiling …";
+  if (done || !find("map").dataset.waits) return;
+  find("progress").textContent = `Compiling, once for this machine: ${Math.floor(100 * share)} %`;
+  bar.style.opacity = 1;
+  bar.style.width = `${100 * share}%`;
 }
 
 function pardon(input) {

@@ -28,6 +28,7 @@ class Link(DataModel):
     verdict = String(default="")
     legend = String(default="")
     progress = String(default="")
+    compiling = String(default="")
     basin = String(default="")
     refused = String(default="")
 

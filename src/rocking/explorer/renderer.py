@@ -3,19 +3,23 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Callable
+from collections.abc import Awaitable, Callable, Sequence
 from functools import partial
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
+from attrs import field, frozen
 from bokeh.document import Document
 
 from rocking.explorer import bokeh_figures, figure_data, plane_axes, texts
+from rocking.explorer.compilation import ALL, Compilation
 from rocking.explorer.page_channel import Link
 from rocking.explorer.progressive_map import FIRST, Picture, Plane, Refinement
 from rocking.explorer.view_state import POINTS, Span, ViewState
 from rocking.explorer.worker_pools import Jobs, Workers
 from rocking.model import MAX_AMPLITUDE, MAX_START, PERIODS, Kind, Verdict
+
+Value = TypeVar("Value")
 
 BASIN_POINTS = 257
 FIRST_HITS = 3e3
@@ -36,11 +40,23 @@ def _first(shown: ViewState) -> int:
     return figure_data.affordable(shown, FIRST, FIRST_HITS)
 
 
+def _silent() -> None:
+    """Send nothing."""
+
+
+@frozen(eq=False)
+class Part:
+    """New contents of figures, by name, and the function that sends the texts that belong to them."""
+
+    figures: dict[str, dict[str, Any]]
+    tell: Callable[[], None] = field(default=_silent)
+
+
 class SessionRenderer:
     """Figures of a document and the jobs that fill them. Results of an earlier selection are discarded."""
 
-    def __init__(self, document: Document, link: Link, workers: Workers) -> None:
-        self.document, self.link, self.workers = document, link, workers
+    def __init__(self, document: Document, link: Link, workers: Workers, compilation: Compilation) -> None:
+        self.document, self.link, self.workers, self.compilation = document, link, workers, compilation
         self.jobs = Jobs()
         self.map, self.basin, self.diagram = (
             bokeh_figures.plane_of_systems(),
@@ -109,10 +125,18 @@ class SessionRenderer:
         session = getattr(self.document.session_context, "session", None)
         return session is not None and session.connection_count == 0
 
+    async def tell_compilation(self, stop: np.ndarray) -> None:
+        """Tell the page what fraction of the machine code is compiled, until all is."""
+        while not self.compilation.may_start(ALL):
+            await self._draw(partial(self.link.send, "compiling", {"share": self.compilation.fraction()}))
+            await asyncio.sleep(BREATH)
+        await self._draw(partial(self.link.send, "compiling", {"share": 1.0}))
+
     # the map
 
     async def refine_map(self, shown: ViewState, stop: np.ndarray) -> None:
         """Compute and draw the map, from coarse to fine."""
+        await self.compilation.ready("map", shown)
         plane = Plane(
             ("period", shown.periods),
             ("amplitude", shown.amplitudes),
@@ -137,39 +161,77 @@ class SessionRenderer:
     # one system
 
     async def respond(self, shown: ViewState, stop: np.ndarray) -> None:
-        """Draw all figures of one system at once, then start their refinement."""
-        section = figure_data.Section(shown)
-        found, spectrum, _, (basin, picture) = await asyncio.gather(
-            self.workers.soon(partial(figure_data.response, shown)),
-            self.workers.soon(partial(figure_data.spectrum, shown)),
-            self.workers.soon(partial(section.grow, GROWTH[0])),
-            self.workers.soon(partial(self._first_basin, shown, stop)),
+        """Draw all figures of one system at once, then start their refinement.
+
+        While kernels are being compiled, each figure is drawn when its kernels are there.
+        """
+        section, together = figure_data.Section(shown), self.compilation.may_start(ALL)
+        async with asyncio.TaskGroup() as group:  # if one of them fails, the others end
+            verdict = group.create_task(self._soon("verdict", shown, partial(figure_data.verdict, shown)))
+            basin = group.create_task(self._soon("basin", shown, partial(self._first_basin, shown, stop)))
+            parts = [
+                self._traces(shown),
+                self._spectrum(shown),
+                self._section(shown, section, verdict if together else None),
+                self._basin_part(shown, basin),
+                self._verdict(shown, verdict),
+            ]
+            tasks = [group.create_task(part if together else self._drawn(part)) for part in parts]
+        if together:
+            await self._draw(partial(self._draw_parts, [task.result() for task in tasks]))
+        self.jobs.start("section", partial(self._grow, section, verdict.result().period))
+        self.jobs.start("basin", partial(self._finish_basin, shown, basin.result()[0]))
+        if verdict.result().kind is Kind.UNDETERMINED and not figure_data.crowded(shown):
+            self.jobs.start("judge", partial(self._judge_longer, shown))
+
+    async def _soon(self, figure: str, shown: ViewState, work: Callable[[], Value]) -> Value:
+        """Run the work of a figure when its machine code is there."""
+        await self.compilation.ready(figure, shown)
+        return await self.workers.soon(work)
+
+    async def _drawn(self, part: Awaitable[Part]) -> Part:
+        """Draw a part when it is computed."""
+        found = await part
+        await self._draw(partial(self._draw_parts, [found]))
+        return found
+
+    def _draw_parts(self, parts: Sequence[Part]) -> None:
+        self.link.draw(**{name: drawn for part in parts for name, drawn in part.figures.items()})
+        for part in parts:
+            part.tell()
+
+    async def _traces(self, shown: ViewState) -> Part:
+        found = await self._soon("motion", shown, partial(figure_data.traces, shown))
+        history = {"ranges": found.spans["history"], "line": found.history}
+        portrait = {"ranges": found.spans["portrait"], "line": found.portrait, "hits": found.hits}
+        return Part({"history": history, "portrait": portrait})
+
+    async def _spectrum(self, shown: ViewState) -> Part:
+        found = await self._soon("spectrum", shown, partial(figure_data.spectrum, shown))
+        return Part(
+            {"spectrum": {"ranges": found.ranges, "line": found.line, "names": found.names, "why": found.why}}
         )
-        period = found.verdict.period
-        drawn = await self.workers.soon(partial(section.drawn, period))
 
-        def change() -> None:
-            self.link.draw(
-                history={"ranges": found.spans["history"], "line": found.history},
-                portrait={"ranges": found.spans["portrait"], "line": found.portrait, "hits": found.hits},
-                spectrum={"ranges": spectrum.ranges, "line": spectrum.line, "names": spectrum.names},
-                section=_section(drawn),
-                basin=self._basin(shown, picture),
-            )
-            self._tell_attractors(picture)
-            self._tell_verdict(shown, found.verdict, spectrum.why)
+    async def _section(
+        self, shown: ViewState, section: figure_data.Section, verdict: Awaitable[Verdict] | None
+    ) -> Part:
+        """Return the first points; those of the periodic orbit are marked if a verdict is given."""
+        await self._soon("section", shown, partial(section.grow, GROWTH[0]))
+        period = (await verdict).period if verdict else None
+        return Part({"section": _drawn_section(await self.workers.soon(partial(section.drawn, period)))})
 
-        await self._draw(change)
-        self.jobs.start("section", partial(self._grow, section, period))
-        self.jobs.start("basin", partial(self._finish_basin, shown, basin))
-        if found.verdict.kind is Kind.UNDETERMINED and not figure_data.crowded(shown):
-            self.jobs.start("judge", partial(self._judge_longer, shown, spectrum.why))
+    async def _basin_part(self, shown: ViewState, basin: Awaitable[tuple[Refinement, Picture]]) -> Part:
+        _, picture = await basin
+        return Part({"basin": self._basin(shown, picture)}, partial(self._tell_attractors, picture))
 
-    def _tell_verdict(self, shown: ViewState, verdict: Verdict, why: str) -> None:
-        self.link.send("verdict", texts.verdict(verdict, shown.block) | {"spectrum": why})
+    async def _verdict(self, shown: ViewState, verdict: Awaitable[Verdict]) -> Part:
+        return Part({}, partial(self._tell_verdict, shown, await verdict))
+
+    def _tell_verdict(self, shown: ViewState, verdict: Verdict) -> None:
+        self.link.send("verdict", texts.verdict(verdict, shown.block))
 
     def _draw_section(self, drawn: figure_data.Drawn) -> None:
-        self.link.draw(section=_section(drawn))
+        self.link.draw(section=_drawn_section(drawn))
 
     async def _grow(self, section: figure_data.Section, period: int | None, stop: np.ndarray) -> None:
         for cycles in GROWTH[1:]:
@@ -180,9 +242,9 @@ class SessionRenderer:
             drawn = await self.workers.later(partial(section.drawn, period))
             await self._draw(partial(self._draw_section, drawn))
 
-    async def _judge_longer(self, shown: ViewState, why: str, stop: np.ndarray) -> None:
+    async def _judge_longer(self, shown: ViewState, stop: np.ndarray) -> None:
         found = await self.workers.later(partial(figure_data.judge_longer, shown))
-        await self._draw(partial(self._tell_verdict, shown, found, why))
+        await self._draw(partial(self._tell_verdict, shown, found))
 
     # the basin
 
@@ -207,7 +269,7 @@ class SessionRenderer:
 
     async def refine_basin(self, shown: ViewState, stop: np.ndarray) -> None:
         """Compute and draw the basin map alone, from coarse to fine."""
-        basin, picture = await self.workers.soon(partial(self._first_basin, shown, stop))
+        basin, picture = await self._soon("basin", shown, partial(self._first_basin, shown, stop))
         await self._draw(partial(self._draw_basin, shown, picture))
         await self._finish_basin(shown, basin, stop)
 
@@ -232,12 +294,14 @@ class SessionRenderer:
 
     async def draw_diagram(self, shown: ViewState, stop: np.ndarray) -> None:
         """Draw the orbit diagram along an axis of the map, after the other figures of the selection."""
-        await self.jobs.over("response")
+        await self.compilation.ready("diagram", shown)
+        if self.compilation.may_start(ALL):
+            await self.jobs.over("response")
         columns, ranges = await self.workers.later(partial(figure_data.diagram, shown, stop))
         drawn = {"ranges": ranges, "label": VARIED[shown.vary], "points": columns}
         await self._draw(partial(self.link.draw, diagram=drawn))
 
 
-def _section(drawn: figure_data.Drawn) -> dict[str, Any]:
+def _drawn_section(drawn: figure_data.Drawn) -> dict[str, Any]:
     columns = {"points": drawn.points, "dense": drawn.dense, "orbit": drawn.orbit}
     return {"ranges": drawn.ranges, "label": drawn.label, **columns}

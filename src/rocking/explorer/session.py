@@ -11,6 +11,7 @@ from bokeh.document import Document
 from bokeh.events import Tap
 
 from rocking.explorer import plane_axes, presets, texts
+from rocking.explorer.compilation import ALL, Compilation
 from rocking.explorer.form_fields import Refused, address, changed, from_address, in_metres, written
 from rocking.explorer.page_channel import STRANGE, Link, message
 from rocking.explorer.renderer import SessionRenderer
@@ -24,9 +25,9 @@ SYSTEM = ("amplitude", "period", *SHAKEN)
 class Session:
     """Bokeh document with its current view."""
 
-    def __init__(self, document: Document, workers: Workers) -> None:
+    def __init__(self, document: Document, workers: Workers, compilation: Compilation) -> None:
         self.link = Link(name="link")
-        self.painter = SessionRenderer(document, self.link, workers)
+        self.painter = SessionRenderer(document, self.link, workers, compilation)
         self.shown, self.opened = DEFAULT, False
         self.link.on_change("asked", lambda _name, _before, text: self.hear(text))
         self.painter.map.on_event(Tap, self._tapped_map)
@@ -110,6 +111,8 @@ class Session:
         if differs("angles", "velocities"):
             painter.place_basin(new)
         painter.mark(new)
+        if first and not painter.compilation.may_start(ALL):
+            jobs.start("compile", painter.tell_compilation)
         moved = differs(*SYSTEM, "first", "cycles", "height", "width")
         self.link.send("shown", self._told() | {"push": push, "moved": moved})
         if differs("periods", "amplitudes", *SHAKEN):

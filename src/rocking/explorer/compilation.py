@@ -1,0 +1,69 @@
+"""Machine code of the figures: each figure waits for its own, while the page is shown at once."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Sequence
+from contextlib import suppress
+
+from rocking.explorer.view_state import ViewState
+from rocking.kernels import build_processes, machine_code
+
+POLLING = 0.1
+"""Interval, s, at which a waiting figure looks for its machine code."""
+SIMULATION = (
+    "parameters.make_plain",
+    "march.begin_march",
+    "march.note_start",
+    "march.march_plain",
+    "resample.sample",
+    "resample.turns",
+)
+CLASSIFICATION = (*SIMULATION, "batch.classify_batch_scalar")
+BASIN = (*CLASSIFICATION, "attractor_anchor.anchor_each")
+LANES = ("scheduler.classify_batch_lanes",)
+NEEDED = {
+    "motion": SIMULATION,
+    "spectrum": SIMULATION,
+    "section": SIMULATION,
+    "verdict": CLASSIFICATION,
+    "map": CLASSIFICATION,
+    "basin": BASIN,
+    "diagram": (*SIMULATION, "sweep.sweep"),
+}
+"""Entry points of each figure; maps of undamped motions and of motions between braces also need those of the lanes."""
+ALL = sorted({name for names in NEEDED.values() for name in names} | set(LANES))
+
+
+def needed(figure: str, shown: ViewState) -> tuple[str, ...]:
+    """Return the entry points of a figure of a view."""
+    long = figure in ("map", "basin") and (shown.restitution == 1.0 or shown.brace_angle is not None)
+    return NEEDED[figure] + (LANES if long else ())
+
+
+class Compilation:
+    """Compilation of what is missing, by processes that outlive this one."""
+
+    def __init__(self) -> None:
+        self._folder = machine_code.find_folder()
+        if self._folder is not None and self.fraction() < 1.0:
+            with suppress(OSError):  # without builders, each figure compiles what it needs
+                build_processes.start_builders(self._folder, machine_code.processor_class())
+
+    def fraction(self) -> float:
+        """Return the fraction of the work that is done, by measured seconds."""
+        return build_processes.fraction_done(ALL)
+
+    def may_start(self, names: Sequence[str]) -> bool:
+        """Return whether the machine code of entry points is there, or no builder is at work on it."""
+        if self._folder is None or all(map(machine_code.is_stored, names)):
+            return True
+        try:
+            return not build_processes.are_running(self._folder)
+        except OSError:
+            return True
+
+    async def ready(self, figure: str, shown: ViewState) -> None:
+        """Wait for the machine code of a figure."""
+        while not self.may_start(needed(figure, shown)):
+            await asyncio.sleep(POLLING)

@@ -1,0 +1,60 @@
+"""The explorer with nothing compiled: the page is there at once, and each figure when its kernels are."""
+
+import os
+import re
+import signal
+import subprocess
+import sys
+
+import psutil
+import pytest
+
+WAITS = "name => Boolean(document.getElementById(name).dataset.waits)"
+NO_LONGER = "name => document.getElementById(name).dataset.waits === ''"
+
+
+@pytest.fixture
+def cold(tmp_path):
+    """Run an explorer that finds no machine code."""
+    command = [sys.executable, "-m", "rocking", "explore", "--port", "0", "--no-browser"]
+    environment = os.environ | {"NUMBA_CACHE_DIR": str(tmp_path), "ROCKING_FORCE_JIT": "1"}
+    with subprocess.Popen(
+        command, env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    ) as process:
+        yield process, re.search(r"http://localhost:\d+/", process.stdout.readline())[0]
+        process.send_signal(signal.SIGINT)
+        errors = process.communicate(timeout=20)[1]
+    assert (process.returncode, errors) == (0, "")
+    for each in psutil.process_iter(["cmdline"]):  # the builders, which would go on for a minute
+        if any(str(tmp_path) in word for word in each.info["cmdline"] or ()):
+            each.kill()
+
+
+@pytest.mark.long
+def test_figures_appear_one_after_another(cold, browser):
+    context = browser.new_context(viewport={"width": 1280, "height": 820})
+    page = context.new_page()
+    page.set_default_timeout(300_000)
+    page.goto(cold[1])
+    page.wait_for_selector("body[data-ready]")
+    page.wait_for_function(WAITS, arg="history")
+    assert re.fullmatch(r"Compiling, once for this machine: \d+ %", page.inner_text("#progress"))
+    assert page.inner_text("#kind") == "Compiling …"
+    page.wait_for_function(NO_LONGER, arg="history")
+    assert page.evaluate(WAITS, "map")
+    assert page.evaluate("film.time.length") > 9
+    page.wait_for_selector("#verdict:not(.stale)")
+    assert page.inner_text("#kind") == "periodic"
+    page.wait_for_function("document.body.dataset.map === 'done'")
+    page.wait_for_function(NO_LONGER, arg="basin")
+    page.wait_for_function("document.getElementById('progress').textContent === ''")
+    page.wait_for_function("!Object.keys(models).some(name => document.getElementById(name).dataset.waits)")
+
+
+@pytest.mark.long
+def test_control_c_ends_an_explorer_that_waits_for_kernels(cold, browser):
+    """The fixture sends it and expects the end soon."""
+    page = browser.new_context().new_page()
+    page.goto(cold[1])
+    page.wait_for_selector("body[data-ready]")
+    page.wait_for_function(WAITS, arg="map")
