@@ -1,6 +1,16 @@
 """`python -m benchmarks`: one table, every ratio from the same run."""
 
-from benchmarks import closed_forms, explorer, lanes, one_block, orbits, processes, survey, verdicts
+from benchmarks import (
+    closed_forms,
+    explorer,
+    lanes,
+    machine_code,
+    one_block,
+    orbits,
+    processes,
+    survey,
+    verdicts,
+)
 from benchmarks.table import Report
 
 
@@ -9,7 +19,11 @@ def main():
     report.section("One block: time per impact, and ratio of the peers' time to it", one_block.speed())
     report.section("Error after 20 cycles against 40 digits", one_block.accuracy())
     report.section("Two threads against one", one_block.threads())
-    report.section("Compiling the march", processes.compiling())
+    report.section("Compiling the kernels", processes.compiling())
+    report.section("First answers", processes.first_answers())
+    report.section(
+        "Machine code of the builders, compared with that compiled in this process", machine_code.speed()
+    )
     report.section("Whole processes", processes.commands())
     report.section("A long run", processes.long_run())
     report.section("Classification over the paper's map", verdicts.maps())

@@ -4,7 +4,6 @@ import math
 from time import thread_time
 
 import numpy as np
-from numba import njit
 
 from benchmarks.clock import quickest_in_turn
 from benchmarks.table import Figure
@@ -13,7 +12,8 @@ from rocking.kernels.classify.leg import follow_flights
 from rocking.kernels.classify.quasi_periodicity import under_way
 from rocking.kernels.classify.reset import begin_tangent, new_tracker
 from rocking.kernels.classify.workspace import make_workspace
-from rocking.kernels.compile_options import ALLOCATING, KERNEL
+from rocking.kernels.compile_options import KERNEL
+from rocking.kernels.deferred import njit
 from rocking.kernels.lanes.log import log_arcs
 from rocking.kernels.lanes.scalar_fallback import find_event, update_peak
 from rocking.kernels.lanes.state import FIND_EVENT, IDLE, LANES, LOAD_NEXT, NO_REQUEST, UPDATE_PEAK
@@ -58,7 +58,7 @@ def alone(systems, speeds, cycles, memory):
     return impacts
 
 
-@njit(**ALLOCATING)
+@njit(**(KERNEL | {"_nrt": True}))  # it makes a list
 def in_lanes(systems, speeds, cycles, memory):
     """March the blocks in lanes; return the number of impacts. A lane that ends takes the next block."""
     s, queue, blocks, impacts = memory.state[0], 0, LANES, 0.0

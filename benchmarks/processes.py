@@ -10,7 +10,21 @@ from time import perf_counter
 
 from benchmarks.table import Figure
 
-SIMULATE = ["simulate", "--amplitude", "2", "--period", "1", "--restitution", "0.925"]
+SYSTEM = ["--amplitude", "2", "--period", "1", "--restitution", "0.925"]
+SIMULATE, CLASSIFY = ["simulate", *SYSTEM], ["classify", *SYSTEM]
+MAP = ["map", "--amplitude", "0:16:60", "--period", "0.2:3:60", "--restitution", "0.925"]
+DIAGRAM = ["orbit-diagram", "--amplitude", "5:9:60", "--period", "1.721", "--restitution", "0.8"]
+BASINS = ["basins", *SYSTEM, "--angle", "-1:1:30", "--velocity", "-1:1:30"]
+BUILD = "import runpy, sys; sys.argv[1:] = []; runpy.run_module('rocking.kernels', run_name='__main__')"
+LOAD = """
+from time import perf_counter
+import rocking
+system = rocking.System(rocking.Harmonic(2.0, period=1.0), 0.925)
+import rocking.motion
+begun = perf_counter()
+rocking.simulate(system, cycles=1)
+print(perf_counter() - begun)
+"""
 
 
 def command(*arguments, folder=None, **environment):
@@ -23,36 +37,40 @@ def command(*arguments, folder=None, **environment):
 
 
 def commands():
-    """Time commands as a user waits for them."""
+    """Time commands as a user waits for them, with all kernels compiled."""
+    python(BUILD)
     with tempfile.TemporaryDirectory() as folder:
-        help_ = median(command("--help") for _ in range(9))
-        first = command(*SIMULATE, folder=folder, NUMBA_CACHE_DIR=folder)
-        picture = [*SIMULATE, "--plot", "motion.png"]
-        command(*picture, folder=folder)
-        warm = median(command(*picture, folder=folder) for _ in range(5))
-    yield Figure("rocking --help", help_, "s", 0.15)
-    yield Figure("rocking simulate --plot, warm", warm, "s", 1.5)
-    yield Figure("rocking simulate, first ever", first, "s", 15, note="compiles")
+        picture, map_ = [*SIMULATE, "--plot", "motion.png"], [*MAP, "--plot", "map.png"]
+        for line, goal in ((["--help"], 0.15), (SIMULATE, None), (picture, 1.2), (map_, 2.0)):
+            command(*line, folder=folder)
+            seconds = median(command(*line, folder=folder) for _ in range(5))
+            yield Figure(
+                f"rocking {line[0]}{' with a picture' * ('--plot' in line)}, warm", seconds, "s", goal
+            )
 
 
-COMPILE = """
-from time import perf_counter
-begun = perf_counter()
-from benchmarks.one_block import march
-from benchmarks.cases import CASES
-import rocking.motion
-loaded = perf_counter()
-march(CASES[0], 1)
-print(perf_counter() - loaded)
-"""
+def first_answers():
+    """Time the first commands of a user one after another, with nothing compiled, while the builders work."""
+    with tempfile.TemporaryDirectory() as folder:
+        total = 0.0
+        for line, goal in ((SIMULATE, 15), (CLASSIFY, None), (MAP, None), (DIAGRAM, None), (BASINS, None)):
+            seconds = command(*line, folder=folder, NUMBA_CACHE_DIR=folder)
+            total += seconds
+            yield Figure(f"rocking {line[0]}, first ever", seconds, "s", goal, note="compiles")
+        yield Figure("  all five, one after another", total, "s", 90)
+        begun = perf_counter()
+        python(BUILD, NUMBA_CACHE_DIR=folder)
+        yield Figure("  then until all kernels are compiled", perf_counter() - begun, "s")
 
 
 def compiling():
-    """Time all kernels of a march with tangent: compiled, and loaded from the cache, without imports."""
+    """Time the compilation of all kernels, and the load of those of a simulation in a new process."""
     with tempfile.TemporaryDirectory() as folder:
-        first, *again = (float(python(COMPILE, NUMBA_CACHE_DIR=folder)) for _ in range(4))
-    yield Figure("compile, first ever", first, "s", 10)
-    yield Figure("from cache", median(again), "s", 0.4)
+        begun = perf_counter()
+        python(BUILD, NUMBA_CACHE_DIR=folder)
+        yield Figure("compile everything", perf_counter() - begun, "s", 90, note="two processes")
+        again = [float(python(LOAD, NUMBA_CACHE_DIR=folder)) for _ in range(5)]
+        yield Figure("load the kernels of a simulation", median(again), "s", 0.1)
 
 
 LONG_RUN = """

@@ -11,7 +11,6 @@ from pathlib import Path
 from statistics import median
 
 import numpy as np
-from numba import njit
 
 import rocking as rk
 from benchmarks.clock import quickest_in_turn
@@ -22,6 +21,7 @@ from rocking.kernels.classify import classifier_state, decision_cascade, leg
 from rocking.kernels.classify.results import empty_results, store_result
 from rocking.kernels.classify.workspace import make_workspace
 from rocking.kernels.compile_options import KERNEL
+from rocking.kernels.deferred import njit
 from rocking.kernels.march import march
 from rocking.kernels.march.progress import Recording
 from rocking.kernels.numerics.replace_fields import replacing

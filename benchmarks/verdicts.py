@@ -6,13 +6,12 @@ import sys
 import time
 
 import numpy as np
-from numba import njit
 
 from benchmarks.table import Figure
-from rocking.kernels.classify import decision_cascade, verdict_record
+from rocking.kernels import batch
+from rocking.kernels.classify import verdict_record
+from rocking.kernels.classify.results import empty_results
 from rocking.kernels.classify.workspace import make_workspace
-from rocking.kernels.compile_options import KERNEL
-from rocking.kernels.parameters import make
 
 POINTS = 200
 PERIODS, AMPLITUDES = (0.2, 3.0), (0.0, 16.0)
@@ -31,32 +30,32 @@ print(seconds, int(most[0] if most else resource.getrusage(resource.RUSAGE_SELF)
 """
 
 
-@njit(**KERNEL)
-def judge_all(amplitudes, periods, restitution, max_cycles, memory, kinds, grounds, work):
-    """Classify every point from rest at phase 0."""
-    for k in range(amplitudes.shape[0]):
-        frequency = 2.0 * math.pi / periods[k]
-        p = make(amplitudes[k], frequency, periods[k], 0.0, restitution, math.inf, 1.0)
-        answer = decision_cascade.judge(p, 0.0, 0.0, max_cycles, 64, memory)
-        kinds[k], grounds[k], work[k] = answer[0], answer[1], answer[16]
-
-
 def judged(restitution, max_cycles):
-    """Classify the map; return kinds, criteria, events computed, and the seconds of one core."""
-    grid = np.meshgrid(np.linspace(*AMPLITUDES, POINTS), np.linspace(*PERIODS, POINTS))
-    amplitudes, periods = (axis.ravel() for axis in grid)
-    kinds, grounds, work = (np.zeros(amplitudes.size, np.int64) for _ in range(3))
-    memory, best = make_workspace(max_cycles, 64), math.inf
+    """Classify the map from rest at phase 0; return kinds, criteria, events computed, and the seconds of one core."""
+    amplitudes, periods = map(
+        np.ravel, np.meshgrid(np.linspace(*AMPLITUDES, POINTS), np.linspace(*PERIODS, POINTS))
+    )
+    one = np.ones(amplitudes.size)
+    systems = np.column_stack(
+        [amplitudes, math.tau / periods, periods, 0.0 * one, restitution * one, math.inf * one, one]
+    )
+    memory, best, starts, go_on = (
+        make_workspace(max_cycles, 64),
+        math.inf,
+        np.zeros((one.size, 2)),
+        np.zeros(1, np.int64),
+    )
+    results = empty_results(one.size)
     for _ in range(RUNS):
         begun = time.thread_time()
-        judge_all(amplitudes, periods, restitution, max_cycles, memory, kinds, grounds, work)
+        batch.classify_batch_scalar(systems, starts, max_cycles, 64, memory, results, go_on)
         best = min(best, time.thread_time() - begun)
-    return kinds, grounds, work, best
+    return results.kind, results.ground, results.work, best
 
 
 def maps():
     """Time the map of figure 11 (e = .925) and that of figure 10 (e = 1)."""
-    judge_all(np.ones(1), np.ones(1), 0.9, 100, make_workspace(100, 64), *np.zeros((3, 1), np.int64))
+    batch.load_kernels(False)
     kinds, grounds, work, seconds = judged(0.925, 100_000)
     undetermined, resets = kinds == verdict_record.UNDETERMINED, grounds == verdict_record.UNRESOLVED_RESET
     yield Figure("e = .925, impacts per point, all work", work.mean(), "", 40)

@@ -1,46 +1,126 @@
-"""The wheel alone, without the repository, draws figures of the paper."""
+"""The wheel alone, without the repository: its metadata, its machine code, and figures of the paper."""
 
+import email
 import os
-import shutil
 import subprocess
 import sys
+import tomllib
+import zipfile
 from pathlib import Path
 
 import pytest
+from packaging.requirements import Requirement
+
+from rocking.kernels import machine_code
+from rocking.kernels.deferred import import_all
+from rocking.kernels.entry_point import ENTRY_POINTS
+from scripts import wheel as script
 
 ROOT = Path(__file__).parents[2]
+PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
+import_all()
+pytestmark = pytest.mark.xdist_group("wheel")  # it is made once
 
 
-def pip(*options):
-    subprocess.run([sys.executable, "-m", "pip", *options], check=True, capture_output=True)
+@pytest.fixture(scope="module")
+def wheel(tmp_path_factory):
+    """The wheel that `make wheel` makes."""
+    folder = tmp_path_factory.mktemp("dist")
+    subprocess.run([sys.executable, ROOT / "scripts/wheel.py", folder], check=True, capture_output=True)
+    (made,) = folder.iterdir()
+    return made
 
 
-@pytest.mark.long
-def test_the_wheel_alone_draws_the_paper(tmp_path):
-    source, wheels, installed = (tmp_path / name for name in ("source", "wheels", "installed"))
-    shutil.copytree(ROOT / "src", source / "src", ignore=shutil.ignore_patterns("*.egg-info", "__pycache__"))
-    for name in ("pyproject.toml", "README.md", "LICENSE"):
-        shutil.copy(ROOT / name, source)
-    pip("wheel", "--no-deps", "--no-build-isolation", "--wheel-dir", wheels, source)
-    pip("install", "--no-deps", "--target", installed, *wheels.iterdir())
+@pytest.fixture(scope="module")
+def run(wheel, tmp_path_factory):
+    """Run Python with the wheel, and with no machine code but its own."""
+    folder = tmp_path_factory.mktemp("installed")
+    options = ["--no-deps", "--target", folder / "packages"]
+    subprocess.run([sys.executable, "-m", "pip", "install", *options, wheel], check=True, capture_output=True)
 
     def run(*command):
-        environment = os.environ | {"PYTHONPATH": str(installed)}
+        environment = os.environ | {
+            "PYTHONPATH": str(folder / "packages"),
+            "NUMBA_CACHE_DIR": str(folder / "cache"),
+        }
         done = subprocess.run(
-            [sys.executable, *command],
-            cwd=tmp_path,
+            [sys.executable, "-P", *command],
+            cwd=folder,
             env=environment,
             check=True,
             capture_output=True,
             text=True,
         )
+        assert not list(folder.rglob("cache/**/*.o"))
         return done.stdout
 
-    assert run("-c", "import rocking; print(rocking.__file__)").startswith(str(installed))
+    run.folder = folder
+    return run
+
+
+def test_platform_tag_names_the_first_glibc_that_has_all_names():
+    """On x86-64 the first version of all was 2.2.5, so only later names count."""
+    first = script.first_versions()
+    assert (first["exp"], first["hypot"], first["sincos"]) == ((2, 2, 5),) * 3
+    assert script.platform_tag({"exp", "sin"}) == "manylinux_2_5_x86_64"
+    assert (
+        script.platform_tag({"exp", "getrandom"}) == "manylinux_2_25_x86_64"
+    )  # its manual: since glibc 2.25
+    with pytest.raises(KeyError):
+        script.platform_tag({"no_such_name"})
+
+
+@pytest.mark.long
+def test_metadata_say_what_is_inside(wheel):
+    assert wheel.stat().st_size <= 6_000_000
+    with zipfile.ZipFile(wheel) as archive:
+        names = archive.namelist()
+        (folder,) = {name.split("/")[0] for name in names if ".dist-info/" in name}
+        tags = email.message_from_bytes(archive.read(f"{folder}/WHEEL"))
+        about = email.message_from_bytes(archive.read(f"{folder}/METADATA"))
+        taken = set()
+        for processors in machine_code.CLASSES:
+            place = f"rocking/kernels/library/{machine_code.hash_sources()}-{processors}"
+            found = {name.rpartition("/")[2] for name in names if name.startswith(f"{place}/")}
+            assert found == {f"{name}.o" for name in ENTRY_POINTS}
+            for name in found:
+                taken |= script.imports_of(archive.read(f"{place}/{name}")[machine_code.DIGEST_BYTES :])
+    tag = f"py3-none-{script.platform_tag(taken)}"
+    assert (tags.get_all("Tag"), tags["Root-Is-Purelib"]) == ([tag], "false")
+    assert wheel.name == f"rocking-{about['Version']}-{tag}.whl"
+    assert (about["Name"], about["Requires-Python"]) == ("rocking", PROJECT["requires-python"])
+    required = [Requirement(text) for text in about.get_all("Requires-Dist")]
+    assert {each.name for each in required if not each.marker} == {
+        Requirement(text).name for text in PROJECT["dependencies"]
+    }
+
+
+WITHOUT_COMPILER = """
+import sys
+import rocking as rk
+system = rk.System(rk.Harmonic(2.0, period=1.0), 0.925)
+print(rk.__file__, rk.simulate(system, cycles=9).impacts, rk.classify(system).kind)
+print(*rk.parametric_map(amplitude=[1.2, 2.0], period=[0.5, 1.0], restitution=1.0, max_cycles=500).kind.values.ravel())
+print("numba" in sys.modules)
+"""
+
+
+@pytest.mark.long
+@pytest.mark.skipif(machine_code.processor_class() == "native", reason="the wheel has no machine code for it")
+def test_nothing_is_compiled_and_numba_is_not_loaded(run):
+    first, kinds, loaded = run("-c", WITHOUT_COMPILER).splitlines()
+    assert first == f"{run.folder}/packages/rocking/__init__.py 17 periodic"
+    assert len(kinds.split()) == 4
+    assert loaded == "False"
+
+
+@pytest.mark.long
+def test_the_wheel_alone_draws_the_paper(run):
     run("-m", "rocking", "paper", "1", "2", "--output", "drawn")
-    assert sorted(path.name for path in (tmp_path / "drawn").glob("*.png")) == [
+    assert sorted(path.name for path in (run.folder / "drawn").glob("*.png")) == [
         "figure-01.png",
         "figure-02.png",
     ]
-    assert (installed / "rocking" / "py.typed").exists()
-    assert {"report.html", "zoomable_map.html"} <= {path.name for path in installed.rglob("*.html")}
+    package = run.folder / "packages/rocking"
+    assert (package / "py.typed").exists()
+    assert {"report.html", "zoomable_map.html"} <= {path.name for path in package.rglob("*.html")}

@@ -1,0 +1,124 @@
+"""Calls of every entry point, recorded from a workload, and repeated with other machine code.
+
+`python -m benchmarks.recorded_calls FOLDER`: compare the object files of a folder with what this process compiles. For each
+entry point it prints a line: its name, the number of calls, of those with other results, and the ratio of the times.
+"""
+
+import copy
+import ctypes
+import sys
+from pathlib import Path
+from time import perf_counter
+
+import numpy as np
+
+import rocking as rk
+from rocking.kernels import entry_point, machine_code
+from rocking.kernels.deferred import import_all
+
+MAX_CALLS = 40
+"""Calls kept of each entry point."""
+SECONDS = 0.3
+"""Time of the repetitions of a call, with either machine code."""
+MIN_ROUNDS = 10
+
+
+def workload():
+    """Run something that calls every entry point."""
+    system = rk.System(rk.Harmonic(15.0, period=1.0), 0.9)
+    motion = rk.simulate(system, cycles=2_000)
+    motion.at(np.linspace(0.0, 50.0, 2_000))
+    motion.validity(rk.Block(height=2.0, width=0.5))
+    axes = {"amplitude": np.linspace(0.0, 16.0, 24), "period": np.linspace(0.2, 3.0, 24)}
+    for restitution in (0.925, 1.0):
+        rk.parametric_map(**axes, restitution=restitution, max_cycles=2_000)
+    starts = np.linspace(-1.0, 1.0, 12)
+    rk.basin_map(system, angle=starts, velocity=starts, max_cycles=1_000)
+    rk.lyapunov(rk.System(rk.Harmonic(10.103037, period=1.721328), 0.8), cycles=2_000)
+    branch = rk.continue_orbit(rk.classify(system).orbit, "amplitude", (10, 30))
+    branch.section(0.7)
+    rk.bifurcation_curve(branch.special[0], "period", "amplitude", ((1, 2), (1, 30)))
+    rk.find_orbits(system, 1)
+    rk.orbit_diagram(system, "amplitude", np.linspace(10.0, 15.0, 40))
+    rk.theory.symmetric_modes(6.5, 0.4, 0.925, 3)
+    rk.saddle_manifolds(rk.System(rk.Harmonic(1.2, period=2.0), 0.9))
+    rk.rotation_number(rk.System(rk.Harmonic(4.0, period=0.4), 1.0))
+    rk.tangency_amplitude(rk.System(rk.Harmonic(1.0, period=1.0), 0.8))
+    rk.theory.manifold_gap(np.linspace(0.0, 6.0, 50), 1.5, 1.0, 0.8)
+
+
+def record_calls():
+    """Return calls of every entry point, by name."""
+    import_all()
+    calls = {name: [] for name in entry_point.ENTRY_POINTS}
+    original = entry_point.EntryPoint.__call__
+
+    def record(self, *arguments):
+        if len(calls[self.name]) < MAX_CALLS:
+            calls[self.name].append(copy.deepcopy(arguments))
+        return original(self, *arguments)
+
+    entry_point.EntryPoint.__call__ = record
+    try:
+        workload()
+    finally:
+        entry_point.EntryPoint.__call__ = original
+    return calls
+
+
+def runner(entry, code):
+    """Return a function that runs an entry point with its machine code from an object file, in an engine of its own."""
+    loader = machine_code.Loader()
+    function = ctypes.CFUNCTYPE(None, ctypes.c_int64)(loader.load(code, machine_code.symbol_of(entry.name)))
+
+    def run(block):
+        function(ctypes.addressof(ctypes.c_char.from_buffer(block)))
+
+    run.loader = loader  # its end would be that of the machine code
+    return run
+
+
+def outcome(entry, run, arguments):
+    """Return the bytes of the result of a call and of all its arrays afterwards."""
+    arguments = copy.deepcopy(arguments)
+    block = entry.signature.pack(arguments)
+    run(block)
+    return [bytes(block[8 * entry.signature.offset :]), *map(np.ndarray.tobytes, arrays_in(arguments))]
+
+
+def arrays_in(value):
+    """Yield the arrays among nested tuples."""
+    if isinstance(value, np.ndarray):
+        yield value
+    elif isinstance(value, tuple):
+        for part in value:
+            yield from arrays_in(part)
+
+
+def ratio_of_times(entry, runs, arguments):
+    """Return the time of a call with the first machine code, relative to the second: the quickest of many, in turn."""
+    arguments = copy.deepcopy(arguments)  # held, because the block has only their addresses
+    block, best = entry.signature.pack(arguments), [np.inf, np.inf]
+    original, ends, rounds = bytes(block), perf_counter() + 2.0 * SECONDS, 0
+    while perf_counter() < ends or rounds < MIN_ROUNDS:
+        rounds += 1
+        for k in (0, 1, 1, 0):
+            block[:] = original
+            begun = perf_counter()
+            runs[k](block)
+            best[k] = min(best[k], perf_counter() - begun)
+    return best[0] / best[1]
+
+
+def main(folder):
+    """Print a line for each entry point."""
+    for name, calls in record_calls().items():
+        entry = entry_point.ENTRY_POINTS[name]
+        stored = (Path(folder) / f"{name}.o").read_bytes()[machine_code.DIGEST_BYTES :]
+        runs = runner(entry, stored), runner(entry, entry.compile())
+        others = sum(outcome(entry, runs[0], each) != outcome(entry, runs[1], each) for each in calls)
+        print(name, len(calls), others, ratio_of_times(entry, runs, calls[-1]), flush=True)
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])
