@@ -6,24 +6,22 @@ export PYTHON
 
 bin := .venv/bin
 workers ?= 2
-# The kernels are compiled once here, so that the workers do not each compile them.
-case = --amplitude 2 --period 1 --restitution 0.925
-compile = $(bin)/rocking simulate $(case) --cycles 1 >/dev/null; \
-	$(bin)/rocking classify $(case) >/dev/null & \
-	$(bin)/rocking map --amplitude 1:2:2 --period 1:2:2 --restitution 1 --max-cycles 1 >/dev/null 2>&1; wait
+# Tests and pages start when all kernels are compiled, so that none of them waits.
+compile = $(bin)/python -m rocking.kernels
 # Chromium for the tests of the page, which are skipped if it cannot be installed.
 chromium = [ -x /usr/bin/chromium ] || scripts/debian.sh chromium || echo 'without it the tests of the page are skipped'
 
 # Libraries for the PDF version of the report; without them only the HTML page is written.
 print = scripts/debian.sh libpango-1.0-0 libpangoft2-1.0-0 libharfbuzz-subset0 || true
 
-.PHONY: help setup reproduce explore test test-long test-exhaustive mutations bench bench-against lint format docs site constraints
+.PHONY: help setup reproduce explore test test-long test-exhaustive mutations bench bench-against lint format docs site wheel constraints
 
 help:
 	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' Makefile | while IFS=$$'\t' read -r name what; do printf 'make %-15s %s\n' "$$name" "$$what"; done
 
-setup: ## make .venv with the pinned versions, or bring it up to date
+setup: ## make .venv with the pinned versions, or bring it up to date, and compile the kernels in the background
 	@scripts/setup.sh
+	@$(compile) --background
 
 reproduce: setup ## report on Yim & Lin (1991), all figures and claims: results/yim-lin-1991/index.html
 	@$(print)
@@ -76,6 +74,9 @@ docs: ## the pages, with all code blocks executed: build/docs/index.html
 	@echo wrote build/docs/index.html
 
 site: reproduce docs ## the report of Yim & Lin (1991), then the pages with it: minutes longer than docs
+
+wheel: setup ## wheel with the machine code of all kernels: dist/
+	@$(bin)/python scripts/wheel.py
 
 constraints: ## pin the newest versions again; PYTHONS names an interpreter of each minor version
 	@scripts/constraints.sh $(or $(PYTHONS),python3.11 python3.12 python3.13)
