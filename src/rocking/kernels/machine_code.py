@@ -113,7 +113,7 @@ def is_stored(name: str) -> bool:
 def read(name: str) -> bytes | None:
     """Read the object file of an entry point; None if it is missing or damaged.
 
-    A damaged file in the folder is removed, so that it is compiled anew.
+    A damaged file in the folder is removed, so that it is compiled again.
     """
     for path in paths_of(name):
         try:
