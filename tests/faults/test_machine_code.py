@@ -15,6 +15,7 @@ from pathlib import Path
 import pytest
 
 from rocking import kernels
+from rocking.kernels import build_processes
 
 SOURCES = Path(kernels.__file__).parent
 MODULES = (
@@ -359,15 +360,21 @@ def test_program_without_an_interpreter_compiles_by_itself(package, executable):
     assert package.compilers == [process.pid]
 
 
-def test_settings_of_the_compiler_do_not_reach_code_that_others_use(package):
-    plain = package.run()
-    (file,) = package.cache.rglob("*.o")
-    code = file.read_bytes()
-    shutil.rmtree(package.cache)
-    assert (
-        package.run(NUMBA_OPT="0", NUMBA_DISABLE_JIT="1", NUMBA_BOUNDSCHECK="1")["result"] == plain["result"]
-    )
-    assert file.read_bytes() == code
+def test_settings_of_the_compiler_do_not_reach_code_that_others_use(package, monkeypatch):
+    others = {
+        "NUMBA_OPT": "0",
+        "NUMBA_DISABLE_JIT": "1",
+        "NUMBA_BOUNDSCHECK": "1",
+        "NUMBA_CPU_NAME": "generic",
+    }
+    for name, value in others.items():
+        monkeypatch.setenv(name, value)
+    for processors, own in (("x86-64-v3", {"NUMBA_CPU_NAME", "NUMBA_CPU_FEATURES"}), ("native", set())):
+        environment = build_processes.builder_environment(processors)
+        assert {name for name in environment if name.startswith("NUMBA_")} == own
+        assert environment.get("NUMBA_CPU_NAME") != "generic"
+    assert package.run(**others)["result"] == RIGHT
+    assert len(package.compilers) == 1
 
 
 BROKEN = """
