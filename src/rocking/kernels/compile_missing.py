@@ -50,7 +50,7 @@ def kernels_below(entry: EntryPoint) -> set[Dispatcher]:
 def noting_progress(entry: EntryPoint, path: Path) -> Iterator[None]:
     """Write the fraction of the work that is done into a file, as the compiler goes on."""
     below = [kernel for kernel in kernels_below(entry) if not kernel.overloads]
-    part = path.with_suffix(".part")
+    part = path.with_suffix(".noted")  # ".part" is that of the object file
 
     class Listener(event.Listener):
         def on_start(self, _: event.Event) -> None:

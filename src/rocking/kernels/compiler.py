@@ -93,15 +93,15 @@ class Words:
 
 
 class KernelLibrary(JITCodeLibrary):
-    """Optimised code of a kernel. Machine code is kept only if the kernel has a wrapper for Python: most have none."""
+    """Optimised code of a kernel. Its machine code is loaded only if the kernel has a wrapper for Python: most have none."""
 
     _added = False
 
     def _finalize_final_module(self) -> None:
         self._finalize_dynamic_globals()
         self._verify_declare_only_symbols()
-        # The machine code is of no use, but the last steps towards it change the module: the march gets 3 % faster.
-        self._codegen._tm.emit_object(self._final_module)
+        # Callers do not need the object file. But the last steps towards it change the module, and the march gets 3 % faster.
+        self.object_file = bytes(self._codegen._tm.emit_object(self._final_module))
         self._finalized = True
 
     def get_pointer_to_function(self, name: str) -> int:
@@ -111,7 +111,7 @@ class KernelLibrary(JITCodeLibrary):
             return 0
         if not self._added:
             self._added = True
-            # A copy: making machine code changes the module, which callers still need.
+            # A copy, because callers still need the module, and the engine changes it.
             self._machine_module = self._final_module.clone()
             self._codegen._add_module(self._machine_module)
             self._finalize_specific()
@@ -145,11 +145,6 @@ class EntryLibrary(KernelLibrary):
         for variable in [one for one in self._final_module.global_variables if not one.is_declaration]:
             variable.linkage = Linkage.internal
         super()._optimize_final_module()
-
-    def emit_object(self) -> bytes:
-        """Return the object file."""
-        self._ensure_finalized()
-        return bytes(self._codegen._tm.emit_object(self._final_module))
 
 
 class KernelCompiler(Compiler):
@@ -208,4 +203,6 @@ def compile_entry(
     pipeline = type("EntryCompiler", (KernelCompiler,), {"library_class": library_class})
     made = CFunc(scope["run"], ((types.intp,), types.void), {}, dict(options), pipeline_class=pipeline)
     with global_compiler_lock:
-        return made._compile_uncached().library.emit_object()
+        library = made._compile_uncached().library
+        library._ensure_finalized()
+        return library.object_file
