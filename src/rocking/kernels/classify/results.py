@@ -40,9 +40,13 @@ class ResultArrays(NamedTuple):
     digits: Floats1
 
 
+# Found once: the annotations of a class take longer to read than the arrays to allocate.
+DTYPES = tuple(resolve(kind, None).dtype for kind in types_of(ResultArrays))
+
+
 def empty_results(count):
     """Return result arrays for ``count`` points."""
-    return ResultArrays(*(np.zeros(count, resolve(kind, None).dtype) for kind in types_of(ResultArrays)))
+    return ResultArrays(*(np.zeros(count, dtype) for dtype in DTYPES))
 
 
 def judgement_of(results, k):
