@@ -14,6 +14,7 @@ from rocking.kernels.classify.reset import begin_tangent, new_tracker
 from rocking.kernels.classify.workspace import make_workspace
 from rocking.kernels.compile_options import KERNEL
 from rocking.kernels.deferred import njit
+from rocking.kernels.forcing.harmonic.parameters import parameters_from_row
 from rocking.kernels.lanes.log import log_arcs
 from rocking.kernels.lanes.scalar_fallback import find_event, update_peak
 from rocking.kernels.lanes.state import FIND_EVENT, IDLE, LANES, LOAD_NEXT, NO_REQUEST, UPDATE_PEAK
@@ -22,7 +23,6 @@ from rocking.kernels.lanes.transfer import load_block, set_leg
 from rocking.kernels.lanes.workspace import make_lane_workspace
 from rocking.kernels.march.march import MAX_EVENTS, UNKNOWN, begin
 from rocking.kernels.march.tangent import TangentState
-from rocking.kernels.parameters import parameters_from_row
 
 CYCLES, BEFORE = 3000, 30
 BLOCKS = 20 * LANES
@@ -44,7 +44,7 @@ def last_impacts(systems, cycles, memory, phases, speeds):
         p = parameters_from_row(systems[k])
         progress = begin(p, 0.0, 0.0, UNKNOWN)[0]
         after = marched(p, progress, cycles, memory)
-        phases[k], speeds[k] = math.atan2(after.arc.sine, after.arc.cosine), after.arc.velocity
+        phases[k], speeds[k] = math.atan2(after.arc.drive.sine, after.arc.drive.cosine), after.arc.velocity
 
 
 @njit(**KERNEL)

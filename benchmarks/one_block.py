@@ -13,10 +13,10 @@ from benchmarks.peers import Heyoka, scipy_march
 from benchmarks.reference import DIGITS, state_at
 from benchmarks.table import Figure
 from rocking import Harmonic, State, System, simulate
+from rocking.kernels.forcing.harmonic.parameters import harmonic_parameters
 from rocking.kernels.march import march as kernel
 from rocking.kernels.march.progress import Recording
 from rocking.kernels.march.tangent import TangentState
-from rocking.kernels.parameters import harmonic_parameters
 
 CYCLES_OF_THE_KERNEL = 60_000
 CYCLES_OF_A_THREAD = 200_000

@@ -22,10 +22,10 @@ from rocking.kernels.classify.results import empty_results, store_result
 from rocking.kernels.classify.workspace import make_workspace
 from rocking.kernels.compile_options import KERNEL
 from rocking.kernels.deferred import njit
+from rocking.kernels.forcing.harmonic.parameters import parameters_from_row
 from rocking.kernels.march import march
 from rocking.kernels.march.progress import Recording
 from rocking.kernels.numerics.replace_fields import replacing
-from rocking.kernels.parameters import parameters_from_row
 from rocking.model import Criterion
 
 POINTS = 1000

@@ -12,8 +12,8 @@ from oracles import lanes as oracle
 from rocking.kernels import batch
 from rocking.kernels.classify.results import empty_results
 from rocking.kernels.classify.workspace import make_workspace
+from rocking.kernels.forcing.harmonic.parameters import harmonic_parameters
 from rocking.kernels.lanes.state import LANES
-from rocking.kernels.parameters import harmonic_parameters
 
 TABLE = json.loads((Path(__file__).resolve().parents[1] / "data" / "states.json").read_text())
 PLAIN = [

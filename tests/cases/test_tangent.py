@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 from rocking.kernels import event_kinds as ev
+from rocking.kernels.forcing.harmonic.parameters import harmonic_parameters
 from rocking.kernels.march import march as kernel
 from rocking.kernels.march import tangent
 from rocking.kernels.march.event_rows import EVENT_ROW
 from rocking.kernels.march.progress import Recording
 from rocking.kernels.march.tangent import TangentState
-from rocking.kernels.parameters import harmonic_parameters
 
 NAMES = ("amplitude", "frequency", "phase", "restitution", "brace_angle", "brace_restitution")
 NOTHING = np.empty((0, 2))
@@ -224,9 +224,9 @@ def test_exponents_sum_to_the_loss_on_random_bounded_runs():
         status, progress, _, _ = kernel.march(p, progress, cycles, Recording(), tangent)
         if status != kernel.DONE or not np.isfinite(growth).all():
             continue  # overturned, or at rest for a while: no exponents
-        time = cycles * p.period
-        loss = progress.impacts * math.log(p.restitution) + progress.brace_hits * math.log(
-            p.brace_restitution
+        time = cycles * p.forcing.period
+        loss = progress.impacts * math.log(p.block.restitution) + progress.brace_hits * math.log(
+            p.block.brace_restitution
         )
         worst = max(worst, abs(growth.sum() - 2.0 * loss) / time / max(1.0, 2.0 * abs(loss) / time))
         checked += 1

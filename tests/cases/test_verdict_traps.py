@@ -12,15 +12,15 @@ import rocking as rk
 from oracles import undamped
 from rocking.kernels import batch
 from rocking.kernels.classify import verdict_record
+from rocking.kernels.forcing.harmonic.parameters import harmonic_parameters
 from rocking.kernels.march import march
 from rocking.kernels.march.progress import Recording
 from rocking.kernels.march.tangent import TangentState
-from rocking.kernels.parameters import harmonic_parameters
 
 PEAK = """
 import math, sys
 from rocking.kernels.march import march
-from rocking.kernels.parameters import harmonic_parameters
+from rocking.kernels.forcing.harmonic.parameters import harmonic_parameters
 period = 1.5788944723618088
 p = harmonic_parameters(13.266331658291458, 2 * math.pi / period, period, 2.3999632297286526, 0.925)
 progress, _ = march.begin_march(p, -1.5810174541726596, -2.118118497481491)

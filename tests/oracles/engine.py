@@ -3,9 +3,9 @@
 import math
 
 from rocking.kernels import event_kinds
-from rocking.kernels.arc.solution import arc_from, propagator_or_none
-from rocking.kernels.march import next_event
-from rocking.kernels.parameters import harmonic_parameters
+from rocking.kernels.forcing.harmonic import next_event
+from rocking.kernels.forcing.harmonic.parameters import harmonic_parameters
+from rocking.kernels.forcing.harmonic.solution import arc_from, propagator_or_none
 
 KINDS = {event_kinds.IMPACT: "base", event_kinds.BRACE: "brace"}
 

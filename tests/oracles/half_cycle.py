@@ -7,8 +7,9 @@ import numpy as np
 
 from oracles.engine import harmonic_parameters
 from rocking.kernels import event_kinds
-from rocking.kernels.arc.solution import arc_from
-from rocking.kernels.march import next_event, tangent
+from rocking.kernels.forcing.harmonic import next_event
+from rocking.kernels.forcing.harmonic.solution import arc_from
+from rocking.kernels.march import tangent
 
 
 def _flight(amplitude, omega, phase, velocity, t):

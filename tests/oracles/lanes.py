@@ -4,10 +4,11 @@ import math
 
 import numpy as np
 
-from rocking.kernels.arc.solution import arc_from, shift_clock
 from rocking.kernels.compile_options import KERNEL
 from rocking.kernels.deferred import njit
 from rocking.kernels.event_kinds import FLIGHT
+from rocking.kernels.forcing.arc import shift_clock
+from rocking.kernels.forcing.harmonic.solution import arc_from
 from rocking.kernels.lanes.root import step
 from rocking.kernels.lanes.scalar_fallback import find_event, leg_done
 from rocking.kernels.lanes.state import (
@@ -63,7 +64,7 @@ def pass_on(s, passes):
 @njit(**KERNEL)
 def to_the_end(s, p, events):
     """March all lanes, of one system, to their targets; ``events`` (lanes, n, 4) takes (cycle, time, side, velocity) after each event."""
-    moving, braced = LANES, p.brace_angle < math.inf
+    moving, braced = LANES, p.block.brace_angle < math.inf
     strike_all(s, braced)
     while moving > 0:
         advance_all(s, braced)
@@ -88,7 +89,7 @@ def states(s, p, out):
     """Write the states of the blocks at their targets."""
     for i in range(LANES):
         cycles = s.target[i] - s.cycle[i]
-        arc = shift_clock(arc_of(s, i, p), cycles * p.period)
+        arc = shift_clock(arc_of(s, i, p), cycles * p.forcing.period)
         out[i, 0], out[i, 1] = state_at(p, FLIGHT, arc, -arc.start)
 
 

@@ -5,10 +5,10 @@ import math
 import numpy as np
 
 import rocking as rk
+from rocking.kernels.forcing.harmonic.parameters import harmonic_parameters
 from rocking.kernels.march import march as kernel
 from rocking.kernels.march.progress import Recording
 from rocking.kernels.march.tangent import TangentState
-from rocking.kernels.parameters import harmonic_parameters
 
 STAGES = (100_000, 1_000_000, 5_000_000)  # cycles run before a recurrence is looked for
 WINDOW = 4096
@@ -39,7 +39,7 @@ def run(system, start, cycles, *, keep=False, place=0.0):
     progress, _ = kernel.begin_march(p, start.angle, start.velocity)
     rows, done, status = np.empty((cycles if keep else 0, 2)), 0, kernel.PAUSED
     while status == kernel.PAUSED:
-        recording = Recording(place * p.period, rows[done:])
+        recording = Recording(place * p.forcing.period, rows[done:])
         status, progress, taken, _ = kernel.march(p, progress, cycles, recording)
         done += taken
     if status == kernel.CROWDED:
@@ -120,7 +120,7 @@ def growth_rate(system, start, cycles=CHAOS_CYCLES):
     for batch in range(1, BATCHES + 1):
         growth = np.zeros(2)
         progress = _onward(p, progress, cycles // 2 + batch * length, columns, growth)
-        rates.append(growth[0] / (length * p.period))
+        rates.append(growth[0] / (length * p.forcing.period))
     if not np.isfinite(rates).all():
         return -math.inf, 0.0
     return float(np.mean(rates)), float(np.std(rates, ddof=1) / math.sqrt(BATCHES))

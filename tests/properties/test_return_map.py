@@ -10,17 +10,16 @@ from oracles.arcs import arcs
 from oracles.crossing import first_events
 from oracles.distance import Arc
 from rocking.kernels import event_kinds
-from rocking.kernels.arc import bracket
-from rocking.kernels.arc.solution import arc_from, propagator_or_none
 from rocking.kernels.classify import workspace
 from rocking.kernels.compile_options import KERNEL
 from rocking.kernels.deferred import njit
-from rocking.kernels.march import next_event
+from rocking.kernels.forcing.harmonic import bracket, next_event
+from rocking.kernels.forcing.harmonic.parameters import harmonic_parameters, parameters_from_row
+from rocking.kernels.forcing.harmonic.solution import arc_from, propagator_or_none
 from rocking.kernels.march.march import DONE, UNKNOWN, begin_march, march
 from rocking.kernels.march.progress import Recording
 from rocking.kernels.march.tangent import TangentState
 from rocking.kernels.orbits import fixed_point, newton_search
-from rocking.kernels.parameters import harmonic_parameters, parameters_from_row
 
 STATES = 10_000
 # Of the start, the phase and the amplitude; a march rounds each of its events by some 10^-15.
@@ -58,7 +57,7 @@ def plain_image(system, angle, velocity, period, mirrored):
         arc = progress.arc
         return np.array([arc.side * arc.angle, arc.side * arc.velocity] if status == DONE else [math.nan] * 2)
     section = np.full(((period + 1) // 2, 2), math.nan)
-    march(p, progress, len(section), Recording(0.5 * p.period, section))
+    march(p, progress, len(section), Recording(0.5 * p.forcing.period, section))
     return -section[-1]
 
 
@@ -116,7 +115,7 @@ def first_event(p, period, mirrored, side, angle, velocity, guess):
     q, _, start, _ = newton_search.return_map(p, period, mirrored)
     arc = arc_from(q, side, start, angle, velocity)
     coming, _ = next_event.next_event(q, event_kinds.FLIGHT, arc, propagator_or_none(q, guess))
-    return arc.psi, coming.event, coming.wait
+    return arc.constants.psi, coming.event, coming.wait
 
 
 @njit(**KERNEL)

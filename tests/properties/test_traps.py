@@ -8,9 +8,9 @@ import pytest
 import rocking as rk
 from oracles.motion import simulate as brute_force
 from rocking.kernels import event_kinds
-from rocking.kernels.arc.solution import arc_from
-from rocking.kernels.march import next_event
-from rocking.kernels.parameters import harmonic_parameters
+from rocking.kernels.forcing.harmonic import next_event
+from rocking.kernels.forcing.harmonic.parameters import harmonic_parameters
+from rocking.kernels.forcing.harmonic.solution import arc_from
 
 
 def _case(A, T, e, N, phi=0.0, start=(0.0, 0.0), brace=None, r=None):
@@ -101,7 +101,7 @@ def test_who_comes_back_to_a_brace_before_the_clock_has_moved_waits_for_the_next
     )
     p = harmonic_parameters(amplitude, 2.0 * math.pi / period, period, phase, 0.5, 1.5, 0.0)
     arc = arc_from(p, 1, start, 1.5, 0.0)
-    assert not next_event.stays_leaning(p, 1, arc.psi)
+    assert not next_event.stays_leaning(p, arc)
     coming = next_event.any_event(p, event_kinds.FLIGHT, arc)
     assert coming.event == event_kinds.BRACE
     assert start + coming.wait == start

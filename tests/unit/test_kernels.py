@@ -10,9 +10,10 @@ import mpmath
 import numpy as np
 import pytest
 
-from rocking.kernels import event_kinds, machine_code, parameters
+from rocking.kernels import event_kinds, machine_code
 from rocking.kernels.deferred import import_all
 from rocking.kernels.entry_point import ENTRY_POINTS
+from rocking.kernels.forcing.harmonic import parameters
 from rocking.kernels.march import march as kernel
 from rocking.kernels.march.event_rows import EVENT_ROW
 from rocking.kernels.march.progress import Recording

@@ -8,10 +8,10 @@ import pytest
 import rocking as rk
 from rocking.kernels.classify import periodicity, recurrence, workspace
 from rocking.kernels.deferred import njit
+from rocking.kernels.forcing.harmonic.parameters import harmonic_parameters
 from rocking.kernels.march.march import UNKNOWN
 from rocking.kernels.march.tangent import Tangent
 from rocking.kernels.orbits import fixed_point, floquet, symmetric_mode
-from rocking.kernels.parameters import harmonic_parameters
 
 RANDOM = np.random.default_rng(1991)
 
@@ -213,7 +213,8 @@ def test_newtons_method_finds_the_mode_of_the_closed_form_with_its_multipliers(a
 def test_the_state_of_a_mode_is_that_of_the_closed_form_on_either_side(amplitude, period, e, mirrored):
     p, state, _ = mode_1_1(amplitude, period, e)
     if mirrored:
-        p, state = p._replace(phase=p.phase + math.pi), (-state[0], -state[1])
+        turned = p.forcing._replace(phase=p.forcing.phase + math.pi)
+        p, state = p._replace(forcing=turned), (-state[0], -state[1])
     off = np.array([3e-3, -4e-3])
     distance, angle, velocity, since, half = nearest(p, 1, *(np.array(state) + off))
     assert distance == pytest.approx(5e-3, rel=1e-9)

@@ -8,13 +8,13 @@ import pytest
 
 from oracles import lanes as oracle
 from rocking.kernels import event_kinds
-from rocking.kernels.arc.solution import arc_from
 from rocking.kernels.compile_options import KERNEL
 from rocking.kernels.deferred import njit
+from rocking.kernels.forcing.harmonic import next_event
+from rocking.kernels.forcing.harmonic.parameters import harmonic_parameters
+from rocking.kernels.forcing.harmonic.solution import arc_from
 from rocking.kernels.lanes import state
-from rocking.kernels.march import next_event
 from rocking.kernels.numerics import simd
-from rocking.kernels.parameters import harmonic_parameters
 
 ULP = 2.0**-52
 
@@ -102,11 +102,16 @@ def test_first_impacts_are_those_of_one_block():
         assert one.event == event_kinds.IMPACT, (p, start)
         compared += 1
         grown = math.cosh(one.wait)
-        scale = 16 * ULP * grown * (start[2] + (1.0 + p.amplitude) * min(one.wait, 1.0) + p.response)
-        bend = abs(1.0 + p.amplitude) / -one.velocity
+        scale = (
+            16
+            * ULP
+            * grown
+            * (start[2] + (1.0 + p.forcing.amplitude) * min(one.wait, 1.0) + p.forcing.response)
+        )
+        bend = abs(1.0 + p.forcing.amplitude) / -one.velocity
         assert abs(ours[0] - one.wait) <= 16 * ULP * one.wait + scale / -one.velocity, (p, start)
         assert abs(ours[1] + one.velocity) <= scale * (1.0 + bend), (p, start)
-        there = one.cosine, one.sine, one.sinh, one.versinh, 0.0
+        there = one.drive.cosine, one.drive.sine, one.sinh, one.versinh, 0.0
         assert ours[2:] == pytest.approx(there, rel=1e-8, abs=1e-8), (p, start)
     assert compared >= 0.4 * len(systems)
 
@@ -147,9 +152,9 @@ def test_arc_that_rises_above_the_peak_is_always_looked_at_and_few_others():
         if coming.event != event_kinds.IMPACT:
             continue
         t = np.linspace(0.0, coming.wait, 1000)
-        eta = p.frequency * (start + t) + p.phase + (0.0 if side > 0 else math.pi)
-        beta = p.amplitude / (1.0 + p.frequency**2)
-        mean, half = -1.0 - beta * math.cos(eta[0]), velocity + beta * p.frequency * math.sin(eta[0])
+        eta = p.forcing.frequency * (start + t) + p.forcing.phase + (0.0 if side > 0 else math.pi)
+        beta = p.forcing.amplitude / (1.0 + p.forcing.frequency**2)
+        mean, half = -1.0 - beta * math.cos(eta[0]), velocity + beta * p.forcing.frequency * math.sin(eta[0])
         u = 0.5 * ((mean + half) * np.exp(t) + (mean - half) * np.exp(-t)) + 1.0 + beta * np.cos(eta)
         largest[k] = u.max()
     falls = np.isfinite(largest)
@@ -204,12 +209,17 @@ def test_first_events_between_braces_are_those_of_one_block():
             32
             * ULP
             * grown
-            * (abs(start[2]) + start[3] + (1.0 + p.amplitude) * min(one.wait, 1.0) + p.response)
+            * (
+                abs(start[2])
+                + start[3]
+                + (1.0 + p.forcing.amplitude) * min(one.wait, 1.0)
+                + p.forcing.response
+            )
         )
-        bend = (1.0 + p.amplitude + p.brace_angle) / abs(one.velocity)
+        bend = (1.0 + p.forcing.amplitude + p.block.brace_angle) / abs(one.velocity)
         assert abs(ours[0] - one.wait) <= 16 * ULP * one.wait + scale / abs(one.velocity), (p, start)
         assert abs(ours[1] - abs(one.velocity)) <= scale * (1.0 + bend), (p, start)
-        there = one.cosine, one.sine, one.sinh, one.versinh
+        there = one.drive.cosine, one.drive.sine, one.sinh, one.versinh
         assert ours[2:6] == pytest.approx(there, rel=1e-8, abs=1e-8), (p, start)
     assert 0.2 * len(systems) < at_brace < 0.8 * len(systems)
     assert certain.mean() > 0.9

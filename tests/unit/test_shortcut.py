@@ -6,19 +6,18 @@ import numpy as np
 import pytest
 
 from rocking.kernels import event_kinds
-from rocking.kernels.arc import bracket, enclosure, fast_path
-from rocking.kernels.arc.solution import NONE_YET, arc_from
 from rocking.kernels.compile_options import KERNEL
 from rocking.kernels.deferred import njit
-from rocking.kernels.march import next_event
-from rocking.kernels.parameters import harmonic_parameters, make
+from rocking.kernels.forcing.harmonic import bracket, enclosure, fast_path, next_event
+from rocking.kernels.forcing.harmonic.parameters import harmonic_parameters, make
+from rocking.kernels.forcing.harmonic.solution import NONE_YET, arc_from
 
 SAMPLES = np.linspace(0.0, 1.0, 300)
 
 
 @njit(**KERNEL)
 def stays_between(p, t, angle, velocity, end, arrival):
-    system = p.amplitude, p.frequency, p.brace_angle
+    system = p.forcing.amplitude, p.forcing.frequency, p.block.brace_angle
     return enclosure.stays_between(system, t, (angle, velocity), (end, arrival))
 
 

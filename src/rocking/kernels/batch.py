@@ -9,10 +9,10 @@ from rocking.kernels.classify.results import ResultArrays, empty_results, judgem
 from rocking.kernels.classify.workspace import Workspace, make_workspace
 from rocking.kernels.compile_options import KERNEL
 from rocking.kernels.entry_point import entry_point
+from rocking.kernels.forcing.harmonic.parameters import parameters_from_row, row_of
 from rocking.kernels.lanes.scheduler import MIN_LANE_PERIOD, classify_batch_lanes
 from rocking.kernels.lanes.workspace import make_lane_workspace
 from rocking.kernels.machine_code import CLASSES, processor_class
-from rocking.kernels.parameters import parameters_from_row, row_of
 from rocking.kernels.signature import Floats2, Integers1
 
 # Version of the results. It is raised whenever a result for the same request may change, so that a store

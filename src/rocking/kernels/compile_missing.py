@@ -7,13 +7,14 @@ import traceback
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
+from types import FunctionType
 
 from numba.core import event
 from numba.core.dispatcher import Dispatcher
 
 from rocking.kernels import machine_code
 from rocking.kernels.build_processes import SECONDS, hold_lock
-from rocking.kernels.deferred import bind_compiled, import_all
+from rocking.kernels.deferred import CONTRACTS, bind_compiled, import_all
 from rocking.kernels.entry_point import ENTRY_POINTS, EntryPoint
 
 # Share of the time of an entry point that its last step takes, after the compilation of all that it calls. Measured: 6 to 24 %.
@@ -40,6 +41,9 @@ def kernels_below(entry: EntryPoint) -> set[Dispatcher]:
         function = left.pop()
         for name in function.__code__.co_names:
             kernel = function.__globals__.get(name)
+            if isinstance(kernel, FunctionType) and kernel in CONTRACTS:
+                bodies = CONTRACTS[kernel].bodies
+                kernel = bodies.get(entry.chosen, next(iter(bodies.values()))).compiled
             if isinstance(kernel, Dispatcher) and kernel not in found:
                 found.add(kernel)
                 left.append(kernel.py_func)

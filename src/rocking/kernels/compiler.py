@@ -5,6 +5,7 @@ is optimised with its callers. Left to itself the linker takes the copy that it 
 round differently from one that finds all on disk, and the order of calls would decide.
 """
 
+import inspect
 from collections.abc import Callable
 from typing import Any
 
@@ -19,8 +20,9 @@ from numba.core.compiler import Compiler
 from numba.core.compiler_lock import global_compiler_lock
 from numba.core.errors import TypingError
 from numba.core.typeconv import Conversion
-from numba.extending import intrinsic
+from numba.extending import intrinsic, overload
 
+from rocking.kernels.compile_options import INTERNAL_INLINE
 from rocking.kernels.machine_code import symbol_of
 from rocking.kernels.signature import Array, Fields, Signature
 
@@ -161,6 +163,21 @@ class KernelCompiler(Compiler):
 def dispatcher_of(function: Callable[..., Any], options: dict[str, Any]) -> Any:
     """Return the dispatcher of a kernel."""
     return numba.njit(pipeline_class=KernelCompiler, **options)(function)
+
+
+def chosen_by_type(stub: Callable[..., Any], bodies: dict[type, Any]) -> Callable[..., Any]:
+    """Return a function that stands for one of several kernels in compiled code, by the type of its first argument."""
+    parameters = inspect.signature(stub)
+    names = ", ".join(parameters.parameters)
+
+    def choose(p: types.NamedTuple, *_: types.Type) -> Callable[..., Any]:
+        scope = {"body": bodies[p.instance_class].compiled}
+        exec(f"def forward({names}):\n    return body({names})", scope)
+        return scope["forward"]
+
+    choose.__signature__ = parameters  # type: ignore[attr-defined]
+    overload(stub, jit_options=dict(INTERNAL_INLINE, pipeline_class=KernelCompiler))(choose)
+    return stub
 
 
 def compile_entry(

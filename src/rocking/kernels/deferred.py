@@ -13,6 +13,10 @@ UNBOUND: set[str] = set()
 NOT_KERNELS = ("__main__", "compile_missing", "compiler")
 
 
+# Functions that have several bodies, by the function that stands for them in compiled code.
+CONTRACTS: dict[Callable[..., Any], "Contract"] = {}
+
+
 class Kernel:
     """A function for the compiler, with its options; ``bind_compiled`` puts the compiled function in its place."""
 
@@ -48,6 +52,34 @@ class Intrinsic:
         return intrinsic(self.function)
 
 
+class Contract:
+    """A function of which each type of the first argument has a body of its own, chosen by the compiler."""
+
+    def __init__(self, function: Callable[..., Any]) -> None:
+        self.function = function
+        self.bodies: dict[type, Kernel] = {}
+        UNBOUND.add(function.__module__)
+        CONTRACTS[function] = self
+
+    @cached_property
+    def compiled(self) -> Any:
+        """The function for which the compiler takes the body."""
+        from rocking.kernels.compiler import chosen_by_type
+
+        return chosen_by_type(self.function, self.bodies)
+
+
+def contract(function: Callable[..., Any]) -> Contract:
+    """Mark a function without a body as one that ``provide`` gives bodies."""
+    return Contract(function)
+
+
+def provide(kind: type, bodies: dict[Contract, Kernel]) -> None:
+    """Give functions their bodies for a first argument of a type."""
+    for stub, body in bodies.items():
+        stub.bodies[kind] = body
+
+
 def njit(**options: Any) -> Callable[[Callable[..., Any]], Any]:
     """Mark a function as a kernel, as ``numba.njit`` does."""
     return lambda function: Kernel(function, options)
@@ -74,5 +106,5 @@ def bind_compiled() -> None:
     while UNBOUND:
         module = sys.modules[UNBOUND.pop()]
         for own, value in list(vars(module).items()):
-            if isinstance(value, Kernel | Intrinsic):
+            if isinstance(value, Kernel | Intrinsic | Contract):
                 setattr(module, own, value.compiled)

@@ -1,168 +1,20 @@
-"""Parameters of a system: one flat named tuple, with derived quantities that depend on the system alone."""
+"""Parameters of a system that every forcing shares: those of the block and of the clock.
 
-import math
-from fractions import Fraction
+The parameters of a system are a named tuple (block, forcing, clock). The second field is a tuple of its forcing.
+"""
+
 from typing import NamedTuple
 
-from rocking.kernels.compile_options import INTERNAL, KERNEL
-from rocking.kernels.deferred import njit
-from rocking.kernels.entry_point import entry_point
-from rocking.kernels.numerics.elementary import fma
 
-TURN = Fraction("6.28318530717958647692528676655900576839433879875021")
+class BlockParameters(NamedTuple):
+    """Block and its braces; the angle is infinite if there are no braces."""
 
-
-class HarmonicParameters(NamedTuple):
-    """Parameters of a block excited by A cos(Omega tau + phi), in normalised units.
-
-    ``brace_angle`` is infinite if there are no braces. ``base_half`` and ``brace_half`` bound the *sign
-    intervals* of an arc, on which the forcing term of the base (or brace) keeps its sign. The intervals meet
-    where eta = +-half, with eta = psi (+ pi on the negative side). The bounds are infinite if the sign never
-    changes.
-    """
-
-    amplitude: float
-    frequency: float
-    period: float
-    phase: float
     restitution: float
     brace_angle: float
     brace_restitution: float
-    per_frequency: float  # 1/Omega
-    reciprocal: float  # 1/(1 + Omega**2)
-    response: float  # beta = A/(1 + Omega**2)
-    base_half: float
-    brace_half: float
-    # At the sign changes of the base's forcing term: 1 + beta cos eta and the absolute value of its
-    # derivative. Lengths of the sign intervals, |eta| < half ("inside") and the other one ("outside").
-    # e^+-length of the outer interval and of a whole forcing period.
-    sign_change_displacement: float
-    sign_change_velocity: float
-    base_inside: float
-    base_outside: float
-    base_outside_growth: float
-    base_outside_decay: float
-    turn_growth: float
-    turn_decay: float
-    base_outside_tanh: float
 
 
-@njit(**INTERNAL)
-def stiffness(frequency):
-    """Return 1 + Omega**2 in two parts: the rounded sum and its rounding error."""
-    square = frequency * frequency
-    total = 1.0 + square
-    large, small = max(square, 1.0), min(square, 1.0)
-    return total, (small - (total - large)) + fma(frequency, frequency, -square)
+class Clock(NamedTuple):
+    """Division of time into cycles of equal length: a time is an integer cycle and the time within it."""
 
-
-@njit(**INTERNAL)
-def share(numerator, whole, rest):
-    """Return numerator/(whole + rest), correctly rounded except for a rare error in the last place."""
-    quotient = numerator / whole
-    return quotient + (fma(-quotient, whole, numerator) - quotient * rest) / whole
-
-
-@njit(**INTERNAL)
-def make(amplitude, frequency, period, phase, restitution, brace_angle, brace_restitution):
-    """Return the parameters of a system.
-
-    beta and 1/(1 + Omega**2) are rounded only once because every term of an arc contains them.
-    """
-    whole, rest = stiffness(frequency)
-    response, reciprocal = share(amplitude, whole, rest), share(1.0, whole, rest)
-    base_half = math.acos(-1.0 / amplitude) if amplitude > 1.0 else math.inf
-    inside = 2.0 * base_half / frequency
-    outside = max(2.0 * (math.pi - base_half) / frequency, 0.0)
-    brace_half = (
-        math.acos((brace_angle - 1.0) / amplitude) if abs(brace_angle - 1.0) < amplitude else math.inf
-    )
-    growth, turn_growth = math.exp(min(outside, 700.0)), math.exp(min(period, 700.0))
-    return HarmonicParameters(
-        amplitude,
-        frequency,
-        period,
-        phase,
-        restitution,
-        brace_angle,
-        brace_restitution,
-        1.0 / frequency,
-        reciprocal,
-        response,
-        base_half,
-        brace_half,
-        1.0 - reciprocal,
-        response * frequency * math.sin(base_half) if amplitude > 1.0 else 0.0,
-        inside,
-        outside,
-        growth,
-        1.0 / growth,
-        turn_growth,
-        1.0 / turn_growth,
-        math.tanh(outside),
-    )
-
-
-def row_of(p: HarmonicParameters) -> tuple[float, ...]:
-    """Return the arguments of ``make`` that gave these parameters."""
-    return p[:7]
-
-
-@njit(**INTERNAL)
-def parameters_from_row(row):
-    """Return the parameters of a system from a row that holds the arguments of ``make``."""
-    return make(row[0], row[1], row[2], row[3], row[4], row[5], row[6])
-
-
-@entry_point(**KERNEL)
-def make_plain(
-    amplitude: float,
-    frequency: float,
-    period: float,
-    phase: float,
-    restitution: float,
-    brace_angle: float,
-    brace_restitution: float,
-) -> HarmonicParameters:
-    """Return ``make``; entry point for Python."""
-    return make(amplitude, frequency, period, phase, restitution, brace_angle, brace_restitution)
-
-
-def harmonic_parameters(
-    amplitude: float,
-    frequency: float,
-    period: float,
-    phase: float,
-    restitution: float,
-    brace_angle: float = math.inf,
-    brace_restitution: float = 1.0,
-) -> HarmonicParameters:
-    """Return the parameters of a system with harmonic forcing."""
-    values = amplitude, frequency, period, within_a_turn(phase), restitution, brace_angle, brace_restitution
-    return make_plain(*map(float, values))
-
-
-def within_a_turn(phase: float) -> float:
-    """Reduce a phase by whole turns, with one rounding, so that later additions keep its last digits."""
-    return phase if abs(phase) <= TURN else float(Fraction(phase) - round(Fraction(phase) / TURN) * TURN)
-
-
-@njit(**INTERNAL)
-def later(p, time):
-    """Return the system with its clock set to 0 at ``time`` (within a period), which changes its phase."""
-    phase = p.phase + p.frequency * time
-    return at_phase(p, phase - 2.0 * math.pi * round(phase / (2.0 * math.pi)))
-
-
-@njit(**INTERNAL)
-def at_phase(p, phase):
-    """Return the system with a different forcing phase at time 0."""
-    return make(
-        amplitude=p.amplitude,
-        frequency=p.frequency,
-        period=p.period,
-        phase=phase,
-        restitution=p.restitution,
-        brace_angle=p.brace_angle,
-        brace_restitution=p.brace_restitution,
-    )
+    cycle_length: float

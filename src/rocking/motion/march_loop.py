@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from rocking.kernels import parameters as numbers
+from rocking.kernels.forcing.harmonic import parameters as numbers
 from rocking.kernels.march import event_rows
 from rocking.kernels.march import march as kernel
 from rocking.kernels.march import progress as values

@@ -10,7 +10,7 @@ import numpy as np
 from attrs import evolve
 
 from rocking.kernels import event_kinds
-from rocking.kernels import parameters as numbers
+from rocking.kernels.forcing.harmonic import parameters as numbers
 from rocking.kernels.orbits import arclength, branch_point, chain_queries, chain_validation, floquet
 from rocking.kernels.orbits import continuation as following
 from rocking.kernels.orbits import event_chain as kernel

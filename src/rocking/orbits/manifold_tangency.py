@@ -91,7 +91,7 @@ class _Passage(NamedTuple):
     def speeds(self, phases: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return speeds at forcing phases, by bisection on the time near the saddle orbit: the passage is monotone in it."""
         target = self.first + np.mod(self.sign * phases - self.first, math.tau)
-        low, high = np.zeros(len(phases)), np.full(len(phases), self.p.period)
+        low, high = np.zeros(len(phases)), np.full(len(phases), self.p.forcing.period)
         for _ in range(HALVINGS):
             middle = 0.5 * (low + high)
             early = _passages(self.p, self.side, middle)[:, 0] < target

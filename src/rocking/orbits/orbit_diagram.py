@@ -11,6 +11,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from rocking.kernels.forcing.harmonic.parameters import row_of
 from rocking.kernels.march import march, no_recording
 from rocking.kernels.march import sweep as kernel
 from rocking.model import (
@@ -157,7 +158,7 @@ def _values(values: ArrayLike) -> NDArray[np.float64]:
 def _row(system: System, start: State) -> tuple[float, ...]:
     """Return the parameters of a system for the kernel, after checking that it can begin at `start`."""
     check_start(system, start)
-    return start_march(system, start)[0][:7]
+    return row_of(start_march(system, start)[0])
 
 
 class _Lane(NamedTuple):

@@ -235,11 +235,11 @@ def _grown(
     tuple of (ndarray, ndarray, bool)
         Times; points; True if the curve is resolved.
     """
-    times = np.linspace(0.0, cycles * p.period, FIRST_POINTS * cycles + 1)
+    times = np.linspace(0.0, cycles * p.forcing.period, FIRST_POINTS * cycles + 1)
     points = _images(p, side, times)
     while True:
         wide = _too_wide(points, spacing, box)
-        wide &= np.diff(times) > FINEST * cycles * p.period
+        wide &= np.diff(times) > FINEST * cycles * p.forcing.period
         if not wide.any():
             return times, points, True
         if len(times) + wide.sum() > MAX_POINTS:

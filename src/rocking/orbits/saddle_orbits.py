@@ -33,7 +33,7 @@ def check(system: System) -> None:
 
 def response(system: System) -> float:
     """Return β = A/(1 + Ω²)."""
-    return float(start_march(system, State())[0].response)
+    return float(start_march(system, State())[0].forcing.response)
 
 
 def saddle(system: System, phase: float, side: int) -> tuple[float, float]:
@@ -62,4 +62,7 @@ def parameters(system: System, phase: float, backward: bool) -> Any:
     """
     p = start_march(system, State())[0]
     phase = math.remainder(phase, math.tau)
-    return p._replace(phase=-phase, restitution=1.0 / p.restitution) if backward else p._replace(phase=phase)
+    p = p._replace(forcing=p.forcing._replace(phase=-phase if backward else phase))
+    if backward:
+        p = p._replace(block=p.block._replace(restitution=1.0 / p.block.restitution))
+    return p

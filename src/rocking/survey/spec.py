@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from attrs import field, frozen
 
-from rocking.kernels import parameters as numbers
+from rocking.kernels.forcing.harmonic import parameters as numbers
 from rocking.model import NO_BRACES, RANGES, check_between, exactly_one, reals, refusal, shown, within
 
 Values = Mapping[str, np.ndarray]

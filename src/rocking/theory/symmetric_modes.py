@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from rocking.kernels import parameters as numbers
+from rocking.kernels.forcing.harmonic import parameters as numbers
 from rocking.kernels.orbits import floquet, mode_admissibility, symmetric_mode
 from rocking.model import MAX_AMPLITUDE, PERIODS, Mode, refusal, whole, within
 from rocking.theory.arguments import MAX_CYCLES, frequencies, odd, plain, restitutions
@@ -205,7 +205,7 @@ def symmetric_modes(amplitude: float, period: float, restitution: float, n: int)
         remedy = "an impact that stops the block leaves no mode"
         raise ValueError(refusal("restitution", "lie in (0, 1] for symmetric modes", restitution, remedy))
     odd(whole("n", n, 1, MAX_CYCLES))
-    beta = numbers.harmonic_parameters(amplitude, omega, period, 0.0, e).response
+    beta = numbers.harmonic_parameters(amplitude, omega, period, 0.0, e).forcing.response
     modes = []
     for faster in (True, False):
         speed, phase, trace = symmetric_mode.closed_form_plain(omega, beta, e, n, faster)
@@ -222,7 +222,7 @@ def _mode(
     p = numbers.harmonic_parameters(amplitude, omega, period, phase, e)
     length = n * math.pi / omega
     common = -1.0 / (1.0 + math.exp(-length))
-    other = p.response * math.cos(phase) / math.expm1(-length)
+    other = p.forcing.response * math.cos(phase) / math.expm1(-length)
     up, peak = mode_admissibility.half_cycle(p, speed, common + other, common - other, length)
     known = 0.5 * trace, (0.5 * trace - e) * (0.5 * trace + e), e * e
     return Mode(

@@ -10,10 +10,10 @@ from rocking.kernels.classify.verdict_record import PERIODIC, REST
 from rocking.kernels.compile_options import INTERNAL, KERNEL
 from rocking.kernels.deferred import njit
 from rocking.kernels.entry_point import entry_point
+from rocking.kernels.forcing.harmonic.parameters import later, parameters_from_row
 from rocking.kernels.march.march import DONE, STILL, UNKNOWN, begin, march_through
 from rocking.kernels.march.no_recording import NoRecording, no_recording
 from rocking.kernels.march.progress import Recording
-from rocking.kernels.parameters import later, parameters_from_row
 from rocking.kernels.signature import Floats2
 
 # Phase of the section on which attractors are compared, in cycles. An event of a symmetric mode lies there
@@ -28,7 +28,7 @@ LONGER = 10
 @njit(**INTERNAL)
 def rest_angle(p, angle, velocity, cycles, nothing):
     """Return the angle at which a motion comes to rest: 0, or on a brace."""
-    if p.brace_angle == math.inf:
+    if p.block.brace_angle == math.inf:
         return 0.0
     recording = Recording(0.0, nothing.section, nothing.events, False, False)
     progress = begin(p, angle, velocity, UNKNOWN)[0]
@@ -74,7 +74,7 @@ def anchor_each(
         # rounded.
         period, time = results.period[k], results.section_time[k]
         states = scratch[: 2 * period]
-        at = (SECTION * p.period - time) % p.period
+        at = (SECTION * p.forcing.period - time) % p.forcing.period
         q, recording = later(p, time), Recording(at, states, nothing.events, False, False)
         progress = begin(q, results.angle[k], results.velocity[k], UNKNOWN)[0]
         status, _ = march_through(q, progress, 2 * period, recording, nothing.tangent)

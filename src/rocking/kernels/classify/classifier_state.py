@@ -86,7 +86,7 @@ def batch_of(max_cycles):
 def opened(p, angle, velocity, max_cycles):
     """Return the state of a motion from (angle, velocity) at its start."""
     tracker = new_tracker(begin(p, angle, velocity, UNKNOWN)[0])
-    run = Run(tracker, no_flights(), FIRST_SECTION * p.period, 0, False, False)
+    run = Run(tracker, no_flights(), FIRST_SECTION * p.forcing.period, 0, False, False)
     batch = batch_of(max_cycles)
     batch_end = (max_cycles - BATCHES * batch) if batch > 0 else max_cycles + 1
     return ClassifierState(

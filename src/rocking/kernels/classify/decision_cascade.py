@@ -116,7 +116,7 @@ def over_batch(p, tracker, target, max_cycles, grown):
     The tangent vector has ``grown`` by this logarithm in the batch. A release in it erases all perturbations.
     """
     batch = batch_of(max_cycles)
-    return (-math.inf if released_since(tracker, target - batch) else grown) / (batch * p.period)
+    return (-math.inf if released_since(tracker, target - batch) else grown) / (batch * p.forcing.period)
 
 
 @njit(**INTERNAL_INLINE)
@@ -226,7 +226,7 @@ def seek_orbit(p, case, target, max_period, workspace, still):
     if check.period > 0:
         known = KnownOrbit(check, target if check.work > 0 else known.cycle)
     if check.answer == ON_EVENT:
-        run = with_section(run, (run.section_time + NEXT_SECTION * p.period) % p.period, 0)
+        run = with_section(run, (run.section_time + NEXT_SECTION * p.forcing.period) % p.forcing.period, 0)
         known = KnownOrbit(no_cycle(0), known.cycle)
     return undecided(run.tracker), with_known(case, run, known, work), check.coming
 

@@ -3,11 +3,12 @@
 import math
 from typing import NamedTuple
 
-from rocking.kernels.arc.extrema import largest_on
 from rocking.kernels.classify.recurrence import apart, approached, closest_return
 from rocking.kernels.compile_options import AST_INLINE, INTERNAL, KERNEL
 from rocking.kernels.deferred import njit
 from rocking.kernels.entry_point import entry_point
+from rocking.kernels.forcing.harmonic.extrema import largest_on
+from rocking.kernels.forcing.harmonic.parameters import later
 from rocking.kernels.march.march import UNKNOWN
 from rocking.kernels.march.progress import Recording
 from rocking.kernels.march.tangent import Tangent
@@ -25,7 +26,6 @@ from rocking.kernels.orbits.fixed_point import (
 )
 from rocking.kernels.orbits.floquet import adapted_norm, length, spectral_radius
 from rocking.kernels.orbits.symmetric_mode import Nearest, nearest
-from rocking.kernels.parameters import later
 from rocking.kernels.signature import Floats2
 
 # Candidates for Newton's method, in this order. REFINED repeats the search with the least period of the orbit
@@ -76,16 +76,16 @@ class PeriodicityCheck(NamedTuple):
 @njit(**INTERNAL)
 def loses(p, impacts, brace_hits):
     """Return whether a motion with the given numbers of impacts dissipates energy."""
-    return (p.restitution < 1.0 and impacts > 0) or (p.brace_restitution < 1.0 and brace_hits > 0)
+    return (p.block.restitution < 1.0 and impacts > 0) or (p.block.brace_restitution < 1.0 and brace_hits > 0)
 
 
 @njit(**INTERNAL)
 def on_event(p, section, row):
     """Return whether an impact lies within CLEARANCE of a row of the section."""
-    near = CLEARANCE * p.period
+    near = CLEARANCE * p.forcing.period
     angle = abs(section[row, 0])
-    reach = near * abs(section[row, 1]) + near * near * (1.0 + p.amplitude)
-    return angle <= reach or abs(angle - p.brace_angle) <= reach
+    reach = near * abs(section[row, 1]) + near * near * (1.0 + p.forcing.amplitude)
+    return angle <= reach or abs(angle - p.block.brace_angle) <= reach
 
 
 class Candidate(NamedTuple):
@@ -261,7 +261,7 @@ def least_period(p, clocked, found, lag, workspace):
     """Return least period, mirror symmetry and image of an orbit that closes after ``lag`` cycles."""
     scratch, nothing = workspace.scratch, workspace.nothing
     guess = Guess(found.angle, found.velocity, found.image.waits)
-    recording = Recording(0.5 * p.period, scratch, nothing.events, True, False)
+    recording = Recording(0.5 * p.forcing.period, scratch, nothing.events, True, False)
     image = image_after(ReturnMap(clocked, lag, 0.0, 1.0), guess, recording, nothing.tangent)
     same = max(SAME, 100.0 * found.error)
     period, mirrored = repetition(scratch, scratch, found.angle, found.velocity, lag, same)

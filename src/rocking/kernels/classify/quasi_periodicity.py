@@ -6,10 +6,10 @@ The map from impact to impact is analytic.
 import math
 from typing import NamedTuple
 
-from rocking.kernels.arc.solution import arc_from
 from rocking.kernels.compile_options import INTERNAL
 from rocking.kernels.deferred import njit
 from rocking.kernels.event_kinds import BRACE, FLIGHT, IMPACT, NONE
+from rocking.kernels.forcing.harmonic.solution import arc_from
 from rocking.kernels.march.event_rows import state_at
 from rocking.kernels.numerics.averages import bumps, digits_with
 
@@ -72,7 +72,7 @@ def collect(p, flights, rows, events, values):
         if met != event:
             event, count, first_cycle = met, 0, now
         elif count < values.shape[0]:
-            values[count, 0] = (now - cycle) * p.period + (events[k].time - time)
+            values[count, 0] = (now - cycle) * p.forcing.period + (events[k].time - time)
             values[count, 1] = events[k].velocity * events[k].velocity
             count += 1
         cycle, time = now, events[k].time
@@ -99,7 +99,7 @@ def append_lazy_rows(p, before, events, written, after, section_time, section, c
             section[count, 0] = math.nan if mode == FLIGHT else side * angle
             section[count, 1], section[count, 2], section[count, 3] = 0.0, impacts, brace_hits
             section[count, SIDE], section[count, ANGLE], section[count, VELOCITY] = side, angle, velocity
-            section[count, ELAPSED] = (due - begun) * p.period + (section_time - start)
+            section[count, ELAPSED] = (due - begun) * p.forcing.period + (section_time - start)
             count, due = count + 1, due + 1
         if k < written:
             impacts += events[k].event == IMPACT

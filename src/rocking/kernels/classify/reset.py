@@ -125,9 +125,9 @@ def hits_between(p, progress, visit, lifts):
     """
     impacts, brace_hits = progress.impacts - visit.impacts, progress.brace_hits - visit.brace_hits
     rested, leaned = lifts or visit.otherwise, visit.otherwise or not lifts
-    if rested and p.restitution > 0.0:
+    if rested and p.block.restitution > 0.0:
         impacts = -1
-    if leaned and p.brace_restitution > 0.0:
+    if leaned and p.block.brace_restitution > 0.0:
         brace_hits = -1
     return impacts, brace_hits
 
@@ -143,7 +143,7 @@ def at_release(p, tracker, progress):
     half_periods, impacts, brace_hits = 0, -1, -1
     if visit.seen:
         impacts, brace_hits = hits_between(p, progress, visit, lifts)
-        cycles = progress.cycle - visit.cycle + (arc.start - visit.time) / p.period
+        cycles = progress.cycle - visit.cycle + (arc.start - visit.time) / p.forcing.period
         half_periods = round(2.0 * cycles)
         if not visit.strain < MAX_STRAIN:
             half_periods = -half_periods

@@ -196,7 +196,7 @@ def released(tracker, work):
 def periodic(p, ground, tracker, check, section_time):
     """Return the verdict of a motion that has reached a periodic orbit."""
     real, imaginary, _, _ = multipliers(check.found.image.tangent)
-    exponent = math.log(math.hypot(real, imaginary)) / (check.period * p.period), 0.0
+    exponent = math.log(math.hypot(real, imaginary)) / (check.period * p.forcing.period), 0.0
     if ground == NEUTRAL_ORBIT:
         # the product of the multipliers is 1, and the tangent vectors grew no faster than linearly
         exponent = 0.0, math.nan
@@ -221,7 +221,7 @@ def unsettled(p, tracker, work, max_cycles, batches, findings):
     mean, error, correlation = math.nan, math.nan, math.nan
     if findings.measured == BATCHES:
         mean, error, correlation = batch_error(batches)
-    needed = CHAOS_NEEDS if p.brace_angle == math.inf else CHAOS_NEEDS_WITH_BRACES
+    needed = CHAOS_NEEDS if p.block.brace_angle == math.inf else CHAOS_NEEDS_WITH_BRACES
     kind, ground = UNDETERMINED, EXPONENT
     if max_cycles < needed:
         ground = UNWATCHED
@@ -233,7 +233,7 @@ def unsettled(p, tracker, work, max_cycles, batches, findings):
         ground = STANDING
     elif findings.lingers:
         ground = LINGERING
-    elif mean * (batch_of(max_cycles) * p.period) * BATCHES < FAR:
+    elif mean * (batch_of(max_cycles) * p.forcing.period) * BATCHES < FAR:
         ground = LITTLE_GROWTH
     elif correlation > MAX_CORRELATION:
         ground = CORRELATED

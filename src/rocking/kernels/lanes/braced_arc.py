@@ -7,11 +7,11 @@ Undecided cases are left to the functions for one block.
 
 import math
 
-from rocking.kernels.arc.enclosure import grazes, stays_between
-from rocking.kernels.arc.fast_path import REACH
-from rocking.kernels.arc.taylor import reversion, series, velocity_after, within_a_factor_of_two
 from rocking.kernels.compile_options import SIMD_INLINE
 from rocking.kernels.deferred import njit
+from rocking.kernels.forcing.harmonic.enclosure import grazes, stays_between
+from rocking.kernels.forcing.harmonic.fast_path import REACH
+from rocking.kernels.forcing.harmonic.taylor import reversion, series, velocity_after, within_a_factor_of_two
 from rocking.kernels.lanes.evaluate import derivatives, instant_of, set_next
 from rocking.kernels.lanes.state import AT_EVENT, BRACKET, EXTEND, FAILED, REFINE
 from rocking.kernels.numerics.elementary import fma

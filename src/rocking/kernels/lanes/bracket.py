@@ -6,10 +6,10 @@ e^t + c- e^-t + 1 + beta cos eta needs no elementary function. The proof is that
 
 from typing import NamedTuple
 
-from rocking.kernels.arc.bracket import MARGIN, may_dip
-from rocking.kernels.arc.first_zero import MAX_ARC_TIME
 from rocking.kernels.compile_options import SIMD_INLINE
 from rocking.kernels.deferred import njit
+from rocking.kernels.forcing.arc import MAX_ARC_TIME
+from rocking.kernels.forcing.harmonic.bracket import MARGIN, may_dip
 from rocking.kernels.lanes.state import BRACKET, FAILED, GUESS, MINIMUM
 from rocking.kernels.numerics.elementary import fma
 from rocking.kernels.numerics.simd import choose

@@ -1,8 +1,8 @@
 """Evaluation of the arc of each lane at one time: elementary functions, u and its derivatives, small steps."""
 
-from rocking.kernels.arc.taylor import I2, I3, I4
 from rocking.kernels.compile_options import SIMD_INLINE
 from rocking.kernels.deferred import njit
+from rocking.kernels.forcing.harmonic.taylor import I2, I3, I4
 from rocking.kernels.numerics.elementary import fma
 from rocking.kernels.numerics.simd import choose, circular, hyperbolic
 

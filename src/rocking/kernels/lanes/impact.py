@@ -4,9 +4,9 @@ import math
 
 import numpy as np
 
-from rocking.kernels.arc.extrema import may_rise_above
 from rocking.kernels.compile_options import SIMD_INLINE
 from rocking.kernels.deferred import njit
+from rocking.kernels.forcing.harmonic.extrema import may_rise_above
 from rocking.kernels.lanes.state import (
     AT_EVENT,
     BRACKET,

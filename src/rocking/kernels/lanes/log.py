@@ -5,7 +5,7 @@ import numpy as np
 from rocking.kernels.compile_options import INTERNAL, INTERNAL_INLINE, SIMD_INLINE
 from rocking.kernels.deferred import njit
 from rocking.kernels.event_kinds import BRACE, FLIGHT, IMPACT
-from rocking.kernels.forcing.harmonic import clock
+from rocking.kernels.forcing.harmonic.acceleration import clock
 from rocking.kernels.lanes.state import BRACKET, LANES
 from rocking.kernels.lanes.workspace import prefetch_for_write
 from rocking.kernels.march.march import RESYNCHRONISE

@@ -2,10 +2,19 @@
 
 import math
 
-from rocking.kernels.arc.bracket import MARGIN
-from rocking.kernels.arc.taylor import I2, I3, I4, I5, I6, reversion, velocity_after, within_a_factor_of_two
 from rocking.kernels.compile_options import SIMD_INLINE
 from rocking.kernels.deferred import njit
+from rocking.kernels.forcing.harmonic.bracket import MARGIN
+from rocking.kernels.forcing.harmonic.taylor import (
+    I2,
+    I3,
+    I4,
+    I5,
+    I6,
+    reversion,
+    velocity_after,
+    within_a_factor_of_two,
+)
 from rocking.kernels.lanes.evaluate import derivatives, instant_of, set_next
 from rocking.kernels.lanes.state import AT_EVENT, BRACKET, FAILED, GUESS, MINIMUM, REFINE
 from rocking.kernels.numerics.elementary import fma

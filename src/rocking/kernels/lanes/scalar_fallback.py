@@ -1,11 +1,13 @@
 """Scalar fallback of a lane, by the functions for one block: uncertain events, maxima of the angle, chattering."""
 
-from rocking.kernels.arc.extrema import largest_on
-from rocking.kernels.arc.first_zero import MAX_ARC_TIME
-from rocking.kernels.arc.solution import NONE_YET
 from rocking.kernels.compile_options import INTERNAL, INTERNAL_INLINE
 from rocking.kernels.deferred import njit
 from rocking.kernels.event_kinds import BRACE, FLIGHT, IMPACT
+from rocking.kernels.forcing.arc import MAX_ARC_TIME
+from rocking.kernels.forcing.drives import HarmonicDrive
+from rocking.kernels.forcing.harmonic.extrema import largest_on
+from rocking.kernels.forcing.harmonic.next_event import next_event
+from rocking.kernels.forcing.harmonic.solution import NONE_YET
 from rocking.kernels.lanes.state import (
     AT_EVENT,
     CHECK_ZENO,
@@ -21,7 +23,6 @@ from rocking.kernels.lanes.state import (
 from rocking.kernels.lanes.transfer import arc_of
 from rocking.kernels.march.chatter import base_settling_time, brace_settling_time
 from rocking.kernels.march.impact_law import SLOW
-from rocking.kernels.march.next_event import next_event
 
 
 @njit(**INTERNAL)
@@ -35,13 +36,13 @@ def leg_done(s, i):
 def settles(s, i, p):
     """Return whether chattering certainly follows the coming event, as in ``impact_law``."""
     hits, cosine, sine = s.at_brace[i] > 0.0, s.next_cosine[i], s.next_sine[i]
-    restitution = p.brace_restitution if hits else p.restitution
+    restitution = p.block.brace_restitution if hits else p.block.restitution
     speed = restitution * s.speed[i]
     if not (restitution < 1.0 and speed < SLOW):
         return False
     if hits:
-        return brace_settling_time(p, cosine, sine, speed) <= MAX_ARC_TIME
-    return base_settling_time(p, -cosine, -sine, speed) <= MAX_ARC_TIME
+        return brace_settling_time(p, int(s.side[i]), HarmonicDrive(cosine, sine), speed) <= MAX_ARC_TIME
+    return base_settling_time(p, HarmonicDrive(-cosine, -sine), speed) <= MAX_ARC_TIME
 
 
 @njit(**INTERNAL)
@@ -57,14 +58,14 @@ def find_event(s, i, p):
     """Find the coming event that a lane could not determine with certainty; return the next request of the lane."""
     coming, _ = next_event(p, FLIGHT, arc_of(s, i, p), NONE_YET)
     hits, speed = coming.event == BRACE, abs(coming.velocity)
-    returned = (p.brace_restitution if hits else p.restitution) * speed
+    returned = (p.block.brace_restitution if hits else p.block.restitution) * speed
     if not ((hits or coming.event == IMPACT) and returned >= SLOWEST):
         return TO_SCALAR
     s.wait[i] = coming.wait
     s.speed[i] = speed
     s.at_brace[i] = hits
-    s.next_cosine[i] = coming.cosine
-    s.next_sine[i] = coming.sine
+    s.next_cosine[i] = coming.drive.cosine
+    s.next_sine[i] = coming.drive.sine
     s.next_sinh[i] = coming.sinh
     s.next_versinh[i] = coming.versinh
     s.stage[i] = AT_EVENT

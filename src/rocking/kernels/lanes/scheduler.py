@@ -21,6 +21,7 @@ from rocking.kernels.compile_options import INTERNAL, INTERNAL_INLINE, KERNEL
 from rocking.kernels.deferred import njit
 from rocking.kernels.entry_point import entry_point
 from rocking.kernels.event_kinds import FLIGHT, IMPACT
+from rocking.kernels.forcing.harmonic.parameters import HarmonicParameters, parameters_from_row
 from rocking.kernels.lanes.log import log_arcs
 from rocking.kernels.lanes.scalar_fallback import request_at_event, resolve_alone, update_peak
 from rocking.kernels.lanes.state import (
@@ -44,7 +45,6 @@ from rocking.kernels.lanes.transfer import (
     unload_block,
 )
 from rocking.kernels.lanes.workspace import LaneWorkspace, lane_workspace, load_work, store_work
-from rocking.kernels.parameters import HarmonicParameters, parameters_from_row
 from rocking.kernels.signature import Floats2, Integers1
 
 # With a shorter forcing period an arc has too many sign intervals for a search in lockstep.
@@ -74,11 +74,11 @@ def lane_eligible(p, case):
     """Return whether a motion may be marched in lanes: between braces, or without braces and undamped."""
     run, tracker = case.run, case.run.tracker
     progress, arc = tracker.progress, tracker.progress.arc
-    if progress.mode != FLIGHT or not (p.amplitude > 1.0 and p.period >= MIN_LANE_PERIOD):
+    if progress.mode != FLIGHT or not (p.forcing.amplitude > 1.0 and p.forcing.period >= MIN_LANE_PERIOD):
         return False
-    if p.brace_angle < math.inf:
+    if p.block.brace_angle < math.inf:
         return not (run.lossless or tracker.base.seen or tracker.brace.seen)
-    plain = p.restitution == 1.0 and arc.angle == 0.0 and arc.velocity >= SLOWEST
+    plain = p.block.restitution == 1.0 and arc.angle == 0.0 and arc.velocity >= SLOWEST
     return plain and run.lossless and run.flights.event == IMPACT
 
 
@@ -223,7 +223,7 @@ def classify_batch_lanes(
     """
     batch = BatchRequest(systems, starts, max_cycles, max_period, results)
     s, p, queue, busy = workspace.state[0], parameters_from_row(systems[0]), np.int64(0), LANES
-    braced = p.brace_angle < math.inf
+    braced = p.block.brace_angle < math.inf
     idle, works = LaneWork(-1, p, opened(p, 0.0, 0.0, max_cycles)), workspace.works.ctypes.data
     for i in range(LANES):
         store_work(works, i, idle)

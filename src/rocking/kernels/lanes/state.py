@@ -17,9 +17,9 @@ import math
 
 import numpy as np
 
-from rocking.kernels.arc.bracket import MARGIN
 from rocking.kernels.compile_options import SIMD_INLINE
 from rocking.kernels.deferred import njit
+from rocking.kernels.forcing.harmonic.bracket import MARGIN
 from rocking.kernels.numerics.simd import SHORT_ANGLE, SHORT_TIME
 
 LANES = 48
@@ -102,41 +102,41 @@ def log_is_full(s, i):
 @njit(**SIMD_INLINE)
 def set_system(s, i, p):
     """Write the parameters of the system of lane i."""
-    s.amplitude[i] = p.amplitude
-    s.frequency[i] = p.frequency
-    s.phase[i] = p.phase
-    s.response[i] = p.response
-    s.restitution[i] = p.restitution
-    s.period[i] = p.period
-    s.per_period[i] = 1.0 / p.period
-    s.amplitude_rate[i] = p.amplitude * p.frequency
-    s.frequency_square[i] = p.frequency * p.frequency
-    s.response_rate[i] = p.response * p.frequency
-    s.short_time_limit[i] = min(SHORT_TIME, SHORT_ANGLE / p.frequency)
-    s.brace_angle[i] = p.brace_angle
-    s.brace_restitution[i] = p.brace_restitution
-    s.sign_change_right[i] = within_a_cycle(p, p.base_half - p.phase)
-    s.sign_change_left[i] = within_a_cycle(p, p.base_half - p.phase - math.pi)
-    s.sign_change_displacement[i] = p.sign_change_displacement
-    s.sign_change_velocity[i] = p.sign_change_velocity
-    s.inside[i] = p.base_inside
-    s.outside[i] = p.base_outside
-    s.turn_growth[i] = p.turn_growth
-    s.turn_decay[i] = p.turn_decay
-    s.half_growth[i] = math.exp(0.5 * p.base_outside)
-    s.half_decay[i] = math.exp(-0.5 * p.base_outside)
-    s.half_tanh[i] = math.tanh(0.5 * p.base_outside) * (1.0 + MARGIN)
-    s.cosine_in[i] = math.cos(0.5 * p.base_half)
-    s.sine_in[i] = math.sin(0.5 * p.base_half)
-    s.grow_in[i] = math.exp(0.25 * p.base_inside)
-    s.decay_in[i] = math.exp(-0.25 * p.base_inside)
+    s.amplitude[i] = p.forcing.amplitude
+    s.frequency[i] = p.forcing.frequency
+    s.phase[i] = p.forcing.phase
+    s.response[i] = p.forcing.response
+    s.restitution[i] = p.block.restitution
+    s.period[i] = p.forcing.period
+    s.per_period[i] = 1.0 / p.forcing.period
+    s.amplitude_rate[i] = p.forcing.amplitude * p.forcing.frequency
+    s.frequency_square[i] = p.forcing.frequency * p.forcing.frequency
+    s.response_rate[i] = p.forcing.response * p.forcing.frequency
+    s.short_time_limit[i] = min(SHORT_TIME, SHORT_ANGLE / p.forcing.frequency)
+    s.brace_angle[i] = p.block.brace_angle
+    s.brace_restitution[i] = p.block.brace_restitution
+    s.sign_change_right[i] = within_a_cycle(p, p.forcing.base_half - p.forcing.phase)
+    s.sign_change_left[i] = within_a_cycle(p, p.forcing.base_half - p.forcing.phase - math.pi)
+    s.sign_change_displacement[i] = p.forcing.sign_change_displacement
+    s.sign_change_velocity[i] = p.forcing.sign_change_velocity
+    s.inside[i] = p.forcing.base_inside
+    s.outside[i] = p.forcing.base_outside
+    s.turn_growth[i] = p.forcing.turn_growth
+    s.turn_decay[i] = p.forcing.turn_decay
+    s.half_growth[i] = math.exp(0.5 * p.forcing.base_outside)
+    s.half_decay[i] = math.exp(-0.5 * p.forcing.base_outside)
+    s.half_tanh[i] = math.tanh(0.5 * p.forcing.base_outside) * (1.0 + MARGIN)
+    s.cosine_in[i] = math.cos(0.5 * p.forcing.base_half)
+    s.sine_in[i] = math.sin(0.5 * p.forcing.base_half)
+    s.grow_in[i] = math.exp(0.25 * p.forcing.base_inside)
+    s.decay_in[i] = math.exp(-0.25 * p.forcing.base_inside)
     s.cosine_out[i] = -s.sine_in[i]
     s.sine_out[i] = -s.cosine_in[i]
-    s.grow_out[i] = math.exp(0.25 * p.base_outside)
-    s.decay_out[i] = math.exp(-0.25 * p.base_outside)
+    s.grow_out[i] = math.exp(0.25 * p.forcing.base_outside)
+    s.decay_out[i] = math.exp(-0.25 * p.forcing.base_outside)
 
 
 @njit(**SIMD_INLINE)
 def within_a_cycle(p, eta):
     """Return the time within the cycle at which the forcing phase reaches ``eta``."""
-    return (eta - 2.0 * math.pi * math.floor(eta / (2.0 * math.pi))) * p.per_frequency
+    return (eta - 2.0 * math.pi * math.floor(eta / (2.0 * math.pi))) * p.forcing.per_frequency

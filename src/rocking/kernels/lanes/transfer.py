@@ -2,7 +2,6 @@
 
 import math
 
-from rocking.kernels.arc.solution import arc_after, shift_clock
 from rocking.kernels.classify.classifier_state import Run
 from rocking.kernels.classify.leg import make_room, most_events
 from rocking.kernels.classify.quasi_periodicity import Flights, append_lazy_rows
@@ -10,6 +9,9 @@ from rocking.kernels.classify.reset import moved_on
 from rocking.kernels.compile_options import INTERNAL, INTERNAL_INLINE
 from rocking.kernels.deferred import njit
 from rocking.kernels.event_kinds import FLIGHT, IMPACT
+from rocking.kernels.forcing.arc import shift_clock
+from rocking.kernels.forcing.drives import HarmonicDrive
+from rocking.kernels.forcing.harmonic.solution import arc_with
 from rocking.kernels.lanes.state import AT_EVENT, END_LEG, NEW_ARC, set_system
 from rocking.kernels.march.march import CROWDED, DONE, UNKNOWN
 from rocking.kernels.march.progress import Progress
@@ -27,8 +29,8 @@ def load_block(s, i, p, progress, columns, collected):
     s.side[i] = arc.side
     s.angle[i] = arc.angle
     s.velocity[i] = arc.velocity
-    s.cosine[i] = arc.cosine
-    s.sine[i] = arc.sine
+    s.cosine[i] = arc.drive.cosine
+    s.sine[i] = arc.drive.sine
     s.events[i] = events
     s.counted[i] = events
     s.uncollected[i] = events - collected
@@ -57,7 +59,7 @@ def set_leg(s, i, target, logged):
 def arc_of(s, i, p):
     """Return the present arc of a lane."""
     side, start = int(s.side[i]), s.start[i]
-    return arc_after(p, side, start, s.angle[i], s.velocity[i], s.cosine[i], s.sine[i])
+    return arc_with(p, side, start, s.angle[i], s.velocity[i], HarmonicDrive(s.cosine[i], s.sine[i]))
 
 
 @njit(**INTERNAL_INLINE)
@@ -82,10 +84,10 @@ def progress_of(s, i, p, before, ends, section_time):
     arc, cycle, target = arc_of(s, i, p), int(s.cycle[i]), int(s.target[i])
     pending = arc.start <= section_time
     if ends:
-        arc, cycle, pending = shift_clock(arc, (target - cycle) * p.period), target, True
+        arc, cycle, pending = shift_clock(arc, (target - cycle) * p.forcing.period), target, True
     elif cycle < before.cycle:
         # the present arc began before the lane was last read
-        arc, cycle = shift_clock(arc, (before.cycle - cycle) * p.period), before.cycle
+        arc, cycle = shift_clock(arc, (before.cycle - cycle) * p.forcing.period), before.cycle
         pending = before.pending
     hits = int(s.brace_hits[i])
     return Progress(

@@ -4,7 +4,7 @@ import math
 
 from rocking.kernels.compile_options import INTERNAL, KERNEL
 from rocking.kernels.deferred import njit
-from rocking.kernels.forcing.harmonic import acceleration_change_bound, forcing_term
+from rocking.kernels.forcing.contract import acceleration_change_bound, acceleration_size, forcing_term
 
 
 @njit(**INTERNAL)
@@ -29,32 +29,34 @@ def settling_time(speed, restitution, weakest, strongest, clearance):
 
 
 @njit(**KERNEL)
-def base_settling_time(p, cosine, sine, speed):
+def base_settling_time(p, drive, speed):
     """Return an upper bound on the time from an impact to rest (Zeno limit at the base).
 
-    Infinite if rest is not certain. On the two sides of the base the block is accelerated back with 1 +- A
-    cos psi. The weaker of the two bounds both, and stays positive within the window, so that the window ends
+    Infinite if rest is not certain. On the two sides of the base the block is accelerated back with 1 +- the
+    base acceleration. The weaker of the two bounds both, and stays positive within the window, so that the window ends
     before lift-off.
     """
-    swing = p.amplitude * abs(cosine)
-    if p.restitution >= 1.0 or swing >= 1.0:
+    swing = acceleration_size(p, drive)
+    if p.block.restitution >= 1.0 or swing >= 1.0:
         return math.inf
-    window = 5.0 * speed / ((1.0 - swing) * (1.0 - p.restitution))
-    moved = acceleration_change_bound(p, sine, window)
-    bound = settling_time(speed, p.restitution, 1.0 - swing - moved, 1.0 - swing + moved, p.brace_angle)
+    window = 5.0 * speed / ((1.0 - swing) * (1.0 - p.block.restitution))
+    moved = acceleration_change_bound(p, drive, window)
+    bound = settling_time(
+        speed, p.block.restitution, 1.0 - swing - moved, 1.0 - swing + moved, p.block.brace_angle
+    )
     return bound if bound <= window else math.inf
 
 
 @njit(**KERNEL)
-def brace_settling_time(p, cosine, sine, speed):
+def brace_settling_time(p, side, drive, speed):
     """Return an upper bound on the time from a brace impact to sustained contact; infinite if that is not certain.
 
     The acceleration into the brace is brace_angle + f.
     """
-    press = p.brace_angle + forcing_term(p, cosine)
-    if p.brace_restitution >= 1.0 or press <= 0.0:
+    press = p.block.brace_angle + forcing_term(p, side, drive)
+    if p.block.brace_restitution >= 1.0 or press <= 0.0:
         return math.inf
-    window = 5.0 * speed / (press * (1.0 - p.brace_restitution))
-    moved = acceleration_change_bound(p, sine, window)
-    bound = settling_time(speed, p.brace_restitution, press - moved, press + moved, p.brace_angle)
+    window = 5.0 * speed / (press * (1.0 - p.block.brace_restitution))
+    moved = acceleration_change_bound(p, drive, window)
+    bound = settling_time(speed, p.block.brace_restitution, press - moved, press + moved, p.block.brace_angle)
     return bound if bound <= window else math.inf

@@ -4,10 +4,11 @@ from typing import Annotated
 
 import numpy as np
 
-from rocking.kernels.arc.solution import evaluate, within_reach
 from rocking.kernels.compile_options import INTERNAL
 from rocking.kernels.deferred import njit
 from rocking.kernels.event_kinds import FLIGHT, LEAN, LEANS, REST, RESTS
+from rocking.kernels.forcing.arc import within_reach
+from rocking.kernels.forcing.contract import evaluate
 
 # An event: its cycle and the time within it; its kind; mode, side, u and u' of the arc that follows; Theta'
 # just before.
@@ -22,7 +23,7 @@ def state_at(p, mode, arc, t):
     if mode == REST:
         return 0.0, 0.0
     if mode == LEAN:
-        return arc.side * p.brace_angle, 0.0
+        return arc.side * p.block.brace_angle, 0.0
     now = evaluate(p, arc, t)
     return arc.side * within_reach(p, now.angle), arc.side * now.velocity
 

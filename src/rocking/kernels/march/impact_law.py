@@ -2,12 +2,11 @@
 
 import math
 
-from rocking.kernels.arc.solution import arc_after, arc_from
 from rocking.kernels.compile_options import INTERNAL, KERNEL_INLINE
 from rocking.kernels.deferred import njit
 from rocking.kernels.event_kinds import BRACE, FLIGHT, IMPACT, LEAN, LEAVE, LIFT_OFF, REST
+from rocking.kernels.forcing.contract import arc_after, arc_renewed, side_to_lift, stays_leaning
 from rocking.kernels.march.chatter import base_settling_time, brace_settling_time
-from rocking.kernels.march.next_event import side_to_lift, stays_leaning
 
 # In a recorded motion chattering impacts are resolved one by one down to this speed.
 SLOWEST = 1e-13
@@ -30,22 +29,21 @@ def after_impact(p, arc, time, coming, horizon):
     tuple of (int, Arc)
         Mode and arc.
     """
-    speed = p.restitution * max(-coming.velocity, 0.0)
-    if speed < NEGLIGIBLE and p.restitution < 1.0:
+    speed = p.block.restitution * max(-coming.velocity, 0.0)
+    if speed < NEGLIGIBLE and p.block.restitution < 1.0:
         speed = 0.0
     side, mode = -arc.side, FLIGHT
     if speed == 0.0:
-        side = side_to_lift(p, p.frequency * time + p.phase)
+        side = side_to_lift(p, time, coming.drive)
         if side == 0 or time == arc.start:
             side, mode = arc.side, REST
-    turned = side * arc.side
-    after = arc_after(p, side, time, 0.0, speed, turned * coming.cosine, turned * coming.sine)
-    if mode == FLIGHT and 0.0 < speed < SLOW and p.restitution < 1.0:
-        settled = base_settling_time(p, after.cosine, after.sine, speed)
+    after = arc_after(p, side, time, 0.0, speed, coming)
+    if mode == FLIGHT and 0.0 < speed < SLOW and p.block.restitution < 1.0:
+        settled = base_settling_time(p, after.drive, speed)
         if settled <= horizon or (settled < math.inf and speed < SLOWEST):
             mode = REST
     if mode == REST:
-        after = arc_from(p, side, time, 0.0, 0.0)
+        after = arc_renewed(p, side, time, 0.0, 0.0, coming)
     return mode, after
 
 
@@ -58,23 +56,23 @@ def after_brace(p, arc, time, coming, horizon):
     tuple of (int, Arc)
         Mode and arc.
     """
-    speed = p.brace_restitution * max(coming.velocity, 0.0)
-    if speed < NEGLIGIBLE and p.brace_restitution < 1.0:
+    speed = p.block.brace_restitution * max(coming.velocity, 0.0)
+    if speed < NEGLIGIBLE and p.block.brace_restitution < 1.0:
         speed = 0.0
     if speed >= SLOW:
         # Only a slow arc depends on the last digits of its acceleration.
-        return FLIGHT, arc_after(p, arc.side, time, p.brace_angle, -speed, coming.cosine, coming.sine)
-    after = arc_from(p, arc.side, time, p.brace_angle, -speed)
+        return FLIGHT, arc_after(p, arc.side, time, p.block.brace_angle, -speed, coming)
+    after = arc_renewed(p, arc.side, time, p.block.brace_angle, -speed, coming)
     mode = FLIGHT
     if speed == 0.0:
-        if stays_leaning(p, arc.side, after.psi) or time == arc.start:
+        if stays_leaning(p, after) or time == arc.start:
             mode = LEAN
-    elif p.brace_restitution < 1.0:
-        settled = brace_settling_time(p, after.cosine, after.sine, speed)
+    elif p.block.brace_restitution < 1.0:
+        settled = brace_settling_time(p, after.side, after.drive, speed)
         if settled <= horizon or (settled < math.inf and speed < SLOWEST):
             mode = LEAN
     if mode == LEAN:
-        after = arc_from(p, arc.side, time, p.brace_angle, 0.0)
+        after = arc_renewed(p, arc.side, time, p.block.brace_angle, 0.0, coming)
     return mode, after
 
 
@@ -92,7 +90,7 @@ def after_event(p, arc, time, coming, horizon):
     if coming.event == BRACE:
         return after_brace(p, arc, time, coming, horizon)
     if coming.event == LIFT_OFF:
-        return FLIGHT, arc_from(p, coming.side, time, 0.0, 0.0)
+        return FLIGHT, arc_renewed(p, coming.side, time, 0.0, 0.0, coming)
     if coming.event == LEAVE:
-        return FLIGHT, arc_from(p, arc.side, time, p.brace_angle, 0.0)
-    return FLIGHT, arc_from(p, arc.side, time, coming.angle, coming.velocity)
+        return FLIGHT, arc_renewed(p, arc.side, time, p.block.brace_angle, 0.0, coming)
+    return FLIGHT, arc_renewed(p, arc.side, time, coming.angle, coming.velocity, coming)

@@ -7,22 +7,26 @@ run. Sections lie inside arcs and do not interrupt them.
 import math
 from enum import IntEnum
 
-from rocking.kernels.arc.extrema import largest_on, peak_with
-from rocking.kernels.arc.first_zero import MAX_ARC_TIME, no_return_time
-from rocking.kernels.arc.solution import (
-    arc_from,
-    evaluate,
-    propagator_or_none,
-    shift_clock,
-    within_reach,
-)
 from rocking.kernels.compile_options import INTERNAL, INTERNAL_INLINE, KERNEL
 from rocking.kernels.deferred import njit
 from rocking.kernels.entry_point import entry_point
 from rocking.kernels.event_kinds import BRACE, FLIGHT, IMPACT, LEAN, NONE, REST
+from rocking.kernels.forcing.arc import MAX_ARC_TIME, shift_clock, within_reach
+from rocking.kernels.forcing.contract import (
+    arc_at,
+    evaluate,
+    guess_from,
+    largest_on,
+    next_event,
+    no_return_time,
+    peak_with,
+    resynchronise,
+    side_to_lift,
+    stays_leaning,
+)
+from rocking.kernels.forcing.harmonic.parameters import HarmonicParameters
 from rocking.kernels.march.event_rows import EventRows, note, note_event, note_state
 from rocking.kernels.march.impact_law import after_event
-from rocking.kernels.march.next_event import next_event, side_to_lift, stays_leaning
 from rocking.kernels.march.progress import (
     Progress,
     Recording,
@@ -45,15 +49,14 @@ from rocking.kernels.march.tangent import (
     strain_of,
     write_registers,
 )
-from rocking.kernels.parameters import HarmonicParameters
 
 MAX_EVENTS = 10_000_000
 # Compiled code cannot be interrupted, so a march returns after this number of events.
 BREATH = 2_000_000
 # No guesses of the first two times between events.
 UNKNOWN = (0.0, 0.0)
-# From event to event cos eta and sin eta are propagated with the arc. After this number of events (a power of
-# two, less one) they are computed from the clock again.
+# From event to event the forcing is propagated with the arc. After this number of events (a power of two, less one) it is
+# computed from the clock again.
 RESYNCHRONISE = 15
 
 
@@ -84,17 +87,17 @@ def begin(p, angle, velocity, waits, start=0.0):
         Whether a brace was hit there.
     """
     side = 1 if angle > 0.0 or (angle == 0.0 and velocity > 0.0) else -1
-    hit = abs(angle) == p.brace_angle and side * velocity > 0.0
+    hit = abs(angle) == p.block.brace_angle and side * velocity > 0.0
     u, v = abs(angle), side * velocity
     if hit:
-        v = -p.brace_restitution * v
+        v = -p.block.brace_restitution * v
     mode = FLIGHT
-    arc = arc_from(p, side, start, u, v)
+    arc = arc_at(p, side, 0, start, u, v)
     if u == 0.0 and v == 0.0:
-        lifting = side_to_lift(p, arc.psi)
+        lifting = side_to_lift(p, arc.start, arc.drive)
         mode = REST if lifting == 0 else FLIGHT
-        arc = arc_from(p, side if lifting == 0 else lifting, start, 0.0, 0.0)
-    elif u == p.brace_angle and v == 0.0 and stays_leaning(p, side, arc.psi):
+        arc = arc_at(p, side if lifting == 0 else lifting, 0, start, 0.0, 0.0)
+    elif u == p.block.brace_angle and v == 0.0 and stays_leaning(p, arc):
         mode = LEAN
     return Progress(
         mode=mode,
@@ -141,14 +144,14 @@ def finish(p, reached, coming, state, want_peak):
     if reached.mode == FLIGHT:
         now = evaluate(p, arc, t)
         if state.columns.shape[0] > 0:
-            carry_arc(p, arc, state, t, reached.cycle * p.period + arc.start)
+            carry_arc(p, arc, state, t, reached.cycle * p.clock.cycle_length + arc.start)
         finish_tangent(state)
         angle = within_reach(p, now.angle)
         if want_peak:
             peak = max(largest_on(p, arc, t, peak), angle)
-        arc = arc_from(p, arc.side, end, angle, now.velocity)
+        arc = arc_at(p, arc.side, reached.cycle, end, angle, now.velocity)
     else:
-        arc = arc_from(p, arc.side, end, arc.angle, 0.0)
+        arc = arc_at(p, arc.side, reached.cycle, end, arc.angle, 0.0)
     status = DONE
     if coming.wait == math.inf:
         status = OVERTURNED if reached.mode == FLIGHT else STILL
@@ -171,7 +174,7 @@ def pass_boundaries(p, progress, wait, cycles, recording, rows):
     Returns the progress, the number of section rows written, and whether the march ends there.
     """
     section, section_time = recording.section, recording.section_time
-    while progress.arc.start + wait > (section_time if progress.pending else p.period):
+    while progress.arc.start + wait > (section_time if progress.pending else p.clock.cycle_length):
         arc = progress.arc
         if progress.pending:
             progress = with_pending(progress, False)
@@ -179,8 +182,10 @@ def pass_boundaries(p, progress, wait, cycles, recording, rows):
                 note_state(p, section[rows], progress, section_time - arc.start)
                 rows += 1
             continue
-        no_return = progress.no_return - p.period
-        progress = with_clock(progress, progress.cycle + 1, shift_clock(arc, p.period), True, 0, no_return)
+        no_return = progress.no_return - p.clock.cycle_length
+        progress = with_clock(
+            progress, progress.cycle + 1, shift_clock(arc, p.clock.cycle_length), True, 0, no_return
+        )
         if progress.cycle >= cycles or no_return <= 0.0:
             return progress, rows, True
     return progress, rows, False
@@ -217,7 +222,7 @@ def resynchronised(p, progress):
     """Return the progress with the forcing of its arc computed from the clock, if that is due."""
     arc = progress.arc
     if (progress.impacts + progress.brace_hits) & RESYNCHRONISE == 0:
-        arc = arc_from(p, arc.side, arc.start, arc.angle, arc.velocity)
+        arc = resynchronise(p, arc)
     return with_arc(progress, arc)
 
 
@@ -229,7 +234,7 @@ def unobserved_time(p, progress, coming, cycles, recording):
     MAX_ARC_TIME, even if the section then misses states.
     """
     if recording.section.shape[0] == 0 and recording.events.shape[0] == 0 and not recording.releases:
-        return (cycles - progress.cycle) * p.period - (progress.arc.start + coming.wait)
+        return (cycles - progress.cycle) * p.clock.cycle_length - (progress.arc.start + coming.wait)
     return MAX_ARC_TIME if recording.releases else 0.0
 
 
@@ -251,10 +256,10 @@ def march_on(p, progress, cycles, recording, state):
     """
     events, tangent = recording.events, read_registers(state)
     written, rows, computed = 0, 0, 0
-    last_propagator = propagator_or_none(p, progress.last_wait)
-    propagator_before = propagator_or_none(p, progress.wait_before)
+    last_guess = guess_from(p, progress.last_wait)
+    guess_before = guess_from(p, progress.wait_before)
     while True:
-        coming, propagator = next_event(p, progress.mode, progress.arc, propagator_before)
+        coming, guess = next_event(p, progress.mode, progress.arc, guess_before)
         progress = prove_no_return(p, progress, coming)
         progress, rows, ended = pass_boundaries(p, progress, coming.wait, cycles, recording, rows)
         full = computed >= BREATH or (events.shape[0] > 0 and written + 2 > events.shape[0])
@@ -264,8 +269,8 @@ def march_on(p, progress, cycles, recording, state):
         computed += 1
         before = progress
         # The remainder of an arc that was entered midway predicts nothing about complete arcs.
-        whole = before.arc.angle in (0.0, p.brace_angle)
-        propagator_before, last_propagator = last_propagator, propagator if whole else last_propagator
+        whole = before.arc.angle in (0.0, p.block.brace_angle)
+        guess_before, last_guess = last_guess, guess if whole else last_guess
         unobserved = unobserved_time(p, before, coming, cycles, recording)
         progress = pass_event(p, before, coming, unobserved, recording.peak)
         if progress.mode != FLIGHT:
@@ -281,8 +286,8 @@ def march_on(p, progress, cycles, recording, state):
             break
     if in_registers(state):
         write_registers(tangent, state)
-    left = propagator.time if recording.releases else min(progress.arc.start + coming.wait, MAX_ARC_TIME)
-    progress = with_waits(progress, last_propagator.time, left if status == DONE else propagator_before.time)
+    left = guess.time if recording.releases else min(progress.arc.start + coming.wait, MAX_ARC_TIME)
+    progress = with_waits(progress, last_guess.time, left if status == DONE else guess_before.time)
     if status == DONE and not (recording.releases and coming.wait < math.inf):
         status, progress = finish(p, progress, coming, state, recording.peak)
     return status, progress, rows, written

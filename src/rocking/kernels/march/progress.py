@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from rocking.kernels.arc.solution import Arc
+from rocking.kernels.forcing.arc import Arc
 from rocking.kernels.march.event_rows import EVENT_ROW, EventRows
 from rocking.kernels.numerics.replace_fields import replacing
 from rocking.kernels.signature import Floats2

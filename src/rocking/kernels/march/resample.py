@@ -2,23 +2,22 @@
 
 import math
 
-from rocking.kernels.arc.extrema import first_turn_sign, next_turn
-from rocking.kernels.arc.first_zero import CROSSING
-from rocking.kernels.arc.solution import arc_from, evaluate, within_reach
 from rocking.kernels.compile_options import INTERNAL, KERNEL
 from rocking.kernels.deferred import njit
 from rocking.kernels.entry_point import entry_point
 from rocking.kernels.event_kinds import FLIGHT
-from rocking.kernels.forcing.harmonic import forcing_term
+from rocking.kernels.forcing.arc import CROSSING, within_reach
+from rocking.kernels.forcing.contract import arc_at, evaluate, forcing_term, next_turn
+from rocking.kernels.forcing.extrema import first_turn_sign
+from rocking.kernels.forcing.harmonic.parameters import HarmonicParameters
 from rocking.kernels.march.event_rows import EventRows
-from rocking.kernels.parameters import HarmonicParameters
 from rocking.kernels.signature import Floats1, Floats2, Integers1
 
 
 @njit(**INTERNAL)
 def arc_of(p, row):
     """Return the arc that starts with an event row (``event_rows.note``)."""
-    return arc_from(p, int(row.side), row.time, row.angle, row.velocity)
+    return arc_at(p, int(row.side), int(row.cycle), row.time, row.angle, row.velocity)
 
 
 @entry_point(**KERNEL)
@@ -32,10 +31,11 @@ def sample(p: HarmonicParameters, rows: EventRows, index: Integers1, elapsed: Fl
         side = row.side
         out[k, 0], out[k, 1], out[k, 2] = side * row.angle, 0.0, 0.0
         if row.mode == FLIGHT:
-            now = evaluate(p, arc_of(p, row), elapsed[k])
+            arc = arc_of(p, row)
+            now = evaluate(p, arc, elapsed[k])
             out[k, 0] = side * within_reach(p, now.angle)
             out[k, 1] = side * now.velocity
-            out[k, 2] = side * (now.angle + forcing_term(p, now.cosine))
+            out[k, 2] = side * (now.angle + forcing_term(p, arc.side, now.drive))
             if not math.isfinite(now.angle):  # overturned long before: the angle has overflowed
                 out[k, :] = side * math.inf
 

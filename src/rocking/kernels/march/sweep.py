@@ -5,10 +5,10 @@ import math
 from rocking.kernels.compile_options import INTERNAL, KERNEL
 from rocking.kernels.deferred import njit
 from rocking.kernels.entry_point import entry_point
+from rocking.kernels.forcing.harmonic.parameters import parameters_from_row
 from rocking.kernels.march.march import CROWDED, DONE, OVERTURNED, UNKNOWN, begin, march_through
 from rocking.kernels.march.no_recording import NoRecording
 from rocking.kernels.march.progress import Recording
-from rocking.kernels.parameters import parameters_from_row
 from rocking.kernels.signature import Floats1, Floats2, Floats3, Integers1
 
 
@@ -55,8 +55,12 @@ def sweep(
     kept, passing = section.shape[1], Recording(0.0, nothing.section, nothing.events, False, False)
     for k in range(systems.shape[0]):
         p = parameters_from_row(systems[k])
-        time = ((section_phase - p.phase) % (2.0 * math.pi)) * p.per_frequency % p.period
-        first = min(max(angle, -p.brace_angle), p.brace_angle)
+        time = (
+            ((section_phase - p.forcing.phase) % (2.0 * math.pi))
+            * p.forcing.per_frequency
+            % p.clock.cycle_length
+        )
+        first = min(max(angle, -p.block.brace_angle), p.block.brace_angle)
         status, u, v = DONE, first, velocity
         if transient > 0:
             status, u, v, _ = march_state(p, first, velocity, transient, passing, nothing.tangent)

@@ -14,7 +14,7 @@ import numpy as np
 from rocking.kernels.compile_options import INTERNAL, INTERNAL_INLINE, KERNEL_INLINE, SIMD_INLINE
 from rocking.kernels.deferred import njit
 from rocking.kernels.event_kinds import BRACE, FLIGHT, IMPACT, LEAVE, NONE
-from rocking.kernels.forcing.harmonic import forcing_term, sensitivities
+from rocking.kernels.forcing.contract import forcing_term, sensitivities
 from rocking.kernels.numerics.elementary import fma, hyperbolic
 from rocking.kernels.signature import Floats1, Floats2
 
@@ -192,13 +192,13 @@ def event_map(p, arc, coming, mode_after, side_after):
     """
     if mode_after != FLIGHT:
         return 0.0, 0.0
-    f = forcing_term(p, coming.cosine)
+    f = forcing_term(p, arc.side, coming.drive)
     if coming.event == IMPACT:
-        gained = impact_gain(p.restitution, f, float(side_after * arc.side))
-        return p.restitution, shear_of(gained, -coming.velocity)
+        gained = impact_gain(p.block.restitution, f, float(side_after * arc.side))
+        return p.block.restitution, shear_of(gained, -coming.velocity)
     if coming.event == BRACE:
-        r = p.brace_restitution
-        return -r, shear_of(brace_gain(r, p.brace_angle, f), coming.velocity)
+        r = p.block.brace_restitution
+        return -r, shear_of(brace_gain(r, p.block.brace_angle, f), coming.velocity)
     return (1.0 if coming.event == NONE else 0.0), 0.0
 
 
@@ -249,7 +249,7 @@ def carry_rows(p, state, before, coming, after):
     """Propagate all rows along an arc and its event, with the derivatives by restitutions and brace angle."""
     columns, arc, flies_on = state.columns, before.arc, after.mode == FLIGHT
     if before.mode == FLIGHT:
-        carry_arc(p, arc, state, coming.wait, before.cycle * p.period + arc.start)
+        carry_arc(p, arc, state, coming.wait, before.cycle * p.clock.cycle_length + arc.start)
     factor, shear = event_map(p, arc, coming, after.mode, after.arc.side)
     side, velocity = arc.side, arc.side * coming.velocity
     extra = columns.shape[0] == SENSITIVITIES
@@ -275,9 +275,7 @@ def carry_forcing(p, arc, columns, t, elapsed):
     The arc started ``elapsed`` after the start of the march.
     """
     sinh, versinh, excess, _ = hyperbolic(t)
-    place_a, rate_a, place_psi, rate_psi, place_f, rate_f = sensitivities(
-        p, arc.cosine, arc.sine, t, sinh, versinh, excess
-    )
+    place_a, rate_a, place_psi, rate_psi, place_f, rate_f = sensitivities(p, arc, t, sinh, versinh, excess)
     side = arc.side
     columns[Row.AMPLITUDE, 0] -= side * place_a
     columns[Row.AMPLITUDE, 1] -= side * rate_a

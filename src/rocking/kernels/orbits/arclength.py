@@ -11,9 +11,9 @@ import numpy as np
 
 from rocking.kernels.compile_options import INTERNAL
 from rocking.kernels.deferred import njit
+from rocking.kernels.forcing.harmonic.parameters import HarmonicParameters
 from rocking.kernels.numerics.linear_solve import solve
 from rocking.kernels.orbits.event_chain import Chain, Equations, make_equations, with_value
-from rocking.kernels.parameters import HarmonicParameters
 from rocking.kernels.signature import Floats1, Floats2, Integers1
 
 MAX_CORRECTIONS = 10

@@ -2,9 +2,11 @@
 
 import math
 
-from rocking.kernels.arc.solution import evaluate, within_reach
 from rocking.kernels.compile_options import KERNEL
 from rocking.kernels.entry_point import entry_point
+from rocking.kernels.forcing.arc import within_reach
+from rocking.kernels.forcing.harmonic.parameters import HarmonicParameters
+from rocking.kernels.forcing.harmonic.solution import evaluate
 from rocking.kernels.orbits.event_chain import (
     Chain,
     Equations,
@@ -18,7 +20,6 @@ from rocking.kernels.orbits.event_chain import (
     side_after,
     with_value,
 )
-from rocking.kernels.parameters import HarmonicParameters
 from rocking.kernels.signature import Floats1, Floats2, Floats3
 
 
@@ -48,7 +49,7 @@ def states_at(
             last = chain.kinds[event_after(chain, j)]
             one = link(q, side, chain.kinds[j], last, y[j], duration(q, chain, y, j))
             arc = arc_at(q, side, y[j], place_of(q, chain.kinds[j]), one.leaves)
-            now = evaluate(q, arc, max((wanted - y[j]) * q.per_frequency, 0.0))
+            now = evaluate(q, arc, max((wanted - y[j]) * q.forcing.per_frequency, 0.0))
             out[i, m, 0] = mirror * side * within_reach(q, now.angle)
             out[i, m, 1] = mirror * side * now.velocity
 

@@ -3,14 +3,14 @@
 import math
 from typing import NamedTuple
 
-from rocking.kernels.arc.extrema import peak_with
-from rocking.kernels.arc.solution import evaluate, propagator_or_none
 from rocking.kernels.compile_options import INTERNAL
 from rocking.kernels.deferred import njit
 from rocking.kernels.event_kinds import BRACE, FLIGHT, IMPACT, NONE
-from rocking.kernels.forcing.harmonic import forcing_term
+from rocking.kernels.forcing.harmonic.acceleration import forcing_term
+from rocking.kernels.forcing.harmonic.extrema import peak_with
+from rocking.kernels.forcing.harmonic.next_event import next_event
+from rocking.kernels.forcing.harmonic.solution import evaluate, propagator_or_none
 from rocking.kernels.march.impact_law import after_event
-from rocking.kernels.march.next_event import next_event
 from rocking.kernels.orbits.event_chain import arc_at, event_after, place_of, side_after
 
 # Events further apart in time than this are different.
@@ -92,7 +92,7 @@ def clearance(p, chain, y, links, condition):
     arc = arc_at(p, side, y[touched], place_of(p, chain.kinds[touched]), links[touched].leaves)
     now = evaluate(p, arc, t)
     for _ in range(MAX_TURNS):
-        acceleration = now.angle + forcing_term(p, now.cosine)
+        acceleration = now.angle + forcing_term(p, now.drive.cosine)
         step = -now.velocity / acceleration
         if not 0.0 < t + step < links[touched].time:
             return math.nan, t
@@ -100,4 +100,4 @@ def clearance(p, chain, y, links, condition):
         now = evaluate(p, arc, t)
         if abs(step) <= 1e-12:
             break
-    return (p.brace_angle - now.angle if condition.level == BRACE else now.angle), t
+    return (p.block.brace_angle - now.angle if condition.level == BRACE else now.angle), t

@@ -11,12 +11,12 @@ from typing import Annotated, NamedTuple
 
 import numpy as np
 
-from rocking.kernels.arc.solution import arc_from, evaluate
 from rocking.kernels.compile_options import INTERNAL, INTERNAL_INLINE, KERNEL_INLINE
 from rocking.kernels.deferred import njit
 from rocking.kernels.event_kinds import BRACE, IMPACT
-from rocking.kernels.forcing.harmonic import forcing_term, sensitivities
-from rocking.kernels.parameters import make
+from rocking.kernels.forcing.harmonic.acceleration import forcing_term, sensitivities
+from rocking.kernels.forcing.harmonic.parameters import make
+from rocking.kernels.forcing.harmonic.solution import arc_from, evaluate
 from rocking.kernels.signature import Floats1, Floats2, Integers1
 
 AMPLITUDE, FREQUENCY, PERIOD, RESTITUTION, BRACE_ANGLE, BRACE_RESTITUTION = range(6)
@@ -68,32 +68,32 @@ def make_equations(n):
 @njit(**INTERNAL)
 def with_value(p, which, value):
     """Return the system with one parameter changed and its clock starting at the phase 0."""
-    frequency, period = p.frequency, p.period
+    frequency, period = p.forcing.frequency, p.forcing.period
     if which == FREQUENCY:
         frequency, period = value, 2.0 * math.pi / value
     elif which == PERIOD:
         frequency, period = 2.0 * math.pi / value, value
     return make(
-        value if which == AMPLITUDE else p.amplitude,
+        value if which == AMPLITUDE else p.forcing.amplitude,
         frequency,
         period,
         0.0,
-        value if which == RESTITUTION else p.restitution,
-        value if which == BRACE_ANGLE else p.brace_angle,
-        value if which == BRACE_RESTITUTION else p.brace_restitution,
+        value if which == RESTITUTION else p.block.restitution,
+        value if which == BRACE_ANGLE else p.block.brace_angle,
+        value if which == BRACE_RESTITUTION else p.block.brace_restitution,
     )
 
 
 @njit(**KERNEL_INLINE)
 def place_of(p, kind):
     """Return the angle at which an event happens."""
-    return p.brace_angle if kind == BRACE else 0.0
+    return p.block.brace_angle if kind == BRACE else 0.0
 
 
 @njit(**KERNEL_INLINE)
 def law(p, kind):
     """Return the coefficient of restitution of an event."""
-    return p.brace_restitution if kind == BRACE else p.restitution
+    return p.block.brace_restitution if kind == BRACE else p.block.restitution
 
 
 @njit(**INTERNAL_INLINE)
@@ -112,14 +112,14 @@ def side_after(side, kind):
 def duration(p, chain, y, j):
     """Return the time from event j to the next one, at the phases ``y``."""
     after = event_after(chain, j)
-    return (y[after] + (chain.turn if after == 0 else 0.0) - y[j]) * p.per_frequency
+    return (y[after] + (chain.turn if after == 0 else 0.0) - y[j]) * p.forcing.per_frequency
 
 
 @njit(**KERNEL_INLINE)
 def arc_at(p, side, psi, place, velocity):
     """Return the arc that starts at a forcing phase; whole turns are removed from the phase first."""
     psi -= 2.0 * math.pi * round(psi / (2.0 * math.pi))
-    return arc_from(p, side, psi * p.per_frequency, place, velocity)
+    return arc_from(p, side, psi * p.forcing.per_frequency, place, velocity)
 
 
 @njit(**INTERNAL)
@@ -134,9 +134,9 @@ def link(p, side, first, last, psi, t):
     sinh, cosh = free.sinh, 1.0 + free.versinh
     leaves = (end - start - free.risen) / sinh
     arrives = free.velocity + leaves * cosh
-    push = end + forcing_term(p, free.cosine)
+    push = end + forcing_term(p, free.drive.cosine)
     place_a, rate_a, place_psi, rate_psi, place_f, rate_f = sensitivities(
-        p, arc.cosine, arc.sine, t, sinh, free.versinh, sinh - t if t > 1.0 else excess_of(t)
+        p, arc.drive.cosine, arc.drive.sine, t, sinh, free.versinh, sinh - t if t > 1.0 else excess_of(t)
     )
     # The angle reached must not change, so the initial speed compensates all other changes of it.
     by_time = -arrives / sinh, push - arrives * cosh / sinh
@@ -146,7 +146,7 @@ def link(p, side, first, last, psi, t):
     held, met = 1.0 if first == BRACE else 0.0, 1.0 if last == BRACE else 0.0
     brace = (met - held * cosh) / sinh
     by_brace, none = (brace, held * sinh + brace * cosh), (0.0, 0.0)
-    k, frequency_by_period = p.per_frequency, -p.frequency / p.period
+    k, frequency_by_period = p.forcing.per_frequency, -p.forcing.frequency / p.forcing.period
     by_frequency = by_f[0] - k * t * by_time[0], by_f[1] - k * t * by_time[1]
     by_period = frequency_by_period * by_frequency[0], frequency_by_period * by_frequency[1]
     return Link(
@@ -157,7 +157,7 @@ def link(p, side, first, last, psi, t):
         (by_amplitude, by_frequency, by_period, none, by_brace, none),
         sinh,
         cosh,
-        arc.acceleration,
+        arc.constants.acceleration,
         push,
         t,
     )

@@ -5,11 +5,11 @@ from typing import NamedTuple
 
 from rocking.kernels.compile_options import AST_INLINE, INTERNAL, INTERNAL_INLINE
 from rocking.kernels.deferred import njit
+from rocking.kernels.forcing.harmonic.parameters import HarmonicParameters
 from rocking.kernels.march.march import DONE, begin, march_on
 from rocking.kernels.march.progress import Recording
 from rocking.kernels.march.tangent import Tangent, TangentState, read_tangent, write_tangent
 from rocking.kernels.numerics.elementary import size
-from rocking.kernels.parameters import HarmonicParameters
 
 RESIDUAL = 1e-12
 # Near a fold Newton's method converges linearly: each step halves the error.
@@ -108,7 +108,7 @@ class Trial(NamedTuple):
 def line_search(mapping, at, to, residual, patience, recording, state):
     """Try a Newton step ``to`` from a state, then halve it until the residual is small enough."""
     angle, velocity, waits, work, accepted = to[0], to[1], at.waits, 0, False
-    reach, nowhere = min(mapping.p.brace_angle, patience.reach), Tangent(0.0, 0.0, 0.0, 0.0)
+    reach, nowhere = min(mapping.p.block.brace_angle, patience.reach), Tangent(0.0, 0.0, 0.0, 0.0)
     guess, missed = at, (math.inf, math.inf)
     image = MapImage(False, math.nan, math.nan, nowhere, 0, 0, math.nan, waits)
     for _ in range(patience.halvings + 1):

@@ -11,15 +11,16 @@ most e^PIECE, and no tolerance is needed for the impact at the far end.
 
 import math
 
-from rocking.kernels.arc.extrema import arc_peak
-from rocking.kernels.arc.first_zero import CROSSING, base_event_function, first_zero
-from rocking.kernels.arc.solution import arc_from
 from rocking.kernels.compile_options import INTERNAL, KERNEL
 from rocking.kernels.deferred import njit
 from rocking.kernels.entry_point import entry_point
-from rocking.kernels.forcing.harmonic import particular
+from rocking.kernels.forcing.arc import CROSSING
+from rocking.kernels.forcing.harmonic.acceleration import particular
+from rocking.kernels.forcing.harmonic.extrema import arc_peak
+from rocking.kernels.forcing.harmonic.first_zero import base_event_function, first_zero
+from rocking.kernels.forcing.harmonic.parameters import HarmonicParameters, at_phase
+from rocking.kernels.forcing.harmonic.solution import arc_from
 from rocking.kernels.numerics.elementary import direction
-from rocking.kernels.parameters import HarmonicParameters, at_phase
 
 PIECE = 4.0
 
@@ -45,7 +46,7 @@ def first_half(p, speed, near, far, length):
             return False, peak
         peak = arc_peak(p, arc, step, peak)
         t = (k + 1) * step
-        sine, cosine, _, _ = direction(p.frequency * t + p.phase)
+        sine, cosine, _, _ = direction(p.forcing.frequency * t + p.forcing.phase)
         displacement, forced_velocity = particular(p, cosine, sine)
         leaving, coming = near * math.exp(-t), far * math.exp(t - length)
         angle, velocity = leaving + coming + 1.0 + displacement, coming - leaving + forced_velocity
@@ -58,7 +59,7 @@ def first_half(p, speed, near, far, length):
 def half_cycle(
     p: HarmonicParameters, speed: float, near: float, far: float, length: float
 ) -> tuple[bool, float]:
-    """Follow a mode that leaves the base with ``speed`` at phase ``p.phase`` through its half-cycle.
+    """Follow a mode that leaves the base with ``speed`` at phase ``p.forcing.phase`` through its half-cycle.
 
     In reversed time the half-cycle begins at phase pi - phi with the speed before the impact.
 
@@ -71,6 +72,6 @@ def half_cycle(
     up, peak = first_half(p, speed, near, far, length)
     if not up:
         return False, peak
-    backwards = at_phase(p, math.pi - p.phase)
-    up, other = first_half(backwards, speed / p.restitution, far, near, length)
+    backwards = at_phase(p, math.pi - p.forcing.phase)
+    up, other = first_half(backwards, speed / p.block.restitution, far, near, length)
     return up, max(peak, other)

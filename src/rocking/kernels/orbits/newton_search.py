@@ -8,10 +8,10 @@ import math
 from rocking.kernels.compile_options import INTERNAL, KERNEL
 from rocking.kernels.deferred import njit
 from rocking.kernels.entry_point import entry_point
+from rocking.kernels.forcing.harmonic.parameters import HarmonicParameters, later
 from rocking.kernels.march.march import UNKNOWN
 from rocking.kernels.march.no_recording import NoRecording
 from rocking.kernels.orbits.fixed_point import ANYWHERE, UNBOUNDED, Guess, ReturnMap, find_fixed_point
-from rocking.kernels.parameters import HarmonicParameters, later
 from rocking.kernels.signature import Floats2
 
 
@@ -19,11 +19,11 @@ from rocking.kernels.signature import Floats2
 def return_map(p, period, mirrored):
     """Return the ``ReturnMap`` over ``period`` cycles, or over half an odd number of them and mirrored.
 
-    The half cycle comes first: the march ends only with a whole one, and p.period stays that of the forcing.
+    The half cycle comes first: the march ends only with a whole one, and p.forcing.period stays that of the forcing.
     """
     if not mirrored:
         return ReturnMap(p, period, 0.0, 1.0)
-    half = 0.5 * p.period
+    half = 0.5 * p.forcing.period
     return ReturnMap(later(p, -half), (period + 1) // 2, half, -1.0)
 
 
@@ -45,7 +45,7 @@ def newton_from_starts(
     mapping, count = return_map(p, period, mirrored), 0
     for i in range(starts.shape[0]):
         out[i, 0], out[i, 1], out[i, 2], out[i, 3] = False, starts[i, 0], starts[i, 1], math.inf
-        if abs(starts[i, 0]) > p.brace_angle:
+        if abs(starts[i, 0]) > p.block.brace_angle:
             continue
         guess = Guess(starts[i, 0], starts[i, 1], UNKNOWN)
         found = find_fixed_point(mapping, guess, UNBOUNDED, ANYWHERE, columns, nothing)

@@ -7,17 +7,17 @@ saddle, and the time spent near it does not magnify rounding.
 
 import math
 
-from rocking.kernels.arc.solution import shift_clock
 from rocking.kernels.compile_options import INTERNAL, KERNEL
 from rocking.kernels.deferred import njit
 from rocking.kernels.entry_point import entry_point
 from rocking.kernels.event_kinds import FLIGHT, IMPACT
-from rocking.kernels.forcing.harmonic import particular
+from rocking.kernels.forcing.arc import shift_clock
+from rocking.kernels.forcing.harmonic.acceleration import particular
+from rocking.kernels.forcing.harmonic.next_event import any_event
+from rocking.kernels.forcing.harmonic.parameters import HarmonicParameters, later, make
 from rocking.kernels.march.event_rows import state_at
 from rocking.kernels.march.impact_law import after_event
 from rocking.kernels.march.march import MAX_EVENTS, UNKNOWN, begin
-from rocking.kernels.march.next_event import any_event
-from rocking.kernels.parameters import HarmonicParameters, later, make
 from rocking.kernels.signature import Floats1, Floats2
 
 # Distance from the saddle orbit, over 1 - beta, at which a motion is started.
@@ -36,8 +36,10 @@ def swings(amplitudes: Floats1, frequencies: Floats1, phases: Floats1, out: Floa
 @njit(**INTERNAL)
 def leaving(p, side):
     """Return Theta and Theta' of the motion that is NEAR (1 - beta) from the saddle orbit when its clock starts."""
-    displacement, forced_velocity = particular(p, side * math.cos(p.phase), side * math.sin(p.phase))
-    distance = NEAR * (1.0 - p.response)
+    displacement, forced_velocity = particular(
+        p, side * math.cos(p.forcing.phase), side * math.sin(p.forcing.phase)
+    )
+    distance = NEAR * (1.0 - p.forcing.response)
     return side * (1.0 + displacement - distance), side * (forced_velocity - distance)
 
 
@@ -48,14 +50,14 @@ def images(p: HarmonicParameters, side: int, times: Floats1, out: Floats2) -> bo
     Returns False if a motion has too many events.
     """
     for k in range(times.shape[0]):
-        cycles = math.floor(times[k] / p.period)
-        wait = min(max(times[k] - cycles * p.period, 0.0), p.period)
+        cycles = math.floor(times[k] / p.forcing.period)
+        wait = min(max(times[k] - cycles * p.forcing.period, 0.0), p.forcing.period)
         q = later(p, -wait)
         angle, velocity = leaving(q, side)
         progress, _ = begin(q, angle, velocity, UNKNOWN)
         mode, arc, crowd = progress.mode, progress.arc, 0
         while True:
-            end = cycles * q.period + wait
+            end = cycles * q.forcing.period + wait
             coming = any_event(q, mode, arc)
             at = arc.start + coming.wait
             if at > end:
@@ -64,8 +66,8 @@ def images(p: HarmonicParameters, side: int, times: Floats1, out: Floats2) -> bo
             if crowd > MAX_EVENTS:
                 return False
             mode, arc = after_event(q, arc, at, coming, end - at)
-            while cycles > 0 and arc.start > q.period:
-                arc, cycles = shift_clock(arc, q.period), cycles - 1
+            while cycles > 0 and arc.start > q.forcing.period:
+                arc, cycles = shift_clock(arc, q.forcing.period), cycles - 1
         out[k, 0], out[k, 1] = state_at(q, mode, arc, end - arc.start)
     return True
 
@@ -83,5 +85,5 @@ def first_impacts(p: HarmonicParameters, side: int, waits: Floats1, out: Floats2
         coming = any_event(q, FLIGHT, arc)
         out[k] = math.nan
         if coming.event == IMPACT:
-            out[k, 0] = p.phase + p.frequency * (waits[k] + coming.wait)
+            out[k, 0] = p.forcing.phase + p.forcing.frequency * (waits[k] + coming.wait)
             out[k, 1] = -coming.velocity

@@ -17,17 +17,19 @@ from typing import NamedTuple
 
 import numpy as np
 
-from rocking.kernels.arc.solution import Arc, arc_from, evaluate
 from rocking.kernels.compile_options import INTERNAL, INTERNAL_INLINE, KERNEL
 from rocking.kernels.deferred import njit
 from rocking.kernels.entry_point import entry_point
-from rocking.kernels.forcing.harmonic import TURN
+from rocking.kernels.forcing.arc import Arc
+from rocking.kernels.forcing.drives import HarmonicConstants, HarmonicDrive
+from rocking.kernels.forcing.harmonic.acceleration import TURN
+from rocking.kernels.forcing.harmonic.solution import arc_from, evaluate
 from rocking.kernels.numerics.elementary import size
 
 # Beyond this sinh overflows.
 MAX_ARGUMENT = 700.0
 # Arc that stands for no mode.
-NOWHERE = Arc(1, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0)
+NOWHERE = Arc(1, 0.0, 0.0, 0.0, HarmonicDrive(1.0, 0.0), HarmonicConstants(0.0, 0.0))
 
 
 class Nearest(NamedTuple):
@@ -86,17 +88,19 @@ def nearest(p, order, angle, velocity):
 
     The distance is infinite if the mode is not stable.
     """
-    half = order * math.pi * p.per_frequency
+    half = order * math.pi * p.forcing.per_frequency
     best = Nearest(math.inf, order, math.nan, math.nan, NOWHERE, 0.0, half)
-    if order % 2 == 0 or p.restitution == 0.0:
+    if order % 2 == 0 or p.block.restitution == 0.0:
         return best
-    speed, phase, trace = closed_form(p.frequency, p.response, p.restitution, order, True)
-    if not (speed > 0.0 and abs(trace) < 1.0 + p.restitution * p.restitution):
+    speed, phase, trace = closed_form(
+        p.forcing.frequency, p.forcing.response, p.block.restitution, order, True
+    )
+    if not (speed > 0.0 and abs(trace) < 1.0 + p.block.restitution * p.block.restitution):
         return best
-    first = p.phase - phase
+    first = p.forcing.phase - phase
     first -= TURN * np.floor(first / TURN)
     for k in range(order):
-        since, side = (first + k * TURN) * p.per_frequency, 1
+        since, side = (first + k * TURN) * p.forcing.per_frequency, 1
         if since >= half:
             since, side = since - half, -1
         arc = arc_from(p, side, -since, 0.0, speed)

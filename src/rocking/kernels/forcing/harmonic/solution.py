@@ -13,7 +13,9 @@ from typing import NamedTuple
 
 from rocking.kernels.compile_options import INTERNAL_INLINE, KERNEL, KERNEL_INLINE
 from rocking.kernels.deferred import njit
-from rocking.kernels.forcing.harmonic import (
+from rocking.kernels.forcing.arc import Arc, Instant
+from rocking.kernels.forcing.drives import HarmonicConstants, HarmonicDrive
+from rocking.kernels.forcing.harmonic.acceleration import (
     ForcedStep,
     forced_response,
     forced_step,
@@ -24,31 +26,6 @@ from rocking.kernels.forcing.harmonic import (
 from rocking.kernels.numerics.elementary import hyperbolic
 
 ROUNDING = 2.0**-53
-
-
-class Arc(NamedTuple):
-    """Start of an arc: side of the base, time within the cycle, u, u', and the forcing there."""
-
-    side: int
-    start: float
-    angle: float
-    velocity: float
-    cosine: float
-    sine: float
-    psi: float
-    acceleration: float  # u''
-
-
-class Instant(NamedTuple):
-    """State of an arc at one instant, with the forcing and the hyperbolic functions of the time since its start."""
-
-    angle: float
-    risen: float  # u - u0, to relative accuracy
-    velocity: float
-    cosine: float
-    sine: float
-    sinh: float
-    versinh: float  # cosh t - 1
 
 
 class Propagator(NamedTuple):
@@ -71,22 +48,17 @@ NONE_YET = Propagator(0.0, 0.0, 0.0, ForcedStep(True, 0.0, 0.0, 0.0, 0.0, 0.0, 0
 def arc_from(p, side, start, angle, velocity):
     """Return the arc that starts at (u, u') = (angle, velocity) on ``side`` at time ``start`` within the cycle."""
     cosine, sine, psi, acceleration = forcing_at(p, side, start, angle)
-    return Arc(side, start, angle, velocity, cosine, sine, psi, acceleration)
-
-
-@njit(**INTERNAL_INLINE)
-def arc_after(p, side, start, angle, velocity, cosine, sine):
-    """Return the arc that starts at (angle, velocity), where cos eta and sin eta are known already."""
-    acceleration = angle + forcing_term(p, cosine)
-    return Arc(side, start, angle, velocity, cosine, sine, p.frequency * start + p.phase, acceleration)
-
-
-@njit(**INTERNAL_INLINE)
-def shift_clock(arc, time):
-    """Return the arc relative to a clock that is set to 0 at ``time``."""
     return Arc(
-        arc.side, arc.start - time, arc.angle, arc.velocity, arc.cosine, arc.sine, arc.psi, arc.acceleration
+        side, start, angle, velocity, HarmonicDrive(cosine, sine), HarmonicConstants(psi, acceleration)
     )
+
+
+@njit(**INTERNAL_INLINE)
+def arc_with(p, side, start, angle, velocity, drive):
+    """Return the arc that starts at (angle, velocity), where cos eta and sin eta are known already."""
+    acceleration = angle + forcing_term(p, drive.cosine)
+    psi = p.forcing.frequency * start + p.forcing.phase
+    return Arc(side, start, angle, velocity, drive, HarmonicConstants(psi, acceleration))
 
 
 @njit(**INTERNAL_INLINE)
@@ -113,17 +85,11 @@ def propagate(p, arc, propagator):
     """Return the state of an arc after the time step of a propagator, eq. (5)."""
     _, sinh, versinh, forced_step = propagator
     steady, displaced, moved, cosine, sine = forced_response(
-        p, arc.cosine, arc.sine, arc.angle - 1.0, arc.acceleration, forced_step
+        p, arc.drive.cosine, arc.drive.sine, arc.angle - 1.0, arc.constants.acceleration, forced_step
     )
     risen = arc.velocity * sinh + steady * versinh + displaced
     velocity = arc.velocity + (arc.velocity * versinh + steady * sinh + moved)
-    return Instant(arc.angle + risen, risen, velocity, cosine, sine, sinh, versinh)
-
-
-@njit(**INTERNAL_INLINE)
-def within_reach(p, angle):
-    """Clip an angle to the range between base and brace, which rounding may exceed near an event."""
-    return min(max(angle, 0.0), p.brace_angle)
+    return Instant(arc.angle + risen, risen, velocity, HarmonicDrive(cosine, sine), sinh, versinh)
 
 
 @njit(**INTERNAL_INLINE)
@@ -136,10 +102,12 @@ def exponentials(p, arc):
         c+ and c-.
         An upper bound on the rounding error of either.
     """
-    displacement, forced_velocity = particular(p, arc.cosine, arc.sine)
+    displacement, forced_velocity = particular(p, arc.drive.cosine, arc.drive.sine)
     mean = arc.angle - 1.0 - displacement
     half = arc.velocity - forced_velocity
     error = (
-        4.0 * ROUNDING * (abs(arc.angle) + abs(arc.velocity) + 1.0 + 2.0 * p.response * (1.0 + p.frequency))
+        4.0
+        * ROUNDING
+        * (abs(arc.angle) + abs(arc.velocity) + 1.0 + 2.0 * p.forcing.response * (1.0 + p.forcing.frequency))
     )
     return 0.5 * (mean + half), 0.5 * (mean - half), error

@@ -8,10 +8,10 @@ wide margin, it is UNSURE and ``first_zero`` decides.
 import math
 from typing import NamedTuple
 
-from rocking.kernels.arc.solution import exponentials, propagate, propagator_of
 from rocking.kernels.compile_options import INTERNAL, INTERNAL_INLINE, SIMD_INLINE
 from rocking.kernels.deferred import njit
-from rocking.kernels.forcing.harmonic import first_sign_change, forcing_rates, forcing_term
+from rocking.kernels.forcing.harmonic.acceleration import first_sign_change, forcing_rates, forcing_term
+from rocking.kernels.forcing.harmonic.solution import exponentials, propagate, propagator_of
 from rocking.kernels.numerics.elementary import fma
 
 MAX_TURNS = 64
@@ -49,16 +49,16 @@ def knot(p, arc, constant, s, time, now):
 
     w is computed from its change since the start, so that it is accurate near a brace too.
     """
-    f = forcing_term(p, now.cosine)
-    df, _ = forcing_rates(p, now.cosine, now.sine)
+    f = forcing_term(p, now.drive.cosine)
+    df, _ = forcing_rates(p, now.drive.cosine, now.drive.sine)
     return Jet(time, (constant + s * arc.angle) + s * now.risen, s * now.velocity, s * f - constant, s * df)
 
 
 @njit(**INTERNAL_INLINE)
 def start_knot(p, arc, constant, s):
     """Return the jet of w = constant + s u at the start of the arc."""
-    f = forcing_term(p, arc.cosine)
-    df, _ = forcing_rates(p, arc.cosine, arc.sine)
+    f = forcing_term(p, arc.drive.cosine)
+    df, _ = forcing_rates(p, arc.drive.cosine, arc.drive.sine)
     return Jet(0.0, constant + s * arc.angle, s * arc.velocity, s * f - constant, s * df)
 
 
@@ -72,7 +72,7 @@ def first_interval(p, arc):
         Time at which it ends.
         Whether it is convex.
     """
-    sign_change, concave = first_sign_change(p, arc.side, arc.psi, 0.0, p.base_half)
+    sign_change, concave = first_sign_change(p, arc.side, arc.constants.psi, 0.0, p.forcing.base_half)
     return sign_change, not concave
 
 
@@ -109,7 +109,7 @@ def may_dip(w, dw, w_right, dw_right, tanh):
 def may_dip_between(p, ends, doubts):
     """Return ``may_dip`` between two jets with the given error bounds."""
     (left, right), (left_doubt, right_doubt) = ends, doubts
-    tanh = p.base_outside_tanh * (1.0 + MARGIN)
+    tanh = p.forcing.base_outside_tanh * (1.0 + MARGIN)
     w, dw = left.w - left_doubt, left.dw - left_doubt
     return may_dip(w, dw, right.w - right_doubt, right.dw + right_doubt, tanh)
 
@@ -146,10 +146,16 @@ def at_sign_change(p, time, growing, shrinking, turned):
     ``turned`` is -1 at its start and 1 at its end.
     """
     angle, rate = (
-        growing + shrinking + p.sign_change_displacement,
-        growing - shrinking + turned * p.sign_change_velocity,
+        growing + shrinking + p.forcing.sign_change_displacement,
+        growing - shrinking + turned * p.forcing.sign_change_velocity,
     )
-    return Jet(time, angle, rate, 0.0, -turned * p.sign_change_velocity * (1.0 + p.frequency * p.frequency))
+    return Jet(
+        time,
+        angle,
+        rate,
+        0.0,
+        -turned * p.forcing.sign_change_velocity * (1.0 + p.forcing.frequency * p.forcing.frequency),
+    )
 
 
 @njit(**INTERNAL_INLINE)
@@ -161,12 +167,12 @@ def stays_clear(p, arc, end):
     """
     start, (sign_change, convex) = start_knot(p, arc, 0.0, 1.0), first_interval(p, arc)
     begins_well, ends_well = positive_ahead(start.w, start.dw), positive_ahead(end.w, -end.dw)
-    time = sign_change + p.base_inside if convex else sign_change
+    time = sign_change + p.forcing.base_inside if convex else sign_change
     if not (start.w > 0.0 or start.dw > 0.0):
         return False
     if convex and not begins_well:
         return ends_well and end.time <= sign_change
-    if end.time <= time or (ends_well and end.time <= time + p.base_outside):
+    if end.time <= time or (ends_well and end.time <= time + p.forcing.base_outside):
         return True
     grow, shrink, error = exponentials(p, arc)
     error *= WIDE
@@ -176,16 +182,16 @@ def stays_clear(p, arc, end):
         growing, shrinking = grow * z, shrink * per_z
         left = at_sign_change(p, time, growing, shrinking, -1.0)
         doubt = MARGIN * (abs(growing) + abs(shrinking) + 1.0) + error * (z + per_z)
-        growing, shrinking = growing * p.base_outside_growth, shrinking * p.base_outside_decay
+        growing, shrinking = growing * p.forcing.base_outside_growth, shrinking * p.forcing.base_outside_decay
         right = at_sign_change(p, time, growing, shrinking, 1.0)
-        doubt = p.base_outside_growth * doubt + MARGIN * abs(growing)
+        doubt = p.forcing.base_outside_growth * doubt + MARGIN * abs(growing)
         if not (left.w > doubt and right.w > doubt) or may_dip_between(p, (left, right), (doubt, doubt)):
             return False
-        time += p.period
-        if end.time <= time or (ends_well and end.time <= time + p.base_outside):
+        time += p.forcing.period
+        if end.time <= time or (ends_well and end.time <= time + p.forcing.base_outside):
             return True
-        z *= p.turn_growth
-        per_z *= p.turn_decay
+        z *= p.forcing.turn_growth
+        per_z *= p.forcing.turn_decay
     return False
 
 
@@ -243,9 +249,9 @@ def bracket_first_zero(p, arc):
     if not (before.w > 0.0 or before.dw > 0.0 or (convex and lifts)):
         return Walk(UNSURE, before, before)
     under_way = convex and (lifts or not positive_ahead(before.w, before.dw))
-    time = 0.0 if under_way else sign_change + p.base_inside if convex else sign_change
+    time = 0.0 if under_way else sign_change + p.forcing.base_inside if convex else sign_change
     # length of the interval, and e^+-length
-    interval = p.base_outside, p.base_outside_growth, p.base_outside_decay
+    interval = p.forcing.base_outside, p.forcing.base_outside_growth, p.forcing.base_outside_decay
     z, per_z, left, c = 1.0, 1.0, CutKnot(before, 0.0, 0.0, MARGIN), exponentials(p, arc)
     if under_way:
         growth = math.exp(sign_change)
@@ -267,11 +273,14 @@ def bracket_first_zero(p, arc):
         end = cross(p, arc, left, right, k == 0 and lifts)
         if end.answer != PASSED:
             return end
-        if min(right.growing, right.growing - abs(right.shrinking) + (1.0 - p.response)) > right.doubt:
+        if (
+            min(right.growing, right.growing - abs(right.shrinking) + (1.0 - p.forcing.response))
+            > right.doubt
+        ):
             return Walk(NEVER, left.jet, right.jet)
         before = right.jet
-        time += p.base_inside
-        z *= p.turn_growth * p.base_outside_decay
-        per_z *= p.turn_decay * p.base_outside_growth
-        interval = p.base_outside, p.base_outside_growth, p.base_outside_decay
+        time += p.forcing.base_inside
+        z *= p.forcing.turn_growth * p.forcing.base_outside_decay
+        per_z *= p.forcing.turn_decay * p.forcing.base_outside_growth
+        interval = p.forcing.base_outside, p.forcing.base_outside_growth, p.forcing.base_outside_decay
     return Walk(UNSURE, left.jet, left.jet)

@@ -4,13 +4,15 @@ import math
 
 import numpy as np
 
-from rocking.kernels.arc.first_zero import CROSSING, LATER, EventFunction, first_zero, step_to_zero
-from rocking.kernels.arc.solution import evaluate, exponentials, within_reach
-from rocking.kernels.arc.taylor import I2, I4, I6, I8
 from rocking.kernels.compile_options import INTERNAL, INTERNAL_INLINE, KERNEL_INLINE, SIMD_INLINE
 from rocking.kernels.deferred import njit
 from rocking.kernels.event_kinds import BRACE, IMPACT
-from rocking.kernels.forcing.harmonic import TURN, forcing_rates, forcing_term
+from rocking.kernels.forcing.arc import CROSSING, LATER, within_reach
+from rocking.kernels.forcing.extrema import arc_peak
+from rocking.kernels.forcing.harmonic.acceleration import TURN, forcing_rates, forcing_term
+from rocking.kernels.forcing.harmonic.first_zero import EventFunction, first_zero, step_to_zero
+from rocking.kernels.forcing.harmonic.solution import evaluate, exponentials
+from rocking.kernels.forcing.harmonic.taylor import I2, I4, I6, I8
 from rocking.kernels.numerics.elementary import fma
 
 # After an extremum the search starts later by this fraction of the time, and by ever more, so that rounding
@@ -28,16 +30,8 @@ RIGHT_ANGLE = 0.5 * math.pi
 @njit(**KERNEL_INLINE)
 def turn_event_function(p, sign):
     """Return the event function of an extremum of the angle: w = sign u', f_w = sign A Omega sin eta."""
-    half = 0.5 * math.pi if p.amplitude > 0.0 else math.inf
-    return EventFunction(0.0, 0.0, sign, sign * 0.5 * math.pi, half, p.amplitude > 0.0)
-
-
-@njit(**INTERNAL)
-def first_turn_sign(p, arc):
-    """Return the sign of u' just after the start of an arc; positive if both u' and u'' vanish (lift-off)."""
-    if arc.velocity != 0.0:
-        return math.copysign(1.0, arc.velocity)
-    return -1.0 if arc.angle + forcing_term(p, arc.cosine) < 0.0 else 1.0
+    half = 0.5 * math.pi if p.forcing.amplitude > 0.0 else math.inf
+    return EventFunction(0.0, 0.0, sign, sign * 0.5 * math.pi, half, p.forcing.amplitude > 0.0)
 
 
 @njit(**INTERNAL)
@@ -67,27 +61,14 @@ def may_exceed(p, arc, coming, peak):
     h = u - 1 - beta cos eta obeys h'' = h. If h is negative at both ends, it stays below -min(|h|)/cosh(half
     the wait).
     """
-    if peak >= p.brace_angle:
+    if peak >= p.block.brace_angle:
         return False
-    start = 1.0 + p.response * arc.cosine - arc.angle
-    end = 1.0 + p.response * coming.cosine
+    start = 1.0 + p.forcing.response * arc.drive.cosine - arc.angle
+    end = 1.0 + p.forcing.response * coming.drive.cosine
     nearest = min(start, end)
-    return not (nearest > 0.0 and 1.0 + p.response - nearest / math.sqrt(1.0 + 0.5 * coming.versinh) <= peak)
-
-
-@njit(**INTERNAL)
-def arc_peak(p, arc, until, peak):
-    """Return the largest of ``peak`` and the angles on the arc up to ``until``."""
-    now = evaluate(p, arc, until)
-    peak = max(peak, within_reach(p, now.angle))
-    t = 0.0
-    sign = first_turn_sign(p, arc)
-    while True:
-        found, t, now = next_turn(p, arc, sign, t, until)
-        if found != CROSSING:
-            return peak
-        peak = max(peak, within_reach(p, now.angle))
-        sign = -sign
+    return not (
+        nearest > 0.0 and 1.0 + p.forcing.response - nearest / math.sqrt(1.0 + 0.5 * coming.versinh) <= peak
+    )
 
 
 @njit(**SIMD_INLINE)
@@ -137,28 +118,34 @@ def closed_form_peak(p, arc, until, peak):
         The largest angle.
     """
     grow, shrink, error = exponentials(p, arc)
-    if not (max(grow, shrink) < 0.0 and p.frequency * error < -KNOWN * max(grow, shrink)):
+    if not (max(grow, shrink) < 0.0 and p.forcing.frequency * error < -KNOWN * max(grow, shrink)):
         return False, peak
     m = 2.0 * math.sqrt(grow * shrink)
     middle = 0.5 * math.log(shrink / grow)
-    eta = p.frequency * middle + arc.psi + (math.pi if arc.side < 0 else 0.0)
+    eta = p.forcing.frequency * middle + arc.constants.psi + (math.pi if arc.side < 0 else 0.0)
     ahead = TURN * np.floor(eta / TURN + 0.5) - eta
-    if not may_rise_above(peak, m, abs(ahead) * p.per_frequency, p.frequency * p.frequency, p.response):
+    if not may_rise_above(
+        peak,
+        m,
+        abs(ahead) * p.forcing.per_frequency,
+        p.forcing.frequency * p.forcing.frequency,
+        p.forcing.response,
+    ):
         return True, peak
     if 0.5 * TURN - abs(ahead) < TIED:
-        if middle * p.frequency > KNOWN:
+        if middle * p.forcing.frequency > KNOWN:
             return False, peak
         ahead = abs(ahead)
-    other = middle + ahead * p.per_frequency
+    other = middle + ahead * p.forcing.per_frequency
     low, high = max(min(middle, other), 0.0), min(max(middle, other), until)
     if low >= high:
         return False, peak
-    acceleration = p.response * p.frequency * p.frequency
-    t = min(max(middle + ahead * p.per_frequency * (acceleration / (acceleration + m)), low), high)
+    acceleration = p.forcing.response * p.forcing.frequency * p.forcing.frequency
+    t = min(max(middle + ahead * p.forcing.per_frequency * (acceleration / (acceleration + m)), low), high)
     for _ in range(TRIES):
         now = evaluate(p, arc, t)
-        f = forcing_term(p, now.cosine)
-        df, ddf = forcing_rates(p, now.cosine, now.sine)
+        f = forcing_term(p, now.drive.cosine)
+        df, ddf = forcing_rates(p, now.drive.cosine, now.drive.sine)
         second, third = now.angle + f, now.velocity + df
         if not second < 0.0:
             break
@@ -167,8 +154,8 @@ def closed_form_peak(p, arc, until, peak):
         rest = now.velocity / (-second) if ahead_of else t - middle
         if now.angle + 0.5 * abs(now.velocity * rest) <= peak:
             return True, peak
-        step = step_to_zero(now.velocity, second, (df, ddf, -p.frequency * p.frequency * df))
-        if abs(step) < NEAR / max(1.0, p.frequency):
+        step = step_to_zero(now.velocity, second, (df, ddf, -p.forcing.frequency * p.forcing.frequency * df))
+        if abs(step) < NEAR / max(1.0, p.forcing.frequency):
             inside = 0.0 < t + step < until
             rise = now.velocity + step * (
                 0.5 * second + step * ((1.0 / 6.0) * third + step * ((1.0 / 24.0) * (second + ddf)))
@@ -191,7 +178,7 @@ def largest_on(p, arc, until, peak):
 def peak_with(p, arc, coming, peak):
     """Return the largest of ``peak`` and the angles of an arc up to the event that ends it."""
     if coming.event == BRACE:
-        return p.brace_angle
+        return p.block.brace_angle
     if coming.event == IMPACT and not may_exceed(p, arc, coming, peak):
         return peak
     return largest_on(p, arc, coming.wait, peak)

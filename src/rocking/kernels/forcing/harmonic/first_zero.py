@@ -19,31 +19,23 @@ zero are skipped together.
 """
 
 import math
-from enum import IntEnum
 from typing import NamedTuple
 
-from rocking.kernels.arc.solution import evaluate, exponentials, propagate, propagator_or_none
-from rocking.kernels.arc.taylor import reversion
 from rocking.kernels.compile_options import INTERNAL, KERNEL, KERNEL_INLINE
 from rocking.kernels.deferred import njit
-from rocking.kernels.forcing.harmonic import first_sign_change, forcing_rates, forcing_term, next_sign_change
+from rocking.kernels.forcing.arc import CROSSING, LATER, NEVER
+from rocking.kernels.forcing.harmonic.acceleration import (
+    first_sign_change,
+    forcing_rates,
+    forcing_term,
+    next_sign_change,
+)
+from rocking.kernels.forcing.harmonic.solution import evaluate, exponentials, propagate, propagator_or_none
+from rocking.kernels.forcing.harmonic.taylor import reversion
 
-# After this long an arc restarts from its own state: at e^32 the closed form has used up double precision.
-MAX_ARC_TIME = 32.0
 ITERATIONS = 200
 # After this number of steps every second one is a bisection.
 MAX_STEPS = 10
-
-
-class Found(IntEnum):
-    """Result of a search for a zero."""
-
-    CROSSING = 0
-    NEVER = 1  # proved: no zero at any later time
-    LATER = 2  # no zero up to the limit
-
-
-CROSSING, NEVER, LATER = (int(found) for found in Found)
 
 
 class EventFunction(NamedTuple):
@@ -60,21 +52,26 @@ class EventFunction(NamedTuple):
 @njit(**KERNEL_INLINE)
 def base_event_function(p):
     """Return the event function of the base: w = u, f_w = -1 - A cos eta."""
-    return EventFunction(0.0, 1.0, 0.0, 0.0, p.base_half, False)
+    return EventFunction(0.0, 1.0, 0.0, 0.0, p.forcing.base_half, False)
 
 
 @njit(**KERNEL_INLINE)
 def brace_event_function(p):
     """Return the event function of the brace: w = brace_angle - u, f_w = 1 - brace_angle + A cos eta."""
     return EventFunction(
-        p.brace_angle, -1.0, 0.0, 0.0, p.brace_half, p.brace_half < math.inf or p.brace_angle < 1.0
+        p.block.brace_angle,
+        -1.0,
+        0.0,
+        0.0,
+        p.forcing.brace_half,
+        p.forcing.brace_half < math.inf or p.block.brace_angle < 1.0,
     )
 
 
 @njit(**KERNEL_INLINE)
 def event_values(p, arc, event_function, now):
     """Return w and w' at an instant; w from its change since the start, so that it is accurate near a brace too."""
-    acceleration = now.angle + forcing_term(p, now.cosine)
+    acceleration = now.angle + forcing_term(p, now.drive.cosine)
     at_start = event_function.constant + event_function.of_angle * arc.angle
     return (
         at_start + (event_function.of_angle * now.risen + event_function.of_velocity * now.velocity),
@@ -85,9 +82,9 @@ def event_values(p, arc, event_function, now):
 @njit(**KERNEL_INLINE)
 def event_forcing(p, event_function, now):
     """Return f_w, f_w' and f_w'' at an instant."""
-    f = forcing_term(p, now.cosine)
-    df, ddf = forcing_rates(p, now.cosine, now.sine)
-    dddf = -p.frequency * p.frequency * df
+    f = forcing_term(p, now.drive.cosine)
+    df, ddf = forcing_rates(p, now.drive.cosine, now.drive.sine)
+    dddf = -p.forcing.frequency * p.forcing.frequency * df
     return (
         event_function.of_angle * f + event_function.of_velocity * df - event_function.constant,
         event_function.of_angle * df + event_function.of_velocity * ddf,
@@ -198,7 +195,9 @@ def earliest_possible_zero(p, arc, event_function, t):
     m = event_function.constant + event_function.of_angle
     a = (event_function.of_angle + event_function.of_velocity) * grow - error
     b = (event_function.of_angle - event_function.of_velocity) * shrink - error
-    swing = p.response * (abs(event_function.of_angle) + abs(event_function.of_velocity) * p.frequency)
+    swing = p.forcing.response * (
+        abs(event_function.of_angle) + abs(event_function.of_velocity) * p.forcing.frequency
+    )
     m -= swing + 1e-12 * (swing + abs(m))
     z = math.exp(t)
     if m + a * z + b / z <= 0.0:
@@ -222,7 +221,7 @@ def earliest_possible_zero(p, arc, event_function, t):
 def no_return_time(p, arc):
     """Return the time from which c+ e^t - |c-| e^-t + 1 - beta > 0 proves that an arc never comes back."""
     grow, shrink, _ = exponentials(p, arc)
-    m = 1.0 - p.response
+    m = 1.0 - p.forcing.response
     b = abs(shrink)
     root = math.sqrt(m * m + 4.0 * grow * b)
     z = 2.0 * b / (m + root) if m > 0.0 else (root - m) / (2.0 * grow)
@@ -241,7 +240,9 @@ def interval_at(p, arc, event_function, t):
     """
     if not event_function.half < math.inf:
         return math.inf, True
-    sign_change, inside = first_sign_change(p, arc.side, arc.psi, event_function.centre, event_function.half)
+    sign_change, inside = first_sign_change(
+        p, arc.side, arc.constants.psi, event_function.centre, event_function.half
+    )
     while sign_change <= t:
         inside = not inside
         sign_change += next_sign_change(p, event_function.half, inside)
@@ -293,7 +294,7 @@ def first_zero(p, arc, event_function, t, limit):
         if clear >= limit:
             return LATER, limit, evaluate(p, arc, limit)
         if clear > sign_change:
-            cycles = math.floor((clear - t) / p.period) * p.period
+            cycles = math.floor((clear - t) / p.forcing.period) * p.forcing.period
             if cycles > 0.0:
                 t += cycles
                 sign_change += cycles

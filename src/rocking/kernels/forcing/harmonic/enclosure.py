@@ -1,8 +1,8 @@
 """Proofs from the ends of an arc, for one block and for lanes: no event between them, no grazing arrival."""
 
-from rocking.kernels.arc.bracket import MARGIN
 from rocking.kernels.compile_options import SIMD_INLINE
 from rocking.kernels.deferred import njit
+from rocking.kernels.forcing.harmonic.bracket import MARGIN
 from rocking.kernels.numerics.elementary import fma
 
 

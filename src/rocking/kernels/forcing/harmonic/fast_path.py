@@ -13,19 +13,29 @@ ends proves that nothing is met before. Results that are not certain by a wide m
 
 import math
 
-from rocking.kernels.arc.bracket import UNSURE, ZERO, Jet, bracket_first_zero, knot, start_knot, stays_clear
-from rocking.kernels.arc.enclosure import stays_between
-from rocking.kernels.arc.first_zero import MAX_ARC_TIME, corrected_step, step_to_zero
-from rocking.kernels.arc.solution import Instant, propagate, propagator_of
-from rocking.kernels.arc.taylor import series, velocity_after
 from rocking.kernels.compile_options import INTERNAL_INLINE
 from rocking.kernels.deferred import njit
-from rocking.kernels.forcing.harmonic import forcing_rates, forcing_term
+from rocking.kernels.forcing.arc import MAX_ARC_TIME, Instant
+from rocking.kernels.forcing.drives import HarmonicDrive
+from rocking.kernels.forcing.harmonic.acceleration import forcing_rates, forcing_term
+from rocking.kernels.forcing.harmonic.bracket import (
+    UNSURE,
+    ZERO,
+    Jet,
+    bracket_first_zero,
+    knot,
+    start_knot,
+    stays_clear,
+)
+from rocking.kernels.forcing.harmonic.enclosure import stays_between
+from rocking.kernels.forcing.harmonic.first_zero import corrected_step, step_to_zero
+from rocking.kernels.forcing.harmonic.solution import propagate, propagator_of
+from rocking.kernels.forcing.harmonic.taylor import series, velocity_after
 
 TRIES = 6
 # Maximum number of expansion points of the series on the way to an event.
 LOOKS = 8
-NOWHERE = Instant(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+NOWHERE = Instant(0.0, 0.0, 0.0, HarmonicDrive(0.0, 0.0), 0.0, 0.0)
 # Steps below this need no further correction: the reverted series and the Taylor series after it are exact to
 # rounding. The units are 1/max(1, Omega), w'/w'' and the root of w'/w'''.
 SMALL = 2e-4
@@ -42,23 +52,23 @@ def taylor_step(p, now, step):
 
     The fields of the angle are 0: the caller sets the angle.
     """
-    f = forcing_term(p, now.cosine)
-    df, ddf = forcing_rates(p, now.cosine, now.sine)
+    f = forcing_term(p, now.drive.cosine)
+    df, ddf = forcing_rates(p, now.drive.cosine, now.drive.sine)
     second = now.angle + f
     third = now.velocity + df
     fourth = second + ddf
-    fifth = third - p.frequency * p.frequency * df
+    fifth = third - p.forcing.frequency * p.forcing.frequency * df
     velocity = velocity_after((now.velocity, second, third, fourth, fifth), step)
-    x = p.frequency * step
+    x = p.forcing.frequency * step
     sin_x = x * (1.0 - x * x * (1.0 / 6.0 - x * x * (1.0 / 120.0)))
     versine = x * x * (0.5 - x * x * (1.0 / 24.0))
-    cosine = now.cosine - (now.cosine * versine + now.sine * sin_x)
-    sine = now.sine - (now.sine * versine - now.cosine * sin_x)
+    cosine = now.drive.cosine - (now.drive.cosine * versine + now.drive.sine * sin_x)
+    sine = now.drive.sine - (now.drive.sine * versine - now.drive.cosine * sin_x)
     h = step * (1.0 + step * step * (1.0 / 6.0))
     v = step * step * (0.5 + step * step * (1.0 / 24.0))
     sinh = now.sinh + (now.sinh * v + h + now.versinh * h)
     versinh = now.versinh + (now.versinh * v + v + now.sinh * h)
-    return Instant(0.0, 0.0, velocity, cosine, sine, sinh, versinh)
+    return Instant(0.0, 0.0, velocity, HarmonicDrive(cosine, sine), sinh, versinh)
 
 
 @njit(**INTERNAL_INLINE)
@@ -67,7 +77,9 @@ def close(p, now):
     w, v = abs(now.w), -now.dw
     bend, twist = w * abs(now.w + now.f), w * w * abs(now.dw + now.df)
     return (
-        w * max(1.0, p.frequency) < SMALL * v and bend < SMALL * v * v and twist < SMALL * SMALL * v * v * v
+        w * max(1.0, p.forcing.frequency) < SMALL * v
+        and bend < SMALL * v * v
+        and twist < SMALL * SMALL * v * v * v
     )
 
 
@@ -84,7 +96,7 @@ def parabola_step(now):
 @njit(**INTERNAL_INLINE)
 def turned(p, steady, now):
     """Return f'' at a jet, where f is the sum of -steady and a part that oscillates with the forcing."""
-    return -p.frequency * p.frequency * (now.f + steady)
+    return -p.forcing.frequency * p.forcing.frequency * (now.f + steady)
 
 
 @njit(**INTERNAL_INLINE)
@@ -99,7 +111,7 @@ def polished(p, steady, now, rough):
         Whether w falls at the end of the step.
         The step.
     """
-    square = -p.frequency * p.frequency
+    square = -p.forcing.frequency * p.forcing.frequency
     df, ddf = now.df, turned(p, steady, now)
     c0, c1 = now.w, now.dw
     c2, c3 = c0 + now.f, c1 + df
@@ -127,7 +139,7 @@ def taylor_zero(p, steady, here):
         Whether the series is valid as far as the zero.
         The step to the zero.
     """
-    scale, rough = max(1.0, p.frequency), math.inf
+    scale, rough = max(1.0, p.forcing.frequency), math.inf
     if abs(here.w * (here.w + here.f)) < BEND * here.dw * here.dw and here.dw < 0.0:
         rough = step_to_zero(here.w, here.dw, (here.f, here.df, turned(p, steady, here)))
         if scale * abs(rough) < NEAR:
@@ -221,9 +233,9 @@ def predict_next_event(p, base, brace):
     to_base, to_brace = parabola_step(base), parabola_step(brace)
     at_brace = to_brace < to_base
     here, rough = (brace, to_brace) if at_brace else (base, to_base)
-    farthest = REACH / max(1.0, p.frequency)
+    farthest = REACH / max(1.0, p.forcing.frequency)
     rough = min(rough, farthest)
-    valid, step = polished(p, p.brace_angle - 1.0 if at_brace else 1.0, here, rough)
+    valid, step = polished(p, p.block.brace_angle - 1.0 if at_brace else 1.0, here, rough)
     valid = valid and 0.0 < step <= farthest
     return valid, at_brace, step if valid else rough
 
@@ -243,8 +255,8 @@ def fast_first_event(p, arc):
         Whether the event is at a brace.
         Time of the event and the state there.
     """
-    system = p.amplitude, p.frequency, p.brace_angle
-    base, brace = start_knot(p, arc, 0.0, 1.0), start_knot(p, arc, p.brace_angle, -1.0)
+    system = p.forcing.amplitude, p.forcing.frequency, p.block.brace_angle
+    base, brace = start_knot(p, arc, 0.0, 1.0), start_knot(p, arc, p.block.brace_angle, -1.0)
     valid, at_brace, step = predict_next_event(p, base, brace)
     for _ in range(LOOKS):
         propagator = propagator_of(p, base.time + step)
@@ -253,14 +265,14 @@ def fast_first_event(p, arc):
             if stays_between(system, step, (base.w, base.dw), (now.angle, now.velocity)):
                 base, brace = (
                     knot(p, arc, 0.0, 1.0, propagator.time, now),
-                    knot(p, arc, p.brace_angle, -1.0, propagator.time, now),
+                    knot(p, arc, p.block.brace_angle, -1.0, propagator.time, now),
                 )
                 valid, at_brace, step = predict_next_event(p, base, brace)
                 continue
-            at_brace = now.angle > p.brace_angle
+            at_brace = now.angle > p.block.brace_angle
             valid = at_brace or now.angle < 0.0
         if valid:
-            place, s = (p.brace_angle, -1.0) if at_brace else (0.0, 1.0)
+            place, s = (p.block.brace_angle, -1.0) if at_brace else (0.0, 1.0)
             reached, t, now, _ = refine_prediction(p, arc, place, s, propagator, base.time, MAX_ARC_TIME)
             if reached and stays_between(system, t - base.time, (base.w, base.dw), (place, now.velocity)):
                 return ZERO, at_brace, t, now

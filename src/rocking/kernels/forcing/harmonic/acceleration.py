@@ -58,11 +58,11 @@ def forcing_at(p, side, time, angle):
         cos eta, sin eta and psi.
         u'' = u - 1 - A cos eta, accurate even if it is close to 0.
     """
-    cosine, sine, psi, versine, exact = clock(p.frequency, p.phase, side, time)
+    cosine, sine, psi, versine, exact = clock(p.forcing.frequency, p.forcing.phase, side, time)
     above = angle - 1.0
-    acceleration = fma(-p.amplitude, cosine, above)
+    acceleration = fma(-p.forcing.amplitude, cosine, above)
     if exact:
-        most = math.copysign(p.amplitude, cosine)
+        most = math.copysign(p.forcing.amplitude, cosine)
         acceleration = fma(most, versine, above - most)
     return cosine, sine, psi, acceleration
 
@@ -70,26 +70,29 @@ def forcing_at(p, side, time, angle):
 @njit(**INTERNAL_INLINE)
 def forcing_term(p, cosine):
     """Return f = u'' - u = -1 - A cos eta on one side of the base, eq. (4)."""
-    return -1.0 - p.amplitude * cosine
+    return -1.0 - p.forcing.amplitude * cosine
 
 
 @njit(**INTERNAL_INLINE)
 def forcing_rates(p, cosine, sine):
     """Return f' and f'' of ``forcing_term``; each higher derivative is -Omega**2 times the last but one."""
-    return p.amplitude * p.frequency * sine, p.amplitude * p.frequency * p.frequency * cosine
+    return (
+        p.forcing.amplitude * p.forcing.frequency * sine,
+        p.forcing.amplitude * p.forcing.frequency * p.forcing.frequency * cosine,
+    )
 
 
 @njit(**INTERNAL_INLINE)
 def forced_step(p, t, sinh, versinh, excess, higher):
     """Return the ``ForcedStep`` of a time t."""
-    sin_x, versine, lag, deficit = circular(p.frequency, t)
+    sin_x, versine, lag, deficit = circular(p.forcing.frequency, t)
     in_phase = versinh + versine
-    quadrature = p.frequency * excess + lag
-    near = p.frequency * t < SHORT
-    displacement, forced_velocity = in_phase, sinh + p.frequency * sin_x
+    quadrature = p.forcing.frequency * excess + lag
+    near = p.forcing.frequency * t < SHORT
+    displacement, forced_velocity = in_phase, sinh + p.forcing.frequency * sin_x
     if near:
-        displacement = -(p.frequency * p.frequency * higher + deficit)
-        forced_velocity = -p.frequency * quadrature
+        displacement = -(p.forcing.frequency * p.forcing.frequency * higher + deficit)
+        forced_velocity = -p.forcing.frequency * quadrature
     return ForcedStep(near, sin_x, versine, in_phase, quadrature, displacement, forced_velocity)
 
 
@@ -111,8 +114,8 @@ def forced_response(p, cosine, sine, above, acceleration, forced_step):
         cos eta and sin eta at the end.
     """
     near, sin_x, versine, in_phase, quadrature, displacement, forced_velocity = forced_step
-    displaced = p.response * (sine * quadrature - cosine * displacement)
-    moved = p.response * (p.frequency * sine * in_phase - cosine * forced_velocity)
+    displaced = p.forcing.response * (sine * quadrature - cosine * displacement)
+    moved = p.forcing.response * (p.forcing.frequency * sine * in_phase - cosine * forced_velocity)
     return (
         acceleration if near else above,
         displaced,
@@ -125,7 +128,7 @@ def forced_response(p, cosine, sine, above, acceleration, forced_step):
 @njit(**INTERNAL_INLINE)
 def particular(p, cosine, sine):
     """Return beta cos eta and its derivative: the bounded particular solution of u'' - u = -A cos eta."""
-    return p.response * cosine, -p.response * p.frequency * sine
+    return p.forcing.response * cosine, -p.forcing.response * p.forcing.frequency * sine
 
 
 @njit(**INTERNAL_INLINE)
@@ -145,20 +148,20 @@ def first_sign_change(p, side, psi, centre, half):
     if zeta >= TURN:
         zeta = 0.0  # rounded onto the first sign change: the next interval has started
     inside = zeta < 2.0 * half
-    return ((2.0 * half if inside else TURN) - zeta) * p.per_frequency, inside
+    return ((2.0 * half if inside else TURN) - zeta) * p.forcing.per_frequency, inside
 
 
 @njit(**INTERNAL_INLINE)
 def next_sign_change(p, half, inside):
     """Return the time from one sign change to the next; ``inside`` says which sign interval lies between them."""
-    return (2.0 * half if inside else TURN - 2.0 * half) * p.per_frequency
+    return (2.0 * half if inside else TURN - 2.0 * half) * p.forcing.per_frequency
 
 
 @njit(**INTERNAL_INLINE)
 def acceleration_change_bound(p, sine, time):
     """Return an upper bound on the change of the base acceleration within the next ``time``."""
-    x = p.frequency * time
-    return p.amplitude * (abs(sine) * x + 0.5 * x * x)
+    x = p.forcing.frequency * time
+    return p.forcing.amplitude * (abs(sine) * x + 0.5 * x * x)
 
 
 @njit(**INTERNAL_INLINE)
@@ -170,8 +173,8 @@ def sensitivities(p, cosine, sine, t, sinh, versinh, excess):
     tuple of six floats
         F_A, F'_A, F_psi, F'_psi, F_Omega and F'_Omega.
     """
-    sin_x, versine, lag, _ = circular(p.frequency, t)
-    frequency, k = p.frequency, p.reciprocal
+    sin_x, versine, lag, _ = circular(p.forcing.frequency, t)
+    frequency, k = p.forcing.frequency, p.forcing.reciprocal
     in_phase = k * (versinh + versine)
     quadrature = k * (frequency * excess + lag)
     in_phase_rate = k * (sinh + frequency * sin_x)
@@ -180,7 +183,7 @@ def sensitivities(p, cosine, sine, t, sinh, versinh, excess):
     quadrature_f = k * (excess + t * versine) + turned * quadrature
     in_phase_rate_f = k * (sin_x + frequency * t * (1.0 - versine)) + turned * in_phase_rate
     quadrature_rate_f = in_phase + frequency * in_phase_f
-    a = p.amplitude
+    a = p.forcing.amplitude
     return (
         cosine * in_phase - sine * quadrature,
         cosine * in_phase_rate - sine * frequency * in_phase,

@@ -1,0 +1,69 @@
+"""Arc, its states and its end, for every forcing: ``drive`` and ``constants`` belong to the forcing, and only its room reads them."""
+
+from enum import IntEnum
+from typing import NamedTuple
+
+from rocking.kernels.compile_options import INTERNAL_INLINE
+from rocking.kernels.deferred import njit
+from rocking.kernels.forcing.drives import HarmonicConstants, HarmonicDrive
+
+# After this long an arc restarts from its own state: at e^32 the closed form has used up double precision.
+MAX_ARC_TIME = 32.0
+
+
+class Found(IntEnum):
+    """Result of a search for a zero."""
+
+    CROSSING = 0
+    NEVER = 1  # proved: no zero at any later time
+    LATER = 2  # no zero up to the limit
+
+
+CROSSING, NEVER, LATER = (int(found) for found in Found)
+
+
+class Arc(NamedTuple):
+    """Start of an arc: side of the base, time within the cycle, u, u', and the forcing there."""
+
+    side: int
+    start: float
+    angle: float
+    velocity: float
+    drive: HarmonicDrive
+    constants: HarmonicConstants  # of its closed form
+
+
+class Instant(NamedTuple):
+    """State of an arc at one instant, with the forcing and the hyperbolic functions of the time since its start."""
+
+    angle: float
+    risen: float  # u - u0, to relative accuracy
+    velocity: float
+    drive: HarmonicDrive
+    sinh: float
+    versinh: float  # cosh t - 1
+
+
+class Next(NamedTuple):
+    """Coming event of an arc, a rest or a contact with a brace: time until it, kind, and the state at that time."""
+
+    wait: float
+    event: int
+    side: int
+    angle: float
+    velocity: float
+    drive: HarmonicDrive
+    sinh: float
+    versinh: float
+
+
+@njit(**INTERNAL_INLINE)
+def shift_clock(arc, time):
+    """Return the arc relative to a clock that is set to 0 at ``time``."""
+    return Arc(arc.side, arc.start - time, arc.angle, arc.velocity, arc.drive, arc.constants)
+
+
+@njit(**INTERNAL_INLINE)
+def within_reach(p, angle):
+    """Clip an angle to the range between base and brace, which rounding may exceed near an event."""
+    return min(max(angle, 0.0), p.block.brace_angle)

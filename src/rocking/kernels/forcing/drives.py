@@ -1,0 +1,17 @@
+"""Forcing at one instant, and the constants of an arc, for each kind of forcing."""
+
+from typing import NamedTuple
+
+
+class HarmonicDrive(NamedTuple):
+    """Harmonic forcing at one instant: eta is its phase psi on the positive side, and psi + pi on the negative side."""
+
+    cosine: float  # of eta
+    sine: float
+
+
+class HarmonicConstants(NamedTuple):
+    """Constants of an arc with harmonic forcing."""
+
+    psi: float  # forcing phase at the start
+    acceleration: float  # u'' there
