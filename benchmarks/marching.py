@@ -21,7 +21,8 @@ from rocking.kernels.lanes.state import FIND_EVENT, IDLE, LANES, LOAD_NEXT, NO_R
 from rocking.kernels.lanes.step import advance, apply_impacts
 from rocking.kernels.lanes.transfer import load_block, set_leg
 from rocking.kernels.lanes.workspace import make_lane_workspace
-from rocking.kernels.march.march import MAX_EVENTS, UNKNOWN, begin
+from rocking.kernels.march.initial_state import UNKNOWN, begin
+from rocking.kernels.march.march import MAX_EVENTS
 from rocking.kernels.march.tangent import TangentState
 
 CYCLES, BEFORE = 3000, 30

@@ -14,6 +14,7 @@ from benchmarks.reference import DIGITS, state_at
 from benchmarks.table import Figure
 from rocking import Harmonic, State, System, simulate
 from rocking.kernels.forcing.harmonic.parameters import harmonic_parameters
+from rocking.kernels.march import initial_state
 from rocking.kernels.march import march as kernel
 from rocking.kernels.march.progress import Recording
 from rocking.kernels.march.tangent import TangentState
@@ -33,7 +34,7 @@ OVER_HEYOKA = {False: (45, 70, 25), True: (100, 120, 50)}
 def march(case, cycles):
     """March one block from rest with its tangent vectors, in the kernel alone; return (impacts, final point)."""
     p = harmonic_parameters(case.amplitude, case.frequency, case.period, 0.0, case.restitution)
-    progress, _ = kernel.begin_march(p, 0.0, 0.0)
+    progress, _ = initial_state.begin_march(p, 0.0, 0.0)
     while progress.cycle < cycles:
         # The tangent restarts every ``tangent_cycles``, before it overflows or becomes subnormal.
         tangent, until = (

@@ -23,7 +23,7 @@ from rocking.kernels.classify.workspace import make_workspace
 from rocking.kernels.compile_options import KERNEL
 from rocking.kernels.deferred import njit
 from rocking.kernels.forcing.harmonic.parameters import parameters_from_row
-from rocking.kernels.march import march
+from rocking.kernels.march import initial_state, march
 from rocking.kernels.march.progress import Recording
 from rocking.kernels.numerics.replace_fields import replacing
 from rocking.model import Criterion
@@ -173,7 +173,7 @@ def march_all(systems, cycles, memory, answers):
     nothing = memory.nothing
     for k in range(systems.shape[0]):
         p = parameters_from_row(systems[k])
-        progress = march.begin(p, 0.0, 0.0, march.UNKNOWN)[0]
+        progress = initial_state.begin(p, 0.0, 0.0, initial_state.UNKNOWN)[0]
         recording = Recording(0.0, nothing.section, nothing.events, False, False)
         _, progress = march.march_through(p, progress, cycles, recording, nothing.tangent)
         answers.impacts[k] = progress.impacts

@@ -26,6 +26,8 @@ C_LIBRARY = {
     "acos",
     "atan",
     "atan2",
+    "atanh",
+    "expm1",
     "exp",
     "fmod",
     "hypot",

@@ -7,8 +7,8 @@ import pytest
 
 from rocking.kernels import event_kinds as ev
 from rocking.kernels.forcing.harmonic.parameters import harmonic_parameters
+from rocking.kernels.march import initial_state, tangent
 from rocking.kernels.march import march as kernel
-from rocking.kernels.march import tangent
 from rocking.kernels.march.event_rows import EVENT_ROW
 from rocking.kernels.march.progress import Recording
 from rocking.kernels.march.tangent import TangentState
@@ -31,7 +31,7 @@ def numbers(case):
 
 def final(case, cycles, columns=NOTHING, growth=NOTHING[:, 0], room=10_000):
     p = numbers(case)
-    progress, _ = kernel.begin_march(p, case["angle"], case["velocity"])
+    progress, _ = initial_state.begin_march(p, case["angle"], case["velocity"])
     events = np.empty(room, EVENT_ROW)
     recording, tangent = Recording(events=events), TangentState(columns, growth)
     status, progress, _, written = kernel.march(p, progress, cycles, recording, tangent)
@@ -219,7 +219,7 @@ def test_exponents_sum_to_the_loss_on_random_bounded_runs():
             )
             case = {**case, **braces, "amplitude": random.uniform(0.0, 60.0)}
         p, columns, growth, cycles = numbers(case), np.eye(2), np.zeros(2), 200
-        progress, _ = kernel.begin_march(p, case["angle"], case["velocity"])
+        progress, _ = initial_state.begin_march(p, case["angle"], case["velocity"])
         tangent = TangentState(columns, growth)
         status, progress, _, _ = kernel.march(p, progress, cycles, Recording(), tangent)
         if status != kernel.DONE or not np.isfinite(growth).all():

@@ -13,17 +13,17 @@ from oracles import undamped
 from rocking.kernels import batch
 from rocking.kernels.classify import verdict_record
 from rocking.kernels.forcing.harmonic.parameters import harmonic_parameters
-from rocking.kernels.march import march
+from rocking.kernels.march import initial_state, march
 from rocking.kernels.march.progress import Recording
 from rocking.kernels.march.tangent import TangentState
 
 PEAK = """
 import math, sys
-from rocking.kernels.march import march
+from rocking.kernels.march import initial_state, march
 from rocking.kernels.forcing.harmonic.parameters import harmonic_parameters
 period = 1.5788944723618088
 p = harmonic_parameters(13.266331658291458, 2 * math.pi / period, period, 2.3999632297286526, 0.925)
-progress, _ = march.begin_march(p, -1.5810174541726596, -2.118118497481491)
+progress, _ = initial_state.begin_march(p, -1.5810174541726596, -2.118118497481491)
 status, progress, _, _ = march.march(p, progress, 3, march.Recording(peak=True))
 print(status == march.DONE, progress.cycle, progress.peak)
 """
@@ -231,7 +231,7 @@ def leaves_its_torus_in_doubles(system):
     """
     amplitude, frequency, period = system[:3].tolist()
     p = harmonic_parameters(amplitude, frequency, period, 0.0, 1.0)
-    progress, _ = march.begin_march(p, 0.0, 0.0)
+    progress, _ = initial_state.begin_march(p, 0.0, 0.0)
     tangent = TangentState(np.eye(2), np.zeros(1))
     motion = rk.simulate(rk.System(rk.Harmonic(amplitude, period=period), 1.0), cycles=30_000)
     if motion.outcome == "overturned":

@@ -108,7 +108,7 @@ def first_events(systems, starts):
         s, here = empty(), range(first, min(first + LANES, len(systems)))
         for i, k in enumerate(here):
             sit_down(s, i, systems[k], *starts[k][:3], EYE, 10**9, *starts[k][3:])
-        strike_and_pass(s, systems[0].brace_angle < math.inf)
+        strike_and_pass(s, systems[0].block.brace_angle < math.inf)
         for i, k in enumerate(here):
             found[k], certain[k] = [s[name][i] for name in FIRST], s["stage"][i] == AT_EVENT
     return found, certain

@@ -6,6 +6,7 @@ import numpy as np
 
 import rocking as rk
 from rocking.kernels.forcing.harmonic.parameters import harmonic_parameters
+from rocking.kernels.march import initial_state
 from rocking.kernels.march import march as kernel
 from rocking.kernels.march.progress import Recording
 from rocking.kernels.march.tangent import TangentState
@@ -36,7 +37,7 @@ def start_of(case):
 def run(system, start, cycles, *, keep=False, place=0.0):
     """Run without peaks and events: status, final state, (impacts, brace impacts) and section at a place in the cycle."""
     p = _numbers(system)
-    progress, _ = kernel.begin_march(p, start.angle, start.velocity)
+    progress, _ = initial_state.begin_march(p, start.angle, start.velocity)
     rows, done, status = np.empty((cycles if keep else 0, 2)), 0, kernel.PAUSED
     while status == kernel.PAUSED:
         recording = Recording(place * p.forcing.period, rows[done:])
@@ -114,7 +115,7 @@ def mean_flight(events):
 def growth_rate(system, start, cycles=CHAOS_CYCLES):
     """Largest exponent per τ over the second half of a run, and its standard error from the means of batches."""
     p = _numbers(system)
-    progress, _ = kernel.begin_march(p, start.angle, start.velocity)
+    progress, _ = initial_state.begin_march(p, start.angle, start.velocity)
     progress = _onward(p, progress, cycles // 2, np.empty((0, 2)), np.empty(0))
     columns, length, rates = np.eye(2), cycles // 2 // BATCHES, []
     for batch in range(1, BATCHES + 1):

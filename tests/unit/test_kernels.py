@@ -14,6 +14,7 @@ from rocking.kernels import event_kinds, machine_code
 from rocking.kernels.deferred import import_all
 from rocking.kernels.entry_point import ENTRY_POINTS
 from rocking.kernels.forcing.harmonic import parameters
+from rocking.kernels.march import initial_state
 from rocking.kernels.march import march as kernel
 from rocking.kernels.march.event_rows import EVENT_ROW
 from rocking.kernels.march.progress import Recording
@@ -25,7 +26,7 @@ import_all()
 
 
 def march(p, cycles, angle=0.0, velocity=0.0):
-    progress, _ = kernel.begin_march(p, angle, velocity)
+    progress, _ = initial_state.begin_march(p, angle, velocity)
     status = kernel.PAUSED
     while status == kernel.PAUSED:
         found = kernel.march(p, progress, cycles, Recording())
@@ -87,7 +88,7 @@ def test_marching_in_pieces_is_marching_in_one_go():
     # a regular motion: what an arc renewed at the end of a piece changes is rounding
     p = parameters.harmonic_parameters(6.5, 5.0 * math.pi, 0.4, 0.0, 0.925)
     whole = march(p, 300)[1]
-    pieces, _ = kernel.begin_march(p, 0.0, 0.0)
+    pieces, _ = initial_state.begin_march(p, 0.0, 0.0)
     for until in range(7, 300, 7):
         pieces = kernel.march(p, pieces, until, Recording())[1]
     pieces = kernel.march(p, pieces, 300, Recording())[1]
@@ -100,7 +101,7 @@ def test_a_full_buffer_of_events_loses_none():
     p = parameters.harmonic_parameters(15.0, math.pi, 2.0, 0.0, 0.925, 1.0, 1.0)
 
     def times(room):
-        progress, _ = kernel.begin_march(p, 0.0, 0.0)
+        progress, _ = initial_state.begin_march(p, 0.0, 0.0)
         found, status = [], kernel.PAUSED
         while status == kernel.PAUSED:
             rows = np.empty(room, EVENT_ROW)

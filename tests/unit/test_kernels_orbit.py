@@ -9,7 +9,7 @@ import rocking as rk
 from rocking.kernels.classify import periodicity, recurrence, workspace
 from rocking.kernels.deferred import njit
 from rocking.kernels.forcing.harmonic.parameters import harmonic_parameters
-from rocking.kernels.march.march import UNKNOWN
+from rocking.kernels.march.initial_state import UNKNOWN
 from rocking.kernels.march.tangent import Tangent
 from rocking.kernels.orbits import fixed_point, floquet, symmetric_mode
 

@@ -13,6 +13,7 @@ import pytest
 
 import rocking as rk
 from rocking.model import NO_BRACES, check_start, quantities, system_of
+from rocking.model.system import FORCINGS
 
 SYSTEM = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925)
 
@@ -163,7 +164,7 @@ def test_acceleration_of_the_base_is_equation_3():
     [
         (
             lambda: rk.System(2.0, 0.9),
-            "forcing must be a Harmonic; got 2.0 (make one: rk.Harmonic(amplitude=2.0, period=1.0))",
+            f"forcing must be a base motion; got 2.0 ({FORCINGS})",
         ),
         (
             lambda: rk.System(SYSTEM.forcing, 0.9, braces=1.0),

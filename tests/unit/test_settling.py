@@ -8,6 +8,7 @@ import pytest
 from rocking.kernels import event_kinds as ev
 from rocking.kernels.forcing.drives import HarmonicDrive
 from rocking.kernels.forcing.harmonic import parameters
+from rocking.kernels.march import initial_state
 from rocking.kernels.march import march as kernel
 from rocking.kernels.march.chatter import base_settling_time, brace_settling_time
 from rocking.kernels.march.event_rows import EVENT_ROW
@@ -18,7 +19,7 @@ STEADY = HarmonicDrive(1.0, 0.0)
 
 def first_reset(p, speed):
     """Return the time of the first event other than an impact, from the base at this speed, and whether it is rest."""
-    progress, _ = kernel.begin_march(p, 0.0, speed)
+    progress, _ = initial_state.begin_march(p, 0.0, speed)
     rows = np.empty(20_000, EVENT_ROW)
     _, _, _, written = kernel.march(p, progress, 1, Recording(events=rows))
     others = rows[:written][rows["event"][:written] != ev.IMPACT]

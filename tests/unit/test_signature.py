@@ -107,11 +107,11 @@ def test_union_is_found_at_its_place_and_replaced_by_what_is_chosen():
     place, union = place_of_union(list(solve.__annotations__.values())[:2])
     assert (place, union) == ((1, 1), One | Two)
     assert place_of_union([float, Outer]) is None
-    for chosen, words in ((One, 3), (Two, 4)):
+    for chosen, (kind, words) in enumerate(((One, 3), (Two, 4))):
         signature = Signature(solve, chosen)
-        value = chosen(*range(len(chosen._fields)))
+        value = kind(*range(len(kind._fields)))
         block = signature.pack((0.5, Problem(9, value)))
         assert signature.offset == words
         struct.pack_into(f"={len(value)}d", block, 8 * words, *value)
         assert signature.unpack(block) == value
-        assert type(signature.unpack(block)) is chosen
+        assert type(signature.unpack(block)) is kind

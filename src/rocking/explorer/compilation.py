@@ -13,11 +13,11 @@ POLLING = 0.1
 """Interval, s, at which a waiting figure looks for its machine code."""
 SIMULATION = (
     "parameters.make_plain",
-    "march.begin_march",
-    "march.note_start",
-    "march.march_plain",
-    "resample.sample",
-    "resample.turns",
+    "initial_state.begin_march.HarmonicParameters",
+    "initial_state.note_start.HarmonicDrive",
+    "march.march_plain.HarmonicParameters",
+    "resample.sample.HarmonicParameters",
+    "resample.turns.HarmonicParameters",
 )
 CLASSIFICATION = (*SIMULATION, "batch.classify_batch_scalar")
 BASIN = (*CLASSIFICATION, "attractor_anchor.anchor_each")

@@ -211,7 +211,7 @@ def in_metres(shown: ViewState, typed: Mapping[str, str]) -> ViewState:
         system = block.system(**{size: read["acceleration"]}, frequency_hz=read["frequency_hz"])
     except ValueError as error:
         raise Refused(_at_its_field(str(error))) from None
-    forcing = system.forcing
+    forcing = system.harmonic
     return attrs.evolve(
         shown,
         amplitude=forcing.amplitude,

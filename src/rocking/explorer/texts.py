@@ -23,7 +23,7 @@ MIN_SHARE = 1e-4
 
 def verdict(found: Verdict, block: Block | None) -> dict[str, Any]:
     """Return a verdict for the page: response type, colour, named values and evidence."""
-    forcing = found.system.forcing
+    forcing = found.system.harmonic
     facts: Facts = [] if block is None else _physical(forcing, block)
     if found.period is not None:
         symmetry = "symmetric" if found.symmetric else "asymmetric"

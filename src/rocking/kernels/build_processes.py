@@ -20,9 +20,10 @@ from rocking.kernels.waiting import report
 MAX_BUILDERS = 2
 # Seconds of one core that the longest entry points took when measured, in the order in which they are compiled.
 SECONDS = {
-    "march.march_plain": 9.0,
+    "march.march_plain.HarmonicParameters": 9.0,
     "batch.classify_batch_scalar": 12.0,
     "scheduler.classify_batch_lanes": 22.0,
+    "march.march_plain.SampledParameters": 9.0,
     "attractor_anchor.anchor_each": 2.2,
     "sweep.sweep": 1.3,
     "newton_search.newton_from_starts": 1.1,

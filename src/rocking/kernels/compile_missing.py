@@ -43,7 +43,7 @@ def kernels_below(entry: EntryPoint) -> set[Dispatcher]:
             kernel = function.__globals__.get(name)
             if isinstance(kernel, FunctionType) and kernel in CONTRACTS:
                 bodies = CONTRACTS[kernel].bodies
-                kernel = bodies.get(entry.chosen, next(iter(bodies.values()))).compiled
+                kernel = bodies.get(entry.kind, next(iter(bodies.values()))).compiled
             if isinstance(kernel, Dispatcher) and kernel not in found:
                 found.add(kernel)
                 left.append(kernel.py_func)

@@ -19,12 +19,16 @@ class EntryPoint:
     """A kernel that Python calls, by an address in machine code that is loaded at its first call."""
 
     def __init__(
-        self, function: Callable[..., Any], options: dict[str, Any], chosen: type | None = None
+        self,
+        function: Callable[..., Any],
+        options: dict[str, Any],
+        chosen: int | None = None,
+        kind: type | None = None,
     ) -> None:
-        self.function, self.options, self.chosen = function, options, chosen
+        self.function, self.options, self.chosen, self.kind = function, options, chosen, kind
         self.name = f"{function.__module__.rpartition('.')[2]}.{function.__name__}"
-        if chosen is not None:
-            self.name += f".{chosen.__name__}"
+        if kind is not None:
+            self.name += f".{kind.__name__}"
         self.__doc__ = function.__doc__
         self._run: Callable[[int], None] | None = None
         self._lock = threading.Lock()
@@ -76,7 +80,9 @@ class Choice:
     ) -> None:
         self.__doc__ = function.__doc__
         self._place = place
-        self._rows = {kind: EntryPoint(function, options, kind) for kind in get_args(union)}
+        self._rows = {
+            kind: EntryPoint(function, options, chosen, kind) for chosen, kind in enumerate(get_args(union))
+        }
 
     def __call__(self, *arguments: Any) -> Any:
         """Run the machine code for the type of the arguments."""
@@ -91,8 +97,8 @@ class Choice:
 def entry_point(**options: Any) -> Callable[[Callable[..., Any]], Any]:
     """Mark a function as an entry point. All its arguments and its result must be annotated.
 
-    A union among the annotations, such as that of the parameters of several forcings, makes one entry point for each
-    member.
+    Unions among the annotations, such as that of the parameters of all forcings, make one entry point for each member. The
+    first union must be that of an argument, and tells by its type which is called.
     """
 
     def mark(function: Callable[..., Any]) -> Any:

@@ -1,7 +1,7 @@
 """Arguments and results of entry points as rows of 8-byte words, by the annotations of functions and named tuples.
 
-A number is one word. A tuple is its fields, one after another. An array is its address and its shape. Where an annotation
-is a union, one member of it is chosen.
+A number is one word. A tuple is its fields, one after another. An array is its address and its shape. Where annotations
+are unions, the same member is chosen of each: all unions of an entry point list their members in the same order.
 """
 
 import ctypes
@@ -60,12 +60,12 @@ def place_of_union(kinds: list[Any]) -> tuple[tuple[int, ...], Any] | None:
     return None
 
 
-def resolve(kind: Any, chosen: type | None) -> Any:
-    """Return the type that an annotation stands for: float, int, bool, ``Array`` or ``Fields``; ``chosen`` stands for unions."""
+def resolve(kind: Any, chosen: int | None) -> Any:
+    """Return the type that an annotation stands for: float, int, bool, ``Array`` or ``Fields``; of a union, member ``chosen``."""
     if is_union(kind):
-        if chosen not in get_args(kind):
-            raise TypeError(f"an entry point has one union of types at most; {chosen} is not one of {kind}")
-        return resolve(chosen, chosen)
+        if chosen is None:
+            raise TypeError(f"a member of {kind} must be chosen")
+        return resolve(get_args(kind)[chosen], chosen)
     if kind in CODES:
         return kind
     if get_origin(kind) is Annotated:
@@ -125,7 +125,7 @@ def maker_of(kind: Any) -> Callable[[Iterator[Any]], Any]:
 class Signature:
     """Types of the arguments and of the result of an entry point, from the annotations of its function."""
 
-    def __init__(self, function: Callable[..., Any], chosen: type | None = None) -> None:
+    def __init__(self, function: Callable[..., Any], chosen: int | None = None) -> None:
         hints = get_type_hints(function, include_extras=True)
         result = hints.pop("return")
         self.arguments = Fields(tuple, tuple(resolve(kind, chosen) for kind in hints.values()))

@@ -23,12 +23,13 @@ from rocking.model.binomial_share import LEVEL, Share, wilson
 from rocking.model.block import GRAVITY, Block
 from rocking.model.citation import cite
 from rocking.model.classification import Criterion, Kind
-from rocking.model.forcing import FREQUENCIES, MAX_AMPLITUDE, MAX_PHASE, PERIODS, Harmonic
+from rocking.model.forcing import FREQUENCIES, MAX_AMPLITUDE, MAX_PHASE, PERIODS, Forcing, Harmonic
 from rocking.model.formatting import counted, ordinal, percent, plus_minus
 from rocking.model.notebook_renderers import NotebookPicture
 from rocking.model.orbit_event import OrbitEvent
 from rocking.model.orbit_stability import Stability, stability_of
 from rocking.model.outcome import Outcome, Overturning
+from rocking.model.piecewise_linear import PiecewiseLinear
 from rocking.model.si_units import PHYSICAL, block_attributes
 from rocking.model.survey_results import (
     ChaosShare,
@@ -47,6 +48,7 @@ from rocking.model.system import (
     State,
     System,
     check_between,
+    check_periodic,
     check_start,
     quantities,
     system_of,
@@ -93,6 +95,7 @@ __all__ = [
     "ChaosShare",
     "Criterion",
     "Evidence",
+    "Forcing",
     "Harmonic",
     "Kind",
     "Mode",
@@ -103,6 +106,7 @@ __all__ = [
     "Outcome",
     "Overturning",
     "OverturningCurve",
+    "PiecewiseLinear",
     "ReadOnlyArrays",
     "Repeatability",
     "RepeatabilityMap",
@@ -119,6 +123,7 @@ __all__ = [
     "block_attributes",
     "check_between",
     "check_folder",
+    "check_periodic",
     "check_replaceable",
     "check_start",
     "check_writable",

@@ -32,8 +32,37 @@ def _phase(value: float) -> float:
     return within("phase", value, -MAX_PHASE, MAX_PHASE)
 
 
+class Forcing:
+    """Base acceleration of a system: base class of `Harmonic` and `PiecewiseLinear`."""
+
+    __slots__ = ()
+
+    @property
+    def largest(self) -> float:
+        """Largest |acceleration|, in units of g θcr. A block at rest lifts off if it exceeds 1."""
+        raise NotImplementedError
+
+    @property
+    def span(self) -> float:
+        """Time τ in which the acceleration takes all its values."""
+        raise NotImplementedError
+
+    @property
+    def time_scale(self) -> float:
+        """Time τ in which the acceleration varies by the order of its size."""
+        raise NotImplementedError
+
+    def acceleration(self, times: Any) -> Any:
+        """Return the base acceleration at normalised times, in units of g θcr."""
+        raise NotImplementedError
+
+    def quantities(self) -> dict[str, float]:
+        """Return the numbers that describe it, by name."""
+        raise NotImplementedError
+
+
 @frozen(repr=False)
-class Harmonic:
+class Harmonic(Forcing):
     """Harmonic base acceleration A cos(Ωτ + φ), normalised: Yim & Lin (1991), Eq. (3).
 
     Parameters
@@ -80,6 +109,30 @@ class Harmonic:
     def frequency(self) -> float:
         """Angular frequency Ω = 2π/T, in radians per τ."""
         return math.tau / self._period if self._frequency is None else self._frequency  # type: ignore[operator]
+
+    @property
+    def largest(self) -> float:
+        """Largest |acceleration|, A."""
+        return self.amplitude
+
+    @property
+    def span(self) -> float:
+        """Time τ in which the acceleration takes all its values: the period."""
+        return self.period
+
+    @property
+    def time_scale(self) -> float:
+        """Time τ in which the acceleration varies by the order of its size: the period."""
+        return self.period
+
+    def quantities(self) -> dict[str, float]:
+        """Return amplitude, period, frequency and phase, by name."""
+        return {
+            "amplitude": self.amplitude,
+            "period": self.period,
+            "frequency": self.frequency,
+            "phase": self.phase,
+        }
 
     def acceleration(self, times: Any) -> Any:
         """Return the base acceleration A cos(Ωτ + φ), in units of g θcr: Eq. (3).

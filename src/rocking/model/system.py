@@ -7,7 +7,7 @@ from collections.abc import Mapping
 
 from attrs import field, frozen
 
-from rocking.model.forcing import FREQUENCIES, MAX_AMPLITUDE, MAX_PHASE, PERIODS, Harmonic
+from rocking.model.forcing import FREQUENCIES, MAX_AMPLITUDE, MAX_PHASE, PERIODS, Forcing, Harmonic
 from rocking.model.validation import finite, instance, refusal, within
 
 BRACE_ANGLES = (1e-3, 1e3)
@@ -15,6 +15,7 @@ NO_BRACES = {"brace_angle": math.inf, "brace_restitution": 1.0}
 """Quantities of braces for a system without braces."""
 MAX_STATE = 1e9
 MAX_START = 1e3
+FORCINGS = "make one: rk.Harmonic(amplitude=2.0, period=1.0) or rk.PiecewiseLinear([0.0, 2.0, 0.0], step=0.1)"
 RANGES = {
     "amplitude": (0.0, MAX_AMPLITUDE),
     "velocity": (-MAX_START, MAX_START),
@@ -45,8 +46,10 @@ def _velocity(value: float) -> float:
     return finite("velocity", value, MAX_STATE)
 
 
-def _forcing(value: Harmonic) -> Harmonic:
-    return instance("forcing", value, Harmonic)
+def _forcing(value: Forcing) -> Forcing:
+    if not isinstance(value, Forcing):
+        raise TypeError(refusal("forcing", "be a base motion", value, FORCINGS))
+    return value
 
 
 @frozen
@@ -90,8 +93,8 @@ class System:
 
     Parameters
     ----------
-    forcing : Harmonic
-        Base acceleration, Eq. (3).
+    forcing : Harmonic or PiecewiseLinear
+        Base acceleration; for `Harmonic`, Eq. (3).
     restitution : float
         Coefficient of restitution e, the ratio of the angular velocities just after and just before an impact at Θ = 0,
         in [0, 1].
@@ -111,9 +114,22 @@ class System:
     System(forcing=Harmonic(amplitude=2.0, period=1.0, phase=0.0), restitution=0.925, braces=None)
     """
 
-    forcing: Harmonic = field(converter=_forcing)
+    forcing: Forcing = field(converter=_forcing)
     restitution: float = field(converter=_restitution)
     braces: Braces | None = field(default=None, converter=_braces)
+
+    @property
+    def harmonic(self) -> Harmonic:
+        """Forcing of a system whose base motion is periodic; TypeError for any other.
+
+        All that needs a period takes the forcing from here: classification, sections, exponents, orbits and maps.
+        """
+        if not isinstance(self.forcing, Harmonic):
+            name = type(self.forcing).__name__
+            raise TypeError(
+                f"system must have a periodic base motion, rk.Harmonic; got {name} (rk.simulate tells how its motion ends)"
+            )
+        return self.forcing
 
 
 def quantities(system: System) -> dict[str, float]:
@@ -124,14 +140,8 @@ def quantities(system: System) -> dict[str, float]:
     >>> list(quantities(System(Harmonic(amplitude=2.0, period=1.0), restitution=0.925, braces=Braces(1.5))))
     ['amplitude', 'period', 'frequency', 'phase', 'restitution', 'brace_angle', 'brace_restitution']
     """
-    forcing, braces = system.forcing, system.braces
-    found = {
-        "amplitude": forcing.amplitude,
-        "period": forcing.period,
-        "frequency": forcing.frequency,
-        "phase": forcing.phase,
-        "restitution": system.restitution,
-    }
+    braces = system.braces
+    found = {**system.forcing.quantities(), "restitution": system.restitution}
     if braces is not None:
         found |= {"brace_angle": braces.angle, "brace_restitution": braces.restitution}
     return found
@@ -199,6 +209,20 @@ def check_start(system: System, start: State | None) -> State:
     if system.braces is not None:
         check_between(start.angle, system.braces.angle)
     return start
+
+
+def check_periodic(system: System, start: State | None) -> State:
+    """Return the initial state as `check_start` does, for an analysis that needs a periodic base motion.
+
+    Raises
+    ------
+    TypeError
+        If the base motion is not periodic, or as in `check_start`.
+    ValueError
+        As in `check_start`.
+    """
+    instance("system", system, System).harmonic  # noqa: B018 (it refuses)
+    return check_start(system, start)
 
 
 def check_between(angle: float, reach: float) -> None:

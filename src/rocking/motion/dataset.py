@@ -102,7 +102,7 @@ def _times(motion: Trajectory, step: float | None, units: dict[str, Unit]) -> np
     if step is None:
         spacing = sample_step(motion)
     else:
-        longest = motion.cycles * motion.system.forcing.period * second
+        longest = (motion.cycles * motion.system.forcing.span or end_shown(motion)) * second
         spacing = within("step", step, longest / MAX_STEPS, longest, "" if unit == "1" else unit) / second
     end = end_shown(motion)
     return np.minimum(spacing * np.arange(int(end / spacing * (1 + 1e-12)) + 1), end)
@@ -155,7 +155,7 @@ def _section(motion: Trajectory, units: dict[str, Unit]) -> tuple[Variables, Var
     }
     return variables, {
         "cycle": ("cycle", cycles, {"long_name": "forcing cycles since the start"}),
-        "time": _variable("cycle", cycles * motion.system.forcing.period, units["time"], "time"),
+        "time": _variable("cycle", cycles * motion.system.harmonic.period, units["time"], "time"),
     }
 
 

@@ -10,7 +10,7 @@ if TYPE_CHECKING:
     from rocking.motion.trajectory import Trajectory
 
 STEPS = 100
-"""Samples per forcing period."""
+"""Samples in the time in which the base acceleration varies."""
 FALLEN = 3.0
 """Value of |Θ| up to which a fall is shown."""
 
@@ -23,8 +23,8 @@ def end_shown(motion: Trajectory) -> float:
 
 
 def sample_step(motion: Trajectory) -> float:
-    """Return the default sampling step in τ: a hundredth of a forcing period, or of a shorter motion."""
-    return min(motion.system.forcing.period, end_shown(motion)) / STEPS
+    """Return the default sampling step in τ: a hundredth of the forcing's time scale, or of a shorter motion."""
+    return min(motion.system.forcing.time_scale, end_shown(motion)) / STEPS
 
 
 def time_of_fall(motion: Trajectory, overturning: Overturning, angle: float) -> float:

@@ -8,25 +8,21 @@ from typing import Any
 
 import numpy as np
 
-from rocking.kernels.forcing.harmonic import parameters as numbers
-from rocking.kernels.march import event_rows
+from rocking.kernels.march import event_rows, initial_state
 from rocking.kernels.march import march as kernel
 from rocking.kernels.march import progress as values
 from rocking.kernels.march import tangent as differences
-from rocking.model import NO_BRACES, Outcome, State, System, TooManyEvents, quantities
+from rocking.model import Outcome, State, System, TooManyEvents, check_periodic
+from rocking.motion.kernel_parameters import parameters
 
 MAX_RECORDED = 10_000_000
 
 
-def parameters(system: System) -> numbers.HarmonicParameters:
-    """Return the parameters of a system for the kernels."""
-    return numbers.harmonic_parameters(**NO_BRACES | quantities(system))
-
-
-def start_march(system: System, start: State) -> tuple[numbers.HarmonicParameters, Any]:
+def start_march(system: System, start: State) -> tuple[Any, Any]:
     """Return the parameters of a system for the kernels, and the block at its initial state, for `march_on`."""
+    check_periodic(system, start)
     p = parameters(system)
-    return p, kernel.begin_march(p, start.angle, start.velocity)[0]
+    return p, initial_state.begin_march(p, start.angle, start.velocity)[0]
 
 
 def march_on(
@@ -104,7 +100,7 @@ def _crowded(status: int) -> str:
 
 def section_of(system: System, start: State, cycles: int, phase: float) -> np.ndarray:
     """Return the section of a motion at another forcing phase, by simulating it again."""
-    forcing = system.forcing
+    forcing = system.harmonic
     time = math.fmod(phase - forcing.phase, 2.0 * math.pi) / forcing.frequency
     p, progress = start_march(system, start)
     return run(p, progress, cycles, time % forcing.period, "section", want_peak=False)[2]

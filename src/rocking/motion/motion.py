@@ -26,8 +26,8 @@ class Motion(Trajectory, NotebookPicture):
     record : str
         Recorded data: "all", "section" or "none".
     cycles : int
-        Number of forcing cycles simulated. It is smaller than requested only if the block overturns; the last cycle is then
-        that of the proof.
+        Number of forcing cycles simulated; 0 for a base motion of finite length. It is smaller than requested only if the
+        block overturns; the last cycle is then that of the proof.
     outcome : Outcome
         OVERTURNED or AT_REST if that is proved, else BOUNDED.
     overturning : Overturning or None
@@ -120,7 +120,8 @@ class Motion(Trajectory, NotebookPicture):
         if self.system.braces is not None:
             counts.append(counted(self.brace_hits, "brace impact"))
         if self.overturning is None:
-            how = f"{self.outcome} over {counted(self.cycles, 'cycle')}"
+            over = counted(self.cycles, "cycle") if self.cycles else f"τ = {self.duration:.6g}"
+            how = f"{self.outcome} over {over}"
         else:
             how = f"overturned: overturning is certain from τ = {self.overturning.time:.6g}"
         return f"{how}; {', '.join(counts)}, peak |Θ| {self.peak:.4g}"

@@ -2,23 +2,46 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 
-from rocking.kernels.march import event_rows
+from rocking.kernels.forcing import parameters as numbers
+from rocking.kernels.march import event_rows, initial_state
 from rocking.kernels.march import march as kernel
-from rocking.model import Overturning, State, System, check_start, one_of, whole
+from rocking.model import (
+    Harmonic,
+    Overturning,
+    State,
+    System,
+    check_periodic,
+    check_start,
+    one_of,
+    refuse_if,
+    whole,
+    within,
+)
 from rocking.motion.event_table import events_of
-from rocking.motion.march_loop import outcome_of, parameters, run, start_march, state_of
+from rocking.motion.kernel_parameters import parameters
+from rocking.motion.march_loop import outcome_of, run, start_march, state_of
 from rocking.motion.motion import Motion
 
 MAX_CYCLES = 1_000_000_000
 MAX_SECTION_CYCLES = 100_000_000
+DURATIONS = (1e-9, 1e9)
+NO_CYCLES = "be omitted for a base motion of finite length, which has no cycles"
 
 
-def simulate(system: System, start: State | None = None, cycles: int = 200, record: str = "all") -> Motion:
+def simulate(
+    system: System,
+    start: State | None = None,
+    cycles: int | None = None,
+    record: str = "all",
+    *,
+    duration: float | None = None,
+) -> Motion:
     """Simulate a block over a number of forcing cycles, with exact arcs and certified events.
 
     Between events, the motion is the closed form of Yim & Lin (1991), Eq. (5). The first crossing of the base or of a brace
@@ -30,8 +53,9 @@ def simulate(system: System, start: State | None = None, cycles: int = 200, reco
         Block, base motion and braces.
     start : State, optional
         Initial state (Θ, Θ') at τ = 0. Default: at rest.
-    cycles : int
-        Number of forcing cycles, in [1, 10⁹] (10⁸ with ``record="section"``). Default: 200.
+    cycles : int, optional
+        Number of forcing cycles, in [1, 10⁹] (10⁸ with ``record="section"``). Default: 200. Omit it for a base motion of finite
+        length.
     record : {"all", "section", "none"}
         Recorded data. Default: "all".
 
@@ -39,6 +63,10 @@ def simulate(system: System, start: State | None = None, cycles: int = 200, reco
         - "section": the state once per forcing cycle;
         - "none": only the counters, the peak and the final state. A sequence of impacts that provably ends in rest within
           the run is then cut short, so that the number of impacts is smaller.
+
+    duration : float, optional
+        Length of the run in τ, for a base motion of finite length. Default: until the block is at rest or overturned
+        permanently. Without losses that may never come, and the default is the end of the base motion.
 
     Returns
     -------
@@ -75,25 +103,56 @@ def simulate(system: System, start: State | None = None, cycles: int = 200, reco
     """
     start = check_start(system, start)
     record = one_of("record", record, ("all", "section", "none"))
-    cycles = whole("cycles", cycles, 1, MAX_SECTION_CYCLES if record == "section" else MAX_CYCLES)
-    p = parameters(system)
-    progress, hit = kernel.begin_march(p, start.angle, start.velocity)
+    count, cycle_length = _span(system, cycles, duration, record)
+    p = parameters(system, cycle_length)
+    progress, hit = initial_state.begin_march(p, start.angle, start.velocity)
     first = _first_rows(progress, start, hit)
-    status, progress, section, rows = run(p, progress, cycles, 0.0, record, want_peak=True)
+    status, progress, section, rows = run(p, progress, count, 0.0, record, want_peak=True)
+    overturning = _overturning(status, progress, p)
+    end = progress.cycle * p.clock.cycle_length
+    if count == kernel.OPEN:
+        end = max(end + progress.arc.start, system.forcing.span)
     return Motion(
         system=system,
         start=start,
         record=record,
-        cycles=progress.cycle,
+        cycles=progress.cycle if isinstance(system.forcing, Harmonic) else 0,
+        duration=end if overturning is None else min(end, overturning.time),
         final=State(*state_of(progress)),
         outcome=outcome_of(status),
-        overturning=_overturning(status, progress, system),
+        overturning=overturning,
         impacts=progress.impacts,
         brace_hits=progress.brace_hits,
         peak=progress.peak,
+        cycle_length=p.clock.cycle_length,
         section_rows=section,
         event_rows=np.concatenate([first, *rows]) if record == "all" else first[:0],
     )
+
+
+def _span(
+    system: System, cycles: int | None, duration: float | None, record: str
+) -> tuple[int, float | None]:
+    """Return the number of cycles to march, and the length of each if the base motion is finite."""
+    forcing = system.forcing
+    if isinstance(forcing, Harmonic):
+        refuse_if(
+            duration is not None, "duration", "be given for a base motion of finite length only", duration
+        )
+        most = MAX_SECTION_CYCLES if record == "section" else MAX_CYCLES
+        return whole("cycles", 200 if cycles is None else cycles, 1, most), None
+    refuse_if(cycles is not None, "cycles", NO_CYCLES, cycles)
+    refuse_if(record == "section", "record", "be 'all' or 'none', because a section needs a period", record)
+    if duration is None and not _lossless(system):
+        return kernel.OPEN, None
+    end = forcing.span if duration is None else within("duration", duration, *DURATIONS)
+    count = max(1, math.ceil(end / (numbers.CYCLE * forcing.time_scale)))
+    return count, end / count
+
+
+def _lossless(system: System) -> bool:
+    """Return whether the free motion after the base motion may never end: without losses at the base or at a brace."""
+    return system.restitution == 1.0 or (system.braces is not None and system.braces.restitution == 1.0)
 
 
 def kept_events(
@@ -104,9 +163,9 @@ def kept_events(
     `keep` is called with the events of each filled buffer, in the form of `Motion.events`, and returns an array. The arrays
     are concatenated. Errors are those of `simulate`.
     """
-    start = check_start(system, start)
+    start = check_periodic(system, start)
     cycles = whole("cycles", cycles, 1, MAX_CYCLES)
-    duration = cycles * system.forcing.period
+    period = system.harmonic.period
 
     return np.concatenate(
         run(
@@ -115,18 +174,19 @@ def kept_events(
             0.0,
             "all",
             want_peak=False,
-            keep=lambda rows: keep(events_of(system, rows, duration)),
+            keep=lambda rows: keep(events_of(system, rows, period, cycles * period)),
         )[3]
     )
 
 
 def _first_rows(progress: Any, start: State, hit: bool) -> np.ndarray:
     rows = np.empty(2, event_rows.EVENT_ROW)
-    return rows[: kernel.note_start(rows, progress, hit, start.velocity)]
+    return rows[: initial_state.note_start(rows, progress, hit, start.velocity)]
 
 
-def _overturning(status: int, progress: Any, system: System) -> Overturning | None:
+def _overturning(status: int, progress: Any, p: numbers.SystemParameters) -> Overturning | None:
     if status != kernel.OVERTURNED:
         return None
-    time = progress.cycle * system.forcing.period + progress.no_return
-    return Overturning(time=time, cycle=int(time // system.forcing.period), impacts=progress.impacts)
+    length = p.clock.cycle_length
+    time = progress.cycle * length + progress.no_return
+    return Overturning(time=time, cycle=int(time // length), impacts=progress.impacts)

@@ -23,7 +23,8 @@ from rocking.model import (
     within,
 )
 from rocking.motion.event_table import absolute, events_of
-from rocking.motion.march_loop import parameters, section_of
+from rocking.motion.kernel_parameters import parameters
+from rocking.motion.march_loop import section_of
 
 TURN = np.dtype([("time", "f8"), ("angle", "f8")])
 
@@ -36,20 +37,16 @@ class Trajectory(ReadOnlyArrays):
     start: State
     record: str
     cycles: int
+    duration: float
     final: State
     outcome: Outcome
     overturning: Overturning | None
     impacts: int
     brace_hits: int
     peak: float
+    _cycle_length: float = field(repr=False)
     _section_rows: np.ndarray = field(repr=False, converter=read_only)
     _event_rows: np.ndarray = field(repr=False, converter=read_only)
-
-    @property
-    def duration(self) -> float:
-        """Length of the run, in τ: to the end of its cycles, or to the instant from which overturning is certain."""
-        end = self.cycles * self.system.forcing.period
-        return end if self.overturning is None else min(end, self.overturning.time)
 
     @cached_property
     def events(self) -> np.ndarray:
@@ -63,15 +60,15 @@ class Trajectory(ReadOnlyArrays):
 
         It requires ``record="all"``, as `at` does.
         """
-        return read_only(events_of(self.system, self._rows(), self.duration))
+        return read_only(events_of(self.system, self._rows(), self._cycle_length, self.duration))
 
     @cached_property
     def peaks(self) -> np.ndarray:
         """All local extremes of Θ between events, as a structured array with the fields time (τ) and angle."""
         rows = self._rows()
-        begins = absolute(rows, self.system.forcing.period, self.duration)
+        begins = absolute(rows, self._cycle_length, self.duration)
         lasts = np.append(
-            np.diff(rows["cycle"]) * self.system.forcing.period + np.diff(rows["time"]),
+            np.diff(rows["cycle"]) * self._cycle_length + np.diff(rows["time"]),
             self.duration - begins[-1],
         )
         found = np.empty((4 * len(rows) + 16, 3))
@@ -176,12 +173,12 @@ class Trajectory(ReadOnlyArrays):
         if phase is None:
             if self.record == "section":
                 return self._section_rows
-            phase = self.system.forcing.phase
+            phase = self.system.harmonic.phase
         return section_of(self.system, self.start, self.cycles, within("phase", phase, -MAX_PHASE, MAX_PHASE))
 
     @cached_property
     def _numbers(self) -> Any:
-        return parameters(self.system)
+        return parameters(self.system, self._cycle_length)
 
     def _rows(self) -> np.ndarray:
         refuse_if(
@@ -199,8 +196,8 @@ class Trajectory(ReadOnlyArrays):
             allowed = f"lie in the run, [0, {last:.6g}]" if ends else "be finite and at least 0"
             raise ValueError(refusal("times", allowed, float(outside)))
         flat = times.ravel()
-        period = self.system.forcing.period
-        begins = absolute(rows, self.system.forcing.period, self.duration)
+        period = self._cycle_length
+        begins = absolute(rows, self._cycle_length, self.duration)
         index = np.searchsorted(begins, flat, side="right") - 1
         cycle = np.floor(flat / period)
         elapsed = (cycle - rows["cycle"][index]) * period + ((flat - cycle * period) - rows["time"][index])

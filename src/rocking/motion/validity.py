@@ -143,7 +143,8 @@ def validity(motion: Trajectory, block: Block) -> Validity:
     instance("block", block, Block)
     until = motion.duration if motion.overturning is None else motion.overturning.time
     moving, resting, leaning = split(motion, until)
-    period = motion.system.forcing.period
+    forcing = motion.system.forcing
+    fast, slow = min(forcing.time_scale, 1), forcing.time_scale
 
     def upward(times: Array, sides: Array) -> Array:
         return base_reaction(motion, block, times, sides)[1]
@@ -152,12 +153,12 @@ def validity(motion: Trajectory, block: Block) -> Validity:
         sideways, up = base_reaction(motion, block, times, sides)
         return np.divide(-np.abs(sideways), up, out=np.full_like(up, -math.inf), where=up > 0)
 
-    reaction = min(global_minimum(upward, moving, min(period, 1)), global_minimum(upward, resting, period))
+    reaction = min(global_minimum(upward, moving, fast), global_minimum(upward, resting, slow))
     pulled = Extreme(-math.inf, reaction.time)
     slides = {
-        "motion": global_minimum(hold, moving, min(period, 1)) if reaction.value > 0 else pulled,
+        "motion": global_minimum(hold, moving, fast) if reaction.value > 0 else pulled,
         "impact": impact_friction(motion, block),
-        "rest": global_minimum(hold, resting, period),
+        "rest": global_minimum(hold, resting, slow),
     }
     source = min(slides, key=lambda name: slides[name].value)
     friction = slides[source]
@@ -222,7 +223,7 @@ def warnings(found: Validity, motion: Trajectory, block: Block, leaning: Arcs) -
     if found.reaction is not None and found.reaction <= 0:
         yield f"base reaction: {found.reaction:.3g} Mg at {found.instant(found.reaction_time)}; the base would have to pull the block down"
     hit = motion.system.restitution if motion.impacts else 1.0
-    yield from block_warnings(block, motion.system.forcing.amplitude, hit, found.angle)
+    yield from block_warnings(block, motion.system.forcing.largest, hit, found.angle)
     if motion.brace_hits:
         yield f"brace impacts: {motion.brace_hits}, not assessed, because the base reactions depend on the height of the brace"
     if leaning.starts.size:
@@ -233,7 +234,7 @@ def warnings(found: Validity, motion: Trajectory, block: Block, leaning: Arcs) -
 def split(motion: Trajectory, until: float) -> tuple[Arcs, Arcs, Arcs]:
     """Split the arcs up to a time into moving, resting and in contact with a brace.
 
-    Arcs at rest are limited to one forcing period, because the base motion repeats.
+    Arcs at rest are limited to the time in which the base takes all its accelerations.
     """
     events = motion.events["time"]
     edges = np.unique(np.concatenate(([0.0], events[events < until], [until])))
@@ -245,6 +246,6 @@ def split(motion: Trajectory, until: float) -> tuple[Arcs, Arcs, Arcs]:
     leans = still & (angle != 0) & (motion.system.braces is not None)
     rests = still & (angle == 0)
     arcs = Arcs(
-        starts, np.where(rests, np.minimum(ends, starts + motion.system.forcing.period), ends), np.sign(angle)
+        starts, np.where(rests, np.minimum(ends, starts + motion.system.forcing.span), ends), np.sign(angle)
     )
     return arcs.where(~rests & ~leans), arcs.where(rests), arcs.where(leans)

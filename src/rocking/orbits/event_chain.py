@@ -10,7 +10,7 @@ import numpy as np
 from attrs import evolve
 
 from rocking.kernels import event_kinds
-from rocking.kernels.forcing.harmonic import parameters as numbers
+from rocking.kernels.forcing import parameters as numbers
 from rocking.kernels.orbits import arclength, branch_point, chain_queries, chain_validation, floquet
 from rocking.kernels.orbits import continuation as following
 from rocking.kernels.orbits import event_chain as kernel
@@ -75,7 +75,7 @@ def parameters(system: System) -> Any:
 
 def clocked(system: System, phase: float) -> System:
     """Return the system with time measured from the given forcing phase."""
-    return evolve(system, forcing=evolve(system.forcing, phase=phase))
+    return evolve(system, forcing=evolve(system.harmonic, phase=phase))
 
 
 def chain_of(orbit: Orbit) -> Chain:
@@ -98,7 +98,7 @@ def chain_of(orbit: Orbit) -> Chain:
         raise ValueError(
             "orbit must have an impact or a brace impact; it has none (it is the saddle orbit ±1 + β cos ψ)"
         )
-    psi = orbit.phase + orbit.system.forcing.frequency * events["time"]
+    psi = orbit.phase + orbit.system.harmonic.frequency * events["time"]
     kinds = np.where(events["kind"] == "impact", IMPACT, BRACE).astype(np.int64)
     # side of the block after an event
     side = 1 if (events[0]["after"] > 0.0) == (kinds[0] == IMPACT) else -1

@@ -10,7 +10,7 @@ from attrs import evolve
 from rocking.kernels.classify import periodicity
 from rocking.kernels.classify import workspace as memory
 from rocking.kernels.orbits import newton_search as kernel
-from rocking.model import NoOrbit, Orbit, Outcome, State, System, check_start, instance, refusal, whole
+from rocking.model import NoOrbit, Orbit, Outcome, State, System, check_periodic, instance, refusal, whole
 from rocking.motion import simulate, start_march
 from rocking.orbits.event_chain import IMPACT, Chain, chain_of, clocked, orbit_of, quiet_phase, solved
 from rocking.orbits.saddle_orbits import saddle_events
@@ -71,7 +71,7 @@ def find_orbit(system: System, guess: State, period: int) -> Orbit:
     >>> round(abs(orbit.multipliers[0]), 6)  # e², because they are complex
     0.855625
     """
-    check_start(system, instance("start", guess, State))
+    check_periodic(system, instance("start", guess, State))
     period = whole("period", period, 1, MAX_PERIOD)
     motion = simulate(system, guess, cycles=period + 1)
     if motion.outcome is Outcome.OVERTURNED:
@@ -80,7 +80,7 @@ def find_orbit(system: System, guess: State, period: int) -> Orbit:
                 "guess", f"not overturn within {period + 1} cycles", guess, "use a guess nearer to the orbit"
             )
         )
-    frequency, own = system.forcing.frequency, system.forcing.phase
+    frequency, own = system.harmonic.frequency, system.harmonic.phase
     phase = quiet_phase(own + frequency * motion.events["time"]) if len(motion.events) else own
     wait = ((phase - own) % math.tau) / frequency
     angle, velocity = (float(value) for value in motion.at(wait))
@@ -141,12 +141,12 @@ def orbit_from(system: System, phase: float, state: State, period: int) -> Orbit
     if motion.outcome is Outcome.OVERTURNED:
         return None
     rows = motion.section()
-    halves = np.column_stack(motion.at((np.arange(period) + 0.5) * system.forcing.period))
+    halves = np.column_stack(motion.at((np.arange(period) + 0.5) * system.harmonic.period))
     least, symmetric = periodicity.repetition_plain(rows, halves, state.angle, state.velocity, period, SAME)
-    events = motion.events[motion.events["time"] <= least * system.forcing.period]
+    events = motion.events[motion.events["time"] <= least * system.harmonic.period]
     rested, leaned = (bool(np.isin(events["kind"], kinds).any()) for kinds in (RESTING, LEANING))
     impacts, brace_hits = (int((events["kind"] == kind).sum()) for kind in ("impact", "brace"))
-    grown = math.exp(least * system.forcing.period)
+    grown = math.exp(least * system.harmonic.period)
     orbit = Orbit(
         system=system,
         state=state,
@@ -164,12 +164,12 @@ def orbit_from(system: System, phase: float, state: State, period: int) -> Orbit
     if impacts + brace_hits == 0:
         return evolve(orbit, events=saddle_events(system, orbit.phase, orbit.state))
     chain = chain_of(orbit)
-    found = solved(chain, "amplitude", system.forcing.amplitude, chain.phases)
+    found = solved(chain, "amplitude", system.harmonic.amplitude, chain.phases)
     if not found.found:
         return orbit
     half = _half(chain._replace(phases=found.phases[:-1]))
     if half is not None:
-        chain, found = half, solved(half, "amplitude", system.forcing.amplitude, half.phases)
+        chain, found = half, solved(half, "amplitude", system.harmonic.amplitude, half.phases)
         if not found.found:
             return orbit
     return orbit_of(chain, "amplitude", found.phases, found.trace, found.determinant)

@@ -167,8 +167,8 @@ def find_orbits(
     effort = within("effort", effort, 0.01, 1000.0)
     seed = whole("seed", seed, 0, 2**32 - 1)
     box = _box(system, angles, velocities)
-    there = clocked(system, (system.forcing.phase + math.tau * attractor_anchor.SECTION) % math.tau)
-    known, used = OrbitRegistry(system, there.forcing.phase), 0
+    there = clocked(system, (system.harmonic.phase + math.tau * attractor_anchor.SECTION) % math.tau)
+    known, used = OrbitRegistry(system, there.harmonic.phase), 0
     jobs = [(n, False) for n in range(1, max_period + 1)] + [(n, True) for n in range(1, max_period + 1, 2)]
     settled = False
     with ThreadPoolExecutor() as pool:
@@ -211,7 +211,7 @@ def _box(system: System, angles: Any, velocities: Any) -> tuple[float, ...] | No
     """
     if angles is None and velocities is None and system.braces is None:
         return None
-    forcing, braces = system.forcing, system.braces
+    forcing, braces = system.harmonic, system.braces
     beta = response(system)
     reach = 1.0 + beta if braces is None else braces.angle
     fastest = (1.0 + (0.0 if braces is None else reach)) * FASTER * (1.0 + beta * (1.0 + forcing.frequency))
@@ -231,7 +231,7 @@ def _starts(system: System, box: tuple[float, ...] | None, count: int, first: in
     x, y = np.mod(index * np.array([1.0 / PLASTIC, 1.0 / PLASTIC**2]), 1.0).T
     if box is not None:
         return np.column_stack([box[0] + (box[1] - box[0]) * x, box[2] + (box[3] - box[2]) * y])
-    forcing = system.forcing
+    forcing = system.harmonic
     beta = response(system)
     in_phase = beta * math.cos(forcing.phase)
     quadrature = beta * forcing.frequency * math.sin(forcing.phase)

@@ -161,7 +161,7 @@ def _branches(
     for system in systems:
         value = getattr(system.forcing, parameter)
         known = [phase for branch in symmetric for phase in _phases(branch, value)]
-        for mode in symmetric_modes(system.forcing.amplitude, system.forcing.period, system.restitution, n):
+        for mode in symmetric_modes(system.harmonic.amplitude, system.harmonic.period, system.restitution, n):
             if any(abs(math.remainder(mode.phase - phase, math.tau)) <= SAME for phase in known):
                 continue
             orbit = _orbit_of_mode(mode, system, parameter) if mode.admissible else None

@@ -90,7 +90,7 @@ def _touch_of(chain: Chain, parameter: str, row: np.ndarray) -> Touch | None:
     if k <= lost:
         return None
     chain = _rotated(chain, (event + lost) % k)
-    time = (chain.phases[k - lost] - chain.phases[k - lost - 1]) / chain.system.forcing.frequency
+    time = (chain.phases[k - lost] - chain.phases[k - lost - 1]) / chain.system.harmonic.frequency
     kept = chain._replace(kinds=chain.kinds[: k - lost].copy(), phases=chain.phases[: k - lost])
     return Touch(kept, Condition(Special.GRAZING, k - lost - 1, level, float(time)))
 
@@ -106,7 +106,7 @@ def _rotated(chain: Chain, by: int) -> Chain:
 
 def _nearest(chain: Chain, orbit: Orbit) -> Touch | None:
     """Return the turning point of the motion nearest to the base or to a brace."""
-    forcing, phases = orbit.system.forcing, chain.phases
+    forcing, phases = orbit.system.harmonic, chain.phases
     motion = simulate(clocked(orbit.system, orbit.phase), orbit.state, cycles=orbit.period)
     times = np.linspace(0.0, orbit.period * forcing.period, SAMPLES * orbit.period)
     angles = motion.at(times)[0]
@@ -175,7 +175,7 @@ def _eventless(chain: Chain, parameter: str, row: np.ndarray) -> Orbit | None:
     phase = 0.0 if longest.side > 0 else math.pi
     start = State(*saddle(system, phase, longest.side))
     final = simulate(clocked(system, phase), start, cycles=1, record="none").final
-    grown = math.exp(system.forcing.period)
+    grown = math.exp(system.harmonic.period)
     return Orbit(
         system=system,
         state=start,

@@ -56,7 +56,7 @@ def manifold_gap(system: System) -> float:
     [-0.037302, 0.016931]
     """
     check(system)
-    forcing = system.forcing
+    forcing = system.harmonic
     most = math.sqrt(1.0 + forcing.frequency**2)
     refuse_if(forcing.amplitude >= most, "amplitude", f"be below √(1 + Ω²) = {most:.6g}", forcing.amplitude)
     from scipy.optimize import minimize_scalar
@@ -153,7 +153,7 @@ def tangency_amplitude(system: System) -> float:
         )
     from scipy.optimize import brentq
 
-    most = math.sqrt(1.0 + system.forcing.frequency**2)
+    most = math.sqrt(1.0 + system.harmonic.frequency**2)
     low, high = (most * end for end in ENDS)
     return float(
         brentq(lambda value: manifold_gap(with_value(system, "amplitude", value)), low, high, xtol=1e-12)

@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from rocking.kernels.forcing.harmonic.parameters import row_of
+from rocking.kernels.forcing import parameters as numbers
 from rocking.kernels.march import march, no_recording
 from rocking.kernels.march import sweep as kernel
 from rocking.model import (
@@ -19,7 +19,7 @@ from rocking.model import (
     State,
     System,
     TooManyEvents,
-    check_start,
+    check_periodic,
     instance,
     one_of,
     reals,
@@ -120,7 +120,7 @@ def orbit_diagram(
     ways = SWEEPS[one_of("sweep", sweep, tuple(SWEEPS))]
     transient = whole("transient", transient, 0, MAX_CYCLES)
     cycles = whole("cycles", cycles, 1, max(MAX_POINTS // (len(ways) * len(ordered)), 1))
-    section_phase = system.forcing.phase if section_phase is None else section_phase
+    section_phase = system.harmonic.phase if section_phase is None else section_phase
     section_phase = within("section_phase", section_phase, -MAX_PHASE, MAX_PHASE)
     rows = np.array([_row(with_value(system, parameter, value), start) for value in ordered.tolist()])
     lanes = _lanes(rows, ways, cycles)
@@ -157,8 +157,8 @@ def _values(values: ArrayLike) -> NDArray[np.float64]:
 
 def _row(system: System, start: State) -> tuple[float, ...]:
     """Return the parameters of a system for the kernel, after checking that it can begin at `start`."""
-    check_start(system, start)
-    return row_of(start_march(system, start)[0])
+    check_periodic(system, start)
+    return numbers.row_of(start_march(system, start)[0])
 
 
 class _Lane(NamedTuple):

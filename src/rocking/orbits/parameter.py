@@ -23,7 +23,7 @@ def with_value(system: System, parameter: str, value: float) -> System:
     """Return the system with one parameter changed; a brace angle adds braces if there are none."""
     if parameter == "brace_restitution":
         value_of(system, parameter)
-    forcing = system.forcing
+    forcing = system.harmonic
     if parameter in ("amplitude", "phase"):
         return evolve(system, forcing=evolve(forcing, **{parameter: value}))
     if parameter in ("period", "frequency"):

@@ -179,7 +179,7 @@ def saddle_manifolds(
     True
     """
     check(system)
-    phase = system.forcing.phase if phase is None else within("phase", phase, -MAX_PHASE, MAX_PHASE)
+    phase = system.harmonic.phase if phase is None else within("phase", phase, -MAX_PHASE, MAX_PHASE)
     cycles = whole("cycles", cycles, 1, MAX_CYCLES)
     spacing = within("spacing", spacing, *SPACINGS)
     unstable, stable = (
@@ -199,7 +199,7 @@ def saddle_manifolds(
 def _manifold(
     system: System, phase: float, cycles: int, spacing: float, side: int, backward: bool
 ) -> Manifold:
-    beta, frequency = response(system), system.forcing.frequency
+    beta, frequency = response(system), system.harmonic.frequency
     box = np.array([1.0 + beta, 1.0 + beta * (1.0 + frequency)]) + MARGIN
     p = parameters(system, phase, backward)
     times, points, resolved = _grown(p, side, cycles, spacing, box)

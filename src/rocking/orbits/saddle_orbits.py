@@ -26,9 +26,9 @@ def check(system: System) -> None:
         system.restitution == 0.0, "restitution", "be positive, so that impacts can be reversed in time", 0.0
     )
     if response(system) >= 1.0:
-        most = 1.0 + system.forcing.frequency**2
+        most = 1.0 + system.harmonic.frequency**2
         allowed = f"be below 1 + Ω² = {most:.6g}, where the saddle orbits touch Θ = 0"
-        raise ValueError(refusal("amplitude", allowed, system.forcing.amplitude))
+        raise ValueError(refusal("amplitude", allowed, system.harmonic.amplitude))
 
 
 def response(system: System) -> float:
@@ -38,7 +38,7 @@ def response(system: System) -> float:
 
 def saddle(system: System, phase: float, side: int) -> tuple[float, float]:
     """Return Θ and Θ' of the saddle orbit on one side at a forcing phase."""
-    forcing = system.forcing
+    forcing = system.harmonic
     return saddle_orbit(phase, forcing.amplitude, forcing.period, "upper" if side > 0 else "lower")
 
 
@@ -49,7 +49,7 @@ def saddle_events(system: System, phase: float, state: State) -> tuple[OrbitEven
     if math.hypot(state.angle - angle, state.velocity - velocity) > ON_IT:
         return ()
     events = []
-    for turned in np.linspace(0.0, math.tau, math.ceil(system.forcing.period) + 1)[:-1].tolist():
+    for turned in np.linspace(0.0, math.tau, math.ceil(system.harmonic.period) + 1)[:-1].tolist():
         angle, velocity = saddle(system, phase + turned, side)
         events.append(OrbitEvent(turned, angle, velocity, velocity))
     return tuple(events)

@@ -95,7 +95,7 @@ def animation(
 def _window(motion: Motion, block: Block, cycles: tuple[float, float] | None) -> tuple[float, float]:
     if cycles is not None:
         return window(motion, cycles)
-    unit = motion.system.forcing.period if motion.system.forcing.amplitude else 1.0
+    unit = motion.system.harmonic.period if motion.system.harmonic.amplitude else 1.0
     if motion.outcome is Outcome.AT_REST:
         stop = settled(motion)
         return max(0.0, stop - DECAY_SHOWN * unit), stop
@@ -157,7 +157,7 @@ class _Film:
         limit = float(np.abs(self.angles).max()) if system.braces is None else system.braces.angle
         factor = 1.0 if limit == 0 or limit > 0.35 else _round(0.35 / limit)
         brace = None if system.braces is None else factor * block.radians(limit)
-        forcing = system.forcing
+        forcing = system.harmonic
         stretch = block.acceleration(1.0) / (math.tau * block.hertz(forcing.frequency)) ** 2
         largest = forcing.amplitude * stretch / block.height
         base_factor = 1.0 if largest == 0 else _round(min(max(largest, 0.08), 0.3) / largest)

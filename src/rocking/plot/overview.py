@@ -51,7 +51,7 @@ def overview(motion: Motion, block: Block | None = None) -> Figure:
         kept = (
             motion.section() if motion.record == "section" else [(motion.final.angle, motion.final.velocity)]
         )
-        section(kept, ax, block, phase=motion.system.forcing.phase)
+        section(kept, ax, block, phase=motion.system.harmonic.phase)
         return figure
     cycles = _cycles(motion)
     figure, (left, right) = style.panels(columns=2, height=3.0, ratios=(3, 2))
@@ -62,7 +62,7 @@ def overview(motion: Motion, block: Block | None = None) -> Figure:
 
 def _cycles(motion: Motion) -> tuple[float, float] | None:
     if motion.outcome is Outcome.AT_REST:
-        return 0.0, min(settled(motion) / motion.system.forcing.period, motion.cycles)
+        return 0.0, min(settled(motion) / motion.system.harmonic.period, motion.cycles)
     if motion.outcome is Outcome.BOUNDED and motion.cycles > CYCLES_SHOWN:
         return motion.cycles - CYCLES_SHOWN, motion.cycles
     return None

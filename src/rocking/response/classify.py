@@ -10,7 +10,7 @@ from typing import Any
 
 from rocking.kernels import batch
 from rocking.kernels.classify import verdict_record as kernel
-from rocking.model import Kind, Orbit, Outcome, State, System, Verdict, check_start, whole
+from rocking.model import Kind, Orbit, Outcome, State, System, Verdict, check_periodic, whole
 from rocking.motion import Motion, simulate, start_march
 from rocking.response.evidence import Case, evidence_of
 
@@ -104,7 +104,7 @@ def classify(
     >>> str(verdict.kind), verdict.period, verdict.impacts_per_period, verdict.symmetric
     ('periodic', 3, 2, True)
     """
-    start = check_start(system, start)
+    start = check_periodic(system, start)
     max_cycles, max_period = budget(max_cycles, max_period).values()
     judgement = _judged(system, start, max_cycles, max_period)
     return _verdict(
@@ -206,7 +206,7 @@ def _of(orbit: Orbit | None) -> dict[str, Any]:
 
 def _orbit(case: Case) -> Orbit:
     """Return the orbit found; a superstable orbit begins at a release."""
-    judged, forcing = case.judgement, case.system.forcing
+    judged, forcing = case.judgement, case.system.harmonic
     return Orbit(
         system=case.system,
         state=State(judged.angle + 0.0, judged.velocity + 0.0),

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from rocking.model import NO_BRACES, Outcome, State, System, TooShort, check_start, quantities, whole
+from rocking.model import NO_BRACES, Outcome, State, System, TooShort, check_periodic, quantities, whole
 from rocking.motion import march_on, start_march
 from rocking.response.batch_means import MAX_BATCHES, MIN_BATCHES
 from rocking.response.lyapunov_spectrum import LyapunovSpectrum, means_of
@@ -84,7 +84,7 @@ def lyapunov(
     >>> bool(abs(spectrum.values - 2 * math.log(0.925)).max() < spectrum.errors.max() < 1e-3)
     True
     """
-    start = check_start(system, start)
+    start = check_periodic(system, start)
     cycles = whole("cycles", cycles, 1, MAX_CYCLES)
     transient = cycles // 10 if transient is None else whole("transient", transient, 0, MAX_CYCLES)
     motion = _Carried(system, start)
@@ -101,7 +101,7 @@ class _Carried:
     """Motion in progress with two orthonormal tangent vectors."""
 
     def __init__(self, system: System, start: State) -> None:
-        self.period = system.forcing.period
+        self.period = system.harmonic.period
         self.p, self.progress = start_march(system, start)
         self.columns = np.eye(2)
 
@@ -151,8 +151,8 @@ def _spectrum(
     """
     # If the exponents are equal, either vector may have grown more.
     growths = growths[:, np.argsort(-growths.sum(axis=0), kind="stable")]
-    time = cycles * system.forcing.period
-    means = means_of(growths, lengths * system.forcing.period)
+    time = cycles * system.harmonic.period
+    means = means_of(growths, lengths * system.harmonic.period)
     floor = ROUNDING * (1.0 + sum(counted) / time)
     spectrum = LyapunovSpectrum(
         system=system,

@@ -8,7 +8,7 @@ import numpy as np
 from attrs import evolve, frozen
 from numpy.typing import NDArray
 
-from rocking.model import Outcome, State, System, TooShort, counted, ordinal, refusal, whole
+from rocking.model import Outcome, State, System, TooShort, check_periodic, counted, ordinal, refusal, whole
 from rocking.motion import Motion, simulate
 from rocking.response.island_rotation import (
     MIN_TURNS,
@@ -140,6 +140,7 @@ def rotation_number(system: System, start: State | None = None, cycles: int = 20
     >>> turning.locked, turning.period, round(turning.free, 10)
     ((2, 3), 3, 0.4744150886)
     """
+    start = check_periodic(system, start)
     motion = simulate(system, start, cycles=whole("cycles", cycles, 1, MAX_CYCLES), record="all")
     section, phases, speeds = _strikes(motion)
     mean, digits = average(_flights(motion, section))
@@ -211,7 +212,7 @@ def _flights(motion: Motion, section: str) -> Array:
     """Return the times between impacts in forcing cycles, to full precision at any time in the run."""
     strikes = motion.events[motion.events["kind"] == ("impact" if section == "impacts" else "brace")]
     parts = np.diff(strikes["phase"]) / (2.0 * math.pi)
-    return parts + np.round(np.diff(strikes["time"]) / motion.system.forcing.period - parts)
+    return parts + np.round(np.diff(strikes["time"]) / motion.system.harmonic.period - parts)
 
 
 def _check(found: RotationNumber) -> None:

@@ -133,7 +133,7 @@ def spectral_density(
         repeats,
     )
     parts, rotation = _parts_and_rotation(lines, values.var(), period or repeats, rotation, 1 / cycles)
-    unit = motion.system.forcing.period
+    unit = motion.system.harmonic.period
     return SpectralDensity(
         system=motion.system,
         frequency=frequency / unit,

@@ -10,7 +10,7 @@ from typing import TypeVar
 import numpy as np
 
 from rocking.kernels.classify import verdict_record as kernel
-from rocking.model import Kind, Repeatability, Share, State, System, check_start, counted, whole, within
+from rocking.model import Kind, Repeatability, Share, State, System, check_periodic, counted, whole, within
 from rocking.response import KINDS
 from rocking.survey.basin_map import points_of
 from rocking.survey.measures.response import response
@@ -83,7 +83,7 @@ def repeatability(
     >>> print(rk.repeatability(system, samples=200))
     200 runs with inputs off by up to 1 %: period 1, symmetric, 2 impacts 100 % (98.1–100 %)
     """
-    start = check_start(system, start)
+    start = check_periodic(system, start)
     off = within("relative", relative, 0, MAX_RELATIVE)
     count = whole("samples", samples, 1, MAX_SAMPLES)
     measure = response(max_cycles, max_period, TITLE)

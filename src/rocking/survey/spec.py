@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from attrs import field, frozen
 
-from rocking.kernels.forcing.harmonic import parameters as numbers
+from rocking.kernels.forcing import parameters as numbers
 from rocking.model import NO_BRACES, RANGES, check_between, exactly_one, reals, refusal, shown, within
 
 Values = Mapping[str, np.ndarray]
@@ -35,7 +35,7 @@ START = ("angle", "velocity")
 class Points(NamedTuple):
     """Systems and initial states of points, as arrays for the kernels."""
 
-    systems: np.ndarray  # (n, 7), SYSTEM, as `kernels.parameters.make` takes it
+    systems: np.ndarray  # (n, 7), SYSTEM, as `kernels.forcing.harmonic.parameters.make` takes it
     starts: np.ndarray  # (n, 2), START
 
     @property

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from rocking.kernels.forcing.harmonic import parameters as numbers
+from rocking.kernels.forcing import parameters as numbers
 from rocking.kernels.orbits import floquet, mode_admissibility, symmetric_mode
 from rocking.model import MAX_AMPLITUDE, PERIODS, Mode, refusal, whole, within
 from rocking.theory.arguments import MAX_CYCLES, frequencies, odd, plain, restitutions

@@ -35,7 +35,7 @@ def found(verdict: Verdict, block: Block | None) -> Iterator[Row]:
     """Yield the rows of the result; quantities that do not apply are left out."""
     orbit, exponent = verdict.orbit, verdict.exponent
     if orbit is not None:
-        time = orbit.period * verdict.system.forcing.period
+        time = orbit.period * verdict.system.harmonic.period
         seconds = "" if block is None else f"{block.seconds(time):.4g} s"
         yield "period", f"{counted(orbit.period, 'cycle')}, τ = {time:.6g}", seconds
         yield "impacts per period", _count(orbit.impacts), ""

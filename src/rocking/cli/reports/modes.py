@@ -44,7 +44,7 @@ class Answer:
     @property
     def amplitude(self) -> float:
         """Amplitude A of the base acceleration."""
-        return self.system.forcing.amplitude
+        return self.system.harmonic.amplitude
 
 
 LABELS = {
@@ -59,7 +59,7 @@ def find(system: System, n: int) -> Answer:
     """Return the modes and amplitudes of a system in closed form; raises as in `theory`."""
     from rocking import theory
 
-    forcing, e = system.forcing, system.restitution
+    forcing, e = system.harmonic, system.restitution
     modes = theory.symmetric_modes(forcing.amplitude, forcing.period, e, n)
     values = {
         "existence": theory.existence_amplitude(forcing.period, e, n),
@@ -116,7 +116,7 @@ def table(modes: list[Mode], block: Block | None) -> Iterator[tuple[str, ...]]:
 
 def record(answer: Answer, block: Block | None, file: Path | None) -> dict[str, Any]:
     """Return the modes as a JSON object; multipliers are pairs [real, imaginary], infinite numbers null."""
-    forcing = answer.system.forcing
+    forcing = answer.system.harmonic
     told: dict[str, Any] = {
         "amplitude": forcing.amplitude,
         "period": forcing.period,

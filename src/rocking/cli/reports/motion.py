@@ -52,7 +52,7 @@ def asked(result: Motion | Verdict, block: Block | None) -> Iterator[Row]:
 
 def asked_of(system: System, block: Block | None) -> Iterator[Row]:
     """Yield the rows of the system."""
-    forcing, restitution, braces = system.forcing, system.restitution, system.braces
+    forcing, restitution, braces = system.harmonic, system.restitution, system.braces
     if block is None:
         yield "forcing", f"A = {forcing.amplitude:.6g}, T = {forcing.period:.6g}, φ = {forcing.phase:.6g}", ""
         yield "restitution", f"e = {restitution:.6g}", ""
@@ -211,7 +211,7 @@ def asked_in_si(data: xr.Dataset, block: Block) -> dict[str, Any]:
 
 def physical_of(system: System, block: Block) -> dict[str, Any]:
     """Return the block and its base motion in SI as a JSON object."""
-    forcing = system.forcing
+    forcing = system.harmonic
     return size_of(block) | {
         "acceleration_m_per_s2": block.acceleration(forcing.amplitude),
         "period_s": block.seconds(forcing.period),

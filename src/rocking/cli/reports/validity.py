@@ -42,7 +42,7 @@ def validity_motion(verdict: Verdict) -> tuple[str, Motion]:
     if orbit is None:
         motion = run(system, verdict.start, min(max(verdict.cycles, 1), FIRST), ())
         return f"model validity over the first {counted(motion.cycles, 'cycle')}", motion
-    begun = attrs.evolve(system, forcing=attrs.evolve(system.forcing, phase=orbit.phase))
+    begun = attrs.evolve(system, forcing=attrs.evolve(system.harmonic, phase=orbit.phase))
     motion = run(begun, orbit.state, orbit.period, ())
     return "model validity over one response period (τ measured from its start)", motion
 

@@ -11,7 +11,8 @@ from rocking.kernels.compile_options import INTERNAL, KERNEL
 from rocking.kernels.deferred import njit
 from rocking.kernels.entry_point import entry_point
 from rocking.kernels.forcing.harmonic.parameters import later, parameters_from_row
-from rocking.kernels.march.march import DONE, STILL, UNKNOWN, begin, march_through
+from rocking.kernels.march.initial_state import UNKNOWN, begin
+from rocking.kernels.march.march import DONE, STILL, march_through
 from rocking.kernels.march.no_recording import NoRecording, no_recording
 from rocking.kernels.march.progress import Recording
 from rocking.kernels.signature import Floats2

@@ -8,7 +8,7 @@ from rocking.kernels.classify.reset import ResetTracker, new_tracker
 from rocking.kernels.classify.workspace import BATCHES
 from rocking.kernels.compile_options import INTERNAL, INTERNAL_INLINE
 from rocking.kernels.deferred import njit
-from rocking.kernels.march.march import UNKNOWN, begin
+from rocking.kernels.march.initial_state import UNKNOWN, begin
 from rocking.kernels.numerics.replace_fields import replacing
 
 FIRST_CHECKPOINT = 14

@@ -9,7 +9,7 @@ from rocking.kernels.deferred import njit
 from rocking.kernels.entry_point import entry_point
 from rocking.kernels.forcing.harmonic.extrema import largest_on
 from rocking.kernels.forcing.harmonic.parameters import later
-from rocking.kernels.march.march import UNKNOWN
+from rocking.kernels.march.initial_state import UNKNOWN
 from rocking.kernels.march.progress import Recording
 from rocking.kernels.march.tangent import Tangent
 from rocking.kernels.numerics.elementary import size

@@ -5,7 +5,9 @@ from typing import NamedTuple
 
 from rocking.kernels.compile_options import INTERNAL_INLINE
 from rocking.kernels.deferred import njit
-from rocking.kernels.forcing.drives import HarmonicConstants, HarmonicDrive
+from rocking.kernels.forcing.drives import HarmonicConstants, HarmonicDrive, SampledConstants, SampledDrive
+
+Drive = HarmonicDrive | SampledDrive
 
 # After this long an arc restarts from its own state: at e^32 the closed form has used up double precision.
 MAX_ARC_TIME = 32.0
@@ -29,8 +31,8 @@ class Arc(NamedTuple):
     start: float
     angle: float
     velocity: float
-    drive: HarmonicDrive
-    constants: HarmonicConstants  # of its closed form
+    drive: Drive
+    constants: HarmonicConstants | SampledConstants  # of its closed form
 
 
 class Instant(NamedTuple):
@@ -39,7 +41,7 @@ class Instant(NamedTuple):
     angle: float
     risen: float  # u - u0, to relative accuracy
     velocity: float
-    drive: HarmonicDrive
+    drive: Drive
     sinh: float
     versinh: float  # cosh t - 1
 
@@ -52,7 +54,7 @@ class Next(NamedTuple):
     side: int
     angle: float
     velocity: float
-    drive: HarmonicDrive
+    drive: Drive
     sinh: float
     versinh: float
 

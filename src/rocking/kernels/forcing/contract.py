@@ -1,7 +1,7 @@
 """Functions that every forcing provides. The type of ``p``, the parameters of a system, chooses the body at compile time.
 
-March, impact law, tangent vectors and recording know a forcing through these functions alone. Its room provides them
-(``harmonic.bodies``), and reads what is opaque elsewhere: the ``drive`` of an arc, of an instant and of an event, the
+March, impact law, tangent vectors and recording know a forcing through these functions alone. The package of the forcing
+provides them (``harmonic.bodies``). It alone reads the ``drive`` of an arc, of an instant and of an event, the
 ``constants`` of an arc, and the guess of ``guess_from``.
 """
 

@@ -15,3 +15,17 @@ class HarmonicConstants(NamedTuple):
 
     psi: float  # forcing phase at the start
     acceleration: float  # u'' there
+
+
+class SampledDrive(NamedTuple):
+    """Place in a sampled forcing: interval between samples, and the time since its first sample."""
+
+    index: int
+    offset: float
+
+
+class SampledConstants(NamedTuple):
+    """Constants of an arc with sampled forcing: u = 1 + side scale P + (grow e^t + shrink e^-t)/2."""
+
+    grow: float
+    shrink: float

@@ -11,11 +11,11 @@ from rocking.kernels.compile_options import SIMD_INLINE
 from rocking.kernels.deferred import njit
 from rocking.kernels.forcing.harmonic.enclosure import grazes, stays_between
 from rocking.kernels.forcing.harmonic.fast_path import REACH
-from rocking.kernels.forcing.harmonic.taylor import reversion, series, velocity_after, within_a_factor_of_two
 from rocking.kernels.lanes.evaluate import derivatives, instant_of, set_next
 from rocking.kernels.lanes.state import AT_EVENT, BRACKET, EXTEND, FAILED, REFINE
 from rocking.kernels.numerics.elementary import fma
 from rocking.kernels.numerics.simd import choose
+from rocking.kernels.numerics.taylor import reversion, series, velocity_after, within_a_factor_of_two
 
 MAX_TRIES, ROUNDS = 8, 2
 # From this close the remainder of the step of fifth order, and of the series after it, is below rounding.

@@ -2,9 +2,9 @@
 
 from rocking.kernels.compile_options import SIMD_INLINE
 from rocking.kernels.deferred import njit
-from rocking.kernels.forcing.harmonic.taylor import I2, I3, I4
 from rocking.kernels.numerics.elementary import fma
 from rocking.kernels.numerics.simd import choose, circular, hyperbolic
+from rocking.kernels.numerics.taylor import I2, I3, I4
 
 
 @njit(**SIMD_INLINE)

@@ -5,7 +5,11 @@ import math
 from rocking.kernels.compile_options import SIMD_INLINE
 from rocking.kernels.deferred import njit
 from rocking.kernels.forcing.harmonic.bracket import MARGIN
-from rocking.kernels.forcing.harmonic.taylor import (
+from rocking.kernels.lanes.evaluate import derivatives, instant_of, set_next
+from rocking.kernels.lanes.state import AT_EVENT, BRACKET, FAILED, GUESS, MINIMUM, REFINE
+from rocking.kernels.numerics.elementary import fma
+from rocking.kernels.numerics.simd import choose
+from rocking.kernels.numerics.taylor import (
     I2,
     I3,
     I4,
@@ -15,10 +19,6 @@ from rocking.kernels.forcing.harmonic.taylor import (
     velocity_after,
     within_a_factor_of_two,
 )
-from rocking.kernels.lanes.evaluate import derivatives, instant_of, set_next
-from rocking.kernels.lanes.state import AT_EVENT, BRACKET, FAILED, GUESS, MINIMUM, REFINE
-from rocking.kernels.numerics.elementary import fma
-from rocking.kernels.numerics.simd import choose
 
 MAX_TRIES = 12
 # From this close the remainder of the step of fifth order, and of the series after it, is below rounding.

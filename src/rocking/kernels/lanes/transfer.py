@@ -13,7 +13,8 @@ from rocking.kernels.forcing.arc import shift_clock
 from rocking.kernels.forcing.drives import HarmonicDrive
 from rocking.kernels.forcing.harmonic.solution import arc_with
 from rocking.kernels.lanes.state import AT_EVENT, END_LEG, NEW_ARC, set_system
-from rocking.kernels.march.march import CROWDED, DONE, UNKNOWN
+from rocking.kernels.march.initial_state import UNKNOWN
+from rocking.kernels.march.march import CROWDED, DONE
 from rocking.kernels.march.progress import Progress
 
 LN2 = math.log(2.0)

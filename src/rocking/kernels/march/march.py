@@ -10,7 +10,7 @@ from enum import IntEnum
 from rocking.kernels.compile_options import INTERNAL, INTERNAL_INLINE, KERNEL
 from rocking.kernels.deferred import njit
 from rocking.kernels.entry_point import entry_point
-from rocking.kernels.event_kinds import BRACE, FLIGHT, IMPACT, LEAN, NONE, REST
+from rocking.kernels.event_kinds import BRACE, FLIGHT, IMPACT
 from rocking.kernels.forcing.arc import MAX_ARC_TIME, shift_clock, within_reach
 from rocking.kernels.forcing.contract import (
     arc_at,
@@ -21,11 +21,9 @@ from rocking.kernels.forcing.contract import (
     no_return_time,
     peak_with,
     resynchronise,
-    side_to_lift,
-    stays_leaning,
 )
-from rocking.kernels.forcing.harmonic.parameters import HarmonicParameters
-from rocking.kernels.march.event_rows import EventRows, note, note_event, note_state
+from rocking.kernels.forcing.parameters import SystemParameters
+from rocking.kernels.march.event_rows import note_event, note_state
 from rocking.kernels.march.impact_law import after_event
 from rocking.kernels.march.progress import (
     Progress,
@@ -53,10 +51,9 @@ from rocking.kernels.march.tangent import (
 MAX_EVENTS = 10_000_000
 # Compiled code cannot be interrupted, so a march returns after this number of events.
 BREATH = 2_000_000
-# No guesses of the first two times between events.
-UNKNOWN = (0.0, 0.0)
-# From event to event the forcing is propagated with the arc. After this number of events (a power of two, less one) it is
-# computed from the clock again.
+# Cycles of a march that ends when nothing follows.
+OPEN = 2**62
+# After this number of events (a power of two, less one) the forcing is computed from the clock again.
 RESYNCHRONISE = 15
 
 
@@ -75,71 +72,15 @@ DONE, OVERTURNED, STILL, PAUSED, CROWDED, RELEASED = (int(status) for status in 
 
 
 @njit(**INTERNAL)
-def begin(p, angle, velocity, waits, start=0.0):
-    """Start a march just after any event at the time ``start`` within its first cycle.
-
-    ``waits`` guesses the time to the first event and the time from there to the second.
-
-    Returns
-    -------
-    tuple of (Progress, bool)
-        The march at its start.
-        Whether a brace was hit there.
-    """
-    side = 1 if angle > 0.0 or (angle == 0.0 and velocity > 0.0) else -1
-    hit = abs(angle) == p.block.brace_angle and side * velocity > 0.0
-    u, v = abs(angle), side * velocity
-    if hit:
-        v = -p.block.brace_restitution * v
-    mode = FLIGHT
-    arc = arc_at(p, side, 0, start, u, v)
-    if u == 0.0 and v == 0.0:
-        lifting = side_to_lift(p, arc.start, arc.drive)
-        mode = REST if lifting == 0 else FLIGHT
-        arc = arc_at(p, side if lifting == 0 else lifting, 0, start, 0.0, 0.0)
-    elif u == p.block.brace_angle and v == 0.0 and stays_leaning(p, arc):
-        mode = LEAN
-    return Progress(
-        mode=mode,
-        cycle=0,
-        arc=arc,
-        pending=True,
-        crowd=0,
-        impacts=0,
-        brace_hits=1 if hit else 0,
-        peak=u,
-        no_return=math.inf,
-        last_wait=waits[1],
-        wait_before=waits[0],
-        strain=-math.inf,
-    ), hit
-
-
-@entry_point(**KERNEL)
-def begin_march(p: HarmonicParameters, angle: float, velocity: float) -> tuple[Progress, bool]:
-    """Begin a march as ``begin`` does, without guesses of the first two waits."""
-    return begin(p, angle, velocity, UNKNOWN)
-
-
-@entry_point(**KERNEL)
-def note_start(events: EventRows, progress: Progress, hit: bool, velocity: float) -> int:
-    """Write the first rows of a motion: its first arc, after a brace impact if it starts with one.
-
-    Returns the number of events written. A sustained contact with the brace at the start is a second event.
-    """
-    if hit:
-        return note_event(events, 0, progress, BRACE, velocity)
-    return note(events, 0, progress, NONE, velocity)
-
-
-@njit(**INTERNAL)
-def finish(p, reached, coming, state, want_peak):
+def finish(p, reached, coming, cycles, state, want_peak):
     """Return status and progress at the end of a march: tangent vectors, peak and arc are brought there.
 
     An overturned block is left at the time of the proof, because its angle may overflow later.
     """
     arc, peak = reached.arc, reached.peak
     end = min(reached.no_return, 0.0)
+    if cycles == OPEN:
+        end = reached.no_return if reached.mode == FLIGHT else arc.start
     t = end - arc.start
     if reached.mode == FLIGHT:
         now = evaluate(p, arc, t)
@@ -173,6 +114,8 @@ def pass_boundaries(p, progress, wait, cycles, recording, rows):
 
     Returns the progress, the number of section rows written, and whether the march ends there.
     """
+    if cycles == OPEN and wait == math.inf:
+        return progress, rows, True
     section, section_time = recording.section, recording.section_time
     while progress.arc.start + wait > (section_time if progress.pending else p.clock.cycle_length):
         arc = progress.arc
@@ -289,7 +232,7 @@ def march_on(p, progress, cycles, recording, state):
     left = guess.time if recording.releases else min(progress.arc.start + coming.wait, MAX_ARC_TIME)
     progress = with_waits(progress, last_guess.time, left if status == DONE else guess_before.time)
     if status == DONE and not (recording.releases and coming.wait < math.inf):
-        status, progress = finish(p, progress, coming, state, recording.peak)
+        status, progress = finish(p, progress, coming, cycles, state, recording.peak)
     return status, progress, rows, written
 
 
@@ -307,7 +250,7 @@ def march_through(p, progress, cycles, recording, state):
 
 @entry_point(**KERNEL)
 def march_plain(
-    p: HarmonicParameters, progress: Progress, cycles: int, recording: Recording, state: TangentState
+    p: SystemParameters, progress: Progress, cycles: int, recording: Recording, state: TangentState
 ) -> tuple[int, Progress, int, int]:
     """March by ``march_on``; entry point for Python."""
     return march_on(p, progress, cycles, recording, state)

@@ -9,7 +9,7 @@ from rocking.kernels.event_kinds import FLIGHT
 from rocking.kernels.forcing.arc import CROSSING, within_reach
 from rocking.kernels.forcing.contract import arc_at, evaluate, forcing_term, next_turn
 from rocking.kernels.forcing.extrema import first_turn_sign
-from rocking.kernels.forcing.harmonic.parameters import HarmonicParameters
+from rocking.kernels.forcing.parameters import SystemParameters
 from rocking.kernels.march.event_rows import EventRows
 from rocking.kernels.signature import Floats1, Floats2, Integers1
 
@@ -21,7 +21,7 @@ def arc_of(p, row):
 
 
 @entry_point(**KERNEL)
-def sample(p: HarmonicParameters, rows: EventRows, index: Integers1, elapsed: Floats1, out: Floats2) -> None:
+def sample(p: SystemParameters, rows: EventRows, index: Integers1, elapsed: Floats1, out: Floats2) -> None:
     """Write (Theta, Theta', Theta'') into ``out`` (n, 3) at given times.
 
     Row k is taken a time ``elapsed[k]`` after the event of row ``index[k]``.
@@ -41,7 +41,7 @@ def sample(p: HarmonicParameters, rows: EventRows, index: Integers1, elapsed: Fl
 
 
 @entry_point(**KERNEL)
-def turns(p: HarmonicParameters, rows: EventRows, until: Floats1, out: Floats2) -> int:
+def turns(p: SystemParameters, rows: EventRows, until: Floats1, out: Floats2) -> int:
     """Write (row, time into its arc, Theta) of every local extremum of the angle.
 
     ``until[k]`` is the duration of the arc of row k. Returns the number of extrema, including those for which

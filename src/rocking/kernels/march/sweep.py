@@ -6,7 +6,8 @@ from rocking.kernels.compile_options import INTERNAL, KERNEL
 from rocking.kernels.deferred import njit
 from rocking.kernels.entry_point import entry_point
 from rocking.kernels.forcing.harmonic.parameters import parameters_from_row
-from rocking.kernels.march.march import CROWDED, DONE, OVERTURNED, UNKNOWN, begin, march_through
+from rocking.kernels.march.initial_state import UNKNOWN, begin
+from rocking.kernels.march.march import CROWDED, DONE, OVERTURNED, march_through
 from rocking.kernels.march.no_recording import NoRecording
 from rocking.kernels.march.progress import Recording
 from rocking.kernels.signature import Floats1, Floats2, Floats3, Integers1

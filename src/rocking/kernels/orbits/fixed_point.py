@@ -6,7 +6,8 @@ from typing import NamedTuple
 from rocking.kernels.compile_options import AST_INLINE, INTERNAL, INTERNAL_INLINE
 from rocking.kernels.deferred import njit
 from rocking.kernels.forcing.harmonic.parameters import HarmonicParameters
-from rocking.kernels.march.march import DONE, begin, march_on
+from rocking.kernels.march.initial_state import begin
+from rocking.kernels.march.march import DONE, march_on
 from rocking.kernels.march.progress import Recording
 from rocking.kernels.march.tangent import Tangent, TangentState, read_tangent, write_tangent
 from rocking.kernels.numerics.elementary import size
@@ -41,7 +42,7 @@ class ReturnMap(NamedTuple):
 
 
 class Guess(NamedTuple):
-    """Initial state of a march; ``waits`` as for ``march.begin``."""
+    """Initial state of a march; ``waits`` as for ``initial_state.begin``."""
 
     angle: float
     velocity: float

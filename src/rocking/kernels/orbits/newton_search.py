@@ -9,7 +9,7 @@ from rocking.kernels.compile_options import INTERNAL, KERNEL
 from rocking.kernels.deferred import njit
 from rocking.kernels.entry_point import entry_point
 from rocking.kernels.forcing.harmonic.parameters import HarmonicParameters, later
-from rocking.kernels.march.march import UNKNOWN
+from rocking.kernels.march.initial_state import UNKNOWN
 from rocking.kernels.march.no_recording import NoRecording
 from rocking.kernels.orbits.fixed_point import ANYWHERE, UNBOUNDED, Guess, ReturnMap, find_fixed_point
 from rocking.kernels.signature import Floats2

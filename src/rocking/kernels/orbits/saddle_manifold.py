@@ -17,7 +17,8 @@ from rocking.kernels.forcing.harmonic.next_event import any_event
 from rocking.kernels.forcing.harmonic.parameters import HarmonicParameters, later, make
 from rocking.kernels.march.event_rows import state_at
 from rocking.kernels.march.impact_law import after_event
-from rocking.kernels.march.march import MAX_EVENTS, UNKNOWN, begin
+from rocking.kernels.march.initial_state import UNKNOWN, begin
+from rocking.kernels.march.march import MAX_EVENTS
 from rocking.kernels.signature import Floats1, Floats2
 
 # Distance from the saddle orbit, over 1 - beta, at which a motion is started.

@@ -94,7 +94,7 @@ def _quasi_periodic() -> Row:
 
 def sea_systems(count: int) -> list[rk.System]:
     """Return the chaotic system with ``count`` forcing phases that no experiment can distinguish."""
-    forcing, restitution = CHAOTIC.system.forcing, CHAOTIC.system.restitution
+    forcing, restitution = CHAOTIC.system.harmonic, CHAOTIC.system.restitution
     return [
         rk.System(rk.Harmonic(forcing.amplitude, period=forcing.period, phase=phase), restitution)
         for phase in np.linspace(0.0, SEA_PHASES, count)
@@ -105,7 +105,7 @@ def sea_systems(count: int) -> list[rk.System]:
 def sea() -> tuple[float, float]:
     """Return mean and standard deviation of λ₁ of the chaotic sea over runs of the length of 1991, nats per cycle."""
     per_cycle = (
-        np.array([_estimate(system) for system in sea_systems(SEA_STARTS)]) * CHAOTIC.system.forcing.period
+        np.array([_estimate(system) for system in sea_systems(SEA_STARTS)]) * CHAOTIC.system.harmonic.period
     )
     return float(per_cycle.mean()), float(per_cycle.std(ddof=1))
 
@@ -125,7 +125,7 @@ def sea_dimension() -> Dimension:
 
 def _sea() -> Row:
     """Compute the row of the chaotic sea from many short runs, because one long run may stay near an island."""
-    system, period = CHAOTIC.system, CHAOTIC.system.forcing.period
+    system, period = CHAOTIC.system, CHAOTIC.system.harmonic.period
     mean, spread = sea()
     dimension = sea_dimension()
     coarse = dimension.found.slopes[dimension.found.radii[:-1] >= COARSE].mean()
@@ -165,7 +165,7 @@ def _row(
     dimension: Dimension,
     why: str,
 ) -> Row:
-    forcing = system.forcing
+    forcing = system.harmonic
     braces = f", Θb = {system.braces.angle:g}, r = {system.braces.restitution:g}" if system.braces else ""
     (low, high), isolated = dimension.found.interval, dimension.found.isolated
     remark = "" if dimension.scales else ", no uniform slope over a decade of radii"

@@ -31,7 +31,7 @@ def window(motion: Motion, cycles: tuple[float, float] | None) -> tuple[float, f
     first = within("cycles", first, 0, motion.cycles)
     if within("cycles", last, 0, motion.cycles) <= first:
         raise ValueError(refusal("cycles", "be a pair (first, last) with first < last", cycles))
-    period = motion.system.forcing.period
+    period = motion.system.harmonic.period
     refuse_if(
         first * period >= end, "cycles", f"begin before |Θ| = {FALLEN:g}, in cycle {end / period:.4g}", cycles
     )
@@ -40,7 +40,7 @@ def window(motion: Motion, cycles: tuple[float, float] | None) -> tuple[float, f
 
 def settled(motion: Motion) -> float:
     """Return a time τ after the last event of a motion that came to rest, late enough to show that it stays there."""
-    forcing, events = motion.system.forcing, motion.events
+    forcing, events = motion.system.harmonic, motion.events
     last = float(events["time"][-1]) if len(events) else 0.0
     if last == 0:
         return motion.duration
@@ -77,7 +77,7 @@ def _grid(motion: Motion, start: float, stop: float, events: NDArray) -> NDArray
     lengths, middles = np.diff(ends), (ends[1:] + ends[:-1]) / 2
     moves = (motion.at(middles)[1] != 0) | (motion.acceleration(middles) != 0)
     finest = min(
-        min(motion.system.forcing.period, 1.0) / SAMPLES_PER_TIME, (stop - start) / SAMPLES_PER_PICTURE
+        min(motion.system.harmonic.period, 1.0) / SAMPLES_PER_TIME, (stop - start) / SAMPLES_PER_PICTURE
     )
     step = max(finest, float(lengths[moves].sum()) / MAX_SAMPLES)
     steps = np.where(moves, np.ceil(lengths / step), 1).astype(int)

@@ -185,7 +185,7 @@ def alike(states: np.ndarray, others: np.ndarray) -> np.ndarray:
 
 def section_of(system: System, anchor: np.ndarray, period: int) -> np.ndarray:
     """Return the states (n, 2) of an orbit on the section, beginning with its representative state."""
-    phase = system.forcing.phase + math.tau * kernel.SECTION
+    phase = system.harmonic.phase + math.tau * kernel.SECTION
     clocked = system_of(NO_BRACES | quantities(system) | {"phase": phase})
     return np.asarray(simulate(clocked, State(*anchor), cycles=period, record="section").section()[:period])
 

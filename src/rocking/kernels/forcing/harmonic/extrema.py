@@ -12,8 +12,8 @@ from rocking.kernels.forcing.extrema import arc_peak
 from rocking.kernels.forcing.harmonic.acceleration import TURN, forcing_rates, forcing_term
 from rocking.kernels.forcing.harmonic.first_zero import EventFunction, first_zero, step_to_zero
 from rocking.kernels.forcing.harmonic.solution import evaluate, exponentials
-from rocking.kernels.forcing.harmonic.taylor import I2, I4, I6, I8
 from rocking.kernels.numerics.elementary import fma
+from rocking.kernels.numerics.taylor import I2, I4, I6, I8
 
 # After an extremum the search starts later by this fraction of the time, and by ever more, so that rounding
 # cannot find the same extremum again.

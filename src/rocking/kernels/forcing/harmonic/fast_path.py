@@ -30,7 +30,7 @@ from rocking.kernels.forcing.harmonic.bracket import (
 from rocking.kernels.forcing.harmonic.enclosure import stays_between
 from rocking.kernels.forcing.harmonic.first_zero import corrected_step, step_to_zero
 from rocking.kernels.forcing.harmonic.solution import propagate, propagator_of
-from rocking.kernels.forcing.harmonic.taylor import series, velocity_after
+from rocking.kernels.numerics.taylor import series, velocity_after
 
 TRIES = 6
 # Maximum number of expansion points of the series on the way to an event.

@@ -31,7 +31,7 @@ from rocking.kernels.forcing.harmonic.acceleration import (
     next_sign_change,
 )
 from rocking.kernels.forcing.harmonic.solution import evaluate, exponentials, propagate, propagator_or_none
-from rocking.kernels.forcing.harmonic.taylor import reversion
+from rocking.kernels.numerics.taylor import reversion
 
 ITERATIONS = 200
 # After this number of steps every second one is a bisection.

@@ -110,7 +110,7 @@ def _integrated(system: rk.System, impacts: int) -> tuple[np.ndarray, np.ndarray
     tuple of (array, array)
         Times of the first impacts, and speeds after them.
     """
-    forcing, e = system.forcing, system.restitution
+    forcing, e = system.harmonic, system.restitution
     time, speed, side, times, speeds = 0.0, 0.0, -1, [], []
     for _ in range(impacts):
 
@@ -147,7 +147,7 @@ def equation_5() -> Finding:
     """Between impacts Θ is a sum of sinh, cosh, ±1 and β cos(Ωτ + φ), with β = A/(1 + Ω²)."""
     system = PERIODIC[0].system
     motion = rk.simulate(system, cycles=30)
-    forcing = system.forcing
+    forcing = system.harmonic
     beta = forcing.amplitude / (1.0 + forcing.frequency**2)
     hits = motion.events[motion.events["kind"] == "impact"]
     worst = 0.0

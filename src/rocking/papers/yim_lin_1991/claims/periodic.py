@@ -31,9 +31,9 @@ def equation_8() -> Finding:
     """The first half-cycle of a (1, n) mode in closed form; the second by time shift and change of sign."""
     worst, figures = 0.0, []
     for case, n in ((PERIODIC[0], 1), (PERIODIC[1], 3)):
-        mode = rk.theory.symmetric_modes(case.system.forcing.amplitude, case.system.forcing.period, 0.925, n)[
-            0
-        ]
+        mode = rk.theory.symmetric_modes(
+            case.system.harmonic.amplitude, case.system.harmonic.period, 0.925, n
+        )[0]
         hits = rk.simulate(mode.system, mode.start, cycles=20 * n).events
         hits = hits[hits["kind"] == "impact"][:20]
         half = 0.5 * n * mode.period

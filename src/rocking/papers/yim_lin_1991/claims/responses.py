@@ -31,8 +31,8 @@ def equation_6() -> Finding:
     """A periodic response repeats itself after a fixed time."""
     case = PERIODIC[1]
     motion = rk.simulate(case.system, cycles=2_000)
-    times = np.linspace(1_900.0, 1_990.0, 5_001) * case.system.forcing.period
-    later = times + 3.0 * case.system.forcing.period
+    times = np.linspace(1_900.0, 1_990.0, 5_001) * case.system.harmonic.period
+    later = times + 3.0 * case.system.harmonic.period
     off = np.abs(motion.at(later)[0] - motion.at(times)[0]).max()
     return Finding(
         bool(off < 1e-11), f"figure 2b after 1,900 cycles: Θ(τ + 3T) and Θ(τ) are {agreement(off)}"

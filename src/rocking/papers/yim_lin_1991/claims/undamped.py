@@ -140,7 +140,7 @@ def folding() -> Finding:
     chaotic = rk.System(rk.Harmonic(amplitude=2.0, period=0.4), 1.0)
     motion = rk.simulate(chaotic, cycles=5_000)
     per_cycle, spread = table_exponents.sea()
-    rate = per_cycle / chaotic.forcing.period
+    rate = per_cycle / chaotic.harmonic.period
     return Finding(
         motion.peak < 1.0
         and motion.outcome is rk.Outcome.BOUNDED

@@ -1,0 +1,116 @@
+"""Bodies of ``forcing.contract`` for a sampled base acceleration."""
+
+import math
+from typing import NamedTuple
+
+from rocking.kernels.compile_options import INTERNAL, INTERNAL_INLINE
+from rocking.kernels.deferred import njit, provide
+from rocking.kernels.event_kinds import FLIGHT, REST
+from rocking.kernels.forcing import contract
+from rocking.kernels.forcing.sampled import extrema, held, search, solution
+from rocking.kernels.forcing.sampled.parameters import SampledParameters
+from rocking.kernels.forcing.sampled.solution import arc_at_place, place_at
+
+
+class NoGuess(NamedTuple):
+    """Guess of the next event: the search for it needs none."""
+
+    time: float
+
+
+@njit(**INTERNAL)
+def arc_at(p, side, cycle, start, angle, velocity):
+    """Provide ``contract.arc_at``."""
+    drive = place_at(p, 0, max(cycle * p.clock.cycle_length + start, 0.0))
+    return arc_at_place(p, side, start, angle, velocity, drive)
+
+
+@njit(**INTERNAL_INLINE)
+def arc_after(p, side, start, angle, velocity, coming):
+    """Provide ``contract.arc_after`` and ``contract.arc_renewed``: the place of the event is exact."""
+    return arc_at_place(p, side, start, angle, velocity, coming.drive)
+
+
+@njit(**INTERNAL_INLINE)
+def resynchronise(p, arc):
+    """Provide ``contract.resynchronise``: the place of an arc has no rounding errors to remove."""
+    return arc
+
+
+@njit(**INTERNAL_INLINE)
+def forcing_term(p, side, drive):
+    """Provide ``contract.forcing_term``."""
+    return -1.0 - side * solution.acceleration_at(p, drive)
+
+
+@njit(**INTERNAL_INLINE)
+def guess_from(p, wait):
+    """Provide ``contract.guess_from``."""
+    return NoGuess(wait)
+
+
+@njit(**INTERNAL)
+def next_event(p, mode, arc, guess):
+    """Provide ``contract.next_event``."""
+    if mode == FLIGHT:
+        coming = search.first_event(p, arc)
+    elif mode == REST:
+        coming = held.lift_off(p, arc)
+    else:
+        coming = held.departure(p, arc)
+    return coming, guess
+
+
+@njit(**INTERNAL)
+def no_return_time(p, arc):
+    """Provide ``contract.no_return_time``: from then on the bound of ``search.never_returns`` is positive."""
+    tables, scale = p.forcing.tables, p.forcing.scale
+    turned, knot = arc.side * scale, tables.knots[min(arc.drive.index, solution.last_index(p))]
+    least = turned * (knot.lowest if turned > 0.0 else knot.highest)
+    m = 2.0 * (1.0 + least - 0.25 * tables.step * tables.step * abs(scale) * tables.largest)
+    grow, b = arc.constants.grow, abs(arc.constants.shrink)
+    if not grow > 0.0:
+        return 0.0
+    root = math.sqrt(m * m + 4.0 * grow * b)
+    z = 2.0 * b / (m + root) if m > 0.0 else (root - m) / (2.0 * grow)
+    return math.log(z) if z > 1.0 else 0.0
+
+
+@njit(**INTERNAL_INLINE)
+def acceleration_size(p, drive):
+    """Provide ``contract.acceleration_size``."""
+    return abs(solution.acceleration_at(p, drive))
+
+
+@njit(**INTERNAL)
+def sensitivities(p, arc, t, sinh, versinh, excess):
+    """Provide ``contract.sensitivities`` by the scale; a sampled forcing has neither phase nor frequency."""
+    angle, velocity = solution.means_at(p, arc.drive)
+    later_angle, later_velocity = solution.means_at(p, place_at(p, arc.drive.index, arc.drive.offset + t))
+    cosh, scale = 1.0 + versinh, p.forcing.scale
+    moved = angle * cosh + velocity * sinh - later_angle, angle * sinh + velocity * cosh - later_velocity
+    return moved[0] / scale, moved[1] / scale, 0.0, 0.0, 0.0, 0.0
+
+
+provide(
+    SampledParameters,
+    {
+        contract.arc_at: arc_at,
+        contract.arc_renewed: arc_after,
+        contract.arc_after: arc_after,
+        contract.resynchronise: resynchronise,
+        contract.evaluate: solution.evaluate,
+        contract.forcing_term: forcing_term,
+        contract.guess_from: guess_from,
+        contract.next_event: next_event,
+        contract.no_return_time: no_return_time,
+        contract.side_to_lift: held.side_to_lift,
+        contract.stays_leaning: held.stays_leaning,
+        contract.acceleration_size: acceleration_size,
+        contract.acceleration_change_bound: held.change_bound,
+        contract.peak_with: extrema.peak_with,
+        contract.largest_on: extrema.largest_on,
+        contract.next_turn: extrema.next_turn,
+        contract.sensitivities: sensitivities,
+    },
+)

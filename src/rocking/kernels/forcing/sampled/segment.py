@@ -1,0 +1,162 @@
+"""Arc on one segment between two samples, where the forcing term f + df x is linear: closed form and first zero.
+
+    u(x) = u + v sinh x + (u + f)(cosh x - 1) + df (sinh x - x).
+
+Every event function w obeys w'' - w = f_w with f_w linear, so that at most one sign change divides the segment. On either part
+y = w e^x is concave or convex in z = e^2x, as in ``harmonic.first_zero``:
+
+* a concave part that starts with w >= 0 contains one zero if it ends with w < 0, else none;
+* a convex part contains one zero if it ends with w < 0;
+* else it contains two or none, by the sign of w where w + w' changes its sign.
+"""
+
+import math
+from typing import NamedTuple
+
+from rocking.kernels.compile_options import INTERNAL, INTERNAL_INLINE
+from rocking.kernels.deferred import njit
+from rocking.kernels.numerics.elementary import hyperbolic
+from rocking.kernels.numerics.taylor import reversion
+
+ITERATIONS = 100
+# After this number of steps every second one is a bisection.
+MAX_STEPS = 8
+ROUNDING = 2.0**-53
+
+
+class Piece(NamedTuple):
+    """Function w on a segment: w and w' at its start, and w'' - w = force + rate x."""
+
+    w: float
+    dw: float
+    force: float
+    rate: float
+
+
+@njit(**INTERNAL_INLINE)
+def at(piece, x):
+    """Return w and w' a time x after the start of the segment."""
+    sinh, versinh, excess, _ = hyperbolic(x)
+    return with_hyperbolic(piece, sinh, versinh, excess)
+
+
+@njit(**INTERNAL_INLINE)
+def with_hyperbolic(piece, sinh, versinh, excess):
+    """Return w and w' from sinh x, cosh x - 1 and sinh x - x."""
+    second = piece.w + piece.force
+    return (
+        piece.w + (piece.dw * sinh + (second * versinh + piece.rate * excess)),
+        piece.dw + (second * sinh + (piece.dw + piece.rate) * versinh),
+    )
+
+
+@njit(**INTERNAL)
+def refine(piece, low, high, x):
+    """Refine the only zero of w in [low, high], from the guess x: w > 0 just after low and w <= 0 at high.
+
+    Returns
+    -------
+    tuple of (float, float)
+        The zero, and w' there.
+    """
+    dw = 0.0
+    for k in range(ITERATIONS):
+        w, dw = at(piece, x)
+        if w > 0.0:
+            low = x
+        else:
+            high = x
+        f = piece.force + piece.rate * x
+        ahead = 0.5 * (low + high)
+        if dw < 0.0 and not (k > MAX_STEPS and k % 2 == 0):
+            per = 1.0 / dw
+            y = -w * per
+            factor = reversion(y, w + f, dw + piece.rate, w + f, per)
+            ahead = x + (y * factor if 0.5 < factor < 2.0 else y)
+            if not low <= ahead <= high:
+                ahead = 0.5 * (low + high)
+        converged = abs(ahead - x) <= 4.0 * ROUNDING * ahead
+        x = ahead
+        if converged:
+            break
+    return x, at(piece, x)[1]
+
+
+@njit(**INTERNAL)
+def guess(piece, start, high):
+    """Return a first guess of the zero in (start, high): that of the parabola if it lies there, else the middle."""
+    (t, w, dw), f = start, piece.force + piece.rate * start[0]
+    second = w + f
+    under = dw * dw - 2.0 * w * second
+    x = math.inf
+    if under >= 0.0 and second < 0.0:
+        x = (dw + math.sqrt(under)) / -second
+    elif under >= 0.0 and dw < 0.0:
+        x = 2.0 * w / (-dw + math.sqrt(under))
+    return t + x if 0.0 < x < high - t else 0.5 * (t + high)
+
+
+@njit(**INTERNAL)
+def below_zero(piece, start, end):
+    """Return a time in a convex part at which w <= 0, or infinity if w stays positive.
+
+    ``start`` and ``end`` are (time, w, w') at its ends, where w > 0. (w + w') e^-x only grows. At its zero w e^x is least.
+    """
+    (left, w, dw), (right, w_right, dw_right) = start, end
+    if w + dw >= 0.0 or dw_right - w_right <= 0.0:
+        return math.inf
+    low, high = left, right
+    x = left - (w + dw) * (right - left) / ((dw_right + w_right) - (w + dw))
+    for _ in range(ITERATIONS):
+        w, dw = at(piece, x)
+        if w <= 0.0:
+            return x
+        slope = w + dw
+        if slope < 0.0:
+            low = x
+        else:
+            high = x
+        ahead = x - slope / (slope + piece.force + piece.rate * x)
+        if not low <= ahead <= high:
+            ahead = 0.5 * (low + high)
+        # The tangent bounds how much lower the minimum may be.
+        if abs(ahead - x) <= 1e-9 * (high - low) + ROUNDING * high and w > abs(slope * (ahead - x)):
+            return math.inf
+        if ahead == x:
+            return math.inf
+        x = ahead
+    return math.inf
+
+
+@njit(**INTERNAL)
+def first_zero(piece, length):
+    """Return the first time in (0, length] at which w falls through zero, and w' there; infinity if there is none.
+
+    w >= 0 at the start. If w = w' = 0 there, w rises first.
+
+    Returns
+    -------
+    tuple of (float, float)
+        The time, and w' there.
+    """
+    left, w, dw = 0.0, piece.w, piece.dw
+    cut = -piece.force / piece.rate if piece.rate != 0.0 else math.inf
+    if not 0.0 < cut < length:
+        cut = length
+    at_rest = w == 0.0 and dw == 0.0
+    for _ in range(2):
+        right = cut if left == 0.0 else length
+        w_right, dw_right = at(piece, right)
+        convex = piece.force + piece.rate * (0.5 * (left + right)) > 0.0
+        low_end = right if w_right < 0.0 else math.inf
+        if at_rest:
+            low_end = math.inf
+        elif convex and w_right >= 0.0:
+            low_end = below_zero(piece, (left, w, dw), (right, w_right, dw_right))
+        if low_end < math.inf:
+            return refine(piece, left, low_end, guess(piece, (left, w, dw), low_end))
+        if right == length:
+            break
+        at_rest = at_rest and not convex
+        left, w, dw = right, w_right, dw_right
+    return math.inf, 0.0

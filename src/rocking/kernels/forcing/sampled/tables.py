@@ -1,0 +1,94 @@
+"""Tables of a sampled base acceleration, made once for its samples and its step.
+
+They hold the bounded solution P of P'' - P = -a, and its derivative. Both are linear in a: scale, sign, slenderness and
+restitution share the tables. With L' = -L + a from the left and R' = R - a from the right, P = (L + R)/2 and
+P' = (R - L)/2. Either recursion contracts and has positive weights, so that nothing cancels.
+"""
+
+import math
+from typing import Annotated, NamedTuple
+
+import numpy as np
+
+from rocking.kernels.compile_options import INTERNAL, KERNEL
+from rocking.kernels.deferred import njit
+from rocking.kernels.entry_point import entry_point
+from rocking.kernels.numerics.elementary import hyperbolic
+from rocking.kernels.signature import Floats1
+
+# Samples in a window of the search for an event, and in a block of the search for a lift-off.
+WINDOW = 16
+BLOCK = 64
+# Terms of the series of the weights, for a step up to 1.
+TERMS = 18
+KNOT = np.dtype([(name, float) for name in ("acceleration", "mean", "rate", "lowest", "highest")], align=True)
+Knots = Annotated[np.ndarray, KNOT, 1]
+
+
+class Tables(NamedTuple):
+    """Samples at unit scale, with all that depends on them and on the step alone."""
+
+    step: float
+    sinh: float  # of the step
+    versinh: float  # cosh - 1
+    excess: float  # sinh - step
+    largest: float  # |a| of all samples
+    # (n,): a, P and P' at each sample; least and greatest of 0 and of P from this sample on
+    knots: Knots
+    blocks: Floats1  # largest |a| in each block of samples
+    powers: Floats1  # e^(k step), then e^(-k step), for k up to WINDOW
+
+
+@njit(**INTERNAL)
+def weights(step):
+    """Return the integrals of e^-x (1 - x/step) and of e^-x x/step over a step, to relative accuracy."""
+    if step > 1.0:
+        decay = math.exp(-step)
+        return 1.0 - (1.0 - decay) / step, (1.0 - decay * (1.0 + step)) / step
+    near, far, term = 0.0, 0.0, 0.5 * step
+    for k in range(TERMS):
+        near += term
+        far += (k + 1) * term
+        term *= -step / (k + 3)
+    return near, far
+
+
+@entry_point(**KERNEL)
+def fill(
+    samples: Floats1, step: float, knots: Knots, blocks: Floats1, powers: Floats1
+) -> tuple[float, float, float, float]:
+    """Fill the arrays of the tables; return sinh, cosh - 1 and sinh - step of the step, and the largest |a|."""
+    n = samples.shape[0]
+    sinh, versinh, excess, _ = hyperbolic(step)
+    decay, (near, far) = math.exp(-step), weights(step)
+    left = 0.0
+    for k in range(n):
+        if k > 0:
+            left = decay * left + near * samples[k] + far * samples[k - 1]
+        knots[k].acceleration = samples[k]
+        knots[k].mean = left
+    right, lowest, highest, largest = 0.0, 0.0, 0.0, 0.0
+    for j in range(n):
+        k = n - 1 - j
+        if j > 0:
+            right = decay * right + near * samples[k] + far * samples[k + 1]
+        left = knots[k].mean
+        mean = 0.5 * (left + right)
+        lowest, highest = min(lowest, mean), max(highest, mean)
+        largest = max(largest, abs(samples[k]))
+        knots[k].mean, knots[k].rate = mean, 0.5 * (right - left)
+        knots[k].lowest, knots[k].highest = lowest, highest
+    for k in range(blocks.shape[0]):
+        blocks[k] = 0.0
+    for k in range(n):
+        blocks[k // BLOCK] = max(blocks[k // BLOCK], abs(samples[k]))
+    for k in range(WINDOW + 1):
+        powers[k], powers[WINDOW + 1 + k] = math.exp(k * step), math.exp(-k * step)
+    return sinh, versinh, excess, largest
+
+
+def tables_of(samples: np.ndarray, step: float) -> Tables:
+    """Make the tables of samples (n,), n >= 1, at a step in normalised time."""
+    n = len(samples)
+    knots, blocks, powers = np.empty(n, KNOT), np.empty(-(-n // BLOCK)), np.empty(2 * (WINDOW + 1))
+    return Tables(step, *fill(samples, step, knots, blocks, powers), knots, blocks, powers)

@@ -1,0 +1,50 @@
+"""Parameters of a system for the kernels."""
+
+from __future__ import annotations
+
+import math
+from collections import OrderedDict
+from threading import Lock
+
+import numpy as np
+
+from rocking.kernels.forcing import parameters as numbers
+from rocking.model import NO_BRACES, Harmonic, PiecewiseLinear, System, quantities
+
+MAX_TABLES = 8
+"""Number of tables that are kept: those of the same samples and step, for all scales and restitutions."""
+_tables: OrderedDict[tuple[int, float], tuple[np.ndarray, numbers.Tables]] = OrderedDict()
+_lock = Lock()
+
+
+def parameters(system: System, cycle_length: float | None = None) -> numbers.SystemParameters:
+    """Return the parameters of a system for the kernels.
+
+    For a base motion of finite length, `cycle_length` is that of the clock: any; by default a number of samples.
+    """
+    forcing = system.forcing
+    if isinstance(forcing, Harmonic):
+        return numbers.harmonic_parameters(**NO_BRACES | quantities(system))
+    assert isinstance(forcing, PiecewiseLinear)
+    angle, restitution = (
+        (math.inf, 1.0) if system.braces is None else (system.braces.angle, system.braces.restitution)
+    )
+    length = numbers.CYCLE * forcing.step if cycle_length is None else cycle_length
+    return numbers.sampled_parameters(
+        tables_for(forcing), forcing.scale, length, system.restitution, angle, restitution
+    )
+
+
+def tables_for(forcing: PiecewiseLinear) -> numbers.Tables:
+    """Return the tables of the samples of a forcing, made once as long as they are kept."""
+    key = id(forcing.values), forcing.step
+    with _lock:
+        if key in _tables:
+            _tables.move_to_end(key)
+            return _tables[key][1]
+    made = numbers.tables_of(forcing.values, forcing.step)
+    with _lock:
+        _tables[key] = forcing.values, made  # the samples too, so that no others get their identity
+        while len(_tables) > MAX_TABLES:
+            _tables.popitem(last=False)
+    return made
