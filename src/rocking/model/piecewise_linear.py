@@ -130,7 +130,7 @@ class PiecewiseLinear(Forcing, ReadOnlyArrays):
 
         Examples
         --------
-        >>> PiecewiseLinear([0.0, 2.0], step=1.0, scale=-1.0).acceleration(0.5)
+        >>> float(PiecewiseLinear([0.0, 2.0], step=1.0, scale=-1.0).acceleration(0.5))
         -1.0
         """
         places = np.asarray(reals("times", times)) / self.step
