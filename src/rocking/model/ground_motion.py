@@ -1,0 +1,336 @@
+"""Recorded or synthetic ground acceleration in SI units, and the quantities by which engineers describe it."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import attrs
+import numpy as np
+from attrs import evolve, field, frozen
+
+from rocking.model.arrays import ReadOnlyArrays, read_only
+from rocking.model.piecewise_linear import samples
+from rocking.model.validation import exactly_one, finite, one_of, reals, refusal, within
+
+STEPS = (1e-6, 1e3)
+MAX_ACCELERATION = 1e6
+MAX_FACTOR = 1e6
+STANDARD_GRAVITY = 9.80665
+BASELINES = {"none": None, "mean": 0, "linear": 1, "quadratic": 2}
+"""Degree of the polynomial that is fitted to the acceleration and subtracted."""
+SIGNIFICANT = (0.05, 0.95)
+"""Shares of the Arias intensity at the ends of the significant duration."""
+
+
+def _samples(values: Any) -> np.ndarray:
+    return samples("acceleration", values, MAX_ACCELERATION)
+
+
+def _step(value: float) -> float:
+    return within("step", value, *STEPS, "s")
+
+
+def _baseline(value: str) -> str:
+    return one_of("baseline", value, tuple(BASELINES))
+
+
+@frozen
+class RecordFile:
+    """File that a ground motion was read from.
+
+    Attributes
+    ----------
+    name : str
+        Name of the file.
+    sha256 : str
+        SHA-256 digest of its bytes, hexadecimal.
+    format : str
+        Format of the file, such as "PEER AT2".
+    channel : str
+        Channel of the file, such as "channel 1 of 3, 90°"; empty if it has only one.
+    header_pga : float or None
+        Peak ground acceleration as the header gives it, in m/s²; None if it gives none.
+
+    Examples
+    --------
+    >>> RecordFile("a.at2", "0" * 64, "PEER AT2").header_pga is None
+    True
+    """
+
+    name: str
+    sha256: str
+    format: str
+    channel: str = ""
+    header_pga: float | None = None
+
+
+@frozen(repr=False)
+class GroundMotion(ReadOnlyArrays):
+    """Horizontal acceleration of the ground in SI units, linear between equidistant samples.
+
+    Scaled and reversed motions share the samples. The last sample ends the motion: the acceleration is 0 before the first and
+    after the last.
+
+    Parameters
+    ----------
+    acceleration : array_like of float, shape (n,)
+        Samples in m/s², n in [1, 10⁷].
+    step : float
+        Time between two samples in s, in [1e-6, 1000].
+    name, component : str
+        Name of the motion and of its component. Default: "".
+    baseline : {"none", "mean", "linear", "quadratic"}
+        Polynomial that is fitted to the samples by least squares and subtracted. Default: "none".
+    factor : float
+        Factor of all samples. Default: 1.
+    file : RecordFile, optional
+        File that the samples were read from. Default: None.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If a value is of the wrong type or lies outside its range.
+
+    Examples
+    --------
+    >>> motion = GroundMotion([0.0, 3.0, -2.0, 0.0], step=0.1, name="example")
+    >>> motion
+    GroundMotion(example, 4 samples, step 0.1 s, PGA 3 m/s²)
+    >>> motion.scaled(pga=6.0).acceleration.tolist(), motion.reversed().pga
+    ([0.0, 6.0, -4.0, 0.0], 3.0)
+    """
+
+    _samples: np.ndarray = field(
+        alias="acceleration", converter=_samples, eq=attrs.cmp_using(eq=np.array_equal), hash=False
+    )
+    step: float = field(converter=_step, kw_only=True)
+    name: str = field(default="", kw_only=True)
+    component: str = field(default="", kw_only=True)
+    baseline: str = field(default="none", converter=_baseline, kw_only=True)
+    factor: float = field(default=1.0, kw_only=True)
+    file: RecordFile | None = field(default=None, kw_only=True)
+    _corrected: bool = field(default=False, kw_only=True, repr=False, eq=False)
+
+    def __attrs_post_init__(self) -> None:
+        finite("factor", self.factor, MAX_FACTOR)
+        degree = BASELINES[self.baseline]
+        if degree is None or self._corrected:
+            return
+        places = np.linspace(-1.0, 1.0, self._samples.size)
+        fit = np.polynomial.Polynomial.fit(places, self._samples, min(degree, self._samples.size - 1))
+        object.__setattr__(self, "_samples", read_only(self._samples - fit(places)))
+        object.__setattr__(self, "_corrected", True)
+
+    @property
+    def acceleration(self) -> np.ndarray:
+        """Samples in m/s², shape (n,), after correction of the baseline and scaling."""
+        return self._samples if self.factor == 1.0 else read_only(self.factor * self._samples)
+
+    @property
+    def times(self) -> np.ndarray:
+        """Times of the samples in s, shape (n,)."""
+        return self.step * np.arange(self._samples.size)
+
+    @property
+    def duration(self) -> float:
+        """Time of the last sample, in s."""
+        return (self._samples.size - 1) * self.step
+
+    @property
+    def pga(self) -> float:
+        """Peak ground acceleration: largest |acceleration|, in m/s²."""
+        return float(np.abs(self._samples).max()) * abs(self.factor)
+
+    @property
+    def velocity(self) -> np.ndarray:
+        """Velocity of the ground at the samples in m/s, from rest, by exact integration of the straight segments."""
+        a = self.acceleration
+        return np.concatenate(([0.0], np.cumsum((a[1:] + a[:-1]) * (self.step / 2))))
+
+    @property
+    def displacement(self) -> np.ndarray:
+        """Displacement of the ground at the samples in m, from rest, by exact integration of the straight segments.
+
+        Errors of the baseline grow quadratically in time: the displacement at the end is a measure of them.
+        """
+        a, v = self.acceleration, self.velocity
+        moved = v[:-1] * self.step + (2 * a[:-1] + a[1:]) * (self.step**2 / 6)
+        return np.concatenate(([0.0], np.cumsum(moved)))
+
+    @property
+    def pgv(self) -> float:
+        """Peak ground velocity: largest |velocity| at the samples and where the acceleration vanishes between them, in m/s."""
+        a, v = self.acceleration, self.velocity
+        first, second = a[:-1], a[1:]
+        crossing = first * second < 0
+        part = first[crossing] / (first[crossing] - second[crossing]) * self.step
+        between = v[:-1][crossing] + first[crossing] * part / 2
+        return float(max(np.abs(v).max(), np.abs(between).max(initial=0.0)))
+
+    @property
+    def pgd(self) -> float:
+        """Peak ground displacement: largest |displacement| at the samples, in m."""
+        return float(np.abs(self.displacement).max())
+
+    @property
+    def arias_intensity(self) -> float:
+        """Arias intensity π/(2g) ∫a² dt in m/s, exact for the straight segments."""
+        return float(self._energy()[-1]) * math.pi / (2 * STANDARD_GRAVITY)
+
+    @property
+    def significant_duration(self) -> float:
+        """Time between 5 % and 95 % of the Arias intensity, in s, linear between samples; 0 without motion."""
+        energy = self._energy()
+        if energy[-1] == 0.0:
+            return 0.0
+        first, last = np.interp([share * energy[-1] for share in SIGNIFICANT], energy, self.times)
+        return float(last - first)
+
+    def _energy(self) -> np.ndarray:
+        a = self.acceleration
+        parts = (a[:-1] ** 2 + a[:-1] * a[1:] + a[1:] ** 2) * (self.step / 3)
+        return np.concatenate(([0.0], np.cumsum(parts)))
+
+    def response_spectrum(self, periods: Any, damping: float = 0.05) -> Any:
+        """Return the pseudo-acceleration ω² max|u| of linear oscillators.
+
+        The recursion is exact for straight segments; the largest displacement is taken at the samples.
+
+        Parameters
+        ----------
+        periods : float or array_like
+            Natural periods in s, positive.
+        damping : float
+            Damping ratio, in [0, 0.99]. Default: 0.05.
+
+        Returns
+        -------
+        float or ndarray
+            Pseudo-acceleration in m/s², in the shape of `periods`.
+
+        Raises
+        ------
+        TypeError, ValueError
+            If a value is of the wrong type or lies outside its range.
+
+        References
+        ----------
+        Nigam & Jennings, Bull. Seismol. Soc. Am. 59, 909–922 (1969).
+
+        Examples
+        --------
+        >>> steady = GroundMotion([1.0] * 2001, step=0.01)  # a suddenly applied acceleration: twice the static response
+        >>> round(steady.response_spectrum(1.0, damping=0.0), 4)
+        2.0
+        """
+        given = np.asarray(reals("periods", periods), dtype=float)
+        if not (given > 0).all() or not np.isfinite(given).all():
+            raise ValueError(refusal("periods", "be positive", periods))
+        damping = within("damping", damping, 0, 0.99)
+        found = [self._pseudo_acceleration(2 * math.pi / period, damping) for period in given.ravel()]
+        return np.reshape(found, given.shape)[()]
+
+    def _pseudo_acceleration(self, frequency: float, damping: float) -> float:
+        """Return ω² max|u| with u'' + 2ζω u' + ω² u = −a, by the exact recursion of (u, u') from sample to sample."""
+        from scipy.linalg import expm
+        from scipy.signal import lfilter, lfiltic
+
+        # State (u, u', a, a'): linear, so that one matrix exponential gives the exact step.
+        rates = np.zeros((4, 4))
+        rates[0, 1] = rates[2, 3] = 1.0
+        rates[1, :3] = -(frequency**2), -2 * damping * frequency, -1.0
+        whole = expm(rates * self.step)
+        keep, at_start, rise = whole[:2, :2], whole[:2, 2], whole[:2, 3] / self.step
+        first, second = at_start - rise, rise
+        # u alone obeys a recursion of second order, with the trace and the determinant of the step.
+        trace, determinant = np.trace(keep), np.linalg.det(keep)
+        other = keep - trace * np.eye(2)
+        numerator, denominator = (
+            (second[0], (first + other @ second)[0], (other @ first)[0]),
+            (1.0, -trace, determinant),
+        )
+        a = np.append(self.acceleration, [0.0] * (2 - self._samples.size))
+        after = first[0] * a[0] + second[0] * a[1]
+        past = lfiltic(numerator, denominator, y=[after, 0.0], x=[a[1], a[0]])
+        later, _ = lfilter(numerator, denominator, a[2:], zi=past)
+        return float(np.abs(np.append(later, after)).max()) * frequency**2
+
+    def scaled(self, factor: float | None = None, *, pga: float | None = None) -> GroundMotion:
+        """Return the motion times a factor, or scaled to a peak ground acceleration.
+
+        Parameters
+        ----------
+        factor : float
+            Factor. Give exactly one of the two.
+        pga : float
+            Peak ground acceleration, in m/s².
+
+        Returns
+        -------
+        GroundMotion
+            Motion that shares the samples.
+
+        Raises
+        ------
+        TypeError, ValueError
+            If not exactly one is given, if it is of the wrong type or outside its range, or if a motion of zeros is scaled to
+            a peak.
+
+        Examples
+        --------
+        >>> GroundMotion([0.0, 2.0], step=0.1).scaled(1.5).pga
+        3.0
+        """
+        if exactly_one(factor=factor, pga=pga) == "factor":
+            return evolve(self, factor=self.factor * finite("factor", factor, MAX_FACTOR))  # type: ignore[arg-type]
+        wanted = within("pga", pga, 0, MAX_ACCELERATION, "m/s²")  # type: ignore[arg-type]
+        if self.pga == 0.0:
+            raise ValueError("pga cannot be given to a motion whose acceleration is 0 throughout")
+        return evolve(self, factor=self.factor * (wanted / self.pga))
+
+    def reversed(self) -> GroundMotion:
+        """Return the motion in the opposite direction.
+
+        Examples
+        --------
+        >>> GroundMotion([0.0, 2.0], step=0.1).reversed().acceleration.tolist()
+        [-0.0, -2.0]
+        """
+        return evolve(self, factor=-self.factor)
+
+    def clipped(self, start: float = 0.0, end: float | None = None) -> GroundMotion:
+        """Return the samples between two times, both included; no sample is made.
+
+        Parameters
+        ----------
+        start, end : float
+            Times in s, in [0, `duration`]. Default: the whole motion.
+
+        Returns
+        -------
+        GroundMotion
+            Motion that begins with the first sample kept.
+
+        Raises
+        ------
+        TypeError, ValueError
+            If a time is of the wrong type or outside the motion, or if no sample lies between them.
+
+        Examples
+        --------
+        >>> GroundMotion([0.0, 1.0, 2.0, 3.0], step=0.5).clipped(0.5, 1.2).acceleration.tolist()
+        [1.0, 2.0]
+        """
+        first = within("start", start, 0, self.duration, "s")
+        last = within("end", self.duration if end is None else end, 0, self.duration, "s")
+        chosen = slice(math.ceil(first / self.step - 1e-9), math.floor(last / self.step + 1e-9) + 1)
+        kept = self._samples[chosen]
+        if not kept.size:
+            raise ValueError(refusal("end", f"leave at least one sample after start = {first:g} s", end))
+        return evolve(self, acceleration=read_only(kept.copy()), corrected=True)
+
+    def __repr__(self) -> str:
+        named = ", ".join(filter(None, (self.name, self.component, f"{self._samples.size} samples")))
+        treated = "" if self.baseline == "none" else f", {self.baseline} baseline removed"
+        return f"GroundMotion({named}, step {self.step:g} s, PGA {self.pga:.4g} m/s²{treated})"
