@@ -8,7 +8,9 @@ from rocking.records.text_file import Channel, TextFile, unit_of
 
 INTEGERS = r"^\s*(\d+)\s+Integer-header values follow"
 REALS = r"^\s*(\d+)\s+Real-header values follow"
-DATA = r"^\s*(\d+)\s+acceleration pts,.*units\s*=\s*([^,(]+)\(?\d*\)?\s*,\s*Format\s*=\s*\((\d+)[EF](\d+)\.\d+\)"
+DATA = (
+    r"^\s*(\d+)\s+acceleration pts,.*units\s*=\s*([^,(]+)\(?\d*\)?\s*,\s*Format\s*=\s*\((\d+)[EF](\d+)\.\d+\)"
+)
 STEP_AT = 61
 """Place of the sampling interval in ms among the reals, counted from 0; real 33 is that of the instrument's parent record."""
 UNKNOWN = -999.0

@@ -12,7 +12,9 @@ STEP_AT = 45
 
 def recognises(file: TextFile) -> bool:
     """Return whether the header is of this network."""
-    return file.find(r"GNS Science", 0, 1) is not None and file.find(r"corrected accelerogram", 0, 1) is not None
+    return (
+        file.find(r"GNS Science", 0, 1) is not None and file.find(r"corrected accelerogram", 0, 1) is not None
+    )
 
 
 def read(file: TextFile) -> list[Channel]:

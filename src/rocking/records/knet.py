@@ -16,7 +16,10 @@ def recognises(file: TextFile) -> bool:
 
 def read(file: TextFile) -> list[Channel]:
     """Read the only channel, in gal, with the mean removed as the format requires."""
-    scale, rate = file.find(r"^Scale Factor\s+(\S+)\(gal\)/(\S+)", 0, HEADER), file.find(r"^Sampling Freq\S*\s+(\S+?)Hz", 0, HEADER)
+    scale, rate = (
+        file.find(r"^Scale Factor\s+(\S+)\(gal\)/(\S+)", 0, HEADER),
+        file.find(r"^Sampling Freq\S*\s+(\S+?)Hz", 0, HEADER),
+    )
     if scale is None or rate is None:
         raise file.error(HEADER - 1, "sampling frequency and scale factor expected in the header")
     line, match = scale
@@ -31,7 +34,14 @@ def read(file: TextFile) -> list[Channel]:
     if counts == 0:
         raise file.error(last - 1, "the file has no samples")
     samples, _ = file.numbers(HEADER, counts)
-    peak, station, direction = (file.find(p, 0, HEADER) for p in (r"^Max\. Acc\.\S* \S+\s+(\S+)|^Max\. Acc\.\s*\(gal\)\s+(\S+)", r"^Station Code\s+(\S+)", r"^Dir\.\s+(\S+)"))
+    peak, station, direction = (
+        file.find(p, 0, HEADER)
+        for p in (
+            r"^Max\. Acc\.\S* \S+\s+(\S+)|^Max\. Acc\.\s*\(gal\)\s+(\S+)",
+            r"^Station Code\s+(\S+)",
+            r"^Dir\.\s+(\S+)",
+        )
+    )
     return [
         Channel(
             (samples - samples.mean()) * factor,
@@ -40,6 +50,8 @@ def read(file: TextFile) -> list[Channel]:
             "K-NET",
             station[1].group(1) if station else "",
             direction[1].group(1) if direction else "",
-            file.number(peak[0], re.split(r"\s+", file.lines[peak[0]].strip())[-1], "the peak") if peak else None,
+            file.number(peak[0], re.split(r"\s+", file.lines[peak[0]].strip())[-1], "the peak")
+            if peak
+            else None,
         )
     ]

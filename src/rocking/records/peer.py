@@ -19,7 +19,9 @@ def read(file: TextFile) -> list[Channel]:
         raise file.error(2, "acceleration in units of g expected")
     header = file.find(NEW, 3, 4) or file.find(OLD, 3, 4)
     if header is None:
-        raise file.error(min(3, len(file.lines) - 1), "number of samples and time step expected: NPTS= ..., DT= ...")
+        raise file.error(
+            min(3, len(file.lines) - 1), "number of samples and time step expected: NPTS= ..., DT= ..."
+        )
     count, step = file.count(3, header[1].group(1)), file.step(3, header[1].group(2))
     samples, _ = file.numbers(4, count)
     name, _, component = file.line(1).strip().rpartition(",")

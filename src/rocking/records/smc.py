@@ -16,7 +16,10 @@ WIDTH, PER_LINE = 10, 8
 
 def recognises(file: TextFile) -> bool:
     """Return whether the first line names a stage of processing, and the second is a line of the header."""
-    return bool(re.match(r"\s*[123]\s+(UN)?CORRECTED ACCELEROGRAM", file.line(0), re.IGNORECASE)) and len(file.lines) > 1
+    return (
+        bool(re.match(r"\s*[123]\s+(UN)?CORRECTED ACCELEROGRAM", file.line(0), re.IGNORECASE))
+        and len(file.lines) > 1
+    )
 
 
 def read(file: TextFile) -> list[Channel]:

@@ -81,7 +81,9 @@ class TextFile:
             raise RecordError(f"{os.fspath(path)!r} cannot be read: {error.strerror or error}") from error
         self.name, self.sha256 = place.name, hashlib.sha256(content).hexdigest()
         if b"\0" in content[:100_000]:
-            raise RecordError(f"{self.name}: a binary file; rk.read_ground_motion reads text formats, or what ObsPy reads")
+            raise RecordError(
+                f"{self.name}: a binary file; rk.read_ground_motion reads text formats, or what ObsPy reads"
+            )
         self.lines = content.decode("latin-1").replace("\r\n", "\n").replace("\r", "\n").split("\n")
 
     def error(self, line: int, what: str) -> RecordError:
@@ -116,17 +118,23 @@ class TextFile:
         """Return a number of samples."""
         value = self.number(line, text, "the number of samples")
         if value != int(value) or not 1 <= value <= 10_000_000:
-            raise self.error(line, f"the number of samples must be a whole number from 1 to 10,000,000; got {text.strip()}")
+            raise self.error(
+                line, f"the number of samples must be a whole number from 1 to 10,000,000; got {text.strip()}"
+            )
         return int(value)
 
     def step(self, line: int, text: str, *, rate: bool = False) -> float:
         """Return a time step in s, from the text of a step or of a sampling rate in Hz."""
         value = self.number(line, text, "the sampling rate" if rate else "the time step")
         if not value > 0:
-            raise self.error(line, f"the {'sampling rate' if rate else 'time step'} must be positive; got {text.strip()}")
+            raise self.error(
+                line, f"the {'sampling rate' if rate else 'time step'} must be positive; got {text.strip()}"
+            )
         return 1 / value if rate else value
 
-    def numbers(self, first: int, count: int, width: int | None = None, per_line: int = 0) -> tuple[np.ndarray, int]:
+    def numbers(
+        self, first: int, count: int, width: int | None = None, per_line: int = 0
+    ) -> tuple[np.ndarray, int]:
         """Read numbers from a line on, in columns of equal width or separated by anything.
 
         Returns
@@ -150,7 +158,9 @@ class TextFile:
                 wanted = min(per_line, count - len(found))
                 parts = [line[k * width : (k + 1) * width] for k in range(wanted)]
                 if len(line) < (wanted - 1) * width + 1:
-                    raise self.error(index, f"{counted(wanted, 'number')} expected; got {shown(line.strip())}")
+                    raise self.error(
+                        index, f"{counted(wanted, 'number')} expected; got {shown(line.strip())}"
+                    )
             found += [self.number(index, part, "a sample") for part in parts]
             index += 1
         if len(found) > count:

@@ -10,9 +10,12 @@ from rocking.kernels.forcing.sampled.parameters import CYCLE, SampledParameters,
 from rocking.kernels.forcing.sampled.tables import Tables, tables_of
 
 SystemParameters = HarmonicParameters | SampledParameters
+FiniteParameters = SampledParameters
+"""Parameters of systems whose base motion ends."""
 
 __all__ = [
     "CYCLE",
+    "FiniteParameters",
     "HarmonicParameters",
     "SampledParameters",
     "SystemParameters",

@@ -1,4 +1,4 @@
-"""Bodies of ``forcing.contract`` for a sampled base acceleration."""
+"""Bodies of ``forcing.contract`` and ``forcing.finite`` for a sampled base acceleration."""
 
 import math
 from typing import NamedTuple
@@ -6,8 +6,8 @@ from typing import NamedTuple
 from rocking.kernels.compile_options import INTERNAL, INTERNAL_INLINE
 from rocking.kernels.deferred import njit, provide
 from rocking.kernels.event_kinds import FLIGHT, REST
-from rocking.kernels.forcing import contract
-from rocking.kernels.forcing.sampled import extrema, held, search, solution
+from rocking.kernels.forcing import contract, finite
+from rocking.kernels.forcing.sampled import extrema, held, rounding, search, solution
 from rocking.kernels.forcing.sampled.parameters import SampledParameters
 from rocking.kernels.forcing.sampled.solution import arc_at_place, place_at
 
@@ -112,5 +112,9 @@ provide(
         contract.largest_on: extrema.largest_on,
         contract.next_turn: extrema.next_turn,
         contract.sensitivities: sensitivities,
+        finite.growth_constant: rounding.growth_constant,
+        finite.has_ended: rounding.has_ended,
+        finite.lowest_between: rounding.lowest_between,
+        finite.rounding_error: rounding.rounding_error,
     },
 )

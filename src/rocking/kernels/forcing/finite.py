@@ -1,0 +1,27 @@
+"""Functions that a forcing of finite length provides besides those of ``contract``. It is 0 after its end.
+
+The constant K+ of an arc decides whether the block comes back: u = (K+ e^t + K- e^-t)/2 + (bounded terms), so that it leaves
+for good if K+ > 0 and it has not come back before.
+"""
+
+from rocking.kernels.deferred import contract
+
+
+@contract
+def growth_constant(p, arc):
+    """Return K+ of an arc and an estimate of its rounding error. After an impact at tau, K+ = v - 1 - sigma R(tau)."""
+
+
+@contract
+def rounding_error(p, arc, wait):
+    """Return an estimate of the rounding error of (u, u') that a time ``wait`` along an arc adds."""
+
+
+@contract
+def lowest_between(p, arc, wait):
+    """Return the least u of all minima of an arc before ``wait``, a lower bound of it, and the time; infinity if none."""
+
+
+@contract
+def has_ended(p, drive):
+    """Return whether the base motion is over."""
