@@ -25,11 +25,13 @@ from rocking.model.citation import cite
 from rocking.model.classification import Criterion, Kind
 from rocking.model.forcing import FREQUENCIES, MAX_AMPLITUDE, MAX_PHASE, PERIODS, Forcing, Harmonic
 from rocking.model.formatting import counted, ordinal, percent, plus_minus
+from rocking.model.ground_motion import BASELINES, STEPS, GroundMotion
 from rocking.model.notebook_renderers import NotebookPicture
 from rocking.model.orbit_event import OrbitEvent
 from rocking.model.orbit_stability import Stability, stability_of
 from rocking.model.outcome import Outcome, Overturning
 from rocking.model.piecewise_linear import PiecewiseLinear
+from rocking.model.record_file import RecordFile
 from rocking.model.si_units import PHYSICAL, block_attributes
 from rocking.model.survey_results import (
     ChaosShare,
@@ -74,6 +76,7 @@ from rocking.model.verdict import Evidence, Orbit, Verdict
 from rocking.model.version import VERSION
 
 __all__ = [
+    "BASELINES",
     "BRACE_ANGLES",
     "FREQUENCIES",
     "FULL",
@@ -86,6 +89,7 @@ __all__ = [
     "PERIODS",
     "PHYSICAL",
     "RANGES",
+    "STEPS",
     "TILES",
     "VERSION",
     "Attractor",
@@ -96,6 +100,7 @@ __all__ = [
     "Criterion",
     "Evidence",
     "Forcing",
+    "GroundMotion",
     "Harmonic",
     "Kind",
     "Mode",
@@ -108,6 +113,7 @@ __all__ = [
     "OverturningCurve",
     "PiecewiseLinear",
     "ReadOnlyArrays",
+    "RecordFile",
     "Repeatability",
     "RepeatabilityMap",
     "SafeBasin",

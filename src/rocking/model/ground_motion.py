@@ -10,13 +10,17 @@ import numpy as np
 from attrs import evolve, field, frozen
 
 from rocking.model.arrays import ReadOnlyArrays, read_only
+from rocking.model.block import GRAVITY
+from rocking.model.oscillator import pseudo_acceleration
 from rocking.model.piecewise_linear import samples
-from rocking.model.validation import exactly_one, finite, one_of, reals, refusal, within
+from rocking.model.record_file import RecordFile
+from rocking.model.validation import exactly_one, finite, instance, one_of, reals, refusal, within
 
 STEPS = (1e-6, 1e3)
 MAX_ACCELERATION = 1e6
 MAX_FACTOR = 1e6
-STANDARD_GRAVITY = 9.80665
+PERIODS = (1e-4, 1e4)
+MAX_DAMPING = 0.99
 BASELINES = {"none": None, "mean": 0, "linear": 1, "quadratic": 2}
 """Degree of the polynomial that is fitted to the acceleration and subtracted."""
 SIGNIFICANT = (0.05, 0.95)
@@ -31,38 +35,20 @@ def _step(value: float) -> float:
     return within("step", value, *STEPS, "s")
 
 
+def _name(value: str) -> str:
+    return instance("name", value, str)
+
+
+def _component(value: str) -> str:
+    return instance("component", value, str)
+
+
+def _factor(value: float) -> float:
+    return finite("factor", value, MAX_FACTOR)
+
+
 def _baseline(value: str) -> str:
     return one_of("baseline", value, tuple(BASELINES))
-
-
-@frozen
-class RecordFile:
-    """File that a ground motion was read from.
-
-    Attributes
-    ----------
-    name : str
-        Name of the file.
-    sha256 : str
-        SHA-256 digest of its bytes, hexadecimal.
-    format : str
-        Format of the file, such as "PEER AT2".
-    channel : str
-        Channel of the file, such as "channel 1 of 3, 90°"; empty if it has only one.
-    header_pga : float or None
-        Peak ground acceleration as the header gives it, in m/s²; None if it gives none.
-
-    Examples
-    --------
-    >>> RecordFile("a.at2", "0" * 64, "PEER AT2").header_pga is None
-    True
-    """
-
-    name: str
-    sha256: str
-    format: str
-    channel: str = ""
-    header_pga: float | None = None
 
 
 @frozen(repr=False)
@@ -105,15 +91,14 @@ class GroundMotion(ReadOnlyArrays):
         alias="acceleration", converter=_samples, eq=attrs.cmp_using(eq=np.array_equal), hash=False
     )
     step: float = field(converter=_step, kw_only=True)
-    name: str = field(default="", kw_only=True)
-    component: str = field(default="", kw_only=True)
+    name: str = field(default="", converter=_name, kw_only=True)
+    component: str = field(default="", converter=_component, kw_only=True)
     baseline: str = field(default="none", converter=_baseline, kw_only=True)
-    factor: float = field(default=1.0, kw_only=True)
+    factor: float = field(default=1.0, converter=_factor, kw_only=True)
     file: RecordFile | None = field(default=None, kw_only=True)
     _corrected: bool = field(default=False, kw_only=True, repr=False, eq=False)
 
     def __attrs_post_init__(self) -> None:
-        finite("factor", self.factor, MAX_FACTOR)
         degree = BASELINES[self.baseline]
         if degree is None or self._corrected:
             return
@@ -176,7 +161,7 @@ class GroundMotion(ReadOnlyArrays):
     @property
     def arias_intensity(self) -> float:
         """Arias intensity π/(2g) ∫a² dt in m/s, exact for the straight segments."""
-        return float(self._energy()[-1]) * math.pi / (2 * STANDARD_GRAVITY)
+        return float(self._energy()[-1]) * math.pi / (2 * GRAVITY)
 
     @property
     def significant_duration(self) -> float:
@@ -195,12 +180,12 @@ class GroundMotion(ReadOnlyArrays):
     def response_spectrum(self, periods: Any, damping: float = 0.05) -> Any:
         """Return the pseudo-acceleration ω² max|u| of linear oscillators.
 
-        The recursion is exact for straight segments; the largest displacement is taken at the samples.
+        The recursion is exact for straight segments. The largest displacement is taken at the samples, during the motion only.
 
         Parameters
         ----------
         periods : float or array_like
-            Natural periods in s, positive.
+            Natural periods in s, in [1e-4, 1e4].
         damping : float
             Damping ratio, in [0, 0.99]. Default: 0.05.
 
@@ -225,36 +210,13 @@ class GroundMotion(ReadOnlyArrays):
         2.0
         """
         given = np.asarray(reals("periods", periods), dtype=float)
-        if not (given > 0).all() or not np.isfinite(given).all():
-            raise ValueError(refusal("periods", "be positive", periods))
-        damping = within("damping", damping, 0, 0.99)
-        found = [self._pseudo_acceleration(2 * math.pi / period, damping) for period in given.ravel()]
-        return np.reshape(found, given.shape)[()]
-
-    def _pseudo_acceleration(self, frequency: float, damping: float) -> float:
-        """Return ω² max|u| with u'' + 2ζω u' + ω² u = −a, by the exact recursion of (u, u') from sample to sample."""
-        from scipy.linalg import expm
-        from scipy.signal import lfilter, lfiltic
-
-        # State (u, u', a, a'): linear, so that one matrix exponential gives the exact step.
-        rates = np.zeros((4, 4))
-        rates[0, 1] = rates[2, 3] = 1.0
-        rates[1, :3] = -(frequency**2), -2 * damping * frequency, -1.0
-        whole = expm(rates * self.step)
-        keep, at_start, rise = whole[:2, :2], whole[:2, 2], whole[:2, 3] / self.step
-        first, second = at_start - rise, rise
-        # u alone obeys a recursion of second order, with the trace and the determinant of the step.
-        trace, determinant = np.trace(keep), np.linalg.det(keep)
-        other = keep - trace * np.eye(2)
-        numerator, denominator = (
-            (second[0], (first + other @ second)[0], (other @ first)[0]),
-            (1.0, -trace, determinant),
-        )
-        a = np.append(self.acceleration, [0.0] * (2 - self._samples.size))
-        after = first[0] * a[0] + second[0] * a[1]
-        past = lfiltic(numerator, denominator, y=[after, 0.0], x=[a[1], a[0]])
-        later, _ = lfilter(numerator, denominator, a[2:], zi=past)
-        return float(np.abs(np.append(later, after)).max()) * frequency**2
+        shortest, longest = PERIODS
+        if not ((given >= shortest) & (given <= longest)).all():
+            raise ValueError(refusal("periods", f"lie in [{shortest:g}, {longest:g}] s", periods))
+        damping = within("damping", damping, 0, MAX_DAMPING)
+        a = self.acceleration
+        found = [pseudo_acceleration(a, self.step, period, damping) for period in given.ravel().tolist()]
+        return found[0] if given.ndim == 0 else np.reshape(np.array(found, dtype=float), given.shape)
 
     def scaled(self, factor: float | None = None, *, pga: float | None = None) -> GroundMotion:
         """Return the motion times a factor, or scaled to a peak ground acceleration.
