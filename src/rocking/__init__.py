@@ -18,6 +18,7 @@ if TYPE_CHECKING:
         Braces,
         ChaosShare,
         Evidence,
+        GroundMotion,
         Harmonic,
         Kind,
         Mode,
@@ -27,6 +28,7 @@ if TYPE_CHECKING:
         Overturning,
         OverturningCurve,
         PiecewiseLinear,
+        RecordFile,
         Repeatability,
         RepeatabilityMap,
         SafeBasin,
@@ -60,6 +62,13 @@ if TYPE_CHECKING:
         saddle_manifolds,
         switch_branch,
         tangency_amplitude,
+    )
+    from rocking.records import (
+        RecordError,
+        example_ground_motion,
+        read_ground_motion,
+        read_ground_motions,
+        synthetic_ground_motions,
     )
     from rocking.response import (
         CorrelationDimension,
@@ -95,6 +104,7 @@ __all__ = [
     "CorrelationDimension",
     "Evidence",
     "FrequencyResponse",
+    "GroundMotion",
     "Harmonic",
     "Kind",
     "LyapunovSpectrum",
@@ -110,6 +120,8 @@ __all__ = [
     "OverturningCurve",
     "Peak",
     "PiecewiseLinear",
+    "RecordError",
+    "RecordFile",
     "Repeatability",
     "RepeatabilityMap",
     "RotationNumber",
@@ -133,6 +145,7 @@ __all__ = [
     "classify",
     "continue_orbit",
     "correlation_dimension",
+    "example_ground_motion",
     "find_orbit",
     "find_orbits",
     "frequency_response",
@@ -143,6 +156,8 @@ __all__ = [
     "overturning_amplitude",
     "parametric_map",
     "plot",
+    "read_ground_motion",
+    "read_ground_motions",
     "repeatability",
     "repeatability_map",
     "rotation_number",
@@ -151,6 +166,7 @@ __all__ = [
     "simulate",
     "spectral_density",
     "switch_branch",
+    "synthetic_ground_motions",
     "tangency_amplitude",
     "theory",
 ]
@@ -161,6 +177,9 @@ _NAMES = {
         "BifurcationCurve Branch FrequencyResponse Manifold OrbitDiagram Orbits SaddleManifolds "
         "SpecialPoint bifurcation_curve continue_orbit find_orbit find_orbits frequency_response "
         "manifold_gap orbit_diagram saddle_manifolds switch_branch tangency_amplitude"
+    ),
+    "records": (
+        "RecordError example_ground_motion read_ground_motion read_ground_motions synthetic_ground_motions"
     ),
     "response": (
         "CorrelationDimension LyapunovSpectrum Peak RotationNumber SpectralDensity classify "

@@ -4,55 +4,75 @@ from __future__ import annotations
 
 import re
 
-from rocking.records.text_file import Channel, TextFile, unit_of
+from rocking.records.channel import Channel, Peak
+from rocking.records.text_file import TextFile
+from rocking.records.units import unit_of
 
 CORRECTED = (
-    r"^\s*(\d+)\s+POINTS OF ACC(?:EL)? DATA EQUALLY SPACED AT\s+(\S+)\s+SEC\.?\s+"
-    r"(?:\(UNITS:\s*([^)]+)\)|IN UNITS\s+(\S+))"
+    r"^\s*(?P<count>\d+)\s+POINTS OF ACC(?:EL)? DATA EQUALLY SPACED AT\s+(?P<step>\S+)\s+SEC[.,]?\s+"
+    r"(?:\(UNITS:\s*(?P<unit>[^)]+)\)|IN\s+(?:UNITS\s+)?(?P<other>[^\s(]+))"
+    r"(?:\s+\((?P<per_line>\d+)F(?P<width>\d+)\.\d+\))?"
 )
-UNCORRECTED = r"^\s*(\d+)\s+Accelerogram points at\s+(\S+)\s+pts/sec in units of\s+([^.\s]+)\.?\s+Format:\s*\((\d+)f(\d+)\.\d+\)"
-PEAK = r"PEAK\s+ACCELERATION\s*=\s*([-+.\d]+)\s*CMS?/SEC/SEC"
-RAW_PEAK = r"Max\s*=\s*([-+.\d]+)\s*g"
-CHANNEL = r"CHAN\s+\d+:\s*(.+?)(?:\s{2,}|$)|COMP\s+(\S+)"
+UNCORRECTED = (
+    r"^\s*(?P<count>\d+)\s+ACCELEROGRAM POINTS AT\s+(?P<rate>\S+)\s+PTS/SEC IN UNITS OF\s+(?P<unit>[^.\s]+)\.?"
+    r"\s+FORMAT:\s*\((?P<per_line>\d+)F(?P<width>\d+)\.\d+\)"
+)
+COLUMNS = (10, 8)
+"""Width of a column and columns in a line of V2, where the file does not give them."""
+ANNOUNCED = r"POINTS OF ACC(?:EL)? DATA|ACCELEROGRAM POINTS AT"
+TITLE = r"^\s*(?:UN)?CORRECTED ACCEL"
+PEAK = r"PEAK\s+ACCELERATION\s*=\s*([-+.\d]+)\s*([A-Z/]+\d?)"
+RAW_PEAK = r"MAX\s*=\s*([-+.\d]+)\s*(G(?:/10)?)\b"
+CHANNEL = r"(?:CHAN\s+\d+:|\bCOMP)\s+(.+?)(?:\s{2,}|$)"
+HEADER_LINES = 200
+NAME_V1, NAME_V2 = 5, 6
+"""Place of the line with the name of the station."""
 
 
 def recognises(file: TextFile) -> bool:
     """Return whether a line begins a block of acceleration as these formats do."""
-    return file.find(CORRECTED) is not None or file.find(UNCORRECTED) is not None
+    return file.find(ANNOUNCED, 0, HEADER_LINES) is not None
 
 
 def read(file: TextFile) -> list[Channel]:
     """Read all channels."""
     channels: list[Channel] = []
     after = 0
-    while (begun := file.find(CORRECTED, after) or file.find(UNCORRECTED, after)) is not None:
-        line, match = begun
-        raw = "pts/sec" in match.group(0)
-        count, step = file.count(line, match.group(1)), file.step(line, match.group(2), rate=raw)
-        named = match.group(3) or match.group(4)
-        unit = unit_of(named)
-        if unit is None:
-            raise file.error(line, f"unknown unit of acceleration {named!r}")
-        per_line, width = (int(match.group(4)), int(match.group(5))) if raw else (8, 10)
-        samples, following = file.numbers(line + 1, count, width, per_line)
-        peak = file.find(RAW_PEAK if raw else PEAK, after, line)
-        channel = file.find(CHANNEL, after, line)
-        component = "" if channel is None else (channel[1].group(1) or channel[1].group(2)).strip()
-        channels.append(
-            Channel(
-                samples,
-                unit,
-                step,
-                f"CSMIP V{1 if raw else 2}" if "IN UNITS" not in match.group(0).upper() or raw else "USC V2",
-                _station(file, after),
-                re.sub(r"\s*DEG.*", "°", component, flags=re.IGNORECASE),
-                None if peak is None else file.number(peak[0], peak[1].group(1), "the peak acceleration"),
-            )
-        )
-        after = following
+    while (begun := file.find(ANNOUNCED, after)) is not None:
+        channel, after = _channel(file, after, begun[0])
+        channels.append(channel)
     return channels
 
 
-def _station(file: TextFile, first: int) -> str:
-    """Return the name of the station: the seventh line of text."""
-    return re.sub(r"\s{2,}.*", "", file.line(min(first + 6, len(file.lines) - 1)).strip())
+def _channel(file: TextFile, first: int, line: int) -> tuple[Channel, int]:
+    """Read the channel whose samples follow a line, and return it with the line after it."""
+    corrected, raw = (
+        re.match(pattern, file.line(line), re.IGNORECASE) for pattern in (CORRECTED, UNCORRECTED)
+    )
+    match = corrected or raw
+    if match is None:
+        raise file.error(line, "number of points, time step or rate, and unit expected")
+    given = match.groupdict()
+    named = given["unit"] or given.get("other", "")
+    unit = file.unit(line, named)
+    step = file.step(line, given["step"]) if corrected else file.step_of_rate(line, given["rate"])
+    columns = (int(given["width"]), int(given["per_line"])) if given["width"] else COLUMNS
+    samples, after = file.columns(line + 1, file.count(line, given["count"]), *columns)
+    title = file.find(TITLE, first, line)
+    begin = title[0] if title else first
+    channel = Channel(
+        samples,
+        unit,
+        step,
+        "CSMIP V1" if raw else "USC V2" if "IN UNITS" in match.group().upper() else "CSMIP V2",
+        re.sub(r"\s{2,}.*", "", file.line(begin + (NAME_V1 if raw else NAME_V2)).strip()),
+        re.sub(r"\s*DEG\b.*", "°", file.found(CHANNEL, begin, line), flags=re.IGNORECASE),
+        _peak(file, RAW_PEAK if raw else PEAK, begin, line),
+    )
+    return channel, after
+
+
+def _peak(file: TextFile, pattern: str, first: int, last: int) -> Peak | None:
+    found = file.find(pattern, first, last)
+    unit = unit_of(found[1].group(2)) if found else None
+    return None if found is None or unit is None else file.peak(found[0], found[1].group(1), unit)

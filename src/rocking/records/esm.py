@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from rocking.records.text_file import Channel, TextFile, unit_of
+from rocking.records.channel import Channel
+from rocking.records.text_file import TextFile
 
-HEADER = 64
+NEEDED = ("SAMPLING_INTERVAL_S", "NDATA", "UNITS")
 
 
 def recognises(file: TextFile) -> bool:
@@ -14,27 +15,25 @@ def recognises(file: TextFile) -> bool:
 
 def read(file: TextFile) -> list[Channel]:
     """Read the only channel."""
-    found: dict[str, tuple[int, str]] = {}
-    for index, line in enumerate(file.lines[:HEADER]):
-        key, colon, value = line.partition(":")
-        if colon:
-            found[key.strip()] = index, value.strip()
-    missing = [key for key in ("SAMPLING_INTERVAL_S", "NDATA", "UNITS") if not found.get(key, (0, ""))[1]]
+    header: dict[str, tuple[int, str]] = {}
+    first = 0
+    while first < len(file.lines) and ":" in file.lines[first]:
+        key, _, value = file.lines[first].partition(":")
+        header[key.strip()] = first, value.strip()
+        first += 1
+    missing = [key for key in NEEDED if not header.get(key, (0, ""))[1]]
     if missing:
-        raise file.error(len(found) - 1, f"the header lacks {', '.join(missing)}")
-    unit = unit_of(found["UNITS"][1])
-    if unit is None:
-        raise file.error(found["UNITS"][0], f"unknown unit of acceleration {found['UNITS'][1]!r}")
-    samples, _ = file.numbers(HEADER, file.count(*found["NDATA"]))
-    peak = found.get("PGA_CM/S^2", (0, ""))
+        raise file.error(first - 1, f"the header ends here and lacks {', '.join(missing)}")
+    samples, _ = file.separated(first, file.count(*header["NDATA"]))
+    line, peak = header.get("PGA_CM/S^2", (0, ""))
     return [
         Channel(
             samples,
-            unit,
-            file.step(*found["SAMPLING_INTERVAL_S"]),
+            file.unit(*header["UNITS"]),
+            file.step(*header["SAMPLING_INTERVAL_S"]),
             "ESM",
-            found.get("STATION_NAME", (0, ""))[1],
-            found.get("STREAM", (0, ""))[1],
-            file.number(*peak, "the peak") if peak[1] else None,
+            header.get("STATION_NAME", (0, ""))[1],
+            header.get("STREAM", (0, ""))[1],
+            file.peak(line, peak, "cm/s²") if peak else None,
         )
     ]

@@ -2,48 +2,57 @@
 
 from __future__ import annotations
 
-from rocking.records.text_file import Channel, TextFile
+import numpy as np
 
+from rocking.records.channel import Channel
+from rocking.records.text_file import TextFile
+
+TITLE = r"^\s*(Unc|C)orrected accelerogram.*GNS Science"
 TEXT, NUMBERS = 16, 10
-WIDTH, PER_LINE = 8, 10
-STEP_AT = 45
-"""Place of the sampling interval among the reals, counted from 0."""
+COLUMNS = (8, 10)
+"""Width of a column, and columns in a line."""
+RATE_AT, STEP_AT = 40, 65
+"""Places of the sampling rate of V1A and of the step of V2A among the numbers, counted from 0."""
+COUNT_V1_AT, COUNTS_V2_AT = 30, (33, 34, 35)
+"""Places of the number of samples of acceleration; in V2A also of velocity and displacement."""
 
 
 def recognises(file: TextFile) -> bool:
-    """Return whether the header is of this network."""
-    return (
-        file.find(r"GNS Science", 0, 1) is not None and file.find(r"corrected accelerogram", 0, 1) is not None
-    )
+    """Return whether the first line is that of this network."""
+    return file.find(TITLE, 0, 1) is not None
 
 
 def read(file: TextFile) -> list[Channel]:
     """Read all components."""
     channels: list[Channel] = []
     first = 0
-    while first + TEXT < len(file.lines) and file.find(r"accelerogram", first, first + 1):
-        points = file.find(r"Number of points\s+(\S+)", first, first + TEXT)
-        spaced = file.find(r"data at\s+(\S+)\s+sec intervals", first, first + TEXT)
-        if points is None or spaced is None:
-            raise file.error(first, "number of points and sampling interval expected in the header")
-        count, step = file.count(points[0], points[1].group(1)), file.step(spaced[0], spaced[1].group(1))
-        samples, after = file.numbers(first + TEXT + NUMBERS, count, WIDTH, PER_LINE)
-        component = file.find(r"Component\s+(\S+)", first, first + TEXT)
-        peak = file.find(r"Acceleration:\s+peak\s+([-+.\d]+)\s*mm/s/s", first, first + TEXT)
-        name = file.line(first + 2).strip()
-        channels.append(
-            Channel(
-                samples,
-                "mm/s²",
-                step,
-                "GeoNet",
-                name,
-                component[1].group(1) if component else "",
-                file.number(peak[0], peak[1].group(1), "the peak") if peak else None,
-            )
-        )
-        following = file.find(r"accelerogram .*GNS Science", after)
-        if following is None:
-            break
-        first = following[0]
+    while (begun := file.find(TITLE, first)) is not None:
+        channel, first = _component(file, begun[0], raw=begun[1].group(1).upper() == "UNC")
+        channels.append(channel)
     return channels
+
+
+def _component(file: TextFile, first: int, *, raw: bool) -> tuple[Channel, int]:
+    """Read a component, and return it with the line after it."""
+    numbers = first + TEXT
+    at = file.field(numbers, RATE_AT if raw else STEP_AT, *COLUMNS)
+    step = file.step_of_rate(*at) if raw else file.step(*at)
+    after = numbers + NUMBERS
+    blocks: list[np.ndarray] = []
+    for place in (COUNT_V1_AT,) if raw else COUNTS_V2_AT:
+        line, text = file.field(numbers, place, *COLUMNS)
+        count = file.count(line, text, least=0 if blocks else 1)
+        block, after = file.columns(after, count, *COLUMNS, more=True)
+        blocks.append(block)
+    file.ended(after, blocks[0].size)
+    peak = file.find(r"Acceleration:\s+peak\s+([-+.\d]+)\s*mm/s/s", first, numbers)
+    channel = Channel(
+        blocks[0],
+        "mm/s²",
+        step,
+        "GeoNet V1A" if raw else "GeoNet V2A",
+        " ".join(file.line(first + 2).split()),
+        file.found(r"^Component\s+(\S+)", first, numbers),
+        file.peak(peak[0], peak[1].group(1), "mm/s²") if peak else None,
+    )
+    return channel, after

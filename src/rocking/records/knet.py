@@ -2,56 +2,44 @@
 
 from __future__ import annotations
 
-import re
-
-from rocking.records.text_file import Channel, TextFile
+from rocking.model import counted
+from rocking.records.channel import Channel
+from rocking.records.text_file import NUMBER, TextFile
 
 HEADER = 17
+SCALE = r"^Scale Factor\s+(\S+?)\(gal\)/(\S+)"
+RATE = r"^Sampling Freq\S*\s+(\S+?)\s*Hz"
+PEAK = r"^Max\. Acc\.\s*\(gal\)\s+(\S+)"
 
 
 def recognises(file: TextFile) -> bool:
     """Return whether the header has a scale factor in gal."""
-    return file.find(r"^Scale Factor\s+\S+\(gal\)/\S+", 0, HEADER) is not None
+    return file.find(SCALE, 0, HEADER) is not None
 
 
 def read(file: TextFile) -> list[Channel]:
     """Read the only channel, in gal, with the mean removed as the format requires."""
-    scale, rate = (
-        file.find(r"^Scale Factor\s+(\S+)\(gal\)/(\S+)", 0, HEADER),
-        file.find(r"^Sampling Freq\S*\s+(\S+?)Hz", 0, HEADER),
-    )
+    scale, rate, peak = (file.find(pattern, 0, HEADER) for pattern in (SCALE, RATE, PEAK))
     if scale is None or rate is None:
-        raise file.error(HEADER - 1, "sampling frequency and scale factor expected in the header")
+        missing = "scale factor" if scale is None else "sampling frequency"
+        raise file.error(min(HEADER, len(file.lines)) - 1, f"the header lacks the {missing}")
     line, match = scale
     divisor = file.number(line, match.group(2), "the divisor of the scale factor")
     if divisor == 0:
         raise file.error(line, "the divisor of the scale factor must not be 0")
     factor = file.number(line, match.group(1), "the scale factor") / divisor
-    last = len(file.lines)
-    while last > HEADER and not file.lines[last - 1].strip():
-        last -= 1
-    counts = sum(len(text.split()) for text in file.lines[HEADER:last])
-    if counts == 0:
-        raise file.error(last - 1, "the file has no samples")
-    samples, _ = file.numbers(HEADER, counts)
-    peak, station, direction = (
-        file.find(p, 0, HEADER)
-        for p in (
-            r"^Max\. Acc\.\S* \S+\s+(\S+)|^Max\. Acc\.\s*\(gal\)\s+(\S+)",
-            r"^Station Code\s+(\S+)",
-            r"^Dir\.\s+(\S+)",
-        )
-    )
+    count = sum(len(NUMBER.findall(text)) for text in file.lines[HEADER:])
+    if count == 0:
+        raise file.error(len(file.lines) - 1, f"{counted(HEADER, 'line')} of header, then counts expected")
+    samples, _ = file.separated(HEADER, count)
     return [
         Channel(
             (samples - samples.mean()) * factor,
             "cm/s²",
-            file.step(rate[0], rate[1].group(1), rate=True),
+            file.step_of_rate(rate[0], rate[1].group(1)),
             "K-NET",
-            station[1].group(1) if station else "",
-            direction[1].group(1) if direction else "",
-            file.number(peak[0], re.split(r"\s+", file.lines[peak[0]].strip())[-1], "the peak")
-            if peak
-            else None,
+            file.found(r"^Station Code\s+(\S+)", 0, HEADER),
+            file.found(r"^Dir\.\s+(\S+)", 0, HEADER),
+            file.peak(peak[0], peak[1].group(1), "cm/s²") if peak else None,
         )
     ]

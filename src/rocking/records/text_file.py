@@ -2,92 +2,35 @@
 
 from __future__ import annotations
 
-import hashlib
 import math
-import os
 import re
-from pathlib import Path
-from typing import NamedTuple
+from decimal import Decimal
 
 import numpy as np
 
 from rocking.model import counted, shown
+from rocking.records.channel import Peak, RecordError
+from rocking.records.content import Content
+from rocking.records.units import UNITS, unit_of
 
-MAX_BYTES = 1_000_000_000
 NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[EeDd][-+]?\d+)?")
-STANDARD_GRAVITY = 9.80665
-UNITS = {
-    "m/s²": 1.0,
-    "cm/s²": 0.01,
-    "mm/s²": 0.001,
-    "g": STANDARD_GRAVITY,
-    "g/10": STANDARD_GRAVITY / 10,
-}
-"""Size of each unit of acceleration, in m/s²."""
-SPELLINGS = {
-    "m/s2": "m/s²",
-    "m/s^2": "m/s²",
-    "m/s/s": "m/s²",
-    "cm/s2": "cm/s²",
-    "cm/s^2": "cm/s²",
-    "cm/s/s": "cm/s²",
-    "cm/sec2": "cm/s²",
-    "cm/sec/sec": "cm/s²",
-    "gal": "cm/s²",
-    "gals": "cm/s²",
-    "mm/s2": "mm/s²",
-    "mm/s^2": "mm/s²",
-    "mm/s/s": "mm/s²",
-    "g": "g",
-    "g/10": "g/10",
-}
-"""Spellings of the units in files, in lower case."""
-
-
-class RecordError(ValueError):
-    """Record file that cannot be read. The message is one line and names the file and the place.
-
-    Examples
-    --------
-    >>> import rocking as rk
-    >>> str(rk.RecordError("a.at2, line 4: no step"))
-    'a.at2, line 4: no step'
-    """
-
-
-class Channel(NamedTuple):
-    """One channel of a record file, as the file gives it."""
-
-    samples: np.ndarray
-    unit: str
-    step: float
-    format: str
-    name: str = ""
-    component: str = ""
-    header_peak: float | None = None
-    """Peak acceleration in the header, in `unit`."""
+MAX_SAMPLES = 10_000_000
 
 
 class TextFile:
-    """Lines of a file, with its name and digest."""
+    """Lines of a file, counted from 0; messages count them from 1."""
 
-    def __init__(self, path: str | os.PathLike[str]) -> None:
-        place = Path(path)
+    def __init__(self, content: Content) -> None:
+        self.name = " ".join(content.name.split())
+        data = content.data.rstrip(b"\x1a\r\n\t ")  # DOS ends a text by the byte 1a
         try:
-            if place.stat().st_size > MAX_BYTES:
-                raise RecordError(f"{place.name}: larger than {MAX_BYTES // 1_000_000:,} MB")
-            content = place.read_bytes()
-        except OSError as error:
-            raise RecordError(f"{os.fspath(path)!r} cannot be read: {error.strerror or error}") from error
-        self.name, self.sha256 = place.name, hashlib.sha256(content).hexdigest()
-        if b"\0" in content[:100_000]:
-            raise RecordError(
-                f"{self.name}: a binary file; rk.read_ground_motion reads text formats, or what ObsPy reads"
-            )
-        self.lines = content.decode("latin-1").replace("\r\n", "\n").replace("\r", "\n").split("\n")
+            text = data.decode("utf-8-sig")
+        except UnicodeDecodeError:
+            text = data.decode("latin-1")
+        self.lines = text.replace("\r\n", "\n").replace("\r", "\n").split("\n")
 
     def error(self, line: int, what: str) -> RecordError:
-        """Return the error for a line, counted from 0."""
+        """Return the error for a line."""
         return RecordError(f"{self.name}, line {line + 1}: {what}")
 
     def line(self, index: int) -> str:
@@ -98,76 +41,115 @@ class TextFile:
 
     def find(self, pattern: str, first: int = 0, last: int | None = None) -> tuple[int, re.Match[str]] | None:
         """Return the first line with a pattern and the match, upper and lower case being the same."""
+        wanted = re.compile(pattern, re.IGNORECASE)
         for index in range(first, min(len(self.lines), len(self.lines) if last is None else last)):
-            match = re.search(pattern, self.lines[index], re.IGNORECASE)
+            match = wanted.search(self.lines[index])
             if match:
                 return index, match
         return None
 
+    def found(self, pattern: str, first: int, last: int) -> str:
+        """Return the first group of a pattern in some lines as one clean line; empty if there is none."""
+        match = self.find(pattern, first, last)
+        return "" if match is None else " ".join((match[1].group(1) or "").split())
+
+    def field(self, first: int, place: int, width: int, per_line: int) -> tuple[int, str]:
+        """Return the line and the text of one number in a table of columns that begins at a line."""
+        index = first + place // per_line
+        begin = place % per_line * width
+        return index, self.line(index)[begin : begin + width]
+
     def number(self, line: int, text: str, what: str) -> float:
-        """Return a finite number of a header."""
-        try:
-            value = float(text.replace("D", "E").replace("d", "e"))
-        except ValueError:
-            value = math.nan
+        """Return a finite number."""
+        text = text.strip()
+        value = float(re.sub("[Dd]", "E", text)) if NUMBER.fullmatch(text) else math.nan
         if not math.isfinite(value):
-            raise self.error(line, f"{what} must be a number; got {shown(text.strip())}")
+            raise self.error(line, f"{what} must be a number; got {shown(text)}")
         return value
 
-    def count(self, line: int, text: str) -> int:
-        """Return a number of samples."""
-        value = self.number(line, text, "the number of samples")
-        if value != int(value) or not 1 <= value <= 10_000_000:
-            raise self.error(
-                line, f"the number of samples must be a whole number from 1 to 10,000,000; got {text.strip()}"
-            )
+    def count(self, line: int, text: str, what: str = "the number of samples", least: int = 1) -> int:
+        """Return a number of samples, or of other things."""
+        value = self.number(line, text, what)
+        if value != int(value) or not least <= value <= MAX_SAMPLES:
+            allowed = f"a whole number from {least} to {MAX_SAMPLES:,}"
+            raise self.error(line, f"{what} must be {allowed}; got {text.strip()}")
         return int(value)
 
-    def step(self, line: int, text: str, *, rate: bool = False) -> float:
-        """Return a time step in s, from the text of a step or of a sampling rate in Hz."""
-        value = self.number(line, text, "the sampling rate" if rate else "the time step")
-        if not value > 0:
-            raise self.error(
-                line, f"the {'sampling rate' if rate else 'time step'} must be positive; got {text.strip()}"
-            )
-        return 1 / value if rate else value
+    def step(self, line: int, text: str) -> float:
+        """Return a time step in s."""
+        return self._positive(line, text, "the time step")
 
-    def numbers(
-        self, first: int, count: int, width: int | None = None, per_line: int = 0
+    def step_of_rate(self, line: int, text: str) -> float:
+        """Return the time step in s that belongs to a sampling rate in Hz."""
+        return 1 / self._positive(line, text, "the sampling rate")
+
+    def _positive(self, line: int, text: str, what: str) -> float:
+        value = self.number(line, text, what)
+        if not 1e-9 <= value <= 1e9:
+            raise self.error(line, f"{what} must be positive, and neither tiny nor huge; got {text.strip()}")
+        return value
+
+    def unit(self, line: int, text: str) -> str:
+        """Return a unit of acceleration."""
+        found = unit_of(text)
+        if found is None:
+            raise self.error(line, f"a unit of acceleration expected; got {shown(text.strip())}")
+        return found
+
+    def peak(self, line: int, text: str, unit: str) -> Peak:
+        """Return a peak acceleration that the header prints."""
+        size = abs(self.number(line, text, "the peak acceleration"))
+        exponent = int(Decimal(re.sub("[Dd]", "E", text.strip())).as_tuple().exponent)
+        return Peak(size * UNITS[unit], 0.5 * 10.0 ** min(exponent, 300) * UNITS[unit])
+
+    def columns(
+        self, first: int, count: int, width: int, per_line: int, *, more: bool = False
     ) -> tuple[np.ndarray, int]:
-        """Read numbers from a line on, in columns of equal width or separated by anything.
+        """Read numbers in columns of equal width, and return them with the line after the last.
 
-        Returns
-        -------
-        tuple of (ndarray, int)
-            The numbers, shape (count,), and the line after the last.
+        Numbers in that line are an error, except with `more`.
         """
         found: list[float] = []
         index = first
         while len(found) < count:
-            if index >= len(self.lines):
-                raise self.error(
-                    len(self.lines) - 1, f"the file ends after {counted(len(found), 'number')} of {count:,}"
-                )
-            line = self.lines[index].rstrip()
-            if width is None:
-                parts = NUMBER.findall(line)
-                if NUMBER.sub("", line).strip(" \t,;"):
-                    raise self.error(index, f"numbers expected; got {shown(line.strip())}")
-            else:
-                wanted = min(per_line, count - len(found))
-                parts = [line[k * width : (k + 1) * width] for k in range(wanted)]
-                if len(line) < (wanted - 1) * width + 1:
-                    raise self.error(
-                        index, f"{counted(wanted, 'number')} expected; got {shown(line.strip())}"
-                    )
+            line = self._sample_line(index, len(found), count)
+            wanted = min(per_line, count - len(found))
+            if line[wanted * width :].strip():
+                raise self.error(index, self._too_many(count, wanted))
+            parts = [line[k * width : (k + 1) * width] for k in range(wanted)]
             found += [self.number(index, part, "a sample") for part in parts]
             index += 1
-        if len(found) > count:
-            raise self.error(index - 1, f"more numbers than the {count:,} that the header gives")
+        if not more:
+            self.ended(index, count)
         return np.array(found), index
 
+    def separated(self, first: int, count: int) -> tuple[np.ndarray, int]:
+        """Read numbers that blanks, commas or signs separate, and return them with the line after the last."""
+        found: list[float] = []
+        index = first
+        while len(found) < count:
+            line = self._sample_line(index, len(found), count)
+            if NUMBER.sub("", line).strip(" \t,"):
+                raise self.error(index, f"numbers expected; got {shown(line.strip())}")
+            found += [self.number(index, part, "a sample") for part in NUMBER.findall(line)]
+            index += 1
+        if len(found) > count:
+            raise self.error(index - 1, self._too_many(count, count))
+        self.ended(index, count)
+        return np.array(found), index
 
-def unit_of(text: str) -> str | None:
-    """Return the unit of acceleration that a text names; None if it is unknown."""
-    return SPELLINGS.get(text.strip().lower().rstrip(".").replace("²", "2"))
+    def _sample_line(self, index: int, read: int, count: int) -> str:
+        if index >= len(self.lines):
+            raise self.error(index - 1, f"the file ends after {counted(read, 'sample')} of {count:,}")
+        return self.lines[index].rstrip()
+
+    def ended(self, index: int, count: int) -> None:
+        """Refuse numbers in the line after the last sample."""
+        after = self.lines[index] if index < len(self.lines) else ""
+        if after.strip() and not NUMBER.sub("", after).strip():
+            raise self.error(index, self._too_many(count, count))
+
+    @staticmethod
+    def _too_many(count: int, wanted: int) -> str:
+        where = "" if wanted == count else f", or more than {counted(wanted, 'number')} in a line"
+        return f"more than the {counted(count, 'sample')} of the header{where}"

@@ -1,0 +1,61 @@
+"""Traces of ObsPy, an optional package: its formats, and its Stream and Trace."""
+
+from __future__ import annotations
+
+import io
+from typing import Any
+
+import numpy as np
+
+from rocking.records.channel import Channel, RecordError
+from rocking.records.content import Content
+
+FORMATS = ("MSEED", "SAC", "SACXY", "GSE2", "GSE1", "KINEMETRICS_EVT", "REFTEK130", "SEISAN", "SEG2")
+"""Formats of ObsPy that are tried. Each is named, because its search for the format also unpickles a file."""
+INSTALL = "run pip install '.[obspy]' in a copy of the repository"
+
+
+def is_stream(source: object) -> bool:
+    """Return whether a value is a Stream or a Trace, or looks like one."""
+    return hasattr(source, "traces") or (hasattr(source, "data") and hasattr(source, "stats"))
+
+
+def read(content: Content) -> list[Channel]:
+    """Read the traces of a file in one of the formats; `RecordError` if ObsPy is not installed."""
+    try:
+        import obspy
+    except ImportError:
+        raise RecordError(
+            f"{content.name}: no known text format; ObsPy reads more formats: {INSTALL}"
+        ) from None
+    for name in FORMATS:
+        try:
+            stream = obspy.read(io.BytesIO(content.data), format=name)
+        except Exception:  # noqa: BLE001 - readers of other formats fail in any way
+            continue
+        return channels_of(stream, content.name, name)
+    raise RecordError(f"{content.name}: no known text format, and none of {', '.join(FORMATS)}")
+
+
+def channels_of(source: Any, name: str, form: str) -> list[Channel]:
+    """Return the channels of a Stream or of a Trace; their unit is unknown."""
+    traces = list(getattr(source, "traces", [source]))
+    if not traces:
+        raise RecordError(f"{name}: no trace")
+    return [_channel(trace, f"{name}, trace {number}", form) for number, trace in enumerate(traces, 1)]
+
+
+def _channel(trace: Any, place: str, form: str) -> Channel:
+    data = trace.data
+    if np.ma.is_masked(data):
+        raise RecordError(f"{place}: samples are missing; fill the gaps first, or cut the trace")
+    samples = np.asarray(data)
+    if samples.dtype.kind in "iu":
+        remedy = "make an acceleration of them first: trace.remove_response(output='ACC')"
+        raise RecordError(f"{place}: the samples are integers, that is, counts of the recorder ({remedy})")
+    if samples.dtype.kind != "f" or samples.ndim != 1 or samples.size == 0:
+        raise RecordError(f"{place}: a row of real numbers expected")
+    stats = trace.stats
+    station = ".".join(filter(None, (getattr(stats, key, "") for key in ("network", "station"))))
+    step = float(stats.delta)
+    return Channel(samples.astype(float), None, step, form, station, str(getattr(stats, "channel", "")))

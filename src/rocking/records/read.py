@@ -1,0 +1,207 @@
+"""Ground motions from files: the format is recognised by the content, units are never guessed."""
+
+from __future__ import annotations
+
+import os
+import warnings
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from rocking.model import BASELINES, STEPS, GroundMotion, RecordFile, one_of, refusal, whole, within
+from rocking.records import columns, cosmos, csmip, esm, geonet, knet, obspy_streams, peer, smc
+from rocking.records.channel import Channel, RecordError
+from rocking.records.content import Content
+from rocking.records.text_file import TextFile
+from rocking.records.units import UNITS, given_unit
+
+FORMATS: tuple[Any, ...] = (cosmos, smc, esm, geonet, knet, peer, csmip, columns)
+"""Readers in the order in which they are tried; any text of numbers has columns."""
+
+
+class _Source(NamedTuple):
+    """Channels of a file or of a Stream, with the name and the digest of the file."""
+
+    name: str
+    sha256: str | None
+    channels: list[Channel]
+
+
+class _Given(NamedTuple):
+    """Arguments that state what the file may leave open."""
+
+    unit: str | None
+    step: float | None
+    baseline: str
+
+
+def read_ground_motion(
+    source: str | os.PathLike[str] | Any,
+    channel: int = 1,
+    *,
+    units: str | None = None,
+    step: float | None = None,
+    baseline: str = "none",
+) -> GroundMotion:
+    """Read one channel of a record file.
+
+    The content tells the format: PEER AT2, COSMOS V1 and V2, CSMIP/CDMG V1 and V2, USC V2, SMC, K-NET and KiK-net ASCII,
+    ESM ASCII, GeoNet V1A and V2A, and text with one column (acceleration) or two (time, acceleration). With ObsPy installed,
+    miniSEED, SAC, GSE2 and others.
+
+    Parameters
+    ----------
+    source : path, or Stream or Trace of ObsPy
+        File, or traces in memory.
+    channel : int
+        Channel of the file, counted from 1. Default: 1.
+    units : {"m/s²", "cm/s²", "mm/s²", "g", "gal"}
+        Unit of the samples, for a file that does not state it. Spellings such as "m/s2" are understood. Default: None.
+    step : float
+        Time step in s, for a file that does not state it. Default: None.
+    baseline : {"none", "mean", "linear", "quadratic"}
+        Polynomial that is subtracted, as for `GroundMotion`. Default: "none".
+
+    Returns
+    -------
+    GroundMotion
+        Motion with its `file`.
+
+    Raises
+    ------
+    RecordError
+        If the file cannot be read, if unit or step are unknown, or if they are given although the file states them.
+    TypeError, ValueError
+        If an argument is of the wrong type or lies outside its range.
+
+    Warns
+    -----
+    UserWarning
+        If the peak of the samples differs from the peak in the header: see `RecordFile.pga_agrees`.
+
+    Examples
+    --------
+    >>> import tempfile, pathlib
+    >>> path = pathlib.Path(tempfile.mkdtemp()) / "pulse.csv"
+    >>> _ = path.write_text("time (s), acceleration (g)" + chr(10) + "0, 0" + chr(10) + "0.02, 0.1" + chr(10))
+    >>> read_ground_motion(path)
+    GroundMotion(pulse.csv, 2 samples, step 0.02 s, PGA 0.9807 m/s²)
+    """
+    given = _given(units, step, baseline)
+    found = _source(source)
+    count = len(found.channels)
+    number = whole("channel", channel, 1, 10**9)
+    if number > count:
+        raise ValueError(refusal("channel", f"be 1 to {count}, the channels of {found.name}", channel))
+    return _motion(found, number, given)
+
+
+def read_ground_motions(
+    source: str | os.PathLike[str] | Any,
+    *,
+    units: str | None = None,
+    step: float | None = None,
+    baseline: str = "none",
+) -> tuple[GroundMotion, ...]:
+    """Read all channels of a record file, in their order.
+
+    Parameters
+    ----------
+    source, units, step, baseline
+        As for `read_ground_motion`.
+
+    Returns
+    -------
+    tuple of GroundMotion
+        One motion per channel.
+
+    Raises
+    ------
+    RecordError, TypeError, ValueError
+        As for `read_ground_motion`.
+
+    Warns
+    -----
+    UserWarning
+        As for `read_ground_motion`.
+
+    Examples
+    --------
+    >>> import tempfile, pathlib
+    >>> path = pathlib.Path(tempfile.mkdtemp()) / "pulse.txt"
+    >>> _ = path.write_text("0 1.5 -2 0".replace(" ", chr(10)))
+    >>> [motion.pga for motion in read_ground_motions(path, units="m/s²", step=0.01)]
+    [2.0]
+    """
+    given = _given(units, step, baseline)
+    found = _source(source)
+    motions = []
+    for number in range(1, len(found.channels) + 1):
+        motions.append(_motion(found, number, given))  # noqa: PERF401 - a warning names the caller's line
+    return tuple(motions)
+
+
+def _given(units: str | None, step: float | None, baseline: str) -> _Given:
+    return _Given(
+        None if units is None else given_unit(units),
+        None if step is None else within("step", step, *STEPS, "s"),
+        one_of("baseline", baseline, tuple(BASELINES)),
+    )
+
+
+def _source(source: Any) -> _Source:
+    if obspy_streams.is_stream(source):
+        name = type(source).__name__
+        return _Source(name, None, obspy_streams.channels_of(source, name, "ObsPy"))
+    content = Content(source)
+    text = TextFile(content) if content.is_text else None
+    form = next((form for form in FORMATS if text and form.recognises(text)), None)
+    channels = obspy_streams.read(content) if form is None else form.read(text)
+    return _Source(content.name, content.sha256, channels)
+
+
+def _motion(source: _Source, number: int, given: _Given) -> GroundMotion:
+    """Return the motion of a channel; warn if its peak differs from the header's."""
+    channel, several = source.channels[number - 1], len(source.channels) > 1
+    place = f"{source.name}, channel {number}" if several else source.name
+    unit = _stated(place, "units", channel.unit, given.unit, "the unit of its samples", "m/s²")
+    step = _stated(place, "step", channel.step, given.step, "its time step", "0.01")
+    samples = channel.samples * UNITS[unit]
+    file = None
+    if source.sha256 is not None:
+        component = f", {channel.component}" if channel.component else ""
+        file = RecordFile(
+            source.name,
+            source.sha256,
+            channel.format,
+            f"channel {number} of {len(source.channels)}{component}" if several else "",
+            float(np.abs(samples).max()),
+            *(channel.peak or ()),
+        )
+    try:
+        motion = GroundMotion(
+            samples,
+            step=step,
+            name=channel.name or source.name,
+            component=channel.component,
+            baseline=given.baseline,
+            file=file,
+        )
+    except ValueError as error:
+        raise RecordError(f"{place}: {error}") from error
+    if file is not None and file.pga_agrees is False:
+        warnings.warn(
+            f"{place}: the samples have a PGA of {file.pga:.5g} m/s², the header states {file.header_pga:.5g} m/s²",
+            stacklevel=3,
+        )
+    return motion
+
+
+def _stated(place: str, argument: str, stated: Any, given: Any, what: str, example: str) -> Any:
+    """Return what the file states or the argument gives; `RecordError` unless exactly one does."""
+    if stated is None and given is None:
+        shown = repr(example) if argument == "units" else example
+        raise RecordError(f"{place}: the file does not state {what}; give it, for example {argument}={shown}")
+    if stated is not None and given is not None:
+        raise RecordError(f"{place}: the file states {what}, {stated}; do not give {argument}")
+    return given if stated is None else stated
