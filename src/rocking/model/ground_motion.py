@@ -236,8 +236,8 @@ class GroundMotion(ReadOnlyArrays):
         Raises
         ------
         TypeError, ValueError
-            If not exactly one is given, if it is of the wrong type or outside its range, or if a motion of zeros is scaled to
-            a peak.
+            If not exactly one is given, or if it is of the wrong type or outside its range. Also if a motion of zeros is
+            scaled to a peak.
 
         Examples
         --------

@@ -13,8 +13,8 @@ TERMS = 24
 def pseudo_acceleration(acceleration: np.ndarray, step: float, period: float, damping: float) -> float:
     """Return ω² max|u| at the samples, with u'' + 2ζω u' + ω² u = −a from rest.
 
-    In the time s = ωt, with x = ω² u and the root λ = −ζ + i√(1−ζ²), the complex number q = x' − λ*x obeys q' = λq − a.
-    Hence one recursion of first order gives both, and x = Im q / Im λ.
+    The time is s = ωt, x is ω² u, and λ = −ζ + i√(1−ζ²) is a root of the oscillator. Then q = x' − λ*x obeys q' = λq − a,
+    one recursion of first order, and x = Im q / Im λ.
 
     Examples
     --------

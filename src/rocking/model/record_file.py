@@ -51,7 +51,7 @@ class RecordFile:
 
     @property
     def pga_agrees(self) -> bool | None:
-        """Whether both PGA agree within 1 % and the rounding of the header; None if one is unknown."""
+        """Agreement of both PGA within 1 % and the rounding of the header; None if one is unknown."""
         difference = self.pga_difference
         if difference is None or self.header_pga is None:
             return None

@@ -42,5 +42,5 @@ class Content:
 
     @property
     def is_text(self) -> bool:
-        """Whether the file has no byte that is 0, as text has none."""
+        """True if no byte is 0, as in every text."""
         return b"\0" not in self.data

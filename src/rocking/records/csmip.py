@@ -9,14 +9,11 @@ from rocking.records.text_file import TextFile
 from rocking.records.units import unit_of
 
 CORRECTED = (
-    r"^\s*(?P<count>\d+)\s+POINTS OF ACC(?:EL)? DATA EQUALLY SPACED AT\s+(?P<step>\S+)\s+SEC[.,]?\s+"
-    r"(?:\(UNITS:\s*(?P<unit>[^)]+)\)|IN\s+(?:UNITS\s+)?(?P<other>[^\s(]+))"
-    r"(?:\s+\((?P<per_line>\d+)F(?P<width>\d+)\.\d+\))?"
+    r"^\s*(\d+)\s+POINTS OF ACC\w* DATA EQUALLY SPACED AT\s+(\S+)\s+SEC\W+"
+    r"(?:UNITS:|IN(?: UNITS)?)\s*([A-Z/]+\d*)"
 )
-UNCORRECTED = (
-    r"^\s*(?P<count>\d+)\s+ACCELEROGRAM POINTS AT\s+(?P<rate>\S+)\s+PTS/SEC IN UNITS OF\s+(?P<unit>[^.\s]+)\.?"
-    r"\s+FORMAT:\s*\((?P<per_line>\d+)F(?P<width>\d+)\.\d+\)"
-)
+UNCORRECTED = r"^\s*(\d+)\s+ACCELEROGRAM POINTS AT\s+(\S+)\s+PTS/SEC IN UNITS OF\s+([A-Z/]+\d*)"
+FORMAT = r"\((\d+)F(\d+)\.\d+\)"
 COLUMNS = (10, 8)
 """Width of a column and columns in a line of V2, where the file does not give them."""
 ANNOUNCED = r"POINTS OF ACC(?:EL)? DATA|ACCELEROGRAM POINTS AT"
@@ -52,12 +49,13 @@ def _channel(file: TextFile, first: int, line: int) -> tuple[Channel, int]:
     match = corrected or raw
     if match is None:
         raise file.error(line, "number of points, time step or rate, and unit expected")
-    given = match.groupdict()
-    named = given["unit"] or given.get("other", "")
-    unit = file.unit(line, named)
-    step = file.step(line, given["step"]) if corrected else file.step_of_rate(line, given["rate"])
-    columns = (int(given["width"]), int(given["per_line"])) if given["width"] else COLUMNS
-    samples, after = file.columns(line + 1, file.count(line, given["count"]), *columns)
+    unit = file.unit(line, match.group(3))
+    step = file.step_of_rate(line, match.group(2)) if raw else file.step(line, match.group(2))
+    given = file.find(FORMAT, line, line + 1)
+    if raw and given is None:
+        raise file.error(line, "format of the samples expected, such as (8F9.6)")
+    columns = (int(given[1].group(2)), int(given[1].group(1))) if given else COLUMNS
+    samples, after = file.columns(line + 1, file.count(line, match.group(1)), *columns)
     title = file.find(TITLE, first, line)
     begin = title[0] if title else first
     channel = Channel(

@@ -45,9 +45,12 @@ def read_ground_motion(
 ) -> GroundMotion:
     """Read one channel of a record file.
 
-    The content tells the format: PEER AT2, COSMOS V1 and V2, CSMIP/CDMG V1 and V2, USC V2, SMC, K-NET and KiK-net ASCII,
-    ESM ASCII, GeoNet V1A and V2A, and text with one column (acceleration) or two (time, acceleration). With ObsPy installed,
-    miniSEED, SAC, GSE2 and others.
+    The format is recognised by the content:
+
+    - PEER AT2, COSMOS V1 and V2, CSMIP/CDMG V1 and V2, USC V2, SMC;
+    - K-NET and KiK-net ASCII, ESM ASCII, GeoNet V1A and V2A;
+    - text with one column (acceleration) or two (time, acceleration);
+    - miniSEED, SAC, GSE2 and others, if ObsPy is installed.
 
     Parameters
     ----------
@@ -70,7 +73,7 @@ def read_ground_motion(
     Raises
     ------
     RecordError
-        If the file cannot be read, if unit or step are unknown, or if they are given although the file states them.
+        If the file cannot be read, or if unit or step are stated twice or not at all, counting file and arguments.
     TypeError, ValueError
         If an argument is of the wrong type or lies outside its range.
 

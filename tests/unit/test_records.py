@@ -1,0 +1,369 @@
+"""Record files: each format, in files written from its description, and the errors with file and line."""
+
+import hashlib
+import sys
+import types
+from pathlib import Path
+
+import numpy as np
+import pytest
+import record_files as write
+
+import rocking as rk
+
+G = 9.80665
+WAVE = np.round(np.sin(np.arange(37)) * np.exp(-np.arange(37) / 9), 3)
+OTHER = np.round(-0.5 * WAVE[:30], 3)
+COUNTS = [int(1e5 * value) + 70_000 for value in WAVE]
+KNET = np.subtract(COUNTS, np.mean(COUNTS)) * 3920 / 6182761
+V2_NEW = "{} points of {} data equally spaced at  {:.3f} sec, in cm/sec2. (8f10.3)"
+
+# name: (lines, format, m/s² per unit, step, channels, name, components, has the PGA in its header)
+FILES = {
+    "PEER": (write.peer(WAVE), "PEER AT2", G, 0.01, [WAVE], "Valley-02, 1/2/1940, Town Array #9", ["180"], False),
+    "PEER, old": (write.peer(WAVE, old=True), "PEER AT2", G, 0.01, [WAVE], "Valley-02, 1/2/1940, Town Array #9", ["180"], False),
+    "SMC": (write.smc(100 * WAVE), "SMC", 0.01, 0.005, [100 * WAVE], "Town, 12 Street, F", ["360°"], True),
+    "CSMIP V1": (write.csmip_v1([WAVE, OTHER]), "CSMIP V1", G, 0.01, [WAVE, OTHER], "Town, Street Rd.", ["90°", "180°"], True),
+    "CSMIP V1, g/10": (write.csmip_v1([WAVE], 50, "g/10"), "CSMIP V1", G / 10, 0.02, [WAVE], "Town, Street Rd.", ["90°"], True),
+    "CSMIP V2": (write.csmip_v2([WAVE, OTHER]), "CSMIP V2", 0.01, 0.02, [WAVE, OTHER], "TOWN FAULT ZONE 14", ["90°", "180°"], True),
+    "CSMIP V2, new": (write.csmip_v2([WAVE], announce=V2_NEW), "CSMIP V2", 0.01, 0.02, [WAVE], "TOWN FAULT ZONE 14", ["90°"], True),
+    "USC": (write.usc(WAVE), "USC V2", 0.01, 0.02, [WAVE], "TOWN FAULT ZONE 14", ["90°"], True),
+    "COSMOS": (write.cosmos([WAVE, OTHER]), "COSMOS V2", 0.01, 0.005, [WAVE, OTHER], "Town - Street", ["90°", "180°"], True),
+    "COSMOS V1": (write.cosmos([WAVE], title="Uncorrected acceleration"), "COSMOS V1", 0.01, 0.005, [WAVE], "Town - Street", ["90°"], True),
+    "K-NET": (write.knet(COUNTS), "K-NET", 0.01, 0.01, [KNET], "XYZ005", ["N-S"], True),
+    "ESM": (write.esm(WAVE), "ESM", 0.01, 0.005, [WAVE], "Town Hall", ["HNE"], True),
+    "GeoNet V2A": (write.geonet([np.round(90 * WAVE, 1)] * 3), "GeoNet V2A", 1e-3, 0.02, [np.round(90 * WAVE, 1)] * 3, "Town Farm", ["N0W", "N1W", "N2W"], True),
+    "GeoNet V1A": (write.geonet([np.round(90 * WAVE, 1)], raw=True), "GeoNet V1A", 1e-3, 0.02, [np.round(90 * WAVE, 1)], "Town Farm", ["N0W"], True),
+    "columns": (write.columns(WAVE), "text", 1.0, 0.01, [WAVE], "file.x", [""], False),
+}  # fmt: skip
+
+
+@pytest.fixture
+def make(tmp_path):
+    def make(lines, end="\n"):
+        path = tmp_path / "file.x"
+        path.write_bytes((end.join(lines) + end).encode() if isinstance(lines, list) else lines)
+        return path
+
+    return make
+
+
+def refusal_of(path, **arguments):
+    with pytest.raises(rk.RecordError, match="") as caught:
+        rk.read_ground_motions(path, **arguments)
+    message = str(caught.value)
+    assert "\n" not in message
+    return message
+
+
+@pytest.mark.parametrize("end", ["\n", "\r\n", "\r"])
+@pytest.mark.parametrize("kind", FILES)
+def test_samples_unit_step_and_names_are_those_of_the_file(make, kind, end):
+    lines, form, unit, step, channels, name, components, has_peak = FILES[kind]
+    path = make(lines, end)
+    motions = rk.read_ground_motions(path)
+    assert len(motions) == len(channels)
+    for number, (motion, samples) in enumerate(zip(motions, channels, strict=True), 1):
+        np.testing.assert_allclose(motion.acceleration, samples * unit, rtol=1e-12, atol=1e-15)
+        assert (motion.step, motion.name, motion.component) == (step, name, components[number - 1])
+        assert motion == rk.read_ground_motion(path, number)
+        file = motion.file
+        assert (file.name, file.format) == ("file.x", form)
+        assert file.sha256 == hashlib.sha256(path.read_bytes()).hexdigest()
+        assert file.pga == motion.pga
+        assert file.pga_agrees is (True if has_peak else None)
+        several = f"channel {number} of {len(channels)}, {components[number - 1]}"
+        assert file.channel == (several if len(channels) > 1 else "")
+
+
+def test_the_example_has_the_peak_of_its_header():
+    motion = rk.example_ground_motion()
+    assert (motion.step, motion.acceleration.size, motion.component) == (0.005, 6001, "360°")
+    assert motion.name == "San Francisco, 1295 Shafter, F"
+    assert motion.pga == pytest.approx(1.0441)
+    assert motion.times[np.abs(motion.acceleration).argmax()] == pytest.approx(10.170)
+    assert motion.file.header_pga == pytest.approx(1.044078)
+    assert motion.file.pga_agrees
+    assert motion.file.pga_difference == pytest.approx(2.2e-5)
+    assert Path(rk.records.example.FILE).stat().st_size < 150_000
+
+
+def test_a_peak_that_differs_from_the_header_is_reported(make):
+    lines = [line.replace("PGA_CM/S^2: ", "PGA_CM/S^2: 1") for line in write.esm(WAVE)]
+    with pytest.warns(UserWarning, match=r"^file.x: the samples have a PGA of 0.00\S+ m/s², the header states") as caught:
+        motion = rk.read_ground_motion(make(lines))
+    assert caught[0].filename == __file__
+    assert motion.file.pga_agrees is False
+    assert motion.file.pga_difference < 0
+    with pytest.warns(UserWarning, match="header states") as caught:
+        rk.read_ground_motions(make(lines))
+    assert caught[0].filename == __file__
+
+
+def changed(lines, old, new):
+    assert any(old in line for line in lines)
+    return [line.replace(old, new) for line in lines]
+
+
+WRONG = {
+    "count too large": (changed(write.peer(WAVE), "NPTS=  37", "NPTS=  47"), "line 12: the file ends after 37 samples of 47"),
+    "count too small": (changed(write.peer(WAVE), "NPTS=  37", "NPTS=  35"), "line 12: more than the 35 samples of the header"),
+    "count no number": (changed(write.peer(WAVE), "NPTS=  37", "NPTS=  1e9"), "line 4: the number of samples must be a whole number from 1"),
+    "step of zero": (changed(write.peer(WAVE), "DT=   0.0100", "DT=   0.0000"), "line 4: the time step must be positive"),
+    "another quantity": (write.peer(WAVE, title="VELOCITY TIME SERIES IN UNITS OF CM/S"), "line 3: acceleration expected"),
+    "unknown unit": (write.peer(WAVE, title="ACCELERATION TIME SERIES IN UNITS OF FT/S2"), "line 3: a unit of acceleration expected; got 'FT/S2'"),
+    "header cut": (write.peer(WAVE)[:3], "line 3: the file ends in its header"),
+    "not a number": ([*write.peer(WAVE)[:-1], "  NaN 1.0"], "line 12: numbers expected"),
+    "too large": (changed(write.esm(WAVE), "0.753000", "8e30"), "acceleration must be finite and of size up to 1e+06, unlike sample 1"),
+    "overflow": (changed(write.smc(100 * WAVE), "    75.300", "    1e9999"), "a sample must be a number; got '1e9999'"),
+    "stars": (changed(write.smc(100 * WAVE), "    75.300", "**********"), "line 30: a sample must be a number; got '**********'"),
+    "wide columns": (changed(write.cosmos([WAVE]), "(8F10.5)", "(8F9.5)"), "more than the 37 samples of the header, or more than 8 numbers in a line"),
+    "velocity": (["4 VELOCITY", *write.smc(WAVE)[1:]], "line 1: acceleration expected"),
+    "no step": (changed(write.cosmos([WAVE]), "       5.000000", "    -999.000000"), "real-header value 62, must be positive"),
+    "no data": (write.cosmos([WAVE])[:40], "no line announces acceleration"),
+    "ESM without count": (changed(write.esm(WAVE), "NDATA: 37", "NDATA:"), "line 64: the header ends here and lacks NDATA"),
+    "ESM velocity": (changed(write.esm(WAVE), "UNITS: cm/s^2", "UNITS: cm/s"), "line 7: a unit of acceleration expected; got 'cm/s'"),
+    "K-NET divisor": (write.knet(COUNTS, factor="3920(gal)/0"), "line 14: the divisor of the scale factor must not be 0"),
+    "K-NET rate": ([line for line in write.knet(COUNTS) if "Freq" not in line], "line 17: the header lacks the sampling frequency"),
+    "K-NET empty": (write.knet(COUNTS)[:17], "17 lines of header, then counts expected"),
+    "CSMIP unit": (changed(write.csmip_v1([WAVE]), "units of g.  ", "units of volts.  "), "a unit of acceleration expected; got 'volts'"),
+    "CSMIP format": (changed(write.csmip_v1([WAVE]), "(8f9.6)", ""), "format of the samples expected"),
+    "CSMIP second channel": (changed(write.csmip_v2([WAVE, OTHER]), " 30 POINTS OF ACCEL", " x POINTS OF ACCEL"), "number of points, time step or rate, and unit expected"),
+    "SMC comments": (changed(write.smc(WAVE), "         2        37", "        -2        37"), "line 13: the number of lines of comment must be a whole number from 0"),
+    "GeoNet cut": (write.geonet([WAVE])[:30], "line 30: the file ends after 37 samples of 37"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("kind", WRONG)
+def test_an_error_names_file_and_line(make, kind):
+    lines, expected = WRONG[kind]
+    message = refusal_of(make(lines))
+    assert message.startswith("file.x")
+    assert expected in message
+
+
+def test_files_that_are_none(tmp_path, make):
+    assert "cannot be read: No such file" in refusal_of(tmp_path / "missing.at2")
+    assert "a folder" in refusal_of(tmp_path)
+    assert "is empty" in refusal_of(make(b"\n \n"))
+    assert "cannot be read" in refusal_of("null\0byte")
+    assert "not a regular file" in refusal_of("/dev/zero")
+    large = make(b"1\n")
+    with large.open("ab") as file:
+        file.truncate(10**10)
+    assert "larger than 300 MB" in refusal_of(large)
+    with pytest.raises(TypeError, match="source must be a path, or a Stream or Trace of ObsPy; got 3"):
+        rk.read_ground_motion(3)
+
+
+@pytest.mark.parametrize("content", [b"MZ\0\1\2", b"some words\nin a letter\n", b"\xff\xfe\xfd\n\n", b"1 2 3\n4 5 6\n"])
+def test_unknown_content_names_the_extra_for_more_formats(make, monkeypatch, content):
+    monkeypatch.setitem(sys.modules, "obspy", None)
+    message = refusal_of(make(content))
+    assert message == "file.x: no known text format; ObsPy reads more formats: run pip install '.[obspy]' in a copy of the repository"
+
+
+def test_channel_must_be_one_of_the_file(make):
+    path = make(write.csmip_v1([WAVE, OTHER]))
+    with pytest.raises(ValueError, match=r"^channel must be 1 to 2, the channels of file.x; got 3$"):
+        rk.read_ground_motion(path, 3)
+    with pytest.raises(ValueError, match="channel must be a whole number"):
+        rk.read_ground_motion(path, 0)
+
+
+@pytest.mark.parametrize(
+    "arguments, expected",
+    [
+        ({"units": "g"}, "file.x: the file states the unit of its samples, g; do not give units"),
+        ({"step": 0.01}, "file.x: the file states its time step, 0.01; do not give step"),
+    ],
+)
+def test_unit_and_step_that_the_file_states_are_not_given_again(make, arguments, expected):
+    assert refusal_of(make(write.peer(WAVE)), **arguments) == expected
+
+
+@pytest.mark.parametrize(
+    "arguments, expected",
+    [
+        ({}, "file.x: the file does not state the unit of its samples; give it, for example units='m/s²'"),
+        ({"units": "g"}, "file.x: the file does not state its time step; give it, for example step=0.01"),
+    ],
+)
+def test_unit_and_step_are_never_guessed(make, arguments, expected):
+    assert refusal_of(make(["1", "2"]), **arguments) == expected
+
+
+@pytest.mark.parametrize("units", ["m/s", 3, "furlong", ""])
+def test_units_are_units_of_acceleration(make, units):
+    with pytest.raises((TypeError, ValueError), match="units must be one of 'm/s²', 'cm/s²', 'mm/s²', 'g', 'gal'; got"):
+        rk.read_ground_motion(make(["1", "2"]), units=units, step=0.1)
+
+
+@pytest.mark.parametrize(
+    "units, size",
+    [("m/s²", 1), ("m/s2", 1), ("m/s^2", 1), ("m/s**2", 1), ("m s-2", 1), ("cm/s/s", 0.01), ("Gal", 0.01), ("CMS/SEC/SEC", 0.01)]
+    + [("mm/s2", 1e-3), ("g", G), ("G", G)],
+)  # fmt: skip
+def test_spellings_of_units(make, units, size):
+    assert rk.read_ground_motion(make(["1", "-2"]), units=units, step=0.1).pga == 2 * size
+
+
+@pytest.mark.parametrize("separator", [" ", "\t", ",", ";", " , ", "   "])
+def test_separators_of_columns(make, separator):
+    lines = [f"{0.02 * k:.2f}{separator}{value}" for k, value in enumerate([0, 1, -3.5, 2e-1])]
+    motion = rk.read_ground_motion(make(lines), units="g")
+    assert motion.step == 0.02
+    np.testing.assert_allclose(motion.acceleration, np.array([0, 1, -3.5, 0.2]) * G)
+
+
+@pytest.mark.parametrize(
+    "header, size",
+    [
+        (["time,acc (g)"], G),
+        (["# recorded somewhere", "", "t [s]; a [cm/s²]"], 0.01),
+        (["% Units: gal"], 0.01),
+        (["acceleration in units of m/s/s"], 1.0),
+        (["units = mm/s2 (mm/s^2)"], 1e-3),
+    ],
+)
+def test_a_unit_in_the_header_counts_if_it_is_the_only_one(make, header, size):
+    assert rk.read_ground_motion(make([*header, "0, 1", "0.5, 2"])).pga == pytest.approx(2 * size)
+
+
+@pytest.mark.parametrize("header", [["acc (g) or acc (m/s2)"], ["a mass of 5 g"], ["velocity (cm/s)"], ["time acc"], []])
+def test_a_unit_that_is_not_clear_must_be_given(make, header):
+    assert "give it, for example units=" in refusal_of(make([*header, "0, 1", "0.5, 2"]))
+
+
+def test_header_in_latin_1_and_with_a_mark_of_utf_8(make):
+    assert rk.read_ground_motion(make("t, a (cm/s²)\n0, 1\n1, 2".encode("latin-1"))).pga == 0.02
+    assert rk.read_ground_motion(make("\ufefft, a (cm/s²)\n0, 1\n1, 2\x1a".encode())).pga == 0.02
+
+
+@pytest.mark.parametrize(
+    "times, step",
+    [
+        (["0.000", "0.003", "0.007", "0.010"], 0.0033),
+        (["5", "5.1", "5.2", "5.3"], 0.1),
+        (["0", "1.0000000E-02", "2.0000000E-02"], 0.01),
+        (["-1.000000E+00", "-9.950000E-01", "-9.900000E-01"], 0.005),
+        ([str(np.float32(k * 0.02).astype(float)) for k in range(500)], 0.02),
+    ],
+)
+def test_equidistant_times_may_be_rounded(make, times, step):
+    motion = rk.read_ground_motion(make([f"{time} 1" for time in times]), units="g")
+    assert motion.step == pytest.approx(step, rel=1e-6 if step != 0.0033 else 0.05)
+
+
+@pytest.mark.parametrize(
+    "rows, expected",
+    [
+        (["0 1", "0.1 1", "0.3 1", "0.4 1"], "line 2: the times are not equidistant: 0.1 s where 0.133333 s is expected"),
+        (["0 1", "0 1", "0 1"], "line 3: the times must increase"),
+        (["0.00 1", "0.01 1", "0.01 1", "0.02 1"], "the times are not equidistant"),
+        (["0 1"], "line 1: at least two times expected"),
+        (["0 1", "0.1 1", "0.2"], "line 3: 2 numbers expected; got '0.2'"),
+        (["0 1", "0.1 1", "nan 1"], "line 3: 2 numbers expected; got 'nan 1'"),
+        (["0,1;1,0", "0,2;1,1"], "no known text format"),
+    ],
+)
+def test_columns_that_are_refused(make, rows, expected):
+    assert expected in refusal_of(make(rows), units="g")
+
+
+class Stats(types.SimpleNamespace):
+    pass
+
+
+class Trace:
+    def __init__(self, data, delta=0.01):
+        self.data = data
+        self.stats = Stats(delta=delta, network="XY", station="TOWN", channel="HNE")
+
+
+def test_traces_of_obspy_need_their_unit_and_no_counts():
+    trace = Trace(np.array([0.0, 0.5, -1.0]))
+    motion = rk.read_ground_motion(trace, units="cm/s²")
+    assert (motion.pga, motion.step, motion.name, motion.component, motion.file) == (0.01, 0.01, "XY.TOWN", "HNE", None)
+    both = rk.read_ground_motions(types.SimpleNamespace(traces=[trace, Trace(np.array([2.0]))]), units="m/s²")
+    assert [each.pga for each in both] == [1.0, 2.0]
+    assert "give it, for example units=" in refusal_of(trace)
+    assert "the samples are integers, that is, counts of the recorder" in refusal_of(Trace(np.array([1, 2])), units="g")
+    assert "fill the gaps" in refusal_of(Trace(np.ma.masked_array([1.0, 2.0], [0, 1])), units="g")
+    assert "a row of real numbers" in refusal_of(Trace(np.array([])), units="g")
+    assert "no trace" in refusal_of(types.SimpleNamespace(traces=[]), units="g")
+    assert "sample 0" in refusal_of(Trace(np.array([np.nan])), units="g")
+    assert "step must lie in" in refusal_of(Trace(np.array([1.0]), delta=0.0), units="g")
+
+
+def test_other_files_are_left_to_obspy(make, monkeypatch):
+    formats = []
+
+    def read(file, format):  # noqa: A002
+        formats.append(format)
+        if format != "SAC":
+            raise KeyError(format)
+        assert file.read() == b"\0\1\2\n"
+        return types.SimpleNamespace(traces=[Trace(np.array([1.0, 3.0]))])
+
+    monkeypatch.setitem(sys.modules, "obspy", types.SimpleNamespace(read=read))
+    motion = rk.read_ground_motion(make(b"\0\1\2\n"), units="m/s²")
+    assert (motion.pga, motion.file.format, formats) == (3.0, "SAC", ["MSEED", "SAC"])
+    monkeypatch.setitem(sys.modules, "obspy", types.SimpleNamespace(read=None))
+    assert "and none of MSEED, SAC," in refusal_of(make(b"\0\1\2\n"))
+
+
+def test_baseline_is_removed_and_a_wrong_name_is_no_error_of_the_file(make):
+    path = make(write.peer(WAVE))
+    motion = rk.read_ground_motion(path, baseline="mean")
+    assert abs(motion.acceleration.mean()) < 1e-15
+    assert motion.file.pga == rk.read_ground_motion(path).pga
+    with pytest.raises(ValueError, match="baseline must be one of") as caught:
+        rk.read_ground_motion(path, baseline="cubic")
+    assert not isinstance(caught.value, rk.RecordError)
+
+
+DIGEST = "?"
+
+
+def test_synthetic_motions_of_a_seed_are_the_same_on_every_machine():
+    motions = rk.synthetic_ground_motions(3, seed=7)
+    data = np.concatenate([motion.acceleration for motion in motions]).astype("<f8").tobytes()
+    assert hashlib.sha256(data).hexdigest() == DIGEST
+    assert [motion.name for motion in motions] == ["synthetic 1", "synthetic 2", "synthetic 3"]
+    assert rk.synthetic_ground_motions(1, seed=7)[0] == motions[0]
+    assert rk.synthetic_ground_motions(1, seed=8)[0] != motions[0]
+
+
+def test_synthetic_motions_have_the_spectrum_of_the_filters():
+    options = {"rise": 0.02, "strong": 1e4, "duration": 200.0}
+    motions = rk.synthetic_ground_motions(60, seed=3, step=0.02, pga=1.0, **options)
+    samples = np.array([motion.acceleration / np.std(motion.acceleration) for motion in motions])
+    power = (np.abs(np.fft.rfft(samples)) ** 2).mean(axis=0)
+    s = 1j * 2 * np.pi * np.fft.rfftfreq(samples.shape[1], 0.02)
+    soil = (2 * 0.6 * 15 * s + 15**2) / (s**2 + 2 * 0.6 * 15 * s + 15**2)
+    high = s**2 / (s**2 + 2 * 0.6 * 1.5 * s + 1.5**2)
+    expected = np.abs(soil * high) ** 2
+    bands = [slice(20, 60), slice(60, 200), slice(200, 500), slice(500, 1500)]  # up to 7.5 Hz
+    found = np.array([(power[band].sum() / expected[band].sum()) for band in bands])
+    np.testing.assert_allclose(found / found[1], 1.0, rtol=0.08)
+
+
+def test_synthetic_motions_follow_their_envelope():
+    motions = rk.synthetic_ground_motions(200, seed=5, rise=4.0, strong=8.0, decay=0.5, pga=2.5)
+    assert [motion.pga for motion in motions] == pytest.approx([2.5] * 200)
+    spread = np.std([motion.acceleration for motion in motions], axis=0)
+    level = spread[450:800].mean()
+    assert spread[0] == 0.0
+    assert spread[180:220].mean() / level == pytest.approx(0.25, rel=0.15)
+    assert spread[1180:1220].mean() / level == pytest.approx(np.exp(-2), rel=0.15)
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [{"count": 0}, {"seed": -1}, {"step": 0.0}, {"duration": 1e9}, {"rise": 30.0}, {"strong": 1.0}, {"decay": -1.0}]
+    + [{"pga": 0.0}, {"soil_frequency": 1e3}, {"filter_damping": 0.0}, {"count": 10_000, "duration": 1e5}],
+)  # fmt: skip
+def test_arguments_of_synthetic_motions(wrong):
+    with pytest.raises(ValueError, match=f"^{next(iter(wrong))} must"):
+        rk.synthetic_ground_motions(**{"count": 1, "seed": 1} | wrong)
