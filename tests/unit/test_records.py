@@ -7,8 +7,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-import record_files as write
 
+import record_files as write
 import rocking as rk
 
 G = 9.80665
@@ -49,11 +49,9 @@ def make(tmp_path):
 
 
 def refusal_of(path, **arguments):
-    with pytest.raises(rk.RecordError, match="") as caught:
+    with pytest.raises(rk.RecordError, match=r"^.+$") as caught:  # one line
         rk.read_ground_motions(path, **arguments)
-    message = str(caught.value)
-    assert "\n" not in message
-    return message
+    return str(caught.value)
 
 
 @pytest.mark.parametrize("end", ["\n", "\r\n", "\r"])
@@ -90,7 +88,9 @@ def test_the_example_has_the_peak_of_its_header():
 
 def test_a_peak_that_differs_from_the_header_is_reported(make):
     lines = [line.replace("PGA_CM/S^2: ", "PGA_CM/S^2: 1") for line in write.esm(WAVE)]
-    with pytest.warns(UserWarning, match=r"^file.x: the samples have a PGA of 0.00\S+ m/s², the header states") as caught:
+    with pytest.warns(
+        UserWarning, match=r"^file.x: the samples have a PGA of 0.00\S+ m/s², the header states"
+    ) as caught:
         motion = rk.read_ground_motion(make(lines))
     assert caught[0].filename == __file__
     assert motion.file.pga_agrees is False
@@ -129,8 +129,8 @@ WRONG = {
     "CSMIP unit": (changed(write.csmip_v1([WAVE]), "units of g.  ", "units of volts.  "), "a unit of acceleration expected; got 'volts'"),
     "CSMIP format": (changed(write.csmip_v1([WAVE]), "(8f9.6)", ""), "format of the samples expected"),
     "CSMIP second channel": (changed(write.csmip_v2([WAVE, OTHER]), " 30 POINTS OF ACCEL", " x POINTS OF ACCEL"), "number of points, time step or rate, and unit expected"),
-    "SMC comments": (changed(write.smc(WAVE), "         2        37", "        -2        37"), "line 13: the number of lines of comment must be a whole number from 0"),
-    "GeoNet cut": (write.geonet([WAVE])[:30], "line 30: the file ends after 37 samples of 37"),
+    "SMC comments": (changed(write.smc(WAVE), "    -32768         2", "    -32768        -2"), "line 13: the number of lines of comment must be a whole number from 0"),
+    "GeoNet cut": (write.geonet([WAVE])[:30], "line 30: the file ends after 0 samples of 37"),
 }  # fmt: skip
 
 
@@ -156,11 +156,16 @@ def test_files_that_are_none(tmp_path, make):
         rk.read_ground_motion(3)
 
 
-@pytest.mark.parametrize("content", [b"MZ\0\1\2", b"some words\nin a letter\n", b"\xff\xfe\xfd\n\n", b"1 2 3\n4 5 6\n"])
+@pytest.mark.parametrize(
+    "content", [b"MZ\0\1\2", b"some words\nin a letter\n", b"\xff\xfe\xfd\n\n", b"1 2 3\n4 5 6\n"]
+)
 def test_unknown_content_names_the_extra_for_more_formats(make, monkeypatch, content):
     monkeypatch.setitem(sys.modules, "obspy", None)
     message = refusal_of(make(content))
-    assert message == "file.x: no known text format; ObsPy reads more formats: run pip install '.[obspy]' in a copy of the repository"
+    assert (
+        message
+        == "file.x: no known text format; ObsPy reads more formats: run pip install '.[obspy]' in a copy of the repository"
+    )
 
 
 def test_channel_must_be_one_of_the_file(make):
@@ -195,7 +200,9 @@ def test_unit_and_step_are_never_guessed(make, arguments, expected):
 
 @pytest.mark.parametrize("units", ["m/s", 3, "furlong", ""])
 def test_units_are_units_of_acceleration(make, units):
-    with pytest.raises((TypeError, ValueError), match="units must be one of 'm/s²', 'cm/s²', 'mm/s²', 'g', 'gal'; got"):
+    with pytest.raises(
+        (TypeError, ValueError), match="units must be one of 'm/s²', 'cm/s²', 'mm/s²', 'g', 'gal'; got"
+    ):
         rk.read_ground_motion(make(["1", "2"]), units=units, step=0.1)
 
 
@@ -230,7 +237,9 @@ def test_a_unit_in_the_header_counts_if_it_is_the_only_one(make, header, size):
     assert rk.read_ground_motion(make([*header, "0, 1", "0.5, 2"])).pga == pytest.approx(2 * size)
 
 
-@pytest.mark.parametrize("header", [["acc (g) or acc (m/s2)"], ["a mass of 5 g"], ["velocity (cm/s)"], ["time acc"], []])
+@pytest.mark.parametrize(
+    "header", [["acc (g) or acc (m/s2)"], ["a mass of 5 g"], ["velocity (cm/s)"], ["time acc"], []]
+)
 def test_a_unit_that_is_not_clear_must_be_given(make, header):
     assert "give it, for example units=" in refusal_of(make([*header, "0, 1", "0.5, 2"]))
 
@@ -258,7 +267,10 @@ def test_equidistant_times_may_be_rounded(make, times, step):
 @pytest.mark.parametrize(
     "rows, expected",
     [
-        (["0 1", "0.1 1", "0.3 1", "0.4 1"], "line 2: the times are not equidistant: 0.1 s where 0.133333 s is expected"),
+        (
+            ["0 1", "0.1 1", "0.3 1", "0.4 1"],
+            "line 2: the times are not equidistant: 0.1 s where 0.133333 s is expected",
+        ),
         (["0 1", "0 1", "0 1"], "line 3: the times must increase"),
         (["0.00 1", "0.01 1", "0.01 1", "0.02 1"], "the times are not equidistant"),
         (["0 1"], "line 1: at least two times expected"),
@@ -284,11 +296,19 @@ class Trace:
 def test_traces_of_obspy_need_their_unit_and_no_counts():
     trace = Trace(np.array([0.0, 0.5, -1.0]))
     motion = rk.read_ground_motion(trace, units="cm/s²")
-    assert (motion.pga, motion.step, motion.name, motion.component, motion.file) == (0.01, 0.01, "XY.TOWN", "HNE", None)
+    assert (motion.pga, motion.step, motion.name, motion.component, motion.file) == (
+        0.01,
+        0.01,
+        "XY.TOWN",
+        "HNE",
+        None,
+    )
     both = rk.read_ground_motions(types.SimpleNamespace(traces=[trace, Trace(np.array([2.0]))]), units="m/s²")
     assert [each.pga for each in both] == [1.0, 2.0]
     assert "give it, for example units=" in refusal_of(trace)
-    assert "the samples are integers, that is, counts of the recorder" in refusal_of(Trace(np.array([1, 2])), units="g")
+    assert "the samples are integers, that is, counts of the recorder" in refusal_of(
+        Trace(np.array([1, 2])), units="g"
+    )
     assert "fill the gaps" in refusal_of(Trace(np.ma.masked_array([1.0, 2.0], [0, 1])), units="g")
     assert "a row of real numbers" in refusal_of(Trace(np.array([])), units="g")
     assert "no trace" in refusal_of(types.SimpleNamespace(traces=[]), units="g")
@@ -323,7 +343,7 @@ def test_baseline_is_removed_and_a_wrong_name_is_no_error_of_the_file(make):
     assert not isinstance(caught.value, rk.RecordError)
 
 
-DIGEST = "?"
+DIGEST = "827ed9f28ce58643c2473c8a3e14fbed37d3b1198995584d568eac6f7c20fefc"
 
 
 def test_synthetic_motions_of_a_seed_are_the_same_on_every_machine():

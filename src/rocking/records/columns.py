@@ -87,7 +87,7 @@ def _step(file: TextFile, places: list[int], texts: list[str]) -> float:
     if not step > 0:
         raise file.error(places[-1], "the times must increase")
     even = times[0] + step * np.arange(len(times))
-    wrong = np.abs(times - even) > np.minimum(2 * rounding + DRIFT * step, step / 4)
+    wrong = np.abs(times - even) > np.minimum(2 * rounding + DRIFT * step, step / 5)
     if wrong.any():
         at = int(np.argmax(wrong))
         raise file.error(
