@@ -3,6 +3,7 @@
 import math
 import pickle
 from fractions import Fraction
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -44,7 +45,7 @@ def test_peaks_are_those_on_a_fine_grid(fine):
 def test_displacement_is_exact_in_rational_numbers():
     values = [Fraction(k * k % 7 - 3, 2) for k in range(20)]
     step, v, u, found = Fraction(1, 4), Fraction(0), Fraction(0), [(0.0, 0.0)]
-    for first, second in zip(values, values[1:], strict=False):
+    for first, second in pairwise(values):
         u += v * step + (2 * first + second) * step**2 / 6
         v += (first + second) * step / 2
         found.append((float(v), float(u)))

@@ -20,22 +20,112 @@ V2_NEW = "{} points of {} data equally spaced at  {:.3f} sec, in cm/sec2. (8f10.
 
 # name: (lines, format, m/s² per unit, step, channels, name, components, has the PGA in its header)
 FILES = {
-    "PEER": (write.peer(WAVE), "PEER AT2", G, 0.01, [WAVE], "Valley-02, 1/2/1940, Town Array #9", ["180"], False),
-    "PEER, old": (write.peer(WAVE, old=True), "PEER AT2", G, 0.01, [WAVE], "Valley-02, 1/2/1940, Town Array #9", ["180"], False),
+    "PEER": (
+        write.peer(WAVE),
+        "PEER AT2",
+        G,
+        0.01,
+        [WAVE],
+        "Valley-02, 1/2/1940, Town Array #9",
+        ["180"],
+        False,
+    ),
+    "PEER, old": (
+        write.peer(WAVE, old=True),
+        "PEER AT2",
+        G,
+        0.01,
+        [WAVE],
+        "Valley-02, 1/2/1940, Town Array #9",
+        ["180"],
+        False,
+    ),
     "SMC": (write.smc(100 * WAVE), "SMC", 0.01, 0.005, [100 * WAVE], "Town, 12 Street, F", ["360°"], True),
-    "CSMIP V1": (write.csmip_v1([WAVE, OTHER]), "CSMIP V1", G, 0.01, [WAVE, OTHER], "Town, Street Rd.", ["90°", "180°"], True),
-    "CSMIP V1, g/10": (write.csmip_v1([WAVE], 50, "g/10"), "CSMIP V1", G / 10, 0.02, [WAVE], "Town, Street Rd.", ["90°"], True),
-    "CSMIP V2": (write.csmip_v2([WAVE, OTHER]), "CSMIP V2", 0.01, 0.02, [WAVE, OTHER], "TOWN FAULT ZONE 14", ["90°", "180°"], True),
-    "CSMIP V2, new": (write.csmip_v2([WAVE], announce=V2_NEW), "CSMIP V2", 0.01, 0.02, [WAVE], "TOWN FAULT ZONE 14", ["90°"], True),
+    "CSMIP V1": (
+        write.csmip_v1([WAVE, OTHER]),
+        "CSMIP V1",
+        G,
+        0.01,
+        [WAVE, OTHER],
+        "Town, Street Rd.",
+        ["90°", "180°"],
+        True,
+    ),
+    "CSMIP V1, g/10": (
+        write.csmip_v1([WAVE], 50, "g/10"),
+        "CSMIP V1",
+        G / 10,
+        0.02,
+        [WAVE],
+        "Town, Street Rd.",
+        ["90°"],
+        True,
+    ),
+    "CSMIP V2": (
+        write.csmip_v2([WAVE, OTHER]),
+        "CSMIP V2",
+        0.01,
+        0.02,
+        [WAVE, OTHER],
+        "TOWN FAULT ZONE 14",
+        ["90°", "180°"],
+        True,
+    ),
+    "CSMIP V2, new": (
+        write.csmip_v2([WAVE], announce=V2_NEW),
+        "CSMIP V2",
+        0.01,
+        0.02,
+        [WAVE],
+        "TOWN FAULT ZONE 14",
+        ["90°"],
+        True,
+    ),
     "USC": (write.usc(WAVE), "USC V2", 0.01, 0.02, [WAVE], "TOWN FAULT ZONE 14", ["90°"], True),
-    "COSMOS": (write.cosmos([WAVE, OTHER]), "COSMOS V2", 0.01, 0.005, [WAVE, OTHER], "Town - Street", ["90°", "180°"], True),
-    "COSMOS V1": (write.cosmos([WAVE], title="Uncorrected acceleration"), "COSMOS V1", 0.01, 0.005, [WAVE], "Town - Street", ["90°"], True),
+    "COSMOS": (
+        write.cosmos([WAVE, OTHER]),
+        "COSMOS V2",
+        0.01,
+        0.005,
+        [WAVE, OTHER],
+        "Town - Street",
+        ["90°", "180°"],
+        True,
+    ),
+    "COSMOS V1": (
+        write.cosmos([WAVE], title="Uncorrected acceleration"),
+        "COSMOS V1",
+        0.01,
+        0.005,
+        [WAVE],
+        "Town - Street",
+        ["90°"],
+        True,
+    ),
     "K-NET": (write.knet(COUNTS), "K-NET", 0.01, 0.01, [KNET], "XYZ005", ["N-S"], True),
     "ESM": (write.esm(WAVE), "ESM", 0.01, 0.005, [WAVE], "Town Hall", ["HNE"], True),
-    "GeoNet V2A": (write.geonet([np.round(90 * WAVE, 1)] * 3), "GeoNet V2A", 1e-3, 0.02, [np.round(90 * WAVE, 1)] * 3, "Town Farm", ["N0W", "N1W", "N2W"], True),
-    "GeoNet V1A": (write.geonet([np.round(90 * WAVE, 1)], raw=True), "GeoNet V1A", 1e-3, 0.02, [np.round(90 * WAVE, 1)], "Town Farm", ["N0W"], True),
+    "GeoNet V2A": (
+        write.geonet([np.round(90 * WAVE, 1)] * 3),
+        "GeoNet V2A",
+        1e-3,
+        0.02,
+        [np.round(90 * WAVE, 1)] * 3,
+        "Town Farm",
+        ["N0W", "N1W", "N2W"],
+        True,
+    ),
+    "GeoNet V1A": (
+        write.geonet([np.round(90 * WAVE, 1)], raw=True),
+        "GeoNet V1A",
+        1e-3,
+        0.02,
+        [np.round(90 * WAVE, 1)],
+        "Town Farm",
+        ["N0W"],
+        True,
+    ),
     "columns": (write.columns(WAVE), "text", 1.0, 0.01, [WAVE], "file.x", [""], False),
-}  # fmt: skip
+}
 
 
 @pytest.fixture
@@ -106,32 +196,86 @@ def changed(lines, old, new):
 
 
 WRONG = {
-    "count too large": (changed(write.peer(WAVE), "NPTS=  37", "NPTS=  47"), "line 12: the file ends after 37 samples of 47"),
-    "count too small": (changed(write.peer(WAVE), "NPTS=  37", "NPTS=  35"), "line 12: more than the 35 samples of the header"),
-    "count no number": (changed(write.peer(WAVE), "NPTS=  37", "NPTS=  1e9"), "line 4: the number of samples must be a whole number from 1"),
-    "step of zero": (changed(write.peer(WAVE), "DT=   0.0100", "DT=   0.0000"), "line 4: the time step must be positive"),
-    "another quantity": (write.peer(WAVE, title="VELOCITY TIME SERIES IN UNITS OF CM/S"), "line 3: acceleration expected"),
-    "unknown unit": (write.peer(WAVE, title="ACCELERATION TIME SERIES IN UNITS OF FT/S2"), "line 3: a unit of acceleration expected; got 'FT/S2'"),
+    "count too large": (
+        changed(write.peer(WAVE), "NPTS=  37", "NPTS=  47"),
+        "line 12: the file ends after 37 samples of 47",
+    ),
+    "count too small": (
+        changed(write.peer(WAVE), "NPTS=  37", "NPTS=  35"),
+        "line 12: more than the 35 samples of the header",
+    ),
+    "count no number": (
+        changed(write.peer(WAVE), "NPTS=  37", "NPTS=  1e9"),
+        "line 4: the number of samples must be a whole number from 1",
+    ),
+    "step of zero": (
+        changed(write.peer(WAVE), "DT=   0.0100", "DT=   0.0000"),
+        "line 4: the time step must be positive",
+    ),
+    "another quantity": (
+        write.peer(WAVE, title="VELOCITY TIME SERIES IN UNITS OF CM/S"),
+        "line 3: acceleration expected",
+    ),
+    "unknown unit": (
+        write.peer(WAVE, title="ACCELERATION TIME SERIES IN UNITS OF FT/S2"),
+        "line 3: a unit of acceleration expected; got 'FT/S2'",
+    ),
     "header cut": (write.peer(WAVE)[:3], "line 3: the file ends in its header"),
     "not a number": ([*write.peer(WAVE)[:-1], "  NaN 1.0"], "line 12: numbers expected"),
-    "too large": (changed(write.esm(WAVE), "0.753000", "8e30"), "acceleration must be finite and of size up to 1e+06, unlike sample 1"),
-    "overflow": (changed(write.smc(100 * WAVE), "    75.300", "    1e9999"), "a sample must be a number; got '1e9999'"),
-    "stars": (changed(write.smc(100 * WAVE), "    75.300", "**********"), "line 30: a sample must be a number; got '**********'"),
-    "wide columns": (changed(write.cosmos([WAVE]), "(8F10.5)", "(8F9.5)"), "more than the 37 samples of the header, or more than 8 numbers in a line"),
+    "too large": (
+        changed(write.esm(WAVE), "0.753000", "8e30"),
+        "acceleration must be finite and of size up to 1e+06, unlike sample 1",
+    ),
+    "overflow": (
+        changed(write.smc(100 * WAVE), "    75.300", "    1e9999"),
+        "a sample must be a number; got '1e9999'",
+    ),
+    "stars": (
+        changed(write.smc(100 * WAVE), "    75.300", "**********"),
+        "line 30: a sample must be a number; got '**********'",
+    ),
+    "wide columns": (
+        changed(write.cosmos([WAVE]), "(8F10.5)", "(8F9.5)"),
+        "more than the 37 samples of the header, or more than 8 numbers in a line",
+    ),
     "velocity": (["4 VELOCITY", *write.smc(WAVE)[1:]], "line 1: acceleration expected"),
-    "no step": (changed(write.cosmos([WAVE]), "       5.000000", "    -999.000000"), "real-header value 62, must be positive"),
+    "no step": (
+        changed(write.cosmos([WAVE]), "       5.000000", "    -999.000000"),
+        "real-header value 62, must be positive",
+    ),
     "no data": (write.cosmos([WAVE])[:40], "no line announces acceleration"),
-    "ESM without count": (changed(write.esm(WAVE), "NDATA: 37", "NDATA:"), "line 64: the header ends here and lacks NDATA"),
-    "ESM velocity": (changed(write.esm(WAVE), "UNITS: cm/s^2", "UNITS: cm/s"), "line 7: a unit of acceleration expected; got 'cm/s'"),
-    "K-NET divisor": (write.knet(COUNTS, factor="3920(gal)/0"), "line 14: the divisor of the scale factor must not be 0"),
-    "K-NET rate": ([line for line in write.knet(COUNTS) if "Freq" not in line], "line 17: the header lacks the sampling frequency"),
+    "ESM without count": (
+        changed(write.esm(WAVE), "NDATA: 37", "NDATA:"),
+        "line 64: the header ends here and lacks NDATA",
+    ),
+    "ESM velocity": (
+        changed(write.esm(WAVE), "UNITS: cm/s^2", "UNITS: cm/s"),
+        "line 7: a unit of acceleration expected; got 'cm/s'",
+    ),
+    "K-NET divisor": (
+        write.knet(COUNTS, factor="3920(gal)/0"),
+        "line 14: the divisor of the scale factor must not be 0",
+    ),
+    "K-NET rate": (
+        [line for line in write.knet(COUNTS) if "Freq" not in line],
+        "line 17: the header lacks the sampling frequency",
+    ),
     "K-NET empty": (write.knet(COUNTS)[:17], "17 lines of header, then counts expected"),
-    "CSMIP unit": (changed(write.csmip_v1([WAVE]), "units of g.  ", "units of volts.  "), "a unit of acceleration expected; got 'volts'"),
+    "CSMIP unit": (
+        changed(write.csmip_v1([WAVE]), "units of g.  ", "units of volts.  "),
+        "a unit of acceleration expected; got 'volts'",
+    ),
     "CSMIP format": (changed(write.csmip_v1([WAVE]), "(8f9.6)", ""), "format of the samples expected"),
-    "CSMIP second channel": (changed(write.csmip_v2([WAVE, OTHER]), " 30 POINTS OF ACCEL", " x POINTS OF ACCEL"), "number of points, time step or rate, and unit expected"),
-    "SMC comments": (changed(write.smc(WAVE), "    -32768         2", "    -32768        -2"), "line 13: the number of lines of comment must be a whole number from 0"),
+    "CSMIP second channel": (
+        changed(write.csmip_v2([WAVE, OTHER]), " 30 POINTS OF ACCEL", " x POINTS OF ACCEL"),
+        "number of points, time step or rate, and unit expected",
+    ),
+    "SMC comments": (
+        changed(write.smc(WAVE), "    -32768         2", "    -32768        -2"),
+        "line 13: the number of lines of comment must be a whole number from 0",
+    ),
     "GeoNet cut": (write.geonet([WAVE])[:30], "line 30: the file ends after 0 samples of 37"),
-}  # fmt: skip
+}
 
 
 @pytest.mark.parametrize("kind", WRONG)
@@ -208,9 +352,20 @@ def test_units_are_units_of_acceleration(make, units):
 
 @pytest.mark.parametrize(
     "units, size",
-    [("m/s²", 1), ("m/s2", 1), ("m/s^2", 1), ("m/s**2", 1), ("m s-2", 1), ("cm/s/s", 0.01), ("Gal", 0.01), ("CMS/SEC/SEC", 0.01)]
-    + [("mm/s2", 1e-3), ("g", G), ("G", G)],
-)  # fmt: skip
+    [
+        ("m/s²", 1),
+        ("m/s2", 1),
+        ("m/s^2", 1),
+        ("m/s**2", 1),
+        ("m s-2", 1),
+        ("cm/s/s", 0.01),
+        ("Gal", 0.01),
+        ("CMS/SEC/SEC", 0.01),
+        ("mm/s2", 1e-3),
+        ("g", G),
+        ("G", G),
+    ],
+)
 def test_spellings_of_units(make, units, size):
     assert rk.read_ground_motion(make(["1", "-2"]), units=units, step=0.1).pga == 2 * size
 
@@ -330,7 +485,7 @@ def test_other_files_are_left_to_obspy(make, monkeypatch):
     motion = rk.read_ground_motion(make(b"\0\1\2\n"), units="m/s²")
     assert (motion.pga, motion.file.format, formats) == (3.0, "SAC", ["MSEED", "SAC"])
     monkeypatch.setitem(sys.modules, "obspy", types.SimpleNamespace(read=None))
-    assert "and none of MSEED, SAC," in refusal_of(make(b"\0\1\2\n"))
+    assert "and none of MSEED, SAC, SACXY," in refusal_of(make(b"\0\1\2\n"))
 
 
 def test_baseline_is_removed_and_a_wrong_name_is_no_error_of_the_file(make):
@@ -381,9 +536,20 @@ def test_synthetic_motions_follow_their_envelope():
 
 @pytest.mark.parametrize(
     "wrong",
-    [{"count": 0}, {"seed": -1}, {"step": 0.0}, {"duration": 1e9}, {"rise": 30.0}, {"strong": 1.0}, {"decay": -1.0}]
-    + [{"pga": 0.0}, {"soil_frequency": 1e3}, {"filter_damping": 0.0}, {"count": 10_000, "duration": 1e5}],
-)  # fmt: skip
+    [
+        {"count": 0},
+        {"seed": -1},
+        {"step": 0.0},
+        {"duration": 1e9},
+        {"rise": 30.0},
+        {"strong": 1.0},
+        {"decay": -1.0},
+        {"pga": 0.0},
+        {"soil_frequency": 1e3},
+        {"filter_damping": 0.0},
+        {"count": 10_000, "duration": 1e5},
+    ],
+)
 def test_arguments_of_synthetic_motions(wrong):
     with pytest.raises(ValueError, match=f"^{next(iter(wrong))} must"):
         rk.synthetic_ground_motions(**{"count": 1, "seed": 1} | wrong)

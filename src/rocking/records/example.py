@@ -20,6 +20,11 @@ def example_ground_motion() -> GroundMotion:
     GroundMotion
         30 s with a PGA of 1.04 m/s².
 
+    See Also
+    --------
+    read_ground_motion : The motion in a file of your own.
+    synthetic_ground_motions : Motions that no instrument recorded.
+
     Examples
     --------
     >>> motion = example_ground_motion()

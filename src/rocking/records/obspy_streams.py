@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import warnings
 from typing import Any
 
 import numpy as np
@@ -10,7 +11,7 @@ import numpy as np
 from rocking.records.channel import Channel, RecordError
 from rocking.records.content import Content
 
-FORMATS = ("MSEED", "SAC", "SACXY", "GSE2", "GSE1", "KINEMETRICS_EVT", "REFTEK130", "SEISAN", "SEG2")
+FORMATS = ("MSEED", "SAC", "SACXY", "KINEMETRICS_EVT", "GSE2")
 """Formats of ObsPy that are tried. Each is named, because its search for the format also unpickles a file."""
 INSTALL = "run pip install '.[obspy]' in a copy of the repository"
 
@@ -30,7 +31,9 @@ def read(content: Content) -> list[Channel]:
         ) from None
     for name in FORMATS:
         try:
-            stream = obspy.read(io.BytesIO(content.data), format=name)
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")  # most concern a format that the file does not have
+                stream = obspy.read(io.BytesIO(content.data), format=name)
         except Exception:  # noqa: BLE001 - readers of other formats fail in any way
             continue
         return channels_of(stream, content.name, name)

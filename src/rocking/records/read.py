@@ -50,7 +50,7 @@ def read_ground_motion(
     - PEER AT2, COSMOS V1 and V2, CSMIP/CDMG V1 and V2, USC V2, SMC;
     - K-NET and KiK-net ASCII, ESM ASCII, GeoNet V1A and V2A;
     - text with one column (acceleration) or two (time, acceleration);
-    - miniSEED, SAC, GSE2 and others, if ObsPy is installed.
+    - miniSEED, SAC and Kinemetrics files, if ObsPy is installed.
 
     Parameters
     ----------
@@ -81,6 +81,11 @@ def read_ground_motion(
     -----
     UserWarning
         If the peak of the samples differs from the peak in the header: see `RecordFile.pga_agrees`.
+
+    See Also
+    --------
+    read_ground_motions : All channels of a file.
+    example_ground_motion : The motion that comes with the package.
 
     Examples
     --------
@@ -127,6 +132,10 @@ def read_ground_motions(
     -----
     UserWarning
         As for `read_ground_motion`.
+
+    See Also
+    --------
+    read_ground_motion : One channel of a file.
 
     Examples
     --------

@@ -87,6 +87,11 @@ def synthetic_ground_motions(
     TypeError, ValueError
         If a value is of the wrong type or lies outside its range.
 
+    See Also
+    --------
+    read_ground_motion : A recorded motion.
+    example_ground_motion : The recorded motion that comes with the package.
+
     References
     ----------
     Clough & Penzien, Dynamics of Structures, McGraw-Hill (1975). Form of the envelope: Jennings, Housner & Tsai, Simulated
