@@ -18,6 +18,7 @@ def branch():
 
 
 MADE = {
+    "GroundMotion": lambda: rk.GroundMotion([0.0, 1.0, 0.5], step=0.1, baseline="mean").scaled(2.0),
     "Motion": lambda: rk.simulate(PERIODIC, cycles=20),
     "section": lambda: rk.simulate(PERIODIC, cycles=20, record="section"),
     "LyapunovSpectrum": lambda: rk.lyapunov(CHAOTIC, cycles=2_000),
@@ -83,6 +84,7 @@ def test_arrays_refuse_to_be_written_to_in_copies_too(value, how):
         lambda: rk.repeatability(PERIODIC, samples=20),
         lambda: rk.classify(PERIODIC).orbit,
         lambda: PERIODIC,
+        rk.example_ground_motion,
     ],
 )
 def test_frozen_values_have_a_hash_that_equal_ones_share(make):

@@ -51,7 +51,7 @@ def _component(file: TextFile, first: int, *, raw: bool) -> tuple[Channel, int]:
         "mm/s²",
         step,
         "GeoNet V1A" if raw else "GeoNet V2A",
-        " ".join(file.line(first + 2).split()),
+        file.line(first + 2),
         file.found(r"^Component\s+(\S+)", first, numbers),
         file.peak(peak[0], peak[1].group(1), "mm/s²") if peak else None,
     )

@@ -179,14 +179,16 @@ def _motion(source: _Source, number: int, given: _Given) -> GroundMotion:
     unit = _stated(place, "units", channel.unit, given.unit, "the unit of its samples", "m/s²")
     step = _stated(place, "step", channel.step, given.step, "its time step", "0.01")
     samples = channel.samples * UNITS[unit]
+    name, component = (" ".join(text.split()) for text in (channel.name, channel.component))
     file = None
     if source.sha256 is not None:
-        component = f", {channel.component}" if channel.component else ""
         file = RecordFile(
             source.name,
             source.sha256,
             channel.format,
-            f"channel {number} of {len(source.channels)}{component}" if several else "",
+            ", ".join(filter(None, (f"channel {number} of {len(source.channels)}", component)))
+            if several
+            else "",
             float(np.abs(samples).max()),
             *(channel.peak or ()),
         )
@@ -194,8 +196,8 @@ def _motion(source: _Source, number: int, given: _Given) -> GroundMotion:
         motion = GroundMotion(
             samples,
             step=step,
-            name=channel.name or source.name,
-            component=channel.component,
+            name=name or source.name,
+            component=component,
             baseline=given.baseline,
             file=file,
         )

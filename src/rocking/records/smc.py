@@ -35,7 +35,7 @@ def read(file: TextFile) -> list[Channel]:
     step = file.step_of_rate(*file.field(reals, RATE_AT, *REAL))
     samples, _ = file.columns(reals + REALS + comments, count, *SAMPLE)
     station = re.match(r"station\s*=\s*(.*?)\s*component=\s*(\S+)", file.line(5))
-    name, component = (" ".join(station.group(1).split()), station.group(2)) if station else ("", "")
+    name, component = (station.group(1), station.group(2)) if station else ("", "")
     component += "°" if component.isdigit() else ""
     peaks = [_peak(file, reals, place) for place in (LARGEST_AT, SMALLEST_AT)]
     largest = max((peak for peak in peaks if peak), default=None)

@@ -49,9 +49,9 @@ class TextFile:
         return None
 
     def found(self, pattern: str, first: int, last: int) -> str:
-        """Return the first group of a pattern in some lines as one clean line; empty if there is none."""
+        """Return the first group of a pattern in some lines; empty if there is none."""
         match = self.find(pattern, first, last)
-        return "" if match is None else " ".join((match[1].group(1) or "").split())
+        return "" if match is None else match[1].group(1).strip()
 
     def field(self, first: int, place: int, width: int, per_line: int) -> tuple[int, str]:
         """Return the line and the text of one number in a table of columns that begins at a line."""
