@@ -12,13 +12,13 @@ from rocking.records.channel import Channel
 from rocking.records.text_file import MAX_SAMPLES, NUMBER, TextFile
 from rocking.records.units import unit_of
 
-SEPARATORS = re.compile(r"\s*[,;]\s*|\s+")
+ROW = re.compile(rf"\s*({NUMBER.pattern})(?:(?:\s*[,;]\s*|\s+)({NUMBER.pattern}))?\s*", re.ASCII)
 COMMENT = re.compile(r"\s*(?:[#%!]|//|$)")
 IN_BRACKETS = re.compile(r"[\[(]\s*([^\[\]()]+?)\s*[\])]")
 AFTER_UNIT = re.compile(r"\bunits?\b(?:\s+(?:is|are|of|in)\b|\s*[:=])*\s*([^\s,;()\[\]]+)", re.IGNORECASE)
 HEADER_LINES = 100
 MAX_DIGITS = 17
-DRIFT = 1e-3
+DRIFT = 1e-2
 """Allowed deviation of a time, in steps, in addition to its rounding."""
 
 
@@ -33,37 +33,34 @@ def read(file: TextFile) -> list[Channel]:
     if first is None:
         raise file.error(0, "one or two numbers in a line expected")
     width = len(_parts(file.lines[first]))
-    rows, places = [], []
+    places, rows = [], []
     for index in range(first, len(file.lines)):
-        if COMMENT.match(file.lines[index]):
-            continue
         row = _parts(file.lines[index])
-        if len(row) != width:
+        if len(row) == width:
+            places.append(index)
+            rows.append(row)
+        elif not COMMENT.match(file.lines[index]):
             raise file.error(
                 index, f"{counted(width, 'number')} expected; got {shown(file.lines[index].strip())}"
             )
-        rows.append(row)
-        places.append(index)
     if len(rows) > MAX_SAMPLES:
         raise file.error(places[MAX_SAMPLES], f"more than {MAX_SAMPLES:,} samples")
-    samples = np.array(
-        [file.number(place, row[-1], "a sample") for place, row in zip(places, rows, strict=True)]
-    )
+    samples = file.numbers(places, [row[-1] for row in rows], "a sample")
     step = None if width == 1 else _step(file, places, [row[0] for row in rows])
     return [Channel(samples, _unit(file, first), step, "text")]
 
 
 def _first_row(file: TextFile) -> int | None:
-    for index, line in enumerate(file.lines[: HEADER_LINES + 1]):
-        if not COMMENT.match(line) and len(_parts(line)) in (1, 2):
-            return index
-    return None
+    return next((index for index, line in enumerate(file.lines[: HEADER_LINES + 1]) if _parts(line)), None)
 
 
-def _parts(line: str) -> list[str]:
-    """Return the numbers of a line as text; none if it has anything else."""
-    parts = SEPARATORS.split(line.strip())
-    return parts if all(map(NUMBER.fullmatch, parts)) else []
+def _parts(line: str) -> tuple[str, ...]:
+    """Return the one or two numbers of a line as text; none if it has anything else."""
+    match = ROW.fullmatch(line)
+    if match is None:
+        return ()
+    first, second = match.groups()
+    return (first,) if second is None else (first, second)
 
 
 def _unit(file: TextFile, first: int) -> str | None:
@@ -81,7 +78,7 @@ def _step(file: TextFile, places: list[int], texts: list[str]) -> float:
     """Return the step of equidistant times, as the shortest decimal number that agrees with the printed times."""
     if len(texts) < 2:
         raise file.error(places[-1], "at least two times expected")
-    times = np.array([file.number(place, text, "a time") for place, text in zip(places, texts, strict=True)])
+    times = file.numbers(places, texts, "a time")
     rounding = _rounding(texts)
     step = float(times[-1] - times[0]) / (len(times) - 1)
     if not step > 0:

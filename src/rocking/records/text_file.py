@@ -13,7 +13,7 @@ from rocking.records.channel import Peak, RecordError
 from rocking.records.content import Content
 from rocking.records.units import UNITS, unit_of
 
-NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[EeDd][-+]?\d+)?")
+NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[EeDd][-+]?\d+)?", re.ASCII)
 MAX_SAMPLES = 10_000_000
 
 
@@ -66,6 +66,17 @@ class TextFile:
         if not math.isfinite(value):
             raise self.error(line, f"{what} must be a number; got {shown(text)}")
         return value
+
+    def numbers(self, lines: list[int], texts: list[str], what: str) -> np.ndarray:
+        """Return finite numbers, each from the text of a number in its line."""
+        try:
+            found = np.fromiter(map(float, texts), float, len(texts))
+        except ValueError:  # Fortran's exponent D
+            found = np.array([self.number(line, text, what) for line, text in zip(lines, texts, strict=True)])
+        if not np.isfinite(found).all():
+            first = int(np.argmin(np.isfinite(found)))
+            self.number(lines[first], texts[first], what)
+        return found
 
     def count(self, line: int, text: str, what: str = "the number of samples", least: int = 1) -> int:
         """Return a number of samples, or of other things."""
