@@ -222,6 +222,11 @@ WRONG = {
     ),
     "header cut": (write.peer(WAVE)[:3], "line 3: the file ends in its header"),
     "not a number": ([*write.peer(WAVE)[:-1], "  NaN 1.0"], "line 12: numbers expected"),
+    "two points": ([*write.peer(WAVE)[:-1], "  1.0.5"], "line 12: numbers expected; got '1.0.5'"),
+    "absurd exponent": (
+        changed(write.esm(WAVE), "PGA_CM/S^2: ", "PGA_CM/S^2: 1e-99999999999999999999 "),
+        "line 9: the peak",
+    ),
     "too large": (
         changed(write.esm(WAVE), "0.753000", "8e30"),
         "acceleration must be finite and of size up to 1e+06, unlike sample 1",
@@ -237,6 +242,19 @@ WRONG = {
     "wide columns": (
         changed(write.cosmos([WAVE]), "(8F10.5)", "(8F9.5)"),
         "more than the 37 samples of the header, or more than 8 numbers in a line",
+    ),
+    "no column": (
+        changed(write.cosmos([WAVE]), "(5F15.6)", "(0F15.6)"),
+        "line 25: a format such as (8F10.3) expected",
+    ),
+    "no width": (changed(write.csmip_v1([WAVE]), "(8f9.6)", "(8f0.6)"), "a format such as (8F10.3) expected"),
+    "huge width": (
+        changed(write.cosmos([WAVE]), "(8F10.5)", f"(8F{'9' * 5000}.5)"),
+        "a format such as (8F10.3) expected",
+    ),
+    "line cut": (
+        [*write.smc(WAVE)[:-1], write.smc(WAVE)[-1][:35]],
+        "line 34: the line ends before its 5 samples; 32 of 37 were read before it",
     ),
     "velocity": (["4 VELOCITY", *write.smc(WAVE)[1:]], "line 1: acceleration expected"),
     "no step": (
@@ -431,6 +449,7 @@ def test_equidistant_times_may_be_rounded(make, times, step):
         (["0 1"], "line 1: at least two times expected"),
         (["0 1", "0.1 1", "0.2"], "line 3: 2 numbers expected; got '0.2'"),
         (["0 1", "0.1 1", "nan 1"], "line 3: 2 numbers expected; got 'nan 1'"),
+        (["0 1", "1e-99999999999999999999 1", "2 1"], "line 2: 2 numbers expected"),
         (["0,1;1,0", "0,2;1,1"], "no known text format"),
     ],
 )

@@ -42,7 +42,7 @@ def _channel(file: TextFile, first: int) -> tuple[Channel, int]:
     if header is None or data is None:
         missing = "the real-header values" if header is None else "acceleration, its unit and its format"
         raise file.error(len(file.lines) - 1, f"no line announces {missing}")
-    begin, columns = header[0] + 1, (int(header[1].group(4)), int(header[1].group(3)))
+    begin, columns = header[0] + 1, file.layout(header[0], header[1].group(3), header[1].group(4))
     line, match = data
     unit = file.unit(line, match.group(2))
     at, text = file.field(begin, STEP_AT, *columns)
@@ -51,9 +51,8 @@ def _channel(file: TextFile, first: int) -> tuple[Channel, int]:
         raise file.error(
             at, f"the time step in ms, real-header value 62, must be positive; got {text.strip()}"
         )
-    samples, after = file.columns(
-        line + 1, file.count(line, match.group(1)), int(match.group(4)), int(match.group(3))
-    )
+    layout = file.layout(line, match.group(3), match.group(4))
+    samples, after = file.columns(line + 1, file.count(line, match.group(1)), *layout)
     at, text = file.field(begin, PEAK_AT, *columns)
     known = file.number(at, text, "the peak acceleration") != UNKNOWN
     stage = "V1" if file.find(r"^\s*(Raw|Uncorrected) acceleration", first, first + 1) else "V2"

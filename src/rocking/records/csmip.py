@@ -54,7 +54,7 @@ def _channel(file: TextFile, first: int, line: int) -> tuple[Channel, int]:
     given = file.find(FORMAT, line, line + 1)
     if raw and given is None:
         raise file.error(line, "format of the samples expected, such as (8F9.6)")
-    columns = (int(given[1].group(2)), int(given[1].group(1))) if given else COLUMNS
+    columns = file.layout(line, given[1].group(1), given[1].group(2)) if given else COLUMNS
     samples, after = file.columns(line + 1, file.count(line, match.group(1)), *columns)
     title = file.find(TITLE, first, line)
     begin = title[0] if title else first

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from rocking.model import counted
 from rocking.records.channel import Channel
-from rocking.records.text_file import NUMBER, TextFile
+from rocking.records.text_file import SEPARATE, TextFile
 
 HEADER = 17
 SCALE = r"^Scale Factor\s+(\S+?)\(gal\)/(\S+)"
@@ -28,7 +28,7 @@ def read(file: TextFile) -> list[Channel]:
     if divisor == 0:
         raise file.error(line, "the divisor of the scale factor must not be 0")
     factor = file.number(line, match.group(1), "the scale factor") / divisor
-    count = sum(len(NUMBER.findall(text)) for text in file.lines[HEADER:])
+    count = sum(len(SEPARATE.findall(text)) for text in file.lines[HEADER:])
     if count == 0:
         raise file.error(len(file.lines) - 1, f"{counted(HEADER, 'line')} of header, then counts expected")
     samples, _ = file.separated(HEADER, count)

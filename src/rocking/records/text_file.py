@@ -13,8 +13,12 @@ from rocking.records.channel import Peak, RecordError
 from rocking.records.content import Content
 from rocking.records.units import UNITS, unit_of
 
-NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[EeDd][-+]?\d+)?", re.ASCII)
+NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[EeDd][-+]?\d{1,4}(?!\d))?", re.ASCII)
+SEPARATE = re.compile(rf"(?:(?<![^\s,])|(?=[-+])){NUMBER.pattern}", re.ASCII)
+"""A number after a blank, a comma or nothing, or with a sign."""
 MAX_SAMPLES = 10_000_000
+MAX_DIGITS = 3
+"""Number of digits of each number in a format such as (8F10.3)."""
 
 
 class TextFile:
@@ -58,6 +62,14 @@ class TextFile:
         index = first + place // per_line
         begin = place % per_line * width
         return index, self.line(index)[begin : begin + width]
+
+    def layout(self, line: int, per_line: str, width: str) -> tuple[int, int]:
+        """Return the width of a column and the columns in a line, from the texts in a format such as (8F10.3)."""
+        if not all(len(text) <= MAX_DIGITS and int(text) for text in (per_line, width)):
+            raise self.error(
+                line, f"a format such as (8F10.3) expected; got {shown(self.lines[line].strip())}"
+            )
+        return int(width), int(per_line)
 
     def number(self, line: int, text: str, what: str) -> float:
         """Return a finite number."""
@@ -127,6 +139,9 @@ class TextFile:
             wanted = min(per_line, count - len(found))
             if line[wanted * width :].strip():
                 raise self.error(index, self._too_many(count, wanted))
+            if len(line) <= (wanted - 1) * width:
+                before = f"{len(found):,} of {count:,} were read before it"
+                raise self.error(index, f"the line ends before its {counted(wanted, 'sample')}; {before}")
             parts = [line[k * width : (k + 1) * width] for k in range(wanted)]
             found += [self.number(index, part, "a sample") for part in parts]
             index += 1
@@ -140,9 +155,9 @@ class TextFile:
         index = first
         while len(found) < count:
             line = self._sample_line(index, len(found), count)
-            if NUMBER.sub("", line).strip(" \t,"):
+            if SEPARATE.sub("", line).strip(" \t,"):
                 raise self.error(index, f"numbers expected; got {shown(line.strip())}")
-            found += [self.number(index, part, "a sample") for part in NUMBER.findall(line)]
+            found += [self.number(index, part, "a sample") for part in SEPARATE.findall(line)]
             index += 1
         if len(found) > count:
             raise self.error(index - 1, self._too_many(count, count))
