@@ -225,7 +225,7 @@ WRONG = {
     "two points": ([*write.peer(WAVE)[:-1], "  1.0.5"], "line 12: numbers expected; got '1.0.5'"),
     "absurd exponent": (
         changed(write.esm(WAVE), "PGA_CM/S^2: ", "PGA_CM/S^2: 1e-99999999999999999999 "),
-        "line 9: the peak",
+        "line 8: the peak",
     ),
     "too large": (
         changed(write.esm(WAVE), "0.753000", "8e30"),

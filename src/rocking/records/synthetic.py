@@ -12,7 +12,7 @@ import numpy as np
 from rocking.model import GroundMotion, refusal, whole, within
 
 MAX_MOTIONS = 10_000
-MAX_VALUES = 100_000_000
+MAX_VALUES = 20_000_000
 UNIFORMS = 12
 """Uniform numbers in a sum that is normal to a good approximation, with standard deviation 1."""
 BITS = 32
@@ -59,7 +59,7 @@ def synthetic_ground_motions(
     Parameters
     ----------
     count : int
-        Number of motions, in [1, 10⁴]; at most 10⁸ samples in all.
+        Number of motions, in [1, 10⁴]; at most 2·10⁷ samples in all.
     seed : int
         Seed of the random numbers, in [0, 2⁶³).
     duration : float
