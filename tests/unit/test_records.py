@@ -164,6 +164,18 @@ def test_samples_unit_step_and_names_are_those_of_the_file(make, kind, end):
         assert file.channel == (several if len(channels) > 1 else "")
 
 
+def test_cosmos_files_may_hold_velocity_between_the_channels(make):
+    raw = write.cosmos([WAVE, OTHER], title="Uncorrected acceleration")
+    velocity = changed(changed(raw, "acceleration", "velocity"), "cm/sec2(04)", "cm/sec(05)")
+    motions = rk.read_ground_motions(
+        make([*velocity, *raw[: len(raw) // 2 + 1], *velocity, *raw[len(raw) // 2 + 1 :], *velocity])
+    )
+    assert [motion.pga for motion in motions] == pytest.approx(
+        [0.01 * np.abs(each).max() for each in (WAVE, OTHER)]
+    )
+    assert [motion.file.format for motion in motions] == ["COSMOS V1"] * 2
+
+
 def test_the_example_has_the_peak_of_its_header():
     motion = rk.example_ground_motion()
     assert (motion.step, motion.acceleration.size, motion.component) == (0.005, 6001, "360°")
@@ -261,7 +273,7 @@ WRONG = {
         changed(write.cosmos([WAVE]), "       5.000000", "    -999.000000"),
         "real-header value 62, must be positive",
     ),
-    "no data": (write.cosmos([WAVE])[:40], "no line announces acceleration"),
+    "no data": (write.cosmos([WAVE])[:40], "line 40: no line announces acceleration"),
     "ESM without count": (
         changed(write.esm(WAVE), "NDATA: 37", "NDATA:"),
         "line 64: the header ends here and lacks NDATA",

@@ -13,11 +13,15 @@ DATA = (
     r"^\s*(\d+)\s+acceleration pts,.*units\s*=\s*([^,(]+)(?:\(\d*\))?\s*,"
     r"\s*Format\s*=\s*\((?:1P)?(\d+)[EF](\d+)\.\d+\)"
 )
+ANNOUNCED = r"^\s*\S+\s+acceleration pts"
+RAW = r"^\s*(Raw|Uncorrected) acceleration"
 STEP_AT = 61
 """Place of the time step in ms among the reals, counted from 0. Real 33 is that of the raw record."""
 PEAK_AT = 63
 UNKNOWN = -999.0
 HEADER_LINES = 120
+TEXT_LINES = 24
+"""Lines of text and integers before the real-header values."""
 
 
 def recognises(file: TextFile) -> bool:
@@ -26,24 +30,28 @@ def recognises(file: TextFile) -> bool:
 
 
 def read(file: TextFile) -> list[Channel]:
-    """Read all channels."""
+    """Read all channels of acceleration; blocks of velocity and displacement have headers of their own."""
     channels: list[Channel] = []
-    first = 0
-    while first < len(file.lines) and (not channels or file.find(INTEGERS, first)):
-        channel, first = _channel(file, first)
+    after = 0
+    while (begun := file.find(ANNOUNCED, after)) is not None:
+        channel, after = _channel(file, after, begun[0])
         channels.append(channel)
+    if not channels:
+        raise file.error(len(file.lines) - 1, "no line announces acceleration")
     return channels
 
 
-def _channel(file: TextFile, first: int) -> tuple[Channel, int]:
-    """Read a channel, and return it with the line after it."""
-    header = file.find(REALS, first)
-    data = file.find(DATA, first)
-    if header is None or data is None:
-        missing = "the real-header values" if header is None else "acceleration, its unit and its format"
-        raise file.error(len(file.lines) - 1, f"no line announces {missing}")
+def _channel(file: TextFile, first: int, line: int) -> tuple[Channel, int]:
+    """Read the channel whose samples follow a line, and return it with the line after it."""
+    match = re.match(DATA, file.line(line), re.IGNORECASE)
+    if match is None:
+        raise file.error(line, "number of points, unit and format expected")
+    header = None
+    while (found := file.find(REALS, first, line)) is not None:
+        header, first = found, found[0] + 1
+    if header is None:
+        raise file.error(line, "no line announces the real-header values before this one")
     begin, columns = header[0] + 1, file.layout(header[0], header[1].group(3), header[1].group(4))
-    line, match = data
     unit = file.unit(line, match.group(2))
     at, text = file.field(begin, STEP_AT, *columns)
     step = file.number(at, text, "the time step in ms, real-header value 62,") / 1000
@@ -55,14 +63,14 @@ def _channel(file: TextFile, first: int) -> tuple[Channel, int]:
     samples, after = file.columns(line + 1, file.count(line, match.group(1)), *layout)
     at, text = file.field(begin, PEAK_AT, *columns)
     known = file.number(at, text, "the peak acceleration") != UNKNOWN
-    stage = "V1" if file.find(r"^\s*(Raw|Uncorrected) acceleration", first, first + 1) else "V2"
-    component = file.found(r"^Sta Cha[^(]*:\s*([^(:]+?)\s*\(", first, header[0])
+    top = max(0, header[0] - TEXT_LINES)
+    component = file.found(r"^Sta Cha[^(]*:\s*([^(:]+?)\s*\(", top, header[0])
     return Channel(
         samples,
         unit,
         step,
-        f"COSMOS {stage}",
-        file.found(r"Code:\s*\S+\s*(.*)", first, header[0]),
+        "COSMOS V1" if file.find(RAW, top, header[0]) else "COSMOS V2",
+        file.found(r"Code:\s*\S+\s*(.*)", top, header[0]),
         re.sub(r"\s*deg$", "°", component),
         file.peak(at, text, unit) if known else None,
     ), after
