@@ -23,7 +23,15 @@ from rocking.model.binomial_share import LEVEL, Share, wilson
 from rocking.model.block import GRAVITY, Block
 from rocking.model.citation import cite
 from rocking.model.classification import Criterion, Kind
-from rocking.model.forcing import FREQUENCIES, MAX_AMPLITUDE, MAX_PHASE, PERIODS, Forcing, Harmonic
+from rocking.model.forcing import (
+    FREQUENCIES,
+    MAX_AMPLITUDE,
+    MAX_PHASE,
+    PERIODS,
+    BaseMotion,
+    Forcing,
+    Harmonic,
+)
 from rocking.model.formatting import counted, ordinal, percent, plus_minus
 from rocking.model.ground_motion import BASELINES, STEPS, GroundMotion
 from rocking.model.notebook_renderers import NotebookPicture
@@ -93,6 +101,7 @@ __all__ = [
     "TILES",
     "VERSION",
     "Attractor",
+    "BaseMotion",
     "BasinMap",
     "Block",
     "Braces",

@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 from attrs import field, frozen
 
-from rocking.model.forcing import FREQUENCIES, MAX_AMPLITUDE, Harmonic
+from rocking.model.forcing import FREQUENCIES, MAX_AMPLITUDE, BaseMotion, Harmonic
 from rocking.model.system import Braces, System
-from rocking.model.validation import exactly_one, reals, refusal, within
+from rocking.model.validation import exactly_one, instance, reals, refusal, within
 
 GRAVITY = 9.80665
 SIZES = (1e-3, 1e3)
@@ -133,6 +133,7 @@ class Block:
 
     def system(
         self,
+        base: BaseMotion | None = None,
         *,
         acceleration: float | None = None,
         acceleration_g: float | None = None,
@@ -142,10 +143,12 @@ class Block:
         phase: float = 0.0,
         braces: Braces | None = None,
     ) -> System:
-        """Return the normalised system of this block on a harmonically shaking base: Eqs. (3) and (4).
+        """Return the normalised system of this block on a shaking base: Eqs. (3) and (4).
 
         Parameters
         ----------
+        base : GroundMotion or Pulse, optional
+            Base motion in SI units. Without it, the base motion is harmonic and the other arguments describe it.
         acceleration, acceleration_g, displacement : float
             Amplitude of the base motion: acceleration a_x in m/s² or in units of g, or displacement d in metres.
             They are related by a_x = ω²d. Give exactly one.
@@ -173,6 +176,33 @@ class Block:
         >>> Block(height=2.0, width=0.5).system(acceleration_g=0.3, frequency_hz=1.2).forcing.amplitude > 1.2
         True
         """
+        harmonic = {
+            "acceleration": acceleration,
+            "acceleration_g": acceleration_g,
+            "displacement": displacement,
+            "frequency_hz": frequency_hz,
+            "period_s": period_s,
+        }
+        if base is None:
+            return System(self._harmonic(**harmonic, phase=phase), self.restitution, braces)
+        given = [name for name, value in harmonic.items() if value is not None] + ["phase"] * (phase != 0.0)
+        if given:
+            raise TypeError(f"give base or {given[0]}, not both")
+        forcing = instance("base", base, BaseMotion).normalised(
+            self.acceleration(1.0), self.frequency_parameter
+        )
+        return System(forcing, self.restitution, braces)
+
+    def _harmonic(
+        self,
+        *,
+        acceleration: float | None,
+        acceleration_g: float | None,
+        displacement: float | None,
+        frequency_hz: float | None,
+        period_s: float | None,
+        phase: float,
+    ) -> Harmonic:
         given = exactly_one(
             acceleration=acceleration, acceleration_g=acceleration_g, displacement=displacement
         )
@@ -184,8 +214,7 @@ class Block:
         }[given]
         largest = self.acceleration(MAX_AMPLITUDE) / per_unit
         amplitude = self.amplitude(within(given, size, 0, largest, unit) * per_unit)  # type: ignore[arg-type]
-        forcing = Harmonic(min(amplitude, MAX_AMPLITUDE), frequency=frequency, phase=phase)
-        return System(forcing, self.restitution, braces)
+        return Harmonic(min(amplitude, MAX_AMPLITUDE), frequency=frequency, phase=phase)
 
     def _forcing_frequency(self, frequency_hz: float | None, period_s: float | None) -> float:
         """Return Ω from the given one of the two; the ends of the range survive the rounding of the conversion."""

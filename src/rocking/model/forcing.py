@@ -61,6 +61,16 @@ class Forcing:
         raise NotImplementedError
 
 
+class BaseMotion:
+    """Base acceleration in SI units, which `Block.system` takes: base class of `GroundMotion` and `Pulse`."""
+
+    __slots__ = ()
+
+    def normalised(self, acceleration: float, frequency: float) -> Forcing:
+        """Return the normalised base acceleration, from the units g θcr in m/s² and α in 1/s."""
+        raise NotImplementedError
+
+
 @frozen(repr=False)
 class Harmonic(Forcing):
     """Harmonic base acceleration A cos(Ωτ + φ), normalised: Yim & Lin (1991), Eq. (3).

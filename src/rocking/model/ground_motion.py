@@ -11,8 +11,9 @@ from attrs import evolve, field, frozen
 
 from rocking.model.arrays import ReadOnlyArrays, read_only
 from rocking.model.block import GRAVITY
+from rocking.model.forcing import BaseMotion
 from rocking.model.oscillator import pseudo_acceleration
-from rocking.model.piecewise_linear import samples
+from rocking.model.piecewise_linear import PiecewiseLinear, samples
 from rocking.model.record_file import RecordFile
 from rocking.model.validation import exactly_one, finite, instance, one_of, reals, refusal, within
 
@@ -52,7 +53,7 @@ def _baseline(value: str) -> str:
 
 
 @frozen(repr=False)
-class GroundMotion(ReadOnlyArrays):
+class GroundMotion(BaseMotion, ReadOnlyArrays):
     """Horizontal acceleration of the ground in SI units, linear between equidistant samples.
 
     Scaled and reversed motions share the samples. The last sample ends the motion: the acceleration is 0 before the first and
@@ -250,6 +251,28 @@ class GroundMotion(ReadOnlyArrays):
         if self.pga == 0.0:
             raise ValueError("pga cannot be given to a motion whose acceleration is 0 throughout")
         return evolve(self, factor=self.factor * (wanted / self.pga))
+
+    def normalised(self, acceleration: float, frequency: float) -> PiecewiseLinear:
+        """Return the normalised base acceleration, which shares the samples.
+
+        Parameters
+        ----------
+        acceleration : float
+            Unit of acceleration g θcr, in m/s².
+        frequency : float
+            Frequency parameter α of the block, in 1/s.
+
+        Returns
+        -------
+        PiecewiseLinear
+            Samples in m/s² with the factor 1/(g θcr), and the step α times that in s.
+
+        Examples
+        --------
+        >>> GroundMotion([0.0, 2.0], step=0.1).normalised(acceleration=4.0, frequency=2.0)
+        PiecewiseLinear(2 samples, step=0.2, scale=0.25)
+        """
+        return PiecewiseLinear(self._samples, step=frequency * self.step, scale=self.factor / acceleration)
 
     def reversed(self) -> GroundMotion:
         """Return the motion in the opposite direction.

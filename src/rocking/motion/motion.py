@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING
 
 from attrs import frozen
@@ -36,6 +37,17 @@ class Motion(Trajectory, NotebookPicture):
         Number of impacts at Θ = 0 and on the braces.
     peak : float
         Largest |Θ| of the run, [0, `duration`].
+    margin : float
+        What the block lacked to overturn, or had to spare, where it came closest to the other outcome, in units of αθcr. It is
+        K₊ = v − 1 − σR(τ) of least |K₊| over all lift-offs and impacts, with the speed v and the side σ after them, and
+        R(τ) = ∫ e^(τ−x) a(x) dx over x > τ. The block leaves side σ for good if K₊ > 0 and it has not returned before. NaN if
+        the block never moves, and for a harmonic base motion or braces.
+    margin_time : float
+        Time τ of that lift-off or impact.
+    certified : bool
+        False if the accumulated rounding error exceeds |K₊| somewhere, or the clearance of the base between two impacts: then the
+        outcome is undecided in double precision. The error is an estimate from the rounding of each arc and its growth.
+        Always True for a harmonic base motion, whose `classify` has its own evidence.
     final : State
         Θ and Θ' at the end, just after an event if there is one.
     duration : float
@@ -124,4 +136,6 @@ class Motion(Trajectory, NotebookPicture):
             how = f"{self.outcome} over {over}"
         else:
             how = f"overturned: overturning is certain from τ = {self.overturning.time:.6g}"
-        return f"{how}; {', '.join(counts)}, peak |Θ| {self.peak:.4g}"
+        margin = "" if math.isnan(self.margin) else f", margin {self.margin:.4g}"
+        undecided = "" if self.certified else " (undecided in double precision)"
+        return f"{how}{undecided}; {', '.join(counts)}, peak |Θ| {self.peak:.4g}{margin}"

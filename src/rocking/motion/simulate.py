@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from rocking.kernels.forcing import parameters as numbers
-from rocking.kernels.march import event_rows, initial_state
+from rocking.kernels.march import event_rows, finite_motion, initial_state
 from rocking.kernels.march import march as kernel
 from rocking.model import (
     Harmonic,
@@ -31,6 +31,8 @@ from rocking.motion.motion import Motion
 MAX_CYCLES = 1_000_000_000
 MAX_SECTION_CYCLES = 100_000_000
 DURATIONS = (1e-9, 1e9)
+NO_ENDING = finite_motion.Ending(kernel.DONE, 0, 0, 0.0, math.nan, math.nan, True)
+"""For a harmonic base motion, which has no end."""
 NO_CYCLES = "be omitted for a base motion of finite length, which has no cycles"
 
 
@@ -105,6 +107,12 @@ def simulate(
     record = one_of("record", record, ("all", "section", "none"))
     count, cycle_length = _span(system, cycles, duration, record)
     p = parameters(system, cycle_length)
+    ending = NO_ENDING
+    if not isinstance(system.forcing, Harmonic):
+        until = math.inf if duration is None else duration
+        ending = finite_motion.run_to_end(p, start.angle, start.velocity, until)
+        if ending.status == kernel.OVERTURNED and duration is None:
+            count = kernel.OPEN
     progress, hit = initial_state.begin_march(p, start.angle, start.velocity)
     first = _first_rows(progress, start, hit)
     status, progress, section, rows = run(p, progress, count, 0.0, record, want_peak=True)
@@ -124,6 +132,9 @@ def simulate(
         impacts=progress.impacts,
         brace_hits=progress.brace_hits,
         peak=progress.peak,
+        margin=ending.margin,
+        margin_time=ending.margin_time,
+        certified=ending.decided,
         cycle_length=p.clock.cycle_length,
         section_rows=section,
         event_rows=np.concatenate([first, *rows]) if record == "all" else first[:0],

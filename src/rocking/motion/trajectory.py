@@ -44,6 +44,9 @@ class Trajectory(ReadOnlyArrays):
     impacts: int
     brace_hits: int
     peak: float
+    margin: float
+    margin_time: float
+    certified: bool
     _cycle_length: float = field(repr=False)
     _section_rows: np.ndarray = field(repr=False, converter=read_only)
     _event_rows: np.ndarray = field(repr=False, converter=read_only)
