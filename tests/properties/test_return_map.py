@@ -16,8 +16,7 @@ from rocking.kernels.deferred import njit
 from rocking.kernels.forcing.harmonic import bracket, next_event
 from rocking.kernels.forcing.harmonic.parameters import harmonic_parameters, parameters_from_row
 from rocking.kernels.forcing.harmonic.solution import arc_from, propagator_or_none
-from rocking.kernels.march.initial_state import UNKNOWN
-from rocking.kernels.march.initial_state import begin_march
+from rocking.kernels.march.initial_state import UNKNOWN, begin_march
 from rocking.kernels.march.march import DONE, march
 from rocking.kernels.march.progress import Recording
 from rocking.kernels.march.tangent import TangentState

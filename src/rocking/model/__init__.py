@@ -39,6 +39,7 @@ from rocking.model.orbit_event import OrbitEvent
 from rocking.model.orbit_stability import Stability, stability_of
 from rocking.model.outcome import Outcome, Overturning
 from rocking.model.piecewise_linear import PiecewiseLinear
+from rocking.model.pulse import KINDS, Pulse
 from rocking.model.record_file import RecordFile
 from rocking.model.si_units import PHYSICAL, block_attributes
 from rocking.model.survey_results import (
@@ -89,6 +90,7 @@ __all__ = [
     "FREQUENCIES",
     "FULL",
     "GRAVITY",
+    "KINDS",
     "LEVEL",
     "MAX_AMPLITUDE",
     "MAX_PHASE",
@@ -121,6 +123,7 @@ __all__ = [
     "Overturning",
     "OverturningCurve",
     "PiecewiseLinear",
+    "Pulse",
     "ReadOnlyArrays",
     "RecordFile",
     "Repeatability",

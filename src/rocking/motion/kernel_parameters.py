@@ -9,7 +9,7 @@ from threading import Lock
 import numpy as np
 
 from rocking.kernels.forcing import parameters as numbers
-from rocking.model import NO_BRACES, Harmonic, PiecewiseLinear, System, quantities
+from rocking.model import NO_BRACES, Harmonic, PiecewiseLinear, Pulse, System, quantities
 
 MAX_TABLES = 8
 """Number of tables that are kept: those of the same samples and step, for all scales and restitutions."""
@@ -25,13 +25,32 @@ def parameters(system: System, cycle_length: float | None = None) -> numbers.Sys
     forcing = system.forcing
     if isinstance(forcing, Harmonic):
         return numbers.harmonic_parameters(**NO_BRACES | quantities(system))
-    assert isinstance(forcing, PiecewiseLinear)
     angle, restitution = (
         (math.inf, 1.0) if system.braces is None else (system.braces.angle, system.braces.restitution)
     )
+    block = numbers.BlockParameters(system.restitution, angle, restitution)
+    if isinstance(forcing, Pulse):
+        if forcing.cosine is not None:
+            return _pulse_parameters(forcing, cycle_length, block)
+        forcing = forcing.samples
+    assert isinstance(forcing, PiecewiseLinear)
     length = numbers.CYCLE * forcing.step if cycle_length is None else cycle_length
-    return numbers.sampled_parameters(
-        tables_for(forcing), forcing.scale, length, system.restitution, angle, restitution
+    return numbers.sampled_parameters(tables_for(forcing), forcing.scale, length, *block)
+
+
+def _pulse_parameters(
+    pulse: Pulse, cycle_length: float | None, block: numbers.BlockParameters
+) -> numbers.PulseParameters:
+    """Return the parameters of a pulse that is a piece of a cosine; a negative amplitude turns the phase by π."""
+    assert pulse.cosine is not None
+    turns, phase = pulse.cosine
+    return numbers.pulse_parameters(
+        amplitude=abs(pulse.amplitude),
+        frequency=2 * math.pi * turns / pulse.duration,
+        phase=phase if pulse.amplitude >= 0 else phase + math.pi,
+        duration=pulse.duration,
+        cycle_length=pulse.duration if cycle_length is None else cycle_length,
+        block=block,
     )
 
 

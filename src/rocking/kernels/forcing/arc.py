@@ -1,16 +1,25 @@
 """Arc, its states and its end, for every forcing: ``drive`` and ``constants`` belong to the forcing, and only its room reads them."""
 
+import math
 from enum import IntEnum
 from typing import NamedTuple
 
 from rocking.kernels.compile_options import INTERNAL_INLINE
 from rocking.kernels.deferred import njit
-from rocking.kernels.forcing.drives import HarmonicConstants, HarmonicDrive, SampledConstants, SampledDrive
+from rocking.kernels.forcing.drives import (
+    HarmonicConstants,
+    HarmonicDrive,
+    PulseConstants,
+    PulseDrive,
+    SampledConstants,
+    SampledDrive,
+)
 
-Drive = HarmonicDrive | SampledDrive
+Drive = HarmonicDrive | SampledDrive | PulseDrive
 
 # After this long an arc restarts from its own state: at e^32 the closed form has used up double precision.
 MAX_ARC_TIME = 32.0
+ROUNDING = 2.0**-53
 
 
 class Found(IntEnum):
@@ -32,7 +41,7 @@ class Arc(NamedTuple):
     angle: float
     velocity: float
     drive: Drive
-    constants: HarmonicConstants | SampledConstants  # of its closed form
+    constants: HarmonicConstants | SampledConstants | PulseConstants  # of its closed form
 
 
 class Instant(NamedTuple):
@@ -44,6 +53,12 @@ class Instant(NamedTuple):
     drive: Drive
     sinh: float
     versinh: float  # cosh t - 1
+
+
+class NoGuess(NamedTuple):
+    """Guess of the next event: the search for it needs none."""
+
+    time: float
 
 
 class Next(NamedTuple):
@@ -69,3 +84,13 @@ def shift_clock(arc, time):
 def within_reach(p, angle):
     """Clip an angle to the range between base and brace, which rounding may exceed near an event."""
     return min(max(angle, 0.0), p.block.brace_angle)
+
+
+@njit(**INTERNAL_INLINE)
+def error_of_arc(arc, t, force):
+    """Return an estimate of the rounding error of (u, u') a time t into an arc that is computed from its own state.
+
+    The sum of its terms: |v| sinh t, (u + force) (cosh t - 1) and u, where the forcing term never exceeds ``force``.
+    """
+    short = min(t, 1.0)
+    return ROUNDING * math.exp(t) * ((abs(arc.velocity) + (arc.angle + force) * short) * short + arc.angle)

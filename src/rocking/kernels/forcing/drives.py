@@ -10,11 +10,26 @@ class HarmonicDrive(NamedTuple):
     sine: float
 
 
+class PulseDrive(NamedTuple):
+    """Pulse at one instant: the time since its start, and cos eta and sin eta as for ``HarmonicDrive``."""
+
+    time: float
+    cosine: float
+    sine: float
+
+
 class HarmonicConstants(NamedTuple):
     """Constants of an arc with harmonic forcing."""
 
     psi: float  # forcing phase at the start
     acceleration: float  # u'' there
+
+
+class PulseConstants(NamedTuple):
+    """Constants of an arc under a pulse, those of ``HarmonicConstants``."""
+
+    psi: float
+    acceleration: float
 
 
 class SampledDrive(NamedTuple):

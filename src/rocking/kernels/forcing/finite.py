@@ -19,7 +19,7 @@ def rounding_error(p, arc, wait):
 
 @contract
 def lowest_between(p, arc, wait):
-    """Return the least u of all minima of an arc before ``wait``, a lower bound of it, and the time; infinity if none."""
+    """Return the least u of all minima of an arc before ``wait``, and the time; infinity if there is none."""
 
 
 @contract

@@ -62,3 +62,9 @@ def of_growth(c):
 def of_angle(c):
     """Return the limit of the error of u."""
     return DEVIATIONS * math.sqrt(max(c.uu, 0.0))
+
+
+@njit(**INTERNAL)
+def of_velocity(c):
+    """Return the limit of the error of u'."""
+    return DEVIATIONS * math.sqrt(max(c.vv, 0.0))

@@ -20,9 +20,11 @@ from rocking.kernels.march.accumulated_error import (
     after_time,
     of_angle,
     of_growth,
+    of_velocity,
     widened,
 )
-from rocking.kernels.march.impact_law import after_event
+from rocking.kernels.march.chatter import base_settling_time
+from rocking.kernels.march.impact_law import SLOW, after_event
 from rocking.kernels.march.initial_state import UNKNOWN, begin
 from rocking.kernels.march.march import CROWDED, DONE, MAX_EVENTS, OVERTURNED, STILL
 from rocking.kernels.march.tangent import event_map
@@ -54,6 +56,16 @@ def is_decided(p, arc, wait, error):
     return lowest > of_angle(widened(after_time(error, sinh, versinh), rounding_error(p, arc, when)))
 
 
+@njit(**INTERNAL)
+def settles(p, arc, error):
+    """Return whether an impact certainly begins a chattering sequence that ends in rest, whatever the rounding errors.
+
+    Rest erases them. Until then they grow beyond all speeds, without any effect on the outcome.
+    """
+    speed = arc.velocity + of_velocity(error)
+    return speed < SLOW and base_settling_time(p, arc.drive, speed) < math.inf
+
+
 @njit(**INTERNAL_INLINE)
 def is_lossless(p, event):
     """Return whether an event takes no energy: an impact at the base, or at a brace."""
@@ -69,14 +81,14 @@ def to_end(p, angle, velocity, until, horizon, want_peak):
     progress, hit = begin(p, angle, velocity, UNKNOWN)
     mode, arc, peak, impacts, brace_hits = progress.mode, progress.arc, progress.peak, 0, int(hit)
     margin, margin_time, decided, cycle, error = math.nan, math.nan, True, 0, EXACT
-    length, guess = p.clock.cycle_length, guess_from(p, 0.0)
+    length, guess, settling = p.clock.cycle_length, guess_from(p, 0.0), False
     status = CROWDED
     for _ in range(MAX_EVENTS):
         coming, _ = next_event(p, mode, arc, guess)
         time = cycle * length + arc.start
         if mode == FLIGHT and p.block.brace_angle == math.inf:
             constant, _ = growth_constant(p, arc)
-            decided = decided and is_decided(p, arc, min(coming.wait, until - time), error)
+            decided = decided and (settling or is_decided(p, arc, min(coming.wait, until - time), error))
             if arc.angle == 0.0 and not abs(constant) >= abs(margin):
                 margin, margin_time = constant, time
         if coming.wait == math.inf:
@@ -96,6 +108,7 @@ def to_end(p, angle, velocity, until, horizon, want_peak):
             )
         error = after_saltation(error, *event_map(p, arc, coming, after_mode, after.side))
         mode, arc = after_mode, after
+        settling = mode == FLIGHT and (settling or (coming.event == IMPACT and settles(p, arc, error)))
         while arc.start > length:
             cycle, arc = cycle + 1, shift_clock(arc, length)
         if coming.event in (IMPACT, BRACE) and is_lossless(p, coming.event) and has_ended(p, arc.drive):

@@ -1,21 +1,15 @@
 """Bodies of ``forcing.contract`` and ``forcing.finite`` for a sampled base acceleration."""
 
 import math
-from typing import NamedTuple
 
 from rocking.kernels.compile_options import INTERNAL, INTERNAL_INLINE
 from rocking.kernels.deferred import njit, provide
 from rocking.kernels.event_kinds import FLIGHT, REST
 from rocking.kernels.forcing import contract, finite
+from rocking.kernels.forcing.arc import NoGuess
 from rocking.kernels.forcing.sampled import extrema, held, rounding, search, solution
 from rocking.kernels.forcing.sampled.parameters import SampledParameters
 from rocking.kernels.forcing.sampled.solution import arc_at_place, place_at
-
-
-class NoGuess(NamedTuple):
-    """Guess of the next event: the search for it needs none."""
-
-    time: float
 
 
 @njit(**INTERNAL)

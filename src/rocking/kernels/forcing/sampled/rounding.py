@@ -4,10 +4,12 @@ import math
 
 from rocking.kernels.compile_options import INTERNAL, INTERNAL_INLINE
 from rocking.kernels.deferred import njit
+from rocking.kernels.forcing.arc import error_of_arc
 from rocking.kernels.forcing.drives import SampledDrive
 from rocking.kernels.forcing.sampled.search import FIRST
-from rocking.kernels.forcing.sampled.segment import ROUNDING
+from rocking.kernels.forcing.sampled.segment import ROUNDING, Piece, at, first_zero
 from rocking.kernels.forcing.sampled.solution import (
+    forcing_on,
     last_index,
     place_at,
     state_at_sample,
@@ -52,8 +54,7 @@ def rounding_error(p, arc, wait):
     start, growth = arc.drive.index, math.exp(wait)
     end = place_at(p, start, arc.drive.offset + wait)
     if end.index <= start + FIRST or start >= last_index(p):
-        force = 1.0 + abs(p.forcing.scale) * p.forcing.tables.largest
-        return ROUNDING * growth * ((abs(arc.velocity) + (arc.angle + force) * wait) * wait + arc.angle)
+        return error_of_arc(arc, wait, 1.0 + abs(p.forcing.scale) * p.forcing.tables.largest)
     constant, error = growth_constant(p, arc)
     size, _ = table_size(p, start)
     return error * growth + ROUNDING * (1.0 + size + abs(constant) * growth + abs(arc.constants.shrink))
@@ -63,7 +64,7 @@ def rounding_error(p, arc, wait):
 def lowest_between(p, arc, wait):
     """Provide ``finite.lowest_between``.
 
-    A minimum lies between two samples where u' changes from falling to rising. Where u is convex its tangents bound it.
+    A minimum lies between two samples where u' changes from falling to rising: there -u' falls through 0.
     """
     last, step = last_index(p), p.forcing.tables.step
     end = place_at(p, arc.drive.index, arc.drive.offset + wait)
@@ -76,8 +77,9 @@ def lowest_between(p, arc, wait):
         before, fell = u, v
         u, v = state_at_sample(p, arc.side, index, growing, shrinking)
         if index > first.index and fell < 0.0 <= v:
-            x = min(max((u - before - v * step) / (fell - v), 0.0), step)
-            lowest = before + fell * x
+            force, rate = forcing_on(p, arc.side, index - 1)
+            x, _ = first_zero(Piece(-fell, -(before + force), -rate, 0.0), step)
+            lowest, _ = at(Piece(before, fell, force, rate), min(x, step))
             if lowest < least:
                 least, when = lowest, elapsed
         elapsed += step

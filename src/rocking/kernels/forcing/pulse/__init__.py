@@ -1,0 +1,1 @@
+"""Base acceleration that is a piece of a cosine: a pulse."""

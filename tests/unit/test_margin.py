@@ -1,0 +1,123 @@
+"""Margin of a motion under a base acceleration of finite length, and whether rounding may have decided."""
+
+import math
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from scipy.integrate import quad
+
+import rocking as rk
+
+
+def constant_after(motion, event):
+    """K₊ = v − 1 − σR(τ) after an event, with R by quadrature of the base acceleration."""
+    base, time = motion.system.forcing, float(event["time"])
+    places = np.append(base.step * np.arange(base.values.size), np.inf)
+    places = np.concatenate(([time], places[(places > time) & np.isfinite(places)]))
+    later = sum(
+        quad(lambda x: math.exp(time - x) * base.acceleration(x), low, high, epsabs=1e-13)[0]
+        for low, high in pairwise(places)
+    )
+    side = np.sign(event["after"]) or np.sign(motion.at(time + 1e-6)[0])
+    return abs(float(event["after"])) - 1.0 - side * later
+
+
+def random_system(seed, scale):
+    values = np.random.default_rng(seed).uniform(-1, 1, 20)
+    return rk.System(rk.PiecewiseLinear(values, step=0.25, scale=scale), restitution=0.7)
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_margin_is_the_least_constant_over_lift_offs_and_impacts(seed):
+    motion = rk.simulate(random_system(seed, 2.0))
+    moving = motion.events[
+        (motion.events["kind"] == "lift-off")
+        | ((motion.events["kind"] == "impact") & (np.abs(motion.events["after"]) > 1e-4))
+    ]
+    found = [constant_after(motion, event) for event in moving]
+    nearest = int(np.argmin(np.abs(found)))
+    assert abs(motion.margin) <= abs(found[nearest]) + 1e-11
+    if motion.margin_time in moving["time"]:
+        assert motion.margin == pytest.approx(found[nearest], abs=1e-11)
+        assert motion.margin_time == moving["time"][nearest]
+    else:  # within chattering, below the speed that is looked at here
+        assert abs(motion.margin) < abs(found[nearest])
+
+
+def test_margin_changes_its_sign_where_the_outcome_changes():
+    """A rectangular pulse: K₊ = A (1 − exp(−T)) − 1 at the lift-off."""
+    for amplitude in (1.2, 1.5, 1.6, 3.0):
+        motion = rk.simulate(rk.System(rk.Pulse("rectangular", amplitude=amplitude, duration=1.0), 0.9))
+        assert motion.margin == pytest.approx(-amplitude * math.expm1(-1.0) - 1.0, abs=1e-14)
+        assert (motion.margin > 0) == (motion.outcome == "overturned")
+        assert motion.margin_time == 0.0
+
+
+def test_a_block_that_never_moves_has_no_margin():
+    motion = rk.simulate(rk.System(rk.PiecewiseLinear([0.0, 0.9, -0.9, 0.0], step=0.3), 0.9))
+    assert math.isnan(motion.margin)
+    assert math.isnan(motion.margin_time)
+    assert motion.certified
+    assert "margin" not in str(motion)
+
+
+def test_a_motion_on_the_threshold_is_undecided():
+    amplitude = -1 / math.expm1(-1.0)
+    motions = [
+        rk.simulate(
+            rk.System(rk.Pulse("rectangular", amplitude=amplitude * (1 + k * 2.0**-52), duration=1.0), 0.9)
+        )
+        for k in (-2, 0, 2)
+    ]
+    assert not any(motion.certified for motion in motions)
+    assert all("(undecided in double precision)" in str(motion) for motion in motions)
+    away = rk.simulate(
+        rk.System(rk.Pulse("rectangular", amplitude=amplitude * (1 + 1e-12), duration=1.0), 0.9)
+    )
+    assert away.certified
+    assert away.outcome == "overturned"
+
+
+def test_a_graze_of_the_base_is_undecided():
+    """The base stops a block in the middle of its way, so that its angle has a minimum: near 0 rounding decides on an impact."""
+
+    def found(second):
+        base = rk.PiecewiseLinear([1.5, 1.5, -second, -second, 2.5, 2.5, 0.0], step=0.35)
+        return rk.simulate(rk.System(base, 0.9))
+
+    low, high = 0.0, 6.0  # no impact before the last push, and one
+    first = [
+        rk.simulate(
+            rk.System(rk.PiecewiseLinear([1.5, 1.5, -s, -s, 2.5, 2.5, 0.0], step=0.35), 0.9), duration=1.8
+        ).impacts
+        for s in (low, high)
+    ]
+    assert first[0] == 0 < first[1]
+    for _ in range(60):
+        middle = (low + high) / 2
+        base = rk.PiecewiseLinear([1.5, 1.5, -middle, -middle, 2.5, 2.5, 0.0], step=0.35)
+        impacts = rk.simulate(rk.System(base, 0.9), duration=1.8).impacts
+        low, high = (middle, high) if impacts == 0 else (low, middle)
+    assert not found(low).certified
+    assert found(low - 1e-3).certified
+
+
+def test_without_losses_the_energy_after_the_base_motion_decides():
+    for amplitude, outcome in ((1.5, "bounded"), (1.7, "overturned")):
+        system = rk.System(rk.Pulse("rectangular", amplitude=amplitude, duration=1.0), 1.0)
+        motion = rk.simulate(system)
+        assert motion.outcome == outcome
+        assert motion.certified
+    # on its way back at the end of the base motion, with enough energy to overturn on the other side
+    base = rk.PiecewiseLinear([2.0, 2.0, -6.0, -6.0], step=0.25)
+    motion = rk.simulate(rk.System(base, 1.0))
+    assert motion.outcome == "overturned"
+
+
+def test_duration_limits_the_margin():
+    system = random_system(3, 2.0)
+    whole = rk.simulate(system)
+    part = rk.simulate(system, duration=0.5 * whole.margin_time)
+    assert not part.margin_time > part.duration
+    assert not abs(part.margin) < abs(whole.margin)
