@@ -33,7 +33,7 @@ def _phase(value: float) -> float:
 
 
 class Forcing:
-    """Base acceleration of a system: base class of `Harmonic` and `PiecewiseLinear`."""
+    """Base acceleration of a system: base class of `Harmonic`, `PiecewiseLinear` and `Pulse`."""
 
     __slots__ = ()
 

@@ -18,8 +18,7 @@ from rocking.model.record_file import RecordFile
 from rocking.model.validation import exactly_one, finite, instance, one_of, reals, refusal, within
 
 STEPS = (1e-6, 1e3)
-MAX_ACCELERATION = 1e6
-MAX_FACTOR = 1e6
+MAX_ACCELERATION = MAX_FACTOR = 1e6
 PERIODS = (1e-4, 1e4)
 MAX_DAMPING = 0.99
 BASELINES = {"none": None, "mean": 0, "linear": 1, "quadratic": 2}
@@ -260,12 +259,12 @@ class GroundMotion(BaseMotion, ReadOnlyArrays):
         acceleration : float
             Unit of acceleration g θcr, in m/s².
         frequency : float
-            Frequency parameter α of the block, in 1/s.
+            Frequency parameter α, in 1/s.
 
         Returns
         -------
         PiecewiseLinear
-            Samples in m/s² with the factor 1/(g θcr), and the step α times that in s.
+            Samples with the factor 1/(g θcr), and the step times α.
 
         Examples
         --------

@@ -92,8 +92,7 @@ class Pulse(Forcing, BaseMotion):
     amplitude : float
         Largest acceleration; negative for the opposite direction.
     duration : float
-        Duration, in [1e-6, 1e6]. For Ricker pulses it is the period Tp at the peak of the Fourier spectrum of the ground
-        velocity or displacement; they last 2.75 Tp and 3.8 Tp.
+        Duration, in [1e-6, 1e6]. For Ricker pulses it is their period Tp, and they last 2.75 Tp and 3.8 Tp.
 
     Raises
     ------

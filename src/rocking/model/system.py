@@ -93,7 +93,7 @@ class System:
 
     Parameters
     ----------
-    forcing : Harmonic or PiecewiseLinear
+    forcing : Harmonic, PiecewiseLinear or Pulse
         Base acceleration; for `Harmonic`, Eq. (3).
     restitution : float
         Coefficient of restitution e, the ratio of the angular velocities just after and just before an impact at Θ = 0,

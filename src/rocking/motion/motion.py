@@ -38,16 +38,19 @@ class Motion(Trajectory, NotebookPicture):
     peak : float
         Largest |Θ| of the run, [0, `duration`].
     margin : float
-        What the block lacked to overturn, or had to spare, where it came closest to the other outcome, in units of αθcr. It is
-        K₊ = v − 1 − σR(τ) of least |K₊| over all lift-offs and impacts, with the speed v and the side σ after them, and
-        R(τ) = ∫ e^(τ−x) a(x) dx over x > τ. The block leaves side σ for good if K₊ > 0 and it has not returned before. NaN if
-        the block never moves, and for a harmonic base motion or braces.
+        What the block lacked to overturn (negative) or had to spare, in units of αθcr. It is the K₊ of least size over all
+        lift-offs and impacts.
+
+        K₊ = v − 1 − σR(τ), with the speed v and the side σ afterwards. R(τ) is the integral of e^(τ−x) a(x) over all later x.
+
+        The block leaves for good if K₊ > 0, unless it returns before. NaN if the block never moves, for a harmonic base motion,
+        and between braces.
     margin_time : float
         Time τ of that lift-off or impact.
     certified : bool
-        False if the accumulated rounding error exceeds |K₊| somewhere, or the clearance of the base between two impacts: then the
-        outcome is undecided in double precision. The error is an estimate from the rounding of each arc and its growth.
-        Always True for a harmonic base motion, whose `classify` has its own evidence.
+        False if the outcome is undecided in double precision: the accumulated rounding error exceeds |K₊| somewhere, or the
+        clearance of a minimum of |Θ| between two impacts. The error is an estimate from the rounding of each arc and its
+        growth. True for a harmonic base motion.
     final : State
         Θ and Θ' at the end, just after an event if there is one.
     duration : float

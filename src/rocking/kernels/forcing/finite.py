@@ -1,7 +1,6 @@
 """Functions that a forcing of finite length provides besides those of ``contract``. It is 0 after its end.
 
-The constant K+ of an arc decides whether the block comes back: u = (K+ e^t + K- e^-t)/2 + (bounded terms), so that it leaves
-for good if K+ > 0 and it has not come back before.
+An arc is u = (K+ e^t + K- e^-t)/2 and bounded terms. So the block leaves for good if K+ > 0, unless it comes back before.
 """
 
 from rocking.kernels.deferred import contract

@@ -16,6 +16,7 @@ from rocking.kernels.forcing.finite import growth_constant, has_ended, lowest_be
 from rocking.kernels.forcing.parameters import FiniteParameters
 from rocking.kernels.march.accumulated_error import (
     EXACT,
+    Covariance,
     after_saltation,
     after_time,
     of_angle,
@@ -41,6 +42,16 @@ class Ending(NamedTuple):
     margin: float  # K+ of least size over all lift-offs and impacts; NaN if the block never moves
     margin_time: float
     decided: bool  # whether no rounding error can have changed the outcome
+
+
+class Closeness(NamedTuple):
+    """Margin and accumulated rounding error of a motion, up to the present arc."""
+
+    margin: float
+    time: float
+    decided: bool
+    settling: bool  # whether it is certain that the present impacts accumulate to rest
+    error: Covariance
 
 
 @njit(**INTERNAL)
@@ -73,6 +84,29 @@ def is_lossless(p, event):
 
 
 @njit(**INTERNAL)
+def after_arc(p, arc, time, wait, so_far):
+    """Return the closeness after an arc that starts at a time of the motion and lasts for ``wait``."""
+    constant, _ = growth_constant(p, arc)
+    decided = so_far.decided and (so_far.settling or is_decided(p, arc, wait, so_far.error))
+    margin, when = so_far.margin, so_far.time
+    if arc.angle == 0.0 and not abs(constant) >= abs(margin):
+        margin, when = constant, time
+    return Closeness(margin, when, decided, so_far.settling, so_far.error)
+
+
+@njit(**INTERNAL)
+def after_its_event(p, before, coming, after, so_far):
+    """Return the closeness after the event that ends an arc; ``before`` and ``after`` are (mode, arc) on its two sides."""
+    (mode_before, arc), (mode, ahead) = before, after
+    error = so_far.error
+    if mode_before == FLIGHT:
+        error = widened(after_time(error, coming.sinh, coming.versinh), rounding_error(p, arc, coming.wait))
+    error = after_saltation(error, *event_map(p, arc, coming, mode, ahead.side))
+    begins = so_far.settling or (coming.event == IMPACT and settles(p, ahead, error))
+    return Closeness(so_far.margin, so_far.time, so_far.decided, mode == FLIGHT and begins, error)
+
+
+@njit(**INTERNAL)
 def to_end(p, angle, velocity, until, horizon, want_peak):
     """Follow a motion until nothing follows, until a time, or to the first contact without loss after the base motion.
 
@@ -80,44 +114,32 @@ def to_end(p, angle, velocity, until, horizon, want_peak):
     """
     progress, hit = begin(p, angle, velocity, UNKNOWN)
     mode, arc, peak, impacts, brace_hits = progress.mode, progress.arc, progress.peak, 0, int(hit)
-    margin, margin_time, decided, cycle, error = math.nan, math.nan, True, 0, EXACT
-    length, guess, settling = p.clock.cycle_length, guess_from(p, 0.0), False
-    status = CROWDED
+    cycle, guess, free = 0, guess_from(p, 0.0), p.block.brace_angle == math.inf
+    close, status = Closeness(math.nan, math.nan, True, False, EXACT), CROWDED
     for _ in range(MAX_EVENTS):
         coming, _ = next_event(p, mode, arc, guess)
-        time = cycle * length + arc.start
-        if mode == FLIGHT and p.block.brace_angle == math.inf:
-            constant, _ = growth_constant(p, arc)
-            decided = decided and (settling or is_decided(p, arc, min(coming.wait, until - time), error))
-            if arc.angle == 0.0 and not abs(constant) >= abs(margin):
-                margin, margin_time = constant, time
-        if coming.wait == math.inf:
-            status = OVERTURNED if mode == FLIGHT else STILL
-            break
-        if time + coming.wait > until:
-            status = DONE
+        time = cycle * p.clock.cycle_length + arc.start
+        if mode == FLIGHT and free:
+            close = after_arc(p, arc, time, min(coming.wait, until - time), close)
+        if coming.wait == math.inf or time + coming.wait > until:
+            status = DONE if coming.wait < math.inf else OVERTURNED if mode == FLIGHT else STILL
             break
         if want_peak and mode == FLIGHT:
             peak = peak_with(p, arc, coming, peak)
         impacts += coming.event == IMPACT
         brace_hits += coming.event == BRACE
-        after_mode, after = after_event(p, arc, arc.start + coming.wait, coming, horizon)
-        if mode == FLIGHT:
-            error = widened(
-                after_time(error, coming.sinh, coming.versinh), rounding_error(p, arc, coming.wait)
-            )
-        error = after_saltation(error, *event_map(p, arc, coming, after_mode, after.side))
-        mode, arc = after_mode, after
-        settling = mode == FLIGHT and (settling or (coming.event == IMPACT and settles(p, arc, error)))
-        while arc.start > length:
-            cycle, arc = cycle + 1, shift_clock(arc, length)
+        after = after_event(p, arc, arc.start + coming.wait, coming, horizon)
+        close = after_its_event(p, (mode, arc), coming, after, close)
+        mode, arc = after
+        while arc.start > p.clock.cycle_length:
+            cycle, arc = cycle + 1, shift_clock(arc, p.clock.cycle_length)
         if coming.event in (IMPACT, BRACE) and is_lossless(p, coming.event) and has_ended(p, arc.drive):
-            free = abs(arc.velocity) - 1.0
-            brace = p.block.brace_angle < math.inf
-            decided = decided and (brace or abs(free) > of_growth(error))
-            status = OVERTURNED if free > 0.0 and not brace else DONE
+            spare = abs(arc.velocity) - 1.0  # the energy decides
+            decided = close.decided and (not free or abs(spare) > of_growth(close.error))
+            status = OVERTURNED if free and spare > 0.0 else DONE
+            close = Closeness(close.margin, close.time, decided, False, close.error)
             break
-    return Ending(status, impacts, brace_hits, peak, margin, margin_time, decided)
+    return Ending(status, impacts, brace_hits, peak, close.margin, close.time, close.decided)
 
 
 @entry_point(**KERNEL)
