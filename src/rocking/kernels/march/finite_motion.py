@@ -4,7 +4,9 @@ The states are those of ``march``; no sections and no events are recorded.
 """
 
 import math
-from typing import NamedTuple
+from typing import Annotated, NamedTuple
+
+import numpy as np
 
 from rocking.kernels.compile_options import INTERNAL, INTERNAL_INLINE, KERNEL
 from rocking.kernels.deferred import njit
@@ -14,6 +16,7 @@ from rocking.kernels.forcing.arc import shift_clock
 from rocking.kernels.forcing.contract import guess_from, next_event, peak_with
 from rocking.kernels.forcing.finite import growth_constant, has_ended, lowest_between, rounding_error
 from rocking.kernels.forcing.parameters import FiniteParameters
+from rocking.kernels.forcing.sampled.parameters import SampledForcing, SampledParameters
 from rocking.kernels.march.accumulated_error import (
     EXACT,
     Covariance,
@@ -30,6 +33,7 @@ from rocking.kernels.march.initial_state import UNKNOWN, begin
 from rocking.kernels.march.march import CROWDED, DONE, MAX_EVENTS, OVERTURNED, STILL
 from rocking.kernels.march.tangent import event_map
 from rocking.kernels.numerics.elementary import hyperbolic
+from rocking.kernels.signature import Floats1, Integers1
 
 
 class Ending(NamedTuple):
@@ -42,6 +46,20 @@ class Ending(NamedTuple):
     margin: float  # K+ of least size over all lift-offs and impacts; NaN if the block never moves
     margin_time: float
     decided: bool  # whether no rounding error can have changed the outcome
+
+
+ENDING_ROW = np.dtype(
+    [
+        ("status", "i8"),
+        ("impacts", "i8"),
+        ("decided", "i8"),
+        ("peak", "f8"),
+        ("margin", "f8"),
+        ("margin_time", "f8"),
+    ],
+    align=True,
+)
+Endings = Annotated[np.ndarray, ENDING_ROW, 1]
 
 
 class Closeness(NamedTuple):
@@ -146,3 +164,23 @@ def to_end(p, angle, velocity, until, horizon, want_peak):
 def run_to_end(p: FiniteParameters, angle: float, velocity: float, until: float) -> Ending:
     """Follow a motion by ``to_end``, each impact of a chattering sequence included; entry point for Python."""
     return to_end(p, angle, velocity, until, 0.0, False)
+
+
+@entry_point(**KERNEL)
+def run_scales(
+    p: SampledParameters, scales: Floats1, want_peak: bool, rows: Endings, stop: Integers1
+) -> bool:
+    """Follow the motion from rest at each scale of the base motion, and write its row of ``rows``.
+
+    Chattering is cut short. Returns True if all were followed, False if ``stop[0]`` was set before the end.
+    """
+    for k in range(scales.shape[0]):
+        if stop[0] != 0:
+            return False
+        forcing = SampledForcing(scales[k], p.forcing.tables)
+        q = SampledParameters(p.block, forcing, p.clock)
+        end = to_end(q, 0.0, 0.0, math.inf, math.inf, want_peak)
+        row = rows[k]
+        row.status, row.impacts, row.decided = end.status, end.impacts, end.decided
+        row.peak, row.margin, row.margin_time = end.peak, end.margin, end.margin_time
+    return True
