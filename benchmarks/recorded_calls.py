@@ -15,6 +15,8 @@ import numpy as np
 import rocking as rk
 from rocking.kernels import entry_point, machine_code
 from rocking.kernels.deferred import import_all
+from rocking.kernels.march.finite_motion import ENDING_ROW, run_scales
+from rocking.motion.kernel_parameters import parameters
 
 MAX_CALLS = 40
 """Calls kept of each entry point."""
@@ -45,6 +47,14 @@ def workload():
     rk.rotation_number(rk.System(rk.Harmonic(4.0, period=0.4), 1.0))
     rk.tangency_amplitude(rk.System(rk.Harmonic(1.0, period=1.0), 0.8))
     rk.theory.manifold_gap(np.linspace(0.0, 6.0, 50), 1.5, 1.0, 0.8)
+    samples = np.random.default_rng(1).uniform(-3.0, 3.0, 400)
+    for base in (rk.PiecewiseLinear(samples, step=0.05), rk.Pulse("one-sine", amplitude=1.5, duration=2.0)):
+        moved = rk.simulate(rk.System(base, 0.8))
+        moved.at(np.linspace(0.0, moved.duration, 2_000))
+        moved.validity(rk.Block(height=2.0, width=0.5))
+    scales = np.linspace(0.5, 2.0, 50)
+    p = parameters(rk.System(rk.PiecewiseLinear(samples, step=0.05), 0.8))
+    run_scales(p, scales, True, np.empty(50, ENDING_ROW), np.zeros(1, np.int64))
 
 
 def record_calls():
