@@ -16,6 +16,7 @@ from rocking.cli.commands import (
     orbit_diagram,
     overturning,
     paper,
+    record,
     simulate,
 )
 from rocking.cli.commands import map as map_
@@ -33,6 +34,7 @@ app = typer.Typer(
 
 for name, command, examples in (
     ("simulate", simulate.simulate, simulate.EXAMPLES),
+    ("record", record.record, record.EXAMPLES),
     ("classify", classify.classify, classify.EXAMPLES),
     ("modes", modes.modes, modes.EXAMPLES),
     ("map", map_.map_, map_.EXAMPLES),

@@ -137,5 +137,42 @@ class PiecewiseLinear(Forcing, ReadOnlyArrays):
         found = np.interp(places, np.arange(self.values.size), self.values, left=0.0, right=0.0)
         return (self.scale * found)[()]
 
+    def displacement(self, times: Any) -> Any:
+        """Return the base displacement from rest, by exact integration of the straight segments.
+
+        Before the first sample the base is at rest. After the last it keeps its velocity.
+
+        Parameters
+        ----------
+        times : float or array
+            Normalised time τ.
+
+        Returns
+        -------
+        float or ndarray
+            Displacement in units of g θcr/α², in the shape of `times`.
+
+        Raises
+        ------
+        TypeError
+            If `times` holds anything but real numbers.
+
+        Examples
+        --------
+        >>> base = PiecewiseLinear([1.0, 1.0], step=2.0)  # τ²/2, and then at constant velocity
+        >>> base.displacement([0.0, 1.0, 2.0, 3.0]).tolist()
+        [0.0, 0.5, 2.0, 4.0]
+        """
+        times = np.asarray(reals("times", times), dtype=float)
+        a, h = self.scale * self.values, self.step
+        velocity = np.concatenate(([0.0], np.cumsum((a[1:] + a[:-1]) * (h / 2))))
+        moved = velocity[:-1] * h + (2 * a[:-1] + a[1:]) * (h**2 / 6)
+        place = np.concatenate(([0.0], np.cumsum(moved)))
+        # after the last sample the acceleration is 0
+        first, slope = np.append(a[:-1], 0.0), np.append(np.diff(a) / h, 0.0)
+        k = np.clip(times / h, 0, a.size - 1).astype(int)
+        s = np.maximum(times - k * h, 0.0)
+        return (place[k] + s * (velocity[k] + s * (first[k] / 2 + s * slope[k] / 6)))[()]
+
     def __repr__(self) -> str:
         return f"PiecewiseLinear({self.values.size} samples, step={self.step}, scale={self.scale})"

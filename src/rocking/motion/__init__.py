@@ -1,6 +1,6 @@
 """Simulation of one block: its motion, events and the validity of the model."""
 
-from rocking.motion.fall import FALLEN, end_shown, sample_step, time_of_fall
+from rocking.motion.fall import FALLEN, end_shown, has_cycles, sample_step, time_of_fall
 from rocking.motion.march_loop import march_on, start_march
 from rocking.motion.model_warnings import block_warnings
 from rocking.motion.motion import Motion
@@ -13,6 +13,7 @@ __all__ = [
     "Validity",
     "block_warnings",
     "end_shown",
+    "has_cycles",
     "kept_events",
     "march_on",
     "sample_step",

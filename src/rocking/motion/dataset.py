@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from rocking.model import VERSION, Block, block_attributes, instance, quantities, refuse_if, within
-from rocking.motion.fall import end_shown, sample_step
+from rocking.motion.fall import end_shown, has_cycles, sample_step
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -20,6 +20,8 @@ Unit = tuple[float, str]
 """Size of the normalised unit in the unit of the output, and name of the latter."""
 Variables = dict[str, tuple[str, Any, dict[str, str]]]
 
+OF_CYCLES = ("cycle", "phase")
+"""Quantities of an event that only a periodic base motion gives."""
 EVENTS = {
     "time": ("time", "time of the event"),
     "cycle": (None, "forcing cycle of the event, counted from 0"),
@@ -42,9 +44,10 @@ def to_dataset(motion: Trajectory, step: float | None = None, block: Block | Non
     motion : Motion
         Motion recorded with record="all" or "section".
     step : float, optional
-        Time step of the samples in τ, or in seconds with a block. Default: a hundredth of the forcing period. The samples
-        start at 0 and end at the last whole step of the run. If the block overturns, they continue to |Θ| = 3, or for one
-        unit of time if the motion starts beyond.
+        Time step of the samples in τ, or in seconds with a block. Default: a hundredth of the forcing period, or the step of
+        a base acceleration that is given by samples (a fraction of a long one). The samples start at 0 and end at the last
+        whole step of the run. If the block overturns, they continue to |Θ| = 3, or for one unit of time if the motion starts
+        beyond.
     block : Block, optional
         Block for output in s, rad and m, with the displacement of its top. Default: normalised output.
 
@@ -52,7 +55,8 @@ def to_dataset(motion: Trajectory, step: float | None = None, block: Block | Non
     -------
     xarray.Dataset
         For record="all": `angle`, `velocity`, `acceleration`, `base_acceleration` (and `top_displacement`) along `time`, and
-        `event_time`, `event_kind`, … along `event`. For record="section": `angle` and `velocity` along `cycle`. The
+        `event_time`, `event_kind`, … along `event`. Cycle and phase of the events exist only for a periodic base motion. For
+        record="section": `angle` and `velocity` along `cycle`. The
         attributes `units` and `long_name` follow the CF conventions. Attributes of the dataset are the system and the
         initial state, always normalised, and the version of the package.
 
@@ -136,6 +140,8 @@ def _events(motion: Trajectory, units: dict[str, Unit]) -> Variables:
     units = units | {"phase": (1.0, "rad")}
     variables: Variables = {}
     for name, (quantity, long_name) in EVENTS.items():
+        if name in OF_CYCLES and not has_cycles(motion):
+            continue
         values = motion.events[name]
         if quantity is None:
             variables[f"event_{name}"] = "event", values, {"long_name": long_name}
@@ -161,30 +167,38 @@ def _section(motion: Trajectory, units: dict[str, Unit]) -> tuple[Variables, Var
 
 def _attributes(motion: Trajectory, block: Block | None) -> dict[str, Any]:
     """Return the attributes of the dataset: normalised system and initial state, results, and the block if there is one."""
+    periodic = has_cycles(motion)
+    base = (
+        "The base acceleration is amplitude cos(frequency time + phase). "
+        "Cycles are counted from 0 in event_cycle and overturning_cycle."
+        if periodic
+        else "The base acceleration is linear between samples, and 0 before the first and after the last."
+    )
     attributes = {
         "Conventions": "CF-1.11",
         "title": "Motion of a free-standing block on a shaking base",
         "source": f"rocking {VERSION}",
-        "comment": (
-            "Attributes without a unit are normalised as in Yim & Lin (1991), Eqs. (1)-(4). "
-            "The base acceleration is amplitude cos(frequency time + phase). "
-            "Cycles are counted from 0 in event_cycle and overturning_cycle."
-        ),
+        "comment": (f"Attributes without a unit are normalised as in Yim & Lin (1991), Eqs. (1)-(4). {base}"),
         **quantities(motion.system),
         "start_angle": motion.start.angle,
         "start_velocity": motion.start.velocity,
-        "cycles": motion.cycles,
+        **({"cycles": motion.cycles} if periodic else {}),
         "record": motion.record,
         "outcome": str(motion.outcome),
         "peak": motion.peak,
         "impacts": motion.impacts,
         "brace_hits": motion.brace_hits,
     }
-    if motion.overturning is not None:
+    if not periodic:
         attributes |= {
-            "overturning_time": motion.overturning.time,
-            "overturning_cycle": motion.overturning.cycle,
+            "margin": motion.margin,
+            "margin_time": motion.margin_time,
+            "certified": int(motion.certified),
         }
+    if motion.overturning is not None:
+        attributes["overturning_time"] = motion.overturning.time
+        if periodic:
+            attributes["overturning_cycle"] = motion.overturning.cycle
     if block is not None:
         attributes |= block_attributes(block)
     return attributes

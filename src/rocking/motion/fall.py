@@ -1,18 +1,26 @@
-"""End of the simulated fall of an overturned block, in figures and files."""
+"""Part of a motion that figures and files show, and its sampling."""
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING
 
-from rocking.model import Overturning
+from rocking.model import Harmonic, Overturning, PiecewiseLinear
 
 if TYPE_CHECKING:
     from rocking.motion.trajectory import Trajectory
 
 STEPS = 100
 """Samples in the time in which the base acceleration varies."""
+STEPS_OF_RECORD = 32
+"""Samples in the unit of τ, at least, of a motion under a sampled base acceleration."""
 FALLEN = 3.0
 """Value of |Θ| up to which a fall is shown."""
+
+
+def has_cycles(motion: Trajectory) -> bool:
+    """Return whether the base motion of a motion is periodic, so that its cycles can be counted."""
+    return isinstance(motion.system.forcing, Harmonic)
 
 
 def end_shown(motion: Trajectory) -> float:
@@ -23,7 +31,13 @@ def end_shown(motion: Trajectory) -> float:
 
 
 def sample_step(motion: Trajectory) -> float:
-    """Return the default sampling step in τ: a hundredth of the forcing's time scale, or of a shorter motion."""
+    """Return the default sampling step in τ: a hundredth of the forcing's time scale, or of a shorter motion.
+
+    Under a sampled base acceleration it is the step of the samples, or a whole fraction of it.
+    """
+    forcing = motion.system.forcing
+    if isinstance(forcing, PiecewiseLinear):
+        return min(forcing.step / math.ceil(forcing.step * STEPS_OF_RECORD), end_shown(motion) / STEPS)
     return min(motion.system.forcing.time_scale, end_shown(motion)) / STEPS
 
 

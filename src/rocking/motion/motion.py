@@ -75,7 +75,8 @@ class Motion(Trajectory, NotebookPicture):
         Parameters
         ----------
         step : float, optional
-            Time step in τ, or in seconds with a block. Default: a hundredth of the forcing period.
+            Time step in τ, or in seconds with a block. Default: a hundredth of the forcing period, or the step of a
+            base acceleration that is given by samples.
         block : Block, optional
             Block for output in SI units. Default: normalised output.
 

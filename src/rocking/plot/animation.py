@@ -14,9 +14,10 @@ from matplotlib.text import Text
 from numpy.typing import NDArray
 
 from rocking.model import Block, Outcome, System, instance, within
-from rocking.motion import Motion, time_of_fall
+from rocking.motion import Motion, has_cycles, time_of_fall
 from rocking.plot.parts import style
 from rocking.plot.parts.axis_units import quantities
+from rocking.plot.parts.base_displacement import base_displacement
 from rocking.plot.parts.film_scene import Scene
 from rocking.plot.parts.sample_times import settled, window
 from rocking.plot.parts.video import check_film, write_film
@@ -24,6 +25,8 @@ from rocking.plot.time_history import draw_history
 
 NOMINAL = Block(height=2.0, width=0.5)
 CYCLES_SHOWN, DECAY_SHOWN = 10, 30
+# Time before the lift-off and after the fall, as a share of the time between.
+ROOM = 0.08
 SIZE, DOTS = (6.4, 5.6), 100
 
 
@@ -52,7 +55,8 @@ def animation(
     cycles : tuple of float, optional
         First and last forcing cycle shown, counted from the start. Default: the last ten cycles. For a motion that
         overturned, ten cycles and the complete fall; for a motion that came to rest, thirty cycles up to rest. Units of τ
-        replace cycles if the base does not move.
+        replace cycles if the base does not move. Under a base motion of finite length, omit it: the film shows the motion
+        from the first lift-off to rest or to the end of the fall.
 
     Returns
     -------
@@ -74,7 +78,8 @@ def animation(
     Notes
     -----
     Small angles are exaggerated, and the displacement of the base is scaled to a visible size; the animation shows both
-    factors. A fall follows Eq. (4) (Yim & Lin 1991), which holds for small angles, up to 90°.
+    factors. The displacement of a sampled base is its acceleration, integrated twice from rest. The animation states the
+    drift, the displacement when the acceleration ends. A fall follows Eq. (4) (Yim & Lin 1991), which holds for small angles, up to 90°.
 
     Examples
     --------
@@ -95,7 +100,9 @@ def animation(
 def _window(motion: Motion, block: Block, cycles: tuple[float, float] | None) -> tuple[float, float]:
     if cycles is not None:
         return window(motion, cycles)
-    unit = motion.system.harmonic.period if motion.system.harmonic.amplitude else 1.0
+    if not has_cycles(motion):
+        return _moving(motion, block)
+    unit = motion.system.forcing.span if motion.system.forcing.largest else 1.0
     if motion.outcome is Outcome.AT_REST:
         stop = settled(motion)
         return max(0.0, stop - DECAY_SHOWN * unit), stop
@@ -103,7 +110,19 @@ def _window(motion: Motion, block: Block, cycles: tuple[float, float] | None) ->
         return max(0.0, motion.duration - CYCLES_SHOWN * unit), motion.duration
     start = max(0.0, motion.overturning.time - CYCLES_SHOWN * unit)
     flat = time_of_fall(motion, motion.overturning, block.angle(degrees=90))
-    return start, flat + 0.08 * (flat - start)
+    return start, flat + ROOM * (flat - start)
+
+
+def _moving(motion: Motion, block: Block) -> tuple[float, float]:
+    """Return the part of a motion under a base motion of finite length from just before the block lifts off to its end."""
+    stop = motion.duration
+    if motion.overturning is not None:
+        stop = time_of_fall(motion, motion.overturning, block.angle(degrees=90))
+    elif motion.outcome is Outcome.AT_REST:
+        stop = settled(motion)
+    first = float(motion.events["time"][0]) if len(motion.events) else 0.0
+    start = max(0.0, first - ROOM * (stop - first))
+    return start, stop + (ROOM * (stop - start) if motion.overturning is not None else 0.0)
 
 
 class _Film:
@@ -123,7 +142,7 @@ class _Film:
         self.figure = Figure(SIZE, dpi=DOTS)
         self.figure.set_layout_engine("constrained", rect=(0.0, 0.0, 1.0, 0.9))
         above, below = self.figure.subplots(2, 1, height_ratios=(2.6, 1))
-        factors = self._scene(above, motion.system, body)
+        notes = self._scene(above, motion.system, body, to_scale=block is not None)
         draw_history(below, motion, times[0], end, block)
         if motion.overturning is not None:
             (curve,) = (line for line in below.lines if line.get_gid() == "motion")
@@ -140,30 +159,29 @@ class _Film:
         self.digits = max(1, math.ceil(-math.log10(interval)))
         self.number = _number(float(self.shown.angle(np.abs(self.angles).max())))
         pace = interval * (len(times) - 1) / seconds
-        self._write(0.98, self._notes(body, *factors, pace), style.SMALL, ha="right")
-
-    def _notes(self, block: Block, angle_factor: float, base_factor: float, pace: float) -> str:
-        return (
-            f"block {block.height / block.width:.3g} : 1, angle {_said(angle_factor)}\n"
-            f"displacement of the base {_said(base_factor)}\n"
-            f"1 s of film is {pace:.3g} {self.shown.time_unit}"
-        )
+        notes += f"\n1 s of film is {pace:.3g} {self.shown.time_unit}"
+        self._write(0.98, notes, style.SMALL, ha="right")
 
     def _write(self, place: float, text: str, size: float, **how) -> Text:
         return self.figure.text(place, 0.98, text, fontsize=size, va="top", color=style.INK, **how)
 
-    def _scene(self, ax: Axes, system: System, block: Block) -> tuple[float, float]:
-        """Draw block, braces and base, each with visible motion; return the factors of angle and displacement."""
+    def _scene(self, ax: Axes, system: System, block: Block, *, to_scale: bool) -> str:
+        """Draw block, braces and base, each with visible motion; return a note on the factors of angle and displacement."""
         limit = float(np.abs(self.angles).max()) if system.braces is None else system.braces.angle
         factor = 1.0 if limit == 0 or limit > 0.35 else _round(0.35 / limit)
         brace = None if system.braces is None else factor * block.radians(limit)
-        forcing = system.harmonic
-        stretch = block.acceleration(1.0) / (math.tau * block.hertz(forcing.frequency)) ** 2
-        largest = forcing.amplitude * stretch / block.height
+        moved, far, drift = base_displacement(system.forcing, block, self.times)
+        largest = far / block.height
         base_factor = 1.0 if largest == 0 else _round(min(max(largest, 0.08), 0.3) / largest)
-        base = -base_factor * stretch * forcing.acceleration(self.times)
-        self.scene = Scene(ax, block, factor * block.radians(self.angles), base, brace)
-        return factor, base_factor
+        self.scene = Scene(ax, block, factor * block.radians(self.angles), base_factor * moved, brace)
+        drifted = ""
+        if drift is not None:
+            size = f"{drift:.2g} m" if to_scale else f"{drift / block.height:.2g} block heights"
+            drifted = f", drift {size} at the end".replace("-", "−")
+        return (
+            f"block {block.height / block.width:.3g} : 1, angle {_said(factor)}\n"
+            f"displacement of the base {_said(base_factor)}{drifted}"
+        )
 
     def frames(self) -> Iterator[NDArray]:
         """Yield the frames as RGB arrays; only moving parts are drawn again."""

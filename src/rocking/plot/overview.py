@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from matplotlib.figure import Figure
 
-from rocking.model import Block, Outcome, instance
-from rocking.motion import Motion
+from rocking.model import Block, Harmonic, Outcome, instance
+from rocking.motion import Motion, has_cycles
 from rocking.plot.parts import style
 from rocking.plot.parts.sample_times import settled
 from rocking.plot.phase_portrait import phase_portrait
 from rocking.plot.section import section
-from rocking.plot.time_history import time_history
+from rocking.plot.time_history import RATIOS, draw_with_base, time_history
 
 CYCLES_SHOWN = 30
 
@@ -19,7 +19,7 @@ def overview(motion: Motion, block: Block | None = None) -> Figure:
     """Plot the time history and phase portrait of a motion, or its section or final state if only these were recorded.
 
     A bounded motion is shown by its last 30 cycles. A motion that comes to rest is shown until shortly after its last
-    impact.
+    impact. Under a base motion of finite length the whole motion is shown, with the base acceleration below.
 
     Parameters
     ----------
@@ -51,12 +51,28 @@ def overview(motion: Motion, block: Block | None = None) -> Figure:
         kept = (
             motion.section() if motion.record == "section" else [(motion.final.angle, motion.final.velocity)]
         )
-        section(kept, ax, block, phase=motion.system.harmonic.phase)
+        forcing = motion.system.forcing
+        section(kept, ax, block, phase=forcing.phase if isinstance(forcing, Harmonic) else None)
         return figure
+    if not has_cycles(motion):
+        return _with_base(motion, block)
     cycles = _cycles(motion)
     figure, (left, right) = style.panels(columns=2, height=3.0, ratios=(3, 2))
     time_history(motion, left, block, cycles)
     phase_portrait(motion, right, block, cycles)
+    return figure
+
+
+def _with_base(motion: Motion, block: Block | None) -> Figure:
+    """Plot time history, base acceleration and phase portrait."""
+    figure = Figure(figsize=(style.PAGE, 3.4), layout="constrained")
+    grid = figure.add_gridspec(2, 2, width_ratios=(3, 2), height_ratios=RATIOS)
+    above = figure.add_subplot(grid[0, 0])
+    below, right = figure.add_subplot(grid[1, 0], sharex=above), figure.add_subplot(grid[:, 1])
+    for letter, ax in zip("abc", (above, below, right), strict=True):
+        style.title(ax, f"({letter})")
+    draw_with_base(above, below, motion, block)
+    phase_portrait(motion, right, block)
     return figure
 
 

@@ -4,12 +4,16 @@ from __future__ import annotations
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
-from rocking.model import Block, System
-from rocking.motion import Motion
+from rocking.model import Block, PiecewiseLinear, System
+from rocking.motion import Motion, has_cycles
 from rocking.plot.parts import style
 from rocking.plot.parts.axis_units import Quantities, quantities
-from rocking.plot.parts.sample_times import trace, window
+from rocking.plot.parts.sample_times import SAMPLES_PER_PICTURE, trace, window
+
+RATIOS = (2, 1)
+"""Heights of the panels of angle and base acceleration."""
 
 
 def time_history(
@@ -25,23 +29,25 @@ def time_history(
     motion : Motion
         Motion recorded with ``record="all"``.
     ax : matplotlib Axes, optional
-        Axes to draw into. Default: a new figure, one column wide.
+        Axes to draw into. Default: a new figure, one column wide. Under a base motion of finite length it has a second
+        panel, with the base acceleration.
     block : Block, optional
         Block for SI axes, seconds and degrees. Default: normalised axes.
     cycles : tuple of float, optional
         First and last forcing cycle shown, counted from the start. Default: the whole motion; if it overturned, up to
-        three times the critical angle.
+        three times the critical angle. Omit it for a base motion of finite length.
 
     Returns
     -------
     matplotlib Axes
+        Axes of the angle.
 
     Raises
     ------
     TypeError
         If an argument has the wrong type.
     ValueError
-        If `cycles` lies outside the motion, or the motion kept no events.
+        If `cycles` lies outside the motion or is given for a motion without cycles, or the motion kept no events.
 
     See Also
     --------
@@ -62,7 +68,46 @@ def time_history(
     time $\tau = \alpha t$
     """
     start, stop = window(motion, cycles)
-    return draw_history(style.own(ax), motion, start, stop, block)
+    if ax is not None or has_cycles(motion):
+        return draw_history(style.own(ax), motion, start, stop, block)
+    figure = Figure(figsize=(style.COLUMN, 3.2), layout="constrained")
+    above, below = figure.subplots(2, 1, sharex=True, height_ratios=RATIOS)
+    return draw_with_base(above, below, motion, block)
+
+
+def draw_with_base(above: Axes, below: Axes, motion: Motion, block: Block | None) -> Axes:
+    """Draw the angle of a motion, and below it the base acceleration; return the axes of the angle."""
+    start, stop = window(motion, None)
+    draw_history(above, motion, start, stop, block)
+    draw_base(below, motion, start, stop, block)
+    above.set_xlabel("")
+    above.tick_params(labelbottom=False)
+    above.figure.align_ylabels([above, below])  # type: ignore[union-attr]
+    return above
+
+
+def draw_base(ax: Axes, motion: Motion, start: float, stop: float, block: Block | None) -> Axes:
+    """Draw the base acceleration from time `start` to `stop`, in τ, with dotted lines at ±g θcr, the limits of rest."""
+    forcing, shown = motion.system.forcing, quantities(block)
+    time = np.linspace(start, stop, SAMPLES_PER_PICTURE)  # also at a jump, where no sample is
+    if isinstance(forcing, PiecewiseLinear):
+        samples = forcing.step * np.arange(forcing.values.size)
+        time = np.union1d(time, samples[(samples >= start) & (samples <= stop)])
+    ax.axhline(0.0, color=style.GUIDE, linewidth=style.THIN)
+    for side in (-1.0, 1.0):
+        ax.axhline(
+            shown.amplitude(side), color=style.GUIDE, linestyle="dotted", linewidth=style.LINE, gid="lift-off"
+        )
+    ax.plot(
+        shown.time(time),
+        shown.amplitude(forcing.acceleration(time)),
+        color=style.INK,
+        linewidth=style.THIN,
+        rasterized=len(time) > style.MAX_CORNERS,
+        gid="base",
+    )
+    style.label(ax, shown.time_label, shown.base_label)
+    return ax
 
 
 def draw_history(ax: Axes, motion: Motion, start: float, stop: float, block: Block | None) -> Axes:

@@ -160,7 +160,7 @@ def spectral_density(
 
 def _check_motion(motion: Motion, transient: int) -> int:
     """Return the number of cycles after the transient; ValueError if the motion can have no spectrum."""
-    instance("motion", motion, Motion)
+    instance("motion", motion, Motion).system.harmonic  # noqa: B018 (it refuses)
     if motion.overturning is not None:
         raise ValueError(
             f"motion must not overturn for a spectrum; it overturned in cycle {motion.overturning.cycle}"

@@ -13,7 +13,7 @@ import typer
 from rocking.cli.option_names import ARGUMENTS, NORMALISED, SI, START, SYSTEM, YourInput, option, your_input
 
 if TYPE_CHECKING:
-    from rocking.model import Block, State, System
+    from rocking.model import Block, Braces, State, System
 
 
 Command = TypeVar("Command", bound=Callable[..., None])
@@ -188,17 +188,18 @@ def question(given: Mapping[str, Any]) -> tuple[System, State, Block | None]:
         require(given, (("amplitude",), ("period", "frequency"), ("restitution",)), NORMALISED_NEEDS)
     else:
         require(given, (("height",), ("width",), SI[2:5], SI[5:]), SI_NEEDS)
-    braces = _braces(given)
+    braced = braces(given)
     with your_input(ARGUMENTS):
         start = State(*(within(name, given[name], -MAX_START, MAX_START) for name in START))
         if normalised:
             forcing = Harmonic(**{name: given[name] for name in (*NORMALISED, "phase")})
-            return System(forcing, given["restitution"], braces), start, None
+            return System(forcing, given["restitution"], braced), start, None
         block = Block(given["height"], given["width"], given["restitution"])
-        return block.system(**{name: given[name] for name in (*SI[2:], "phase")}, braces=braces), start, block
+        return block.system(**{name: given[name] for name in (*SI[2:], "phase")}, braces=braced), start, block
 
 
-def _braces(given: Mapping[str, Any]) -> Any:
+def braces(given: Mapping[str, Any]) -> Braces | None:
+    """Return the braces of the options, if there are any; YourInput if invalid."""
     from rocking.model import Braces
 
     if given["brace_angle"] is None:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from rocking.cli.option_names import YourInput, option
 from rocking.cli.output import files
-from rocking.cli.output.files import PICTURES, SUFFIXES, check_files, write_dataset
+from rocking.cli.output.files import PICTURES, SUFFIXES, check_apart, check_files, write_dataset
 
 if TYPE_CHECKING:
     from rocking.model import Block, State, System, Verdict
@@ -20,15 +20,16 @@ MAX_CYCLES_KEPT = 100_000
 """Longest run whose events are kept; a longer one keeps only the counters, the peak and the final state."""
 
 
-def run(system: System, start: State, cycles: int, wanted: tuple[str, ...]) -> Motion:
+def run(system: System, start: State, cycles: int | None, wanted: tuple[str, ...]) -> Motion:
     """Simulate a motion with all its events, so that the summary does not depend on the files `wanted`.
 
-    Events are dropped for too many cycles, and for too many events if no file needs them.
+    Events are dropped for too many cycles, and for too many events if no file needs them. A base motion of finite length
+    has no cycles: None.
     """
     from rocking.model import TooManyEvents
     from rocking.motion import simulate as march
 
-    if not cycles <= MAX_CYCLES_KEPT:
+    if cycles is not None and not cycles <= MAX_CYCLES_KEPT:
         counted = march(system, start, cycles=cycles, record="none")
         if counted.cycles > MAX_CYCLES_KEPT:
             return counted
@@ -38,7 +39,8 @@ def run(system: System, start: State, cycles: int, wanted: tuple[str, ...]) -> M
     except TooManyEvents as error:
         if wanted:
             names = ", ".join(map(option, wanted))
-            raise YourInput(f"too many events for {names}: reduce --cycles, or omit {names}") from error
+            shorter = "" if cycles is None else "reduce --cycles, or "
+            raise YourInput(f"too many events for {names}: {shorter}omit {names}") from error
         return march(system, start, cycles=cycles, record="none")
 
 
@@ -48,6 +50,16 @@ def check(cycles: float, **paths: Path | None) -> dict[str, Path]:
     if asked and cycles > MAX_CYCLES_KEPT:
         wanted = ", ".join(map(option, asked))
         raise YourInput(f"--cycles must be at most {MAX_CYCLES_KEPT} with {wanted}; got {cycles}")
+    return asked
+
+
+def check_of_record(record: Path, **paths: Path | None) -> dict[str, Path]:
+    """Return the requested files; YourInput if one cannot be written, or is another one or the record itself."""
+    asked = check_files(paths, SUFFIXES | {"animate": FILMS})
+    check_apart(paths)
+    for name, path in asked.items():
+        if path.resolve() == record.resolve():
+            raise YourInput(f"{option(name)} must not overwrite the record; got {str(path)!r}")
     return asked
 
 
@@ -87,7 +99,8 @@ def write_plot(motion: Motion, block: Block | None, path: Path) -> None:
 def write_csv(motion: Motion, block: Block | None, path: Path) -> None:
     """Write a motion as CSV with units in the header, also in SI if there is a block.
 
-    There are 100 rows per cycle, or 100 rows of a motion that ends earlier.
+    There are 100 rows per cycle, or 100 rows of a motion that ends earlier; under a sampled base acceleration a row per sample
+    or more.
     """
     files.write_csv(tables(motion, block), path)
 
@@ -116,6 +129,7 @@ def write_netcdf(motion: Motion, block: Block | None, path: Path) -> None:
 
 WRITERS: dict[str, Callable[[Motion, Block | None, Path], None]] = {
     "plot": write_plot,
+    "animate": write_plot,
     "csv": write_csv,
     "netcdf": write_netcdf,
 }

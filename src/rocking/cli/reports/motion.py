@@ -63,11 +63,15 @@ def asked_of(system: System, block: Block | None) -> Iterator[Row]:
         yield "amplitude", f"A = {forcing.amplitude:.6g}", in_si("amplitude", forcing.amplitude, block)
         yield "period", f"T = {forcing.period:.6g}", in_si("period", forcing.period, block)
         yield "phase", f"φ = {forcing.phase:.6g}", f"{math.degrees(forcing.phase):.4g}°"
-        chosen = "Housner's value for this block" if block.has_housner_restitution else "as given"
-        yield "restitution", f"e = {restitution:.6g}", chosen
+        yield "restitution", f"e = {restitution:.6g}", origin(block)
     if braces is not None:
         at = "" if block is None else f"{block.degrees(braces.angle):.4g}°"
         yield "braces", f"Θb = {braces.angle:.6g}, r = {braces.restitution:.6g}", at
+
+
+def origin(block: Block) -> str:
+    """Return the origin of the coefficient of restitution of a block, in words."""
+    return "Housner's value for this block" if block.has_housner_restitution else "as given"
 
 
 def in_si(name: str, values: Any, block: Block | None) -> str:
@@ -141,8 +145,11 @@ def _cut(motion: Motion, end: str) -> str:
 
 
 def _state(state: Any, block: Block | None) -> str:
-    if block is None:
-        return ""
+    return "" if block is None else state_in_si(state, block)
+
+
+def state_in_si(state: Any, block: Block) -> str:
+    """Return the angle and the velocity of a state in ° and °/s."""
     return f"{in_si('angle', state.angle, block)}, {in_si('velocity', state.velocity, block)}"
 
 
@@ -181,7 +188,12 @@ def question_of(system: System) -> dict[str, Any]:
 
 def physical(result: Motion | Verdict, block: Block) -> dict[str, Any]:
     """Return the block, its base motion and its largest angle in SI as a JSON object."""
-    return physical_of(result.system, block) | {
+    return physical_of(result.system, block) | peak_in_si(result, block)
+
+
+def peak_in_si(result: Motion | Verdict, block: Block) -> dict[str, float]:
+    """Return the largest angle and the displacement of the top in SI as a JSON object."""
+    return {
         "peak_deg": float(block.degrees(result.peak)),
         "peak_top_displacement_m": float(block.top_displacement(result.peak)),
     }

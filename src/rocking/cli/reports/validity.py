@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 import attrs
 
-from rocking.cli.output.console import WARNING
+from rocking.cli.output.console import WARNING, Row
 from rocking.cli.output.motion_files import MAX_CYCLES_KEPT, run
 from rocking.model import Block, Verdict, counted
 
@@ -21,11 +23,34 @@ def lines(motion: Motion, block: Block | None) -> list[str]:
     """Return the lines of the validity report of a motion; none without a block."""
     if block is None:
         return []
+    return str(motion.validity(block)).splitlines() if motion.record == "all" else warned([unchecked(motion)])
+
+
+def unchecked(motion: Motion) -> str:
+    """Return the sentence on a motion whose events were not kept."""
+    long = motion.cycles > MAX_CYCLES_KEPT
+    why = f"more than {MAX_CYCLES_KEPT:,} cycles" if long else "too many events to keep"
+    return f"sliding and jumping of the block were not checked: {why}"
+
+
+def friction_row(motion: Motion, block: Block) -> Iterator[Row]:
+    """Yield the row of the friction required, with its time in s, if the events were kept."""
     if motion.record != "all":
-        long = motion.cycles > MAX_CYCLES_KEPT
-        why = f"more than {MAX_CYCLES_KEPT:,} cycles" if long else "too many events to keep"
-        return [f"{WARNING}sliding and jumping of the block were not checked: {why}"]
-    return str(motion.validity(block)).splitlines()
+        return
+    found = motion.validity(block)
+    if found.friction is None or found.friction_time is None:
+        yield "friction required", "not assessed"
+    else:
+        least = f"{found.friction:.4g}" if found.friction < math.inf else "none suffices"
+        yield (
+            "friction required",
+            f"{least} ({found.friction_source}, t = {block.seconds(found.friction_time):.4g} s)",
+        )
+
+
+def warned_of(motion: Motion, block: Block) -> list[str]:
+    """Return the warnings of the validity report of a motion as lines."""
+    return warned(list(motion.validity(block).warnings) if motion.record == "all" else [unchecked(motion)])
 
 
 def record(motion: Motion, block: Block) -> dict[str, Any] | None:

@@ -27,6 +27,7 @@ class Quantities:
     angle_label: str
     velocity_label: str
     speed_label: str
+    base_label: str
     frequency_label: str
     density_label: str
     time_unit: str
@@ -48,6 +49,7 @@ NORMALISED = Quantities(
     angle_label=r"angle $\Theta = \theta/\theta_\mathrm{cr}$",
     velocity_label=r"velocity $\Theta' = \mathrm{d}\Theta/\mathrm{d}\tau$",
     speed_label=r"speed after impact $|\Theta'|$",
+    base_label=r"base $a/(g\theta_\mathrm{cr})$",
     frequency_label=r"frequency (cycles per unit of $\tau$)",
     density_label=r"power spectral density $S_\Theta$",
     time_unit="τ",
@@ -71,6 +73,7 @@ def quantities(block: Block | None) -> Quantities:
         angle_label=r"angle $\theta$ (°)",
         velocity_label=r"velocity $\dot\theta$ (°/s)",
         speed_label=r"speed after impact $|\dot\theta|$ (°/s)",
+        base_label=r"base $a$ (m/s²)",
         frequency_label="frequency (Hz)",
         density_label=r"power spectral density $S_\theta$ (°²/Hz)",
         time_unit="s",

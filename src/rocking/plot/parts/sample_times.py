@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rocking.model import instance, refusal, refuse_if, within
-from rocking.motion import FALLEN, Motion, end_shown
+from rocking.motion import FALLEN, Motion, end_shown, has_cycles
 
 SAMPLES_PER_TIME = 64
 SAMPLES_PER_PICTURE = 1000
@@ -24,6 +24,12 @@ def window(motion: Motion, cycles: tuple[float, float] | None) -> tuple[float, f
     end = end_shown(motion)
     if cycles is None:
         return 0.0, end
+    refuse_if(
+        not has_cycles(motion),
+        "cycles",
+        "be omitted for a base motion of finite length, which has no cycles",
+        cycles,
+    )
     try:
         first, last = cycles
     except (TypeError, ValueError):
@@ -40,18 +46,20 @@ def window(motion: Motion, cycles: tuple[float, float] | None) -> tuple[float, f
 
 def settled(motion: Motion) -> float:
     """Return a time τ after the last event of a motion that came to rest, late enough to show that it stays there."""
-    forcing, events = motion.system.harmonic, motion.events
+    events = motion.events
     last = float(events["time"][-1]) if len(events) else 0.0
     if last == 0:
         return motion.duration
-    still = max(STILLNESS_SHOWN * last, forcing.period if forcing.amplitude else 0.0)
+    forcing = motion.system.forcing
+    cycle = forcing.span if has_cycles(motion) and forcing.largest else 0.0
+    still = max(STILLNESS_SHOWN * last, cycle)
     return min(last + still, motion.duration)
 
 
 def trace(motion: Motion, start: float, stop: float) -> tuple[NDArray, NDArray, NDArray]:
     """Sample a motion from `start` to `stop`: a grid, every extreme, and every event before and after it.
 
-    The grid resolves the forcing period, the unit of τ and the figure. It has no instant at which the block stands
+    The grid resolves the time scale of the forcing, the unit of τ and the figure. It has no instant at which the block stands
     still. Over a long motion the grid thins out (to 500,000 instants); events and extremes are always complete.
 
     Returns
@@ -77,7 +85,7 @@ def _grid(motion: Motion, start: float, stop: float, events: NDArray) -> NDArray
     lengths, middles = np.diff(ends), (ends[1:] + ends[:-1]) / 2
     moves = (motion.at(middles)[1] != 0) | (motion.acceleration(middles) != 0)
     finest = min(
-        min(motion.system.harmonic.period, 1.0) / SAMPLES_PER_TIME, (stop - start) / SAMPLES_PER_PICTURE
+        min(motion.system.forcing.time_scale, 1.0) / SAMPLES_PER_TIME, (stop - start) / SAMPLES_PER_PICTURE
     )
     step = max(finest, float(lengths[moves].sum()) / MAX_SAMPLES)
     steps = np.where(moves, np.ceil(lengths / step), 1).astype(int)

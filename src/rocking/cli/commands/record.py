@@ -1,0 +1,107 @@
+"""`rocking record`."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from rocking.cli.input import options as ask
+from rocking.cli.input import record_request
+from rocking.cli.option_names import START, your_input
+
+EXAMPLES = """\
+# The record that comes with the package.
+rocking record example --height 2 --width 0.5 --plot record.png
+# The same, scaled until the block overturns.
+rocking record example --height 2 --width 0.5 --pga-g 1.3 \\
+    --animate fall.gif --csv fall.csv"""
+
+File = Annotated[
+    Path,
+    typer.Argument(
+        metavar="FILE",
+        parser=record_request.record_path,
+        help="Record file; its format is recognised by the content. `example` is the record that comes with the package.",
+    ),
+]
+InertiaRatio = Annotated[
+    ask.Number,
+    ask.number_option(
+        "--inertia-ratio",
+        "Io/(MR²), the normalised moment of inertia about a corner. Default: 4/3, a uniform rectangle.",
+    ),
+]
+Scale = Annotated[ask.Number, ask.number_option("--scale", "Factor of the record. Default: 1.")]
+PgaG = Annotated[
+    ask.Number,
+    ask.number_option("--pga-g", "Peak to which the record is scaled, in units of g; replaces --scale."),
+]
+Channel = Annotated[int, ask.number_option("--channel", "Channel of the file, counted from 1.")]
+Units = Annotated[
+    str | None,
+    typer.Option(
+        "--units",
+        metavar="UNIT",
+        help="Unit of the samples, if the file does not state it: m/s2, cm/s2, g, ….",
+    ),
+]
+Step = Annotated[
+    ask.Number, ask.number_option("--step", "Time between two samples, s, if the file does not state it.")
+]
+Baseline = Annotated[
+    str,
+    typer.Option(
+        "--baseline",
+        metavar="KIND",
+        help="Polynomial that is subtracted from the acceleration: none, mean, linear or quadratic.",
+    ),
+]
+Plot = Annotated[
+    Path | None,
+    ask.file_option(
+        "--plot", "Plot the time history, the base acceleration and the phase portrait (.png .svg .pdf)."
+    ),
+]
+Animate = Annotated[
+    Path | None,
+    ask.file_option("--animate", "Write an animation of the block on its moving base (.gif .mp4)."),
+]
+
+
+@ask.with_options(
+    "height", "width", "restitution", "brace_angle", "brace_restitution", *START, angle=0.0, velocity=0.0
+)
+def record(
+    context: typer.Context,
+    file: File,
+    inertia_ratio: InertiaRatio = None,
+    scale: Scale = None,
+    pga_g: PgaG = None,
+    channel: Channel = 1,
+    units: Units = None,
+    step: Step = None,
+    baseline: Baseline = "none",
+    plot: Plot = None,
+    animate: Animate = None,
+    csv: ask.Csv = None,
+    netcdf: ask.Netcdf = None,
+    json: ask.Json = False,
+    **shared: Any,
+) -> None:
+    """Simulate a block under a recorded ground motion, in SI units.
+
+    The run ends when the block is at rest permanently, or when overturning is certain. Block, record and margin are printed.
+    """
+    from rocking.cli.output import motion_files
+    from rocking.cli.reports import record as report
+
+    files = motion_files.check_of_record(file, plot=plot, animate=animate, csv=csv, netcdf=netcdf)
+    block, braces, start = record_request.block_and_start(context.params)
+    ground, doubts = record_request.ground_motion(context.params)
+    with your_input(record_request.ARGUMENTS):
+        motion = motion_files.run(block.system(ground, braces=braces), start, None, tuple(files))
+    for name, path in files.items():
+        motion_files.WRITERS[name](motion, block, path)
+    report.show(motion, block, ground, doubts, list(files.values()), as_json=json)

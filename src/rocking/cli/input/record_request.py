@@ -1,0 +1,84 @@
+"""Options of `rocking record`, and their conversion to a block, an initial state and a ground motion."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import typer
+
+from rocking.cli.input import options as ask
+from rocking.cli.option_names import START, YourInput, option, options, your_input
+
+if TYPE_CHECKING:
+    from rocking.model import Block, Braces, GroundMotion, State
+
+EXAMPLE = "example"
+MAX_PGA = 1e5
+ARGUMENTS = options(
+    "height",
+    "width",
+    "restitution",
+    "inertia_ratio",
+    *START,
+    "channel",
+    "units",
+    "step",
+    "baseline",
+    "scale",
+    "pga_g",
+) | {"pga": option("pga_g"), "factor": option("scale")}
+
+
+def record_path(text: str) -> Path:
+    """Return the path of a record file; `example` stands for that of the package."""
+    if not text:
+        raise typer.BadParameter("must be the path of a file; got ''")
+    if text == EXAMPLE:
+        from rocking.records import EXAMPLE_FILE
+
+        return EXAMPLE_FILE
+    return Path(text)
+
+
+def block_and_start(given: Mapping[str, Any]) -> tuple[Block, Braces | None, State]:
+    """Return the block, its braces and the initial state of the options; YourInput if invalid."""
+    from rocking.model import MAX_START, Block, State, within
+
+    ask.require(given, (("height",), ("width",)), "--height and --width")
+    more = {} if given["inertia_ratio"] is None else {"inertia_ratio": given["inertia_ratio"]}
+    braces = ask.braces(given)
+    with your_input(ARGUMENTS):
+        start = State(*(within(name, given[name], -MAX_START, MAX_START) for name in START))
+        return Block(given["height"], given["width"], given["restitution"], **more), braces, start
+
+
+def ground_motion(given: Mapping[str, Any]) -> tuple[GroundMotion, list[str]]:
+    """Return the ground motion of the options, scaled, and the warnings of the reader; YourInput if invalid."""
+    from rocking.model import GRAVITY, within
+    from rocking.records import RecordError, read_ground_motion
+
+    if given["scale"] is not None and given["pga_g"] is not None:
+        raise YourInput("give --scale or --pga-g, not both")
+    reading = {name: given[name] for name in ("channel", "units", "step", "baseline")}
+    with your_input(ARGUMENTS), warnings.catch_warnings(record=True) as doubts:
+        warnings.simplefilter("always")
+        try:
+            ground = read_ground_motion(given["file"], **reading)
+        except RecordError as error:
+            raise YourInput(_as_options(str(error))) from error
+    with your_input(ARGUMENTS):
+        if given["pga_g"] is not None:
+            ground = ground.scaled(pga=GRAVITY * within("pga_g", given["pga_g"], 0, MAX_PGA, "g"))
+        elif given["scale"] is not None:
+            ground = ground.scaled(given["scale"])
+    return ground, [str(doubt.message) for doubt in doubts]
+
+
+def _as_options(text: str) -> str:
+    """Return the message on a file with the arguments that it names as options; the file may be named like one."""
+    for said in ("for example ", "do not give "):
+        text = text.replace(said, said + "--")
+    return text
