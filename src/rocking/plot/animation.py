@@ -174,14 +174,11 @@ class _Film:
         largest = far / block.height
         base_factor = 1.0 if largest == 0 else _round(min(max(largest, 0.08), 0.3) / largest)
         self.scene = Scene(ax, block, factor * block.radians(self.angles), base_factor * moved, brace)
-        drifted = ""
+        moves = f"displacement of the base {_said(base_factor)}"
         if drift is not None:
-            size = f"{drift:.2g} m" if to_scale else f"{drift / block.height:.2g} block heights"
-            drifted = f", drift {size} at the end".replace("-", "−")
-        return (
-            f"block {block.height / block.width:.3g} : 1, angle {_said(factor)}\n"
-            f"displacement of the base {_said(base_factor)}{drifted}"
-        )
+            size = f"{drift:.2g} m" if to_scale else f"{drift / block.height:.2g} heights"
+            moves = f"base displacement {_said(base_factor)}, drift {size} at the end".replace("-", "−")
+        return f"block {block.height / block.width:.3g} : 1, angle {_said(factor)}\n{moves}"
 
     def frames(self) -> Iterator[NDArray]:
         """Yield the frames as RGB arrays; only moving parts are drawn again."""

@@ -58,6 +58,7 @@ def time_history(
     Notes
     -----
     Dotted lines mark the critical angle, dashed lines the braces. They are omitted if the motion stays below half of it.
+    Dotted lines in the panel of the base acceleration mark g θcr, beyond which a block at rest lifts off.
 
     Examples
     --------
@@ -87,17 +88,15 @@ def draw_with_base(above: Axes, below: Axes, motion: Motion, block: Block | None
 
 
 def draw_base(ax: Axes, motion: Motion, start: float, stop: float, block: Block | None) -> Axes:
-    """Draw the base acceleration from time `start` to `stop`, in τ, with dotted lines at ±g θcr, the limits of rest."""
+    """Draw the base acceleration from time `start` to `stop`, in τ, and the accelerations that lift a block off if it comes near."""
     forcing, shown = motion.system.forcing, quantities(block)
     time = np.linspace(start, stop, SAMPLES_PER_PICTURE)  # also at a jump, where no sample is
     if isinstance(forcing, PiecewiseLinear):
         samples = forcing.step * np.arange(forcing.values.size)
         time = np.union1d(time, samples[(samples >= start) & (samples <= stop)])
     ax.axhline(0.0, color=style.GUIDE, linewidth=style.THIN)
-    for side in (-1.0, 1.0):
-        ax.axhline(
-            shown.amplitude(side), color=style.GUIDE, linestyle="dotted", linewidth=style.LINE, gid="lift-off"
-        )
+    if forcing.largest > 0.5:
+        _pair(ax, shown.amplitude(1.0), style.GUIDE, "dotted", "lift-off from rest", at_right=False)
     ax.plot(
         shown.time(time),
         shown.amplitude(forcing.acceleration(time)),
@@ -114,7 +113,7 @@ def draw_history(ax: Axes, motion: Motion, start: float, stop: float, block: Blo
     """Draw the angle from time `start` to `stop`, in τ."""
     time, angle, _ = trace(motion, start, stop)
     shown = quantities(block)
-    _guides(ax, motion.system, shown, float(np.abs(angle).max()))
+    _guides(ax, motion.system, shown, float(np.abs(angle).max()), at_right=has_cycles(motion))
     ax.plot(
         shown.time(time),
         shown.angle(angle),
@@ -128,7 +127,7 @@ def draw_history(ax: Axes, motion: Motion, start: float, stop: float, block: Blo
     return ax
 
 
-def _guides(ax: Axes, system: System, shown: Quantities, largest: float) -> None:
+def _guides(ax: Axes, system: System, shown: Quantities, largest: float, *, at_right: bool) -> None:
     """Draw the angle 0, and the braces or the critical angle if the motion exceeds half of it."""
     ax.axhline(0.0, color=style.GUIDE, linewidth=style.THIN)
     if system.braces is None:
@@ -136,17 +135,20 @@ def _guides(ax: Axes, system: System, shown: Quantities, largest: float) -> None
     else:
         level, colour, dashes, name = system.braces.angle, style.BRACE, "dashed", "braces"
     if largest > 0.5 * level:
-        for side in (-1.0, 1.0):
-            ax.axhline(
-                shown.angle(side * level), color=colour, linestyle=dashes, linewidth=style.LINE, gid=name
-            )
-        ax.text(
-            1.0,
-            shown.angle(level),
-            name,
-            transform=ax.get_yaxis_transform(),
-            ha="right",
-            va="bottom",
-            fontsize=style.SMALL,
-            color=style.INK,
-        )
+        _pair(ax, shown.angle(level), colour, dashes, name, at_right=at_right)
+
+
+def _pair(ax: Axes, level: float, colour: str, dashes: str, name: str, *, at_right: bool) -> None:
+    """Draw lines at ± a level, with a name above the upper one: at the left under a record, which begins weakly."""
+    for side in (-1.0, 1.0):
+        ax.axhline(side * level, color=colour, linestyle=dashes, linewidth=style.LINE, gid=name)
+    ax.text(
+        1.0 if at_right else 0.01,
+        level,
+        name,
+        transform=ax.get_yaxis_transform(),
+        ha="right" if at_right else "left",
+        va="bottom",
+        fontsize=style.SMALL,
+        color=style.INK,
+    )
