@@ -2,6 +2,7 @@
 
 import itertools
 import math
+import re
 import subprocess
 
 import imageio_ffmpeg
@@ -16,6 +17,8 @@ SYSTEM = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925)
 BRACED = rk.System(rk.Harmonic(amplitude=15.0, period=2.0), restitution=0.925, braces=rk.Braces(angle=1.0))
 FALLING = rk.System(rk.Harmonic(amplitude=1.75, period=2.0), restitution=0.95)
 FREE = rk.System(rk.Harmonic(amplitude=0.0, period=1.0), restitution=0.9)
+PUSHED = rk.System(rk.PiecewiseLinear([3.0, 3.0], step=2.0), restitution=0.9)
+BLOCK = rk.Block(height=2.0, width=0.5)
 FAST = rk.System(rk.Harmonic(amplitude=1000.0, period=0.0063), restitution=0.9)
 SCENE_ROWS = slice(60, 350)
 
@@ -272,3 +275,64 @@ def test_argument_of_another_kind_is_refused_in_one_line(tmp_path, monkeypatch, 
     with pytest.raises(TypeError, match=message):
         rk.plot.animation(motion or rk.simulate(SYSTEM, cycles=5), name, block)
     assert not list(tmp_path.iterdir())
+
+
+def film_of(motion, block, count=200):
+    from rocking.plot.animation import NOMINAL, _Film, _window
+
+    window = _window(motion, block or NOMINAL, None)
+    return window, _Film(motion, block, np.linspace(*window, count), 1.0)
+
+
+def test_base_moves_as_the_record_integrated_twice():
+    ground = rk.GroundMotion([0.0, 4.0, -5.0, 3.0, 0.0], step=0.2)
+    motion = rk.simulate(BLOCK.system(ground))
+    forcing, unit = motion.system.forcing, BLOCK.acceleration(1.0) / BLOCK.frequency_parameter**2
+    samples = forcing.step * np.arange(5)
+    np.testing.assert_allclose(
+        unit * forcing.displacement(samples), ground.displacement, rtol=1e-12, atol=1e-15
+    )
+    _, film = film_of(motion, BLOCK)
+    moved = unit * forcing.displacement(film.times)
+    factor = film.scene.base[-1] / moved[-1]
+    np.testing.assert_allclose(film.scene.base, factor * moved, rtol=1e-12, atol=1e-12)
+    drift = f"{ground.displacement[-1]:.2g}".replace("-", "−")
+    assert f"drift {drift} m at the end" in film.figure.texts[1].get_text()
+
+
+def test_displacement_between_the_samples_is_that_of_the_straight_segments():
+    forcing = rk.PiecewiseLinear([0.5, 2.0, -1.0, 0.3], step=0.7, scale=1.3)
+    times = np.linspace(0.0, 3.0, 200_001)
+    base = np.where(times > forcing.duration, 0.0, forcing.acceleration(times))
+    h = times[1]
+    velocity = np.concatenate(([0.0], np.cumsum((base[1:] + base[:-1]) / 2 * h)))
+    place = np.concatenate(([0.0], np.cumsum((velocity[1:] + velocity[:-1]) / 2 * h)))
+    np.testing.assert_allclose(forcing.displacement(times), place, rtol=0, atol=1e-4)
+    assert forcing.displacement(-1.0) == 0.0
+    assert np.ptp(np.diff(forcing.displacement([2.1, 3.1, 4.1, 5.1]))) == pytest.approx(0.0, abs=1e-12)
+
+
+def test_film_of_a_record_begins_before_the_lift_off_and_ends_after_rest():
+    motion = rk.simulate(BLOCK.system(rk.example_ground_motion().scaled(pga=6.0)))
+    (start, stop), _ = film_of(motion, BLOCK, count=5)
+    first, last = motion.events["time"][[0, -1]]
+    assert 0 < start < first
+    assert last < stop < motion.duration
+
+
+def test_film_of_a_record_without_block_gives_the_drift_in_heights():
+    (_, _), film = film_of(rk.simulate(PUSHED), None)
+    assert re.search(r"base displacement .*, drift \d\S* heights at the end", film.figure.texts[1].get_text())
+
+
+def test_fall_under_a_record_is_shown_until_the_block_lies_flat(tmp_path):
+    frames = gif_frames(rk.plot.animation(rk.simulate(PUSHED), tmp_path / "a.gif", BLOCK, seconds=1, fps=10))
+    x, y = wood(frames[-1])
+    assert np.ptp(x) / np.ptp(y) == pytest.approx(4.0, rel=4 / 63)
+
+
+def test_block_that_never_moves_under_a_record_is_filmed_for_its_length():
+    motion = rk.simulate(BLOCK.system(rk.example_ground_motion()))
+    window, film = film_of(motion, BLOCK, count=5)
+    assert window == (0.0, motion.duration)
+    assert not film.angles.any()

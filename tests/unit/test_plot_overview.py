@@ -66,3 +66,19 @@ def test_block_that_never_rocks_is_shown_whole():
 def test_other_than_a_motion_is_refused_in_one_line():
     with pytest.raises(TypeError, match="^motion must be a Motion; got 3$"):
         rk.plot.overview(3)
+
+
+RECORD = rk.System(rk.PiecewiseLinear([0.0, 1.5, -1.5, 0.0], step=0.4), restitution=0.9)
+
+
+def test_record_stands_below_the_time_history_beside_the_phase_portrait():
+    motion = rk.simulate(RECORD)
+    above, below, right = rk.plot.overview(motion).axes
+    assert [ax.get_title(loc="left") for ax in (above, below, right)] == ["(a)", "(b)", "(c)"]
+    assert above.get_xlim() == below.get_xlim() == (0.0, motion.duration)
+    assert right.get_xlabel() == r"angle $\Theta = \theta/\theta_\mathrm{cr}$"
+
+
+@pytest.mark.parametrize("record", ["all", "none"])
+def test_notebook_shows_a_motion_under_a_record(record):
+    assert "data:image/png;base64," in rk.simulate(RECORD, record=record)._repr_html_()

@@ -11,6 +11,9 @@ SYSTEM = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925)
 BRACED = rk.System(rk.Harmonic(amplitude=15.0, period=2.0), restitution=0.925, braces=rk.Braces(angle=1.0))
 FALLING = rk.System(rk.Harmonic(amplitude=1.75, period=2.0), restitution=0.95)
 FREE = rk.System(rk.Harmonic(amplitude=0.0, period=1.0), restitution=0.9)
+RECORD = rk.PiecewiseLinear([0.0, 1.5, -1.5, 0.9, 0.0], step=0.4)
+SHAKEN = rk.System(RECORD, restitution=0.9)
+PUSHED = rk.System(rk.PiecewiseLinear([3.0, 3.0], step=2.0), restitution=0.9)
 CHATTERING = rk.System(rk.Harmonic(amplitude=1.3, period=3.0), restitution=0.4)
 
 
@@ -184,3 +187,73 @@ def test_motion_without_events_is_refused_with_the_way_out():
 def test_argument_of_another_kind_is_refused_in_one_line(draw, how, message):
     with pytest.raises(TypeError, match=message):
         draw(**({"motion": rk.simulate(SYSTEM, cycles=5)} | how))
+
+
+def panel(ax):
+    """The curve of the base acceleration, and its axes below those of the angle."""
+    above, below = ax.figure.axes
+    assert above is ax
+    (line,) = (line for line in below.lines if line.get_gid() == "base")
+    return below, np.asarray(line.get_xdata()), np.asarray(line.get_ydata())
+
+
+def test_record_stands_below_the_angle_with_every_sample_on_the_same_time_axis():
+    motion = rk.simulate(SHAKEN)
+    ax = rk.plot.time_history(motion)
+    time, angle = curve(ax)
+    below, when, base = panel(ax)
+    np.testing.assert_allclose(angle, motion.at(time)[0], rtol=0, atol=1e-15)
+    assert set(0.4 * np.arange(5)) <= set(when)
+    np.testing.assert_allclose(base, RECORD.acceleration(when), rtol=0, atol=1e-15)
+    assert ax.get_xlim() == below.get_xlim() == (0.0, motion.duration)
+    assert ax.get_xlabel() == ""
+    assert below.get_xlabel() == r"time $\tau = \alpha t$"
+    assert below.get_ylabel() == "acceleration\nof base ($g\\theta_\\mathrm{cr}$)"
+
+
+def test_block_gives_the_base_in_metres_per_square_second():
+    block = rk.Block(height=2.0, width=0.5)
+    ground = rk.example_ground_motion().scaled(pga=6.0)
+    ax = rk.plot.time_history(rk.simulate(block.system(ground)), block=block)
+    below, when, base = panel(ax)
+    assert below.get_ylabel() == "acceleration\nof base (m/s²)"
+    assert np.abs(base).max() == pytest.approx(6.0)
+    assert when[-1] == pytest.approx(ground.duration)
+    levels = {line.get_ydata()[0] for line in below.lines if line.get_gid() == "lift-off from rest"}
+    assert levels == {block.acceleration(1.0), -block.acceleration(1.0)}
+
+
+def test_jump_at_the_end_of_a_record_is_drawn_as_a_jump():
+    motion = rk.simulate(rk.System(rk.PiecewiseLinear([1.2, 1.2], step=0.5), restitution=0.9))
+    _, when, base = panel(rk.plot.time_history(motion))
+    assert base[when <= 0.5] == pytest.approx(1.2)
+    assert not base[when > 0.5].any()
+    assert np.diff(when)[when[1:] > 0.5][0] < motion.duration / 900
+
+
+def test_overturning_under_a_record_is_followed_to_three_critical_angles():
+    motion = rk.simulate(PUSHED)
+    time, angle = curve(rk.plot.time_history(motion))
+    assert motion.outcome == "overturned"
+    assert abs(angle[-1]) == pytest.approx(3.0, abs=1e-10)
+    assert time[-1] > motion.overturning.time
+
+
+def test_axes_given_show_the_angle_alone():
+    _, (_, right) = rk.plot.panels(columns=2)
+    assert rk.plot.time_history(rk.simulate(SHAKEN), ax=right) is right
+    assert len(right.figure.axes) == 2
+    assert right.get_xlabel() == r"time $\tau = \alpha t$"
+
+
+@pytest.mark.parametrize("draw", [rk.plot.time_history, rk.plot.phase_portrait])
+def test_cycles_of_a_record_are_refused_in_one_line(draw):
+    with pytest.raises(ValueError, match="^cycles must be omitted for a base motion of finite length"):
+        draw(rk.simulate(SHAKEN), cycles=(0, 1))
+
+
+def test_pictures_that_need_a_period_refuse_a_record_in_one_line():
+    motion = rk.simulate(SHAKEN)
+    for draw in (rk.plot.section, rk.spectral_density):
+        with pytest.raises(TypeError, match=r"^system must have a periodic base motion, rk\.Harmonic"):
+            draw(motion)

@@ -36,11 +36,12 @@ class CommandHelp(TyperCommand):
             # Typer appends the Python type to the name of an argument.
             sections[section].append((name.partition(" <")[0], DEFAULT.sub(_default, text)))
         width = max(len(name) for records in sections.values() for name, _ in records)
+        first = next((section for section in GROUPS.values() if sections[section]), None)
         for section, records in sections.items():
             if not records:
                 continue
             with formatter.section(section):
-                if section == GROUPS["amplitude"]:
+                if section == first:
                     formatter.write_text(UNITS)
                 rows = [(name.ljust(width), _replaced(text, UNBROKEN)) for name, text in records]
                 formatter.write_dl(rows, MAX_COLUMN)

@@ -90,9 +90,9 @@ def record(
     json: ask.Json = False,
     **shared: Any,
 ) -> None:
-    """Simulate a block under a recorded ground motion, in SI units.
+    """Simulate a block under a recorded ground motion.
 
-    The run ends when the block is at rest permanently, or when overturning is certain. Block, record and margin are printed.
+    The run ends when the block is at rest permanently, or when overturning is certain. All is in SI units.
     """
     from rocking.cli.output import motion_files
     from rocking.cli.reports import record as report

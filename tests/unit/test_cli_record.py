@@ -1,0 +1,274 @@
+"""`rocking record`: report, files and errors of a block under a recorded ground motion."""
+
+import csv
+import json
+import math
+
+import attrs
+import numpy as np
+import pytest
+
+import rocking as rk
+from rocking.records import EXAMPLE_FILE
+
+SIZE = "--height 2 --width 0.5"
+BLOCK = rk.Block(2.0, 0.5)
+PULSE = "time (s), acceleration (m/s²)\n0, 0\n0.2, 4\n0.4, -5\n0.6, 3\n0.8, 0\n"
+PUSH = "time (s), acceleration (m/s²)\n0, 0\n0.5, 12\n1, 0\n"
+GENTLE = "time (s), acceleration (m/s²)\n0, 0\n0.5, 1\n1, 0\n"
+
+
+@pytest.fixture(autouse=True)
+def records(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    for name, text in {
+        "pulse.csv": PULSE,
+        "push.csv": PUSH,
+        "gentle.csv": GENTLE,
+        "bare.txt": "0\n4\n-4\n0\n",
+    }.items():
+        (tmp_path / name).write_text(text, encoding="utf-8")
+
+
+def simulated(name, scale=1.0, block=BLOCK):
+    return rk.simulate(block.system(rk.read_ground_motion(name).scaled(scale)))
+
+
+def told(rocking, line):
+    code, message, out = rocking(f"record {line}")
+    assert (code, message) == (0, "")
+    return out.splitlines()[0], " ".join(out.split())
+
+
+def test_report_describes_record_block_and_motion_in_si(rocking):
+    ground = rk.example_ground_motion().scaled(pga=0.6 * 9.80665)
+    motion = rk.simulate(BLOCK.system(ground))
+    first, text = told(rocking, f"example {SIZE} --pga-g 0.6")
+    assert first == f"at rest permanently from t = {BLOCK.seconds(motion.events['time'][-1]):.4g} s"
+    for shown in (
+        "motion San Francisco, 1295 Shafter, F, 360°",
+        f"file 0111a.smc, SMC, SHA-256 {ground.file.sha256[:12]}…",
+        "samples 6001, step 0.005 s, 30 s",
+        "baseline as in the file",
+        "PGA 5.884 m/s² = 0.6 g",
+        "PGA in the header 1.044 m/s², agrees with the samples, 1.044 m/s²",
+        f"PGV {ground.pgv:.4g} m/s",
+        f"drift {ground.displacement[-1]:.4g} m at the end",
+        f"Arias intensity {ground.arias_intensity:.4g} m/s",
+        f"significant duration {ground.significant_duration:.4g} s",
+        "block 2 m × 0.5 m",
+        "critical angle 14.04°",
+        "restitution e = 0.911765, Housner's value for this block",
+        f"impacts {motion.impacts} ",
+        f"largest |θ| {BLOCK.degrees(motion.peak):.4g}°, top {BLOCK.top_displacement(motion.peak):.4g} m, {motion.peak:.4g} θcr",
+        f"margin K₊ {motion.margin:.4g}: at t = {BLOCK.seconds(motion.margin_time):.4g} s the block lacked ",
+        f"friction required {motion.validity(BLOCK).friction:.4g} (motion, t = ",
+    ):
+        assert shown in text
+    assert "cycle" not in text
+    assert "τ" not in text
+
+
+def test_overturning_is_told_with_its_time_and_is_a_success(rocking):
+    motion = simulated("push.csv")
+    assert motion.outcome == "overturned"
+    first, text = told(rocking, f"push.csv {SIZE}")
+    assert first == f"overturned: certain from t = {BLOCK.seconds(motion.overturning.time):.4g} s"
+    assert "to spare" in text
+    assert "largest |θ| until the proof" in text
+
+
+def test_block_that_never_moves_has_no_margin(rocking):
+    first, text = told(rocking, f"gentle.csv {SIZE}")
+    assert first == "at rest throughout"
+    assert "margin K₊ undefined for a block that never moves" in text
+
+
+def test_motion_without_losses_is_followed_for_the_length_of_the_record(rocking):
+    first, text = told(rocking, f"pulse.csv {SIZE} --restitution 1 --brace-angle 0.5")
+    assert first == "bounded over 0.8 s (neither rest nor overturning was proved)"
+    assert "restitution e = 1, as given" in text
+    assert "braces 7.018°, r = 1" in text
+    assert "margin K₊ undefined between braces" in text
+
+
+def test_undecided_outcome_is_said_in_the_first_line_and_in_a_warning():
+    from rocking.cli.reports.record import undecided, verdict
+
+    motion = simulated("gentle.csv")
+    doubtful = attrs.evolve(motion, certified=False)
+    assert verdict(doubtful, BLOCK) == f"{verdict(motion, BLOCK)} (undecided in double precision)"
+    assert list(undecided(motion)) == []
+    assert len(list(undecided(doubtful))) == 1
+
+
+@pytest.mark.parametrize(
+    ("line", "motion"),
+    [
+        ("--scale 1.5", lambda: simulated("pulse.csv", 1.5)),
+        ("--scale=-1.5", lambda: simulated("pulse.csv", -1.5)),
+        ("--pga-g 0.7", lambda: simulated("pulse.csv", 0.7 * 9.80665 / 5)),
+        ("--restitution 0.5", lambda: simulated("pulse.csv", block=rk.Block(2.0, 0.5, 0.5))),
+        ("--inertia-ratio 1.5", lambda: simulated("pulse.csv", block=rk.Block(2.0, 0.5, inertia_ratio=1.5))),
+        (
+            "--angle 0.2 --velocity=-0.1",
+            lambda: rk.simulate(BLOCK.system(rk.read_ground_motion("pulse.csv")), rk.State(0.2, -0.1)),
+        ),
+        (
+            "--baseline mean",
+            lambda: rk.simulate(BLOCK.system(rk.read_ground_motion("pulse.csv", baseline="mean"))),
+        ),
+    ],
+)
+def test_options_are_the_arguments_of_the_package(rocking, line, motion):
+    code, _, out = rocking(f"record pulse.csv {SIZE} {line} --json")
+    found, expected = json.loads(out, parse_constant=pytest.fail), motion()
+    assert code == 0
+    assert found["outcome"] == expected.outcome
+    assert found["impacts"] == expected.impacts > 0
+    for name in ("peak", "margin", "duration"):
+        assert found[name] == pytest.approx(getattr(expected, name), rel=1e-9)
+
+
+def test_json_is_strict_and_has_no_cycles(rocking):
+    motion = simulated("push.csv")
+    code, _, out = rocking(f"record push.csv {SIZE} --json")
+    found = json.loads(out, parse_constant=pytest.fail)
+    assert code == 0
+    assert "cycle" not in out
+    assert found["overturning_s"] == pytest.approx(BLOCK.seconds(motion.overturning.time))
+    assert found["certified"] is True
+    assert found["ground_motion"]["pga_m_per_s2"] == 12.0
+    assert len(found["ground_motion"]["file"]["sha256"]) == 64
+    assert found["peak_deg"] == pytest.approx(BLOCK.degrees(motion.peak))
+    assert found["validity"]["overturned"] is True
+    still = json.loads(rocking(f"record gentle.csv {SIZE} --json")[2], parse_constant=pytest.fail)
+    assert (still["margin"], still["margin_time_s"], still["overturning_s"]) == (None, None, None)
+
+
+def test_csv_has_a_row_per_sample_of_the_record_at_least(rocking, tmp_path):
+    assert rocking(f"record example {SIZE} --pga-g 0.5 --csv motion.csv")[0] == 0
+    with (tmp_path / "motion.csv").open(encoding="utf-8") as file:
+        heading, *rows = csv.reader(file)
+    table = dict(zip(heading, np.array(rows, float).T, strict=True))
+    assert "time [s]" in table
+    assert not any("cycle" in name for name in heading)
+    motion = rk.simulate(BLOCK.system(rk.example_ground_motion().scaled(pga=0.5 * 9.80665)))
+    np.testing.assert_allclose(table["time [s]"], 0.005 * np.arange(6001), rtol=0, atol=1e-9)
+    angle, _ = motion.at(np.minimum(table["time [1/alpha]"], motion.duration))
+    np.testing.assert_allclose(table["angle [theta_cr]"], angle, rtol=1e-9, atol=1e-12)
+
+
+def test_coarse_samples_are_divided_into_whole_parts(rocking, tmp_path):
+    assert rocking(f"record pulse.csv {SIZE} --csv motion.csv")[0] == 0
+    times = np.loadtxt(tmp_path / "motion.csv", delimiter=",", skiprows=1)[:, 3]
+    assert times[1] <= BLOCK.seconds(1 / 32)
+    assert 0.2 / times[1] == pytest.approx(round(0.2 / times[1]), abs=1e-9)
+
+
+def test_netcdf_in_si_has_no_cycle_and_no_phase(rocking, tmp_path):
+    import xarray as xr
+
+    assert rocking(f"record pulse.csv {SIZE} --netcdf motion.nc")[0] == 0
+    motion = simulated("pulse.csv")
+    with xr.open_dataset(tmp_path / "motion.nc", engine="h5netcdf") as written:
+        xr.testing.assert_allclose(written.load(), motion.to_xarray(block=BLOCK), rtol=1e-12, atol=1e-12)
+        assert not {
+            name for name in (*written.variables, *written.attrs) if "cycle" in name or "phase" in name
+        }
+        assert "cycle" not in written.attrs["comment"]
+        assert written.attrs["margin"] == pytest.approx(motion.margin)
+        assert written.base_acceleration.units == "m s-2"
+        assert float(np.abs(written.base_acceleration).max()) == pytest.approx(5.0)
+
+
+def test_pictures_and_films_are_written(rocking, tmp_path):
+    code, _, out = rocking(f"record push.csv {SIZE} --plot a.png --animate a.gif")
+    assert code == 0
+    assert out.endswith("wrote a.png\nwrote a.gif\n")
+    assert (tmp_path / "a.png").read_bytes().startswith(b"\x89PNG")
+    assert (tmp_path / "a.gif").read_bytes().startswith(b"GIF8")
+
+
+def test_header_that_contradicts_its_samples_is_a_warning(rocking, tmp_path):
+    text = EXAMPLE_FILE.read_text(encoding="latin-1")
+    stated = "0.1044078E+03"
+    assert stated in text
+    (tmp_path / "other.smc").write_text(text.replace(stated, "0.2222222E+03"), encoding="latin-1")
+    _, said = told(rocking, f"other.smc {SIZE}")
+    assert "PGA in the header 2.222 m/s², differs from the samples, 1.044 m/s²" in said
+    assert "warning: other.smc: the samples have a PGA of 1.0441 m/s²" in said
+
+
+def test_more_events_than_are_kept_are_counted_and_refused_only_to_a_file(rocking, monkeypatch):
+    monkeypatch.setattr("rocking.motion.march_loop.MAX_RECORDED", 10)
+    first, text = told(rocking, f"pulse.csv {SIZE}")
+    assert first == "at rest permanently"
+    assert "warning: sliding and jumping of the block were not checked: too many events to keep" in text
+    assert rocking(f"record pulse.csv {SIZE} --csv a.csv")[:2] == (2, "too many events for --csv: omit --csv")
+
+
+@pytest.mark.parametrize(
+    ("line", "message"),
+    [
+        ("", "Missing argument 'FILE'."),
+        ("pulse.csv --height 2", "missing --width: give --height and --width"),
+        (f"none.csv {SIZE}", "none.csv: cannot be read: No such file or directory"),
+        (f". {SIZE}", ".: a folder; give the path of one file"),
+        (
+            f"bare.txt {SIZE}",
+            "bare.txt: the file does not state the unit of its samples; give it, for example --units='m/s²'",
+        ),
+        (
+            f"bare.txt {SIZE} --units g",
+            "bare.txt: the file does not state its time step; give it, for example --step=0.01",
+        ),
+        (
+            f"bare.txt {SIZE} --units feet",
+            "--units must be one of 'm/s²', 'cm/s²', 'mm/s²', 'g', 'gal'; got 'feet'",
+        ),
+        (f"pulse.csv {SIZE} --step 0.1", "pulse.csv: the file states its time step, 0.2; do not give --step"),
+        (
+            f"pulse.csv {SIZE} --step x",
+            "Invalid value for '--step': must be a number without a unit, such as 0.6; got 'x'",
+        ),
+        (f"pulse.csv {SIZE} --channel 2", "--channel must be 1 to 1, the channels of pulse.csv; got 2"),
+        (
+            f"pulse.csv {SIZE} --baseline cubic",
+            "--baseline must be one of 'none', 'mean', 'linear', 'quadratic'; got 'cubic'",
+        ),
+        (f"pulse.csv {SIZE} --scale 2 --pga-g 1", "give --scale or --pga-g, not both"),
+        (
+            f"pulse.csv {SIZE} --scale nan",
+            "--scale must be a finite real number of size up to 1e+06; got nan",
+        ),
+        (f"pulse.csv {SIZE} --pga-g=-1", "--pga-g must lie in [0, 100000] g; got -1"),
+        (f"pulse.csv {SIZE} --inertia-ratio 0.5", "--inertia-ratio must lie in [1, 10]; got 0.5"),
+        (f"pulse.csv {SIZE} --restitution 2", "--restitution must lie in [0, 1]; got 2"),
+        (f"pulse.csv {SIZE} --brace-restitution 0.5", "--brace-restitution needs --brace-angle"),
+        (f"pulse.csv {SIZE} --csv pulse.csv", "--csv must not overwrite the record; got 'pulse.csv'"),
+        (f"pulse.csv {SIZE} --plot a.gif", "--plot must end in .png, .svg, .pdf; got 'a.gif'"),
+        (f"pulse.csv {SIZE} --animate a.png", "--animate must end in .gif, .mp4; got 'a.png'"),
+    ],
+)
+def test_wrong_input_is_refused_in_one_line(rocking, line, message):
+    assert rocking(f"record {line}") == (2, message, "")
+
+
+def test_file_named_like_an_option_keeps_its_name(rocking, tmp_path):
+    (tmp_path / "step.txt").write_text("0\n1\n", encoding="utf-8")
+    assert rocking(f"record step.txt {SIZE}")[1].startswith("step.txt: the file does not state the unit")
+
+
+def test_margin_has_the_sign_of_what_it_says():
+    from rocking.cli.reports.record import margin
+
+    for motion in (simulated_pulse(scale) for scale in (1.0, 3.0)):
+        said = margin(motion, BLOCK)
+        assert ("lacked" in said) == (motion.margin < 0)
+        speed = math.degrees(BLOCK.radians_per_second(abs(motion.margin)))
+        assert f"{speed:.4g}°/s" in said
+
+
+def simulated_pulse(scale):
+    return rk.simulate(BLOCK.system(rk.GroundMotion([0.0, 4.0, -5.0, 3.0, 0.0], step=0.2).scaled(scale)))
