@@ -84,7 +84,7 @@ class Copies:
             file.write_text(mutation.apply(source.decode()), encoding="utf-8")
             if not mutation.file.startswith(KERNELS):
                 return self.detect(mutation, copy, self.folder / "cache")
-            with tempfile.TemporaryDirectory(dir=self.folder) as cache:
+            with tempfile.TemporaryDirectory(dir=self.folder, ignore_cleanup_errors=True) as cache:
                 return self.detect(mutation, copy, cache)
         finally:
             # The compiler's cache compares the time of a file, so the file gets its old time back.

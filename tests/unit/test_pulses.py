@@ -149,3 +149,13 @@ def test_kind_amplitude_and_duration_are_checked():
         rk.Block(2.0, 0.5).system(rk.Pulse("one-sine", amplitude=1.0, duration=1.0), acceleration=1.0)
     with pytest.raises(TypeError, match="base must be a BaseMotion"):
         rk.Block(2.0, 0.5).system(rk.Harmonic(1.0, period=1.0))
+
+
+@pytest.mark.parametrize("kind", rk.model.KINDS)
+def test_displacement_is_the_acceleration_integrated_twice(kind):
+    pulse = rk.Pulse(kind, amplitude=-1.5, duration=0.8)
+    times = np.linspace(0.0, 1.3 * pulse.span, 200_001)
+    step, acceleration = times[1], pulse.acceleration(times)
+    velocity = np.concatenate(([0.0], np.cumsum((acceleration[1:] + acceleration[:-1]) * (step / 2))))
+    place = np.concatenate(([0.0], np.cumsum((velocity[1:] + velocity[:-1]) * (step / 2))))
+    assert pulse.displacement(times) == pytest.approx(place, abs=2e-5)

@@ -150,7 +150,7 @@ class Pulse(Forcing, BaseMotion):
 
     def quantities(self) -> dict[str, float]:
         """Return amplitude and duration, by name."""
-        return {"amplitude": self.amplitude, "duration": self.duration}
+        return {"amplitude": self.amplitude, "pulse_duration": self.duration}
 
     def acceleration(self, times: Any) -> Any:
         """Return the base acceleration at given times.
@@ -180,6 +180,42 @@ class Pulse(Forcing, BaseMotion):
         part = np.asarray(reals("times", times)) / self.duration
         wave = np.cos(2 * math.pi * self.cosine.turns * part + self.cosine.phase)
         return (self.amplitude * np.where((part >= 0) & (part <= 1), wave, 0.0))[()]
+
+    def displacement(self, times: Any) -> Any:
+        """Return the base displacement from rest, by exact integration.
+
+        Before the pulse the base is at rest. After it the base keeps its velocity.
+
+        Parameters
+        ----------
+        times : float or array
+            Time since the start of the pulse.
+
+        Returns
+        -------
+        float or ndarray
+            Displacement in units of amplitude times time squared, in the shape of `times`.
+
+        Raises
+        ------
+        TypeError
+            If `times` holds anything but real numbers.
+
+        Examples
+        --------
+        >>> pulse = Pulse("one-sine", amplitude=1.0, duration=2.0)
+        >>> pulse.displacement([0.0, 2.0, 3.0]).round(6).tolist()  # T²/2π, and then at rest
+        [0.0, 0.63662, 0.63662]
+        """
+        if self.cosine is None:
+            return self.samples.displacement(times)
+        rate, phase = 2 * math.pi * self.cosine.turns / self.duration, self.cosine.phase
+        times = np.asarray(reals("times", times), dtype=float)
+        within_it = np.clip(times, 0.0, self.duration)
+        angle = rate * within_it + phase
+        velocity = (np.sin(angle) - math.sin(phase)) / rate
+        moved = (math.cos(phase) - np.cos(angle)) / rate**2 - within_it * math.sin(phase) / rate
+        return (self.amplitude * (moved + velocity * np.maximum(times - self.duration, 0.0)))[()]
 
     def normalised(self, acceleration: float, frequency: float) -> Pulse:
         """Return the normalised pulse, for an amplitude in m/s² and a duration in s.

@@ -12,7 +12,8 @@ import numpy as np
 
 from rocking.cli.output.console import WARNING, Row, print_json, print_table
 from rocking.cli.reports import validity
-from rocking.model import GRAVITY, PHYSICAL, Block, System, Verdict, counted, ordinal, quantities
+from rocking.model import GRAVITY, PHYSICAL, Block, Pulse, System, Verdict, counted, ordinal, quantities
+from rocking.motion import has_cycles
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -31,12 +32,14 @@ def show(motion: Motion, block: Block | None, files: Sequence[Path], *, as_json:
 
 def verdict(motion: Motion) -> str:
     """Return the outcome in one line."""
-    overturning = motion.overturning
+    overturning, undecided = motion.overturning, "" if motion.certified else ": undecided in double precision"
     if overturning is not None:
-        cycle = ordinal(overturning.cycle + 1)
-        return f"overturned (proved at τ = {overturning.time:.6g}, in the {cycle} cycle)"
+        cycle = f", in the {ordinal(overturning.cycle + 1)} cycle" if has_cycles(motion) else ""
+        return f"overturned (proved at τ = {overturning.time:.6g}{cycle}){undecided}"
     if motion.outcome == "at-rest":
-        return "at rest permanently"
+        return f"at rest permanently{undecided}"
+    if not has_cycles(motion):
+        return f"bounded up to τ = {motion.duration:.6g}{undecided}"
     return f"bounded over {counted(motion.cycles, 'cycle')} (neither rest nor overturning was proved)"
 
 
@@ -52,21 +55,37 @@ def asked(result: Motion | Verdict, block: Block | None) -> Iterator[Row]:
 
 def asked_of(system: System, block: Block | None) -> Iterator[Row]:
     """Yield the rows of the system."""
-    forcing, restitution, braces = system.harmonic, system.restitution, system.braces
-    if block is None:
-        yield "forcing", f"A = {forcing.amplitude:.6g}, T = {forcing.period:.6g}, φ = {forcing.phase:.6g}", ""
-        yield "restitution", f"e = {restitution:.6g}", ""
-    else:
+    restitution, braces = system.restitution, system.braces
+    if block is not None:
         yield "", "normalised", "in SI"
         yield "critical angle", "1", f"{block.degrees(1.0):.4g}°"
         yield "time unit 1/α", "1", f"{block.seconds(1.0):.4g} s"
-        yield "amplitude", f"A = {forcing.amplitude:.6g}", in_si("amplitude", forcing.amplitude, block)
-        yield "period", f"T = {forcing.period:.6g}", in_si("period", forcing.period, block)
-        yield "phase", f"φ = {forcing.phase:.6g}", f"{math.degrees(forcing.phase):.4g}°"
+    yield from _base_rows(system, block)
+    if block is None:
+        yield "restitution", f"e = {restitution:.6g}", ""
+    else:
         yield "restitution", f"e = {restitution:.6g}", origin(block)
     if braces is not None:
         at = "" if block is None else f"{block.degrees(braces.angle):.4g}°"
         yield "braces", f"Θb = {braces.angle:.6g}, r = {braces.restitution:.6g}", at
+
+
+def _base_rows(system: System, block: Block | None) -> Iterator[Row]:
+    """Yield the rows of a base motion that a few numbers describe."""
+    if isinstance(system.forcing, Pulse):
+        pulse = system.forcing
+        size = f"A = {pulse.amplitude:.6g}"
+        yield "pulse", pulse.kind, ""
+        yield "amplitude", size, in_si("amplitude", pulse.amplitude, block)
+        yield "duration", f"τ = {pulse.span:.6g}", in_si("period", pulse.span, block)
+        return
+    forcing = system.harmonic
+    if block is None:
+        yield "forcing", f"A = {forcing.amplitude:.6g}, T = {forcing.period:.6g}, φ = {forcing.phase:.6g}", ""
+    else:
+        yield "amplitude", f"A = {forcing.amplitude:.6g}", in_si("amplitude", forcing.amplitude, block)
+        yield "period", f"T = {forcing.period:.6g}", in_si("period", forcing.period, block)
+        yield "phase", f"φ = {forcing.phase:.6g}", f"{math.degrees(forcing.phase):.4g}°"
 
 
 def origin(block: Block) -> str:
@@ -117,7 +136,8 @@ def beyond(angle: float, block: Block | None) -> Iterator[str]:
 def found(motion: Motion, block: Block | None) -> Iterator[Row]:
     """Yield the rows of the result."""
     time = "" if block is None else f"{block.seconds(motion.duration):.4g} s"
-    yield "simulated", f"{counted(motion.cycles, 'cycle')}, τ = {motion.duration:.6g}", time
+    cycles = f"{counted(motion.cycles, 'cycle')}, " if has_cycles(motion) else ""
+    yield "simulated", f"{cycles}τ = {motion.duration:.6g}", time
     yield "impacts", f"{motion.impacts}{_cut(motion, 'rest')}", ""
     if motion.system.braces is not None:
         yield "brace impacts", f"{motion.brace_hits}{_cut(motion, 'sustained contact')}", ""
@@ -127,6 +147,9 @@ def found(motion: Motion, block: Block | None) -> Iterator[Row]:
         f"{motion.peak:.6g}",
         reach(motion.peak, block),
     )
+    if not math.isnan(motion.margin):
+        at = "" if block is None else f" = {block.seconds(motion.margin_time):.4g} s"
+        yield "margin K₊", f"{motion.margin:.6g}", f"at τ = {motion.margin_time:.6g}{at}"
     yield (
         "state at the proof" if proved else "final state",
         f"Θ = {motion.final.angle:.6g}, Θ' = {motion.final.velocity:.6g}",
@@ -165,6 +188,7 @@ def record(motion: Motion, block: Block | None, files: Sequence[Path]) -> dict[s
         "brace_hits": motion.brace_hits,
         "impacts_cut_short": motion.record != "all",
         "peak": motion.peak,
+        **({} if has_cycles(motion) else closeness(motion)),
         "final": attrs.asdict(motion.final),
         "files": [str(path) for path in files],
     }
@@ -172,6 +196,16 @@ def record(motion: Motion, block: Block | None, files: Sequence[Path]) -> dict[s
         summary["block"] = physical(motion, block)
         summary["validity"] = validity.record(motion, block)
     return summary
+
+
+def closeness(motion: Motion) -> dict[str, Any]:
+    """Return how close a motion came to another outcome as a JSON object; no number if the block never moves."""
+    moved = not math.isnan(motion.margin)
+    return {
+        "margin": motion.margin if moved else None,
+        "margin_time": motion.margin_time if moved else None,
+        "certified": motion.certified,
+    }
 
 
 def question(result: Motion | Verdict) -> dict[str, Any]:
@@ -182,7 +216,8 @@ def question(result: Motion | Verdict) -> dict[str, Any]:
 def question_of(system: System) -> dict[str, Any]:
     """Return the system as a JSON object."""
     found = quantities(system)
-    alone = {name: found[name] for name in found if not name.startswith("brace_")}
+    kind = {"pulse": system.forcing.kind} if isinstance(system.forcing, Pulse) else {}
+    alone = kind | {name: found[name] for name in found if not name.startswith("brace_")}
     return alone | {"braces": None if system.braces is None else attrs.asdict(system.braces)}
 
 
@@ -223,9 +258,13 @@ def asked_in_si(data: xr.Dataset, block: Block) -> dict[str, Any]:
 
 def physical_of(system: System, block: Block) -> dict[str, Any]:
     """Return the block and its base motion in SI as a JSON object."""
-    forcing = system.harmonic
+    if isinstance(system.forcing, Pulse):
+        pulse = system.forcing
+        size, length = pulse.amplitude, {"duration_s": block.seconds(pulse.span)}
+    else:
+        size, length = system.harmonic.amplitude, {"period_s": block.seconds(system.harmonic.period)}
     return size_of(block) | {
-        "acceleration_m_per_s2": block.acceleration(forcing.amplitude),
-        "period_s": block.seconds(forcing.period),
+        "acceleration_m_per_s2": block.acceleration(size),
+        **length,
         "restitution_is_housners": block.has_housner_restitution,
     }

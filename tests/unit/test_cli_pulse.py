@@ -1,0 +1,57 @@
+"""`rocking simulate --pulse`."""
+
+import json
+
+import pytest
+
+import rocking as rk
+
+BLOCK = "--height 2 --width 0.5"
+SIZE = "--acceleration-g 0.5 --frequency-hz 1"
+
+
+def test_pulse_in_si_is_that_of_the_block(rocking):
+    summary = json.loads(rocking(f"simulate --pulse one-sine {BLOCK} {SIZE} --json")[2])
+    block = rk.Block(height=2.0, width=0.5)
+    motion = rk.simulate(block.system(rk.Pulse("one-sine", amplitude=0.5 * 9.80665, duration=1.0)))
+    assert summary["outcome"] == motion.outcome == "overturned"
+    assert (summary["margin"], summary["margin_time"]) == (motion.margin, motion.margin_time)
+    assert summary["certified"] is True
+    assert summary["block"]["duration_s"] == pytest.approx(1.0)
+    assert summary["pulse"] == "one-sine"
+
+
+@pytest.mark.parametrize(("kind", "part"), [("half-sine", 0.5), ("one-cosine", 1.0)])
+def test_period_is_that_of_the_whole_wave(rocking, kind, part):
+    out = rocking(f"simulate --pulse {kind} --amplitude 1.5 --period 2 --restitution 0.9 --json")[2]
+    summary = json.loads(out)
+    assert summary["pulse_duration"] == 2.0 * part
+    motion = rk.simulate(rk.System(rk.Pulse(kind, amplitude=1.5, duration=2.0 * part), 0.9))
+    assert (summary["outcome"], summary["peak"]) == (motion.outcome, motion.peak)
+
+
+def test_report_and_files_know_no_cycles(rocking, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    code, _, out = rocking(
+        f"simulate --pulse ricker {BLOCK} {SIZE} --plot p.png --csv p.csv --netcdf p.nc"
+    )
+    assert code == 0
+    assert "cycle" not in out
+    assert "margin K₊" in out
+    assert all((tmp_path / f"p{suffix}").stat().st_size > 0 for suffix in (".png", ".csv", ".nc"))
+
+
+@pytest.mark.parametrize(
+    ("typed", "message"),
+    [
+        (f"one-sine {BLOCK} {SIZE} --cycles 5", "--cycles belongs to harmonic motion: omit it with --pulse"),
+        (f"one-sine {BLOCK} {SIZE} --phase 1", "--phase belongs to harmonic motion: omit it with --pulse"),
+        (f"one-sine {BLOCK} --displacement 0.1 --frequency-hz 1", "--displacement belongs to harmonic motion"),
+        (f"sine {BLOCK} {SIZE}", "--pulse must be one of 'rectangular'"),
+    ],
+)
+def test_unusable_options_are_refused_in_one_line(rocking, typed, message):
+    code, error, _ = rocking(f"simulate --pulse {typed}")
+    assert code == 2
+    assert message in error
+    assert len(error.strip().splitlines()) == 1
