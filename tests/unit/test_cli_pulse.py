@@ -32,9 +32,7 @@ def test_period_is_that_of_the_whole_wave(rocking, kind, part):
 
 def test_report_and_files_know_no_cycles(rocking, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    code, _, out = rocking(
-        f"simulate --pulse ricker {BLOCK} {SIZE} --plot p.png --csv p.csv --netcdf p.nc"
-    )
+    code, _, out = rocking(f"simulate --pulse ricker {BLOCK} {SIZE} --plot p.png --csv p.csv --netcdf p.nc")
     assert code == 0
     assert "cycle" not in out
     assert "margin K₊" in out
@@ -46,7 +44,10 @@ def test_report_and_files_know_no_cycles(rocking, tmp_path, monkeypatch):
     [
         (f"one-sine {BLOCK} {SIZE} --cycles 5", "--cycles belongs to harmonic motion: omit it with --pulse"),
         (f"one-sine {BLOCK} {SIZE} --phase 1", "--phase belongs to harmonic motion: omit it with --pulse"),
-        (f"one-sine {BLOCK} --displacement 0.1 --frequency-hz 1", "--displacement belongs to harmonic motion"),
+        (
+            f"one-sine {BLOCK} --displacement 0.1 --frequency-hz 1",
+            "--displacement belongs to harmonic motion",
+        ),
         (f"sine {BLOCK} {SIZE}", "--pulse must be one of 'rectangular'"),
     ],
 )

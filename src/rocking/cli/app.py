@@ -51,7 +51,7 @@ for name, command, examples in (
 
 @app.callback(invoke_without_command=True)
 def rocking(context: typer.Context, version: Annotated[bool, VERSION] = False) -> None:
-    """Simulate and analyse free-standing blocks that rock on a harmonically moving base.
+    """Simulate and analyse free-standing blocks that rock on a moving base.
 
     Run rocking COMMAND --help for the options and examples of a command.
     """

@@ -83,7 +83,7 @@ def draw_with_base(above: Axes, below: Axes, motion: Motion, block: Block | None
     draw_base(below, motion, start, stop, block)
     above.set_xlabel("")
     above.tick_params(labelbottom=False)
-    above.figure.align_ylabels([above, below])  # type: ignore[union-attr]
+    above.figure.align_ylabels([above, below])
     return above
 
 
@@ -96,7 +96,14 @@ def draw_base(ax: Axes, motion: Motion, start: float, stop: float, block: Block 
         time = np.union1d(time, samples[(samples >= start) & (samples <= stop)])
     ax.axhline(0.0, color=style.GUIDE, linewidth=style.THIN)
     if forcing.largest > 0.5:
-        _pair(ax, shown.amplitude(1.0), style.GUIDE, "dotted", "lift-off from rest", at_right=isinstance(forcing, Pulse))
+        _pair(
+            ax,
+            shown.amplitude(1.0),
+            style.GUIDE,
+            "dotted",
+            "lift-off from rest",
+            at_right=isinstance(forcing, Pulse),
+        )
     ax.plot(
         shown.time(time),
         shown.amplitude(forcing.acceleration(time)),

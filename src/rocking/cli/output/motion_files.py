@@ -99,8 +99,8 @@ def write_plot(motion: Motion, block: Block | None, path: Path) -> None:
 def write_csv(motion: Motion, block: Block | None, path: Path) -> None:
     """Write a motion as CSV with units in the header, also in SI if there is a block.
 
-    There are 100 rows per cycle, or 100 rows of a motion that ends earlier; under a sampled base acceleration a row per sample
-    or more.
+    There are 100 rows per cycle, or 100 rows of a motion that ends earlier. Under a sampled base acceleration there is a row
+    per sample at least.
     """
     files.write_csv(tables(motion, block), path)
 
