@@ -55,8 +55,8 @@ def animation(
     cycles : tuple of float, optional
         First and last forcing cycle shown, counted from the start. Default: the last ten cycles. For a motion that
         overturned, ten cycles and the complete fall; for a motion that came to rest, thirty cycles up to rest. Units of τ
-        replace cycles if the base does not move. Omit it for a base motion of finite length: then all is shown
-        from the first lift-off to rest, or to the end of the fall.
+        replace cycles if the base does not move. Omit it for a base motion of finite length. The film then
+        begins before the first lift-off and ends with rest or the complete fall.
 
     Returns
     -------
