@@ -92,6 +92,20 @@ def test_motion_is_that_of_the_equation_of_motion(seed, braces):
     assert np.abs(events["before"]) == pytest.approx(speeds, rel=0, abs=1e-11)
 
 
+@pytest.mark.timeout(60)
+@pytest.mark.parametrize("angle", [1.45, 1.5768959017160942, 1.7338105128882424])
+def test_chattering_at_a_brace_beyond_the_base_motion_ends(angle):
+    """Speeds at the brace fall by the factor of its restitution: a difference of energies would lose their digits."""
+    braces = rk.Braces(angle=angle, restitution=0.8)
+    system = rk.System(rk.PiecewiseLinear([0.0], step=0.1), restitution=0.9, braces=braces)
+    motion = rk.simulate(system, rk.State(angle - 0.01, 0.5))
+    assert motion.outcome == "at-rest"
+    speeds = motion.events["before"][motion.events["kind"] == "brace"]
+    assert len(speeds) > 100
+    # Each arc keeps the energy v^2 - (u - 1)^2.
+    assert speeds[1:] == pytest.approx(0.8 * speeds[:-1], rel=1e-9, abs=1e-14)
+
+
 def test_states_between_events_and_peaks_belong_together():
     motion = rk.simulate(system_of(CASES[20]))
     times = np.linspace(0.0, motion.duration, 4001)
@@ -158,3 +172,19 @@ def test_cycles_and_sections_are_refused_for_a_finite_base_motion():
         rk.simulate(SYSTEM, record="section")
     with pytest.raises(ValueError, match="^duration must be given for a base motion of finite length only"):
         rk.simulate(rk.System(rk.Harmonic(2.0, period=1.0), restitution=0.9), duration=3.0)
+
+
+@pytest.mark.parametrize(("amplitude", "period", "restitution"), [(2.0, 1.0, 0.925), (4.0, 3.0, 0.8)])
+def test_a_sampled_cosine_converges_to_the_harmonic_base_at_second_order(amplitude, period, restitution):
+    """Times and speeds of the first impacts, before chaos amplifies the difference."""
+    harmonic = rk.System(rk.Harmonic(amplitude, period=period), restitution=restitution)
+    wanted = impacts_of(rk.simulate(harmonic, cycles=6))[:5]
+    errors = []
+    for samples in (128, 256, 512):
+        cosine = amplitude * np.cos(2.0 * math.pi * np.arange(6 * samples + 1) / samples)
+        base = rk.PiecewiseLinear(cosine, step=period / samples)
+        found = impacts_of(rk.simulate(rk.System(base, restitution=restitution)))[: len(wanted)]
+        errors.append(np.abs(found - wanted))
+    rates = np.log2(np.array(errors[:-1]) / errors[1:])
+    assert len(wanted) >= 3
+    assert rates == pytest.approx(2.0, rel=0, abs=0.1)
