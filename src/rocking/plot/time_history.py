@@ -6,7 +6,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from rocking.model import Block, PiecewiseLinear, Pulse, System
+from rocking.model import Block, PiecewiseLinear, System
 from rocking.motion import Motion, has_cycles
 from rocking.plot.parts import style
 from rocking.plot.parts.axis_units import Quantities, quantities
@@ -96,14 +96,9 @@ def draw_base(ax: Axes, motion: Motion, start: float, stop: float, block: Block 
         time = np.union1d(time, samples[(samples >= start) & (samples <= stop)])
     ax.axhline(0.0, color=style.GUIDE, linewidth=style.THIN)
     if forcing.largest > 0.5:
-        _pair(
-            ax,
-            shown.amplitude(1.0),
-            style.GUIDE,
-            "dotted",
-            "lift-off from rest",
-            at_right=isinstance(forcing, Pulse),
-        )
+        # a record begins weakly, a pulse is over at the end
+        first, last = (np.abs(forcing.acceleration(part)).max() for part in np.array_split(time, 3)[::2])
+        _pair(ax, shown.amplitude(1.0), style.GUIDE, "dotted", "lift-off from rest", at_right=last < first)
     ax.plot(
         shown.time(time),
         shown.amplitude(forcing.acceleration(time)),
