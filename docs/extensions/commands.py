@@ -73,7 +73,9 @@ class Command(Made):
         command = commands()[name]
         yield from (markdown(line) for line in inspect.cleandoc(command.help).splitlines())
         arguments = "".join(
-            f" [{one.metavar}]..." for one in command.params if one.param_type_name == "argument"
+            f" [{one.metavar}]..." if one.nargs == -1 else f" {one.metavar}"
+            for one in command.params
+            if one.param_type_name == "argument"
         )
         yield from ("", f"Usage: `rocking {name} [OPTIONS]{arguments}`", "")
         common = [one for one in options(name) if one.meaning in shared()]

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from rocking import Block, Braces, Harmonic, State, System, __version__, simulate
+from rocking import Block, Braces, Harmonic, PiecewiseLinear, State, System, __version__, simulate
 
 BLOCK = Block(height=2.0, width=0.5)
 BRACED = System(
@@ -177,3 +177,25 @@ def test_what_was_not_recorded_is_refused():
         simulate(BRACED, START, cycles=3, record="none").to_xarray()
     with pytest.raises(TypeError, match="block must be a Block"):
         simulate(BRACED, START, cycles=3).to_xarray(block=2.0)
+
+
+def test_motion_under_a_record_has_a_row_per_sample_and_no_cycles():
+    base = PiecewiseLinear([0.0, 1.5, -1.5, 0.9, 0.0], step=1 / 64)
+    moved = simulate(System(base, restitution=0.9), START)
+    data = moved.to_xarray()
+    times = data["time"].values
+    np.testing.assert_allclose(
+        np.diff(times), moved.duration / 100 if moved.duration < 100 / 64 else 1 / 64, atol=1e-12
+    )
+    assert not {name for name in (*data.variables, *data.attrs) if "cycle" in name or "phase" in name}
+    assert {"event_time", "event_kind"} <= set(data.variables)
+    assert (data.attrs["margin"], data.attrs["certified"]) == (pytest.approx(moved.margin), 1)
+    assert (data.attrs["samples"], data.attrs["step"]) == (5, 1 / 64)
+    assert "linear between samples" in data.attrs["comment"]
+
+
+def test_short_push_before_a_long_motion_does_not_fill_the_memory():
+    push = System(PiecewiseLinear([0.0, 0.0], step=1e-8), restitution=0.9)
+    moved = simulate(push, State(angle=0.5))
+    assert moved.duration > 1.0
+    assert moved.to_xarray().sizes["time"] == 1_000_001

@@ -30,7 +30,7 @@ class CommandHelp(TyperCommand):
             record = parameter.get_help_record(ctx)
             if record is None:
                 continue
-            name, text = record
+            name, text = record[0], record[1].removesuffix("  [required]")
             other = "Arguments" if parameter.param_type_name == "argument" else "Options"
             section = GROUPS.get(parameter.name, other)
             # Typer appends the Python type to the name of an argument.

@@ -14,6 +14,8 @@ STEPS = 100
 """Samples in the time in which the base acceleration varies."""
 STEPS_OF_RECORD = 32
 """Samples in the unit of τ, at least, of a motion under a sampled base acceleration."""
+MAX_STEPS_OF_RECORD = 1_000_000
+"""Samples at most of such a motion, if its base acceleration has fewer."""
 FALLEN = 3.0
 """Value of |Θ| up to which a fall is shown."""
 
@@ -33,11 +35,14 @@ def end_shown(motion: Trajectory) -> float:
 def sample_step(motion: Trajectory) -> float:
     """Return the default sampling step in τ: a hundredth of the forcing's time scale, or of a shorter motion.
 
-    Under a sampled base acceleration it is the step of the samples, or a whole fraction of it.
+    Under a sampled base acceleration it is the step of the samples, or a whole fraction of it. It is longer if a motion lasts
+    much longer than its base motion.
     """
     forcing = motion.system.forcing
     if isinstance(forcing, PiecewiseLinear):
-        return min(forcing.step / math.ceil(forcing.step * STEPS_OF_RECORD), end_shown(motion) / STEPS)
+        end, most = end_shown(motion), max(MAX_STEPS_OF_RECORD, forcing.values.size)
+        step = forcing.step / math.ceil(forcing.step * STEPS_OF_RECORD)
+        return min(max(step, end / most), end / STEPS)
     return min(motion.system.forcing.time_scale, end_shown(motion)) / STEPS
 
 

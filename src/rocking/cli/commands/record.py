@@ -14,7 +14,7 @@ from rocking.cli.option_names import START, your_input
 EXAMPLES = """\
 # The record that comes with the package.
 rocking record example --height 2 --width 0.5 --plot record.png
-# The same, scaled until the block overturns.
+# The same, scaled to 1.3 g: the block overturns.
 rocking record example --height 2 --width 0.5 --pga-g 1.3 \\
     --animate fall.gif --csv fall.csv"""
 
@@ -92,7 +92,8 @@ def record(
 ) -> None:
     """Simulate a block under a recorded ground motion.
 
-    The run ends when the block is at rest permanently, or when overturning is certain. All is in SI units.
+    The run ends when the block is at rest permanently, or when overturning is certain. Without losses, at the base or at braces,
+    it ends with the record. All is in SI units.
     """
     from rocking.cli.output import motion_files
     from rocking.cli.reports import record as report
