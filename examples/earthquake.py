@@ -18,7 +18,7 @@ def draw():
         motion = rk.simulate(block.system(ground.scaled(pga=pga * 9.80665)))
         rk.plot.time_history(motion, ax, block)
         rk.plot.title(ax, f"peak {pga:g} g: {motion.outcome}")
-        ax.set(xlim=(5.0, 25.0), ylim=(-20.0, 20.0))
+        ax.set(xlim=(5.0, 35.0), ylim=(-20.0, 20.0))
     return figure
 
 

@@ -183,10 +183,7 @@ def test_motion_under_a_record_has_a_row_per_sample_and_no_cycles():
     base = PiecewiseLinear([0.0, 1.5, -1.5, 0.9, 0.0], step=1 / 64)
     moved = simulate(System(base, restitution=0.9), START)
     data = moved.to_xarray()
-    times = data["time"].values
-    np.testing.assert_allclose(
-        np.diff(times), moved.duration / 100 if moved.duration < 100 / 64 else 1 / 64, atol=1e-12
-    )
+    np.testing.assert_allclose(np.diff(data["time"].values), min(1 / 64, moved.duration / 100), atol=1e-12)
     assert not {name for name in (*data.variables, *data.attrs) if "cycle" in name or "phase" in name}
     assert {"event_time", "event_kind"} <= set(data.variables)
     assert (data.attrs["margin"], data.attrs["certified"]) == (pytest.approx(moved.margin), 1)
