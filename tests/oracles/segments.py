@@ -237,7 +237,7 @@ class Block:
         if self.index >= self.base.last:
             return "rest"
         start, rate = self.base.line(self.index)
-        here, end = start + rate * self.offset, start + rate * self.base.step
+        here, end = start + rate * self.offset, self.base.values[self.index + 1]
         if abs(here) > 1 or abs(end) > 1:
             if abs(here) <= 1:
                 self.offset, here = (gmpy2.sign(end) - start) / rate, end
