@@ -8,6 +8,7 @@ from benchmarks import (
     one_block,
     orbits,
     processes,
+    records,
     survey,
     verdicts,
 )
@@ -19,6 +20,7 @@ def main():
     report.section("One block: time per impact, and ratio of the peers' time to it", one_block.speed())
     report.section("Error after 20 cycles against 40 digits", one_block.accuracy())
     report.section("Two threads against one", one_block.threads())
+    report.section("Ground motions: time per run, and ratio of the others' time to it", records.speed())
     report.section("Compiling the kernels", processes.compiling())
     report.section("First answers", processes.first_answers())
     report.section(

@@ -1,0 +1,292 @@
+"""Runs of a block under ground motions of several scales: the engine and others, with the error of each.
+
+RK4 takes ten steps per sample and interpolates the instants of lift-off and impact. DOP853 and heyoka stop at the first slow
+impact, the engine and RK4 with the motion. Errors are those of the times of the first fast impacts against 60 digits.
+"""
+
+import math
+from functools import partial
+from statistics import geometric_mean
+from typing import NamedTuple
+
+import heyoka as hy
+import numpy as np
+from numba import njit
+from scipy.integrate import solve_ivp
+
+import rocking as rk
+from benchmarks.clock import quickest, quickest_in_turn
+from benchmarks.table import Figure
+from rocking.kernels.forcing.sampled.parameters import CYCLE, sampled_parameters
+from rocking.kernels.forcing.sampled.tables import tables_of
+from rocking.kernels.march.finite_motion import run_to_end
+from tests.oracles import segments
+
+TURNS = 5
+SCALES = 50
+# Scales of the errors.
+CHECKED = 4
+STEPS = 10
+FAST_IMPACTS, FAST = 15, 1e-2
+OVER_RK4, OVER_RK4_ON_AVERAGE, OVER_DOP853 = 10, 25, 20_000
+BLOCKS = {"h 2 m": rk.Block(height=2.0, width=0.5), "h 8 m": rk.Block(height=8.0, width=1.6)}
+SIMULATION_MS = 1.0
+
+
+class Cell(NamedTuple):
+    """Ground motion for one block: samples in units of lift-off, step in τ, restitution."""
+
+    name: str
+    values: np.ndarray
+    step: float
+    restitution: float
+
+    def scales(self, count):
+        """Return factors from 1.02 to 5 times that of lift-off."""
+        return np.geomspace(1.02, 5.0, count) / np.abs(self.values).max()
+
+
+def cells():
+    """Yield each of three motions for each block."""
+    motions = (
+        ("Loma Prieta", rk.example_ground_motion()),
+        *((f"synthetic {k}", one) for k, one in enumerate(rk.synthetic_ground_motions(2, seed=1), 1)),
+    )
+    for name, motion in motions:
+        for size, block in BLOCKS.items():
+            forcing = block.system(motion).forcing
+            yield Cell(f"{name}, {size}", forcing.values * forcing.scale, forcing.step, block.restitution)
+
+
+def engine(cell, scales):
+    """Return a function that runs the engine over scales, with its tables made."""
+    tables = tables_of(cell.values, cell.step)
+    systems = [
+        sampled_parameters(tables, scale, CYCLE * cell.step, cell.restitution) for scale in map(float, scales)
+    ]
+    return lambda: [run_to_end(p, 0.0, 0.0, math.inf) for p in systems]
+
+
+@njit
+def rk4(values, step, scale, restitution, impacts):
+    """Integrate one run; return 1 if it overturns, and the number of fast impacts, whose times go to ``impacts``."""
+    h, angle, velocity, side, count, resting = step / STEPS, 0.0, 0.0, 1.0, 0, True
+    last = len(values) - 1
+    for k in range(STEPS * (last + int(20.0 / step))):
+        index, place = k // STEPS, (k % STEPS) / STEPS
+        here = middle = after = 0.0
+        if index < last:
+            start, change = scale * values[index], scale * (values[index + 1] - values[index])
+            here, middle, after = (
+                start + change * place,
+                start + change * (place + 0.5 / STEPS),
+                start + change * (place + 1.0 / STEPS),
+            )
+        if resting:
+            if abs(after) <= 1.0:
+                if index >= last:
+                    return 0, count
+                continue
+            # The block lifts within the step: u = rate t^3/6 from there on.
+            resting, side, rate = False, -1.0 if after > 0.0 else 1.0, abs(after - here) / h
+            if abs(here) < 1.0:
+                rest = (abs(after) - 1.0) / rate
+                angle, velocity = side * rate * rest**3 / 6.0, side * rate * rest**2 / 2.0
+                continue
+        a1 = angle - side - here
+        v2 = velocity + 0.5 * h * a1
+        a2 = angle + 0.5 * h * velocity - side - middle
+        v3 = velocity + 0.5 * h * a2
+        a3 = angle + 0.5 * h * v2 - side - middle
+        v4 = velocity + h * a3
+        a4 = angle + h * v3 - side - after
+        angle_after = angle + h / 6.0 * (velocity + 2.0 * v2 + 2.0 * v3 + v4)
+        velocity_after = velocity + h / 6.0 * (a1 + 2.0 * a2 + 2.0 * a3 + a4)
+        if side * angle_after < 0.0:
+            share = angle / (angle - angle_after)
+            speed = velocity + share * (velocity_after - velocity)
+            if abs(speed) > FAST and count < FAST_IMPACTS:
+                impacts[count] = (k + share) * h
+                count += 1
+            # The rest of the step is a parabola, with the velocity just after the impact.
+            speed, side, rest = restitution * speed, -side, (1.0 - share) * h
+            velocity_after = speed - rest * (side + after)
+            angle_after = rest * (speed - 0.5 * rest * (side + after))
+            if abs(speed) < 1e-4 and abs(after) <= 1.0:
+                angle_after, velocity_after, resting = 0.0, 0.0, True
+        angle, velocity = angle_after, velocity_after
+        if abs(angle) > 3.0:
+            return 1, count
+    return 0, count
+
+
+def runge_kutta(cell, scales):
+    """Return a function that runs RK4 over scales; each run gives the times of its fast impacts."""
+    impacts = np.empty(FAST_IMPACTS)
+
+    def run():
+        return [
+            impacts[: rk4(cell.values, cell.step, scale, cell.restitution, impacts)[1]].copy()
+            for scale in scales
+        ]
+
+    return run
+
+
+def lift_off(cell, scale):
+    """Return a state just after the first lift-off: sample, side, time since the sample, and (Θ, Θ').
+
+    A general integrator cannot find the first crossing of an arc that starts on Θ = 0 with Θ' = 0.
+    """
+    values = scale * cell.values
+    first = int(np.flatnonzero(np.abs(values) > 1.0)[0])
+    start, end = abs(values[first - 1]), abs(values[first])
+    side, rate = -math.copysign(1.0, values[first]), (end - start) / cell.step
+    early = 1e-3 * (end - 1.0) / rate
+    state = [side * rate * early**3 / 6.0, side * rate * early**2 / 2.0]
+    return first - 1, side, (1.0 - start) / rate + early, state
+
+
+def dop853(cell, scales):
+    """Return a function that runs SciPy's DOP853 over scales, as far as the last sample."""
+    return lambda: [_dop853(cell, float(scale)) for scale in scales]
+
+
+def _dop853(cell, scale):
+    values, step, until = cell.values * scale, cell.step, (len(cell.values) - 1) * cell.step
+    times = np.arange(len(values)) * step
+
+    def base(time):
+        return np.interp(time, times, values)
+
+    first, side, early, state = lift_off(cell, scale)
+    time, impacts = first * step + early, []
+
+    def angle(_, state):
+        return state[0]
+
+    angle.terminal = True
+    while time < until:
+        angle.direction = -side
+        arc = solve_ivp(
+            lambda at, y, side=side: (y[1], y[0] - side - base(at)),
+            (time, until),
+            state,
+            method="DOP853",
+            rtol=1e-10,
+            atol=1e-13,
+            max_step=step,
+            events=angle,
+        )
+        time = float(arc.t[-1])
+        if arc.status != 1 or len(impacts) == FAST_IMPACTS:
+            break
+        speed = arc.y[1, -1]
+        if abs(speed) < FAST:
+            break
+        impacts.append(time)
+        side, state = -side, [0.0, cell.restitution * speed]
+    return np.array(impacts)
+
+
+class Heyoka:
+    """Integrator heyoka at its default tolerance, from sample to sample as far as the last, with impacts as events."""
+
+    def __init__(self, restitution):
+        angle, velocity = hy.make_vars("angle", "velocity")
+        # par: side, acceleration at the sample and its rate; the time is that since the sample
+        push = hy.par[1] + hy.par[2] * hy.time
+        self.impacts, self.before = [], 0.0
+
+        def impact(block, slope):
+            speed = abs(block.state[1])
+            if speed > FAST:
+                self.impacts.append(self.before + block.time)
+            block.state[1] *= restitution
+            block.pars[0] = -block.pars[0]
+            return speed > FAST
+
+        self.block = hy.taylor_adaptive(
+            [(angle, velocity), (velocity, angle - hy.par[0] - push)],
+            [0.0, 0.0],
+            t_events=[hy.t_event(angle, callback=impact)],
+            pars=[1.0, 0.0, 0.0],
+        )
+
+    def run(self, cell, scale):
+        """Return the times of the fast impacts until the first slow one, or until FAST_IMPACTS."""
+        (first, side, early, state), block = lift_off(cell, scale), self.block
+        self.impacts.clear()
+        block.reset_cooldowns()
+        block.state[:], block.pars[0], block.time = state, side, early
+        for index in range(first, len(cell.values) - 1):
+            start, end = scale * cell.values[index : index + 2]
+            block.pars[1:], self.before = (start, (end - start) / cell.step), index * cell.step
+            outcome, *_ = block.propagate_until(cell.step)
+            if outcome != hy.taylor_outcome.time_limit or len(self.impacts) >= FAST_IMPACTS:
+                break
+            block.time = 0.0
+        return np.array(self.impacts[:FAST_IMPACTS])
+
+
+def heyoka(cell, scales):
+    """Return a function that runs heyoka over scales."""
+    peer = Heyoka(cell.restitution)
+    return lambda: [peer.run(cell, float(scale)) for scale in scales]
+
+
+def times_of_simulation(cell, scales):
+    """Return the times of the fast impacts of each run, by the engine."""
+    found = []
+    for scale in map(float, scales):
+        base = rk.PiecewiseLinear(cell.values, step=cell.step, scale=scale)
+        events = rk.simulate(rk.System(base, restitution=cell.restitution)).events
+        found.append(events["time"][(events["kind"] == "impact") & (np.abs(events["before"]) > FAST)])
+    return found
+
+
+def error(cell, scales, found):
+    """Return the median of the largest errors of the runs' first fast impacts."""
+    worst = []
+    for scale, times in zip(scales, found, strict=True):
+        run = segments.motion(cell.values, cell.step, cell.restitution, scale=float(scale))
+        wanted = [float(impact.time) for impact in run.impacts if impact.speed > FAST]
+        count = min(len(wanted), len(times), FAST_IMPACTS)
+        if count:
+            worst.append(np.abs(np.array(times[:count]) - wanted[:count]).max())
+    return float(np.median(worst)) if worst else 0.0
+
+
+def speed():
+    """Time one run of the engine, and the ratios of the times of the others; then one simulation beyond the tables."""
+    ratios = []
+    for cell in cells():
+        scales, checked = cell.scales(SCALES), cell.scales(CHECKED + 1)[1:]
+        ours, theirs = engine(cell, scales), runge_kutta(cell, scales)
+        theirs()
+        (mine, _), (rk4_time, _) = quickest_in_turn(TURNS, (ours, theirs))
+        note = f"per run; error {error(cell, checked, times_of_simulation(cell, checked)):.1e}"
+        yield Figure(cell.name, 1e6 * mine / SCALES, "µs", note=note)
+        ratios.append(rk4_time / mine)
+        note = f"error {error(cell, checked, runge_kutta(cell, checked)()):.1e}"
+        yield Figure("  RK4, ten steps per sample", ratios[-1], "×", OVER_RK4, least=True, note=note)
+        few = cell.scales(3)[1:2]
+        (fast, _) = quickest(20, engine(cell, few))
+        for name, way, goal in (
+            ("SciPy DOP853, rtol 1e-10", dop853, OVER_DOP853),
+            ("heyoka", heyoka, None),
+        ):
+            slow, found = quickest(1, way(cell, few))
+            note = f"{slow:.2g} s; error {error(cell, few, found):.1e}"
+            yield Figure(f"  {name}", slow / fast, "×", goal, least=True, note=note)
+    mean = geometric_mean(ratios)
+    yield Figure("RK4, geometric mean", mean, "×", OVER_RK4_ON_AVERAGE, least=True)
+    yield simulation()
+
+
+def simulation():
+    """Time `simulate` of a motion whose tables are made."""
+    cell = next(cells())
+    base = rk.PiecewiseLinear(cell.values, step=cell.step, scale=2.0)
+    time, _ = quickest(20, partial(rk.simulate, rk.System(base, restitution=cell.restitution)))
+    return Figure(f"simulate, {cell.name}", 1e3 * time, "ms", SIMULATION_MS, note="with tables made")
