@@ -84,7 +84,7 @@ def _restitution(rng):
 
 def ordinary(rng):
     """A filtered record at 1.02 to 6 times the scale of lift-off; one run in three starts with a tilt."""
-    samples = int(rng.integers(40, 200))
+    samples = int(rng.integers(40, 120))
     values = (_noise if rng.random() < 0.6 else _synthetic)(rng, samples)
     tilt = (rng.uniform(-0.8, 0.8), rng.uniform(-0.5, 0.5)) if rng.random() < 0.3 else (0.0, 0.0)
     scale = _log_uniform(rng, 1.02, 6.0) * rng.choice([-1.0, 1.0])

@@ -99,7 +99,7 @@ def free_zero(w, dw, force):
 def free_event(p, arc, drive, angle, velocity):
     """Return the next event after the last sample, in closed form.
 
-    At an impact u'^2 = v^2 + u (2 - u), because the energy is kept.
+    At the end, u = b, u'^2 = v^2 + (u - b) (2 - u - b), because the energy is kept.
     """
     x, at_brace, brace = free_zero(angle, velocity, -1.0), False, p.block.brace_angle
     if brace < math.inf:
@@ -108,11 +108,10 @@ def free_event(p, arc, drive, angle, velocity):
         x = min(x, x_brace)
     if x == math.inf:
         return nothing_more(arc.side, drive)
-    energy = velocity * velocity + angle * (2.0 - angle)
-    if at_brace:
-        arrive = math.sqrt(max(energy - brace * (2.0 - brace), 0.0))
-    else:
-        arrive = -math.sqrt(max(energy, 0.0))
+    end = brace if at_brace else 0.0
+    # the height above the end as a product: at a brace the speed of a short hop keeps its digits
+    speed = math.sqrt(max(velocity * velocity + (angle - end) * (2.0 - angle - end), 0.0))
+    arrive = speed if at_brace else -speed
     return arrival(p, arc, SampledDrive(drive.index, drive.offset + x), at_brace, arrive)
 
 
