@@ -99,7 +99,7 @@ def with_options(
 
 Cycles = Annotated[
     int | None,
-    number_option("--cycles", "Number of forcing cycles to simulate; not with --pulse. Default: 200."),
+    number_option("--cycles", "Without --pulse: the number of forcing cycles to simulate. Default: 200."),
 ]
 PulseKind = Annotated[
     str | None,
