@@ -50,7 +50,7 @@ class Motion(Trajectory, NotebookPicture):
     certified : bool
         False if the outcome is undecided in double precision: the accumulated rounding error exceeds |K₊| somewhere, or the
         clearance of a minimum of |Θ| between two impacts. The error is an estimate from the rounding of each arc and its
-        growth. True for a harmonic base motion.
+        growth. True for a harmonic base motion, and between braces, which prevent overturning.
     final : State
         Θ and Θ' at the end, just after an event if there is one.
     duration : float
