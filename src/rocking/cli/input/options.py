@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterable, Mapping
 from contextlib import suppress
 from inspect import Parameter, Signature, signature
@@ -204,41 +203,29 @@ def question(given: Mapping[str, Any]) -> tuple[System, State, Block | None]:
     braced = braces(given)
     with your_input(ARGUMENTS):
         start = State(*(within(name, given[name], -MAX_START, MAX_START) for name in START))
-        if given.get("pulse") is not None:
-            system, block = pulse_system(given, braced, in_si=bool(physical))
-            return system, start, block
         if normalised:
             forcing = Harmonic(**{name: given[name] for name in (*NORMALISED, "phase")})
-            return System(forcing, given["restitution"], braced), start, None
-        block = Block(given["height"], given["width"], given["restitution"])
-        return block.system(**{name: given[name] for name in (*SI[2:], "phase")}, braces=braced), start, block
+            system, block = System(forcing, given["restitution"], braced), None
+        else:
+            block = Block(given["height"], given["width"], given["restitution"])
+            system = block.system(**{name: given[name] for name in (*SI[2:], "phase")}, braces=braced)
+        return system if given.get("pulse") is None else pulsed(system, given), start, block
 
 
-def pulse_system(
-    given: Mapping[str, Any], braced: Braces | None, *, in_si: bool
-) -> tuple[System, Block | None]:
-    """Return the system with one pulse, and with SI input the block."""
-    from rocking.model import GRAVITY, Block, Pulse, System, exactly_one
+def pulsed(system: System, given: Mapping[str, Any]) -> System:
+    """Return a system with one pulse of the amplitude and the period of its harmonic base motion."""
+    from attrs import evolve
 
-    if given["phase"]:
-        raise YourInput("--phase belongs to harmonic motion: omit it with --pulse")
+    from rocking.model import Pulse
+
+    for name in ("phase", "displacement"):
+        if given[name]:
+            raise YourInput(f"{option(name)} belongs to harmonic motion: omit it with --pulse")
     part = 0.5 if given["pulse"] == "half-sine" else 1.0
-    if not in_si:
-        exactly_one(period=given["period"], frequency=given["frequency"])
-        period = given["period"] if given["period"] is not None else 2 * math.pi / given["frequency"]
-        pulse = Pulse(given["pulse"], amplitude=given["amplitude"], duration=part * period)
-        return System(pulse, given["restitution"], braced), None
-    block = Block(given["height"], given["width"], given["restitution"])
-    exactly_one(frequency_hz=given["frequency_hz"], period_s=given["period_s"])
-    sizes = {name: given[name] for name in ("acceleration", "acceleration_g", "displacement")}
-    if exactly_one(**sizes) == "displacement":
-        raise YourInput(
-            "--displacement belongs to harmonic motion: give --acceleration or --acceleration-g with --pulse"
-        )
-    size = given["acceleration"] if given["acceleration_g"] is None else GRAVITY * given["acceleration_g"]
-    period = given["period_s"] if given["period_s"] is not None else 1 / given["frequency_hz"]
-    pulse = Pulse(given["pulse"], amplitude=size, duration=part * period)
-    return block.system(pulse, braces=braced), block
+    wave = system.harmonic
+    return evolve(
+        system, forcing=Pulse(given["pulse"], amplitude=wave.amplitude, duration=part * wave.period)
+    )
 
 
 def braces(given: Mapping[str, Any]) -> Braces | None:
