@@ -24,6 +24,7 @@ from pathlib import Path
 ROOT = Path(__file__).parents[1]
 LIST = Path(__file__).with_suffix(".toml")
 KERNELS = "src/rocking/kernels/"
+MACHINE_CODE = "tests/faults/test_machine_code.py"
 NOT_COPIED = shutil.ignore_patterns(".*", "__pycache__", "build", "results", "*.egg-info")
 # Exit code of pytest for tests that ran and failed. After any other code no test has failed.
 TESTS_FAILED = 1
@@ -116,6 +117,9 @@ class Copies:
             "NUMBA_CACHE_DIR": str(cache),
             "PYTHONDONTWRITEBYTECODE": "1",
         }
+        if not any(test.startswith(MACHINE_CODE) for test in tests):
+            # As in a builder of machine code, no other builder is started, which would outlive the test.
+            environment["ROCKING_IS_BUILDER"] = "1"
         with subprocess.Popen(
             command,
             cwd=copy,

@@ -132,13 +132,12 @@ def monotone_parts(piece):
 
 
 def size(arc, time):
-    """Return the sum of the magnitudes of the terms of u: of the local closed form in the first intervals, else of K+."""
+    """Return the sum of the magnitudes of the terms of u: of the closed form in the first intervals, else of u + u' and u - u'."""
     largest, time = 1 + float(np.abs(arc.values).max()), float(time)
+    half = math.sinh(time / 2)
     if time < 2 * arc.step:
-        half = math.sinh(time / 2)
         return arc.angle * math.cosh(time) + abs(arc.velocity) * math.sinh(time) + largest * 2 * half * half
-    table = 1.0 / math.sqrt(min(arc.step, 1.0))
-    return (1 + arc.angle + abs(arc.velocity) + largest * (2 + table)) * math.exp(time)
+    return (arc.angle + abs(arc.velocity)) * math.exp(time) + largest * math.expm1(time)
 
 
 class Fall:
@@ -178,6 +177,17 @@ def first_events(arc):
                     fall.zero = None
             u = after
     return [*events, Event("none", arb.pos_inf(), True)]
+
+
+def lowest_dip(arc, until):
+    """Return the least u of all minima before a time, and its time; infinity if there is none."""
+    least, when = arb.pos_inf(), arb(0)
+    for piece in pieces(arc):
+        for turn in monotone_parts(piece)[0][1:-1]:
+            u, _, second, _ = piece.at(turn)
+            if piece.begun + turn < until and second > 0 and u < least:
+                least, when = u, piece.begun + turn
+    return least, when
 
 
 def zero_between(piece, fall, left, right):

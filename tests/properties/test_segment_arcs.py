@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from flint import arb
 
-from oracles.segment_arcs import AMBIGUOUS, ROUNDING, arcs, first_events, size, state_at
+from oracles.segment_arcs import AMBIGUOUS, ROUNDING, arcs, first_events, lowest_dip, size, state_at
 from rocking.kernels import event_kinds
 from rocking.kernels.compile_options import KERNEL
 from rocking.kernels.deferred import njit
@@ -24,14 +24,26 @@ KINDS = {event_kinds.IMPACT: "base", event_kinds.BRACE: "brace", event_kinds.NON
 
 @njit(**KERNEL)
 def event_of(p, side, index, offset, angle, velocity):
-    coming = first_event(p, arc_at_place(p, side, 0.0, angle, velocity, SampledDrive(index, offset)))
-    return coming.event, coming.drive.index, coming.drive.offset, coming.velocity
+    coming, dip = first_event(p, arc_at_place(p, side, 0.0, angle, velocity, SampledDrive(index, offset)))
+    return (
+        coming.event,
+        coming.drive.index,
+        coming.drive.offset,
+        coming.velocity,
+        coming.wait,
+        dip.angle,
+        dip.time,
+    )
+
+
+def search_from(arc):
+    p = sampled_parameters(tables_of(arc.values, arc.step), 1.0, 64 * arc.step, 0.9, arc.brace)
+    return event_of(p, arc.side, arc.index, arc.offset, arc.angle, arc.velocity)
 
 
 def found_by_package(arc):
     """Return kind, sample and time after it, and u' there."""
-    p = sampled_parameters(tables_of(arc.values, arc.step), 1.0, 64 * arc.step, 0.9, arc.brace)
-    kind, *place, velocity = event_of(p, arc.side, arc.index, arc.offset, arc.angle, arc.velocity)
+    kind, *place, velocity, _, _, _ = search_from(arc)
     return KINDS[kind], *place, velocity
 
 
@@ -79,6 +91,21 @@ def test_no_first_event_is_missed_or_misread(family):
 @pytest.mark.parametrize("family", COUNTS)
 def test_no_first_event_is_missed_or_misread_in_a_million_arcs(family, chunk):
     check(family, COUNTS[family], 1000 + chunk)
+
+
+@pytest.mark.parametrize("family", ["touching", "long"])
+def test_lowest_dip_before_the_event_is_found(family):
+    """A dip that spans no sample may be missed only above the distance that proves its interval to contain no event."""
+    checked = 0
+    for arc in arcs(family, 1_000, 5):
+        *_, wait, angle, time = search_from(arc)
+        lowest, when = lowest_dip(arc, wait)
+        if lowest > arc.step**2 / 8:
+            continue
+        assert abs(lowest - angle) <= AMBIGUOUS * ROUNDING * size(arc, when)
+        assert abs(when - time) <= 1e-6 * when
+        checked += 1
+    assert checked > 100
 
 
 def test_dips_of_the_arcs_are_shallow():

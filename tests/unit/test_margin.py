@@ -3,11 +3,15 @@
 import math
 from itertools import pairwise
 
+import attrs
 import numpy as np
 import pytest
 from scipy.integrate import quad
 
 import rocking as rk
+from rocking.kernels.march.finite_motion import ENDING_ROW, run_scales
+from rocking.kernels.march.march import OVERTURNED
+from rocking.motion.kernel_parameters import parameters
 
 
 def constant_after(motion, event):
@@ -113,6 +117,28 @@ def test_without_losses_the_energy_after_the_base_motion_decides():
     base = rk.PiecewiseLinear([2.0, 2.0, -6.0, -6.0], step=0.25)
     motion = rk.simulate(rk.System(base, 1.0))
     assert motion.outcome == "overturned"
+
+
+@pytest.mark.parametrize("restitution", [0.7, 1.0])
+def test_a_batch_of_scales_ends_like_single_motions(restitution):
+    values = np.random.default_rng(8).uniform(-1, 1, 20)
+    base = rk.PiecewiseLinear(values, step=0.25)
+    scales = np.linspace(1.02, 8.0, 60) / np.abs(values).max()
+    rows = np.empty(len(scales), ENDING_ROW)
+    run_scales(parameters(rk.System(base, restitution)), scales, True, rows, np.zeros(1, np.int64))
+    fallen = same = 0
+    for scale, row in zip(scales, rows, strict=True):
+        motion = rk.simulate(rk.System(attrs.evolve(base, scale=float(scale)), restitution))
+        assert (row["status"] == OVERTURNED) == (motion.outcome == "overturned")
+        assert bool(row["decided"]) == motion.certified
+        # the impacts that are cut short do not count for the margin
+        assert abs(row["margin"]) >= abs(motion.margin) * (1.0 - 1e-9)
+        same += row["margin_time"] == pytest.approx(motion.margin_time, rel=1e-9)
+        if motion.outcome == "at-rest":
+            assert row["peak"] == pytest.approx(motion.peak, rel=1e-12)
+        fallen += motion.outcome == "overturned"
+    assert 0 < fallen < len(scales)
+    assert same > 0.8 * len(scales)
 
 
 def test_duration_limits_the_margin():

@@ -13,7 +13,7 @@ from rocking.model.arrays import ReadOnlyArrays, read_only
 from rocking.model.block import GRAVITY
 from rocking.model.forcing import BaseMotion
 from rocking.model.oscillator import pseudo_acceleration
-from rocking.model.piecewise_linear import PiecewiseLinear, samples
+from rocking.model.piecewise_linear import PiecewiseLinear, samples, velocity_and_displacement
 from rocking.model.record_file import RecordFile
 from rocking.model.validation import exactly_one, finite, instance, one_of, reals, refusal, within
 
@@ -130,8 +130,7 @@ class GroundMotion(BaseMotion, ReadOnlyArrays):
     @property
     def velocity(self) -> np.ndarray:
         """Velocity of the ground at the samples in m/s, from rest, by exact integration of the straight segments."""
-        a = self.acceleration
-        return np.concatenate(([0.0], np.cumsum((a[1:] + a[:-1]) * (self.step / 2))))
+        return velocity_and_displacement(self.acceleration, self.step)[0]
 
     @property
     def displacement(self) -> np.ndarray:
@@ -139,9 +138,7 @@ class GroundMotion(BaseMotion, ReadOnlyArrays):
 
         Errors of the baseline grow quadratically in time: the displacement at the end is a measure of them.
         """
-        a, v = self.acceleration, self.velocity
-        moved = v[:-1] * self.step + (2 * a[:-1] + a[1:]) * (self.step**2 / 6)
-        return np.concatenate(([0.0], np.cumsum(moved)))
+        return velocity_and_displacement(self.acceleration, self.step)[1]
 
     @property
     def pgv(self) -> float:

@@ -18,6 +18,14 @@ MAX_ACCELERATION = 1e9
 STEPS_OF_CHANGE = 16
 
 
+def velocity_and_displacement(acceleration: np.ndarray, step: float) -> tuple[np.ndarray, np.ndarray]:
+    """Integrate an acceleration that is linear between samples (n,) from rest; return both integrals at the samples."""
+    first, second = acceleration[:-1], acceleration[1:]
+    velocity = np.concatenate(([0.0], np.cumsum((second + first) * (step / 2))))
+    moved = velocity[:-1] * step + (2 * first + second) * (step**2 / 6)
+    return velocity, np.concatenate(([0.0], np.cumsum(moved)))
+
+
 def samples(name: str, values: Any, largest: float) -> np.ndarray:
     """Return samples (n,), n >= 1, as a read-only array of finite floats; one that is read-only already is not copied.
 
@@ -165,9 +173,7 @@ class PiecewiseLinear(Forcing, ReadOnlyArrays):
         """
         times = np.asarray(reals("times", times), dtype=float)
         a, h = self.scale * self.values, self.step
-        velocity = np.concatenate(([0.0], np.cumsum((a[1:] + a[:-1]) * (h / 2))))
-        moved = velocity[:-1] * h + (2 * a[:-1] + a[1:]) * (h**2 / 6)
-        place = np.concatenate(([0.0], np.cumsum(moved)))
+        velocity, place = velocity_and_displacement(a, h)
         # after the last sample the acceleration is 0
         first, slope = np.append(a[:-1], 0.0), np.append(np.diff(a) / h, 0.0)
         k = np.clip(times / h, 0, a.size - 1).astype(int)

@@ -61,6 +61,18 @@ class NoGuess(NamedTuple):
     time: float
 
 
+@njit(**INTERNAL_INLINE)
+def no_guess(p, wait):
+    """Provide ``contract.guess_from`` for a search that needs no guess."""
+    return NoGuess(wait)
+
+
+@njit(**INTERNAL_INLINE)
+def unchanged(p, arc):
+    """Provide ``contract.resynchronise`` where the place of an arc has no rounding errors to remove."""
+    return arc
+
+
 class Next(NamedTuple):
     """Coming event of an arc, a rest or a contact with a brace: time until it, kind, and the state at that time."""
 
@@ -72,6 +84,16 @@ class Next(NamedTuple):
     drive: Drive
     sinh: float
     versinh: float
+
+
+class Dip(NamedTuple):
+    """Least angle of all minima of an arc, and the time from its start to there; infinity if there is none."""
+
+    angle: float
+    time: float
+
+
+NO_DIP = Dip(math.inf, 0.0)
 
 
 @njit(**INTERNAL_INLINE)

@@ -17,8 +17,8 @@ def rounding_error(p, arc, wait):
 
 
 @contract
-def lowest_between(p, arc, wait):
-    """Return the least u of all minima of an arc before ``wait``, and the time; infinity if there is none."""
+def next_event_with_dip(p, mode, arc):
+    """Find the next event as ``contract.next_event`` does, and the lowest ``Dip`` before it."""
 
 
 @contract

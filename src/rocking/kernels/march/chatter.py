@@ -28,23 +28,38 @@ def settling_time(speed, restitution, weakest, strongest, clearance):
     return speed * (1.0 + ratio) / (press * (1.0 - fall))
 
 
+@njit(**INTERNAL)
+def acceleration_to_base(p, drive, speed):
+    """Return bounds on the acceleration towards the base after an impact, and the time for which they hold.
+
+    On the two sides of the base the block is accelerated back with 1 +- the base acceleration. The weaker of the two bounds
+    both.
+    """
+    swing = acceleration_size(p, drive)
+    window = 5.0 * speed / ((1.0 - swing) * (1.0 - p.block.restitution))
+    moved = acceleration_change_bound(p, drive, window)
+    return 1.0 - swing - moved, 1.0 - swing + moved, window
+
+
 @njit(**KERNEL)
 def base_settling_time(p, drive, speed):
     """Return an upper bound on the time from an impact to rest (Zeno limit at the base).
 
-    Infinite if rest is not certain. On the two sides of the base the block is accelerated back with 1 +- the
-    base acceleration. The weaker of the two bounds both, and stays positive within the window, so that the window ends
+    Infinite if rest is not certain. The acceleration towards the base stays positive within the window, so that the window ends
     before lift-off.
     """
-    swing = acceleration_size(p, drive)
-    if p.block.restitution >= 1.0 or swing >= 1.0:
+    if p.block.restitution >= 1.0 or acceleration_size(p, drive) >= 1.0:
         return math.inf
-    window = 5.0 * speed / ((1.0 - swing) * (1.0 - p.block.restitution))
-    moved = acceleration_change_bound(p, drive, window)
-    bound = settling_time(
-        speed, p.block.restitution, 1.0 - swing - moved, 1.0 - swing + moved, p.block.brace_angle
-    )
+    weakest, strongest, window = acceleration_to_base(p, drive, speed)
+    bound = settling_time(speed, p.block.restitution, weakest, strongest, p.block.brace_angle)
     return bound if bound <= window else math.inf
+
+
+@njit(**INTERNAL)
+def highest_hop(p, drive, speed):
+    """Return an upper bound on the angle from an impact to rest, given that ``base_settling_time`` is finite."""
+    weakest, _, _ = acceleration_to_base(p, drive, speed)
+    return 0.5 * speed * speed / (weakest - speed * speed / weakest)
 
 
 @njit(**KERNEL)

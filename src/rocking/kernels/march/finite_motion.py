@@ -11,10 +11,10 @@ import numpy as np
 from rocking.kernels.compile_options import INTERNAL, INTERNAL_INLINE, KERNEL
 from rocking.kernels.deferred import njit
 from rocking.kernels.entry_point import entry_point
-from rocking.kernels.event_kinds import BRACE, FLIGHT, IMPACT
+from rocking.kernels.event_kinds import BRACE, FLIGHT, IMPACT, REST
 from rocking.kernels.forcing.arc import shift_clock
-from rocking.kernels.forcing.contract import guess_from, next_event, peak_with
-from rocking.kernels.forcing.finite import growth_constant, has_ended, lowest_between, rounding_error
+from rocking.kernels.forcing.contract import peak_with
+from rocking.kernels.forcing.finite import growth_constant, has_ended, next_event_with_dip, rounding_error
 from rocking.kernels.forcing.parameters import FiniteParameters
 from rocking.kernels.forcing.sampled.parameters import SampledForcing, SampledParameters
 from rocking.kernels.march.accumulated_error import (
@@ -27,7 +27,7 @@ from rocking.kernels.march.accumulated_error import (
     of_velocity,
     widened,
 )
-from rocking.kernels.march.chatter import base_settling_time
+from rocking.kernels.march.chatter import base_settling_time, highest_hop
 from rocking.kernels.march.impact_law import SLOW, after_event
 from rocking.kernels.march.initial_state import UNKNOWN, begin
 from rocking.kernels.march.march import CROWDED, DONE, MAX_EVENTS, OVERTURNED, STILL
@@ -73,16 +73,15 @@ class Closeness(NamedTuple):
 
 
 @njit(**INTERNAL)
-def is_decided(p, arc, wait, error):
-    """Return whether K+ of an arc, and its minima until ``wait``, exceed the accumulated rounding error."""
+def is_decided(p, arc, dip, error):
+    """Return whether K+ of an arc, and its lowest dip, exceed the accumulated rounding error."""
     constant, rounded = growth_constant(p, arc)
     if abs(constant) <= of_growth(widened(error, rounded)):
         return False
-    lowest, when = lowest_between(p, arc, wait)
-    if lowest == math.inf:
+    if dip.angle == math.inf:
         return True
-    sinh, versinh, _, _ = hyperbolic(when)
-    return lowest > of_angle(widened(after_time(error, sinh, versinh), rounding_error(p, arc, when)))
+    sinh, versinh, _, _ = hyperbolic(dip.time)
+    return dip.angle > of_angle(widened(after_time(error, sinh, versinh), rounding_error(p, arc, dip.time)))
 
 
 @njit(**INTERNAL)
@@ -102,10 +101,10 @@ def is_lossless(p, event):
 
 
 @njit(**INTERNAL)
-def after_arc(p, arc, time, wait, so_far):
-    """Return the closeness after an arc that starts at a time of the motion and lasts for ``wait``."""
+def after_arc(p, arc, time, dip, so_far):
+    """Return the closeness after an arc that starts at a time of the motion, with its lowest dip."""
     constant, _ = growth_constant(p, arc)
-    decided = so_far.decided and (so_far.settling or is_decided(p, arc, wait, so_far.error))
+    decided = so_far.decided and (so_far.settling or is_decided(p, arc, dip, so_far.error))
     margin, when = so_far.margin, so_far.time
     if arc.angle == 0.0 and not abs(constant) >= abs(margin):
         margin, when = constant, time
@@ -125,20 +124,29 @@ def after_its_event(p, before, coming, after, so_far):
 
 
 @njit(**INTERNAL)
+def may_exceed(p, coming, after, peak):
+    """Return whether chattering that has been cut short after an event may have exceeded the peak."""
+    mode, arc = after
+    speed = p.block.restitution * abs(coming.velocity)
+    cut = coming.event == IMPACT and mode == REST and speed > 0.0
+    return cut and highest_hop(p, arc.drive, speed) > peak
+
+
+@njit(**INTERNAL)
 def to_end(p, angle, velocity, until, horizon, want_peak):
     """Follow a motion until nothing follows, until a time, or to the first contact without loss after the base motion.
 
-    Chattering is cut short if it ends within the ``horizon``.
+    Chattering is cut short if it ends within the ``horizon`` and does not exceed a peak that is wanted.
     """
     progress, hit = begin(p, angle, velocity, UNKNOWN)
     mode, arc, peak, impacts, brace_hits = progress.mode, progress.arc, progress.peak, 0, int(hit)
-    cycle, guess, free = 0, guess_from(p, 0.0), p.block.brace_angle == math.inf
+    cycle, free = 0, p.block.brace_angle == math.inf
     close, status = Closeness(math.nan, math.nan, True, False, EXACT), CROWDED
     for _ in range(MAX_EVENTS):
-        coming, _ = next_event(p, mode, arc, guess)
+        coming, dip = next_event_with_dip(p, mode, arc)
         time = cycle * p.clock.cycle_length + arc.start
         if mode == FLIGHT and free:
-            close = after_arc(p, arc, time, min(coming.wait, until - time), close)
+            close = after_arc(p, arc, time, dip, close)
         if coming.wait == math.inf or time + coming.wait > until:
             status = DONE if coming.wait < math.inf else OVERTURNED if mode == FLIGHT else STILL
             break
@@ -147,6 +155,8 @@ def to_end(p, angle, velocity, until, horizon, want_peak):
         impacts += coming.event == IMPACT
         brace_hits += coming.event == BRACE
         after = after_event(p, arc, arc.start + coming.wait, coming, horizon)
+        if want_peak and may_exceed(p, coming, after, peak):
+            after = after_event(p, arc, arc.start + coming.wait, coming, 0.0)
         close = after_its_event(p, (mode, arc), coming, after, close)
         mode, arc = after
         while arc.start > p.clock.cycle_length:
@@ -172,7 +182,8 @@ def run_scales(
 ) -> bool:
     """Follow the motion from rest at each scale of the base motion, and write its row of ``rows``.
 
-    Chattering is cut short. Returns True if all were followed, False if ``stop[0]`` was set before the end.
+    Chattering is cut short, so that its impacts do not count for the margin. Returns True if all were followed, False if
+    ``stop[0]`` was set before the end.
     """
     for k in range(scales.shape[0]):
         if stop[0] != 0:

@@ -4,8 +4,18 @@ import math
 
 from rocking.kernels.compile_options import INTERNAL, INTERNAL_INLINE
 from rocking.kernels.deferred import njit, provide
+from rocking.kernels.event_kinds import FLIGHT
 from rocking.kernels.forcing import contract, finite
-from rocking.kernels.forcing.arc import CROSSING, MAX_ARC_TIME, Instant, NoGuess, error_of_arc
+from rocking.kernels.forcing.arc import (
+    CROSSING,
+    MAX_ARC_TIME,
+    NO_DIP,
+    Dip,
+    Instant,
+    error_of_arc,
+    no_guess,
+    unchanged,
+)
 from rocking.kernels.forcing.extrema import first_turn_sign
 from rocking.kernels.forcing.harmonic import acceleration, extrema, first_zero
 from rocking.kernels.forcing.harmonic import next_event as harmonic
@@ -28,21 +38,9 @@ def arc_after(p, side, start, angle, velocity, coming):
 
 
 @njit(**INTERNAL_INLINE)
-def resynchronise(p, arc):
-    """Provide ``contract.resynchronise``: the forcing of an arc is always computed from its time."""
-    return arc
-
-
-@njit(**INTERNAL_INLINE)
 def forcing_term(p, side, drive):
     """Provide ``contract.forcing_term``."""
     return acceleration.forcing_term(system_at(p, drive.time), drive.cosine)
-
-
-@njit(**INTERNAL_INLINE)
-def guess_from(p, wait):
-    """Provide ``contract.guess_from``."""
-    return NoGuess(wait)
 
 
 @njit(**INTERNAL_INLINE)
@@ -126,18 +124,24 @@ def rounding_error(p, arc, wait):
 
 
 @njit(**INTERNAL)
-def lowest_between(p, arc, wait):
-    """Provide ``finite.lowest_between``. After a lift-off u rises as long as f > 0; rounding may deny it at the very start."""
-    least, when, until = math.inf, 0.0, min(wait, MAX_ARC_TIME)
+def next_event_with_dip(p, mode, arc):
+    """Provide ``finite.next_event_with_dip``.
+
+    After a lift-off u rises as long as f > 0; rounding may deny it at the very start.
+    """
+    coming, dip = solution.next_event(p, mode, arc), NO_DIP
+    if mode != FLIGHT:
+        return coming, dip
+    until = min(coming.wait, MAX_ARC_TIME)
     lifts = arc.angle == 0.0 and arc.velocity == 0.0
     sign = 1.0 if arc.angle == 0.0 else first_turn_sign(p, arc)
     t = 0.5 * system_at(p, arc.drive.time).forcing.base_outside if lifts else 0.0
     while True:
         found, t, now = next_turn(p, arc, sign, t, until)
         if found != CROSSING:
-            return least, when
-        if sign < 0.0 and now.angle < least:
-            least, when = now.angle, t
+            return coming, dip
+        if sign < 0.0 and now.angle < dip.angle:
+            dip = Dip(now.angle, t)
         sign = -sign
 
 
@@ -153,10 +157,10 @@ provide(
         contract.arc_at: arc_at,
         contract.arc_renewed: arc_after,
         contract.arc_after: arc_after,
-        contract.resynchronise: resynchronise,
+        contract.resynchronise: unchanged,
         contract.evaluate: solution.evaluate,
         contract.forcing_term: forcing_term,
-        contract.guess_from: guess_from,
+        contract.guess_from: no_guess,
         contract.next_event: next_event,
         contract.no_return_time: no_return_time,
         contract.side_to_lift: side_to_lift,
@@ -169,7 +173,7 @@ provide(
         contract.sensitivities: sensitivities,
         finite.growth_constant: growth_constant,
         finite.has_ended: has_ended,
-        finite.lowest_between: lowest_between,
+        finite.next_event_with_dip: next_event_with_dip,
         finite.rounding_error: rounding_error,
     },
 )

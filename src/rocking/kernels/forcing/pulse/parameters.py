@@ -18,7 +18,7 @@ class PulseForcing(NamedTuple):
 
 
 class PulseParameters(NamedTuple):
-    """Parameters of a block under a pulse; the cycle of the clock is its duration."""
+    """Parameters of a block under a pulse."""
 
     block: BlockParameters
     forcing: PulseForcing

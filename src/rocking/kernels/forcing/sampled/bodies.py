@@ -6,7 +6,7 @@ from rocking.kernels.compile_options import INTERNAL, INTERNAL_INLINE
 from rocking.kernels.deferred import njit, provide
 from rocking.kernels.event_kinds import FLIGHT, REST
 from rocking.kernels.forcing import contract, finite
-from rocking.kernels.forcing.arc import NoGuess
+from rocking.kernels.forcing.arc import NO_DIP, no_guess, unchanged
 from rocking.kernels.forcing.sampled import extrema, held, rounding, search, solution
 from rocking.kernels.forcing.sampled.parameters import SampledParameters
 from rocking.kernels.forcing.sampled.solution import arc_at_place, place_at
@@ -26,33 +26,24 @@ def arc_after(p, side, start, angle, velocity, coming):
 
 
 @njit(**INTERNAL_INLINE)
-def resynchronise(p, arc):
-    """Provide ``contract.resynchronise``: the place of an arc has no rounding errors to remove."""
-    return arc
-
-
-@njit(**INTERNAL_INLINE)
 def forcing_term(p, side, drive):
     """Provide ``contract.forcing_term``."""
     return -1.0 - side * solution.acceleration_at(p, drive)
 
 
-@njit(**INTERNAL_INLINE)
-def guess_from(p, wait):
-    """Provide ``contract.guess_from``."""
-    return NoGuess(wait)
-
-
 @njit(**INTERNAL)
 def next_event(p, mode, arc, guess):
     """Provide ``contract.next_event``."""
-    if mode == FLIGHT:
-        coming = search.first_event(p, arc)
-    elif mode == REST:
-        coming = held.lift_off(p, arc)
-    else:
-        coming = held.departure(p, arc)
+    coming, _ = next_event_with_dip(p, mode, arc)
     return coming, guess
+
+
+@njit(**INTERNAL)
+def next_event_with_dip(p, mode, arc):
+    """Provide ``finite.next_event_with_dip``."""
+    if mode == FLIGHT:
+        return search.first_event(p, arc)
+    return (held.lift_off(p, arc) if mode == REST else held.departure(p, arc)), NO_DIP
 
 
 @njit(**INTERNAL)
@@ -92,10 +83,10 @@ provide(
         contract.arc_at: arc_at,
         contract.arc_renewed: arc_after,
         contract.arc_after: arc_after,
-        contract.resynchronise: resynchronise,
+        contract.resynchronise: unchanged,
         contract.evaluate: solution.evaluate,
         contract.forcing_term: forcing_term,
-        contract.guess_from: guess_from,
+        contract.guess_from: no_guess,
         contract.next_event: next_event,
         contract.no_return_time: no_return_time,
         contract.side_to_lift: held.side_to_lift,
@@ -108,7 +99,7 @@ provide(
         contract.sensitivities: sensitivities,
         finite.growth_constant: rounding.growth_constant,
         finite.has_ended: rounding.has_ended,
-        finite.lowest_between: rounding.lowest_between,
+        finite.next_event_with_dip: next_event_with_dip,
         finite.rounding_error: rounding.rounding_error,
     },
 )

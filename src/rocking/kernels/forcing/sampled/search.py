@@ -1,9 +1,9 @@
 """Certified first event of an arc under a sampled base acceleration.
 
 The first intervals are decided by ``segment.first_zero`` on the local closed form, which keeps the digits of short arcs.
-They are the rest of the interval of the start, and FIRST more. From there on the closed form of ``solution`` gives u at each
-sample. Between two samples u leaves its chord by at most h^2/8 max|u''|. With |u''| <= |u| + F, F = 1 + max|a|, and
-``bend`` = q/(1 - q), q = h^2/8,
+They are the rest of the interval of the start, and FIRST more. From there on u and u' go from sample to sample. Between two
+samples u leaves its chord by at most h^2/8 max|u''|. With |u''| <= |u| + F, F = 1 + max|a|, and ``bend`` = q/(1 - q),
+q = h^2/8,
 
     |u - chord| <= bend (max(|u|, |u|) + F),
 
@@ -16,23 +16,22 @@ import math
 from rocking.kernels.compile_options import INTERNAL, INTERNAL_INLINE
 from rocking.kernels.deferred import njit
 from rocking.kernels.event_kinds import BRACE, IMPACT, NONE
-from rocking.kernels.forcing.arc import MAX_ARC_TIME, Next
+from rocking.kernels.forcing.arc import MAX_ARC_TIME, NO_DIP, Dip, Next
 from rocking.kernels.forcing.drives import SampledDrive
-from rocking.kernels.forcing.sampled.segment import Piece, at, first_zero
+from rocking.kernels.forcing.sampled.segment import Piece, at, first_zero, minimum
 from rocking.kernels.forcing.sampled.solution import (
     across_step,
-    constants_of,
-    forcing_on,
+    along_step,
     last_index,
     piece_from,
-    state_at_sample,
     time_between,
 )
-from rocking.kernels.forcing.sampled.tables import WINDOW
 from rocking.kernels.numerics.elementary import hyperbolic
 
 FIRST = 2
 MAX_STEP = 2.0
+# Samples between two attempts to prove that the block never returns.
+WINDOW = 16
 
 
 @njit(**INTERNAL_INLINE)
@@ -116,16 +115,19 @@ def free_event(p, arc, drive, angle, velocity):
 
 
 @njit(**INTERNAL_INLINE)
-def never_returns(p, side, index, growing, shrinking):
-    """Return whether u certainly stays positive from a sample on.
+def never_returns(p, side, index, total, difference):
+    """Return whether u certainly stays positive from a sample on, from u + u' and u - u' there.
 
     u >= 1 + least P - (h^2/4) max|a| + (K+ e^t - |K-| e^-t)/2, because P leaves its chord by h^2/8 max|P''| <= h^2/4 max|a|.
+    A quarter of K+ e^t must suffice, so that u keeps a distance from 0 that grows with its rounding error.
     """
     tables, scale = p.forcing.tables, p.forcing.scale
     turned, knot = side * scale, tables.knots[index]
+    growing = total - 1.0 - turned * (knot.mean + knot.rate)
+    shrinking = difference - 1.0 - turned * (knot.mean - knot.rate)
     least = turned * (knot.lowest if turned > 0.0 else knot.highest)
     bend = 0.25 * tables.step * tables.step * abs(scale) * tables.largest
-    return growing > 0.0 and 2.0 * (1.0 + least - bend) + growing - abs(shrinking) > MARGIN * (
+    return growing > 0.0 and 2.0 * (1.0 + least - bend) + 0.25 * growing - abs(shrinking) > MARGIN * (
         growing + abs(shrinking)
     )
 
@@ -135,64 +137,83 @@ MARGIN = 1e-12
 
 
 @njit(**INTERNAL)
-def first_event(p, arc):
-    """Return the first event of an arc."""
-    side, place, last = arc.side, arc.drive, last_index(p)
-    angle, velocity, step = arc.angle, arc.velocity, p.forcing.tables.step
-    far = last if step >= MAX_STEP else min(place.index + FIRST, last - 1)
-    while place.index < last and place.index <= far:
-        piece = piece_from(p, side, place, angle, velocity)
-        rest = step - place.offset
-        x, at_brace, arrive = first_event_in(p, piece, rest)
-        if x < math.inf:
-            return arrival(p, arc, SampledDrive(place.index, place.offset + x), at_brace, arrive)
-        angle, velocity = across_step(p, piece) if place.offset == 0.0 else at(piece, rest)
-        place = SampledDrive(place.index + 1, 0.0)
-    if place.index < last:
-        place, angle, velocity, coming = scan(p, arc, place.index, angle, velocity)
-        if coming.event != NONE or coming.wait == math.inf:
-            return coming
-    return free_event(p, arc, place, angle, velocity)
-
-
-@njit(**INTERNAL)
-def scan(p, arc, index, angle, velocity):
-    """Search from a sample to the last, in windows.
+def event_within(p, arc, place, piece, length, end, dip):
+    """Return the first event on the rest of an interval, which starts at a place and ends in the state ``end``.
 
     Returns
     -------
-    tuple of (SampledDrive, float, float, Next)
-        The last sample, with u and u' there, unless there is an event.
+    tuple of (Next, Dip)
+        The event; NONE if there is none.
+        The lower of ``dip`` and the minimum before the event.
+    """
+    coming, begun = nothing_more(arc.side, place), time_between(p, arc.drive, place)
+    x, at_brace, arrive = first_event_in(p, piece, length)
+    if x < math.inf:
+        coming = arrival(p, arc, SampledDrive(place.index, place.offset + x), at_brace, arrive)
+        length, end = x, (coming.angle, coming.velocity)
+    angle, turn = minimum(piece, length, end)
+    return coming, Dip(angle, begun + turn) if angle < dip.angle else dip
+
+
+@njit(**INTERNAL)
+def first_event(p, arc):
+    """Return the first event of an arc, and the lowest dip before it.
+
+    Returns
+    -------
+    tuple of (Next, Dip)
+    """
+    place, last, step, dip = arc.drive, last_index(p), p.forcing.tables.step, NO_DIP
+    angle, velocity = arc.angle, arc.velocity
+    far = last if step >= MAX_STEP else min(place.index + FIRST, last - 1)
+    while place.index < last and place.index <= far:
+        piece, rest = piece_from(p, arc.side, place, angle, velocity), step - place.offset
+        angle, velocity = across_step(p, piece) if place.offset == 0.0 else at(piece, rest)
+        coming, dip = event_within(p, arc, place, piece, rest, (angle, velocity), dip)
+        if coming.event != NONE:
+            return coming, dip
+        place = SampledDrive(place.index + 1, 0.0)
+    if place.index < last:
+        angle, velocity, coming, dip = scan(p, arc, place.index, angle, velocity, dip)
+        if coming.event != NONE or coming.wait == math.inf:
+            return coming, dip
+        place = coming.drive
+    return free_event(p, arc, place, angle, velocity), dip
+
+
+@njit(**INTERNAL)
+def scan(p, arc, index, angle, velocity, dip):
+    """Search from a sample to the last, with the lowest dip so far.
+
+    Returns
+    -------
+    tuple of (float, float, Next, Dip)
+        u and u' at the last sample, unless there is an event.
         The event, or the proof that none follows. NONE after a finite time: neither.
+        The lowest dip.
     """
     side, last, tables, brace = arc.side, last_index(p), p.forcing.tables, p.block.brace_angle
-    knots, powers, turned = tables.knots, tables.powers, side * p.forcing.scale
     quarter = 0.125 * tables.step * tables.step
     bend = quarter / (1.0 - quarter) * (1.0 + MARGIN)
     force = 1.0 + abs(p.forcing.scale) * tables.largest
-    constants = constants_of(p, side, SampledDrive(index, 0.0), angle, velocity)
-    growing, shrinking = constants.grow, constants.shrink
+    total, difference = angle + velocity, angle - velocity
     while index < last:
-        count = min(WINDOW, last - index)
-        before = 1.0 + (turned * knots[index].mean + 0.5 * (growing + shrinking))
-        for k in range(count):
-            up, down = growing * powers[k + 1], shrinking * powers[WINDOW + 2 + k]
-            here = 1.0 + (turned * knots[index + k + 1].mean + 0.5 * (up + down))
+        before = 0.5 * (total + difference)
+        for k in range(index, min(index + WINDOW, last)):
+            ahead, behind = along_step(p, side, k, total, difference)
+            here = 0.5 * (ahead + behind)
             reach = bend * (max(abs(before), abs(here)) + force)
-            if not (min(before, here) > reach and brace - max(before, here) > reach):
-                angle, velocity = state_at_sample(
-                    p, side, index + k, growing * powers[k], shrinking * powers[WINDOW + 1 + k]
-                )
-                f, rate = forcing_on(p, side, index + k)
-                x, at_brace, arrive = first_event_in(p, Piece(angle, velocity, f, rate), tables.step)
-                if x < math.inf:
-                    drive = SampledDrive(index + k, x)
-                    return drive, angle, velocity, arrival(p, arc, drive, at_brace, arrive)
-            before = here
-        growing, shrinking = growing * powers[count], shrinking * powers[WINDOW + 1 + count]
-        index += count
-        if brace == math.inf and never_returns(p, side, index, growing, shrinking):
-            return arc.drive, 0.0, 0.0, nothing_more(side, arc.drive)
-    angle, velocity = state_at_sample(p, side, last, growing, shrinking)
+            near = not (min(before, here) > reach and brace - max(before, here) > reach)
+            if near or (total < difference and ahead >= behind):
+                place, end = SampledDrive(k, 0.0), (here, 0.5 * (ahead - behind))
+                piece = piece_from(p, side, place, before, 0.5 * (total - difference))
+                coming, dip = event_within(p, arc, place, piece, tables.step, end, dip)
+                if coming.event != NONE:
+                    return before, piece.dw, coming, dip
+            total, difference, before = ahead, behind, here
+        index = min(index + WINDOW, last)
+        if brace == math.inf and never_returns(p, side, index, total, difference):
+            return angle, velocity, nothing_more(side, arc.drive), dip
+    angle, velocity = 0.5 * (total + difference), 0.5 * (total - difference)
     drive = SampledDrive(last, 0.0)
-    return drive, angle, velocity, Next(MAX_ARC_TIME, NONE, side, angle, velocity, drive, 0.0, 0.0)
+    return angle, velocity, Next(MAX_ARC_TIME, NONE, side, angle, velocity, drive, 0.0, 0.0), dip

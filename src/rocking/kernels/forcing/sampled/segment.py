@@ -129,6 +129,33 @@ def below_zero(piece, start, end):
 
 
 @njit(**INTERNAL)
+def minimum(piece, length, end):
+    """Return the minimum of w inside a segment, and its time; infinity if there is none. ``end`` is (w, w') at the end.
+
+    y = w'' obeys y'' = y, so that it changes its sign once at most, and w has one minimum at most.
+    """
+    second, (w_end, dw_end) = piece.w + piece.force, end
+    second_end = w_end + piece.force + piece.rate * length
+    begun, dw = 0.0, piece.dw
+    if dw >= 0.0:
+        if not (second < 0.0 < second_end and dw_end > 0.0):
+            return math.inf, 0.0
+        if dw > 0.0:
+            begun, second = first_zero(Piece(dw, second, piece.rate, 0.0), length)
+            if begun == math.inf:
+                return math.inf, 0.0
+            dw = 0.0
+    elif dw_end < 0.0 and not second > 0.0 > second_end:
+        return math.inf, 0.0
+    x, _ = first_zero(Piece(-dw, -second, -piece.rate, 0.0), length - begun)
+    if x == math.inf:
+        # to rounding, w' reaches 0 at the end
+        return (w_end, length) if dw_end >= 0.0 else (math.inf, 0.0)
+    w, _ = at(piece, begun + x)
+    return w, begun + x
+
+
+@njit(**INTERNAL)
 def first_zero(piece, length):
     """Return the first time in (0, length] at which w falls through zero, and w' there; infinity if there is none.
 

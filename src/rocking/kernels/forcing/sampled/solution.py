@@ -114,6 +114,21 @@ def state_at_sample(p, side, index, growing, shrinking):
     )
 
 
+@njit(**INTERNAL_INLINE)
+def along_step(p, side, index, total, difference):
+    """Return u + u' and u - u' at the sample after ``index``, from those at ``index``, which is not the last.
+
+    (u + u')' = (u + u') + f and (u - u')' = -(u - u') - f, where f is linear.
+    """
+    tables, turned = p.forcing.tables, side * p.forcing.scale
+    start = -1.0 - turned * tables.knots[index].acceleration
+    end = -1.0 - turned * tables.knots[index + 1].acceleration
+    return (
+        tables.growth * (total + (tables.near * start + tables.far * end)),
+        tables.decay * difference - (tables.near * end + tables.far * start),
+    )
+
+
 @njit(**INTERNAL)
 def state_in(p, arc, drive, elapsed):
     """Return u and u' of an arc at a place of the interval ``drive.index``, at the time ``elapsed`` since its start."""

@@ -16,8 +16,7 @@ from rocking.kernels.entry_point import entry_point
 from rocking.kernels.numerics.elementary import hyperbolic
 from rocking.kernels.signature import Floats1
 
-# Samples in a window of the search for an event, and in a block of the search for a lift-off.
-WINDOW = 16
+# Samples in a block of the search for a lift-off.
 BLOCK = 64
 # Terms of the series of the weights, for a step up to 1.
 TERMS = 18
@@ -32,11 +31,14 @@ class Tables(NamedTuple):
     sinh: float  # of the step
     versinh: float  # cosh - 1
     excess: float  # sinh - step
+    growth: float  # e^step
+    decay: float  # e^-step
+    near: float  # the two weights of the samples
+    far: float
     largest: float  # |a| of all samples
     # (n,): a, P and P' at each sample; least and greatest of 0 and of P from this sample on
     knots: Knots
     blocks: Floats1  # largest |a| in each block of samples
-    powers: Floats1  # e^(k step), then e^(-k step), for k up to WINDOW
 
 
 @njit(**INTERNAL)
@@ -55,9 +57,9 @@ def weights(step):
 
 @entry_point(**KERNEL)
 def fill(
-    samples: Floats1, step: float, knots: Knots, blocks: Floats1, powers: Floats1
-) -> tuple[float, float, float, float]:
-    """Fill the arrays of the tables; return sinh, cosh - 1 and sinh - step of the step, and the largest |a|."""
+    samples: Floats1, step: float, knots: Knots, blocks: Floats1
+) -> tuple[float, float, float, float, float, float, float, float]:
+    """Fill the arrays of the tables; return the numbers from ``sinh`` to ``largest``."""
     n = samples.shape[0]
     sinh, versinh, excess, _ = hyperbolic(step)
     decay, (near, far) = math.exp(-step), weights(step)
@@ -82,13 +84,11 @@ def fill(
         blocks[k] = 0.0
     for k in range(n):
         blocks[k // BLOCK] = max(blocks[k // BLOCK], abs(samples[k]))
-    for k in range(WINDOW + 1):
-        powers[k], powers[WINDOW + 1 + k] = math.exp(k * step), math.exp(-k * step)
-    return sinh, versinh, excess, largest
+    return sinh, versinh, excess, math.exp(step), decay, near, far, largest
 
 
 def tables_of(samples: np.ndarray, step: float) -> Tables:
     """Make the tables of samples (n,), n >= 1, at a step in normalised time."""
     n = len(samples)
-    knots, blocks, powers = np.empty(n, KNOT), np.empty(-(-n // BLOCK)), np.empty(2 * (WINDOW + 1))
-    return Tables(step, *fill(samples, step, knots, blocks, powers), knots, blocks, powers)
+    knots, blocks = np.empty(n, KNOT), np.empty(-(-n // BLOCK))
+    return Tables(step, *fill(samples, step, knots, blocks), knots, blocks)
