@@ -15,7 +15,7 @@ import numpy as np
 import rocking as rk
 from rocking.kernels import entry_point, machine_code
 from rocking.kernels.deferred import import_all
-from rocking.kernels.march.finite_motion import ENDING_ROW, run_scales
+from rocking.kernels.march.finite_motion import ENDING_ROW, PULSE_ROW, RUN_ROW, run_batch, run_pulses
 from rocking.motion.kernel_parameters import parameters
 
 MAX_CALLS = 40
@@ -52,9 +52,13 @@ def workload():
         moved = rk.simulate(rk.System(base, 0.8))
         moved.at(np.linspace(0.0, moved.duration, 2_000))
         moved.validity(rk.Block(height=2.0, width=0.5))
-    scales = np.linspace(0.5, 2.0, 50)
-    p = parameters(rk.System(rk.PiecewiseLinear(samples, step=0.05), 0.8))
-    run_scales(p, scales, True, np.empty(50, ENDING_ROW), np.zeros(1, np.int64))
+    rows, never, runs = np.empty(50, ENDING_ROW), np.zeros(1, np.int64), np.zeros(50, RUN_ROW)
+    runs["scale"], runs["restitution"] = np.linspace(0.5, 2.0, 50), 0.8
+    run_batch(parameters(rk.System(rk.PiecewiseLinear(samples, step=0.05), 0.8)), runs, True, rows, never)
+    pulses = np.zeros(50, PULSE_ROW)
+    pulses["amplitude"], pulses["restitution"] = np.linspace(1.0, 9.0, 50), 0.9
+    pulses["frequency"], pulses["phase"], pulses["duration"] = 5.0, -np.pi / 2, 0.4 * np.pi
+    run_pulses(pulses, True, rows, never)
 
 
 def record_calls():

@@ -21,7 +21,7 @@ from benchmarks.clock import quickest, quickest_in_turn
 from benchmarks.table import Figure
 from rocking.kernels.forcing.sampled.parameters import CYCLE, sampled_parameters
 from rocking.kernels.forcing.sampled.tables import tables_of
-from rocking.kernels.march.finite_motion import ENDING_ROW, run_scales
+from rocking.kernels.march.finite_motion import ENDING_ROW, RUN_ROW, run_batch
 from tests.oracles import segments
 
 TURNS = 15
@@ -69,11 +69,13 @@ def cells():
 def engine(cell, scales):
     """Return a function that makes the tables and runs the engine over scales."""
     rows, never = np.empty(len(scales), ENDING_ROW), np.zeros(1, np.int64)
+    runs = np.zeros(len(scales), RUN_ROW)
+    runs["scale"], runs["restitution"] = scales, cell.restitution
 
     def run():
         tables = tables_of(cell.values, cell.step)
         p = sampled_parameters(tables, 1.0, CYCLE * cell.step, cell.restitution)
-        run_scales(p, scales, False, rows, never)
+        run_batch(p, runs, False, rows, never)
 
     return run
 

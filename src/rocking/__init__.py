@@ -30,6 +30,7 @@ if TYPE_CHECKING:
         PiecewiseLinear,
         Pulse,
         RecordFile,
+        RecordSet,
         Repeatability,
         RepeatabilityMap,
         SafeBasin,
@@ -91,6 +92,7 @@ if TYPE_CHECKING:
         parametric_map,
         repeatability,
         repeatability_map,
+        rocking_spectrum,
         safe_basin,
     )
 
@@ -124,6 +126,7 @@ __all__ = [
     "Pulse",
     "RecordError",
     "RecordFile",
+    "RecordSet",
     "Repeatability",
     "RepeatabilityMap",
     "RotationNumber",
@@ -162,6 +165,7 @@ __all__ = [
     "read_ground_motions",
     "repeatability",
     "repeatability_map",
+    "rocking_spectrum",
     "rotation_number",
     "saddle_manifolds",
     "safe_basin",
@@ -189,7 +193,7 @@ _NAMES = {
     ),
     "survey": (
         "basin_map chaos_share overturning_amplitude parametric_map repeatability repeatability_map "
-        "safe_basin"
+        "rocking_spectrum safe_basin"
     ),
 }
 """Public names by subpackage. Names that are not listed belong to `model`."""

@@ -9,7 +9,7 @@ import pytest
 from scipy.integrate import quad
 
 import rocking as rk
-from rocking.kernels.march.finite_motion import ENDING_ROW, run_scales
+from rocking.kernels.march.finite_motion import ENDING_ROW, RUN_ROW, run_batch
 from rocking.kernels.march.march import OVERTURNED
 from rocking.motion.kernel_parameters import parameters
 
@@ -124,8 +124,9 @@ def test_a_batch_of_scales_ends_like_single_motions(restitution):
     values = np.random.default_rng(8).uniform(-1, 1, 20)
     base = rk.PiecewiseLinear(values, step=0.25)
     scales = np.linspace(1.02, 8.0, 60) / np.abs(values).max()
-    rows = np.empty(len(scales), ENDING_ROW)
-    run_scales(parameters(rk.System(base, restitution)), scales, True, rows, np.zeros(1, np.int64))
+    rows, runs = np.empty(len(scales), ENDING_ROW), np.zeros(len(scales), RUN_ROW)
+    runs["scale"], runs["restitution"] = scales, restitution
+    run_batch(parameters(rk.System(base, restitution)), runs, True, rows, np.zeros(1, np.int64))
     fallen = same = 0
     for scale, row in zip(scales, rows, strict=True):
         motion = rk.simulate(rk.System(attrs.evolve(base, scale=float(scale)), restitution))

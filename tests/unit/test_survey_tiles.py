@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from rocking.survey import measurement
+from rocking.survey.harmonic_spec import HarmonicSpec
 from rocking.survey.measurement import Batch, batches, compute
 from rocking.survey.measures.response import response
-from rocking.survey.spec import SurveySpec
 from rocking.survey.tiling import levels
 
 MEASURE = response(200, 64, "A map")
@@ -17,7 +17,8 @@ NO_STOP = np.zeros(1, np.int64)
 
 
 def answered(wanted, fixed):
-    return compute(Batch(AXES, fixed, np.asarray(wanted, np.int32), MEASURE.judge, MEASURE.options), NO_STOP)
+    batch = Batch(HarmonicSpec(AXES, fixed), np.asarray(wanted, np.int32), MEASURE.judge, MEASURE.options)
+    return compute(batch, NO_STOP)
 
 
 @pytest.mark.parametrize(
@@ -37,14 +38,14 @@ def test_what_is_said_of_a_point_depends_on_nobody_beside_it(fixed):
 def test_the_work_of_a_survey_is_its_points_each_once(points, monkeypatch):
     monkeypatch.setattr(measurement, "BATCH", 500)
     axes = {"amplitude": np.linspace(0.0, 16.0, points), "period": np.linspace(0.2, 3.0, points)}
-    asked = SurveySpec(axes, {"restitution": 0.9})
+    asked = HarmonicSpec(axes, {"restitution": 0.9})
     met, pieces, needed = np.zeros((points, points), int), 0, 0
     for level in levels(asked):
         step = (points - 1) // (level.shape[0] - 1)
         for tile in level.tiles():
             wanted = np.flatnonzero(tile.own(np.ones(tile.shape, bool)))
             needed += math.ceil(wanted.size / 500)
-            for batch in batches(tile, asked.fixed, wanted, MEASURE):
+            for batch in batches(tile, asked, wanted, MEASURE):
                 pieces += 1
                 assert batch.wanted.size <= 500
                 rows, columns = np.unravel_index(batch.wanted, tile.shape)

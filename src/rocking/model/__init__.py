@@ -20,7 +20,15 @@ from rocking.model.atomic_files import (
 )
 from rocking.model.basin_map import Attractor, BasinMap, UncertaintyExponent
 from rocking.model.binomial_share import LEVEL, Share, wilson
-from rocking.model.block import GRAVITY, Block
+from rocking.model.block import (
+    GRAVITY,
+    INERTIA_RATIOS,
+    RECTANGLE,
+    SIZES,
+    Block,
+    frequency_parameter,
+    housner_restitution,
+)
 from rocking.model.citation import cite
 from rocking.model.classification import Criterion, Kind
 from rocking.model.forcing import (
@@ -34,6 +42,7 @@ from rocking.model.forcing import (
 )
 from rocking.model.formatting import counted, ordinal, percent, plus_minus
 from rocking.model.ground_motion import BASELINES, STEPS, GroundMotion
+from rocking.model.intensity import INTENSITIES, Intensity, intensity_of
 from rocking.model.notebook_renderers import NotebookPicture
 from rocking.model.orbit_event import OrbitEvent
 from rocking.model.orbit_stability import Stability, stability_of
@@ -41,6 +50,7 @@ from rocking.model.outcome import Outcome, Overturning
 from rocking.model.piecewise_linear import PiecewiseLinear
 from rocking.model.pulse import KINDS, Pulse
 from rocking.model.record_file import RecordFile
+from rocking.model.record_set import RecordSet, record_set
 from rocking.model.si_units import PHYSICAL, block_attributes
 from rocking.model.survey_results import (
     ChaosShare,
@@ -90,6 +100,8 @@ __all__ = [
     "FREQUENCIES",
     "FULL",
     "GRAVITY",
+    "INERTIA_RATIOS",
+    "INTENSITIES",
     "KINDS",
     "LEVEL",
     "MAX_AMPLITUDE",
@@ -99,6 +111,8 @@ __all__ = [
     "PERIODS",
     "PHYSICAL",
     "RANGES",
+    "RECTANGLE",
+    "SIZES",
     "STEPS",
     "TILES",
     "VERSION",
@@ -113,6 +127,7 @@ __all__ = [
     "Forcing",
     "GroundMotion",
     "Harmonic",
+    "Intensity",
     "Kind",
     "Mode",
     "NoOrbit",
@@ -126,6 +141,7 @@ __all__ = [
     "Pulse",
     "ReadOnlyArrays",
     "RecordFile",
+    "RecordSet",
     "Repeatability",
     "RepeatabilityMap",
     "SafeBasin",
@@ -149,7 +165,10 @@ __all__ = [
     "counted",
     "exactly_one",
     "finite",
+    "frequency_parameter",
+    "housner_restitution",
     "instance",
+    "intensity_of",
     "members",
     "notebook_renderers",
     "one_of",
@@ -160,6 +179,7 @@ __all__ = [
     "quantities",
     "read_only",
     "reals",
+    "record_set",
     "refusal",
     "refuse_if",
     "replacing",

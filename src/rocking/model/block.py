@@ -18,6 +18,16 @@ INERTIA_RATIOS = (1.0, 10.0)
 RECTANGLE = 4 / 3
 
 
+def frequency_parameter(radius: float, inertia_ratio: float) -> float:
+    """Return α = √(MgR/Io) in 1/s, from the distance R of the corners from the centre of mass, in metres."""
+    return math.sqrt(GRAVITY / (inertia_ratio * radius))
+
+
+def housner_restitution(critical_angle: float, inertia_ratio: float) -> float:
+    """Return Housner's (1963) coefficient of restitution, 1 − 2 sin²θcr/(Io/MR²); 1 − (3/2) sin²θcr for a uniform rectangle."""
+    return 1 - 2 * math.sin(critical_angle) ** 2 / inertia_ratio
+
+
 def _height(value: float) -> float:
     return within("height", value, *SIZES, unit="m")
 
@@ -114,12 +124,12 @@ class Block:
     @property
     def frequency_parameter(self) -> float:
         """Frequency parameter α = √(MgR/Io) in 1/s. Normalised time is τ = αt."""
-        return math.sqrt(GRAVITY / (self.inertia_ratio * self.radius))
+        return frequency_parameter(self.radius, self.inertia_ratio)
 
     @property
     def housner_restitution(self) -> float:
         """Housner's (1963) coefficient of restitution, 1 − 2 sin²θcr/(Io/MR²); 1 − (3/2) sin²θcr for a uniform rectangle."""
-        return 1 - 2 * math.sin(self.critical_angle) ** 2 / self.inertia_ratio
+        return housner_restitution(self.critical_angle, self.inertia_ratio)
 
     @property
     def has_housner_restitution(self) -> bool:

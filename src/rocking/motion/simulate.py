@@ -31,7 +31,7 @@ from rocking.motion.motion import Motion
 MAX_CYCLES = 1_000_000_000
 MAX_SECTION_CYCLES = 100_000_000
 DURATIONS = (1e-9, 1e9)
-NO_ENDING = finite_motion.Ending(kernel.DONE, 0, 0, 0.0, math.nan, math.nan, True)
+NO_ENDING = finite_motion.Ending(kernel.DONE, 0, 0, 0, 0.0, math.nan, math.nan, True)
 """For a harmonic base motion, which has no end."""
 NO_CYCLES = "be omitted for a base motion of finite length, which has no cycles"
 

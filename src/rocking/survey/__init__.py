@@ -4,15 +4,16 @@ from rocking.survey import notebook
 from rocking.survey.basin_map import basin_map
 from rocking.survey.chaos_share import chaos_share
 from rocking.survey.engine.tile_loop import cores
+from rocking.survey.harmonic_spec import check_quantity, question
 from rocking.survey.measures.attractors import alike, classify_with_anchor
 from rocking.survey.measures.response import classify_points
 from rocking.survey.overturning_amplitude import MAX_PHASES, overturning_amplitude
 from rocking.survey.parametric_map import parametric_map
 from rocking.survey.repeatability import repeatability
 from rocking.survey.repeatability_map import repeatability_map
+from rocking.survey.rocking_spectrum import rocking_spectrum
 from rocking.survey.safe_basin import safe_basin
 from rocking.survey.sampling.random_points import MAX_SAMPLES, MAX_SEED
-from rocking.survey.spec import check_quantity, question
 from rocking.survey.store.export import counts, tables, to_netcdf
 
 __all__ = [
@@ -32,6 +33,7 @@ __all__ = [
     "question",
     "repeatability",
     "repeatability_map",
+    "rocking_spectrum",
     "safe_basin",
     "tables",
     "to_netcdf",

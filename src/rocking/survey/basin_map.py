@@ -25,12 +25,12 @@ from rocking.model import (
     whole,
 )
 from rocking.survey.engine.run_survey import run_survey
+from rocking.survey.harmonic_spec import HarmonicSpec, Points, coordinate, points, question
 from rocking.survey.measurement import Measurement
 from rocking.survey.measures.attractors import destination, label_attractors, make_attractors
 from rocking.survey.sampling.random_points import MAX_SAMPLES, generator, sampled, span
 from rocking.survey.sampling.uncertainty_exponent import distances, exponent, perturbed_triples
-from rocking.survey.spec import Points, SurveySpec, points, question
-from rocking.survey.store.dataset import attributes, coordinate
+from rocking.survey.store.dataset import attributes
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -166,7 +166,7 @@ def points_of(system: System, starts: np.ndarray) -> Points:
     return points({"angle": starts[:, 0], "velocity": starts[:, 1]}, asked_of(system))
 
 
-def grid_starts(asked: SurveySpec) -> np.ndarray:
+def grid_starts(asked: HarmonicSpec) -> np.ndarray:
     """Return the initial states (n, 2) of a grid, in C order."""
     grid = dict(zip(asked.axes, np.meshgrid(*asked.axes.values(), indexing="ij"), strict=True))
     return np.column_stack([grid["angle"].ravel(), grid["velocity"].ravel()])
@@ -191,7 +191,7 @@ def _random_dataset(
             name: ("sample", starts[:, column], coordinate(name))
             for column, name in enumerate(("angle", "velocity"))
         },
-        attributes(SurveySpec({}, asked_of(system)), measure),
+        attributes(HarmonicSpec({}, asked_of(system)), measure),
     )
 
 

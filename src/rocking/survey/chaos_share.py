@@ -8,12 +8,12 @@ from typing import Any
 import numpy as np
 
 from rocking.kernels.classify import verdict_record as kernel
-from rocking.model import ChaosShare, Share, refusal, whole, within
+from rocking.model import ChaosShare, Share, refusal, whole
 from rocking.response import KINDS
+from rocking.survey.harmonic_spec import HarmonicSpec, check_quantity, coordinate, points
 from rocking.survey.measures.kind import interval_variables, outcome
 from rocking.survey.sampling.random_points import MAX_SAMPLES, generator, sampled, span
-from rocking.survey.spec import SurveySpec, axis, points
-from rocking.survey.store.dataset import attributes, coordinate
+from rocking.survey.store.dataset import attributes
 
 TITLE = "Share of chaotic responses of a free-standing block on a shaking base"
 
@@ -83,10 +83,7 @@ def chaos_share(
     ('restitution', 'response')
     """
     measure = outcome(max_cycles, max_period, TITLE)
-    plain = np.ndim(restitution) == 0
-    values = (
-        np.array([within("restitution", restitution, 0, 1)]) if plain else axis("restitution", restitution)
-    )
+    values = np.atleast_1d(check_quantity("restitution", restitution))
     spans = {"period": span("period", period), "amplitude": span("amplitude", amplitude)}
     fixed = {}
     if brace_angle is not None:
@@ -130,7 +127,7 @@ def _summed_up(
         "restitution": ("restitution", restitutions, coordinate("restitution")),
         "response": ("response", [str(kind) for kind in KINDS], {"long_name": "kind of response"}),
     }
-    told = attributes(SurveySpec({}, dict(fixed)), measure) | {
+    told = attributes(HarmonicSpec({}, dict(fixed)), measure) | {
         "samples": of,
         "seed": seed,
         **{f"{name}_range": list(ends) for name, ends in spans.items()},

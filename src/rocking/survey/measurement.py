@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from attrs import field, frozen
 
-from rocking.survey.spec import Points, points
+from rocking.survey.spec import SurveySpec
 from rocking.survey.tiling import Tile
 
 BATCH = 8192
@@ -49,8 +49,8 @@ class Measurement:
     title : str
         Title of the dataset.
     judge : callable
-        (points, options, stop) → one array (n,) per variable, by name. A pure function of the points, defined in a
-        module so that other processes can import it. Returns None if another thread sets `stop[0]`.
+        (inputs, options, stop) → one array (n,) per variable, by name. A pure function of the inputs of the points,
+        defined in a module so that other processes can import it. Returns None if another thread sets `stop[0]`.
     compile : callable
         Function that compiles or loads the kernels of `judge`. Its argument states whether some runs may be long.
     variables : tuple of Variable
@@ -64,7 +64,7 @@ class Measurement:
     """
 
     title: str
-    judge: Callable[[Points, Mapping[str, int], np.ndarray], Arrays | None]
+    judge: Callable[[Any, Mapping[str, int], np.ndarray], Arrays | None]
     compile: Callable[[bool], None]
     variables: tuple[Variable, ...]
     options: dict[str, int]
@@ -85,25 +85,29 @@ class Measurement:
 class Batch:
     """Batch of points of a tile, computed in any process."""
 
-    axes: dict[str, np.ndarray]
-    fixed: dict[str, float]
+    asked: SurveySpec
     wanted: np.ndarray = field(repr=False)  # indices in the tile, in C order
-    judge: Callable[[Points, Mapping[str, int], np.ndarray], Arrays | None]
+    judge: Callable[[Any, Mapping[str, int], np.ndarray], Arrays | None]
     options: dict[str, int]
 
 
-def batches(tile: Tile, fixed: dict[str, float], wanted: np.ndarray, measure: Measurement) -> Iterator[Batch]:
-    """Split a tile into strided batches, for load balance."""
+def batches(tile: Tile, asked: SurveySpec, wanted: np.ndarray, measure: Measurement) -> Iterator[Batch]:
+    """Split a tile into batches: strided, for load balance, or of neighbours, where these share some of the work."""
     parts = -(-wanted.size // BATCH)
-    for part in range(parts):
-        yield Batch(tile.axes(), fixed, wanted[part::parts], measure.judge, measure.options)
+    split = [wanted[part::parts] for part in range(parts)]
+    if asked.contiguous:
+        split = np.array_split(wanted, parts)
+    for part in split:
+        inside = asked.with_axes(tile.axes())
+        yield Batch(inside, part, measure.judge, measure.options)
 
 
 def compute(batch: Batch, stop: np.ndarray) -> Arrays:
     """Return the results at the points of a batch, in their order; CancelledError if `stop` is set."""
-    places = np.unravel_index(batch.wanted, tuple(values.size for values in batch.axes.values()))
-    values = {name: axis[at] for (name, axis), at in zip(batch.axes.items(), places, strict=True)}
-    answers = batch.judge(points(values, batch.fixed), batch.options, stop)
+    asked = batch.asked
+    places = np.unravel_index(batch.wanted, asked.shape)
+    values = {name: axis[at] for (name, axis), at in zip(asked.axes.items(), places, strict=True)}
+    answers = batch.judge(asked.inputs(values), batch.options, stop)
     if answers is None:
         raise CancelledError("the survey was stopped")
     return answers

@@ -11,10 +11,10 @@ import numpy as np
 from rocking.kernels.classify import verdict_record as kernel
 from rocking.model import OverturningCurve, refusal, whole
 from rocking.survey.engine.run_survey import run_survey
+from rocking.survey.harmonic_spec import coordinate, question
 from rocking.survey.measures.kind import outcome
 from rocking.survey.sampling.overturning_scan import Scan, refined
-from rocking.survey.spec import question
-from rocking.survey.store.dataset import attributes, coordinate
+from rocking.survey.store.dataset import attributes
 from rocking.theory import heteroclinic_amplitude
 
 MAX_PHASES = 100_000

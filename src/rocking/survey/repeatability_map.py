@@ -14,10 +14,10 @@ from rocking.kernels.classify import verdict_record as kernel
 from rocking.model import RepeatabilityMap, Share, whole, within
 from rocking.response import KINDS, budget
 from rocking.survey.engine.run_survey import run_survey
+from rocking.survey.harmonic_spec import Points, question
 from rocking.survey.measurement import Arrays, Measurement, Variable
 from rocking.survey.measures.kind import KIND
 from rocking.survey.sampling.perturbation import MAX_RELATIVE, TITLE, perturbed, spread
-from rocking.survey.spec import Points, question
 
 MILLIONTH = 1e-6
 MAX_AT_A_POINT = 1_000

@@ -9,10 +9,10 @@ import numpy as np
 
 from rocking.kernels.classify import verdict_record as kernel
 from rocking.model import RANGES, SafeBasin, Share, refusal, whole
+from rocking.survey.harmonic_spec import HarmonicSpec, Points, coordinate, points, question
 from rocking.survey.measures.kind import interval_variables, outcome
 from rocking.survey.sampling.random_points import MAX_SAMPLES, generator, sampled, span
-from rocking.survey.spec import Points, SurveySpec, points, question
-from rocking.survey.store.dataset import attributes, coordinate
+from rocking.survey.store.dataset import attributes
 from rocking.theory import heteroclinic_amplitude, melnikov_amplitude
 
 TITLE = "Safe basin of a free-standing block on a shaking base"
@@ -115,11 +115,13 @@ def safe_basin(
     return _summed_up(asked, measure, kinds, drawn)
 
 
-def _placed(asked: SurveySpec, amplitude: float, starts: np.ndarray) -> Points:
+def _placed(asked: HarmonicSpec, amplitude: float, starts: np.ndarray) -> Points:
     return points({"angle": starts[:, 0], "velocity": starts[:, 1]}, asked.fixed | {"amplitude": amplitude})
 
 
-def _summed_up(asked: SurveySpec, measure: Any, kinds: list[np.ndarray], drawn: dict[str, Any]) -> SafeBasin:
+def _summed_up(
+    asked: HarmonicSpec, measure: Any, kinds: list[np.ndarray], drawn: dict[str, Any]
+) -> SafeBasin:
     import xarray as xr
 
     shares = tuple(Share(np.count_nonzero(each != kernel.OVERTURNS), each.size) for each in kinds)

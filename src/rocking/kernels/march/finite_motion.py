@@ -16,6 +16,7 @@ from rocking.kernels.forcing.arc import shift_clock
 from rocking.kernels.forcing.contract import peak_with
 from rocking.kernels.forcing.finite import growth_constant, has_ended, next_event_with_dip, rounding_error
 from rocking.kernels.forcing.parameters import FiniteParameters
+from rocking.kernels.forcing.pulse.parameters import make_pulse
 from rocking.kernels.forcing.sampled.parameters import SampledForcing, SampledParameters
 from rocking.kernels.march.accumulated_error import (
     EXACT,
@@ -33,7 +34,8 @@ from rocking.kernels.march.initial_state import UNKNOWN, begin
 from rocking.kernels.march.march import CROWDED, DONE, MAX_EVENTS, OVERTURNED, STILL
 from rocking.kernels.march.tangent import event_map
 from rocking.kernels.numerics.elementary import hyperbolic
-from rocking.kernels.signature import Floats1, Integers1
+from rocking.kernels.parameters import BlockParameters
+from rocking.kernels.signature import Integers1
 
 
 class Ending(NamedTuple):
@@ -41,6 +43,7 @@ class Ending(NamedTuple):
 
     status: int
     impacts: int
+    since_rest: int  # impacts since the block last rested, or since the start
     brace_hits: int
     peak: float
     margin: float  # K+ of least size over all lift-offs and impacts; NaN if the block never moves
@@ -52,6 +55,7 @@ ENDING_ROW = np.dtype(
     [
         ("status", "i8"),
         ("impacts", "i8"),
+        ("since_rest", "i8"),
         ("decided", "i8"),
         ("peak", "f8"),
         ("margin", "f8"),
@@ -60,6 +64,16 @@ ENDING_ROW = np.dtype(
     align=True,
 )
 Endings = Annotated[np.ndarray, ENDING_ROW, 1]
+
+# Runs under the same samples: their scale, and the block and its angle at the start.
+RUN_ROW = np.dtype([("scale", "f8"), ("restitution", "f8"), ("angle", "f8")], align=True)
+Runs = Annotated[np.ndarray, RUN_ROW, 1]
+
+PULSE_ROW = np.dtype(
+    [("amplitude", "f8"), ("frequency", "f8"), ("phase", "f8"), ("duration", "f8"), ("restitution", "f8")],
+    align=True,
+)
+Pulses = Annotated[np.ndarray, PULSE_ROW, 1]
 
 
 class Closeness(NamedTuple):
@@ -140,7 +154,7 @@ def to_end(p, angle, velocity, until, horizon, want_peak):
     """
     progress, hit = begin(p, angle, velocity, UNKNOWN)
     mode, arc, peak, impacts, brace_hits = progress.mode, progress.arc, progress.peak, 0, int(hit)
-    cycle, free = 0, p.block.brace_angle == math.inf
+    since_rest, cycle, free = 0, 0, p.block.brace_angle == math.inf
     close, status = Closeness(math.nan, math.nan, True, False, EXACT), CROWDED
     for _ in range(MAX_EVENTS):
         coming, dip = next_event_with_dip(p, mode, arc)
@@ -159,6 +173,7 @@ def to_end(p, angle, velocity, until, horizon, want_peak):
             after = after_event(p, arc, arc.start + coming.wait, coming, 0.0)
         close = after_its_event(p, (mode, arc), coming, after, close)
         mode, arc = after
+        since_rest = 0 if mode == REST else since_rest + int(coming.event == IMPACT)
         while arc.start > p.clock.cycle_length:
             cycle, arc = cycle + 1, shift_clock(arc, p.clock.cycle_length)
         if coming.event in (IMPACT, BRACE) and is_lossless(p, coming.event) and has_ended(p, arc.drive):
@@ -167,7 +182,7 @@ def to_end(p, angle, velocity, until, horizon, want_peak):
             status = OVERTURNED if free and spare > 0.0 else DONE
             close = Closeness(close.margin, close.time, decided, False, close.error)
             break
-    return Ending(status, impacts, brace_hits, peak, close.margin, close.time, close.decided)
+    return Ending(status, impacts, since_rest, brace_hits, peak, close.margin, close.time, close.decided)
 
 
 @entry_point(**KERNEL)
@@ -177,21 +192,43 @@ def run_to_end(p: FiniteParameters, angle: float, velocity: float, until: float)
 
 
 @entry_point(**KERNEL)
-def run_scales(
-    p: SampledParameters, scales: Floats1, want_peak: bool, rows: Endings, stop: Integers1
-) -> bool:
-    """Follow the motion from rest at each scale of the base motion, and write its row of ``rows``.
+def run_batch(p: SampledParameters, runs: Runs, want_peak: bool, rows: Endings, stop: Integers1) -> bool:
+    """Follow the motion of each of ``runs`` under the samples of ``p``, and write its row of ``rows``.
 
     Chattering is cut short, so that its impacts do not count for the margin. Returns True if all were followed, False if
     ``stop[0]`` was set before the end.
     """
-    for k in range(scales.shape[0]):
+    for k in range(runs.shape[0]):
         if stop[0] != 0:
             return False
-        forcing = SampledForcing(scales[k], p.forcing.tables)
-        q = SampledParameters(p.block, forcing, p.clock)
-        end = to_end(q, 0.0, 0.0, math.inf, math.inf, want_peak)
-        row = rows[k]
-        row.status, row.impacts, row.decided = end.status, end.impacts, end.decided
-        row.peak, row.margin, row.margin_time = end.peak, end.margin, end.margin_time
+        run = runs[k]
+        block = BlockParameters(run.restitution, p.block.brace_angle, p.block.brace_restitution)
+        q = SampledParameters(block, SampledForcing(run.scale, p.forcing.tables), p.clock)
+        write_ending(rows, k, to_end(q, run.angle, 0.0, math.inf, math.inf, want_peak))
     return True
+
+
+@entry_point(**KERNEL)
+def run_pulses(pulses: Pulses, want_peak: bool, rows: Endings, stop: Integers1) -> bool:
+    """Follow the motion from rest under each of ``pulses`` as ``run_batch`` does."""
+    for k in range(pulses.shape[0]):
+        if stop[0] != 0:
+            return False
+        pulse = pulses[k]
+        block = BlockParameters(pulse.restitution, math.inf, 1.0)
+        p = make_pulse(pulse.amplitude, pulse.frequency, pulse.phase, pulse.duration, pulse.duration, block)
+        write_ending(rows, k, to_end(p, 0.0, 0.0, math.inf, math.inf, want_peak))
+    return True
+
+
+@njit(**INTERNAL_INLINE)
+def write_ending(rows, k, end):
+    """Write an ``Ending`` to a row."""
+    row = rows[k]
+    row.status, row.impacts, row.since_rest, row.decided = (
+        end.status,
+        end.impacts,
+        end.since_rest,
+        end.decided,
+    )
+    row.peak, row.margin, row.margin_time = end.peak, end.margin, end.margin_time

@@ -58,7 +58,7 @@ def cost(asked: SurveySpec, measure: Measurement, levels: list[Level], there: in
     begun, done = time.perf_counter(), 0
     while done < places.size and time.perf_counter() - begun < MAX_SECONDS:
         wanted = places[done : done + AT_ONCE]
-        compute(Batch(asked.axes, asked.fixed, wanted, measure.judge, measure.options), np.zeros(1, np.int64))
+        compute(Batch(asked, wanted, measure.judge, measure.options), np.zeros(1, np.int64))
         done += wanted.size
     each = (time.perf_counter() - begun) / done
     return Cost(asked.points, tiles, there, each * (asked.points - there))

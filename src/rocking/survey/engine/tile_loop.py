@@ -64,7 +64,7 @@ def _submit(
 ) -> Pending:
     """Submit the points of a tile that neither an earlier run nor a coarser level has computed."""
     wanted = np.flatnonzero(tile.own(~known)).astype(np.int32)
-    work = list(batches(tile, results.asked.fixed, wanted, results.measure))
+    work = list(batches(tile, results.asked, wanted, results.measure))
     return Pending(
         tile, known, [each.wanted for each in work], [pool.submit(compute, each, stop) for each in work]
     )

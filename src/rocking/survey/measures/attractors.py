@@ -14,10 +14,10 @@ from rocking.kernels.classify import verdict_record
 from rocking.model import NO_BRACES, Attractor, Harmonic, Kind, State, System, Verdict, quantities, system_of
 from rocking.motion import simulate
 from rocking.response import budget, classify
+from rocking.survey.harmonic_spec import Points, points
 from rocking.survey.measurement import Arrays, Measurement, Variable
 from rocking.survey.measures.chaotic_means import averages, grouped
 from rocking.survey.measures.response import VARIABLES, judged
-from rocking.survey.spec import Points, points
 
 SAME = 1e-6
 """Largest distance on the section of orbits that count as one."""

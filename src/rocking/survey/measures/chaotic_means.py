@@ -8,7 +8,7 @@ import numpy as np
 
 from rocking.model import State, System, system_of
 from rocking.motion import simulate
-from rocking.survey.spec import SYSTEM, Points
+from rocking.survey.harmonic_spec import SYSTEM, Points
 
 MAX_FOLLOWED = 20_000
 """Maximum number of cycles; the second half is averaged."""

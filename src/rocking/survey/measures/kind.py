@@ -9,9 +9,9 @@ import numpy as np
 from rocking.kernels import batch
 from rocking.model import Share
 from rocking.response import budget
+from rocking.survey.harmonic_spec import Points
 from rocking.survey.measurement import Arrays, Measurement
 from rocking.survey.measures.response import VARIABLES
-from rocking.survey.spec import Points
 
 KIND = VARIABLES[0]
 

@@ -12,8 +12,8 @@ from rocking.kernels.classify import results
 from rocking.kernels.classify import verdict_record as kernel
 from rocking.model import Criterion, Kind
 from rocking.response import budget
+from rocking.survey.harmonic_spec import Points, points
 from rocking.survey.measurement import Arrays, Measurement, Variable
-from rocking.survey.spec import Points, points
 
 
 def meanings(enum: type[Kind] | type[Criterion]) -> dict[str, object]:

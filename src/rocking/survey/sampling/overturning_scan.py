@@ -9,9 +9,9 @@ import numpy as np
 from attrs import frozen
 
 from rocking.kernels.classify import verdict_record as kernel
+from rocking.survey.harmonic_spec import HarmonicSpec, points
 from rocking.survey.measurement import Measurement
 from rocking.survey.sampling.random_points import sampled
-from rocking.survey.spec import SurveySpec, points
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -25,7 +25,7 @@ SETTLED = 1e-12
 class Scan:
     """Kinds of response over phase and amplitude (the last two dimensions) in each cell of the dimensions `over`."""
 
-    asked: SurveySpec
+    asked: HarmonicSpec
     measure: Measurement
     over: tuple[str, ...]
     kinds: xr.DataArray

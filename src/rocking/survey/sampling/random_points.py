@@ -9,8 +9,8 @@ import numpy as np
 
 from rocking.model import RANGES, instance, reals, refusal, shown, whole
 from rocking.survey.engine.tile_loop import engine
+from rocking.survey.harmonic_spec import Points
 from rocking.survey.measurement import Arrays, Measurement
-from rocking.survey.spec import Points
 
 AT_ONCE = 2048
 """Points per batch."""

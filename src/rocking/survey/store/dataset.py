@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from rocking.model import VERSION
 from rocking.survey.measurement import Arrays, Measurement
-from rocking.survey.spec import SYMBOLS, SurveySpec, described
+from rocking.survey.spec import SurveySpec
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -18,14 +18,8 @@ def dataset(asked: SurveySpec, measure: Measurement, arrays: Arrays) -> xr.Datas
 
     names = tuple(asked.axes)
     variables = {each.name: (names, arrays[each.name], each.attributes) for each in measure.variables}
-    coordinates = {name: (name, values, coordinate(name)) for name, values in asked.axes.items()}
+    coordinates = {name: (name, values, asked.coordinate(name)) for name, values in asked.axes.items()}
     return xr.Dataset(variables, coordinates, attributes(asked, measure))
-
-
-def coordinate(name: str) -> dict[str, str]:
-    """Return the attributes of a coordinate."""
-    symbol, long_name = SYMBOLS[name]
-    return {"long_name": long_name, "symbol": symbol, "units": "rad" if name == "phase" else "1"}
 
 
 def attributes(asked: SurveySpec, measure: Measurement) -> dict[str, Any]:
@@ -35,10 +29,7 @@ def attributes(asked: SurveySpec, measure: Measurement) -> dict[str, Any]:
         "title": measure.title,
         "source": f"rocking {VERSION}",
         "method": measure.method,
-        "comment": (
-            "Attributes and coordinates are normalised as in Yim & Lin (1991), Eqs. (1)-(4); "
-            "the base acceleration is amplitude cos(frequency time + phase)."
-        ),
-        **described(asked),
+        "comment": asked.comment,
+        **asked.described(),
         **measure.options,
     }

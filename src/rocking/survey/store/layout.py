@@ -10,7 +10,7 @@ from attrs import frozen
 
 from rocking.model import VERSION, shown
 from rocking.survey.measurement import Measurement
-from rocking.survey.spec import SurveySpec, described
+from rocking.survey.spec import SurveySpec
 from rocking.survey.tiling import Level, even_edges, levels, thinned, tile_edges
 
 SAME = 1e-9
@@ -91,7 +91,7 @@ def fingerprint(asked: SurveySpec, measure: Measurement) -> dict[str, Any]:
     return {
         "survey": measure.title,
         "over": list(asked.axes),
-        "fixed": described(asked),
+        "fixed": asked.described(),
         "options": dict(measure.options),
         "variables": [each.name for each in measure.variables],
         "method": measure.method,

@@ -62,7 +62,7 @@ class Store:
         self.files = Files(path)
         with defer_interrupt(), wrap_write_errors(path):
             self.layout, self.root = self._agreed(asked)
-            self.asked = SurveySpec(self.layout.axes, asked.fixed)
+            self.asked = asked.with_axes(self.layout.axes)
             self.levels: list[Level] = self.layout.levels()
             remove_unfinished(path, [*self.layout.axes, *(each.name for each in measure.variables)])
             self.arrays = self._arranged()
@@ -207,7 +207,7 @@ class Store:
         groups = zarr_metadata.make_groups(self.files, self.asked, self.measure, self.levels, known)
         with reading(self.path):
             there: list[dict[str, Any]] = [dict(group.arrays()) for group in groups]
-        return zarr_metadata.make_arrays(self.files, self.measure, self.levels, there)
+        return zarr_metadata.make_arrays(self.files, self.asked, self.measure, self.levels, there)
 
 
 @contextmanager

@@ -10,7 +10,7 @@ import numpy as np
 
 from rocking.survey.measurement import Measurement
 from rocking.survey.spec import SurveySpec
-from rocking.survey.store.dataset import attributes, coordinate
+from rocking.survey.store.dataset import attributes
 from rocking.survey.tiling import Level
 
 if TYPE_CHECKING:
@@ -34,7 +34,11 @@ def make_groups(
 
 
 def make_arrays(
-    files: Files, measure: Measurement, levels: list[Level], there: list[dict[str, Any]]
+    files: Files,
+    asked: SurveySpec,
+    measure: Measurement,
+    levels: list[Level],
+    there: list[dict[str, Any]],
 ) -> list[dict[str, zarr.Array]]:
     """Return the variables of each level by name; variables and coordinates are created or enlarged as needed.
 
@@ -43,7 +47,7 @@ def make_arrays(
     wanted = {
         f"{level.name}/{name}": description
         for level in levels
-        for name, description in _descriptions(level, measure).items()
+        for name, description in _descriptions(level, asked, measure).items()
     }
     known = {
         f"{level.name}/{name}": array
@@ -76,11 +80,11 @@ def _made(files: Files, wanted: Mapping[str, Any], there: Mapping[str, Any]) -> 
     return found
 
 
-def _descriptions(level: Level, measure: Measurement) -> dict[str, Any]:
+def _descriptions(level: Level, asked: SurveySpec, measure: Measurement) -> dict[str, Any]:
     """Return the metadata of a level: coordinates have a single chunk, variables one chunk per tile."""
     names = list(level.axes)
     along = {
-        name: _array(values.shape, values.shape, "float64", math.nan, [name], coordinate(name))
+        name: _array(values.shape, values.shape, "float64", math.nan, [name], asked.coordinate(name))
         for name, values in level.axes.items()
     }
     return along | {

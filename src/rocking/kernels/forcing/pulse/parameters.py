@@ -3,7 +3,10 @@
 import math
 from typing import NamedTuple
 
-from rocking.kernels.forcing.harmonic.parameters import HarmonicParameters, harmonic_parameters
+from rocking.kernels.compile_options import INTERNAL, KERNEL
+from rocking.kernels.deferred import njit
+from rocking.kernels.entry_point import entry_point
+from rocking.kernels.forcing.harmonic.parameters import HarmonicParameters, make, within_a_turn
 from rocking.kernels.parameters import BlockParameters, Clock
 
 
@@ -25,6 +28,32 @@ class PulseParameters(NamedTuple):
     clock: Clock
 
 
+@njit(**INTERNAL)
+def make_pulse(amplitude, frequency, phase, duration, cycle_length, block):
+    """Return the parameters of a block under a pulse; the phase is one within a turn."""
+    period = 2.0 * math.pi / frequency
+    during = make(
+        amplitude, frequency, period, phase, block.restitution, block.brace_angle, block.brace_restitution
+    )
+    after = make(0.0, frequency, period, phase, block.restitution, block.brace_angle, block.brace_restitution)
+    psi = frequency * duration + phase
+    end_response = during.forcing.response * (math.cos(psi) - frequency * math.sin(psi))
+    return PulseParameters(block, PulseForcing(duration, during, after, end_response), Clock(cycle_length))
+
+
+@entry_point(**KERNEL)
+def make_pulse_plain(
+    amplitude: float,
+    frequency: float,
+    phase: float,
+    duration: float,
+    cycle_length: float,
+    block: BlockParameters,
+) -> PulseParameters:
+    """Return ``make_pulse``; entry point for Python."""
+    return make_pulse(amplitude, frequency, phase, duration, cycle_length, block)
+
+
 def pulse_parameters(
     amplitude: float,
     frequency: float,
@@ -34,9 +63,5 @@ def pulse_parameters(
     block: BlockParameters,
 ) -> PulseParameters:
     """Return the parameters of a system under a pulse."""
-    period = math.tau / frequency
-    during, after = (harmonic_parameters(a, frequency, period, phase, *block) for a in (amplitude, 0.0))
-    psi = frequency * duration + phase
-    end_response = during.forcing.response * (math.cos(psi) - frequency * math.sin(psi))
-    forcing = PulseForcing(float(duration), during, after, end_response)
-    return PulseParameters(during.block, forcing, Clock(float(cycle_length)))
+    values = amplitude, frequency, within_a_turn(phase), duration, cycle_length
+    return make_pulse_plain(*map(float, values), BlockParameters(*map(float, block)))

@@ -1,0 +1,128 @@
+"""Measurement of surveys of ground motions: how a run ends, its largest angle and its margin."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from itertools import pairwise, starmap
+
+import numpy as np
+
+from rocking.kernels.forcing.parameters import CYCLE, sampled_parameters, tables_of
+from rocking.kernels.march import march
+from rocking.kernels.march.finite_motion import ENDING_ROW, RUN_ROW, run_batch
+from rocking.model import Outcome
+from rocking.survey.measurement import Arrays, Measurement, Variable
+from rocking.survey.motion_spec import Runs
+
+METHOD = 1
+"""Version of the method; a change of the results increases it."""
+OUTCOMES = tuple(Outcome)
+OVERTURNED = OUTCOMES.index(Outcome.OVERTURNED)
+CODES = {
+    march.OVERTURNED: OVERTURNED,
+    march.STILL: OUTCOMES.index(Outcome.AT_REST),
+}
+
+VARIABLES = (
+    Variable(
+        "outcome",
+        "uint8",
+        255,
+        {
+            "long_name": "end of the motion",
+            "flag_values": np.arange(len(OUTCOMES), dtype=np.uint8),
+            "flag_meanings": " ".join(OUTCOMES),
+        },
+    ),
+    Variable(
+        "certified",
+        "uint8",
+        255,
+        {
+            "long_name": "whether no rounding error can have changed the outcome",
+            "flag_values": np.arange(2, dtype=np.uint8),
+            "flag_meanings": "undecided certified",
+        },
+    ),
+    Variable(
+        "peak",
+        "float64",
+        -1.0,
+        {
+            "long_name": "largest absolute angle in units of theta_cr",
+            "units": "1",
+            "comment": "infinite if the block overturns",
+        },
+    ),
+    Variable(
+        "margin",
+        "float64",
+        math.inf,
+        {
+            "long_name": "K+ of least size over all lift-offs and impacts",
+            "units": "1",
+            "comment": "negative: lacked to overturn there; NaN: the block never moves",
+        },
+    ),
+    Variable(
+        "impacts_since_rest",
+        "int32",
+        -2,
+        {"long_name": "impacts since the block last rested", "comment": "0: overturned without impact"},
+    ),
+    Variable("impacts", "int32", -2, {"long_name": "impacts", "comment": "chattering is cut short"}),
+)
+
+
+def ending(title: str, *, with_peak: bool = True) -> Measurement:
+    """Return the measurement of the end of a motion; without the peak, which is then NaN, it takes half the time."""
+    return Measurement(
+        title, judge, load_kernels, VARIABLES, {"with_peak": int(with_peak)}, METHOD, shares="outcome"
+    )
+
+
+def load_kernels(may_last: bool) -> None:
+    """Compile or load the kernels of `judge`."""
+    run_batch.load()
+
+
+def judge(runs: Runs, options: Mapping[str, int], stop: np.ndarray) -> Arrays | None:
+    """Follow runs to their ends; None if another thread sets `stop`. Neighbours with the same record and α share tables."""
+    with_peak = bool(options["with_peak"])
+    rows, asked = np.empty(runs.record.size, ENDING_ROW), np.empty(runs.record.size, RUN_ROW)
+    asked["restitution"], asked["angle"] = runs.restitution, runs.angle
+    for part in alike(runs):
+        motion, alpha = (
+            runs.motions[int(runs.record[part.start])],
+            float(runs.frequency_parameter[part.start]),
+        )
+        base = motion.normalised(1.0, alpha)
+        asked["scale"][part] = base.scale * runs.factor[part]
+        p = sampled_parameters(tables_of(base.values, base.step), 1.0, CYCLE * base.step, 1.0)
+        if not run_batch(p, asked[part], with_peak, rows[part], stop):
+            return None
+    return answers(rows, with_peak=with_peak)
+
+
+def alike(runs: Runs) -> Iterator[slice]:
+    """Yield the stretches of neighbouring points that share the tables of a record."""
+    differs = (np.diff(runs.record) != 0) | (np.diff(runs.frequency_parameter) != 0)
+    edges = [0, *(np.flatnonzero(differs) + 1).tolist(), runs.record.size]
+    yield from starmap(slice, pairwise(edges))
+
+
+def answers(rows: np.ndarray, *, with_peak: bool) -> Arrays:
+    """Return the variables of the rows of the kernel."""
+    outcome = np.zeros(rows.size, np.uint8)
+    for status, code in CODES.items():
+        outcome[rows["status"] == status] = code
+    peak = np.where(outcome == OVERTURNED, math.inf, rows["peak"] if with_peak else math.nan)
+    return {
+        "outcome": outcome,
+        "certified": ((rows["decided"] != 0) & (rows["status"] != march.CROWDED)).astype(np.uint8),
+        "peak": peak,
+        "margin": rows["margin"],
+        "impacts_since_rest": rows["since_rest"].astype(np.int32),
+        "impacts": rows["impacts"].astype(np.int32),
+    }

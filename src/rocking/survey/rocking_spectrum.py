@@ -1,0 +1,130 @@
+"""Rocking spectra: how blocks of many sizes end under ground motions."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable
+from concurrent.futures import Executor
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from rocking.model import RECTANGLE, GroundMotion, RecordSet, frequency_parameter, record_set
+from rocking.survey.engine.run_survey import run_survey
+from rocking.survey.measures.ending import ending
+from rocking.survey.motion_spec import MotionSpec, motion_question
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+TITLE = "Rocking spectrum of free-standing blocks under ground motions"
+
+
+def rocking_spectrum(
+    records: RecordSet | GroundMotion | Iterable[GroundMotion],
+    *,
+    size: Any,
+    slenderness: Any,
+    restitution: Any = None,
+    inertia_ratio: float = RECTANGLE,
+    scale: Any = 1.0,
+    intensity: str = "scale",
+    angle: Any = 0.0,
+    polarity: Any = 1.0,
+    store: str | os.PathLike[str] | None = None,
+    executor: Executor | None = None,
+    progress: bool = False,
+    repair: bool = False,
+) -> xr.Dataset:
+    """Follow blocks of many sizes under ground motions to their ends: rocking spectra.
+
+    Each quantity is a number or an ascending array. The arrays, and the records if there are several, are the dimensions of the
+    result. Every run is exact and ends by proof, as in `simulate`.
+
+    Parameters
+    ----------
+    records : RecordSet, GroundMotion or iterable of GroundMotion
+        Ground motions.
+    size : float or array (n,)
+        Distance R from a corner to the centre of mass, in metres, in [0.001, 1000]: ``block.radius``.
+    slenderness : float or array (n,)
+        Critical angle θcr in rad: ``block.critical_angle``.
+    restitution : float or array (n,), optional
+        Coefficient of restitution e in [0, 1]. Default: Housner's value for each slenderness.
+    inertia_ratio : float
+        Io/(MR²), as for `Block`. Default: 4/3, a uniform rectangle.
+    scale : float or array (n,)
+        Levels of the intensity measure to which each record is scaled. Default: 1, with the measure "scale" the record as it is.
+    intensity : str
+        Intensity measure of `scale`: "scale" (a factor), "pga" (m/s²), "pga-g", "pgv" (m/s), "pgd" (m), "arias" (m/s),
+        "pga-ratio", PGA/(g tan θcr), "pgv-ratio", α PGV/(g tan θcr), or a column of the records. Default: "scale".
+    angle : float or array (n,)
+        Initial angle Θ in units of θcr. Default: 0, at rest.
+    polarity : float or array
+        1, -1 for the opposite direction of the motion, or [-1, 1] for both. Default: 1.
+    store, executor, progress, repair
+        As in `parametric_map`.
+
+    Returns
+    -------
+    xarray.Dataset
+        `outcome` and `certified` (codes explained by their attributes), `peak` (largest |Θ|, infinite if the block
+        overturns), `margin`, `impacts` and `impacts_since_rest`. Impacts of chattering sequences are cut short.
+        Coordinates `name` and `pga` describe the records, `frequency_parameter` the sizes.
+
+    Raises
+    ------
+    TypeError, ValueError, OSError
+        As in `parametric_map`.
+
+    See Also
+    --------
+    simulate : One motion, with its events.
+    overturning_set : All scales that overturn a block.
+    fragility : Probability of overturning.
+
+    References
+    ----------
+    Makris & Konstantinidis, Earthquake Eng. Struct. Dyn. 32, 1879–1901 (2003).
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import rocking as rk
+    >>> found = rk.rocking_spectrum(rk.example_ground_motion(), size=np.linspace(0.5, 3, 6), slenderness=0.2)
+    >>> found.peak.dims, found.attrs["slenderness"]
+    (('size',), 0.2)
+    """
+    asked = motion_question(
+        record_set(records),
+        {
+            "size": size,
+            "slenderness": slenderness,
+            "restitution": restitution,
+            "angle": angle,
+            "polarity": polarity,
+            "scale": scale,
+        },
+        intensity=intensity,
+        inertia_ratio=inertia_ratio,
+    )
+    found = run_survey(asked, ending(TITLE), store, executor, progress=progress, repair=repair)
+    return described(found, asked, record_set(records))
+
+
+def described(found: xr.Dataset, asked: MotionSpec, records: RecordSet) -> xr.Dataset:
+    """Return a dataset with names and peak accelerations of its records, and α of its sizes."""
+    if "record" in found.dims:
+        pga = np.array([motion.pga for motion in records])
+        told = {"long_name": "peak ground acceleration", "units": "m/s²"}
+        found = found.assign_coords(
+            name=("record", list(records.names), {"long_name": "record"}), pga=("record", pga, told)
+        )
+    else:
+        found.attrs["record"] = records.names[0]
+    if "size" in found.dims:
+        ratio = asked.fixed["inertia_ratio"]
+        alpha = [frequency_parameter(size, ratio) for size in found["size"].values.tolist()]
+        told = {"long_name": "frequency parameter", "symbol": "α", "units": "1/s"}
+        found = found.assign_coords(frequency_parameter=("size", np.array(alpha), told))
+    return found
