@@ -24,15 +24,17 @@ KINDS = {event_kinds.IMPACT: "base", event_kinds.BRACE: "brace", event_kinds.NON
 
 @njit(**KERNEL)
 def event_of(p, side, index, offset, angle, velocity):
-    coming, dip = first_event(p, arc_at_place(p, side, 0.0, angle, velocity, SampledDrive(index, offset)))
+    coming, extremes = first_event(
+        p, arc_at_place(p, side, 0.0, angle, velocity, SampledDrive(index, offset))
+    )
     return (
         coming.event,
         coming.drive.index,
         coming.drive.offset,
         coming.velocity,
         coming.wait,
-        dip.angle,
-        dip.time,
+        extremes.dip,
+        extremes.dip_time,
     )
 
 

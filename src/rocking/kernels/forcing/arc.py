@@ -86,14 +86,16 @@ class Next(NamedTuple):
     versinh: float
 
 
-class Dip(NamedTuple):
-    """Least angle of all minima of an arc, and the time from its start to there; infinity if there is none."""
+class Extremes(NamedTuple):
+    """Extremes of the angle on an arc before its event."""
 
-    angle: float
-    time: float
+    dip: float  # least of all minima; infinity if there is none
+    dip_time: float  # time from the start of the arc to there
+    top: float  # an upper bound of the angle
 
 
-NO_DIP = Dip(math.inf, 0.0)
+NO_EXTREMES = Extremes(math.inf, 0.0, 0.0)
+UNKNOWN_TOP = Extremes(math.inf, 0.0, math.inf)
 
 
 @njit(**INTERNAL_INLINE)
@@ -109,10 +111,10 @@ def within_reach(p, angle):
 
 
 @njit(**INTERNAL_INLINE)
-def error_of_arc(arc, t, force):
+def error_of_arc(arc, t, growth, force):
     """Return an estimate of the rounding error of (u, u') a time t into an arc that is computed from its own state.
 
-    The sum of its terms: |v| sinh t, (u + force) (cosh t - 1) and u, where the forcing term never exceeds ``force``.
+    ``growth`` is e^t. The sum of its terms: |v| sinh t, (u + force) (cosh t - 1) and u, where the forcing term never exceeds ``force``.
     """
     short = min(t, 1.0)
-    return ROUNDING * math.exp(t) * ((abs(arc.velocity) + (arc.angle + force) * short) * short + arc.angle)
+    return ROUNDING * growth * ((abs(arc.velocity) + (arc.angle + force) * short) * short + arc.angle)

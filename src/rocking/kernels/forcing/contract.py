@@ -83,6 +83,18 @@ def acceleration_change_bound(p, drive, time):
 
 
 @contract
+def settling(p, drive, speed):
+    """Bound chattering after an impact that leaves at ``speed``.
+
+    Returns
+    -------
+    tuple of (float, float)
+        An upper bound on the time to rest, which comes before lift-off; infinite if rest is not certain.
+        An upper bound on the angle until then.
+    """
+
+
+@contract
 def peak_with(p, arc, coming, peak):
     """Return the largest of ``peak`` and the angles of an arc up to the event that ends it."""
 

@@ -12,13 +12,13 @@ def growth_constant(p, arc):
 
 
 @contract
-def rounding_error(p, arc, wait):
-    """Return an estimate of the rounding error of (u, u') that a time ``wait`` along an arc adds."""
+def rounding_error(p, arc, wait, growth):
+    """Return an estimate of the rounding error of (u, u') that a time ``wait`` along an arc adds; ``growth`` is e^wait."""
 
 
 @contract
-def next_event_with_dip(p, mode, arc):
-    """Find the next event as ``contract.next_event`` does, and the lowest ``Dip`` before it."""
+def next_event_and_extremes(p, mode, arc):
+    """Find the next event as ``contract.next_event`` does, and the ``Extremes`` of the arc before it."""
 
 
 @contract

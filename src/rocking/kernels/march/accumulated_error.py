@@ -52,16 +52,16 @@ def after_saltation(c, factor, shear):
     return transformed(c, factor, 0.0, shear, factor)
 
 
-@njit(**INTERNAL)
+@njit(**INTERNAL_INLINE)
+def exceeds(value, variance):
+    """Return whether the size of a value is certain to exceed an error with a variance."""
+    return value * value > DEVIATIONS * DEVIATIONS * variance
+
+
+@njit(**INTERNAL_INLINE)
 def of_growth(c):
-    """Return the limit of the error of u + u', which is that of K+."""
-    return DEVIATIONS * math.sqrt(max(c.uu + 2.0 * c.uv + c.vv, 0.0))
-
-
-@njit(**INTERNAL)
-def of_angle(c):
-    """Return the limit of the error of u."""
-    return DEVIATIONS * math.sqrt(max(c.uu, 0.0))
+    """Return the variance of u + u', which is that of K+."""
+    return c.uu + 2.0 * c.uv + c.vv
 
 
 @njit(**INTERNAL)

@@ -14,7 +14,7 @@ from rocking.kernels.entry_point import entry_point
 from rocking.kernels.event_kinds import BRACE, FLIGHT, IMPACT, REST
 from rocking.kernels.forcing.arc import shift_clock
 from rocking.kernels.forcing.contract import peak_with
-from rocking.kernels.forcing.finite import growth_constant, has_ended, next_event_with_dip, rounding_error
+from rocking.kernels.forcing.finite import growth_constant, has_ended, next_event_and_extremes, rounding_error
 from rocking.kernels.forcing.parameters import FiniteParameters
 from rocking.kernels.forcing.pulse.parameters import make_pulse
 from rocking.kernels.forcing.sampled.parameters import SampledForcing, SampledParameters
@@ -23,17 +23,18 @@ from rocking.kernels.march.accumulated_error import (
     Covariance,
     after_saltation,
     after_time,
-    of_angle,
+    exceeds,
     of_growth,
     of_velocity,
     widened,
 )
 from rocking.kernels.march.chatter import base_settling_time, highest_hop
-from rocking.kernels.march.impact_law import SLOW, after_event
+from rocking.kernels.march.impact_law import SLOW, SLOWEST, after_event
 from rocking.kernels.march.initial_state import UNKNOWN, begin
 from rocking.kernels.march.march import CROWDED, DONE, MAX_EVENTS, OVERTURNED, STILL
 from rocking.kernels.march.tangent import event_map
 from rocking.kernels.numerics.elementary import hyperbolic
+from rocking.kernels.numerics.replace_fields import replacing
 from rocking.kernels.parameters import BlockParameters
 from rocking.kernels.signature import Integers1
 
@@ -86,26 +87,38 @@ class Closeness(NamedTuple):
     error: Covariance
 
 
+with_error = replacing(Closeness, "error")
+
+
 @njit(**INTERNAL)
-def is_decided(p, arc, dip, error):
+def is_decided(p, arc, extremes, error):
     """Return whether K+ of an arc, and its lowest dip, exceed the accumulated rounding error."""
     constant, rounded = growth_constant(p, arc)
-    if abs(constant) <= of_growth(widened(error, rounded)):
+    if not exceeds(constant, of_growth(widened(error, rounded))):
         return False
-    if dip.angle == math.inf:
+    if extremes.dip == math.inf:
         return True
-    sinh, versinh, _, _ = hyperbolic(dip.time)
-    return dip.angle > of_angle(widened(after_time(error, sinh, versinh), rounding_error(p, arc, dip.time)))
+    sinh, versinh, _, _ = hyperbolic(extremes.dip_time)
+    added = rounding_error(p, arc, extremes.dip_time, 1.0 + sinh + versinh)
+    return extremes.dip > 0.0 and exceeds(extremes.dip, widened(after_time(error, sinh, versinh), added).uu)
 
 
 @njit(**INTERNAL)
-def settles(p, arc, error):
-    """Return whether an impact certainly begins a chattering sequence that ends in rest, whatever the rounding errors.
+def settles(p, drive, speed, error):
+    """Return whether chattering after an impact that leaves at a speed certainly ends in rest, whatever the rounding errors.
 
     Rest erases them. Until then they grow beyond all speeds, without any effect on the outcome.
     """
-    speed = arc.velocity + of_velocity(error)
-    return speed < SLOW and base_settling_time(p, arc.drive, speed) < math.inf
+    if speed >= SLOW:
+        return False
+    fastest = speed + error
+    return fastest < SLOW and base_settling_time(p, drive, fastest) < math.inf
+
+
+@njit(**INTERNAL_INLINE)
+def speed_cut(p, coming, mode):
+    """Return the speed after an impact whose chattering has been cut short; 0 for any other event."""
+    return p.block.restitution * abs(coming.velocity) if coming.event == IMPACT and mode == REST else 0.0
 
 
 @njit(**INTERNAL_INLINE)
@@ -115,10 +128,10 @@ def is_lossless(p, event):
 
 
 @njit(**INTERNAL)
-def after_arc(p, arc, time, dip, so_far):
-    """Return the closeness after an arc that starts at a time of the motion, with its lowest dip."""
+def after_arc(p, arc, time, extremes, so_far):
+    """Return the closeness after an arc that starts at a time of the motion, with its extremes."""
     constant, _ = growth_constant(p, arc)
-    decided = so_far.decided and (so_far.settling or is_decided(p, arc, dip, so_far.error))
+    decided = so_far.decided and (so_far.settling or is_decided(p, arc, extremes, so_far.error))
     margin, when = so_far.margin, so_far.time
     if arc.angle == 0.0 and not abs(constant) >= abs(margin):
         margin, when = constant, time
@@ -126,24 +139,43 @@ def after_arc(p, arc, time, dip, so_far):
 
 
 @njit(**INTERNAL)
-def after_its_event(p, before, coming, after, so_far):
-    """Return the closeness after the event that ends an arc; ``before`` and ``after`` are (mode, arc) on its two sides."""
-    (mode_before, arc), (mode, ahead) = before, after
-    error = so_far.error
-    if mode_before == FLIGHT:
-        error = widened(after_time(error, coming.sinh, coming.versinh), rounding_error(p, arc, coming.wait))
-    error = after_saltation(error, *event_map(p, arc, coming, mode, ahead.side))
-    begins = so_far.settling or (coming.event == IMPACT and settles(p, ahead, error))
-    return Closeness(so_far.margin, so_far.time, so_far.decided, mode == FLIGHT and begins, error)
+def error_at_event(p, mode, arc, coming, error):
+    """Return the accumulated error at the event that ends an arc."""
+    if mode != FLIGHT:
+        return error
+    added = rounding_error(p, arc, coming.wait, 1.0 + coming.sinh + coming.versinh)
+    return widened(after_time(error, coming.sinh, coming.versinh), added)
 
 
 @njit(**INTERNAL)
-def may_exceed(p, coming, after, peak):
-    """Return whether chattering that has been cut short after an event may have exceeded the peak."""
-    mode, arc = after
-    speed = p.block.restitution * abs(coming.velocity)
-    cut = coming.event == IMPACT and mode == REST and speed > 0.0
-    return cut and highest_hop(p, arc.drive, speed) > peak
+def resolved(p, arc, coming, horizon, peak, close):
+    """Return mode and arc after an event, with ``close.error`` at the event.
+
+    Chattering is cut short only if rest is certain whatever the rounding errors, and if the angle stays below ``peak``.
+    """
+    time = arc.start + coming.wait
+    after = after_event(p, arc, time, coming, horizon)
+    speed = speed_cut(p, coming, after[0])
+    if speed > SLOWEST:
+        drive, certain = after[1].drive, close.settling
+        certain = certain or settles(p, drive, speed, of_velocity(close.error))
+        if not certain or highest_hop(p, drive, speed) > peak:
+            return after_event(p, arc, time, coming, 0.0)
+    return after
+
+
+@njit(**INTERNAL)
+def after_its_event(p, arc, coming, after, so_far, horizon):
+    """Return the closeness after the event that ends an arc; ``after`` is (mode, arc) behind it, and the error is that at it.
+
+    With an infinite ``horizon``, a block in flight does not settle, because chattering would have been cut short.
+    """
+    mode, ahead = after
+    error = after_saltation(so_far.error, *event_map(p, arc, coming, mode, ahead.side))
+    begins = so_far.settling
+    if mode == FLIGHT and coming.event == IMPACT and not begins and horizon < math.inf:
+        begins = settles(p, ahead.drive, ahead.velocity, of_velocity(error))
+    return Closeness(so_far.margin, so_far.time, so_far.decided, mode == FLIGHT and begins, error)
 
 
 @njit(**INTERNAL)
@@ -157,28 +189,27 @@ def to_end(p, angle, velocity, until, horizon, want_peak):
     since_rest, cycle, free = 0, 0, p.block.brace_angle == math.inf
     close, status = Closeness(math.nan, math.nan, True, False, EXACT), CROWDED
     for _ in range(MAX_EVENTS):
-        coming, dip = next_event_with_dip(p, mode, arc)
+        coming, extremes = next_event_and_extremes(p, mode, arc)
         time = cycle * p.clock.cycle_length + arc.start
         if mode == FLIGHT and free:
-            close = after_arc(p, arc, time, dip, close)
+            close = after_arc(p, arc, time, extremes, close)
         if coming.wait == math.inf or time + coming.wait > until:
             status = DONE if coming.wait < math.inf else OVERTURNED if mode == FLIGHT else STILL
             break
-        if want_peak and mode == FLIGHT:
+        if want_peak and mode == FLIGHT and extremes.top > peak:
             peak = peak_with(p, arc, coming, peak)
         impacts += coming.event == IMPACT
         brace_hits += coming.event == BRACE
-        after = after_event(p, arc, arc.start + coming.wait, coming, horizon)
-        if want_peak and may_exceed(p, coming, after, peak):
-            after = after_event(p, arc, arc.start + coming.wait, coming, 0.0)
-        close = after_its_event(p, (mode, arc), coming, after, close)
+        close = with_error(close, error_at_event(p, mode, arc, coming, close.error))
+        after = resolved(p, arc, coming, horizon, peak if want_peak else math.inf, close)
+        close = after_its_event(p, arc, coming, after, close, horizon)
         mode, arc = after
         since_rest = 0 if mode == REST else since_rest + int(coming.event == IMPACT)
         while arc.start > p.clock.cycle_length:
             cycle, arc = cycle + 1, shift_clock(arc, p.clock.cycle_length)
         if coming.event in (IMPACT, BRACE) and is_lossless(p, coming.event) and has_ended(p, arc.drive):
             spare = abs(arc.velocity) - 1.0  # the energy decides
-            decided = close.decided and (not free or abs(spare) > of_growth(close.error))
+            decided = close.decided and (not free or exceeds(spare, of_growth(close.error)))
             status = OVERTURNED if free and spare > 0.0 else DONE
             close = Closeness(close.margin, close.time, decided, False, close.error)
             break

@@ -6,6 +6,7 @@ from rocking.kernels.forcing import contract
 from rocking.kernels.forcing.drives import HarmonicDrive
 from rocking.kernels.forcing.harmonic import acceleration, extrema, first_zero, next_event, solution
 from rocking.kernels.forcing.harmonic.parameters import HarmonicParameters
+from rocking.kernels.forcing.settling import settling_by_change
 
 
 @njit(**INTERNAL_INLINE)
@@ -74,6 +75,7 @@ provide(
         contract.stays_leaning: next_event.stays_leaning,
         contract.acceleration_size: acceleration_size,
         contract.acceleration_change_bound: acceleration_change_bound,
+        contract.settling: settling_by_change,
         contract.peak_with: extrema.peak_with,
         contract.largest_on: extrema.largest_on,
         contract.next_turn: extrema.next_turn,

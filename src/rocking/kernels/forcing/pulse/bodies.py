@@ -9,8 +9,8 @@ from rocking.kernels.forcing import contract, finite
 from rocking.kernels.forcing.arc import (
     CROSSING,
     MAX_ARC_TIME,
-    NO_DIP,
-    Dip,
+    UNKNOWN_TOP,
+    Extremes,
     Instant,
     error_of_arc,
     no_guess,
@@ -23,6 +23,7 @@ from rocking.kernels.forcing.harmonic.solution import ROUNDING, exponentials
 from rocking.kernels.forcing.pulse import solution
 from rocking.kernels.forcing.pulse.parameters import PulseParameters
 from rocking.kernels.forcing.pulse.solution import arc_at_time, drive_at, harmonic_arc, system_at
+from rocking.kernels.forcing.settling import settling_by_change
 
 
 @njit(**INTERNAL_INLINE)
@@ -118,20 +119,20 @@ def growth_constant(p, arc):
 
 
 @njit(**INTERNAL_INLINE)
-def rounding_error(p, arc, wait):
+def rounding_error(p, arc, wait, growth):
     """Provide ``finite.rounding_error``: no terms cancel on an arc."""
-    return error_of_arc(arc, wait, 1.0 + p.forcing.during.forcing.amplitude)
+    return error_of_arc(arc, wait, growth, 1.0 + p.forcing.during.forcing.amplitude)
 
 
 @njit(**INTERNAL)
-def next_event_with_dip(p, mode, arc):
-    """Provide ``finite.next_event_with_dip``.
+def next_event_and_extremes(p, mode, arc):
+    """Provide ``finite.next_event_and_extremes``.
 
     After a lift-off u rises as long as f > 0; rounding may deny it at the very start.
     """
-    coming, dip = solution.next_event(p, mode, arc), NO_DIP
+    coming, extremes = solution.next_event(p, mode, arc), UNKNOWN_TOP
     if mode != FLIGHT:
-        return coming, dip
+        return coming, extremes
     until = min(coming.wait, MAX_ARC_TIME)
     lifts = arc.angle == 0.0 and arc.velocity == 0.0
     sign = 1.0 if arc.angle == 0.0 else first_turn_sign(p, arc)
@@ -139,9 +140,9 @@ def next_event_with_dip(p, mode, arc):
     while True:
         found, t, now = next_turn(p, arc, sign, t, until)
         if found != CROSSING:
-            return coming, dip
-        if sign < 0.0 and now.angle < dip.angle:
-            dip = Dip(now.angle, t)
+            return coming, extremes
+        if sign < 0.0 and now.angle < extremes.dip:
+            extremes = Extremes(now.angle, t, math.inf)
         sign = -sign
 
 
@@ -167,13 +168,14 @@ provide(
         contract.stays_leaning: stays_leaning,
         contract.acceleration_size: acceleration_size,
         contract.acceleration_change_bound: acceleration_change_bound,
+        contract.settling: settling_by_change,
         contract.peak_with: peak_with,
         contract.largest_on: largest_on,
         contract.next_turn: next_turn,
         contract.sensitivities: sensitivities,
         finite.growth_constant: growth_constant,
         finite.has_ended: has_ended,
-        finite.next_event_with_dip: next_event_with_dip,
+        finite.next_event_and_extremes: next_event_and_extremes,
         finite.rounding_error: rounding_error,
     },
 )

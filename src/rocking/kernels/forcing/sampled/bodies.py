@@ -6,8 +6,8 @@ from rocking.kernels.compile_options import INTERNAL, INTERNAL_INLINE
 from rocking.kernels.deferred import njit, provide
 from rocking.kernels.event_kinds import FLIGHT, REST
 from rocking.kernels.forcing import contract, finite
-from rocking.kernels.forcing.arc import NO_DIP, no_guess, unchanged
-from rocking.kernels.forcing.sampled import extrema, held, rounding, search, solution
+from rocking.kernels.forcing.arc import NO_EXTREMES, no_guess, unchanged
+from rocking.kernels.forcing.sampled import extrema, held, rounding, search, settling, solution
 from rocking.kernels.forcing.sampled.parameters import SampledParameters
 from rocking.kernels.forcing.sampled.solution import arc_at_place, place_at
 
@@ -34,16 +34,16 @@ def forcing_term(p, side, drive):
 @njit(**INTERNAL)
 def next_event(p, mode, arc, guess):
     """Provide ``contract.next_event``."""
-    coming, _ = next_event_with_dip(p, mode, arc)
+    coming, _ = next_event_and_extremes(p, mode, arc)
     return coming, guess
 
 
 @njit(**INTERNAL)
-def next_event_with_dip(p, mode, arc):
-    """Provide ``finite.next_event_with_dip``."""
+def next_event_and_extremes(p, mode, arc):
+    """Provide ``finite.next_event_and_extremes``."""
     if mode == FLIGHT:
         return search.first_event(p, arc)
-    return (held.lift_off(p, arc) if mode == REST else held.departure(p, arc)), NO_DIP
+    return (held.lift_off(p, arc) if mode == REST else held.departure(p, arc)), NO_EXTREMES
 
 
 @njit(**INTERNAL)
@@ -93,13 +93,14 @@ provide(
         contract.stays_leaning: held.stays_leaning,
         contract.acceleration_size: acceleration_size,
         contract.acceleration_change_bound: held.change_bound,
+        contract.settling: settling.settling,
         contract.peak_with: extrema.peak_with,
         contract.largest_on: extrema.largest_on,
         contract.next_turn: extrema.next_turn,
         contract.sensitivities: sensitivities,
         finite.growth_constant: rounding.growth_constant,
         finite.has_ended: rounding.has_ended,
-        finite.next_event_with_dip: next_event_with_dip,
+        finite.next_event_and_extremes: next_event_and_extremes,
         finite.rounding_error: rounding.rounding_error,
     },
 )

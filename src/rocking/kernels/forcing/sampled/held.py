@@ -8,11 +8,14 @@ from rocking.kernels.event_kinds import LEAVE, LIFT_OFF, NONE
 from rocking.kernels.forcing.arc import Next
 from rocking.kernels.forcing.drives import SampledDrive
 from rocking.kernels.forcing.sampled.search import nothing_more
-from rocking.kernels.forcing.sampled.solution import acceleration_at, interval, last_index, time_between
+from rocking.kernels.forcing.sampled.solution import (
+    acceleration_at,
+    interval,
+    last_index,
+    place_at,
+    time_between,
+)
 from rocking.kernels.forcing.sampled.tables import BLOCK
-
-# Intervals that a bound on the change of the base acceleration looks at; for a longer time it is that of all samples.
-MAX_INTERVALS = 64
 
 
 @njit(**INTERNAL_INLINE)
@@ -33,7 +36,7 @@ def next_sample_above(p, side, level, index):
         if index % BLOCK == 0 and abs(scale) * tables.blocks[index // BLOCK] <= level:
             index += BLOCK
             continue
-        if push(p, side, scale * tables.knots[index].acceleration) > level:
+        if push(p, side, scale * tables.samples[index]) > level:
             return index
         index += 1
     return count
@@ -104,18 +107,11 @@ def stays_leaning(p, arc):
 
 @njit(**INTERNAL)
 def change_bound(p, drive, time):
-    """Return the largest change of the base acceleration within a time."""
-    here, last, step = acceleration_at(p, drive), last_index(p), p.forcing.tables.step
+    """Provide ``contract.acceleration_change_bound``: the largest change at samples and at the end."""
+    here, last, change = acceleration_at(p, drive), last_index(p), 0.0
     if drive.index >= last:
-        return 0.0
-    end = drive.offset + time
-    if not end < MAX_INTERVALS * step:
-        return abs(here) + abs(p.forcing.scale) * p.forcing.tables.largest
-    change, index = 0.0, drive.index
-    while index < last:
-        start, rate = interval(p, index)
-        change = max(change, abs(start + rate * min(end, step) - here))
-        if end <= step:
-            return change
-        index, end = index + 1, end - step
-    return max(change, abs(here))
+        return change
+    end = place_at(p, drive.index, drive.offset + time)
+    for index in range(drive.index + 1, end.index + 1):
+        change = max(change, abs(p.forcing.scale * p.forcing.tables.samples[index] - here))
+    return max(change, abs(acceleration_at(p, end) - here))

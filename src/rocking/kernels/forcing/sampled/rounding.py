@@ -12,23 +12,19 @@ from rocking.kernels.forcing.sampled.solution import last_index
 
 @njit(**INTERNAL)
 def table_size(p, index):
-    """Return the largest |P| from a sample on, at the scale of the system, and the factor of its rounding error.
-
-    Each entry adds a rounding error, and the recursion forgets it within a unit of time.
-    """
+    """Return the largest |P| from a sample on, at the scale of the system."""
     if index >= last_index(p):
-        return 0.0, 0.0
+        return 0.0
     knot = p.forcing.tables.knots[index]
-    return abs(p.forcing.scale) * max(knot.highest, -knot.lowest), 1.0 / math.sqrt(
-        min(p.forcing.tables.step, 1.0)
-    )
+    return abs(p.forcing.scale) * max(knot.highest, -knot.lowest)
 
 
 @njit(**INTERNAL)
 def growth_constant(p, arc):
     """Provide ``finite.growth_constant``."""
-    size, factor = table_size(p, arc.drive.index)
-    return arc.constants.grow, ROUNDING * (1.0 + arc.angle + abs(arc.velocity) + size * (2.0 + factor))
+    terms = 1.0 + arc.angle + abs(arc.velocity)
+    terms += table_size(p, arc.drive.index) * (2.0 + p.forcing.tables.error)
+    return arc.constants.grow, ROUNDING * terms
 
 
 @njit(**INTERNAL_INLINE)
@@ -38,7 +34,7 @@ def has_ended(p, drive):
 
 
 @njit(**INTERNAL)
-def rounding_error(p, arc, wait):
+def rounding_error(p, arc, wait, growth):
     """Provide ``finite.rounding_error``.
 
     The first intervals are computed from the state at the start. Later u + u' and u - u' go from sample to sample, and each step
@@ -46,7 +42,7 @@ def rounding_error(p, arc, wait):
     """
     step, force = p.forcing.tables.step, 1.0 + abs(p.forcing.scale) * p.forcing.tables.largest
     if wait <= FIRST * step:
-        return error_of_arc(arc, wait, force)
+        return error_of_arc(arc, wait, growth, force)
     short = min(wait, 1.0)
     terms = arc.angle + abs(arc.velocity) + force * short
-    return ROUNDING * math.sqrt(1.0 + short / step) * math.exp(wait) * terms
+    return ROUNDING * math.sqrt(1.0 + short / step) * growth * terms

@@ -16,7 +16,7 @@ import math
 from rocking.kernels.compile_options import INTERNAL, INTERNAL_INLINE
 from rocking.kernels.deferred import njit
 from rocking.kernels.event_kinds import BRACE, IMPACT, NONE
-from rocking.kernels.forcing.arc import MAX_ARC_TIME, NO_DIP, Dip, Next
+from rocking.kernels.forcing.arc import MAX_ARC_TIME, NO_EXTREMES, Extremes, Next
 from rocking.kernels.forcing.drives import SampledDrive
 from rocking.kernels.forcing.sampled.segment import Piece, at, first_zero, minimum
 from rocking.kernels.forcing.sampled.solution import (
@@ -136,15 +136,38 @@ def never_returns(p, side, index, total, difference):
 MARGIN = 1e-12
 
 
+@njit(**INTERNAL_INLINE)
+def bend_of(p):
+    """Return the two numbers of the bound on how far u leaves its chord: ``bend``, and F."""
+    quarter = 0.125 * p.forcing.tables.step * p.forcing.tables.step
+    return quarter / (1.0 - quarter) * (1.0 + MARGIN), 1.0 + abs(p.forcing.scale) * p.forcing.tables.largest
+
+
+@njit(**INTERNAL_INLINE)
+def rises_throughout(piece, length):
+    """Return whether u' > 0 on a part of a segment: |u''| <= u + |f|, and u stays below the bound that this gives."""
+    force = max(abs(piece.force), abs(piece.force + piece.rate * length))
+    half = 0.5 * length * length
+    largest = force + (piece.w + piece.dw * length + force * half) / (1.0 - half)
+    return half < 0.5 and piece.dw > length * largest * (1.0 + MARGIN)
+
+
+@njit(**INTERNAL_INLINE)
+def is_clear(p, before, here, bend, force):
+    """Return whether an interval contains no event by its bound, from u at its ends."""
+    reach = bend * (max(abs(before), abs(here)) + force)
+    return min(before, here) > reach and p.block.brace_angle - max(before, here) > reach
+
+
 @njit(**INTERNAL)
-def event_within(p, arc, place, piece, length, end, dip):
+def event_within(p, arc, place, piece, length, end, extremes):
     """Return the first event on the rest of an interval, which starts at a place and ends in the state ``end``.
 
     Returns
     -------
-    tuple of (Next, Dip)
+    tuple of (Next, Extremes)
         The event; NONE if there is none.
-        The lower of ``dip`` and the minimum before the event.
+        The extremes so far, with the minimum before the event.
     """
     coming, begun = nothing_more(arc.side, place), time_between(p, arc.drive, place)
     x, at_brace, arrive = first_event_in(p, piece, length)
@@ -152,68 +175,81 @@ def event_within(p, arc, place, piece, length, end, dip):
         coming = arrival(p, arc, SampledDrive(place.index, place.offset + x), at_brace, arrive)
         length, end = x, (coming.angle, coming.velocity)
     angle, turn = minimum(piece, length, end)
-    return coming, Dip(angle, begun + turn) if angle < dip.angle else dip
+    if angle < extremes.dip:
+        extremes = Extremes(angle, begun + turn, extremes.top)
+    return coming, extremes
 
 
 @njit(**INTERNAL)
 def first_event(p, arc):
-    """Return the first event of an arc, and the lowest dip before it.
+    """Return the first event of an arc, and its extremes before it.
 
     Returns
     -------
-    tuple of (Next, Dip)
+    tuple of (Next, Extremes)
     """
-    place, last, step, dip = arc.drive, last_index(p), p.forcing.tables.step, NO_DIP
-    angle, velocity = arc.angle, arc.velocity
-    far = last if step >= MAX_STEP else min(place.index + FIRST, last - 1)
-    while place.index < last and place.index <= far:
-        piece, rest = piece_from(p, arc.side, place, angle, velocity), step - place.offset
-        angle, velocity = across_step(p, piece) if place.offset == 0.0 else at(piece, rest)
-        coming, dip = event_within(p, arc, place, piece, rest, (angle, velocity), dip)
-        if coming.event != NONE:
-            return coming, dip
-        place = SampledDrive(place.index + 1, 0.0)
-    if place.index < last:
-        angle, velocity, coming, dip = scan(p, arc, place.index, angle, velocity, dip)
-        if coming.event != NONE or coming.wait == math.inf:
-            return coming, dip
-        place = coming.drive
-    return free_event(p, arc, place, angle, velocity), dip
+    coming, extremes, top = event_and_dip(p, arc)
+    if coming.drive.index >= last_index(p) or p.forcing.tables.step >= MAX_STEP:
+        top = math.inf
+    bend, force = bend_of(p)
+    return coming, Extremes(extremes.dip, extremes.dip_time, top + bend * (top + force))
 
 
 @njit(**INTERNAL)
-def scan(p, arc, index, angle, velocity, dip):
-    """Search from a sample to the last, with the lowest dip so far.
+def event_and_dip(p, arc):
+    """Return the first event of an arc, its lowest dip before, and the largest u of its start, its end and all samples."""
+    place, last, step, extremes = arc.drive, last_index(p), p.forcing.tables.step, NO_EXTREMES
+    angle, velocity, top, (bend, force) = arc.angle, arc.velocity, arc.angle, bend_of(p)
+    far = last if step >= MAX_STEP else min(place.index + FIRST, last - 1)
+    while place.index < last and place.index <= far:
+        piece, rest = piece_from(p, arc.side, place, angle, velocity), step - place.offset
+        before, fell = angle, velocity
+        angle, velocity = across_step(p, piece) if place.offset == 0.0 else at(piece, rest)
+        quiet = rises_throughout(piece, rest) and angle < p.block.brace_angle
+        if not quiet and place.offset == 0.0 and not fell < 0.0 <= velocity:
+            quiet = step < MAX_STEP and is_clear(p, before, angle, bend, force)
+        if not quiet:
+            coming, extremes = event_within(p, arc, place, piece, rest, (angle, velocity), extremes)
+            if coming.event != NONE:
+                return coming, extremes, max(top, coming.angle)
+        place, top = SampledDrive(place.index + 1, 0.0), max(top, angle)
+    if place.index < last:
+        angle, velocity, coming, extremes, top = scan(p, arc, place.index, (angle, velocity), extremes, top)
+        if coming.event != NONE or coming.wait == math.inf:
+            return coming, extremes, top
+        place = coming.drive
+    return free_event(p, arc, place, angle, velocity), extremes, top
+
+
+@njit(**INTERNAL)
+def scan(p, arc, index, start, extremes, top):
+    """Search from a sample, where (u, u') is ``start``, to the last, with the extremes so far.
 
     Returns
     -------
-    tuple of (float, float, Next, Dip)
+    tuple of (float, float, Next, Extremes, float)
         u and u' at the last sample, unless there is an event.
         The event, or the proof that none follows. NONE after a finite time: neither.
-        The lowest dip.
+        The extremes.
+        The largest u of all samples so far.
     """
-    side, last, tables, brace = arc.side, last_index(p), p.forcing.tables, p.block.brace_angle
-    quarter = 0.125 * tables.step * tables.step
-    bend = quarter / (1.0 - quarter) * (1.0 + MARGIN)
-    force = 1.0 + abs(p.forcing.scale) * tables.largest
-    total, difference = angle + velocity, angle - velocity
+    side, last, tables, (bend, force) = arc.side, last_index(p), p.forcing.tables, bend_of(p)
+    total, difference = start[0] + start[1], start[0] - start[1]
     while index < last:
         before = 0.5 * (total + difference)
         for k in range(index, min(index + WINDOW, last)):
             ahead, behind = along_step(p, side, k, total, difference)
             here = 0.5 * (ahead + behind)
-            reach = bend * (max(abs(before), abs(here)) + force)
-            near = not (min(before, here) > reach and brace - max(before, here) > reach)
-            if near or (total < difference and ahead >= behind):
+            if not is_clear(p, before, here, bend, force) or (total < difference and ahead >= behind):
                 place, end = SampledDrive(k, 0.0), (here, 0.5 * (ahead - behind))
                 piece = piece_from(p, side, place, before, 0.5 * (total - difference))
-                coming, dip = event_within(p, arc, place, piece, tables.step, end, dip)
+                coming, extremes = event_within(p, arc, place, piece, tables.step, end, extremes)
                 if coming.event != NONE:
-                    return before, piece.dw, coming, dip
-            total, difference, before = ahead, behind, here
+                    return before, piece.dw, coming, extremes, max(top, coming.angle)
+            total, difference, before, top = ahead, behind, here, max(top, here)
         index = min(index + WINDOW, last)
-        if brace == math.inf and never_returns(p, side, index, total, difference):
-            return angle, velocity, nothing_more(side, arc.drive), dip
-    angle, velocity = 0.5 * (total + difference), 0.5 * (total - difference)
+        if p.block.brace_angle == math.inf and never_returns(p, side, index, total, difference):
+            return before, 0.0, nothing_more(side, arc.drive), extremes, math.inf
     drive = SampledDrive(last, 0.0)
-    return angle, velocity, Next(MAX_ARC_TIME, NONE, side, angle, velocity, drive, 0.0, 0.0), dip
+    coming = Next(MAX_ARC_TIME, NONE, side, 0.0, 0.0, drive, 0.0, 0.0)
+    return 0.5 * (total + difference), 0.5 * (total - difference), coming, extremes, top

@@ -15,7 +15,7 @@ from typing import NamedTuple
 
 from rocking.kernels.compile_options import INTERNAL, INTERNAL_INLINE
 from rocking.kernels.deferred import njit
-from rocking.kernels.numerics.elementary import hyperbolic
+from rocking.kernels.numerics.elementary import brief_hyperbolic
 from rocking.kernels.numerics.taylor import reversion
 
 ITERATIONS = 100
@@ -36,7 +36,7 @@ class Piece(NamedTuple):
 @njit(**INTERNAL_INLINE)
 def at(piece, x):
     """Return w and w' a time x after the start of the segment."""
-    sinh, versinh, excess, _ = hyperbolic(x)
+    sinh, versinh, excess = brief_hyperbolic(x)
     return with_hyperbolic(piece, sinh, versinh, excess)
 
 
@@ -66,12 +66,12 @@ def refine(piece, low, high, x):
             low = x
         else:
             high = x
-        f = piece.force + piece.rate * x
+        second, third = w + piece.force + piece.rate * x, dw + piece.rate
         ahead = 0.5 * (low + high)
         if dw < 0.0 and not (k > MAX_STEPS and k % 2 == 0):
             per = 1.0 / dw
             y = -w * per
-            factor = reversion(y, w + f, dw + piece.rate, w + f, per)
+            factor = reversion(y, second, third, second, per)
             ahead = x + (y * factor if 0.5 < factor < 2.0 else y)
             if not low <= ahead <= high:
                 ahead = 0.5 * (low + high)

@@ -32,8 +32,8 @@ def interval(p, index):
     """Return the base acceleration at the start of an interval, and its rate: 0 after the last sample."""
     if index >= last_index(p):
         return 0.0, 0.0
-    knots, scale = p.forcing.tables.knots, p.forcing.scale
-    first, second = knots[index].acceleration, knots[index + 1].acceleration
+    samples, scale = p.forcing.tables.samples, p.forcing.scale
+    first, second = samples[index], samples[index + 1]
     return scale * first, scale * ((second - first) / p.forcing.tables.step)
 
 
@@ -121,8 +121,8 @@ def along_step(p, side, index, total, difference):
     (u + u')' = (u + u') + f and (u - u')' = -(u - u') - f, where f is linear.
     """
     tables, turned = p.forcing.tables, side * p.forcing.scale
-    start = -1.0 - turned * tables.knots[index].acceleration
-    end = -1.0 - turned * tables.knots[index + 1].acceleration
+    start = -1.0 - turned * tables.samples[index]
+    end = -1.0 - turned * tables.samples[index + 1]
     return (
         tables.growth * (total + (tables.near * start + tables.far * end)),
         tables.decay * difference - (tables.near * end + tables.far * start),

@@ -17,10 +17,10 @@ from rocking.kernels.numerics.elementary import hyperbolic
 from rocking.kernels.signature import Floats1
 
 # Samples in a block of the search for a lift-off.
-BLOCK = 64
+BLOCK = 16
 # Terms of the series of the weights, for a step up to 1.
 TERMS = 18
-KNOT = np.dtype([(name, float) for name in ("acceleration", "mean", "rate", "lowest", "highest")], align=True)
+KNOT = np.dtype([(name, float) for name in ("mean", "rate", "lowest", "highest")], align=True)
 Knots = Annotated[np.ndarray, KNOT, 1]
 
 
@@ -36,9 +36,13 @@ class Tables(NamedTuple):
     near: float  # the two weights of the samples
     far: float
     largest: float  # |a| of all samples
-    # (n,): a, P and P' at each sample; least and greatest of 0 and of P from this sample on
+    # Rounding error of P, in units of the largest |P|: each step adds its own, and the recursion forgets it in a unit of time.
+    error: float
+    samples: Floats1  # (n,)
+    # (n,): P and P' at each sample; least and greatest of 0 and of P from this sample on
     knots: Knots
     blocks: Floats1  # largest |a| in each block of samples
+    variation: Floats1  # (n,): sum of the changes |a_k - a_(k-1)| up to each sample
 
 
 @njit(**INTERNAL)
@@ -57,17 +61,17 @@ def weights(step):
 
 @entry_point(**KERNEL)
 def fill(
-    samples: Floats1, step: float, knots: Knots, blocks: Floats1
-) -> tuple[float, float, float, float, float, float, float, float]:
-    """Fill the arrays of the tables; return the numbers from ``sinh`` to ``largest``."""
+    samples: Floats1, step: float, knots: Knots, blocks: Floats1, variation: Floats1
+) -> tuple[float, float, float, float, float, float, float, float, float]:
+    """Fill the arrays of the tables; return the numbers from ``sinh`` to ``error``."""
     n = samples.shape[0]
     sinh, versinh, excess, _ = hyperbolic(step)
     decay, (near, far) = math.exp(-step), weights(step)
-    left = 0.0
+    left = variation[0] = 0.0
     for k in range(n):
         if k > 0:
             left = decay * left + near * samples[k] + far * samples[k - 1]
-        knots[k].acceleration = samples[k]
+            variation[k] = variation[k - 1] + abs(samples[k] - samples[k - 1])
         knots[k].mean = left
     right, lowest, highest, largest = 0.0, 0.0, 0.0, 0.0
     for j in range(n):
@@ -84,11 +88,12 @@ def fill(
         blocks[k] = 0.0
     for k in range(n):
         blocks[k // BLOCK] = max(blocks[k // BLOCK], abs(samples[k]))
-    return sinh, versinh, excess, math.exp(step), decay, near, far, largest
+    return sinh, versinh, excess, math.exp(step), decay, near, far, largest, 1.0 / math.sqrt(min(step, 1.0))
 
 
 def tables_of(samples: np.ndarray, step: float) -> Tables:
     """Make the tables of samples (n,), n >= 1, at a step in normalised time."""
     n = len(samples)
-    knots, blocks = np.empty(n, KNOT), np.empty(-(-n // BLOCK))
-    return Tables(step, *fill(samples, step, knots, blocks), knots, blocks)
+    knots, blocks, variation = np.empty(n, KNOT), np.empty(-(-n // BLOCK)), np.empty(n)
+    numbers = fill(samples, step, knots, blocks, variation)
+    return Tables(step, *numbers, samples, knots, blocks, variation)

@@ -1,0 +1,66 @@
+"""Bound on chattering (Zeno) under a sampled base acceleration a: proof that it ends in rest, and when.
+
+While |a| < 1 the block is accelerated back with d - u, d = 1 +- a >= m = 1 - max|a|. On an arc that leaves at speed v the energy
+E = u'^2/2 + u (d - u/2) has E' = d' u. As long as u <= m, u <= 2E/m, so that a return speed is at most v exp(s/m) for a sum s
+of |changes of a|. So the k-th arc from now leaves with at most e^k v V, V = exp(S/m) for all changes S. With x = v V/m < 1 an arc
+is not higher than m (1 - sqrt(1 - x^2)) < m, and not longer than 2 artanh(e^k x). All arcs together last at most
+2 artanh(x)/(1 - e). If this ends within the time for which m and S hold, the block rests.
+"""
+
+import math
+
+from rocking.kernels.compile_options import INTERNAL, INTERNAL_INLINE
+from rocking.kernels.deferred import njit
+from rocking.kernels.forcing.sampled.solution import acceleration_at, last_index
+from rocking.kernels.forcing.sampled.tables import BLOCK
+
+# Relative safety margin over rounding.
+MARGIN = 1e-9
+
+
+@njit(**INTERNAL)
+def largest_between(p, first, end):
+    """Return the largest |a| of the samples from ``first`` to ``end``, both included, by whole blocks where possible."""
+    tables, largest, index = p.forcing.tables, 0.0, first
+    while index <= end:
+        if index % BLOCK == 0 and index + BLOCK <= end + 1:
+            largest, index = max(largest, tables.blocks[index // BLOCK]), index + BLOCK
+        else:
+            largest, index = max(largest, abs(tables.samples[index])), index + 1
+    return abs(p.forcing.scale) * largest
+
+
+@njit(**INTERNAL_INLINE)
+def changes_until(p, drive, here, end):
+    """Return the sum of the changes of a from a place, where it is ``here``, to a later sample; after the last, a = 0."""
+    tables, last, scale = p.forcing.tables, last_index(p), p.forcing.scale
+    first, stop = min(drive.index + 1, last), min(end, last)
+    changes = abs(scale * tables.samples[first] - here)
+    changes += abs(scale) * (tables.variation[stop] - tables.variation[first])
+    return changes + abs(scale * tables.samples[last]) if end > last else changes
+
+
+@njit(**INTERNAL)
+def settling(p, drive, speed):
+    """Provide ``contract.settling``, with the changes in a time that grows until it suffices."""
+    e, step, last = p.block.restitution, p.forcing.tables.step, last_index(p)
+    here = acceleration_at(p, drive)
+    largest, end, x = abs(here), drive.index, speed / (1.0 - abs(here))
+    while e < 1.0 and largest < 1.0 and x < 1.0:
+        # artanh x <= x + x^3/(3 (1 - x^2))
+        bound = 2.0 * (x + x * x * x / (3.0 * (1.0 - x * x))) / (1.0 - e) * (1.0 + MARGIN)
+        if end > last or bound <= (end - drive.index) * step - drive.offset:
+            top = (1.0 - largest) * x * x / (1.0 + math.sqrt(1.0 - x * x))
+            return (bound, top) if top < p.block.brace_angle else (math.inf, math.inf)
+        before, ahead = end, (drive.offset + bound) / step
+        end = last + 1 if ahead > last - drive.index else drive.index + int(ahead) + 1
+        if drive.index >= last:
+            # the base is at rest
+            continue
+        changes = changes_until(p, drive, here, end)
+        growth = changes / (1.0 - largest)
+        if speed * (1.0 + growth * (1.0 + 0.5 * growth)) >= 1.0 - largest:  # less than speed e^growth
+            break
+        largest = max(largest, largest_between(p, before + 1, min(end, last)))
+        x = speed * math.exp(changes / (1.0 - largest)) / (1.0 - largest) * (1.0 + MARGIN)
+    return math.inf, math.inf
