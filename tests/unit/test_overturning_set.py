@@ -246,7 +246,10 @@ def test_intervals_end_at_the_last_double_that_overturns():
 @pytest.mark.parametrize(
     ("given", "message"),
     [
-        ({"scales": [2.0, 1.0]}, "scales must hold two numbers or more in [1e-09, 1e+06], ascending; got 2.0"),
+        (
+            {"scales": [2.0, 1.0]},
+            "scales must hold two numbers or more in [1e-09, 1e+06], ascending; got 2.0",
+        ),
         ({"scales": 2.0}, "scales must hold two numbers or more in [1e-09, 1e+06], ascending; got"),
         ({"polarity": 0.5}, "polarity must be 1 or -1; got 0.5"),
         ({"intensity": "pgx"}, "intensity must be one of 'scale', 'pga'"),

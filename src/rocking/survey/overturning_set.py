@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from rocking.kernels.forcing.parameters import CYCLE, sampled_parameters, tables_of
-from rocking.kernels.march.finite_motion import ENDING_ROW, RUN_ROW, run_batch
+from rocking.kernels.forcing import parameters as numbers
+from rocking.kernels.march import finite_motion as kernel
 from rocking.model import (
     RANGES,
     SWITCH_ROW,
@@ -168,16 +168,18 @@ def runs_of(work: Work, stop: np.ndarray) -> Runs:
     block, motion = work.block, work.motion
     alpha, slenderness = block.frequency_parameter, block.critical_angle
     base = motion.normalised(1.0, alpha)
-    p = sampled_parameters(tables_of(base.values, base.step), 1.0, CYCLE * base.step, 1.0)
+    p = numbers.sampled_parameters(
+        numbers.tables_of(base.values, base.step), 1.0, numbers.CYCLE * base.step, 1.0
+    )
     lift_off = block.acceleration(1.0)
 
     def run(levels: np.ndarray) -> Arrays:
-        rows, asked = np.empty(levels.size, ENDING_ROW), np.empty(levels.size, RUN_ROW)
+        rows, asked = np.empty(levels.size, kernel.ENDING_ROW), np.empty(levels.size, kernel.RUN_ROW)
         factors = work.measure.factor(levels, work.value, alpha, slenderness)
         # with the rounding of `GroundMotion.scaled` and `Block.system`, because a switch is located to the last digit
         asked["scale"] = work.polarity * (motion.factor * factors) / lift_off
         asked["restitution"], asked["angle"] = block.restitution, work.angle
-        if not run_batch(p, asked, False, rows, stop):
+        if not kernel.run_batch(p, asked, False, rows, stop):
             raise CancelledError("the survey was stopped")
         return answers(rows, with_peak=False)
 
