@@ -59,7 +59,7 @@ def overturning_spectrum(
     --------
     overturning_set : All levels of a ground motion that overturn a block.
     rocking_spectrum : Blocks of many sizes under ground motions.
-    plot.overturning_spectrum : Plot the outcomes.
+    rocking.plot.overturning_spectrum : Plot the outcomes.
 
     References
     ----------
