@@ -27,6 +27,7 @@ if TYPE_CHECKING:
         Outcome,
         Overturning,
         OverturningCurve,
+        OverturningSet,
         PiecewiseLinear,
         Pulse,
         RecordFile,
@@ -89,6 +90,8 @@ if TYPE_CHECKING:
         basin_map,
         chaos_share,
         overturning_amplitude,
+        overturning_set,
+        overturning_spectrum,
         parametric_map,
         repeatability,
         repeatability_map,
@@ -121,6 +124,7 @@ __all__ = [
     "Outcome",
     "Overturning",
     "OverturningCurve",
+    "OverturningSet",
     "Peak",
     "PiecewiseLinear",
     "Pulse",
@@ -159,6 +163,8 @@ __all__ = [
     "manifold_gap",
     "orbit_diagram",
     "overturning_amplitude",
+    "overturning_set",
+    "overturning_spectrum",
     "parametric_map",
     "plot",
     "read_ground_motion",
@@ -192,8 +198,8 @@ _NAMES = {
         "correlation_dimension impact_section lyapunov rotation_number spectral_density"
     ),
     "survey": (
-        "basin_map chaos_share overturning_amplitude parametric_map repeatability repeatability_map "
-        "rocking_spectrum safe_basin"
+        "basin_map chaos_share overturning_amplitude overturning_set overturning_spectrum parametric_map "
+        "repeatability repeatability_map rocking_spectrum safe_basin"
     ),
 }
 """Public names by subpackage. Names that are not listed belong to `model`."""

@@ -145,3 +145,102 @@ def test_a_block_gives_its_units_and_its_name(curve, basins):
     ax = rk.plot.basins(basins, block=block)
     assert ax.get_title(loc="left") == "block 2 m × 0.5 m"
     assert ax.get_xlim()[1] > block.degrees(1.0)
+
+
+@pytest.fixture(scope="module")
+def levels_that_overturn():
+    records = rk.synthetic_ground_motions(3, seed=4)
+    return rk.overturning_set(records, rk.Block(2.0, 0.5), np.linspace(0.3, 0.8, 101), intensity="pga-g")
+
+
+def test_bands_are_the_intervals_of_each_record(levels_that_overturn):
+    found = levels_that_overturn
+    ax = rk.plot.overturning_set(found)
+    seen = np.ptp(found.scales) / 400
+    for record in range(3):
+        boxes = [path.get_extents() for path in drawn(ax, f"bands {record}").get_paths()]
+        intervals = found.intervals(record)
+        assert [box.x0 for box in boxes] == pytest.approx(intervals[:, 0])
+        widths = np.maximum(np.ptp(intervals, axis=1), seen)
+        assert [box.width for box in boxes] == pytest.approx(widths)
+        assert {round((box.y0 + box.y1) / 2) for box in boxes} == {record}
+    assert drawn(ax, "lowest").get_xdata().tolist() == found.lowest.tolist()
+    assert [tick.get_text() for tick in ax.get_yticklabels()] == ["synthetic 1", "synthetic 2", "synthetic 3"]
+    assert ax.get_xlim() == (0.3, 0.8)
+
+
+def test_undecided_switches_are_marked(levels_that_overturn):
+    data = levels_that_overturn.dataset.copy(deep=True)
+    data.switch_certified.values[:2] = False
+    doubtful = rk.OverturningSet(data, levels_that_overturn.records, levels_that_overturn.block)
+    marks = drawn(rk.plot.overturning_set(doubtful), "undecided")
+    assert marks.get_xdata().tolist() == doubtful.switches["level"][:2].tolist()
+    assert not any(
+        line.get_gid() == "undecided" for line in rk.plot.overturning_set(levels_that_overturn).lines
+    )
+
+
+def test_many_records_are_numbered_and_long_names_are_cut():
+    block, push = rk.Block(2.0, 0.5), [4.0, 4.0]
+    many = [rk.GroundMotion(push, step=0.5, name=f"record number {k} of a long series") for k in range(40)]
+    few = rk.plot.overturning_set(rk.overturning_set(many[:2], block, [0.1, 2.0]))
+    assert [tick.get_text() for tick in few.get_yticklabels()] == ["record number 0 o…", "record number 1 o…"]
+    ax = rk.plot.overturning_set(rk.overturning_set(many, block, [0.1, 2.0]))
+    assert ax.get_ylabel() == "record"
+    assert ax.get_yticks().tolist() == list(range(0, 40, 4))
+
+
+@pytest.mark.parametrize(
+    "intensity, label",
+    [
+        ("scale", "factor of the ground motion s"),
+        ("pga", "peak ground acceleration PGA (m/s²)"),
+        ("arias", "Arias intensity I_A (m/s)"),
+        ("magnitude", "column 'magnitude' of the records"),
+    ],
+)
+def test_axis_of_levels_has_the_name_and_unit_of_the_measure(intensity, label):
+    records = rk.RecordSet([rk.GroundMotion([1.0, 1.0], step=0.5)], columns={"magnitude": [6.0]})
+    found = rk.overturning_set(records, rk.Block(2.0, 0.5), [0.1, 2.0], intensity=intensity)
+    assert rk.plot.overturning_set(found).get_xlabel() == label
+
+
+@pytest.fixture(scope="module")
+def one_sine():
+    return rk.overturning_spectrum(
+        "one-sine", amplitude=np.linspace(0.5, 9, 40), frequency=np.linspace(1, 8, 30), restitution=0.9
+    )
+
+
+def test_colours_are_the_modes_of_overturning(one_sine):
+    codes = drawn(rk.plot.overturning_spectrum(one_sine), "outcomes").get_array()
+    falls, mode = one_sine.outcome.values == 2, one_sine.impacts_since_rest.values
+    assert ((codes == 2) == (falls & (mode == 0))).all()
+    assert ((codes == 3) == (falls & (mode == 1))).all()
+    assert ((codes == 0) == (one_sine.amplitude.values <= 1.0)[:, None]).all()
+    assert {2, 3} <= set(codes.ravel().tolist())
+    doubtful = one_sine.copy(deep=True)
+    doubtful.certified.values[3, 4] = 0
+    marked = drawn(rk.plot.overturning_spectrum(doubtful), "outcomes").get_array()
+    assert np.argwhere(marked == 5).tolist() == [[3, 4]]
+
+
+def test_a_block_gives_si_axes(one_sine):
+    block = rk.Block(2.0, 0.5)
+    ax = rk.plot.overturning_spectrum(one_sine, block=block)
+    assert ax.get_xlabel() == "frequency of the pulse (Hz)"
+    assert ax.get_ylabel() == "amplitude $a_x$ (m/s²)"
+    step = np.diff(one_sine.amplitude.values)[0]
+    assert ax.get_ylim()[1] == pytest.approx(block.acceleration(9.0 + step / 2))
+
+
+def test_other_datasets_and_several_restitutions_are_refused(one_sine):
+    with pytest.raises(TypeError, match="found must be a dataset of rocking.overturning_spectrum"):
+        rk.plot.overturning_spectrum(one_sine.drop_vars("margin"))
+    several = rk.overturning_spectrum("one-sine", amplitude=[1, 2], frequency=[1, 2], restitution=[0.8, 0.9])
+    with pytest.raises(ValueError, match="found must have one coefficient of restitution"):
+        rk.plot.overturning_spectrum(several)
+    ax = rk.plot.overturning_spectrum(several.isel(restitution=1))
+    assert ax.get_title(loc="right") == "one-sine, e = 0.9"
+    with pytest.raises(TypeError, match="found must be an OverturningSet"):
+        rk.plot.overturning_set(one_sine)

@@ -47,8 +47,9 @@ from rocking.model.notebook_renderers import NotebookPicture
 from rocking.model.orbit_event import OrbitEvent
 from rocking.model.orbit_stability import Stability, stability_of
 from rocking.model.outcome import Outcome, Overturning
+from rocking.model.overturning_set import SWITCH_ROW, OverturningSet, intervals_of
 from rocking.model.piecewise_linear import PiecewiseLinear
-from rocking.model.pulse import KINDS, Pulse
+from rocking.model.pulse import KINDS, SINES, Pulse
 from rocking.model.record_file import RecordFile
 from rocking.model.record_set import RecordSet, record_set
 from rocking.model.si_units import PHYSICAL, block_attributes
@@ -112,8 +113,10 @@ __all__ = [
     "PHYSICAL",
     "RANGES",
     "RECTANGLE",
+    "SINES",
     "SIZES",
     "STEPS",
+    "SWITCH_ROW",
     "TILES",
     "VERSION",
     "Attractor",
@@ -137,6 +140,7 @@ __all__ = [
     "Outcome",
     "Overturning",
     "OverturningCurve",
+    "OverturningSet",
     "PiecewiseLinear",
     "Pulse",
     "ReadOnlyArrays",
@@ -169,6 +173,7 @@ __all__ = [
     "housner_restitution",
     "instance",
     "intensity_of",
+    "intervals_of",
     "members",
     "notebook_renderers",
     "one_of",

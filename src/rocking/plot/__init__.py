@@ -7,6 +7,7 @@ from rocking.model import (
     BasinMap,
     ChaosShare,
     OverturningCurve,
+    OverturningSet,
     Repeatability,
     RepeatabilityMap,
     SafeBasin,
@@ -29,6 +30,8 @@ from rocking.plot.melnikov import heteroclinic, melnikov
 from rocking.plot.modes import modes
 from rocking.plot.orbit_diagram import orbit_diagram
 from rocking.plot.overturning import overturning
+from rocking.plot.overturning_set import overturning_set
+from rocking.plot.overturning_spectrum import overturning_spectrum
 from rocking.plot.overview import overview
 from rocking.plot.parametric_map import parametric_map
 from rocking.plot.parts.notebook import picture
@@ -61,6 +64,8 @@ __all__ = [
     "modes",
     "orbit_diagram",
     "overturning",
+    "overturning_set",
+    "overturning_spectrum",
     "overview",
     "panels",
     "parametric_map",
@@ -89,6 +94,7 @@ for kind, draw in (
     (BasinMap, basins),
     (SafeBasin, safe_basin),
     (OverturningCurve, overturning),
+    (OverturningSet, overturning_set),
     (ChaosShare, chaos_share),
     (Repeatability, repeatability),
     (RepeatabilityMap, repeatability_map),

@@ -8,6 +8,8 @@ from rocking.survey.harmonic_spec import check_quantity, question
 from rocking.survey.measures.attractors import alike, classify_with_anchor
 from rocking.survey.measures.response import classify_points
 from rocking.survey.overturning_amplitude import MAX_PHASES, overturning_amplitude
+from rocking.survey.overturning_set import overturning_set
+from rocking.survey.overturning_spectrum import overturning_spectrum
 from rocking.survey.parametric_map import parametric_map
 from rocking.survey.repeatability import repeatability
 from rocking.survey.repeatability_map import repeatability_map
@@ -29,6 +31,8 @@ __all__ = [
     "cores",
     "counts",
     "overturning_amplitude",
+    "overturning_set",
+    "overturning_spectrum",
     "parametric_map",
     "question",
     "repeatability",

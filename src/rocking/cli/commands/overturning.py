@@ -73,10 +73,10 @@ def overturning(
     json: ask.Json = False,
     **shared: Any,
 ) -> None:
-    """Find the lowest amplitude that overturns a block from rest.
+    """Find the lowest amplitude that overturns a block.
 
-    The minimum is taken over the initial phases of the forcing. AXIS is START:STOP:COUNT: COUNT evenly spaced values,
-    both ends included. COUNT is optional. Default: 200.
+    The block is initially at rest. The minimum is taken over the initial phases of the forcing. AXIS is START:STOP:COUNT:
+    COUNT evenly spaced values, both ends included. COUNT is optional. Default: 200.
     """
     from rocking.cli.input import overturning_request
     from rocking.cli.output import survey_run

@@ -1,0 +1,90 @@
+"""`rocking overturning-set`."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from rocking.cli.commands import record
+from rocking.cli.input import axis, record_request
+from rocking.cli.input import options as ask
+
+EXAMPLES = """\
+# Peak accelerations at which the record of the package overturns a block.
+rocking overturning-set example --height 2 --width 0.5 --pga-g 0.1:2:400 \\
+    --plot overturning-set.png --csv overturning-set.csv"""
+
+Files = Annotated[
+    list[Path],
+    typer.Argument(
+        metavar="FILE",
+        parser=record_request.record_path,
+        help="Record files; `example` is the record that comes with the package.",
+    ),
+]
+
+
+def _levels(name: str, what: str) -> Any:
+    return axis.axis_option(name, f"Levels: {what}.")
+
+
+Scale = Annotated[Any, _levels("--scale", "factor of each record")]
+Pga = Annotated[Any, _levels("--pga", "peak ground acceleration, m/s²")]
+PgaG = Annotated[Any, _levels("--pga-g", "peak ground acceleration, in units of g")]
+Pgv = Annotated[Any, _levels("--pgv", "peak ground velocity, m/s")]
+Pgd = Annotated[Any, _levels("--pgd", "peak ground displacement, m")]
+Arias = Annotated[Any, _levels("--arias", "Arias intensity, m/s")]
+PgaRatio = Annotated[Any, _levels("--pga-ratio", "peak ground acceleration over g tan θcr")]
+PgvRatio = Annotated[Any, _levels("--pgv-ratio", "α times the peak ground velocity, over g tan θcr")]
+Polarity = Annotated[
+    ask.Number, ask.number_option("--polarity", "1, or -1 for the opposite direction of the records.")
+]
+Plot = Annotated[
+    Path | None,
+    ask.file_option("--plot", "Plot the intervals of overturning levels, a row per record (.png .svg .pdf)."),
+]
+Csv = Annotated[Path | None, ask.file_option("--csv", "Write the switches (.csv).")]
+
+
+@ask.with_options("height", "width", "restitution", "angle", angle=0.0)
+def overturning_set(
+    context: typer.Context,
+    files: Files,
+    inertia_ratio: record.InertiaRatio = None,
+    scale: Scale = None,
+    pga: Pga = None,
+    pga_g: PgaG = None,
+    pgv: Pgv = None,
+    pgd: Pgd = None,
+    arias: Arias = None,
+    pga_ratio: PgaRatio = None,
+    pgv_ratio: PgvRatio = None,
+    polarity: Polarity = 1.0,
+    channel: record.Channel = 1,
+    units: record.Units = None,
+    step: record.Step = None,
+    baseline: record.Baseline = "none",
+    plot: Plot = None,
+    csv: Csv = None,
+    netcdf: ask.SurveyNetcdf = None,
+    json: ask.Json = False,
+    **shared: Any,
+) -> None:
+    """Find all levels at which records overturn a block.
+
+    Overturning is not monotone: a stronger motion can spare a block that a weaker one overturns. Every interval wider than the
+    distance of two levels is found. AXIS is START:STOP:COUNT: COUNT evenly spaced levels, both ends included. COUNT is optional.
+    Default: 200.
+    """
+    from rocking.cli.input import overturning_set_request as request
+    from rocking.cli.output import motion_files
+    from rocking.cli.reports import overturning_set as report
+
+    written: dict[str, Path] = {}
+    for file in files:
+        written = motion_files.check_of_record(file, plot=plot, csv=csv, netcdf=netcdf)
+    found, doubts = request.compute(context.params)
+    report.write(found, written)
+    report.show(found, doubts, list(written.values()), as_json=json)

@@ -1,0 +1,258 @@
+"""Overturning set: all levels of ground motions that overturn a block, with the switches located to the last digit."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from concurrent.futures import CancelledError, Executor
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from rocking.kernels.forcing import parameters as numbers
+from rocking.kernels.march import finite_motion as kernel
+from rocking.model import (
+    RANGES,
+    SWITCH_ROW,
+    VERSION,
+    Block,
+    GroundMotion,
+    Intensity,
+    OverturningSet,
+    RecordSet,
+    instance,
+    intensity_of,
+    intervals_of,
+    record_set,
+    refusal,
+    within,
+)
+from rocking.survey.engine.tile_loop import engine
+from rocking.survey.measurement import Arrays
+from rocking.survey.measures.ending import OVERTURNED, VARIABLES, answers, load_kernels
+from rocking.survey.motion_spec import MAX_LEVEL
+from rocking.survey.spec import axis
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+LEVELS = (1e-9, MAX_LEVEL)
+KEPT = ("outcome", "certified", "impacts_since_rest")
+"""Variables over the levels of the grid."""
+COLUMNS = {
+    "record": "number of the record, from 0",
+    "level": "first level on the far side of the switch",
+    "overturns_above": "whether the block overturns at that level",
+    "impacts_since_rest": "impacts since the block last rested, on the overturning side",
+    "certified": "whether no rounding error can have changed the outcomes on both sides",
+    "certified_below": "closest level below that was found certified",
+    "certified_above": "closest level above that was found certified",
+}
+
+Runs = Callable[[np.ndarray], Arrays]
+
+
+class Scan(NamedTuple):
+    """Runs of one record at the levels of the grid, and its switches."""
+
+    grid: Arrays
+    switches: np.ndarray
+
+
+class Work(NamedTuple):
+    """Work of one record: the motion, the intensity measure and its value for the motion, the block and the start."""
+
+    motion: GroundMotion
+    measure: Intensity
+    value: float
+    block: Block
+    angle: float
+    polarity: float
+
+
+def overturning_set(
+    records: RecordSet | GroundMotion | Iterable[GroundMotion],
+    block: Block,
+    scales: Any,
+    *,
+    intensity: str = "scale",
+    angle: float = 0.0,
+    polarity: float = 1.0,
+    executor: Executor | None = None,
+) -> OverturningSet:
+    """Find all levels at which ground motions overturn a block, not only the lowest.
+
+    Overturning is not monotone: a stronger motion can spare a block that a weaker one overturns. "The" overturning acceleration
+    does not exist. Every interval of overturning or of standing levels that is wider than the distance of two neighbouring
+    `scales` is found. Narrower ones may be missed, an even number of switches between two levels always.
+
+    Parameters
+    ----------
+    records : RecordSet, GroundMotion or iterable of GroundMotion
+        Ground motions.
+    block : Block
+        Block.
+    scales : array (n,)
+        Ascending levels of the intensity measure, two at least, in [1e-9, 1e6]: the grid.
+    intensity : str
+        Intensity measure of `scales`, as in `rocking_spectrum`. Default: "scale", the factor of the record.
+    angle : float
+        Initial angle Θ in units of θcr. Default: 0, at rest.
+    polarity : float
+        1, or -1 for the opposite direction of the motion. Default: 1.
+    executor : concurrent.futures.Executor, optional
+        Executor that follows the records in parallel. Default: one thread per core.
+
+    Returns
+    -------
+    OverturningSet
+        Switches, intervals, lowest level and fraction of the range that overturns, for each record.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If an argument has the wrong type or lies outside its range.
+
+    See Also
+    --------
+    rocking_spectrum : Outcomes of many blocks at given levels.
+    overturning_spectrum : Outcomes under one pulse.
+    rocking.plot.overturning_set : Plot the intervals.
+
+    Notes
+    -----
+    Each run is exact and ends by proof, as in `simulate`. Bisection locates each switch to two adjacent doubles. Rounding decides
+    the outcomes next to a switch. `certified_below` and `certified_above` of a switch enclose what rounding cannot change.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import rocking as rk
+    >>> cabinet = rk.Block(height=2.0, width=0.5)
+    >>> found = rk.overturning_set(rk.example_ground_motion(), cabinet, np.linspace(1, 1.5, 101), intensity="pga-g")
+    >>> found.intervals().shape[1], bool(found.lowest[0] > 1)
+    (2, True)
+    """
+    chosen, block = record_set(records), instance("block", block, Block)
+    scales = axis("scales", scales, LEVELS)
+    angle = within("angle", angle, *RANGES["angle"])
+    if within("polarity", polarity, -1.0, 1.0) not in (-1.0, 1.0):
+        raise ValueError(refusal("polarity", "be 1 or -1", polarity))
+    measure, values = intensity_of(intensity, chosen)
+    if executor is not None:
+        instance("executor", executor, Executor)
+    load_kernels(False)
+    work = [
+        Work(motion, measure, value, block, angle, float(polarity))
+        for motion, value in zip(chosen, values.tolist(), strict=True)
+    ]
+    with engine(executor) as (pool, stop):
+        futures = [pool.submit(scan, each, scales, stop) for each in work]
+        try:
+            scans = [future.result() for future in futures]
+        finally:
+            for future in futures:
+                future.cancel()
+    told = {"intensity": intensity, "angle": angle, "polarity": float(polarity)}
+    return OverturningSet(_dataset(scans, scales, measure, chosen, told), chosen, block)
+
+
+def scan(work: Work, scales: np.ndarray, stop: np.ndarray) -> Scan:
+    """Follow one record at all levels, and locate its switches; CancelledError if `stop` is set."""
+    run = runs_of(work, stop)
+    grid = run(scales)
+    return Scan({name: grid[name] for name in KEPT}, located(run, scales, grid))
+
+
+def runs_of(work: Work, stop: np.ndarray) -> Runs:
+    """Return the function that follows a block under a motion at given levels; the motion's tables are made once."""
+    block, motion = work.block, work.motion
+    alpha, slenderness = block.frequency_parameter, block.critical_angle
+    base = motion.normalised(1.0, alpha)
+    p = numbers.sampled_parameters(
+        numbers.tables_of(base.values, base.step), 1.0, numbers.CYCLE * base.step, 1.0
+    )
+    lift_off = block.acceleration(1.0)
+
+    def run(levels: np.ndarray) -> Arrays:
+        rows, asked = np.empty(levels.size, kernel.ENDING_ROW), np.empty(levels.size, kernel.RUN_ROW)
+        factors = work.measure.factor(levels, work.value, alpha, slenderness)
+        # with the rounding of `GroundMotion.scaled` and `Block.system`, because a switch is located to the last digit
+        asked["scale"] = work.polarity * (motion.factor * factors) / lift_off
+        asked["restitution"], asked["angle"] = block.restitution, work.angle
+        if not kernel.run_batch(p, asked, False, rows, stop):
+            raise CancelledError("the survey was stopped")
+        return answers(rows, with_peak=False)
+
+    return run
+
+
+def located(run: Runs, scales: np.ndarray, grid: Arrays) -> np.ndarray:
+    """Locate a switch between any two neighbouring levels with different outcomes, all at the same time, by bisection."""
+    fell = grid["outcome"] == OVERTURNED
+    places = np.flatnonzero(fell[1:] != fell[:-1])
+    low, high, above = scales[places], scales[places + 1], fell[places + 1]
+    mode = np.where(above, grid["impacts_since_rest"][places + 1], grid["impacts_since_rest"][places])
+    sure = grid["certified"] != 0
+    below_sure = np.where(sure[places], low, np.nan)
+    above_sure = np.where(sure[places + 1], high, np.nan)
+    while True:
+        middle = low + 0.5 * (high - low)
+        wide = np.flatnonzero((middle > low) & (middle < high))
+        if wide.size == 0:
+            break
+        tried = run(middle[wide])
+        overturned, certain = tried["outcome"] == OVERTURNED, tried["certified"] != 0
+        upper = overturned == above[wide]
+        high[wide[upper]], low[wide[~upper]] = middle[wide[upper]], middle[wide[~upper]]
+        above_sure[wide[upper & certain]] = middle[wide[upper & certain]]
+        below_sure[wide[~upper & certain]] = middle[wide[~upper & certain]]
+        mode[wide[overturned]] = tried["impacts_since_rest"][overturned]
+    found = np.empty(places.size, SWITCH_ROW)
+    found["record"] = 0
+    found["level"], found["overturns_above"], found["impacts_since_rest"] = high, above, mode
+    found["certified_below"], found["certified_above"] = below_sure, above_sure
+    found["certified"] = np.isfinite(below_sure) & np.isfinite(above_sure)
+    return found
+
+
+def _dataset(
+    scans: list[Scan], scales: np.ndarray, measure: Intensity, records: RecordSet, told: dict[str, Any]
+) -> xr.Dataset:
+    """Return the dataset of the result."""
+    import xarray as xr
+
+    for number, each in enumerate(scans):
+        each.switches["record"] = number
+    switches = np.concatenate([each.switches for each in scans])
+    unit = {"units": measure.unit or "1"}
+    bounds = float(scales[0]), float(scales[-1])
+    intervals = [
+        intervals_of(each.grid["outcome"][0] == OVERTURNED, each.switches, *bounds) for each in scans
+    ]
+    lowest = np.array([each[0, 0] if each.size else np.nan for each in intervals])
+    share = np.array([np.diff(each, axis=1).sum() for each in intervals]) / (bounds[1] - bounds[0])
+    variables: dict[str, Any] = {
+        each.name: (("record", "scale"), np.stack([one.grid[each.name] for one in scans]), each.attributes)
+        for each in VARIABLES
+        if each.name in KEPT
+    }
+    variables["lowest"] = "record", lowest, {"long_name": "lowest overturning level"} | unit
+    variables["share"] = "record", share, {"long_name": "fraction of the range that overturns", "units": "1"}
+    for name, long_name in COLUMNS.items():
+        of_level = unit if name in ("level", "certified_below", "certified_above") else {}
+        variables[f"switch_{name}"] = "switch", switches[name], {"long_name": long_name} | of_level
+    pga = np.array([motion.pga for motion in records])
+    coordinates = {
+        "record": np.arange(len(records)),
+        "scale": ("scale", scales, {"long_name": measure.long_name, "symbol": measure.symbol} | unit),
+        "name": ("record", list(records.names), {"long_name": "record"}),
+        "pga": ("record", pga, {"long_name": "peak ground acceleration", "units": "m/s²"}),
+    }
+    attributes = {
+        "Conventions": "CF-1.11",
+        "title": "Overturning set of a block under ground motions",
+        "source": f"rocking {VERSION}",
+        **told,
+        "records_sha256": records.digest,
+    }
+    return xr.Dataset(variables, coordinates, attributes)

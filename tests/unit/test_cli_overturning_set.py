@@ -1,0 +1,102 @@
+"""`rocking overturning-set`: report, files and errors."""
+
+import csv
+import json
+
+import numpy as np
+import pytest
+import xarray as xr
+
+import rocking as rk
+
+BLOCK = rk.Block(2.0, 0.5)
+SIZE = "--height 2 --width 0.5"
+LEVELS = np.linspace(0.9, 1.3, 60)
+AXIS = "--pga-g 0.9:1.3:60"
+
+
+@pytest.fixture(autouse=True)
+def push(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "push.csv").write_text(
+        "time (s), acceleration (m/s²)\n0, 0\n0.5, 12\n1, 0\n", encoding="utf-8"
+    )
+
+
+@pytest.fixture(scope="module")
+def found():
+    return rk.overturning_set(rk.example_ground_motion(), BLOCK, LEVELS, intensity="pga-g")
+
+
+def test_report_has_a_row_per_record(rocking, found):
+    both = rk.overturning_set(
+        [rk.example_ground_motion(), rk.read_ground_motion("push.csv")], BLOCK, LEVELS, intensity="pga-g"
+    )
+    code, message, out = rocking(f"overturning-set example push.csv {SIZE} {AXIS}")
+    title, heading, first, second = out.splitlines()
+    assert (code, message) == (0, "")
+    assert title == str(both)
+    assert heading.split("   ")[:3] == ["record", *heading.split("   ")[1:3]]
+    assert "lowest, g" in heading
+    assert f"{found.lowest[0]:.6g}" in first
+    assert f"   {len(found.intervals())}   " in first
+    assert second.startswith("push")
+    assert "0.9 to 1.3" in second
+
+
+def test_json_holds_intervals_and_switches(rocking, found):
+    code, _, out = rocking(f"overturning-set example {SIZE} {AXIS} --json")
+    told = json.loads(out)
+    assert code == 0
+    assert told["levels"] == {"start": 0.9, "stop": 1.3, "count": 60}
+    assert told["block"]["restitution"] == BLOCK.restitution
+    (one,) = told["records"]
+    assert one["intervals"] == found.intervals().tolist()
+    assert [each["level"] for each in one["switches"]] == found.switches["level"].tolist()
+    assert one["lowest"] == found.lowest[0]
+    assert told["records_sha256"] == found.records.digest
+
+
+def test_files_hold_the_switches(rocking, found, tmp_path):
+    files = "--plot set.png --csv set.csv --netcdf set.nc"
+    code, _, out = rocking(f"overturning-set example {SIZE} {AXIS} {files}")
+    assert code == 0
+    assert out.endswith("wrote set.png\nwrote set.csv\nwrote set.nc\n")
+    assert (tmp_path / "set.png").stat().st_size > 5_000
+    with (tmp_path / "set.csv").open(encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    assert [float(row["level [g]"]) for row in rows] == found.switches["level"].tolist()
+    with xr.open_dataset("set.nc", engine="h5netcdf") as data:
+        assert data.switch_level.values.tolist() == found.switches["level"].tolist()
+        assert data.attrs["block_height_m"] == 2.0
+
+
+def test_direction_and_measure_are_those_of_the_options(rocking):
+    reversed_ = rk.overturning_set(
+        rk.read_ground_motion("push.csv"), BLOCK, np.linspace(0.1, 3, 50), polarity=-1, angle=0.2
+    )
+    line = f"overturning-set push.csv {SIZE} --scale 3:0.1:50 --polarity -1 --angle 0.2 --json"
+    told = json.loads(rocking(line)[2])
+    assert (told["polarity"], told["angle"], told["intensity"]) == (-1.0, 0.2, "scale")
+    assert told["records"][0]["intervals"] == reversed_.intervals().tolist()
+
+
+@pytest.mark.parametrize(
+    ("line", "message"),
+    [
+        (f"example {SIZE}", "give exactly one of --scale, --pga, --pga-g"),
+        (f"example {SIZE} --pga-g 0.1:1 --scale 1:2", "give exactly one of --scale, --pga, --pga-g"),
+        (f"example {SIZE} --pga-g 0.5", "--pga-g must be an axis, START:STOP:COUNT; got 0.5"),
+        (f"example {SIZE} --pga-g 0:1:20", "--pga-g must hold two numbers or more in"),
+        (f"example {SIZE} --pga-g 0.1:1 --polarity 2", "--polarity must lie in [-1, 1]; got 2"),
+        (f"example example {SIZE} --pga-g 0.1:1", "records must have distinct names"),
+        (f"missing.csv {SIZE} --pga-g 0.1:1", "missing.csv"),
+        (f"push.csv {SIZE} --pga-g 0.1:1 --csv push.csv", "--csv must not overwrite the record"),
+        ("example --height 2 --pga-g 0.1:1", "--width"),
+    ],
+)
+def test_errors_name_the_options(rocking, line, message):
+    code, told, out = rocking(f"overturning-set {line}")
+    assert (code, out) == (2, "")
+    assert message in told
+    assert "\n" not in told.strip()
