@@ -18,9 +18,12 @@ if TYPE_CHECKING:
         Braces,
         ChaosShare,
         Evidence,
+        Fragility,
         GroundMotion,
         Harmonic,
+        IncrementalDynamicAnalysis,
         Kind,
+        LognormalFit,
         Mode,
         NoOrbit,
         Orbit,
@@ -34,6 +37,7 @@ if TYPE_CHECKING:
         Repeatability,
         RepeatabilityMap,
         SafeBasin,
+        Sensitivity,
         Share,
         Stability,
         State,
@@ -88,12 +92,15 @@ if TYPE_CHECKING:
     from rocking.survey import (
         basin_map,
         chaos_share,
+        fragility,
+        incremental_dynamic_analysis,
         overturning_amplitude,
         parametric_map,
         repeatability,
         repeatability_map,
         rocking_spectrum,
         safe_basin,
+        sensitivity,
     )
 
 __all__ = [
@@ -106,10 +113,13 @@ __all__ = [
     "ChaosShare",
     "CorrelationDimension",
     "Evidence",
+    "Fragility",
     "FrequencyResponse",
     "GroundMotion",
     "Harmonic",
+    "IncrementalDynamicAnalysis",
     "Kind",
+    "LognormalFit",
     "LyapunovSpectrum",
     "Manifold",
     "Mode",
@@ -132,6 +142,7 @@ __all__ = [
     "RotationNumber",
     "SaddleManifolds",
     "SafeBasin",
+    "Sensitivity",
     "Share",
     "SpecialPoint",
     "SpectralDensity",
@@ -153,8 +164,10 @@ __all__ = [
     "example_ground_motion",
     "find_orbit",
     "find_orbits",
+    "fragility",
     "frequency_response",
     "impact_section",
+    "incremental_dynamic_analysis",
     "lyapunov",
     "manifold_gap",
     "orbit_diagram",
@@ -169,6 +182,7 @@ __all__ = [
     "rotation_number",
     "saddle_manifolds",
     "safe_basin",
+    "sensitivity",
     "simulate",
     "spectral_density",
     "switch_branch",
@@ -192,8 +206,8 @@ _NAMES = {
         "correlation_dimension impact_section lyapunov rotation_number spectral_density"
     ),
     "survey": (
-        "basin_map chaos_share overturning_amplitude parametric_map repeatability repeatability_map "
-        "rocking_spectrum safe_basin"
+        "basin_map chaos_share fragility incremental_dynamic_analysis overturning_amplitude parametric_map repeatability repeatability_map "
+        "rocking_spectrum safe_basin sensitivity"
     ),
 }
 """Public names by subpackage. Names that are not listed belong to `model`."""

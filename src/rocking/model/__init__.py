@@ -41,7 +41,9 @@ from rocking.model.forcing import (
     Harmonic,
 )
 from rocking.model.formatting import counted, ordinal, percent, plus_minus
+from rocking.model.fragility import Fragility, LognormalFit, limit_name, runs_of
 from rocking.model.ground_motion import BASELINES, STEPS, GroundMotion
+from rocking.model.incremental_dynamic_analysis import FRACTILES, IncrementalDynamicAnalysis
 from rocking.model.intensity import INTENSITIES, Intensity, intensity_of
 from rocking.model.notebook_renderers import NotebookPicture
 from rocking.model.orbit_event import OrbitEvent
@@ -51,6 +53,7 @@ from rocking.model.piecewise_linear import PiecewiseLinear
 from rocking.model.pulse import KINDS, Pulse
 from rocking.model.record_file import RecordFile
 from rocking.model.record_set import RecordSet, record_set
+from rocking.model.sensitivity import Sensitivity
 from rocking.model.si_units import PHYSICAL, block_attributes
 from rocking.model.survey_results import (
     ChaosShare,
@@ -97,6 +100,7 @@ from rocking.model.version import VERSION
 __all__ = [
     "BASELINES",
     "BRACE_ANGLES",
+    "FRACTILES",
     "FREQUENCIES",
     "FULL",
     "GRAVITY",
@@ -125,10 +129,13 @@ __all__ = [
     "Criterion",
     "Evidence",
     "Forcing",
+    "Fragility",
     "GroundMotion",
     "Harmonic",
+    "IncrementalDynamicAnalysis",
     "Intensity",
     "Kind",
+    "LognormalFit",
     "Mode",
     "NoOrbit",
     "NotebookPicture",
@@ -145,6 +152,7 @@ __all__ = [
     "Repeatability",
     "RepeatabilityMap",
     "SafeBasin",
+    "Sensitivity",
     "Share",
     "Stability",
     "State",
@@ -169,6 +177,7 @@ __all__ = [
     "housner_restitution",
     "instance",
     "intensity_of",
+    "limit_name",
     "members",
     "notebook_renderers",
     "one_of",
@@ -186,6 +195,7 @@ __all__ = [
     "replacing_folder",
     "replacing_hdf5",
     "resolve_path",
+    "runs_of",
     "shown",
     "stability_of",
     "system_of",
