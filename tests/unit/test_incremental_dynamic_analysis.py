@@ -167,7 +167,7 @@ def test_where_nothing_changes_the_interval_is_that_of_all_records(records):
     z2 = 1.959963984540054**2
     assert found.dataset.share_high.values == pytest.approx(z2 / (10 + z2))
     assert str(found).startswith(
-        "verdicts that change, of 20 runs of 10 records: amplitude + 1 % 0 % (0 %–27.8 %), "
+        "verdicts that change, of 20 runs of 10 records: amplitude + 1 % 0 % (0–27.8 %), "
     )
     assert "\n" not in str(found)
 

@@ -40,7 +40,7 @@ from rocking.model.forcing import (
     Forcing,
     Harmonic,
 )
-from rocking.model.formatting import counted, ordinal, percent, plus_minus
+from rocking.model.formatting import counted, ordinal, percent, percent_with_ends, plus_minus
 from rocking.model.fragility import Fragility, LognormalFit, limit_name, runs_of
 from rocking.model.ground_motion import BASELINES, STEPS, GroundMotion
 from rocking.model.incremental_dynamic_analysis import FRACTILES, IncrementalDynamicAnalysis
@@ -184,6 +184,7 @@ __all__ = [
     "ordinal",
     "pair",
     "percent",
+    "percent_with_ends",
     "plus_minus",
     "quantities",
     "read_only",

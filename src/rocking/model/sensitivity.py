@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from attrs import field, frozen
 
 from rocking.model.block import Block
-from rocking.model.formatting import counted, percent
+from rocking.model.formatting import counted, percent_with_ends
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -40,7 +40,7 @@ class Sensitivity:
     def __str__(self) -> str:
         data = self.dataset
         parts = [
-            f"{name} {percent(share)} ({percent(low)}–{percent(high)})"
+            f"{name} {percent_with_ends(share, low, high)}"
             for name, share, low, high in zip(
                 *(data[name].values.tolist() for name in ("change", "share", "share_low", "share_high")),
                 strict=True,

@@ -6,6 +6,8 @@ Units, labels, colours and sizes are set in this package only. The user's matplo
 from rocking.model import (
     BasinMap,
     ChaosShare,
+    Fragility,
+    IncrementalDynamicAnalysis,
     OverturningCurve,
     Repeatability,
     RepeatabilityMap,
@@ -22,8 +24,10 @@ from rocking.plot.branch import branch
 from rocking.plot.chaos_share import chaos_share
 from rocking.plot.convergence import convergence
 from rocking.plot.correlation_dimension import dimension
+from rocking.plot.fragility import fragility
 from rocking.plot.frequency_response import frequency_response
 from rocking.plot.impact_section import impact_section
+from rocking.plot.incremental_dynamic_analysis import incremental_dynamic_analysis
 from rocking.plot.manifolds import manifolds
 from rocking.plot.melnikov import heteroclinic, melnikov
 from rocking.plot.modes import modes
@@ -53,9 +57,11 @@ __all__ = [
     "chaos_share",
     "convergence",
     "dimension",
+    "fragility",
     "frequency_response",
     "heteroclinic",
     "impact_section",
+    "incremental_dynamic_analysis",
     "manifolds",
     "melnikov",
     "modes",
@@ -90,6 +96,8 @@ for kind, draw in (
     (SafeBasin, safe_basin),
     (OverturningCurve, overturning),
     (ChaosShare, chaos_share),
+    (Fragility, fragility),
+    (IncrementalDynamicAnalysis, incremental_dynamic_analysis),
     (Repeatability, repeatability),
     (RepeatabilityMap, repeatability_map),
     ("map", parametric_map),

@@ -103,9 +103,8 @@ def fingerprints(records: RecordSet) -> tuple[str, ...]:
         mark = fingerprint(motion)
         if mark in seen:
             allowed = "hold independent motions"
-            remedy = "leave one out: copies, scaled or reversed, say nothing new"
-            raise ValueError(
-                refusal("records", allowed, f"the samples of {seen[mark]} again as {name}", remedy)
-            )
+            found = f"{name}, the same as {seen[mark]}"
+            remedy = "leave one out: a copy, scaled or reversed, says nothing new"
+            raise ValueError(refusal("records", allowed, found, remedy))
         seen[mark] = name
     return tuple(seen)
