@@ -11,7 +11,6 @@ from scipy.stats import norm
 
 import rocking as rk
 from rocking.model import GRAVITY, RecordSet
-from rocking.survey.fragility import log_basic_interval
 from rocking.survey.sampling.block_samples import block_samples, fingerprint
 from rocking.survey.sampling.clustered_fractions import (
     clustered_fractions,
@@ -19,6 +18,7 @@ from rocking.survey.sampling.clustered_fractions import (
     two_level_weights,
     weighted_counts,
 )
+from rocking.survey.sampling.fragility_curve import log_basic_interval
 from rocking.survey.sampling.lognormal_fit import DETERMINED, lognormal_fits
 
 BLOCK = rk.Block(2.0, 0.5)

@@ -20,9 +20,13 @@ class Sensitivity:
     Attributes
     ----------
     dataset : xarray.Dataset
-        Variables over `change`: `share`, the fraction of the runs whose verdict (overturned or not) differs, with the ends
-        `share_low` and `share_high` of its 95 % interval; `flipped`, `runs` and `undecided`, numbers of runs. Variables
-        over `record` and `scale`: `overturned`, the verdict without a change, and, also over `change`, `differs`.
+        Variables over `change`:
+
+        - `share`: fraction of the runs whose verdict (overturned or not) differs;
+        - `share_low`, `share_high`: ends of its 95 % interval;
+        - `flipped`, `runs`, `undecided`: numbers of runs.
+
+        Variables over `record` and `scale`: `overturned`, the verdict without a change, and, also over `change`, `differs`.
     block : Block
         Block.
 

@@ -11,11 +11,11 @@ from rocking.cli.input import axis, fragility_request, record_request
 from rocking.cli.input import options as ask
 
 EXAMPLES = """\
-# The record that comes with the package and one of your own.
-rocking fragility example mine.AT2 --height 2 --width 0.5 \\
-    --pga-g 0.1:1.5:15 --limit 0.5 --plot fragility.png
+# The record that comes with the package; add files of your own after it.
+rocking fragility example --height 2 --width 0.5 --pga-g 0.1:1.5:15 \\
+    --limit 0.5 --plot fragility.png
 # An uncertain block: 20 samples per record.
-rocking fragility *.AT2 --height 2 --width 0.5 --pga-g 0.1:1.5:15 \\
+rocking fragility example --height 2 --width 0.5 --pga-g 0.1:1.5:15 \\
     --samples 20 --width-spread 0.1 --csv fragility.csv"""
 
 Files = Annotated[
@@ -82,7 +82,9 @@ def fragility(
     json: ask.Json = False,
     **shared: Any,
 ) -> None:
-    """Estimate the probability of overturning over the peak ground acceleration.
+    """Estimate fragility curves of a block under ground motions.
+
+    A curve is the probability of overturning, or of exceeding a limit of the angle, over the peak ground acceleration.
 
     All intervals are at 95 % and clustered by record: runs of the same record are not independent. AXIS is START:STOP:COUNT:
     COUNT evenly spaced values, both ends included.
