@@ -94,7 +94,7 @@ class Fragility(NotebookPicture):
     >>> import numpy as np
     >>> import rocking as rk
     >>> records = rk.synthetic_ground_motions(8, seed=1)
-    >>> found = rk.fragility(records, rk.Block(2.0, 0.5), np.linspace(2, 10, 5), limits=())
+    >>> found = rk.fragility(records, rk.Block(2.0, 0.5), np.linspace(2, 10, 17), limits=())
     >>> found.dataset.fraction.dims, found.fit().limit
     (('limit', 'scale'), inf)
     """

@@ -120,10 +120,10 @@ def fragility(
     (Efron 1979).
 
     **Fractions.** The bootstrap of 0 of 20 records has no width. So the interval of a fraction p at one level is the union of
-    the bootstrap interval, from 2.5 % to 97.5 %, and Wilson's interval (1927). Wilson's has the effective number
-    of records p(1 − p)n/s² as number of trials. Here s² is the variance between the fractions of the n records. The number is
-    at most n, and n where all records agree. Runs that are not certified widen the interval: its lower end counts none of
-    them, its upper end all.
+    the 95 % percentile interval of the bootstrap and Wilson's (1927). Wilson's number of trials is the effective number of
+    records, p(1 − p)n/s². Here s² is the variance between the fractions of the n records. The number is at most n, and n
+    where all records agree. Runs that are not certified widen the interval: its lower end counts none of them, its upper end
+    all.
 
     **Fit.** The probability of exceeding is the fraction of runs that rock at that level, times Φ(ln(level/median)/dispersion).
     Median and dispersion maximise the likelihood of the runs that rock. A finite maximum needs runs that exceed below runs
