@@ -101,7 +101,7 @@ class Fragility(NotebookPicture):
 
     dataset: xr.Dataset = field(repr=False)
     block: Block
-    fits: tuple[LognormalFit, ...]
+    fits: tuple[LognormalFit, ...] = field(repr=False)
 
     def fit(self, limit: float = math.inf) -> LognormalFit:
         """Return the fit of a limit.

@@ -123,7 +123,7 @@ def fragility(
     the 95 % percentile interval of the bootstrap and Wilson's (1927). Wilson's number of trials is the effective number of
     records, p(1 − p)n/s². Here s² is the variance between the fractions of the n records. The number is at most n, and n
     where all records agree. Runs that are not certified widen the interval: its lower end counts none of them, its upper end
-    all.
+    all. With several samples per record these intervals are wider than necessary.
 
     **Fit.** The probability of exceeding is the fraction of runs that rock at that level, times Φ(ln(level/median)/dispersion).
     Median and dispersion maximise the likelihood of the runs that rock. A finite maximum needs runs that exceed below runs

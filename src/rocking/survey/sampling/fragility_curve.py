@@ -97,6 +97,6 @@ def _problem(fit: Fits, limit: float, records: int) -> str:
         DETERMINED: "",
         ALL_BELOW: f"no run shows {event}: add higher levels",
         ALL_ABOVE: f"all runs that rock show {event}: add lower levels",
-        SEPARATED: f"{event} sets in between two levels for all runs: add levels there",
+        SEPARATED: f"levels with and without {event} overlap at one level at most: add levels there",
         DECREASING: f"the fraction of {event} does not grow with the level: add levels or records",
     }[kind]
