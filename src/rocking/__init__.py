@@ -18,9 +18,12 @@ if TYPE_CHECKING:
         Braces,
         ChaosShare,
         Evidence,
+        Fragility,
         GroundMotion,
         Harmonic,
+        IncrementalDynamicAnalysis,
         Kind,
+        LognormalFit,
         Mode,
         NoOrbit,
         Orbit,
@@ -35,6 +38,7 @@ if TYPE_CHECKING:
         Repeatability,
         RepeatabilityMap,
         SafeBasin,
+        Sensitivity,
         Share,
         Stability,
         State,
@@ -89,6 +93,8 @@ if TYPE_CHECKING:
     from rocking.survey import (
         basin_map,
         chaos_share,
+        fragility,
+        incremental_dynamic_analysis,
         overturning_amplitude,
         overturning_set,
         overturning_spectrum,
@@ -97,6 +103,7 @@ if TYPE_CHECKING:
         repeatability_map,
         rocking_spectrum,
         safe_basin,
+        sensitivity,
     )
 
 __all__ = [
@@ -109,10 +116,13 @@ __all__ = [
     "ChaosShare",
     "CorrelationDimension",
     "Evidence",
+    "Fragility",
     "FrequencyResponse",
     "GroundMotion",
     "Harmonic",
+    "IncrementalDynamicAnalysis",
     "Kind",
+    "LognormalFit",
     "LyapunovSpectrum",
     "Manifold",
     "Mode",
@@ -136,6 +146,7 @@ __all__ = [
     "RotationNumber",
     "SaddleManifolds",
     "SafeBasin",
+    "Sensitivity",
     "Share",
     "SpecialPoint",
     "SpectralDensity",
@@ -157,8 +168,10 @@ __all__ = [
     "example_ground_motion",
     "find_orbit",
     "find_orbits",
+    "fragility",
     "frequency_response",
     "impact_section",
+    "incremental_dynamic_analysis",
     "lyapunov",
     "manifold_gap",
     "orbit_diagram",
@@ -175,6 +188,7 @@ __all__ = [
     "rotation_number",
     "saddle_manifolds",
     "safe_basin",
+    "sensitivity",
     "simulate",
     "spectral_density",
     "switch_branch",
@@ -198,8 +212,8 @@ _NAMES = {
         "correlation_dimension impact_section lyapunov rotation_number spectral_density"
     ),
     "survey": (
-        "basin_map chaos_share overturning_amplitude overturning_set overturning_spectrum parametric_map "
-        "repeatability repeatability_map rocking_spectrum safe_basin"
+        "basin_map chaos_share fragility incremental_dynamic_analysis overturning_amplitude overturning_set "
+        "overturning_spectrum parametric_map repeatability repeatability_map rocking_spectrum safe_basin sensitivity"
     ),
 }
 """Public names by subpackage. Names that are not listed belong to `model`."""

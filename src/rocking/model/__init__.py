@@ -40,8 +40,10 @@ from rocking.model.forcing import (
     Forcing,
     Harmonic,
 )
-from rocking.model.formatting import counted, ordinal, percent, plus_minus
+from rocking.model.formatting import counted, ordinal, percent, percent_with_ends, plus_minus
+from rocking.model.fragility import Fragility, LognormalFit, limit_name, runs_of
 from rocking.model.ground_motion import BASELINES, STEPS, GroundMotion
+from rocking.model.incremental_dynamic_analysis import FRACTILES, IncrementalDynamicAnalysis
 from rocking.model.intensity import INTENSITIES, Intensity, intensity_of
 from rocking.model.notebook_renderers import NotebookPicture
 from rocking.model.orbit_event import OrbitEvent
@@ -52,6 +54,7 @@ from rocking.model.piecewise_linear import PiecewiseLinear
 from rocking.model.pulse import KINDS, SINES, Pulse
 from rocking.model.record_file import RecordFile
 from rocking.model.record_set import RecordSet, record_set
+from rocking.model.sensitivity import Sensitivity
 from rocking.model.si_units import PHYSICAL, block_attributes
 from rocking.model.survey_results import (
     ChaosShare,
@@ -98,6 +101,7 @@ from rocking.model.version import VERSION
 __all__ = [
     "BASELINES",
     "BRACE_ANGLES",
+    "FRACTILES",
     "FREQUENCIES",
     "FULL",
     "GRAVITY",
@@ -128,10 +132,13 @@ __all__ = [
     "Criterion",
     "Evidence",
     "Forcing",
+    "Fragility",
     "GroundMotion",
     "Harmonic",
+    "IncrementalDynamicAnalysis",
     "Intensity",
     "Kind",
+    "LognormalFit",
     "Mode",
     "NoOrbit",
     "NotebookPicture",
@@ -149,6 +156,7 @@ __all__ = [
     "Repeatability",
     "RepeatabilityMap",
     "SafeBasin",
+    "Sensitivity",
     "Share",
     "Stability",
     "State",
@@ -174,12 +182,14 @@ __all__ = [
     "instance",
     "intensity_of",
     "intervals_of",
+    "limit_name",
     "members",
     "notebook_renderers",
     "one_of",
     "ordinal",
     "pair",
     "percent",
+    "percent_with_ends",
     "plus_minus",
     "quantities",
     "read_only",
@@ -191,6 +201,7 @@ __all__ = [
     "replacing_folder",
     "replacing_hdf5",
     "resolve_path",
+    "runs_of",
     "shown",
     "stability_of",
     "system_of",

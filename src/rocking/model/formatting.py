@@ -64,3 +64,14 @@ def percent(share: float) -> str:
     if share > 0.999:
         return "> 99.9 %"
     return f"{100.0 * share:.2f} %" if share < 0.01 else f"{100.0 * share:.1f} %"
+
+
+def percent_with_ends(share: float, low: float, high: float) -> str:
+    """Format a fraction and the ends of its interval in per cent.
+
+    Examples
+    --------
+    >>> percent_with_ends(0.189, 0.175, 0.203), percent_with_ends(0.0, 0.0, 0.00004)
+    ('18.9 % (17.5–20.3 %)', '0 % (0–< 0.01 %)')
+    """
+    return f"{percent(share)} ({percent(low).removesuffix(' %')}–{percent(high)})"

@@ -6,6 +6,8 @@ Units, labels, colours and sizes are set in this package only. The user's matplo
 from rocking.model import (
     BasinMap,
     ChaosShare,
+    Fragility,
+    IncrementalDynamicAnalysis,
     OverturningCurve,
     OverturningSet,
     Repeatability,
@@ -23,8 +25,10 @@ from rocking.plot.branch import branch
 from rocking.plot.chaos_share import chaos_share
 from rocking.plot.convergence import convergence
 from rocking.plot.correlation_dimension import dimension
+from rocking.plot.fragility import fragility
 from rocking.plot.frequency_response import frequency_response
 from rocking.plot.impact_section import impact_section
+from rocking.plot.incremental_dynamic_analysis import incremental_dynamic_analysis
 from rocking.plot.manifolds import manifolds
 from rocking.plot.melnikov import heteroclinic, melnikov
 from rocking.plot.modes import modes
@@ -56,9 +60,11 @@ __all__ = [
     "chaos_share",
     "convergence",
     "dimension",
+    "fragility",
     "frequency_response",
     "heteroclinic",
     "impact_section",
+    "incremental_dynamic_analysis",
     "manifolds",
     "melnikov",
     "modes",
@@ -96,6 +102,8 @@ for kind, draw in (
     (OverturningCurve, overturning),
     (OverturningSet, overturning_set),
     (ChaosShare, chaos_share),
+    (Fragility, fragility),
+    (IncrementalDynamicAnalysis, incremental_dynamic_analysis),
     (Repeatability, repeatability),
     (RepeatabilityMap, repeatability_map),
     ("map", parametric_map),

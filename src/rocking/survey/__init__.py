@@ -4,7 +4,9 @@ from rocking.survey import notebook
 from rocking.survey.basin_map import basin_map
 from rocking.survey.chaos_share import chaos_share
 from rocking.survey.engine.tile_loop import cores
+from rocking.survey.fragility import fragility
 from rocking.survey.harmonic_spec import check_quantity, question
+from rocking.survey.incremental_dynamic_analysis import incremental_dynamic_analysis
 from rocking.survey.measures.attractors import alike, classify_with_anchor
 from rocking.survey.measures.response import classify_points
 from rocking.survey.overturning_amplitude import MAX_PHASES, overturning_amplitude
@@ -16,6 +18,7 @@ from rocking.survey.repeatability_map import repeatability_map
 from rocking.survey.rocking_spectrum import rocking_spectrum
 from rocking.survey.safe_basin import safe_basin
 from rocking.survey.sampling.random_points import MAX_SAMPLES, MAX_SEED
+from rocking.survey.sensitivity import sensitivity
 from rocking.survey.store.export import counts, tables, to_netcdf
 
 __all__ = [
@@ -30,6 +33,8 @@ __all__ = [
     "classify_with_anchor",
     "cores",
     "counts",
+    "fragility",
+    "incremental_dynamic_analysis",
     "overturning_amplitude",
     "overturning_set",
     "overturning_spectrum",
@@ -39,6 +44,7 @@ __all__ = [
     "repeatability_map",
     "rocking_spectrum",
     "safe_basin",
+    "sensitivity",
     "tables",
     "to_netcdf",
 ]

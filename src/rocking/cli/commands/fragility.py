@@ -1,0 +1,100 @@
+"""`rocking fragility`."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from rocking.cli.input import axis, fragility_request, record_request
+from rocking.cli.input import options as ask
+
+EXAMPLES = """\
+# The record that comes with the package; add files of your own after it.
+rocking fragility example --height 2 --width 0.5 --pga-g 0.1:1.5:15 \\
+    --limit 0.5 --plot fragility.png
+# An uncertain block: 20 samples per record.
+rocking fragility example --height 2 --width 0.5 --pga-g 0.1:1.5:15 \\
+    --samples 20 --width-spread 0.1 --csv fragility.csv"""
+
+Files = Annotated[
+    list[Path],
+    typer.Argument(
+        metavar="FILE...",
+        parser=record_request.record_path,
+        help="Record files; the format is recognised by the content. `example` is the record that comes with the package.",
+    ),
+]
+PgaG = Annotated[
+    Any, axis.axis_option("--pga-g", "Peaks to which each record is scaled, in units of g; START:STOP:COUNT.")
+]
+Limit = Annotated[
+    list[float] | None,
+    ask.number_option(
+        "--limit", "Limit of |Θ|, in units of θcr; may be repeated. Overturning always follows."
+    ),
+]
+Samples = Annotated[
+    ask.Number,
+    ask.number_option("--samples", "Number of samples of an uncertain block per record. Default: 1."),
+]
+HeightSpread = Annotated[
+    ask.Number, ask.number_option("--height-spread", "Standard deviation of ln H. Default: 0.")
+]
+WidthSpread = Annotated[
+    ask.Number, ask.number_option("--width-spread", "Standard deviation of ln B. Default: 0.")
+]
+RestitutionSpread = Annotated[
+    ask.Number,
+    ask.number_option(
+        "--restitution-spread", "Half the width of the uniform distribution of e about its value. Default: 0."
+    ),
+]
+Replicates = Annotated[
+    ask.Number, ask.number_option("--replicates", "Number of bootstrap replicates. Default: 1,000.")
+]
+Seed = Annotated[ask.Number, ask.number_option("--seed", "Random seed of samples and bootstrap. Default: 0.")]
+Plot = Annotated[
+    Path | None,
+    ask.file_option("--plot", "Plot the probabilities with intervals and lognormal fits (.png .svg .pdf)."),
+]
+Csv = Annotated[
+    Path | None, ask.file_option("--csv", "Write the probabilities and their intervals as a table (.csv).")
+]
+
+
+@ask.with_options("height", "width", "restitution")
+def fragility(
+    context: typer.Context,
+    files: Files,
+    pga_g: PgaG = None,
+    limit: Limit = None,
+    samples: Samples = None,
+    height_spread: HeightSpread = None,
+    width_spread: WidthSpread = None,
+    restitution_spread: RestitutionSpread = None,
+    replicates: Replicates = None,
+    seed: Seed = None,
+    plot: Plot = None,
+    csv: Csv = None,
+    netcdf: ask.SurveyNetcdf = None,
+    json: ask.Json = False,
+    **shared: Any,
+) -> None:
+    """Estimate fragility curves of a block under ground motions.
+
+    A curve is the probability of overturning, or of exceeding a limit of the angle, over the peak ground acceleration.
+
+    All intervals are at 95 % and clustered by record: runs of the same record are not independent. AXIS is START:STOP:COUNT:
+    COUNT evenly spaced values, both ends included.
+    """
+    from rocking.cli.output.files import check_apart, check_files
+    from rocking.cli.reports import fragility as report
+
+    asked = {"plot": plot, "csv": csv, "netcdf": netcdf}
+    check_apart(asked)
+    written = check_files(asked)
+    found, doubts = fragility_request.compute(context.params)
+    report.write(found, written)
+    report.show(found, doubts, list(written.values()), as_json=json)

@@ -1,0 +1,145 @@
+"""Incremental dynamic analysis: each ground motion scaled to each level of an intensity measure."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable
+from concurrent.futures import Executor
+from typing import TYPE_CHECKING, Any
+
+from rocking.model import (
+    Block,
+    GroundMotion,
+    IncrementalDynamicAnalysis,
+    RecordSet,
+    block_attributes,
+    instance,
+    record_set,
+    refusal,
+)
+from rocking.survey.engine.run_survey import run_survey
+from rocking.survey.measures.ending import ending
+from rocking.survey.motion_spec import MotionSpec, motion_question
+from rocking.survey.spec import is_axis
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+TITLE = "Incremental dynamic analysis of a free-standing block under ground motions"
+
+
+def incremental_dynamic_analysis(
+    records: RecordSet | GroundMotion | Iterable[GroundMotion],
+    block: Block,
+    levels: Any,
+    *,
+    intensity: str = "scale",
+    angle: float = 0.0,
+    polarity: float = 1.0,
+    store: str | os.PathLike[str] | None = None,
+    executor: Executor | None = None,
+    progress: bool = False,
+    repair: bool = False,
+) -> IncrementalDynamicAnalysis:
+    """Compute the peak of a block under each ground motion, scaled to each level of an intensity measure.
+
+    The peak is not monotone in the level: a block may stand at a higher level than one that overturns it. So all levels are
+    computed, and none is skipped after the first overturning.
+
+    Parameters
+    ----------
+    records : RecordSet, GroundMotion or iterable of GroundMotion
+        Ground motions.
+    block : Block
+        Block.
+    levels : array (n,)
+        Levels of the intensity measure, ascending, two at least.
+    intensity : str
+        Intensity measure of the levels, as in `rocking_spectrum`. Default: "scale", the factor of each record.
+    angle : float
+        Initial angle Θ in units of θcr. Default: 0, at rest.
+    polarity : float
+        1, or -1 for the opposite direction of the motion. Default: 1.
+    store, executor, progress, repair
+        As in `parametric_map`.
+
+    Returns
+    -------
+    IncrementalDynamicAnalysis
+        `.dataset`, `.fractiles()` and `.scatter`; `print` shows one line.
+
+    Raises
+    ------
+    TypeError, ValueError, OSError
+        As in `parametric_map`, or if `angle` or `polarity` is an array.
+
+    See Also
+    --------
+    fragility : Probability of overturning over the level.
+    rocking_spectrum : Blocks of many sizes.
+    rocking.plot.incremental_dynamic_analysis : Plot the curves.
+
+    References
+    ----------
+    Vamvatsikos & Cornell, Earthquake Eng. Struct. Dyn. 31, 491–514 (2002).
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import rocking as rk
+    >>> records = rk.synthetic_ground_motions(6, seed=1)
+    >>> found = rk.incremental_dynamic_analysis(records, rk.Block(2.0, 0.5), np.linspace(0.5, 3, 6))
+    >>> found.dataset.peak.dims, found.fractiles().dims
+    (('record', 'scale'), ('fractile', 'scale'))
+    """
+    chosen = record_set(records)
+    asked = block_question(chosen, block, levels, intensity, angle=angle, polarity=polarity)
+    found = run_survey(asked, ending(TITLE), store, executor, progress=progress, repair=repair)
+    return IncrementalDynamicAnalysis(of_block(found, chosen, block), block)
+
+
+def block_question(
+    records: RecordSet,
+    block: Block,
+    levels: Any,
+    intensity: str,
+    *,
+    angle: float = 0.0,
+    polarity: float = 1.0,
+) -> MotionSpec:
+    """Return the survey of one block over records and levels; TypeError or ValueError if an argument is invalid."""
+    instance("block", block, Block)
+    for name, value in {"angle": angle, "polarity": polarity}.items():
+        if is_axis(value):
+            raise TypeError(refusal(name, "be one number", value))
+    if not is_axis(levels):
+        remedy = "such as np.linspace(1, 10, 19)"
+        raise TypeError(refusal("levels", "be an array of levels, ascending", levels, remedy))
+    try:
+        return motion_question(
+            records,
+            {
+                "size": block.radius,
+                "slenderness": block.critical_angle,
+                "restitution": block.restitution,
+                "angle": angle,
+                "polarity": polarity,
+                "scale": levels,
+            },
+            intensity=intensity,
+            inertia_ratio=block.inertia_ratio,
+        )
+    except (TypeError, ValueError) as error:
+        text = str(error)
+        if text.startswith("scale must"):
+            raise type(error)(text.replace("scale", "levels", 1)) from None
+        raise
+
+
+def of_block(found: xr.Dataset, records: RecordSet, block: Block) -> xr.Dataset:
+    """Return a dataset that always has the dimension `record`, with the names of the records and the block."""
+    if "record" not in found.dims:
+        found = found.expand_dims(record=[0.0])
+    told = {"long_name": "record"}
+    named = found.assign_coords(name=("record", list(records.names), told))
+    return named.assign_attrs(block_attributes(block))

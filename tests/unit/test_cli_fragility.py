@@ -1,0 +1,125 @@
+"""`rocking fragility`: the numbers of the function, files and errors."""
+
+import csv
+import json
+
+import numpy as np
+import pytest
+import xarray as xr
+
+import rocking as rk
+from rocking.records import EXAMPLE_FILE
+
+BLOCK = rk.Block(2.0, 0.5)
+LEVELS = np.linspace(0.2, 1.4, 7)
+LINE = "--height 2 --width 0.5 --pga-g 0.2:1.4:7"
+
+
+@pytest.fixture(autouse=True)
+def records(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    motions = rk.synthetic_ground_motions(10, seed=5, duration=10.0)
+    for number, motion in enumerate(motions):
+        rows = "".join(
+            f"{t!r}, {a!r}\n"
+            for t, a in zip(motion.times.tolist(), motion.acceleration.tolist(), strict=True)
+        )
+        (tmp_path / f"r{number}.csv").write_text("time (s), acceleration (m/s²)\n" + rows, encoding="utf-8")
+    return motions
+
+
+NAMES = " ".join(f"r{number}.csv" for number in range(10))
+
+
+def read():
+    return [rk.read_ground_motion(f"r{number}.csv") for number in range(10)]
+
+
+def test_report_has_the_numbers_of_the_function(rocking):
+    code, message, out = rocking(f"fragility {NAMES} {LINE} --limit 0.5")
+    assert (code, message) == (0, "")
+    found = rk.fragility(read(), BLOCK, LEVELS, intensity="pga-g", limits=0.5)
+    lines = out.splitlines()
+    assert lines[0] == str(found)
+    assert lines[1].split("   ")[0] == "PGA (g)"
+    assert "|θ| > 7.02° = 0.5 θcr" in lines[1]
+    fit = found.fit()
+    assert f"{fit.median:.3g} ({fit.median_low:.3g}–{fit.median_high:.3g})" in lines[-2]
+    assert lines[-1].startswith("dispersion")
+
+
+def test_files_hold_the_probabilities(rocking, tmp_path):
+    line = f"fragility {NAMES} example {LINE} --limit 0.1 --limit 0.5 --plot f.png --csv f.csv --netcdf f.nc --json"
+    code, message, out = rocking(line)
+    assert (code, message) == (0, "")
+    found = rk.fragility(
+        [*read(), rk.read_ground_motion(EXAMPLE_FILE)], BLOCK, LEVELS, intensity="pga-g", limits=[0.1, 0.5]
+    )
+    data = found.dataset
+    told = json.loads(out)
+    assert told["pga_g"] == LEVELS.tolist()
+    assert told["records"][-1] == "San Francisco, 1295 Shafter, F, 360°"
+    assert [curve["fraction"] for curve in told["curves"]] == data.fraction.values.tolist()
+    assert [curve["limit"] for curve in told["curves"]] == [0.1, 0.5, None]
+    assert told["curves"][2]["median"] == found.fit().median
+    assert told["files"] == ["f.png", "f.csv", "f.nc"]
+    with (tmp_path / "f.csv").open(encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    assert len(rows) == 21
+    assert [float(row["fraction_high"]) for row in rows] == data.fraction_high.values.ravel().tolist()
+    assert float(rows[7]["limit of |θ| [°]"]) == BLOCK.degrees(0.5)
+    assert (tmp_path / "f.png").read_bytes().startswith(b"\x89PNG")
+    with xr.open_dataset("f.nc", engine="h5netcdf") as kept:
+        assert np.array_equal(kept.peak, data.peak)
+        assert kept.attrs["records_sha256"] == data.attrs["records_sha256"]
+
+
+def test_an_uncertain_block_is_that_of_the_function(rocking):
+    spread = "--samples 3 --width-spread 0.1 --height-spread 0.05 --restitution-spread 0.02 --seed 4 --replicates 200"
+    code, _, out = rocking(f"fragility {NAMES} {LINE} {spread}")
+    assert code == 0
+    found = rk.fragility(
+        read(),
+        BLOCK,
+        LEVELS,
+        intensity="pga-g",
+        limits=(),
+        samples=3,
+        width_spread=0.1,
+        height_spread=0.05,
+        restitution_spread=0.02,
+        seed=4,
+        replicates=200,
+    )
+    assert out.splitlines()[0] == str(found)
+
+
+def test_one_record_is_warned_of(rocking):
+    code, _, out = rocking(f"fragility example {LINE}")
+    assert code == 0
+    assert "warning: 1 record can hardly say how much records differ: use 10 or more" in out
+
+
+@pytest.mark.parametrize(
+    "line, message",
+    [
+        (f"example example {LINE}", "FILE must hold independent motions; got "),
+        (f"r0.csv r0.csv {LINE}", "FILE must hold independent motions; got "),
+        ("r0.csv --height 2 --width 0.5 --pga-g 0.5", "--pga-g must be an axis, START:STOP:COUNT; got 0.5"),
+        ("r0.csv --height 2 --width 0.5", "--pga-g must be an axis, START:STOP:COUNT; got nothing"),
+        ("r0.csv --height 2 --pga-g 0.1:1:5", "missing --width: give --height and --width"),
+        (f"r0.csv {LINE} --limit 0.5 --limit 0.1", "--limit must hold numbers in (0, 10], ascending"),
+        (
+            f"r0.csv {LINE} --samples 3",
+            "--samples must be 1 for a certain block; got 3 (give --height-spread",
+        ),
+        (f"none.csv {LINE}", "none.csv: cannot be read"),
+        (f"r0.csv {LINE} --plot f.gif", "--plot must end in .png, .svg, .pdf"),
+        (f"r0.csv {LINE} --csv f.csv --netcdf f.csv", "--csv and --netcdf must differ"),
+    ],
+)
+def test_bad_input_is_refused_in_one_line(rocking, line, message):
+    code, told, out = rocking(f"fragility {line}")
+    assert (code, out) == (2, "")
+    assert told.startswith(message)
+    assert "\n" not in told
