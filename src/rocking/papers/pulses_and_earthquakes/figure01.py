@@ -4,8 +4,8 @@ A is the amplitude in units of g θcr, Ω the frequency of the pulse over the fr
 simulated block overturns, on a grid of 90 × 90 points. Blue: closed form of mode 2, Zhang & Makris (2001), Eq. (47),
 above which the block overturns without an impact. Orange: both ends of mode 1, with an impact after the pulse; the
 dashed part of the lower end is the lowest amplitude of the simulation, where the impact falls into the pulse. Black
-marks: printed numbers of Zhang & Makris at Ω = 5 and at 15.7 rad/s, hollow for the block that stands, filled for the
-block that overturns. The dotted line is the printed end of mode 1, Ω = 6.59. Green: 1 + Ω/6, Makris & Roussos (2000).
+marks: printed numbers of Zhang & Makris at Ω = 5 and at 15.7 rad/s, rings for the block that stands, dots for the block
+that overturns. The dotted line is the printed end of mode 1, Ω = 6.59. Green: 1 + Ω/6, Makris & Roussos (2000).
 
 Difference from the paper: the printed numbers differ from the exact boundaries in the third digit, which the figure
 does not show.
@@ -65,8 +65,12 @@ def draw() -> Figure:
     )
     line = np.linspace(FREQUENCIES[0], 3.0, 2)
     ax.plot(line, 1 + line / 6, color=GREEN, lw=1.2, label=r"$1 + \Omega/6$")
-    for points, face, name in ((STANDS, "white", "printed: stands"), (FALLS, INK, "printed: overturns")):
-        ax.plot(*zip(*points, strict=True), "o", ms=4, mfc=face, mec=INK, mew=0.8, label=name)
+    # Numbers of a pair are closer than a mark is wide: the ring surrounds the dot.
+    for points, face, size, name in (
+        (STANDS, "none", 7.0, "printed: stands"),
+        (FALLS, INK, 3.0, "printed: overturns"),
+    ):
+        ax.plot(*zip(*points, strict=True), "o", ms=size, mfc=face, mec=INK, mew=0.8, label=name)
     ax.axvline(PRINTED_END, color=INK, lw=0.8, ls=":")
     ax.set(xlim=(FREQUENCIES[0], FREQUENCIES[-1]), ylim=(0.5, 14.0))
     finish(ax, r"frequency $\Omega$ of the pulse", "amplitude $A$")

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 SMALL_ANGLE = "needs the block without a small angle"
 NO_RECORD = "needs a record that does not come with the package"
-INTEGRATION = "the printed numbers come from numerical integration, and the exact threshold lies beyond the printed pair by less than"
+BEYOND = "the exact threshold lies beyond the printed pair by less than"
+INTEGRATION = f"the printed numbers come from numerical integration, and {BEYOND}"
 THIRD_DIGIT = 0.01
 """One unit of the last digit of Zhang & Makris (2001), whose numbers have three digits."""
 IN_G = 1e-3

@@ -29,7 +29,7 @@ def falls(kind: str, amplitude: float, frequency: float, restitution: float) -> 
     return run(kind, amplitude, frequency, restitution).outcome is rk.Outcome.OVERTURNED
 
 
-def at_once(kind: str, amplitude: float, frequency: float) -> bool:
+def at_once(kind: str, frequency: float, amplitude: float) -> bool:
     """Return whether a pulse overturns the block without an impact."""
     motion = run(kind, amplitude, frequency, 0.0)
     return motion.outcome is rk.Outcome.OVERTURNED and motion.impacts == 0
@@ -45,14 +45,17 @@ def bisected(question: Callable[[float], bool], no: float, yes: float) -> float:
     return yes
 
 
+def threshold(kind: str, frequency: float, restitution: float, no: float, yes: float) -> float:
+    """Return the amplitude between `no` and `yes` at which a pulse begins or ceases to overturn the block."""
+    return bisected(lambda amplitude: falls(kind, amplitude, frequency, restitution), no, yes)
+
+
 def lowest(kind: str, frequency: float, restitution: float) -> float:
     """Return the lowest amplitude that overturns the block, as a search in steps finds it."""
     amplitude = 1.0
     while not falls(kind, amplitude, frequency, restitution):
         amplitude += STEP
-    return bisected(
-        lambda value: falls(kind, value, frequency, restitution), max(amplitude - STEP, 1.0), amplitude
-    )
+    return threshold(kind, frequency, restitution, max(amplitude - STEP, 1.0), amplitude)
 
 
 def lowest_of(kind: str, frequencies: np.ndarray, restitution: float) -> np.ndarray:

@@ -49,11 +49,7 @@ def rectangular() -> Finding:
     for duration in (0.3, 0.7, 1.0, 2.0, 4.0):
         a = rk.theory.rectangular_pulse_amplitude(duration)
         worst_form = max(worst_form, abs(math.acosh(1 + 1 / (2 * a * (a - 1))) / duration - 1))
-        found = thresholds.bisected(
-            lambda value, rate=math.pi / duration: thresholds.falls("rectangular", value, rate, 0.9),
-            1.0,
-            2 * a,
-        )
+        found = thresholds.threshold("rectangular", math.pi / duration, 0.9, 1.0, 2 * a)
         worst_run = max(worst_run, abs(found / a - 1))
     return Finding(
         worst_form < ROUNDING and worst_run < BISECTED,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import partial
 
 import rocking as rk
 from rocking.papers.pulses_and_earthquakes import thresholds
@@ -22,9 +23,7 @@ THIRD = f"{INTEGRATION} one unit of the third digit"
 
 
 def _pair(no: float, yes: float, stands: float, overturns: float) -> Finding:
-    found = thresholds.bisected(
-        lambda amplitude: thresholds.falls("one-sine", amplitude, FREQUENCY, E), no, yes
-    )
+    found = thresholds.threshold("one-sine", FREQUENCY, E, no, yes)
     apart = outside(found, stands, overturns)
     return Finding(
         apart == 0.0,
@@ -74,9 +73,7 @@ def mode_2() -> Finding:
     worst = 0.0
     for rate in (1.0, 3.0, 5.0, 8.0):
         edge = rk.theory.one_sine_pulse_amplitude(math.tau / rate)
-        found = thresholds.bisected(
-            lambda amplitude, rate=rate: thresholds.at_once("one-sine", amplitude, rate), 1.0, 2 * edge
-        )
+        found = thresholds.bisected(partial(thresholds.at_once, "one-sine", rate), 1.0, 2 * edge)
         worst = max(worst, abs(found / edge - 1))
     return Finding(
         worst < 1e-10,
@@ -88,10 +85,8 @@ def mode_2() -> Finding:
 @CHAPTER.claim("Pulse of 15.7 rad/s", qualified=THIRD)
 def fast_mode_2() -> Finding:
     """Slender block, p = 2.14 1/s, slenderness 0.25: a sine of 15.7 rad/s overturns at 3.24 g, by mode 2."""
-    found = SLENDERNESS * thresholds.bisected(
-        lambda amplitude: thresholds.falls("one-sine", amplitude, FAST, E),
-        0.9 * 3.24 / SLENDERNESS,
-        1.1 * 3.24 / SLENDERNESS,
+    found = SLENDERNESS * thresholds.threshold(
+        "one-sine", FAST, E, 0.9 * 3.24 / SLENDERNESS, 1.1 * 3.24 / SLENDERNESS
     )
     motion = thresholds.run("one-sine", 1.001 * found / SLENDERNESS, FAST, E)
     apart = outside(found, 3.235, 3.245)
