@@ -239,7 +239,7 @@ def _root(rising: Callable[[Any], Any], shape: tuple[int, ...]) -> Any:
 
 
 def _end_of_pulse(psi: float, rate: float) -> tuple[float, float]:
-    """Return u + u' − 1 and u − u' − 1 at the end of one sine, for a lift-off at the phase ψ, where A = 1/sin ψ."""
+    """Return u + u' − 1 and u − u' − 1 at the end of one sine; ψ is the phase of the lift-off. A = 1/sin ψ."""
     beta, time = 1.0 / (math.sin(psi) * (1.0 + rate * rate)), (math.tau - psi) / rate
     growing = -1.0 + beta * (math.sin(psi) + rate * math.cos(psi))
     decaying = -1.0 + beta * (math.sin(psi) - rate * math.cos(psi))

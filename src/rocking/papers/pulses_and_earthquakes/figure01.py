@@ -1,14 +1,14 @@
 """One sine pulse: amplitudes that overturn the slender block over the frequency of the pulse, e = 0.9.
 
-A is the amplitude in units of g θcr, Ω the frequency of the pulse over the frequency parameter of the block. Grey: the
-simulated block overturns, on a grid of 90 × 90 points. Blue: closed form of mode 2, Zhang & Makris (2001), Eq. (47),
-above which the block overturns without an impact. Orange: both ends of mode 1, with an impact after the pulse; the
-dashed part of the lower end is the lowest amplitude of the simulation, where the impact falls into the pulse. Black
-marks: printed numbers of Zhang & Makris at Ω = 5 and at 15.7 rad/s, rings for the block that stands, dots for the block
-that overturns. The dotted line is the printed end of mode 1, Ω = 6.59. Green: 1 + Ω/6, Makris & Roussos (2000).
+A is the amplitude in units of gθcr, Ω the frequency of the pulse over the frequency parameter of the block. Grey: the
+simulated block overturns, on a grid of 90 × 90 points. Blue: closed form of mode 2, Zhang & Makris (2001), Eq. (47).
+Above it the block overturns without an impact. Orange: both ends of mode 1, with an impact after the pulse. Dashed: the
+lowest amplitude of the simulation, where the impact falls into the pulse. Black: printed numbers of Zhang & Makris at
+Ω = 5 and at 15.7 rad/s. Rings: the block stands. Dots: it overturns. The dotted line is the printed end
+of mode 1, Ω = 6.59. Green: 1 + Ω/6, Makris & Roussos (2000).
 
-Difference from the paper: the printed numbers differ from the exact boundaries in the third digit, which the figure
-does not show.
+Difference from the paper: the printed numbers differ from the exact boundaries in the third digit. The difference is
+too small to be seen here.
 """
 
 import math

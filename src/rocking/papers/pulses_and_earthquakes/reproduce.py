@@ -16,7 +16,7 @@ Formulas and numbers of Housner (1963), Shi et al. (1996), Makris & Roussos (200
 (2003), recomputed with rocking {version} for the slender block. Each verdict was computed when this page was generated. The claims are
 paraphrased; their numbers and locations are those of the papers. The explanations after a verdict are written by hand. If the
 computation does not support an explanation, the verdict is “not confirmed”. Rows that need the block without a small angle are not
-judged; the slender block's number stands beside them. e is the ratio of the velocities after and before an impact, A = a/(gθcr) the
+judged; the slender block's number stands next to them. e is the ratio of the velocities after and before an impact. A = a/(gθcr) is the
 normalised acceleration, Ω the frequency of a pulse over the frequency parameter of the block."""
 
 

@@ -44,7 +44,7 @@ def fractal() -> Finding:
 
 @CHAPTER.claim("Rocking spectra")
 def larger_is_not_safer() -> Finding:
-    """Of two blocks with the same slenderness the larger one may overturn where the smaller one stands."""
+    """A larger block may overturn where a smaller one of the same slenderness stands."""
     found = records.spectrum().transpose("slenderness", "size")
     over = records.fallen(found)
     order = np.argsort(found["size"].values)

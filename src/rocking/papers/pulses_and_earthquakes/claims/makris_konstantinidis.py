@@ -42,7 +42,7 @@ def figure_4() -> Finding:
 
 @CHAPTER.claim("Fig. 4", not_judged=SMALL_ANGLE)
 def figure_4_peaks() -> Finding:
-    """The same block, full equation: the next peak is −0.38 of the slenderness at 0.310 g and −0.86 at 0.315 g."""
+    """Full equation, as before: the next peak is −0.38 of the slenderness at 0.310 g and −0.86 at 0.315 g."""
     found = [
         thresholds.run("one-cosine", value / ANGLE, math.tau / DURATION, _restitution(ANGLE)).peak
         for value in (0.300, 0.305)
