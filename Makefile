@@ -23,9 +23,10 @@ setup: ## make .venv with the pinned versions, or bring it up to date, and compi
 	@scripts/setup.sh
 	@$(compile) --background
 
-reproduce: setup ## report on Yim & Lin (1991), all figures and claims: results/yim-lin-1991/index.html
+reproduce: setup ## reports on Yim & Lin (1991), and on pulses and earthquakes: results/*/index.html
 	@$(print)
 	@$(bin)/rocking paper
+	@$(bin)/rocking paper pulses-and-earthquakes
 
 explore: setup ## interactive explorer in the browser; port=N selects the port
 	@$(bin)/rocking explore $(if $(port),--port $(port))
@@ -73,7 +74,7 @@ docs: ## the pages, with all code blocks executed: build/docs/index.html
 	@$(bin)/python -m sphinx --quiet --fail-on-warning --keep-going -d build/docs-pages docs build/docs
 	@echo wrote build/docs/index.html
 
-site: reproduce docs ## the report of Yim & Lin (1991), then the pages with it: minutes longer than docs
+site: reproduce docs ## the reports, then the pages with them: minutes longer than docs
 
 wheel: setup ## wheel with the machine code of all kernels: dist/
 	@$(bin)/python scripts/wheel.py

@@ -1,6 +1,6 @@
-"""Publication of the report of the paper: ``{report}`` links to it, or says how it is made.
+"""Publication of the reports: ``{report} NAME`` links to one of them, or says how it is made.
 
-``make reproduce`` takes minutes, so the pages do not make the report themselves. They take a copy of the one that is there.
+``make reproduce`` takes minutes, so the pages do not make the reports themselves. They take copies of those that are there.
 """
 
 import shutil
@@ -10,23 +10,35 @@ from docutils import nodes
 from docutils.parsers.rst import Directive
 from executed import ROOT
 
-MADE = ROOT / "results" / "yim-lin-1991"
+from rocking.papers import PAPERS
+
+MADE = ROOT / "results"
 PAGE, TWIN = "index.html", "index.pdf"
-PUBLISHED = "yim-lin-1991"  # folder in the built pages
+REPORTS = tuple(PAPERS)  # names of folders, also in the built pages
 
 
-def found():
-    """Return the files of the report that are there, page first; none without the page."""
-    return [MADE / name for name in (PAGE, TWIN) if (MADE / name).exists()] if (MADE / PAGE).exists() else []
+def found(report):
+    """Return the files of a report that are there, page first; none without the page."""
+    folder = MADE / report
+    return (
+        [folder / name for name in (PAGE, TWIN) if (folder / name).exists()]
+        if (folder / PAGE).exists()
+        else []
+    )
 
 
 class Report(Directive):
-    """Links to the report, as page and as PDF."""
+    """Links to a report, as page and as PDF."""
+
+    required_arguments = 1
 
     def run(self):
         environment = self.state.document.settings.env
-        environment.note_dependency(str(MADE / PAGE))
-        files = found()
+        (report,) = self.arguments
+        if report not in REPORTS:
+            raise self.error(f"{report} is not among the reports {', '.join(REPORTS)}")
+        environment.note_dependency(str(MADE / report / PAGE))
+        files = found(report)
         paragraph = nodes.paragraph(classes=["report"])
         if not files:
             paragraph += [
@@ -36,18 +48,19 @@ class Report(Directive):
             ]
         for path, title in zip(files, ("Open the report", "Open the PDF"), strict=False):
             paragraph += [nodes.Text(" · ")] if len(paragraph) else []
-            paragraph += nodes.reference("", title, internal=True, refuri=f"{PUBLISHED}/{path.name}")
+            paragraph += nodes.reference("", title, internal=True, refuri=f"{report}/{path.name}")
         return [paragraph]
 
 
 def publish(app, failure):
-    """Copy the report into the built pages, and remove the copy of a report that is no longer there."""
+    """Copy the reports into the built pages, and remove the copy of a report that is no longer there."""
     if failure is None and app.builder.format == "html":
-        folder = Path(app.outdir) / PUBLISHED
-        shutil.rmtree(folder, ignore_errors=True)
-        for path in found():
-            folder.mkdir(exist_ok=True)
-            shutil.copy2(path, folder)
+        for report in REPORTS:
+            folder = Path(app.outdir) / report
+            shutil.rmtree(folder, ignore_errors=True)
+            for path in found(report):
+                folder.mkdir(exist_ok=True)
+                shutil.copy2(path, folder)
 
 
 def setup(app):

@@ -7,8 +7,9 @@ from types import SimpleNamespace
 import pytest
 
 import rocking as rk
-from rocking.papers.yim_lin_1991 import cached_surveys, claim
-from rocking.papers.yim_lin_1991.claim import Chapter, Finding, Standing
+from rocking.papers.report import claim
+from rocking.papers.report.claim import Chapter, Finding, Standing
+from rocking.papers.yim_lin_1991 import cached_surveys
 from rocking.papers.yim_lin_1991.claims import CHAPTERS
 
 PLACES = " | ".join(each.place for chapter in CHAPTERS for each in chapter)

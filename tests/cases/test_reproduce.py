@@ -12,14 +12,15 @@ from matplotlib.figure import Figure
 from PIL import Image
 
 import rocking as rk
-from rocking.papers.yim_lin_1991 import cases, report, reproduce
-from rocking.papers.yim_lin_1991.claim import Standing
+from rocking.papers.report import page
+from rocking.papers.report.claim import Standing
+from rocking.papers.yim_lin_1991 import cases, reproduce
 from rocking.papers.yim_lin_1991.claims import CHAPTERS
 
 NAMES = ["01", "02", "03", "04", "05", "06", "07", "08", "09", "10", "11", "12", "13a", "13b"]
 TABLES = [f"table-{name}{kind}" for name in ("exponents", "claims") for kind in (".csv", ".md")]
 BEYOND = ["chaos", "cascade", "crisis", "threshold", "coexistence", "zoom"]
-PAGE = ["index.html", *(["index.pdf"] if report.can_print() else [])]
+PAGE = ["index.html", *(["index.pdf"] if page.can_print() else [])]
 
 
 @pytest.fixture

@@ -15,8 +15,8 @@ import pytest
 import rocking as rk
 from rocking.cli.main import main
 from rocking.model import ordinal
+from rocking.papers.report.claim import Chapter, Finding
 from rocking.papers.yim_lin_1991 import reproduce
-from rocking.papers.yim_lin_1991.claim import Chapter, Finding
 
 NORMALISED = "--amplitude 2 --period 1 --restitution 0.925"
 SI = "--height 2 --width 0.5 --acceleration 2.9 --frequency-hz 1.8"
@@ -345,6 +345,23 @@ def test_paper_writes_the_figures_asked_for(rocking, tmp_path):
         "figure-01.svg",
     ]
     assert "wrote results/new/figure-01.svg" in out
+
+
+def test_paper_lists_its_reports_and_takes_their_names(rocking, tmp_path):
+    code, _, out = rocking("paper --list")
+    assert code == 0
+    assert [line.split()[0] for line in out.splitlines()] == ["yim-lin-1991", "pulses-and-earthquakes"]
+    assert not list(tmp_path.iterdir())
+    for name in ("yim-lin-1991", "pulses-and-earthquakes"):
+        number = {"yim-lin-1991": 1, "pulses-and-earthquakes": 2}[name]
+        assert rocking(f"paper {name} {number}")[0] == 0
+        assert (tmp_path / "results" / name / f"figure-{number:02}.png").exists()
+
+
+def test_name_of_a_report_stands_first(rocking):
+    code, said, _ = rocking("paper 1 pulses-and-earthquakes")
+    assert code == 2
+    assert said.endswith("got 'pulses-and-earthquakes'")
 
 
 def three_claims():

@@ -193,9 +193,9 @@ def test_every_plot_function_has_a_picture_below_its_entry():
 
 def test_the_gallery_shows_every_plot_example_and_figure():
     shown = [kind for kind, _ in fences(DOCS / "gallery.md") if kind.startswith("{thumbnails}")]
-    assert shown == [
-        f"{{thumbnails}} {page}" for page in ("reference-plot", "gallery-examples", "gallery-yim-lin-1991")
-    ]
+    galleries = ("examples", "yim-lin-1991", "pulses-and-earthquakes")
+    pages = ("reference-plot", *(f"gallery-{name}" for name in galleries))
+    assert shown == [f"{{thumbnails}} {page}" for page in pages]
     pages = {
         kind.split()[1]: page.stem
         for page in PAGES
@@ -203,7 +203,8 @@ def test_the_gallery_shows_every_plot_example_and_figure():
         if kind.startswith("{script}")
     }
     assert {pages[name_of(script)] for script in EXAMPLES} == {"gallery-examples"}
-    assert {pages[name_of(script)] for script in FIGURES} == {"gallery-yim-lin-1991"}
+    for script in FIGURES:
+        assert pages[name_of(script)] == f"gallery-{script.parent.name.replace('_', '-')}"
 
 
 def test_every_public_function_names_related_functions():

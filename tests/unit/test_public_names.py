@@ -95,7 +95,7 @@ def test_citations_are_bibtex_with_balanced_braces():
     # a bibliography style prints a note, and does not print an annote
     assert " note = " not in text
     assert text.count(" annote = ") == text.count("\n@")
-    assert text.count("\n@article{") == 10
+    assert text.count("\n@article{") == 11
     assert f"version = {{{rocking.__version__}}}" in text
     for source in (
         "yim-lin-1991",
@@ -108,5 +108,9 @@ def test_citations_are_bibtex_with_balanced_braces():
         "das-2017",
         "mcdonald-1985",
         "wilson-1927",
+        "shi-1996",
+        "makris-roussos-2000",
+        "zhang-makris-2001",
+        "makris-konstantinidis-2003",
     ):
         assert f"{{{source}," in text

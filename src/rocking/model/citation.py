@@ -34,7 +34,7 @@ SOURCES = """@article{yim-lin-1991,
   title = {The behavior of inverted pendulum structures during earthquakes},
   journal = {Bulletin of the Seismological Society of America},
   volume = {53}, number = {2}, pages = {403--417}, year = {1963},
-  annote = {Coefficient of restitution and free rocking of a block.},
+  annote = {Coefficient of restitution, free rocking of a block, and overturning by one pulse.},
 }
 
 @article{hogan-1989,
@@ -43,6 +43,31 @@ SOURCES = """@article{yim-lin-1991,
   journal = {Proceedings of the Royal Society of London A},
   volume = {425}, number = {1869}, pages = {441--476}, year = {1989},
   annote = {Impact map and dynamics under harmonic forcing.},
+}
+
+@misc{shi-1996,
+  author = {Shi and others},
+  year = {1996},
+  annote = {Overturning of a block by a half sine.},
+}
+
+@misc{makris-roussos-2000,
+  author = {Makris and Roussos},
+  year = {2000},
+  annote = {Overturning by half sine, one sine and one cosine.},
+}
+
+@article{zhang-makris-2001,
+  author = {Zhang and Makris},
+  journal = {Journal of Engineering Mechanics},
+  volume = {127}, pages = {473--483}, year = {2001},
+  annote = {Two modes of overturning under one sine.},
+}
+
+@misc{makris-konstantinidis-2003,
+  author = {Makris and Konstantinidis},
+  year = {2003},
+  annote = {Rocking spectra.},
 }
 
 @book{guckenheimer-holmes-1983,

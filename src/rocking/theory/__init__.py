@@ -1,4 +1,4 @@
-"""Closed-form results: symmetric modes, Melnikov's function, exact tangency and free rocking, for numbers or arrays."""
+"""Closed-form results: symmetric modes, Melnikov's function, exact tangency, free rocking and pulses, for numbers or arrays."""
 
 from rocking.theory.dimensional import (
     physical_acceleration,
@@ -22,6 +22,13 @@ from rocking.theory.melnikov import (
     melnikov_function,
     melnikov_integral,
 )
+from rocking.theory.pulse_thresholds import (
+    half_sine_pulse_amplitude,
+    one_cosine_pulse_amplitude,
+    one_sine_impact_amplitudes,
+    one_sine_pulse_amplitude,
+    rectangular_pulse_amplitude,
+)
 from rocking.theory.symmetric_modes import (
     existence_amplitude,
     slower_mode_amplitude,
@@ -38,6 +45,7 @@ __all__ = [
     "free_peaks",
     "free_quarter_period",
     "free_time_to_rest",
+    "half_sine_pulse_amplitude",
     "heteroclinic_amplitude",
     "heteroclinic_orbit",
     "impact_loss",
@@ -45,11 +53,15 @@ __all__ = [
     "melnikov_amplitude",
     "melnikov_function",
     "melnikov_integral",
+    "one_cosine_pulse_amplitude",
+    "one_sine_impact_amplitudes",
+    "one_sine_pulse_amplitude",
     "physical_acceleration",
     "physical_critical_energy",
     "physical_damping",
     "physical_energy",
     "physical_heteroclinic_orbit",
+    "rectangular_pulse_amplitude",
     "saddle_orbit",
     "slower_mode_amplitude",
     "stable_manifold_velocity",

@@ -3,7 +3,7 @@
 One file a figure; `reproduce` writes them all.
 """
 
-from rocking.papers.yim_lin_1991.report import PAGE
+from rocking.papers.report.page import PAGE
 from rocking.papers.yim_lin_1991.reproduce import reproduce
 
 __all__ = ["PAGE", "reproduce"]

@@ -6,12 +6,9 @@ from collections.abc import Callable, Iterable
 from importlib import import_module
 from pathlib import Path
 
-import matplotlib.style
-
-import rocking as rk
-from rocking.model import check_folder
-from rocking.papers.yim_lin_1991 import beyond, report
-from rocking.papers.yim_lin_1991.claim import Chapter
+from rocking.papers.report import reproduction
+from rocking.papers.report.claim import Chapter
+from rocking.papers.yim_lin_1991 import beyond
 
 FIGURES = {
     "1": "01",
@@ -33,6 +30,14 @@ TABLES = ("exponents", "claims")
 ROOM = "rocking.papers.yim_lin_1991"
 # Figures with many points, which the page shows as PNG.
 PIXELS = ("6", "7", "10", "11", "13a", "13b", "cascade", "crisis", "coexistence", "zoom")
+
+
+TITLE = "Yim & Lin (1991), recomputed"
+LEAD = """\
+All figures and claims of S. C. S. Yim and H. Lin, Nonlinear impact and chaotic response of slender rocking objects,
+J. Eng. Mech. ASCE 117 (1991), recomputed with rocking {version}. Each verdict was computed when this page was generated. The claims
+are paraphrased; their numbers and locations are those of the paper. The explanations after a verdict are written by hand. If the
+computation does not support an explanation, the verdict is “not confirmed”."""
 
 
 def reproduce(
@@ -75,87 +80,20 @@ def reproduce(
     ...     [path.name for path in reproduce(folder, figures=[1])]
     ['figure-01.png', 'figure-01.svg']
     """
-    wanted = _known((*FIGURES, *TABLES, *beyond.NAMES) if figures is None else figures)
-    folder = check_folder("folder", folder)
-    folder.mkdir(parents=True, exist_ok=True)
-    steps = Steps(wanted, whole=figures is None, said=progress)
-    written: list[Path] = []
-    judgements: list[report.Judgement] = []
-    for name in wanted:
-        if name == "claims":
-            judgements = report.judged(_chapters(), steps.next)
-            written += report.write_claims(folder, judgements)
-            if summary is not None:
-                summary(report.summed_up(judgements))
-            continue
-        steps.next(name if name in (*TABLES, *beyond.NAMES) else f"figure {name}")
-        if name in TABLES:
-            written += import_module(f"{ROOM}.table_{name}").write(folder)
-        else:
-            written += _draw(name, folder)
-    if figures is None:
-        steps.next("page")
-        page = [
-            [report.pictured(_stem(name), _module(name), _shown(name, folder)) for name in names]
-            for names in (FIGURES, beyond.NAMES)
-        ]
-        written += report.write(folder, page[0], judgements, page[1])
-    steps.end()
-    return written
-
-
-class Steps:
-    """Progress report."""
-
-    def __init__(
-        self, wanted: list[str], whole: bool, said: Callable[[int, int, str], object] | None
-    ) -> None:
-        claims = sum(map(len, _chapters())) if "claims" in wanted else 1
-        self.done, self.total, self.name, self.said = -1, len(wanted) - 1 + claims + whole, "", said
-        if not wanted:
-            self.total = 0
-
-    def next(self, name: str) -> None:
-        """Report the start of the next step."""
-        self.done, self.name = self.done + 1, name
-        if self.said is not None:
-            self.said(self.done, self.total, name)
-
-    def end(self) -> None:
-        """Report the end of the last step."""
-        if self.said is not None:
-            self.said(self.total, self.total, self.name)
+    return reproduction.write(PAPER, folder, figures, progress, summary)
 
 
 def _chapters() -> tuple[Chapter, ...]:
     return import_module(f"{ROOM}.claims").CHAPTERS
 
 
-def _module(name: str) -> str:
-    return f"{ROOM}.figure{FIGURES[name]}" if name in FIGURES else f"{ROOM}.beyond.{name}"
-
-
-def _stem(name: str) -> str:
-    return f"figure-{name:>02}" if name in FIGURES else f"beyond-{name}"
-
-
-def _shown(name: str, folder: Path) -> Path:
-    """Return the file of a figure that the page shows."""
-    return folder / f"{_stem(name)}{'.png' if name in PIXELS else '.svg'}"
-
-
-def _draw(name: str, folder: Path) -> list[Path]:
-    # The bytes must not depend on the user's matplotlib settings.
-    with matplotlib.style.context("default"):
-        figure = import_module(_module(name)).draw()
-        return [rk.plot.save(figure, folder / f"{_stem(name)}{suffix}") for suffix in (".png", ".svg")]
-
-
-def _known(figures: Iterable[str | int]) -> list[str]:
-    names = [str(figure) for figure in figures]
-    for name in names:
-        if name not in (*FIGURES, *TABLES, *beyond.NAMES):
-            raise ValueError(
-                f"figures must be among {', '.join((*FIGURES, *TABLES, *beyond.NAMES))}; got {name!r}"
-            )
-    return names
+PAPER = reproduction.Paper(
+    title=TITLE,
+    lead=LEAD,
+    source="the paper",
+    figures={name: f"{ROOM}.figure{stem}" for name, stem in FIGURES.items()},
+    tables={name: f"{ROOM}.table_{name}" for name in TABLES},
+    beyond={name: f"{ROOM}.beyond.{name}" for name in beyond.NAMES},
+    pixels=PIXELS,
+    chapters=lambda: _chapters(),  # noqa: PLW0108 (looked up at each call)
+)

@@ -18,8 +18,8 @@ from attrs import asdict, fields, frozen
 
 import rocking as rk
 from rocking.model import plus_minus
+from rocking.papers.report.table_files import write_table
 from rocking.papers.yim_lin_1991.cases import BRACED, CHAOTIC, PERIODIC, QUASI_PERIODIC
-from rocking.papers.yim_lin_1991.table_files import write_table
 
 # Number and length of runs as in 1991, and their range of phases, which no experiment can resolve.
 SEA_STARTS, SEA_CYCLES, SEA_PHASES = 100, 2_000, 1e-7

@@ -14,7 +14,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, FuncFormatter
 
 import rocking as rk
-from rocking.papers.yim_lin_1991.claim import small
+from rocking.papers.report.claim import small
 
 CENTRE = (1.0914985576, 5.3120190162)
 WIDTHS = ((0.8, 4.0), (8e-4, 4e-3))

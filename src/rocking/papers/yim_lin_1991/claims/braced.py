@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 import rocking as rk
+from rocking.papers.report.claim import Chapter, Finding
 from rocking.papers.yim_lin_1991 import cached_surveys
 from rocking.papers.yim_lin_1991.cases import BRACED
-from rocking.papers.yim_lin_1991.claim import Chapter, Finding
 
 CHAPTER = Chapter("Braced system")
 HITS_PER_CYCLE = 1.0

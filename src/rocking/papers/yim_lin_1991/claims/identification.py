@@ -9,9 +9,9 @@ import numpy as np
 
 import rocking as rk
 from rocking.model import percent
+from rocking.papers.report.claim import Chapter, Finding, small
 from rocking.papers.yim_lin_1991 import cached_surveys, table_exponents
 from rocking.papers.yim_lin_1991.cases import CHAOTIC, PERIODIC, QUASI_PERIODIC
-from rocking.papers.yim_lin_1991.claim import Chapter, Finding, small
 
 CHAPTER = Chapter("Identification of responses")
 SUBHARMONIC = PERIODIC[1].system

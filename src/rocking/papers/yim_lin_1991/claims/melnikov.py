@@ -7,8 +7,8 @@ import math
 import numpy as np
 
 import rocking as rk
+from rocking.papers.report.claim import Chapter, Finding, agreement, small
 from rocking.papers.yim_lin_1991 import cached_surveys
-from rocking.papers.yim_lin_1991.claim import Chapter, Finding, agreement, small
 
 CHAPTER = Chapter("Condition for the existence of chaotic response")
 FREE = rk.System(rk.Harmonic(amplitude=0.0, period=1.0), restitution=1.0)

@@ -6,8 +6,8 @@ import numpy as np
 from scipy.integrate import solve_ivp
 
 import rocking as rk
+from rocking.papers.report.claim import Chapter, Finding, agreement, small
 from rocking.papers.yim_lin_1991.cases import PERIODIC
-from rocking.papers.yim_lin_1991.claim import Chapter, Finding, agreement, small
 
 CHAPTER = Chapter("Equations of motion")
 BLOCK = rk.Block(height=2.0, width=0.5, restitution=0.925)

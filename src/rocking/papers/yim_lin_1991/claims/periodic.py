@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 import rocking as rk
+from rocking.papers.report.claim import Chapter, Finding, small
 from rocking.papers.yim_lin_1991 import cached_surveys
 from rocking.papers.yim_lin_1991.cases import PERIODIC
-from rocking.papers.yim_lin_1991.claim import Chapter, Finding, small
 
 CHAPTER = Chapter("Existence and stability of periodic response")
 MODES = (1, 3, 5, 7)

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 import rocking as rk
+from rocking.papers.report.claim import Chapter, Finding, agreement
 from rocking.papers.yim_lin_1991 import cached_surveys, table_exponents
 from rocking.papers.yim_lin_1991.cases import CHAOTIC, OVERTURNING, PERIODIC, QUASI_PERIODIC, Case
-from rocking.papers.yim_lin_1991.claim import Chapter, Finding, agreement
 
 CHAPTER = Chapter("Classes of response")
 

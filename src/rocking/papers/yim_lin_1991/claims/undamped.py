@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 import rocking as rk
+from rocking.papers.report.claim import Chapter, Finding, small
 from rocking.papers.yim_lin_1991 import cached_surveys, table_exponents
-from rocking.papers.yim_lin_1991.claim import Chapter, Finding, small
 
 CHAPTER = Chapter("Response of undamped systems")
 

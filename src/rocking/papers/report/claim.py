@@ -60,6 +60,7 @@ class Standing(StrEnum):
     MISPRINT = "misprint"
     ERROR = "error in the paper"
     NOT_CONFIRMED = "not confirmed"
+    NOT_JUDGED = "not judged"
 
 
 @frozen
@@ -146,14 +147,20 @@ class Chapter(list[Claim]):
         self.title = title
 
     def claim(
-        self, place: str, qualified: str = "", misprint: str = "", error: str = ""
+        self, place: str, qualified: str = "", misprint: str = "", error: str = "", not_judged: str = ""
     ) -> Callable[[Callable[[], Finding]], Callable[[], Finding]]:
         """Register the decorated function as the test of the claim in its docstring.
 
         `qualified`, `misprint` or `error` is the explanation for a claim that does not hold as printed; its name selects
-        the verdict. The explanation counts only if the finding shows it.
+        the verdict. The explanation counts only if the finding shows it. `not_judged` is the reason why a claim cannot be
+        tested with this package; its finding shows that reason.
         """
-        explained = {Standing.QUALIFIED: qualified, Standing.MISPRINT: misprint, Standing.ERROR: error}
+        explained = {
+            Standing.QUALIFIED: qualified,
+            Standing.MISPRINT: misprint,
+            Standing.ERROR: error,
+            Standing.NOT_JUDGED: not_judged,
+        }
         otherwise, because = next(
             ((standing, text) for standing, text in explained.items() if text), (Standing.NOT_CONFIRMED, "")
         )

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from rocking.model import replacing
-from rocking.papers.yim_lin_1991.claim import typeset
+from rocking.papers.report.claim import typeset
 
 
 def write_table(folder: Path, name: str, header: Sequence[str], rows: Sequence[Sequence[str]]) -> list[Path]:

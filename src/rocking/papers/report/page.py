@@ -1,4 +1,4 @@
-"""Report on the paper as one HTML page and PDF: figures, claims with verdicts, and further results."""
+"""Report on a paper as one HTML page and PDF: figures, claims with verdicts, and further results."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ from attrs import frozen
 from PIL import Image
 
 from rocking.model import VERSION, replacing
-from rocking.papers.yim_lin_1991.claim import Chapter, Judged, Standing
-from rocking.papers.yim_lin_1991.table_files import write_table
+from rocking.papers.report.claim import Chapter, Judged, Standing
+from rocking.papers.report.table_files import write_table
 
 PAGE, TWIN = "index.html", "index.pdf"
 DOTS_PER_INCH = 200
@@ -75,11 +75,11 @@ def counted(judgements: Iterable[Judgement]) -> Mapping[Standing, int]:
     return {standing: found[standing] for standing in Standing}
 
 
-def summed_up(judgements: Iterable[Judgement]) -> str:
+def summed_up(judgements: Iterable[Judgement], of: str) -> str:
     """Return the number of claims with each verdict as one line of text."""
     counts = counted(judgements)
     listed = ", ".join(f"{standing} ({counts[standing]})" for standing in Standing if counts[standing])
-    return f"{sum(counts.values())} claims of the paper: {listed}"
+    return f"{sum(counts.values())} claims of {of}: {listed}"
 
 
 def write_claims(folder: Path, judgements: Iterable[Judgement]) -> list[Path]:
@@ -102,21 +102,31 @@ def write_claims(folder: Path, judgements: Iterable[Judgement]) -> list[Path]:
 
 
 def write(
-    folder: Path, figures: Sequence[Picture], judgements: Sequence[Judgement], beyond: Sequence[Picture]
+    folder: Path,
+    title: str,
+    lead: str,
+    figures: Sequence[Picture],
+    judgements: Sequence[Judgement],
+    beyond: Sequence[Picture],
 ) -> list[Path]:
     """Write the HTML page and, if WeasyPrint (extra ``report``) is available, the same page as PDF."""
     from jinja2 import Environment, PackageLoader, StrictUndefined
 
     environment = Environment(
-        loader=PackageLoader("rocking.papers.yim_lin_1991", "."),
+        loader=PackageLoader("rocking.papers.report", "."),
         autoescape=True,
         undefined=StrictUndefined,
         trim_blocks=True,
         lstrip_blocks=True,
     )
     environment.filters["subscripts"] = subscripts
-    page = environment.get_template("report.html").render(
-        figures=figures, judgements=judgements, beyond=beyond, counts=counted(judgements), version=VERSION
+    page = environment.get_template("page.html").render(
+        title=title,
+        lead=lead.format(version=VERSION),
+        figures=figures,
+        judgements=judgements,
+        beyond=beyond,
+        counts=counted(judgements),
     )
     with replacing(folder / PAGE) as temporary:
         temporary.write_text(page, encoding="utf-8")

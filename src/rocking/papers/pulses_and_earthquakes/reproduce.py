@@ -1,0 +1,78 @@
+"""Figures and judged rows of the papers as files, and a report on all of them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from importlib import import_module
+from pathlib import Path
+
+from rocking.papers.report import reproduction
+from rocking.papers.report.claim import Chapter
+
+ROOM = "rocking.papers.pulses_and_earthquakes"
+TITLE = "The rocking block under pulses and earthquakes, recomputed"
+LEAD = """\
+Formulas and numbers of Housner (1963), Shi et al. (1996), Makris & Roussos (2000), Zhang & Makris (2001) and Makris & Konstantinidis
+(2003), recomputed with rocking {version} for the slender block. Each verdict was computed when this page was generated. The claims are
+paraphrased; their numbers and locations are those of the papers. The explanations after a verdict are written by hand. If the
+computation does not support an explanation, the verdict is “not confirmed”. Rows that need the block without a small angle are not
+judged; the slender block's number stands next to them. e is the ratio of the velocities after and before an impact. A = a/(gθcr) is the
+normalised acceleration, Ω the frequency of a pulse over the frequency parameter of the block."""
+
+
+def reproduce(
+    folder: str | Path,
+    figures: Iterable[str | int] | None = None,
+    progress: Callable[[int, int, str], object] | None = None,
+    summary: Callable[[str], object] | None = None,
+) -> list[Path]:
+    """Write figures of the report as PNG (200 dpi) and SVG, and the table of rows as CSV and Markdown, with reproducible bytes.
+
+    Parameters
+    ----------
+    folder : str or Path
+        Folder for the files; created if it does not exist.
+    figures : iterable of str or int, optional
+        Figures 1 to 5, and the table "claims". Default: all of them, and the report index.html, also as PDF if WeasyPrint is
+        installed.
+    progress : callable, optional
+        Called as ``progress(done, total, name)`` before each figure and claim, and once at the end.
+    summary : callable, optional
+        Called as ``summary(line)`` after the claims, with the number of claims by verdict.
+
+    Returns
+    -------
+    list of Path
+        Paths of the files, in the order of the figures. A file exists only once it is complete.
+
+    Raises
+    ------
+    ValueError
+        If a figure is unknown.
+    OSError
+        If the folder cannot be created or written.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     [path.name for path in reproduce(folder, figures=[2])]
+    ['figure-02.png', 'figure-02.svg']
+    """
+    return reproduction.write(PAPER, folder, figures, progress, summary)
+
+
+def _chapters() -> tuple[Chapter, ...]:
+    return import_module(f"{ROOM}.claims").CHAPTERS
+
+
+PAPER = reproduction.Paper(
+    title=TITLE,
+    lead=LEAD,
+    source="the papers",
+    figures={str(number): f"{ROOM}.figure{number:02}" for number in range(1, 6)},
+    tables={reproduction.CLAIMS: f"{ROOM}.claims"},
+    beyond={},
+    pixels=("1", "4"),
+    chapters=lambda: _chapters(),  # noqa: PLW0108 (looked up at each call)
+)

@@ -1,0 +1,73 @@
+"""Amplitudes that overturn a block under a pulse, from the simulation by bisection."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+import numpy as np
+
+import rocking as rk
+
+GRAVITY = 9.80665
+RELATIVE = 1e-13
+"""Relative width at which a bisection ends."""
+TURNS = {"rectangular": math.pi, "half-sine": math.pi, "one-sine": math.tau, "one-cosine": math.tau}
+"""Ω T of each pulse; that of a rectangular pulse is a convention."""
+STEP = 0.02
+"""Step of the search for the lowest amplitude that overturns the block."""
+
+
+def run(kind: str, amplitude: float, frequency: float, restitution: float) -> rk.Motion:
+    """Return the motion from rest under a pulse with the normalised frequency Ω."""
+    pulse = rk.Pulse(kind, amplitude=amplitude, duration=TURNS[kind] / frequency)
+    return rk.simulate(rk.System(pulse, restitution), record="none")
+
+
+def falls(kind: str, amplitude: float, frequency: float, restitution: float) -> bool:
+    """Return whether a pulse overturns the block."""
+    return run(kind, amplitude, frequency, restitution).outcome is rk.Outcome.OVERTURNED
+
+
+def at_once(kind: str, frequency: float, amplitude: float) -> bool:
+    """Return whether a pulse overturns the block without an impact."""
+    motion = run(kind, amplitude, frequency, 0.0)
+    return motion.outcome is rk.Outcome.OVERTURNED and motion.impacts == 0
+
+
+def bisected(question: Callable[[float], bool], no: float, yes: float) -> float:
+    """Return the number between `no` and `yes` at which the answer changes; NaN if it does not."""
+    if question(no) or not question(yes):
+        return math.nan
+    while abs(yes - no) > RELATIVE * abs(yes):
+        middle = 0.5 * (no + yes)
+        no, yes = (no, middle) if question(middle) else (middle, yes)
+    return yes
+
+
+def threshold(kind: str, frequency: float, restitution: float, no: float, yes: float) -> float:
+    """Return the amplitude between `no` and `yes` at which a pulse begins or ceases to overturn the block."""
+    return bisected(lambda amplitude: falls(kind, amplitude, frequency, restitution), no, yes)
+
+
+def lowest(kind: str, frequency: float, restitution: float) -> float:
+    """Return the lowest amplitude that overturns the block, as a search in steps finds it."""
+    amplitude = 1.0
+    while not falls(kind, amplitude, frequency, restitution):
+        amplitude += STEP
+    return threshold(kind, frequency, restitution, max(amplitude - STEP, 1.0), amplitude)
+
+
+def lowest_of(kind: str, frequencies: np.ndarray, restitution: float) -> np.ndarray:
+    """Return the lowest amplitudes at several frequencies."""
+    return np.array([lowest(kind, frequency, restitution) for frequency in frequencies.tolist()])
+
+
+def in_g(block: rk.Block, kind: str, duration: float, stands: float, overturns: float) -> float:
+    """Return the acceleration in g at which a pulse begins to overturn a block; one that stands and one that overturns are given."""
+    frequency = TURNS[kind] / block.time(duration)
+
+    def question(acceleration: float) -> bool:
+        return falls(kind, block.amplitude(acceleration * GRAVITY), frequency, block.restitution)
+
+    return bisected(question, stands, overturns)
