@@ -6,6 +6,7 @@ from rocking.survey.chaos_share import chaos_share
 from rocking.survey.engine.tile_loop import cores
 from rocking.survey.harmonic_spec import check_quantity, question
 from rocking.survey.measures.attractors import alike, classify_with_anchor
+from rocking.survey.measures.block_endings import BlockEndings
 from rocking.survey.measures.response import classify_points
 from rocking.survey.overturning_amplitude import MAX_PHASES, overturning_amplitude
 from rocking.survey.parametric_map import parametric_map
@@ -20,6 +21,7 @@ __all__ = [
     "MAX_PHASES",
     "MAX_SAMPLES",
     "MAX_SEED",
+    "BlockEndings",
     "alike",
     "basin_map",
     "chaos_share",
