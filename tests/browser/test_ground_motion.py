@@ -168,6 +168,24 @@ def test_file_is_read_shown_and_not_part_of_the_link(ground):
     visitor.is_content()
 
 
+def test_file_may_be_dropped_on_the_page(ground):
+    visitor = ground()
+
+    def let_fall():
+        visitor.page.evaluate(
+            """text => { const carried = new DataTransfer();
+                carried.items.add(new File([text], 'fallen.csv'));
+                for (const type of ['dragover', 'drop']) document.body.dispatchEvent(
+                    new DragEvent(type, { dataTransfer: carried, bubbles: true, cancelable: true })); }""",
+            "time (s), acceleration (g)\n0, 0\n0.5, 0.3\n1, 0\n",
+        )
+
+    settled(visitor, let_fall)
+    assert "fallen.csv" in visitor.text("ground-facts")
+    assert np.abs(figure(visitor, "base")["acceleration"]).max() == pytest.approx(5 * 0.3)
+    visitor.is_content()
+
+
 def test_file_without_units_asks_for_them(ground):
     visitor = ground(width=360, height=740)
     drop(visitor, "bare.txt", "\n".join(f"{value:.5f}" for value in np.sin(np.arange(300) / 9)).encode())

@@ -111,9 +111,11 @@ def margin_in_words(motion: Motion, block: Block) -> str:
         return "The block never lifts off."
     size, time = abs(motion.margin), block.seconds(motion.margin_time)
     speed = f"{size:.3g} α θcr = {math.degrees(block.radians_per_second(size)):.3g} °/s"
-    if motion.margin < 0.0:
-        return f"Closest to overturning at t = {time:.4g} s: the block lacked a speed of {speed}."
-    return f"Closest decision at t = {time:.4g} s: the block had a speed of {speed} to spare."
+    if motion.margin >= 0.0:
+        return f"Closest decision at t = {time:.4g} s: the block had a speed of {speed} to spare."
+    if motion.outcome == Outcome.OVERTURNED:
+        return f"Closest decision at t = {time:.4g} s: the block lacked a speed of {speed}, but overturned later."
+    return f"Closest to overturning at t = {time:.4g} s: the block lacked a speed of {speed}."
 
 
 def _validity(motion: Motion, block: Block) -> list[str]:

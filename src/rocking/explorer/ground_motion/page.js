@@ -88,6 +88,7 @@ async function give(file) {
 find("file").addEventListener("change", event => give(event.target.files[0]));
 for (const type of ["dragover", "dragleave", "drop"]) {
   document.addEventListener(type, event => {
+    if (!event.dataTransfer?.types.includes("Files")) return;
     event.preventDefault();
     document.body.classList.toggle("dropping", type === "dragover");
     if (type === "drop") { place("file"); give(event.dataTransfer.files[0]); }
