@@ -266,6 +266,16 @@ def test_pulse_in_the_map_is_that_of_one_simulation(kind):
             assert found["peak"][k] == pytest.approx(motion.peak, rel=1e-9)
 
 
+@pytest.mark.parametrize("side", [39, POINTS])
+def test_blocks_lie_at_the_centres_of_their_cells_in_the_image(side):
+    """The horizontal axis is logarithmic, so that all cells have the same ratio of their edges."""
+    corner = {name: values[0] for name, values in PLANE.corner(side).items()}
+    centres = (np.arange(side) + 0.5) / side
+    across = corner["x"] * ((corner["x"] + corner["w"]) / corner["x"]) ** centres
+    assert across == pytest.approx(PLANE.sizes_of(side), rel=1e-12)
+    assert corner["y"] + corner["h"] * centres == pytest.approx(PLANE.angles_of(side), rel=1e-12)
+
+
 def test_stopped_map_stops():
     assert BlockEndings(SHORT, 1.0).at(np.ones(2), np.full(2, 0.2), np.ones(1, np.int64)) is None
 
