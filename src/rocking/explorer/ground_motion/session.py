@@ -117,16 +117,18 @@ class GroundSession:
             logging.getLogger(__name__).exception("a file could not be read")
             await self.renderer.act(partial(self._refuse_file, "the file could not be read"))
         else:
-            await self.renderer.act(partial(self._accept, new, channels))
+            new = attrs.evolve(new, channel=min(new.channel, len(channels)))
+            ground = ground_of(new, channels)
+            await self.renderer.workers.read(partial(ground.words, new.scale))  # long for many samples
+            await self.renderer.act(partial(self._accept, new, channels, ground))
 
     def _refuse_file(self, sentence: str) -> None:
         self.link.send("refused", {"fields": {"file": sentence}})
 
-    def _accept(self, new: GroundView, channels: tuple[GroundMotion, ...]) -> None:
+    def _accept(self, new: GroundView, channels: tuple[GroundMotion, ...], ground: Ground) -> None:
         self.channels, self.pending = channels, None
         self.link.send("refused", {"fields": {}})
-        new = attrs.evolve(new, channel=min(new.channel, len(channels)))
-        self.show(new, push=True, reread=True)
+        self.show(new, push=True, ground=ground)
 
     # the view
 
@@ -136,15 +138,17 @@ class GroundSession:
         fields = at_point(self.shown, event.x, event.y)
         self.hear(json.dumps({"what": "fields", "fields": fields, "push": "yes"}))
 
-    def show(self, new: GroundView, *, push: bool, reread: bool = False) -> None:
-        """Change the view and recompute the figures that differ."""
+    def show(self, new: GroundView, *, push: bool, ground: Ground | None = None) -> None:
+        """Change the view and recompute the figures that differ; `ground` is the base motion of a file just read."""
         old, first = self.shown, not self.opened
         self.shown, self.opened = new, True
         renderer, jobs = self.renderer, self.renderer.jobs
         if first and not renderer.compilation.may_start(GROUND_ALL):
             jobs.start("compile", renderer.tell_compilation)
-        shaken = first or reread or (old.shaking, old.scale) != (new.shaking, new.scale)
-        if first or reread or old.shaking != new.shaking:
+        shaken = first or ground is not None or (old.shaking, old.scale) != (new.shaking, new.scale)
+        if ground is not None:
+            renderer.ground = ground
+        elif first or old.shaking != new.shaking:
             renderer.ground = ground_of(new, self.channels)
         mapped = shaken or (old.sizes, old.angles) != (new.sizes, new.angles)
         moved = shaken or (old.height, old.width) != (new.height, new.width)
