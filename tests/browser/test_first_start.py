@@ -52,6 +52,20 @@ def test_figures_appear_one_after_another(cold, browser):
 
 
 @pytest.mark.long
+def test_page_of_ground_motions_is_there_at_once_and_its_figures_follow(cold, browser):
+    page = browser.new_context(viewport={"width": 1280, "height": 820}).new_page()
+    page.set_default_timeout(300_000)
+    page.goto(cold[1] + "ground-motion")
+    page.wait_for_selector("body[data-ready]")
+    page.wait_for_function(WAITS, arg="map")
+    assert page.inner_text("#kind") == "Compiling …"
+    assert page.inner_text("#pga") == "PGA 0.532 g"
+    page.wait_for_selector("#verdict:not(.stale)")
+    assert page.inner_text("#kind") == "rocks and stands"
+    page.wait_for_function("document.body.dataset.map === 'done'")
+
+
+@pytest.mark.long
 def test_control_c_ends_an_explorer_that_waits_for_kernels(cold, browser):
     """The fixture sends it and expects the end soon."""
     page = browser.new_context().new_page()

@@ -20,7 +20,8 @@ from hypothesis import strategies as st
 import rocking as rk
 from rocking.explorer import bokeh_figures, compilation, figure_data, plane_axes, presets, texts
 from rocking.explorer.attractor_labels import Orbits
-from rocking.explorer.form_fields import READ, Refused, address, changed, from_address, in_metres, written
+from rocking.explorer.field_readers import Refused, written
+from rocking.explorer.form_fields import READ, address, changed, from_address, in_metres
 from rocking.explorer.page_channel import message
 from rocking.explorer.progressive_map import AHEAD, START, UNDETERMINED, Picture, Plane, Refinement
 from rocking.explorer.session import Session

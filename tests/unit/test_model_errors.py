@@ -11,7 +11,7 @@ import pytest
 
 import rocking as rk
 from rocking.cli.option_names import YourInput
-from rocking.explorer.form_fields import Refused
+from rocking.explorer.field_readers import Refused
 from rocking.model import WriteError
 from rocking.model.validation import WAYS, NoOrbit, TooManyEvents, TooShort, one_of, reals, shown, whole
 from rocking.survey.store.locking import StoreError

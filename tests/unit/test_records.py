@@ -326,8 +326,30 @@ def test_files_that_are_none(tmp_path, make):
     with large.open("ab") as file:
         file.truncate(10**10)
     assert "larger than 300 MB" in refusal_of(large)
-    with pytest.raises(TypeError, match="source must be a path, or a Stream or Trace of ObsPy; got 3"):
+    with pytest.raises(TypeError, match="source must be a path, bytes, or a Stream or Trace of ObsPy; got 3"):
         rk.read_ground_motion(3)
+
+
+def test_bytes_in_memory_are_the_file_of_that_name(make):
+    path = make("\n".join(write.peer(WAVE)).encode())
+    motion = rk.read_ground_motion(path.read_bytes(), name=path.name)
+    assert motion == rk.read_ground_motion(path)
+    assert motion.file.sha256 == hashlib.sha256(path.read_bytes()).hexdigest()
+    assert rk.read_ground_motions(path.read_bytes(), name=path.name) == rk.read_ground_motions(path)
+    assert rk.read_ground_motion(path.read_bytes()).file.name == "bytes"
+
+
+def test_errors_of_bytes_in_memory_give_their_name(make):
+    for data, message in (
+        (b"  \n", "town a: the file is empty"),
+        (b"1\n2\n", "town\na: the file does not state"),
+    ):
+        with pytest.raises(rk.RecordError, match=f"^{message}"):
+            rk.read_ground_motion(data, name="town\na")
+    with pytest.raises(TypeError, match="name must be omitted for a source that is not bytes; got 'a'"):
+        rk.read_ground_motion(make(b"1\n"), name="a")
+    with pytest.raises(TypeError, match="name must be a str; got 3"):
+        rk.read_ground_motion(b"1\n", name=3)
 
 
 @pytest.mark.parametrize(

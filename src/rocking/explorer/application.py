@@ -13,13 +13,16 @@ from bokeh.server.server import BaseServer
 
 from rocking.explorer import plane_axes, presets
 from rocking.explorer.compilation import Compilation
-from rocking.explorer.form_fields import WORDS
+from rocking.explorer.field_readers import WORDS
+from rocking.explorer.ground_motion import GroundSession
+from rocking.explorer.ground_motion import page as ground_page
 from rocking.explorer.server import local_server
 from rocking.explorer.session import Session
 from rocking.explorer.worker_pools import Workers
 from rocking.model import VERSION, Criterion
 from rocking.plot.parts import legend
 
+GROUND_ADDRESS = "/ground-motion"
 FIELDS = (
     ("amplitude", "A", "Amplitude A of the base acceleration, in units of g θcr"),
     ("period", "T", "Forcing period T, in units of 1/α"),
@@ -60,9 +63,27 @@ def serve(port: int = 0) -> BaseServer:
         document.template_variables.update(_page())
         Session(document, workers, compilation)
 
-    server = local_server(Application(FunctionHandler(open_visit)), port)
+    def open_ground(document: Document) -> None:
+        document.title = "rocking explorer: ground motion"
+        document.template = ground["template"]  # type: ignore[assignment]  # as above
+        document.template_variables.update(ground)
+        GroundSession(document, workers, compilation)
+
+    ground = _ground_page()
+    addresses = {"/": open_visit, GROUND_ADDRESS: open_ground}
+    pages = {address: Application(FunctionHandler(visit)) for address, visit in addresses.items()}
+    server = local_server(pages, port)
     gc.freeze()  # each closed session triggers a full collection; permanent objects need not be searched
     return server
+
+
+def _ground_page() -> dict[str, object]:
+    """Return the template of the page of ground motions and its variables, with the parts of all pages."""
+    own = ground_page()
+    return own | {
+        "style": f"{_text('page.css')}{own['style']}",
+        "script": f"{_text('shared.js')}{own['script']}",
+    }
 
 
 def _text(name: str) -> str:
@@ -82,7 +103,7 @@ def _page() -> dict[str, object]:
         groups.setdefault(case.group, []).append(case)
     return {
         "style": _text("page.css"),
-        "script": _text("page.js"),
+        "script": _text("shared.js") + _text("page.js"),
         "given": json.dumps(given, ensure_ascii=False).replace("<", "\\u003c"),
         "fields": FIELDS,
         "words": WORDS,

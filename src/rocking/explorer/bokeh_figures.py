@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -39,11 +40,13 @@ def no_image() -> dict[str, Any]:
     return {"image": [np.zeros((2, 2), np.uint8)], "x": [0.0], "y": [0.0], "w": [0.0], "h": [0.0]}
 
 
-def _empty(name: str, *columns: str) -> ColumnDataSource:
+def empty(name: str, *columns: str) -> ColumnDataSource:
+    """Return a source without rows."""
     return ColumnDataSource({column: [] for column in columns}, name=name)
 
 
-def _figure(name: str, title: str, across: str, up: str, tools: str = "", ticks: int = 5, **more: Any) -> Any:
+def framed(name: str, title: str, across: str, up: str, tools: str = "", ticks: int = 5, **more: Any) -> Any:
+    """Return an empty figure with the borders and the text sizes of all."""
     made = figure(
         name=name,
         title=Title(  # type: ignore[call-arg]  # its type hints lack the offset
@@ -73,25 +76,25 @@ def _figure(name: str, title: str, across: str, up: str, tools: str = "", ticks:
     return made
 
 
-def _plane(name: str, title: str, across: str, up: str) -> Any:
+def plane(name: str, title: str, across: str, up: str, palette: Sequence[str] = PALETTE, **more: Any) -> Any:
     """Return a map of two quantities with zoom, pan and a mark at the selected point."""
-    made = _figure(name, title, across, up, tools="pan,wheel_zoom,tap", active_scroll="wheel_zoom")
-    made.yaxis.ticker = BasicTicker(desired_num_ticks=6)
+    made = framed(name, title, across, up, tools="pan,wheel_zoom,tap", active_scroll="wheel_zoom", **more)
     made.grid.visible = False
-    colours = LinearColorMapper(palette=PALETTE, low=-0.5, high=len(PALETTE) - 0.5)
+    colours = LinearColorMapper(palette=list(palette), low=-0.5, high=len(palette) - 0.5)
     image = ColumnDataSource(no_image(), name="image")
     drawn = made.image("image", "x", "y", "w", "h", source=image, color_mapper=colours)
     drawn.nonselection_glyph = drawn.selection_glyph = None
-    point = _empty("point", "x", "y")
+    point = empty("point", "x", "y")
     for size, colour, width in ((15, "white", 4.5), (15, ACCENT, 2.2)):
         made.scatter("x", "y", source=point, size=size, fill_color=None, line_color=colour, line_width=width)
+    made.yaxis.ticker = BasicTicker(desired_num_ticks=6)
     return made
 
 
 def plane_of_systems() -> Any:
     """Return the map over period and amplitude, with theoretical curves, and SI axes above and at the right."""
-    made = _plane("map", "Response type", "period T", "amplitude A")
-    curves = _empty("curves", "xs", "ys", "dash")
+    made = plane("map", "Response type", "period T", "amplitude A")
+    curves = empty("curves", "xs", "ys", "dash")
     for colour, width in (("white", 4.0), (style.INK, 1.4)):
         made.multi_line("xs", "ys", source=curves, line_color=colour, line_width=width, line_dash="dash")
     made.extra_x_ranges["si"], made.extra_y_ranges["si"] = (
@@ -107,21 +110,21 @@ def plane_of_systems() -> Any:
 
 def plane_of_starts() -> Any:
     """Return the basins of attraction over initial angle and velocity."""
-    return _plane("basin", "Basins of attraction", *BASIN_LABELS)
+    return plane("basin", "Basins of attraction", *BASIN_LABELS)
 
 
 def history() -> Any:
     """Return the time history of the angle."""
-    made = _figure("history", "Time history", "time τ", "angle Θ")
-    line = _empty("line", "time", "angle", "velocity")
+    made = framed("history", "Time history", "time τ", "angle Θ")
+    line = empty("line", "time", "angle", "velocity")
     made.line("time", "angle", source=line, name="line", line_color=style.MOTION, line_width=1.4)
     return made
 
 
 def portrait() -> Any:
     """Return the phase portrait, with a mark at each impact."""
-    made = _figure("portrait", "Phase portrait with impacts", "angle Θ", "velocity Θ′", ticks=FEW)
-    line, hits = _empty("line", "angle", "velocity"), _empty("hits", "angle", "velocity", "colour")
+    made = framed("portrait", "Phase portrait with impacts", "angle Θ", "velocity Θ′", ticks=FEW)
+    line, hits = empty("line", "angle", "velocity"), empty("hits", "angle", "velocity", "colour")
     made.line(
         "angle", "velocity", source=line, name="line", line_color=style.MOTION, line_width=1.0, line_alpha=0.8
     )
@@ -131,7 +134,7 @@ def portrait() -> Any:
 
 def section() -> Any:
     """Return the Poincaré section, once per forcing cycle: single points, or an image of their density."""
-    made = _figure("section", "Poincaré section", "angle Θ", "velocity Θ′", ticks=FEW)
+    made = framed("section", "Poincaré section", "angle Θ", "velocity Θ′", ticks=FEW)
     dense = ColumnDataSource(no_image(), name="dense")
     shades = [f"{style.MOTION}{round(255 * share):02X}" for share in (0.0, *np.linspace(0.35, 1.0, 8))]
     made.image(
@@ -143,11 +146,11 @@ def section() -> Any:
         source=dense,
         color_mapper=LinearColorMapper(palette=shades, low=0, high=9),
     )
-    points = _empty("points", "angle", "velocity")
+    points = empty("points", "angle", "velocity")
     made.scatter(
         "angle", "velocity", source=points, name="dots", size=4.0, color=style.MOTION, line_color=None
     )
-    orbit = _empty("orbit", "angle", "velocity")
+    orbit = empty("orbit", "angle", "velocity")
     made.scatter(
         "angle", "velocity", source=orbit, size=11, fill_color=None, line_color=ACCENT, line_width=1.6
     )
@@ -156,14 +159,14 @@ def section() -> Any:
 
 def spectrum() -> Any:
     """Return the power spectral density over frequency / forcing frequency, with names at its strongest lines."""
-    made = _figure(
+    made = framed(
         "spectrum",
         "Power spectral density",
         "frequency / forcing frequency",
         "density S (τ)",
         y_axis_type="log",
     )
-    line, names = _empty("line", "frequency", "density"), _empty("names", "frequency", "density", "name")
+    line, names = empty("line", "frequency", "density"), empty("names", "frequency", "density", "name")
     made.line("frequency", "density", source=line, name="line", line_color=style.MOTION, line_width=1.2)
     made.text(
         "frequency",
@@ -182,11 +185,11 @@ def spectrum() -> Any:
 
 def diagram() -> Any:
     """Return the orbit (bifurcation) diagram over the amplitude or the period."""
-    made = _figure("diagram", "Orbit (bifurcation) diagram", "", "angle Θ", tools="tap")
+    made = framed("diagram", "Orbit (bifurcation) diagram", "", "angle Θ", tools="tap")
     made.scatter(
         "value",
         "angle",
-        source=_empty("points", "value", "angle"),
+        source=empty("points", "value", "angle"),
         name="dots",
         size=1.8,
         color=style.MOTION,

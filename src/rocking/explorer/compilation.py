@@ -21,6 +21,24 @@ SIMULATION = (
 )
 CLASSIFICATION = (*SIMULATION, "batch.classify_batch_scalar")
 BASIN = (*CLASSIFICATION, "attractor_anchor.anchor_each")
+FINITE = tuple(
+    f"{name}.{kind}{what}"
+    for kind in ("Sampled", "Pulse")
+    for name, what in (
+        ("finite_motion.run_to_end", "Parameters"),
+        ("initial_state.begin_march", "Parameters"),
+        ("initial_state.note_start", "Drive"),
+        ("march.march_plain", "Parameters"),
+        ("resample.sample", "Parameters"),
+        ("resample.turns", "Parameters"),
+    )
+)
+GROUND = {
+    "map": ("tables.fill", "finite_motion.run_batch", "finite_motion.run_pulses"),
+    "motion": ("tables.fill", "parameters.make_pulse_plain", *FINITE),
+}
+"""Entry points of each figure of the page of ground motions."""
+GROUND_ALL = sorted({name for names in GROUND.values() for name in names})
 LANES = ("scheduler.classify_batch_lanes",)
 NEEDED = {
     "motion": SIMULATION,
@@ -46,13 +64,13 @@ class Compilation:
 
     def __init__(self) -> None:
         self._folder = machine_code.find_folder()
-        if self._folder is not None and self.fraction() < 1.0:
+        if self._folder is not None and self.fraction([*ALL, *GROUND_ALL]) < 1.0:
             with suppress(OSError):  # without builders, each figure compiles what it needs
                 build_processes.start_builders(self._folder, machine_code.processor_class())
 
-    def fraction(self) -> float:
-        """Return the fraction of the work that is done, by measured seconds."""
-        return build_processes.fraction_done(ALL)
+    def fraction(self, names: Sequence[str]) -> float:
+        """Return the fraction of the work for some entry points that is done, by measured seconds."""
+        return build_processes.fraction_done(names)
 
     def may_start(self, names: Sequence[str]) -> bool:
         """Return whether the machine code of entry points is there, or no builder is at work on it."""
@@ -65,5 +83,9 @@ class Compilation:
 
     async def ready(self, figure: str, shown: ViewState) -> None:
         """Wait for the machine code of a figure."""
-        while not self.may_start(needed(figure, shown)):
+        await self.stored(needed(figure, shown))
+
+    async def stored(self, names: Sequence[str]) -> None:
+        """Wait for the machine code of entry points."""
+        while not self.may_start(names):
             await asyncio.sleep(POLLING)

@@ -2,13 +2,24 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Mapping
 from typing import Any
-from urllib.parse import parse_qsl, urlencode
+from urllib.parse import urlencode
 
 import attrs
 
+from rocking.explorer.field_readers import (
+    VERSION,
+    WORDS,
+    Refused,
+    count,
+    number,
+    optional,
+    parameters,
+    read_fields,
+    word,
+    written,
+)
 from rocking.explorer.view_state import DEFAULT, Span, ViewState, closest
 from rocking.model import (
     BRACE_ANGLES,
@@ -19,76 +30,19 @@ from rocking.model import (
     Block,
     check_start,
     refusal,
-    refuse_if,
 )
 from rocking.plot.parts import theory_curves
 
-VERSION = 1
-"""Version of links; increased when an earlier link would show a different view."""
-MAX_LENGTH = 40
-"""Maximum number of characters of a number."""
-MAX_ADDRESS = 2000
-"""Maximum number of characters of a link."""
 LATEST, MAX_SHOWN = 100_000, 200
 """Largest first cycle, and largest number of cycles, of the time history."""
-WORDS = {
-    "brace_angle": "brace angle",
-    "brace_restitution": "brace restitution",
-    "first": "first cycle",
-    "acceleration_g": "acceleration",
-    "frequency_hz": "frequency",
-}
-"""Labels of fields, in the form and in error messages, if they differ from the names."""
-
-
-class Refused(ValueError):
-    """Invalid input: `fields` holds one error message per field."""
-
-    def __init__(self, fields: Mapping[str, str]) -> None:
-        super().__init__("; ".join(fields.values()))
-        self.fields = dict(fields)
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        return type(self), (self.fields,), self.__dict__
-
-
-def _given(name: str, text: str) -> str:
-    """Return the text without surrounding spaces; raise ValueError if it is empty."""
-    if not text.strip():
-        raise ValueError(f"give the {name}")
-    return text.strip()
-
-
-def _number(low: float, high: float) -> Callable[[str, str], float]:
-    def read(name: str, text: str) -> float:
-        _given(name, text)
-        allowed = f"be a number in [{low:.6g}, {high:.6g}]"
-        try:
-            value = float(text) if len(text) <= MAX_LENGTH else math.nan
-        except ValueError:
-            value = math.nan
-        refuse_if(not low <= value <= high, name, allowed, text)
-        return value + 0.0  # no negative zero
-
-    return read
-
-
-def _count(low: int, high: int) -> Callable[[str, str], int]:
-    def read(name: str, text: str) -> int:
-        value = _given(name, text)
-        if not (value.isascii() and value.isdigit() and len(value) < 10 and low <= int(value) <= high):
-            raise ValueError(refusal(name, f"be a whole number in [{low}, {high}]", text))
-        return int(value)
-
-    return read
 
 
 def _span(low: float, high: float) -> Callable[[str, str], Span]:
-    number = _number(low, high)
+    end = number(low, high)
 
     def read(name: str, text: str) -> Span:
         first, _, last = text.partition(":")
-        span = Span(number(name, first), number(name, last))
+        span = Span(end(name, first), end(name, last))
         # tolerance for rounding, so that the narrowest range itself is valid
         if not span.width >= closest(span) * (1.0 - 1e-3):
             raise ValueError(
@@ -99,20 +53,8 @@ def _span(low: float, high: float) -> Callable[[str, str], Span]:
     return read
 
 
-def _optional(read: Callable[[str, str], Any]) -> Callable[[str, str], Any]:
-    return lambda name, text: None if not text.strip() else read(name, text)
-
-
-def _word(*allowed: str) -> Callable[[str, str], str]:
-    def read(name: str, text: str) -> str:
-        refuse_if(text not in allowed, name, f"be one of {', '.join(allowed)}", text)
-        return text
-
-    return read
-
-
 def _words(*allowed: str) -> Callable[[str, str], tuple[str, ...]]:
-    one = _word(*allowed)
+    one = word(*allowed)
 
     def read(name: str, text: str) -> tuple[str, ...]:
         chosen = {one(name, each) for each in text.split(",") if each}
@@ -123,31 +65,31 @@ def _words(*allowed: str) -> Callable[[str, str], tuple[str, ...]]:
 
 START = -MAX_START, MAX_START
 READ: dict[str, Callable[[str, str], Any]] = {
-    "amplitude": _number(0.0, MAX_AMPLITUDE),
-    "period": _number(*PERIODS),
-    "restitution": _number(0.0, 1.0),
-    "phase": _number(-MAX_PHASE, MAX_PHASE),
-    "angle": _number(*START),
-    "velocity": _number(*START),
-    "brace_angle": _optional(_number(*BRACE_ANGLES)),
-    "brace_restitution": _number(0.0, 1.0),
+    "amplitude": number(0.0, MAX_AMPLITUDE),
+    "period": number(*PERIODS),
+    "restitution": number(0.0, 1.0),
+    "phase": number(-MAX_PHASE, MAX_PHASE),
+    "angle": number(*START),
+    "velocity": number(*START),
+    "brace_angle": optional(number(*BRACE_ANGLES)),
+    "brace_restitution": number(0.0, 1.0),
     "amplitudes": _span(0.0, MAX_AMPLITUDE),
     "periods": _span(*PERIODS),
     "angles": _span(*START),
     "velocities": _span(*START),
-    "vary": _word("amplitude", "period"),
-    "first": _count(0, LATEST),
-    "cycles": _count(1, MAX_SHOWN),
+    "vary": word("amplitude", "period"),
+    "first": count(0, LATEST),
+    "cycles": count(1, MAX_SHOWN),
     "curves": _words(*theory_curves.CURVES),
-    "height": _optional(_number(1e-3, 1e3)),
-    "width": _optional(_number(1e-3, 1e3)),
+    "height": optional(number(1e-3, 1e3)),
+    "width": optional(number(1e-3, 1e3)),
 }
 """Reader of each field, for the form and for links."""
 PHYSICAL = {
-    "height": _number(1e-3, 1e3),
-    "width": _number(1e-3, 1e3),
-    "acceleration": _number(0.0, 1e6),
-    "frequency_hz": _number(1e-6, 1e6),
+    "height": number(1e-3, 1e3),
+    "width": number(1e-3, 1e3),
+    "acceleration": number(0.0, 1e6),
+    "frequency_hz": number(1e-6, 1e6),
 }
 
 
@@ -171,7 +113,7 @@ def changed(shown: ViewState, typed: Mapping[str, str]) -> ViewState:
     Refused
         If a field is invalid, with one message per field.
     """
-    read, refused = _read(READ, typed)
+    read, refused = read_fields(READ, typed)
     if refused:
         raise Refused(refused)
     wanted = attrs.evolve(shown, **read)
@@ -202,7 +144,7 @@ def in_metres(shown: ViewState, typed: Mapping[str, str]) -> ViewState:
     Refused
         If a field is invalid, with one message per field.
     """
-    read, refused = _read(PHYSICAL, {name: typed.get(name, "") for name in PHYSICAL})
+    read, refused = read_fields(PHYSICAL, {name: typed.get(name, "") for name in PHYSICAL})
     if refused:
         raise Refused(refused)
     size = "acceleration_g" if typed.get("unit") == "g" else "acceleration"
@@ -228,8 +170,13 @@ def _at_its_field(sentence: str) -> dict[str, str]:
     """Assign an error message of the package to its field, with the label of the field."""
     name, _, rest = sentence.partition(" ")
     if name == "restitution":  # Housner's value, which follows from height and width
-        return {"width": f"{sentence.partition(':')[0]}: make the block narrower or taller"}
+        return at_width(sentence)
     return {name.removesuffix("_g"): f"{WORDS.get(name, name)} {rest}"}
+
+
+def at_width(sentence: str) -> dict[str, str]:
+    """Assign an error message on Housner's restitution to the field of the width."""
+    return {"width": f"{sentence.partition(':')[0]}: make the block narrower or taller"}
 
 
 def _reaching(span: Span, value: float, most: float) -> Span:
@@ -237,28 +184,6 @@ def _reaching(span: Span, value: float, most: float) -> Span:
     if span.low <= value <= span.high:
         return span
     return Span(min(span.low, value * 0.8), min(max(span.high, value * 1.25), most))
-
-
-def _read(
-    how: Mapping[str, Callable[[str, str], Any]], typed: Mapping[str, str]
-) -> tuple[dict[str, Any], dict[str, str]]:
-    """Read fields.
-
-    Returns
-    -------
-    tuple of (dict, dict)
-        Values by name, and error messages by name.
-    """
-    read, refused = {}, {}
-    for name, text in typed.items():
-        if name not in how:
-            refused["page"] = refusal("field", f"be one of {', '.join(how)}", name)
-            continue
-        try:
-            read[name] = how[name](WORDS.get(name, name), text)
-        except ValueError as error:
-            refused[name] = str(error)
-    return read, refused
 
 
 def address(shown: ViewState) -> str:
@@ -272,17 +197,6 @@ def address(shown: ViewState) -> str:
     return urlencode({"version": str(VERSION)} | parts, safe=":,")
 
 
-def written(value: Any) -> str:
-    """Write a field as text, with the fewest digits that give the value back."""
-    if value is None:
-        return ""
-    if isinstance(value, Span):
-        return f"{written(value.low)}:{written(value.high)}"
-    if isinstance(value, tuple):
-        return ",".join(value)
-    return repr(value).removesuffix(".0") if isinstance(value, float) else str(value)
-
-
 def from_address(text: str) -> tuple[ViewState, dict[str, str]]:
     """Return the view of a query string; invalid parameters keep their defaults.
 
@@ -291,15 +205,11 @@ def from_address(text: str) -> tuple[ViewState, dict[str, str]]:
     tuple of (ViewState, dict of str)
         View, and an error message for each invalid parameter.
     """
-    if len(text) > MAX_ADDRESS:
-        return DEFAULT, {"page": f"link must have at most {MAX_ADDRESS} characters; got {len(text)}"}
-    typed = dict(parse_qsl(text.removeprefix("?"), keep_blank_values=True, max_num_fields=None))
-    version = typed.pop("version", str(VERSION))
-    if version != str(VERSION):
-        return DEFAULT, {
-            "page": refusal("version", f"be {VERSION}, the version of the links of this explorer", version)
-        }
-    read, refused = _read(READ, typed)
+    try:
+        typed = parameters(text)
+    except Refused as unread:
+        return DEFAULT, unread.fields
+    read, refused = read_fields(READ, typed)
     shown = attrs.evolve(DEFAULT, **read)
     try:
         check_start(shown.system, shown.start)

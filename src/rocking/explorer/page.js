@@ -1,21 +1,4 @@
-"use strict";
-const given = JSON.parse(document.getElementById("given").textContent);
-const find = id => document.getElementById(id);
-const all = selector => [...document.querySelectorAll(selector)];
-let link, shown, models = {}, playing = !matchMedia("(prefers-reduced-motion: reduce)").matches, asked = 0;
 const still = new Set(); // maps whose ranges the page itself is setting
-
-// ---- requests and messages
-
-function ask(what, fields, push = true) {
-  link.asked = JSON.stringify({ n: ++asked, what, fields, push: push ? "yes" : "no" });
-}
-
-function listen(name, act) {
-  const heard = () => { if (link[name]) act(JSON.parse(link[name])); };
-  link.properties[name].change.connect(heard);
-  heard();
-}
 
 function begin(doc) {
   const model = name => doc.get_model_by_name(name);
@@ -41,16 +24,7 @@ function begin(doc) {
   document.body.dataset.ready = "yes";
 }
 
-const waiting = setInterval(() => {
-  const doc = window.Bokeh?.documents[0];
-  if (!doc || !doc.is_idle || !doc.get_model_by_name("link")) return;
-  clearInterval(waiting);
-  begin(doc);
-}, 15);
-
 // ---- the view and its address
-
-const depth = () => history.state?.n ?? 0;
 
 // Rounded to the width of a field. In the field with the focus, all digits can be edited.
 function brief(text) {
@@ -71,13 +45,7 @@ function show(told) {
   }
   const on = new Set(told.fields.curves.split(","));
   for (const box of all("#curves input")) box.checked = on.has(box.name);
-  if (told.push && before && told.address !== before.address) {
-    history.pushState({ n: depth() + 1 }, "", "?" + told.address);
-    sessionStorage.setItem("deepest", depth());
-  } else {
-    history.replaceState({ n: depth() }, "", "?" + told.address);
-  }
-  stack();
+  remember(told, before);
   for (const name of ["map", "basin"]) steady(name);
   find("depth").textContent = told.planes.map.deepest ? "Zoom limit of double precision" : "";
   find("vary").value = told.fields.vary;
@@ -89,40 +57,6 @@ function show(told) {
   if (told.moved) find("verdict").classList.add("stale");
   find("units").close(); // uncovers the new view
   if (told.fields.height) { find("m-height").value = told.fields.height; find("m-width").value = told.fields.width; }
-}
-
-function stack() {
-  find("undo").disabled = depth() === 0;
-  find("redo").disabled = depth() >= Number(sessionStorage.getItem("deepest") ?? 0);
-}
-
-window.addEventListener("popstate", () => { if (link) ask("open", { address: location.search }, false); });
-find("undo").onclick = () => history.back();
-find("redo").onclick = () => history.forward();
-
-// ---- contents of the figures
-
-const parts = told => (told instanceof Map ? [...told] : Object.entries(told));
-let answers = {}; // results at each point of the map
-
-function draw(drawn) {
-  for (const [name, told] of parts(drawn)) {
-    if (parts(told).some(([part]) => ["image", "line", "points", "dense"].includes(part))) find(name).dataset.waits = "";
-  }
-  for (const [name, told] of parts(drawn)) if (models[name]) for (const [part, value] of parts(told)) fill(name, part, value);
-  if (parts(drawn).some(([name]) => name === "history")) scene();
-}
-
-function fill(name, part, value) {
-  const figure = models[name], change = (model, to) => model.setv(to, { sync: false });
-  if (part === "answers") answers = Object.fromEntries(parts(value));
-  else if (part === "why") find(name).dataset.why = value;
-  else if (part === "label") change(figure.below[0], { axis_label: value });
-  else if (part === "here") change(figure.center.find(each => each.name === part), { location: value });
-  else if (part === "ranges") {
-    change(figure.x_range, { start: value[0], end: value[1] });
-    change(figure.y_range, { start: value[2], end: value[3] });
-  } else change(figure.renderers.find(each => each.data_source.name === part).data_source, { data: value });
 }
 
 // ---- maps: the browser zooms and pans, the server computes
@@ -211,20 +145,6 @@ function point(name, event) {
 
 // ---- verdict, legends and messages
 
-function judge(told) {
-  find("verdict").classList.remove("stale");
-  find("kind").textContent = told.kind;
-  find("verdict").querySelector("i").style.background = told.colour;
-  find("facts").replaceChildren(...told.facts.map(([name, value]) => {
-    const row = document.createElement("div"), term = document.createElement("dt"), definition = document.createElement("dd");
-    term.textContent = name;
-    definition.textContent = value;
-    row.append(term, definition);
-    return row;
-  }));
-  find("evidence").textContent = told.evidence;
-}
-
 function entries(legend) {
   return legend.map(each => {
     const row = document.createElement("li"), swatch = document.createElement("i"), share = document.createElement("small");
@@ -249,8 +169,6 @@ function attractors({ legend }) {
   find("basin").setAttribute("aria-label", `Basins of attraction: ${shares(legend)}. Arrow keys move the view, plus and minus zoom, 0 resets it. Enter Θ₀ and Θ′₀ to select an initial state.`);
 }
 
-const bar = document.querySelector("#bar i");
-
 function progress(told) {
   find("progress").textContent = told.done ? "" : `Computing the map: ${told.text}`;
   bar.style.opacity = told.done ? 0 : 1;
@@ -267,36 +185,6 @@ function compiling({ share }) {
   find("progress").textContent = `Compiling, once for this machine: ${Math.floor(100 * share)} %`;
   bar.style.opacity = 1;
   bar.style.width = `${100 * share}%`;
-}
-
-function pardon(input) {
-  if (!input.hasAttribute("aria-invalid")) return;
-  input.removeAttribute("aria-invalid");
-  find(input.id + "-refused").textContent = "";
-}
-
-function refuse({ fields }) {
-  all("input[aria-invalid]").forEach(pardon);
-  const rest = [];
-  for (const [name, sentence] of Object.entries(fields)) {
-    const id = find("units").open && find("m-" + name) ? "m-" + name : name;
-    const input = find(id), line = find(id + "-refused");
-    if (!line) { rest.push(sentence); continue; }
-    line.textContent = sentence;
-    input.setAttribute("aria-invalid", "true");
-  }
-  say(rest.join("; "));
-}
-
-document.addEventListener("input", event => pardon(event.target));
-
-let fading;
-function say(text) {
-  const notice = find("notice");
-  notice.textContent = text;
-  notice.hidden = !text;
-  clearTimeout(fading);
-  if (text) fading = setTimeout(() => { notice.hidden = true; }, 8000);
 }
 
 // ---- controls
@@ -333,28 +221,13 @@ find("slider").addEventListener("input", () => {
 });
 find("slider").addEventListener("change", () => { sliding = 0; slid(true); });
 
-for (const button of all("[data-opens]")) button.onclick = () => find(button.dataset.opens).showModal();
 for (const button of all("[data-case]")) button.onclick = () => { find("gallery").close(); ask("case", { name: button.dataset.case }); };
 find("metres").addEventListener("submit", event => {
   event.preventDefault();
   ask("metres", Object.fromEntries(new FormData(event.target)));
 });
 find("no-metres").onclick = () => { ask("fields", { height: "", width: "" }); };
-for (const button of all("[data-copy]")) button.onclick = async () => {
-  const text = { link: location.href, python: shown.python, commands: shown.commands }[button.dataset.copy];
-  try { await navigator.clipboard.writeText(text); button.textContent = "Copied"; } catch { button.textContent = "Select and copy"; }
-  setTimeout(() => { button.textContent = "Copy"; }, 1500);
-};
-
 // ---- files
-
-function save(name, blob, suffix) {
-  const anchor = document.createElement("a");
-  anchor.href = URL.createObjectURL(blob);
-  anchor.download = `rocking-${name}.${suffix}`;
-  anchor.click();
-  setTimeout(() => URL.revokeObjectURL(anchor.href), 5000);
-}
 
 function table(name) {
   const columns = {}, quote = value => (typeof value === "string" ? `"${value.replaceAll('"', '""')}"` : value);
@@ -387,34 +260,7 @@ for (const button of all("[data-save]")) button.onclick = async () => {
   save(name, await view.export(kind, true).to_blob(), kind);
 };
 
-// ---- dark and light
-
-function theme(name) {
-  document.documentElement.dataset.theme = name;
-  for (const model of Object.values(models)) {
-    const view = Bokeh.index.find_one(model);
-    view?.request_repaint?.();
-  }
-  const style = getComputedStyle(document.documentElement), colour = name => ({ value: style.getPropertyValue(name) });
-  for (const name of ["line", "accent"]) inks[name] = style.getPropertyValue(`--${name}`);
-  for (const model of Object.values(models)) model.title.setv({ text_color: colour("--ink").value.trim() }, { sync: false });
-  for (const { name, glyph } of Object.values(models).flatMap(model => model.renderers)) {
-    if (name === "words") glyph.setv({ text_color: colour("--soft") }, { sync: false });
-    if (name === "line") glyph.setv({ line_color: colour("--motion") }, { sync: false });
-    if (name === "dots") glyph.setv({ fill_color: colour("--motion") }, { sync: false });
-  }
-  frame();
-}
-find("theme").onclick = () => {
-  const next = document.documentElement.dataset.theme === "dark" ? "light" : "dark";
-  localStorage.setItem("theme", next);
-  theme(next);
-};
-
 // ---- the block
-
-let film = null, clock = 0, last = 0;
-const inks = {}; // read once per theme, because reading a style in a frame forces a recalculation of all styles
 
 function scene() {
   const data = models.history.renderers[0].data_source.data, column = key => data instanceof Map ? data.get(key) : data[key];
@@ -426,7 +272,8 @@ function scene() {
   for (const value of angle) peak = Math.max(peak, Math.abs(value));
   // displacement amplitude a_x/ω² in the units of height and width: A g θcr/(Ω α)², α² = 3g/4R
   const base = amplitude * critical * (4 * radius / 3) / frequency ** 2;
-  film = { time, angle, height, width, critical, frequency, period, base, phase: Number(fields.phase),
+  film = { time, angle, height, width, critical,
+    displacement: at => -base * Math.cos(frequency * at + Number(fields.phase)), speed: Math.max(period / 1.2, (time[time.length - 1] - time[0]) / 40),
     angles: Math.min(Math.max(0.35 / (peak * critical || 1), 1), 12), moves: Math.min(Math.max(0.06 * height / (base || 1), 1), 60) };
   clock = time[0] ?? 0;
   const told = [];
@@ -436,60 +283,4 @@ function scene() {
   frame();
 }
 
-function now() {
-  const { time, angle } = film;
-  let low = 0, high = time.length - 1;
-  while (high - low > 1) { const middle = (low + high) >> 1; if (time[middle] <= clock) low = middle; else high = middle; }
-  const step = time[high] - time[low], share = step > 0 ? Math.min(Math.max((clock - time[low]) / step, 0), 1) : 0;
-  return angle[low] + share * (angle[high] - angle[low]);
-}
-
-function frame() {
-  const canvas = find("block"), ink = canvas.getContext("2d"), sharp = devicePixelRatio || 1, wide = canvas.clientWidth, high = canvas.clientHeight;
-  if (!wide) return;
-  if (canvas.width !== Math.round(wide * sharp)) canvas.width = Math.round(wide * sharp);
-  if (canvas.height !== Math.round(high * sharp)) canvas.height = Math.round(high * sharp);
-  ink.setTransform(sharp, 0, 0, sharp, 0, 0);
-  ink.clearRect(0, 0, wide, high);
-  if (!film?.time.length) return;
-  const scale = Math.min((high - 30) / film.height, wide / (2.6 * film.height)), floor = high - 16;
-  const displaced = -film.base * film.moves * Math.cos(film.frequency * clock + film.phase) * scale;
-  const turn = Math.max(Math.min(now() * film.critical * film.angles, Math.PI / 2), -Math.PI / 2), half = film.width * scale / 2, tall = film.height * scale;
-  ink.strokeStyle = inks.line;
-  ink.lineWidth = 1;
-  for (let at = wide / 2 % 14; at < wide; at += 14) { ink.beginPath(); ink.moveTo(at, floor + 9); ink.lineTo(at - 5, floor + 14); ink.stroke(); }
-  ink.beginPath(); ink.moveTo(0, floor + 9); ink.lineTo(wide, floor + 9); ink.stroke();
-  ink.save();
-  ink.translate(wide / 2 + displaced, floor);
-  ink.fillStyle = inks.line;
-  const table = Math.max(tall * 0.7, half * 3);
-  ink.fillRect(-table, 0, 2 * table, 9);
-  ink.fillStyle = inks.accent;
-  ink.beginPath(); ink.moveTo(-4, 9); ink.lineTo(4, 9); ink.lineTo(0, 2); ink.fill();
-  ink.translate(turn > 0 ? half : -half, 0);
-  ink.rotate(turn);
-  ink.translate(turn > 0 ? -half : half, 0);
-  ink.fillStyle = "#E8C07D";
-  ink.strokeStyle = "#262626";
-  ink.fillRect(-half, -tall, 2 * half, tall);
-  ink.strokeRect(-half, -tall, 2 * half, tall);
-  ink.restore();
-}
-
-function tick(at) {
-  const passed = Math.min((at - last) / 1000, 0.1);
-  last = at;
-  if (playing && film?.time.length && !document.hidden) {
-    const end = film.time[film.time.length - 1];
-    clock += passed * Math.max(film.period / 1.2, (end - film.time[0]) / 40);
-    if (clock > end) clock = film.time[0];
-    frame();
-  }
-  requestAnimationFrame(tick);
-}
-requestAnimationFrame(tick);
-const told = () => { find("play").textContent = playing ? "❚❚" : "▶"; };
-find("play").onclick = () => { playing = !playing; told(); };
-told();
-new ResizeObserver(frame).observe(find("block"));
-theme(localStorage.getItem("theme") ?? (matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light"));
+theme(preferred());

@@ -10,7 +10,7 @@ from bokeh.core.properties import Any as Anything
 from bokeh.core.properties import String
 from bokeh.model import DataModel
 
-from rocking.explorer.form_fields import Refused
+from rocking.explorer.field_readers import Refused
 
 MAX_LENGTH = 4_000
 STRANGE = "Unknown request. Please reload the page."
@@ -20,9 +20,10 @@ _numbers = count()
 
 
 class Link(DataModel):
-    """Shared model of page and server: the page writes `asked`, the server all other properties."""
+    """Shared model of page and server: the page writes `asked` and `file`, the server all other properties."""
 
     asked = String(default="")
+    file = Anything()
     drawn = Anything()
     shown = String(default="")
     verdict = String(default="")
@@ -30,6 +31,7 @@ class Link(DataModel):
     progress = String(default="")
     compiling = String(default="")
     basin = String(default="")
+    saved = Anything()
     refused = String(default="")
 
     def send(self, name: str, message: dict[str, Any]) -> None:

@@ -13,10 +13,11 @@ from bokeh.document import Document
 
 from rocking.explorer import bokeh_figures, figure_data, plane_axes, texts
 from rocking.explorer.compilation import ALL, Compilation
+from rocking.explorer.document_renderer import BREATH, DocumentRenderer
 from rocking.explorer.page_channel import Link
 from rocking.explorer.progressive_map import FIRST, Picture, Plane, Refinement
 from rocking.explorer.view_state import POINTS, Span, ViewState
-from rocking.explorer.worker_pools import Jobs, Workers
+from rocking.explorer.worker_pools import Workers
 from rocking.model import MAX_AMPLITUDE, MAX_START, PERIODS, Kind, Verdict
 
 Value = TypeVar("Value")
@@ -26,8 +27,6 @@ FIRST_HITS = 3e3
 """Maximum number of impacts per point of a first, coarse map."""
 GROWTH = (1_000, 2_000, 7_000, 20_000, 30_000, 40_000)
 """Cycles added to a section, step by step: 10⁵ in total."""
-BREATH = 0.2
-"""Pause between two steps of a section and before a basin map is refined, s, so that the page can repaint."""
 MAP_FIRST = 1.0
 """Maximum delay of a basin map in favour of the map of responses, s."""
 MAP_LIMITS = Span(*PERIODS), Span(0.0, MAX_AMPLITUDE)
@@ -52,12 +51,11 @@ class Part:
     tell: Callable[[], None] = field(default=_silent)
 
 
-class SessionRenderer:
+class SessionRenderer(DocumentRenderer):
     """Figures of a document and the jobs that fill them. Results of an earlier selection are discarded."""
 
     def __init__(self, document: Document, link: Link, workers: Workers, compilation: Compilation) -> None:
-        self.document, self.link, self.workers, self.compilation = document, link, workers, compilation
-        self.jobs = Jobs()
+        super().__init__(document, link, workers, compilation, ALL)
         self.map, self.basin, self.diagram = (
             bokeh_figures.plane_of_systems(),
             bokeh_figures.plane_of_starts(),
@@ -100,37 +98,6 @@ class SessionRenderer:
             basin={"point": plane_axes.point(self.basin_corner, shown.angle, shown.velocity)},
             diagram={"here": getattr(shown, shown.vary)},
         )
-
-    async def _draw(self, change: Callable[[], None]) -> None:
-        """Change the document in its event loop, with its lock held."""
-        done = asyncio.get_running_loop().create_future()
-
-        def act() -> None:
-            if self._alone():
-                self.jobs.end_all()
-            if done.cancelled():
-                return
-            try:
-                change()
-            except Exception as error:  # noqa: BLE001 (raised again in the awaiting task)
-                done.set_exception(error)
-            else:
-                done.set_result(None)
-
-        self.document.add_next_tick_callback(act)
-        await done
-
-    def _alone(self) -> bool:
-        """Return whether the connection is closed. The session is kept for a while, so that the browser can reconnect."""
-        session = getattr(self.document.session_context, "session", None)
-        return session is not None and session.connection_count == 0
-
-    async def tell_compilation(self, stop: np.ndarray) -> None:
-        """Tell the page what fraction of the machine code is compiled, until all is."""
-        while not self.compilation.may_start(ALL):
-            await self._draw(partial(self.link.send, "compiling", {"share": self.compilation.fraction()}))
-            await asyncio.sleep(BREATH)
-        await self._draw(partial(self.link.send, "compiling", {"share": 1.0}))
 
     # the map
 

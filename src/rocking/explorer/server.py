@@ -6,6 +6,7 @@ import logging
 import re
 import socket
 import traceback
+from collections.abc import Mapping
 
 from bokeh.application import Application
 from bokeh.server.server import BaseServer
@@ -21,17 +22,19 @@ NAMES = ("localhost", HOST, "[::1]")
 """Allowed host names. The port may differ, because a tunnel can map it."""
 LOGGERS = ("bokeh.server.protocol_handler", "bokeh.server.views.ws", "tornado.application")
 """Loggers of failed messages and connections."""
+MAX_MESSAGE = 64_000_000
+"""Maximum size of a message of a page, in bytes: more than that of the largest file."""
 UNUSED = 5_000
 """Lifetime of a session without a connection, ms; checked every two seconds."""
 
 
-def local_server(application: Application, port: int) -> BaseServer:
-    """Create a local server of an application, with one document per session.
+def local_server(application: Application | Mapping[str, Application], port: int) -> BaseServer:
+    """Create a local server of one or more applications, with one document per session.
 
     Parameters
     ----------
-    application : Application
-        Application to serve.
+    application : Application or mapping of str to Application
+        Application at the address /, or applications by their addresses.
     port : int
         Port, in [0, 65535]; 0 selects a free port.
 
@@ -49,12 +52,13 @@ def local_server(application: Application, port: int) -> BaseServer:
     listening.setblocking(False)
     port = listening.getsockname()[1]
     pages = BokehTornado(
-        application,
+        dict(application) if isinstance(application, Mapping) else application,
         extra_websocket_origins=[f"{name}:{port}" for name in NAMES],
         unused_session_lifetime_milliseconds=UNUSED,
         check_unused_sessions_milliseconds=2_000,
         session_token_expiration=3_600,
         keep_alive_milliseconds=0,
+        websocket_max_message_size_bytes=MAX_MESSAGE,
         log_function=_keep_silent,
     )
     for name in LOGGERS:

@@ -12,7 +12,8 @@ from bokeh.events import Tap
 
 from rocking.explorer import plane_axes, presets, texts
 from rocking.explorer.compilation import ALL, Compilation
-from rocking.explorer.form_fields import Refused, address, changed, from_address, in_metres, written
+from rocking.explorer.field_readers import Refused, written
+from rocking.explorer.form_fields import address, changed, from_address, in_metres
 from rocking.explorer.page_channel import STRANGE, Link, message
 from rocking.explorer.renderer import SessionRenderer
 from rocking.explorer.view_state import DEFAULT, Span, ViewState, closest, nearby

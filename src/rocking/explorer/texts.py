@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from rocking.explorer.bokeh_figures import SHADED
-from rocking.explorer.form_fields import written
+from rocking.explorer.field_readers import written
 from rocking.explorer.progressive_map import Picture
 from rocking.explorer.view_state import DEFAULT, ViewState
 from rocking.model import GRAVITY, Block, Harmonic, Kind, Verdict, counted, percent

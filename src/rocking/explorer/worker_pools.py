@@ -17,7 +17,7 @@ LOG = logging.getLogger(__name__)
 
 
 class Workers:
-    """Thread pools shared by all sessions: `quick` for selections, `patient` for refinement.
+    """Thread pools shared by all sessions: `quick` for selections, `patient` for refinement, `reader` for files.
 
     With two pools, no selection waits for a map. Compiled code releases the GIL, so that the event loop keeps running.
     """
@@ -26,6 +26,7 @@ class Workers:
         self.count = cores()
         self.quick = ThreadPoolExecutor(self.count, "quick")
         self.patient = ThreadPoolExecutor(self.count, "patient")
+        self.reader = ThreadPoolExecutor(1, "reader")
 
     async def soon(self, work: Callable[[], Value]) -> Value:
         """Run the work of a selection and return its result."""
@@ -35,9 +36,13 @@ class Workers:
         """Run a batch of a refinement and return its result."""
         return await asyncio.get_running_loop().run_in_executor(self.patient, work)
 
+    async def read(self, work: Callable[[], Value]) -> Value:
+        """Read a file, one at a time, and return its contents."""
+        return await asyncio.get_running_loop().run_in_executor(self.reader, work)
+
     def close(self) -> None:
         """Shut down the threads after their current work."""
-        for pool in (self.quick, self.patient):
+        for pool in (self.quick, self.patient, self.reader):
             pool.shutdown(wait=False, cancel_futures=True)
 
 

@@ -14,12 +14,30 @@ MAX_BYTES = 300_000_000
 
 
 class Content:
-    """Bytes of a regular file of limited size."""
+    """Bytes of a regular file of limited size, or bytes in memory with a name."""
 
-    def __init__(self, path: str | os.PathLike[str]) -> None:
-        if not isinstance(path, str | os.PathLike):
-            raise TypeError(refusal("source", "be a path, or a Stream or Trace of ObsPy", path))
-        place = Path(path)
+    def __init__(self, source: str | os.PathLike[str] | bytes, name: str | None = None) -> None:
+        if isinstance(source, bytes):
+            self._keep(source, "bytes" if name is None else name)
+        elif name is not None:
+            raise TypeError(refusal("name", "be omitted for a source that is not bytes", name))
+        elif isinstance(source, str | os.PathLike):
+            self._read(Path(source))
+        else:
+            raise TypeError(refusal("source", "be a path, bytes, or a Stream or Trace of ObsPy", source))
+
+    def _keep(self, data: bytes, name: str) -> None:
+        """Take over bytes in memory."""
+        if not isinstance(name, str):
+            raise TypeError(refusal("name", "be a str", name))
+        self.name = name
+        shown = " ".join(name.split())
+        if len(data) > MAX_BYTES:
+            raise RecordError(f"{shown}: larger than {MAX_BYTES // 1_000_000} MB")
+        self._take(data, shown)
+
+    def _read(self, place: Path) -> None:
+        """Read a file."""
         self.name = place.name
         shown = " ".join(os.fspath(place).split())
         try:
@@ -30,14 +48,18 @@ class Content:
                 raise RecordError(f"{shown}: not a regular file")
             if about.st_size > MAX_BYTES:
                 raise RecordError(f"{shown}: larger than {MAX_BYTES // 1_000_000} MB")
-            self.data = place.read_bytes()
+            data = place.read_bytes()
         except (OSError, ValueError) as error:
             if isinstance(error, RecordError):
                 raise
             reason = getattr(error, "strerror", None) or error
             raise RecordError(f"{shown}: cannot be read: {reason}") from error
-        if not self.data.strip():
+        self._take(data, shown)
+
+    def _take(self, data: bytes, shown: str) -> None:
+        if not data.strip():
             raise RecordError(f"{shown}: the file is empty")
+        self.data = data
         self.sha256 = hashlib.sha256(self.data).hexdigest()
 
     @property

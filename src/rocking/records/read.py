@@ -36,12 +36,13 @@ class _Given(NamedTuple):
 
 
 def read_ground_motion(
-    source: str | os.PathLike[str] | Any,
+    source: str | os.PathLike[str] | bytes | Any,
     channel: int = 1,
     *,
     units: str | None = None,
     step: float | None = None,
     baseline: str = "none",
+    name: str | None = None,
 ) -> GroundMotion:
     """Read one channel of a record file.
 
@@ -54,8 +55,8 @@ def read_ground_motion(
 
     Parameters
     ----------
-    source : path, or Stream or Trace of ObsPy
-        File, or traces in memory.
+    source : path, bytes, or Stream or Trace of ObsPy
+        File, its contents in memory, or traces in memory.
     channel : int
         Channel of the file, counted from 1. Default: 1.
     units : {"m/s²", "cm/s²", "mm/s²", "g", "gal"}
@@ -64,6 +65,8 @@ def read_ground_motion(
         Time step in s, for a file that does not state it. Default: None.
     baseline : {"none", "mean", "linear", "quadratic"}
         Polynomial that is subtracted, as for `GroundMotion`. Default: "none".
+    name : str, optional
+        Name of the file, for bytes. Default: "bytes".
 
     Returns
     -------
@@ -96,7 +99,7 @@ def read_ground_motion(
     GroundMotion(pulse.csv, 2 samples, step 0.02 s, PGA 0.9807 m/s²)
     """
     given = _given(units, step, baseline)
-    found = _source(source)
+    found = _source(source, name)
     count = len(found.channels)
     number = whole("channel", channel, 1, 10**9)
     if number > count:
@@ -105,17 +108,18 @@ def read_ground_motion(
 
 
 def read_ground_motions(
-    source: str | os.PathLike[str] | Any,
+    source: str | os.PathLike[str] | bytes | Any,
     *,
     units: str | None = None,
     step: float | None = None,
     baseline: str = "none",
+    name: str | None = None,
 ) -> tuple[GroundMotion, ...]:
     """Read all channels of a record file, in their order.
 
     Parameters
     ----------
-    source, units, step, baseline
+    source, units, step, baseline, name
         As for `read_ground_motion`.
 
     Returns
@@ -146,7 +150,7 @@ def read_ground_motions(
     [2.0]
     """
     given = _given(units, step, baseline)
-    found = _source(source)
+    found = _source(source, name)
     motions = []
     for number in range(1, len(found.channels) + 1):
         motions.append(_motion(found, number, given))  # noqa: PERF401 - a warning names the caller's line
@@ -161,11 +165,11 @@ def _given(units: str | None, step: float | None, baseline: str) -> _Given:
     )
 
 
-def _source(source: Any) -> _Source:
-    if obspy_streams.is_stream(source):
-        name = type(source).__name__
-        return _Source(name, None, obspy_streams.channels_of(source, name, "ObsPy"))
-    content = Content(source)
+def _source(source: Any, name: str | None) -> _Source:
+    if name is None and obspy_streams.is_stream(source):
+        own = type(source).__name__
+        return _Source(own, None, obspy_streams.channels_of(source, own, "ObsPy"))
+    content = Content(source, name)
     text = TextFile(content) if content.is_text else None
     form = next((form for form in FORMATS if text and form.recognises(text)), None)
     channels = obspy_streams.read(content) if form is None else form.read(text)

@@ -8,6 +8,7 @@ from rocking.survey.fragility import fragility
 from rocking.survey.harmonic_spec import check_quantity, question
 from rocking.survey.incremental_dynamic_analysis import incremental_dynamic_analysis
 from rocking.survey.measures.attractors import alike, classify_with_anchor
+from rocking.survey.measures.block_endings import BlockEndings
 from rocking.survey.measures.response import classify_points
 from rocking.survey.overturning_amplitude import MAX_PHASES, overturning_amplitude
 from rocking.survey.overturning_set import overturning_set
@@ -25,6 +26,7 @@ __all__ = [
     "MAX_PHASES",
     "MAX_SAMPLES",
     "MAX_SEED",
+    "BlockEndings",
     "alike",
     "basin_map",
     "chaos_share",

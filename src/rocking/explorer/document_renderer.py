@@ -1,0 +1,65 @@
+"""Jobs that change the document of one session, in its event loop."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Callable, Sequence
+from functools import partial
+
+import numpy as np
+from bokeh.document import Document
+
+from rocking.explorer.compilation import Compilation
+from rocking.explorer.page_channel import Link
+from rocking.explorer.worker_pools import Jobs, Workers
+
+BREATH = 0.2
+"""Pause between two steps of a refinement, s, so that the page can repaint."""
+
+
+class DocumentRenderer:
+    """Document of a session, the jobs that change it, and the entry points that its figures need."""
+
+    def __init__(
+        self,
+        document: Document,
+        link: Link,
+        workers: Workers,
+        compilation: Compilation,
+        needed: Sequence[str],
+    ) -> None:
+        self.document, self.link, self.workers, self.compilation = document, link, workers, compilation
+        self.needed = needed
+        self.jobs = Jobs()
+
+    async def _draw(self, change: Callable[[], None]) -> None:
+        """Change the document in its event loop, with its lock held."""
+        done = asyncio.get_running_loop().create_future()
+
+        def act() -> None:
+            if self._alone():
+                self.jobs.end_all()
+            if done.cancelled():
+                return
+            try:
+                change()
+            except Exception as error:  # noqa: BLE001 (raised again in the awaiting task)
+                done.set_exception(error)
+            else:
+                done.set_result(None)
+
+        self.document.add_next_tick_callback(act)
+        await done
+
+    def _alone(self) -> bool:
+        """Return whether the connection is closed. The session is kept for a while, so that the browser can reconnect."""
+        session = getattr(self.document.session_context, "session", None)
+        return session is not None and session.connection_count == 0
+
+    async def tell_compilation(self, stop: np.ndarray) -> None:
+        """Tell the page what fraction of the machine code is compiled, until all is."""
+        while not self.compilation.may_start(self.needed):
+            share = self.compilation.fraction(self.needed)
+            await self._draw(partial(self.link.send, "compiling", {"share": share}))
+            await asyncio.sleep(BREATH)
+        await self._draw(partial(self.link.send, "compiling", {"share": 1.0}))

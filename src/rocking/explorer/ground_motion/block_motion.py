@@ -1,0 +1,134 @@
+"""Motion of the selected block: time history, verdict in words, and validity of the model."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+from attrs import frozen
+
+from rocking.explorer.ground_motion.ground import Ground, thinned
+from rocking.explorer.ground_motion.size_map import OVERTURNED, STANDING, WARM
+from rocking.explorer.ground_motion.view import GroundView
+from rocking.model import GRAVITY, Block, Outcome
+from rocking.motion import Motion, end_shown, simulate
+
+FEWEST, STEPS = 4_000, 20_000
+"""Smallest and largest number of times at which the angle is computed before it is thinned."""
+OVER = 0.02
+"""Free border above and below a curve, as a fraction of its range."""
+
+Facts = list[tuple[str, str]]
+
+
+@frozen(eq=False)
+class BlockMotion:
+    """Figures and words of one block under a base motion.
+
+    Attributes
+    ----------
+    angle, base : dict of arrays
+        Angle in degrees, and acceleration of the base in g, over the time in s.
+    spans : dict of list
+        Ranges of both figures: left, right, bottom, top.
+    words : dict
+        Verdict for the page.
+    """
+
+    angle: dict[str, np.ndarray]
+    base: dict[str, np.ndarray]
+    spans: dict[str, list[float]]
+    words: dict[str, Any]
+
+
+def block_motion(shown: GroundView, ground: Ground) -> BlockMotion:
+    """Simulate the selected block under the scaled base motion."""
+    block, base = shown.block, ground.scaled(shown.scale)
+    motion = simulate(block.system(base))
+    times, degrees = _history(motion, block, ground.sampled.times.size)
+    line = ground.line(shown.scale)
+    end = float(max(times[-1], line["time"][-1]))
+    fullest = max(float(np.abs(degrees).max()), 0.2 * block.degrees(1.0)) * (1 + 2 * OVER)
+    largest = max(float(np.abs(line["acceleration"]).max()), 1e-6) * (1 + 5 * OVER)
+    return BlockMotion(
+        {"time": times, "angle": degrees},
+        line,
+        {"history": [0.0, end, -fullest, fullest], "base": [0.0, end, -largest, largest]},
+        _words(motion, block),
+    )
+
+
+def _history(motion: Motion, block: Block, samples: int) -> tuple[np.ndarray, np.ndarray]:
+    """Return times in s and angles in degrees, thinned."""
+    times = np.linspace(0.0, end_shown(motion), min(max(samples, FEWEST), STEPS))
+    angle, _ = motion.at(times)
+    return thinned(block.seconds(times), block.degrees(angle))
+
+
+def _words(motion: Motion, block: Block) -> dict[str, Any]:
+    overturned, moves = motion.outcome == Outcome.OVERTURNED, motion.peak > 0.0
+    kind, colour = "stands still", STANDING
+    if overturned:
+        kind, colour = "overturns", OVERTURNED
+    elif moves:
+        kind, colour = "rocks and stands", WARM[min(int(motion.peak * len(WARM)), len(WARM) - 1)]
+    lift = block.acceleration(1.0) / GRAVITY
+    facts: Facts = [
+        ("block", f"{block.height:.4g} m × {block.width:.4g} m"),
+        ("R", f"{block.radius:.4g} m"),
+        ("θcr", f"{block.degrees(1.0):.4g}°"),
+        ("e", f"{block.restitution:.4g} (Housner)"),
+        ("lifts off at", f"{lift:.4g} g"),
+    ]
+    if moves:
+        largest = "largest |θ|" + " until the proof" * overturned
+        facts.append((largest, f"{block.degrees(motion.peak):.4g}°, {motion.peak:.4g} θcr"))
+        facts.append(("impacts", f"{motion.impacts:,}"))
+    if motion.overturning is not None:
+        facts.append(("overturning certain from", f"{block.seconds(motion.overturning.time):.4g} s"))
+    return {"kind": kind, "colour": colour, "facts": facts, **_evidence(motion, block)}
+
+
+def _evidence(motion: Motion, block: Block) -> dict[str, Any]:
+    """Return margin, certificate and validity in words."""
+    certified = "Certified: no rounding error can have changed the outcome."
+    if not motion.certified:
+        certified = (
+            "Not certified: rounding may have changed the outcome. Another computer may find the opposite."
+        )
+    return {
+        "margin": margin_in_words(motion, block),
+        "certified": certified,
+        "decided": bool(motion.certified),
+        "validity": _validity(motion, block),
+    }
+
+
+def margin_in_words(motion: Motion, block: Block) -> str:
+    """Return how close the motion came to another outcome, as one sentence."""
+    if math.isnan(motion.margin):
+        return "The block never lifts off."
+    size, time = abs(motion.margin), block.seconds(motion.margin_time)
+    speed = f"{size:.3g} α θcr = {math.degrees(block.radians_per_second(size)):.3g} °/s"
+    if motion.margin >= 0.0:
+        return f"Closest decision at t = {time:.4g} s: the block had a speed of {speed} to spare."
+    if motion.outcome == Outcome.OVERTURNED:
+        return f"Closest decision at t = {time:.4g} s: the block lacked a speed of {speed}, but overturned later."
+    return f"Closest to overturning at t = {time:.4g} s: the block lacked a speed of {speed}."
+
+
+def _validity(motion: Motion, block: Block) -> list[str]:
+    """Return the required friction and the warnings of the model, as sentences."""
+    found = motion.validity(block)
+    friction = []
+    if found.friction is not None and math.isfinite(found.friction):
+        friction = [f"Required coefficient of friction: {found.friction:.3g}."]
+    elif found.friction is not None:
+        friction = ["No friction suffices, because the base reaction vanishes."]
+    errors = []
+    if math.isfinite(found.moment_error):
+        errors = [
+            f"The slender-block model overestimates the restoring moment by up to {found.moment_error:.1%}."
+        ]
+    return [*friction, *errors, *(f"{each[0].upper()}{each[1:]}." for each in found.warnings)]

@@ -1,0 +1,263 @@
+// ---- start
+
+function begin(doc) {
+  const model = name => doc.get_model_by_name(name);
+  link = model("link");
+  for (const name of ["map", "history", "base"]) models[name] = model(name);
+  link.properties.drawn.change.connect(() => draw(link.drawn));
+  link.properties.saved.change.connect(() => keep(link.saved));
+  listen("shown", show);
+  listen("verdict", verdict);
+  listen("legend", legend);
+  listen("compiling", compiling);
+  listen("refused", refused);
+  for (const range of [models.map.x_range, models.map.y_range]) {
+    range.properties.start.change.connect(moved);
+    range.properties.end.change.connect(moved);
+  }
+  history.replaceState({ n: depth() }, "");
+  theme(document.documentElement.dataset.theme);
+  ask("open", { address: location.search }, false);
+  document.body.dataset.ready = "yes";
+}
+
+// ---- the view
+
+const rounded = (value, digits = 4) => String(Number(Number(value).toPrecision(digits)));
+const brief = text => (/^-?\d*\.?\d+(e.*)?$/.test(text) && text.length > 8 ? rounded(text, 6) : text);
+
+function show(told) {
+  const before = shown;
+  shown = told;
+  const channel = find("channel");
+  channel.replaceChildren(...told.channels.map((name, n) => new Option(name ? `${n + 1}: ${name}` : String(n + 1), n + 1)));
+  for (const [name, text] of Object.entries(told.fields)) {
+    const field = document.querySelector(`#fields [name="${name}"]`);
+    if (field && document.activeElement !== field) field.value = field.tagName === "INPUT" ? brief(text) : text;
+  }
+  place(told.fields.source);
+  remember(told, before);
+  if (!sliding) find("slider").value = slot(told.fields.scale);
+  find("pga").textContent = `PGA ${rounded(told.ground.pga * told.fields.scale, 3)} g`;
+  find("link-text").textContent = location.href;
+  find("link-note").hidden = told.fields.source !== "file";
+  find("ground-name").textContent = told.ground.name;
+  find("ground-facts").replaceChildren(...rows(told.ground.facts));
+  find("ground-note").textContent = told.ground.note;
+  if (told.mapped) document.body.dataset.map = "0";
+  if (told.moved) find("verdict").classList.add("stale");
+  const { height, width } = told.block;
+  if (!before || before.block.height !== height || before.block.width !== width) find("readout").textContent = "Hover over the map to see a block; click to select it.";
+}
+
+// Fields of the pulse and of the file are visible only for these sources.
+function place(source) {
+  find("source").value = source;
+  const missing = source === "file" && (Boolean(find("file-refused").textContent) || shown?.fields.units || shown?.fields.step);
+  for (const label of all("#fields [data-for]")) label.hidden = label.dataset.for !== source || (label.dataset.if === "missing" && !missing);
+  find("channel-label").hidden = source !== "file" || (shown?.channels.length ?? 0) < 2;
+}
+
+function refused(told) {
+  refuse(told);
+  if (told.fields.file) place("file");
+}
+
+for (const field of all("#fields input:not([type]), #fields select")) {
+  field.addEventListener("change", () => {
+    if (field.name === "source") {
+      place(field.value);
+      if (field.value === "file" && !shown?.channels.length) return find("file").click();
+    }
+    ask("fields", { [field.name]: field.value });
+  });
+}
+find("fields").addEventListener("submit", event => event.preventDefault());
+
+// ---- files stay between this page and the server on the same computer
+
+const MOST = 50e6;
+
+async function give(file) {
+  if (!file) return;
+  refuse({ fields: {} });
+  if (file.size > MOST) return refused({ fields: { file: `${file.name}: larger than 50 MB` } });
+  link.file = { name: file.name, data: await file.arrayBuffer() };
+}
+
+find("file").addEventListener("change", event => give(event.target.files[0]));
+for (const type of ["dragover", "dragleave", "drop"]) {
+  document.addEventListener(type, event => {
+    if (!event.dataTransfer?.types.includes("Files")) return;
+    event.preventDefault();
+    document.body.classList.toggle("dropping", type === "dragover");
+    if (type === "drop") { place("file"); give(event.dataTransfer.files[0]); }
+  });
+}
+
+// ---- the scale
+
+const ENDS = [0.1, 20]; // of the slider; the field takes more
+let sliding = 0, pending = false;
+const slot = scale => 1000 * Math.log(scale / ENDS[0]) / Math.log(ENDS[1] / ENDS[0]);
+function slid(push) {
+  const scale = rounded(ENDS[0] * (ENDS[1] / ENDS[0]) ** (find("slider").value / 1000), 3);
+  ask("fields", { scale }, push);
+}
+find("slider").addEventListener("input", () => {
+  if (pending) return;
+  sliding = 1;
+  pending = true;
+  setTimeout(() => { pending = false; slid(false); }, 80);
+});
+find("slider").addEventListener("change", () => { sliding = 0; slid(true); });
+
+// ---- the map: the browser zooms and pans, the server computes
+
+let timer;
+const spans = () => [models.map.x_range, models.map.y_range].map(({ start, end }) => [start, end]);
+
+function moved() {
+  clearTimeout(timer);
+  timer = setTimeout(() => {
+    const [sizes, angles] = spans();
+    const same = (span, other) => span.every((end, n) => Math.abs(end / other[n] - 1) < 1e-12);
+    if (!shown || (same(sizes, shown.sizes) && same(angles, shown.angles))) return;
+    ask("fields", { sizes: sizes.join(":"), angles: angles.join(":") });
+  }, 150);
+}
+
+function zoom(by) {
+  const [[left, right], [low, high]] = spans(), clamp = (value, [least, most]) => Math.min(Math.max(value, least), most);
+  const middle = Math.sqrt(left * right), wide = Math.sqrt(right / left) ** (1 / by), centre = (low + high) / 2, half = (high - low) / 2 / by;
+  const { x_range, y_range } = models.map;
+  x_range.setv({ start: clamp(middle / wide, x_range.bounds), end: clamp(middle * wide, x_range.bounds) });
+  y_range.setv({ start: clamp(centre - half, y_range.bounds), end: clamp(centre + half, y_range.bounds) });
+}
+for (const button of all("[data-zoom]")) button.onclick = () => zoom(Number(button.dataset.zoom));
+find("whole").onclick = () => ask("fields", { sizes: "0.2:10", angles: "3:30" });
+
+// Point of the grid of answers under the pointer.
+function point(event) {
+  const view = Bokeh.index.find_one(models.map), box = view?.el.getBoundingClientRect(), inner = view?.frame?.bbox;
+  const side = Math.round(Math.sqrt(answers.outcome?.length ?? 0));
+  if (!inner || !side || !shown) return;
+  const across = (event.clientX - box.left - inner.left) / inner.width, up = 1 - (event.clientY - box.top - inner.top) / inner.height;
+  if (across < 0 || across > 1 || up < 0 || up > 1) return;
+  return block(Math.round(up * (side - 1)) * side + Math.round(across * (side - 1)), side);
+}
+
+function block(at, side) {
+  const [left, right] = shown.sizes, [low, high] = shown.angles;
+  const size = left * (right / left) ** (at % side / (side - 1)), angle = low + (high - low) * Math.floor(at / side) / (side - 1), radians = angle * Math.PI / 180;
+  const overturns = answers.outcome[at] === 2, peak = answers.peak[at];
+  return { size, angle, height: 2 * size * Math.cos(radians), width: 2 * size * Math.sin(radians), peak, margin: answers.margin[at], certified: answers.certified[at],
+    outcome: overturns ? "overturns" : peak > 0 ? "rocks and stands" : "stands still" };
+}
+
+find("map").addEventListener("pointermove", event => {
+  const found = point(event);
+  if (!found) return;
+  const strong = document.createElement("b");
+  strong.textContent = found.outcome;
+  const reach = found.outcome === "rocks and stands" ? `, largest angle ${rounded(found.peak * found.angle, 3)}° = ${rounded(found.peak, 3)} θcr` : "";
+  find("readout").replaceChildren(`Height ${rounded(found.height, 3)} m, width ${rounded(found.width, 3)} m (R ${rounded(found.size, 3)} m, θcr ${rounded(found.angle, 3)}°): `, strong, reach + (found.certified ? "" : "; not certified"));
+});
+
+// ---- verdict and legend
+
+function rows(facts) {
+  return facts.map(([name, value]) => {
+    const row = document.createElement("div"), term = document.createElement("dt"), definition = document.createElement("dd");
+    term.textContent = name;
+    definition.textContent = value;
+    row.append(term, definition);
+    return row;
+  });
+}
+
+function verdict(told) {
+  judge({ ...told, evidence: "" });
+  find("evidence").replaceChildren(...[told.margin, told.certified, ...told.validity].map((sentence, n) => {
+    const line = document.createElement("span");
+    line.textContent = sentence;
+    if (n === 1 && !told.decided) line.className = "undecided";
+    return line;
+  }));
+}
+
+function legend(told) {
+  const entry = (name, background, share, ramp) => {
+    const row = document.createElement("li"), swatch = document.createElement("i"), part = document.createElement("small");
+    swatch.style.background = background;
+    if (ramp) swatch.className = "ramp";
+    part.textContent = `(${share})`;
+    row.append(swatch, name, part);
+    return row;
+  };
+  find("legend").replaceChildren(
+    entry("stands still", told.stands.colour, told.stands.share),
+    entry("rocks and stands, largest |θ|/θcr 0 to 1", `linear-gradient(90deg, ${told.rocks.colours.join(", ")})`, told.rocks.share, true),
+    entry("overturns", told.overturns.colour, told.overturns.share),
+  );
+  if (told.undecided) find("legend").append(Object.assign(document.createElement("li"), { textContent: `not certified: ${told.undecided}` }));
+  find("map").setAttribute("aria-label", `Map of outcomes over size and critical angle: stands still ${told.stands.share}, rocks and stands ${told.rocks.share}, overturns ${told.overturns.share}. Enter height and width to select a block.`);
+  const share = (told.side / 305) ** 2;
+  find("progress").textContent = told.done ? "" : `Computing the map: ${told.side} × ${told.side} points`;
+  bar.style.opacity = told.done ? 0 : 1;
+  bar.style.width = `${100 * share}%`;
+  document.body.dataset.map = told.done ? "done" : String(told.side);
+}
+
+// Figures wait for their own part of the machine code.
+function compiling({ share }) {
+  const done = share >= 1;
+  for (const plot of ["map", "history", "base"].map(find)) if (plot.dataset.waits !== "") plot.dataset.waits = done ? "" : "Compiling …";
+  if (/^(Compiling )?…$/.test(find("kind").textContent)) find("kind").textContent = done ? "…" : "Compiling …";
+  if (done || !find("map").dataset.waits) return;
+  find("progress").textContent = `Compiling, once for this machine: ${Math.floor(100 * share)} %`;
+  bar.style.opacity = 1;
+  bar.style.width = `${100 * share}%`;
+}
+
+// ---- the animation, seen from the base
+
+function scene() {
+  const data = models.history.renderers[0].data_source.data, column = key => (data instanceof Map ? data.get(key) : data[key]);
+  const time = column("time"), degrees = column("angle"), { height, width, critical } = shown.block;
+  const angle = Array.from(degrees, value => value * Math.PI / 180 / critical), peak = Math.max(...angle.map(Math.abs));
+  const angles = Math.min(Math.max(0.35 / (peak * critical || 1), 1), 12);
+  film = { time, angle, height, width, critical, angles, moves: 1, displacement: () => 0, speed: 1 };
+  clock = Math.min(clock, time[time.length - 1]);
+  find("scene-told").textContent = angles > 1.05 ? `angle × ${angles.toPrecision(2)}` : "true to scale";
+  frame();
+}
+
+// ---- export
+
+function table(name) {
+  const columns = {};
+  if (name === "map") {
+    const side = Math.round(Math.sqrt(answers.outcome.length)), points = Array.from(answers.outcome, (_, at) => block(at, side));
+    const names = { size_m: "size", critical_angle_deg: "angle", height_m: "height", width_m: "width", outcome: "outcome", peak: "peak", margin: "margin", certified: "certified" };
+    for (const [title, key] of Object.entries(names)) columns[title] = points.map(each => each[key]);
+  } else for (const [key, values] of parts(models[name].renderers[0].data_source.data)) columns[key] = values;
+  const names = Object.keys(columns), lines = [names.join(",")];
+  for (let n = 0; n < (columns[names[0]]?.length ?? 0); n++) lines.push(names.map(key => columns[key][n]).join(","));
+  return lines.join("\n") + "\n";
+}
+
+for (const button of all("[data-save]")) button.onclick = async () => {
+  const name = find("which").value, kind = button.dataset.save;
+  if (kind === "csv") return save(name, new Blob([table(name)], { type: "text/csv" }), kind);
+  save(name, await Bokeh.index.find_one(models[name]).export(kind, true).to_blob(), kind);
+};
+find("netcdf").onclick = () => ask("save", {});
+
+function keep(saved) {
+  if (!saved) return;
+  const { data } = Object.fromEntries(parts(saved));
+  save("map", new Blob([data], { type: "application/x-netcdf" }), "nc");
+}
+
+theme(preferred());

@@ -1,0 +1,229 @@
+// Parts of every page of the explorer; the script of a page follows them.
+"use strict";
+const given = JSON.parse(document.getElementById("given").textContent);
+const find = id => document.getElementById(id);
+const all = selector => [...document.querySelectorAll(selector)];
+let link, shown, models = {}, playing = !matchMedia("(prefers-reduced-motion: reduce)").matches, asked = 0;
+
+// ---- requests and messages
+
+function ask(what, fields, push = true) {
+  link.asked = JSON.stringify({ n: ++asked, what, fields, push: push ? "yes" : "no" });
+}
+
+function listen(name, act) {
+  const heard = () => { if (link[name]) act(JSON.parse(link[name])); };
+  link.properties[name].change.connect(heard);
+  heard();
+}
+
+const waiting = setInterval(() => {
+  const doc = window.Bokeh?.documents[0];
+  if (!doc || !doc.is_idle || !doc.get_model_by_name("link")) return;
+  clearInterval(waiting);
+  begin(doc);
+}, 15);
+
+// ---- the view and its address
+
+const depth = () => history.state?.n ?? 0;
+
+// Put the address of a view into the history of the browser.
+function remember(told, before) {
+  if (told.push && before && told.address !== before.address) {
+    history.pushState({ n: depth() + 1 }, "", "?" + told.address);
+    sessionStorage.setItem("deepest", depth());
+  } else {
+    history.replaceState({ n: depth() }, "", "?" + told.address);
+  }
+  stack();
+}
+
+function stack() {
+  find("undo").disabled = depth() === 0;
+  find("redo").disabled = depth() >= Number(sessionStorage.getItem("deepest") ?? 0);
+}
+
+window.addEventListener("popstate", () => { if (link) ask("open", { address: location.search }, false); });
+find("undo").onclick = () => history.back();
+find("redo").onclick = () => history.forward();
+
+// ---- contents of the figures
+
+const parts = told => (told instanceof Map ? [...told] : Object.entries(told));
+let answers = {}; // results at each point of the map
+
+function draw(drawn) {
+  for (const [name, told] of parts(drawn)) {
+    if (parts(told).some(([part]) => ["image", "line", "points", "dense"].includes(part))) find(name).dataset.waits = "";
+  }
+  for (const [name, told] of parts(drawn)) if (models[name]) for (const [part, value] of parts(told)) fill(name, part, value);
+  if (parts(drawn).some(([name]) => name === "history")) scene();
+}
+
+function fill(name, part, value) {
+  const figure = models[name], change = (model, to) => model.setv(to, { sync: false });
+  if (part === "answers") answers = Object.fromEntries(parts(value));
+  else if (part === "why") find(name).dataset.why = value;
+  else if (part === "label") change(figure.below[0], { axis_label: value });
+  else if (["here", "above", "below"].includes(part)) change(figure.center.find(each => each.name === part), { location: value });
+  else if (part === "ranges") {
+    change(figure.x_range, { start: value[0], end: value[1] });
+    change(figure.y_range, { start: value[2], end: value[3] });
+  } else change(figure.renderers.find(each => each.data_source.name === part).data_source, { data: value });
+}
+
+// ---- messages
+
+function judge(told) {
+  find("verdict").classList.remove("stale");
+  find("kind").textContent = told.kind;
+  find("verdict").querySelector("i").style.background = told.colour;
+  find("facts").replaceChildren(...told.facts.map(([name, value]) => {
+    const row = document.createElement("div"), term = document.createElement("dt"), definition = document.createElement("dd");
+    term.textContent = name;
+    definition.textContent = value;
+    row.append(term, definition);
+    return row;
+  }));
+  find("evidence").textContent = told.evidence;
+}
+
+const bar = document.querySelector("#bar i");
+
+function pardon(input) {
+  if (!input.hasAttribute("aria-invalid")) return;
+  input.removeAttribute("aria-invalid");
+  find(input.id + "-refused").textContent = "";
+}
+
+function refuse({ fields }) {
+  all("input[aria-invalid]").forEach(pardon);
+  const rest = [];
+  for (const [name, sentence] of Object.entries(fields)) {
+    const id = find("units")?.open && find("m-" + name) ? "m-" + name : name;
+    const input = find(id), line = find(id + "-refused");
+    if (!line) { rest.push(sentence); continue; }
+    line.textContent = sentence;
+    input.setAttribute("aria-invalid", "true");
+  }
+  say(rest.join("; "));
+}
+
+document.addEventListener("input", event => pardon(event.target));
+
+let fading;
+function say(text) {
+  const notice = find("notice");
+  notice.textContent = text;
+  notice.hidden = !text;
+  clearTimeout(fading);
+  if (text) fading = setTimeout(() => { notice.hidden = true; }, 8000);
+}
+
+// ---- controls
+
+for (const button of all("[data-opens]")) button.onclick = () => find(button.dataset.opens).showModal();
+
+for (const button of all("[data-copy]")) button.onclick = async () => {
+  const text = { link: location.href, python: shown.python, commands: shown.commands }[button.dataset.copy];
+  try { await navigator.clipboard.writeText(text); button.textContent = "Copied"; } catch { button.textContent = "Select and copy"; }
+  setTimeout(() => { button.textContent = "Copy"; }, 1500);
+};
+
+// ---- files
+
+function save(name, blob, suffix) {
+  const anchor = document.createElement("a");
+  anchor.href = URL.createObjectURL(blob);
+  anchor.download = `rocking-${name}.${suffix}`;
+  anchor.click();
+  setTimeout(() => URL.revokeObjectURL(anchor.href), 5000);
+}
+
+// ---- dark and light
+
+function theme(name) {
+  document.documentElement.dataset.theme = name;
+  for (const model of Object.values(models)) {
+    const view = Bokeh.index.find_one(model);
+    view?.request_repaint?.();
+  }
+  const style = getComputedStyle(document.documentElement), colour = name => ({ value: style.getPropertyValue(name) });
+  for (const name of ["line", "accent"]) inks[name] = style.getPropertyValue(`--${name}`);
+  for (const model of Object.values(models)) model.title.setv({ text_color: colour("--ink").value.trim() }, { sync: false });
+  for (const { name, glyph } of Object.values(models).flatMap(model => model.renderers)) {
+    if (name === "words") glyph.setv({ text_color: colour("--soft") }, { sync: false });
+    if (name === "line") glyph.setv({ line_color: colour("--motion") }, { sync: false });
+    if (name === "dots") glyph.setv({ fill_color: colour("--motion") }, { sync: false });
+  }
+  frame();
+}
+find("theme").onclick = () => {
+  const next = document.documentElement.dataset.theme === "dark" ? "light" : "dark";
+  localStorage.setItem("theme", next);
+  theme(next);
+};
+
+// ---- the block
+
+let film = null, clock = 0, last = 0;
+const inks = {}; // read once per theme, because reading a style in a frame forces a recalculation of all styles
+
+function now() {
+  const { time, angle } = film;
+  let low = 0, high = time.length - 1;
+  while (high - low > 1) { const middle = (low + high) >> 1; if (time[middle] <= clock) low = middle; else high = middle; }
+  const step = time[high] - time[low], share = step > 0 ? Math.min(Math.max((clock - time[low]) / step, 0), 1) : 0;
+  return angle[low] + share * (angle[high] - angle[low]);
+}
+
+function frame() {
+  const canvas = find("block"), ink = canvas.getContext("2d"), sharp = devicePixelRatio || 1, wide = canvas.clientWidth, high = canvas.clientHeight;
+  if (!wide) return;
+  if (canvas.width !== Math.round(wide * sharp)) canvas.width = Math.round(wide * sharp);
+  if (canvas.height !== Math.round(high * sharp)) canvas.height = Math.round(high * sharp);
+  ink.setTransform(sharp, 0, 0, sharp, 0, 0);
+  ink.clearRect(0, 0, wide, high);
+  if (!film?.time.length) return;
+  const scale = Math.min((high - 30) / film.height, wide / (2.6 * film.height)), floor = high - 16;
+  const displaced = film.displacement(clock) * film.moves * scale;
+  const turn = Math.max(Math.min(now() * film.critical * film.angles, Math.PI / 2), -Math.PI / 2), half = film.width * scale / 2, tall = film.height * scale;
+  ink.strokeStyle = inks.line;
+  ink.lineWidth = 1;
+  for (let at = wide / 2 % 14; at < wide; at += 14) { ink.beginPath(); ink.moveTo(at, floor + 9); ink.lineTo(at - 5, floor + 14); ink.stroke(); }
+  ink.beginPath(); ink.moveTo(0, floor + 9); ink.lineTo(wide, floor + 9); ink.stroke();
+  ink.save();
+  ink.translate(wide / 2 + displaced, floor);
+  ink.fillStyle = inks.line;
+  const table = Math.max(tall * 0.7, half * 3);
+  ink.fillRect(-table, 0, 2 * table, 9);
+  ink.fillStyle = inks.accent;
+  ink.beginPath(); ink.moveTo(-4, 9); ink.lineTo(4, 9); ink.lineTo(0, 2); ink.fill();
+  ink.translate(turn > 0 ? half : -half, 0);
+  ink.rotate(turn);
+  ink.translate(turn > 0 ? -half : half, 0);
+  ink.fillStyle = "#E8C07D";
+  ink.strokeStyle = "#262626";
+  ink.fillRect(-half, -tall, 2 * half, tall);
+  ink.strokeRect(-half, -tall, 2 * half, tall);
+  ink.restore();
+}
+
+function tick(at) {
+  const passed = Math.min((at - last) / 1000, 0.1);
+  last = at;
+  if (playing && film?.time.length && !document.hidden) {
+    const end = film.time[film.time.length - 1];
+    clock += passed * film.speed;
+    if (clock > end) clock = film.time[0];
+    frame();
+  }
+  requestAnimationFrame(tick);
+}
+requestAnimationFrame(tick);
+const told = () => { find("play").textContent = playing ? "❚❚" : "▶"; };
+find("play").onclick = () => { playing = !playing; told(); };
+told();
+new ResizeObserver(frame).observe(find("block"));
+const preferred = () => (localStorage.getItem("theme") ?? (matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light"));

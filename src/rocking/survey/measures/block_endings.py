@@ -1,0 +1,69 @@
+"""Ends of the motions of many blocks under one ground motion or pulse."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from rocking.kernels.march import finite_motion
+from rocking.model import GroundMotion, Pulse, record_set
+from rocking.survey.measurement import Arrays
+from rocking.survey.measures.ending import answers, judge
+from rocking.survey.motion_spec import motion_question
+
+WITH_PEAK = {"with_peak": 1}
+
+
+class BlockEndings:
+    """Measurement of the ends at points of size and slenderness, with the results of `rocking_spectrum`.
+
+    Blocks are uniform rectangles with Housner's restitution. They start at rest.
+
+    Parameters
+    ----------
+    base : GroundMotion or Pulse
+        Base motion in SI units.
+    scale : float
+        Factor of the base motion.
+    """
+
+    def __init__(self, base: GroundMotion | Pulse, scale: float) -> None:
+        self.scale = scale
+        self.pulse = base if isinstance(base, Pulse) and base.cosine is not None else None
+        motion = base if isinstance(base, GroundMotion) else _samples(base)
+        given = {"size": 1.0, "slenderness": 0.1, "angle": 0.0, "polarity": 1.0, "scale": scale}
+        self.asked = motion_question(record_set(motion), given, intensity="scale")
+
+    def load(self) -> None:
+        """Compile or load the kernels of `at`."""
+        (finite_motion.run_batch if self.pulse is None else finite_motion.run_pulses).load()
+
+    def at(self, size: np.ndarray, slenderness: np.ndarray, stop: np.ndarray) -> Arrays | None:
+        """Return outcome, certified, peak, margin and impacts at n points; None if another thread sets `stop` (1,).
+
+        Neighbouring points of equal size share the tables of the base motion.
+        """
+        runs = self.asked.inputs({"size": size, "slenderness": slenderness})
+        if self.pulse is None:
+            return judge(runs, WITH_PEAK, stop)
+        assert self.pulse.cosine is not None
+        turns, phase = self.pulse.cosine
+        asked, rows = (
+            np.empty(size.size, finite_motion.PULSE_ROW),
+            np.empty(size.size, finite_motion.ENDING_ROW),
+        )
+        asked["amplitude"] = runs.factor * abs(self.pulse.amplitude)
+        asked["duration"] = runs.frequency_parameter * self.pulse.duration
+        asked["frequency"] = 2 * math.pi * turns / asked["duration"]
+        asked["phase"] = phase if self.pulse.amplitude >= 0 else phase + math.pi
+        asked["restitution"] = runs.restitution
+        return answers(rows, with_peak=True) if finite_motion.run_pulses(asked, True, rows, stop) else None
+
+
+def _samples(pulse: Pulse) -> GroundMotion:
+    """Return the samples of a pulse of straight lines or of a Ricker pulse; of a sine or cosine, a motion without use."""
+    if pulse.cosine is not None:
+        return GroundMotion([0.0], step=1.0)
+    forcing = pulse.samples
+    return GroundMotion(pulse.amplitude * forcing.values, step=forcing.step, name=pulse.kind)

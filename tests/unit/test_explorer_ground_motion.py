@@ -1,0 +1,367 @@
+"""Page of ground motions: its view in a link, its files from memory, its map and the motion of one block."""
+
+import asyncio
+import io
+import itertools
+import math
+from concurrent.futures import ThreadPoolExecutor
+
+import attrs
+import numpy as np
+import pytest
+import xarray as xr
+from bokeh.document import Document
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import record_files as write
+import rocking as rk
+from rocking.explorer import compilation
+from rocking.explorer.field_readers import Refused
+from rocking.explorer.ground_motion.block_motion import block_motion, margin_in_words
+from rocking.explorer.ground_motion.ground import Ground, ground_of, open_file, read_file, thinned
+from rocking.explorer.ground_motion.map_file import netcdf
+from rocking.explorer.ground_motion.session import GroundSession
+from rocking.explorer.ground_motion.size_map import (
+    OVERTURNS,
+    POINTS,
+    ROCKS,
+    SHADES,
+    STANDS,
+    SizePlane,
+    SizeRefinement,
+)
+from rocking.explorer.ground_motion.view import (
+    DEFAULT,
+    SCALES,
+    SIZES,
+    SLENDERNESS,
+    SOURCES,
+    GroundView,
+    address,
+    at_point,
+    changed,
+    from_address,
+)
+from rocking.explorer.view_state import Span
+from rocking.explorer.worker_pools import Workers
+from rocking.model import KINDS, Outcome
+from rocking.survey import BlockEndings
+
+G = 9.80665
+CODE = tuple(Outcome).index(Outcome.OVERTURNED)
+SHORT = rk.GroundMotion([0.0, 4.0, -6.0, 5.0, -2.0, 0.0], step=0.25, name="short")
+PLANE = SizePlane(Span(0.3, 3.0), Span(5.0, 40.0))
+
+
+def spans(low, high):
+    pairs = st.tuples(st.floats(low, high), st.floats(low, high)).map(sorted).map(lambda ends: Span(*ends))
+    return pairs.filter(lambda span: span.high >= 1.001 * span.low)
+
+
+SHOWN = st.builds(
+    GroundView,
+    source=st.sampled_from(SOURCES),
+    kind=st.sampled_from(KINDS),
+    amplitude=st.floats(1e-3, 20),
+    duration=st.floats(0.01, 60),
+    units=st.sampled_from(["", "g", "cm/s²"]),
+    step=st.none() | st.floats(1e-6, 1000),
+    channel=st.integers(1, 9),
+    scale=st.floats(*SCALES),
+    height=st.floats(0.1, 1000),
+    width=st.floats(1e-3, 0.14),
+    sizes=spans(*SIZES),
+    angles=spans(*SLENDERNESS),
+)
+
+
+def run(coroutine):
+    """Run a coroutine in a new thread, because a browser leaves an event loop in this one."""
+    with ThreadPoolExecutor(1) as pool:
+        return pool.submit(asyncio.run, asyncio.wait_for(coroutine, 60)).result()
+
+
+@pytest.fixture
+def workers():
+    made = Workers()
+    yield made
+    made.close()
+
+
+@given(SHOWN)
+@settings(max_examples=60, deadline=None)
+def test_link_gives_the_view_back(shown):
+    assert from_address("?" + address(shown)) == (shown, {})
+
+
+@pytest.mark.parametrize(
+    ("typed", "field"),
+    [
+        ({"scale": "0"}, "scale"),
+        ({"scale": "1e9"}, "scale"),
+        ({"source": "elsewhere"}, "source"),
+        ({"kind": "square"}, "kind"),
+        ({"amplitude": "nan"}, "amplitude"),
+        ({"duration": ""}, "duration"),
+        ({"step": "-1"}, "step"),
+        ({"units": "furlong"}, "units"),
+        ({"channel": "0"}, "channel"),
+        ({"sizes": "2:1"}, "sizes"),
+        ({"sizes": "1:1.0001"}, "sizes"),
+        ({"angles": "3"}, "angles"),
+        ({"height": "0.1", "width": "50"}, "width"),
+        ({"colour": "red"}, "page"),
+    ],
+)
+def test_invalid_field_is_refused_by_its_name(typed, field):
+    with pytest.raises(Refused) as caught:
+        changed(DEFAULT, typed)
+    assert list(caught.value.fields) == [field]
+
+
+def test_invalid_link_keeps_the_default_of_its_field_and_says_so():
+    shown, refused = from_address("?version=1&scale=2&height=tall")
+    assert (shown.scale, shown.height, list(refused)) == (2.0, DEFAULT.height, ["height"])
+    assert from_address("?version=7")[1].keys() == {"page"}
+    assert from_address("?" + "a" * 3000)[1].keys() == {"page"}
+
+
+@given(spans(*SIZES), spans(*SLENDERNESS), st.floats(0, 1), st.floats(0, 1))
+@settings(max_examples=100, deadline=None)
+def test_click_selects_a_block_nearer_to_it_than_any_other_point_of_the_map(sizes, angles, across, up):
+    shown = attrs.evolve(DEFAULT, sizes=sizes, angles=angles)
+    size = sizes.low * (sizes.high / sizes.low) ** across
+    degrees = angles.low + up * angles.width
+    block = changed(shown, at_point(shown, size, degrees)).block
+    assert abs(math.log(block.radius / size)) <= 0.5 * math.log(sizes.high / sizes.low) / (POINTS - 1)
+    assert abs(block.degrees(1.0) - degrees) <= 0.5 * angles.width / (POINTS - 1)
+
+
+@given(st.lists(st.floats(-1e3, 1e3), min_size=1, max_size=400))
+@settings(max_examples=100, deadline=None)
+def test_thinned_line_keeps_its_ends_and_extremes(values):
+    values = np.array(values)
+    times, kept = thinned(np.arange(values.size), values, 50)
+    assert kept.size <= 52
+    assert (kept == values[times]).all()
+    assert (np.diff(times) > 0).all()
+    assert {times[0], times[-1]} == {0, values.size - 1}
+    assert (kept.min(), kept.max()) == (values.min(), values.max())
+
+
+def test_facts_of_a_motion_follow_its_scale():
+    ground = Ground(SHORT)
+    facts = dict(ground.words(2.0)["facts"])
+    assert facts["PGA"] == "1.224 g (12 m/s²)"
+    assert facts["PGV"] == f"{SHORT.scaled(2.0).pgv:.4g} m/s"
+    assert facts["duration"] == "1.25 s"
+    assert ground.line(2.0)["acceleration"] == pytest.approx(2.0 * SHORT.acceleration / G, rel=1e-15)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_pulse_is_drawn_with_its_own_peak_and_speed(kind):
+    shown = attrs.evolve(DEFAULT, source="pulse", kind=kind, amplitude=0.4, duration=0.8)
+    ground = ground_of(shown, ())
+    line = ground.line(0.5)
+    assert np.abs(line["acceleration"]).max() == pytest.approx(0.2, rel=1e-4)
+    assert line["time"][[0, -1]] == pytest.approx([0.0, ground.base.span])
+    speeds = {"rectangular": 1.0, "half-sine": 2 / math.pi, "one-sine": 1 / math.pi, "triangular": 0.5}
+    if kind in speeds:  # integral of the positive part of the pulse
+        assert ground.peaks[1] == pytest.approx(speeds[kind] * 0.4 * G * 0.8, rel=1e-6)
+
+
+# ---- files
+
+
+def test_file_in_memory_is_the_file_on_the_disk(tmp_path):
+    data = "\n".join(write.peer(np.sin(np.arange(40)))).encode()
+    path = tmp_path / "town.AT2"
+    path.write_bytes(data)
+    (motion,) = read_file("town.AT2", data, DEFAULT)
+    assert motion == rk.read_ground_motion(path)
+    assert ground_of(attrs.evolve(DEFAULT, source="file", channel=3), (motion,)).base is motion
+
+
+def test_file_without_units_asks_for_them_in_one_line_and_then_is_read():
+    data = b"0\n1\n-1\n0\n"
+    with pytest.raises(rk.RecordError, match="does not state the unit") as caught:
+        read_file("bare.txt", data, DEFAULT)
+    assert "\n" not in str(caught.value)
+    (motion,) = read_file("bare.txt", data, attrs.evolve(DEFAULT, units="g", step=0.02))
+    assert (motion.pga, motion.step) == (G, 0.02)
+
+
+def test_file_is_refused_beyond_the_limit_and_without_bytes():
+    with pytest.raises(ValueError, match="big.txt: larger than 50 MB"):
+        read_file("big.txt", bytes(50_000_001), DEFAULT)
+    for given_ in (7, {}, {"name": "a"}, {"name": 7, "data": b""}, {"name": "a", "data": "text"}):
+        with pytest.raises(ValueError, match="could not be received"):
+            open_file(given_)
+    assert open_file({"name": "a", "data": memoryview(b"12")}) == ("a", b"12")
+
+
+def test_remark_states_both_peaks_if_the_header_differs():
+    lines = write.smc(100 * np.sin(np.arange(40)))
+    assert (
+        ground_of(
+            attrs.evolve(DEFAULT, source="file"), read_file("a.smc", "\n".join(lines).encode(), DEFAULT)
+        ).note
+        == ""
+    )
+    samples = 100 * np.sin(np.arange(40))
+    largest = format(min(samples, key=lambda sample: -abs(sample)), "15.7E")
+    other = [line.replace(largest, format(150.0, "15.7E")) for line in lines]
+    assert other != lines
+    channels = read_file("a.smc", "\n".join(other).encode(), DEFAULT)
+    note = ground_of(attrs.evolve(DEFAULT, source="file"), channels).note
+    assert note.startswith("The samples have a PGA of 0.99999 m/s²")
+    assert "header states 1.5 m/s²" in note
+
+
+# ---- map
+
+
+def pictures(base, scale, workers):
+    async def refine():
+        refinement = SizeRefinement(PLANE, BlockEndings(base, scale), workers, np.zeros(1, np.int64))
+        found = [refinement.coarse()]
+        async for picture in refinement.finer():
+            found.append(picture)  # noqa: PERF401 (a list comprehension would not be clearer)
+        return found
+
+    return run(refine())
+
+
+def test_every_point_of_the_map_is_that_of_the_rocking_spectrum(workers):
+    found = pictures(SHORT, 1.3, workers)
+    assert [picture.side for picture in found if picture.settled] == [39, 77, 153, 305]
+    assert [picture.done for picture in found] == [False] * (len(found) - 1) + [True]
+    places = np.arange(0, POINTS, 19)
+    sizes, angles = PLANE.sizes_of(POINTS)[places], np.radians(PLANE.angles_of(POINTS)[places])
+    spectrum = rk.rocking_spectrum(SHORT, size=sizes, slenderness=angles, scale=1.3)
+    for name, values in found[-1].fields.items():
+        expected = spectrum[name].transpose("slenderness", "size").values
+        assert values[np.ix_(places, places)] == pytest.approx(expected, rel=1e-6, nan_ok=True), name
+    assert 0.05 < np.mean(found[-1].fields["outcome"] == CODE) < 0.95
+
+
+def test_coarse_points_stay_in_the_finer_maps(workers):
+    found = [picture for picture in pictures(SHORT, 1.3, workers) if picture.settled]
+    for coarse, fine in itertools.pairwise(found):
+        assert (fine.fields["peak"][::2, ::2] == coarse.fields["peak"]).all()
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_pulse_in_the_map_is_that_of_one_simulation(kind):
+    pulse = rk.Pulse(kind, amplitude=5.0, duration=0.6)
+    sizes, angles = np.array([0.5, 1.0, 2.0]), np.radians([8.0, 14.0, 20.0])
+    found = BlockEndings(pulse, 1.5).at(sizes, angles, np.zeros(1, np.int64))
+    for k, (size, angle) in enumerate(zip(sizes, angles, strict=True)):
+        block = rk.Block(2 * size * math.cos(angle), 2 * size * math.sin(angle))
+        motion = rk.simulate(block.system(rk.Pulse(kind, amplitude=7.5, duration=0.6)))
+        assert (found["outcome"][k] == CODE) == (motion.outcome == "overturned")
+        assert found["margin"][k] == pytest.approx(motion.margin, rel=1e-9, abs=1e-9)
+        if motion.outcome != "overturned":
+            assert found["peak"][k] == pytest.approx(motion.peak, rel=1e-9)
+
+
+@pytest.mark.parametrize("side", [39, POINTS])
+def test_blocks_lie_at_the_centres_of_their_cells_in_the_image(side):
+    """The horizontal axis is logarithmic, so that all cells have the same ratio of their edges."""
+    corner = {name: values[0] for name, values in PLANE.corner(side).items()}
+    centres = (np.arange(side) + 0.5) / side
+    across = corner["x"] * ((corner["x"] + corner["w"]) / corner["x"]) ** centres
+    assert across == pytest.approx(PLANE.sizes_of(side), rel=1e-12)
+    assert corner["y"] + corner["h"] * centres == pytest.approx(PLANE.angles_of(side), rel=1e-12)
+
+
+def test_stopped_map_stops():
+    assert BlockEndings(SHORT, 1.0).at(np.ones(2), np.full(2, 0.2), np.ones(1, np.int64)) is None
+
+
+def test_colours_are_those_of_the_outcomes_and_the_shares_add_up(workers):
+    picture = pictures(SHORT, 0.45, workers)[0]
+    colours, peak = picture.colours(), picture.fields["peak"]
+    overturned = picture.fields["outcome"] == CODE
+    assert overturned.any()
+    assert ((colours == OVERTURNS) == overturned).all()
+    assert (peak == 0.0).any()
+    assert ((colours == STANDS) == (peak == 0.0)).all()
+    rocks = ~overturned & (peak > 0.0)
+    assert (colours[rocks] == ROCKS + np.minimum((peak[rocks] * SHADES).astype(int), SHADES - 1)).all()
+    assert sum(picture.shares()) == pytest.approx(1.0)
+    assert picture.shares()[2] == np.mean(overturned)
+
+
+def test_saved_map_has_the_blocks_and_the_results(workers):
+    picture = pictures(SHORT, 1.0, workers)[-1]
+    data = xr.open_dataset(io.BytesIO(netcdf(PLANE, picture, "short", DEFAULT)), engine="h5netcdf")
+    assert data.outcome.dims == ("slenderness", "size")
+    assert (data.peak.values == picture.fields["peak"]).all()
+    corner = data.isel(slenderness=-1, size=0)
+    block = rk.Block(float(corner.height), float(corner.width))
+    assert (block.radius, block.degrees(1.0)) == pytest.approx((0.3, 40.0))
+    assert from_address(data.attrs["view"]) == (DEFAULT, {})
+
+
+# ---- one block
+
+
+def test_time_history_and_verdict_are_those_of_the_simulation():
+    shown = attrs.evolve(DEFAULT, source="file", scale=1.4)
+    found = block_motion(shown, Ground(SHORT))
+    motion = rk.simulate(shown.block.system(SHORT.scaled(1.4)))
+    angle, _ = motion.at(shown.block.time(found.angle["time"]))
+    assert found.angle["angle"] == pytest.approx(shown.block.degrees(angle), abs=1e-9)
+    assert np.abs(found.angle["angle"]).max() == pytest.approx(shown.block.degrees(motion.peak), rel=1e-4)
+    facts = dict(found.words["facts"])
+    assert facts["impacts"] == str(motion.impacts)
+    assert found.words["kind"] == "rocks and stands"
+    assert found.words["decided"]
+    assert f"{motion.validity(shown.block).friction:.3g}" in found.words["validity"][0]
+    assert f"{-motion.margin:.3g} α θcr" in found.words["margin"]
+
+
+def test_block_that_stays_still_or_falls_is_described_so():
+    still = block_motion(attrs.evolve(DEFAULT, scale=0.1), Ground(SHORT))
+    assert (still.words["kind"], still.words["margin"]) == ("stands still", "The block never lifts off.")
+    falls = block_motion(attrs.evolve(DEFAULT, scale=9.0), Ground(SHORT))
+    assert falls.words["kind"] == "overturns"
+    assert np.abs(falls.angle["angle"]).max() > DEFAULT.block.degrees(1.0)
+    assert "overturning certain from" in dict(falls.words["facts"])
+
+
+def test_margin_is_the_speed_that_the_block_lacked_or_had_to_spare():
+    block = DEFAULT.block
+    lacked = rk.simulate(block.system(SHORT.scaled(1.4)))
+    assert lacked.margin < 0
+    assert "lacked a speed" in margin_in_words(lacked, block)
+    pushed = rk.Pulse("rectangular", amplitude=block.acceleration(1.7), duration=block.seconds(1.0))
+    spared = rk.simulate(block.system(pushed))
+    assert spared.margin > 0
+    assert "to spare" in margin_in_words(spared, block)
+
+
+# ---- session
+
+
+def test_invalid_message_or_file_leaves_the_view_and_says_so(workers):
+    async def visit():
+        session = GroundSession(Document(), workers, compilation.Compilation())
+        session.hear("{")
+        refused = [session.link.refused]
+        session.hear('{"n": 1, "what": "fields", "fields": {"source": "file"}}')
+        refused.append(session.link.refused)
+        session.receive({"name": "a"})
+        refused.append(session.link.refused)
+        session.hear('{"n": 2, "what": "open", "fields": {"address": "?source=file"}}')
+        refused.append(session.link.refused)
+        shown = session.shown
+        session.renderer.jobs.end_all()
+        return refused, shown
+
+    refused, shown = run(visit())
+    assert shown == DEFAULT
+    parts = ("Unknown request", "choose a file", "could not be received", "not part of the link")
+    assert [part in text for part, text in zip(parts, refused, strict=True)] == [True] * 4
