@@ -35,6 +35,7 @@ QUANTITIES: dict[str, tuple[str, str, str, tuple[float, float]]] = {
     "scale": ("s", "factor of the ground motion", "1", (1e-9, MAX_LEVEL)),
 }
 """Symbol, description, unit and range of each quantity, in the order of the dimensions; records come first."""
+REQUIRED = ("size", "slenderness")
 
 
 class Runs(NamedTuple):
@@ -122,9 +123,9 @@ def motion_question(
         restitution.
     """
     checked: dict[str, Any] = {
-        name: number_or_axis(name, given[name], span)
+        name: number_or_axis(name, given.get(name), span)
         for name, (*_, span) in QUANTITIES.items()
-        if given.get(name) is not None
+        if given.get(name) is not None or name in REQUIRED
     }
     axes = {name: value for name, value in checked.items() if isinstance(value, np.ndarray)}
     fixed = {name: value for name, value in checked.items() if name not in axes}
