@@ -141,6 +141,9 @@ def motion_question(
         axes = {"record": np.arange(float(len(records)))} | axes
     else:
         fixed["record"] = 0.0
+    if not axes:
+        allowed = "be an array if nothing else varies and there is one record"
+        raise ValueError(refusal("size", allowed, checked["size"], "rk.simulate follows one motion"))
     return MotionSpec(
         axes,
         fixed,
