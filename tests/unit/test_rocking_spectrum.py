@@ -54,8 +54,23 @@ def records_of(seed):
     return rk.RecordSet([*rk.synthetic_ground_motions(2, seed=seed, duration=8.0), strong, steps])
 
 
+def peak_of(motion):
+    return math.inf if motion.outcome == "overturned" else motion.peak
+
+
+def rounding_of_peak(block, ground, start):
+    """Spread of the peak over factors that differ by units of the last place, as those of the two computations do."""
+    peaks = [
+        peak_of(rk.simulate(block.system(ground.scaled(1.0 + k * 2.0**-52)), start)) for k in range(-2, 3)
+    ]
+    return max(peaks) - min(peaks)
+
+
 def differing(count, seed):
-    """Compare random points with `simulate`: return the certified points that differ, and their number."""
+    """Compare random points with `simulate`: return the certified points that differ, and their number.
+
+    A peak may differ by 1e-9, or by the effect of rounding if that is more: the certificate is that of the outcome.
+    """
     random, records = np.random.default_rng(seed), records_of(seed)
     given = {
         "size": np.sort(random.uniform(0.1, 6.0, 12)),
@@ -71,18 +86,18 @@ def differing(count, seed):
         index = np.unravel_index(flat, found.outcome.shape)
         at = {name: float(found[name].values[k]) for name, k in zip(found.outcome.dims, index, strict=True)}
         row = {name: found[name].values[index] for name in found.data_vars}
-        size, slenderness = at["size"], at["slenderness"]
+        size, slenderness, start = at["size"], at["slenderness"], rk.State(at["angle"])
         block = rk.Block(
             2 * size * math.cos(slenderness), 2 * size * math.sin(slenderness), at["restitution"]
         )
         ground = records[int(at["record"])].scaled(pga=at["scale"] * GRAVITY * math.tan(slenderness))
-        system = block.system(ground if at["polarity"] > 0 else ground.reversed())
-        motion = rk.simulate(system, rk.State(at["angle"]))
-        peak = math.inf if motion.outcome == "overturned" else motion.peak
+        ground = ground if at["polarity"] > 0 else ground.reversed()
+        motion = rk.simulate(block.system(ground), start)
         certified += bool(row["certified"])
-        if row["certified"] and not (
-            OUTCOMES[row["outcome"]] == motion.outcome and row["peak"] == pytest.approx(peak, rel=1e-9)
-        ):
+        same = row["peak"] == pytest.approx(peak_of(motion), rel=1e-9)
+        if row["certified"] and not same and motion.outcome == "at-rest":
+            same = abs(row["peak"] - motion.peak) <= 2.0 * rounding_of_peak(block, ground, start)
+        if row["certified"] and not (same and OUTCOMES[row["outcome"]] == motion.outcome):
             wrong.append((at, row, str(motion)))
     return wrong, certified
 
