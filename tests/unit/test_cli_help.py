@@ -10,7 +10,7 @@ from rocking.cli.app import app
 
 COMMANDS = list(typer.main.get_command(app).commands)
 WITHOUT_EXAMPLES = {"explore", "cite"}
-WITH_SYSTEM = set(COMMANDS) - {"explore", "paper", "cite", "record"}
+WITH_SYSTEM = set(COMMANDS) - {"explore", "paper", "cite", "record", "spectrum"}
 
 
 def examples(printed, command):
@@ -55,7 +55,7 @@ def test_options_stand_in_their_groups_with_their_defaults(rocking, command):
     printed = rocking(f"{command} --help")[2]
     assert "[default:" not in printed
     assert ("Normalised input:\n" in printed) == (command in WITH_SYSTEM)
-    assert ("SI input:\n" in printed) == (command in WITH_SYSTEM | {"record"})
+    assert ("SI input:\n" in printed) == (command in WITH_SYSTEM | {"record", "spectrum"})
     assert ("θcr is the critical angle" in printed) == ("SI input:\n" in printed)
     assert ("AXIS" in printed.partition("Examples:")[0]) == ("START:STOP:COUNT" in printed)
     if command in WITH_SYSTEM:
