@@ -1,5 +1,7 @@
-"""Closed-form results: symmetric modes, Melnikov's function, exact tangency and free rocking, for numbers or arrays."""
+"""Closed-form results: symmetric modes, Melnikov's function, exact tangency, free rocking, frames and design rules."""
 
+from rocking.theory.contact_restitution import contact_restitution
+from rocking.theory.design_rules import design_angle, equivalent_damping, pulse_overturning_rule
 from rocking.theory.dimensional import (
     physical_acceleration,
     physical_critical_energy,
@@ -22,6 +24,7 @@ from rocking.theory.melnikov import (
     melnikov_function,
     melnikov_integral,
 )
+from rocking.theory.rocking_frame import rocking_frame
 from rocking.theory.symmetric_modes import (
     existence_amplitude,
     slower_mode_amplitude,
@@ -31,8 +34,11 @@ from rocking.theory.symmetric_modes import (
 from rocking.theory.unforced_block import energy, heteroclinic_orbit
 
 __all__ = [
+    "contact_restitution",
     "damping",
+    "design_angle",
     "energy",
+    "equivalent_damping",
     "existence_amplitude",
     "free_impact_speed",
     "free_peaks",
@@ -50,6 +56,8 @@ __all__ = [
     "physical_damping",
     "physical_energy",
     "physical_heteroclinic_orbit",
+    "pulse_overturning_rule",
+    "rocking_frame",
     "saddle_orbit",
     "slower_mode_amplitude",
     "stable_manifold_velocity",

@@ -72,7 +72,7 @@ def spectrum(
     json: ask.Json = False,
     **shared: Any,
 ) -> None:
-    """Follow blocks of many sizes under recorded ground motions to their ends.
+    """Follow blocks of many sizes under ground motions.
 
     AXIS is START:STOP:COUNT: COUNT evenly spaced values, both ends included. COUNT is optional. Default: 200.
     """
