@@ -103,7 +103,7 @@ def intensity_of(name: str, records: RecordSet) -> tuple[Intensity, np.ndarray]:
     Raises
     ------
     TypeError, ValueError
-        If there is no such measure, if a column has its name, or if a motion has no positive value of it.
+        If there is no such measure, or if a column has its name. Also if a motion has no positive value of it.
 
     Examples
     --------

@@ -48,7 +48,7 @@ class RecordSet(Sequence[GroundMotion]):
     Raises
     ------
     TypeError, ValueError
-        If a value is of the wrong type, if two motions have the same name, or if a column has another length.
+        If a value is of the wrong type. Also if two motions have the same name, or if a column has another length.
 
     See Also
     --------

@@ -52,8 +52,8 @@ def read_record_set(
     Raises
     ------
     RecordError
-        If a file cannot be read or is no record, if a table has a wrong cell, or if two motions have the same name.
-        Also if unit or step of a file are stated twice or not at all, counting file and arguments.
+        If a file cannot be read or is no record, or if a table has a wrong cell.
+        Also if two motions have the same name. Unit and step of a file must be stated once, by the file or by an argument.
     TypeError, ValueError
         If an argument is of the wrong type or lies outside its range.
 
@@ -164,7 +164,7 @@ def _of_table(path: Path, given: dict[str, Any]) -> RecordSet:
             found = [motion if row.scale is None else motion.scaled(row.scale) for motion in found]
         except ValueError as error:
             raise RecordError(f"{row.place}: {error}") from error
-        # Rows of one file are told apart by its components, or by the numbers of its channels.
+        # Rows of one file differ by its components, or by the numbers of its channels.
         plain = (
             row.path.name
             if names[row.path.name] == 1 or row.channel is None

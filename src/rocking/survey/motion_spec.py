@@ -119,8 +119,8 @@ def motion_question(
     Raises
     ------
     TypeError, ValueError
-        If a quantity is missing, of the wrong type or outside its range, or if a block is too squat for Housner's
-        restitution.
+        If a quantity is missing, of the wrong type or outside its range, or if none varies. Also if a block is too squat for
+        Housner's restitution.
     """
     checked: dict[str, Any] = {
         name: number_or_axis(name, given.get(name), span)

@@ -73,8 +73,8 @@ def design_angle(ground: GroundMotion, block: Block, rule: str = "fema-356", *, 
 
     The loop replaces the block by a linear oscillator of the period of free rocking, T = (4/α) arcosh(1/(1 − Θ)). It reads the
     displacement Δ(T, β) of the elastic response spectrum, and continues with the angle Δ/(R cos θcr). It ends where the angle
-    no longer changes. It is no approximation of known error: for one record and block, Makris & Konstantinidis (2003) find 0.25 rad
-    by the loop and 0.08 rad by integration.
+    no longer changes. Its error is not bounded. For one record and block, Makris & Konstantinidis (2003) find 0.25 rad by the loop, and
+    0.08 rad by integration.
 
     Parameters
     ----------
