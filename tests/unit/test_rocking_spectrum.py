@@ -237,27 +237,21 @@ def test_processes_give_the_same_bytes(made, tmp_path):
 
 
 def test_batches_are_stretches_of_neighbours_that_share_tables():
-    scale = np.linspace(0.3, 0.6, 40)
+    given = {"size": np.linspace(0.2, 4.0, 400), "scale": np.linspace(0.3, 0.6, 400)}
     spec = motion_question(
-        RECORDS,
-        {
-            "size": np.linspace(0.2, 4.0, 30),
-            "slenderness": 0.2,
-            "angle": 0.0,
-            "polarity": 1.0,
-            "scale": scale,
-        },
+        rk.RecordSet(RECORDS[0]),
+        given | {"slenderness": 0.2, "angle": 0.0, "polarity": 1.0},
         intensity="pga-g",
     )
-    measure = ending("Title")
+    measure, several = ending("Title"), 0
     for level in (*finest(spec), *levels(spec)):
         for tile in level.tiles():
             wanted = np.arange(math.prod(tile.shape), dtype=np.int32)
             parts = [batch.wanted for batch in batches(tile, spec, wanted, measure)]
             assert np.concatenate(parts).tolist() == wanted.tolist()
-            # Each batch splits one stretch of equal tables at most at each of its ends.
-            assert len(parts) < len(wanted) / 40
             assert all((np.diff(part) == 1).all() for part in parts)
+            several += len(parts) > 1
+    assert several >= 2
 
 
 def test_neighbours_with_equal_record_and_frequency_parameter_are_one_stretch():
