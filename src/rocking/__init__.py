@@ -75,6 +75,7 @@ if TYPE_CHECKING:
         example_ground_motion,
         read_ground_motion,
         read_ground_motions,
+        read_record_set,
         synthetic_ground_motions,
     )
     from rocking.response import (
@@ -182,6 +183,7 @@ __all__ = [
     "plot",
     "read_ground_motion",
     "read_ground_motions",
+    "read_record_set",
     "repeatability",
     "repeatability_map",
     "rocking_spectrum",
@@ -205,7 +207,8 @@ _NAMES = {
         "manifold_gap orbit_diagram saddle_manifolds switch_branch tangency_amplitude"
     ),
     "records": (
-        "RecordError example_ground_motion read_ground_motion read_ground_motions synthetic_ground_motions"
+        "RecordError example_ground_motion read_ground_motion read_ground_motions read_record_set "
+        "synthetic_ground_motions"
     ),
     "response": (
         "CorrelationDimension LyapunovSpectrum Peak RotationNumber SpectralDensity classify "

@@ -20,6 +20,7 @@ from rocking.cli.commands import (
     paper,
     record,
     simulate,
+    spectrum,
 )
 from rocking.cli.commands import map as map_
 
@@ -37,6 +38,7 @@ app = typer.Typer(
 for name, command, examples in (
     ("simulate", simulate.simulate, simulate.EXAMPLES),
     ("record", record.record, record.EXAMPLES),
+    ("spectrum", spectrum.spectrum, spectrum.EXAMPLES),
     ("classify", classify.classify, classify.EXAMPLES),
     ("modes", modes.modes, modes.EXAMPLES),
     ("map", map_.map_, map_.EXAMPLES),

@@ -103,7 +103,7 @@ def intensity_of(name: str, records: RecordSet) -> tuple[Intensity, np.ndarray]:
     Raises
     ------
     TypeError, ValueError
-        If there is no such measure, or if a motion has no positive value of it.
+        If there is no such measure, or if a column has its name. Also if a motion has no positive value of it.
 
     Examples
     --------
@@ -117,6 +117,9 @@ def intensity_of(name: str, records: RecordSet) -> tuple[Intensity, np.ndarray]:
     if name not in choices:
         error = ValueError if isinstance(name, str) else TypeError
         raise error(refusal("intensity", f"be one of {', '.join(map(repr, choices))}", name))
+    if name in records.columns and name in INTENSITIES:
+        allowed = "name either a measure or a column of the records, not both"
+        raise ValueError(refusal("intensity", allowed, name, "rename the column"))
     if name in records.columns:
         measure, values = Intensity(name, name, "", f"column {name!r} of the records"), records.columns[name]
     else:

@@ -48,7 +48,7 @@ class RecordSet(Sequence[GroundMotion]):
     Raises
     ------
     TypeError, ValueError
-        If a value is of the wrong type, if two motions have the same name, or if a column has another length.
+        If a value is of the wrong type. Also if two motions have the same name, or if a column has another length.
 
     See Also
     --------
@@ -88,8 +88,9 @@ class RecordSet(Sequence[GroundMotion]):
         """SHA-256 of samples, steps and factors of all motions, in their order."""
         found = sha256()
         for each in self.motions:
-            found.update(np.array([each.step, each.factor]).tobytes())
-            found.update(np.ascontiguousarray(each.scaled(1.0 / each.factor).acceleration).tobytes())
+            base = each.normalised(1.0, 1.0)  # the samples before the factor
+            found.update(np.array([base.values.size, base.step, base.scale]).tobytes())
+            found.update(base.values.tobytes())
         return found.hexdigest()
 
     def __len__(self) -> int:

@@ -43,6 +43,7 @@ from rocking.plot.parts.save import save
 from rocking.plot.parts.style import panels, title
 from rocking.plot.phase_portrait import phase_portrait
 from rocking.plot.repeatability import repeatability, repeatability_map
+from rocking.plot.rocking_spectrum import rocking_spectrum
 from rocking.plot.safe_basin import safe_basin
 from rocking.plot.schematic import schematic
 from rocking.plot.section import section
@@ -78,6 +79,7 @@ __all__ = [
     "phase_portrait",
     "repeatability",
     "repeatability_map",
+    "rocking_spectrum",
     "safe_basin",
     "save",
     "schematic",

@@ -4,6 +4,7 @@ from rocking.records.channel import RecordError
 from rocking.records.example import FILE as EXAMPLE_FILE
 from rocking.records.example import example_ground_motion
 from rocking.records.read import read_ground_motion, read_ground_motions
+from rocking.records.read_record_set import read_record_set
 from rocking.records.synthetic import synthetic_ground_motions
 
 __all__ = [
@@ -12,5 +13,6 @@ __all__ = [
     "example_ground_motion",
     "read_ground_motion",
     "read_ground_motions",
+    "read_record_set",
     "synthetic_ground_motions",
 ]

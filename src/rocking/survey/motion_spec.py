@@ -35,6 +35,7 @@ QUANTITIES: dict[str, tuple[str, str, str, tuple[float, float]]] = {
     "scale": ("s", "factor of the ground motion", "1", (1e-9, MAX_LEVEL)),
 }
 """Symbol, description, unit and range of each quantity, in the order of the dimensions; records come first."""
+REQUIRED = ("size", "slenderness")
 
 
 class Runs(NamedTuple):
@@ -118,13 +119,13 @@ def motion_question(
     Raises
     ------
     TypeError, ValueError
-        If a quantity is missing, of the wrong type or outside its range, or if a block is too squat for Housner's
-        restitution.
+        If a quantity is missing, of the wrong type or outside its range, or if none varies. Also if a block is too squat for
+        Housner's restitution.
     """
     checked: dict[str, Any] = {
-        name: number_or_axis(name, given[name], span)
+        name: number_or_axis(name, given.get(name), span)
         for name, (*_, span) in QUANTITIES.items()
-        if given.get(name) is not None
+        if given.get(name) is not None or name in REQUIRED
     }
     axes = {name: value for name, value in checked.items() if isinstance(value, np.ndarray)}
     fixed = {name: value for name, value in checked.items() if name not in axes}
@@ -140,6 +141,9 @@ def motion_question(
         axes = {"record": np.arange(float(len(records)))} | axes
     else:
         fixed["record"] = 0.0
+    if not axes:
+        allowed = "be an array if nothing else varies and there is one record"
+        raise ValueError(refusal("size", allowed, checked["size"], "rk.simulate follows one motion"))
     return MotionSpec(
         axes,
         fixed,

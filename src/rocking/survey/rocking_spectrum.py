@@ -56,8 +56,9 @@ def rocking_spectrum(
     scale : float or array (n,)
         Levels of the intensity measure to which each record is scaled. Default: 1, with the measure "scale" the record as it is.
     intensity : str
-        Intensity measure of `scale`: "scale" (a factor), "pga" (m/s²), "pga-g", "pgv" (m/s), "pgd" (m), "arias" (m/s),
-        "pga-ratio", PGA/(g tan θcr), "pgv-ratio", α PGV/(g tan θcr), or a column of the records. Default: "scale".
+        Intensity measure of `scale`: "scale" (a factor), "pga" (m/s²), "pga-g", "pgv" (m/s), "pgd" (m) or "arias" (m/s).
+        Measures that depend on the block are "pga-ratio", PGA/(g tan θcr), and "pgv-ratio", α PGV/(g tan θcr). A column of the
+        records is a measure, too. Default: "scale".
     angle : float or array (n,)
         Initial angle Θ in units of θcr. Default: 0, at rest.
     polarity : float or array

@@ -1,5 +1,7 @@
-"""Closed-form results: symmetric modes, Melnikov's function, exact tangency, free rocking and pulses, for numbers or arrays."""
+"""Closed-form results for numbers or arrays: modes, Melnikov's function, tangency, free rocking, pulses, design rules."""
 
+from rocking.theory.contact_restitution import contact_restitution
+from rocking.theory.design_rules import design_angle, equivalent_damping, pulse_overturning_rule
 from rocking.theory.dimensional import (
     physical_acceleration,
     physical_critical_energy,
@@ -29,6 +31,7 @@ from rocking.theory.pulse_thresholds import (
     one_sine_pulse_amplitude,
     rectangular_pulse_amplitude,
 )
+from rocking.theory.rocking_frame import rocking_frame
 from rocking.theory.symmetric_modes import (
     existence_amplitude,
     slower_mode_amplitude,
@@ -38,8 +41,11 @@ from rocking.theory.symmetric_modes import (
 from rocking.theory.unforced_block import energy, heteroclinic_orbit
 
 __all__ = [
+    "contact_restitution",
     "damping",
+    "design_angle",
     "energy",
+    "equivalent_damping",
     "existence_amplitude",
     "free_impact_speed",
     "free_peaks",
@@ -61,7 +67,9 @@ __all__ = [
     "physical_damping",
     "physical_energy",
     "physical_heteroclinic_orbit",
+    "pulse_overturning_rule",
     "rectangular_pulse_amplitude",
+    "rocking_frame",
     "saddle_orbit",
     "slower_mode_amplitude",
     "stable_manifold_velocity",

@@ -8,7 +8,7 @@ from typing import Annotated, Any
 import typer
 
 from rocking.cli.input import options as ask
-from rocking.cli.input import record_request
+from rocking.cli.input import record_request, record_source
 from rocking.cli.option_names import START, your_input
 
 EXAMPLES = """\
@@ -26,38 +26,12 @@ File = Annotated[
         help="Record file; its format is recognised by the content. `example` is the record that comes with the package.",
     ),
 ]
-InertiaRatio = Annotated[
-    ask.Number,
-    ask.number_option(
-        "--inertia-ratio",
-        "Io/(MR²), the normalised moment of inertia about a corner. Default: 4/3, a uniform rectangle.",
-    ),
-]
 Scale = Annotated[ask.Number, ask.number_option("--scale", "Factor of the record. Default: 1.")]
 PgaG = Annotated[
     ask.Number,
     ask.number_option("--pga-g", "Peak to which the record is scaled, in units of g; replaces --scale."),
 ]
 Channel = Annotated[int, ask.number_option("--channel", "Channel of the file, counted from 1.")]
-Units = Annotated[
-    str | None,
-    typer.Option(
-        "--units",
-        metavar="UNIT",
-        help="Unit of the samples, if the file does not state it: m/s2, cm/s2, g, ….",
-    ),
-]
-Step = Annotated[
-    ask.Number, ask.number_option("--step", "Time between two samples, s, if the file does not state it.")
-]
-Baseline = Annotated[
-    str,
-    typer.Option(
-        "--baseline",
-        metavar="KIND",
-        help="Polynomial that is subtracted from the acceleration: none, mean, linear or quadratic.",
-    ),
-]
 Plot = Annotated[
     Path | None,
     ask.file_option(
@@ -76,13 +50,13 @@ Animate = Annotated[
 def record(
     context: typer.Context,
     file: File,
-    inertia_ratio: InertiaRatio = None,
+    inertia_ratio: record_source.InertiaRatio = None,
     scale: Scale = None,
     pga_g: PgaG = None,
     channel: Channel = 1,
-    units: Units = None,
-    step: Step = None,
-    baseline: Baseline = "none",
+    units: record_source.Units = None,
+    step: record_source.Step = None,
+    baseline: record_source.Baseline = "none",
     plot: Plot = None,
     animate: Animate = None,
     csv: ask.Csv = None,

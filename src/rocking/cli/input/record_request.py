@@ -68,7 +68,7 @@ def ground_motion(given: Mapping[str, Any]) -> tuple[GroundMotion, list[str]]:
         try:
             ground = read_ground_motion(given["file"], **reading)
         except RecordError as error:
-            raise YourInput(_as_options(str(error))) from error
+            raise YourInput(as_options(str(error))) from error
     with your_input(ARGUMENTS):
         if given["pga_g"] is not None:
             ground = ground.scaled(pga=GRAVITY * within("pga_g", given["pga_g"], 0, MAX_PGA, "g"))
@@ -77,7 +77,7 @@ def ground_motion(given: Mapping[str, Any]) -> tuple[GroundMotion, list[str]]:
     return ground, [str(doubt.message) for doubt in doubts]
 
 
-def _as_options(text: str) -> str:
+def as_options(text: str) -> str:
     """Return the message on a file with the arguments that it names as options; the file may be named like one."""
     for said in ("for example ", "do not give "):
         text = text.replace(said, said + "--")

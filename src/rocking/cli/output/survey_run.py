@@ -22,12 +22,18 @@ FILES = ("plot", "netcdf")
 MAX_ROWS = 20
 
 
-def carried_out(survey: Callable[..., Any], arguments: Mapping[str, Any], block: Block | None = None) -> Any:
+def carried_out(
+    survey: Callable[..., Any],
+    arguments: Mapping[str, Any],
+    block: Block | None = None,
+    typed: Mapping[str, str] | None = None,
+) -> Any:
     """Run a survey, with a progress bar on a terminal; an interruption prints how to resume it.
 
-    Messages name quantities derived from a block in SI in words, because the user gave no such option.
+    Messages name quantities derived from a block in SI in words, because the user gave no such option. `typed` holds further
+    names of arguments.
     """
-    with your_input(ARGUMENTS | _made_of(block)):
+    with your_input({**ARGUMENTS, **_made_of(block), **(typed or {})}):
         try:
             return survey(**arguments, progress=sys.stderr.isatty())
         except KeyboardInterrupt as error:

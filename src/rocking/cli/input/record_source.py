@@ -1,0 +1,71 @@
+"""Record files on the command line: the argument SOURCE, the options of reading, and the set of records that they give."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from rocking.cli.input import options as ask
+from rocking.cli.input.record_request import as_options, record_path
+from rocking.cli.option_names import YourInput, options, your_input
+
+if TYPE_CHECKING:
+    from rocking.model import RecordSet
+
+ARGUMENTS = options("units", "step", "baseline") | {"source": "SOURCE"}
+
+Sources = Annotated[
+    list[Path],
+    typer.Argument(
+        metavar="SOURCE",
+        parser=record_path,
+        help="Record files, a folder of them, or a table (CSV) with a column `file`. `example` is the record that comes with "
+        "the package.",
+    ),
+]
+InertiaRatio = Annotated[
+    ask.Number,
+    ask.number_option(
+        "--inertia-ratio",
+        "Io/(MR²), the normalised moment of inertia about a corner. Default: 4/3, a uniform rectangle.",
+    ),
+]
+Units = Annotated[
+    str | None,
+    typer.Option(
+        "--units",
+        metavar="UNIT",
+        help="Unit of the samples, if the file does not state it: m/s2, cm/s2, g, ….",
+    ),
+]
+Step = Annotated[
+    ask.Number, ask.number_option("--step", "Time between two samples, s, if the file does not state it.")
+]
+Baseline = Annotated[
+    str,
+    typer.Option(
+        "--baseline",
+        metavar="KIND",
+        help="Polynomial that is subtracted from the acceleration: none, mean, linear or quadratic.",
+    ),
+]
+
+
+def record_set(
+    sources: Sequence[Path], *, units: str | None, step: float | None, baseline: str
+) -> tuple[RecordSet, list[str]]:
+    """Return the records of the command line, and the warnings of the reader; YourInput if one cannot be read."""
+    from rocking.records import RecordError, read_record_set
+
+    given = sources[0] if len(sources) == 1 else list(sources)
+    with your_input(ARGUMENTS), warnings.catch_warnings(record=True) as doubts:
+        warnings.simplefilter("always")
+        try:
+            records = read_record_set(given, units=units, step=step, baseline=baseline)
+        except RecordError as error:
+            raise YourInput(as_options(str(error))) from error
+    return records, [str(doubt.message) for doubt in doubts]

@@ -1,0 +1,175 @@
+"""Figures of rocking spectra: one line per record and slenderness, crosses where the block overturns."""
+
+import math
+import re
+
+import numpy as np
+import pytest
+from matplotlib.colors import to_hex
+
+import rocking as rk
+from rocking.plot.parts import style
+
+RECORDS = rk.synthetic_ground_motions(3, seed=1, duration=8.0)
+SIZES = np.linspace(0.2, 3.0, 25)
+
+
+@pytest.fixture(scope="module")
+def found():
+    return rk.rocking_spectrum(RECORDS, size=SIZES, slenderness=[0.12, 0.2])
+
+
+def drawn(ax, gid):
+    return [each for each in (*ax.lines, *ax.collections) if each.get_gid() == gid]
+
+
+def overturned(found):
+    return np.isinf(found.peak.values)
+
+
+def test_each_record_and_slenderness_is_a_line_with_gaps_where_the_block_overturns(found):
+    ax = rk.plot.rocking_spectrum(found)
+    lines = drawn(ax, "peak")
+    assert len(lines) == 6
+    wanted = np.where(overturned(found), np.nan, found.peak.values).transpose(0, 2, 1).reshape(6, -1)
+    for line, peak in zip(lines, wanted, strict=True):
+        np.testing.assert_array_equal(line.get_xdata(), SIZES)
+        np.testing.assert_array_equal(line.get_ydata(), peak)
+    assert (ax.get_xlabel(), ax.get_ylabel()) == (
+        "distance $R$ of corner and centre of mass (m)",
+        r"largest angle $|\theta|/\theta_\mathrm{cr}$",
+    )
+    names = [text.get_text() for text in ax.get_legend().get_texts()]
+    assert names[:2] == [rf"synthetic 1, $\theta_\mathrm{{cr}}$ = {degrees}°" for degrees in ("6.88", "11.5")]
+    assert len({line.get_color() for line in lines}) == 6
+
+
+def test_crosses_stand_above_all_lines_in_a_row_of_each(found):
+    ax = rk.plot.rocking_spectrum(found)
+    rows = drawn(ax, "overturned")
+    fell = overturned(found).transpose(0, 2, 1).reshape(6, -1)
+    assert fell.any()
+    highest = found.peak.values[~overturned(found)].max()
+    heights = []
+    for marks, line, which in zip(rows, drawn(ax, "peak"), fell, strict=True):
+        np.testing.assert_array_equal(marks.get_xdata(), SIZES[which])
+        assert marks.get_color() == line.get_color()
+        assert (marks.get_ydata() > highest).all()
+        assert (marks.get_ydata() < ax.get_ylim()[1]).all()
+        heights += set(marks.get_ydata())
+    assert len(heights) == len(set(heights)) == int(fell.any(axis=1).sum())
+
+
+@pytest.mark.parametrize(
+    ("across", "label", "turn"),
+    [
+        ("frequency-parameter", r"frequency parameter $\alpha$ (1/s)", lambda alpha: alpha),
+        ("period", r"$2\pi/\alpha$ (s)", lambda alpha: math.tau / alpha),
+    ],
+)
+def test_other_axes_stand_for_the_size_and_degrees_for_the_critical_angle(found, across, label, turn):
+    one = found.isel(record=0)
+    ax = rk.plot.rocking_spectrum(one, across=across, unit="degrees")
+    assert (ax.get_xlabel(), ax.get_ylabel()) == (label, r"largest angle $|\theta|$ (°)")
+    for line, slenderness, peak in zip(drawn(ax, "peak"), (0.12, 0.2), one.peak.values.T, strict=True):
+        np.testing.assert_allclose(line.get_xdata(), turn(np.sqrt(3 * 9.80665 / 4 / SIZES)), rtol=1e-15)
+        stands = np.isfinite(peak)
+        np.testing.assert_allclose(
+            line.get_ydata()[stands], np.degrees(slenderness * peak[stands]), rtol=1e-15
+        )
+
+
+def test_degrees_of_a_slenderness_that_does_not_vary(found):
+    one = rk.rocking_spectrum(RECORDS[0], size=SIZES, slenderness=0.2)
+    (line,) = drawn(rk.plot.rocking_spectrum(one, unit="degrees"), "peak")
+    (same,) = drawn(rk.plot.rocking_spectrum(found.isel(record=0, slenderness=[1]), unit="degrees"), "peak")
+    np.testing.assert_array_equal(line.get_ydata(), same.get_ydata())
+
+
+def test_slenderness_alone_is_an_axis_in_degrees():
+    angles = np.linspace(0.1, 0.3, 9)
+    ax = rk.plot.rocking_spectrum(rk.rocking_spectrum(RECORDS[0], size=1.0, slenderness=angles))
+    np.testing.assert_array_equal(drawn(ax, "peak")[0].get_xdata(), np.degrees(angles))
+    assert ax.get_xlabel() == r"critical angle $\theta_\mathrm{cr}$ (°)"
+
+
+def test_undecided_outcomes_are_circled_and_in_the_legend(found):
+    doubtful = found.copy(deep=True)
+    doubtful.certified[0, 3, 1] = 0
+    circles = drawn(rk.plot.rocking_spectrum(doubtful), "undecided")
+    assert [each.get_xdata().tolist() for each in circles] == [[], [SIZES[3]], [], [], [], []]
+    shown = [text.get_text() for text in rk.plot.rocking_spectrum(doubtful).get_legend().get_texts()]
+    assert shown[-1] == "undecided by rounding"
+    certain = found.assign(certified=found.certified * 0 + 1)
+    assert "undecided by rounding" not in [
+        text.get_text() for text in rk.plot.rocking_spectrum(certain).get_legend().get_texts()
+    ]
+
+
+def test_many_records_share_a_colour_and_a_row_in_the_legend():
+    records = rk.synthetic_ground_motions(12, seed=2, duration=4.0)
+    ax = rk.plot.rocking_spectrum(rk.rocking_spectrum(records, size=[0.5, 1.0], slenderness=0.15))
+    assert {to_hex(line.get_color()) for line in drawn(ax, "peak")} == {style.MOTION.lower()}
+    assert ax.get_legend().get_texts()[0].get_text() == "12 lines"
+
+
+def test_many_slendernesses_are_a_map_with_overturned_blocks_in_grey():
+    angles = np.linspace(0.08, 0.3, 9)
+    found = rk.rocking_spectrum(RECORDS[0], size=SIZES, slenderness=angles)
+    ax = rk.plot.rocking_spectrum(found, across="period", unit="degrees")
+    fallen, image = drawn(ax, "overturned")[0], drawn(ax, "peak")[0]
+    fell = overturned(found).T
+    assert fell.any()
+    np.testing.assert_array_equal(
+        np.ma.filled(image.get_array(), np.nan).reshape(fell.shape),
+        np.where(fell, np.nan, found.peak.values.T * np.degrees(angles)[:, None]),
+    )
+    np.testing.assert_array_equal(~np.ma.getmaskarray(fallen.get_array()).reshape(fell.shape), fell)
+    assert ax.get_ylabel() == r"critical angle $\theta_\mathrm{cr}$ (°)"
+
+
+REFUSED = {
+    "no dataset": (
+        lambda found: 3.0,
+        {},
+        TypeError,
+        "found must be a dataset as rocking_spectrum gives it; got 3.0",
+    ),
+    "polarity": (
+        lambda found: found.expand_dims(polarity=[1.0]),
+        {},
+        ValueError,
+        "found must vary over records, size and slenderness alone; got 'polarity' (select one value first, such",
+    ),
+    "no axis": (
+        lambda found: found.isel(size=0, slenderness=0),
+        {},
+        ValueError,
+        "found must vary over size or slenderness; got ('record',)",
+    ),
+    "map of records": (
+        lambda found: rk.rocking_spectrum(RECORDS, size=[1.0, 2.0], slenderness=np.linspace(0.1, 0.2, 7)),
+        {},
+        ValueError,
+        "found must hold one record to be a map; got '3 records' (select one first, such as found.isel(record=0))",
+    ),
+    "across": (
+        lambda found: found,
+        {"across": "R"},
+        ValueError,
+        "across must be one of 'size', 'frequency-parameter'",
+    ),
+    "unit": (
+        lambda found: found,
+        {"unit": "rad"},
+        ValueError,
+        "unit must be one of 'critical', 'degrees'; got 'rad'",
+    ),
+}
+
+
+@pytest.mark.parametrize("case", REFUSED)
+def test_result_that_cannot_be_drawn_is_refused_in_one_line(found, case):
+    change, options, error, message = REFUSED[case]
+    with pytest.raises(error, match=f"^{re.escape(message)}"):
+        rk.plot.rocking_spectrum(change(found), **options)

@@ -1,0 +1,277 @@
+"""Rocking spectra: each point ends as `simulate` says, on any executor, in memory and in a store."""
+
+import math
+import multiprocessing
+import re
+import signal
+import subprocess
+import sys
+import time
+from concurrent.futures import ProcessPoolExecutor
+from itertools import pairwise
+
+import numpy as np
+import pytest
+import xarray as xr
+
+import rocking as rk
+from rocking.survey.measurement import batches
+from rocking.survey.measures.ending import VARIABLES, alike, ending
+from rocking.survey.motion_spec import motion_question
+from rocking.survey.tiling import finest, levels
+
+GRAVITY = 9.80665
+OUTCOMES = tuple(rk.Outcome)
+RECORDS = rk.RecordSet(rk.synthetic_ground_motions(2, seed=3, duration=6.0))
+ASKED = {
+    "size": np.linspace(0.2, 4.0, 150),
+    "slenderness": [0.1, 0.2, 0.3],
+    "scale": 0.4,
+    "intensity": "pga-g",
+}
+RUN = """
+import sys
+import numpy as np
+import rocking as rk
+
+records = rk.synthetic_ground_motions(2, seed=3, duration=6.0)
+asked = dict(size=np.linspace(0.2, 4.0, 150), slenderness=[0.1, 0.2, 0.3], scale=0.4, intensity="pga-g")
+if len(sys.argv) > 2:  # a hundred times as many runs
+    asked["scale"] = np.linspace(0.3, 0.5, int(sys.argv[2]))
+print("running", flush=True)
+rk.rocking_spectrum(records, **asked, store=sys.argv[1])
+"""
+
+
+def files(folder):
+    return {path.relative_to(folder): path.read_bytes() for path in folder.rglob("*") if path.is_file()}
+
+
+def records_of(seed):
+    """Synthetic motions, the strong motion of the example, and steps that jump at both ends."""
+    strong = rk.example_ground_motion().clipped(5.0, 20.0)
+    steps = rk.GroundMotion([2.0, -3.0, 1.0, 4.0, -2.0, -2.0], step=0.15)
+    return rk.RecordSet([*rk.synthetic_ground_motions(2, seed=seed, duration=8.0), strong, steps])
+
+
+def peak_of(motion):
+    return math.inf if motion.outcome == "overturned" else motion.peak
+
+
+def rounding_of_peak(block, ground, start):
+    """Spread of the peak over factors that differ by units of the last place, as those of the two computations do."""
+    peaks = [
+        peak_of(rk.simulate(block.system(ground.scaled(1.0 + k * 2.0**-52)), start)) for k in range(-2, 3)
+    ]
+    return max(peaks) - min(peaks)
+
+
+def differing(count, seed):
+    """Compare random points with `simulate`: return the certified points that differ, and their number.
+
+    A peak may differ by 1e-9, or by the effect of rounding if that is more: the certificate is that of the outcome.
+    """
+    random, records = np.random.default_rng(seed), records_of(seed)
+    given = {
+        "size": np.sort(random.uniform(0.1, 6.0, 12)),
+        "slenderness": np.sort(random.uniform(0.05, 0.5, 5)),
+        "restitution": np.sort(random.uniform(0.4, 0.98, 3)),
+        "scale": np.sort(random.uniform(1.05, 4.0, 6)),
+        "angle": np.array([-0.3, 0.0, 0.6]),
+        "polarity": np.array([-1.0, 1.0]),
+    }
+    found = rk.rocking_spectrum(records, **given, intensity="pga-ratio")
+    wrong, certified = [], 0
+    for flat in random.choice(found.outcome.size, count, replace=False):
+        index = np.unravel_index(flat, found.outcome.shape)
+        at = {name: float(found[name].values[k]) for name, k in zip(found.outcome.dims, index, strict=True)}
+        row = {name: found[name].values[index] for name in found.data_vars}
+        size, slenderness, start = at["size"], at["slenderness"], rk.State(at["angle"])
+        block = rk.Block(
+            2 * size * math.cos(slenderness), 2 * size * math.sin(slenderness), at["restitution"]
+        )
+        ground = records[int(at["record"])].scaled(pga=at["scale"] * GRAVITY * math.tan(slenderness))
+        ground = ground if at["polarity"] > 0 else ground.reversed()
+        motion = rk.simulate(block.system(ground), start)
+        certified += bool(row["certified"])
+        same = row["peak"] == pytest.approx(peak_of(motion), rel=1e-9)
+        if row["certified"] and not same and motion.outcome == "at-rest":
+            same = abs(row["peak"] - motion.peak) <= 2.0 * rounding_of_peak(block, ground, start)
+        if row["certified"] and not (same and OUTCOMES[row["outcome"]] == motion.outcome):
+            wrong.append((at, row, str(motion)))
+    return wrong, certified
+
+
+def test_random_points_end_as_simulate_says():
+    wrong, certified = differing(500, seed=11)
+    assert wrong == []
+    assert certified > 450
+
+
+@pytest.mark.long
+@pytest.mark.timeout(600)
+def test_many_random_points_end_as_simulate_says():
+    for seed in range(21, 25):
+        wrong, certified = differing(500, seed)
+        assert wrong == []
+        assert certified > 450
+
+
+def test_dataset_names_its_axes_records_and_quantities():
+    found = rk.rocking_spectrum(RECORDS, **ASKED)
+    assert found.outcome.dims == ("record", "size", "slenderness")
+    assert found.name.values.tolist() == list(RECORDS.names)
+    assert found.pga.values.tolist() == [motion.pga for motion in RECORDS]
+    np.testing.assert_allclose(
+        found.frequency_parameter, np.sqrt(3 * GRAVITY / 4 / ASKED["size"]), rtol=4e-16
+    )
+    named = {"scale": 0.4, "intensity": "pga-g", "angle": 0.0, "polarity": 1.0, "inertia_ratio": 4 / 3}
+    assert (named | {"records_sha256": RECORDS.digest}).items() <= found.attrs.items()
+    assert {each.name for each in VARIABLES} == set(found.data_vars)
+    overturned = found.outcome == OUTCOMES.index("overturned")
+    assert np.isinf(found.peak.where(overturned, math.inf)).all()
+    assert 0 < int(overturned.sum()) < found.outcome.size
+    assert (found.outcome.attrs["flag_meanings"].split()) == list(map(str, OUTCOMES))
+
+
+def test_one_record_is_no_dimension_and_its_name_an_attribute():
+    found = rk.rocking_spectrum(RECORDS[0], size=[1.0, 2.0], slenderness=0.2)
+    assert found.outcome.dims == ("size",)
+    assert found.attrs["record"] == RECORDS.names[0]
+    assert found.equals(
+        rk.rocking_spectrum(RECORDS, size=[1.0, 2.0], slenderness=0.2).isel(record=0, drop=True)
+    )
+
+
+def test_single_point_is_refused_with_the_way_out():
+    message = "size must be an array if nothing else varies and there is one record; got 1.0 (rk.simulate"
+    with pytest.raises(ValueError, match=f"^{re.escape(message)}"):
+        rk.rocking_spectrum(RECORDS[0], size=1.0, slenderness=0.2)
+
+
+def test_motion_of_zeros_moves_no_block():
+    found = rk.rocking_spectrum(rk.GroundMotion([0.0, 0.0], step=0.1), size=[1.0, 2.0], slenderness=0.2)
+    assert found.peak.values.tolist() == [0.0, 0.0]
+    assert set(found.outcome.values.tolist()) == {OUTCOMES.index("at-rest")}
+
+
+def test_reversed_motion_is_that_of_the_other_polarity():
+    both = rk.rocking_spectrum(RECORDS, **ASKED, polarity=[-1.0, 1.0])
+    turned = rk.rocking_spectrum([motion.reversed() for motion in RECORDS], **ASKED)
+    xr.testing.assert_equal(
+        both.sel(polarity=-1.0, drop=True)[["outcome", "peak"]], turned[["outcome", "peak"]]
+    )
+
+
+@pytest.fixture(scope="module")
+def plain():
+    """The spectrum in memory."""
+    return rk.rocking_spectrum(RECORDS, **ASKED)
+
+
+@pytest.fixture(scope="module")
+def made(tmp_path_factory):
+    """The spectrum in a store that tests must not change."""
+    folder = tmp_path_factory.mktemp("made") / "spectrum.zarr"
+    rk.rocking_spectrum(RECORDS, **ASKED, store=folder)
+    return folder
+
+
+def test_store_gives_the_spectrum_in_memory_and_is_not_computed_twice(plain, made):
+    before = files(made)
+    assert rk.rocking_spectrum(RECORDS, **ASKED, store=made).load().equals(plain)
+    assert files(made) == before
+
+
+def test_each_level_refines_the_sizes(plain, made):
+    for number, step in ((2, 1), (1, 2), (0, 4)):
+        coarse = xr.open_zarr(made, group=f"level-{number}", chunks=None, consolidated=False).load()
+        shared = list(coarse.data_vars)
+        assert coarse[shared].equals(
+            plain[shared].isel(size=slice(None, None, step)).drop_vars(["name", "pga", "frequency_parameter"])
+        )
+    assert not (made / "level-3").exists()
+
+
+def test_store_of_other_records_is_refused(made):
+    others = rk.RecordSet([RECORDS[0], RECORDS[1].scaled(1.0 + 2**-52)])
+    with pytest.raises(ValueError, match="records_sha256 is .* there and .* here"):
+        rk.rocking_spectrum(others, **ASKED, store=made)
+
+
+def test_store_of_a_run_that_was_killed_is_gone_on_with_to_the_same_bytes(made, tmp_path):
+    folder = tmp_path / "spectrum.zarr"
+    with subprocess.Popen([sys.executable, "-c", RUN, folder], stdout=subprocess.PIPE, text=True) as process:
+        assert process.stdout.readline() == "running\n"
+        while not list((folder / "level-0" / "outcome" / "c").rglob("0")):
+            if process.poll() is not None:
+                break  # quicker than its death: the next run still has to write nothing
+        process.kill()
+    kept = files(folder)
+    assert kept
+    rk.rocking_spectrum(RECORDS, **ASKED, store=folder)
+    assert files(folder) == files(made)
+
+
+def test_interrupted_run_says_how_to_go_on(tmp_path):
+    folder = tmp_path / "spectrum.zarr"
+    with subprocess.Popen(
+        [sys.executable, "-c", RUN, folder, "3000"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    ) as process:
+        assert process.stdout.readline() == "running\n"
+        while not any((folder / "level-0" / "outcome" / "c").rglob("0/0/0/0")):
+            assert process.poll() is None
+            time.sleep(0.01)
+        process.send_signal(signal.SIGINT)
+        _, error = process.communicate(timeout=60)
+    assert error.splitlines()[-2:] == [
+        "KeyboardInterrupt",
+        f"The survey was interrupted; completed tiles are in {str(folder)!r}; run it again to resume.",
+    ]
+
+
+def test_processes_give_the_same_bytes(made, tmp_path):
+    with ProcessPoolExecutor(2, multiprocessing.get_context("spawn")) as executor:
+        rk.rocking_spectrum(RECORDS, **ASKED, store=tmp_path / "spectrum.zarr", executor=executor)
+    assert files(tmp_path / "spectrum.zarr") == files(made)
+
+
+def test_batches_are_stretches_of_neighbours_that_share_tables():
+    given = {"size": np.linspace(0.2, 4.0, 400), "scale": np.linspace(0.3, 0.6, 400)}
+    spec = motion_question(
+        rk.RecordSet(RECORDS[0]),
+        given | {"slenderness": 0.2, "angle": 0.0, "polarity": 1.0},
+        intensity="pga-g",
+    )
+    measure, several = ending("Title"), 0
+    for level in (*finest(spec), *levels(spec)):
+        for tile in level.tiles():
+            wanted = np.arange(math.prod(tile.shape), dtype=np.int32)
+            parts = [batch.wanted for batch in batches(tile, spec, wanted, measure)]
+            assert np.concatenate(parts).tolist() == wanted.tolist()
+            assert all((np.diff(part) == 1).all() for part in parts)
+            several += len(parts) > 1
+    assert several >= 2
+
+
+def test_neighbours_with_equal_record_and_frequency_parameter_are_one_stretch():
+    spec = motion_question(
+        RECORDS,
+        {"size": [1.0, 2.0], "slenderness": [0.1, 0.2], "angle": 0.0, "polarity": 1.0, "scale": 1.0},
+        intensity="scale",
+    )
+    mesh = np.meshgrid(*spec.axes.values(), indexing="ij")
+    runs = spec.inputs({name: values.ravel() for name, values in zip(spec.axes, mesh, strict=True)})
+    parts = list(alike(runs))
+    assert [(part.start, part.stop) for part in parts] == list(pairwise(range(0, 9, 2)))
+
+
+def test_bar_says_the_number_of_points_and_ends_with_the_outcomes(capsys, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "160")
+    rk.rocking_spectrum(RECORDS, **ASKED, progress=True)
+    shown = " ".join(capsys.readouterr().err.split())
+    assert re.match(r"900 points in \d+ tiles?", shown)
+    assert "100%" in shown
+    assert "overturned" in shown
+    rk.rocking_spectrum(RECORDS, **ASKED)
+    assert capsys.readouterr() == ("", "")
