@@ -20,15 +20,8 @@ from rocking.model.atomic_files import (
 )
 from rocking.model.basin_map import Attractor, BasinMap, UncertaintyExponent
 from rocking.model.binomial_share import LEVEL, Share, wilson
-from rocking.model.block import (
-    GRAVITY,
-    INERTIA_RATIOS,
-    RECTANGLE,
-    SIZES,
-    Block,
-    frequency_parameter,
-    housner_restitution,
-)
+from rocking.model.block import INERTIA_RATIOS, RECTANGLE, SIZES, Block
+from rocking.model.block_formulas import GRAVITY, frequency_parameter, housner_restitution
 from rocking.model.citation import cite
 from rocking.model.classification import Criterion, Kind
 from rocking.model.forcing import (

@@ -8,24 +8,14 @@ from typing import Any
 import numpy as np
 from attrs import field, frozen
 
+from rocking.model.block_formulas import GRAVITY, frequency_parameter, housner_restitution
 from rocking.model.forcing import FREQUENCIES, MAX_AMPLITUDE, BaseMotion, Harmonic
 from rocking.model.system import Braces, System
 from rocking.model.validation import exactly_one, instance, reals, refusal, within
 
-GRAVITY = 9.80665
 SIZES = (1e-3, 1e3)
 INERTIA_RATIOS = (1.0, 10.0)
 RECTANGLE = 4 / 3
-
-
-def frequency_parameter(radius: float, inertia_ratio: float) -> float:
-    """Return α = √(MgR/Io) in 1/s, from the distance R of the corners from the centre of mass, in metres."""
-    return math.sqrt(GRAVITY / (inertia_ratio * radius))
-
-
-def housner_restitution(critical_angle: float, inertia_ratio: float) -> float:
-    """Return Housner's (1963) coefficient of restitution, 1 − 2 sin²θcr/(Io/MR²); 1 − (3/2) sin²θcr for a uniform rectangle."""
-    return 1 - 2 * math.sin(critical_angle) ** 2 / inertia_ratio
 
 
 def _height(value: float) -> float:

@@ -10,7 +10,7 @@ import numpy as np
 from attrs import evolve, field, frozen
 
 from rocking.model.arrays import ReadOnlyArrays, read_only
-from rocking.model.block import GRAVITY
+from rocking.model.block_formulas import GRAVITY
 from rocking.model.forcing import BaseMotion
 from rocking.model.oscillator import pseudo_acceleration
 from rocking.model.piecewise_linear import PiecewiseLinear, samples, velocity_and_displacement

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from attrs import frozen
 
-from rocking.model.block import GRAVITY
+from rocking.model.block_formulas import GRAVITY
 from rocking.model.ground_motion import GroundMotion
 from rocking.model.record_set import RecordSet
 from rocking.model.validation import refusal

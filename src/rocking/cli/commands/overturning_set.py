@@ -7,8 +7,7 @@ from typing import Annotated, Any
 
 import typer
 
-from rocking.cli.commands import record
-from rocking.cli.input import axis, record_request
+from rocking.cli.input import axis, record_request, record_source
 from rocking.cli.input import options as ask
 
 EXAMPLES = """\
@@ -52,7 +51,7 @@ Csv = Annotated[Path | None, ask.file_option("--csv", "Write the switches (.csv)
 def overturning_set(
     context: typer.Context,
     files: Files,
-    inertia_ratio: record.InertiaRatio = None,
+    inertia_ratio: record_source.InertiaRatio = None,
     scale: Scale = None,
     pga: Pga = None,
     pga_g: PgaG = None,
@@ -62,10 +61,10 @@ def overturning_set(
     pga_ratio: PgaRatio = None,
     pgv_ratio: PgvRatio = None,
     polarity: Polarity = 1.0,
-    channel: record.Channel = 1,
-    units: record.Units = None,
-    step: record.Step = None,
-    baseline: record.Baseline = "none",
+    channel: record_source.Channel = 1,
+    units: record_source.Units = None,
+    step: record_source.Step = None,
+    baseline: record_source.Baseline = "none",
     plot: Plot = None,
     csv: Csv = None,
     netcdf: ask.SurveyNetcdf = None,

@@ -31,7 +31,6 @@ PgaG = Annotated[
     ask.Number,
     ask.number_option("--pga-g", "Peak to which the record is scaled, in units of g; replaces --scale."),
 ]
-Channel = Annotated[int, ask.number_option("--channel", "Channel of the file, counted from 1.")]
 Plot = Annotated[
     Path | None,
     ask.file_option(
@@ -53,7 +52,7 @@ def record(
     inertia_ratio: record_source.InertiaRatio = None,
     scale: Scale = None,
     pga_g: PgaG = None,
-    channel: Channel = 1,
+    channel: record_source.Channel = 1,
     units: record_source.Units = None,
     step: record_source.Step = None,
     baseline: record_source.Baseline = "none",

@@ -27,6 +27,7 @@ Sources = Annotated[
         "the package.",
     ),
 ]
+Channel = Annotated[int, ask.number_option("--channel", "Channel of the file, counted from 1.")]
 InertiaRatio = Annotated[
     ask.Number,
     ask.number_option(

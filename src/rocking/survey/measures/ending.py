@@ -8,9 +8,9 @@ from itertools import pairwise, starmap
 
 import numpy as np
 
-from rocking.kernels.forcing.parameters import CYCLE, sampled_parameters, tables_of
+from rocking.kernels.forcing import parameters as numbers
+from rocking.kernels.march import finite_motion as kernel
 from rocking.kernels.march import march
-from rocking.kernels.march.finite_motion import ENDING_ROW, RUN_ROW, run_batch
 from rocking.model import Outcome
 from rocking.survey.measurement import Arrays, Measurement, Variable
 from rocking.survey.motion_spec import Runs
@@ -84,13 +84,13 @@ def ending(title: str, *, with_peak: bool = True) -> Measurement:
 
 def load_kernels(may_last: bool) -> None:
     """Compile or load the kernels of `judge`."""
-    run_batch.load()
+    kernel.run_batch.load()
 
 
 def judge(runs: Runs, options: Mapping[str, int], stop: np.ndarray) -> Arrays | None:
     """Follow runs to their ends; None if another thread sets `stop`. Neighbours with the same record and α share tables."""
     with_peak = bool(options["with_peak"])
-    rows, asked = np.empty(runs.record.size, ENDING_ROW), np.empty(runs.record.size, RUN_ROW)
+    rows, asked = np.empty(runs.record.size, kernel.ENDING_ROW), np.empty(runs.record.size, kernel.RUN_ROW)
     asked["restitution"], asked["angle"] = runs.restitution, runs.angle
     for part in alike(runs):
         motion, alpha = (
@@ -99,8 +99,10 @@ def judge(runs: Runs, options: Mapping[str, int], stop: np.ndarray) -> Arrays | 
         )
         base = motion.normalised(1.0, alpha)
         asked["scale"][part] = base.scale * runs.factor[part]
-        p = sampled_parameters(tables_of(base.values, base.step), 1.0, CYCLE * base.step, 1.0)
-        if not run_batch(p, asked[part], with_peak, rows[part], stop):
+        p = numbers.sampled_parameters(
+            numbers.tables_of(base.values, base.step), 1.0, numbers.CYCLE * base.step, 1.0
+        )
+        if not kernel.run_batch(p, asked[part], with_peak, rows[part], stop):
             return None
     return answers(rows, with_peak=with_peak)
 

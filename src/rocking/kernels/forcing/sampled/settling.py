@@ -1,10 +1,12 @@
 """Bound on chattering (Zeno) under a sampled base acceleration a: proof that it ends in rest, and when.
 
-While |a| < 1 the block is accelerated back with d - u, d = 1 +- a >= m = 1 - max|a|. On an arc that leaves at speed v the energy
-E = u'^2/2 + u (d - u/2) has E' = d' u. As long as u <= m, u <= 2E/m, so that a return speed is at most v exp(s/m) for a sum s
-of |changes of a|. So the k-th arc from now leaves with at most e^k v V, V = exp(S/m) for all changes S. With x = v V/m < 1 an arc
-is not higher than m (1 - sqrt(1 - x^2)) < m, and not longer than 2 artanh(e^k x). All arcs together last at most
-2 artanh(x)/(1 - e). If this ends within the time for which m and S hold, the block rests.
+While |a| < 1 the block is accelerated back with d - u, where d = 1 +- a >= m = 1 - max|a|. The energy E = u'^2/2 + u (d - u/2) of
+an arc has E' = d' u. As long as u <= m, u <= 2E/m. An arc that leaves at speed v then returns with at most v exp(s/m), for a sum s
+of |changes of a|.
+
+So the k-th arc from now leaves with at most e^k v V, V = exp(S/m), for the sum S of all changes. Let x = v V/m < 1. No arc is higher
+than m (1 - sqrt(1 - x^2)) < m. The k-th is not longer than 2 artanh(e^k x). All together last at most 2 artanh(x)/(1 - e).
+If this ends within the time for which m and S hold, the block rests.
 """
 
 import math
@@ -32,7 +34,7 @@ def largest_between(p, first, end):
 
 @njit(**INTERNAL_INLINE)
 def changes_until(p, drive, here, end):
-    """Return the sum of the changes of a from a place, where it is ``here``, to a later sample; after the last, a = 0."""
+    """Return the sum of all |changes| of the base acceleration, from ``here`` at a place to a later sample, or to its end."""
     tables, last, scale = p.forcing.tables, last_index(p), p.forcing.scale
     first, stop = min(drive.index + 1, last), min(end, last)
     changes = abs(scale * tables.samples[first] - here)

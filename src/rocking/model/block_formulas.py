@@ -1,0 +1,17 @@
+"""Formulas of a block for which its shape is not needed: frequency parameter, and restitution by Housner (1963)."""
+
+from __future__ import annotations
+
+import math
+
+GRAVITY = 9.80665
+
+
+def frequency_parameter(radius: float, inertia_ratio: float) -> float:
+    """Return α = √(MgR/Io) in 1/s, from the distance R of the corners from the centre of mass, in metres."""
+    return math.sqrt(GRAVITY / (inertia_ratio * radius))
+
+
+def housner_restitution(critical_angle: float, inertia_ratio: float) -> float:
+    """Return Housner's (1963) coefficient of restitution, 1 − 2 sin²θcr/(Io/MR²); 1 − (3/2) sin²θcr for a uniform rectangle."""
+    return 1 - 2 * math.sin(critical_angle) ** 2 / inertia_ratio
