@@ -23,8 +23,8 @@ MAKERS = {
     "frequency": (lambda x: rk.Harmonic(1.0, frequency=x), 1e-3, 1e3),
     "phase": (lambda x: rk.Harmonic(1.0, period=1.0, phase=x), -1e3, 1e3),
     "restitution": (lambda x: rk.System(SYSTEM.forcing, x), 0, 1),
-    "angle": (rk.State, -1e9, 1e9),
-    "velocity": (lambda x: rk.State(velocity=x), -1e9, 1e9),
+    "angle": (rk.State, -1e300, 1e300),
+    "velocity": (lambda x: rk.State(velocity=x), -1e300, 1e300),
     "brace angle": (rk.Braces, 1e-3, 1e3),
     "brace restitution": (lambda x: rk.Braces(1.0, x), 0, 1),
 }
@@ -41,7 +41,7 @@ def refusal(call, kind=(ValueError, TypeError)):
 def allowed(name, words):
     """Return the start of an error message; a state that a motion reaches has the widest range."""
     if name in ("angle", "velocity"):
-        words = "be a finite real number of size up to 1e+09; got "
+        words = "be a finite real number of size up to 1e+300; got "
     return f"{name.split()[-1]} must {words}"
 
 

@@ -159,3 +159,10 @@ def test_displacement_is_the_acceleration_integrated_twice(kind):
     velocity = np.concatenate(([0.0], np.cumsum((acceleration[1:] + acceleration[:-1]) * (step / 2))))
     place = np.concatenate(([0.0], np.cumsum((velocity[1:] + velocity[:-1]) * (step / 2))))
     assert pulse.displacement(times) == pytest.approx(place, abs=2e-5)
+
+
+def test_a_block_that_fell_long_before_the_end_of_its_pulse_has_a_final_state():
+    pulse = rk.Pulse("one-sine", amplitude=14.0, duration=2 * math.pi / 0.3)
+    motion = rk.simulate(rk.System(pulse, 0.9), record="none")
+    assert motion.outcome == "overturned"
+    assert abs(motion.final.angle) > 1e9

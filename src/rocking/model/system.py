@@ -13,7 +13,7 @@ from rocking.model.validation import finite, instance, refusal, within
 BRACE_ANGLES = (1e-3, 1e3)
 NO_BRACES = {"brace_angle": math.inf, "brace_restitution": 1.0}
 """Quantities of braces for a system without braces."""
-MAX_STATE = 1e9
+MAX_STATE = 1e300
 MAX_START = 1e3
 FORCINGS = "make one: rk.Harmonic(amplitude=2.0, period=1.0) or rk.PiecewiseLinear([0.0, 2.0, 0.0], step=0.1)"
 RANGES = {
@@ -171,9 +171,9 @@ class State:
     Parameters
     ----------
     angle : float
-        Angle Θ = θ/θcr, of magnitude up to 1e9; for an initial state, in [-1000, 1000]. Default: 0.
+        Angle Θ = θ/θcr, of magnitude up to 1e300; for an initial state, in [-1000, 1000]. Default: 0.
     velocity : float
-        Angular velocity Θ' = dΘ/dτ, of magnitude up to 1e9; for an initial state, in [-1000, 1000]. Default: 0.
+        Angular velocity Θ' = dΘ/dτ, of magnitude up to 1e300; for an initial state, in [-1000, 1000]. Default: 0.
 
     Raises
     ------

@@ -82,7 +82,7 @@ def fragility(
     json: ask.Json = False,
     **shared: Any,
 ) -> None:
-    """Estimate fragility curves of a block under ground motions.
+    """Estimate how likely ground motions overturn a block.
 
     A curve is the probability of overturning, or of exceeding a limit of the angle, over the peak ground acceleration.
 
