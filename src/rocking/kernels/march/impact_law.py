@@ -40,7 +40,7 @@ def after_impact(p, arc, time, coming, horizon):
     after = arc_after(p, side, time, 0.0, speed, coming)
     if mode == FLIGHT and 0.0 < speed < SLOW and p.block.restitution < 1.0:
         settled = base_settling_time(p, after.drive, speed)
-        if settled <= horizon or (settled < math.inf and speed < SLOWEST):
+        if settled < math.inf and (settled <= horizon or speed < SLOWEST):
             mode = REST
     if mode == REST:
         after = arc_renewed(p, side, time, 0.0, 0.0, coming)
@@ -69,7 +69,7 @@ def after_brace(p, arc, time, coming, horizon):
             mode = LEAN
     elif p.block.brace_restitution < 1.0:
         settled = brace_settling_time(p, after.side, after.drive, speed)
-        if settled <= horizon or (settled < math.inf and speed < SLOWEST):
+        if settled < math.inf and (settled <= horizon or speed < SLOWEST):
             mode = LEAN
     if mode == LEAN:
         after = arc_renewed(p, arc.side, time, p.block.brace_angle, 0.0, coming)
