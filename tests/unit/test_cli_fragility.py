@@ -58,7 +58,7 @@ def test_files_hold_the_probabilities(rocking, tmp_path):
     data = found.dataset
     told = json.loads(out)
     assert told["pga_g"] == LEVELS.tolist()
-    assert told["records"][-1] == "San Francisco, 1295 Shafter, F, 360°"
+    assert told["records"][-1] == rk.read_record_set([EXAMPLE_FILE]).names[0]
     assert [curve["fraction"] for curve in told["curves"]] == data.fraction.values.tolist()
     assert [curve["limit"] for curve in told["curves"]] == [0.1, 0.5, None]
     assert told["curves"][2]["median"] == found.fit().median
@@ -94,6 +94,13 @@ def test_an_uncertain_block_is_that_of_the_function(rocking):
     assert out.splitlines()[0] == str(found)
 
 
+def test_a_folder_is_the_set_of_its_files(rocking, tmp_path):
+    code, message, out = rocking(f"fragility {tmp_path} {LINE}")
+    assert (code, message) == (0, "")
+    found = rk.fragility(rk.read_record_set(tmp_path), BLOCK, LEVELS, intensity="pga-g")
+    assert out.splitlines()[0] == str(found)
+
+
 def test_one_record_is_warned_of(rocking):
     code, _, out = rocking(f"fragility example {LINE}")
     assert code == 0
@@ -103,8 +110,7 @@ def test_one_record_is_warned_of(rocking):
 @pytest.mark.parametrize(
     "line, message",
     [
-        (f"example example {LINE}", "FILE must hold independent motions; got "),
-        (f"r0.csv r0.csv {LINE}", "FILE must hold independent motions; got "),
+        (f"r0.csv r0.csv {LINE}", "r0.csv occurs 2 times; name each file once"),
         ("r0.csv --height 2 --width 0.5 --pga-g 0.5", "--pga-g must be an axis, START:STOP:COUNT; got 0.5"),
         ("r0.csv --height 2 --width 0.5", "--pga-g must be an axis, START:STOP:COUNT; got nothing"),
         ("r0.csv --height 2 --pga-g 0.1:1:5", "missing --width: give --height and --width"),

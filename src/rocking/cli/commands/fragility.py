@@ -7,25 +7,17 @@ from typing import Annotated, Any
 
 import typer
 
-from rocking.cli.input import axis, fragility_request, record_request
+from rocking.cli.input import axis, fragility_request, record_source
 from rocking.cli.input import options as ask
 
 EXAMPLES = """\
-# The record that comes with the package; add files of your own after it.
+# The record that comes with the package; name a folder or a table of records instead.
 rocking fragility example --height 2 --width 0.5 --pga-g 0.1:1.5:15 \\
     --limit 0.5 --plot fragility.png
 # An uncertain block: 20 samples per record.
 rocking fragility example --height 2 --width 0.5 --pga-g 0.1:1.5:15 \\
     --samples 20 --width-spread 0.1 --csv fragility.csv"""
 
-Files = Annotated[
-    list[Path],
-    typer.Argument(
-        metavar="FILE...",
-        parser=record_request.record_path,
-        help="Record files; the format is recognised by the content. `example` is the record that comes with the package.",
-    ),
-]
 PgaG = Annotated[
     Any, axis.axis_option("--pga-g", "Peaks to which each record is scaled, in units of g; START:STOP:COUNT.")
 ]
@@ -67,7 +59,7 @@ Csv = Annotated[
 @ask.with_options("height", "width", "restitution")
 def fragility(
     context: typer.Context,
-    files: Files,
+    sources: record_source.Sources,
     pga_g: PgaG = None,
     limit: Limit = None,
     samples: Samples = None,
@@ -76,6 +68,9 @@ def fragility(
     restitution_spread: RestitutionSpread = None,
     replicates: Replicates = None,
     seed: Seed = None,
+    units: record_source.Units = None,
+    step: record_source.Step = None,
+    baseline: record_source.Baseline = "none",
     plot: Plot = None,
     csv: Csv = None,
     netcdf: ask.SurveyNetcdf = None,

@@ -2,25 +2,26 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
+from rocking.cli.input import record_source
 from rocking.cli.input.axis import Axis
 from rocking.cli.input.options import require
 from rocking.cli.input.record_request import ARGUMENTS as RECORD_ARGUMENTS
 from rocking.cli.option_names import AXIS_FORM, YourInput, option, options, your_input
 
 if TYPE_CHECKING:
-    from rocking.model import Block, Fragility, GroundMotion
+    from rocking.model import Block, Fragility
 
 SPREADS = ("height_spread", "width_spread", "restitution_spread")
 OWN = ("samples", "replicates", "seed", *SPREADS)
-# On the command line the records are files, and an array is typed as an axis.
+READING = ("units", "step", "baseline")
+# On the command line the records are sources, and an array is typed as an axis.
 ARGUMENTS = (
     RECORD_ARGUMENTS
     | options(*OWN)
-    | {"records": "FILE", "levels": option("pga_g"), "limits": option("limit")}
+    | {"records": "SOURCE", "levels": option("pga_g"), "limits": option("limit")}
     | {"limit": option("limit")}
 )
 
@@ -38,10 +39,10 @@ def compute(given: Mapping[str, Any]) -> tuple[Fragility, list[str]]:
     if not isinstance(levels, Axis):
         found = "nothing" if levels is None else f"{levels:g}"
         raise YourInput(f"{option('pga_g')} must be an axis, {AXIS_FORM}; got {found} (example: 0.1:1.5:15)")
-    motions, doubts = _ground_motions(given)
+    records, doubts = record_source.record_set(given["sources"], **{name: given[name] for name in READING})
     with your_input(ARGUMENTS):
         return fragility(
-            motions,
+            records,
             block,
             np.linspace(levels.start, levels.stop, levels.points),
             intensity="pga-g",
@@ -57,23 +58,3 @@ def _block(given: Mapping[str, Any]) -> Block:
     require(given, (("height",), ("width",)), "--height and --width")
     with your_input(ARGUMENTS):
         return Block(given["height"], given["width"], given["restitution"])
-
-
-def _ground_motions(given: Mapping[str, Any]) -> tuple[list[GroundMotion], list[str]]:
-    """Return the ground motions of the files, with distinct names, and the warnings of the readers."""
-    import attrs
-
-    from rocking.records import RecordError, read_ground_motion
-
-    found: list[GroundMotion] = []
-    with your_input(ARGUMENTS), warnings.catch_warnings(record=True) as doubts:
-        warnings.simplefilter("always")
-        for path in given["files"]:
-            try:
-                motion = read_ground_motion(path)
-            except RecordError as error:
-                raise YourInput(str(error)) from error
-            if any((motion.name, motion.component) == (each.name, each.component) for each in found):
-                motion = attrs.evolve(motion, name=f"{motion.name or path.stem} ({len(found) + 1})")
-            found.append(motion)
-    return found, [str(doubt.message) for doubt in doubts]
