@@ -11,7 +11,7 @@ from rocking.cli.input import axis, fragility_request, record_source
 from rocking.cli.input import options as ask
 
 EXAMPLES = """\
-# The record that comes with the package; name a folder or a table of records instead.
+# The record of the package; name a folder or a table instead.
 rocking fragility example --height 2 --width 0.5 --pga-g 0.1:1.5:15 \\
     --limit 0.5 --plot fragility.png
 # An uncertain block: 20 samples per record.

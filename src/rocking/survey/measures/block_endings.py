@@ -32,7 +32,7 @@ class BlockEndings:
         self.scale = scale
         self.pulse = base if isinstance(base, Pulse) and base.cosine is not None else None
         motion = base if isinstance(base, GroundMotion) else _samples(base)
-        given = {"size": 1.0, "slenderness": 0.1, "angle": 0.0, "polarity": 1.0, "scale": scale}
+        given = {"size": [1.0, 2.0], "slenderness": [0.1, 0.2], "angle": 0.0, "polarity": 1.0, "scale": scale}
         self.asked = motion_question(record_set(motion), given, intensity="scale")
 
     def load(self) -> None:

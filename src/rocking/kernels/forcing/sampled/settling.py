@@ -13,11 +13,13 @@ import math
 
 from rocking.kernels.compile_options import INTERNAL, INTERNAL_INLINE
 from rocking.kernels.deferred import njit
-from rocking.kernels.forcing.sampled.solution import acceleration_at, last_index
+from rocking.kernels.forcing.sampled.solution import acceleration_at, place_at
 from rocking.kernels.forcing.sampled.tables import BLOCK
 
 # Relative safety margin over rounding.
 MARGIN = 1e-9
+# Time that is looked at, relative to the bound so far.
+LONGER = 1.25
 
 
 @njit(**INTERNAL)
@@ -33,36 +35,35 @@ def largest_between(p, first, end):
 
 
 @njit(**INTERNAL_INLINE)
-def changes_until(p, drive, here, end):
-    """Return the sum of all |changes| of the base acceleration, from ``here`` at a place to a later sample, or to its end."""
-    tables, last, scale = p.forcing.tables, last_index(p), p.forcing.scale
-    first, stop = min(drive.index + 1, last), min(end, last)
-    changes = abs(scale * tables.samples[first] - here)
-    changes += abs(scale) * (tables.variation[stop] - tables.variation[first])
-    return changes + abs(scale * tables.samples[last]) if end > last else changes
+def changes_between(p, drive, end):
+    """Return the sum of all |changes| of the base acceleration between two places; after the last sample it is 0."""
+    tables, scale = p.forcing.tables, p.forcing.scale
+    here, there = acceleration_at(p, drive), acceleration_at(p, end)
+    first = drive.index + 1
+    if end.index < first:
+        return abs(there - here)
+    changes = abs(scale * tables.samples[first] - here) + abs(there - scale * tables.samples[end.index])
+    return changes + abs(scale) * (tables.variation[end.index] - tables.variation[first])
 
 
 @njit(**INTERNAL)
 def settling(p, drive, speed):
     """Provide ``contract.settling``, with the changes in a time that grows until it suffices."""
-    e, step, last = p.block.restitution, p.forcing.tables.step, last_index(p)
-    here = acceleration_at(p, drive)
-    largest, end, x = abs(here), drive.index, speed / (1.0 - abs(here))
+    e, largest, covered, seen = p.block.restitution, abs(acceleration_at(p, drive)), 0.0, drive.index
+    x = speed / (1.0 - largest)
     while e < 1.0 and largest < 1.0 and x < 1.0:
         # artanh x <= x + x^3/(3 (1 - x^2))
         bound = 2.0 * (x + x * x * x / (3.0 * (1.0 - x * x))) / (1.0 - e) * (1.0 + MARGIN)
-        if end > last or bound <= (end - drive.index) * step - drive.offset:
+        if bound <= covered:
             top = (1.0 - largest) * x * x / (1.0 + math.sqrt(1.0 - x * x))
             return (bound, top) if top < p.block.brace_angle else (math.inf, math.inf)
-        before, ahead = end, (drive.offset + bound) / step
-        end = last + 1 if ahead > last - drive.index else drive.index + int(ahead) + 1
-        if drive.index >= last:
-            # the base is at rest
-            continue
-        changes = changes_until(p, drive, here, end)
+        covered = LONGER * bound
+        end = place_at(p, drive.index, drive.offset + covered)
+        changes = changes_between(p, drive, end)
         growth = changes / (1.0 - largest)
         if speed * (1.0 + growth * (1.0 + 0.5 * growth)) >= 1.0 - largest:  # less than speed e^growth
             break
-        largest = max(largest, largest_between(p, before + 1, min(end, last)))
+        largest = max(largest, abs(acceleration_at(p, end)), largest_between(p, seen + 1, end.index))
+        seen = end.index
         x = speed * math.exp(changes / (1.0 - largest)) / (1.0 - largest) * (1.0 + MARGIN)
     return math.inf, math.inf
