@@ -14,6 +14,8 @@ from rocking.theory.free_rocking import free_quarter_period
 LOGARITHMIC, LINEAR = 0.34, 0.4
 DAMPINGS = ("fema-356", "priestley")
 MAX_STEPS, CLOSE = 500, 1e-10
+# Angle in units of θcr below which the loop ends at 0: the periods of smaller angles are out of range.
+NEGLIGIBLE = 1e-5
 SLOPES = {"half-sine": 1 / 2, "one-sine": 1 / 6, "one-cosine": 1 / 4}
 MAX_RATIO = 3.0
 MAX_DAMPING = 0.99  # of a response spectrum
@@ -131,7 +133,7 @@ def design_angle(ground: GroundMotion, block: Block, rule: str = "fema-356", *, 
             return math.inf
         if abs(following - angle) <= CLOSE * max(following, angle):
             return float(following)
-        if following <= CLOSE:
+        if following <= NEGLIGIBLE:
             return 0.0
         angle = following
     return math.nan
