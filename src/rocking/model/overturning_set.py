@@ -55,7 +55,7 @@ class OverturningSet(NotebookPicture):
     ----------
     dataset : xarray.Dataset
         Variables over `record` and `scale`, the levels of the grid: `outcome`, `certified` and `impacts_since_rest`. Over
-        `record`: `lowest` and `share`. Over `switch`: the columns of `switches`, with the prefix "switch_".
+        `record`: `lowest` and `share`. Over `switch`: the columns of `switches`, with the prefix ``switch_``.
     records : RecordSet
         Ground motions.
     block : Block
