@@ -86,7 +86,7 @@ def rocking_spectrum(
 
     References
     ----------
-    Makris & Konstantinidis, Earthquake Eng. Struct. Dyn. 32, 1879–1901 (2003).
+    Makris & Konstantinidis, Earthquake Eng. Struct. Dyn. (2003).
 
     Examples
     --------

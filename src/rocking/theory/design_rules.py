@@ -54,7 +54,7 @@ def equivalent_damping(restitution: Any, rule: str = "fema-356") -> Any:
 
     References
     ----------
-    Makris & Konstantinidis, Earthquake Eng. Struct. Dyn. 32, 1879–1901 (2003).
+    Makris & Konstantinidis, Earthquake Eng. Struct. Dyn. (2003).
 
     Examples
     --------
@@ -110,7 +110,7 @@ def design_angle(ground: GroundMotion, block: Block, rule: str = "fema-356", *, 
 
     References
     ----------
-    Makris & Konstantinidis, Earthquake Eng. Struct. Dyn. 32, 1879–1901 (2003).
+    Makris & Konstantinidis, Earthquake Eng. Struct. Dyn. (2003).
 
     Examples
     --------
