@@ -124,4 +124,5 @@ def test_the_wheel_alone_draws_the_paper(run):
     package = run.folder / "packages/rocking"
     assert (package / "py.typed").exists()
     assert (package / "records/0111a.smc").exists()
-    assert {"report.html", "zoomable_map.html"} <= {path.name for path in package.rglob("*.html")}
+    pages = {path.relative_to(package).as_posix() for path in package.rglob("*.html")}
+    assert {"papers/report/page.html", "plot/zoomable_map.html", "explorer/ground_motion/page.html"} <= pages
