@@ -5,14 +5,19 @@ import math
 import numpy as np
 import pytest
 
+import rocking as rk
 from rocking.kernels import event_kinds as ev
-from rocking.kernels.forcing.drives import HarmonicDrive
+from rocking.kernels.compile_options import KERNEL
+from rocking.kernels.deferred import njit
+from rocking.kernels.forcing.contract import settling
+from rocking.kernels.forcing.drives import HarmonicDrive, SampledDrive
 from rocking.kernels.forcing.harmonic import parameters
 from rocking.kernels.march import initial_state
 from rocking.kernels.march import march as kernel
 from rocking.kernels.march.chatter import base_settling_time, brace_settling_time
 from rocking.kernels.march.event_rows import EVENT_ROW
 from rocking.kernels.march.progress import Recording
+from rocking.motion.kernel_parameters import parameters as kernel_parameters
 
 STEADY = HarmonicDrive(1.0, 0.0)
 
@@ -55,3 +60,31 @@ def test_bound_without_forcing_is_not_below_the_time_of_all_flights(restitution,
     flights = math.fsum(2.0 * math.atanh(share * restitution**k) for k in range(400))
     assert flights <= base_settling_time(p, STEADY, share) <= 1.1 * flights
     assert flights <= brace_settling_time(p, 1, STEADY, 0.5 * share) <= 1.1 * flights
+
+
+@njit(**KERNEL)
+def settling_from(p, index, offset, speed):
+    return settling(p, SampledDrive(index, offset), speed)
+
+
+def test_certified_rest_under_samples_comes_in_time_and_below_the_bound():
+    random = np.random.default_rng(1996)
+    checked, tightest, highest = 0, 0.0, 0.0
+    for _ in range(3000):
+        step, restitution = 10.0 ** random.uniform(-2, 0), random.uniform(0.05, 0.95)
+        values, speed = random.uniform(0.0, 1.5) * random.uniform(-1, 1, 40), 10.0 ** random.uniform(-6, -1)
+        system = rk.System(rk.PiecewiseLinear(values, step=step), restitution)
+        bound, top = settling_from(kernel_parameters(system), 0, 0.0, speed)
+        if bound == math.inf:
+            continue
+        events = rk.simulate(system, rk.State(velocity=speed)).events[1:]
+        end = int(np.argmax(events["kind"] != "impact"))
+        assert events["kind"][end] == "rest"
+        assert events["time"][end] <= bound
+        motion = rk.simulate(system, rk.State(velocity=speed), duration=max(float(events["time"][end]), 1e-9))
+        assert motion.peak <= top
+        tightest, highest = max(tightest, events["time"][end] / bound), max(highest, motion.peak / top)
+        checked += 1
+    assert checked > 300
+    assert tightest > 0.5  # bounds, but no idle ones
+    assert highest > 0.5
