@@ -40,7 +40,7 @@ test: lint ## lint, then the fast tests, the examples in docstrings and the page
 test-long: setup ## tests that take minutes: millions of crossings, systems and cycles, the report
 	@$(compile)
 	@$(chromium)
-	@$(bin)/python -m pytest -q -n $(workers) -m long --timeout 3600
+	@$(bin)/python -m pytest -q -n $(workers) -m long --timeout 3600 $(options)
 
 test-exhaustive: setup ## tests of a sample, such as 300 points of a map, on all points: hours
 	@$(print)
