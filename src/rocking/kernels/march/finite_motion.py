@@ -168,7 +168,8 @@ def resolved(p, arc, coming, horizon, peak, close):
 def after_its_event(p, arc, coming, after, so_far, horizon):
     """Return the closeness after the event that ends an arc.
 
-    ``after`` is the mode and the arc after the event. ``so_far.error`` is the error just before it. With an infinite ``horizon``, a block in flight does not settle, because chattering would have been cut short.
+    ``after`` is the mode and the arc after the event. ``so_far.error`` is the error just before it.
+    With an infinite ``horizon``, a block in flight does not settle, because chattering would have been cut short.
     """
     mode, ahead = after
     error = after_saltation(so_far.error, *event_map(p, arc, coming, mode, ahead.side))
