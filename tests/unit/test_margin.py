@@ -10,8 +10,11 @@ from scipy.integrate import quad
 
 import rocking as rk
 from rocking.kernels.march.finite_motion import ENDING_ROW, RUN_ROW, run_batch
-from rocking.kernels.march.march import OVERTURNED
+from rocking.kernels.march.march import DONE, OVERTURNED
 from rocking.motion.kernel_parameters import parameters
+
+# On its way back at the end of this motion the block has enough energy to overturn on the other side.
+TURNING = rk.PiecewiseLinear([2.0, 2.0, -6.0, -6.0], step=0.25)
 
 
 def constant_after(motion, event):
@@ -113,10 +116,20 @@ def test_without_losses_the_energy_after_the_base_motion_decides():
         motion = rk.simulate(system)
         assert motion.outcome == outcome
         assert motion.certified
-    # on its way back at the end of the base motion, with enough energy to overturn on the other side
-    base = rk.PiecewiseLinear([2.0, 2.0, -6.0, -6.0], step=0.25)
-    motion = rk.simulate(rk.System(base, 1.0))
-    assert motion.outcome == "overturned"
+    assert rk.simulate(rk.System(TURNING, 1.0)).outcome == "overturned"
+
+
+def test_in_a_batch_without_losses_the_energy_decides():
+    assert batch(TURNING, [0.5, 1.0], 1.0)["status"].tolist() == [DONE, OVERTURNED]
+    assert rk.simulate(rk.System(attrs.evolve(TURNING, scale=0.5), 1.0)).outcome == "bounded"
+
+
+def batch(base, scales, restitution):
+    """Return the ``Ending`` of each scale of a base motion, as a row."""
+    rows, runs = np.empty(len(scales), ENDING_ROW), np.zeros(len(scales), RUN_ROW)
+    runs["scale"], runs["restitution"] = scales, restitution
+    run_batch(parameters(rk.System(base, restitution)), runs, True, rows, np.zeros(1, np.int64))
+    return rows
 
 
 @pytest.mark.parametrize("restitution", [0.7, 1.0])
@@ -124,11 +137,8 @@ def test_a_batch_of_scales_ends_like_single_motions(restitution):
     values = np.random.default_rng(8).uniform(-1, 1, 20)
     base = rk.PiecewiseLinear(values, step=0.25)
     scales = np.linspace(1.02, 8.0, 60) / np.abs(values).max()
-    rows, runs = np.empty(len(scales), ENDING_ROW), np.zeros(len(scales), RUN_ROW)
-    runs["scale"], runs["restitution"] = scales, restitution
-    run_batch(parameters(rk.System(base, restitution)), runs, True, rows, np.zeros(1, np.int64))
     fallen = same = 0
-    for scale, row in zip(scales, rows, strict=True):
+    for scale, row in zip(scales, batch(base, scales, restitution), strict=True):
         motion = rk.simulate(rk.System(attrs.evolve(base, scale=float(scale)), restitution))
         assert (row["status"] == OVERTURNED) == (motion.outcome == "overturned")
         assert bool(row["decided"]) == motion.certified

@@ -1,8 +1,8 @@
-"""Chattering (Zeno) after an impact: when it certainly ends in rest or sustained contact, and how high the block hops."""
+"""Chattering (Zeno) after an impact: when it certainly ends in rest or sustained contact."""
 
 import math
 
-from rocking.kernels.compile_options import INTERNAL, KERNEL
+from rocking.kernels.compile_options import KERNEL
 from rocking.kernels.deferred import njit
 from rocking.kernels.forcing.contract import acceleration_change_bound, forcing_term, settling
 from rocking.kernels.forcing.settling import settling_time
@@ -13,13 +13,6 @@ def base_settling_time(p, drive, speed):
     """Return an upper bound on the time from an impact to rest (Zeno limit at the base); infinite if rest is not certain."""
     bound, _ = settling(p, drive, speed)
     return bound
-
-
-@njit(**INTERNAL)
-def highest_hop(p, drive, speed):
-    """Return an upper bound on the angle from an impact to rest; infinite if rest is not certain."""
-    _, highest = settling(p, drive, speed)
-    return highest
 
 
 @njit(**KERNEL)

@@ -13,7 +13,7 @@ from rocking.kernels.deferred import njit
 from rocking.kernels.entry_point import entry_point
 from rocking.kernels.event_kinds import BRACE, FLIGHT, IMPACT, REST
 from rocking.kernels.forcing.arc import shift_clock
-from rocking.kernels.forcing.contract import peak_with
+from rocking.kernels.forcing.contract import peak_with, settling
 from rocking.kernels.forcing.finite import growth_constant, has_ended, next_event_and_extremes, rounding_error
 from rocking.kernels.forcing.parameters import FiniteParameters
 from rocking.kernels.forcing.pulse.parameters import make_pulse
@@ -28,8 +28,7 @@ from rocking.kernels.march.accumulated_error import (
     of_velocity,
     widened,
 )
-from rocking.kernels.march.chatter import base_settling_time, highest_hop
-from rocking.kernels.march.impact_law import SLOW, SLOWEST, after_event
+from rocking.kernels.march.impact_law import SLOW, SLOWEST, after_chattering, after_event
 from rocking.kernels.march.initial_state import UNKNOWN, begin
 from rocking.kernels.march.march import CROWDED, DONE, MAX_EVENTS, OVERTURNED, STILL
 from rocking.kernels.march.tangent import event_map
@@ -104,21 +103,17 @@ def is_decided(p, arc, extremes, error):
 
 
 @njit(**INTERNAL)
-def settles(p, drive, speed, error):
+def settles(p, drive, speed, error, peak):
     """Return whether chattering after an impact that leaves at a speed certainly ends in rest, whatever the rounding errors.
 
-    Rest erases them. Until then they grow beyond all speeds, without any effect on the outcome.
+    No angle until then exceeds ``peak``. Rest erases the errors. Until then they grow beyond all speeds, without any effect on
+    the outcome.
     """
-    if speed >= SLOW:
+    fastest = speed + of_velocity(error)
+    if not fastest < SLOW:
         return False
-    fastest = speed + error
-    return fastest < SLOW and base_settling_time(p, drive, fastest) < math.inf
-
-
-@njit(**INTERNAL_INLINE)
-def speed_cut(p, coming, mode):
-    """Return the speed after an impact whose chattering has been cut short; 0 for any other event."""
-    return p.block.restitution * abs(coming.velocity) if coming.event == IMPACT and mode == REST else 0.0
+    bound, highest = settling(p, drive, fastest)
+    return bound < math.inf and highest <= peak
 
 
 @njit(**INTERNAL_INLINE)
@@ -148,42 +143,42 @@ def error_at_event(p, mode, arc, coming, error):
 
 
 @njit(**INTERNAL)
-def resolved(p, arc, coming, horizon, peak, close):
-    """Return mode and arc after an event, with ``close.error`` at the event.
+def resolved(p, arc, coming, cut, peak, error):
+    """Return mode and arc after an event, with the accumulated error at it.
 
-    Chattering is cut short only if rest is certain whatever the rounding errors, and if the angle stays below ``peak``.
+    Chattering is ``cut`` short only if rest is certain whatever the rounding errors, and if the angle stays below ``peak``.
     """
-    time = arc.start + coming.wait
-    after = after_event(p, arc, time, coming, horizon)
-    speed = speed_cut(p, coming, after[0])
-    if speed > SLOWEST:
-        drive, certain = after[1].drive, close.settling
-        certain = certain or settles(p, drive, speed, of_velocity(close.error))
-        if not certain or highest_hop(p, drive, speed) > peak:
-            return after_event(p, arc, time, coming, 0.0)
-    return after
+    time, speed = arc.start + coming.wait, p.block.restitution * -coming.velocity
+    if (
+        cut
+        and coming.event == IMPACT
+        and SLOWEST < speed < SLOW
+        and settles(p, coming.drive, speed, error, peak)
+    ):
+        return after_chattering(p, arc, time, coming)
+    return after_event(p, arc, time, coming, 0.0)
 
 
 @njit(**INTERNAL)
-def after_its_event(p, arc, coming, after, so_far, horizon):
+def after_its_event(p, arc, coming, after, so_far, cut):
     """Return the closeness after the event that ends an arc.
 
     ``after`` is the mode and the arc after the event. ``so_far.error`` is the error just before it.
-    With an infinite ``horizon``, a block in flight does not settle, because chattering would have been cut short.
+    A block in flight does not settle if chattering is ``cut`` short.
     """
     mode, ahead = after
     error = after_saltation(so_far.error, *event_map(p, arc, coming, mode, ahead.side))
     begins = so_far.settling
-    if mode == FLIGHT and coming.event == IMPACT and not begins and horizon < math.inf:
-        begins = settles(p, ahead.drive, ahead.velocity, of_velocity(error))
+    if mode == FLIGHT and coming.event == IMPACT and not (begins or cut):
+        begins = settles(p, ahead.drive, ahead.velocity, error, math.inf)
     return Closeness(so_far.margin, so_far.time, so_far.decided, mode == FLIGHT and begins, error)
 
 
 @njit(**INTERNAL)
-def to_end(p, angle, velocity, until, horizon, want_peak):
+def to_end(p, angle, velocity, until, cut, want_peak):
     """Follow a motion until nothing follows, until a time, or to the first contact without loss after the base motion.
 
-    Chattering is cut short if it ends within the ``horizon`` and does not exceed a peak that is wanted.
+    With ``cut``, chattering is cut short if it does not exceed a peak that is wanted.
     """
     progress, hit = begin(p, angle, velocity, UNKNOWN)
     mode, arc, peak, impacts, brace_hits = progress.mode, progress.arc, progress.peak, 0, int(hit)
@@ -202,8 +197,8 @@ def to_end(p, angle, velocity, until, horizon, want_peak):
         impacts += coming.event == IMPACT
         brace_hits += coming.event == BRACE
         close = with_error(close, error_at_event(p, mode, arc, coming, close.error))
-        after = resolved(p, arc, coming, horizon, peak if want_peak else math.inf, close)
-        close = after_its_event(p, arc, coming, after, close, horizon)
+        after = resolved(p, arc, coming, cut, peak if want_peak else math.inf, close.error)
+        close = after_its_event(p, arc, coming, after, close, cut)
         mode, arc = after
         since_rest = 0 if mode == REST else since_rest + int(coming.event == IMPACT)
         while arc.start > p.clock.cycle_length:
@@ -220,7 +215,7 @@ def to_end(p, angle, velocity, until, horizon, want_peak):
 @entry_point(**KERNEL)
 def run_to_end(p: FiniteParameters, angle: float, velocity: float, until: float) -> Ending:
     """Follow a motion by ``to_end``, each impact of a chattering sequence included; entry point for Python."""
-    return to_end(p, angle, velocity, until, 0.0, False)
+    return to_end(p, angle, velocity, until, False, False)
 
 
 @entry_point(**KERNEL)
@@ -236,7 +231,7 @@ def run_batch(p: SampledParameters, runs: Runs, want_peak: bool, rows: Endings, 
         run = runs[k]
         block = BlockParameters(run.restitution, p.block.brace_angle, p.block.brace_restitution)
         q = SampledParameters(block, SampledForcing(run.scale, p.forcing.tables), p.clock)
-        write_ending(rows, k, to_end(q, run.angle, 0.0, math.inf, math.inf, want_peak))
+        write_ending(rows, k, to_end(q, run.angle, 0.0, math.inf, True, want_peak))
     return True
 
 
@@ -249,7 +244,7 @@ def run_pulses(pulses: Pulses, want_peak: bool, rows: Endings, stop: Integers1) 
         pulse = pulses[k]
         block = BlockParameters(pulse.restitution, math.inf, 1.0)
         p = make_pulse(pulse.amplitude, pulse.frequency, pulse.phase, pulse.duration, pulse.duration, block)
-        write_ending(rows, k, to_end(p, 0.0, 0.0, math.inf, math.inf, want_peak))
+        write_ending(rows, k, to_end(p, 0.0, 0.0, math.inf, True, want_peak))
     return True
 
 

@@ -2,7 +2,7 @@
 
 import math
 
-from rocking.kernels.compile_options import INTERNAL, KERNEL_INLINE
+from rocking.kernels.compile_options import INTERNAL, INTERNAL_INLINE, KERNEL_INLINE
 from rocking.kernels.deferred import njit
 from rocking.kernels.event_kinds import BRACE, FLIGHT, IMPACT, LEAN, LEAVE, LIFT_OFF, REST
 from rocking.kernels.forcing.contract import arc_after, arc_renewed, side_to_lift, stays_leaning
@@ -38,7 +38,8 @@ def after_impact(p, arc, time, coming, horizon):
         if side == 0 or time == arc.start:
             side, mode = arc.side, REST
     after = arc_after(p, side, time, 0.0, speed, coming)
-    if mode == FLIGHT and 0.0 < speed < SLOW and p.block.restitution < 1.0:
+    may_cut = horizon > 0.0 or speed < SLOWEST
+    if may_cut and mode == FLIGHT and 0.0 < speed < SLOW and p.block.restitution < 1.0:
         settled = base_settling_time(p, after.drive, speed)
         if settled < math.inf and (settled <= horizon or speed < SLOWEST):
             mode = REST
@@ -67,13 +68,19 @@ def after_brace(p, arc, time, coming, horizon):
     if speed == 0.0:
         if stays_leaning(p, after) or time == arc.start:
             mode = LEAN
-    elif p.block.brace_restitution < 1.0:
+    elif p.block.brace_restitution < 1.0 and (horizon > 0.0 or speed < SLOWEST):
         settled = brace_settling_time(p, after.side, after.drive, speed)
         if settled < math.inf and (settled <= horizon or speed < SLOWEST):
             mode = LEAN
     if mode == LEAN:
         after = arc_renewed(p, arc.side, time, p.block.brace_angle, 0.0, coming)
     return mode, after
+
+
+@njit(**INTERNAL_INLINE)
+def after_chattering(p, arc, time, coming):
+    """Return mode and arc after an impact at the base whose chattering ends in rest."""
+    return REST, arc_renewed(p, -arc.side, time, 0.0, 0.0, coming)
 
 
 @njit(**KERNEL_INLINE)

@@ -11,7 +11,7 @@ from rocking.kernels.event_kinds import BRACE
 from rocking.kernels.forcing.arc import CROSSING, LATER, within_reach
 from rocking.kernels.forcing.drives import SampledDrive
 from rocking.kernels.forcing.extrema import arc_peak
-from rocking.kernels.forcing.sampled.segment import Piece, first_zero
+from rocking.kernels.forcing.sampled.segment import Piece, at, first_zero
 from rocking.kernels.forcing.sampled.solution import (
     evaluate,
     forcing_on,
@@ -54,7 +54,8 @@ def next_turn(p, arc, sign, t, until):
             w = sign * velocity
             if w < 0.0 and at_time == start:
                 w = 0.0  # the extremum before, to rounding
-            x, _ = first_zero(Piece(w, sign * second, sign * rate, 0.0), length)
+            turn = Piece(w, sign * second, sign * rate, 0.0)
+            x, _ = first_zero(turn, length, at(turn, length))
             if x < math.inf and at_time + x > t:
                 return CROSSING, at_time + x, evaluate(p, arc, at_time + x)
             if x < math.inf:

@@ -57,8 +57,8 @@ def to_brace(p, piece):
 
 
 @njit(**INTERNAL)
-def first_event_in(p, piece, length):
-    """Return the first event in a segment.
+def first_event_in(p, piece, length, end):
+    """Return the first event in a segment, with (u, u') at its end.
 
     Returns
     -------
@@ -67,10 +67,11 @@ def first_event_in(p, piece, length):
         Whether it is at the brace.
         u' there.
     """
-    x, velocity = first_zero(piece, length)
+    x, velocity = first_zero(piece, length, end)
     if p.block.brace_angle == math.inf:
         return x, False, velocity
-    x_brace, approach = first_zero(to_brace(p, piece), min(length, x))
+    angle, rate = (0.0, velocity) if x < math.inf else end
+    x_brace, approach = first_zero(to_brace(p, piece), min(length, x), (p.block.brace_angle - angle, -rate))
     return (x_brace, True, -approach) if x_brace < x else (x, False, velocity)
 
 
@@ -170,7 +171,7 @@ def event_within(p, arc, place, piece, length, end, extremes):
         The extremes so far, with the minimum before the event.
     """
     coming, begun = nothing_more(arc.side, place), time_between(p, arc.drive, place)
-    x, at_brace, arrive = first_event_in(p, piece, length)
+    x, at_brace, arrive = first_event_in(p, piece, length, end)
     if x < math.inf:
         coming = arrival(p, arc, SampledDrive(place.index, place.offset + x), at_brace, arrive)
         length, end = x, (coming.angle, coming.velocity)

@@ -75,11 +75,12 @@ def refine(piece, low, high, x):
             ahead = x + (y * factor if 0.5 < factor < 2.0 else y)
             if not low <= ahead <= high:
                 ahead = 0.5 * (low + high)
+        dw += second * (ahead - x)
         converged = abs(ahead - x) <= 4.0 * ROUNDING * ahead
         x = ahead
         if converged:
             break
-    return x, at(piece, x)[1]
+    return x, dw
 
 
 @njit(**INTERNAL)
@@ -137,29 +138,29 @@ def minimum(piece, length, end):
     second, (w_end, dw_end) = piece.w + piece.force, end
     second_end = w_end + piece.force + piece.rate * length
     begun, dw = 0.0, piece.dw
+    rises = dw_end >= -4.0 * ROUNDING * (abs(dw) + abs(second))  # to rounding
     if dw >= 0.0:
         if not (second < 0.0 < second_end and dw_end > 0.0):
             return math.inf, 0.0
         if dw > 0.0:
-            begun, second = first_zero(Piece(dw, second, piece.rate, 0.0), length)
+            begun, second = first_zero(Piece(dw, second, piece.rate, 0.0), length, (dw_end, second_end))
             if begun == math.inf:
                 return math.inf, 0.0
             dw = 0.0
-    elif dw_end < 0.0 and not second > 0.0 > second_end:
+    elif not (rises or second > 0.0 > second_end):
         return math.inf, 0.0
-    x, _ = first_zero(Piece(-dw, -second, -piece.rate, 0.0), length - begun)
+    x, _ = first_zero(Piece(-dw, -second, -piece.rate, 0.0), length - begun, (-dw_end, -second_end))
     if x == math.inf:
-        # to rounding, w' reaches 0 at the end
-        return (w_end, length) if dw_end >= 0.0 else (math.inf, 0.0)
+        return (w_end, length) if rises else (math.inf, 0.0)
     w, _ = at(piece, begun + x)
     return w, begun + x
 
 
 @njit(**INTERNAL)
-def first_zero(piece, length):
+def first_zero(piece, length, end):
     """Return the first time in (0, length] at which w falls through zero, and w' there; infinity if there is none.
 
-    w >= 0 at the start. If w = w' = 0 there, w rises first.
+    w >= 0 at the start. If w = w' = 0 there, w rises first. ``end`` is (w, w') at ``length``.
 
     Returns
     -------
@@ -173,7 +174,7 @@ def first_zero(piece, length):
     at_rest = w == 0.0 and dw == 0.0
     for _ in range(2):
         right = cut if left == 0.0 else length
-        w_right, dw_right = at(piece, right)
+        w_right, dw_right = end if right == length else at(piece, right)
         convex = piece.force + piece.rate * (0.5 * (left + right)) > 0.0
         low_end = right if w_right < 0.0 else math.inf
         if at_rest:

@@ -1,12 +1,12 @@
 """Bound on chattering (Zeno) under a sampled base acceleration a: proof that it ends in rest, and when.
 
-While |a| < 1 the block is accelerated back with d - u, where d = 1 +- a >= m = 1 - max|a|. The energy E = u'^2/2 + u (d - u/2) of
-an arc has E' = d' u. As long as u <= m, u <= 2E/m. An arc that leaves at speed v then returns with at most v exp(s/m), for a sum s
-of |changes of a|.
+While |a| < 1 the block is accelerated back with d - u, where d = 1 +- a >= m = 1 - max|a|.
+The energy E = u'^2/2 + u (d - u/2) of an arc has E' = d' u. As long as u <= h, u <= E/(m - h/2).
+An arc that leaves at speed v then returns with at most v exp(s/(2m - h)), for a sum s of |changes of a|. Take h = m/4.
 
-So the k-th arc from now leaves with at most e^k v V, V = exp(S/m), for the sum S of all changes. Let x = v V/m < 1. No arc is higher
-than m (1 - sqrt(1 - x^2)) < m. The k-th is not longer than 2 artanh(e^k x). All together last at most 2 artanh(x)/(1 - e).
-If this ends within the time for which m and S hold, the block rests.
+Let S be the sum of all changes, and V = exp(S/(7m/4)). The k-th arc from now leaves with at most e^k v V. Let x = v V/m.
+No arc is higher than m (1 - sqrt(1 - x^2)), which is below h if x < sqrt(7)/4. The k-th is not longer than 2 artanh(e^k x).
+All together last at most 2 artanh(x)/(1 - e). If this ends within the time for which m and S hold, the block rests.
 """
 
 import math
@@ -16,6 +16,9 @@ from rocking.kernels.deferred import njit
 from rocking.kernels.forcing.sampled.solution import acceleration_at, place_at
 from rocking.kernels.forcing.sampled.tables import BLOCK
 
+# 2m - h, relative to m; and the limit of x.
+HEIGHT = 1.75
+FASTEST = math.sqrt(7.0) / 4.0
 # Relative safety margin over rounding.
 MARGIN = 1e-9
 # Time that is looked at, relative to the bound so far.
@@ -51,7 +54,7 @@ def settling(p, drive, speed):
     """Provide ``contract.settling``, with the changes in a time that grows until it suffices."""
     e, largest, covered, seen = p.block.restitution, abs(acceleration_at(p, drive)), 0.0, drive.index
     x = speed / (1.0 - largest)
-    while e < 1.0 and largest < 1.0 and x < 1.0:
+    while e < 1.0 and largest < 1.0 and x < FASTEST:
         # artanh x <= x + x^3/(3 (1 - x^2))
         bound = 2.0 * (x + x * x * x / (3.0 * (1.0 - x * x))) / (1.0 - e) * (1.0 + MARGIN)
         if bound <= covered:
@@ -60,10 +63,14 @@ def settling(p, drive, speed):
         covered = LONGER * bound
         end = place_at(p, drive.index, drive.offset + covered)
         changes = changes_between(p, drive, end)
-        growth = changes / (1.0 - largest)
-        if speed * (1.0 + growth * (1.0 + 0.5 * growth)) >= 1.0 - largest:  # less than speed e^growth
+        largest = max(largest, abs(acceleration_at(p, end)))
+        weakest = 1.0 - largest
+        if (
+            not HEIGHT * weakest * weakest > speed * (HEIGHT * weakest + changes) / FASTEST
+        ):  # e^growth > 1 + growth
             break
-        largest = max(largest, abs(acceleration_at(p, end)), largest_between(p, seen + 1, end.index))
+        largest = max(largest, largest_between(p, seen + 1, end.index))
         seen = end.index
-        x = speed * math.exp(changes / (1.0 - largest)) / (1.0 - largest) * (1.0 + MARGIN)
+        weakest = 1.0 - largest
+        x = speed * math.exp(changes / (HEIGHT * weakest)) / weakest * (1.0 + MARGIN)
     return math.inf, math.inf

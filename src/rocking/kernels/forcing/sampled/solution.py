@@ -32,9 +32,8 @@ def interval(p, index):
     """Return the base acceleration at the start of an interval, and its rate: 0 after the last sample."""
     if index >= last_index(p):
         return 0.0, 0.0
-    samples, scale = p.forcing.tables.samples, p.forcing.scale
-    first, second = samples[index], samples[index + 1]
-    return scale * first, scale * ((second - first) / p.forcing.tables.step)
+    tables, scale = p.forcing.tables, p.forcing.scale
+    return scale * tables.samples[index], scale * tables.intervals[index].rate
 
 
 @njit(**INTERNAL_INLINE)
@@ -118,14 +117,13 @@ def state_at_sample(p, side, index, growing, shrinking):
 def along_step(p, side, index, total, difference):
     """Return u + u' and u - u' at the sample after ``index``, from those at ``index``, which is not the last.
 
-    (u + u')' = (u + u') + f and (u - u')' = -(u - u') - f, where f is linear.
+    (u + u')' = (u + u') + f and (u - u')' = -(u - u') - f, where f = -1 - sigma a is linear.
     """
     tables, turned = p.forcing.tables, side * p.forcing.scale
-    start = -1.0 - turned * tables.samples[index]
-    end = -1.0 - turned * tables.samples[index + 1]
+    weight, interval = tables.near + tables.far, tables.intervals[index]
     return (
-        tables.growth * (total + (tables.near * start + tables.far * end)),
-        tables.decay * difference - (tables.near * end + tables.far * start),
+        tables.growth * total - (tables.growth * weight + turned * interval.ahead),
+        tables.decay * difference + (weight + turned * interval.behind),
     )
 
 

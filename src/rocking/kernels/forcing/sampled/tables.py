@@ -22,6 +22,9 @@ BLOCK = 16
 TERMS = 18
 KNOT = np.dtype([(name, float) for name in ("mean", "rate", "lowest", "highest")], align=True)
 Knots = Annotated[np.ndarray, KNOT, 1]
+# From each sample to the next: the rate of a, and what a adds to u + u' and takes from u - u'.
+INTERVAL = np.dtype([(name, float) for name in ("rate", "ahead", "behind")], align=True)
+Intervals = Annotated[np.ndarray, INTERVAL, 1]
 
 
 class Tables(NamedTuple):
@@ -39,6 +42,7 @@ class Tables(NamedTuple):
     # Rounding error of P, in units of the largest |P|: each step adds its own, and the recursion forgets it in a unit of time.
     error: float
     samples: Floats1  # (n,)
+    intervals: Intervals  # (n,), the last is 0
     # (n,): P and P' at each sample; least and greatest of 0 and of P from this sample on
     knots: Knots
     blocks: Floats1  # largest |a| in each block of samples
@@ -59,14 +63,26 @@ def weights(step):
     return near, far
 
 
+@njit(**INTERNAL)
+def fill_intervals(samples, step, growth, near, far, intervals):
+    """Fill the rows of the intervals."""
+    last = samples.shape[0] - 1
+    for k in range(last):
+        start, end, interval = samples[k], samples[k + 1], intervals[k]
+        interval.rate = (end - start) / step
+        interval.ahead, interval.behind = growth * (near * start + far * end), near * end + far * start
+    intervals[last].rate = intervals[last].ahead = intervals[last].behind = 0.0
+
+
 @entry_point(**KERNEL)
 def fill(
-    samples: Floats1, step: float, knots: Knots, blocks: Floats1, variation: Floats1
+    samples: Floats1, step: float, intervals: Intervals, knots: Knots, blocks: Floats1, variation: Floats1
 ) -> tuple[float, float, float, float, float, float, float, float, float]:
     """Fill the arrays of the tables; return the numbers from ``sinh`` to ``error``."""
     n = samples.shape[0]
     sinh, versinh, excess, _ = hyperbolic(step)
-    decay, (near, far) = math.exp(-step), weights(step)
+    growth, decay, (near, far) = math.exp(step), math.exp(-step), weights(step)
+    fill_intervals(samples, step, growth, near, far, intervals)
     left = variation[0] = 0.0
     for k in range(n):
         if k > 0:
@@ -88,12 +104,13 @@ def fill(
         blocks[k] = 0.0
     for k in range(n):
         blocks[k // BLOCK] = max(blocks[k // BLOCK], abs(samples[k]))
-    return sinh, versinh, excess, math.exp(step), decay, near, far, largest, 1.0 / math.sqrt(min(step, 1.0))
+    return sinh, versinh, excess, growth, decay, near, far, largest, 1.0 / math.sqrt(min(step, 1.0))
 
 
 def tables_of(samples: np.ndarray, step: float) -> Tables:
     """Make the tables of samples (n,), n >= 1, at a step in normalised time."""
     n = len(samples)
-    knots, blocks, variation = np.empty(n, KNOT), np.empty(-(-n // BLOCK)), np.empty(n)
-    numbers = fill(samples, step, knots, blocks, variation)
-    return Tables(step, *numbers, samples, knots, blocks, variation)
+    intervals, knots = np.empty(n, INTERVAL), np.empty(n, KNOT)
+    blocks, variation = np.empty(-(-n // BLOCK)), np.empty(n)
+    numbers = fill(samples, step, intervals, knots, blocks, variation)
+    return Tables(step, *numbers, samples, intervals, knots, blocks, variation)
