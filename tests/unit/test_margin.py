@@ -120,7 +120,7 @@ def test_without_losses_the_energy_after_the_base_motion_decides():
 
 
 def test_in_a_batch_without_losses_the_energy_decides():
-    assert batch(TURNING, [0.5, 1.0], 1.0)["status"].tolist() == [DONE, OVERTURNED]
+    assert batch(TURNING, [0.5, 0.55], 1.0)["status"].tolist() == [DONE, OVERTURNED]
     assert rk.simulate(rk.System(attrs.evolve(TURNING, scale=0.5), 1.0)).outcome == "bounded"
 
 
