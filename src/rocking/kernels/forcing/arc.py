@@ -91,11 +91,12 @@ class Extremes(NamedTuple):
 
     dip: float  # least of all minima; infinity if there is none
     dip_time: float  # time from the start of the arc to there
+    reached: float  # an angle that the arc reaches, or 0
     top: float  # an upper bound of the angle
 
 
-NO_EXTREMES = Extremes(math.inf, 0.0, 0.0)
-UNKNOWN_TOP = Extremes(math.inf, 0.0, math.inf)
+NO_EXTREMES = Extremes(math.inf, 0.0, 0.0, 0.0)
+UNKNOWN_TOP = Extremes(math.inf, 0.0, 0.0, math.inf)
 
 
 @njit(**INTERNAL_INLINE)

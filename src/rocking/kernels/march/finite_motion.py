@@ -13,7 +13,7 @@ from rocking.kernels.deferred import njit
 from rocking.kernels.entry_point import entry_point
 from rocking.kernels.event_kinds import BRACE, FLIGHT, IMPACT, REST
 from rocking.kernels.forcing.arc import shift_clock
-from rocking.kernels.forcing.contract import peak_with, settling
+from rocking.kernels.forcing.contract import settling
 from rocking.kernels.forcing.finite import growth_constant, has_ended, next_event_and_extremes, rounding_error
 from rocking.kernels.forcing.parameters import FiniteParameters
 from rocking.kernels.forcing.pulse.parameters import make_pulse
@@ -28,6 +28,7 @@ from rocking.kernels.march.accumulated_error import (
     of_velocity,
     widened,
 )
+from rocking.kernels.march.highest_arc import from_peak, highest_with, peak_of
 from rocking.kernels.march.impact_law import SLOW, SLOWEST, after_chattering, after_event
 from rocking.kernels.march.initial_state import UNKNOWN, begin
 from rocking.kernels.march.march import CROWDED, DONE, MAX_EVENTS, OVERTURNED, STILL
@@ -181,7 +182,8 @@ def to_end(p, angle, velocity, until, cut, want_peak):
     With ``cut``, chattering is cut short if it does not exceed a peak that is wanted.
     """
     progress, hit = begin(p, angle, velocity, UNKNOWN)
-    mode, arc, peak, impacts, brace_hits = progress.mode, progress.arc, progress.peak, 0, int(hit)
+    mode, arc, impacts, brace_hits = progress.mode, progress.arc, 0, int(hit)
+    highest = from_peak(progress.peak, arc)
     since_rest, cycle, free = 0, 0, p.block.brace_angle == math.inf
     close, status = Closeness(math.nan, math.nan, True, False, EXACT), CROWDED
     for _ in range(MAX_EVENTS):
@@ -192,12 +194,12 @@ def to_end(p, angle, velocity, until, cut, want_peak):
         if coming.wait == math.inf or time + coming.wait > until:
             status = DONE if coming.wait < math.inf else OVERTURNED if mode == FLIGHT else STILL
             break
-        if want_peak and mode == FLIGHT and extremes.top > peak:
-            peak = peak_with(p, arc, coming, peak)
+        if want_peak and mode == FLIGHT:
+            highest = highest_with(p, highest, arc, coming, extremes)
         impacts += coming.event == IMPACT
         brace_hits += coming.event == BRACE
         close = with_error(close, error_at_event(p, mode, arc, coming, close.error))
-        after = resolved(p, arc, coming, cut, peak if want_peak else math.inf, close.error)
+        after = resolved(p, arc, coming, cut, highest.reached if want_peak else math.inf, close.error)
         close = after_its_event(p, arc, coming, after, close, cut)
         mode, arc = after
         since_rest = 0 if mode == REST else since_rest + int(coming.event == IMPACT)
@@ -209,6 +211,7 @@ def to_end(p, angle, velocity, until, cut, want_peak):
             status = OVERTURNED if free and spare > 0.0 else DONE
             close = Closeness(close.margin, close.time, decided, False, close.error)
             break
+    peak = peak_of(p, highest)
     return Ending(status, impacts, since_rest, brace_hits, peak, close.margin, close.time, close.decided)
 
 

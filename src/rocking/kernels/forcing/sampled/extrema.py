@@ -5,12 +5,13 @@ u' obeys w'' - w = f', and f' is constant between two samples. So each interval 
 
 import math
 
-from rocking.kernels.compile_options import INTERNAL
+from rocking.kernels.compile_options import INTERNAL, INTERNAL_INLINE
 from rocking.kernels.deferred import njit
 from rocking.kernels.event_kinds import BRACE
 from rocking.kernels.forcing.arc import CROSSING, LATER, within_reach
 from rocking.kernels.forcing.drives import SampledDrive
-from rocking.kernels.forcing.extrema import arc_peak
+from rocking.kernels.forcing.extrema import arc_peak, first_turn_sign
+from rocking.kernels.forcing.sampled.search import MAX_STEP
 from rocking.kernels.forcing.sampled.segment import Piece, at, first_zero
 from rocking.kernels.forcing.sampled.solution import (
     evaluate,
@@ -73,30 +74,66 @@ def next_turn(p, arc, sign, t, until):
 
 
 @njit(**INTERNAL)
+def highest_sample(p, arc, first, last):
+    """Return the largest angle of an arc at the samples from ``first`` to ``last``, and the sample; -infinity if there is none."""
+    growing, shrinking = at_first(p, arc)
+    highest, place = -math.inf, first
+    for index in range(first, last + 1):
+        angle, _ = state_at_sample(p, arc.side, index, growing, shrinking)
+        if angle > highest:
+            highest, place = angle, index
+        growing, shrinking = growing * p.forcing.tables.growth, shrinking * p.forcing.tables.decay
+    return highest, place
+
+
+@njit(**INTERNAL_INLINE)
+def at_first(p, arc):
+    """Return K+ e^t and K- e^-t at the first sample after the start of an arc."""
+    grow = math.exp(p.forcing.tables.step - arc.drive.offset)
+    return arc.constants.grow * grow, arc.constants.shrink / grow
+
+
+@njit(**INTERNAL)
+def largest_turn(p, arc, sign, begun, ended, peak):
+    """Return the largest of ``peak`` and the maxima of the angle between two times; ``sign`` is that of u' at the first."""
+    turn = begun
+    if sign < 0.0:
+        found, turn, _ = next_turn(p, arc, -1.0, begun, ended)
+        if found != CROSSING:
+            return peak
+    found, _, now = next_turn(p, arc, 1.0, turn, ended)
+    return max(peak, within_reach(p, now.angle)) if found == CROSSING else peak
+
+
+@njit(**INTERNAL)
 def largest_on(p, arc, until, peak):
     """Return the largest of ``peak`` and the angles of an arc up to the time ``until``.
 
-    If no sample comes within the possible rise between two samples, ``peak`` is the largest.
+    Only the intervals are searched in which the angle may exceed ``peak`` and all samples, by the bound of ``search``.
     """
-    last, step, brace = last_index(p), p.forcing.tables.step, p.block.brace_angle
-    end = evaluate(p, arc, until)
+    last, tables, end = last_index(p), p.forcing.tables, evaluate(p, arc, until)
+    if tables.step >= MAX_STEP or end.drive.index >= last:
+        return min(arc_peak(p, arc, until, peak), p.block.brace_angle)
     peak = max(peak, within_reach(p, end.angle))
-    largest, index = max(arc.angle, end.angle), arc.drive.index + 1
-    force = 1.0 + abs(p.forcing.scale) * p.forcing.tables.largest
-    grow = math.exp(step - arc.drive.offset)
-    step_growth = math.exp(step)
-    growing, shrinking = arc.constants.grow * grow, arc.constants.shrink / grow
-    while index <= min(end.drive.index, last):
-        angle, _ = state_at_sample(p, arc.side, index, growing, shrinking)
-        largest = max(largest, angle)
-        growing, shrinking = growing * step_growth, shrinking / step_growth
-        index += 1
-    quarter = 0.125 * step * step
-    if quarter < 0.5 and end.drive.index < last and arc.drive.index + 1 < end.drive.index:
-        rise = quarter / (1.0 - quarter) * (largest + force)
-        if (largest + rise) * (1.0 + MARGIN) <= peak:
-            return peak
-    return min(arc_peak(p, arc, until, peak), brace)
+    first = arc.drive.index + 1
+    highest, place = highest_sample(p, arc, first, end.drive.index)
+    if highest > peak * (1.0 - MARGIN):
+        now = evaluate(p, arc, time_between(p, arc.drive, SampledDrive(place, 0.0)))
+        peak = max(peak, within_reach(p, now.angle))
+    force = 1.0 + abs(p.forcing.scale) * tables.largest
+    growing, shrinking = at_first(p, arc)
+    begun, angle, velocity = 0.0, arc.angle, first_turn_sign(p, arc)
+    for index in range(first, end.drive.index + 2):
+        ended, after, rate = until, end.angle, end.velocity
+        if index <= end.drive.index:
+            ended = time_between(p, arc.drive, SampledDrive(index, 0.0))
+            after, rate = state_at_sample(p, arc.side, index, growing, shrinking)
+        larger = max(angle, after)
+        if larger + tables.bend * (larger + force) > peak * (1.0 - MARGIN):
+            peak = largest_turn(p, arc, velocity, begun, ended, peak)
+        begun, angle, velocity = ended, after, rate
+        growing, shrinking = growing * tables.growth, shrinking * tables.decay
+    return min(peak, p.block.brace_angle)
 
 
 @njit(**INTERNAL)

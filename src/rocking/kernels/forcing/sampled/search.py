@@ -140,17 +140,20 @@ MARGIN = 1e-12
 @njit(**INTERNAL_INLINE)
 def bend_of(p):
     """Return the two numbers of the bound on how far u leaves its chord: ``bend``, and F."""
-    quarter = 0.125 * p.forcing.tables.step * p.forcing.tables.step
-    return quarter / (1.0 - quarter) * (1.0 + MARGIN), 1.0 + abs(p.forcing.scale) * p.forcing.tables.largest
+    tables = p.forcing.tables
+    return tables.bend * (1.0 + MARGIN), 1.0 + abs(p.forcing.scale) * tables.largest
 
 
 @njit(**INTERNAL_INLINE)
 def rises_throughout(piece, length):
-    """Return whether u' > 0 on a part of a segment: |u''| <= u + |f|, and u stays below the bound that this gives."""
+    """Return whether u' > 0 on a part of a segment: |u''| <= u + |f|, and u stays below the bound that this gives.
+
+    With q = length^2/2 that bound is (u + u' length + |f| q)/(1 - q).
+    """
     force = max(abs(piece.force), abs(piece.force + piece.rate * length))
     half = 0.5 * length * length
-    largest = force + (piece.w + piece.dw * length + force * half) / (1.0 - half)
-    return half < 0.5 and piece.dw > length * largest * (1.0 + MARGIN)
+    largest = force + piece.w + piece.dw * length  # times 1 - q
+    return half < 0.5 and piece.dw * (1.0 - half) > length * largest * (1.0 + MARGIN)
 
 
 @njit(**INTERNAL_INLINE)
@@ -177,7 +180,7 @@ def event_within(p, arc, place, piece, length, end, extremes):
         length, end = x, (coming.angle, coming.velocity)
     angle, turn = minimum(piece, length, end)
     if angle < extremes.dip:
-        extremes = Extremes(angle, begun + turn, extremes.top)
+        extremes = Extremes(angle, begun + turn, 0.0, 0.0)
     return coming, extremes
 
 
@@ -189,11 +192,12 @@ def first_event(p, arc):
     -------
     tuple of (Next, Extremes)
     """
-    coming, extremes, top = event_and_dip(p, arc)
+    coming, extremes, reached = event_and_dip(p, arc)
+    top = reached
     if coming.drive.index >= last_index(p) or p.forcing.tables.step >= MAX_STEP:
         top = math.inf
     bend, force = bend_of(p)
-    return coming, Extremes(extremes.dip, extremes.dip_time, top + bend * (top + force))
+    return coming, Extremes(extremes.dip, extremes.dip_time, reached, top + bend * (top + force))
 
 
 @njit(**INTERNAL)

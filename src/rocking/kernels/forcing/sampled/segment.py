@@ -168,9 +168,9 @@ def first_zero(piece, length, end):
         The time, and w' there.
     """
     left, w, dw = 0.0, piece.w, piece.dw
-    cut = -piece.force / piece.rate if piece.rate != 0.0 else math.inf
-    if not 0.0 < cut < length:
-        cut = length
+    cut, last = length, piece.force + piece.rate * length
+    if piece.force * last < 0.0:
+        cut = min(-piece.force / piece.rate, length)
     at_rest = w == 0.0 and dw == 0.0
     for _ in range(2):
         right = cut if left == 0.0 else length

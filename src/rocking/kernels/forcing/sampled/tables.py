@@ -38,6 +38,7 @@ class Tables(NamedTuple):
     decay: float  # e^-step
     near: float  # the two weights of the samples
     far: float
+    bend: float  # of the bound in ``search``
     largest: float  # |a| of all samples
     # Rounding error of P, in units of the largest |P|: each step adds its own, and the recursion forgets it in a unit of time.
     error: float
@@ -77,7 +78,7 @@ def fill_intervals(samples, step, growth, near, far, intervals):
 @entry_point(**KERNEL)
 def fill(
     samples: Floats1, step: float, intervals: Intervals, knots: Knots, blocks: Floats1, variation: Floats1
-) -> tuple[float, float, float, float, float, float, float, float, float]:
+) -> tuple[float, float, float, float, float, float, float, float, float, float]:
     """Fill the arrays of the tables; return the numbers from ``sinh`` to ``error``."""
     n = samples.shape[0]
     sinh, versinh, excess, _ = hyperbolic(step)
@@ -104,7 +105,9 @@ def fill(
         blocks[k] = 0.0
     for k in range(n):
         blocks[k // BLOCK] = max(blocks[k // BLOCK], abs(samples[k]))
-    return sinh, versinh, excess, growth, decay, near, far, largest, 1.0 / math.sqrt(min(step, 1.0))
+    quarter = 0.125 * step * step
+    bend = quarter / (1.0 - quarter)
+    return sinh, versinh, excess, growth, decay, near, far, bend, largest, 1.0 / math.sqrt(min(step, 1.0))
 
 
 def tables_of(samples: np.ndarray, step: float) -> Tables:
