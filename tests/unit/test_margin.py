@@ -13,8 +13,8 @@ from rocking.kernels.march.finite_motion import ENDING_ROW, RUN_ROW, run_batch
 from rocking.kernels.march.march import DONE, OVERTURNED
 from rocking.motion.kernel_parameters import parameters
 
-# On its way back at the end of this motion the block has enough energy to overturn on the other side.
-TURNING = rk.PiecewiseLinear([2.0, 2.0, -6.0, -6.0], step=0.25)
+# At the end of this motion the block is on its way back, with enough energy to overturn on the other side.
+TURNING = rk.PiecewiseLinear([2.0, 2.0, 2.0, -12.0], step=0.25)
 
 
 def constant_after(motion, event):
@@ -120,8 +120,8 @@ def test_without_losses_the_energy_after_the_base_motion_decides():
 
 
 def test_in_a_batch_without_losses_the_energy_decides():
-    assert batch(TURNING, [0.5, 0.55], 1.0)["status"].tolist() == [DONE, OVERTURNED]
-    assert rk.simulate(rk.System(attrs.evolve(TURNING, scale=0.5), 1.0)).outcome == "bounded"
+    assert batch(TURNING, [0.8, 1.0], 1.0)["status"].tolist() == [DONE, OVERTURNED]
+    assert rk.simulate(rk.System(attrs.evolve(TURNING, scale=0.8), 1.0)).outcome == "bounded"
 
 
 def batch(base, scales, restitution):
