@@ -8,6 +8,7 @@ import pytest
 import xarray as xr
 
 import rocking as rk
+from rocking.records import EXAMPLE_FILE
 
 BLOCK = rk.Block(2.0, 0.5)
 SIZE = "--height 2 --width 0.5"
@@ -81,6 +82,75 @@ def test_direction_and_measure_are_those_of_the_options(rocking):
     assert told["records"][0]["intervals"] == reversed_.intervals().tolist()
 
 
+@pytest.fixture
+def folder(tmp_path):
+    """Two records in a folder, and a table of them with factors."""
+    place = tmp_path / "set"
+    place.mkdir()
+    for name, peak in (("a", 12), ("b", -9)):
+        (place / f"{name}.csv").write_text(
+            f"time (s), acceleration (m/s²)\n0, 0\n0.5, {peak}\n1, 0\n", encoding="utf-8"
+        )
+    (tmp_path / "table.csv").write_text("file,scale\nset/a.csv,0.5\nset/b.csv,2\n", encoding="utf-8")
+    return place
+
+
+@pytest.mark.parametrize(
+    ("source", "read"),
+    [
+        ("set", "set"),
+        ("table.csv", "table.csv"),
+        ("set/a.csv set/b.csv", ["set/a.csv", "set/b.csv"]),
+        ("example set/b.csv", [EXAMPLE_FILE, "set/b.csv"]),
+    ],
+)
+def test_each_source_gives_the_numbers_of_the_function(rocking, folder, source, read):
+    records = rk.read_record_set(read)
+    found = rk.overturning_set(records, BLOCK, np.linspace(0.1, 3, 40))
+    said = json.loads(rocking(f"overturning-set {source} {SIZE} --scale 0.1:3:40 --json")[2])
+    assert said["records_sha256"] == records.digest
+    assert [each["name"] for each in said["records"]] == list(records.names)
+    assert [each["intervals"] for each in said["records"]] == [
+        found.intervals(number).tolist() for number in range(len(records))
+    ]
+
+
+@pytest.mark.parametrize("source", ["set", "table.csv", "set/a.csv"])
+def test_no_record_is_overwritten(rocking, folder, source, monkeypatch):
+    monkeypatch.setattr("rocking.survey.overturning_set", None)
+    code, message, out = rocking(f"overturning-set {source} {SIZE} --scale 0.1:3:40 --csv set/a.csv")
+    assert (code, out) == (2, "")
+    assert message == "--csv must not overwrite a record; got 'set/a.csv'"
+
+
+@pytest.mark.parametrize(
+    ("line", "message"),
+    [
+        ("empty", "empty: the folder holds no record file"),
+        ("push.csv push.csv", "push.csv occurs 2 times; name each file once"),
+        ("bad.csv", "bad.csv, line 2: column 'scale' must hold numbers; got 'much'"),
+        ("missing.csv", "missing.csv: cannot be read: No such file or directory"),
+        (
+            "bare.txt",
+            "bare.txt: the file does not state the unit of its samples; give it, for example --units=",
+        ),
+        (
+            "push.csv --units g",
+            "push.csv: the file states the unit of its samples, m/s²; do not give --units",
+        ),
+        ("push.csv --baseline cubic", "--baseline must be one of 'none', 'mean', 'linear', 'quadratic'; got"),
+    ],
+)
+def test_sources_that_cannot_be_read_are_one_line(rocking, tmp_path, line, message):
+    (tmp_path / "empty").mkdir()
+    (tmp_path / "bare.txt").write_text("0\n4\n-4\n0\n", encoding="utf-8")
+    (tmp_path / "bad.csv").write_text("file,scale\npush.csv,much\n", encoding="utf-8")
+    code, told, out = rocking(f"overturning-set {line} {SIZE} --scale 0.1:3:40")
+    assert (code, out) == (2, "")
+    assert told.startswith(message)
+    assert "\n" not in told.strip()
+
+
 @pytest.mark.parametrize(
     ("line", "message"),
     [
@@ -89,9 +159,9 @@ def test_direction_and_measure_are_those_of_the_options(rocking):
         (f"example {SIZE} --pga-g 0.5", "--pga-g must be an axis, START:STOP:COUNT; got 0.5"),
         (f"example {SIZE} --pga-g 0:1:20", "--pga-g must hold two numbers or more in"),
         (f"example {SIZE} --pga-g 0.1:1 --polarity 2", "--polarity must lie in [-1, 1]; got 2"),
-        (f"example example {SIZE} --pga-g 0.1:1", "records must have distinct names"),
+        (f"example example {SIZE} --pga-g 0.1:1", "occurs 2 times; name each file once"),
         (f"missing.csv {SIZE} --pga-g 0.1:1", "missing.csv"),
-        (f"push.csv {SIZE} --pga-g 0.1:1 --csv push.csv", "--csv must not overwrite the record"),
+        (f"push.csv {SIZE} --pga-g 0.1:1 --csv push.csv", "--csv must not overwrite a record"),
         ("example --height 2 --pga-g 0.1:1", "--width"),
     ],
 )

@@ -26,6 +26,9 @@ def records(tmp_path, monkeypatch):
     (folder / "a.AT2").write_text("\n".join(write.peer(WAVE)), encoding="utf-8")
     (folder / "b.AT2").write_text("\n".join(write.peer(-0.5 * WAVE)), encoding="utf-8")
     (tmp_path / "table.csv").write_text("file,scale\nset/a.AT2,0.5\nset/b.AT2,\n", encoding="utf-8")
+    (tmp_path / "plain").mkdir()
+    (tmp_path / "plain" / "c.csv").write_text("time (s), acceleration (g)\n0, 0\n1, 1\n", encoding="utf-8")
+    (tmp_path / "list.csv").write_text("file\nplain/c.csv\n", encoding="utf-8")
     (tmp_path / "bare.txt").write_text("0\n4\n-4\n0\n", encoding="utf-8")
 
 
@@ -196,6 +199,10 @@ REFUSED = {
     "record as output": (
         f"table.csv {BLOCK} --csv table.csv",
         "--csv must not overwrite a record; got 'table.csv'",
+    ),
+    "record of a table as output": (
+        f"list.csv {BLOCK} --csv plain/c.csv",
+        "--csv must not overwrite a record; got 'plain/c.csv'",
     ),
     "output in the way": (
         f"set {BLOCK} --csv a.csv --netcdf a.csv",

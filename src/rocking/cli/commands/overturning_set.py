@@ -7,22 +7,13 @@ from typing import Annotated, Any
 
 import typer
 
-from rocking.cli.input import axis, record_request, record_source
+from rocking.cli.input import axis, record_source
 from rocking.cli.input import options as ask
 
 EXAMPLES = """\
 # Peak accelerations at which the record of the package overturns a block.
 rocking overturning-set example --height 2 --width 0.5 --pga-g 0.1:2:400 \\
     --plot overturning-set.png --csv overturning-set.csv"""
-
-Files = Annotated[
-    list[Path],
-    typer.Argument(
-        metavar="FILE",
-        parser=record_request.record_path,
-        help="Record files; `example` is the record that comes with the package.",
-    ),
-]
 
 
 def _levels(name: str, what: str) -> Any:
@@ -50,7 +41,7 @@ Csv = Annotated[Path | None, ask.file_option("--csv", "Write the switches (.csv)
 @ask.with_options("height", "width", "restitution", "angle", angle=0.0)
 def overturning_set(
     context: typer.Context,
-    files: Files,
+    sources: record_source.Sources,
     inertia_ratio: record_source.InertiaRatio = None,
     scale: Scale = None,
     pga: Pga = None,
@@ -61,7 +52,6 @@ def overturning_set(
     pga_ratio: PgaRatio = None,
     pgv_ratio: PgvRatio = None,
     polarity: Polarity = 1.0,
-    channel: record_source.Channel = 1,
     units: record_source.Units = None,
     step: record_source.Step = None,
     baseline: record_source.Baseline = "none",
@@ -78,12 +68,14 @@ def overturning_set(
     Default: 200.
     """
     from rocking.cli.input import overturning_set_request as request
-    from rocking.cli.output import motion_files
+    from rocking.cli.output.files import check_apart, check_files
     from rocking.cli.reports import overturning_set as report
 
-    written: dict[str, Path] = {}
-    for file in files:
-        written = motion_files.check_of_record(file, plot=plot, csv=csv, netcdf=netcdf)
-    found, doubts = request.compute(context.params)
-    report.write(found, written)
-    report.show(found, doubts, list(written.values()), as_json=json)
+    paths = {"plot": plot, "csv": csv, "netcdf": netcdf}
+    check_apart(paths)
+    files = check_files(paths)
+    question = request.question(context.params)
+    record_source.check_not_read(files, sources, question.arguments["records"])
+    found = request.compute(question)
+    report.write(found, files)
+    report.show(found, question.doubts, list(files.values()), as_json=json)

@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-from rocking.cli.input import record_request
+from attrs import frozen
+
+from rocking.cli.input import record_request, record_source
 from rocking.cli.input.axis import Axis
 from rocking.cli.option_names import AXIS_FORM, YourInput, option, options, your_input
 
@@ -14,29 +16,42 @@ if TYPE_CHECKING:
 
 MEASURES = ("scale", "pga", "pga_g", "pgv", "pgd", "arias", "pga_ratio", "pgv_ratio")
 """Options whose value is the axis of the levels."""
-READING = ("channel", "units", "step", "baseline")
+READING = ("units", "step", "baseline")
 
 
-def compute(given: Mapping[str, Any]) -> tuple[OverturningSet, list[str]]:
-    """Return the overturning set of the options, and the warnings of the reader; YourInput if invalid."""
-    from rocking.survey import overturning_set
+@frozen
+class Question:
+    """Request of an overturning set: arguments of `overturning_set`, warnings of the reader, and the option of the levels."""
 
+    arguments: dict[str, Any]
+    doubts: list[str]
+    levels: str
+
+
+def question(given: Mapping[str, Any]) -> Question:
+    """Return the request of the options; YourInput if invalid."""
     name, levels = _levels(given)
     block, _, start = record_request.block_and_start(
         {**given, "velocity": 0.0, "brace_angle": None, "brace_restitution": None}
     )
-    records, doubts = _records(given)
-    arguments = record_request.ARGUMENTS | options("polarity") | {"scales": option(name)}
-    with your_input(arguments):
-        found = overturning_set(
-            records,
-            block,
-            levels,
-            intensity=name.replace("_", "-"),
-            angle=start.angle,
-            polarity=given["polarity"],
-        )
-    return found, doubts
+    records, doubts = record_source.record_set(given["sources"], **{name: given[name] for name in READING})
+    arguments = {
+        "records": records,
+        "block": block,
+        "scales": levels,
+        "intensity": name.replace("_", "-"),
+        "angle": start.angle,
+        "polarity": given["polarity"],
+    }
+    return Question(arguments, doubts, name)
+
+
+def compute(asked: Question) -> OverturningSet:
+    """Compute the overturning set; YourInput if an argument is invalid."""
+    from rocking.survey import overturning_set
+
+    with your_input(record_request.ARGUMENTS | options("polarity") | {"scales": option(asked.levels)}):
+        return overturning_set(**asked.arguments)
 
 
 def _levels(given: Mapping[str, Any]) -> tuple[str, Any]:
@@ -53,17 +68,3 @@ def _levels(given: Mapping[str, Any]) -> tuple[str, Any]:
         raise YourInput(f"{option(name)} must be an axis, {AXIS_FORM}; got {levels}")
     low, high = sorted((levels.start, levels.stop))
     return name, np.linspace(low, high, levels.points)
-
-
-def _records(given: Mapping[str, Any]) -> tuple[Any, list[str]]:
-    """Return the records of all files, and the warnings of the reader."""
-    from rocking.model import RecordSet
-
-    reading = {name: given[name] for name in READING}
-    records, doubts = [], []
-    for file in given["files"]:
-        motion, told = record_request.ground_motion({**reading, "file": file, "scale": None, "pga_g": None})
-        records.append(motion)
-        doubts += told
-    with your_input():
-        return RecordSet(records), doubts

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import hashlib
 import warnings
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -11,7 +13,7 @@ import typer
 
 from rocking.cli.input import options as ask
 from rocking.cli.input.record_request import as_options, record_path
-from rocking.cli.option_names import YourInput, options, your_input
+from rocking.cli.option_names import YourInput, option, options, your_input
 
 if TYPE_CHECKING:
     from rocking.model import RecordSet
@@ -70,3 +72,19 @@ def record_set(
         except RecordError as error:
             raise YourInput(as_options(str(error))) from error
     return records, [str(doubt.message) for doubt in doubts]
+
+
+def check_not_read(files: Mapping[str, Path], sources: Sequence[Path], records: RecordSet) -> None:
+    """Raise YourInput if an output file is a source, or one of the record files of a folder or a table."""
+    read = {source.resolve() for source in sources}
+    contents = {motion.file.sha256 for motion in records if motion.file is not None}
+    for name, path in files.items():
+        if path.resolve() in read or _digest(path) in contents:
+            raise YourInput(f"{option(name)} must not overwrite a record; got {str(path)!r}")
+
+
+def _digest(path: Path) -> str | None:
+    """Return the SHA-256 digest of a file; None if there is none that can be read."""
+    with suppress(OSError), path.open("rb") as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()
+    return None

@@ -142,13 +142,7 @@ def files_of(asked: Question) -> dict[str, Path]:
     """Return the requested output files; YourInput if a file cannot be written or is a record."""
     check_apart({name: asked.places.get(name) for name in PLACES})
     files = check_files({name: asked.places.get(name) for name in SUFFIXES})
-    names = [motion.file.name for motion in asked.records if motion.file is not None]
-    read = {
-        path.resolve() for source in asked.sources for path in (source, *(source / name for name in names))
-    }
-    for name, path in files.items():
-        if path.resolve() in read:
-            raise YourInput(f"{option(name)} must not overwrite a record; got {str(path)!r}")
+    record_source.check_not_read(files, asked.sources, asked.records)
     return files
 
 
