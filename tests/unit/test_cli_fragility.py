@@ -101,6 +101,73 @@ def test_a_folder_is_the_set_of_its_files(rocking, tmp_path):
     assert out.splitlines()[0] == str(found)
 
 
+STUDY = """
+height = 2
+width = 0.5
+pga-g = { start = 0.2, stop = 1.4, count = 7 }
+limit = [0.1, 0.5]
+samples = 3
+width-spread = 0.1
+replicates = 200
+baseline = "mean"
+csv = "f.csv"
+"""
+
+
+def test_study_states_the_options(rocking, tmp_path):
+    (tmp_path / "study.toml").write_text(STUDY, encoding="utf-8")
+    line = f"{LINE} --limit 0.1 --limit 0.5 --samples 3 --width-spread 0.1 --replicates 200 --baseline mean --csv f.csv"
+    said = rocking(f"fragility {NAMES} --study study.toml --json")
+    assert said[:2] == (0, "")
+    assert said == rocking(f"fragility {NAMES} {line} --json")
+    assert len(json.loads(said[2])["curves"]) == 3
+
+
+def test_options_take_precedence_over_a_study(rocking, tmp_path):
+    (tmp_path / "study.toml").write_text(STUDY, encoding="utf-8")
+    line = "--width 0.6 --pga-g 0.3:0.9:3 --limit 0.2 --samples 2 --baseline none --csv g.csv --json"
+    said = json.loads(rocking(f"fragility {NAMES} --study study.toml {line}")[2])
+    assert said["block"]["width_m"] == 0.6
+    assert said["pga_g"] == np.linspace(0.3, 0.9, 3).tolist()
+    assert [curve["limit"] for curve in said["curves"]] == [0.2, None]
+    assert (said["samples"], said["files"]) == (2, ["g.csv"])
+    assert said["records_sha256"] == rk.RecordSet(read()).digest
+
+
+def test_levels_of_a_study_may_be_a_list(rocking, tmp_path):
+    (tmp_path / "study.toml").write_text("pga-g = [0.2, 0.5, 1.4]\nlimit = 0.5\n", encoding="utf-8")
+    said = json.loads(rocking(f"fragility {NAMES} --height 2 --width 0.5 --study study.toml --json")[2])
+    assert said["pga_g"] == [0.2, 0.5, 1.4]
+
+
+def test_all_errors_of_a_study_are_one_line(rocking, tmp_path):
+    (tmp_path / "study.toml").write_text(
+        'heigth = 2\nwidth = "0.5"\npga-g = "0.2:1.4:x"\nlimit = "half"\nsamples = true\nunits = 1\nplot = 3\n',
+        encoding="utf-8",
+    )
+    code, message, out = rocking("fragility example --study study.toml")
+    assert (code, out) == (2, "")
+    assert "\n" not in message
+    for part in (
+        "study 'study.toml': ",
+        "width must be a number; got '0.5'",
+        "pga_g must be a number or START:STOP:COUNT",
+        "limit must be a real number or an array of real numbers; got 'half'",
+        "samples must be a number; got True",
+        "units must be a str; got 1",
+        "plot must be a path; got 3",
+        "unknown 'heigth' (did you mean 'height'?)",
+    ):
+        assert part in message
+
+
+def test_no_record_is_overwritten(rocking, tmp_path, monkeypatch):
+    monkeypatch.setattr("rocking.survey.fragility", None)
+    for source in ("r0.csv", tmp_path):
+        code, message, _ = rocking(f"fragility {source} {LINE} --csv r0.csv")
+        assert (code, message) == (2, "--csv must not overwrite a record; got 'r0.csv'")
+
+
 def test_one_record_is_warned_of(rocking):
     code, _, out = rocking(f"fragility example {LINE}")
     assert code == 0

@@ -115,6 +115,48 @@ def test_each_source_gives_the_numbers_of_the_function(rocking, folder, source, 
     ]
 
 
+STUDY = 'height = 2\nwidth = 0.5\npga-g = "0.9:1.3:60"\npolarity = -1\nangle = 0.1\nbaseline = "mean"\ncsv = "a.csv"\n'
+
+
+def test_study_states_the_options(rocking, tmp_path):
+    (tmp_path / "study.toml").write_text(STUDY, encoding="utf-8")
+    said = rocking("overturning-set push.csv --study study.toml --json")
+    line = f"{SIZE} {AXIS} --polarity -1 --angle 0.1 --baseline mean --csv a.csv --json"
+    assert said[:2] == (0, "")
+    assert said == rocking(f"overturning-set push.csv {line}")
+    assert json.loads(said[2])["polarity"] == -1
+
+
+def test_options_take_precedence_over_a_study(rocking, tmp_path):
+    (tmp_path / "study.toml").write_text(STUDY, encoding="utf-8")
+    line = "--pga-g 0.5:1:9 --polarity 1 --angle 0 --baseline none --restitution 0.8 --json"
+    said = json.loads(rocking(f"overturning-set push.csv --study study.toml {line}")[2])
+    assert said["levels"] == {"start": 0.5, "stop": 1.0, "count": 9}
+    assert (said["polarity"], said["angle"], said["block"]["restitution"]) == (1.0, 0.0, 0.8)
+    assert said["records_sha256"] == rk.read_record_set("push.csv").digest
+
+
+@pytest.mark.parametrize(
+    ("study", "message"),
+    [
+        ("pga_g = [0.5, 1]\npolarty = 1", "study 'study.toml': unknown 'polarty' (did you mean 'polarity'?)"),
+        ("pga_g = [0.5, 1]\nangle = '0.1'", "study 'study.toml': angle must be a number; got '0.1'"),
+        ("pga_g = [0.5, 'a']", "study 'study.toml': pga_g must be a real number or an array of real numbers"),
+        ("pga_g = [0.5, 1]\nscale = [1, 2]", "give exactly one of --scale, --pga, --pga-g"),
+        ("pga_g = 0.5", "--pga-g must be an axis, START:STOP:COUNT; got 0.5"),
+        ("pga_g = [1, 0.5]", "--pga-g must hold two numbers or more in [1e-09, 1e+06], ascending; got 1.0 before 0.5"),
+        ("pga_g = [0.5, 1]\nnetcdf = 'a.txt'", "--netcdf must end in .nc; got 'a.txt'"),
+        ("pga_g 1", "--study must name a TOML file; got 'study.toml': "),
+    ],
+)
+def test_wrong_study_is_one_line(rocking, tmp_path, study, message):
+    (tmp_path / "study.toml").write_text(study, encoding="utf-8")
+    code, told, out = rocking(f"overturning-set push.csv {SIZE} --study study.toml")
+    assert (code, out) == (2, "")
+    assert told.startswith(message)
+    assert "\n" not in told.strip()
+
+
 @pytest.mark.parametrize("source", ["set", "table.csv", "set/a.csv"])
 def test_no_record_is_overwritten(rocking, folder, source, monkeypatch):
     monkeypatch.setattr("rocking.survey.overturning_set", None)

@@ -130,6 +130,8 @@ def test_plot_and_store_are_written_and_a_study_states_options(rocking, tmp_path
     assert (tmp_path / "out.png").read_bytes().startswith(b"\x89PNG")
     mean = rk.read_ground_motion("plain.txt", units="g", step=0.01, baseline="mean")
     assert said["records"][0]["pga_m_per_s2"] == mean.pga
+    said = json.loads(told(rocking, "plain.txt --study study.toml --baseline none --json"))
+    assert said["records"][0]["pga_m_per_s2"] == G * np.abs(WAVE).max()
 
 
 def test_warning_of_the_reader_is_reported(rocking, tmp_path):

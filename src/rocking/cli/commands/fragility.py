@@ -7,8 +7,9 @@ from typing import Annotated, Any
 
 import typer
 
-from rocking.cli.input import axis, fragility_request, record_source
+from rocking.cli.input import axis, record_source
 from rocking.cli.input import options as ask
+from rocking.cli.input.study_file import Study
 
 EXAMPLES = """\
 # The record of the package; name a folder or a table instead.
@@ -70,7 +71,8 @@ def fragility(
     seed: Seed = None,
     units: record_source.Units = None,
     step: record_source.Step = None,
-    baseline: record_source.Baseline = "none",
+    baseline: record_source.Baseline = None,
+    study: Study = None,
     plot: Plot = None,
     csv: Csv = None,
     netcdf: ask.SurveyNetcdf = None,
@@ -84,12 +86,14 @@ def fragility(
     All intervals are at 95 % and clustered by record: runs of the same record are not independent. AXIS is START:STOP:COUNT:
     COUNT evenly spaced values, both ends included.
     """
+    from rocking.cli.input import fragility_request as request
     from rocking.cli.output.files import check_apart, check_files
     from rocking.cli.reports import fragility as report
 
-    asked = {"plot": plot, "csv": csv, "netcdf": netcdf}
-    check_apart(asked)
-    written = check_files(asked)
-    found, doubts = fragility_request.compute(context.params)
-    report.write(found, written)
-    report.show(found, doubts, list(written.values()), as_json=json)
+    question = request.question(context.params, study)
+    check_apart(question.places)
+    files = check_files(question.places)
+    record_source.check_not_read(files, sources, question.records)
+    found = request.compute(question)
+    report.write(found, files)
+    report.show(found, question.doubts, list(files.values()), as_json=json)

@@ -9,6 +9,7 @@ import typer
 
 from rocking.cli.input import axis, record_source
 from rocking.cli.input import options as ask
+from rocking.cli.input.study_file import Study
 
 EXAMPLES = """\
 # Peak accelerations at which the record of the package overturns a block.
@@ -29,7 +30,8 @@ Arias = Annotated[Any, _levels("--arias", "Arias intensity, m/s")]
 PgaRatio = Annotated[Any, _levels("--pga-ratio", "peak ground acceleration over g tan θcr")]
 PgvRatio = Annotated[Any, _levels("--pgv-ratio", "α times the peak ground velocity, over g tan θcr")]
 Polarity = Annotated[
-    ask.Number, ask.number_option("--polarity", "1, or -1 for the opposite direction of the records.")
+    ask.Number,
+    ask.number_option("--polarity", "1, or -1 for the opposite direction of the records. Default: 1."),
 ]
 Plot = Annotated[
     Path | None,
@@ -38,7 +40,7 @@ Plot = Annotated[
 Csv = Annotated[Path | None, ask.file_option("--csv", "Write the switches (.csv).")]
 
 
-@ask.with_options("height", "width", "restitution", "angle", angle=0.0)
+@ask.with_options("height", "width", "restitution", "angle")
 def overturning_set(
     context: typer.Context,
     sources: record_source.Sources,
@@ -51,10 +53,11 @@ def overturning_set(
     arias: Arias = None,
     pga_ratio: PgaRatio = None,
     pgv_ratio: PgvRatio = None,
-    polarity: Polarity = 1.0,
+    polarity: Polarity = None,
     units: record_source.Units = None,
     step: record_source.Step = None,
-    baseline: record_source.Baseline = "none",
+    baseline: record_source.Baseline = None,
+    study: Study = None,
     plot: Plot = None,
     csv: Csv = None,
     netcdf: ask.SurveyNetcdf = None,
@@ -71,11 +74,10 @@ def overturning_set(
     from rocking.cli.output.files import check_apart, check_files
     from rocking.cli.reports import overturning_set as report
 
-    paths = {"plot": plot, "csv": csv, "netcdf": netcdf}
-    check_apart(paths)
-    files = check_files(paths)
-    question = request.question(context.params)
-    record_source.check_not_read(files, sources, question.arguments["records"])
+    question = request.question(context.params, study)
+    check_apart(question.places)
+    files = check_files(question.places)
+    record_source.check_not_read(files, sources, question.records)
     found = request.compute(question)
     report.write(found, files)
     report.show(found, question.doubts, list(files.values()), as_json=json)

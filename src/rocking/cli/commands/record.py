@@ -55,7 +55,7 @@ def record(
     channel: record_source.Channel = 1,
     units: record_source.Units = None,
     step: record_source.Step = None,
-    baseline: record_source.Baseline = "none",
+    baseline: record_source.Baseline = None,
     plot: Plot = None,
     animate: Animate = None,
     csv: ask.Csv = None,

@@ -62,7 +62,7 @@ def spectrum(
     pga_g: PgaG = None,
     units: record_source.Units = None,
     step: record_source.Step = None,
-    baseline: record_source.Baseline = "none",
+    baseline: record_source.Baseline = None,
     study: Study = None,
     store: ask.Store = None,
     repair: ask.Repair = False,

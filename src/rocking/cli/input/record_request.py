@@ -45,14 +45,21 @@ def record_path(text: str) -> Path:
 
 def block_and_start(given: Mapping[str, Any]) -> tuple[Block, Braces | None, State]:
     """Return the block, its braces and the initial state of the options; YourInput if invalid."""
-    from rocking.model import MAX_START, Block, State, within
+    from rocking.model import MAX_START, State, within
+
+    block, braces = block_of(given), ask.braces(given)
+    with your_input(ARGUMENTS):
+        return block, braces, State(*(within(name, given[name], -MAX_START, MAX_START) for name in START))
+
+
+def block_of(given: Mapping[str, Any]) -> Block:
+    """Return the block of the options in SI; YourInput if invalid."""
+    from rocking.model import Block
 
     ask.require(given, (("height",), ("width",)), "--height and --width")
-    more = {} if given["inertia_ratio"] is None else {"inertia_ratio": given["inertia_ratio"]}
-    braces = ask.braces(given)
+    more = {name: given[name] for name in ("restitution", "inertia_ratio") if given.get(name) is not None}
     with your_input(ARGUMENTS):
-        start = State(*(within(name, given[name], -MAX_START, MAX_START) for name in START))
-        return Block(given["height"], given["width"], given["restitution"], **more), braces, start
+        return Block(given["height"], given["width"], **more)
 
 
 def ground_motion(given: Mapping[str, Any]) -> tuple[GroundMotion, list[str]]:
@@ -62,7 +69,8 @@ def ground_motion(given: Mapping[str, Any]) -> tuple[GroundMotion, list[str]]:
 
     if given["scale"] is not None and given["pga_g"] is not None:
         raise YourInput("give --scale or --pga-g, not both")
-    reading = {name: given[name] for name in ("channel", "units", "step", "baseline")}
+    reading = {name: given[name] for name in ("channel", "units", "step")}
+    reading["baseline"] = "none" if given["baseline"] is None else given["baseline"]
     with your_input(ARGUMENTS), warnings.catch_warnings(record=True) as doubts:
         warnings.simplefilter("always")
         try:

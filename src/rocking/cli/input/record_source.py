@@ -6,6 +6,7 @@ import hashlib
 import warnings
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -13,12 +14,14 @@ import typer
 
 from rocking.cli.input import options as ask
 from rocking.cli.input.record_request import as_options, record_path
+from rocking.cli.input.study_file import Check, numbers
 from rocking.cli.option_names import YourInput, option, options, your_input
 
 if TYPE_CHECKING:
     from rocking.model import RecordSet
 
-ARGUMENTS = options("units", "step", "baseline") | {"source": "SOURCE"}
+READING = ("units", "step", "baseline")
+ARGUMENTS = options(*READING) | {"source": "SOURCE"}
 
 Sources = Annotated[
     list[Path],
@@ -49,17 +52,25 @@ Step = Annotated[
     ask.Number, ask.number_option("--step", "Time between two samples, s, if the file does not state it.")
 ]
 Baseline = Annotated[
-    str,
+    str | None,
     typer.Option(
         "--baseline",
         metavar="KIND",
-        help="Polynomial that is subtracted from the acceleration: none, mean, linear or quadratic.",
+        help="Polynomial that is subtracted from the acceleration: none, mean, linear or quadratic. Default: none.",
     ),
 ]
 
 
+def checks() -> dict[str, Check]:
+    """Return the checks of the entries of a study file that state how records are read."""
+    from rocking.model import instance
+
+    words = {name: partial(instance, name, kind=str) for name in ("units", "baseline")}
+    return words | numbers("step")
+
+
 def record_set(
-    sources: Sequence[Path], *, units: str | None, step: float | None, baseline: str
+    sources: Sequence[Path], *, units: str | None = None, step: float | None = None, baseline: str = "none"
 ) -> tuple[RecordSet, list[str]]:
     """Return the records of the command line, and the warnings of the reader; YourInput if one cannot be read."""
     from rocking.records import RecordError, read_record_set

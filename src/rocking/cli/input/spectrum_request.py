@@ -15,15 +15,14 @@ from rocking.cli.option_names import AXIS_FORM, YourInput, option, options, your
 from rocking.cli.output.files import SUFFIXES, check_apart, check_files, write_dataset
 from rocking.cli.output.files import write_csv as write_tables
 from rocking.cli.output.survey_run import carried_out
-from rocking.model import Block, RecordSet, instance, reals, refusal
+from rocking.model import Block, RecordSet
 
 if TYPE_CHECKING:
     import numpy as np
     import xarray as xr
 
 VARYING = ("size", "slenderness_deg", "restitution", "scale", "pga_g")
-FIXED = ("height", "width", "inertia_ratio", "step")
-READING = ("units", "step", "baseline")
+FIXED = ("height", "width", "inertia_ratio")
 PLACES = ("store", *SUFFIXES)
 WORDS = {
     "slenderness": "--slenderness-deg, in rad,",
@@ -50,27 +49,19 @@ def question(typed: Mapping[str, Any], file: Path | None) -> Question:
     """Return the request given by options and study file; options take precedence."""
     checks: dict[str, study_file.Check] = {
         **{name: partial(study_file.quantity, name) for name in VARYING},
-        **{name: partial(_number, name) for name in FIXED},
-        **{name: partial(instance, name, kind=str) for name in ("units", "baseline")},
+        **study_file.numbers(*FIXED),
+        **record_source.checks(),
         **survey_quantities.path_checks("store", *SUFFIXES),
     }
     given = study_file.asked(typed, file, checks)
-    if file is not None and typed["baseline"] == "none":  # the default of the option is no choice of the user
-        given["baseline"] = study_file.read(file, checks).get("baseline", "none")
     places = {name: given.pop(name) for name in PLACES if name in given}
-    reading = {name: given.pop(name, None) for name in READING}
+    reading = {name: given.pop(name) for name in record_source.READING if name in given}
     arguments, names = _arguments(given)
     records, doubts = record_source.record_set(typed["sources"], **reading)
     asked = Question(arguments, typed["sources"], records, doubts, places, names)
     if "plot" in places:
         _check_plot(asked)
     return asked
-
-
-def _number(name: str, entry: Any) -> float:
-    if isinstance(entry, bool) or not isinstance(entry, int | float):
-        raise TypeError(refusal(name, "be a number", entry))
-    return float(reals(name, entry))
 
 
 def _arguments(given: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, str]]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import difflib
 from collections.abc import Callable, Mapping
+from functools import partial
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -43,6 +44,21 @@ def quantity(name: str, given: Any) -> Any:
         )
     start, stop = (float(reals(f"{part} of {name}", given[part])) for part in ("start", "stop"))
     return Axis(start, stop, whole(f"count of {name}", given.get("count", DEFAULT_COUNT), 2, MAX_POINTS))
+
+
+def number(name: str, given: Any) -> Any:
+    """Return an entry that is a number."""
+    from rocking.model import reals, refusal
+
+    if isinstance(given, bool) or not isinstance(given, int | float):
+        raise TypeError(refusal(name, "be a number", given))
+    reals(name, given)
+    return given
+
+
+def numbers(*names: str) -> dict[str, Check]:
+    """Return the checks of entries that are numbers; the function that gets them checks their ranges."""
+    return {name: partial(number, name) for name in names}
 
 
 def asked(typed: Mapping[str, Any], file: Path | None, checks: Mapping[str, Check]) -> dict[str, Any]:

@@ -101,10 +101,12 @@ def counts(*names: str) -> dict[str, Check]:
 
 def path_checks(*names: str) -> dict[str, Check]:
     """Return the checks of entries that are paths, and of `repair`, which belongs to a store."""
-    return {
-        **{name: partial(_path, name) for name in names},
-        "repair": partial(instance, "repair", kind=bool),
-    }
+    return paths(*names) | {"repair": partial(instance, "repair", kind=bool)}
+
+
+def paths(*names: str) -> dict[str, Check]:
+    """Return the checks of entries that are paths."""
+    return {name: partial(_path, name) for name in names}
 
 
 def _in_range(name: str, entry: Any) -> Any:

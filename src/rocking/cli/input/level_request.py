@@ -1,0 +1,86 @@
+"""Requests of surveys that scale ground motions to levels of an intensity measure, for one block."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from attrs import frozen
+
+from rocking.cli.input import record_source, study_file, survey_quantities
+from rocking.cli.input.axis import Axis
+from rocking.cli.input.record_request import ARGUMENTS as RECORD_ARGUMENTS
+from rocking.cli.input.record_request import block_of
+from rocking.cli.option_names import AXIS_FORM, YourInput, option, options
+from rocking.cli.output.files import SUFFIXES
+
+if TYPE_CHECKING:
+    import numpy as np
+
+    from rocking.model import RecordSet
+
+BLOCK = ("height", "width", "restitution", "inertia_ratio")
+
+
+@frozen
+class Question:
+    """Request of a survey: its arguments, their names in messages, records with warnings, and output paths."""
+
+    arguments: dict[str, Any]
+    typed: dict[str, str]
+    sources: list[Path]
+    doubts: list[str]
+    places: dict[str, Path]
+
+    @property
+    def records(self) -> RecordSet:
+        """Ground motions of the request."""
+        records: RecordSet = self.arguments["records"]
+        return records
+
+
+def values(
+    typed: Mapping[str, Any], file: Path | None, checks: Mapping[str, study_file.Check]
+) -> dict[str, Any]:
+    """Return the values given by options and study file; options take precedence. `checks` are those of one command."""
+    block = study_file.numbers(*(name for name in BLOCK if name in typed))
+    paths = survey_quantities.paths(*SUFFIXES)
+    return study_file.asked(typed, file, block | record_source.checks() | dict(checks) | paths)
+
+
+def question(
+    given: Mapping[str, Any], sources: list[Path], measure: str, levels: str, own: tuple[str, ...]
+) -> Question:
+    """Return the request of given values; YourInput if invalid.
+
+    `measure` is the option of the levels, `levels` the argument of the function for them. `own` names further arguments.
+    """
+    scales = ascending(measure, given.get(measure))
+    block = block_of(given)
+    records, doubts = record_source.record_set(
+        sources, **{name: given[name] for name in record_source.READING if name in given}
+    )
+    arguments = {
+        "records": records,
+        "block": block,
+        levels: scales,
+        "intensity": measure.replace("_", "-"),
+        **{name: given[name] for name in own if name in given},
+    }
+    names = RECORD_ARGUMENTS | options(*own) | {"records": "SOURCE", levels: option(measure)}
+    places = {name: given[name] for name in SUFFIXES if name in given}
+    return Question(arguments, names, sources, doubts, places)
+
+
+def ascending(name: str, levels: Any) -> np.ndarray:
+    """Return levels as an array, those of an axis in ascending order; YourInput if they are no axis and no list."""
+    import numpy as np
+
+    if isinstance(levels, Axis):
+        low, high = sorted((levels.start, levels.stop))
+        return np.linspace(low, high, levels.points)
+    if np.ndim(levels) == 0:
+        found = "nothing" if levels is None else f"{levels:g}"
+        raise YourInput(f"{option(name)} must be an axis, {AXIS_FORM}; got {found} (example: 0.1:1.5:15)")
+    return np.asarray(levels)
