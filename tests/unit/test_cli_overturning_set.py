@@ -144,7 +144,10 @@ def test_options_take_precedence_over_a_study(rocking, tmp_path):
         ("pga_g = [0.5, 'a']", "study 'study.toml': pga_g must be a real number or an array of real numbers"),
         ("pga_g = [0.5, 1]\nscale = [1, 2]", "give exactly one of --scale, --pga, --pga-g"),
         ("pga_g = 0.5", "--pga-g must be an axis, START:STOP:COUNT; got 0.5"),
-        ("pga_g = [1, 0.5]", "--pga-g must hold two numbers or more in [1e-09, 1e+06], ascending; got 1.0 before 0.5"),
+        (
+            "pga_g = [1, 0.5]",
+            "--pga-g must hold two numbers or more in [1e-09, 1e+06], ascending; got 1.0 before 0.5",
+        ),
         ("pga_g = [0.5, 1]\nnetcdf = 'a.txt'", "--netcdf must end in .nc; got 'a.txt'"),
         ("pga_g 1", "--study must name a TOML file; got 'study.toml': "),
     ],

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Annotated, Any
 
 import typer
 
 from rocking.cli.input import axis, record_source
 from rocking.cli.input import options as ask
-from rocking.cli.input.study_file import Study
 
 EXAMPLES = """\
 # The record of the package; name a folder or a table instead.
@@ -48,16 +46,13 @@ Replicates = Annotated[
     ask.Number, ask.number_option("--replicates", "Number of bootstrap replicates. Default: 1,000.")
 ]
 Seed = Annotated[ask.Number, ask.number_option("--seed", "Random seed of samples and bootstrap. Default: 0.")]
-Plot = Annotated[
-    Path | None,
-    ask.file_option("--plot", "Plot the probabilities with intervals and lognormal fits (.png .svg .pdf)."),
-]
-Csv = Annotated[
-    Path | None, ask.file_option("--csv", "Write the probabilities and their intervals as a table (.csv).")
-]
 
 
 @ask.with_options("height", "width", "restitution")
+@record_source.with_files(
+    "Plot the probabilities with intervals and lognormal fits",
+    "Write the probabilities and their intervals as a table",
+)
 def fragility(
     context: typer.Context,
     sources: record_source.Sources,
@@ -69,14 +64,6 @@ def fragility(
     restitution_spread: RestitutionSpread = None,
     replicates: Replicates = None,
     seed: Seed = None,
-    units: record_source.Units = None,
-    step: record_source.Step = None,
-    baseline: record_source.Baseline = None,
-    study: Study = None,
-    plot: Plot = None,
-    csv: Csv = None,
-    netcdf: ask.SurveyNetcdf = None,
-    json: ask.Json = False,
     **shared: Any,
 ) -> None:
     """Estimate how likely ground motions overturn a block.
@@ -87,13 +74,10 @@ def fragility(
     COUNT evenly spaced values, both ends included.
     """
     from rocking.cli.input import fragility_request as request
-    from rocking.cli.output.files import check_apart, check_files
     from rocking.cli.reports import fragility as report
 
-    question = request.question(context.params, study)
-    check_apart(question.places)
-    files = check_files(question.places)
-    record_source.check_not_read(files, sources, question.records)
+    question = request.question(context.params, shared["study"])
+    files = record_source.files_of(question.places, sources, question.records)
     found = request.compute(question)
     report.write(found, files)
-    report.show(found, question.doubts, list(files.values()), as_json=json)
+    report.show(found, question.doubts, list(files.values()), as_json=shared["json"])

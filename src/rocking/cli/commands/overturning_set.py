@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Annotated, Any
 
 import typer
 
 from rocking.cli.input import axis, record_source
 from rocking.cli.input import options as ask
-from rocking.cli.input.study_file import Study
 
 EXAMPLES = """\
 # Peak accelerations at which the record of the package overturns a block.
@@ -33,14 +31,10 @@ Polarity = Annotated[
     ask.Number,
     ask.number_option("--polarity", "1, or -1 for the opposite direction of the records. Default: 1."),
 ]
-Plot = Annotated[
-    Path | None,
-    ask.file_option("--plot", "Plot the intervals of overturning levels, a row per record (.png .svg .pdf)."),
-]
-Csv = Annotated[Path | None, ask.file_option("--csv", "Write the switches (.csv).")]
 
 
 @ask.with_options("height", "width", "restitution", "angle")
+@record_source.with_files("Plot the intervals of overturning levels, a row per record", "Write the switches")
 def overturning_set(
     context: typer.Context,
     sources: record_source.Sources,
@@ -54,14 +48,6 @@ def overturning_set(
     pga_ratio: PgaRatio = None,
     pgv_ratio: PgvRatio = None,
     polarity: Polarity = None,
-    units: record_source.Units = None,
-    step: record_source.Step = None,
-    baseline: record_source.Baseline = None,
-    study: Study = None,
-    plot: Plot = None,
-    csv: Csv = None,
-    netcdf: ask.SurveyNetcdf = None,
-    json: ask.Json = False,
     **shared: Any,
 ) -> None:
     """Find all levels at which records overturn a block.
@@ -71,13 +57,10 @@ def overturning_set(
     Default: 200.
     """
     from rocking.cli.input import overturning_set_request as request
-    from rocking.cli.output.files import check_apart, check_files
     from rocking.cli.reports import overturning_set as report
 
-    question = request.question(context.params, study)
-    check_apart(question.places)
-    files = check_files(question.places)
-    record_source.check_not_read(files, sources, question.records)
+    question = request.question(context.params, shared["study"])
+    files = record_source.files_of(question.places, sources, question.records)
     found = request.compute(question)
     report.write(found, files)
-    report.show(found, question.doubts, list(files.values()), as_json=json)
+    report.show(found, question.doubts, list(files.values()), as_json=shared["json"])

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Annotated, Any
 
 import typer
 
 from rocking.cli.input import axis, record_source
 from rocking.cli.input import options as ask
-from rocking.cli.input.study_file import Study
 
 EXAMPLES = """\
 # Blocks of 100 sizes and a slenderness of 10° under a record scaled to 0.5 g.
@@ -44,13 +42,10 @@ PgaG = Annotated[
     Any,
     axis.value_option("--pga-g", "Peak to which each record is scaled, in units of g; replaces --scale."),
 ]
-Plot = Annotated[
-    Path | None, ask.file_option("--plot", "Plot the largest angle over the size (.png .svg .pdf).")
-]
-Csv = Annotated[Path | None, ask.file_option("--csv", "Write one row per run (.csv).")]
 
 
 @ask.with_options("height", "width")
+@record_source.with_files("Plot the largest angle over the size", "Write one row per run", store=True)
 def spectrum(
     context: typer.Context,
     sources: record_source.Sources,
@@ -60,16 +55,6 @@ def spectrum(
     inertia_ratio: record_source.InertiaRatio = None,
     scale: Scale = None,
     pga_g: PgaG = None,
-    units: record_source.Units = None,
-    step: record_source.Step = None,
-    baseline: record_source.Baseline = None,
-    study: Study = None,
-    store: ask.Store = None,
-    repair: ask.Repair = False,
-    plot: Plot = None,
-    csv: Csv = None,
-    netcdf: ask.SurveyNetcdf = None,
-    json: ask.Json = False,
     **shared: Any,
 ) -> None:
     """Follow blocks of many sizes under ground motions.
@@ -80,12 +65,10 @@ def spectrum(
     from rocking.cli.output import survey_run
     from rocking.cli.reports import spectrum as report
 
-    question = spectrum_request.question(context.params, study)
-    files = spectrum_request.files_of(question)
+    question = spectrum_request.question(context.params, shared["study"])
+    files = record_source.files_of(question.places, sources, question.records)
     found = spectrum_request.compute(question)
     with survey_run.complete(question.places.get("store")):
-        for name, path in files.items():
-            spectrum_request.WRITERS[name](found, path)
-    report.show(
-        found, question.records, question.doubts, survey_run.written(question.places, files), as_json=json
-    )
+        report.write(found, files)
+    written = survey_run.written(question.places, files)
+    report.show(found, question.records, question.doubts, written, as_json=shared["json"])

@@ -84,13 +84,20 @@ def with_options(
             text = f"{text} Default: 0."
         kind = Annotated[Number, declare(option(name), text)]
         shared.append(Parameter(name, Parameter.KEYWORD_ONLY, default=usual.get(name), annotation=kind))
+    return with_parameters(first=shared)
+
+
+def with_parameters(
+    first: Iterable[Parameter] = (), last: Iterable[Parameter] = ()
+) -> Callable[[Command], Command]:
+    """Return a decorator that adds parameters before and after those of a command, which takes them as ``**shared``."""
 
     def declared(command: Command) -> Command:
         context, *others = signature(command, eval_str=True).parameters.values()
         own = [
             each.replace(kind=Parameter.KEYWORD_ONLY) for each in others if each.kind != Parameter.VAR_KEYWORD
         ]
-        command.__signature__ = Signature([context, *shared, *own])  # type: ignore[attr-defined]
+        command.__signature__ = Signature([context, *first, *own, *last])  # type: ignore[attr-defined]
         return command
 
     return declared

@@ -4,17 +4,18 @@ from __future__ import annotations
 
 import hashlib
 import warnings
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from functools import partial
+from inspect import Parameter
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from rocking.cli.input import options as ask
 from rocking.cli.input.record_request import as_options, record_path
-from rocking.cli.input.study_file import Check, numbers
+from rocking.cli.input.study_file import Check, Study, numbers
 from rocking.cli.option_names import YourInput, option, options, your_input
 
 if TYPE_CHECKING:
@@ -61,6 +62,33 @@ Baseline = Annotated[
 ]
 
 
+def with_files(plot: str, csv: str, *, store: bool = False) -> Callable[[ask.Command], ask.Command]:
+    """Return a decorator that adds the options of reading and of files after those of a command.
+
+    `plot` and `csv` are the help of the options for these files. With ``store``, the command also has the options of a store.
+    """
+    options_of_files: dict[str, Any] = {
+        "units": Units,
+        "step": Step,
+        "baseline": Baseline,
+        "study": Study,
+        **({"store": ask.Store, "repair": ask.Repair} if store else {}),
+        "plot": Annotated[Path | None, ask.file_option("--plot", f"{plot} (.png .svg .pdf).")],
+        "csv": Annotated[Path | None, ask.file_option("--csv", f"{csv} (.csv).")],
+        "netcdf": ask.SurveyNetcdf,
+        "json": ask.Json,
+    }
+    switches = ("repair", "json")
+    return ask.with_parameters(
+        last=[
+            Parameter(
+                name, Parameter.KEYWORD_ONLY, default=False if name in switches else None, annotation=kind
+            )
+            for name, kind in options_of_files.items()
+        ]
+    )
+
+
 def checks() -> dict[str, Check]:
     """Return the checks of the entries of a study file that state how records are read."""
     from rocking.model import instance
@@ -85,13 +113,21 @@ def record_set(
     return records, [str(doubt.message) for doubt in doubts]
 
 
-def check_not_read(files: Mapping[str, Path], sources: Sequence[Path], records: RecordSet) -> None:
-    """Raise YourInput if an output file is a source, or one of the record files of a folder or a table."""
+def files_of(places: Mapping[str, Path], sources: Sequence[Path], records: RecordSet) -> dict[str, Path]:
+    """Return the output files among the `places`; YourInput if one cannot be written or would overwrite a record.
+
+    Records are the sources, and the files that a folder or a table of the sources names.
+    """
+    from rocking.cli.output.files import SUFFIXES, check_apart, check_files
+
+    check_apart(places)
+    files = check_files({name: places.get(name) for name in SUFFIXES})
     read = {source.resolve() for source in sources}
     contents = {motion.file.sha256 for motion in records if motion.file is not None}
     for name, path in files.items():
         if path.resolve() in read or _digest(path) in contents:
             raise YourInput(f"{option(name)} must not overwrite a record; got {str(path)!r}")
+    return files
 
 
 def _digest(path: Path) -> str | None:

@@ -1,9 +1,9 @@
-"""Computation of a rocking spectrum from options and a study file, and its output files."""
+"""Computation of a rocking spectrum from options and a study file."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Mapping
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -12,13 +12,11 @@ from attrs import frozen
 
 from rocking.cli.input import record_source, study_file, survey_quantities
 from rocking.cli.option_names import AXIS_FORM, YourInput, option, options, your_input
-from rocking.cli.output.files import SUFFIXES, check_apart, check_files, write_dataset
-from rocking.cli.output.files import write_csv as write_tables
+from rocking.cli.output.files import SUFFIXES
 from rocking.cli.output.survey_run import carried_out
 from rocking.model import Block, RecordSet
 
 if TYPE_CHECKING:
-    import numpy as np
     import xarray as xr
 
 VARYING = ("size", "slenderness_deg", "restitution", "scale", "pga_g")
@@ -129,55 +127,9 @@ def _check_plot(asked: Question) -> None:
         raise YourInput(f"--plot draws one record, or {most}; got {len(asked.records)} records")
 
 
-def files_of(asked: Question) -> dict[str, Path]:
-    """Return the requested output files; YourInput if a file cannot be written or is a record."""
-    check_apart({name: asked.places.get(name) for name in PLACES})
-    files = check_files({name: asked.places.get(name) for name in SUFFIXES})
-    record_source.check_not_read(files, asked.sources, asked.records)
-    return files
-
-
 def compute(asked: Question) -> xr.Dataset:
     """Compute the spectrum."""
     from rocking.survey import rocking_spectrum
 
     arguments = {"records": asked.records, "store": asked.places.get("store")} | asked.arguments
     return carried_out(rocking_spectrum, arguments, typed=asked.typed)
-
-
-def write_plot(found: xr.Dataset, path: Path) -> None:
-    """Write the plot of the spectrum."""
-    from rocking import plot
-
-    plot.save(plot.rocking_spectrum(found), path)
-
-
-def write_csv(found: xr.Dataset, path: Path) -> None:
-    """Write one row per run as CSV: record, quantities that vary, and results, with units in the headings."""
-    write_tables(_tables(found), path)
-
-
-def _tables(found: xr.Dataset) -> Iterator[dict[str, np.ndarray]]:
-    from rocking.survey import tables
-
-    for table in tables(found.drop_vars(["pga", "frequency_parameter"], errors="ignore")):
-        columns: dict[str, np.ndarray] = {}
-        if "record" in table:
-            number = table.pop("record").astype(int)
-            columns = {"record": number, "name": found["name"].values[number]}
-        for name, column in table.items():
-            unit = found[name].attrs.get("units", "1")
-            columns[name if unit in ("1", "") else f"{name} [{unit}]"] = column
-        yield columns
-
-
-def write_netcdf(found: xr.Dataset, path: Path) -> None:
-    """Write the spectrum as netCDF."""
-    write_dataset(found.load(), path)
-
-
-WRITERS: dict[str, Callable[[xr.Dataset, Path], None]] = {
-    "plot": write_plot,
-    "csv": write_csv,
-    "netcdf": write_netcdf,
-}

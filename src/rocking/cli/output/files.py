@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -92,6 +92,24 @@ def with_block(data: xr.Dataset, block: Block | None) -> xr.Dataset:
         if name in data.coords
     }
     return data.assign_coords(beside).assign_attrs(block_attributes(block))
+
+
+def write_result(
+    files: Mapping[str, Path],
+    *,
+    figure: Callable[[Any], Any],
+    data: Callable[[], xr.Dataset],
+    tables: Callable[[], Iterable[Mapping[str, Any]]] = tuple,
+) -> None:
+    """Write the requested files of a result: its figure by `rocking.plot`, its tables and its dataset."""
+    if "plot" in files:
+        from rocking import plot
+
+        plot.save(figure(plot), files["plot"])
+    if "csv" in files:
+        write_csv(tables(), files["csv"])
+    if "netcdf" in files:
+        write_dataset(data(), files["netcdf"])
 
 
 def write_dataset(data: xr.Dataset, path: Path) -> None:

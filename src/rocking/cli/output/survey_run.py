@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from rocking.cli.option_names import ARGUMENTS as SYSTEM_ARGUMENTS
 from rocking.cli.option_names import AXIS_FORM, NORMALISED, as_typed, option, options, your_input
-from rocking.cli.output.files import check_apart, check_files, with_block, write_dataset
+from rocking.cli.output.files import check_apart, check_files, with_block, write_result
 
 if TYPE_CHECKING:
     from rocking.model import BasinMap, Block, OverturningCurve, Share
@@ -72,12 +72,11 @@ def write(
     found: BasinMap | OverturningCurve, picture: str, files: Mapping[str, Path], block: Block | None
 ) -> None:
     """Write a plot and the dataset, with SI axes if there is a block."""
-    if "plot" in files:
-        from rocking import plot
-
-        plot.save(getattr(plot, picture)(found, block=block), files["plot"])
-    if "netcdf" in files:
-        write_dataset(with_block(found.dataset, block), files["netcdf"])
+    write_result(
+        files,
+        figure=lambda plot: getattr(plot, picture)(found, block=block),
+        data=lambda: with_block(found.dataset, block),
+    )
 
 
 def written(asked: Mapping[str, Any], files: Mapping[str, Path]) -> list[Path]:

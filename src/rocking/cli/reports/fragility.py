@@ -10,7 +10,7 @@ from typing import Any
 import attrs
 
 from rocking.cli.output.console import Row, print_json, print_table
-from rocking.cli.output.files import write_csv, write_dataset
+from rocking.cli.output.files import write_result
 from rocking.cli.reports.validity import warned
 from rocking.model import Fragility, counted, limit_name, percent_with_ends
 
@@ -21,14 +21,12 @@ FEW = 10
 
 def write(found: Fragility, files: Mapping[str, Path]) -> None:
     """Write the plot, the table and the dataset."""
-    if "plot" in files:
-        from rocking import plot
-
-        plot.save(plot.fragility(found), files["plot"])
-    if "csv" in files:
-        write_csv(tables(found), files["csv"])
-    if "netcdf" in files:
-        write_dataset(found.dataset, files["netcdf"])
+    write_result(
+        files,
+        figure=lambda plot: plot.fragility(found),
+        tables=lambda: tables(found),
+        data=lambda: found.dataset,
+    )
 
 
 def tables(found: Fragility) -> Iterator[dict[str, Any]]:

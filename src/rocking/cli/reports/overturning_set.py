@@ -7,8 +7,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from rocking.cli.output import files as output
 from rocking.cli.output.console import Row, print_json, print_table
+from rocking.cli.output.files import write_result
 from rocking.cli.output.survey_run import MAX_ROWS
 from rocking.cli.reports.motion import size_of
 from rocking.cli.reports.validity import warned
@@ -17,14 +17,12 @@ from rocking.model import OverturningSet, block_attributes, percent
 
 def write(found: OverturningSet, files: Mapping[str, Path]) -> None:
     """Write the plot, the switches and the dataset."""
-    if "plot" in files:
-        from rocking import plot
-
-        plot.save(plot.overturning_set(found), files["plot"])
-    if "csv" in files:
-        output.write_csv([switches(found)], files["csv"])
-    if "netcdf" in files:
-        output.write_dataset(found.dataset.assign_attrs(block_attributes(found.block)), files["netcdf"])
+    write_result(
+        files,
+        figure=lambda plot: plot.overturning_set(found),
+        tables=lambda: [switches(found)],
+        data=lambda: found.dataset.assign_attrs(block_attributes(found.block)),
+    )
 
 
 def switches(found: OverturningSet) -> dict[str, Any]:

@@ -1,15 +1,16 @@
-"""Report of a rocking spectrum, as text or JSON."""
+"""Report of a rocking spectrum, as text, JSON, CSV and netCDF."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from rocking.cli.output.console import Row, print_json, print_table
+from rocking.cli.output.files import write_result
 from rocking.cli.reports.validity import warned
 from rocking.model import RecordSet, counted, percent
 
@@ -18,6 +19,31 @@ if TYPE_CHECKING:
 
 QUANTITIES = ("size", "slenderness", "restitution", "scale")
 MOST_NAMES = 3
+
+
+def write(found: xr.Dataset, files: Mapping[str, Path]) -> None:
+    """Write the plot, one row per run as CSV, and the dataset."""
+    write_result(
+        files,
+        figure=lambda plot: plot.rocking_spectrum(found),
+        tables=lambda: tables(found),
+        data=found.load,
+    )
+
+
+def tables(found: xr.Dataset) -> Iterator[dict[str, np.ndarray]]:
+    """Yield columns by heading, with units: the record, the quantities that vary, and the results."""
+    from rocking.survey import tables as rows_of
+
+    for table in rows_of(found.drop_vars(["pga", "frequency_parameter"], errors="ignore")):
+        columns: dict[str, np.ndarray] = {}
+        if "record" in table:
+            number = table.pop("record").astype(int)
+            columns = {"record": number, "name": found["name"].values[number]}
+        for name, column in table.items():
+            unit = found[name].attrs.get("units", "1")
+            columns[name if unit in ("1", "") else f"{name} [{unit}]"] = column
+        yield columns
 
 
 def show(
