@@ -69,10 +69,11 @@ def basins(
     json: ask.Json = False,
     **shared: Any,
 ) -> None:
-    """Compute basins of attraction and uncertainty exponents.
+    """Compute basins of attraction.
 
-    The initial states form a grid over --angle and --velocity. AXIS is START:STOP:COUNT: COUNT evenly spaced values,
-    both ends included. COUNT is optional. Default: 200.
+    The initial states form a grid over --angle and --velocity. The uncertainty exponents of the boundaries between the
+    basins are also estimated. AXIS is START:STOP:COUNT: COUNT evenly spaced values, both ends included. COUNT is optional.
+    Default: 200.
     """
     from rocking.cli.input import basins_request
     from rocking.cli.output import survey_run

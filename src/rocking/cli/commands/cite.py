@@ -4,7 +4,7 @@ from __future__ import annotations
 
 
 def cite() -> None:
-    """Print BibTeX entries for this package and its sources."""
+    """Print BibTeX entries of the package and its sources."""
     import rocking as rk
 
     print(rk.cite(), end="")

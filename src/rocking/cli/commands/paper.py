@@ -36,7 +36,7 @@ def paper(
     output: Annotated[Path | None, OUTPUT] = None,
     listed: Annotated[bool, LIST] = False,
 ) -> None:
-    """Reproduce the figures and numbers of papers on rocking."""
+    """Reproduce figures and numbers of papers on rocking."""
     from rocking.papers import PAPERS, room_of
 
     if listed:

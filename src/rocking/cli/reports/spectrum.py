@@ -53,11 +53,11 @@ def show(
     from rocking.survey import counts
 
     outcomes = counts(found, "outcome")
-    undecided = counts(found, "certified")["undecided"]
-    doubts = [*doubts, *_undecided(undecided)]
+    doubtful = counts(found, "certified")["undecided"]
+    doubts = [*doubts, *undecided(doubtful)]
     if as_json:
         print_json(
-            record(found, records, outcomes, undecided) | {"warnings": doubts, "files": list(map(str, files))}
+            record(found, records, outcomes, doubtful) | {"warnings": doubts, "files": list(map(str, files))}
         )
         return
     total = sum(outcomes.values())
@@ -65,7 +65,8 @@ def show(
     print_table(f"rocking spectrum, {counted(total, 'run')}", rows, list(files), warned(doubts))
 
 
-def _undecided(count: int) -> Iterator[str]:
+def undecided(count: int) -> Iterator[str]:
+    """Yield a warning if outcomes are undecided."""
     if count:
         yield f"{counted(count, 'outcome')} undecided in double precision: the rounding error may exceed what decides"
 
@@ -136,17 +137,21 @@ def results(found: xr.Dataset) -> dict[str, Any]:
     }
 
 
-def record(found: xr.Dataset, records: RecordSet, outcomes: dict[str, int], undecided: int) -> dict[str, Any]:
-    """Return the result as a JSON object."""
-    axes = {
+def axes_of(variable: xr.DataArray) -> dict[str, Any]:
+    """Return the axes of a variable as a JSON object, without that of the records."""
+    return {
         str(name): {
-            "start": float(found[name][0]),
-            "stop": float(found[name][-1]),
-            "count": found.sizes[name],
+            "start": float(variable[name][0]),
+            "stop": float(variable[name][-1]),
+            "count": variable.sizes[name],
         }
-        for name in found.peak.dims
+        for name in variable.dims
         if name != "record"
     }
+
+
+def record(found: xr.Dataset, records: RecordSet, outcomes: dict[str, int], undecided: int) -> dict[str, Any]:
+    """Return the result as a JSON object."""
     return {
         "records": [
             {
@@ -156,7 +161,7 @@ def record(found: xr.Dataset, records: RecordSet, outcomes: dict[str, int], unde
             }
             for name, motion in zip(records.names, records, strict=True)
         ],
-        "axes": axes,
+        "axes": axes_of(found.peak),
         **{
             name: found.attrs[name]
             for name in (*QUANTITIES, "inertia_ratio", "intensity")
