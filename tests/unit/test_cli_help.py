@@ -10,7 +10,7 @@ from rocking.cli.app import app
 
 COMMANDS = list(typer.main.get_command(app).commands)
 WITHOUT_EXAMPLES = {"explore", "cite"}
-WITH_BLOCK = {"record", "spectrum", "fragility", "overturning-set"}
+WITH_BLOCK = {"record", "spectrum", "fragility", "overturning-set", "sensitivity"}
 WITH_SYSTEM = set(COMMANDS) - {"explore", "paper", "cite"} - WITH_BLOCK
 
 

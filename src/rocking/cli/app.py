@@ -20,6 +20,7 @@ from rocking.cli.commands import (
     overturning_spectrum,
     paper,
     record,
+    sensitivity,
     simulate,
     spectrum,
 )
@@ -48,6 +49,7 @@ for name, command, examples in (
     ("overturning-set", overturning_set.overturning_set, overturning_set.EXAMPLES),
     ("overturning-spectrum", overturning_spectrum.overturning_spectrum, overturning_spectrum.EXAMPLES),
     ("fragility", fragility.fragility, fragility.EXAMPLES),
+    ("sensitivity", sensitivity.sensitivity, sensitivity.EXAMPLES),
     ("orbit-diagram", orbit_diagram.orbit_diagram, orbit_diagram.EXAMPLES),
     ("explore", explore.explore, None),
     ("paper", paper.paper, paper.EXAMPLES),

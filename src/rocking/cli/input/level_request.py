@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -45,7 +46,7 @@ def values(
 ) -> dict[str, Any]:
     """Return the values given by options and study file; options take precedence. `checks` are those of one command."""
     block = study_file.numbers(*(name for name in BLOCK if name in typed))
-    paths = survey_quantities.paths(*SUFFIXES)
+    paths = survey_quantities.paths(*(name for name in SUFFIXES if name in typed))
     return study_file.asked(typed, file, block | record_source.checks() | dict(checks) | paths)
 
 
@@ -71,6 +72,20 @@ def question(
     names = RECORD_ARGUMENTS | options(*own) | {"records": "SOURCE", levels: option(measure)}
     places = {name: given[name] for name in SUFFIXES if name in given}
     return Question(arguments, names, sources, doubts, places)
+
+
+def of_any_measure(
+    typed: Mapping[str, Any], file: Path | None, levels: str, own: tuple[str, ...]
+) -> Question:
+    """Return the request of a command with all options of levels and further numbers `own`; YourInput if invalid."""
+    measures = tuple(record_source.LEVELS)
+    checks = {name: partial(study_file.quantity, name) for name in measures}
+    given = values(typed, file, checks | study_file.numbers(*own))
+    there = [name for name in measures if name in given]
+    if len(there) != 1:
+        got = " and ".join(map(option, there)) or "none"
+        raise YourInput(f"give exactly one of {', '.join(map(option, measures))}; got {got}")
+    return question(given, typed["sources"], there[0], levels, own)
 
 
 def ascending(name: str, levels: Any) -> np.ndarray:

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from rocking.cli.input import options as ask
+from rocking.cli.input.axis import axis_option
 from rocking.cli.input.record_request import as_options, record_path
 from rocking.cli.input.study_file import Check, Study, numbers
 from rocking.cli.option_names import YourInput, option, options, your_input
@@ -41,6 +42,21 @@ InertiaRatio = Annotated[
         "Io/(MR²), the normalised moment of inertia about a corner. Default: 4/3, a uniform rectangle.",
     ),
 ]
+Polarity = Annotated[
+    ask.Number,
+    ask.number_option("--polarity", "1, or -1 for the opposite direction of the records. Default: 1."),
+]
+LEVELS = {
+    "scale": "factor of each record",
+    "pga": "peak ground acceleration, m/s²",
+    "pga_g": "peak ground acceleration, in units of g",
+    "pgv": "peak ground velocity, m/s",
+    "pgd": "peak ground displacement, m",
+    "arias": "Arias intensity, m/s",
+    "pga_ratio": "peak ground acceleration over g tan θcr",
+    "pgv_ratio": "α times the peak ground velocity, over g tan θcr",
+}
+"""Options whose value is the axis of the levels, and the intensity measure of each."""
 Units = Annotated[
     str | None,
     typer.Option(
@@ -62,10 +78,22 @@ Baseline = Annotated[
 ]
 
 
-def with_files(plot: str, csv: str, *, store: bool = False) -> Callable[[ask.Command], ask.Command]:
+def with_levels(command: ask.Command) -> ask.Command:
+    """Add the options of `LEVELS` before those of a command."""
+    kinds = {name: axis_option(option(name), f"Levels: {what}.") for name, what in LEVELS.items()}
+    return ask.with_parameters(
+        first=[
+            Parameter(name, Parameter.KEYWORD_ONLY, default=None, annotation=Annotated[Any, kind])
+            for name, kind in kinds.items()
+        ]
+    )(command)
+
+
+def with_files(plot: str | None, csv: str, *, store: bool = False) -> Callable[[ask.Command], ask.Command]:
     """Return a decorator that adds the options of reading and of files after those of a command.
 
-    `plot` and `csv` are the help of the options for these files. With ``store``, the command also has the options of a store.
+    `plot` and `csv` are the help of the options for these files; without ``plot`` there is no figure. With ``store``, the command
+    also has the options of a store.
     """
     options_of_files: dict[str, Any] = {
         "units": Units,
@@ -73,7 +101,11 @@ def with_files(plot: str, csv: str, *, store: bool = False) -> Callable[[ask.Com
         "baseline": Baseline,
         "study": Study,
         **({"store": ask.Store, "repair": ask.Repair} if store else {}),
-        "plot": Annotated[Path | None, ask.file_option("--plot", f"{plot} (.png .svg .pdf).")],
+        **(
+            {"plot": Annotated[Path | None, ask.file_option("--plot", f"{plot} (.png .svg .pdf).")]}
+            if plot
+            else {}
+        ),
         "csv": Annotated[Path | None, ask.file_option("--csv", f"{csv} (.csv).")],
         "netcdf": ask.SurveyNetcdf,
         "json": ask.Json,

@@ -51,11 +51,15 @@ def show(found: Fragility, doubts: Sequence[str], files: list[Path], *, as_json:
         print_table(str(found), rows(found), files, warned(doubts))
 
 
+def few_records(count: int) -> Iterator[str]:
+    """Yield a warning if the records are too few for intervals."""
+    if count < FEW:
+        yield f"{counted(count, 'record')} can hardly say how much records differ: use {FEW} or more"
+
+
 def _warnings(found: Fragility) -> Iterator[str]:
     data = found.dataset
-    if data.sizes["record"] < FEW:
-        few = counted(data.sizes["record"], "record")
-        yield f"{few} can hardly say how much records differ: use {FEW} or more"
+    yield from few_records(data.sizes["record"])
     undecided = int((data.certified == 0).sum())
     if undecided:
         yield f"{undecided:,} of {data.peak.size:,} runs are undecided in double precision; the intervals cover both outcomes"
