@@ -39,6 +39,20 @@ print("running", flush=True)
 rk.rocking_spectrum(records, **asked, store=sys.argv[1])
 """
 
+# Most blocks do not move, so that millions of points take seconds.
+PEAK_MEMORY = """
+import resource, sys
+import numpy as np
+import rocking as rk
+
+sizes, scales = np.linspace(0.5, 4.0, int(sys.argv[2])), np.linspace(0.5, 1.02, int(sys.argv[3]))
+rk.rocking_spectrum(
+    rk.synthetic_ground_motions(100, seed=1, duration=2.0),
+    size=sizes, slenderness=0.2, scale=scales, intensity="pga-ratio", store=sys.argv[1],
+)
+print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss)
+"""
+
 
 def files(folder):
     return {path.relative_to(folder): path.read_bytes() for path in folder.rglob("*") if path.is_file()}
@@ -211,6 +225,17 @@ def test_interrupted_run_says_how_to_go_on(tmp_path):
         "KeyboardInterrupt",
         f"The survey was interrupted; completed tiles are in {str(folder)!r}; run it again to resume.",
     ]
+
+
+@pytest.mark.long
+def test_peak_memory_of_a_store_does_not_follow_the_number_of_points(tmp_path):
+    """Eight million points need a fifth more than one million; their results alone would double the memory."""
+
+    def peak_memory(sizes, scales):
+        line = [sys.executable, "-c", PEAK_MEMORY, tmp_path / f"{sizes}.zarr", str(sizes), str(scales)]
+        return int(subprocess.run(line, capture_output=True, text=True, check=True).stdout)
+
+    assert peak_memory(200, 400) < 1.5 * peak_memory(100, 100)
 
 
 def test_batches_are_stretches_of_neighbours_that_share_tables():
