@@ -15,6 +15,8 @@ from rocking.kernels.classify.workspace import make_workspace
 from rocking.kernels.forcing.harmonic.parameters import harmonic_parameters
 from rocking.kernels.lanes.state import LANES
 
+pytestmark = pytest.mark.xdist_group("lanes")  # the kernels of the oracle are compiled once
+
 TABLE = json.loads((Path(__file__).resolve().parents[1] / "data" / "states.json").read_text())
 PLAIN = [
     case for case in TABLE if case["brace"] is None and case["A"] > 1 and case["e"] > 0 and not case["rests"]

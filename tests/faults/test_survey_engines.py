@@ -8,29 +8,22 @@ import time
 from concurrent.futures import Executor, Future, ProcessPoolExecutor, ThreadPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 
-import numpy as np
 import pytest
 from distributed import Client, LocalCluster
 
-import rocking as rk
-
-ASKED = {
-    "amplitude": np.linspace(0.0, 16.0, 150),
-    "period": np.linspace(0.2, 3.0, 150),
-    "restitution": 1.0,
-    "max_cycles": 100,
-}
+from stored_surveys import SURVEYS, files
 
 
-def files(folder):
-    return {path.relative_to(folder): path.read_bytes() for path in folder.rglob("*") if path.is_file()}
+@pytest.fixture(scope="module", params=SURVEYS)
+def survey(request):
+    return SURVEYS[request.param]
 
 
 @pytest.fixture(scope="module")
-def whole(tmp_path_factory):
+def whole(survey, tmp_path_factory):
     """The store of threads on all cores."""
-    folder = tmp_path_factory.mktemp("whole") / "map.zarr"
-    rk.parametric_map(**ASKED, store=folder)
+    folder = tmp_path_factory.mktemp("whole") / "survey.zarr"
+    survey.run(folder)
     return files(folder)
 
 
@@ -65,32 +58,32 @@ class Backwards(Executor):
 
 
 @pytest.mark.parametrize("make", [lambda: ThreadPoolExecutor(1), lambda: ThreadPoolExecutor(5), Backwards])
-def test_any_number_of_threads_in_any_order_gives_the_same_bytes(make, tmp_path, whole):
+def test_any_number_of_threads_in_any_order_gives_the_same_bytes(make, survey, tmp_path, whole):
     with make() as executor:
-        rk.parametric_map(**ASKED, store=tmp_path / "map.zarr", executor=executor)
-    assert files(tmp_path / "map.zarr") == whole
+        survey.run(tmp_path / "survey.zarr", executor=executor)
+    assert files(tmp_path / "survey.zarr") == whole
 
 
-def test_processes_give_the_same_bytes(tmp_path, whole):
+def test_processes_give_the_same_bytes(survey, tmp_path, whole):
     with ProcessPoolExecutor(2, multiprocessing.get_context("spawn")) as executor:
-        rk.parametric_map(**ASKED, store=tmp_path / "map.zarr", executor=executor)
-    assert files(tmp_path / "map.zarr") == whole
+        survey.run(tmp_path / "survey.zarr", executor=executor)
+    assert files(tmp_path / "survey.zarr") == whole
 
 
-def test_cluster_gives_the_same_bytes_though_a_worker_is_killed(cluster, tmp_path, whole):
-    folder = tmp_path / "map.zarr"
+def test_cluster_gives_the_same_bytes_though_a_worker_is_killed(cluster, survey, tmp_path, whole):
+    folder = tmp_path / "survey.zarr"
     first = min(worker["pid"] for worker in cluster.run(_pid).values())
     killed = []
 
     def kill():
-        while not (folder / "level-0" / "cycles" / "c").exists():
+        while not (folder / "level-0" / survey.marker / "c").exists():
             time.sleep(0.01)
         os.kill(first, signal.SIGKILL)
         killed.append(first)
 
     killer = threading.Thread(target=kill)
     killer.start()
-    rk.parametric_map(**ASKED, store=folder, executor=cluster.get_executor())
+    survey.run(folder, executor=cluster.get_executor())
     killer.join()
     assert killed == [first]
     assert files(folder) == whole
@@ -104,11 +97,11 @@ def _die(*_):
     os.kill(os.getpid(), signal.SIGKILL)
 
 
-def test_pool_that_lost_a_worker_ends_the_run_and_another_goes_on(tmp_path, whole, monkeypatch):
-    folder = tmp_path / "map.zarr"
+def test_pool_that_lost_a_worker_ends_the_run_and_another_goes_on(survey, tmp_path, whole):
+    folder = tmp_path / "survey.zarr"
     with ProcessPoolExecutor(1, multiprocessing.get_context("spawn")) as executor:
         executor.submit(_die)
         with pytest.raises(BrokenProcessPool):
-            rk.parametric_map(**ASKED, store=folder, executor=executor)
-    rk.parametric_map(**ASKED, store=folder)
+            survey.run(folder, executor=executor)
+    survey.run(folder)
     assert files(folder) == whole

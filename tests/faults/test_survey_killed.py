@@ -9,6 +9,7 @@ import time
 import warnings
 from collections import deque
 from concurrent.futures import Future
+from pathlib import Path
 from threading import Timer
 from types import SimpleNamespace
 
@@ -16,28 +17,20 @@ import numpy as np
 import pytest
 import xarray as xr
 
-import rocking as rk
 from rocking.survey.engine.tile_loop import Pending, _settle
 from rocking.survey.store.locking import defer_interrupt
+from stored_surveys import SURVEYS, chunks, files
 
-SIZE = 150
-ASKED = {
-    "amplitude": np.linspace(0.0, 16.0, SIZE),
-    "period": np.linspace(0.2, 3.0, SIZE),
-    "restitution": 1.0,
-    "max_cycles": 100,
-}
 # Kernels are loaded before any thread begins: then every run may be a fork of this process.
 BEGIN = f"""
 import os, random, resource, signal, sys, time
-import numpy as np
-import rocking as rk
-from rocking.kernels import batch
-import xarray, zarr
 
-batch.load_kernels(False)
-asked = dict(amplitude=np.linspace(0.0, 16.0, {SIZE}), period=np.linspace(0.2, 3.0, {SIZE}), restitution=1.0, max_cycles=100)
-folder = sys.argv[1]
+sys.path.insert(0, {str(Path(__file__).parents[1])!r})
+import xarray, zarr
+from stored_surveys import SURVEYS
+
+survey, folder = SURVEYS[sys.argv[1]], sys.argv[2]
+survey.load(False)
 """
 KILLED = (
     BEGIN
@@ -46,7 +39,7 @@ moment, killed = random.Random(1991), 0
 while killed < 10:
     child = os.fork()
     if child == 0:
-        rk.parametric_map(**asked, store=folder)
+        survey.run(folder)
         os._exit(0)
     time.sleep(moment.uniform(0.03, 0.25))
     os.kill(child, signal.SIGKILL)
@@ -58,11 +51,10 @@ while killed < 10:
 FULL = (
     BEGIN
     + """
-batch.load_kernels(True)  # under the limit machine code could not be cached
-resource.setrlimit(resource.RLIMIT_FSIZE, (15_000, 15_000))
-asked["period"] = np.linspace(0.2, 3.0, 300)
+survey.load(True)  # under the limit machine code could not be cached
+resource.setrlimit(resource.RLIMIT_FSIZE, (survey.limit, survey.limit))
 try:
-    rk.parametric_map(**asked, store=folder)
+    survey.run(folder, **survey.uneven)
 except OSError as error:
     print(error)
 """
@@ -71,64 +63,69 @@ RUN = (
     BEGIN
     + """
 print("running", flush=True)
-rk.parametric_map(**(asked | dict(max_cycles=20_000)), store=folder)
+survey.run(folder, max_cycles=20_000)
 """
 )
 
 
-def files(folder):
-    return {path.relative_to(folder): path.read_bytes() for path in folder.rglob("*") if path.is_file()}
-
-
-def ran(script, folder):
+def ran(script, name, folder):
     return subprocess.run(
-        [sys.executable, "-c", script, folder], capture_output=True, text=True, timeout=200, check=False
+        [sys.executable, "-c", script, name, folder],
+        capture_output=True,
+        text=True,
+        timeout=200,
+        check=False,
     )
 
 
+@pytest.fixture(scope="module", params=SURVEYS)
+def name(request):
+    return request.param
+
+
 @pytest.fixture(scope="module")
-def whole(tmp_path_factory):
+def whole(name, tmp_path_factory):
     """The store of a run that nothing disturbed."""
-    folder = tmp_path_factory.mktemp("whole") / "map.zarr"
-    rk.parametric_map(**ASKED, store=folder)
+    folder = tmp_path_factory.mktemp("whole") / "survey.zarr"
+    SURVEYS[name].run(folder)
     return folder
 
 
-def test_map_killed_ten_times_is_that_of_an_undisturbed_run_byte_for_byte(tmp_path, whole):
-    folder = tmp_path / "map.zarr"
-    done = ran(KILLED, folder)
+def test_survey_killed_ten_times_is_that_of_an_undisturbed_run_byte_for_byte(name, tmp_path, whole):
+    folder = tmp_path / "survey.zarr"
+    done = ran(KILLED, name, folder)
     assert (done.stderr, done.returncode) == ("", 0)
     # a run that was quicker than its death would show nothing
     assert done.stdout.split().count("True") >= 5
-    rk.parametric_map(**ASKED, store=folder)
+    SURVEYS[name].run(folder)
     assert files(folder) == files(whole)
 
 
-def test_run_killed_between_a_folder_and_its_first_file_is_gone_on_with_in_silence(tmp_path, whole):
-    folder = tmp_path / "map.zarr"
+def test_run_killed_between_a_folder_and_its_first_file_is_gone_on_with_in_silence(name, tmp_path, whole):
+    folder, survey = tmp_path / "survey.zarr", SURVEYS[name]
     shutil.copytree(whole, folder)
     for level in folder.glob("level-*"):
-        shutil.rmtree(level / "brace_hits_per_period")
-        (level / "brace_hits_per_period").mkdir()
-        (level / "brace_hits_per_period" / f"zarr.{'0123' * 8}.partial").touch()
+        shutil.rmtree(level / survey.other)
+        (level / survey.other).mkdir()
+        (level / survey.other / f"zarr.{'0123' * 8}.partial").touch()
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        rk.parametric_map(**ASKED, store=folder, repair=True)
+        survey.run(folder, repair=True)
     assert files(folder) == files(whole)
 
 
-def test_full_disk_is_said_and_what_was_written_stays_good(tmp_path):
-    folder, asked = tmp_path / "map.zarr", ASKED | {"period": np.linspace(0.2, 3.0, 300)}
-    done = ran(FULL, folder)
+def test_full_disk_is_said_and_what_was_written_stays_good(name, tmp_path):
+    folder, undisturbed, survey = tmp_path / "survey.zarr", tmp_path / "undisturbed.zarr", SURVEYS[name]
+    done = ran(FULL, name, folder)
     assert done.stdout == (
         f"store {str(folder)!r} cannot be written: File too large; "
         "the existing data are intact: free some space and run again\n"
     )
-    # a tile of the first level takes less than that limit, one of the second more
-    written = xr.open_zarr(folder, group="level-0", chunks=None, consolidated=False).load()
-    resumed = rk.parametric_map(**asked, store=folder).load()
-    assert written.equals(resumed.isel(amplitude=slice(None, None, 4), period=slice(None, None, 8)))
-    assert resumed.equals(rk.parametric_map(**asked))
+    written = chunks(folder, "level-0")
+    survey.run(undisturbed, **survey.uneven)
+    assert written == chunks(undisturbed, "level-0")
+    survey.run(folder, **survey.uneven)
+    assert files(folder) == files(undisturbed)
 
 
 @pytest.fixture
@@ -136,7 +133,7 @@ def running(tmp_path):
     """A long run on a store, some of which is done."""
     folder = tmp_path / "map.zarr"
     with subprocess.Popen(
-        [sys.executable, "-c", RUN, folder], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+        [sys.executable, "-c", RUN, "map", folder], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
     ) as process:
         assert process.stdout.readline() == "running\n"
         while not (folder / "level-0" / "cycles" / "c" / "0" / "0").exists():
@@ -149,12 +146,12 @@ def running(tmp_path):
 def test_second_run_on_a_store_is_refused_until_the_first_is_gone(running):
     folder, process = running
     with pytest.raises(OSError, match="is in use by another run; wait until that run ends, or stop it$"):
-        rk.parametric_map(**ASKED, store=folder)
+        SURVEYS["map"].run(folder)
     assert process.poll() is None
     process.kill()
     process.wait()
     with pytest.raises(ValueError, match="max_cycles is 20000 there and 100 here"):
-        rk.parametric_map(**ASKED, store=folder)
+        SURVEYS["map"].run(folder)
 
 
 def test_ctrl_c_waits_for_the_end_of_what_is_done_with_a_store():

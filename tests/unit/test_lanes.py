@@ -16,6 +16,8 @@ from rocking.kernels.forcing.harmonic.solution import arc_from
 from rocking.kernels.lanes import state
 from rocking.kernels.numerics import simd
 
+pytestmark = pytest.mark.xdist_group("lanes")  # the kernels of the oracle are compiled once
+
 ULP = 2.0**-52
 
 
