@@ -33,7 +33,7 @@ def options(*names: str) -> dict[str, str]:
     return {name: option(name) for name in names}
 
 
-ARGUMENTS = options(*FORCED, "phase", *START, "cycles", "pulse", *COUNTS) | {"kind": option("pulse")}
+ARGUMENTS = options(*FORCED, "phase", *START, "cycles", "pulse", "model", *COUNTS) | {"kind": option("pulse")}
 
 
 @contextmanager

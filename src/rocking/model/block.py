@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 from attrs import field, frozen
 
-from rocking.model.block_formulas import GRAVITY, frequency_parameter, housner_restitution
+from rocking.model.block_formulas import GRAVITY, frequency_in_hertz, frequency_parameter, housner_restitution
 from rocking.model.forcing import FREQUENCIES, MAX_AMPLITUDE, BaseMotion, Harmonic
-from rocking.model.system import Braces, System
-from rocking.model.validation import exactly_one, instance, reals, refusal, within
+from rocking.model.system import MODELS, Braces, System
+from rocking.model.validation import exactly_one, instance, one_of, reals, refusal, within
 
 SIZES = (1e-3, 1e3)
 INERTIA_RATIOS = (1.0, 10.0)
@@ -142,6 +142,7 @@ class Block:
         period_s: float | None = None,
         phase: float = 0.0,
         braces: Braces | None = None,
+        model: str = "slender",
     ) -> System:
         """Return the normalised system of this block on a shaking base: Eqs. (3) and (4).
 
@@ -158,6 +159,8 @@ class Block:
             Phase φ of the base acceleration a_x cos(ωt + φ), in radians, in [-1000, 1000]. Default: 0.
         braces : Braces, optional
             Braces with a normalised angle, such as `Braces(angle=block.angle(degrees=3))`. Default: no braces.
+        model : {"slender", "full"}
+            Equation of motion: that of small angles, or the full one, which has no braces. Default: "slender".
 
         Returns
         -------
@@ -183,15 +186,16 @@ class Block:
             "frequency_hz": frequency_hz,
             "period_s": period_s,
         }
+        angle = self.critical_angle if one_of("model", model, MODELS) == "full" else None
         if base is None:
-            return System(self._harmonic(**harmonic, phase=phase), self.restitution, braces)
+            return System(self._harmonic(**harmonic, phase=phase), self.restitution, braces, angle)
         given = [name for name, value in harmonic.items() if value is not None] + ["phase"] * (phase != 0.0)
         if given:
             raise TypeError(f"give base or {given[0]}, not both")
         forcing = instance("base", base, BaseMotion).normalised(
             self.acceleration(1.0), self.frequency_parameter
         )
-        return System(forcing, self.restitution, braces)
+        return System(forcing, self.restitution, braces, angle)
 
     def _harmonic(
         self,
@@ -218,12 +222,8 @@ class Block:
 
     def _forcing_frequency(self, frequency_hz: float | None, period_s: float | None) -> float:
         """Return Ω from the given one of the two; the ends of the range survive the rounding of the conversion."""
-        exactly_one(frequency_hz=frequency_hz, period_s=period_s)
         low, high = (self.hertz(frequency) for frequency in FREQUENCIES)
-        if frequency_hz is not None:
-            hertz = within("frequency_hz", frequency_hz, low, high, "Hz")
-        else:
-            hertz = 1 / within("period_s", period_s, 1 / high, 1 / low, "s")  # type: ignore[arg-type]
+        hertz = frequency_in_hertz(frequency_hz, period_s, low, high)
         return min(max(self.frequency(hertz), FREQUENCIES[0]), FREQUENCIES[1])
 
     def acceleration(self, amplitude: Any) -> Any:

@@ -1,8 +1,10 @@
-"""Formulas of a block for which its shape is not needed: frequency parameter, and restitution by Housner (1963)."""
+"""Formulas of a block for which its shape is not needed: frequencies, and restitution by Housner (1963)."""
 
 from __future__ import annotations
 
 import math
+
+from rocking.model.validation import exactly_one, within
 
 GRAVITY = 9.80665
 
@@ -15,3 +17,10 @@ def frequency_parameter(radius: float, inertia_ratio: float) -> float:
 def housner_restitution(critical_angle: float, inertia_ratio: float) -> float:
     """Return Housner's (1963) coefficient of restitution, 1 − 2 sin²θcr/(Io/MR²); 1 − (3/2) sin²θcr for a uniform rectangle."""
     return 1 - 2 * math.sin(critical_angle) ** 2 / inertia_ratio
+
+
+def frequency_in_hertz(frequency_hz: float | None, period_s: float | None, low: float, high: float) -> float:
+    """Return the frequency in Hz from the given one of the two; ValueError if it lies outside [low, high]."""
+    if exactly_one(frequency_hz=frequency_hz, period_s=period_s) == "frequency_hz":
+        return within("frequency_hz", frequency_hz, low, high, "Hz")  # type: ignore[arg-type]
+    return 1 / within("period_s", period_s, 1 / high, 1 / low, "s")  # type: ignore[arg-type]

@@ -8,9 +8,13 @@ from collections.abc import Mapping
 from attrs import field, frozen
 
 from rocking.model.forcing import FREQUENCIES, MAX_AMPLITUDE, MAX_PHASE, PERIODS, Forcing, Harmonic
+from rocking.model.pulse import Pulse
 from rocking.model.validation import finite, instance, refusal, within
 
 BRACE_ANGLES = (1e-3, 1e3)
+CRITICAL_ANGLES = (1e-3, 1.2)
+MODELS = ("slender", "full")
+"""Equations of motion: with small angles, or without."""
 NO_BRACES = {"brace_angle": math.inf, "brace_restitution": 1.0}
 """Quantities of braces for a system without braces."""
 MAX_STATE = 1e300
@@ -84,12 +88,19 @@ def _braces(value: Braces | None) -> Braces | None:
     return None if value is None else instance("braces", value, Braces)
 
 
+def _critical_angle(value: float | None) -> float | None:
+    return None if value is None else within("critical_angle", value, *CRITICAL_ANGLES)
+
+
 @frozen
 class System:
-    """Slender block on a shaking base, normalised: Yim & Lin (1991), Eqs. (2) and (4).
+    """Block on a shaking base, normalised: Yim & Lin (1991), Eqs. (2) and (4), or the full equation.
 
-    The equation of motion is Θ'' − Θ = −A cos(Ωτ + φ) ∓ 1, with − for Θ > 0 and + for Θ < 0. At an impact, Θ = 0, the
-    velocity changes from Θ' to eΘ'.
+    The equation of motion of a slender block is Θ'' − Θ = −A(τ) ∓ 1, with − for Θ > 0 and + for Θ < 0. For a harmonic base,
+    A(τ) = A cos(Ωτ + φ). At an impact, Θ = 0, the velocity changes from Θ' to eΘ'.
+
+    With a critical angle θcr the angle need not be small. On the side σ of Θ, with w = θcr (1 − σΘ),
+    Θ'' = −σ sin(w)/θcr − A(τ) cos(w) (Housner 1963). Θ = θ/θcr, and A is in units of g θcr, as for the slender block.
 
     Parameters
     ----------
@@ -100,30 +111,58 @@ class System:
         in [0, 1].
     braces : Braces, optional
         Side braces. Default: no braces.
+    critical_angle : float, optional
+        Critical angle θcr of the full equation, rad, in [0.001, 1.2]. Default: None, the slender block, its limit for θcr → 0.
+        With it there may be no braces, and the base motion must be harmonic or given by samples.
 
     Raises
     ------
     TypeError
         If an argument is of the wrong type.
     ValueError
-        If `restitution` lies outside [0, 1].
+        If `restitution` or `critical_angle` lies outside its range, or does not go with the other arguments.
 
     Examples
     --------
     >>> System(Harmonic(amplitude=2.0, period=1.0), restitution=0.925)
-    System(forcing=Harmonic(amplitude=2.0, period=1.0, phase=0.0), restitution=0.925, braces=None)
+    System(forcing=Harmonic(amplitude=2.0, period=1.0, phase=0.0), restitution=0.925, braces=None, critical_angle=None)
     """
 
     forcing: Forcing = field(converter=_forcing)
     restitution: float = field(converter=_restitution)
     braces: Braces | None = field(default=None, converter=_braces)
+    critical_angle: float | None = field(default=None, converter=_critical_angle)
+
+    def __attrs_post_init__(self) -> None:
+        """Refuse what the full equation does not include yet."""
+        if self.critical_angle is None:
+            return
+        if self.braces is not None:
+            raise ValueError(refusal("braces", "be omitted with the full equation of motion", self.braces))
+        forcing = self.forcing
+        if isinstance(forcing, Pulse) and forcing.cosine is not None:
+            rule = "be harmonic or given by samples with the full equation of motion"
+            raise ValueError(refusal("forcing", rule, forcing))
 
     @property
     def harmonic(self) -> Harmonic:
-        """Forcing of a system whose base motion is periodic; TypeError for any other.
+        """Forcing of a slender block whose base motion is periodic; TypeError for any other system.
 
-        All that needs a period takes the forcing from here: classification, sections, exponents, orbits and maps.
+        All analyses of such systems take the forcing from here: classification, exponents, orbits and maps.
         """
+        if self.critical_angle is not None:
+            rule = "be None for this analysis, which is of the slender block (rk.simulate follows the full block)"
+            raise TypeError(refusal("critical_angle", rule, self.critical_angle))
+        return self.periodic
+
+    @property
+    def lift_off(self) -> float:
+        """Base acceleration above which a block lifts off from rest, in units of g θcr: 1, or tan θcr/θcr for the full equation."""
+        return 1.0 if self.critical_angle is None else math.tan(self.critical_angle) / self.critical_angle
+
+    @property
+    def periodic(self) -> Harmonic:
+        """Forcing of a system whose base motion is periodic; TypeError for any other. Sections need it."""
         if not isinstance(self.forcing, Harmonic):
             name = type(self.forcing).__name__
             raise TypeError(
@@ -133,7 +172,7 @@ class System:
 
 
 def quantities(system: System) -> dict[str, float]:
-    """Return the quantities of a system by name; those of braces only if it has braces.
+    """Return the quantities of a system by name; the critical angle and those of braces only if it has them.
 
     Examples
     --------
@@ -142,6 +181,8 @@ def quantities(system: System) -> dict[str, float]:
     """
     braces = system.braces
     found = {**system.forcing.quantities(), "restitution": system.restitution}
+    if system.critical_angle is not None:
+        found["critical_angle"] = system.critical_angle
     if braces is not None:
         found |= {"brace_angle": braces.angle, "brace_restitution": braces.restitution}
     return found
@@ -153,7 +194,7 @@ def system_of(given: Mapping[str, float]) -> System:
     Examples
     --------
     >>> system_of({"amplitude": 2.0, "period": 1.0, "phase": 0.0, "restitution": 0.925} | NO_BRACES)
-    System(forcing=Harmonic(amplitude=2.0, period=1.0, phase=0.0), restitution=0.925, braces=None)
+    System(forcing=Harmonic(amplitude=2.0, period=1.0, phase=0.0), restitution=0.925, braces=None, critical_angle=None)
     """
     forcing = Harmonic(given["amplitude"], period=given["period"], phase=given["phase"])
     braced = given["brace_angle"] < math.inf

@@ -161,7 +161,7 @@ def _section(motion: Trajectory, units: dict[str, Unit]) -> tuple[Variables, Var
     }
     return variables, {
         "cycle": ("cycle", cycles, {"long_name": "forcing cycles since the start"}),
-        "time": _variable("cycle", cycles * motion.system.harmonic.period, units["time"], "time"),
+        "time": _variable("cycle", cycles * motion.system.periodic.period, units["time"], "time"),
     }
 
 
@@ -174,11 +174,14 @@ def _attributes(motion: Trajectory, block: Block | None) -> dict[str, Any]:
         if periodic
         else "The base acceleration is linear between samples, and 0 before the first and after the last."
     )
+    full = (
+        "" if motion.system.critical_angle is None else " The equation of motion is that of the full block."
+    )
     attributes = {
         "Conventions": "CF-1.11",
         "title": "Motion of a free-standing block on a shaking base",
         "source": f"rocking {VERSION}",
-        "comment": (f"Attributes without a unit are normalised as in Yim & Lin (1991), Eqs. (1)-(4). {base}"),
+        "comment": f"Attributes without a unit are normalised as in Yim & Lin (1991), Eqs. (1)-(4). {base}{full}",
         **quantities(motion.system),
         "start_angle": motion.start.angle,
         "start_velocity": motion.start.velocity,

@@ -23,6 +23,8 @@ def parameters(system: System, cycle_length: float | None = None) -> numbers.Sys
     For a base motion of finite length, `cycle_length` is that of the clock: any; by default a number of samples.
     """
     forcing = system.forcing
+    if system.critical_angle is not None:
+        return _full_parameters(system, system.critical_angle, cycle_length)
     if isinstance(forcing, Harmonic):
         return numbers.harmonic_parameters(**NO_BRACES | quantities(system))
     angle, restitution = (
@@ -36,6 +38,23 @@ def parameters(system: System, cycle_length: float | None = None) -> numbers.Sys
     assert isinstance(forcing, PiecewiseLinear)
     length = numbers.CYCLE * forcing.step if cycle_length is None else cycle_length
     return numbers.sampled_parameters(tables_for(forcing), forcing.scale, length, *block)
+
+
+def _full_parameters(
+    system: System, critical_angle: float, cycle_length: float | None
+) -> numbers.FullHarmonicParameters | numbers.FullSampledParameters:
+    """Return the parameters of the full block."""
+    forcing = system.forcing
+    block = numbers.full_block(system.restitution, critical_angle)
+    if isinstance(forcing, Harmonic):
+        return numbers.full_harmonic_parameters(
+            block, forcing.amplitude, forcing.frequency, forcing.period, forcing.phase
+        )
+    if isinstance(forcing, Pulse):
+        forcing = forcing.samples
+    assert isinstance(forcing, PiecewiseLinear)
+    length = numbers.CYCLE * forcing.step if cycle_length is None else cycle_length
+    return numbers.full_sampled_parameters(block, tables_for(forcing), forcing.scale, length)
 
 
 def _pulse_parameters(

@@ -100,9 +100,10 @@ def _crowded(status: int) -> str:
 
 def section_of(system: System, start: State, cycles: int, phase: float) -> np.ndarray:
     """Return the section of a motion at another forcing phase, by simulating it again."""
-    forcing = system.harmonic
+    forcing = system.periodic
     time = math.fmod(phase - forcing.phase, 2.0 * math.pi) / forcing.frequency
-    p, progress = start_march(system, start)
+    p = parameters(system)
+    progress, _ = initial_state.begin_march(p, start.angle, start.velocity)
     return run(p, progress, cycles, time % forcing.period, "section", want_peak=False)[2]
 
 

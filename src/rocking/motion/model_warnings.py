@@ -37,6 +37,11 @@ def block_warnings(
     """
     yield from _proportions(block, block.critical_angle if angle is None else angle)
     yield from _lifting(block, np.atleast_1d(amplitudes))
+    yield from impact_warnings(block, restitution)
+
+
+def impact_warnings(block: Block, restitution: float) -> Iterator[str]:
+    """Yield a warning if the smallest coefficient of restitution in use is impossible for a block that turns about its edges."""
     if restitution < block.housner_restitution * (1 - 1e-12):
         yield (
             f"restitution {restitution:.4g} is less than Housner's {block.housner_restitution:.4g}: the impulse at an "

@@ -44,13 +44,14 @@ class Motion(Trajectory, NotebookPicture):
         K₊ = v − 1 − σR(τ), with the speed v and the side σ afterwards. R(τ) is the integral of e^(τ−x) a(x) over all later x.
 
         The block leaves for good if K₊ > 0, unless it returns before. NaN if the block never moves, for a harmonic base motion,
-        and between braces.
+        between braces, and for a block with a critical angle.
     margin_time : float
         Time τ of that lift-off or impact.
     certified : bool
         False if the outcome is undecided in double precision: the accumulated rounding error exceeds |K₊| somewhere, or the
         clearance of a minimum of |Θ| between two impacts. The error is an estimate from the rounding of each arc and its
-        growth. True for a harmonic base motion, and between braces, which prevent overturning.
+        growth. True for a harmonic base motion, and between braces, which prevent overturning. False for a block with a critical
+        angle under a base motion of finite length: its rounding errors are not assessed.
     final : State
         Θ and Θ' at the end, just after an event if there is one.
     duration : float
@@ -131,6 +132,14 @@ class Motion(Trajectory, NotebookPicture):
         """
         return validity(self, block)
 
+    @property
+    def doubt(self) -> str:
+        """Reason why the outcome is not certified; empty if it is."""
+        if self.certified:
+            return ""
+        known = self.system.critical_angle is None
+        return "undecided in double precision" if known else "rounding errors not assessed"
+
     def __str__(self) -> str:
         counts = [counted(self.impacts, "impact")]
         if self.system.braces is not None:
@@ -141,5 +150,5 @@ class Motion(Trajectory, NotebookPicture):
         else:
             how = f"overturned: overturning is certain from τ = {self.overturning.time:.6g}"
         margin = "" if math.isnan(self.margin) else f", margin {self.margin:.4g}"
-        undecided = "" if self.certified else " (undecided in double precision)"
-        return f"{how}{undecided}; {', '.join(counts)}, peak |Θ| {self.peak:.4g}{margin}"
+        doubt = f" ({self.doubt})" if self.doubt else ""
+        return f"{how}{doubt}; {', '.join(counts)}, peak |Θ| {self.peak:.4g}{margin}"

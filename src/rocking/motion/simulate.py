@@ -33,6 +33,8 @@ MAX_SECTION_CYCLES = 100_000_000
 DURATIONS = (1e-9, 1e9)
 NO_ENDING = finite_motion.Ending(kernel.DONE, 0, 0, 0, 0.0, math.nan, math.nan, True)
 """For a harmonic base motion, which has no end."""
+NOT_ASSESSED = NO_ENDING._replace(decided=False)
+"""For the full block under a base motion of finite length."""
 NO_CYCLES = "be omitted for a base motion of finite length, which has no cycles"
 
 
@@ -46,8 +48,9 @@ def simulate(
 ) -> Motion:
     """Simulate a block over a number of forcing cycles, with exact arcs and certified events.
 
-    Between events, the motion is the closed form of Yim & Lin (1991), Eq. (5). The first crossing of the base or of a brace
-    is proved, not sampled. If overturning becomes certain, the simulation ends with that forcing cycle.
+    Between events, the motion of a slender block is the closed form of Yim & Lin (1991), Eq. (5). That of a block with a
+    critical angle is a Taylor series of order 20, whose truncation error is at rounding level. The first crossing of the base
+    or of a brace is proved, not sampled. If overturning becomes certain, the simulation ends with that forcing cycle.
 
     Parameters
     ----------
@@ -108,7 +111,11 @@ def simulate(
     count, cycle_length = _span(system, cycles, duration, record)
     p = parameters(system, cycle_length)
     ending = NO_ENDING
-    if not isinstance(system.forcing, Harmonic):
+    if isinstance(system.forcing, Harmonic):
+        pass
+    elif system.critical_angle is not None:
+        ending = NOT_ASSESSED
+    else:
         until = math.inf if duration is None else duration
         ending = finite_motion.run_to_end(p, start.angle, start.velocity, until)
         if ending.status == kernel.OVERTURNED and duration is None:

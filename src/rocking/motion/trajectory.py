@@ -176,7 +176,7 @@ class Trajectory(ReadOnlyArrays):
         if phase is None:
             if self.record == "section":
                 return self._section_rows
-            phase = self.system.harmonic.phase
+            phase = self.system.periodic.phase
         return section_of(self.system, self.start, self.cycles, within("phase", phase, -MAX_PHASE, MAX_PHASE))
 
     @cached_property

@@ -11,7 +11,7 @@ from attrs import evolve, frozen
 
 from rocking.model import Block, instance
 from rocking.motion.arc_minimum import NOTHING, Arcs, Array, Extreme, global_minimum
-from rocking.motion.model_warnings import block_warnings, degrees_too, slender_errors
+from rocking.motion.model_warnings import block_warnings, degrees_too, impact_warnings, slender_errors
 
 if TYPE_CHECKING:
     from rocking.motion.trajectory import Trajectory
@@ -46,7 +46,7 @@ class Validity:
         Largest |θ| and θcr, in radians.
     moment_error, forcing_error : float
         Largest relative overestimate of the restoring moment, δ/sin δ − 1 with δ = θcr − |θ|, and of the moment of the
-        base acceleration, 1/cos δ − 1. Infinite beyond δ = −90°.
+        base acceleration, 1/cos δ − 1. Infinite beyond δ = −90°. Both are 0 for the full equation of motion.
     time_unit : float
         1/α, in seconds.
     warnings : tuple of str
@@ -99,7 +99,9 @@ class Validity:
         if self.reaction is not None:
             reaction = f"{self.reaction:.4g} Mg ({self.instant(self.reaction_time)})"
         slender = "does not apply beyond 90° from the balance point"
-        if self.forcing_error < math.inf:
+        if self.forcing_error == 0.0:
+            slender = "not used, but the full equation of motion"
+        elif self.forcing_error < math.inf:
             slender = (
                 f"overestimates the restoring moment by up to {self.moment_error:.2%}, "
                 f"that of the base acceleration by up to {self.forcing_error:.2%}"
@@ -163,7 +165,8 @@ def validity(motion: Trajectory, block: Block) -> Validity:
     source = min(slides, key=lambda name: slides[name].value)
     friction = slides[source]
     angle = largest_angle(motion, block, until)
-    moment_error, forcing_error = slender_errors(block, angle)
+    slender = motion.system.critical_angle is None
+    moment_error, forcing_error = slender_errors(block, angle) if slender else (0.0, 0.0)
     found = Validity(
         until=until,
         overturned=motion.overturning is not None,
@@ -223,7 +226,10 @@ def warnings(found: Validity, motion: Trajectory, block: Block, leaning: Arcs) -
     if found.reaction is not None and found.reaction <= 0:
         yield f"base reaction: {found.reaction:.3g} Mg at {found.instant(found.reaction_time)}; the base would have to pull the block down"
     hit = motion.system.restitution if motion.impacts else 1.0
-    yield from block_warnings(block, motion.system.forcing.largest, hit, found.angle)
+    if motion.system.critical_angle is None:
+        yield from block_warnings(block, motion.system.forcing.largest, hit, found.angle)
+    else:
+        yield from impact_warnings(block, hit)
     if motion.brace_hits:
         yield f"brace impacts: {motion.brace_hits}, not assessed, because the base reactions depend on the height of the brace"
     if leaning.starts.size:

@@ -78,7 +78,7 @@ def _with_base(motion: Motion, block: Block | None) -> Figure:
 
 def _cycles(motion: Motion) -> tuple[float, float] | None:
     if motion.outcome is Outcome.AT_REST:
-        return 0.0, min(settled(motion) / motion.system.harmonic.period, motion.cycles)
+        return 0.0, min(settled(motion) / motion.system.periodic.period, motion.cycles)
     if motion.outcome is Outcome.BOUNDED and motion.cycles > CYCLES_SHOWN:
         return motion.cycles - CYCLES_SHOWN, motion.cycles
     return None

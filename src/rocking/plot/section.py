@@ -69,7 +69,7 @@ def section(
     points = result.section(phase) if isinstance(result, Motion) else _points(result)
     points = points[whole("transient", transient, 0, len(points) - 1) :]
     if isinstance(result, Motion) and phase is None:
-        phase = result.system.harmonic.phase
+        phase = result.system.periodic.phase
     shown = quantities(block)
     ax = style.own(ax, height=2.9)
     ax.plot(

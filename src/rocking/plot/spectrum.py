@@ -86,14 +86,14 @@ def spectrum(
         rasterized=int(drawn.sum()) > style.MAX_CORNERS,
         gid="spectrum",
     )
-    forcing = shown.frequency(1 / density.system.harmonic.period)
+    forcing = shown.frequency(1 / density.system.periodic.period)
     for multiple in range(1, math.floor(last) + 1):
         ax.axvline(multiple * forcing, color=style.GUIDE, linewidth=style.THIN, linestyle=":", zorder=0)
     ax.set_yscale("log")
     style.label(ax, shown.frequency_label, shown.density_label)
     _scale(ax, heights)
     ax.set_xlim(0.0, last * forcing * 1.02)
-    chosen, upright = _apart(density.peaks, names, ax, last / density.system.harmonic.period)
+    chosen, upright = _apart(density.peaks, names, ax, last / density.system.periodic.period)
     for peak in chosen:
         ax.annotate(
             f"${peak.name}$",

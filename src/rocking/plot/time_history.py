@@ -98,7 +98,14 @@ def draw_base(ax: Axes, motion: Motion, start: float, stop: float, block: Block 
     if forcing.largest > 0.5:
         # a record begins weakly, a pulse is over at the end
         first, last = (np.abs(forcing.acceleration(part)).max() for part in np.array_split(time, 3)[::2])
-        _pair(ax, shown.amplitude(1.0), style.GUIDE, "dotted", "lift-off from rest", at_right=last < first)
+        _pair(
+            ax,
+            shown.amplitude(motion.system.lift_off),
+            style.GUIDE,
+            "dotted",
+            "lift-off from rest",
+            at_right=last < first,
+        )
     ax.plot(
         shown.time(time),
         shown.amplitude(forcing.acceleration(time)),

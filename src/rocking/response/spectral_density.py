@@ -126,7 +126,7 @@ class SpectralDensity(ReadOnlyArrays):
     @property
     def forcing_multiples(self) -> np.ndarray:
         """Frequencies in units of the forcing frequency."""
-        return self.frequency * self.system.harmonic.period
+        return self.frequency * self.system.periodic.period
 
     @property
     def highest(self) -> float:
@@ -136,7 +136,7 @@ class SpectralDensity(ReadOnlyArrays):
         line at a fraction x of the sampling rate by up to (πx/sin πx)² − 1 of its amplitude. This is 1.3 % at a sixteenth,
         and a sixteenth of that at a quarter of this frequency.
         """
-        return self.samples / SHOWN / self.system.harmonic.period
+        return self.samples / SHOWN / self.system.periodic.period
 
     @property
     def line_share(self) -> float:

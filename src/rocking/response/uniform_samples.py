@@ -22,7 +22,7 @@ def sampled(motion: Motion, transient: int, samples: int, cycles: int | None = N
     cycles = motion.cycles - transient if cycles is None else cycles
     record = np.empty((cycles, samples))
     inside = np.arange(samples) / samples
-    period = motion.system.harmonic.period
+    period = motion.system.periodic.period
     rows = max(1, BREATH // samples)
     for first in range(0, cycles, rows):
         numbers = transient + np.arange(first, min(first + rows, cycles))

@@ -133,7 +133,7 @@ def spectral_density(
         repeats,
     )
     parts, rotation = _parts_and_rotation(lines, values.var(), period or repeats, rotation, 1 / cycles)
-    unit = motion.system.harmonic.period
+    unit = motion.system.periodic.period
     return SpectralDensity(
         system=motion.system,
         frequency=frequency / unit,
@@ -160,7 +160,7 @@ def spectral_density(
 
 def _check_motion(motion: Motion, transient: int) -> int:
     """Return the number of cycles after the transient; ValueError if the motion can have no spectrum."""
-    instance("motion", motion, Motion).system.harmonic  # noqa: B018 (it refuses)
+    instance("motion", motion, Motion).system.periodic  # noqa: B018 (it refuses)
     if motion.overturning is not None:
         raise ValueError(
             f"motion must not overturn for a spectrum; it overturned in cycle {motion.overturning.cycle}"

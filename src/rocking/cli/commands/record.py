@@ -56,6 +56,7 @@ def record(
     units: record_source.Units = None,
     step: record_source.Step = None,
     baseline: record_source.Baseline = None,
+    model: ask.Model = ask.SLENDER,
     plot: Plot = None,
     animate: Animate = None,
     csv: ask.Csv = None,
@@ -75,7 +76,7 @@ def record(
     block, braces, start = record_request.block_and_start(context.params)
     ground, doubts = record_request.ground_motion(context.params)
     with your_input(record_request.ARGUMENTS):
-        motion = motion_files.run(block.system(ground, braces=braces), start, None, tuple(files))
+        motion = motion_files.run(block.system(ground, braces=braces, model=model), start, None, tuple(files))
     for name, path in files.items():
         motion_files.WRITERS[name](motion, block, path)
     report.show(motion, block, ground, doubts, list(files.values()), as_json=json)

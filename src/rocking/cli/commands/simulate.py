@@ -16,6 +16,9 @@ rocking simulate --amplitude 2 --period 1 --restitution 0.925 \\
     --plot motion.png
 # A block of 2 m × 0.5 m, in SI units.
 rocking simulate --height 2 --width 0.5 --acceleration 3 --frequency-hz 1.2
+# A stout block, whose angle is not small.
+rocking simulate --height 2 --width 1 --acceleration 6 --frequency-hz 1.2 \\
+    --model full
 # The same block under one pulse.
 rocking simulate --pulse one-sine --height 2 --width 0.5 \\
     --acceleration-g 0.5 --frequency-hz 1"""
@@ -26,6 +29,7 @@ def simulate(
     context: typer.Context,
     pulse: ask.PulseKind = None,
     cycles: ask.Cycles = None,
+    model: ask.Model = ask.SLENDER,
     plot: ask.Plot = None,
     csv: ask.Csv = None,
     netcdf: ask.Netcdf = None,

@@ -117,6 +117,14 @@ PulseKind = Annotated[
     ),
 ]
 
+Model = Annotated[
+    str,
+    typer.Option(
+        "--model",
+        metavar="MODEL",
+        help="Equation of motion: slender, for small angles, or full, for SI input without braces.",
+    ),
+]
 Plot = Annotated[
     Path | None,
     file_option(
@@ -177,6 +185,8 @@ Json = Annotated[bool, typer.Option("--json", help="Print the summary as JSON.")
 IN_SI = {"amplitude": "acceleration", "period": "period_s", "frequency": "frequency_hz"}
 DEFAULTS: dict[str, Any] = dict.fromkeys((*SYSTEM, *START)) | dict.fromkeys(ZERO, 0.0)
 """Values of the options that are not given."""
+SLENDER = "slender"
+"""Default of --model."""
 BRACES = {"angle": option("brace_angle"), "restitution": option("brace_restitution")}
 NORMALISED_NEEDS = "--amplitude, --period (or --frequency) and --restitution"
 SI_NEEDS = "--height, --width, --acceleration (or --acceleration-g, --displacement) and --frequency-hz (or --period-s)"
@@ -211,11 +221,14 @@ def question(given: Mapping[str, Any]) -> tuple[System, State, Block | None]:
     with your_input(ARGUMENTS):
         start = State(*(within(name, given[name], -MAX_START, MAX_START) for name in START))
         if normalised:
+            if given.get("model", SLENDER) != SLENDER:
+                raise YourInput("--model full needs a block in SI: give --height and --width")
             forcing = Harmonic(**{name: given[name] for name in (*NORMALISED, "phase")})
             system, block = System(forcing, given["restitution"], braced), None
         else:
             block = Block(given["height"], given["width"], given["restitution"])
-            system = block.system(**{name: given[name] for name in (*SI[2:], "phase")}, braces=braced)
+            base = {name: given[name] for name in (*SI[2:], "phase")}
+            system = block.system(**base, braces=braced, model=given.get("model", SLENDER))
         return system if given.get("pulse") is None else pulsed(system, given), start, block
 
 
@@ -229,7 +242,7 @@ def pulsed(system: System, given: Mapping[str, Any]) -> System:
         if given[name]:
             raise YourInput(f"{option(name)} belongs to harmonic motion: omit it with --pulse")
     part = 0.5 if given["pulse"] == "half-sine" else 1.0
-    wave = system.harmonic
+    wave = system.periodic
     return evolve(
         system, forcing=Pulse(given["pulse"], amplitude=wave.amplitude, duration=part * wave.period)
     )

@@ -29,6 +29,7 @@ ARGUMENTS = options(
     "baseline",
     "scale",
     "pga_g",
+    "model",
 ) | {"pga": option("pga_g"), "factor": option("scale")}
 
 

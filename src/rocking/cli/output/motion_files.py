@@ -79,7 +79,7 @@ def write_modes(system: System, n: int, block: Block | None, path: Path) -> None
     """Write the plot of the modes over the amplitude."""
     from rocking import plot
 
-    forcing = system.harmonic
+    forcing = system.periodic
     figure, axes = plot.panels(rows=2, height=2.9)
     for ax, quantity in zip(axes, ("velocity", "phase"), strict=True):
         plot.modes(forcing.period, system.restitution, n, ax, quantity, forcing.amplitude, block)

@@ -32,7 +32,7 @@ def show(motion: Motion, block: Block | None, files: Sequence[Path], *, as_json:
 
 def verdict(motion: Motion) -> str:
     """Return the outcome in one line."""
-    overturning, undecided = motion.overturning, "" if motion.certified else ": undecided in double precision"
+    overturning, undecided = motion.overturning, f": {motion.doubt}" if motion.doubt else ""
     if overturning is not None:
         cycle = f", in the {ordinal(overturning.cycle + 1)} cycle" if has_cycles(motion) else ""
         return f"overturned (proved at τ = {overturning.time:.6g}{cycle}){undecided}"
@@ -79,7 +79,7 @@ def _base_rows(system: System, block: Block | None) -> Iterator[Row]:
         yield "amplitude", size, in_si("amplitude", pulse.amplitude, block)
         yield "duration", f"τ = {pulse.span:.6g}", in_si("period", pulse.span, block)
         return
-    forcing = system.harmonic
+    forcing = system.periodic
     if block is None:
         yield "forcing", f"A = {forcing.amplitude:.6g}, T = {forcing.period:.6g}, φ = {forcing.phase:.6g}", ""
     else:
@@ -262,7 +262,7 @@ def physical_of(system: System, block: Block) -> dict[str, Any]:
         pulse = system.forcing
         size, length = pulse.amplitude, {"duration_s": block.seconds(pulse.span)}
     else:
-        size, length = system.harmonic.amplitude, {"period_s": block.seconds(system.harmonic.period)}
+        size, length = system.periodic.amplitude, {"period_s": block.seconds(system.periodic.period)}
     return size_of(block) | {
         "acceleration_m_per_s2": block.acceleration(size),
         **length,

@@ -41,7 +41,7 @@ def show(
 
 def verdict(motion: Motion, block: Block) -> str:
     """Return the outcome in one line, with its time in s."""
-    doubt = "" if motion.certified else " (undecided in double precision)"
+    doubt = f" ({motion.doubt})" if motion.doubt else ""
     if motion.overturning is not None:
         return f"overturned: certain from t = {block.seconds(motion.overturning.time):.4g} s{doubt}"
     if motion.outcome is not Outcome.AT_REST:
@@ -55,7 +55,7 @@ def verdict(motion: Motion, block: Block) -> str:
 
 def undecided(motion: Motion) -> Iterator[str]:
     """Yield a warning if rounding may have changed the outcome."""
-    if not motion.certified:
+    if not motion.certified and motion.system.critical_angle is None:
         yield "the outcome is undecided in double precision: the rounding error may exceed what decides it"
 
 
@@ -87,7 +87,7 @@ def of_block(motion: Motion, block: Block) -> Iterator[Row]:
     yield "block", f"{block.size}, Io/(MR²) = {block.inertia_ratio:.4g}"
     yield "critical angle", f"{block.degrees(1.0):.4g}°"
     yield "time unit 1/α", f"{block.seconds(1.0):.4g} s"
-    yield "lift-off from rest", f"above {common.in_si('amplitude', 1.0, block)}"
+    yield "lift-off from rest", f"above {common.in_si('amplitude', motion.system.lift_off, block)}"
     yield "restitution", f"e = {block.restitution:.6g}, {common.origin(block)}"
     braces = motion.system.braces
     if braces is not None:
@@ -113,6 +113,8 @@ def counted_impacts(motion: Motion) -> str:
 def margin(motion: Motion, block: Block) -> str:
     """Return the margin with its time, in words."""
     if math.isnan(motion.margin):
+        if motion.system.critical_angle is not None:
+            return "undefined for the full equation of motion"
         return "undefined " + ("between braces" if motion.system.braces else "for a block that never moves")
     speed = common.in_si("velocity", abs(motion.margin), block)
     what = "to overturn" if motion.margin < 0 else "to spare"

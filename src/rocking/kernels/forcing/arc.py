@@ -7,6 +7,10 @@ from typing import NamedTuple
 from rocking.kernels.compile_options import INTERNAL_INLINE
 from rocking.kernels.deferred import njit
 from rocking.kernels.forcing.drives import (
+    FullHarmonicConstants,
+    FullHarmonicDrive,
+    FullSampledConstants,
+    FullSampledDrive,
     HarmonicConstants,
     HarmonicDrive,
     PulseConstants,
@@ -15,7 +19,10 @@ from rocking.kernels.forcing.drives import (
     SampledDrive,
 )
 
-Drive = HarmonicDrive | SampledDrive | PulseDrive
+Drive = HarmonicDrive | SampledDrive | PulseDrive | FullHarmonicDrive | FullSampledDrive
+Constants = (
+    HarmonicConstants | SampledConstants | PulseConstants | FullHarmonicConstants | FullSampledConstants
+)
 
 # After this long an arc restarts from its own state: at e^32 the closed form has used up double precision.
 MAX_ARC_TIME = 32.0
@@ -41,7 +48,7 @@ class Arc(NamedTuple):
     angle: float
     velocity: float
     drive: Drive
-    constants: HarmonicConstants | SampledConstants | PulseConstants  # of its closed form
+    constants: Constants  # of its closed form
 
 
 class Instant(NamedTuple):

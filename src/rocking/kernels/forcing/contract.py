@@ -39,6 +39,11 @@ def forcing_term(p, side, drive):
 
 
 @contract
+def acceleration(p, side, angle, drive):
+    """Return u'' at an angle on a side of the base."""
+
+
+@contract
 def guess_from(p, wait):
     """Return the guess of the next event from the time until it; 0 if unknown."""
 

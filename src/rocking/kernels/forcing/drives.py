@@ -18,6 +18,20 @@ class PulseDrive(NamedTuple):
     sine: float
 
 
+class FullHarmonicDrive(NamedTuple):
+    """Harmonic forcing of the full block at one instant: its phase is psi on either side."""
+
+    cosine: float  # of psi
+    sine: float
+
+
+class FullSampledDrive(NamedTuple):
+    """Place in a sampled forcing of the full block, as ``SampledDrive``."""
+
+    index: int
+    offset: float
+
+
 class HarmonicConstants(NamedTuple):
     """Constants of an arc with harmonic forcing."""
 
@@ -44,3 +58,15 @@ class SampledConstants(NamedTuple):
 
     grow: float
     shrink: float
+
+
+class FullHarmonicConstants(NamedTuple):
+    """Constant of an arc of the full block with harmonic forcing."""
+
+    psi: float  # forcing phase at the start
+
+
+class FullSampledConstants(NamedTuple):
+    """Constant of an arc of the full block with sampled forcing."""
+
+    acceleration: float  # of the base, at the start

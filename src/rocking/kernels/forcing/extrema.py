@@ -5,7 +5,7 @@ import math
 from rocking.kernels.compile_options import INTERNAL
 from rocking.kernels.deferred import njit
 from rocking.kernels.forcing.arc import CROSSING, within_reach
-from rocking.kernels.forcing.contract import evaluate, forcing_term, next_turn
+from rocking.kernels.forcing.contract import acceleration, evaluate, next_turn
 
 
 @njit(**INTERNAL)
@@ -13,7 +13,7 @@ def first_turn_sign(p, arc):
     """Return the sign of u' just after the start of an arc; positive if both u' and u'' vanish (lift-off)."""
     if arc.velocity != 0.0:
         return math.copysign(1.0, arc.velocity)
-    return -1.0 if arc.angle + forcing_term(p, arc.side, arc.drive) < 0.0 else 1.0
+    return -1.0 if acceleration(p, arc.side, arc.angle, arc.drive) < 0.0 else 1.0
 
 
 @njit(**INTERNAL)

@@ -4,7 +4,7 @@ import math
 
 from rocking.kernels.compile_options import KERNEL
 from rocking.kernels.deferred import njit
-from rocking.kernels.forcing.contract import acceleration_change_bound, forcing_term, settling
+from rocking.kernels.forcing.contract import acceleration, acceleration_change_bound, settling
 from rocking.kernels.forcing.settling import settling_time
 
 
@@ -17,11 +17,8 @@ def base_settling_time(p, drive, speed):
 
 @njit(**KERNEL)
 def brace_settling_time(p, side, drive, speed):
-    """Return an upper bound on the time from a brace impact to sustained contact; infinite if that is not certain.
-
-    The acceleration into the brace is brace_angle + f.
-    """
-    press = p.block.brace_angle + forcing_term(p, side, drive)
+    """Return an upper bound on the time from a brace impact to sustained contact; infinite if that is not certain."""
+    press = acceleration(p, side, p.block.brace_angle, drive)
     if p.block.brace_restitution >= 1.0 or press <= 0.0:
         return math.inf
     window = 5.0 * speed / (press * (1.0 - p.block.brace_restitution))

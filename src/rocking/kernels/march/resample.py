@@ -7,7 +7,7 @@ from rocking.kernels.deferred import njit
 from rocking.kernels.entry_point import entry_point
 from rocking.kernels.event_kinds import FLIGHT
 from rocking.kernels.forcing.arc import CROSSING, within_reach
-from rocking.kernels.forcing.contract import arc_at, evaluate, forcing_term, next_turn
+from rocking.kernels.forcing.contract import acceleration, arc_at, evaluate, next_turn
 from rocking.kernels.forcing.extrema import first_turn_sign
 from rocking.kernels.forcing.parameters import SystemParameters
 from rocking.kernels.march.event_rows import EventRows
@@ -35,7 +35,7 @@ def sample(p: SystemParameters, rows: EventRows, index: Integers1, elapsed: Floa
             now = evaluate(p, arc, elapsed[k])
             out[k, 0] = side * within_reach(p, now.angle)
             out[k, 1] = side * now.velocity
-            out[k, 2] = side * (now.angle + forcing_term(p, arc.side, now.drive))
+            out[k, 2] = side * acceleration(p, arc.side, now.angle, now.drive)
             if not math.isfinite(now.angle):  # overturned long before: the angle has overflowed
                 out[k, :] = side * math.inf
 

@@ -37,7 +37,7 @@ def window(motion: Motion, cycles: tuple[float, float] | None) -> tuple[float, f
     first = within("cycles", first, 0, motion.cycles)
     if within("cycles", last, 0, motion.cycles) <= first:
         raise ValueError(refusal("cycles", "be a pair (first, last) with first < last", cycles))
-    period = motion.system.harmonic.period
+    period = motion.system.periodic.period
     refuse_if(
         first * period >= end, "cycles", f"begin before |Θ| = {FALLEN:g}, in cycle {end / period:.4g}", cycles
     )

@@ -42,6 +42,12 @@ def forcing_term(p, side, drive):
 
 
 @njit(**INTERNAL_INLINE)
+def slender_acceleration(p, side, angle, drive):
+    """Provide ``contract.acceleration``."""
+    return angle + forcing_term(p, side, drive)
+
+
+@njit(**INTERNAL_INLINE)
 def acceleration_size(p, drive):
     """Provide ``contract.acceleration_size``."""
     return p.forcing.amplitude * abs(drive.cosine)
@@ -67,6 +73,7 @@ provide(
         contract.arc_after: arc_after,
         contract.resynchronise: resynchronise,
         contract.evaluate: solution.evaluate,
+        contract.acceleration: slender_acceleration,
         contract.forcing_term: forcing_term,
         contract.guess_from: solution.propagator_or_none,
         contract.next_event: next_event.next_event,

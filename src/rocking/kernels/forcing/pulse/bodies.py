@@ -45,6 +45,12 @@ def forcing_term(p, side, drive):
 
 
 @njit(**INTERNAL_INLINE)
+def slender_acceleration(p, side, angle, drive):
+    """Provide ``contract.acceleration``."""
+    return angle + forcing_term(p, side, drive)
+
+
+@njit(**INTERNAL_INLINE)
 def next_event(p, mode, arc, guess):
     """Provide ``contract.next_event``."""
     return solution.next_event(p, mode, arc), guess
@@ -160,6 +166,7 @@ provide(
         contract.arc_after: arc_after,
         contract.resynchronise: unchanged,
         contract.evaluate: solution.evaluate,
+        contract.acceleration: slender_acceleration,
         contract.forcing_term: forcing_term,
         contract.guess_from: no_guess,
         contract.next_event: next_event,

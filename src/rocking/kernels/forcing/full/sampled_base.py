@@ -1,0 +1,124 @@
+"""Sampled base motion of the full block."""
+
+import math
+
+from rocking.kernels.compile_options import INTERNAL, INTERNAL_INLINE
+from rocking.kernels.deferred import njit, provide
+from rocking.kernels.event_kinds import LIFT_OFF, NONE
+from rocking.kernels.forcing.arc import Next
+from rocking.kernels.forcing.drives import FullSampledConstants, FullSampledDrive, SampledDrive
+from rocking.kernels.forcing.full import base
+from rocking.kernels.forcing.full.parameters import FullSampledParameters
+from rocking.kernels.forcing.full.series import linear_series
+from rocking.kernels.forcing.sampled import held
+from rocking.kernels.forcing.sampled.solution import (
+    acceleration_at,
+    interval,
+    last_index,
+    place_at,
+    time_between,
+)
+
+
+@njit(**INTERNAL_INLINE)
+def series_from(p, side, slope, sine, cosine, drive):
+    """Provide ``base.series_from``."""
+    alpha = p.block.critical_angle
+    start, rate = interval(p, drive.index)
+    size = side * alpha
+    return linear_series(slope, sine, cosine, -1.0 / alpha, size * (start + rate * drive.offset), size * rate)
+
+
+@njit(**INTERNAL_INLINE)
+def acceleration_of(p, drive):
+    """Provide ``base.acceleration_of``."""
+    return acceleration_at(p, drive)
+
+
+@njit(**INTERNAL_INLINE)
+def smooth_time(p, drive):
+    """Provide ``base.smooth_time``: to the next sample."""
+    return max(p.forcing.tables.step - drive.offset, 0.0) if drive.index < last_index(p) else math.inf
+
+
+@njit(**INTERNAL_INLINE)
+def drive_later(p, drive, time, to_corner):
+    """Provide ``base.drive_later``."""
+    if to_corner:
+        return FullSampledDrive(drive.index + 1, 0.0)
+    return FullSampledDrive(drive.index, drive.offset + time)
+
+
+@njit(**INTERNAL_INLINE)
+def drive_on_clock(p, cycle, start):
+    """Provide ``base.drive_on_clock``."""
+    place = place_at(p, 0, max(cycle * p.clock.cycle_length + start, 0.0))
+    return FullSampledDrive(place.index, place.offset)
+
+
+@njit(**INTERNAL_INLINE)
+def largest_ahead(p, side, drive):
+    """Provide ``base.largest_ahead``: the largest of all samples, 0 after the last."""
+    return abs(p.forcing.scale) * p.forcing.tables.largest if drive.index < last_index(p) else 0.0
+
+
+@njit(**INTERNAL_INLINE)
+def largest_near(p, drive, radius):
+    """Provide ``base.largest_near``."""
+    start, rate = interval(p, drive.index)
+    return abs(start + rate * drive.offset) + abs(rate) * radius
+
+
+@njit(**INTERNAL)
+def lift_off(p, arc):
+    """Provide ``base.lift_off``: that of the slender block whose level is 1."""
+    resting, place = p.forcing.resting, SampledDrive(arc.drive.index, arc.drive.offset)
+    found, end = held.rises_above(resting, 0, 1.0, place)
+    if not found:
+        return Next(math.inf, NONE, arc.side, 0.0, 0.0, arc.drive, 0.0, 0.0)
+    side = -1 if acceleration_at(resting, end) > 0.0 else 1
+    drive = FullSampledDrive(end.index, end.offset)
+    return Next(time_between(resting, place, end), LIFT_OFF, side, 0.0, 0.0, drive, 0.0, 0.0)
+
+
+@njit(**INTERNAL_INLINE)
+def side_to_lift_at(p, start, drive):
+    """Provide ``base.side_to_lift_at``."""
+    return held.side_to_lift(p.forcing.resting, start, drive)
+
+
+@njit(**INTERNAL_INLINE)
+def change_within(p, drive, time):
+    """Provide ``base.change_within``."""
+    return held.change_bound(p, drive, time)
+
+
+@njit(**INTERNAL_INLINE)
+def drive_after_event(p, start, coming):
+    """Provide ``base.drive_after_event``."""
+    return coming.drive
+
+
+@njit(**INTERNAL_INLINE)
+def constants_at(p, start, drive):
+    """Provide ``base.constants_at``."""
+    return FullSampledConstants(acceleration_at(p, drive))
+
+
+provide(
+    FullSampledParameters,
+    {
+        base.series_from: series_from,
+        base.acceleration_of: acceleration_of,
+        base.smooth_time: smooth_time,
+        base.drive_later: drive_later,
+        base.drive_on_clock: drive_on_clock,
+        base.largest_ahead: largest_ahead,
+        base.largest_near: largest_near,
+        base.lift_off: lift_off,
+        base.side_to_lift_at: side_to_lift_at,
+        base.change_within: change_within,
+        base.drive_after_event: drive_after_event,
+        base.constants_at: constants_at,
+    },
+)

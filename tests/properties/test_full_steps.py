@@ -1,0 +1,124 @@
+"""Steps of the full block: their error against its bound, and the first zero of their polynomials against exact roots."""
+
+import math
+
+import mpmath as mp
+import numpy as np
+import pytest
+from flint import fmpq, fmpq_poly
+from numba import njit
+
+from oracles.full_block import DIGITS, Block, Cosine
+from rocking.kernels.forcing import parameters as numbers
+from rocking.kernels.forcing.drives import FullHarmonicDrive
+from rocking.kernels.forcing.full.crossing import first_zero
+from rocking.kernels.forcing.full.step import error_bound, state_in, step_from
+
+FEW, MANY = 1_000, 20_000
+ROUNDING = 2.0**-53
+
+
+@pytest.fixture(scope="module")
+def kernels():
+    """The kernels, callable from Python."""
+    from rocking.kernels.deferred import bind_compiled
+
+    bind_compiled()
+    zero, step, state, bound = (
+        first_zero.compiled,
+        step_from.compiled,
+        state_in.compiled,
+        error_bound.compiled,
+    )
+
+    @njit
+    def find(a, b, c, h):
+        return zero(a, b, c, h)
+
+    @njit
+    def take(p, side, angle, velocity, drive):
+        made = step(p, side, angle, velocity, drive)
+        return made, state(made, made.length), bound(p, velocity, made.series, made.length, drive)
+
+    return find, take
+
+
+def test_error_of_a_step_is_below_its_bound(kernels):
+    random, worst = np.random.default_rng(1), 0.0
+    for _ in range(40):
+        alpha, amplitude, period, phase = (
+            float(random.uniform(*limits)) for limits in ((0.05, 1.2), (0.0, 6.0), (0.3, 3.0), (-3.0, 3.0))
+        )
+        angle, velocity = float(random.uniform(0.0, 1.2)), float(random.uniform(-1.0, 1.0))
+        p = numbers.full_harmonic_parameters(
+            numbers.full_block(0.9, alpha), amplitude, 2 * math.pi / period, period, phase
+        )
+        drive = FullHarmonicDrive(math.cos(p.forcing.phase), math.sin(p.forcing.phase))
+        made, (rise, speed), bound = kernels[1](p, 1, angle, velocity, drive)
+        with mp.workdps(DIGITS):
+            exact = Block(
+                Cosine(amplitude, 2 * mp.pi / mp.mpf(p.forcing.frequency), p.forcing.phase), 0.9, alpha
+            )
+            u, v, _ = exact.step(1, mp.mpf(0), mp.mpf(angle), mp.mpf(velocity), mp.mpf(made.length) / 2)
+            u, v, _ = exact.step(1, mp.mpf(made.length) / 2, u, v, mp.mpf(made.length) / 2)
+        assert bound <= 1e-16
+        error = max(abs(float(u - angle - rise)), abs(float(v - speed)))
+        worst = max(worst, error)
+        assert error <= bound + 40 * ROUNDING * (1.0 + amplitude + abs(velocity))
+    assert worst > 0.0
+
+
+def polynomial(random):
+    """Return a + b t + c t^2 + ... on [0, 1] as (a, b, tuple): often with a zero at the start, or nearly with a double one."""
+    kind = random.integers(4)
+    c = random.normal(size=19) / np.cumprod(np.arange(2.0, 21.0))
+    a, b = abs(random.normal()) * 10.0 ** random.uniform(-9, 0), random.normal()
+    if kind == 1:
+        a, b = 0.0, abs(b) * 10.0 ** random.uniform(-9, 0)
+    if kind == 2:
+        a, b, c[0] = 0.0, 0.0, abs(c[0])
+    if kind == 3:  # the minimum of a parabola near 0
+        place, bend = random.uniform(0.1, 0.9), abs(random.normal())
+        a, b = bend * place**2 + random.normal() * 10.0 ** random.uniform(-15, -6), -2.0 * bend * place
+        c = c * 1e-3
+        c[0] = bend
+        a = abs(a)
+    return float(a), float(b), tuple(map(float, c))
+
+
+def first_root(a, b, c):
+    """Return the first root in (0, 1] at which the polynomial falls, by exact isolation; infinity if there is none."""
+    exact = fmpq_poly([fmpq(*float(one).as_integer_ratio()) for one in (a, b, *c)])
+    falls = [
+        float(root.real) for root, _ in exact.numer().complex_roots() if root.imag == 0 and 0 < root.real <= 1
+    ]
+    slope = exact.derivative()
+    falls = [x for x in sorted(falls) if slope(fmpq(*x.as_integer_ratio())) < 0]
+    return falls[0] if falls else math.inf
+
+
+def check_polynomials(find, count, seed):
+    random, wrong, crossing = np.random.default_rng(seed), [], 0
+    for _ in range(count):
+        a, b, c = polynomial(random)
+        found, exact = find(a, b, c, 1.0), first_root(a, b, c)
+        crossing += exact < math.inf
+        if found == exact or abs(found - exact) <= 1e-9 * exact:
+            continue
+        # where the polynomial only touches zero, to rounding, either answer is right
+        at = min(found, exact)
+        value = math.fsum(one * at**k for k, one in enumerate((a, b, *c)))
+        if abs(value) > 8 * ROUNDING * math.fsum(abs(one) * at**k for k, one in enumerate((a, b, *c))):
+            wrong.append((a, b, c, found, exact))
+    assert not wrong, f"{len(wrong)} of {count} wrong; the first: {wrong[0]}"
+    assert crossing > 0.3 * count
+
+
+def test_first_zero_of_a_polynomial_is_that_of_exact_isolation(kernels):
+    check_polynomials(kernels[0], FEW, 0)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("seed", range(1, 11))
+def test_first_zero_of_many_polynomials_is_that_of_exact_isolation(kernels, seed):
+    check_polynomials(kernels[0], MANY, seed)
