@@ -105,10 +105,11 @@ def check_polynomials(find, count, seed):
         crossing += exact < math.inf
         if found == exact or abs(found - exact) <= 1e-9 * exact:
             continue
-        # where the polynomial only touches zero, to rounding, either answer is right
-        at = min(found, exact)
-        value = math.fsum(one * at**k for k, one in enumerate((a, b, *c)))
-        if abs(value) > 8 * ROUNDING * math.fsum(abs(one) * at**k for k, one in enumerate((a, b, *c))):
+        # An invented zero must be one to rounding; beyond a missed one the polynomial must stay above 0 to rounding.
+        places = np.array([found]) if found < exact else np.linspace(exact, min(found, 1.0), 2_000)
+        terms = np.array([a, b, *c]) * places[:, None] ** np.arange(21)
+        value, size = terms.sum(axis=1), np.abs(terms).sum(axis=1)
+        if (np.abs(value) if found < exact else -value).max() > 16 * ROUNDING * size.max():
             wrong.append((a, b, c, found, exact))
     assert not wrong, f"{len(wrong)} of {count} wrong; the first: {wrong[0]}"
     assert crossing > 0.3 * count
