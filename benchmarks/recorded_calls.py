@@ -52,6 +52,11 @@ def workload():
         moved = rk.simulate(rk.System(base, 0.8))
         moved.at(np.linspace(0.0, moved.duration, 2_000))
         moved.validity(rk.Block(height=2.0, width=0.5))
+    full = rk.System(rk.Harmonic(3.0, period=1.0), 0.8, critical_angle=0.3)
+    shaken = rk.System(rk.PiecewiseLinear(samples, step=0.05), 0.8, critical_angle=0.3)
+    for moved in (rk.simulate(full, cycles=200), rk.simulate(shaken)):
+        moved.at(np.linspace(0.0, moved.duration, 2_000))
+        moved.validity(rk.Block(height=2.0, width=0.6))
     rows, never, runs = np.empty(50, ENDING_ROW), np.zeros(1, np.int64), np.zeros(50, RUN_ROW)
     runs["scale"], runs["restitution"] = np.linspace(0.5, 2.0, 50), 0.8
     run_batch(parameters(rk.System(rk.PiecewiseLinear(samples, step=0.05), 0.8)), runs, True, rows, never)
