@@ -3,6 +3,7 @@
 from benchmarks import (
     closed_forms,
     explorer,
+    full_block,
     lanes,
     machine_code,
     one_block,
@@ -21,6 +22,7 @@ def main():
     report.section("Error after 20 cycles against 40 digits", one_block.accuracy())
     report.section("Two threads against one", one_block.threads())
     report.section("Ground motions: time per run, and ratio of the others' time to it", records.speed())
+    report.section("The full block: time, and ratio of the others' time to it", full_block.speed())
     report.section("Compiling the kernels", processes.compiling())
     report.section("First answers", processes.first_answers())
     report.section(

@@ -11,6 +11,7 @@ from benchmarks.table import Figure
 from rocking.kernels import batch
 from rocking.kernels.classify.results import empty_results
 from rocking.kernels.classify.workspace import make_workspace
+from rocking.kernels.forcing.parameters import parameters_of_row
 from rocking.model import Kind
 
 POINTS, FINER = 100, 200
@@ -24,9 +25,8 @@ def one_by_one(systems, cycles=CYCLES):
     """Classify the points one by one."""
     answers = empty_results(len(systems))
     starts, go_on = np.zeros((len(systems), 2)), np.zeros(1, np.int64)
-    batch.classify_batch_scalar(
-        systems, starts, cycles, MAX_PERIOD, make_workspace(cycles, MAX_PERIOD), answers, go_on
-    )
+    kind, memory = parameters_of_row(systems[0]), make_workspace(cycles, MAX_PERIOD)
+    batch.classify_batch_scalar(kind, systems, starts, cycles, MAX_PERIOD, memory, answers, go_on)
     return answers
 
 
@@ -44,13 +44,13 @@ def systems_of(points, restitution=1.0, brace_angle=math.inf):
     )
     one = np.ones(period.size)
     return np.column_stack(
-        [amplitude, math.tau / period, period, 0 * one, restitution * one, brace_angle * one, one]
+        [amplitude, math.tau / period, period, 0 * one, restitution * one, brace_angle * one, one, 0 * one]
     )
 
 
 def against_one():
     """Time the map at e = 1, the points of a finer map that reach the last cycle, and the map with braces."""
-    batch.load_kernels(True)
+    batch.load_kernels(may_last=True, full=False)
     systems = systems_of(POINTS)
     together, answers = quickest(RUNS, lambda: in_lanes(systems), thread_time)
     alone, told = quickest(RUNS, lambda: one_by_one(systems), thread_time)

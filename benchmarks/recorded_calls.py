@@ -15,7 +15,8 @@ import numpy as np
 import rocking as rk
 from rocking.kernels import entry_point, machine_code
 from rocking.kernels.deferred import import_all
-from rocking.kernels.march.finite_motion import ENDING_ROW, PULSE_ROW, RUN_ROW, run_batch, run_pulses
+from rocking.kernels.march.ending import ENDING_ROW
+from rocking.kernels.march.finite_runs import PULSE_ROW, RUN_ROW, run_batch, run_pulses
 from rocking.motion.kernel_parameters import parameters
 
 MAX_CALLS = 40
@@ -48,15 +49,20 @@ def workload():
     rk.tangency_amplitude(rk.System(rk.Harmonic(1.0, period=1.0), 0.8))
     rk.theory.manifold_gap(np.linspace(0.0, 6.0, 50), 1.5, 1.0, 0.8)
     samples = np.random.default_rng(1).uniform(-3.0, 3.0, 400)
-    for base in (rk.PiecewiseLinear(samples, step=0.05), rk.Pulse("one-sine", amplitude=1.5, duration=2.0)):
-        moved = rk.simulate(rk.System(base, 0.8))
-        moved.at(np.linspace(0.0, moved.duration, 2_000))
-        moved.validity(rk.Block(height=2.0, width=0.5))
+    bases = rk.PiecewiseLinear(samples, step=0.05), rk.Pulse("one-sine", amplitude=1.5, duration=2.0)
+    moving = [
+        rk.simulate(rk.System(base, 0.8, critical_angle=angle)) for base in bases for angle in (None, 0.3)
+    ]
     full = rk.System(rk.Harmonic(3.0, period=1.0), 0.8, critical_angle=0.3)
-    shaken = rk.System(rk.PiecewiseLinear(samples, step=0.05), 0.8, critical_angle=0.3)
-    for moved in (rk.simulate(full, cycles=200), rk.simulate(shaken)):
+    for moved in (*moving, rk.simulate(full, cycles=200)):
         moved.at(np.linspace(0.0, moved.duration, 2_000))
         moved.validity(rk.Block(height=2.0, width=0.6))
+    orbit = rk.classify(full).orbit
+    rk.find_orbit(full, orbit.start, orbit.period)
+    rk.lyapunov(full, cycles=500)
+    rk.orbit_diagram(full, "critical_angle", np.linspace(0.1, 0.4, 20))
+    rk.parametric_map(amplitude=axes["amplitude"], period=1.0, restitution=0.8, critical_angle=[0.1, 0.3])
+    rk.basin_map(full, angle=starts, velocity=starts, max_cycles=500)
     rows, never, runs = np.empty(50, ENDING_ROW), np.zeros(1, np.int64), np.zeros(50, RUN_ROW)
     runs["scale"], runs["restitution"] = np.linspace(0.5, 2.0, 50), 0.8
     run_batch(parameters(rk.System(rk.PiecewiseLinear(samples, step=0.05), 0.8)), runs, True, rows, never)

@@ -21,7 +21,8 @@ from benchmarks.clock import quickest, quickest_in_turn
 from benchmarks.table import Figure
 from rocking.kernels.forcing.sampled.parameters import CYCLE, sampled_parameters
 from rocking.kernels.forcing.sampled.tables import tables_of
-from rocking.kernels.march.finite_motion import ENDING_ROW, RUN_ROW, run_batch
+from rocking.kernels.march.ending import ENDING_ROW
+from rocking.kernels.march.finite_runs import RUN_ROW, run_batch
 from tests.oracles import segments
 
 TURNS = 15

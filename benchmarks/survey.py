@@ -23,6 +23,7 @@ from rocking.kernels.classify.workspace import make_workspace
 from rocking.kernels.compile_options import KERNEL
 from rocking.kernels.deferred import njit
 from rocking.kernels.forcing.harmonic.parameters import parameters_from_row
+from rocking.kernels.forcing.parameters import parameters_of_row
 from rocking.kernels.march import initial_state, march
 from rocking.kernels.march.progress import Recording
 from rocking.kernels.numerics.replace_fields import replacing
@@ -183,9 +184,10 @@ def kernels():
     """Time every tenth point along each axis on one thread: by the cascade, without early checkpoints, by plain marching."""
     systems, memory = systems_of(POINTS // 10, 0.925), make_workspace(10_000, MAX_PERIOD)
     starts, go_on, answers = np.zeros((len(systems), 2)), np.zeros(1, np.int64), empty_results(len(systems))
+    kind = parameters_of_row(systems[0])
 
     def early():
-        batch.classify_batch_scalar(systems, starts, 10_000, MAX_PERIOD, memory, answers, go_on)
+        batch.classify_batch_scalar(kind, systems, starts, 10_000, MAX_PERIOD, memory, answers, go_on)
 
     def late():
         judge_late(systems, MARCHED, memory, answers)

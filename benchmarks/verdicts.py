@@ -12,6 +12,7 @@ from rocking.kernels import batch
 from rocking.kernels.classify import verdict_record
 from rocking.kernels.classify.results import empty_results
 from rocking.kernels.classify.workspace import make_workspace
+from rocking.kernels.forcing.parameters import parameters_of_row
 
 POINTS = 200
 PERIODS, AMPLITUDES = (0.2, 3.0), (0.0, 16.0)
@@ -37,7 +38,16 @@ def judged(restitution, max_cycles):
     )
     one = np.ones(amplitudes.size)
     systems = np.column_stack(
-        [amplitudes, math.tau / periods, periods, 0.0 * one, restitution * one, math.inf * one, one]
+        [
+            amplitudes,
+            math.tau / periods,
+            periods,
+            0.0 * one,
+            restitution * one,
+            math.inf * one,
+            one,
+            0.0 * one,
+        ]
     )
     memory, best, starts, go_on = (
         make_workspace(max_cycles, 64),
@@ -45,17 +55,17 @@ def judged(restitution, max_cycles):
         np.zeros((one.size, 2)),
         np.zeros(1, np.int64),
     )
-    results = empty_results(one.size)
+    results, kind = empty_results(one.size), parameters_of_row(systems[0])
     for _ in range(RUNS):
         begun = time.thread_time()
-        batch.classify_batch_scalar(systems, starts, max_cycles, 64, memory, results, go_on)
+        batch.classify_batch_scalar(kind, systems, starts, max_cycles, 64, memory, results, go_on)
         best = min(best, time.thread_time() - begun)
     return results.kind, results.ground, results.work, best
 
 
 def maps():
     """Time the map of figure 11 (e = .925) and that of figure 10 (e = 1)."""
-    batch.load_kernels(False)
+    batch.load_kernels(may_last=False, full=False)
     kinds, grounds, work, seconds = judged(0.925, 100_000)
     undetermined, resets = kinds == verdict_record.UNDETERMINED, grounds == verdict_record.UNRESOLVED_RESET
     yield Figure("e = .925, impacts per point, all work", work.mean(), "", 40)

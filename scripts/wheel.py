@@ -27,6 +27,7 @@ C_LIBRARY = {
     "atan",
     "atan2",
     "atanh",
+    "cos",
     "expm1",
     "exp",
     "fmod",
@@ -38,6 +39,7 @@ C_LIBRARY = {
     "sin",
     "sincos",
     "sinh",
+    "tan",
     "tanh",
 }
 # The first version that a platform tag may name (PEP 600).

@@ -24,7 +24,7 @@ class StoredSurvey(NamedTuple):
     limit: int
     marker: str
     other: str
-    load: Callable[[bool], None]
+    load: Callable[[bool, bool], None]
 
     def run(self, store, **changed):
         """Run the survey in a store, with some arguments changed or added."""

@@ -305,7 +305,7 @@ def test_fields_have_words_beside_their_symbols_and_room_for_what_they_hold(visi
     labels = visitor.page.locator("#fields label").all_inner_texts()
     assert [" ".join(label.split()) for label in labels] == [
         "A amplitude", "T period", "e restitution", "φ phase", "Θ₀ angle", "Θ′₀ velocity", "Θb brace angle", "r brace restitution",
-        "first cycle", "cycles",
+        "θcr critical angle", "first cycle", "cycles",
     ]  # fmt: skip
     assert visitor.page.evaluate(CUT) == []
     assert visitor.page.evaluate("document.documentElement.scrollWidth") <= width
@@ -318,6 +318,22 @@ def test_fields_have_words_beside_their_symbols_and_room_for_what_they_hold(visi
     assert visitor.page.evaluate(COVERED, "#fields") == []
     assert visitor.page.evaluate(COVERED, "#map-picture .tools") == []
     visitor.see(f"fields-{width}")
+    visitor.is_content()
+
+
+def test_critical_angle_selects_the_full_block(visit):
+    visitor = visit()
+    visitor.open("?version=1&curves=melnikov")
+    before = visitor.data("history")
+    assert visitor.page.is_enabled("#curves input[name=melnikov]")
+    visitor.page.fill("#critical_angle", "0.25")
+    visitor.page.press("#critical_angle", "Enter")
+    visitor.page.wait_for_function("location.search.includes('critical_angle=0.25')")
+    visitor.judged()
+    assert visitor.data("history") != before
+    assert not visitor.page.is_enabled("#curves input[name=melnikov]")
+    assert "critical_angle=0.25" in visitor.page.text_content("#python")
+    visitor.see("full-block")
     visitor.is_content()
 
 

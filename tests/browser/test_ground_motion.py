@@ -288,3 +288,21 @@ def test_page_answers_only_on_this_machine(server):
         urllib.request.urlopen(request)
     assert caught.value.code == 403
     caught.value.close()
+
+
+def test_full_equation_of_motion_changes_the_map_and_the_verdict(ground):
+    visitor = ground("?version=1&source=pulse&amplitude=0.35&duration=0.6&scale=1")
+    visitor.finished()
+    slender = figure(visitor, "history")["angle"]
+    settled(visitor, lambda: visitor.page.select_option("#model", "full"))
+    assert "model=full" in visitor.page.url
+    assert "is not assessed" in visitor.text("evidence")
+    assert "overestimates" not in visitor.text("evidence")
+    block = block_of(visitor)
+    pulse = rk.Pulse("one-sine", amplitude=0.35 * 9.80665, duration=0.6)
+    motion = rk.simulate(block.system(pulse, model="full"))
+    angle = figure(visitor, "history")["angle"]
+    assert np.abs(angle).max() == pytest.approx(block.degrees(motion.peak), rel=1e-4)
+    assert np.abs(slender).max() != pytest.approx(np.abs(angle).max(), rel=1e-3)
+    visitor.see("ground-full")
+    visitor.is_content()

@@ -61,7 +61,7 @@ def beside_bifurcations():
 def row(amplitude, period, phase, restitution, brace=None, brace_restitution=None):
     """Return what the kernels take of a system."""
     braces = (math.inf, 1.0) if brace is None else (brace, brace_restitution)
-    return (amplitude, math.tau / period, period, phase, restitution, *braces)
+    return (amplitude, math.tau / period, period, phase, restitution, *braces, 0.0)
 
 
 def verdicts(cases):
@@ -72,7 +72,7 @@ def verdicts(cases):
 
 def is_chaotic(system, start):
     """Return whether a million cycles show chaos: no recurrence at the end, and an exponent of 10 standard errors."""
-    amplitude, _, period, phase, restitution, brace, brace_restitution = (float(each) for each in system)
+    amplitude, _, period, phase, restitution, brace, brace_restitution, _ = (float(each) for each in system)
     braces = None if math.isinf(brace) else rk.Braces(brace, brace_restitution)
     found = rk.System(rk.Harmonic(amplitude, period=period, phase=phase), restitution, braces)
     exponent, error = growth_rate(found, rk.State(*start))

@@ -13,6 +13,7 @@ from rocking.kernels import batch
 from rocking.kernels.classify.results import empty_results
 from rocking.kernels.classify.workspace import make_workspace
 from rocking.kernels.forcing.harmonic.parameters import harmonic_parameters
+from rocking.kernels.forcing.parameters import parameters_of_row
 from rocking.kernels.lanes.state import LANES
 
 pytestmark = pytest.mark.xdist_group("lanes")  # the kernels of the oracle are compiled once
@@ -105,7 +106,7 @@ def asked(count, phase=0.0, brace=math.inf):
     one = np.ones(period.size)
     restitution = one if brace == math.inf else 0.925 * one
     systems = np.column_stack(
-        [amplitude, math.tau / period, period, phase * one, restitution, brace * one, one]
+        [amplitude, math.tau / period, period, phase * one, restitution, brace * one, one, 0.0 * one]
     )
     return systems, np.zeros((period.size, 2))
 
@@ -113,9 +114,8 @@ def asked(count, phase=0.0, brace=math.inf):
 def one_by_one(systems, starts, cycles):
     """Return the kind of each point, classified alone."""
     answers, go_on = empty_results(len(systems)), np.zeros(1, np.int64)
-    assert batch.classify_batch_scalar(
-        systems, starts, cycles, 64, make_workspace(cycles, 64), answers, go_on
-    )
+    kind, memory = parameters_of_row(systems[0]), make_workspace(cycles, 64)
+    assert batch.classify_batch_scalar(kind, systems, starts, cycles, 64, memory, answers, go_on)
     return answers.kind
 
 
@@ -180,15 +180,15 @@ def test_differences_grow_in_lanes_as_they_do_alone(amplitude, period, restituti
                 restitution,
                 brace,
                 0.9 if brace < math.inf else 1.0,
+                0.0,
             ]
             for phase in 1e-9 * np.arange(8)
         ]
     )
     starts, alone = np.zeros((8, 2)), empty_results(8)
     found = together(systems, starts, 10_000)
-    batch.classify_batch_scalar(
-        systems, starts, 10_000, 64, make_workspace(10_000, 64), alone, np.zeros(1, np.int64)
-    )
+    kind, memory = parameters_of_row(systems[0]), make_workspace(10_000, 64)
+    batch.classify_batch_scalar(kind, systems, starts, 10_000, 64, memory, alone, np.zeros(1, np.int64))
     spread = np.hypot(found.exponent.std(), alone.exponent.std()) / math.sqrt(7)
     assert np.all(found.exponent > 0)
     assert abs(found.exponent.mean() - alone.exponent.mean()) <= 5 * spread
@@ -221,12 +221,11 @@ BETWEEN = [
 def test_what_differences_forget_is_told_alike_between_braces(case):
     """Also when, after how many events of which kind, and how fast differences shrink."""
     amplitude, period, phase, restitution, brace, returned, cycles, longest = case
-    systems = np.array([[amplitude, math.tau / period, period, phase, restitution, brace, returned]])
+    systems = np.array([[amplitude, math.tau / period, period, phase, restitution, brace, returned, 0.0]])
     starts, go_on = np.zeros((1, 2)), np.zeros(1, np.int64)
     alone, found = empty_results(1), batch.classify_batch(systems, starts, cycles, longest, go_on)
-    batch.classify_batch_scalar(
-        systems, starts, cycles, longest, make_workspace(cycles, longest), alone, go_on
-    )
+    kind, memory = parameters_of_row(systems[0]), make_workspace(cycles, longest)
+    batch.classify_batch_scalar(kind, systems, starts, cycles, longest, memory, alone, go_on)
     for name in ("kind", "ground", "period", "symmetric", "impacts", "brace_hits", "transient", "cycles"):
         assert getattr(found, name) == getattr(alone, name), name
     for name in ("exponent", "peak"):

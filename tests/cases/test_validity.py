@@ -242,7 +242,7 @@ def test_overturning_motion_is_judged_up_to_its_proof():
     assert motion.overturning is not None
     assert max(found.reaction_time, found.friction_time) <= found.until == motion.overturning.time
     assert 0 < found.friction < math.inf
-    assert str(found).startswith(f"assessed up to τ = {found.until:.6g}, where overturning is certain\n")
+    assert str(found).startswith(f"assessed up to τ = {found.until:.6g}, where overturning is proved\n")
 
 
 @pytest.mark.parametrize(
@@ -308,6 +308,17 @@ def test_what_concerns_the_block_is_said_without_a_motion_as_with_one():
     )
     assert any("less than Housner's" in text for text in alone)
     assert not list(block_warnings(TALL, 2.0, 1.0))
+
+
+def test_height_of_a_tower_is_a_warning_with_either_equation_of_motion():
+    tower = Block(height=190.0, width=55.0)
+    said = "height 190 m is unusual: sizes are in metres"
+    assert said in list(block_warnings(tower, 2.0))
+    assert list(block_warnings(Block(height=190.0, width=90.0), 1.01, full=True)) == [said]
+    assert not list(block_warnings(Block(height=30.0, width=8.0), 2.0))
+    for model in ("slender", "full"):
+        system = tower.system(acceleration=1.0, frequency_hz=1.0, model=model)
+        assert said in simulate(system, cycles=2).validity(tower).warnings
 
 
 def test_report_has_seconds_and_degrees_and_says_where_no_friction_would_do():

@@ -176,11 +176,13 @@ def test_a_torus_whose_averages_agree_late_is_found_when_it_is_watched_for_long(
 
 
 def drawn(count, seed):
-    """Return random undamped systems (n, 7), as kernels take them, over the range of the paper's maps."""
+    """Return random undamped systems (n, 8), as kernels take them, over the range of the paper's maps."""
     random = np.random.default_rng(seed)
     period, amplitude = random.uniform(0.2, 3.0, count), random.uniform(0.0, 16.0, count)
     same = np.ones(count)
-    return np.column_stack([amplitude, math.tau / period, period, 0 * same, same, np.inf * same, same])
+    return np.column_stack(
+        [amplitude, math.tau / period, period, 0 * same, same, np.inf * same, same, 0 * same]
+    )
 
 
 def judged(systems, cycles):

@@ -32,7 +32,7 @@ def cluster():
     """Two workers that are processes of their own, reached over loopback."""
     with (
         LocalCluster(
-            2, threads_per_worker=1, processes=True, host="127.0.0.1", dashboard_address=None
+            2, threads_per_worker=1, processes=True, host="127.0.0.1", dashboard_address="127.0.0.1:0"
         ) as cluster,
         Client(cluster) as client,
     ):

@@ -5,13 +5,15 @@ solving for the length of the step at whose end u = 0.
 """
 
 from functools import cache
+from itertools import pairwise
 
 import mpmath as mp
 import numpy as np
 
 DIGITS = 34
 STAGES = 12
-LONGEST = mp.mpf(1) / 8
+# Steps are so short that a block rarely meets the base twice within one.
+LONGEST = mp.mpf(1) / 32
 # Speed below which a block is taken to rest, if the base does not lift it.
 STILL = mp.mpf(10) ** -16
 
@@ -28,6 +30,22 @@ class Cosine:
 
     def corner_after(self, time):
         return mp.inf
+
+
+class Pulse:
+    """Cosine up to a time, and 0 afterwards. Its value at the end is that of the cosine, so that a lift-off just before is seen."""
+
+    def __init__(self, amplitude, frequency, phase, duration):
+        self.amplitude, self.frequency = mp.mpf(amplitude), mp.mpf(frequency)
+        self.phase, self.duration = mp.mpf(phase), mp.mpf(duration)
+
+    def at(self, time):
+        if time > self.duration:
+            return mp.mpf(0)
+        return self.amplitude * mp.cos(self.frequency * time + self.phase)
+
+    def corner_after(self, time):
+        return self.duration if time < self.duration * (1 - mp.mpf(10) ** -30) else mp.inf
 
 
 class Samples:
@@ -73,18 +91,31 @@ def scheme():
 
 
 class Block:
-    """Block with a critical angle, a base acceleration and a coefficient of restitution."""
+    """Block with a critical angle, a base acceleration, a law of restitution and braces.
 
-    def __init__(self, base, restitution, angle):
-        self.base, self.e, self.alpha = base, mp.mpf(restitution), mp.mpf(angle)
+    ``restitution`` is a number, or rows (speed, coefficient) with linear interpolation.
+    """
+
+    def __init__(self, base, restitution, angle, brace=mp.inf, brace_restitution=1):
+        rows = restitution if isinstance(restitution, list) else [(0, restitution)]
+        self.law = [tuple(map(mp.mpf, row)) for row in rows]
+        self.base, self.alpha = base, mp.mpf(angle)
+        self.brace, self.r = mp.mpf(brace), mp.mpf(brace_restitution)
         self.level = mp.tan(self.alpha) / self.alpha
+
+    def kept(self, speed):
+        """Return the coefficient of restitution at a speed before an impact."""
+        for (first, one), (second, other) in pairwise(self.law):
+            if speed <= second:
+                return one + (other - one) * max(speed - first, 0) / (second - first)
+        return self.law[-1][1]
 
     def force(self, side, u, acceleration):
         w = self.alpha * (1 - u)
         return -mp.sin(w) / self.alpha - side * acceleration * mp.cos(w)
 
     def step(self, side, time, u, v, h):
-        """Return u and u' at the end of a step, and the least u at its nodes."""
+        """Return u and u' at the end of a step, and the least and largest u at its nodes."""
         nodes, rows = scheme()
         pushes = [self.base.at(time + h * node) for node in nodes]
         bends, small = [self.force(side, u, push) for push in pushes], mp.mpf(10) ** (4 - DIGITS)
@@ -99,18 +130,22 @@ class Block:
             if change < small:
                 break
         once, twice = rows[-1]
-        return u + h * v + h * h * mp.fdot(twice, bends), v + h * mp.fdot(once, bends), min(places)
+        return (
+            u + h * v + h * h * mp.fdot(twice, bends),
+            v + h * mp.fdot(once, bends),
+            (min(places), max(places)),
+        )
 
-    def impact(self, side, time, u, v, low, high):
-        """Return the length of the step at whose end u falls through 0, and u' there."""
-        h = high
+    def contact(self, side, time, u, v, low, high, level):
+        """Return the length of the step at whose end u reaches 0, or a brace at ``level``, and u' there."""
+        h, out = high, -1 if level == 0 else 1
         for _ in range(100):
-            angle, speed, least = self.step(side, time, u, v, h)
-            if angle < 0 or least < 0:
+            angle, speed, ends = self.step(side, time, u, v, h)
+            if out * (angle - level) > 0 or out * (ends[out == 1] - level) > 0:
                 high = h
             else:
                 low = h
-            ahead = h - angle / speed if speed < 0 else low
+            ahead = h - (angle - level) / speed if out * speed > 0 else low
             if not low < ahead < high:
                 ahead = (low + high) / 2
             if abs(ahead - h) < mp.mpf(10) ** (8 - DIGITS) * high:
@@ -122,7 +157,7 @@ class Block:
         """Return the next time at which the base lifts a resting block; ``end`` if none comes before."""
         now = time
         while now < end:
-            later = min(now + LONGEST / 4, self.base.corner_after(now), end)
+            later = min(now + LONGEST, self.base.corner_after(now), end)
             if abs(self.base.at(later)) > self.level >= abs(self.base.at(now)):
                 return mp.findroot(
                     lambda x: abs(self.base.at(x)) - self.level, (now, later), solver="anderson", tol=1e-60
@@ -130,28 +165,56 @@ class Block:
             now = later
         return end
 
+    def departure(self, side, time, end):
+        """Return the next time at which a block leaves its brace; ``end`` if none comes before."""
+        now = time
+        while now < end:
+            later = min(now + LONGEST, self.base.corner_after(now), end)
+            if self.force(side, self.brace, self.base.at(later)) < 0:
+                pressed = lambda x: self.force(side, self.brace, self.base.at(x))  # noqa: E731
+                return mp.findroot(pressed, (now, later), solver="anderson", tol=1e-60)
+            now = later
+        return end
+
     def final(self, end, angle=0.0, velocity=0.0):
         """Return Theta, Theta' and the number of impacts at a time, from an initial state."""
-        end, time, impacts = mp.mpf(end), mp.mpf(0), 0
+        return self.followed(end, angle, velocity)[:3]
+
+    def followed(self, end, angle=0.0, velocity=0.0):
+        """Return Theta, Theta', the number of impacts and that of brace impacts at a time, from an initial state."""
+        end, time, impacts, hits = mp.mpf(end), mp.mpf(0), 0, 0
         theta, rate = mp.mpf(angle), mp.mpf(velocity)
         side = 1 if theta > 0 or (theta == 0 and rate > 0) else -1
-        u, v, resting = abs(theta), side * rate, theta == 0 and rate == 0
+        u, v, resting, leaning = abs(theta), side * rate, theta == 0 and rate == 0, False
         if resting and abs(self.base.at(time)) > self.level:
             side, resting = (-1 if self.base.at(time) > 0 else 1), False
         while time < end:
             if resting:
                 time = self.lift_off(time, end)
                 if time >= end:
-                    return mp.mpf(0), mp.mpf(0), impacts
+                    return mp.mpf(0), mp.mpf(0), impacts, hits
                 side, resting = (-1 if self.base.at(time + LONGEST / 10**9) > 0 else 1), False
+            if leaning:
+                time, leaning = self.departure(side, time, end), False
+                if time >= end:
+                    return side * self.brace, mp.mpf(0), impacts, hits
             h = min(LONGEST, self.base.corner_after(time) - time, end - time)
-            after, speed, least = self.step(side, time, u, v, h)
-            if after >= 0 and (least >= 0 or u == 0):
+            after, speed, (least, largest) = self.step(side, time, u, v, h)
+            falls = after < 0 or (least < 0 and u != 0)
+            strikes = after > self.brace or (largest > self.brace and u != self.brace)
+            if not falls and not strikes:
                 time, u, v = time + h, after, speed
                 continue
-            low = mp.mpf(0) if u > 0 else h * mp.mpf(10) ** -25
-            h, speed = self.impact(side, time, u, v, low, h)
-            time, u, v, side, impacts = time + h, mp.mpf(0), -self.e * speed, -side, impacts + 1
+            level = self.brace if strikes else mp.mpf(0)
+            low = mp.mpf(0) if u != level else h * mp.mpf(10) ** -25
+            h, speed = self.contact(side, time, u, v, low, h, level)
+            time, u = time + h, level
+            if strikes:
+                v, hits = -self.r * speed, hits + 1
+                if -v < STILL and self.force(side, level, self.base.at(time)) >= 0:
+                    v, leaning = mp.mpf(0), True
+                continue
+            v, side, impacts = -self.kept(-speed) * speed, -side, impacts + 1
             if v < STILL and abs(self.base.at(time)) <= self.level:
-                u, v, resting = mp.mpf(0), mp.mpf(0), True
-        return side * u, side * v, impacts
+                v, resting = mp.mpf(0), True
+        return side * u, side * v, impacts, hits

@@ -7,6 +7,7 @@ import numpy as np
 
 from oracles.engine import harmonic_parameters
 from rocking.kernels import event_kinds
+from rocking.kernels.forcing.arc import Transfer
 from rocking.kernels.forcing.harmonic import next_event
 from rocking.kernels.forcing.harmonic.solution import arc_from
 from rocking.kernels.march import tangent
@@ -81,8 +82,9 @@ def engine(mode, faster=0.0):
     coming = next_event.any_event(p, event_kinds.FLIGHT, arc)
     assert coming.event == event_kinds.IMPACT
     start = tangent.Tangent(1.0, 0.0, 0.0, 1.0)
+    cosh = 1.0 + coming.versinh
     a, b, c, d = tangent.through(
-        tangent.along(start, coming.sinh, coming.versinh),
+        tangent.along(start, Transfer(cosh, coming.sinh, coming.sinh, cosh)),
         tangent.event_map(p, arc, coming, event_kinds.FLIGHT, -1),
     )
     return coming.wait, -mode.restitution * coming.velocity, -np.array([[a, c], [b, d]])

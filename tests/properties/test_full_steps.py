@@ -9,12 +9,14 @@ from flint import fmpq, fmpq_poly
 from numba import njit
 
 from oracles.full_block import DIGITS, Block, Cosine
+from oracles.full_steps import Motion, Start
 from rocking.kernels.forcing import parameters as numbers
 from rocking.kernels.forcing.drives import FullHarmonicDrive
 from rocking.kernels.forcing.full.crossing import first_zero
-from rocking.kernels.forcing.full.step import error_bound, state_in, step_from
+from rocking.kernels.forcing.full.step import cannot_reach_base, error_bound, state_in, step_from
 
 FEW, MANY = 1_000, 20_000
+STEPS = 200
 ROUNDING = 2.0**-53
 
 
@@ -24,11 +26,12 @@ def kernels():
     from rocking.kernels.deferred import bind_compiled
 
     bind_compiled()
-    zero, step, state, bound = (
+    zero, step, state, bound, clear = (
         first_zero.compiled,
         step_from.compiled,
         state_in.compiled,
         error_bound.compiled,
+        cannot_reach_base.compiled,
     )
 
     @njit
@@ -38,7 +41,8 @@ def kernels():
     @njit
     def take(p, side, angle, velocity, drive):
         made = step(p, side, angle, velocity, drive)
-        return made, state(made, made.length), bound(p, velocity, made.series, made.length, drive)
+        error = bound(p, velocity, made.series, made.length, drive)
+        return made, state(made, made.length), error, clear(p, made, drive)
 
     return find, take
 
@@ -54,7 +58,7 @@ def test_error_of_a_step_is_below_its_bound(kernels):
             numbers.full_block(0.9, alpha), amplitude, 2 * math.pi / period, period, phase
         )
         drive = FullHarmonicDrive(math.cos(p.forcing.phase), math.sin(p.forcing.phase))
-        made, (rise, speed), bound = kernels[1](p, 1, angle, velocity, drive)
+        made, (rise, speed), bound, _ = kernels[1](p, 1, angle, velocity, drive)
         with mp.workdps(DIGITS):
             exact = Block(
                 Cosine(amplitude, 2 * mp.pi / mp.mpf(p.forcing.frequency), p.forcing.phase), 0.9, alpha
@@ -123,3 +127,98 @@ def test_first_zero_of_a_polynomial_is_that_of_exact_isolation(kernels):
 @pytest.mark.parametrize("seed", range(1, 11))
 def test_first_zero_of_many_polynomials_is_that_of_exact_isolation(kernels, seed):
     check_polynomials(kernels[0], MANY, seed)
+
+
+def start_of_step(random):
+    """Return the start of a step and the order of its zero: after an impact, at a lift-off, in flight, or shortly before a touch."""
+    alpha, amplitude = float(random.uniform(0.02, 1.2)), float(random.uniform(0.0, 8.0))
+    frequency, phase = 2 * math.pi / float(random.uniform(0.3, 3.0)), float(random.uniform(-math.pi, math.pi))
+    side, kind = int(random.choice([-1, 1])), random.integers(4)
+    cosine, sine = math.cos(phase), math.sin(phase)
+    angle, velocity, order = float(random.uniform(0.0, 1.2)), float(random.uniform(-1.0, 1.0)), 0
+    if kind in (1, 3):  # pushed away from the base
+        cosine = -side * abs(cosine)
+    bend = -math.sin(alpha) / alpha - side * amplitude * cosine * math.cos(alpha)
+    if kind == 0 or (kind == 1 and bend <= 0.0):
+        angle, velocity, order = 0.0, abs(velocity) * 10.0 ** float(random.uniform(-9, 0)), 1
+    elif kind == 1:
+        angle, velocity, order = 0.0, 0.0, 2
+    elif kind == 3 and bend > 0.0:
+        time = float(random.uniform(0.01, 0.3))
+        angle = abs(bend * time**2 / 2 + random.normal() * 10.0 ** random.uniform(-15, -4))
+        velocity = -bend * time
+    return Start(alpha, side, angle, velocity, amplitude, frequency, cosine, sine), order
+
+
+def fault_of(kernels, start, order):
+    """Return what is wrong with the first zero of a step: "missed", "invented" or nothing; and whether it has a zero."""
+    find, take = kernels
+    p = numbers.full_harmonic_parameters(
+        numbers.full_block(0.9, start.alpha),
+        start.amplitude,
+        start.frequency,
+        2 * math.pi / start.frequency,
+        0.0,
+    )
+    drive = FullHarmonicDrive(start.cosine, start.sine)
+    step, _, _, clear = take(p, start.side, start.angle, start.velocity, drive)
+    found = math.inf if clear else find(step.angle, step.velocity, step.series, step.length)
+    exact = Motion(start, step.length)
+    fall = exact.first_fall(order)
+
+    def rounding(time):
+        size = start.angle + abs(start.velocity) * time + (1.0 + start.amplitude) * time**2
+        return 16 * ROUNDING * size + 1e-16 * (time / step.length) ** 2
+
+    if found < math.inf and float(abs(exact.at(found)).mid()) > rounding(found):
+        return "invented" if fall is None or found < fall.low else "misplaced", True
+    if fall is not None and fall.low < found:
+        for time in np.linspace(fall.low, min(found, step.length), 60).tolist():
+            if float(exact.at(time).mid()) < -rounding(time):
+                return "missed", True
+    return "", fall is not None
+
+
+def check_steps(kernels, count, seed):
+    random, wrong, crossings = np.random.default_rng(seed), [], 0
+    for _ in range(count):
+        start, order = start_of_step(random)
+        fault, crosses = fault_of(kernels, start, order)
+        crossings += crosses
+        if fault:
+            wrong.append((fault, start))
+    assert not wrong, f"{len(wrong)} of {count} wrong; the first: {wrong[0]}"
+    assert crossings > 0.1 * count
+
+
+def test_enclosure_holds_the_motion_by_collocation():
+    random = np.random.default_rng(2)
+    for _ in range(10):
+        start, _ = start_of_step(random)
+        with mp.workdps(DIGITS):
+            base = Cosine(
+                mp.mpf(start.amplitude) * mp.sqrt(mp.mpf(start.cosine) ** 2 + mp.mpf(start.sine) ** 2),
+                2 * mp.pi / mp.mpf(start.frequency),
+                mp.atan2(mp.mpf(start.sine), mp.mpf(start.cosine)),
+            )
+            time, u, v = mp.mpf(0), mp.mpf(start.angle), mp.mpf(start.velocity)
+            exact = Block(base, 0.9, start.alpha)
+            for _ in range(32):
+                u, v, _ = exact.step(start.side, time, u, v, mp.mpf(1) / 64)
+                time += mp.mpf(1) / 64
+            ball = Motion(start, 0.5).at(0.5)
+            middle, radius = (mp.mpf(str(each.str(40, radius=False))) for each in (ball.mid(), ball.rad()))
+            assert abs(u - middle) <= radius + mp.mpf(10) ** -25
+            assert radius < 1e-16
+
+
+def test_first_zero_of_a_step_is_that_of_the_enclosed_motion(kernels):
+    check_steps(kernels, STEPS, 0)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("part", range(10))
+def test_first_zeros_of_many_steps_are_those_of_the_enclosed_motion(kernels, thin, part):
+    """20,000 steps in all; a million with --exhaustive."""
+    for seed in thin(range(500 * part, 500 * (part + 1)), 10):
+        check_steps(kernels, STEPS, 1 + seed)

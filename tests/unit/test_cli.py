@@ -4,6 +4,7 @@ import csv
 import json
 import logging
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -141,7 +142,7 @@ def test_run_too_long_to_judge_names_the_limit_and_one_that_overturns_early_is_j
     assert said in rocking(f"{line} 0.1")[2]
     early = rocking(f"{line} 3")[2]
     assert early == rocking(f"{line} 3".replace("1000000", "200"))[2]
-    assert "assessed up to τ = 15.5003, where overturning is certain\n" in early
+    assert "assessed up to τ = 15.5003, where overturning is proved\n" in early
 
 
 @pytest.mark.parametrize("columns", ["20", "80", "200"])
@@ -153,6 +154,27 @@ def test_no_number_is_cut_or_split_however_narrow_the_terminal(rocking, monkeypa
     assert told == rocking(line)[2]
     assert "…" not in told
     assert any(text.startswith("final state ") and text.endswith("°/s") for text in told.splitlines())
+
+
+def test_full_equation_of_motion_is_named_and_its_doubt_is_said(rocking):
+    line = "simulate --pulse one-sine --amplitude 4 --period 2.5 --restitution 0.9 --critical-angle 0.25"
+    first, *rows = rocking(line)[2].splitlines()
+    doubt = "(proved for the computed motion; its rounding errors are not assessed)"
+    assert re.fullmatch(rf"overturned from τ = \S+ {re.escape(doubt)}", first)
+    assert rows[0].split("   ", 1)[0] == "critical angle"
+    assert rows[0].endswith(" θcr = 0.25 rad, full equation of motion")
+    assert any(row.startswith("state when overturning was proved ") for row in rows)
+    for command in ("simulate", "classify"):
+        full = rocking(f"{command} {SI} --model full")[2]
+        assert re.search(r"^equation of motion +full$", full, re.MULTILINE)
+        assert "equation of motion" not in rocking(f"{command} {SI}")[2]
+
+
+def test_size_in_centimetres_is_a_warning(rocking):
+    large = SI.replace("--height 2 --width 0.5", "--height 190 --width 55")
+    assert large != SI
+    for line in (f"simulate {large}", f"classify {large}", f"simulate {large} --model full"):
+        assert "warning: height 190 m is unusual: sizes are in metres" in rocking(line)[2]
 
 
 def test_rest_is_told(rocking):

@@ -44,8 +44,9 @@ def test_report_has_the_numbers_of_the_function(rocking):
     assert lines[1].split("   ")[0] == "PGA (g)"
     assert "|θ| > 7.02° = 0.5 θcr" in lines[1]
     fit = found.fit()
-    assert f"{fit.median:.3g} ({fit.median_low:.3g}–{fit.median_high:.3g})" in lines[-2]
-    assert lines[-1].startswith("dispersion")
+    assert f"{fit.median:.3g} ({fit.median_low:.3g}–{fit.median_high:.3g})" in lines[-3]
+    assert lines[-2].startswith("dispersion")
+    assert "equation of motion" in lines[-1]
 
 
 def test_files_hold_the_probabilities(rocking, tmp_path):
@@ -57,7 +58,7 @@ def test_files_hold_the_probabilities(rocking, tmp_path):
     )
     data = found.dataset
     told = json.loads(out)
-    assert told["pga_g"] == LEVELS.tolist()
+    assert told["levels"] == LEVELS.tolist()
     assert told["records"][-1] == rk.read_record_set([EXAMPLE_FILE]).names[0]
     assert [curve["fraction"] for curve in told["curves"]] == data.fraction.values.tolist()
     assert [curve["limit"] for curve in told["curves"]] == [0.1, 0.5, None]
@@ -128,7 +129,7 @@ def test_options_take_precedence_over_a_study(rocking, tmp_path):
     line = "--width 0.6 --pga-g 0.3:0.9:3 --limit 0.2 --samples 2 --baseline none --csv g.csv --json"
     said = json.loads(rocking(f"fragility {NAMES} --study study.toml {line}")[2])
     assert said["block"]["width_m"] == 0.6
-    assert said["pga_g"] == np.linspace(0.3, 0.9, 3).tolist()
+    assert said["levels"] == np.linspace(0.3, 0.9, 3).tolist()
     assert [curve["limit"] for curve in said["curves"]] == [0.2, None]
     assert (said["samples"], said["files"]) == (2, ["g.csv"])
     assert said["records_sha256"] == rk.RecordSet(read()).digest
@@ -137,7 +138,7 @@ def test_options_take_precedence_over_a_study(rocking, tmp_path):
 def test_levels_of_a_study_may_be_a_list(rocking, tmp_path):
     (tmp_path / "study.toml").write_text("pga-g = [0.2, 0.5, 1.4]\nlimit = 0.5\n", encoding="utf-8")
     said = json.loads(rocking(f"fragility {NAMES} --height 2 --width 0.5 --study study.toml --json")[2])
-    assert said["pga_g"] == [0.2, 0.5, 1.4]
+    assert said["levels"] == [0.2, 0.5, 1.4]
 
 
 def test_all_errors_of_a_study_are_one_line(rocking, tmp_path):
@@ -168,6 +169,24 @@ def test_no_record_is_overwritten(rocking, tmp_path, monkeypatch):
         assert (code, message) == (2, "--csv must not overwrite a record; got 'r0.csv'")
 
 
+def test_one_level_gives_the_probability_under_the_records_as_they_are(rocking):
+    code, _, out = rocking(f"fragility {NAMES} --height 2 --width 0.5 --scale 1 --plot f.png")
+    assert code == 0
+    found = rk.fragility(read(), BLOCK, [1.0], intensity="scale", limits=())
+    fell = [rk.simulate(BLOCK.system(motion)).outcome == "overturned" for motion in read()]
+    assert float(found.dataset.fraction[0, 0]) == np.mean(fell)
+    assert f"{100 * np.mean(fell):g} % (" in out
+    with pytest.raises(rk.TooShort, match="give two levels or more"):
+        found.fit()
+
+
+def test_levels_are_those_of_any_measure(rocking):
+    said = json.loads(rocking(f"fragility {NAMES} --height 2 --width 0.5 --pgv 0.1:1:4 --json")[2])
+    found = rk.fragility(read(), BLOCK, np.linspace(0.1, 1, 4), intensity="pgv", limits=())
+    assert (said["intensity"], said["unit"]) == ("pgv", "m/s")
+    assert said["curves"][0]["fraction"] == found.dataset.fraction.values[0].tolist()
+
+
 def test_one_record_is_warned_of(rocking):
     code, _, out = rocking(f"fragility example {LINE}")
     assert code == 0
@@ -178,8 +197,9 @@ def test_one_record_is_warned_of(rocking):
     "line, message",
     [
         (f"r0.csv r0.csv {LINE}", "r0.csv occurs 2 times; name each file once"),
-        ("r0.csv --height 2 --width 0.5 --pga-g 0.5", "--pga-g must be an axis, START:STOP:COUNT; got 0.5"),
-        ("r0.csv --height 2 --width 0.5", "--pga-g must be an axis, START:STOP:COUNT; got nothing"),
+        (f"r0.csv {LINE} --scale 1", "give exactly one of --scale, --pga, --pga-g"),
+        ("r0.csv --height 2 --width 0.5", "give exactly one of --scale, --pga, --pga-g"),
+        ("r0.csv --height 2 --width 0.5 --scale 0", "--scale must lie in [1e-09, 1e+06]; got 0"),
         ("r0.csv --height 2 --pga-g 0.1:1:5", "missing --width: give --height and --width"),
         (f"r0.csv {LINE} --limit 0.5 --limit 0.1", "--limit must hold numbers in (0, 10], ascending"),
         (

@@ -101,3 +101,8 @@ def test_each_example_can_be_copied_and_runs(rocking, tmp_path, command):
             typed[typed.index(option) + 1] for option in ("--plot", "--store", "--output") if option in typed
         ]
         assert all((tmp_path / name).exists() for name in named), number
+
+
+def test_polarity_is_said_to_have_no_effect_on_a_block_at_rest(rocking):
+    printed = " ".join(rocking("overturning-set --help")[2].split())
+    assert "no effect on a block at rest, which is symmetric" in printed

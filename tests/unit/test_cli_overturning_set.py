@@ -34,7 +34,7 @@ def test_report_has_a_row_per_record(rocking, found):
         [rk.example_ground_motion(), rk.read_ground_motion("push.csv")], BLOCK, LEVELS, intensity="pga-g"
     )
     code, message, out = rocking(f"overturning-set example push.csv {SIZE} {AXIS}")
-    title, heading, first, second = out.splitlines()
+    title, heading, first, second, equation = out.splitlines()
     assert (code, message) == (0, "")
     assert title == str(both)
     assert heading.split("   ")[:3] == ["record", *heading.split("   ")[1:3]]
@@ -43,6 +43,19 @@ def test_report_has_a_row_per_record(rocking, found):
     assert f"   {len(found.intervals())}   " in first
     assert second.startswith("push")
     assert "0.9 to 1.3" in second
+    small = "small angles; moments overestimated by up to 3.1 % (--model full avoids this)"
+    assert equation == f"equation of motion: {small}"
+
+
+def test_wide_and_large_blocks_are_warned_of(rocking):
+    line = "push.csv --height 190 --width 70 --scale 0.5:3:4"
+    text = rocking(f"overturning-set {line}")[2]
+    assert "warning: height 190 m is unusual: sizes are in metres" in text
+    assert "warning: outside the slender range, θcr = 0.353 rad" in text
+    full = json.loads(rocking(f"overturning-set {line} --model full --json")[2])
+    assert full["model"] == "full"
+    assert "height 190 m is unusual: sizes are in metres" in full["warnings"]
+    assert not any("slender" in each for each in full["warnings"])
 
 
 def test_json_holds_intervals_and_switches(rocking, found):
@@ -171,10 +184,10 @@ def test_no_record_is_overwritten(rocking, folder, source, monkeypatch):
 @pytest.mark.parametrize(
     ("line", "message"),
     [
-        ("empty", "empty: the folder holds no record file"),
+        ("empty", "empty: the folder holds no record file; the formats are PEER AT2, COSMOS, "),
         ("push.csv push.csv", "push.csv occurs 2 times; name each file once"),
         ("bad.csv", "bad.csv, line 2: column 'scale' must hold numbers; got 'much'"),
-        ("missing.csv", "missing.csv: cannot be read: No such file or directory"),
+        ("missing.csv", "missing.csv: cannot be read: No such file or directory; check the path"),
         (
             "bare.txt",
             "bare.txt: the file does not state the unit of its samples; give it, for example --units=",
@@ -215,3 +228,9 @@ def test_errors_name_the_options(rocking, line, message):
     assert (code, out) == (2, "")
     assert message in told
     assert "\n" not in told.strip()
+
+
+def test_switches_of_the_full_block_are_not_called_undecided(rocking):
+    code, _, out = rocking(f"overturning-set example {SIZE} --pga-g 1:2:40 --model full")
+    assert code == 0
+    assert "undecided" not in out

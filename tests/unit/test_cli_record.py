@@ -75,7 +75,44 @@ def test_overturning_is_told_with_its_time_and_is_a_success(rocking):
     first, text = told(rocking, f"push.csv {SIZE}")
     assert first == f"overturned: certain from t = {BLOCK.seconds(motion.overturning.time):.4g} s"
     assert "to spare" in text
-    assert "largest |θ| until the proof" in text
+    assert "largest |θ| until overturning was certain" in text
+
+
+def test_overturned_block_that_lacked_speed_before_says_so():
+    from rocking.cli.reports.record import margin
+
+    motion = simulated("push.csv")
+    early = margin(attrs.evolve(motion, margin=-0.1), BLOCK)
+    assert early.endswith("°/s to overturn, but overturned later")
+    stands = attrs.evolve(motion, margin=-0.1, outcome=rk.Outcome.BOUNDED)
+    assert margin(stands, BLOCK).endswith("°/s to overturn")
+
+
+def test_full_equation_of_motion_says_that_rounding_errors_are_not_assessed(rocking):
+    motion = rk.simulate(BLOCK.system(rk.read_ground_motion("push.csv"), model="full"))
+    first, text = told(rocking, f"push.csv {SIZE} --model full")
+    doubt = "(proved for the computed motion; its rounding errors are not assessed)"
+    assert first == f"overturned from t = {BLOCK.seconds(motion.overturning.time):.4g} s {doubt}"
+    assert "largest |θ| until overturning was proved" in text
+    assert "certain" not in text
+    assert str(motion).startswith(f"overturned from τ = {motion.overturning.time:.6g} {doubt}; ")
+    assert told(rocking, f"pulse.csv {SIZE} --model full")[0].endswith(doubt)
+    bounded = told(rocking, f"pulse.csv {SIZE} --model full --restitution 1")[0]
+    assert bounded.endswith("(rounding errors are not assessed)")
+
+
+def test_equation_of_motion_has_a_row_with_its_errors(rocking):
+    error = 100 * (1 / math.cos(BLOCK.critical_angle) - 1)
+    small = f"equation of motion small angles; moments overestimated by up to {error:.1f} %"
+    assert f"{small} (--model full avoids this) time unit" in told(rocking, f"pulse.csv {SIZE}")[1]
+    assert f"{small} time unit" in told(rocking, f"pulse.csv {SIZE} --brace-angle 0.5")[1]
+    assert "equation of motion full time unit" in told(rocking, f"pulse.csv {SIZE} --model full")[1]
+
+
+@pytest.mark.parametrize("model", ["slender", "full"])
+def test_size_in_centimetres_is_a_warning(rocking, model):
+    text = told(rocking, f"pulse.csv --height 190 --width 55 --model {model}")[1]
+    assert "warning: height 190 m is unusual: sizes are in metres" in text
 
 
 def test_block_that_never_moves_has_no_margin(rocking):
@@ -213,7 +250,7 @@ def test_more_events_than_are_kept_are_counted_and_refused_only_to_a_file(rockin
     [
         ("", "Missing argument 'FILE'."),
         ("pulse.csv --height 2", "missing --width: give --height and --width"),
-        (f"none.csv {SIZE}", "none.csv: cannot be read: No such file or directory"),
+        (f"none.csv {SIZE}", "none.csv: cannot be read: No such file or directory; check the path"),
         (f". {SIZE}", ".: a folder; give the path of one file"),
         (
             f"bare.txt {SIZE}",
@@ -242,6 +279,8 @@ def test_more_events_than_are_kept_are_counted_and_refused_only_to_a_file(rockin
             f"pulse.csv {SIZE} --scale nan",
             "--scale must be a finite real number of size up to 1e+06; got nan",
         ),
+        (f"pulse.csv {SIZE} --scale 0", "--scale must not be 0; got 0 (omit it for the record as it is)"),
+        (f"pulse.csv {SIZE} --pga-g 0", "--pga-g must not be 0; got 0 (omit it for the record as it is)"),
         (f"pulse.csv {SIZE} --pga-g=-1", "--pga-g must lie in [0, 100000] g; got -1"),
         (f"pulse.csv {SIZE} --inertia-ratio 0.5", "--inertia-ratio must lie in [1, 10]; got 0.5"),
         (f"pulse.csv {SIZE} --restitution 2", "--restitution must lie in [0, 1]; got 2"),

@@ -34,22 +34,32 @@ def test_report_has_the_numbers_of_the_function(rocking):
     found = rk.sensitivity(rk.read_record_set("set"), BLOCK, LEVELS, intensity="pga-g").dataset
     lines = out.splitlines()
     assert (code, message) == (0, "")
-    assert lines[0] == "verdicts that small changes flip, of 130 runs of 10 records"
+    assert lines[0] == "verdicts that small changes reverse, of 130 runs of 10 records"
     assert [line.split("   ")[0] for line in lines[2:7]] == found.change.values.tolist()
     assert [int(line.split()[-1]) for line in lines[2:7]] == found.flipped.values.tolist()
     for line, share in zip(lines[2:7], found.share.values.tolist(), strict=True):
         assert f"{100 * share:.1f} % (" in line or f"{100 * share:.2g} % (" in line
     assert found.flipped.values.sum() > 0
+    assert lines[7].startswith("equation of motion: small angles; moments overestimated by up to 3.1 %")
+
+
+def test_wide_and_large_blocks_are_warned_of(rocking):
+    line = "set --height 190 --width 70 --scale 0.5:3:4"
+    text = rocking(f"sensitivity {line}")[2]
+    assert "warning: height 190 m is unusual: sizes are in metres" in text
+    assert "warning: outside the slender range, θcr = 0.353 rad" in text
+    full = json.loads(rocking(f"sensitivity {line} --model full --json")[2])
+    assert (full["model"], full["warnings"]) == ("full", ["height 190 m is unusual: sizes are in metres"])
 
 
 @pytest.mark.parametrize(
     ("source", "read"), [("table.csv", "table.csv"), ("set/r0.csv set/r3.csv", ["set/r0.csv", "set/r3.csv"])]
 )
 def test_files_and_json_hold_the_numbers_of_the_function(rocking, tmp_path, source, read):
-    line = f"sensitivity {source} --height 2 --width 0.5 --scale 0.5:3:20 --polarity -1 --seed 3"
+    line = f"sensitivity {source} --height 2 --width 0.5 --scale 0.5:3:20 --seed 3"
     code, message, out = rocking(f"{line} --csv a.csv --netcdf a.nc --json")
     chosen = rk.read_record_set(read)
-    found = rk.sensitivity(chosen, BLOCK, np.linspace(0.5, 3, 20), polarity=-1, seed=3).dataset
+    found = rk.sensitivity(chosen, BLOCK, np.linspace(0.5, 3, 20), seed=3).dataset
     said = json.loads(out, parse_constant=pytest.fail)
     assert (code, message) == (0, "")
     assert said["records_sha256"] == chosen.digest
@@ -69,10 +79,10 @@ def test_files_and_json_hold_the_numbers_of_the_function(rocking, tmp_path, sour
 
 def test_study_states_the_options(rocking, tmp_path):
     (tmp_path / "study.toml").write_text(
-        'height = 2\nwidth = 0.5\npga_g = "0.3:1.5:13"\npolarity = -1\nseed = 2\nrestitution = 0.8\n',
+        'height = 2\nwidth = 0.5\npga_g = "0.3:1.5:13"\nseed = 2\nrestitution = 0.8\n',
         encoding="utf-8",
     )
-    said = rocking("sensitivity set --study study.toml --polarity 1 --json")
+    said = rocking("sensitivity set --study study.toml --json")
     assert said[0] == 0
     assert said == rocking(f"sensitivity set {LINE} --seed 2 --restitution 0.8 --json")
 
@@ -86,9 +96,8 @@ def test_study_states_the_options(rocking, tmp_path):
         ("set --height 2 --width 0.5 --pga 1", "--pga must be an axis, START:STOP:COUNT; got 1"),
         (f"set {LINE} --restitution 1", "the block must have a restitution in [0.02, 0.98]; got 1.0"),
         (f"set {LINE} --restitution 2", "--restitution must lie in [0, 1]; got 2"),
-        (f"set {LINE} --polarity 0.5", "--polarity must be 1, -1"),
         (f"set {LINE} --seed -1", "--seed must be a whole number in [0, 4294967295]; got -1"),
-        (f"none.csv {LINE}", "none.csv: cannot be read: No such file or directory"),
+        (f"none.csv {LINE}", "none.csv: cannot be read: No such file or directory; check the path"),
         (f"table.csv {LINE} --csv set/r1.csv", "--csv must not overwrite a record; got 'set/r1.csv'"),
         (f"set {LINE} --csv a.nc", "--csv must end in .csv"),
         (f"set {LINE} --plot a.png", "No such option: --plot"),

@@ -51,6 +51,7 @@ def test_report_says_records_blocks_and_outcomes(rocking):
         f"PGA {0.5 * G * np.abs(WAVE).max():.6g} to {G * np.abs(WAVE).max():.6g} (2) m/s², times 1",
         "size R 0.3 to 3 (10) m",
         "critical angle 10°",
+        "equation of motion small angles; moments overestimated by up to 1.5 % (--model full avoids this)",
         "restitution Housner's for each slenderness",
         f"overturned {5 * fell:.1f} %, {fell} runs",
         f"largest |θ| of blocks that stand {10 * stands:.4g}°, {stands:.4g} θcr",
@@ -113,6 +114,21 @@ def test_table_has_a_row_per_run_with_units(rocking, tmp_path):
     )
     assert [float(row["peak"]) for row in rows] == found.peak.values.ravel().tolist()
     assert {row["name"] for row in rows} == {"a.AT2, 180", "b.AT2, 180"}
+    degrees = found.peak.values * np.degrees(found.slenderness.values)
+    assert [float(row["peak [deg]"]) for row in rows] == pytest.approx(degrees.ravel().tolist())
+    assert np.isinf(degrees).any()
+    told(rocking, "set --size 0.3:3:4 --slenderness-deg 8 --csv one.csv")
+    one = list(csv.DictReader((tmp_path / "one.csv").read_text(encoding="utf-8").splitlines()))
+    expected = [pytest.approx(8 * float(row["peak"])) for row in one]
+    assert [float(row["peak [deg]"]) for row in one] == expected
+
+
+def test_wide_and_large_blocks_are_warned_of(rocking):
+    text = told(rocking, "set --size 0.3:20:4 --slenderness-deg 8:20:2")
+    assert f"warning: height {40 * np.cos(np.radians(8)):.4g} m is unusual: sizes are in metres" in text
+    assert "warning: outside the slender range, θcr = 0.349 rad = 20° and |θ| up to 0.349 rad = 20°" in text
+    full = json.loads(told(rocking, "set --size 0.3:3:4 --slenderness-deg 8:20:2 --model full --json"))
+    assert (full["model"], full["warnings"]) == ("full", [])
 
 
 def test_plot_and_store_are_written_and_a_study_states_options(rocking, tmp_path):

@@ -315,3 +315,23 @@ def test_a_picture_of_two_lists_in_a_study_file_is_refused_before_the_scan(rocki
         2,
         "--plot needs a single axis; got --period and --restitution (give one of them as a number)",
     )
+
+
+WIDE = "--height 2 --width 1"
+SURVEYS = (
+    f"map {WIDE} --acceleration 5:6:2 --frequency-hz 1:1.2:2 --max-cycles 50",
+    f"orbit-diagram {WIDE} --acceleration 5:6:2 --frequency-hz 1.2 --cycles 20 --transient 10",
+    f"overturning {WIDE} --acceleration 5:9:4 --frequency-hz 1.2 --phases 2",
+    f"overturning-spectrum --pulse one-sine {WIDE} --acceleration-g 0.5:1:3 --frequency-hz 1:2:2",
+    f"basins {WIDE} --acceleration 5 --frequency-hz 1.2 --angle=-0.5:0.5:3 --velocity=-0.5:0.5:3 --boundary-runs 0",
+)
+
+
+@pytest.mark.parametrize("line", SURVEYS, ids=lambda line: line.split()[0])
+def test_slender_block_is_warned_of_only_where_it_is_the_model(rocking, line):
+    warning = "warning: outside the slender range"
+    assert warning in rocking(line)[2]
+    code, message, full = rocking(f"{line} --model full")
+    assert (code, message) == (0, "")
+    assert warning not in full
+    assert "lift-off: " not in full

@@ -54,7 +54,8 @@ SHOWN = st.builds(
     restitution=inside(0, 1),
     phase=inside(-1000, 1000),
     velocity=inside(-1000, 1000),
-    brace_angle=st.none() | inside(1e-3, 1e3),
+    brace_angle=st.none() | inside(1e-3, 1.2),
+    critical_angle=st.none() | inside(1e-3, 1.2),
     amplitudes=spans(0, 1000),
     periods=spans(0.01, 6000),
     angles=spans(-1000, 1000),
@@ -115,6 +116,9 @@ def test_any_message_is_heard_or_refused(text):
         ({"cycles": " "}, "cycles", "give the cycles"),
         ({"brace_angle": "x"}, "brace_angle", "brace angle must be a number in [0.001, 1000]; got 'x'"),
         ({"first": "-1"}, "first", "first cycle must be a whole number in [0, 100000]; got '-1'"),
+        ({"critical_angle": "2"}, "critical_angle", "critical angle must be a number in [0.001, 1.2]; got '2'"),
+        ({"critical_angle": "0.5", "brace_angle": "4"}, "brace_angle",
+         "brace angle must be below 3.14159, where a block with critical angle 0.5 lies flat; got 4.0"),
         ({"vary": "phase"}, "vary", "vary must be one of amplitude, period; got 'phase'"),
         ({"brace_angle": "0.5", "angle": "0.9"}, "angle", "angle must lie between the braces, in [-0.5, 0.5]; got 0.9"),
         ({"periods": "2:1"}, "periods", "periods must be LOW:HIGH, with LOW < HIGH and a range that double precision resolves; got '2:1'"),
@@ -172,6 +176,50 @@ def test_block_in_metres_stays_in_the_commands(rocking):
     assert (
         texts.commands(other).splitlines()[0] == f"rocking classify {forced} --restitution=0.9 --angle=-0.1"
     )
+
+
+def test_full_block_is_in_the_link_the_code_and_the_commands(rocking):
+    shown = changed(DEFAULT, {"critical_angle": "0.25"})
+    assert shown.system == rk.System(rk.Harmonic(2.0, period=1.0), 0.925, critical_angle=0.25)
+    assert "critical_angle=0.25" in address(shown)
+    for line in texts.commands(shown).splitlines():
+        assert line.count("--critical-angle=0.25") == 1
+        code, message, _ = rocking(line.removeprefix("rocking ").replace(":101", ":3"))
+        assert (code, message) == (0, "")
+    found = {}
+    exec(texts.python(shown).replace("101)", "3)"), found)
+    assert found["system"] == shown.system
+    assert found["found"].attrs["critical_angle"] == 0.25
+
+
+def test_full_block_in_metres_has_the_critical_angle_of_its_size():
+    shown = in_metres(changed(DEFAULT, {"critical_angle": "0.3"}), METRES)
+    assert shown.critical_angle == rk.Block(2.0, 0.5).critical_angle
+    assert all(line.count("--model full") == 1 for line in texts.commands(shown).splitlines())
+    assert in_metres(DEFAULT, METRES).critical_angle is None
+    assert changed(shown, {"critical_angle": "0.245"}) == shown
+    assert changed(shown, {"critical_angle": ""}).system.critical_angle is None
+    with pytest.raises(Refused) as refusal:
+        changed(shown, {"critical_angle": "0.3"})
+    sentence = "critical angle must be 0.245, that of the block in SI units, or empty; got 0.3"
+    assert refusal.value.fields == {"critical_angle": sentence}
+    free = changed(shown, {"critical_angle": "0.3", "height": "", "width": ""})
+    assert (free.block, free.critical_angle) == (None, 0.3)
+
+
+def test_block_in_metres_is_refused_if_its_braces_are_where_it_lies_flat():
+    shown = changed(DEFAULT, {"critical_angle": "0.3", "brace_angle": "4"})
+    with pytest.raises(Refused) as refusal:
+        in_metres(shown, METRES | {"height": "2", "width": "1.9"})
+    assert list(refusal.value.fields) == ["brace_angle"]
+
+
+def test_link_with_one_unfit_field_keeps_the_others():
+    shown, refused = from_address("?version=1&critical_angle=0.3&brace_angle=6&amplitude=5")
+    assert (shown.amplitude, shown.critical_angle, shown.brace_angle) == (5.0, 0.3, None)
+    assert list(refused) == ["brace_angle"]
+    shown, refused = from_address("?version=1&brace_angle=0.5&angle=0.9&amplitude=5")
+    assert (shown.amplitude, shown.brace_angle, shown.angle, list(refused)) == (5.0, 0.5, 0.0, ["angle"])
 
 
 def option(line, name):
@@ -267,11 +315,14 @@ def refined(plane):
     return alone(run())
 
 
-def test_refined_map_is_the_packages_map():
-    plane = Plane(("period", Span(0.2, 3.0)), ("amplitude", Span(0.0, 16.0)), {"restitution": 0.925}, 33)
+@pytest.mark.parametrize("block", [{}, {"critical_angle": 0.25}])
+def test_refined_map_is_the_packages_map(block):
+    plane = Plane(
+        ("period", Span(0.2, 3.0)), ("amplitude", Span(0.0, 16.0)), {"restitution": 0.925} | block, 33
+    )
     pictures = refined(plane)
     found = rk.parametric_map(
-        period=np.linspace(0.2, 3, 33), amplitude=np.linspace(0, 16, 33), restitution=0.925
+        period=np.linspace(0.2, 3, 33), amplitude=np.linspace(0, 16, 33), restitution=0.925, **block
     )
     names = "kind", "response_period", "symmetric"
     assert (pictures[-1].look == looks(*(found[name].values for name in names))).all()
@@ -587,8 +638,9 @@ def test_curve_of_a_mode_is_dotted_on_the_page_where_the_mode_is_not_admissible(
         assert {mode.admissible for mode in modes} == {holds}
 
 
-def test_curves_of_a_block_without_braces_are_not_drawn_over_the_map_of_one_between_them():
-    shown = changed(DEFAULT, {"curves": "melnikov", "brace_angle": "1"})
+@pytest.mark.parametrize("block", [{"brace_angle": "1"}, {"critical_angle": "0.25"}])
+def test_curves_of_a_slender_block_without_braces_are_not_drawn_over_the_map_of_another(block):
+    shown = changed(DEFAULT, {"curves": "melnikov"} | block)
     assert plane_axes.curves(shown, plane_axes.Corner(0.0, 0.0))["xs"] == []
 
 
@@ -657,8 +709,8 @@ from rocking.explorer.view_state import DEFAULT
 from rocking.explorer.worker_pools import Workers
 from rocking.kernels.entry_point import ENTRY_POINTS
 
-figure, restitution, brace_angle = sys.argv[1], float(sys.argv[2]), float(sys.argv[3]) or None
-shown = evolve(DEFAULT, restitution=restitution, brace_angle=brace_angle, first=3)
+figure, restitution, brace_angle, critical_angle = sys.argv[1], *(float(text) or None for text in sys.argv[2:])
+shown = evolve(DEFAULT, restitution=restitution, brace_angle=brace_angle, critical_angle=critical_angle, first=3)
 stop = np.zeros(1, np.int64)
 if figure in ("map", "basin"):
     plane = Plane(("period", shown.periods), ("amplitude", shown.amplitudes), shown.fixed, COARSEST + 1, apart=figure == "basin")
@@ -675,12 +727,15 @@ print(sorted(loaded - set(compilation.needed(figure, shown))), len(loaded) > 2)
 """
 
 
-@pytest.mark.parametrize("restitution, brace_angle", [(0.925, 0.0), (1.0, 0.0), (0.925, 1.0)])
+@pytest.mark.parametrize(
+    "restitution, brace_angle, critical_angle",
+    [(0.925, 0.0, 0.0), (1.0, 0.0, 0.0), (0.925, 1.0, 0.0), (1.0, 1.0, 0.25)],
+)
 @pytest.mark.parametrize("figure", compilation.NEEDED)
-def test_figure_waits_for_all_machine_code_that_it_needs(figure, restitution, brace_angle):
+def test_figure_waits_for_all_machine_code_that_it_needs(figure, restitution, brace_angle, critical_angle):
     """Else a thread of the explorer waits for it, and other figures for the thread."""
     told = subprocess.run(
-        [sys.executable, "-c", LOADED, figure, str(restitution), str(brace_angle)],
+        [sys.executable, "-c", LOADED, figure, str(restitution), str(brace_angle), str(critical_angle)],
         capture_output=True,
         text=True,
         check=True,

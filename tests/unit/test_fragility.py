@@ -372,7 +372,6 @@ def test_intervals_cover_the_population():
         ({"width_spread": 0.6}, "width_spread must lie in [0, 0.5]; got 0.6"),
         ({"replicates": 10}, "replicates must be a whole number in [100, 100000]; got 10"),
         ({"seed": -1}, "seed must be a whole number in [0, 4294967295]; got -1"),
-        ({"polarity": [1, -1]}, "polarity must be one number; got [1, -1]"),
         ({"intensity": "pgx"}, "intensity must be one of 'scale', 'pga'"),
         ({"block": 2.0}, "block must be a Block; got 2.0"),
     ],
@@ -409,3 +408,17 @@ def test_a_store_keeps_the_runs(records, tmp_path):
         assert np.array_equal(kept.dataset.peak.values, each.dataset.peak.values)
     with pytest.raises(ValueError, match="store"):
         rk.fragility(records[:4], BLOCK, LEVELS, **{**given, "width_spread": 0.2}, store=folder)
+
+
+def test_fractions_that_hardly_grow_have_no_fit_and_no_warning():
+    """The median of a nearly flat curve is not a number that a computer has."""
+    exceeding = np.array([[3000, 3001, 3001], [7000, 7001, 7001]])
+    fits = lognormal_fits(np.array([0.5, 1.0, 2.0]), exceeding, np.full((2, 3), 10_000))
+    assert np.isnan(fits.median).all()
+    assert np.isnan(fits.dispersion).all()
+
+
+def test_two_levels_show_no_misfit():
+    found = rk.fragility(rk.synthetic_ground_motions(12, seed=1), rk.Block(2.0, 0.5), [4.0, 6.0], limits=())
+    assert math.isnan(found.fit().misfit)
+    assert "misfit" not in str(found)

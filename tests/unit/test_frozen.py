@@ -44,7 +44,7 @@ def value(request):
 
 
 PROPERTIES = ("events", "peaks", "history")
-INNER = ("_rows", "_facts", "_chain")
+INNER = ("_rows",)
 """Private arrays that compiled code reads."""
 
 

@@ -9,7 +9,8 @@ import pytest
 from scipy.integrate import quad
 
 import rocking as rk
-from rocking.kernels.march.finite_motion import ENDING_ROW, RUN_ROW, run_batch
+from rocking.kernels.march.ending import ENDING_ROW
+from rocking.kernels.march.finite_runs import RUN_ROW, run_batch
 from rocking.kernels.march.march import DONE, OVERTURNED
 from rocking.motion.kernel_parameters import parameters
 

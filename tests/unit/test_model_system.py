@@ -174,7 +174,8 @@ def test_acceleration_of_the_base_is_equation_3():
             lambda: check_start(SYSTEM.forcing, rk.State()),
             (
                 "system must be a System; got Harmonic(amplitude=2.0, period=1.0, phase=0.0) "
-                "(make one: rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925), or by rk.Block)"
+                "(make one: rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925), or by rk.Block: "
+                "block.system(rk.read_ground_motion(path)))"
             ),
         ),
         (

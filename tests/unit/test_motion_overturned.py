@@ -10,6 +10,7 @@ import pytest
 import xarray as xr
 
 import rocking as rk
+from rocking.motion import end_shown
 
 SLOW = rk.System(rk.Harmonic(amplitude=2.0, period=1000.0), restitution=0.9)
 """Its cycle of overturning goes on far beyond e^709, the largest power that is a float."""
@@ -102,7 +103,7 @@ def test_what_is_summed_up_says_the_same_end(rocking):
     out = rocking("simulate --amplitude 1.75 --period 2 --restitution 0.95")[2]
     motion = rk.simulate(USUAL)
     assert re.search(rf"^simulated +6 cycles, τ = {motion.overturning.time:.6g}$", out, re.MULTILINE)
-    assert re.search(rf"^largest \|Θ\| until the proof +{motion.peak:.6g}$", out, re.MULTILINE)
+    assert re.search(rf"^largest \|Θ\| until overturning was certain +{motion.peak:.6g}$", out, re.MULTILINE)
 
 
 def test_a_fall_within_the_first_cycle_has_a_hundred_samples():
@@ -110,3 +111,30 @@ def test_a_fall_within_the_first_cycle_has_a_hundred_samples():
     times = rk.simulate(SLOW).to_xarray().time.values
     assert len(times) == 101
     assert abs(rk.simulate(SLOW).at(times[-1])[0]) == pytest.approx(3.0, rel=1e-9)
+
+
+@pytest.mark.parametrize("amplitude, period", [(12.0, 1.5), (6.0, 3.0)])
+def test_full_block_is_shown_until_it_lies_flat_also_if_that_is_certain_only_later(amplitude, period):
+    system = rk.System(rk.Harmonic(amplitude, period=period, phase=3.0), 0.9, critical_angle=0.9)
+    motion = rk.simulate(system)
+    assert motion.outcome == "overturned"
+    assert abs(motion.final.angle) * 0.9 > 0.5 * math.pi
+    end = end_shown(motion)
+    angles = np.abs(motion.at(np.linspace(0.0, end, 500))[0]) * 0.9
+    assert angles[-1] == pytest.approx(0.5 * math.pi, abs=1e-9)
+    assert angles.max() <= 0.5 * math.pi + 1e-9
+
+
+@pytest.mark.parametrize(
+    "model, pga, expected",
+    [
+        ("slender", 1.0, "stands still"),
+        ("slender", 9.81, "comes to rest"),
+        ("slender", 1.2 * 9.80665, r"overturns, drawn to 3 $\theta_\mathrm{cr}$"),
+        ("full", 13.0, "overturns, lies flat at the end"),
+    ],
+)
+def test_figure_of_a_record_states_the_outcome(model, pga, expected):
+    block, record = rk.Block(2.0, 0.5), rk.example_ground_motion()
+    motion = rk.simulate(block.system(record.scaled(pga=pga), model=model))
+    assert rk.plot.time_history(motion, block=block).get_title("right") == expected

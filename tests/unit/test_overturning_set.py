@@ -239,7 +239,7 @@ def test_a_range_without_overturning_has_no_interval():
     assert found.intervals(1).shape == (0, 2)
     assert np.isnan(found.lowest).all()
     assert found.share.tolist() == [0.0, 0.0]
-    assert str(found) == "2 records, 3 levels of s from 0.1 to 0.9: 0 switches; no level overturns"
+    assert str(found) == "2 records, 3 levels of factor from 0.1 to 0.9: 0 switches; no level overturns"
 
 
 def test_a_range_that_overturns_throughout_is_one_interval():

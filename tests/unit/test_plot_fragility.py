@@ -64,13 +64,16 @@ def test_fractions_fits_and_intervals_are_drawn(fragility):
     data = fragility.dataset
     points = np.concatenate([line.get_ydata() for line in drawn(ax, "fraction")])
     assert sorted(points) == pytest.approx(sorted(100 * data.fraction.values.ravel()))
-    for line, limit in zip(drawn(ax, "fit"), range(3), strict=True):
-        assert line.get_xdata().tolist() == data.scale.values.tolist()
-        assert line.get_ydata() == pytest.approx(100 * data.fit.values[limit], nan_ok=True)
     fitted = [limit for limit in range(3) if np.isfinite(data.fit.values[limit]).all()]
     assert len(fitted) >= 2
-    for limit in fitted:
-        corners = drawn(ax, "band")[limit].get_paths()[0].vertices[:, 1]
+    for line, limit in zip(drawn(ax, "fit"), fitted, strict=True):
+        assert line.get_xdata().size >= 200
+        at = np.searchsorted(line.get_xdata(), data.scale.values)
+        assert line.get_xdata()[at].tolist() == data.scale.values.tolist()
+        assert line.get_ydata()[at] == pytest.approx(100 * data.fit.values[limit])
+        assert (np.diff(line.get_ydata()) >= 0.0).all()
+    for band, limit in zip(drawn(ax, "band"), fitted, strict=True):
+        corners = band.get_paths()[0].vertices[:, 1]
         ends = 100 * np.concatenate([data.fit_low.values[limit], data.fit_high.values[limit]])
         assert np.abs(corners[:, None] - ends).min(axis=0).max() < 1e-9
     ends = [segment[:, 1] for each in ax.containers for bars in each[2] for segment in bars.get_segments()]
@@ -78,7 +81,13 @@ def test_fractions_fits_and_intervals_are_drawn(fragility):
     assert np.array(ends) == pytest.approx(expected)
     assert (ax.get_xlabel(), ax.get_ylabel()) == ("peak ground acceleration PGA (g)", "probability (%)")
     texts = [text.get_text() for text in ax.get_legend().get_texts()]
-    assert texts[-1] == "overturning"
+    assert texts[2:] == [
+        "overturning",
+        "95 % interval",
+        "lognormal fit",
+        "95 % band of the fit",
+        "0 or 100 % of the runs",
+    ]
     assert texts[0].startswith(r"$|\theta| > 1.4°$")
 
 
@@ -93,7 +102,9 @@ def test_number_of_blocks_is_stated_and_levels_of_a_block_have_their_symbol(reco
 
 def test_a_fragility_without_a_fit_is_drawn_without_a_curve(records):
     ax = rk.plot.fragility(rk.fragility(records, BLOCK, [0.5, 1.0], limits=()))
-    assert not np.isfinite(drawn(ax, "fit")[0].get_ydata()).any()
+    assert drawn(ax, "fit") == drawn(ax, "band") == []
+    texts = [text.get_text() for text in ax.get_legend().get_texts()]
+    assert texts == ["overturning", "95 % interval", "0 or 100 % of the runs"]
     assert np.concatenate([line.get_ydata() for line in drawn(ax, "fraction")]).tolist() == [0.0, 0.0]
 
 

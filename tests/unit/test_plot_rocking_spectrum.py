@@ -36,7 +36,7 @@ def test_each_record_and_slenderness_is_a_line_with_gaps_where_the_block_overtur
         np.testing.assert_array_equal(line.get_xdata(), SIZES)
         np.testing.assert_array_equal(line.get_ydata(), peak)
     assert (ax.get_xlabel(), ax.get_ylabel()) == (
-        "distance $R$ of corner and centre of mass (m)",
+        "half the diagonal, $R$ (m)",
         r"largest angle $|\theta|/\theta_\mathrm{cr}$",
     )
     names = [text.get_text() for text in ax.get_legend().get_texts()]
@@ -106,11 +106,51 @@ def test_undecided_outcomes_are_circled_and_in_the_legend(found):
     ]
 
 
-def test_many_records_share_a_colour_and_a_row_in_the_legend():
-    records = rk.synthetic_ground_motions(12, seed=2, duration=4.0)
-    ax = rk.plot.rocking_spectrum(rk.rocking_spectrum(records, size=[0.5, 1.0], slenderness=0.15))
-    assert {to_hex(line.get_color()) for line in drawn(ax, "peak")} == {style.MOTION.lower()}
-    assert ax.get_legend().get_texts()[0].get_text() == "12 lines"
+@pytest.fixture(scope="module")
+def of_many():
+    records = rk.synthetic_ground_motions(12, seed=2, duration=8.0)
+    return rk.rocking_spectrum(records, size=SIZES, slenderness=[0.15, 0.25], scale=0.5, intensity="pga-g")
+
+
+def test_many_records_share_the_colour_of_their_slenderness(of_many):
+    ax = rk.plot.rocking_spectrum(of_many)
+    colours = [to_hex(line.get_color()) for line in drawn(ax, "peak")]
+    assert colours == 12 * [style.MOTION.lower(), style.IMPACT.lower()]
+    names = [text.get_text() for text in ax.get_legend().get_texts()]
+    assert names[0] == "one record"
+    assert names[1:3] == [rf"median, $\theta_\mathrm{{cr}}$ = {angle}°" for angle in ("8.59", "14.3")]
+
+
+def test_median_ends_where_more_than_half_of_the_records_overturn_the_block(of_many):
+    ax = rk.plot.rocking_spectrum(of_many)
+    ended = 0
+    for number, line in enumerate(drawn(ax, "median")):
+        for peaks, shown in zip(of_many.peak.values[..., number].T, line.get_ydata(), strict=True):
+            middle = sorted(peaks.tolist())[5]
+            ended += math.isinf(middle)
+            assert (math.isnan(shown) and math.isinf(middle)) or shown == middle
+    assert 0 < ended < 2 * SIZES.size
+
+
+def test_heading_states_what_does_not_vary(found, of_many):
+    ax = rk.plot.rocking_spectrum(of_many)
+    assert (ax.get_title("left"), ax.get_title("right")) == ("12 records", "PGA = 0.5 g")
+    ax = rk.plot.rocking_spectrum(rk.rocking_spectrum(RECORDS[0], size=SIZES, slenderness=0.2, scale=2.0))
+    heading = r"$\theta_\mathrm{cr}$ = 11.5°, factor = 2"
+    assert (ax.get_title("left"), ax.get_title("right")) == ("synthetic 1", heading)
+    two = rk.rocking_spectrum(RECORDS[0], size=SIZES, slenderness=0.2, scale=[0.3, 0.5], intensity="pga-g")
+    selected = rk.plot.rocking_spectrum(two.isel(scale=1)).get_title("right")
+    assert selected == r"$\theta_\mathrm{cr}$ = 11.5°, PGA = 0.5 g"
+    many = rk.rocking_spectrum(RECORDS[0], size=SIZES, slenderness=np.linspace(0.1, 0.3, 8), scale=2.0)
+    ax = rk.plot.rocking_spectrum(many)
+    assert (ax.get_title("left"), ax.get_title("right")) == ("synthetic 1", "factor = 2")
+
+
+def test_axis_of_the_angle_ends_below_the_strip_of_overturned_blocks(found):
+    ax = rk.plot.rocking_spectrum(found)
+    (strip,) = (each for each in ax.patches if each.get_gid() == "strip")
+    bottom = strip.get_extents().transformed(ax.transData.inverted()).y0
+    assert max(ax.get_yticks()) <= bottom < min(y for row in drawn(ax, "overturned") for y in row.get_ydata())
 
 
 def test_many_slendernesses_are_a_map_with_overturned_blocks_in_grey():

@@ -180,11 +180,17 @@ def test_undecided_switches_are_marked(levels_that_overturn):
     )
 
 
-def test_many_records_are_numbered_and_long_names_are_cut():
+def test_many_records_are_numbered_and_long_names_are_cut_in_the_middle():
     block, push = rk.Block(2.0, 0.5), [4.0, 4.0]
     many = [rk.GroundMotion(push, step=0.5, name=f"record number {k} of a long series") for k in range(40)]
     few = rk.plot.overturning_set(rk.overturning_set(many[:2], block, [0.1, 2.0]))
-    assert [tick.get_text() for tick in few.get_yticklabels()] == ["record number 0 o…", "record number 1 o…"]
+    assert [tick.get_text() for tick in few.get_yticklabels()] == [
+        "0 record … series",
+        "1 record … series",
+    ]
+    ends = [rk.GroundMotion(push, step=0.5, name=f"RSN953_NORTHRIDGE_MUL{k}") for k in ("009", "279")]
+    told = rk.plot.overturning_set(rk.overturning_set(ends, block, [0.1, 2.0])).get_yticklabels()
+    assert [tick.get_text() for tick in told] == ["RSN953_NO…E_MUL009", "RSN953_NO…E_MUL279"]
     ax = rk.plot.overturning_set(rk.overturning_set(many, block, [0.1, 2.0]))
     assert ax.get_ylabel() == "record"
     assert ax.get_yticks().tolist() == list(range(0, 40, 4))
@@ -193,7 +199,7 @@ def test_many_records_are_numbered_and_long_names_are_cut():
 @pytest.mark.parametrize(
     "intensity, label",
     [
-        ("scale", "factor of the ground motion s"),
+        ("scale", "factor of the ground motion"),
         ("pga", "peak ground acceleration PGA (m/s²)"),
         ("arias", "Arias intensity I_A (m/s)"),
         ("magnitude", "column 'magnitude' of the records"),

@@ -2,6 +2,7 @@
 
 import re
 from itertools import starmap
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -95,7 +96,18 @@ def test_digest_is_that_of_the_motions_in_their_order_whatever_their_names():
             ValueError,
             "records must hold ground motions, one at least; got [] (read them with rk.read",
         ),
-        ("a", {}, TypeError, "records must hold ground motions, one at least; got 'a'"),
+        (
+            "a",
+            {},
+            TypeError,
+            "records must hold ground motions, one at least; got 'a' (read them with rk.read",
+        ),
+        (
+            Path("a"),
+            {},
+            TypeError,
+            "records must hold ground motions, one at least; got PosixPath('a') (read them with rk.read",
+        ),
         ([1.0], {}, TypeError, "records must hold ground motions, one at least; got 1.0 (read them"),
         (
             [motion(name="a")] * 2,
@@ -200,9 +212,40 @@ def test_table_alone_may_name_its_column_alone(folder):
 def test_folder_without_records_is_said(tmp_path):
     saved(tmp_path / "readme.txt", ["Source."])
     with pytest.raises(
-        rk.RecordError, match=f"^{re.escape(str(tmp_path))}: the folder holds no record file$"
+        rk.RecordError,
+        match=f"^{re.escape(str(tmp_path))}: the folder holds no record file; the formats are PEER",
     ):
         rk.read_record_set(tmp_path)
+
+
+VELOCITY = write.peer(WAVE, title="VELOCITY TIME SERIES IN UNITS OF CM/S")
+
+
+def test_velocities_and_displacements_beside_records_are_left_out_with_a_warning(folder):
+    digest = rk.read_record_set(folder).digest
+    others = ["b.DT2", "b.VT2", "_SearchResults.csv", "c.vt2"]
+    for count, name in enumerate(others, 1):
+        saved(folder / name, VELOCITY)
+        named = ", ".join(sorted(others[:count])[:3]) + ", …" * (count > 3)
+        message = f"{folder}: {count} file{'s' * (count > 1)} without acceleration left out: {named}"
+        with pytest.warns(UserWarning, match=f"^{re.escape(message)}$") as caught:
+            assert rk.read_record_set(folder).digest == digest
+        assert [each.filename for each in caught] == [__file__]
+
+
+def test_velocities_alone_are_no_records_and_refused_if_named(tmp_path):
+    path = saved(tmp_path / "b.VT2", VELOCITY)
+    with pytest.raises(rk.RecordError, match="the folder holds no record file"):
+        rk.read_record_set(tmp_path)
+    with pytest.raises(rk.RecordError, match=r"acceleration expected, but the file holds velocity"):
+        rk.read_record_set([path])
+
+
+def test_record_without_its_line_of_the_unit_beside_others_has_the_table_as_way_out(folder):
+    lines = write.peer(WAVE)
+    saved(folder / "c.AT2", [*lines[:2], *lines[3:]])
+    with pytest.raises(rk.RecordError, match="units='g'; a table with a column 'units' gives it for each"):
+        rk.read_record_set(folder)
 
 
 @pytest.mark.parametrize("name", ["notes.txt", "inner"])
@@ -314,7 +357,7 @@ def test_wrong_table_is_refused_with_its_line(folder, table):
             TypeError,
             "source must be a folder, a table with a column 'file', or paths of record files; got 7$",
         ),
-        ("nowhere", rk.RecordError, "nowhere: cannot be read: No such file or directory$"),
+        ("nowhere", rk.RecordError, "nowhere: cannot be read: No such file or directory; check the path$"),
     ],
 )
 def test_source_that_is_none_is_refused(source, error, message, tmp_path, monkeypatch):

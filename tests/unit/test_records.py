@@ -210,7 +210,7 @@ def changed(lines, old, new):
 WRONG = {
     "count too large": (
         changed(write.peer(WAVE), "NPTS=  37", "NPTS=  47"),
-        "line 12: the file ends after 37 samples of 47",
+        "line 12: the file ends after 37 samples of 47; it is incomplete: download it again",
     ),
     "count too small": (
         changed(write.peer(WAVE), "NPTS=  37", "NPTS=  35"),
@@ -226,13 +226,16 @@ WRONG = {
     ),
     "another quantity": (
         write.peer(WAVE, title="VELOCITY TIME SERIES IN UNITS OF CM/S"),
-        "line 3: acceleration expected",
+        "line 3: acceleration expected, but the file holds velocity; give the .AT2 file",
     ),
     "unknown unit": (
         write.peer(WAVE, title="ACCELERATION TIME SERIES IN UNITS OF FT/S2"),
         "line 3: a unit of acceleration expected; got 'FT/S2'",
     ),
-    "header cut": (write.peer(WAVE)[:3], "line 3: the file ends in its header"),
+    "header cut": (
+        write.peer(WAVE)[:3],
+        "line 3: the file ends in its header; it is incomplete: download it again",
+    ),
     "not a number": ([*write.peer(WAVE)[:-1], "  NaN 1.0"], "line 12: numbers expected"),
     "two points": ([*write.peer(WAVE)[:-1], "  1.0.5"], "line 12: numbers expected; got '1.0.5'"),
     "absurd exponent": (
@@ -317,7 +320,8 @@ def test_an_error_names_file_and_line(make, kind):
 
 
 def test_files_that_are_none(tmp_path, make):
-    assert "cannot be read: No such file" in refusal_of(tmp_path / "missing.at2")
+    missing = refusal_of(tmp_path / "missing.at2")
+    assert missing.endswith("cannot be read: No such file or directory; check the path")
     assert "a folder" in refusal_of(tmp_path)
     assert "is empty" in refusal_of(make(b"\n \n"))
     assert "cannot be read" in refusal_of("null\0byte")
@@ -392,6 +396,25 @@ def test_unit_and_step_that_the_file_states_are_not_given_again(make, arguments,
 )
 def test_unit_and_step_are_never_guessed(make, arguments, expected):
     assert refusal_of(make(["1", "2"]), **arguments) == expected
+
+
+@pytest.mark.parametrize("old", [False, True])
+@pytest.mark.parametrize("third", [[], ["ACCELERATION TIME SERIES"]])
+def test_peer_file_without_its_line_of_the_unit_takes_the_argument(make, third, old):
+    lines = write.peer(WAVE, old=old)
+    path = make([*lines[:2], *third, *lines[3:]])
+    assert refusal_of(path) == (
+        "file.x: line 3, 'ACCELERATION TIME SERIES IN UNITS OF G', is missing: the file does not state the unit of its "
+        "samples; give it, for example units='g'"
+    )
+    motion = rk.read_ground_motion(path, units="g")
+    assert (motion.step, motion.name, motion.component) == (0.01, "Valley-02, 1/2/1940, Town Array #9", "180")
+    np.testing.assert_allclose(motion.acceleration, G * WAVE, rtol=1e-12)
+
+
+def test_peer_file_of_another_quantity_without_its_unit_is_refused(make):
+    lines = write.peer(WAVE, title="VELOCITY TIME SERIES")
+    assert "but the file holds velocity" in refusal_of(make(lines), units="g")
 
 
 @pytest.mark.parametrize("units", ["m/s", 3, "furlong", ""])

@@ -11,7 +11,7 @@ import typer
 NORMALISED = ("amplitude", "period", "frequency")
 SI = ("height", "width", "acceleration", "acceleration_g", "displacement", "frequency_hz", "period_s")
 FORCED = (*NORMALISED, *SI, "restitution")
-SYSTEM = (*FORCED, "phase", "brace_angle", "brace_restitution")
+SYSTEM = (*FORCED, "phase", "brace_angle", "brace_restitution", "critical_angle")
 START = ("angle", "velocity")
 TOLD = tuple(name for name in (*SYSTEM, *START) if name not in SI)
 """Quantities of a survey, in the order in which they are printed."""
@@ -33,7 +33,9 @@ def options(*names: str) -> dict[str, str]:
     return {name: option(name) for name in names}
 
 
-ARGUMENTS = options(*FORCED, "phase", *START, "cycles", "pulse", "model", *COUNTS) | {"kind": option("pulse")}
+ARGUMENTS = options(*FORCED, "phase", *START, "critical_angle", "cycles", "pulse", "model", *COUNTS) | {
+    "kind": option("pulse")
+}
 
 
 @contextmanager
@@ -49,5 +51,5 @@ def as_typed(text: str, typed: Mapping[str, str]) -> str:
     """Replace arguments in a text by their names in `typed`, except inside quotation marks, which may hold a path."""
     if not typed:
         return text
-    words = r"(?<!\w)(?:'[^']*'|\"[^\"]*\")|(?<![\w-])(" + "|".join(typed) + r")(?!['\w])"
+    words = r"(?<!\w)(?:'[^']*'|\"[^\"]*\")|(?<![\w-])(" + "|".join(map(re.escape, typed)) + r")(?!['\w])"
     return re.sub(words, lambda found: typed[found[1]] if found[1] else found[0], text)

@@ -32,6 +32,11 @@ FIELDS = (
     ("velocity", "Θ′₀", "Initial angular velocity Θ′₀, in units of α θcr"),
     ("brace_angle", "Θb", "Brace angle Θb, in units of θcr; empty for no braces"),
     ("brace_restitution", "r", "Coefficient of restitution r of brace impacts, 0 to 1"),
+    (
+        "critical_angle",
+        "θcr",
+        "Critical angle θcr in rad, for the full equation of motion; empty for a slender block and small angles",
+    ),
     ("first", "", "First forcing cycle shown in the time history and the phase portrait"),
     ("cycles", "", "Number of forcing cycles shown in the time history and the phase portrait"),
 )

@@ -19,13 +19,13 @@ SIMULATION = (
     "resample.sample.HarmonicParameters",
     "resample.turns.HarmonicParameters",
 )
-CLASSIFICATION = (*SIMULATION, "batch.classify_batch_scalar")
-BASIN = (*CLASSIFICATION, "attractor_anchor.anchor_each")
+CLASSIFICATION = (*SIMULATION, "batch.classify_batch_scalar.HarmonicParameters")
+BASIN = (*CLASSIFICATION, "attractor_anchor.anchor_each.HarmonicParameters")
 FINITE = tuple(
     f"{name}.{kind}{what}"
     for kind in ("Sampled", "Pulse")
     for name, what in (
-        ("finite_motion.run_to_end", "Parameters"),
+        ("finite_runs.run_to_end", "Parameters"),
         ("initial_state.begin_march", "Parameters"),
         ("initial_state.note_start", "Drive"),
         ("march.march_plain", "Parameters"),
@@ -34,11 +34,17 @@ FINITE = tuple(
     )
 )
 GROUND = {
-    "map": ("tables.fill", "finite_motion.run_batch", "finite_motion.run_pulses"),
+    "map": (
+        "tables.fill",
+        "parameters.make_pulse_plain",
+        "finite_runs.run_batch.SampledParameters",
+        "finite_runs.run_pulses.PulseParameters",
+    ),
     "motion": ("tables.fill", "parameters.make_pulse_plain", *FINITE),
 }
-"""Entry points of each figure of the page of ground motions."""
+"""Entry points of each figure of the page of ground motions, for the slender block."""
 GROUND_ALL = sorted({name for names in GROUND.values() for name in names})
+FULL_PARAMETERS = ("parameters.full_shape", "parameters.full_cosine")
 LANES = ("scheduler.classify_batch_lanes",)
 NEEDED = {
     "motion": SIMULATION,
@@ -47,7 +53,7 @@ NEEDED = {
     "verdict": CLASSIFICATION,
     "map": CLASSIFICATION,
     "basin": BASIN,
-    "diagram": (*SIMULATION, "sweep.sweep"),
+    "diagram": (*SIMULATION, "sweep.sweep.HarmonicParameters"),
 }
 """Entry points of each figure; maps of undamped motions and of motions between braces also need those of the lanes."""
 ALL = sorted({name for names in NEEDED.values() for name in names} | set(LANES))
@@ -55,8 +61,23 @@ ALL = sorted({name for names in NEEDED.values() for name in names} | set(LANES))
 
 def needed(figure: str, shown: ViewState) -> tuple[str, ...]:
     """Return the entry points of a figure of a view."""
+    if shown.critical_angle is not None:
+        return full(NEEDED[figure])
     long = figure in ("map", "basin") and (shown.restitution == 1.0 or shown.brace_angle is not None)
     return NEEDED[figure] + (LANES if long else ())
+
+
+def full(names: Sequence[str]) -> tuple[str, ...]:
+    """Return the entry points that the full block has in place of those of the slender block."""
+    return FULL_PARAMETERS + tuple(
+        ".".join([*name.split(".")[:2], f"Full{name.split('.')[2]}"]) if name.count(".") == 2 else name
+        for name in names
+    )
+
+
+def needed_by_ground(figure: str, model: str) -> tuple[str, ...]:
+    """Return the entry points of a figure of the page of ground motions."""
+    return full(GROUND[figure]) if model == "full" else GROUND[figure]
 
 
 class Compilation:

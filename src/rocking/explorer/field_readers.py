@@ -19,6 +19,7 @@ MAX_ADDRESS = 2000
 WORDS = {
     "brace_angle": "brace angle",
     "brace_restitution": "brace restitution",
+    "critical_angle": "critical angle",
     "first": "first cycle",
     "acceleration_g": "acceleration",
     "frequency_hz": "frequency",

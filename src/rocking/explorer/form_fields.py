@@ -23,16 +23,20 @@ from rocking.explorer.field_readers import (
 from rocking.explorer.view_state import DEFAULT, Span, ViewState, closest
 from rocking.model import (
     BRACE_ANGLES,
+    CRITICAL_ANGLES,
     MAX_AMPLITUDE,
     MAX_PHASE,
     MAX_START,
     PERIODS,
     Block,
+    check_below_flat,
     check_start,
     refusal,
 )
 from rocking.plot.parts import theory_curves
 
+SAME = 1e-3
+"""Largest relative difference at which a typed critical angle counts as that of the block in SI units."""
 LATEST, MAX_SHOWN = 100_000, 200
 """Largest first cycle, and largest number of cycles, of the time history."""
 
@@ -73,6 +77,7 @@ READ: dict[str, Callable[[str, str], Any]] = {
     "velocity": number(*START),
     "brace_angle": optional(number(*BRACE_ANGLES)),
     "brace_restitution": number(0.0, 1.0),
+    "critical_angle": optional(number(*CRITICAL_ANGLES)),
     "amplitudes": _span(0.0, MAX_AMPLITUDE),
     "periods": _span(*PERIODS),
     "angles": _span(*START),
@@ -116,12 +121,33 @@ def changed(shown: ViewState, typed: Mapping[str, str]) -> ViewState:
     read, refused = read_fields(READ, typed)
     if refused:
         raise Refused(refused)
-    wanted = attrs.evolve(shown, **read)
+    return _checked(_with_angle_of_block(attrs.evolve(shown, **read)))
+
+
+def _with_angle_of_block(shown: ViewState) -> ViewState:
+    """Return the view with the exact critical angle of its block in SI units; raise Refused for another one."""
+    if shown.block is None or shown.critical_angle is None:
+        return shown
+    exact = shown.block.critical_angle
+    if abs(shown.critical_angle / exact - 1.0) > SAME:
+        allowed = f"be {exact:.4g}, that of the block in SI units, or empty"
+        raise Refused({"critical_angle": refusal("critical angle", allowed, shown.critical_angle)})
+    return attrs.evolve(shown, critical_angle=exact)
+
+
+def _checked(shown: ViewState) -> ViewState:
+    """Return the view; raise Refused for braces or an initial state that its block cannot have."""
+    if shown.critical_angle is not None and shown.brace_angle is not None:
+        try:
+            check_below_flat(shown.brace_angle, shown.critical_angle)
+        except ValueError as error:
+            sentence = str(error).replace("critical_angle", WORDS["critical_angle"])
+            raise Refused(_at_its_field(sentence)) from None
     try:
-        check_start(wanted.system, wanted.start)
+        check_start(shown.system, shown.start)
     except ValueError as error:
         raise Refused({"angle": str(error)}) from None
-    return wanted
+    return shown
 
 
 def in_metres(shown: ViewState, typed: Mapping[str, str]) -> ViewState:
@@ -137,7 +163,8 @@ def in_metres(shown: ViewState, typed: Mapping[str, str]) -> ViewState:
     Returns
     -------
     ViewState
-        New view, with Housner's coefficient of restitution. Its map includes the new system.
+        New view, with Housner's coefficient of restitution. Its map includes the new system. A critical angle becomes that
+        of the block.
 
     Raises
     ------
@@ -153,17 +180,19 @@ def in_metres(shown: ViewState, typed: Mapping[str, str]) -> ViewState:
         system = block.system(**{size: read["acceleration"]}, frequency_hz=read["frequency_hz"])
     except ValueError as error:
         raise Refused(_at_its_field(str(error))) from None
-    forcing = system.harmonic
-    return attrs.evolve(
+    forcing = system.periodic
+    wanted = attrs.evolve(
         shown,
         amplitude=forcing.amplitude,
         period=forcing.period,
         restitution=system.restitution,
         height=block.height,
         width=block.width,
+        critical_angle=None if shown.critical_angle is None else block.critical_angle,
         amplitudes=_reaching(shown.amplitudes, forcing.amplitude, MAX_AMPLITUDE),
         periods=_reaching(shown.periods, forcing.period, PERIODS[1]),
     )
+    return _checked(wanted)
 
 
 def _at_its_field(sentence: str) -> dict[str, str]:
@@ -210,9 +239,9 @@ def from_address(text: str) -> tuple[ViewState, dict[str, str]]:
     except Refused as unread:
         return DEFAULT, unread.fields
     read, refused = read_fields(READ, typed)
-    shown = attrs.evolve(DEFAULT, **read)
-    try:
-        check_start(shown.system, shown.start)
-    except ValueError as error:
-        return DEFAULT, refused | {"angle": str(error)}
-    return shown, refused
+    while True:
+        try:
+            return _checked(_with_angle_of_block(attrs.evolve(DEFAULT, **read))), refused
+        except Refused as unfit:
+            refused |= unfit.fields
+            read = {name: value for name, value in read.items() if name not in unfit.fields}

@@ -45,6 +45,7 @@ function show(told) {
   }
   const on = new Set(told.fields.curves.split(","));
   for (const box of all("#curves input")) box.checked = on.has(box.name);
+  find("curves").disabled = Boolean(told.fields.brace_angle || told.fields.critical_angle);
   remember(told, before);
   for (const name of ["map", "basin"]) steady(name);
   find("depth").textContent = told.planes.map.deepest ? "Zoom limit of double precision" : "";
@@ -265,7 +266,7 @@ for (const button of all("[data-save]")) button.onclick = async () => {
 function scene() {
   const data = models.history.renderers[0].data_source.data, column = key => data instanceof Map ? data.get(key) : data[key];
   const time = column("time"), angle = column("angle"), fields = shown.fields;
-  const height = Number(fields.height) || 4, width = Number(fields.width) || 1;
+  const height = Number(fields.height) || 4, width = Number(fields.width) || height * Math.tan(Number(fields.critical_angle) || Math.atan(0.25));
   const amplitude = Number(fields.amplitude), period = Number(fields.period), frequency = 2 * Math.PI / period;
   const critical = Math.atan2(width, height), radius = Math.hypot(height, width) / 2;
   let peak = 0;

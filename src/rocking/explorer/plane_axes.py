@@ -123,9 +123,13 @@ def answers(picture: Picture) -> dict[str, np.ndarray]:
 
 
 def curves(shown: ViewState, corner: Corner) -> dict[str, Any]:
-    """Return the visible part of the selected curves, dotted where the mode is not admissible; none with braces."""
+    """Return the visible part of the selected curves, dotted where the mode is not admissible.
+
+    They hold for a slender block without braces; otherwise there are none.
+    """
     columns: dict[str, Any] = {"xs": [], "ys": [], "dash": []}
-    for name in shown.curves if shown.brace_angle is None else ():
+    hold = shown.brace_angle is None and shown.critical_angle is None
+    for name in shown.curves if hold else ():
         periods, *lines = _curve(name, shown.periods, shown.amplitudes, shown.restitution)
         for line, dash in zip(lines, (DASHES[name], DOTTED), strict=True):
             if np.isfinite(line).any():

@@ -19,7 +19,7 @@ from rocking.explorer.renderer import SessionRenderer
 from rocking.explorer.view_state import DEFAULT, Span, ViewState, closest, nearby
 from rocking.explorer.worker_pools import Workers
 
-SHAKEN = ("restitution", "phase", "angle", "velocity", "brace_angle", "brace_restitution")
+SHAKEN = ("restitution", "phase", "angle", "velocity", "brace_angle", "brace_restitution", "critical_angle")
 SYSTEM = ("amplitude", "period", *SHAKEN)
 
 

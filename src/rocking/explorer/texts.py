@@ -23,7 +23,7 @@ MIN_SHARE = 1e-4
 
 def verdict(found: Verdict, block: Block | None) -> dict[str, Any]:
     """Return a verdict for the page: response type, colour, named values and evidence."""
-    forcing = found.system.harmonic
+    forcing = found.system.periodic
     facts: Facts = [] if block is None else _physical(forcing, block)
     if found.period is not None:
         symmetry = "symmetric" if found.symmetric else "asymmetric"
@@ -31,7 +31,7 @@ def verdict(found: Verdict, block: Block | None) -> dict[str, Any]:
         facts.append(("period", f"{counted(found.period, 'cycle')}, {symmetry}{seconds}"))
         hits = [("impacts", found.impacts_per_period), ("brace impacts", found.brace_hits_per_period)]
         facts += [(f"{what} per period", impacts(number)) for what, number in hits if number != 0]
-    largest = "largest |Θ|" + " until the proof" * (found.kind == Kind.OVERTURNED)
+    largest = "largest |Θ|" + " until overturning was certain" * (found.kind == Kind.OVERTURNED)
     facts.append((largest, f"{found.peak:.6g}" + _reach(found.peak, block)))
     if found.multipliers is not None:
         facts.append(("Floquet multipliers", _pair(*found.multipliers)))
@@ -141,9 +141,10 @@ def python(shown: ViewState) -> str:
     braces = ""
     if shown.brace_angle is not None:
         braces = f", braces=rk.Braces({shown.brace_angle!r}, {shown.brace_restitution!r})"
+    angle = "" if shown.critical_angle is None else f", critical_angle={shown.critical_angle!r}"
     lines += [
         f"forcing = rk.Harmonic({shown.amplitude!r}, period={shown.period!r}{phase})",
-        f"system = rk.System(forcing, restitution={shown.restitution!r}{braces})",
+        f"system = rk.System(forcing, restitution={shown.restitution!r}{braces}{angle})",
         f"start = rk.State({shown.angle!r}, {shown.velocity!r})",
         "print(rk.classify(system, start))",
         f"motion = rk.simulate(system, start, cycles={shown.first + shown.cycles})",
@@ -173,7 +174,11 @@ def commands(shown: ViewState) -> str:
     block = shown.block
     if block is None or block.restitution != block.housner_restitution:
         named = ["restitution", *named]
+    if block is None and shown.critical_angle is not None:
+        named.append("critical_angle")
     rest = "".join(f" --{name.replace('_', '-')}={written(getattr(shown, name))}" for name in named)
+    if block is not None and shown.critical_angle is not None:
+        rest += " --model full"
     point, plane = _normalised(shown) if block is None else _in_metres(shown, block)
     return (
         f"rocking classify {point}{rest}\n"

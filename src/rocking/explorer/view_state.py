@@ -42,7 +42,7 @@ def nearby(value: float, span: Span) -> float:
 class ViewState:
     """View of a session: system, initial state, ranges of the maps and options of the figures.
 
-    Names and units are those of `Harmonic`, `System`, `Braces` and `State`.
+    Names and units are those of `Harmonic`, `System`, `Braces` and `State`. The critical angle selects the full equation of motion.
     """
 
     amplitude: float = 2.0
@@ -53,6 +53,7 @@ class ViewState:
     velocity: float = 0.0
     brace_angle: float | None = None
     brace_restitution: float = 1.0
+    critical_angle: float | None = None
     amplitudes: Span = Span(0.0, 16.0)
     periods: Span = Span(0.2, 3.0)
     angles: Span = Span(-1.2, 1.2)
@@ -67,7 +68,10 @@ class ViewState:
     @property
     def system(self) -> System:
         """Selected system."""
-        return system_of(asdict(self, recurse=False) | (NO_BRACES if self.brace_angle is None else {}))
+        angle = {"critical_angle": self.critical_angle or 0.0}
+        return system_of(
+            asdict(self, recurse=False) | angle | (NO_BRACES if self.brace_angle is None else {})
+        )
 
     @property
     def start(self) -> State:
@@ -87,6 +91,8 @@ class ViewState:
         names = ["restitution", "phase", "angle", "velocity"]
         if self.brace_angle is not None:
             names += ["brace_angle", "brace_restitution"]
+        if self.critical_angle is not None:
+            names.append("critical_angle")
         return {name: getattr(self, name) for name in names}
 
     @property

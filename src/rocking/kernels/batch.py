@@ -1,6 +1,7 @@
 """Classification of a batch of systems, in SIMD lanes or one by one, in a single call from Python."""
 
 import math
+from functools import partial
 
 import numpy as np
 
@@ -9,7 +10,14 @@ from rocking.kernels.classify.results import ResultArrays, empty_results, judgem
 from rocking.kernels.classify.workspace import Workspace, make_workspace
 from rocking.kernels.compile_options import KERNEL
 from rocking.kernels.entry_point import entry_point
-from rocking.kernels.forcing.harmonic.parameters import parameters_from_row, row_of
+from rocking.kernels.forcing.parameters import (
+    FullHarmonicParameters,
+    HarmonicParameters,
+    PeriodicParameters,
+    parameters_of_row,
+    row_of,
+)
+from rocking.kernels.forcing.periodic import with_row
 from rocking.kernels.lanes.scheduler import MIN_LANE_PERIOD, classify_batch_lanes
 from rocking.kernels.lanes.workspace import make_lane_workspace
 from rocking.kernels.machine_code import CLASSES, processor_class
@@ -22,6 +30,7 @@ METHOD = 19
 
 @entry_point(**KERNEL)
 def classify_batch_scalar(
+    kind: PeriodicParameters,
     systems: Floats2,
     starts: Floats2,
     max_cycles: int,
@@ -32,13 +41,13 @@ def classify_batch_scalar(
 ) -> bool:
     """Classify the points of a batch one by one.
 
-    A row of ``systems`` holds the arguments of ``make``, a row of ``starts`` is (angle, velocity). Returns
-    True if all points were classified, False if ``stop[0]`` was set before the end.
+    A row of ``systems`` is that of ``parameters_of_row``, and all are of the type of ``kind``. A row of ``starts`` is
+    (angle, velocity). Returns True if all points were classified, False if ``stop[0]`` was set before the end.
     """
     for k in range(systems.shape[0]):
         if stop[0] != 0:
             return False
-        p = parameters_from_row(systems[k])
+        p = with_row(kind, systems[k])
         store_result(answers, k, judge(p, starts[k, 0], starts[k, 1], max_cycles, max_period, memory))
     return True
 
@@ -47,7 +56,7 @@ def classify_one(p, angle, velocity, max_cycles, max_period):
     """Return the ``Judgement`` on one motion, by the same machine code as for a batch."""
     results, start = empty_results(1), np.array([[angle, velocity]])
     memory, go_on = make_workspace(max_cycles, max_period), np.zeros(1, np.int64)
-    classify_batch_scalar(np.array([row_of(p)]), start, max_cycles, max_period, memory, results, go_on)
+    classify_batch_scalar(p, np.array([row_of(p)]), start, max_cycles, max_period, memory, results, go_on)
     return judgement_of(results, 0)
 
 
@@ -59,26 +68,28 @@ def has_simd():
 def lane_masks(systems):
     """Return masks of the points that profit from the lane path. They depend on each point only.
 
-    Only undamped motions and motions between braces often need long marches.
+    Only undamped motions and motions between braces often need long marches. Lanes are for slender blocks.
 
     Returns
     -------
     tuple of (array of bool, array of bool)
         Points without braces and points with braces.
     """
-    amplitude, _, period, _, restitution, brace_angle, _ = systems.T
-    may, braced = (amplitude > 1.0) & (period >= MIN_LANE_PERIOD) & has_simd(), brace_angle < math.inf
+    amplitude, _, period, _, restitution, brace_angle, _, critical_angle = systems.T
+    long, braced = (amplitude > 1.0) & (period >= MIN_LANE_PERIOD), brace_angle < math.inf
+    may = long & (critical_angle == 0.0) & has_simd()
     return may & (restitution == 1.0) & ~braced, may & braced
 
 
 def classify_batch(systems, starts, max_cycles, max_period, stop):
-    """Classify a batch of points, ``systems`` (n, 7) and ``starts`` (n, 2).
+    """Classify a batch of points, ``systems`` (n, 8), all slender or none, and ``starts`` (n, 2).
 
     Returns ``ResultArrays``, or None if another thread set ``stop`` (1,) before the end.
     """
     answers, (lossless, braced) = empty_results(len(systems)), lane_masks(systems)
+    one_by_one = partial(classify_batch_scalar, parameters_of_row(systems[0]))
     parts = (
-        (~(lossless | braced), classify_batch_scalar, make_workspace),
+        (~(lossless | braced), one_by_one, make_workspace),
         (lossless, classify_batch_lanes, make_lane_workspace),
         (braced, classify_batch_lanes, make_lane_workspace),
     )
@@ -93,8 +104,13 @@ def classify_batch(systems, starts, max_cycles, max_period, stop):
     return answers
 
 
-def load_kernels(may_last):
+def kind_of(full):
+    """Return the type of the parameters of blocks that follow the full equation of motion, or of slender ones."""
+    return FullHarmonicParameters if full else HarmonicParameters
+
+
+def load_kernels(may_last, full):
     """Load or compile the kernels of ``classify_batch``; those of the lanes only if some points may need a long march."""
-    classify_batch_scalar.load()
-    if may_last:
+    classify_batch_scalar[kind_of(full)].load()
+    if may_last and not full:
         classify_batch_lanes.load()

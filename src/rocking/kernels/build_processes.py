@@ -21,12 +21,12 @@ MAX_BUILDERS = 2
 # Seconds of one core that the longest entry points took when measured, in the order in which they are compiled.
 SECONDS = {
     "march.march_plain.HarmonicParameters": 9.0,
-    "batch.classify_batch_scalar": 12.0,
+    "batch.classify_batch_scalar.HarmonicParameters": 12.0,
     "scheduler.classify_batch_lanes": 22.0,
     "march.march_plain.SampledParameters": 9.0,
-    "attractor_anchor.anchor_each": 2.2,
-    "sweep.sweep": 1.3,
-    "newton_search.newton_from_starts": 1.1,
+    "attractor_anchor.anchor_each.HarmonicParameters": 2.2,
+    "sweep.sweep.HarmonicParameters": 1.3,
+    "newton_search.newton_from_starts.HarmonicParameters": 1.1,
     "continuation.follow": 5.0,
     "bifurcation_curve.follow_curve": 5.0,
 }

@@ -88,6 +88,10 @@ class Choice:
         """Run the machine code for the type of the arguments."""
         return self._rows[type(reduce(getitem, self._place, arguments))](*arguments)
 
+    def __getitem__(self, kind: type) -> EntryPoint:
+        """Return the entry point for one type."""
+        return self._rows[kind]
+
     def load(self) -> None:
         """Load the machine code for all types."""
         for entry in self._rows.values():

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
 from attrs import field, frozen
 
 from rocking.model.block import Block
@@ -30,7 +31,7 @@ class LognormalFit:
         Standard deviation of the logarithm of the level, and the ends of its interval. An end is 0 or infinite if the data
         do not bound it.
     misfit : float
-        Largest distance between a fraction and the fit.
+        Largest distance between a fraction and the fit; NaN with fewer than three levels.
     problem : str
         Reason if the data do not determine the fit; all numbers are then NaN. Default: "".
 
@@ -58,7 +59,14 @@ class LognormalFit:
             return f"no fit: {self.problem}"
         median = _with_ends(self.median, self.median_low, self.median_high, unit)
         dispersion = _with_ends(self.dispersion, self.dispersion_low, self.dispersion_high)
-        return f"median {median}, dispersion {dispersion}, misfit {100.0 * self.misfit:.1f} %"
+        misfit = "" if math.isnan(self.misfit) else f", misfit {100.0 * self.misfit:.1f} %"
+        return f"median {median}, dispersion {dispersion}{misfit}"
+
+    def probability(self, levels: Any) -> Any:
+        """Return the probability at levels for runs that rock: Φ(ln(level/median)/dispersion)."""
+        from scipy.special import ndtr
+
+        return ndtr(np.log(np.asarray(levels) / self.median) / self.dispersion)
 
     def __str__(self) -> str:
         return self.described()

@@ -62,7 +62,7 @@ class Intensity:
 INTENSITIES: dict[str, tuple[Intensity, Callable[[GroundMotion], float]]] = {
     measure.name: (measure, value)
     for measure, value in (
-        (Intensity("scale", "s", "1", "factor of the ground motion"), lambda motion: 1.0),
+        (Intensity("scale", "factor", "1", "factor of the ground motion"), lambda motion: 1.0),
         (Intensity("pga", "PGA", "m/s²", "peak ground acceleration"), lambda motion: motion.pga),
         (Intensity("pga-g", "PGA", "g", "peak ground acceleration"), lambda motion: motion.pga / GRAVITY),
         (Intensity("pgv", "PGV", "m/s", "peak ground velocity"), lambda motion: motion.pgv),

@@ -112,6 +112,13 @@ class OverturningSet(NotebookPicture):
         return found
 
     @property
+    def undecided(self) -> np.ndarray:
+        """Switches that rounding may have made; structured array (n,), empty for a full block, where it is not assessed."""
+        found = self.switches
+        assessed = self.dataset.attrs.get("model") != "full"
+        return found[~found["certified"] & assessed]
+
+    @property
     def lowest(self) -> np.ndarray:
         """Lowest overturning level of each record, NaN if none; shape (n_records,)."""
         return np.asarray(self.dataset["lowest"].values)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from hashlib import sha256
 from typing import Any
@@ -19,6 +20,8 @@ REMEDY = "read them with rk.read_ground_motion, or a folder with rk.read_record_
 
 
 def _motions(values: Any) -> tuple[GroundMotion, ...]:
+    if isinstance(values, str | os.PathLike):
+        raise TypeError(refusal("records", ALLOWED, values, REMEDY))
     found = (values,) if isinstance(values, GroundMotion) else members("records", values, ALLOWED)
     if not found:
         raise ValueError(refusal("records", ALLOWED, values, REMEDY))

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 @frozen(eq=False)
 class Sensitivity:
-    """Fraction of verdicts that small changes flip; returned by `sensitivity`.
+    """Fraction of verdicts that small changes reverse; returned by `sensitivity`.
 
     Attributes
     ----------

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
+from itertools import pairwise
 
 from attrs import field, frozen
 
 from rocking.model.forcing import FREQUENCIES, MAX_AMPLITUDE, MAX_PHASE, PERIODS, Forcing, Harmonic
-from rocking.model.pulse import Pulse
-from rocking.model.validation import finite, instance, refusal, within
+from rocking.model.validation import finite, instance, pair, refusal, refuse_if, within
 
 BRACE_ANGLES = (1e-3, 1e3)
 CRITICAL_ANGLES = (1e-3, 1.2)
@@ -24,6 +24,7 @@ RANGES = {
     "amplitude": (0.0, MAX_AMPLITUDE),
     "velocity": (-MAX_START, MAX_START),
     "restitution": (0.0, 1.0),
+    "critical_angle": CRITICAL_ANGLES,
     "brace_angle": BRACE_ANGLES,
     "brace_restitution": (0.0, 1.0),
     "phase": (-MAX_PHASE, MAX_PHASE),
@@ -88,6 +89,16 @@ def _braces(value: Braces | None) -> Braces | None:
     return None if value is None else instance("braces", value, Braces)
 
 
+def _restitution_table(value: Iterable[tuple[float, float]]) -> tuple[tuple[float, float], ...]:
+    """Return rows of speed and coefficient of restitution, after checking them."""
+    allowed = "be rows (speed, coefficient of restitution), the speeds positive and ascending"
+    rows = [pair("restitution_table", row, allowed) for row in value]
+    checked = tuple((within("speed", speed, 0, MAX_STATE), _restitution(kept)) for speed, kept in rows)
+    speeds = [0.0, *(speed for speed, _ in checked)]
+    refuse_if(not all(one < two for one, two in pairwise(speeds)), "restitution_table", allowed, value)
+    return checked
+
+
 def _critical_angle(value: float | None) -> float | None:
     return None if value is None else within("critical_angle", value, *CRITICAL_ANGLES)
 
@@ -113,7 +124,11 @@ class System:
         Side braces. Default: no braces.
     critical_angle : float, optional
         Critical angle θcr of the full equation, rad, in [0.001, 1.2]. Default: None, the slender block, its limit for θcr → 0.
-        With it there may be no braces, and the base motion must be harmonic or given by samples.
+        With it, braces must be below 90°: their angle times θcr below π/2.
+    restitution_table : iterable of (float, float)
+        Coefficient of restitution over the speed before an impact, for the full equation: rows (Θ', e), ascending. Up to the
+        first row e changes linearly from `restitution`. Then it is linear between rows, and constant beyond the last.
+        Default: none; e is `restitution` at all speeds.
 
     Raises
     ------
@@ -124,34 +139,38 @@ class System:
 
     Examples
     --------
-    >>> System(Harmonic(amplitude=2.0, period=1.0), restitution=0.925)
-    System(forcing=Harmonic(amplitude=2.0, period=1.0, phase=0.0), restitution=0.925, braces=None, critical_angle=None)
+    >>> system = System(Harmonic(amplitude=2.0, period=1.0), restitution=0.925, critical_angle=0.25)
+    >>> round(system.lift_off, 4)
+    1.0214
     """
 
     forcing: Forcing = field(converter=_forcing)
     restitution: float = field(converter=_restitution)
     braces: Braces | None = field(default=None, converter=_braces)
     critical_angle: float | None = field(default=None, converter=_critical_angle)
+    restitution_table: tuple[tuple[float, float], ...] = field(default=(), converter=_restitution_table)
 
     def __attrs_post_init__(self) -> None:
-        """Refuse what the full equation does not include yet."""
+        """Refuse a table for the slender block, and braces that a full block reaches only when it lies flat."""
         if self.critical_angle is None:
-            return
-        if self.braces is not None:
-            raise ValueError(refusal("braces", "be omitted with the full equation of motion", self.braces))
-        forcing = self.forcing
-        if isinstance(forcing, Pulse) and forcing.cosine is not None:
-            rule = "be harmonic or given by samples with the full equation of motion"
-            raise ValueError(refusal("forcing", rule, forcing))
+            allowed = "be omitted for a slender block (give its critical_angle)"
+            refuse_if(bool(self.restitution_table), "restitution_table", allowed, self.restitution_table)
+        elif self.braces is not None:
+            check_below_flat(self.braces.angle, self.critical_angle)
+
+    @property
+    def restitution_law(self) -> tuple[tuple[float, float], ...]:
+        """Rows of the coefficient of restitution from speed 0 on; none if it is constant."""
+        return ((0.0, self.restitution), *self.restitution_table) if self.restitution_table else ()
 
     @property
     def harmonic(self) -> Harmonic:
         """Forcing of a slender block whose base motion is periodic; TypeError for any other system.
 
-        All analyses of such systems take the forcing from here: classification, exponents, orbits and maps.
+        Analyses in closed form, which exist for the slender block alone, take the forcing from here.
         """
         if self.critical_angle is not None:
-            rule = "be None for this analysis, which is of the slender block (rk.simulate follows the full block)"
+            rule = "be None for this analysis, which has a closed form for the slender block alone"
             raise TypeError(refusal("critical_angle", rule, self.critical_angle))
         return self.periodic
 
@@ -162,7 +181,10 @@ class System:
 
     @property
     def periodic(self) -> Harmonic:
-        """Forcing of a system whose base motion is periodic; TypeError for any other. Sections need it."""
+        """Forcing of a system whose base motion is periodic; TypeError for any other.
+
+        All analyses of such systems take the forcing from here: classification, exponents, orbits, maps and sections.
+        """
         if not isinstance(self.forcing, Harmonic):
             name = type(self.forcing).__name__
             raise TypeError(
@@ -189,12 +211,14 @@ def quantities(system: System) -> dict[str, float]:
 
 
 def system_of(given: Mapping[str, float]) -> System:
-    """Return the system with these quantities, its forcing given by the period; without braces if their angle is infinite.
+    """Return the system with these quantities, its forcing given by the period.
+
+    It has no braces if their angle is infinite, and is slender if the critical angle is 0 or missing.
 
     Examples
     --------
-    >>> system_of({"amplitude": 2.0, "period": 1.0, "phase": 0.0, "restitution": 0.925} | NO_BRACES)
-    System(forcing=Harmonic(amplitude=2.0, period=1.0, phase=0.0), restitution=0.925, braces=None, critical_angle=None)
+    >>> system_of({"amplitude": 2.0, "period": 1.0, "phase": 0.0, "restitution": 0.925} | NO_BRACES).forcing
+    Harmonic(amplitude=2.0, period=1.0, phase=0.0)
     """
     forcing = Harmonic(given["amplitude"], period=given["period"], phase=given["phase"])
     braced = given["brace_angle"] < math.inf
@@ -202,6 +226,7 @@ def system_of(given: Mapping[str, float]) -> System:
         forcing,
         given["restitution"],
         Braces(given["brace_angle"], given["brace_restitution"]) if braced else None,
+        given.get("critical_angle", 0.0) or None,
     )
 
 
@@ -262,8 +287,21 @@ def check_periodic(system: System, start: State | None) -> State:
     ValueError
         As in `check_start`.
     """
-    instance("system", system, System).harmonic  # noqa: B018 (it refuses)
+    instance("system", system, System).periodic  # noqa: B018 (it refuses)
     return check_start(system, start)
+
+
+def check_constant_restitution(system: System) -> None:
+    """Raise ValueError for a table of the coefficient of restitution, which surveys and diagrams do not take."""
+    allowed = "be omitted for many systems at once"
+    refuse_if(bool(system.restitution_table), "restitution_table", allowed, system.restitution_table)
+
+
+def check_below_flat(brace_angle: float, critical_angle: float) -> None:
+    """Raise ValueError for braces that a full block reaches only when it lies flat."""
+    limit = 0.5 * math.pi / critical_angle
+    allowed = f"be below {limit:.6g}, where a block with critical_angle {critical_angle:.6g} lies flat"
+    refuse_if(brace_angle >= limit, "brace_angle", allowed, brace_angle)
 
 
 def check_between(angle: float, reach: float) -> None:

@@ -17,7 +17,9 @@ WAYS = {
     "Harmonic": "make one: rk.Harmonic(amplitude=2.0, period=1.0)",
     "Braces": "make one: rk.Braces(angle=1.0)",
     "Block": "make one: rk.Block(height=2.0, width=0.5)",
-    "System": "make one: rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925), or by rk.Block",
+    "System": "make one: rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925), or by rk.Block: "
+    "block.system(rk.read_ground_motion(path))",
+    "BaseMotion": "read a record by rk.read_ground_motion(path), or make an rk.GroundMotion or rk.Pulse",
     "Orbit": "rk.classify returns one only if the response is periodic; rk.find_orbits searches for all",
 }
 """Remedies for an argument of the wrong type."""

@@ -106,7 +106,7 @@ class Orbit:
     @property
     def start(self) -> State:
         """State at τ = 0, at the forcing phase of the system itself: a motion from this state is the orbit."""
-        return self.at(self.system.harmonic.phase)
+        return self.at(self.system.periodic.phase)
 
     def at(self, phase: float) -> State:
         """Return the state of the orbit at a forcing phase.
@@ -139,7 +139,7 @@ class Orbit:
         >>> abs(here.angle + later.angle) < 1e-12
         True
         """
-        forcing = self.system.harmonic
+        forcing = self.system.periodic
         phase = within("phase", phase, -MAX_PHASE, MAX_PHASE)
         whole, hair = math.tau * self.period, math.tau * SAME_INSTANT
         turned = ((forcing.phase - self.phase) % math.tau + (phase - forcing.phase) % whole) % whole
@@ -162,7 +162,7 @@ class Orbit:
 
     def _marched(self, phase: float, state: State, turned: float) -> State:
         """Return the state after the forcing phase has advanced by `turned` from `phase`."""
-        forcing = self.system.harmonic
+        forcing = self.system.periodic
         time = turned / forcing.frequency
         begun = evolve(self.system, forcing=evolve(forcing, phase=phase % math.tau))
         motion = self._simulate(begun, state, cycles=int(turned // math.tau) + 1)

@@ -46,8 +46,8 @@ def to_dataset(motion: Trajectory, step: float | None = None, block: Block | Non
     step : float, optional
         Time step of the samples in τ, or in seconds with a block. Default: a hundredth of the forcing period, or the step of
         a base acceleration that is given by samples (a fraction of a long one). The samples start at 0 and end at the last
-        whole step of the run. If the block overturns, they continue to |Θ| = 3, or for one unit of time if the motion starts
-        beyond.
+        whole step of the run. If the block overturns, they continue to |Θ| = 3. With the full
+        equation they continue until it lies flat. A motion that starts beyond is sampled for one unit of time.
     block : Block, optional
         Block for output in s, rad and m, with the displacement of its top. Default: normalised output.
 

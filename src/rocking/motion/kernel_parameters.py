@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections import OrderedDict
 from threading import Lock
+from typing import Any
 
 import numpy as np
 
@@ -33,7 +34,7 @@ def parameters(system: System, cycle_length: float | None = None) -> numbers.Sys
     block = numbers.BlockParameters(system.restitution, angle, restitution)
     if isinstance(forcing, Pulse):
         if forcing.cosine is not None:
-            return _pulse_parameters(forcing, cycle_length, block)
+            return numbers.pulse_parameters(**_cosine_of(forcing, cycle_length), block=block)
         forcing = forcing.samples
     assert isinstance(forcing, PiecewiseLinear)
     length = numbers.CYCLE * forcing.step if cycle_length is None else cycle_length
@@ -42,35 +43,37 @@ def parameters(system: System, cycle_length: float | None = None) -> numbers.Sys
 
 def _full_parameters(
     system: System, critical_angle: float, cycle_length: float | None
-) -> numbers.FullHarmonicParameters | numbers.FullSampledParameters:
+) -> numbers.FullHarmonicParameters | numbers.FullSampledParameters | numbers.FullPulseParameters:
     """Return the parameters of the full block."""
     forcing = system.forcing
-    block = numbers.full_block(system.restitution, critical_angle)
+    braces = (math.inf, 1.0) if system.braces is None else (system.braces.angle, system.braces.restitution)
+    law = np.array(system.restitution_law).reshape(-1, 2)
+    largest = max([system.restitution, *law[:, 1].tolist()])
+    block = numbers.full_block(largest, critical_angle, *braces, law)
     if isinstance(forcing, Harmonic):
         return numbers.full_harmonic_parameters(
             block, forcing.amplitude, forcing.frequency, forcing.period, forcing.phase
         )
     if isinstance(forcing, Pulse):
+        if forcing.cosine is not None:
+            return numbers.full_pulse_parameters(**_cosine_of(forcing, cycle_length), block=block)
         forcing = forcing.samples
     assert isinstance(forcing, PiecewiseLinear)
     length = numbers.CYCLE * forcing.step if cycle_length is None else cycle_length
     return numbers.full_sampled_parameters(block, tables_for(forcing), forcing.scale, length)
 
 
-def _pulse_parameters(
-    pulse: Pulse, cycle_length: float | None, block: numbers.BlockParameters
-) -> numbers.PulseParameters:
-    """Return the parameters of a pulse that is a piece of a cosine; a negative amplitude turns the phase by π."""
+def _cosine_of(pulse: Pulse, cycle_length: float | None) -> dict[str, Any]:
+    """Return the numbers of a pulse that is a piece of a cosine; a negative amplitude turns the phase by π."""
     assert pulse.cosine is not None
     turns, phase = pulse.cosine
-    return numbers.pulse_parameters(
-        amplitude=abs(pulse.amplitude),
-        frequency=2 * math.pi * turns / pulse.duration,
-        phase=phase if pulse.amplitude >= 0 else phase + math.pi,
-        duration=pulse.duration,
-        cycle_length=pulse.duration if cycle_length is None else cycle_length,
-        block=block,
-    )
+    return {
+        "amplitude": abs(pulse.amplitude),
+        "frequency": 2 * math.pi * turns / pulse.duration,
+        "phase": phase if pulse.amplitude >= 0 else phase + math.pi,
+        "duration": pulse.duration,
+        "cycle_length": pulse.duration if cycle_length is None else cycle_length,
+    }
 
 
 def tables_for(forcing: PiecewiseLinear) -> numbers.Tables:

@@ -49,6 +49,14 @@ def march_on(
     return outcome_of(status), progress
 
 
+def monodromy(system: System, start: State, cycles: int) -> np.ndarray:
+    """Return the derivative (2, 2) of (Θ, Θ') after a number of forcing cycles by the initial state."""
+    columns = np.eye(2)
+    tangent = differences.TangentState(columns, np.empty(0))
+    run(*start_march(system, start), cycles, 0.0, "none", want_peak=False, tangent=tangent)
+    return columns.T
+
+
 def run(
     p: Any,
     progress: Any,
@@ -105,6 +113,11 @@ def section_of(system: System, start: State, cycles: int, phase: float) -> np.nd
     p = parameters(system)
     progress, _ = initial_state.begin_march(p, start.angle, start.velocity)
     return run(p, progress, cycles, time % forcing.period, "section", want_peak=False)[2]
+
+
+def is_lossless(system: System) -> bool:
+    """Return whether the free motion after the base motion may never end: without losses at the base or at a brace."""
+    return system.restitution == 1.0 or (system.braces is not None and system.braces.restitution == 1.0)
 
 
 def state_of(progress: Any) -> tuple[float, float]:

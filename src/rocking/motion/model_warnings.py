@@ -10,12 +10,19 @@ import numpy as np
 
 from rocking.model import GRAVITY, Block
 
+MAX_HEIGHT = 30.0
+"""Height in m above which the size of a block was possibly not given in metres."""
 SLENDER_ERROR = 0.05
 """Relative error up to which a block counts as slender: θcr = 18°, a height of about three times the width."""
 
 
 def block_warnings(
-    block: Block, amplitudes: Any, restitution: float = 1.0, angle: float | None = None
+    block: Block,
+    amplitudes: Any,
+    restitution: float = 1.0,
+    angle: float | None = None,
+    *,
+    full: bool = False,
 ) -> Iterator[str]:
     """Yield one sentence for each assumption that does not hold for a block at the given amplitudes.
 
@@ -29,15 +36,25 @@ def block_warnings(
         Smallest coefficient of restitution in use; 1 without impacts. Default: 1.
     angle : float, optional
         Largest |θ| in radians. Default: θcr.
+    full : bool
+        Flag: the equation of motion is the full one, which needs no slender block. Default: False.
 
     Yields
     ------
     str
         Warning.
     """
-    yield from _proportions(block, block.critical_angle if angle is None else angle)
-    yield from _lifting(block, np.atleast_1d(amplitudes))
+    yield from height_warnings(block.height)
+    if not full:
+        yield from proportion_warnings(block.critical_angle, block.critical_angle if angle is None else angle)
+        yield from _lifting(block, np.atleast_1d(amplitudes))
     yield from impact_warnings(block, restitution)
+
+
+def height_warnings(height: float) -> Iterator[str]:
+    """Yield a warning for a height in m that was possibly given in another unit."""
+    if height > MAX_HEIGHT:
+        yield f"height {height:.4g} m is unusual: sizes are in metres"
 
 
 def impact_warnings(block: Block, restitution: float) -> Iterator[str]:
@@ -49,9 +66,9 @@ def impact_warnings(block: Block, restitution: float) -> Iterator[str]:
         )
 
 
-def slender_errors(block: Block, angle: float) -> tuple[float, float]:
-    """Return the largest δ/sin δ − 1 and 1/cos δ − 1 for |θ| up to `angle`; infinite beyond δ = −90°."""
-    worst = max(block.critical_angle, angle - block.critical_angle)
+def slender_errors(critical_angle: float, angle: float) -> tuple[float, float]:
+    """Return the largest δ/sin δ − 1 and 1/cos δ − 1, δ = θcr − |θ|, for |θ| up to `angle`; infinite beyond δ = −90°."""
+    worst = max(critical_angle, angle - critical_angle)
     if worst >= math.pi / 2:
         return math.inf, math.inf
     return worst / math.sin(worst) - 1, 1 / math.cos(worst) - 1
@@ -62,14 +79,15 @@ def degrees_too(angle: float, digits: int = 3) -> str:
     return f"{angle:.{digits}g} rad = {math.degrees(angle):.{digits}g}°"
 
 
-def _proportions(block: Block, angle: float) -> Iterator[str]:
-    moment, push = slender_errors(block, angle)
+def proportion_warnings(critical_angle: float, angle: float) -> Iterator[str]:
+    """Yield a warning for a block that is not slender, with the errors of the slender-block model for |θ| up to `angle`."""
+    moment, push = slender_errors(critical_angle, angle)
     if max(moment, push) <= SLENDER_ERROR:
         return
     how = f"the restoring moment is overestimated by up to {moment:.1%}, that of the base acceleration by up to {push:.1%}"
     if push == math.inf:
         how = "the slender-block model does not apply beyond 90° from the balance point"
-    yield f"outside the slender range, θcr = {degrees_too(block.critical_angle)} and |θ| up to {degrees_too(angle)}: {how}"
+    yield f"outside the slender range, θcr = {degrees_too(critical_angle)} and |θ| up to {degrees_too(angle)}: {how}"
 
 
 def _lifting(block: Block, amplitudes: np.ndarray) -> Iterator[str]:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from attrs import frozen
 
-from rocking.model import Block, NotebookPicture, counted
+from rocking.model import Block, NotebookPicture, Outcome, counted
 from rocking.motion.dataset import to_dataset
 from rocking.motion.trajectory import Trajectory
 from rocking.motion.validity import Validity, validity
@@ -102,13 +102,16 @@ class Motion(Trajectory, NotebookPicture):
         """
         return to_dataset(self, step, block)
 
-    def validity(self, block: Block) -> Validity:
+    def validity(self, block: Block, *, full: bool = False) -> Validity:
         """Assess whether the model applies to this motion of a real block: friction, base reaction and slenderness.
 
         Parameters
         ----------
         block : Block
             Block in SI units that performs the motion.
+        full : bool
+            Also follow the full equation of motion under the same base motion, and compare the largest angle and the outcome.
+            Default: False.
 
         Returns
         -------
@@ -130,15 +133,18 @@ class Motion(Trajectory, NotebookPicture):
         >>> motion.validity(block).friction > 0.2
         True
         """
-        return validity(self, block)
+        return validity(self, block, full=full)
 
     @property
     def doubt(self) -> str:
         """Reason why the outcome is not certified; empty if it is."""
         if self.certified:
             return ""
-        known = self.system.critical_angle is None
-        return "undecided in double precision" if known else "rounding errors not assessed"
+        if self.system.critical_angle is None:
+            return "undecided in double precision"
+        if self.outcome is Outcome.BOUNDED:
+            return "rounding errors are not assessed"
+        return "proved for the computed motion; its rounding errors are not assessed"
 
     def __str__(self) -> str:
         counts = [counted(self.impacts, "impact")]
@@ -148,7 +154,8 @@ class Motion(Trajectory, NotebookPicture):
             over = counted(self.cycles, "cycle") if self.cycles else f"τ = {self.duration:.6g}"
             how = f"{self.outcome} over {over}"
         else:
-            how = f"overturned: overturning is certain from τ = {self.overturning.time:.6g}"
+            since = ": overturning is certain" if self.certified else ""
+            how = f"overturned{since} from τ = {self.overturning.time:.6g}"
         margin = "" if math.isnan(self.margin) else f", margin {self.margin:.4g}"
         doubt = f" ({self.doubt})" if self.doubt else ""
         return f"{how}{doubt}; {', '.join(counts)}, peak |Θ| {self.peak:.4g}{margin}"

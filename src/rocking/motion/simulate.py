@@ -9,7 +9,8 @@ from typing import Any
 import numpy as np
 
 from rocking.kernels.forcing import parameters as numbers
-from rocking.kernels.march import event_rows, finite_motion, initial_state
+from rocking.kernels.march import ending as ends
+from rocking.kernels.march import event_rows, finite_runs, initial_state
 from rocking.kernels.march import march as kernel
 from rocking.model import (
     Harmonic,
@@ -25,16 +26,14 @@ from rocking.model import (
 )
 from rocking.motion.event_table import events_of
 from rocking.motion.kernel_parameters import parameters
-from rocking.motion.march_loop import outcome_of, run, start_march, state_of
+from rocking.motion.march_loop import is_lossless, outcome_of, run, start_march, state_of
 from rocking.motion.motion import Motion
 
 MAX_CYCLES = 1_000_000_000
 MAX_SECTION_CYCLES = 100_000_000
 DURATIONS = (1e-9, 1e9)
-NO_ENDING = finite_motion.Ending(kernel.DONE, 0, 0, 0, 0.0, math.nan, math.nan, True)
+NO_ENDING = ends.Ending(kernel.DONE, 0, 0, 0, 0.0, math.nan, math.nan, True)
 """For a harmonic base motion, which has no end."""
-NOT_ASSESSED = NO_ENDING._replace(decided=False)
-"""For the full block under a base motion of finite length."""
 NO_CYCLES = "be omitted for a base motion of finite length, which has no cycles"
 
 
@@ -111,13 +110,9 @@ def simulate(
     count, cycle_length = _span(system, cycles, duration, record)
     p = parameters(system, cycle_length)
     ending = NO_ENDING
-    if isinstance(system.forcing, Harmonic):
-        pass
-    elif system.critical_angle is not None:
-        ending = NOT_ASSESSED
-    else:
+    if not isinstance(system.forcing, Harmonic):
         until = math.inf if duration is None else duration
-        ending = finite_motion.run_to_end(p, start.angle, start.velocity, until)
+        ending = finite_runs.run_to_end(p, start.angle, start.velocity, until)
         if ending.status == kernel.OVERTURNED and duration is None:
             count = kernel.OPEN
     progress, hit = initial_state.begin_march(p, start.angle, start.velocity)
@@ -161,16 +156,11 @@ def _span(
         return whole("cycles", 200 if cycles is None else cycles, 1, most), None
     refuse_if(cycles is not None, "cycles", NO_CYCLES, cycles)
     refuse_if(record == "section", "record", "be 'all' or 'none', because a section needs a period", record)
-    if duration is None and not _lossless(system):
+    if duration is None and not is_lossless(system):
         return kernel.OPEN, None
     end = forcing.span if duration is None else within("duration", duration, *DURATIONS)
     count = max(1, math.ceil(end / (numbers.CYCLE * forcing.time_scale)))
     return count, end / count
-
-
-def _lossless(system: System) -> bool:
-    """Return whether the free motion after the base motion may never end: without losses at the base or at a brace."""
-    return system.restitution == 1.0 or (system.braces is not None and system.braces.restitution == 1.0)
 
 
 def kept_events(
@@ -183,7 +173,7 @@ def kept_events(
     """
     start = check_periodic(system, start)
     cycles = whole("cycles", cycles, 1, MAX_CYCLES)
-    period = system.harmonic.period
+    period = system.periodic.period
 
     return np.concatenate(
         run(

@@ -9,9 +9,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 from attrs import evolve, frozen
 
-from rocking.model import Block, instance
+from rocking.kernels.march import finite_runs, initial_state
+from rocking.kernels.march import march as kernel
+from rocking.model import Block, Harmonic, Outcome, instance, refuse_if
 from rocking.motion.arc_minimum import NOTHING, Arcs, Array, Extreme, global_minimum
-from rocking.motion.model_warnings import block_warnings, degrees_too, impact_warnings, slender_errors
+from rocking.motion.kernel_parameters import parameters
+from rocking.motion.march_loop import is_lossless, outcome_of, run
+from rocking.motion.model_warnings import block_warnings, degrees_too, slender_errors
 
 if TYPE_CHECKING:
     from rocking.motion.trajectory import Trajectory
@@ -49,6 +53,10 @@ class Validity:
         base acceleration, 1/cos δ − 1. Infinite beyond δ = −90°. Both are 0 for the full equation of motion.
     time_unit : float
         1/α, in seconds.
+    full_angle : float or None
+        With ``full=True``: largest |θ| of the full block under the same base motion, in radians; infinite if it overturns.
+    full_outcome : Outcome or None
+        With ``full=True``: outcome of its motion.
     warnings : tuple of str
         One sentence for each assumption that does not hold, and for each quantity that the motion does not determine.
 
@@ -64,7 +72,7 @@ class Validity:
     >>> found = simulate(block.system(acceleration=3.0, frequency_hz=1.2)).validity(block)
     >>> until, friction, reaction, angle, slender = str(found).splitlines()
     >>> print(until)
-    assessed up to τ = 15.5003, where overturning is certain
+    assessed up to τ = 15.5003, where overturning is proved
     >>> print(friction)
     least coefficient of friction without sliding: 0.2587 (motion, t = 0 s, τ = 0)
     >>> print(reaction)
@@ -87,6 +95,8 @@ class Validity:
     moment_error: float
     forcing_error: float
     time_unit: float
+    full_angle: float | None = None
+    full_outcome: Outcome | None = None
     warnings: tuple[str, ...] = ()
 
     def __str__(self) -> str:
@@ -107,7 +117,7 @@ class Validity:
                 f"that of the base acceleration by up to {self.forcing_error:.2%}"
             )
         lines = (
-            [f"assessed up to τ = {self.until:.6g}, where overturning is certain"] if self.overturned else []
+            [f"assessed up to τ = {self.until:.6g}, where overturning is proved"] if self.overturned else []
         )
         lines += [
             f"least coefficient of friction without sliding: {friction}",
@@ -115,15 +125,28 @@ class Validity:
             f"largest angle: {degrees_too(self.angle, 4)}, {self.angle / self.critical_angle:.4g} of the critical angle",
             f"slender-block model: {slender}",
         ]
+        if self.full_angle is not None:
+            lines.append(f"full equation of motion: {self._compared(self.full_angle)}")
         return "\n".join((*lines, *(f"warning: {warning}" for warning in self.warnings)))
+
+    def _compared(self, angle: float) -> str:
+        """Return the outcome of the full block, and how its largest angle differs, in words."""
+        if angle == math.inf:
+            return f"{self.full_outcome}"
+        other = (
+            ""
+            if self.overturned or self.angle == 0.0
+            else f", {angle / self.angle - 1:+.1%} from that of the slender block"
+        )
+        return f"{self.full_outcome}, largest angle {degrees_too(angle, 4)}{other}"
 
     def instant(self, time: float | None) -> str:
         """Format a time in seconds and in τ; empty for None."""
         return "" if time is None else f"t = {time * self.time_unit:.4g} s, τ = {time:.6g}"
 
 
-def validity(motion: Trajectory, block: Block) -> Validity:
-    """Assess whether `block` can perform `motion` as the model assumes.
+def validity(motion: Trajectory, block: Block, *, full: bool = False) -> Validity:
+    """Assess whether `block` can perform `motion` as the model assumes; with ``full``, compare with the full equation of motion.
 
     The extremes are those of the exact motion, from a grid on every arc, refined around each possible extreme.
 
@@ -132,7 +155,7 @@ def validity(motion: Trajectory, block: Block) -> Validity:
     TypeError
         If `block` is not a Block.
     ValueError
-        If the motion was not recorded with record="all".
+        If the motion was not recorded with record="all". With ``full``, also if it is that of a full block.
 
     Examples
     --------
@@ -166,7 +189,7 @@ def validity(motion: Trajectory, block: Block) -> Validity:
     friction = slides[source]
     angle = largest_angle(motion, block, until)
     slender = motion.system.critical_angle is None
-    moment_error, forcing_error = slender_errors(block, angle) if slender else (0.0, 0.0)
+    moment_error, forcing_error = slender_errors(block.critical_angle, angle) if slender else (0.0, 0.0)
     found = Validity(
         until=until,
         overturned=motion.overturning is not None,
@@ -181,7 +204,29 @@ def validity(motion: Trajectory, block: Block) -> Validity:
         forcing_error=forcing_error,
         time_unit=block.seconds(1.0),
     )
+    if full:
+        outcome, reached = full_block(motion, block)
+        found = evolve(found, full_outcome=outcome, full_angle=block.critical_angle * reached)
     return evolve(found, warnings=tuple(warnings(found, motion, block, leaning)))
+
+
+def full_block(motion: Trajectory, block: Block) -> tuple[Outcome, float]:
+    """Return the outcome and the largest |Θ| of the full block under the base motion of a slender one, infinite if it overturns.
+
+    A harmonic base motion lasts as long as that of the motion. Another one is followed to its end, as in `simulate`.
+    """
+    known = motion.system.critical_angle is not None
+    refuse_if(known, "full", "be False for a motion by the full equation", True)
+    system = evolve(motion.system, critical_angle=block.critical_angle)
+    p, cycles, start = parameters(system), motion.cycles, (motion.start.angle, motion.start.velocity)
+    if not isinstance(system.forcing, Harmonic):
+        falls = finite_runs.run_to_end(p, *start, math.inf).status == kernel.OVERTURNED
+        endless = is_lossless(system) and not falls
+        cycles = math.ceil(motion.duration / p.clock.cycle_length) if endless else kernel.OPEN
+    begun, _ = initial_state.begin_march(p, *start)
+    status, reached, _, _ = run(p, begun, cycles, 0.0, "none", want_peak=True)
+    outcome = outcome_of(status)
+    return outcome, math.inf if outcome is Outcome.OVERTURNED else reached.peak
 
 
 def base_reaction(motion: Trajectory, block: Block, times: Array, sides: Array) -> tuple[Array, Array]:
@@ -226,10 +271,8 @@ def warnings(found: Validity, motion: Trajectory, block: Block, leaning: Arcs) -
     if found.reaction is not None and found.reaction <= 0:
         yield f"base reaction: {found.reaction:.3g} Mg at {found.instant(found.reaction_time)}; the base would have to pull the block down"
     hit = motion.system.restitution if motion.impacts else 1.0
-    if motion.system.critical_angle is None:
-        yield from block_warnings(block, motion.system.forcing.largest, hit, found.angle)
-    else:
-        yield from impact_warnings(block, hit)
+    full = motion.system.critical_angle is not None
+    yield from block_warnings(block, motion.system.forcing.largest, hit, found.angle, full=full)
     if motion.brace_hits:
         yield f"brace impacts: {motion.brace_hits}, not assessed, because the base reactions depend on the height of the brace"
     if leaning.starts.size:

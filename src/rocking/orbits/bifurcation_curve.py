@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from rocking.kernels.orbits import arclength
 from rocking.kernels.orbits import bifurcation_curve as kernel
 from rocking.model import ReadOnlyArrays, instance, one_of, pair, read_only, refusal, whole, within
-from rocking.orbits.branch import SpecialPoint
+from rocking.orbits.branch import SpecialPoint, chain_at
 from rocking.orbits.branch_result import ENDS
 from rocking.orbits.event_chain import IMPACT, NAMES, Chain, Condition, End, Special, problem_of
 from rocking.orbits.parameter import checked_range, value_of
@@ -170,7 +170,7 @@ def _condition(special: SpecialPoint) -> tuple[Chain, Condition]:
     """Return the chain to follow and its condition; of a grazing, the chain without the grazing event."""
     if special.kind != "grazing":
         kind = Special.FOLD if special.kind == "fold" else Special.PERIOD_DOUBLING
-        chain = special._chain._replace(system=special.orbit.system, phases=special._row[:-1])
+        chain = chain_at(special)._replace(system=special.orbit.system, phases=special._row[:-1])
         return chain, Condition(kind, -1, IMPACT, 0.0)
     if special._touch is None:
         raise ValueError("special must have an event other than the grazing one to be followed; it has none")

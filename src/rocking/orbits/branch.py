@@ -8,8 +8,18 @@ import numpy as np
 from attrs import field, frozen
 from numpy.typing import NDArray
 
-from rocking.model import NotebookPicture, Orbit, ReadOnlyArrays, Stability, read_only, stability_of, within
-from rocking.orbits.event_chain import Chain, multipliers_of, orbit_of, solved, states
+from rocking.model import (
+    NotebookPicture,
+    Orbit,
+    ReadOnlyArrays,
+    Stability,
+    read_only,
+    refusal,
+    stability_of,
+    within,
+)
+from rocking.orbits.branch_rows import BranchRows
+from rocking.orbits.event_chain import Chain, multipliers_of
 from rocking.orbits.grazing import Touch
 
 # End of a branch at the special point from which ``switch_branch`` follows it.
@@ -70,12 +80,20 @@ class SpecialPoint:
     orbit: Orbit
     name: str
     index: int
-    _chain: Chain = field(repr=False)
+    _chain: Chain | None = field(repr=False)  # None for a full block
     _row: np.ndarray = field(repr=False)
     _touch: Touch | None = field(default=None, repr=False)
 
     def __str__(self) -> str:
         return f"{self.kind} at {self.name} {self.parameter:.10g}: {self.orbit}"
+
+
+def chain_at(special: SpecialPoint) -> Chain:
+    """Return the chain of events at a special point; TypeError for a full block, which has none."""
+    if special._chain is None:
+        allowed = "be that of a slender block, whose arcs are closed forms"
+        raise TypeError(refusal("special", allowed, f"critical_angle {special.orbit.system.critical_angle}"))
+    return special._chain
 
 
 @frozen(eq=False)
@@ -123,9 +141,7 @@ class Branch(ReadOnlyArrays, NotebookPicture):
     points: NDArray[np.void] = field(repr=False, converter=read_only)
     special: tuple[SpecialPoint, ...] = field(repr=False)
     ends: tuple[str, str]
-    _chain: Chain = field(repr=False)
-    _rows: np.ndarray = field(repr=False)
-    _facts: np.ndarray = field(repr=False)
+    _rows: BranchRows = field(repr=False)
 
     def __len__(self) -> int:
         return len(self.points)
@@ -156,8 +172,7 @@ class Branch(ReadOnlyArrays, NotebookPicture):
         >>> print(branch.orbit(0))
         symmetric orbit of period 1 with 2 impacts
         """
-        facts = self._facts[index]
-        return orbit_of(self._chain, self.name, self._rows[index], facts["trace"], facts["determinant"])
+        return self._rows.orbit(index)
 
     def at(self, value: float) -> list[Orbit]:
         """Return every orbit of the branch at a value of the parameter.
@@ -192,19 +207,12 @@ class Branch(ReadOnlyArrays, NotebookPicture):
         before, after = values[:-1] - value, values[1:] - value
         crossed = (before * after < 0.0) | (before == 0.0)
         orbits = []
-        for i in np.flatnonzero(crossed):
+        for i in np.flatnonzero(crossed).tolist():
             share = -before[i] / (after[i] - before[i]) if after[i] != before[i] else 0.0
-            near = self._rows[i] + share * (self._rows[i + 1] - self._rows[i])
-            orbits.append(self._corrected(value, near))
+            orbits.append(self._rows.between(i, share, value))
         if values[-1] == value:
-            orbits.append(self._corrected(value, self._rows[-1]))
+            orbits.append(self._rows.between(len(values) - 1, 0.0, value))
         return [orbit for orbit in orbits if orbit is not None]
-
-    def _corrected(self, value: float, near: np.ndarray) -> Orbit | None:
-        there = solved(self._chain, self.name, value, near)
-        if not there.found:
-            return None
-        return orbit_of(self._chain, self.name, there.phases, there.trace, there.determinant)
 
     def section(self, phase: float = 0.0) -> NDArray[np.float64]:
         """Return the section points of all orbits at a forcing phase.
@@ -227,7 +235,7 @@ class Branch(ReadOnlyArrays, NotebookPicture):
         >>> branch.section(0.5).shape == (len(branch), 1, 2)
         True
         """
-        return states(self._chain, self.name, self._rows, phase, self.period)
+        return self._rows.section(phase)
 
     def __str__(self) -> str:
         low, high = float(self.points["parameter"].min()), float(self.points["parameter"].max())

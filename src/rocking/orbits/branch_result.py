@@ -6,6 +6,7 @@ import numpy as np
 
 from rocking.kernels.orbits import continuation as kernel
 from rocking.orbits.branch import Branch, SpecialPoint, table
+from rocking.orbits.branch_rows import ChainRows
 from rocking.orbits.event_chain import Chain, End, Special, equations, orbit_of
 from rocking.orbits.grazing import grazing_at
 
@@ -41,9 +42,7 @@ def branch_of(chain: Chain, parameter: str, joined: kernel.BranchTable, ends: tu
         points=table(joined.rows, joined.facts, chain.mirrored),
         special=special,
         ends=ends,
-        chain=chain,
-        rows=joined.rows,
-        facts=joined.facts,
+        rows=ChainRows(chain, parameter, joined.rows, joined.facts),
     )
 
 

@@ -10,7 +10,7 @@ from rocking.kernels.orbits import arclength, branch_point
 from rocking.kernels.orbits import continuation as kernel
 from rocking.model import Orbit, instance, one_of, refusal, refuse_if, whole, within
 from rocking.motion import simulate
-from rocking.orbits.branch import BRANCHES_OFF, Branch, SpecialPoint
+from rocking.orbits.branch import BRANCHES_OFF, Branch, SpecialPoint, chain_at
 from rocking.orbits.branch_result import ENDS, branch_of
 from rocking.orbits.event_chain import (
     NAMES,
@@ -25,6 +25,7 @@ from rocking.orbits.event_chain import (
     solved,
 )
 from rocking.orbits.parameter import checked_range, value_of
+from rocking.orbits.return_map_branch import followed
 
 MAX_SPECIAL = 1000
 # Largest relative deviation of the parameter at the first point of a branch from its value for the given orbit.
@@ -46,13 +47,16 @@ def continue_orbit(
     Eq. (5), so that the equations are smooth and their derivatives exact. Every point is then checked by simulation for
     further events. Special points are accurate to rounding.
 
+    For a full block the unknowns are the angle and the velocity at a forcing phase, and the equations those of the return map.
+
     Parameters
     ----------
     orbit : Orbit
         Orbit from `find_orbit`, `find_orbits` or a verdict. It must have impacts or brace impacts, and neither rest nor
         sustained contact with a brace.
     parameter : str
-        "amplitude", "period", "frequency", "restitution", "brace_angle" or "brace_restitution".
+        "amplitude", "period", "frequency", "restitution", "brace_angle" or "brace_restitution"; for a full block also
+        "critical_angle".
     bounds : (float, float)
         Lowest and highest value of the parameter; its value for `orbit` must lie in between.
     step : float
@@ -97,7 +101,7 @@ def continue_orbit(
     if orbit._grazes:
         allowed = "not be that of a grazing, where its branch ends"
         raise ValueError(refusal("orbit", allowed, str(orbit), "use a neighbouring one: branch.orbit(index)"))
-    one_of("parameter", parameter, tuple(NAMES))
+    one_of("parameter", parameter, (*NAMES, "critical_angle"))
     here = value_of(orbit.system, parameter)
     low, high = checked_range(parameter, bounds)
     refuse_if(
@@ -105,6 +109,8 @@ def continue_orbit(
     )
     step = within("step", step, 1e-6, 0.1)
     most = whole("max_points", max_points, 2, 1_000_000)
+    if orbit.system.critical_angle is not None:
+        return followed(orbit, parameter, (low, high), step, most)
     chain = chain_of(orbit)
     there = solved(chain, parameter, here, chain.phases)
     row = there.phases if there.found else np.append(chain.phases, here)
@@ -263,7 +269,7 @@ def _twice(special: SpecialPoint) -> tuple[Chain, np.ndarray]:
 
     Half a symmetric orbit becomes the whole orbit; any other orbit becomes an orbit of twice the period.
     """
-    chain, row = special._chain, special._row
+    chain, row = chain_at(special), special._row
     twice = chain._replace(
         period=chain.period if chain.mirrored else 2 * chain.period,
         mirrored=False,

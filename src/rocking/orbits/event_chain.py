@@ -75,7 +75,7 @@ def parameters(system: System) -> Any:
 
 def clocked(system: System, phase: float) -> System:
     """Return the system with time measured from the given forcing phase."""
-    return evolve(system, forcing=evolve(system.harmonic, phase=phase))
+    return evolve(system, forcing=evolve(system.periodic, phase=phase))
 
 
 def chain_of(orbit: Orbit) -> Chain:
@@ -85,7 +85,10 @@ def chain_of(orbit: Orbit) -> Chain:
     ------
     ValueError
         If the orbit has no events, rests, or stays in contact with a brace.
+    TypeError
+        If the block is not slender.
     """
+    forcing = orbit.system.harmonic
     if orbit.superstable:
         raise ValueError(
             refusal(
@@ -98,7 +101,7 @@ def chain_of(orbit: Orbit) -> Chain:
         raise ValueError(
             "orbit must have an impact or a brace impact; it has none (it is the saddle orbit ±1 + β cos ψ)"
         )
-    psi = orbit.phase + orbit.system.harmonic.frequency * events["time"]
+    psi = orbit.phase + forcing.frequency * events["time"]
     kinds = np.where(events["kind"] == "impact", IMPACT, BRACE).astype(np.int64)
     # side of the block after an event
     side = 1 if (events[0]["after"] > 0.0) == (kinds[0] == IMPACT) else -1

@@ -10,9 +10,29 @@ from attrs import evolve
 from rocking.kernels.classify import periodicity
 from rocking.kernels.classify import workspace as memory
 from rocking.kernels.orbits import newton_search as kernel
-from rocking.model import NoOrbit, Orbit, Outcome, State, System, check_periodic, instance, refusal, whole
-from rocking.motion import simulate, start_march
-from rocking.orbits.event_chain import IMPACT, Chain, chain_of, clocked, orbit_of, quiet_phase, solved
+from rocking.model import (
+    NoOrbit,
+    Orbit,
+    OrbitEvent,
+    Outcome,
+    State,
+    System,
+    check_periodic,
+    instance,
+    refusal,
+    whole,
+)
+from rocking.motion import monodromy, simulate, start_march
+from rocking.orbits.event_chain import (
+    IMPACT,
+    Chain,
+    chain_of,
+    clocked,
+    multipliers_of,
+    orbit_of,
+    quiet_phase,
+    solved,
+)
 from rocking.orbits.saddle_orbits import saddle_events
 
 MAX_PERIOD = 1000
@@ -80,7 +100,7 @@ def find_orbit(system: System, guess: State, period: int) -> Orbit:
                 "guess", f"not overturn within {period + 1} cycles", guess, "use a guess nearer to the orbit"
             )
         )
-    frequency, own = system.harmonic.frequency, system.harmonic.phase
+    frequency, own = system.periodic.frequency, system.periodic.phase
     phase = quiet_phase(own + frequency * motion.events["time"]) if len(motion.events) else own
     wait = ((phase - own) % math.tau) / frequency
     angle, velocity = (float(value) for value in motion.at(wait))
@@ -116,6 +136,26 @@ def _half(chain: Chain) -> Chain | None:
     return chain._replace(mirrored=True, kinds=chain.kinds[:count].copy(), phases=chain.phases[:count].copy())
 
 
+def _with_multipliers(orbit: Orbit) -> Orbit:
+    """Return an orbit of the full block with its multipliers and events, from the motion over one period."""
+    begun = clocked(orbit.system, orbit.phase)
+    derivative = monodromy(begun, orbit.state, orbit.period)
+    determinant = float(np.linalg.det(derivative))
+    if not orbit.system.restitution_table and orbit.system.braces is None:
+        determinant = orbit.system.restitution ** (2 * (orbit.impacts or 0))  # no cancellation
+    events, frequency = simulate(begun, orbit.state, cycles=orbit.period).events, begun.periodic.frequency
+    return evolve(
+        orbit,
+        multipliers=multipliers_of(derivative.trace(), determinant, mirrored=False),
+        events=tuple(
+            OrbitEvent(
+                frequency * float(one["time"]), float(one["angle"]), float(one["before"]), float(one["after"])
+            )
+            for one in events
+        ),
+    )
+
+
 def newton_from_starts(system: System, period: int, mirrored: bool, starts: np.ndarray) -> np.ndarray:
     """Run Newton's method from many initial states, on the map over a period, or over half a period and mirrored.
 
@@ -141,12 +181,12 @@ def orbit_from(system: System, phase: float, state: State, period: int) -> Orbit
     if motion.outcome is Outcome.OVERTURNED:
         return None
     rows = motion.section()
-    halves = np.column_stack(motion.at((np.arange(period) + 0.5) * system.harmonic.period))
+    halves = np.column_stack(motion.at((np.arange(period) + 0.5) * system.periodic.period))
     least, symmetric = periodicity.repetition_plain(rows, halves, state.angle, state.velocity, period, SAME)
-    events = motion.events[motion.events["time"] <= least * system.harmonic.period]
+    events = motion.events[motion.events["time"] <= least * system.periodic.period]
     rested, leaned = (bool(np.isin(events["kind"], kinds).any()) for kinds in (RESTING, LEANING))
     impacts, brace_hits = (int((events["kind"] == kind).sum()) for kind in ("impact", "brace"))
-    grown = math.exp(least * system.harmonic.period)
+    grown = math.exp(least * system.periodic.period)
     orbit = Orbit(
         system=system,
         state=state,
@@ -161,15 +201,17 @@ def orbit_from(system: System, phase: float, state: State, period: int) -> Orbit
     )
     if orbit.superstable:
         return orbit
+    if system.critical_angle is not None:
+        return _with_multipliers(orbit)
     if impacts + brace_hits == 0:
         return evolve(orbit, events=saddle_events(system, orbit.phase, orbit.state))
     chain = chain_of(orbit)
-    found = solved(chain, "amplitude", system.harmonic.amplitude, chain.phases)
+    found = solved(chain, "amplitude", system.periodic.amplitude, chain.phases)
     if not found.found:
         return orbit
     half = _half(chain._replace(phases=found.phases[:-1]))
     if half is not None:
-        chain, found = half, solved(half, "amplitude", system.harmonic.amplitude, half.phases)
+        chain, found = half, solved(half, "amplitude", system.periodic.amplitude, half.phases)
         if not found.found:
             return orbit
     return orbit_of(chain, "amplitude", found.phases, found.trace, found.determinant)

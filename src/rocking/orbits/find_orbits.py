@@ -121,9 +121,9 @@ def find_orbits(
     max_period : int
         Longest period, in forcing cycles, in [1, 64].
     angles, velocities : (float, float), optional
-        Ranges of the initial guesses. Default without braces: the region that contains every periodic orbit, because
-        overturning is certain beyond it, forward or backward in time. Default with braces: all angles between them, and
-        speeds up to twice an estimate from forcing and fall.
+        Ranges of the initial guesses. Default for a slender block without braces: the region that contains every periodic
+        orbit, because overturning is certain beyond it, forward or backward in time. Default otherwise: all angles between
+        the braces, or up to 1 + A/(1 + Ω²), and speeds up to twice an estimate from forcing and fall.
     effort : float
         Number of initial guesses per map in the first round, in units of 2048, in [0.01, 1000]. Default: 1.
     seed : int
@@ -167,8 +167,8 @@ def find_orbits(
     effort = within("effort", effort, 0.01, 1000.0)
     seed = whole("seed", seed, 0, 2**32 - 1)
     box = _box(system, angles, velocities)
-    there = clocked(system, (system.harmonic.phase + math.tau * attractor_anchor.SECTION) % math.tau)
-    known, used = OrbitRegistry(system, there.harmonic.phase), 0
+    there = clocked(system, (system.periodic.phase + math.tau * attractor_anchor.SECTION) % math.tau)
+    known, used = OrbitRegistry(system, there.periodic.phase), 0
     jobs = [(n, False) for n in range(1, max_period + 1)] + [(n, True) for n in range(1, max_period + 1, 2)]
     settled = False
     with ThreadPoolExecutor() as pool:
@@ -209,10 +209,10 @@ def _box(system: System, angles: Any, velocities: Any) -> tuple[float, ...] | No
     tuple of float, or None
         Lowest and highest angle, lowest and highest velocity.
     """
-    if angles is None and velocities is None and system.braces is None:
+    forcing, braces = system.periodic, system.braces
+    if angles is None and velocities is None and braces is None and system.critical_angle is None:
         return None
-    forcing, braces = system.harmonic, system.braces
-    beta = response(system)
+    beta = forcing.amplitude / (1.0 + forcing.frequency**2)
     reach = 1.0 + beta if braces is None else braces.angle
     fastest = (1.0 + (0.0 if braces is None else reach)) * FASTER * (1.0 + beta * (1.0 + forcing.frequency))
     box: tuple[float, ...] = ()
@@ -231,7 +231,7 @@ def _starts(system: System, box: tuple[float, ...] | None, count: int, first: in
     x, y = np.mod(index * np.array([1.0 / PLASTIC, 1.0 / PLASTIC**2]), 1.0).T
     if box is not None:
         return np.column_stack([box[0] + (box[1] - box[0]) * x, box[2] + (box[3] - box[2]) * y])
-    forcing = system.harmonic
+    forcing = system.periodic
     beta = response(system)
     in_phase = beta * math.cos(forcing.phase)
     quadrature = beta * forcing.frequency * math.sin(forcing.phase)

@@ -19,6 +19,7 @@ from rocking.model import (
     State,
     System,
     TooManyEvents,
+    check_constant_restitution,
     check_periodic,
     instance,
     one_of,
@@ -60,7 +61,7 @@ def orbit_diagram(
     ----------
     system : System
         Block, base motion and braces. Its value of the parameter is not used.
-    parameter : {"amplitude", "period", "frequency", "phase", "restitution", "brace_angle", "brace_restitution"}
+    parameter : {"amplitude", "period", "frequency", "phase", "restitution", "brace_angle", "brace_restitution", "critical_angle"}
         Varied parameter.
     values : array_like
         Values of the parameter, in any order.
@@ -120,7 +121,7 @@ def orbit_diagram(
     ways = SWEEPS[one_of("sweep", sweep, tuple(SWEEPS))]
     transient = whole("transient", transient, 0, MAX_CYCLES)
     cycles = whole("cycles", cycles, 1, max(MAX_POINTS // (len(ways) * len(ordered)), 1))
-    section_phase = system.harmonic.phase if section_phase is None else section_phase
+    section_phase = system.periodic.phase if section_phase is None else section_phase
     section_phase = within("section_phase", section_phase, -MAX_PHASE, MAX_PHASE)
     rows = np.array([_row(with_value(system, parameter, value), start) for value in ordered.tolist()])
     lanes = _lanes(rows, ways, cycles)
@@ -158,6 +159,7 @@ def _values(values: ArrayLike) -> NDArray[np.float64]:
 def _row(system: System, start: State) -> tuple[float, ...]:
     """Return the parameters of a system for the kernel, after checking that it can begin at `start`."""
     check_periodic(system, start)
+    check_constant_restitution(system)
     return numbers.row_of(start_march(system, start)[0])
 
 
@@ -193,12 +195,13 @@ def _run(
 ) -> None:
     """Fill the lanes, one thread per lane, in batches short enough for Ctrl-C and progress reports."""
     nothing = no_recording.no_recording()
+    kind = numbers.parameters_of_row(lanes[0].rows[0])
     batch = max(BREATH // (transient + lanes[0].section.shape[1]), 1)
     states = [(start.angle, start.velocity)] * len(lanes)
 
     def advance(lane: _Lane, state: tuple[float, float], done: slice) -> tuple[float, float]:
         out = lane.section[done], lane.peak[done], lane.statuses[done]
-        return kernel.sweep(lane.rows[done], *state, carry, transient, phase, *out, nothing)
+        return kernel.sweep(kind, lane.rows[done], *state, carry, transient, phase, *out, nothing)
 
     with ThreadPoolExecutor(len(lanes)) as pool:
         for first in range(0, max(len(lane.rows) for lane in lanes), batch):

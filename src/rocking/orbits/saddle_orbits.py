@@ -17,7 +17,7 @@ ON_IT = 1e-8
 
 def check(system: System) -> None:
     """Raise ValueError for a system without saddle orbits on one side of Θ = 0, or with impacts that cannot be reversed."""
-    instance("system", system, System)
+    instance("system", system, System).harmonic  # noqa: B018 (it refuses)
     if system.braces is not None:
         raise ValueError(
             refusal("system", "have no braces: there are no saddle orbits between them", system.braces)

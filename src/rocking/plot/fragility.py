@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
 
-from rocking.model import Fragility, counted, instance, refuse_if
+from rocking.model import Fragility, LognormalFit, counted, instance, refuse_if
 from rocking.plot.parts import style
 from rocking.plot.parts.intensity import level_label, limit_label
 
@@ -13,6 +17,12 @@ COLOURS = (style.MOTION, style.BRACE, style.BLOCK, style.IMPACT)
 MARKS = ("o", "s", "^", "D")
 APART = 0.12
 """Distance between the marks of neighbouring limits at one level, in units of the distance between levels."""
+ALONE = 0.1
+"""Distance that takes the place of that between levels if there is one level, in units of the level."""
+POINTS = 200
+"""Number of levels at which a fit is drawn."""
+SHADE = 0.2
+"""Opacity of a band."""
 
 
 def fragility(found: Fragility, ax: Axes | None = None) -> Axes:
@@ -41,8 +51,9 @@ def fragility(found: Fragility, ax: Axes | None = None) -> Axes:
 
     Notes
     -----
-    Marks of different limits lie slightly beside each other. A curve joins the fit at the levels by straight lines. A hollow
-    mark has a fraction of 0 or 1.
+    Marks of different limits lie slightly beside each other. A hollow mark has a fraction of 0 or 1. The fit is drawn from its
+    median and dispersion. The fraction of the runs that rock, which multiplies it, is interpolated linearly between the
+    levels. The band is known at the levels; monotone cubic interpolation joins its ends.
 
     Examples
     --------
@@ -57,19 +68,17 @@ def fragility(found: Fragility, ax: Axes | None = None) -> Axes:
     data = found.dataset
     count = data.sizes["limit"]
     refuse_if(count > len(COLOURS), "found", f"have at most {len(COLOURS) - 1} limits to be drawn", count - 1)
-    ax = style.own(ax, height=3.3)
+    ax = style.own(ax, height=3.7)
     style.block_title(ax, found.block)
     levels = data.scale.values
     shades = [*COLOURS[: count - 1], COLOURS[-1]]
-    step = APART * float(np.diff(levels).min())
+    step = APART * float(np.diff(levels).min() if levels.size > 1 else ALONE * levels[0])
     for number, (colour, mark) in enumerate(zip(shades, [*MARKS[: count - 1], MARKS[-1]], strict=True)):
         of = data.isel(limit=number)
         beside = levels + step * (number - (count - 1) / 2)
         value, low, high = (100 * of[name].values for name in ("fraction", "fraction_low", "fraction_high"))
-        ax.fill_between(
-            levels, 100 * of.fit_low, 100 * of.fit_high, color=colour, alpha=0.2, linewidth=0, gid="band"
-        )
-        ax.plot(levels, 100 * of.fit, color=colour, linewidth=style.LINE, gid="fit")
+        if not found.fits[number].problem:
+            _draw_fit(ax, found.fits[number], of, colour)
         bars = np.array([value - low, high - value])
         ax.errorbar(
             beside,
@@ -81,7 +90,6 @@ def fragility(found: Fragility, ax: Axes | None = None) -> Axes:
             capsize=1.5,
             gid="interval",
         )
-        label = limit_label(float(of.limit), found.block)
         for where, face in (((value > 0) & (value < 100), colour), ((value == 0) | (value == 100), "white")):
             ax.plot(
                 beside[where],
@@ -92,7 +100,6 @@ def fragility(found: Fragility, ax: Axes | None = None) -> Axes:
                 markeredgecolor=colour,
                 markeredgewidth=style.THIN,
                 markerfacecolor=face,
-                label=label if face == colour else None,
                 clip_on=False,
                 zorder=3,
                 gid="fraction",
@@ -101,5 +108,52 @@ def fragility(found: Fragility, ax: Axes | None = None) -> Axes:
     ax.set_ylim(-2.0, 102.0)
     blocks = f" × {counted(data.sizes['sample'], 'block')}" if "sample" in data.sizes else ""
     style.note(ax, counted(data.sizes["record"], "record") + blocks)
-    style.key(ax)
+    if levels.size == 1:
+        ax.set_xticks(levels)  # marks beside each other have the same level
+    _key(ax, found, shades)
     return ax
+
+
+def _draw_fit(ax: Axes, fit: LognormalFit, of: Any, colour: str) -> None:
+    """Draw the fit of one limit and its band."""
+    from scipy.interpolate import PchipInterpolator
+
+    levels = of.scale.values
+    fine = np.union1d(levels, np.linspace(levels[0], levels[-1], POINTS))
+    low, high = (PchipInterpolator(levels, 100.0 * of[name].values)(fine) for name in ("fit_low", "fit_high"))
+    ax.fill_between(fine, low, high, color=colour, alpha=SHADE, linewidth=0, gid="band")
+    rocking = np.interp(fine, levels, of.rocking.values)
+    ax.plot(fine, 100.0 * rocking * fit.probability(fine), color=colour, linewidth=style.LINE, gid="fit")
+
+
+def _key(ax: Axes, found: Fragility, shades: list[str]) -> None:
+    """Draw the legend: the limits by their marks, then the kinds of lines and marks that are there."""
+    drawn = {each.get_gid() for each in (*ax.lines, *ax.collections)}
+    fractions = found.dataset.fraction.values
+    looks: dict[str, Any] = {"linestyle": "none", "markersize": style.MARK, "markeredgewidth": style.THIN}
+    limits = found.dataset.limit.values.tolist()
+    handles: list[Any] = [
+        Line2D([], [], marker=mark, color=colour, label=limit_label(limit, found.block), **looks)
+        for limit, colour, mark in zip(limits, shades, (*MARKS[: len(limits) - 1], MARKS[-1]), strict=True)
+    ]
+    handles.append(
+        Line2D([], [], marker="|", color=style.INK, label="95 % interval", **{**looks, "markersize": 8.0})
+    )
+    if "fit" in drawn:
+        handles += [
+            Line2D([], [], color=style.INK, linewidth=style.LINE, label="lognormal fit"),
+            Patch(facecolor=style.INK, alpha=SHADE, label="95 % band of the fit"),
+        ]
+    if np.isin(fractions, (0.0, 1.0)).any():
+        handles.append(
+            Line2D(
+                [],
+                [],
+                marker="o",
+                color=style.INK,
+                markerfacecolor="white",
+                label="0 or 100 % of the runs",
+                **looks,
+            )
+        )
+    style.patches(ax, handles)

@@ -77,7 +77,7 @@ def incremental_dynamic_analysis(
             color=style.GUIDE,
             linewidth=style.THIN,
             alpha=0.7,
-            label="one record (flat: overturned)" if number == 0 else None,
+            label="one record (horizontal end: overturns\nat the next level)" if number == 0 else None,
             gid="record",
             zorder=1,
         )

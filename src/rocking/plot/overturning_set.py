@@ -7,12 +7,13 @@ from matplotlib.axes import Axes
 
 from rocking.model import OverturningSet, instance
 from rocking.plot.parts import style
+from rocking.plot.parts.names import shortened
 
 ROW, REST, TALLEST = 0.24, 1.0, 9.0
 """Height of a row and of everything else, and of the tallest figure, in inches."""
 BAND = 0.7
-SEEN = 400
-"""Part of the range that a band takes at least, so that the narrowest remain visible."""
+NARROWEST = 1 / 200
+"""Width of the narrowest band, as a fraction of the range, so that it remains visible."""
 MAX_NAMED, LONGEST_NAME = 36, 18
 NUMBERED = 10
 """Number of rows, evenly spread, that carry a number where there are too many records for names."""
@@ -45,7 +46,7 @@ def overturning_set(found: OverturningSet, ax: Axes | None = None) -> Axes:
     Notes
     -----
     A triangle marks the lowest overturning level of a record. A cross below a band is a switch that rounding may have made. A band
-    takes at least 1/400 of the range, so that the narrowest remain visible.
+    takes at least 1/200 of the range, so that the narrowest remain visible.
 
     Examples
     --------
@@ -60,8 +61,8 @@ def overturning_set(found: OverturningSet, ax: Axes | None = None) -> Axes:
     count = len(found.records)
     ax = style.own(ax, height=min(REST + ROW * count, TALLEST))
     style.block_title(ax, found.block)
-    narrowest = float(np.ptp(found.scales)) / SEEN
-    doubtful = found.switches[~found.switches["certified"]]
+    narrowest = float(np.ptp(found.scales)) * NARROWEST
+    doubtful = found.undecided
     for row in range(count):
         bands = found.intervals(row)
         ax.broken_barh(
@@ -110,10 +111,12 @@ def level_label(found: OverturningSet) -> str:
 
 
 def _name_rows(ax: Axes, names: tuple[str, ...]) -> None:
-    """Write the names of the records beside their rows; numbers from 0 where there are many."""
+    """Write the names of the records beside their rows; numbers from 0 where there are many, or where short names coincide."""
     if len(names) > MAX_NAMED:
         ax.set_yticks(np.arange(0, len(names), -(-len(names) // NUMBERED)))
         return
-    short = [name if len(name) <= LONGEST_NAME else name[: LONGEST_NAME - 1] + "…" for name in names]
+    short = [shortened(name, LONGEST_NAME) for name in names]
+    if len(set(short)) < len(set(names)):
+        short = [f"{row} {shortened(name, LONGEST_NAME - 3)}" for row, name in enumerate(names)]
     ax.set_yticks(np.arange(len(names)), short, fontsize=style.SMALL, color=style.INK)
     ax.tick_params(axis="y", length=0)

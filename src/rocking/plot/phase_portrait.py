@@ -36,7 +36,7 @@ def phase_portrait(
         Block for SI axes, degrees and degrees per second. Default: normalised axes.
     cycles : tuple of float, optional
         First and last forcing cycle shown, counted from the start. Default: the whole motion; if it overturned, up to
-        three times the critical angle.
+        three times the critical angle, or until it lies flat with the full equation.
 
     Returns
     -------

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -12,15 +11,17 @@ from matplotlib.colors import ListedColormap
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from rocking.model import counted, one_of, refusal
+from rocking.model import INTENSITIES, counted, one_of, refusal
 from rocking.plot.parts import style
 from rocking.plot.parts.map_levels import edges
+from rocking.plot.parts.names import shortened
+from rocking.plot.parts.spectrum_lines import Line, lines_of, overturned_runs, value
 
 if TYPE_CHECKING:
     import xarray as xr
 
 ACROSS = {
-    "size": "distance $R$ of corner and centre of mass (m)",
+    "size": "half the diagonal, $R$ (m)",
     "frequency-parameter": r"frequency parameter $\alpha$ (1/s)",
     "period": r"$2\pi/\alpha$ (s)",
 }
@@ -32,7 +33,7 @@ UNITS = {
 SLENDERNESS = r"critical angle $\theta_\mathrm{cr}$ (°)"
 LINES = ("record", "size", "slenderness")
 COLOURS = (style.MOTION, style.IMPACT, style.BRACE, "#CC79A7", "#56B4E9", "#8A6D00", "#3F0A6B", style.INK)
-"""Colours of lines with a name in the legend; more lines have one colour."""
+"""Colours of lines with a name in the legend; more lines have the colour of their slenderness."""
 MOST_SLENDERNESSES = 6
 """Most critical angles of which each has lines; more give a map."""
 TOP = 0.25
@@ -42,22 +43,15 @@ LONGEST = 28
 """Longest name of a line in a legend of two columns; TeX counts as its characters."""
 
 
-class Line(NamedTuple):
-    """Line of a spectrum."""
-
-    name: str
-    peak: np.ndarray
-    overturned: np.ndarray
-    certified: np.ndarray
-
-
 def rocking_spectrum(
     found: xr.Dataset, ax: Axes | None = None, *, across: str = "size", unit: str = "critical"
 ) -> Axes:
     r"""Plot the largest angle over the size or the slenderness of the block.
 
-    There is one line per record and slenderness, with a cross above the lines where the block overturns, one row per line. Open
-    circles mark outcomes that rounding may have changed. Size and more than six slendernesses give a map.
+    There is one line per record and slenderness. A strip above the lines has a mark where the block overturns, one row per
+    line. Open circles mark outcomes that rounding may have changed. More than eight lines are thin. A thick one then
+    shows the median over the records: the smallest peak that at least half of them do not exceed. It ends where more than
+    half overturn the block. Size and more than six slendernesses give a map.
 
     Parameters
     ----------
@@ -102,19 +96,70 @@ def rocking_spectrum(
         return _map(found, ax, across, unit)
     name = "size" if "size" in dims else "slenderness"
     places, x_label = _axis(found, name, across)
-    lines = list(_lines(found, name, unit))
+    lines = list(lines_of(found, name, unit))
     named = len(lines) <= len(COLOURS)
-    ax = style.own(ax, height=2.6 + (0.16 * -(-len(lines) // 2) if named else 0.0))
+    groups = {line.slenderness_number: line.slenderness for line in lines}
+    ax = style.own(ax, height=2.6 + 0.16 * -(-len(lines if named else groups) // 2))
     ends = [line.peak[np.isfinite(line.peak)].max(initial=0.0) for line in lines]
     room = min(TOP, ROW * len(lines))
     top = max(*ends, 1e-9) / (0.97 - room)
     for number, line in enumerate(lines):
         height = top * (1.0 - room * (number + 0.5) / len(lines))
-        _draw(ax, places, line, COLOURS[number] if named else style.MOTION, height, many=not named)
+        colour = COLOURS[number if named else line.slenderness_number]
+        _draw(ax, places, line, colour, height, many=not named)
+    if not named:
+        for group in groups:
+            _draw_median(
+                ax, places, [line for line in lines if line.slenderness_number == group], COLOURS[group]
+            )
+    _head(ax, found)
     style.label(ax, x_label, UNITS[unit])
     ax.set_ylim(0.0, top)
-    _key(ax, lines, named=named)
+    if any(line.overturned.any() for line in lines):
+        _strip(ax, top * (1.0 - room), top)
+    _key(ax, lines, None if named else groups)
     return ax
+
+
+def _head(ax: Axes, found: xr.Dataset) -> None:
+    """Write the record or the number of records above the axes, and the slenderness and the level that do not vary."""
+    if "record" in found.dims:
+        heading = counted(found.sizes["record"], "record")
+    else:
+        heading = shortened(
+            str(found["name"].values) if "name" in found.coords else found.attrs["record"], 30
+        )
+    style.title(ax, heading)
+    constants = []
+    if "slenderness" not in found.dims:
+        constants.append(rf"$\theta_\mathrm{{cr}}$ = {np.degrees(float(value(found, 'slenderness'))):.3g}°")
+    scale = float(value(found, "scale")) if "scale" in {**found.coords, **found.attrs} else 1.0
+    if scale != 1.0:
+        measure = INTENSITIES.get(found.attrs["intensity"], (None,))[0]
+        unit = "" if measure is None or measure.unit == "1" else f" {measure.unit}"
+        symbol = found.attrs["intensity"] if measure is None else measure.symbol
+        constants.append(f"{symbol} = {scale:g}{unit}")
+    style.note(ax, ", ".join(constants))
+
+
+def _strip(ax: Axes, bottom: float, top: float) -> None:
+    """Set the strip of the marks of overturned blocks apart from the axis of the angle."""
+    ax.axhspan(bottom, top, color=style.FALLEN, alpha=0.4, linewidth=0, zorder=0, gid="strip")
+    ax.set_yticks([tick for tick in ax.get_yticks() if 0.0 <= tick <= bottom])
+
+
+def _draw_median(ax: Axes, places: np.ndarray, lines: list[Line], colour: str) -> None:
+    """Draw the median over the lines of one slenderness, as far as at most half of the blocks overturn."""
+    peaks = np.array([np.where(line.overturned, np.inf, line.peak) for line in lines])
+    middle = np.quantile(peaks, 0.5, axis=0, method="inverted_cdf")
+    ax.plot(
+        places,
+        np.where(np.isinf(middle), np.nan, middle),
+        color=colour,
+        linewidth=1.6 * style.LINE,
+        gid="median",
+        zorder=3,
+    )
 
 
 def _check(found: Any) -> None:
@@ -131,17 +176,6 @@ def _check(found: Any) -> None:
         raise ValueError(refusal("found", "vary over size or slenderness", tuple(map(str, peak.dims))))
 
 
-def _overturned(found: xr.Dataset) -> Any:
-    """Return which runs overturned, as an array with the dimensions of the spectrum."""
-    meanings = found.outcome.attrs["flag_meanings"].split()
-    return found.outcome == meanings.index("overturned")
-
-
-def _value(found: xr.Dataset, name: str) -> Any:
-    """Return a quantity of the survey, whether it varies or not."""
-    return found[name].values if name in found.coords else found.attrs[name]
-
-
 def _axis(found: xr.Dataset, name: str, across: str) -> tuple[np.ndarray, str]:
     """Return the values of the horizontal axis, and its label."""
     if name == "slenderness":
@@ -152,34 +186,6 @@ def _axis(found: xr.Dataset, name: str, across: str) -> tuple[np.ndarray, str]:
     return (alpha if across == "frequency-parameter" else math.tau / alpha), ACROSS[across]
 
 
-def _lines(found: xr.Dataset, name: str, unit: str) -> Iterator[Line]:
-    """Yield the lines: the slendernesses of each record."""
-    degrees = np.degrees(np.asarray(_value(found, "slenderness"), float))
-    overturned = _overturned(found)
-    peaks = found.peak * (np.degrees(found["slenderness"]) if "slenderness" in found.peak.dims else degrees)
-    shown = found.peak if unit == "critical" else peaks
-    records = range(found.sizes["record"]) if "record" in found.dims else [None]
-    angles = range(found.sizes["slenderness"]) if name == "size" and "slenderness" in found.dims else [None]
-    for record in records:
-        for angle in angles:
-            at = {key: k for key, k in (("record", record), ("slenderness", angle)) if k is not None}
-            parts = []
-            if record is not None:
-                parts.append(str(found.name.values[record]))
-            if angle is not None or record is None:
-                parts.append(
-                    ""
-                    if name == "slenderness"
-                    else rf"$\theta_\mathrm{{cr}}$ = {degrees.flat[angle or 0]:.3g}°"
-                )
-            yield Line(
-                ", ".join(filter(None, parts)) or "peak",
-                np.where(overturned.isel(at), np.nan, shown.isel(at)),
-                overturned.isel(at).values,
-                found.certified.isel(at).values != 0,
-            )
-
-
 def _draw(ax: Axes, places: np.ndarray, line: Line, colour: str, height: float, *, many: bool) -> None:
     """Draw a line, the marks above it, and the open circles of undecided outcomes."""
     size = style.point_size(max(places.size, 30))
@@ -188,9 +194,9 @@ def _draw(ax: Axes, places: np.ndarray, line: Line, colour: str, height: float, 
         line.peak,
         color=colour,
         linewidth=style.THIN if many else style.LINE,
-        alpha=0.5 if many else 1.0,
-        marker=".",
-        markersize=0.5 * size if many else size,
+        alpha=0.35 if many else 1.0,
+        marker="none" if many else ".",
+        markersize=size,
         gid="peak",
     )
     ax.plot(
@@ -198,8 +204,8 @@ def _draw(ax: Axes, places: np.ndarray, line: Line, colour: str, height: float, 
         np.full(int(line.overturned.sum()), height),
         color=colour,
         linestyle="none",
-        marker="x",
-        markersize=min(style.MARK, 1.6 * size) * (0.6 if many else 1.0),
+        marker="s" if many else "x",
+        markersize=1.2 if many else min(style.MARK, 1.6 * size),
         markeredgewidth=style.THIN,
         gid="overturned",
     )
@@ -217,18 +223,26 @@ def _draw(ax: Axes, places: np.ndarray, line: Line, colour: str, height: float, 
     )
 
 
-def _key(ax: Axes, lines: list[Line], *, named: bool) -> None:
-    """Draw the legend: the lines if they have names, the crosses and the circles if there are some."""
-    names = [line.name for line in lines] if named else [counted(len(lines), "line")]
-    width = style.LINE if named else style.THIN
-    handles = [
-        Line2D([], [], color=colour, linewidth=width, label=name)
-        for name, colour in zip(names, COLOURS, strict=False)
-    ]
+def _key(ax: Axes, lines: list[Line], groups: dict[int, str] | None) -> None:
+    """Draw the legend: the lines, or one record and the median of each group; the crosses and circles that are there."""
+    if groups is None:
+        names = [line.name for line in lines]
+        handles = [
+            Line2D([], [], color=colour, linewidth=style.LINE, label=name)
+            for name, colour in zip(names, COLOURS, strict=False)
+        ]
+    else:
+        names = ["one record", *(f"median, {name}" if name else "median" for name in groups.values())]
+        handles = [Line2D([], [], color=COLOURS[0], alpha=0.35, linewidth=style.THIN, label=names[0])]
+        handles += [
+            Line2D([], [], color=COLOURS[group], linewidth=1.6 * style.LINE, label=name)
+            for group, name in zip(groups, names[1:], strict=True)
+        ]
     looks: dict[str, Any] = {"linestyle": "none", "color": style.INK, "markersize": style.MARK}
     if any(line.overturned.any() for line in lines):
         names.append("overturned")
-        handles.append(Line2D([], [], marker="x", label=names[-1], **looks))
+        marks = looks if groups is None else {**looks, "markersize": 2.0}
+        handles.append(Line2D([], [], marker="x" if groups is None else "s", label=names[-1], **marks))
     if not all(line.certified.all() for line in lines):
         names.append("undecided by rounding")
         handles.append(Line2D([], [], marker="o", markerfacecolor="none", label=names[-1], **looks))
@@ -246,7 +260,7 @@ def _map(found: xr.Dataset, ax: Axes | None, across: str, unit: str) -> Axes:
     peak = found.peak.transpose("slenderness", "size").values
     if unit == "degrees":
         peak = peak * angles[:, None]
-    overturned = _overturned(found).transpose("slenderness", "size").values
+    overturned = overturned_runs(found).transpose("slenderness", "size").values
     ax = style.own(ax, height=3.0)
     corners = edges(places), edges(angles)
     ax.pcolormesh(
@@ -262,6 +276,7 @@ def _map(found: xr.Dataset, ax: Axes | None, across: str, unit: str) -> Axes:
     bar = ax.figure.colorbar(image, ax=ax, pad=0.02)
     bar.set_label(UNITS[unit], fontsize=style.SMALL, color=style.INK)
     bar.ax.tick_params(labelsize=style.SMALL)
+    _head(ax, found)
     style.label(ax, x_label, SLENDERNESS)
     style.patches(ax, [Patch(facecolor=style.FALLEN, label="overturned")])
     return ax

@@ -6,8 +6,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from rocking.model import Block, PiecewiseLinear, System
-from rocking.motion import Motion, has_cycles
+from rocking.model import Block, Outcome, PiecewiseLinear, System
+from rocking.motion import Motion, fallen, has_cycles
 from rocking.plot.parts import style
 from rocking.plot.parts.axis_units import Quantities, quantities
 from rocking.plot.parts.sample_times import SAMPLES_PER_PICTURE, trace, window
@@ -35,7 +35,7 @@ def time_history(
         Block for SI axes, seconds and degrees. Default: normalised axes.
     cycles : tuple of float, optional
         First and last forcing cycle shown, counted from the start. Default: the whole motion; if it overturned, up to
-        three times the critical angle. Omit it for a base motion of finite length.
+        three times the critical angle, or until it lies flat with the full equation. Omit it for a base motion of finite length.
 
     Returns
     -------
@@ -77,14 +77,26 @@ def time_history(
 
 
 def draw_with_base(above: Axes, below: Axes, motion: Motion, block: Block | None) -> Axes:
-    """Draw the angle of a motion, and below it the base acceleration; return the axes of the angle."""
+    """Draw the angle of a motion with its outcome, and below it the base acceleration; return the axes of the angle."""
     start, stop = window(motion, None)
     draw_history(above, motion, start, stop, block)
     draw_base(below, motion, start, stop, block)
     above.set_xlabel("")
     above.tick_params(labelbottom=False)
+    style.note(above, _outcome(motion))
     above.figure.align_ylabels([above, below])
     return above
+
+
+def _outcome(motion: Motion) -> str:
+    """Return the outcome of a motion in a few words, and where the drawing of a fall ends."""
+    if motion.peak == 0.0:
+        return "stands still"
+    if motion.outcome is not Outcome.OVERTURNED:
+        return {Outcome.AT_REST: "comes to rest", Outcome.BOUNDED: "rocks until the end"}[motion.outcome]
+    if motion.system.critical_angle is not None:
+        return "overturns, lies flat at the end"
+    return rf"overturns, drawn to {fallen(motion):g} $\theta_\mathrm{{cr}}$"
 
 
 def draw_base(ax: Axes, motion: Motion, start: float, stop: float, block: Block | None) -> Axes:

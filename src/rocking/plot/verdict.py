@@ -108,7 +108,7 @@ def _motion(verdict: Verdict, history: Axes, portrait: Axes, block: Block | None
             ax.set_axis_off()
             ax.text(0.5, 0.5, "too many events to draw", ha="center", fontsize=style.SMALL, color=style.INK)
         return
-    period = motion.system.harmonic.period
+    period = motion.system.periodic.period
     rests = motion.outcome is Outcome.AT_REST
     window = (0.0, min(settled(motion) / period, motion.cycles)) if rests else None
     time_history(motion, history, block, window)
@@ -161,7 +161,7 @@ def _repeats(points: NDArray, period: int) -> bool:
 
 
 def _section(verdict: Verdict, ax: Axes, block: Block | None) -> None:
-    orbit, phase = verdict.orbit, verdict.system.harmonic.phase
+    orbit, phase = verdict.orbit, verdict.system.periodic.phase
     try:
         if orbit is None:
             late = _after(verdict, min(verdict.cycles, LATEST))
@@ -187,7 +187,7 @@ def _on(orbit: Orbit, points: NDArray) -> NDArray:
     """Return the points of an orbit; those of a superstable orbit are the last points of the section."""
     if orbit.superstable:
         return points[-orbit.period :]
-    system = evolve(orbit.system, forcing=evolve(orbit.system.harmonic, phase=orbit.phase))
+    system = evolve(orbit.system, forcing=evolve(orbit.system.periodic, phase=orbit.phase))
     return simulate(system, orbit.state, cycles=orbit.period, record="section").section()[:-1]
 
 

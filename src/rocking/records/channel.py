@@ -38,3 +38,5 @@ class Channel(NamedTuple):
     name: str = ""
     component: str = ""
     peak: Peak | None = None
+    lacking: str = ""
+    """Sentence on the missing line that would state the unit; empty if no line is missing."""

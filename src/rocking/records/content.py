@@ -53,7 +53,8 @@ class Content:
             if isinstance(error, RecordError):
                 raise
             reason = getattr(error, "strerror", None) or error
-            raise RecordError(f"{shown}: cannot be read: {reason}") from error
+            advice = "; check the path" if isinstance(error, FileNotFoundError) else ""
+            raise RecordError(f"{shown}: cannot be read: {reason}{advice}") from error
         self._take(data, shown)
 
     def _take(self, data: bytes, shown: str) -> None:

@@ -2,30 +2,51 @@
 
 from __future__ import annotations
 
+import re
+
 from rocking.records.channel import Channel
 from rocking.records.text_file import TextFile
 
 TITLE = r"(ACCELERATION|VELOCITY|DISPLACEMENT)\s+TIME\s+(?:SERIES|HISTORY)\s+IN\s+UNITS\s+OF\s+(\S+)"
+OTHER = r"\b(VELOCITY|DISPLACEMENT)\b"
 NEW = r"NPTS\s*=\s*([^,\s]+)\s*,?\s*DT\s*=\s*([^\s,]+)"
 OLD = r"^\s*(\S+)\s+(\S+)\s+NPTS\s*,\s*DT"
+NO_TITLE = "line 3, 'ACCELERATION TIME SERIES IN UNITS OF G', is missing"
 
 
 def recognises(file: TextFile) -> bool:
-    """Return whether the third line names the quantity and the unit as this format does."""
-    return file.find(TITLE, 2, 3) is not None
+    """Return whether the third line names quantity and unit, or the third or fourth counts samples, as this format does."""
+    return file.find(TITLE, 2, 3) is not None or _counts(file, 2) is not None
 
 
 def read(file: TextFile) -> list[Channel]:
-    """Read the only channel."""
+    """Read the only channel; its unit is open if the third line is missing."""
+    other = file.found(OTHER, 2, 3)
+    if other:
+        raise file.error(2, f"acceleration expected, but the file holds {other.lower()}; give the .AT2 file")
     title = file.find(TITLE, 2, 3)
-    if title is None or title[1].group(1).upper() != "ACCELERATION":
-        raise file.error(2, "acceleration expected; this file has another quantity")
-    unit = file.unit(2, title[1].group(2))
-    file.line(3)
-    header = file.find(NEW, 3, 4) or file.find(OLD, 3, 4)
+    unit = None if title is None else file.unit(2, title[1].group(2))
+    if title is not None:
+        file.line(3)
+    header = _counts(file, 2 if title is None else 3)
     if header is None:
         raise file.error(3, "number of samples and time step expected, as in NPTS= 4000, DT= .0050 SEC")
-    samples, _ = file.separated(4, file.count(3, header[1].group(1)))
+    place, (count, step) = header[0], header[1].groups()
+    samples, _ = file.separated(place + 1, file.count(place, count))
     name, _, component = file.line(1).strip().rpartition(",")
-    step = file.step(3, header[1].group(2))
-    return [Channel(samples, unit, step, "PEER AT2", name.strip(), component.strip())]
+    return [
+        Channel(
+            samples,
+            unit,
+            file.step(place, step),
+            "PEER AT2",
+            name.strip(),
+            component.strip(),
+            lacking="" if unit else NO_TITLE,
+        )
+    ]
+
+
+def _counts(file: TextFile, first: int) -> tuple[int, re.Match[str]] | None:
+    """Return the line, from `first` to the fourth, with the number of samples and the time step."""
+    return file.find(NEW, first, 4) or file.find(OLD, first, 4)

@@ -180,7 +180,14 @@ def _motion(source: _Source, number: int, given: _Given) -> GroundMotion:
     """Return the motion of a channel; warn if its peak differs from the header's."""
     channel, several = source.channels[number - 1], len(source.channels) > 1
     place = f"{source.name}, channel {number}" if several else source.name
-    unit = _stated(place, "units", channel.unit, given.unit, "the unit of its samples", "m/s²")
+    unit = _stated(
+        f"{place}: {channel.lacking}" if channel.lacking else place,
+        "units",
+        channel.unit,
+        given.unit,
+        "the unit of its samples",
+        "g" if channel.lacking else "m/s²",
+    )
     step = _stated(place, "step", channel.step, given.step, "its time step", "0.01")
     samples = channel.samples * UNITS[unit]
     name, component = (" ".join(text.split()) for text in (channel.name, channel.component))

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import os
+import re
+import warnings
 from collections import Counter
 from collections.abc import Iterable, Sequence
 from pathlib import Path
@@ -10,7 +12,7 @@ from typing import Any
 
 from attrs import evolve
 
-from rocking.model import GroundMotion, RecordSet, members, refusal
+from rocking.model import GroundMotion, RecordSet, counted, members, refusal
 from rocking.records.channel import RecordError
 from rocking.records.read import read_ground_motion, read_ground_motions
 from rocking.records.record_table import is_table, rows
@@ -18,6 +20,10 @@ from rocking.records.record_table import is_table, rows
 ALLOWED = "be a folder, a table with a column 'file', or paths of record files"
 LEFT_OUT = ("readme", "license", "licence")
 """Beginnings of names of files that accompany records: they state their source and terms."""
+OTHER_QUANTITIES = (".vt2", ".dt2", "_searchresults.csv")
+"""Ends of names, in lower case, of files in downloads of PEER without acceleration: velocity, displacement and the search."""
+MAX_NAMED = 3
+FORMATS = "PEER AT2, COSMOS, CSMIP, USC, SMC, K-NET, ESM, GeoNet, and text with one or two columns"
 
 
 def read_record_set(
@@ -36,7 +42,8 @@ def read_record_set(
     source : path or iterable of paths
         Record files in one of three forms. Each component is a motion of its own, of any length.
 
-        - A folder: all its files, sorted by name. Hidden files and files named README… or LICENSE… are left out.
+        - A folder: all its files, sorted by name. Hidden files and files named README… or LICENSE… are left out. So are the
+          files without acceleration in a download of PEER: .VT2, .DT2 and _SearchResults.csv.
         - Paths of record files, or the path of one.
         - A table: a CSV file with a column `file`, relative to the table. The columns `channel` (default: all channels),
           `scale` (a factor), `units`, `step` and `name` are optional. Each other column holds numbers, such as magnitudes, and
@@ -60,7 +67,7 @@ def read_record_set(
     Warns
     -----
     UserWarning
-        As for `read_ground_motion`.
+        As for `read_ground_motion`. Also if files of a folder without acceleration are left out.
 
     See Also
     --------
@@ -99,11 +106,16 @@ def _path(value: Any) -> Path:
 
 
 def _folder(path: Path) -> list[Path]:
-    """Return what lies in a folder, sorted by name, without what accompanies records."""
-    found = sorted(each for each in path.iterdir() if not each.name.lower().startswith((".", *LEFT_OUT)))
-    if not found:
-        raise RecordError(f"{path}: the folder holds no record file")
-    return found
+    """Return the files of a folder, sorted by name, without those that accompany records; warn of other quantities."""
+    files = sorted(each for each in path.iterdir() if not each.name.lower().startswith((".", *LEFT_OUT)))
+    others = [each.name for each in files if each.name.lower().endswith(OTHER_QUANTITIES)]
+    if len(files) == len(others):
+        raise RecordError(f"{path}: the folder holds no record file; the formats are {FORMATS}")
+    if others:
+        names = ", ".join(others[:MAX_NAMED]) + ", …" * (len(others) > MAX_NAMED)
+        left_out = f"{counted(len(others), 'file')} without acceleration left out: {names}"
+        warnings.warn(f"{path}: {left_out}", stacklevel=3)
+    return [each for each in files if each.name not in others]
 
 
 def _way_out_of(path: Path) -> str:
@@ -128,7 +140,7 @@ def _of_files(paths: Sequence[Path], given: dict[str, Any], way_out: str = "") -
 def _of_several(error: RecordError) -> str:
     """Return the way out for an argument that suits some files and not others; empty for another error."""
     for name in ("units", "step"):
-        if str(error).endswith((f"do not give {name}", f"{name}='m/s²'", f"{name}=0.01")):
+        if re.search(rf"(do not give {name}|for example {name}=\S+)$", str(error)):
             return f"; a table with a column {name!r} gives it for each file"
     return ""
 

@@ -17,6 +17,7 @@ NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[EeDd][-+]?\d{1,4}(?!\d))?", re
 SEPARATE = re.compile(rf"(?:(?<![^\s,])|(?=[-+])){NUMBER.pattern}", re.ASCII)
 """A number after a blank, a comma or nothing, or with a sign."""
 MAX_SAMPLES = 10_000_000
+INCOMPLETE = "it is incomplete: download it again"
 MAX_DIGITS = 3
 """Number of digits of each number in a format such as (8F10.3)."""
 
@@ -40,7 +41,7 @@ class TextFile:
     def line(self, index: int) -> str:
         """Return a line; `RecordError` beyond the last."""
         if not 0 <= index < len(self.lines):
-            raise self.error(len(self.lines) - 1, "the file ends in its header")
+            raise self.error(len(self.lines) - 1, f"the file ends in its header; {INCOMPLETE}")
         return self.lines[index]
 
     def find(self, pattern: str, first: int = 0, last: int | None = None) -> tuple[int, re.Match[str]] | None:
@@ -166,7 +167,9 @@ class TextFile:
 
     def _sample_line(self, index: int, read: int, count: int) -> str:
         if index >= len(self.lines):
-            raise self.error(index - 1, f"the file ends after {counted(read, 'sample')} of {count:,}")
+            raise self.error(
+                index - 1, f"the file ends after {counted(read, 'sample')} of {count:,}; {INCOMPLETE}"
+            )
         return self.lines[index].rstrip()
 
     def ended(self, index: int, count: int) -> None:

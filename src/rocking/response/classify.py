@@ -206,7 +206,7 @@ def _of(orbit: Orbit | None) -> dict[str, Any]:
 
 def _orbit(case: Case) -> Orbit:
     """Return the orbit found; a superstable orbit begins at a release."""
-    judged, forcing = case.judgement, case.system.harmonic
+    judged, forcing = case.judgement, case.system.periodic
     return Orbit(
         system=case.system,
         state=State(judged.angle + 0.0, judged.velocity + 0.0),

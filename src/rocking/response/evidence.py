@@ -66,7 +66,7 @@ def _still_for_ever(case: Case) -> Shown:
             "the block remains at rest or in contact with a brace",
             f"exact, within {spent(case)}; {OTHERWISE}",
         )
-    amplitude, angle, braces = case.system.harmonic.amplitude, case.motion.final.angle, case.system.braces
+    amplitude, angle, braces = case.system.periodic.amplitude, case.motion.final.angle, case.system.braces
     if angle != 0.0 and braces is not None:
         # f = −1 − σA cos ψ stays above −Θb
         what = (
@@ -74,7 +74,7 @@ def _still_for_ever(case: Case) -> Shown:
             f"{braces.angle - 1.0:.6g} cannot pull it off"
         )
     else:
-        what = f"the block remains at rest, because A = {amplitude:.6g} ≤ 1 cannot lift it off"
+        what = f"the block remains at rest, because A = {amplitude:.6g} ≤ {case.system.lift_off:.6g} cannot lift it off"
     moved = case.motion.impacts + case.motion.brace_hits > 0
     return Shown(what, f"exact, within {spent(case)}" if moved else "exact, from the initial state on")
 
@@ -262,7 +262,7 @@ def _longer(case: Case) -> str:
 def _measured_time(case: Case) -> float:
     """Time, in τ, over which the exponent is measured: the batches of the second half of the run."""
     batch = case.max_cycles // (2 * workspace.BATCHES)
-    return workspace.BATCHES * batch * case.system.harmonic.period
+    return workspace.BATCHES * batch * case.system.periodic.period
 
 
 def _seems_chaotic(case: Case) -> str:

@@ -101,7 +101,7 @@ class _Carried:
     """Motion in progress with two orthonormal tangent vectors."""
 
     def __init__(self, system: System, start: State) -> None:
-        self.period = system.harmonic.period
+        self.period = system.periodic.period
         self.p, self.progress = start_march(system, start)
         self.columns = np.eye(2)
 
@@ -151,8 +151,8 @@ def _spectrum(
     """
     # If the exponents are equal, either vector may have grown more.
     growths = growths[:, np.argsort(-growths.sum(axis=0), kind="stable")]
-    time = cycles * system.harmonic.period
-    means = means_of(growths, lengths * system.harmonic.period)
+    time = cycles * system.periodic.period
+    means = means_of(growths, lengths * system.periodic.period)
     floor = ROUNDING * (1.0 + sum(counted) / time)
     spectrum = LyapunovSpectrum(
         system=system,
@@ -175,9 +175,14 @@ def _spectrum(
 
 
 def _sum_rule_error(system: System, growths: np.ndarray, counted: tuple[int, int]) -> float:
-    """Return (λ₁ + λ₂) minus the contraction at events, times the averaging time; 0 if both are −∞."""
+    """Return (λ₁ + λ₂) minus the contraction at events, times the averaging time.
+
+    It is 0 if both are −∞, and NaN if the coefficient of restitution depends on the speed.
+    """
     if np.isinf(growths).any():
         return 0.0
+    if system.restitution_table:
+        return math.nan
     kept_by = NO_BRACES | quantities(system)
     taken = sum(
         2.0 * count * math.log(kept)

@@ -74,7 +74,7 @@ class LyapunovSpectrum(ReadOnlyArrays):
     @property
     def per_cycle(self) -> tuple[np.ndarray, np.ndarray]:
         """Values and errors per forcing cycle instead of per τ."""
-        period = self.system.harmonic.period
+        period = self.system.periodic.period
         return self.values * period, self.errors * period
 
     @cached_property
@@ -86,7 +86,7 @@ class LyapunovSpectrum(ReadOnlyArrays):
         if self.superstable:
             return np.empty(0, HISTORY)
         history = np.empty(len(self.lengths), HISTORY)
-        period = self.system.harmonic.period
+        period = self.system.periodic.period
         history["cycles"] = np.cumsum(self.lengths)
         for row in range(len(history)):
             means = means_of(self.growths[: row + 1], self.lengths[: row + 1] * period)

@@ -212,7 +212,7 @@ def _flights(motion: Motion, section: str) -> Array:
     """Return the times between impacts in forcing cycles, to full precision at any time in the run."""
     strikes = motion.events[motion.events["kind"] == ("impact" if section == "impacts" else "brace")]
     parts = np.diff(strikes["phase"]) / (2.0 * math.pi)
-    return parts + np.round(np.diff(strikes["time"]) / motion.system.harmonic.period - parts)
+    return parts + np.round(np.diff(strikes["time"]) / motion.system.periodic.period - parts)
 
 
 def _check(found: RotationNumber) -> None:

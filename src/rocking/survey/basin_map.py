@@ -18,6 +18,7 @@ from rocking.model import (
     System,
     UncertaintyExponent,
     check_between,
+    check_constant_restitution,
     check_periodic,
     instance,
     quantities,
@@ -157,6 +158,7 @@ def _fractions(counts: np.ndarray, attractors: tuple[Attractor, ...]) -> tuple[S
 def asked_of(system: System) -> dict[str, float]:
     """Return the quantities of a system as a survey takes them: the period but not the frequency."""
     check_periodic(system, None)
+    check_constant_restitution(system)
     found = quantities(system)
     return {name: found[name] for name in found if name != "frequency"}
 

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from rocking.kernels.classify import verdict_record as kernel
-from rocking.model import ChaosShare, Share, refusal, whole
+from rocking.model import ChaosShare, Share, check_below_flat, refusal, whole
 from rocking.response import KINDS
 from rocking.survey.harmonic_spec import HarmonicSpec, check_quantity, coordinate, points
 from rocking.survey.measures.kind import interval_variables, outcome
@@ -25,6 +25,7 @@ def chaos_share(
     amplitude: Any = (0.0, 16.0),
     brace_angle: float | None = None,
     brace_restitution: float = 1.0,
+    critical_angle: float | None = None,
     samples: int = 3_000,
     seed: int = 0,
     max_cycles: int = 20_000,
@@ -42,6 +43,8 @@ def chaos_share(
         Default: (0.2, 3) and (0, 16).
     brace_angle, brace_restitution : float
         As in `Braces`. Default: no braces.
+    critical_angle : float, optional
+        As in `System`. Default: None, slender blocks.
     samples : int
         Number of responses at each restitution, in [1, 10⁷], with independent samples. Default: 3,000.
     seed : int
@@ -93,6 +96,10 @@ def chaos_share(
         fixed = {"brace_angle": braces.angle, "brace_restitution": braces.restitution}
     elif brace_restitution != 1.0:
         raise TypeError(refusal("brace_restitution", "be used with brace_angle", brace_restitution))
+    if critical_angle is not None:
+        fixed["critical_angle"] = float(check_quantity("critical_angle", critical_angle))
+        if brace_angle is not None:
+            check_below_flat(fixed["brace_angle"], fixed["critical_angle"])
     count = whole("samples", samples, 1, MAX_SAMPLES)
     random = generator(seed)
     counts = []

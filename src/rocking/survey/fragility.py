@@ -23,7 +23,7 @@ from rocking.model import (
 )
 from rocking.survey.engine.run_survey import run_survey
 from rocking.survey.incremental_dynamic_analysis import block_question, of_block
-from rocking.survey.measures.ending import ending
+from rocking.survey.measures.ending import UNDECIDED, ending
 from rocking.survey.sampling.block_samples import UncertainMotionSpec, block_samples, fingerprints
 from rocking.survey.sampling.clustered_fractions import (
     Fractions,
@@ -54,7 +54,7 @@ def fragility(
     height_spread: float = 0.0,
     width_spread: float = 0.0,
     restitution_spread: float = 0.0,
-    polarity: float = 1.0,
+    model: str = "slender",
     replicates: int = 1000,
     seed: int = 0,
     store: str | os.PathLike[str] | None = None,
@@ -74,7 +74,8 @@ def fragility(
     block : Block
         Nominal block, initially at rest.
     levels : array (n,)
-        Levels of the intensity measure, ascending, two at least.
+        Levels of the intensity measure, ascending. With the measure "scale" and the one level [1.0], the fraction is that of
+        the records as they are.
     intensity : str
         Intensity measure of the levels, as in `rocking_spectrum`. Default: "pga", in m/s².
     limits : float or array (k,)
@@ -86,8 +87,9 @@ def fragility(
     restitution_spread : float
         Half the width of the uniform distribution of e about its nominal value, in [0, 0.5], cut off at 0 and 1. Housner's
         value follows the sample of height and width. Default: 0.
-    polarity : float
-        1, or -1 for the opposite direction of the motion. Default: 1.
+    model : {"slender", "full"}
+        Equation of motion, as for `Block.system`. With "full", `certified` is not assessed.
+        Default: "slender".
     replicates : int
         Number of bootstrap replicates, in [100, 10⁵]. Default: 1,000.
     seed : int
@@ -108,7 +110,7 @@ def fragility(
     See Also
     --------
     incremental_dynamic_analysis : The peaks of one block, with their fractiles.
-    sensitivity : Verdicts that small changes flip.
+    sensitivity : Verdicts that small changes reverse.
     rocking.plot.fragility : Plot fractions and fits.
 
     Notes
@@ -122,8 +124,8 @@ def fragility(
     **Fractions.** The bootstrap of 0 of 20 records has no width. So the interval of a fraction p at one level is the union of
     the 95 % percentile interval of the bootstrap and Wilson's (1927). Wilson's number of trials is the effective number of
     records, p(1 − p)n/s². Here s² is the variance between the fractions of the n records. The number is at most n, and n
-    where all records agree. Runs that are not certified widen the interval: its lower end counts none of them, its upper end
-    all. With several samples per record these intervals are wider than necessary.
+    where all records agree. Runs that are undecided in double precision widen the interval: its lower end counts none of
+    them, its upper end all. With several samples per record these intervals are wider than necessary.
 
     **Fit.** The probability of exceeding is the fraction of runs that rock at that level, times Φ(ln(level/median)/dispersion).
     Median and dispersion maximise the likelihood of the runs that rock. A finite maximum needs runs that exceed below runs
@@ -174,11 +176,11 @@ def fragility(
         count,
         "give height_spread, width_spread or restitution_spread",
     )
-    asked = block_question(chosen, block, levels, intensity, polarity=polarity)
+    asked = block_question(chosen, block, levels, intensity, model=model, one_level=True)
     if any(spreads.values()):
         asked = _uncertain(asked, chosen, block, count, spreads, seed)
     found = run_survey(asked, ending(TITLE), store, executor, progress=progress, repair=repair)
-    runs = of_block(found, chosen, block).assign_attrs(replicates=replicates, seed=seed)
+    runs = of_block(found, asked, chosen, block).assign_attrs(replicates=replicates, seed=seed)
     weights = two_level_weights(len(chosen), count, replicates, np.random.default_rng(seed))
     return _estimated(runs.load(), thresholds, weights, np.argsort(marks), block)
 
@@ -199,14 +201,15 @@ def _uncertain(
     asked: MotionSpec, records: RecordSet, block: Block, count: int, spreads: dict[str, float], seed: int
 ) -> UncertainMotionSpec:
     axes = dict(asked.axes)
-    levels = axes.pop("scale")
+    levels = {"scale": axes.pop("scale")} if "scale" in axes else {}
     return UncertainMotionSpec(
-        axes | {"sample": np.arange(float(count)), "scale": levels},
+        axes | {"sample": np.arange(float(count))} | levels,
         asked.fixed,
         asked.motions,
         asked.intensities,
         measure=asked.measure,
         digest=asked.digest,
+        model=asked.model,
         drawn=block_samples(records, block, count, tuple(spreads.values()), seed),  # type: ignore[arg-type]
         stated={**spreads, "seed": seed},
     )
@@ -218,7 +221,7 @@ def _estimated(
     """Return fractions, fits and their intervals; the bootstrap takes the records in a given order."""
     kept = runs if "sample" in runs.dims else runs.expand_dims(sample=[0.0])
     kept = kept.isel(record=order).transpose("record", "sample", "scale", ...)
-    peak, undecided = kept.peak.values, kept.certified.values == 0
+    peak, undecided = kept.peak.values, kept.certified.values == UNDECIDED
     with_limit = peak[..., None]
     exceeding = np.where(np.isinf(limits), np.isinf(with_limit), with_limit > limits)
     rocking = peak > 0.0

@@ -10,7 +10,7 @@ import numpy as np
 from attrs import frozen
 
 from rocking.kernels.forcing import parameters as numbers
-from rocking.model import NO_BRACES, RANGES, check_between, exactly_one, refusal
+from rocking.model import NO_BRACES, RANGES, check_below_flat, check_between, exactly_one, refusal
 from rocking.survey.spec import SurveySpec, Values, is_axis, number_or_axis
 
 SYMBOLS = {
@@ -23,17 +23,27 @@ SYMBOLS = {
     "angle": ("Θ", "initial angle in units of theta_cr"),
     "frequency": ("Ω", "forcing frequency in radians per normalised time"),
     "period": ("T", "forcing period in normalised time"),
+    "critical_angle": ("θcr", "critical angle"),
 }
 
 
-SYSTEM = ("amplitude", "frequency", "period", "phase", "restitution", "brace_angle", "brace_restitution")
+SYSTEM = (
+    "amplitude",
+    "frequency",
+    "period",
+    "phase",
+    "restitution",
+    "brace_angle",
+    "brace_restitution",
+    "critical_angle",
+)
 START = ("angle", "velocity")
 
 
 class Points(NamedTuple):
     """Systems and initial states of points, as arrays for the kernels."""
 
-    systems: np.ndarray  # (n, 7), SYSTEM, as `kernels.forcing.harmonic.parameters.make` takes it
+    systems: np.ndarray  # (n, 8), SYSTEM, as `kernels.forcing.parameters.parameters_of_row` takes it
     starts: np.ndarray  # (n, 2), START
 
     @property
@@ -45,6 +55,11 @@ class Points(NamedTuple):
     def may_last(self) -> np.ndarray:
         """Mask of the points whose runs may be long: undamped blocks and blocks between braces."""
         return self.lossless | (self.systems[:, SYSTEM.index("brace_angle")] < math.inf)
+
+    @property
+    def full(self) -> bool:
+        """True if the blocks follow the full equation of motion."""
+        return bool(self.systems[0, SYSTEM.index("critical_angle")] > 0.0)
 
 
 @frozen(eq=False)
@@ -66,6 +81,11 @@ class HarmonicSpec(SurveySpec):
             self.axes["restitution"] if "restitution" in self.axes else [self.fixed["restitution"]]
         )
 
+    @property
+    def full(self) -> bool:
+        """True if the blocks follow the full equation of motion."""
+        return "critical_angle" in self.axes or "critical_angle" in self.fixed
+
     def inputs(self, values: Values) -> Points:
         """Return the systems and initial states of n points."""
         return points(values, self.fixed)
@@ -82,7 +102,11 @@ class HarmonicSpec(SurveySpec):
 def coordinate(name: str) -> dict[str, str]:
     """Return the attributes of a coordinate."""
     symbol, long_name = SYMBOLS[name]
-    return {"long_name": long_name, "symbol": symbol, "units": "rad" if name == "phase" else "1"}
+    return {
+        "long_name": long_name,
+        "symbol": symbol,
+        "units": "rad" if name in ("phase", "critical_angle") else "1",
+    }
 
 
 def question(asked: Mapping[str, Any], count: int, what: str) -> HarmonicSpec:
@@ -128,9 +152,11 @@ def _counted(count: int) -> str:
 
 
 def _check_braces(asked: HarmonicSpec) -> None:
-    """Raise ValueError for initial angles beyond the braces."""
+    """Raise ValueError for initial angles beyond the braces, or for braces at which a block lies flat."""
     if "brace_angle" not in asked.axes and "brace_angle" not in asked.fixed:
         return
+    if asked.full:
+        check_below_flat(max(_values(asked, "brace_angle")), max(_values(asked, "critical_angle")))
     check_between(max(_values(asked, "angle"), key=abs), min(_values(asked, "brace_angle")))
 
 
@@ -144,7 +170,7 @@ def points(values: Values, fixed: Mapping[str, float]) -> Points:
     Each of the `values` has the shape (n,).
     """
     count = next(iter(values.values())).size
-    usual = {"phase": 0.0, **NO_BRACES, "angle": 0.0, "velocity": 0.0}
+    usual = {"phase": 0.0, **NO_BRACES, "critical_angle": 0.0, "angle": 0.0, "velocity": 0.0}
     given = {name: np.full(count, value) for name, value in (usual | dict(fixed)).items()} | dict(values)
     if "frequency" in given:
         given["period"] = math.tau / given["frequency"]

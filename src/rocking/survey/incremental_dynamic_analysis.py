@@ -36,6 +36,7 @@ def incremental_dynamic_analysis(
     intensity: str = "scale",
     angle: float = 0.0,
     polarity: float = 1.0,
+    model: str = "slender",
     store: str | os.PathLike[str] | None = None,
     executor: Executor | None = None,
     progress: bool = False,
@@ -60,6 +61,9 @@ def incremental_dynamic_analysis(
         Initial angle Θ in units of θcr. Default: 0, at rest.
     polarity : float
         1, or -1 for the opposite direction of the motion. Default: 1.
+    model : {"slender", "full"}
+        Equation of motion, as for `Block.system`. With "full", `certified` is not assessed and `margin` is NaN.
+        Default: "slender".
     store, executor, progress, repair
         As in `parametric_map`.
 
@@ -93,9 +97,9 @@ def incremental_dynamic_analysis(
     (('record', 'scale'), ('fractile', 'scale'))
     """
     chosen = record_set(records)
-    asked = block_question(chosen, block, levels, intensity, angle=angle, polarity=polarity)
+    asked = block_question(chosen, block, levels, intensity, angle=angle, polarity=polarity, model=model)
     found = run_survey(asked, ending(TITLE), store, executor, progress=progress, repair=repair)
-    return IncrementalDynamicAnalysis(of_block(found, chosen, block), block)
+    return IncrementalDynamicAnalysis(of_block(found, asked, chosen, block), block)
 
 
 def block_question(
@@ -106,8 +110,13 @@ def block_question(
     *,
     angle: float = 0.0,
     polarity: float = 1.0,
+    model: str = "slender",
+    one_level: bool = False,
 ) -> MotionSpec:
-    """Return the survey of one block over records and levels; TypeError or ValueError if an argument is invalid."""
+    """Return the survey of one block over records and levels; TypeError or ValueError if an argument is invalid.
+
+    With ``one_level``, a single level is allowed. It is not an axis of the survey.
+    """
     instance("block", block, Block)
     for name, value in {"angle": angle, "polarity": polarity}.items():
         if is_axis(value):
@@ -115,6 +124,8 @@ def block_question(
     if not is_axis(levels):
         remedy = "such as np.linspace(1, 10, 19)"
         raise TypeError(refusal("levels", "be an array of levels, ascending", levels, remedy))
+    if one_level and len(levels) == 1:
+        levels = levels[0]
     try:
         return motion_question(
             records,
@@ -128,6 +139,8 @@ def block_question(
             },
             intensity=intensity,
             inertia_ratio=block.inertia_ratio,
+            model=model,
+            one_run=one_level,
         )
     except (TypeError, ValueError) as error:
         text = str(error)
@@ -136,10 +149,15 @@ def block_question(
         raise
 
 
-def of_block(found: xr.Dataset, records: RecordSet, block: Block) -> xr.Dataset:
-    """Return a dataset that always has the dimension `record`, with the names of the records and the block."""
+def of_block(found: xr.Dataset, asked: MotionSpec, records: RecordSet, block: Block) -> xr.Dataset:
+    """Return a dataset that always has the dimensions `record` and `scale`, with the names of the records and the block."""
     if "record" not in found.dims:
         found = found.expand_dims(record=[0.0])
+    if "scale" not in found.dims:
+        level = "scale", [found.attrs["scale"]], asked.coordinate("scale")
+        kept = {name: value for name, value in found.attrs.items() if name != "scale"}
+        found = found.expand_dims(scale=1, axis=-1).assign_coords(scale=level)
+        found.attrs = kept
     told = {"long_name": "record"}
     named = found.assign_coords(name=("record", list(records.names), told))
     return named.assign_attrs(block_attributes(block))

@@ -11,6 +11,7 @@ from attrs import evolve, field, frozen
 from rocking.model import (
     GRAVITY,
     INERTIA_RATIOS,
+    MODELS,
     RANGES,
     RECTANGLE,
     SIZES,
@@ -20,6 +21,7 @@ from rocking.model import (
     frequency_parameter,
     housner_restitution,
     intensity_of,
+    one_of,
     refusal,
     within,
 )
@@ -47,6 +49,8 @@ class Runs(NamedTuple):
     factor: np.ndarray  # of the motion, in 1/(g θcr): what makes it a normalised base acceleration
     restitution: np.ndarray
     angle: np.ndarray
+    slenderness: np.ndarray
+    full: bool  # whether the blocks follow the full equation of motion
 
 
 @frozen(eq=False)
@@ -64,6 +68,12 @@ class MotionSpec(SurveySpec):
     intensities: dict[int, float] = field(factory=dict)
     measure: Intensity = field(kw_only=True)
     digest: str = field(kw_only=True)
+    model: str = field(kw_only=True)
+
+    @property
+    def full(self) -> bool:
+        """Flag: the blocks follow the full equation of motion."""
+        return self.model == "full"
 
     def with_axes(self, axes: dict[str, np.ndarray]) -> MotionSpec:
         """Return the survey over other axes of the same names, with the motions of these axes alone."""
@@ -94,12 +104,14 @@ class MotionSpec(SurveySpec):
             factor * given["polarity"] / (GRAVITY * slenderness),
             restitution,
             given["angle"],
+            slenderness,
+            self.full,
         )
 
     def described(self) -> dict[str, Any]:
         """Return the quantities that do not vary, by name, and the digest of the records."""
         fixed = {name: self.fixed[name] for name in (*QUANTITIES, "inertia_ratio") if name in self.fixed}
-        return fixed | {"intensity": self.measure.name, "records_sha256": self.digest}
+        return fixed | {"model": self.model, "intensity": self.measure.name, "records_sha256": self.digest}
 
     def coordinate(self, name: str) -> dict[str, str]:
         """Return the attributes of a coordinate."""
@@ -112,9 +124,17 @@ class MotionSpec(SurveySpec):
 
 
 def motion_question(
-    records: RecordSet, given: Mapping[str, Any], *, intensity: str, inertia_ratio: float = RECTANGLE
+    records: RecordSet,
+    given: Mapping[str, Any],
+    *,
+    intensity: str,
+    model: str = "slender",
+    inertia_ratio: float = RECTANGLE,
+    one_run: bool = False,
 ) -> MotionSpec:
     """Check the quantities of a survey of ground motions: arrays are axes, and the others are numbers or None.
+
+    With ``one_run``, nothing needs to vary.
 
     Raises
     ------
@@ -122,9 +142,13 @@ def motion_question(
         If a quantity is missing, of the wrong type or outside its range, or if none varies. Also if a block is too squat for
         Housner's restitution.
     """
+    model = one_of("model", model, MODELS)
+    spans = {name: span for name, (*_, span) in QUANTITIES.items()}
+    if model == "full":
+        spans["slenderness"] = RANGES["critical_angle"]
     checked: dict[str, Any] = {
         name: number_or_axis(name, given.get(name), span)
-        for name, (*_, span) in QUANTITIES.items()
+        for name, span in spans.items()
         if given.get(name) is not None or name in REQUIRED
     }
     axes = {name: value for name, value in checked.items() if isinstance(value, np.ndarray)}
@@ -137,7 +161,7 @@ def motion_question(
             allowed = "be a critical angle in rad for which Housner's restitution is not negative"
             raise ValueError(refusal("slenderness", allowed, squattest, "or give restitution"))
     measure, values = intensity_of(intensity, records)
-    if len(records) > 1:
+    if len(records) > 1 or (one_run and not axes):
         axes = {"record": np.arange(float(len(records)))} | axes
     else:
         fixed["record"] = 0.0
@@ -151,6 +175,7 @@ def motion_question(
         dict(enumerate(values.tolist())),
         measure=measure,
         digest=records.digest,
+        model=model,
     )
 
 

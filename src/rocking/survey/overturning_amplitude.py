@@ -29,6 +29,7 @@ def overturning_amplitude(
     frequency: Any = None,
     restitution: Any,
     amplitude: Any = None,
+    critical_angle: Any = None,
     phases: int = 16,
     max_cycles: int = 1_000,
     max_period: int = 64,
@@ -51,6 +52,8 @@ def overturning_amplitude(
         Coefficient of restitution e in [0, 1]; an array is ascending.
     amplitude : array (n,), optional
         Amplitudes A to scan, ascending. Default: 301 values from 1 to 16.
+    critical_angle : float or array (n,), optional
+        Critical angle of the full equation, rad, as in `System`; an array is ascending. Default: None, slender blocks.
     phases : int
         Number of initial phases φ, evenly spaced over [0, π). From rest, the other half of the phases only mirrors the
         motion. Default: 16.
@@ -105,11 +108,12 @@ def overturning_amplitude(
         "phase": turned if count > 1 else 0.0,
         "frequency": frequency,
         "period": period,
+        "critical_angle": critical_angle,
     }
     asked = question(given, sum(np.ndim(value) > 0 for value in given.values()), "an overturning amplitude")
     found = run_survey(asked, measure, store, executor, progress=progress, repair=repair)
     kinds = found.kind if count > 1 else found.kind.expand_dims(phase=turned)
-    over = [name for name in ("restitution", "frequency", "period") if name in asked.axes]
+    over = [name for name in ("restitution", "critical_angle", "frequency", "period") if name in asked.axes]
     kinds = kinds.transpose(*over, "phase", "amplitude").load()
     scan = Scan(asked, measure, tuple(over), kinds)
     return _summed_up(scan, *refined(scan, executor))
@@ -183,8 +187,10 @@ def _summed_up(scan: Scan, lowest: np.ndarray, phase: np.ndarray) -> Overturning
 
 
 def _thresholds(scan: Scan) -> np.ndarray:
-    """Return A* of each cell."""
+    """Return A* of each cell; NaN for the full equation, for which there is no closed form."""
     grids = np.meshgrid(*(scan.kinds[name].values for name in scan.over), indexing="ij")
+    if scan.asked.full:
+        return np.full(grids[0].shape if grids else (), np.nan)
     at: dict[str, Any] = scan.asked.fixed | dict(zip(scan.over, grids, strict=True))
     period = at["period"] if "period" in at else 2.0 * np.pi / at["frequency"]
     return np.asarray(heteroclinic_amplitude(period, at["restitution"]))

@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from rocking.kernels.forcing import parameters as numbers
-from rocking.kernels.march import finite_motion as kernel
+from rocking.kernels.march import ending as ends
+from rocking.kernels.march import finite_runs as kernel
 from rocking.model import (
+    MODELS,
     RANGES,
     SWITCH_ROW,
     VERSION,
@@ -22,13 +23,14 @@ from rocking.model import (
     instance,
     intensity_of,
     intervals_of,
+    one_of,
     record_set,
     refusal,
     within,
 )
 from rocking.survey.engine.tile_loop import engine
 from rocking.survey.measurement import Arrays
-from rocking.survey.measures.ending import OVERTURNED, VARIABLES, answers, load_kernels
+from rocking.survey.measures.ending import CERTIFIED, OVERTURNED, VARIABLES, answers, load_kernels, sampled
 from rocking.survey.motion_spec import MAX_LEVEL
 from rocking.survey.spec import axis
 
@@ -67,6 +69,7 @@ class Work(NamedTuple):
     block: Block
     angle: float
     polarity: float
+    full: bool
 
 
 def overturning_set(
@@ -77,6 +80,7 @@ def overturning_set(
     intensity: str = "scale",
     angle: float = 0.0,
     polarity: float = 1.0,
+    model: str = "slender",
     executor: Executor | None = None,
 ) -> OverturningSet:
     """Find all levels at which ground motions overturn a block, not only the lowest.
@@ -99,6 +103,9 @@ def overturning_set(
         Initial angle Θ in units of θcr. Default: 0, at rest.
     polarity : float
         1, or -1 for the opposite direction of the motion. Default: 1.
+    model : {"slender", "full"}
+        Equation of motion, as for `Block.system`. With "full", rounding errors are not assessed, so that no switch is
+        certified. Default: "slender".
     executor : concurrent.futures.Executor, optional
         Executor that follows the records in parallel. Default: one thread per core.
 
@@ -140,9 +147,10 @@ def overturning_set(
     measure, values = intensity_of(intensity, chosen)
     if executor is not None:
         instance("executor", executor, Executor)
-    load_kernels(False)
+    full = one_of("model", model, MODELS) == "full"
+    load_kernels(False, full)
     work = [
-        Work(motion, measure, value, block, angle, float(polarity))
+        Work(motion, measure, value, block, angle, float(polarity), full)
         for motion, value in zip(chosen, values.tolist(), strict=True)
     ]
     with engine(executor) as (pool, stop):
@@ -152,7 +160,7 @@ def overturning_set(
         finally:
             for future in futures:
                 future.cancel()
-    told = {"intensity": intensity, "angle": angle, "polarity": float(polarity)}
+    told = {"intensity": intensity, "angle": angle, "polarity": float(polarity), "model": model}
     return OverturningSet(_dataset(scans, scales, measure, chosen, told), chosen, block)
 
 
@@ -168,20 +176,19 @@ def runs_of(work: Work, stop: np.ndarray) -> Runs:
     block, motion = work.block, work.motion
     alpha, slenderness = block.frequency_parameter, block.critical_angle
     base = motion.normalised(1.0, alpha)
-    p = numbers.sampled_parameters(
-        numbers.tables_of(base.values, base.step), 1.0, numbers.CYCLE * base.step, 1.0
-    )
+    p = sampled(base, full=work.full)
     lift_off = block.acceleration(1.0)
 
     def run(levels: np.ndarray) -> Arrays:
-        rows, asked = np.empty(levels.size, kernel.ENDING_ROW), np.empty(levels.size, kernel.RUN_ROW)
+        rows, asked = np.empty(levels.size, ends.ENDING_ROW), np.empty(levels.size, kernel.RUN_ROW)
         factors = work.measure.factor(levels, work.value, alpha, slenderness)
         # with the rounding of `GroundMotion.scaled` and `Block.system`, because a switch is located to the last digit
         asked["scale"] = work.polarity * (motion.factor * factors) / lift_off
         asked["restitution"], asked["angle"] = block.restitution, work.angle
+        asked["critical_angle"] = slenderness
         if not kernel.run_batch(p, asked, False, rows, stop):
             raise CancelledError("the survey was stopped")
-        return answers(rows, with_peak=False)
+        return answers(rows, with_peak=False, assessed=not work.full)
 
     return run
 
@@ -192,7 +199,7 @@ def located(run: Runs, scales: np.ndarray, grid: Arrays) -> np.ndarray:
     places = np.flatnonzero(fell[1:] != fell[:-1])
     low, high, above = scales[places], scales[places + 1], fell[places + 1]
     mode = np.where(above, grid["impacts_since_rest"][places + 1], grid["impacts_since_rest"][places])
-    sure = grid["certified"] != 0
+    sure = grid["certified"] == CERTIFIED
     below_sure = np.where(sure[places], low, np.nan)
     above_sure = np.where(sure[places + 1], high, np.nan)
     while True:
@@ -201,7 +208,7 @@ def located(run: Runs, scales: np.ndarray, grid: Arrays) -> np.ndarray:
         if wide.size == 0:
             break
         tried = run(middle[wide])
-        overturned, certain = tried["outcome"] == OVERTURNED, tried["certified"] != 0
+        overturned, certain = tried["outcome"] == OVERTURNED, tried["certified"] == CERTIFIED
         upper = overturned == above[wide]
         high[wide[upper]], low[wide[~upper]] = middle[wide[upper]], middle[wide[~upper]]
         above_sure[wide[upper & certain]] = middle[wide[upper & certain]]

@@ -22,6 +22,7 @@ def overturning_spectrum(
     amplitude: Any,
     frequency: Any,
     restitution: Any,
+    critical_angle: Any = None,
     store: str | os.PathLike[str] | None = None,
     executor: Executor | None = None,
     progress: bool = False,
@@ -40,14 +41,16 @@ def overturning_spectrum(
         of it. For a Ricker pulse the period is Tp.
     restitution : float or array (k,)
         Coefficient of restitution e in [0, 1].
+    critical_angle : float or array (l,), optional
+        Critical angle θcr in rad of the full equation of motion, in [0.001, 1.2]. Default: the slender block.
     store, executor, progress, repair
         As in `parametric_map`.
 
     Returns
     -------
     xarray.Dataset
-        Variables over `amplitude`, `frequency` and, if it varies, `restitution`. `outcome` and `certified` are codes that
-        their attributes explain. `peak` is the largest |Θ|, infinite if the block overturns. `margin` and `impacts` are as
+        Variables over `amplitude`, `frequency` and, if they vary, `restitution` and `critical_angle`. `outcome` and `certified` are codes
+        that their attributes explain. `peak` is the largest |Θ|, infinite if the block overturns. `margin` and `impacts` are as
         in `rocking_spectrum`. `impacts_since_rest` of a block that overturns is the mode of overturning.
 
     Raises
@@ -74,5 +77,5 @@ def overturning_spectrum(
     >>> found.impacts_since_rest.sel(frequency=5).values[[1, 3]].tolist()
     [1, 0]
     """
-    asked = pulse_question(kind, amplitude, frequency, restitution)
+    asked = pulse_question(kind, amplitude, frequency, restitution, critical_angle)
     return run_survey(asked, pulse_ending(TITLE), store, executor, progress=progress, repair=repair)

@@ -25,6 +25,7 @@ def parametric_map(
     velocity: Any = 0.0,
     brace_angle: Any = None,
     brace_restitution: Any = 1.0,
+    critical_angle: Any = None,
     max_cycles: int = 10_000,
     max_period: int = 64,
     store: str | os.PathLike[str] | None = None,
@@ -38,8 +39,10 @@ def parametric_map(
     ----------
     amplitude, period, frequency, restitution, phase, angle, velocity, brace_angle, brace_restitution : float or array (n,)
         Normalised quantities as in `Harmonic` (either `period` or `frequency`), `System`, `Braces` and `State`. Two of
-        them are ascending arrays, the axes of the map, for example ``np.linspace(0, 16, 60)``. For a block in SI use
+        all quantities are ascending arrays, the axes of the map, for example ``np.linspace(0, 16, 60)``. For a block in SI use
         ``block.amplitude(accelerations)``, ``block.frequency(hertz)`` and ``block.restitution``.
+    critical_angle : float or array (n,), optional
+        Critical angle θcr of the full equation, rad, as in `System`. Default: None, slender blocks.
     max_cycles, max_period : int
         As in `classify`. A response is classified as chaotic after 10⁴ cycles at the earliest (with braces 10⁵).
         Default: 10,000 and 64.
@@ -110,6 +113,7 @@ def parametric_map(
             "velocity": velocity,
             "brace_angle": brace_angle,
             "brace_restitution": brace_restitution,
+            "critical_angle": critical_angle,
         },
         2,
         "a parametric map",

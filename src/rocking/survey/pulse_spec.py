@@ -15,6 +15,7 @@ QUANTITIES: dict[str, tuple[str, str]] = {
     "amplitude": ("A", "largest base acceleration in units of g theta_cr"),
     "frequency": ("Ω", "frequency of the pulse in radians per normalised time"),
     "restitution": ("e", "coefficient of restitution"),
+    "critical_angle": ("θcr", "critical angle of the full equation of motion in rad"),
 }
 """Symbol and description of each quantity, in the order of the dimensions."""
 
@@ -26,6 +27,8 @@ class Pulses(NamedTuple):
     amplitude: np.ndarray
     duration: np.ndarray
     restitution: np.ndarray
+    critical_angle: np.ndarray  # rad
+    full: bool  # whether the blocks follow the full equation of motion
 
 
 def turns(kind: str) -> float:
@@ -41,12 +44,18 @@ class PulseSpec(SurveySpec):
 
     kind: str = field(kw_only=True)
 
+    @property
+    def full(self) -> bool:
+        """Flag: the blocks follow the full equation of motion."""
+        return "critical_angle" in self.axes or "critical_angle" in self.fixed
+
     def inputs(self, values: Values) -> Pulses:
         """Return the pulses at n points."""
         count = next(iter(values.values())).size
         given = {name: np.full(count, value) for name, value in self.fixed.items()} | dict(values)
         duration = turns(self.kind) * math.tau / given["frequency"]
-        return Pulses(self.kind, given["amplitude"], duration, given["restitution"])
+        angle = given["critical_angle"] if self.full else np.zeros(count)
+        return Pulses(self.kind, given["amplitude"], duration, given["restitution"], angle, self.full)
 
     def described(self) -> dict[str, Any]:
         """Return the kind of the pulse and the quantities that do not vary, by name."""
@@ -58,8 +67,10 @@ class PulseSpec(SurveySpec):
         return {"long_name": long_name, "symbol": symbol, "units": "1"}
 
 
-def pulse_question(kind: str, amplitude: Any, frequency: Any, restitution: Any) -> PulseSpec:
-    """Check the quantities of a survey of pulses: arrays are axes, and the restitution may be a number.
+def pulse_question(
+    kind: str, amplitude: Any, frequency: Any, restitution: Any, critical_angle: Any = None
+) -> PulseSpec:
+    """Check the quantities of a survey of pulses: arrays are axes. Restitution and critical angle may be numbers.
 
     Raises
     ------
@@ -70,8 +81,10 @@ def pulse_question(kind: str, amplitude: Any, frequency: Any, restitution: Any) 
     axes: dict[str, np.ndarray] = {}
     fixed: dict[str, float] = {}
     given = {"amplitude": amplitude, "frequency": frequency, "restitution": restitution}
+    if critical_angle is not None:
+        given["critical_angle"] = critical_angle
     for name, value in given.items():
-        if name != "restitution" and not is_axis(value):
+        if name in ("amplitude", "frequency") and not is_axis(value):
             allowed = "be an ascending array, an axis of the spectrum"
             raise TypeError(refusal(name, allowed, value, "such as np.linspace(start, stop, count)"))
         checked = number_or_axis(name, value, RANGES[name])

@@ -34,6 +34,7 @@ def repeatability_map(
     velocity: Any = 0.0,
     brace_angle: Any = None,
     brace_restitution: Any = 1.0,
+    critical_angle: Any = None,
     relative: float = 0.01,
     samples: int = 16,
     max_cycles: int = 10_000,
@@ -47,7 +48,8 @@ def repeatability_map(
 
     Parameters
     ----------
-    amplitude, period, frequency, restitution, phase, angle, velocity, brace_angle, brace_restitution : float or array (n,)
+    amplitude, period, frequency, restitution, phase, angle, velocity : float or array (n,)
+    brace_angle, brace_restitution, critical_angle : float or array (n,)
         As in `parametric_map`. Two of them are arrays, the axes of the map.
     relative : float
         Largest relative deviation of A, T, e, Θ and Θ', in [0, 0.5], rounded to 10⁻⁶. Default: 0.01.
@@ -100,6 +102,7 @@ def repeatability_map(
         "velocity": velocity,
         "brace_angle": brace_angle,
         "brace_restitution": brace_restitution,
+        "critical_angle": critical_angle,
     }
     asked = question(given, 2, "a map of repeatability")
     off = round(within("relative", relative, 0, MAX_RELATIVE) / MILLIONTH)

@@ -31,6 +31,7 @@ def rocking_spectrum(
     intensity: str = "scale",
     angle: Any = 0.0,
     polarity: Any = 1.0,
+    model: str = "slender",
     store: str | os.PathLike[str] | None = None,
     executor: Executor | None = None,
     progress: bool = False,
@@ -63,6 +64,9 @@ def rocking_spectrum(
         Initial angle Θ in units of θcr. Default: 0, at rest.
     polarity : float or array
         1, -1 for the opposite direction of the motion, or [-1, 1] for both. Default: 1.
+    model : {"slender", "full"}
+        Equation of motion, as for `Block.system`. With "full", `certified` is not assessed and `margin` is NaN.
+        Default: "slender".
     store, executor, progress, repair
         As in `parametric_map`.
 
@@ -108,6 +112,7 @@ def rocking_spectrum(
         },
         intensity=intensity,
         inertia_ratio=inertia_ratio,
+        model=model,
     )
     found = run_survey(asked, ending(TITLE), store, executor, progress=progress, repair=repair)
     return described(found, asked, record_set(records))

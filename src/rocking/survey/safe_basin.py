@@ -27,6 +27,7 @@ def safe_basin(
     phase: float = 0.0,
     brace_angle: float | None = None,
     brace_restitution: float = 1.0,
+    critical_angle: float | None = None,
     angle: Any = (-1.0, 1.0),
     velocity: Any = (-1.0, 1.0),
     samples: int = 10_000,
@@ -40,13 +41,14 @@ def safe_basin(
     The result includes the thresholds A* and A_M of the amplitude.
 
     Above A* the boundary of the overturning initial states is fractal. The safe fraction does not necessarily decrease
-    from there on. Both thresholds hold for a block without braces; with braces they are NaN.
+    from there on. Both thresholds hold for a slender block without braces, and are NaN
+    for any other.
 
     Parameters
     ----------
     amplitude : array (n,)
         Amplitudes A, ascending.
-    period, frequency, restitution, phase, brace_angle, brace_restitution : float
+    period, frequency, restitution, phase, brace_angle, brace_restitution, critical_angle : float
         As in `Harmonic` (either `period` or `frequency`), `System` and `Braces`.
     angle, velocity : pair
         Ranges (low, high) from which the initial states (Θ, Θ') are drawn. Default: (−1, 1).
@@ -98,6 +100,7 @@ def safe_basin(
         "phase": phase,
         "brace_angle": brace_angle,
         "brace_restitution": brace_restitution,
+        "critical_angle": critical_angle,
     }
     asked = question(given, 1, "a safe basin")
     if "amplitude" not in asked.axes:
@@ -128,7 +131,7 @@ def _summed_up(
     open_ones = np.array([np.mean(each == kernel.UNDETERMINED) for each in kinds])
     period = asked.fixed.get("period") or 2.0 * np.pi / asked.fixed["frequency"]
     exact = first_order = np.nan
-    if "brace_angle" not in asked.fixed:
+    if "brace_angle" not in asked.fixed and not asked.full:
         exact = heteroclinic_amplitude(period, asked.fixed["restitution"])
         first_order = melnikov_amplitude(period, asked.fixed["restitution"])
     variables = interval_variables(

@@ -1,4 +1,4 @@
-"""Sensitivity of verdicts: small changes of amplitude, start and restitution that flip overturning."""
+"""Sensitivity of verdicts: small changes of amplitude, start and restitution that reverse the verdict."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from rocking.model import (
 )
 from rocking.survey.engine.run_survey import run_survey
 from rocking.survey.incremental_dynamic_analysis import block_question, of_block
-from rocking.survey.measures.ending import OVERTURNED, ending
+from rocking.survey.measures.ending import OVERTURNED, UNDECIDED, ending
 from rocking.survey.sampling.block_samples import fingerprints
 from rocking.survey.sampling.clustered_fractions import clustered_fractions, two_level_weights
 from rocking.survey.sampling.random_points import MAX_SEED
@@ -44,7 +44,7 @@ def sensitivity(
     levels: Any,
     *,
     intensity: str = "scale",
-    polarity: float = 1.0,
+    model: str = "slender",
     seed: int = 0,
     executor: Executor | None = None,
 ) -> Sensitivity:
@@ -66,8 +66,9 @@ def sensitivity(
         Levels of the intensity measure, ascending, two at least.
     intensity : str
         Intensity measure of the levels, as in `rocking_spectrum`. Default: "scale", the factor of each record.
-    polarity : float
-        1, or -1 for the opposite direction of the motion. Default: 1.
+    model : {"slender", "full"}
+        Equation of motion, as for `Block.system`. With "full", `certified` is not assessed.
+        Default: "slender".
     seed : int
         Random seed of the bootstrap of the intervals, in [0, 2³² − 1]. Default: 0.
     executor : concurrent.futures.Executor, optional
@@ -91,7 +92,7 @@ def sensitivity(
     Notes
     -----
     The factor of a motion is that of the unchanged record. The intervals at 95 % are clustered by record, as in `fragility`.
-    A pair of runs of which one is not certified may or may not differ: the interval covers both.
+    A pair of runs of which one is undecided in double precision may or may not differ: the interval covers both.
 
     Examples
     --------
@@ -111,11 +112,11 @@ def sensitivity(
         f"have a restitution in [{RESTITUTION}, {1.0 - RESTITUTION}]",
         block.restitution,
     )
-    asked = block_question(chosen, block, levels, intensity, polarity=polarity)
+    asked = block_question(chosen, block, levels, intensity, model=model)
     runs: dict[str, xr.Dataset] = {}
     for name, changed in _changes(asked, chosen):
         found = run_survey(changed, ending(TITLE, with_peak=False), None, executor)
-        runs[name] = of_block(found, chosen, block).transpose("record", "scale")
+        runs[name] = of_block(found, changed, chosen, block).transpose("record", "scale")
     return _summed_up(runs, order, random, block)
 
 
@@ -147,7 +148,7 @@ def _summed_up(
     unchanged, names = runs[NONE], [name for name in runs if name != NONE]
     fell = {name: each.outcome.values == OVERTURNED for name, each in runs.items()}
     differs = np.stack([fell[name] != fell[NONE] for name in names], axis=-1)
-    sure = {name: each.certified.values != 0 for name, each in runs.items()}
+    sure = {name: each.certified.values != UNDECIDED for name, each in runs.items()}
     doubtful = np.stack([~(sure[name] & sure[NONE]) for name in names], axis=-1)
     weights = np.broadcast_to(
         two_level_weights(len(order), 1, REPLICATES, random), (REPLICATES, *differs.shape[:2])

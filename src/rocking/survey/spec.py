@@ -42,6 +42,11 @@ class SurveySpec:
         """Flag: some runs may be long."""
         return False
 
+    @property
+    def full(self) -> bool:
+        """Flag: the blocks follow the full equation of motion."""
+        return False
+
     def with_axes(self: Spec, axes: dict[str, np.ndarray]) -> Spec:
         """Return the survey over other axes of the same names, such as those of a tile."""
         return evolve(self, axes=axes)

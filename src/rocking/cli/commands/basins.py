@@ -58,6 +58,7 @@ def basins(
     velocity: Velocity = None,
     samples: Samples = None,
     seed: Seed = None,
+    model: ask.Model = None,
     max_cycles: ask.SurveyCycles = None,
     max_period: ask.SurveyPeriod = None,
     boundary_runs: BoundaryRuns = None,

@@ -20,6 +20,7 @@ rocking classify --height 2 --width 0.5 --acceleration 4 --frequency-hz 1.2"""
 @ask.with_options(*SYSTEM, *START, phase=0.0, angle=0.0, velocity=0.0)
 def classify(
     context: typer.Context,
+    model: ask.Model = None,
     max_cycles: ask.MaxCycles = 100_000,
     max_period: ask.MaxPeriod = 64,
     plot: ask.VerdictPlot = None,

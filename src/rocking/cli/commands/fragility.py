@@ -13,13 +13,12 @@ EXAMPLES = """\
 # The record of the package; name a folder or a table instead.
 rocking fragility example --height 2 --width 0.5 --pga-g 0.1:1.5:15 \\
     --limit 0.5 --plot fragility.png
+# The records as they are.
+rocking fragility example --height 2 --width 0.5 --scale 1
 # An uncertain block: 20 samples per record.
 rocking fragility example --height 2 --width 0.5 --pga-g 0.1:1.5:15 \\
     --samples 20 --width-spread 0.1 --csv fragility.csv"""
 
-PgaG = Annotated[
-    Any, axis.axis_option("--pga-g", "Peaks to which each record is scaled, in units of g; START:STOP:COUNT.")
-]
 Limit = Annotated[
     list[float] | None,
     ask.number_option(
@@ -49,6 +48,7 @@ Seed = Annotated[ask.Number, ask.number_option("--seed", "Random seed of samples
 
 
 @ask.with_options("height", "width", "restitution")
+@record_source.with_levels(declare=axis.value_option)
 @record_source.with_files(
     "Plot the probabilities with intervals and lognormal fits",
     "Write the probabilities and their intervals as a table",
@@ -56,7 +56,6 @@ Seed = Annotated[ask.Number, ask.number_option("--seed", "Random seed of samples
 def fragility(
     context: typer.Context,
     sources: record_source.Sources,
-    pga_g: PgaG = None,
     limit: Limit = None,
     samples: Samples = None,
     height_spread: HeightSpread = None,
@@ -68,7 +67,8 @@ def fragility(
 ) -> None:
     """Estimate how likely ground motions overturn a block.
 
-    A curve is the probability of overturning, or of exceeding a limit of the angle, over the peak ground acceleration.
+    A curve is the probability of overturning, or of exceeding a limit of the angle, over the intensity of the ground motion.
+    --scale 1 alone gives the probability under the records as they are.
 
     All intervals are at 95 % and clustered by record: runs of the same record are not independent. AXIS is START:STOP:COUNT:
     COUNT evenly spaced values, both ends included.

@@ -54,6 +54,7 @@ Csv = Annotated[Path | None, ask.file_option("--csv", "Write one row per point (
 @ask.with_options(*SYSTEM, *START, declare=axis.value_option)
 def map_(
     context: typer.Context,
+    model: ask.Model = None,
     max_cycles: ask.SurveyCycles = None,
     max_period: ask.SurveyPeriod = None,
     study: Study = None,

@@ -53,6 +53,7 @@ Csv = Annotated[
 @ask.with_options(*START, angle=0.0, velocity=0.0)
 def orbit_diagram(
     context: typer.Context,
+    model: ask.Model = None,
     sweep: Sweep = "both",
     transient: Transient = 300,
     cycles: Cycles = 100,

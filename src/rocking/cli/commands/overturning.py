@@ -21,7 +21,16 @@ rocking overturning --period 1 --restitution 0.925 --amplitude 1:16:1501 \\
 # A block of 2 m × 0.5 m, in SI units.
 rocking overturning --height 2 --width 0.5 --frequency-hz 1:2:10"""
 
-SHAKEN = ("period", "frequency", "height", "width", "frequency_hz", "period_s", "restitution")
+SHAKEN = (
+    "period",
+    "frequency",
+    "height",
+    "width",
+    "frequency_hz",
+    "period_s",
+    "restitution",
+    "critical_angle",
+)
 Amplitude = Annotated[
     Any,
     axis.axis_option(
@@ -63,6 +72,7 @@ def overturning(
     acceleration: Acceleration = None,
     acceleration_g: AccelerationG = None,
     phases: Phases = None,
+    model: ask.Model = None,
     max_cycles: MaxCycles = None,
     max_period: ask.SurveyPeriod = None,
     study: Study = None,

@@ -16,7 +16,7 @@ rocking overturning-set example --height 2 --width 0.5 --pga-g 0.1:2:400 \\
 
 
 @ask.with_options("height", "width", "restitution", "angle")
-@record_source.with_levels
+@record_source.with_levels()
 @record_source.with_files("Plot the intervals of overturning levels, a row per record", "Write the switches")
 def overturning_set(
     context: typer.Context,

@@ -49,7 +49,7 @@ Plot = Annotated[
 Csv = Annotated[Path | None, ask.file_option("--csv", "Write one row per run (.csv).")]
 
 
-@ask.with_options("height", "width", "restitution", declare=axis.value_option)
+@ask.with_options("height", "width", "restitution", "critical_angle", declare=axis.value_option)
 def overturning_spectrum(
     context: typer.Context,
     pulse: Pulse = None,
@@ -58,6 +58,7 @@ def overturning_spectrum(
     acceleration: Acceleration = None,
     acceleration_g: AccelerationG = None,
     frequency_hz: FrequencyHz = None,
+    model: ask.Model = None,
     study: Study = None,
     store: ask.Store = None,
     repair: ask.Repair = False,

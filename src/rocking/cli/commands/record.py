@@ -26,7 +26,9 @@ File = Annotated[
         help="Record file; its format is recognised by the content. `example` is the record that comes with the package.",
     ),
 ]
-Scale = Annotated[ask.Number, ask.number_option("--scale", "Factor of the record. Default: 1.")]
+Scale = Annotated[
+    ask.Number, ask.number_option("--scale", "Factor of the record; a negative one reverses it. Default: 1.")
+]
 PgaG = Annotated[
     ask.Number,
     ask.number_option("--pga-g", "Peak to which the record is scaled, in units of g; replaces --scale."),
@@ -56,7 +58,7 @@ def record(
     units: record_source.Units = None,
     step: record_source.Step = None,
     baseline: record_source.Baseline = None,
-    model: ask.Model = ask.SLENDER,
+    model: ask.Model = None,
     plot: Plot = None,
     animate: Animate = None,
     csv: ask.Csv = None,
@@ -76,7 +78,12 @@ def record(
     block, braces, start = record_request.block_and_start(context.params)
     ground, doubts = record_request.ground_motion(context.params)
     with your_input(record_request.ARGUMENTS):
-        motion = motion_files.run(block.system(ground, braces=braces, model=model), start, None, tuple(files))
+        motion = motion_files.run(
+            block.system(ground, braces=braces, model=model or "slender"), start, None, tuple(files)
+        )
     for name, path in files.items():
-        motion_files.WRITERS[name](motion, block, path)
+        if name == "plot":
+            motion_files.write_plot(motion, block, path, report.heading(ground))
+        else:
+            motion_files.WRITERS[name](motion, block, path)
     report.show(motion, block, ground, doubts, list(files.values()), as_json=json)

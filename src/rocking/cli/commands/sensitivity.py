@@ -18,17 +18,16 @@ Seed = Annotated[ask.Number, ask.number_option("--seed", "Random seed of the boo
 
 
 @ask.with_options("height", "width", "restitution")
-@record_source.with_levels
+@record_source.with_levels()
 @record_source.with_files(None, "Write one row per change")
 def sensitivity(
     context: typer.Context,
     sources: record_source.Sources,
     inertia_ratio: record_source.InertiaRatio = None,
-    polarity: record_source.Polarity = None,
     seed: Seed = None,
     **shared: Any,
 ) -> None:
-    """Find how many verdicts small changes flip.
+    """Count the verdicts that small changes reverse.
 
     A verdict is whether the block overturns. Every run is repeated with five changes: the amplitude ± 1 %, sampling half a step
     later, and the coefficient of restitution ± 0.02. All intervals are at 95 % and clustered by record. AXIS is

@@ -29,7 +29,7 @@ def simulate(
     context: typer.Context,
     pulse: ask.PulseKind = None,
     cycles: ask.Cycles = None,
-    model: ask.Model = ask.SLENDER,
+    model: ask.Model = None,
     plot: ask.Plot = None,
     csv: ask.Csv = None,
     netcdf: ask.Netcdf = None,

@@ -23,6 +23,7 @@ def question(typed: Mapping[str, Any], file: Path | None) -> dict[str, Any]:
     """Return the arguments given by options and study file; options take precedence."""
     checks = {
         **survey_quantities.fixed(*SYSTEM),
+        "model": study_file.model,
         **survey_quantities.varying(*START),
         **survey_quantities.counts("samples", "seed", *COUNTS, "boundary_runs"),
         **survey_quantities.path_checks("store", *FILES),
@@ -35,7 +36,7 @@ def compute(given: Mapping[str, Any]) -> tuple[BasinMap, Block | None]:
     from rocking.survey import basin_map
 
     asked = {name: each for name, each in given.items() if name not in FILES}
-    system, _, block = system_of({name: asked.pop(name) for name in SYSTEM if name in asked})
+    system, _, block = system_of({name: asked.pop(name) for name in (*SYSTEM, "model") if name in asked})
     reach = 1.0 if system.braces is None else min(system.braces.angle, 1.0)
     usual = {"angle": Axis(-reach, reach, DEFAULT_STARTS), "velocity": Axis(-1.0, 1.0, DEFAULT_STARTS)}
     for name, axis in usual.items():

@@ -23,14 +23,15 @@ def question(typed: Mapping[str, Any], file: Path | None) -> level_request.Quest
     from rocking.model import reals
 
     checks: dict[str, study_file.Check] = {
-        "pga_g": partial(study_file.quantity, "pga_g"),
         "limit": partial(reals, "limit"),
         **study_file.numbers(*OWN),
     }
     # without the option, the list of limits is empty
-    given = level_request.values({**typed, "limit": typed["limit"] or None}, file, checks)
+    given, measure = level_request.measured({**typed, "limit": typed["limit"] or None}, file, checks)
     given["limits"] = given.pop("limit", ())
-    asked = level_request.question(given, typed["sources"], "pga_g", "levels", ("limits", *OWN))
+    level = given[measure]
+    given[measure] = [level] if isinstance(level, int | float) else level_request.ascending(measure, level)
+    asked = level_request.question(given, typed["sources"], measure, "levels", ("limits", *OWN))
     asked.typed["limits"] = option("limit")
     return asked
 

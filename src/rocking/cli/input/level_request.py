@@ -57,7 +57,6 @@ def question(
 
     `measure` is the option of the levels, `levels` the argument of the function for them. `own` names further arguments.
     """
-    scales = ascending(measure, given.get(measure))
     block = block_of(given)
     records, doubts = record_source.record_set(
         sources, **{name: given[name] for name in record_source.READING if name in given}
@@ -65,27 +64,37 @@ def question(
     arguments = {
         "records": records,
         "block": block,
-        levels: scales,
+        levels: given[measure],
         "intensity": measure.replace("_", "-"),
-        **{name: given[name] for name in own if name in given},
+        **{name: given[name] for name in (*own, "model") if name in given},
     }
     names = RECORD_ARGUMENTS | options(*own) | {"records": "SOURCE", levels: option(measure)}
     places = {name: given[name] for name in SUFFIXES if name in given}
     return Question(arguments, names, sources, doubts, places)
 
 
-def of_any_measure(
-    typed: Mapping[str, Any], file: Path | None, levels: str, own: tuple[str, ...]
-) -> Question:
-    """Return the request of a command with all options of levels and further numbers `own`; YourInput if invalid."""
+def measured(
+    typed: Mapping[str, Any], file: Path | None, checks: Mapping[str, study_file.Check]
+) -> tuple[dict[str, Any], str]:
+    """Return the values given to a command with all options of levels, and the option that is given; YourInput if invalid."""
     measures = tuple(record_source.LEVELS)
-    checks = {name: partial(study_file.quantity, name) for name in measures}
-    given = values(typed, file, checks | study_file.numbers(*own))
+    given = values(
+        typed, file, {name: partial(study_file.quantity, name) for name in measures} | dict(checks)
+    )
     there = [name for name in measures if name in given]
     if len(there) != 1:
         got = " and ".join(map(option, there)) or "none"
         raise YourInput(f"give exactly one of {', '.join(map(option, measures))}; got {got}")
-    return question(given, typed["sources"], there[0], levels, own)
+    return given, there[0]
+
+
+def of_any_measure(
+    typed: Mapping[str, Any], file: Path | None, levels: str, own: tuple[str, ...]
+) -> Question:
+    """Return the request of a command with all options of levels and further numbers `own`; YourInput if invalid."""
+    given, measure = measured(typed, file, study_file.numbers(*own))
+    given[measure] = ascending(measure, given[measure])
+    return question(given, typed["sources"], measure, levels, own)
 
 
 def ascending(name: str, levels: Any) -> np.ndarray:

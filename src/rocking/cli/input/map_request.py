@@ -41,6 +41,7 @@ def question(typed: Mapping[str, Any], file: Path | None) -> Question:
     checks: dict[str, study_file.Check] = {
         **survey_quantities.varying(*SYSTEM, *START),
         **survey_quantities.counts(*COUNTS),
+        "model": study_file.model,
         "curves": _names,
         "symbols": partial(instance, "symbols", kind=str),
         **survey_quantities.path_checks("store", "tiles", *SUFFIXES),

@@ -61,6 +61,7 @@ HELP = {
     "phase": "Phase φ of the base acceleration, rad.",
     "brace_angle": "Brace angle Θb, in units of θcr. Default: no braces.",
     "brace_restitution": "Coefficient of restitution r at a brace. Default: 1.",
+    "critical_angle": "Critical angle θcr of the full equation of motion, rad, with normalised input. Default: small angles.",
     "angle": "Initial angle Θ, in units of the critical angle θcr, not in degrees.",
     "velocity": "Initial angular velocity Θ', in units of α θcr.",
 }
@@ -118,11 +119,11 @@ PulseKind = Annotated[
 ]
 
 Model = Annotated[
-    str,
+    str | None,
     typer.Option(
         "--model",
         metavar="MODEL",
-        help="Equation of motion: slender, for small angles, or full, for SI input without braces.",
+        help="Equation of motion for a block in SI: slender, for small angles, or full. Default: slender.",
     ),
 ]
 Plot = Annotated[
@@ -137,7 +138,8 @@ Csv = Annotated[
     Path | None,
     file_option(
         "--csv",
-        "Write time, angle and velocity at equal time steps; an overturning motion up to |Θ| = 3 (.csv).",
+        "Write time, angle and velocity at equal time steps (.csv). An overturning motion ends at |Θ| = 3, "
+        "that of a full block when it lies flat.",
     ),
 ]
 Netcdf = Annotated[
@@ -185,8 +187,6 @@ Json = Annotated[bool, typer.Option("--json", help="Print the summary as JSON.")
 IN_SI = {"amplitude": "acceleration", "period": "period_s", "frequency": "frequency_hz"}
 DEFAULTS: dict[str, Any] = dict.fromkeys((*SYSTEM, *START)) | dict.fromkeys(ZERO, 0.0)
 """Values of the options that are not given."""
-SLENDER = "slender"
-"""Default of --model."""
 BRACES = {"angle": option("brace_angle"), "restitution": option("brace_restitution")}
 NORMALISED_NEEDS = "--amplitude, --period (or --frequency) and --restitution"
 SI_NEEDS = "--height, --width, --acceleration (or --acceleration-g, --displacement) and --frequency-hz (or --period-s)"
@@ -207,7 +207,7 @@ def kinds(given: Mapping[str, Any]) -> tuple[list[str], list[str]]:
 
 def question(given: Mapping[str, Any]) -> tuple[System, State, Block | None]:
     """Return the system, the initial state and, with SI input, the block of the options; YourInput if invalid."""
-    from rocking.model import MAX_START, Block, Harmonic, State, System, within
+    from rocking.model import MAX_START, MODELS, Block, Harmonic, State, System, within
 
     given = DEFAULTS | dict(given)
     normalised, physical = kinds(given)
@@ -221,14 +221,17 @@ def question(given: Mapping[str, Any]) -> tuple[System, State, Block | None]:
     with your_input(ARGUMENTS):
         start = State(*(within(name, given[name], -MAX_START, MAX_START) for name in START))
         if normalised:
-            if given.get("model", SLENDER) != SLENDER:
-                raise YourInput("--model full needs a block in SI: give --height and --width")
+            if given.get("model") is not None:
+                raise YourInput("--model needs a block in SI: give --critical-angle with normalised input")
             forcing = Harmonic(**{name: given[name] for name in (*NORMALISED, "phase")})
-            system, block = System(forcing, given["restitution"], braced), None
+            system = System(forcing, given["restitution"], braced, critical_angle=given["critical_angle"])
+            block = None
         else:
+            if given["critical_angle"] is not None:
+                raise YourInput("--critical-angle is normalised: with --height and --width give --model full")
             block = Block(given["height"], given["width"], given["restitution"])
             base = {name: given[name] for name in (*SI[2:], "phase")}
-            system = block.system(**base, braces=braced, model=given.get("model", SLENDER))
+            system = block.system(**base, braces=braced, model=given.get("model") or MODELS[0])
         return system if given.get("pulse") is None else pulsed(system, given), start, block
 
 

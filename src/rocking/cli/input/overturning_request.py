@@ -17,13 +17,14 @@ if TYPE_CHECKING:
 
 SCANNED_SI = tuple(name for name in SI if name != "displacement")
 """SI options except the displacement, whose acceleration depends on the frequency."""
-ASKED = ("period", "frequency", "restitution", "amplitude")
+ASKED = ("period", "frequency", "restitution", "amplitude", "critical_angle")
 
 
 def question(typed: Mapping[str, Any], file: Path | None) -> dict[str, Any]:
     """Return the arguments given by options and study file; options take precedence."""
     checks = {
         **survey_quantities.varying(*ASKED, *SCANNED_SI),
+        "model": study_file.model,
         **survey_quantities.counts("phases", *COUNTS),
         **survey_quantities.path_checks("store", *FILES),
     }
@@ -53,7 +54,7 @@ def compute(given: Mapping[str, Any]) -> tuple[OverturningCurve, Block | None]:
     """Compute the curve; return it with the block if it is in SI."""
     from rocking.survey import overturning_amplitude
 
-    shaken = {name: each for name, each in given.items() if name in (*ASKED, *SCANNED_SI)}
+    shaken = {name: each for name, each in given.items() if name in (*ASKED, *SCANNED_SI, "model")}
     others = {name: each for name, each in given.items() if name not in (*shaken, *FILES)}
     if shaken.keys() & set(SCANNED_SI):
         asked = _normalised(shaken)

@@ -40,7 +40,8 @@ def question(typed: Mapping[str, Any], file: Path | None) -> Question:
     """Return the request given by options and study file; options take precedence."""
     checks: dict[str, study_file.Check] = {
         "pulse": partial(instance, "pulse", kind=str),
-        **survey_quantities.varying(*NORMALISED, "restitution", *SIZE, *IN_SI),
+        "model": study_file.model,
+        **survey_quantities.varying(*NORMALISED, "restitution", "critical_angle", *SIZE, *IN_SI),
         **survey_quantities.path_checks(*PLACES),
     }
     given = study_file.asked(typed, file, checks)
@@ -49,10 +50,12 @@ def question(typed: Mapping[str, Any], file: Path | None) -> Question:
     require(given, (("pulse",),), "the form of the pulse, such as --pulse one-sine")
     pulse = given.pop("pulse")
     _check_axes(given)
-    if "plot" in places and not isinstance(given.get("restitution", 0.0), int | float):
-        raise YourInput("--plot needs one value of --restitution; got an axis (give a number)")
+    for name in ("restitution", "critical_angle"):
+        if "plot" in places and not isinstance(given.get(name, 0.0), int | float):
+            raise YourInput(f"--plot needs one value of {option(name)}; got an axis (give a number)")
     numbers = survey_quantities.normalised(given)
-    arguments = {name: numbers[name] for name in (*NORMALISED, "restitution")}
+    names = (*NORMALISED, "restitution", "critical_angle")
+    arguments = {name: numbers[name] for name in names if name in numbers}
     return Question({"kind": pulse} | more | arguments, places, survey_quantities.block_of(given))
 
 

@@ -65,7 +65,7 @@ def block_of(given: Mapping[str, Any]) -> Block:
 
 def ground_motion(given: Mapping[str, Any]) -> tuple[GroundMotion, list[str]]:
     """Return the ground motion of the options, scaled, and the warnings of the reader; YourInput if invalid."""
-    from rocking.model import GRAVITY, within
+    from rocking.model import GRAVITY, refuse_if, within
     from rocking.records import RecordError, read_ground_motion
 
     if given["scale"] is not None and given["pga_g"] is not None:
@@ -78,7 +78,9 @@ def ground_motion(given: Mapping[str, Any]) -> tuple[GroundMotion, list[str]]:
             ground = read_ground_motion(given["file"], **reading)
         except RecordError as error:
             raise YourInput(as_options(str(error))) from error
+    level = "scale" if given["pga_g"] is None else "pga_g"
     with your_input(ARGUMENTS):
+        refuse_if(given[level] == 0, level, "not be 0", given[level], "omit it for the record as it is")
         if given["pga_g"] is not None:
             ground = ground.scaled(pga=GRAVITY * within("pga_g", given["pga_g"], 0, MAX_PGA, "g"))
         elif given["scale"] is not None:

@@ -16,7 +16,7 @@ import typer
 from rocking.cli.input import options as ask
 from rocking.cli.input.axis import axis_option
 from rocking.cli.input.record_request import as_options, record_path
-from rocking.cli.input.study_file import Check, Study, numbers
+from rocking.cli.input.study_file import Check, Study, model, numbers
 from rocking.cli.option_names import YourInput, option, options, your_input
 
 if TYPE_CHECKING:
@@ -44,7 +44,10 @@ InertiaRatio = Annotated[
 ]
 Polarity = Annotated[
     ask.Number,
-    ask.number_option("--polarity", "1, or -1 for the opposite direction of the records. Default: 1."),
+    ask.number_option(
+        "--polarity",
+        "1, or -1 for the opposite direction of the records: no effect on a block at rest, which is symmetric. Default: 1.",
+    ),
 ]
 LEVELS = {
     "scale": "factor of each record",
@@ -78,15 +81,15 @@ Baseline = Annotated[
 ]
 
 
-def with_levels(command: ask.Command) -> ask.Command:
-    """Add the options of `LEVELS` before those of a command."""
-    kinds = {name: axis_option(option(name), f"Levels: {what}.") for name, what in LEVELS.items()}
+def with_levels(declare: Callable[[str, str], Any] = axis_option) -> Callable[[ask.Command], ask.Command]:
+    """Return a decorator that adds the options of `LEVELS` before those of a command; ``declare`` makes an option."""
+    kinds = {name: declare(option(name), f"Levels: {what}.") for name, what in LEVELS.items()}
     return ask.with_parameters(
         first=[
             Parameter(name, Parameter.KEYWORD_ONLY, default=None, annotation=Annotated[Any, kind])
             for name, kind in kinds.items()
         ]
-    )(command)
+    )
 
 
 def with_files(plot: str | None, csv: str, *, store: bool = False) -> Callable[[ask.Command], ask.Command]:
@@ -96,6 +99,7 @@ def with_files(plot: str | None, csv: str, *, store: bool = False) -> Callable[[
     also has the options of a store.
     """
     options_of_files: dict[str, Any] = {
+        "model": ask.Model,
         "units": Units,
         "step": Step,
         "baseline": Baseline,
@@ -122,11 +126,11 @@ def with_files(plot: str | None, csv: str, *, store: bool = False) -> Callable[[
 
 
 def checks() -> dict[str, Check]:
-    """Return the checks of the entries of a study file that state how records are read."""
+    """Return the checks of the entries of a study file that state the model, and how records are read."""
     from rocking.model import instance
 
     words = {name: partial(instance, name, kind=str) for name in ("units", "baseline")}
-    return words | numbers("step")
+    return words | numbers("step") | {"model": model}
 
 
 def record_set(

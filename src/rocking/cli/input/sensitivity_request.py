@@ -12,7 +12,7 @@ from rocking.cli.option_names import your_input
 if TYPE_CHECKING:
     from rocking.model import Sensitivity
 
-OWN = ("polarity", "seed")
+OWN = ("seed",)
 
 
 def question(typed: Mapping[str, Any], file: Path | None) -> level_request.Question:

@@ -65,12 +65,12 @@ def question(typed: Mapping[str, Any], file: Path | None) -> Question:
 def _arguments(given: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, str]]:
     """Return the arguments of `rocking_spectrum`, and the names of these arguments in messages."""
     values = {name: survey_quantities.values(each) for name, each in given.items()}
-    names = options("size", "restitution", "inertia_ratio", "height", "width") | WORDS
+    names = options("size", "restitution", "inertia_ratio", "height", "width", "model") | WORDS
     if "scale" in values and "pga_g" in values:
         raise YourInput("give --scale or --pga-g, not both")
     asked: dict[str, Any] = {
         name: values[name]
-        for name in ("size", "restitution", "inertia_ratio", "scale", "repair")
+        for name in ("size", "restitution", "inertia_ratio", "scale", "model", "repair")
         if name in values
     }
     if "pga_g" in values:

@@ -61,6 +61,13 @@ def numbers(*names: str) -> dict[str, Check]:
     return {name: partial(number, name) for name in names}
 
 
+def model(given: Any) -> Any:
+    """Return the name of an equation of motion."""
+    from rocking.model import MODELS, one_of
+
+    return one_of("model", given, MODELS)
+
+
 def asked(typed: Mapping[str, Any], file: Path | None, checks: Mapping[str, Check]) -> dict[str, Any]:
     """Return the values given by options and by a study file; options take precedence."""
     given = {} if file is None else read(file, checks)

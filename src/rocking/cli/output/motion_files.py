@@ -86,14 +86,17 @@ def write_modes(system: System, n: int, block: Block | None, path: Path) -> None
     plot.save(figure, path)
 
 
-def write_plot(motion: Motion, block: Block | None, path: Path) -> None:
-    """Write the overview plot of a motion, or an animation of the block, depending on the suffix."""
+def write_plot(motion: Motion, block: Block | None, path: Path, heading: str = "") -> None:
+    """Write the overview plot of a motion under a heading, or an animation of the block, depending on the suffix."""
     from rocking import plot
 
     if path.suffix.lower() in FILMS:
         plot.animation(motion, path, block)
-    else:
-        plot.save(plot.overview(motion, block), path)
+        return
+    figure = plot.overview(motion, block)
+    if heading:
+        figure.suptitle(heading, fontsize="small")
+    plot.save(figure, path)
 
 
 def write_csv(motion: Motion, block: Block | None, path: Path) -> None:

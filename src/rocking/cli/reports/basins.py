@@ -18,7 +18,8 @@ from rocking.model import BasinMap, Block, System, UncertaintyExponent, counted
 
 def show(found: BasinMap, block: Block | None, files: list[Path], *, as_json: bool) -> None:
     """Print the attractors, their area fractions and the uncertainty exponents of the boundaries."""
-    doubts = warnings(block, found.system.harmonic.amplitude, found.system.restitution)
+    full = found.system.critical_angle is not None
+    doubts = warnings(block, found.system.periodic.amplitude, found.system.restitution, full=full)
     if as_json:
         told = {} if block is None else {"block": physical_of(found.system, block), "warnings": doubts}
         print_json(record(found, files) | told)
@@ -60,7 +61,7 @@ def tangled_from(system: System) -> float | None:
     """Return A* if the boundary of overturning is provably fractal, A* < A < √(1 + Ω²), else None."""
     from rocking.theory import heteroclinic_amplitude
 
-    forcing = system.harmonic
+    forcing = system.periodic
     if system.braces is not None or not 0.0 < system.restitution < 1.0:
         return None
     tangency = float(heteroclinic_amplitude(forcing.period, system.restitution))

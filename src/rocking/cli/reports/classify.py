@@ -35,7 +35,7 @@ def found(verdict: Verdict, block: Block | None) -> Iterator[Row]:
     """Yield the rows of the result; quantities that do not apply are left out."""
     orbit, exponent = verdict.orbit, verdict.exponent
     if orbit is not None:
-        time = orbit.period * verdict.system.harmonic.period
+        time = orbit.period * verdict.system.periodic.period
         seconds = "" if block is None else f"{block.seconds(time):.4g} s"
         yield "period", f"{counted(orbit.period, 'cycle')}, τ = {time:.6g}", seconds
         yield "impacts per period", _count(orbit.impacts), ""
@@ -44,7 +44,7 @@ def found(verdict: Verdict, block: Block | None) -> Iterator[Row]:
         yield "Floquet multipliers", _pair(*orbit.multipliers), ""
     if exponent is not None:
         yield "largest Lyapunov exponent", *_exponent(exponent, verdict.exponent_error, block)
-    peak = "largest |Θ| until the proof" if verdict.kind == "overturned" else "largest |Θ|"
+    peak = "largest |Θ| until overturning was certain" if verdict.kind == "overturned" else "largest |Θ|"
     yield peak, f"{verdict.peak:.6g}", reach(verdict.peak, block)
     if verdict.steady_peak is not None:
         yield (

@@ -11,7 +11,7 @@ import attrs
 
 from rocking.cli.output.console import Row, print_json, print_table
 from rocking.cli.output.files import write_result
-from rocking.cli.reports.validity import warned
+from rocking.cli.reports.validity import equation_line, survey_warnings, warned
 from rocking.model import Fragility, counted, limit_name, percent_with_ends
 
 COLUMNS = ("fraction", "fraction_low", "fraction_high", "fit", "fit_low", "fit_high")
@@ -38,17 +38,18 @@ def tables(found: Fragility) -> Iterator[dict[str, Any]]:
         yield {
             "limit of |Θ| [θcr]": np.full(data.sizes["scale"], limit),
             "limit of |θ| [°]": np.full(data.sizes["scale"], found.block.degrees(limit)),
-            "PGA [g]": data.scale.values,
+            heading(found, "[", "]"): data.scale.values,
         } | {name: data[name].values[number] for name in COLUMNS}
 
 
 def show(found: Fragility, doubts: Sequence[str], files: list[Path], *, as_json: bool) -> None:
     """Print the fits and the probabilities, with warnings, and the paths of the files."""
-    doubts = [*doubts, *_warnings(found)]
+    model = found.dataset.attrs["model"]
+    doubts = [*doubts, *_warnings(found), *survey_warnings(found.block, model)]
     if as_json:
         print_json(record(found, files) | {"warnings": list(doubts)})
     else:
-        print_table(str(found), rows(found), files, warned(doubts))
+        print_table(str(found), rows(found), files, [equation_line(found.block, model), *warned(doubts)])
 
 
 def few_records(count: int) -> Iterator[str]:
@@ -65,11 +66,18 @@ def _warnings(found: Fragility) -> Iterator[str]:
         yield f"{undecided:,} of {data.peak.size:,} runs are undecided in double precision; the intervals cover both outcomes"
 
 
+def heading(found: Fragility, *brackets: str) -> str:
+    """Return symbol and unit of the levels."""
+    told = found.dataset.scale.attrs
+    unit = "" if told["units"] in ("", "1") else f" {brackets[0]}{told['units']}{brackets[1]}"
+    return f"{told['symbol']}{unit}"
+
+
 def rows(found: Fragility) -> Iterator[Row]:
     """Yield the probabilities of each limit and the fits."""
     data = found.dataset
     limits = data.limit.values.tolist()
-    yield ("PGA (g)", *(_heading(found, limit) for limit in limits))
+    yield (heading(found, "(", ")"), *(_heading(found, limit) for limit in limits))
     for place, level in enumerate(data.scale.values.tolist()):
         yield (
             f"{level:.4g}",
@@ -118,7 +126,10 @@ def record(found: Fragility, files: list[Path]) -> dict[str, Any]:
         "records_sha256": data.attrs["records_sha256"],
         "samples": data.sizes.get("sample", 1),
         "undecided": int((data.certified == 0).sum()),
-        "pga_g": data.scale.values.tolist(),
+        "model": data.attrs["model"],
+        "intensity": data.attrs["intensity"],
+        "unit": data.scale.attrs["units"],
+        "levels": data.scale.values.tolist(),
         "rocking": data.rocking.values.tolist(),
         "curves": curves,
         "files": [str(path) for path in files],

@@ -23,7 +23,8 @@ def show(found: xr.Dataset, block: Block | None, files: list[Path], *, as_json: 
     from rocking.survey import counts
 
     kinds, criteria = counts(found, "kind"), counts(found, "evidence")
-    doubts = warnings(block, _values(found, "amplitude"), _values(found, "restitution"))
+    full = "critical_angle" in (*found.coords, *found.attrs)
+    doubts = warnings(block, _values(found, "amplitude"), _values(found, "restitution"), full=full)
     if as_json:
         told = {} if block is None else {"block": asked_in_si(found, block), "warnings": doubts}
         print_json(record(found, kinds, criteria, files) | told)

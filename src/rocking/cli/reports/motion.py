@@ -32,14 +32,16 @@ def show(motion: Motion, block: Block | None, files: Sequence[Path], *, as_json:
 
 def verdict(motion: Motion) -> str:
     """Return the outcome in one line."""
-    overturning, undecided = motion.overturning, f": {motion.doubt}" if motion.doubt else ""
+    overturning, doubt = motion.overturning, f" ({motion.doubt})" if motion.doubt else ""
     if overturning is not None:
+        if doubt:
+            return f"overturned from τ = {overturning.time:.6g}{doubt}"
         cycle = f", in the {ordinal(overturning.cycle + 1)} cycle" if has_cycles(motion) else ""
-        return f"overturned (proved at τ = {overturning.time:.6g}{cycle}){undecided}"
+        return f"overturned (proved at τ = {overturning.time:.6g}{cycle})"
     if motion.outcome == "at-rest":
-        return f"at rest permanently{undecided}"
+        return f"at rest permanently{doubt}"
     if not has_cycles(motion):
-        return f"bounded up to τ = {motion.duration:.6g}{undecided}"
+        return f"bounded up to τ = {motion.duration:.6g}{doubt}"
     return f"bounded over {counted(motion.cycles, 'cycle')} (neither rest nor overturning was proved)"
 
 
@@ -60,6 +62,10 @@ def asked_of(system: System, block: Block | None) -> Iterator[Row]:
         yield "", "normalised", "in SI"
         yield "critical angle", "1", f"{block.degrees(1.0):.4g}°"
         yield "time unit 1/α", "1", f"{block.seconds(1.0):.4g} s"
+        if system.critical_angle is not None:
+            yield "equation of motion", "full", ""
+    elif system.critical_angle is not None:
+        yield "critical angle", f"θcr = {system.critical_angle:.6g} rad, full equation of motion", ""
     yield from _base_rows(system, block)
     if block is None:
         yield "restitution", f"e = {restitution:.6g}", ""
@@ -141,20 +147,25 @@ def found(motion: Motion, block: Block | None) -> Iterator[Row]:
     yield "impacts", f"{motion.impacts}{_cut(motion, 'rest')}", ""
     if motion.system.braces is not None:
         yield "brace impacts", f"{motion.brace_hits}{_cut(motion, 'sustained contact')}", ""
-    proved = motion.overturning is not None
-    yield (
-        "largest |Θ| until the proof" if proved else "largest |Θ|",
-        f"{motion.peak:.6g}",
-        reach(motion.peak, block),
-    )
+    yield f"largest |Θ|{until_overturning(motion)}", f"{motion.peak:.6g}", reach(motion.peak, block)
     if not math.isnan(motion.margin):
         at = "" if block is None else f" = {block.seconds(motion.margin_time):.4g} s"
         yield "margin K₊", f"{motion.margin:.6g}", f"at τ = {motion.margin_time:.6g}{at}"
     yield (
-        "state at the proof" if proved else "final state",
+        "final state" if motion.overturning is None else f"state when overturning was {_known(motion)}",
         f"Θ = {motion.final.angle:.6g}, Θ' = {motion.final.velocity:.6g}",
         _state(motion.final, block),
     )
+
+
+def until_overturning(motion: Motion) -> str:
+    """Return the end of the time over which the peak of an overturned motion is the largest angle; else an empty text."""
+    return "" if motion.overturning is None else f" until overturning was {_known(motion)}"
+
+
+def _known(motion: Motion) -> str:
+    """Return the word for overturning: certain, or proved for the computed motion alone."""
+    return "certain" if motion.certified else "proved"
 
 
 def reach(angle: float, block: Block | None) -> str:

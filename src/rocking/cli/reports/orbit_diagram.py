@@ -54,7 +54,7 @@ def _in_si(diagram: OrbitDiagram, block: Block) -> Iterator[Row]:
 
 def _warnings(diagram: OrbitDiagram, block: Block | None) -> list[str]:
     asked = diagram.fixed | {diagram.parameter: diagram.values}
-    return warnings(block, asked["amplitude"], asked["restitution"])
+    return warnings(block, asked["amplitude"], asked["restitution"], full="critical_angle" in asked)
 
 
 def record(diagram: OrbitDiagram, block: Block | None, files: Sequence[Path]) -> dict[str, Any]:

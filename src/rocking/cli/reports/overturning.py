@@ -63,7 +63,8 @@ def _warnings(found: OverturningCurve, block: Block | None) -> list[str]:
     data = found.dataset
     lowest = data.lowest.values[data.lowest.notnull().values]
     restitution = data.restitution.values if "restitution" in data.coords else data.attrs["restitution"]
-    return warnings(block, lowest, restitution)
+    full = "critical_angle" in (*data.coords, *data.attrs)
+    return warnings(block, lowest, restitution, full=full)
 
 
 COLUMNS = (*LEVELS, "surviving_above")

@@ -11,7 +11,7 @@ from rocking.cli.output.console import Row, print_json, print_table
 from rocking.cli.output.files import write_result
 from rocking.cli.output.survey_run import MAX_ROWS
 from rocking.cli.reports.motion import size_of
-from rocking.cli.reports.validity import warned
+from rocking.cli.reports.validity import equation_line, survey_warnings, warned
 from rocking.model import OverturningSet, block_attributes, percent
 
 
@@ -38,16 +38,17 @@ def switches(found: OverturningSet) -> dict[str, Any]:
 
 def show(found: OverturningSet, doubts: Sequence[str], files: Sequence[Path], *, as_json: bool) -> None:
     """Print the overturning levels of each record, the warnings `doubts` of the reader, and the paths of the files."""
-    doubts = [*doubts, *undecided(found)]
+    model = found.dataset.attrs["model"]
+    doubts = [*doubts, *undecided(found), *survey_warnings(found.block, model)]
     if as_json:
         print_json(record(found, doubts, files))
     else:
-        print_table(str(found), rows(found), files, warned(doubts))
+        print_table(str(found), rows(found), files, [equation_line(found.block, model), *warned(doubts)])
 
 
 def undecided(found: OverturningSet) -> Iterator[str]:
     """Yield a warning if rounding may have made a switch."""
-    count = int((~found.switches["certified"]).sum())
+    count = found.undecided.size
     if count:
         yield f"{count:,} of {found.switches.size:,} switches are undecided in double precision"
 
@@ -84,6 +85,7 @@ def record(found: OverturningSet, doubts: Sequence[str], files: Sequence[Path]) 
             "count": int(found.scales.size),
         },
         "block": size_of(block) | {"restitution": block.restitution, "inertia_ratio": block.inertia_ratio},
+        "model": data.attrs["model"],
         "angle": data.attrs["angle"],
         "polarity": data.attrs["polarity"],
         "records_sha256": data.attrs["records_sha256"],

@@ -38,8 +38,9 @@ def show(found: xr.Dataset, block: Block | None, files: Sequence[Path], *, as_js
     from rocking.survey import counts
 
     outcomes, doubtful = counts(found, "outcome"), counts(found, "certified")["undecided"]
+    full = "critical_angle" in (*found.coords, *found.attrs)
     doubts = [
-        *warnings(block, values(found, "amplitude"), values(found, "restitution")),
+        *warnings(block, values(found, "amplitude"), values(found, "restitution"), full=full),
         *undecided(doubtful),
     ]
     if as_json:

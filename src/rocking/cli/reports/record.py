@@ -39,11 +39,17 @@ def show(
     print_table(verdict(motion, block), rows, files, more)
 
 
+def heading(ground: GroundMotion) -> str:
+    """Return the name of a record and its peak, for a figure."""
+    return f"{ground.name}, PGA {ground.pga / GRAVITY:.3g} g"
+
+
 def verdict(motion: Motion, block: Block) -> str:
     """Return the outcome in one line, with its time in s."""
     doubt = f" ({motion.doubt})" if motion.doubt else ""
     if motion.overturning is not None:
-        return f"overturned: certain from t = {block.seconds(motion.overturning.time):.4g} s{doubt}"
+        since = ": certain" if motion.certified else ""
+        return f"overturned{since} from t = {block.seconds(motion.overturning.time):.4g} s{doubt}"
     if motion.outcome is not Outcome.AT_REST:
         return f"bounded over {block.seconds(motion.duration):.4g} s (neither rest nor overturning was proved){doubt}"
     if motion.record != "all":
@@ -86,6 +92,9 @@ def of_block(motion: Motion, block: Block) -> Iterator[Row]:
     """Yield the rows of the block and its initial state."""
     yield "block", f"{block.size}, Io/(MR²) = {block.inertia_ratio:.4g}"
     yield "critical angle", f"{block.degrees(1.0):.4g}°"
+    full = motion.system.critical_angle is not None
+    braced = motion.system.braces is not None
+    yield "equation of motion", validity.equation(block.critical_angle, full=full, braced=braced)
     yield "time unit 1/α", f"{block.seconds(1.0):.4g} s"
     yield "lift-off from rest", f"above {common.in_si('amplitude', motion.system.lift_off, block)}"
     yield "restitution", f"e = {block.restitution:.6g}, {common.origin(block)}"
@@ -98,8 +107,10 @@ def of_block(motion: Motion, block: Block) -> Iterator[Row]:
 def found(motion: Motion, block: Block) -> Iterator[Row]:
     """Yield the rows of the result."""
     yield "impacts", counted_impacts(motion)
-    until = " until the proof" if motion.overturning is not None else ""
-    yield f"largest |θ|{until}", f"{common.reach(motion.peak, block)}, {motion.peak:.4g} θcr"
+    yield (
+        f"largest |θ|{common.until_overturning(motion)}",
+        f"{common.reach(motion.peak, block)}, {motion.peak:.4g} θcr",
+    )
     yield "margin K₊", margin(motion, block)
     yield from validity.friction_row(motion, block)
 
@@ -117,10 +128,10 @@ def margin(motion: Motion, block: Block) -> str:
             return "undefined for the full equation of motion"
         return "undefined " + ("between braces" if motion.system.braces else "for a block that never moves")
     speed = common.in_si("velocity", abs(motion.margin), block)
-    what = "to overturn" if motion.margin < 0 else "to spare"
-    verb = "lacked" if motion.margin < 0 else "had"
-    time = block.seconds(motion.margin_time)
-    return f"{motion.margin:.4g}: at t = {time:.4g} s the block {verb} {speed} {what}"
+    how = f"had {speed} to spare" if motion.margin >= 0 else f"lacked {speed} to overturn"
+    if motion.margin < 0 and motion.outcome is Outcome.OVERTURNED:
+        how += ", but overturned later"
+    return f"{motion.margin:.4g}: at t = {block.seconds(motion.margin_time):.4g} s the block {how}"
 
 
 def record(

@@ -10,7 +10,7 @@ from rocking.cli.output.console import Row, print_json, print_table
 from rocking.cli.output.files import write_csv, write_dataset
 from rocking.cli.reports.fragility import few_records
 from rocking.cli.reports.motion import size_of
-from rocking.cli.reports.validity import warned
+from rocking.cli.reports.validity import equation_line, survey_warnings, warned
 from rocking.model import Sensitivity, block_attributes, counted, percent_with_ends
 
 COLUMNS = ("change", "share", "share_low", "share_high", "flipped", "runs", "undecided")
@@ -25,14 +25,16 @@ def write(found: Sensitivity, files: Mapping[str, Path]) -> None:
 
 
 def show(found: Sensitivity, doubts: Sequence[str], files: Sequence[Path], *, as_json: bool) -> None:
-    """Print the fraction of the verdicts that each change flips, with warnings, and the paths of the files."""
+    """Print the fraction of the verdicts that each change reverses, with warnings, and the paths of the files."""
     data = found.dataset
-    doubts = [*doubts, *few_records(data.sizes["record"]), *_undecided(found)]
+    model = data.attrs["model"]
+    few = few_records(data.sizes["record"])
+    doubts = [*doubts, *few, *_undecided(found), *survey_warnings(found.block, model)]
     if as_json:
         print_json(record(found) | {"warnings": doubts, "files": [str(path) for path in files]})
         return
-    title = f"verdicts that small changes flip, of {counted(data.overturned.size, 'run')} of {counted(data.sizes['record'], 'record')}"
-    print_table(title, rows(found), files, warned(doubts))
+    title = f"verdicts that small changes reverse, of {counted(data.overturned.size, 'run')} of {counted(data.sizes['record'], 'record')}"
+    print_table(title, rows(found), files, [equation_line(found.block, model), *warned(doubts)])
 
 
 def _undecided(found: Sensitivity) -> Iterator[str]:
@@ -43,7 +45,7 @@ def _undecided(found: Sensitivity) -> Iterator[str]:
 
 def rows(found: Sensitivity) -> Iterator[Row]:
     """Yield one row per change."""
-    yield "change", "fraction that flips", "runs"
+    yield "change", "fraction reversed", "runs"
     for change, share, low, high, flipped, *_ in _values(found):
         yield change, percent_with_ends(share, low, high), f"{flipped:,}"
 
@@ -57,6 +59,7 @@ def record(found: Sensitivity) -> dict[str, Any]:
     data = found.dataset
     return {
         "block": size_of(found.block) | {"restitution": found.block.restitution},
+        "model": data.attrs["model"],
         "intensity": data.attrs["intensity"],
         "levels": data.scale.values.tolist(),
         "records": data.name.values.tolist(),

@@ -11,7 +11,7 @@ import numpy as np
 
 from rocking.cli.output.console import Row, print_json, print_table
 from rocking.cli.output.files import write_result
-from rocking.cli.reports.validity import warned
+from rocking.cli.reports.validity import equation, shape_warnings, warned
 from rocking.model import RecordSet, counted, percent
 
 if TYPE_CHECKING:
@@ -43,6 +43,8 @@ def tables(found: xr.Dataset) -> Iterator[dict[str, np.ndarray]]:
         for name, column in table.items():
             unit = found[name].attrs.get("units", "1")
             columns[name if unit in ("1", "") else f"{name} [{unit}]"] = column
+        slenderness = table["slenderness"] if "slenderness" in table else found.attrs["slenderness"]
+        columns["peak [deg]"] = table["peak"] * np.degrees(slenderness)
         yield columns
 
 
@@ -54,7 +56,7 @@ def show(
 
     outcomes = counts(found, "outcome")
     doubtful = counts(found, "certified")["undecided"]
-    doubts = [*doubts, *undecided(doubtful)]
+    doubts = [*doubts, *undecided(doubtful), *_warnings(found)]
     if as_json:
         print_json(
             record(found, records, outcomes, doubtful) | {"warnings": doubts, "files": list(map(str, files))}
@@ -63,6 +65,12 @@ def show(
     total = sum(outcomes.values())
     rows = [*_asked(found, records), *_outcomes(outcomes, total), *_results(found)]
     print_table(f"rocking spectrum, {counted(total, 'run')}", rows, list(files), warned(doubts))
+
+
+def _warnings(found: xr.Dataset) -> Iterator[str]:
+    size, slenderness = values(found, "size").max(), values(found, "slenderness")
+    height = float(2.0 * size * np.cos(slenderness.min()))
+    yield from shape_warnings(height, float(slenderness.max()), full=found.attrs["model"] == "full")
 
 
 def undecided(count: int) -> Iterator[str]:
@@ -90,6 +98,8 @@ def _asked(found: xr.Dataset, records: RecordSet) -> Iterator[Row]:
         yield "PGA", f"{_range(pga)} m/s², times {_range(values(found, 'scale'))}"
     yield "size R", f"{_range(values(found, 'size'))} m"
     yield "critical angle", f"{_range(np.degrees(values(found, 'slenderness')))}°"
+    widest, full = float(values(found, "slenderness").max()), found.attrs["model"] == "full"
+    yield "equation of motion", equation(widest, full=full)
     given = "restitution" in (*found.dims, *found.attrs)
     yield "restitution", _range(values(found, "restitution")) if given else "Housner's for each slenderness"
 
@@ -164,7 +174,7 @@ def record(found: xr.Dataset, records: RecordSet, outcomes: dict[str, int], unde
         "axes": axes_of(found.peak),
         **{
             name: found.attrs[name]
-            for name in (*QUANTITIES, "inertia_ratio", "intensity")
+            for name in (*QUANTITIES, "inertia_ratio", "model", "intensity")
             if name in found.attrs
         },
         "runs": math.prod(found.peak.shape),

@@ -67,12 +67,42 @@ def validity_motion(verdict: Verdict) -> tuple[str, Motion]:
     if orbit is None:
         motion = run(system, verdict.start, min(max(verdict.cycles, 1), FIRST), ())
         return f"model validity over the first {counted(motion.cycles, 'cycle')}", motion
-    begun = attrs.evolve(system, forcing=attrs.evolve(system.harmonic, phase=orbit.phase))
+    begun = attrs.evolve(system, forcing=attrs.evolve(system.periodic, phase=orbit.phase))
     motion = run(begun, orbit.state, orbit.period, ())
     return "model validity over one response period (τ measured from its start)", motion
 
 
-def warnings(block: Block | None, amplitudes: Any, restitutions: Any) -> list[str]:
+def equation(critical_angle: float, *, full: bool, braced: bool = False) -> str:
+    """Return the equation of motion in words, that of small angles with its errors for |θ| ≤ θcr, in rad."""
+    from rocking.motion import slender_errors
+
+    if full:
+        return "full"
+    worst = max(slender_errors(critical_angle, critical_angle))
+    remedy = "" if braced else " (--model full avoids this)"
+    return f"small angles; moments overestimated by up to {100.0 * worst:.1f} %{remedy}"
+
+
+def equation_line(block: Block, model: str) -> str:
+    """Return the equation of motion of a survey of one block, as a line below a table with a row per record."""
+    return f"equation of motion: {equation(block.critical_angle, full=model == 'full')}"
+
+
+def survey_warnings(block: Block, model: str) -> list[str]:
+    """Return the warnings about the block of a survey of ground motions."""
+    return warnings(block, (), block.restitution, full=model == "full")
+
+
+def shape_warnings(height: float, critical_angle: float, *, full: bool) -> Iterator[str]:
+    """Yield the warnings about blocks of many shapes, up to a height in m and a critical angle in rad."""
+    from rocking.motion import height_warnings, proportion_warnings
+
+    yield from height_warnings(height)
+    if not full:
+        yield from proportion_warnings(critical_angle, critical_angle)
+
+
+def warnings(block: Block | None, amplitudes: Any, restitutions: Any, *, full: bool = False) -> list[str]:
     """Return the warnings about the block itself, independent of its motion; none without a block."""
     if block is None:
         return []
@@ -80,7 +110,7 @@ def warnings(block: Block | None, amplitudes: Any, restitutions: Any) -> list[st
 
     from rocking.motion import block_warnings
 
-    return list(block_warnings(block, amplitudes, float(np.min(restitutions))))
+    return list(block_warnings(block, amplitudes, float(np.min(restitutions)), full=full))
 
 
 def warned(sentences: list[str]) -> list[str]:

@@ -45,7 +45,7 @@ class BlockMotion:
 def block_motion(shown: GroundView, ground: Ground) -> BlockMotion:
     """Simulate the selected block under the scaled base motion."""
     block, base = shown.block, ground.scaled(shown.scale)
-    motion = simulate(block.system(base))
+    motion = simulate(block.system(base, model=shown.model))
     times, degrees = _history(motion, block, ground.sampled.times.size)
     line = ground.line(shown.scale)
     end = float(max(times[-1], line["time"][-1]))
@@ -73,7 +73,7 @@ def _words(motion: Motion, block: Block) -> dict[str, Any]:
         kind, colour = "overturns", OVERTURNED
     elif moves:
         kind, colour = "rocks and stands", WARM[min(int(motion.peak * len(WARM)), len(WARM) - 1)]
-    lift = block.acceleration(1.0) / GRAVITY
+    lift = block.acceleration(motion.system.lift_off) / GRAVITY
     facts: Facts = [
         ("block", f"{block.height:.4g} m × {block.width:.4g} m"),
         ("R", f"{block.radius:.4g} m"),
@@ -82,7 +82,7 @@ def _words(motion: Motion, block: Block) -> dict[str, Any]:
         ("lifts off at", f"{lift:.4g} g"),
     ]
     if moves:
-        largest = "largest |θ|" + " until the proof" * overturned
+        largest = "largest |θ|" + " until overturning was certain" * overturned
         facts.append((largest, f"{block.degrees(motion.peak):.4g}°, {motion.peak:.4g} θcr"))
         facts.append(("impacts", f"{motion.impacts:,}"))
     if motion.overturning is not None:
@@ -91,7 +91,14 @@ def _words(motion: Motion, block: Block) -> dict[str, Any]:
 
 
 def _evidence(motion: Motion, block: Block) -> dict[str, Any]:
-    """Return margin, certificate and validity in words."""
+    """Return margin, certificate and validity in words; the full equation of motion has no margin and no certificate."""
+    if motion.system.critical_angle is not None:
+        return {
+            "margin": "",
+            "certified": "Full equation of motion: the effect of rounding on the outcome is not assessed.",
+            "decided": True,
+            "validity": _validity(motion, block),
+        }
     certified = "Certified: no rounding error can have changed the outcome."
     if not motion.certified:
         certified = (
@@ -119,7 +126,7 @@ def margin_in_words(motion: Motion, block: Block) -> str:
 
 
 def _validity(motion: Motion, block: Block) -> list[str]:
-    """Return the required friction and the warnings of the model, as sentences."""
+    """Return the required friction, the error of the slender-block model and the warnings, as sentences."""
     found = motion.validity(block)
     friction = []
     if found.friction is not None and math.isfinite(found.friction):
@@ -127,7 +134,7 @@ def _validity(motion: Motion, block: Block) -> list[str]:
     elif found.friction is not None:
         friction = ["No friction suffices, because the base reaction vanishes."]
     errors = []
-    if math.isfinite(found.moment_error):
+    if math.isfinite(found.moment_error) and motion.system.critical_angle is None:
         errors = [
             f"The slender-block model overestimates the restoring moment by up to {found.moment_error:.1%}."
         ]

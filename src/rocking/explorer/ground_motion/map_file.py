@@ -17,10 +17,14 @@ def netcdf(plane: SizePlane, picture: SizePicture, name: str, shown: GroundView)
 
     sizes, angles = plane.sizes_of(picture.side), np.radians(plane.angles_of(picture.side))
     over = ("slenderness", "size")
+    effects = {
+        "flag_values": np.arange(3, dtype=np.uint8),
+        "flag_meanings": "undecided certified not-assessed",
+    }
     flags = {"flag_values": np.arange(len(Outcome), dtype=np.uint8), "flag_meanings": " ".join(Outcome)}
     attributes = {
         "outcome": {"long_name": "end of the motion", **flags},
-        "certified": {"long_name": "1 if no rounding error can have changed the outcome"},
+        "certified": {"long_name": "whether no rounding error can have changed the outcome", **effects},
         "peak": {
             "long_name": "largest absolute angle in units of theta_cr",
             "units": "1",
@@ -42,6 +46,7 @@ def netcdf(plane: SizePlane, picture: SizePicture, name: str, shown: GroundView)
             "source": f"rocking {VERSION}",
             "base_motion": name,
             "scale": shown.scale,
+            "model": shown.model,
             "view": address(shown),
         },
     )

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from rocking.explorer.compilation import GROUND
+from rocking.explorer.compilation import needed_by_ground
 from rocking.explorer.document_renderer import DocumentRenderer
 from rocking.explorer.ground_motion import figures
 from rocking.explorer.ground_motion.block_motion import BlockMotion, block_motion
@@ -53,10 +53,10 @@ class GroundRenderer(DocumentRenderer):
 
     async def refine_map(self, shown: GroundView, stop: np.ndarray) -> None:
         """Compute and draw the map, from coarse to fine."""
-        await self.compilation.stored(GROUND["map"])
+        await self.compilation.stored(needed_by_ground("map", shown.model))
         self.finest = None
         ground, plane = self.ground, SizePlane(shown.sizes, shown.angles)
-        endings = await self.workers.soon(partial(BlockEndings, ground.base, shown.scale))
+        endings = await self.workers.soon(partial(BlockEndings, ground.base, shown.scale, shown.model))
         refinement = SizeRefinement(plane, endings, self.workers, stop)
         picture = await self.workers.soon(refinement.coarse)
         await self._draw(partial(self._draw_map, plane, picture))
@@ -88,7 +88,7 @@ class GroundRenderer(DocumentRenderer):
 
     async def draw_motion(self, shown: GroundView, stop: np.ndarray) -> None:
         """Draw the motion of the selected block and tell its verdict."""
-        await self.compilation.stored(GROUND["motion"])
+        await self.compilation.stored(needed_by_ground("motion", shown.model))
         try:
             found = await self.workers.soon(partial(block_motion, shown, self.ground))
         except TooManyEvents as error:

@@ -150,6 +150,7 @@ class GroundSession:
             renderer.ground = ground
         elif first or old.shaking != new.shaking:
             renderer.ground = ground_of(new, self.channels)
+        shaken = shaken or old.model != new.model
         mapped = shaken or (old.sizes, old.angles) != (new.sizes, new.angles)
         moved = shaken or (old.height, old.width) != (new.height, new.width)
         changes = {"push": push, "mapped": mapped, "moved": moved}

@@ -23,7 +23,7 @@ from rocking.explorer.field_readers import (
 )
 from rocking.explorer.form_fields import at_width
 from rocking.explorer.view_state import Span
-from rocking.model import KINDS, STEPS, Block, refusal
+from rocking.model import KINDS, MODELS, STEPS, Block, refusal
 
 SOURCES = ("example", "synthetic-1", "synthetic-2", "synthetic-3", "pulse", "file")
 UNITS = ("", "m/s²", "cm/s²", "mm/s²", "g", "gal")
@@ -58,6 +58,8 @@ class GroundView:
         Factor of the base motion.
     height, width : float
         Block, in m.
+    model : str
+        Equation of motion: "slender" or "full".
     sizes, angles : Span
         Ranges of the map: half the diagonal R in m, and the critical angle in degrees.
     """
@@ -72,6 +74,7 @@ class GroundView:
     scale: float = 5.0
     height: float = 2.0
     width: float = 0.5
+    model: str = "slender"
     sizes: Span = WHOLE_SIZES
     angles: Span = WHOLE_ANGLES
 
@@ -117,6 +120,7 @@ READ: dict[str, Callable[[str, str], Any]] = {
     "scale": number(*SCALES),
     "height": number(1e-3, 1e3),
     "width": number(1e-3, 1e3),
+    "model": word(*MODELS),
     "sizes": _range(*SIZES),
     "angles": _range(*SLENDERNESS),
 }

@@ -10,7 +10,8 @@ from rocking.kernels.classify.verdict_record import PERIODIC, REST
 from rocking.kernels.compile_options import INTERNAL, KERNEL
 from rocking.kernels.deferred import njit
 from rocking.kernels.entry_point import entry_point
-from rocking.kernels.forcing.harmonic.parameters import later, parameters_from_row
+from rocking.kernels.forcing.parameters import PeriodicParameters, parameters_of_row
+from rocking.kernels.forcing.periodic import later, with_row
 from rocking.kernels.march.initial_state import UNKNOWN, begin
 from rocking.kernels.march.march import DONE, STILL, march_through
 from rocking.kernels.march.no_recording import NoRecording, no_recording
@@ -50,6 +51,7 @@ def foremost(states, first):
 
 @entry_point(**KERNEL)
 def anchor_each(
+    kind: PeriodicParameters,
     systems: Floats2,
     starts: Floats2,
     results: ResultArrays,
@@ -60,13 +62,13 @@ def anchor_each(
     """Write the canonical state (angle, velocity) of the attractor of each of n points; NaN if there is none.
 
     For a periodic orbit it is the foremost state on the section at SECTION, for rest the state of rest.
-    ``scratch`` has two rows per cycle of the longest period.
+    ``kind`` gives the type of the parameters, ``scratch`` has two rows per cycle of the longest period.
     """
     for k in range(systems.shape[0]):
         anchors[k, 0], anchors[k, 1] = math.nan, math.nan
         if results.kind[k] != PERIODIC and results.kind[k] != REST:
             continue
-        p = parameters_from_row(systems[k])
+        p = with_row(kind, systems[k])
         if results.kind[k] == REST:
             cycles = results.cycles[k]
             anchors[k, 0], anchors[k, 1] = rest_angle(p, starts[k, 0], starts[k, 1], cycles, nothing), 0.0
@@ -87,5 +89,5 @@ def anchor_each(
 def anchors_of(systems, starts, answers):
     """Return ``anchor_each`` for the results of ``batch.classify_batch``: an array (n, 2)."""
     anchors, scratch = np.empty((len(systems), 2)), np.empty((2 * answers.period.max(initial=1), 2))
-    anchor_each(systems, starts, answers, no_recording(), scratch, anchors)
+    anchor_each(parameters_of_row(systems[0]), systems, starts, answers, no_recording(), scratch, anchors)
     return anchors

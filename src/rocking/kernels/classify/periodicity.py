@@ -7,8 +7,8 @@ from rocking.kernels.classify.recurrence import apart, approached, closest_retur
 from rocking.kernels.compile_options import AST_INLINE, INTERNAL, KERNEL
 from rocking.kernels.deferred import njit
 from rocking.kernels.entry_point import entry_point
-from rocking.kernels.forcing.harmonic.extrema import largest_on
-from rocking.kernels.forcing.harmonic.parameters import later
+from rocking.kernels.forcing.contract import largest_on
+from rocking.kernels.forcing.periodic import later, nearest_mode
 from rocking.kernels.march.initial_state import UNKNOWN
 from rocking.kernels.march.progress import Recording
 from rocking.kernels.march.tangent import Tangent
@@ -25,7 +25,7 @@ from rocking.kernels.orbits.fixed_point import (
     image_after,
 )
 from rocking.kernels.orbits.floquet import adapted_norm, length, spectral_radius
-from rocking.kernels.orbits.symmetric_mode import Nearest, nearest
+from rocking.kernels.orbits.symmetric_mode import Nearest
 from rocking.kernels.signature import Floats2
 
 # Candidates for Newton's method, in this order. REFINED repeats the search with the least period of the orbit
@@ -107,7 +107,7 @@ def known_candidate(clocked, orbit, count, since):
     """Return the candidate of the known orbit, found ``since`` cycles ago; none if the section is too short."""
     row = count - 1 - since % max(orbit.period, 1)
     lag = orbit.period if row >= orbit.period else 0
-    return Candidate(lag, row, Guess(0.0, 0.0, UNKNOWN), UNBOUNDED, nearest(clocked, 0, 0.0, 0.0))
+    return Candidate(lag, row, Guess(0.0, 0.0, UNKNOWN), UNBOUNDED, nearest_mode(clocked, 0, 0.0, 0.0))
 
 
 @njit(**INTERNAL)
@@ -115,7 +115,7 @@ def approached_candidate(clocked, section, count, most_lag):
     """Return the limit of the last returns, or the symmetric mode close to it."""
     row = count - 1
     lag, angle, velocity = approached(section, count, most_lag)
-    mode, waits = nearest(clocked, lag, angle, velocity), UNKNOWN
+    mode, waits = nearest_mode(clocked, lag, angle, velocity), UNKNOWN
     left = size(section[row, 0] - angle, section[row, 1] - velocity)
     if mode.distance <= max(BESIDE * left, SAME):
         angle, velocity, waits = mode.angle, mode.velocity, (mode.half - mode.since, mode.half)

@@ -9,7 +9,7 @@ from typing import NamedTuple
 from rocking.kernels.compile_options import INTERNAL
 from rocking.kernels.deferred import njit
 from rocking.kernels.event_kinds import BRACE, FLIGHT, IMPACT, NONE
-from rocking.kernels.forcing.harmonic.solution import arc_from
+from rocking.kernels.forcing.contract import arc_at
 from rocking.kernels.march.event_rows import state_at
 from rocking.kernels.numerics.averages import bumps, digits_with
 
@@ -116,7 +116,7 @@ def evaluate_lazy_rows(p, section, first, count, section_time):
         if math.isnan(section[k, 0]):
             side, elapsed = int(section[k, SIDE]), section[k, ELAPSED]
             start = section_time - elapsed
-            arc = arc_from(p, side, start, section[k, ANGLE], section[k, VELOCITY])
+            arc = arc_at(p, side, 0, start, section[k, ANGLE], section[k, VELOCITY])
             section[k, 0], section[k, 1] = state_at(p, FLIGHT, arc, elapsed)
 
 

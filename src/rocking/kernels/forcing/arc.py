@@ -9,6 +9,8 @@ from rocking.kernels.deferred import njit
 from rocking.kernels.forcing.drives import (
     FullHarmonicConstants,
     FullHarmonicDrive,
+    FullPulseConstants,
+    FullPulseDrive,
     FullSampledConstants,
     FullSampledDrive,
     HarmonicConstants,
@@ -19,9 +21,14 @@ from rocking.kernels.forcing.drives import (
     SampledDrive,
 )
 
-Drive = HarmonicDrive | SampledDrive | PulseDrive | FullHarmonicDrive | FullSampledDrive
+Drive = HarmonicDrive | SampledDrive | PulseDrive | FullHarmonicDrive | FullSampledDrive | FullPulseDrive
 Constants = (
-    HarmonicConstants | SampledConstants | PulseConstants | FullHarmonicConstants | FullSampledConstants
+    HarmonicConstants
+    | SampledConstants
+    | PulseConstants
+    | FullHarmonicConstants
+    | FullSampledConstants
+    | FullPulseConstants
 )
 
 # After this long an arc restarts from its own state: at e^32 the closed form has used up double precision.
@@ -60,6 +67,15 @@ class Instant(NamedTuple):
     drive: Drive
     sinh: float
     versinh: float  # cosh t - 1
+
+
+class Transfer(NamedTuple):
+    """Derivatives of (u, u') at one instant of an arc by (u, u') at an earlier one."""
+
+    angle_by_angle: float
+    angle_by_velocity: float
+    velocity_by_angle: float
+    velocity_by_velocity: float
 
 
 class NoGuess(NamedTuple):

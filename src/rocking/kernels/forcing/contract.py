@@ -44,6 +44,26 @@ def acceleration(p, side, angle, drive):
 
 
 @contract
+def restoring_acceleration(p):
+    """Return -u'' at the base without base motion."""
+
+
+@contract
+def restitution_at(p, speed):
+    """Return the coefficient of restitution at a speed before an impact, and the derivative of the speed after it."""
+
+
+@contract
+def transfer(p, arc, start, time):
+    """Return the ``Transfer`` along an arc, from a time after its start over another time."""
+
+
+@contract
+def transfer_to_event(p, arc, coming):
+    """Return the ``Transfer`` along a whole arc, to the event that ends it."""
+
+
+@contract
 def guess_from(p, wait):
     """Return the guess of the next event from the time until it; 0 if unknown."""
 
@@ -97,6 +117,11 @@ def settling(p, drive, speed):
         An upper bound on the time to rest, which comes before lift-off; infinite if rest is not certain.
         An upper bound on the angle until then.
     """
+
+
+@contract
+def brace_settling_time(p, side, drive, speed):
+    """Return an upper bound on the time from a brace impact to sustained contact; infinite if that is not certain."""
 
 
 @contract

@@ -32,6 +32,14 @@ class FullSampledDrive(NamedTuple):
     offset: float
 
 
+class FullPulseDrive(NamedTuple):
+    """Pulse of the full block at one instant: the time to its end, and cos psi and sin psi, which are 0 from there on."""
+
+    left: float  # negative after the end; near the end its rounding errors are small
+    cosine: float
+    sine: float
+
+
 class HarmonicConstants(NamedTuple):
     """Constants of an arc with harmonic forcing."""
 
@@ -68,5 +76,11 @@ class FullHarmonicConstants(NamedTuple):
 
 class FullSampledConstants(NamedTuple):
     """Constant of an arc of the full block with sampled forcing."""
+
+    acceleration: float  # of the base, at the start
+
+
+class FullPulseConstants(NamedTuple):
+    """Constant of an arc of the full block under a pulse."""
 
     acceleration: float  # of the base, at the start

@@ -1,6 +1,7 @@
 """Functions that a forcing of finite length provides besides those of ``contract``. It is 0 after its end.
 
-An arc is u = (K+ e^t + K- e^-t)/2 and bounded terms. So the block leaves for good if K+ > 0, unless it comes back before.
+``growth_constant``, ``rounding_error`` and ``next_event_and_extremes`` are for slender blocks alone. There an arc is
+u = (K+ e^t + K- e^-t)/2 and bounded terms. So the block leaves for good if K+ > 0, unless it comes back before.
 """
 
 from rocking.kernels.deferred import contract
@@ -24,3 +25,22 @@ def next_event_and_extremes(p, mode, arc):
 @contract
 def has_ended(p, drive):
     """Return whether the base motion is over."""
+
+
+@contract
+def to_end(p, angle, velocity, until, cut, want_peak):
+    """Return the ``Ending`` of a motion.
+
+    Follow it until nothing follows, until a time, or to the first contact without loss after the base motion. With ``cut``,
+    chattering is cut short if it does not exceed a peak that is wanted.
+    """
+
+
+@contract
+def with_run(p, run):
+    """Return the parameters of a row of runs under the samples of ``p``."""
+
+
+@contract
+def with_pulse(p, pulse):
+    """Return the parameters of a row of pulses; the cycle of the clock lasts as long as the pulse."""

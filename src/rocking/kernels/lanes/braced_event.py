@@ -24,7 +24,7 @@ def request_before_event(s, i):
 def carry_through_event(s, i):
     """Propagate the tangent vector in lane i through its event."""
     hit, r, f = s.at_brace[i] > 0.0, s.brace_restitution[i], next_forcing_term(s, i)
-    pressed, pulled = brace_gain(r, s.brace_angle[i], f), impact_gain(s.restitution[i], f, -1.0)
+    pressed, pulled = brace_gain(r, s.brace_angle[i] + f), impact_gain(s.restitution[i], 1.0, f, -1.0)
     propagate_tangent(s, i, choose(hit, -r, s.restitution[i]), choose(hit, pressed, pulled) / s.speed[i])
 
 

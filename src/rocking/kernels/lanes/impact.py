@@ -7,6 +7,7 @@ import numpy as np
 from rocking.kernels.compile_options import SIMD_INLINE
 from rocking.kernels.deferred import njit
 from rocking.kernels.forcing.harmonic.extrema import may_rise_above
+from rocking.kernels.forcing.slender import hyperbolic_transfer
 from rocking.kernels.lanes.state import (
     AT_EVENT,
     BRACKET,
@@ -66,8 +67,9 @@ def propagate_tangent(s, i, factor, shear):
     The saltation matrix is [[factor, 0], [shear, factor]].
     """
     angle, velocity, arrived = s.delta_angle[i], s.delta_velocity[i], s.stage[i] == AT_EVENT
-    ahead = carry_along((angle, velocity), s.next_sinh[i], s.next_versinh[i])
-    a, b = carry_through(ahead, factor, shear)
+    moved = hyperbolic_transfer(s.next_sinh[i], s.next_versinh[i])
+    ahead = carry_along((angle, velocity), moved)
+    a, b = carry_through(ahead, factor, shear, factor)
     size = abs(a) + abs(b)
     large, little = size > LARGE, size < 1.0 / LARGE
     scale = choose(large, 1.0 / LARGE, choose(little, LARGE, 1.0))
@@ -90,7 +92,7 @@ def turn_clock(s, i):
 @njit(**SIMD_INLINE)
 def carry_through_impact(s, i):
     """Propagate the tangent vector in lane i through its impact."""
-    gained = impact_gain(s.restitution[i], next_forcing_term(s, i), -1.0)
+    gained = impact_gain(s.restitution[i], 1.0, next_forcing_term(s, i), -1.0)
     propagate_tangent(s, i, s.restitution[i], gained / s.speed[i])
 
 

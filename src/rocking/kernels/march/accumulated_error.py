@@ -47,9 +47,9 @@ def after_time(c, sinh, versinh):
 
 
 @njit(**INTERNAL_INLINE)
-def after_saltation(c, factor, shear):
-    """Return the covariance after an event with the matrix [[factor, 0], [shear, factor]] of ``tangent.event_map``."""
-    return transformed(c, factor, 0.0, shear, factor)
+def after_saltation(c, factor, shear, gain):
+    """Return the covariance after an event with the matrix [[factor, 0], [shear, gain]] of ``tangent.event_map``."""
+    return transformed(c, factor, 0.0, shear, gain)
 
 
 @njit(**INTERNAL_INLINE)

@@ -1,23 +1,20 @@
-"""Motion under a base acceleration of finite length, from its start to its end, with its margin.
+"""Motion of a slender block under a base acceleration of finite length, from its start to its end, with its margin.
 
 The states are those of ``march``; no sections and no events are recorded.
 """
 
 import math
-from typing import Annotated, NamedTuple
+from typing import NamedTuple
 
-import numpy as np
-
-from rocking.kernels.compile_options import INTERNAL, INTERNAL_INLINE, KERNEL
-from rocking.kernels.deferred import njit
-from rocking.kernels.entry_point import entry_point
+from rocking.kernels.compile_options import INTERNAL, INTERNAL_INLINE
+from rocking.kernels.deferred import njit, provide
 from rocking.kernels.event_kinds import BRACE, FLIGHT, IMPACT, REST
+from rocking.kernels.forcing import finite
 from rocking.kernels.forcing.arc import shift_clock
-from rocking.kernels.forcing.contract import settling
+from rocking.kernels.forcing.contract import restitution_at, settling
 from rocking.kernels.forcing.finite import growth_constant, has_ended, next_event_and_extremes, rounding_error
-from rocking.kernels.forcing.parameters import FiniteParameters
-from rocking.kernels.forcing.pulse.parameters import make_pulse
-from rocking.kernels.forcing.sampled.parameters import SampledForcing, SampledParameters
+from rocking.kernels.forcing.pulse.parameters import PulseParameters
+from rocking.kernels.forcing.sampled.parameters import SampledParameters
 from rocking.kernels.march.accumulated_error import (
     EXACT,
     Covariance,
@@ -28,6 +25,7 @@ from rocking.kernels.march.accumulated_error import (
     of_velocity,
     widened,
 )
+from rocking.kernels.march.ending import Ending
 from rocking.kernels.march.highest_arc import from_peak, highest_with, peak_of
 from rocking.kernels.march.impact_law import SLOW, SLOWEST, after_chattering, after_event
 from rocking.kernels.march.initial_state import UNKNOWN, begin
@@ -35,46 +33,6 @@ from rocking.kernels.march.march import CROWDED, DONE, MAX_EVENTS, OVERTURNED, S
 from rocking.kernels.march.tangent import event_map
 from rocking.kernels.numerics.elementary import hyperbolic
 from rocking.kernels.numerics.replace_fields import replacing
-from rocking.kernels.parameters import BlockParameters
-from rocking.kernels.signature import Integers1
-
-
-class Ending(NamedTuple):
-    """End of a motion, and how close it came to another."""
-
-    status: int
-    impacts: int
-    since_rest: int  # impacts since the block last rested, or since the start
-    brace_hits: int
-    peak: float
-    margin: float  # K+ of least size over all lift-offs and impacts; NaN if the block never moves
-    margin_time: float
-    decided: bool  # whether no rounding error can have changed the outcome
-
-
-ENDING_ROW = np.dtype(
-    [
-        ("status", "i8"),
-        ("impacts", "i8"),
-        ("since_rest", "i8"),
-        ("decided", "i8"),
-        ("peak", "f8"),
-        ("margin", "f8"),
-        ("margin_time", "f8"),
-    ],
-    align=True,
-)
-Endings = Annotated[np.ndarray, ENDING_ROW, 1]
-
-# Runs under the same samples: their scale, and the block and its angle at the start.
-RUN_ROW = np.dtype([("scale", "f8"), ("restitution", "f8"), ("angle", "f8")], align=True)
-Runs = Annotated[np.ndarray, RUN_ROW, 1]
-
-PULSE_ROW = np.dtype(
-    [("amplitude", "f8"), ("frequency", "f8"), ("phase", "f8"), ("duration", "f8"), ("restitution", "f8")],
-    align=True,
-)
-Pulses = Annotated[np.ndarray, PULSE_ROW, 1]
 
 
 class Closeness(NamedTuple):
@@ -149,7 +107,8 @@ def resolved(p, arc, coming, cut, peak, error):
 
     Chattering is ``cut`` short only if rest is certain whatever the rounding errors, and if the angle stays below ``peak``.
     """
-    time, speed = arc.start + coming.wait, p.block.restitution * -coming.velocity
+    before = -coming.velocity
+    time, speed = arc.start + coming.wait, restitution_at(p, before)[0] * before
     if (
         cut
         and coming.event == IMPACT
@@ -177,10 +136,7 @@ def after_its_event(p, arc, coming, after, so_far, cut):
 
 @njit(**INTERNAL)
 def to_end(p, angle, velocity, until, cut, want_peak):
-    """Follow a motion until nothing follows, until a time, or to the first contact without loss after the base motion.
-
-    With ``cut``, chattering is cut short if it does not exceed a peak that is wanted.
-    """
+    """Provide ``finite.to_end``."""
     progress, hit = begin(p, angle, velocity, UNKNOWN)
     mode, arc, impacts, brace_hits = progress.mode, progress.arc, 0, int(hit)
     highest = from_peak(progress.peak, arc)
@@ -215,50 +171,5 @@ def to_end(p, angle, velocity, until, cut, want_peak):
     return Ending(status, impacts, since_rest, brace_hits, peak, close.margin, close.time, close.decided)
 
 
-@entry_point(**KERNEL)
-def run_to_end(p: FiniteParameters, angle: float, velocity: float, until: float) -> Ending:
-    """Follow a motion by ``to_end``, each impact of a chattering sequence included; entry point for Python."""
-    return to_end(p, angle, velocity, until, False, False)
-
-
-@entry_point(**KERNEL)
-def run_batch(p: SampledParameters, runs: Runs, want_peak: bool, rows: Endings, stop: Integers1) -> bool:
-    """Follow the motion of each of ``runs`` under the samples of ``p``, and write its row of ``rows``.
-
-    Chattering is cut short, so that its impacts do not count for the margin. Returns True if all were followed, False if
-    ``stop[0]`` was set before the end.
-    """
-    for k in range(runs.shape[0]):
-        if stop[0] != 0:
-            return False
-        run = runs[k]
-        block = BlockParameters(run.restitution, p.block.brace_angle, p.block.brace_restitution)
-        q = SampledParameters(block, SampledForcing(run.scale, p.forcing.tables), p.clock)
-        write_ending(rows, k, to_end(q, run.angle, 0.0, math.inf, True, want_peak))
-    return True
-
-
-@entry_point(**KERNEL)
-def run_pulses(pulses: Pulses, want_peak: bool, rows: Endings, stop: Integers1) -> bool:
-    """Follow the motion from rest under each of ``pulses`` as ``run_batch`` does."""
-    for k in range(pulses.shape[0]):
-        if stop[0] != 0:
-            return False
-        pulse = pulses[k]
-        block = BlockParameters(pulse.restitution, math.inf, 1.0)
-        p = make_pulse(pulse.amplitude, pulse.frequency, pulse.phase, pulse.duration, pulse.duration, block)
-        write_ending(rows, k, to_end(p, 0.0, 0.0, math.inf, True, want_peak))
-    return True
-
-
-@njit(**INTERNAL_INLINE)
-def write_ending(rows, k, end):
-    """Write an ``Ending`` to a row."""
-    row = rows[k]
-    row.status, row.impacts, row.since_rest, row.decided = (
-        end.status,
-        end.impacts,
-        end.since_rest,
-        end.decided,
-    )
-    row.peak, row.margin, row.margin_time = end.peak, end.margin, end.margin_time
+for kind in (SampledParameters, PulseParameters):
+    provide(kind, {finite.to_end: to_end})

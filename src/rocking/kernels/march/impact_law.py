@@ -5,7 +5,13 @@ import math
 from rocking.kernels.compile_options import INTERNAL, INTERNAL_INLINE, KERNEL_INLINE
 from rocking.kernels.deferred import njit
 from rocking.kernels.event_kinds import BRACE, FLIGHT, IMPACT, LEAN, LEAVE, LIFT_OFF, REST
-from rocking.kernels.forcing.contract import arc_after, arc_renewed, side_to_lift, stays_leaning
+from rocking.kernels.forcing.contract import (
+    arc_after,
+    arc_renewed,
+    restitution_at,
+    side_to_lift,
+    stays_leaning,
+)
 from rocking.kernels.march.chatter import base_settling_time, brace_settling_time
 
 # In a recorded motion chattering impacts are resolved one by one down to this speed.
@@ -29,7 +35,8 @@ def after_impact(p, arc, time, coming, horizon):
     tuple of (int, Arc)
         Mode and arc.
     """
-    speed = p.block.restitution * max(-coming.velocity, 0.0)
+    before = max(-coming.velocity, 0.0)
+    speed = restitution_at(p, before)[0] * before
     if speed < NEGLIGIBLE and p.block.restitution < 1.0:
         speed = 0.0
     side, mode = -arc.side, FLIGHT

@@ -5,7 +5,8 @@ import math
 from rocking.kernels.compile_options import INTERNAL, KERNEL
 from rocking.kernels.deferred import njit
 from rocking.kernels.entry_point import entry_point
-from rocking.kernels.forcing.harmonic.parameters import parameters_from_row
+from rocking.kernels.forcing.parameters import PeriodicParameters
+from rocking.kernels.forcing.periodic import with_row
 from rocking.kernels.march.initial_state import UNKNOWN, begin
 from rocking.kernels.march.march import CROWDED, DONE, OVERTURNED, march_through
 from rocking.kernels.march.no_recording import NoRecording
@@ -29,6 +30,7 @@ def march_state(p, angle, velocity, cycles, recording, tangent):
 
 @entry_point(**KERNEL)
 def sweep(
+    kind: PeriodicParameters,
     systems: Floats2,
     angle: float,
     velocity: float,
@@ -40,10 +42,10 @@ def sweep(
     statuses: Integers1,
     nothing: NoRecording,
 ) -> tuple[float, float]:
-    """March through all ``systems`` (n, 7) in turn, and write sections, peaks and statuses.
+    """March through all ``systems`` (n, 8) in turn, and write sections, peaks and statuses.
 
-    1. A row of ``systems`` holds the arguments of ``make``. Each system runs for ``transient`` cycles, then for one cycle
-       per row of its ``section`` (n, m, 2). The section is at the forcing phase ``section_phase``.
+    1. A row of ``systems`` is that of ``parameters_of_row``, of the type of ``kind``. Each system runs for ``transient``
+       cycles, then for one cycle per row of its ``section`` (n, m, 2). The section is at the forcing phase ``section_phase``.
     2. Without ``carry`` each system starts at (angle, velocity). With it each but the first starts at the end state of the
        one before, or, if that overturned, at its initial state. The angle is clipped to the range between the braces.
     3. If a motion overturns or is crowded (``march.Status``, in ``statuses``), section and peak are NaN.
@@ -55,7 +57,7 @@ def sweep(
     """
     kept, passing = section.shape[1], Recording(0.0, nothing.section, nothing.events, False, False)
     for k in range(systems.shape[0]):
-        p = parameters_from_row(systems[k])
+        p = with_row(kind, systems[k])
         time = (
             ((section_phase - p.forcing.phase) % (2.0 * math.pi))
             * p.forcing.per_frequency

@@ -14,7 +14,15 @@ import numpy as np
 from rocking.kernels.compile_options import INTERNAL, INTERNAL_INLINE, KERNEL_INLINE, SIMD_INLINE
 from rocking.kernels.deferred import njit
 from rocking.kernels.event_kinds import BRACE, FLIGHT, IMPACT, LEAVE, NONE
-from rocking.kernels.forcing.contract import forcing_term, sensitivities
+from rocking.kernels.forcing.contract import (
+    acceleration,
+    forcing_term,
+    restitution_at,
+    restoring_acceleration,
+    sensitivities,
+    transfer,
+    transfer_to_event,
+)
 from rocking.kernels.numerics.elementary import fma, hyperbolic
 from rocking.kernels.signature import Floats1, Floats2
 
@@ -135,71 +143,76 @@ def normalised(tangent, growth):
 
 
 @njit(**SIMD_INLINE)
-def carry_along(difference, sinh, versinh):
-    """Propagate (delta u, delta u') along an arc: [[cosh t, sinh t], [sinh t, cosh t]]."""
+def carry_along(difference, moved):
+    """Propagate (delta u, delta u') along an arc with a ``Transfer``."""
     a, b = difference
-    cosh = 1.0 + versinh
-    return fma(cosh, a, sinh * b), fma(sinh, a, cosh * b)
+    angle = fma(moved.angle_by_angle, a, moved.angle_by_velocity * b)
+    return angle, fma(moved.velocity_by_angle, a, moved.velocity_by_velocity * b)
 
 
 @njit(**SIMD_INLINE)
-def carry_through(difference, factor, shear):
-    """Propagate (delta u, delta u') through an event by its saltation matrix [[factor, 0], [shear, factor]]."""
+def carry_through(difference, factor, shear, gain):
+    """Propagate (delta u, delta u') through an event by its saltation matrix [[factor, 0], [shear, gain]]."""
     a, b = difference
-    return factor * a, fma(shear, a, factor * b)
+    return factor * a, fma(shear, a, gain * b)
 
 
 @njit(**SIMD_INLINE)
-def impact_gain(restitution, f, turned):
-    """Return the shear of an impact times the speed: the change of Theta'' beyond the factor e.
+def impact_gain(gain, restoring, f, turned):
+    """Return the shear of an impact times the speed: the change of Theta'' beyond that by the ``gain`` of the velocity.
 
-    f is the forcing term there; ``turned`` is -1 if the block continues on the other side, else 1.
+    f is u'' before it, and ``restoring`` is -f without base motion; ``turned`` is -1 if the block continues on the other
+    side, else 1.
     """
-    return fma(restitution - 1.0, 1.0 + f, turned - restitution)
+    return fma(gain - 1.0, restoring + f, restoring * (turned - gain))
 
 
 @njit(**SIMD_INLINE)
-def brace_gain(brace_restitution, brace_angle, f):
-    """Return the shear of a brace impact times the speed."""
-    return (1.0 + brace_restitution) * (brace_angle + f)
+def brace_gain(brace_restitution, bend):
+    """Return the shear of a brace impact times the speed; ``bend`` is u'' there."""
+    return (1.0 + brace_restitution) * bend
 
 
 @njit(**KERNEL_INLINE)
-def along(tangent, sinh, versinh):
+def along(tangent, moved):
     """Propagate both tangent vectors along an arc."""
     a, b, c, d = tangent
-    return Tangent(*carry_along((a, b), sinh, versinh), *carry_along((c, d), sinh, versinh))
+    return Tangent(*carry_along((a, b), moved), *carry_along((c, d), moved))
 
 
 @njit(**KERNEL_INLINE)
 def through(tangent, event):
     """Propagate both tangent vectors through an event, with the saltation matrix of ``event_map``."""
     a, b, c, d = tangent
-    return Tangent(*carry_through((a, b), event[0], event[1]), *carry_through((c, d), event[0], event[1]))
+    factor, shear, gain = event
+    return Tangent(*carry_through((a, b), factor, shear, gain), *carry_through((c, d), factor, shear, gain))
 
 
 @njit(**KERNEL_INLINE)
 def event_map(p, arc, coming, mode_after, side_after):
-    """Return the saltation matrix [[factor, 0], [shear, factor]] of an event.
+    """Return the saltation matrix [[factor, 0], [shear, gain]] of an event.
 
-    For an impact factor = e and shear = (Theta''+ - e Theta''-)/Theta'-; at a brace e is replaced by -r.
-    Rest, sustained contact, lift-off and departure erase all perturbations: (0, 0).
+    For an impact with the speed v before it, factor = e, gain = d(e v)/dv and shear = (Theta''+ - gain Theta''-)/Theta'-. At a
+    brace e is replaced by -r. Rest, sustained contact, lift-off and departure erase all perturbations: zeros.
 
     Returns
     -------
-    tuple of (float, float)
-        Factor and shear.
+    tuple of (float, float, float)
+        Factor, shear and gain.
     """
     if mode_after != FLIGHT:
-        return 0.0, 0.0
-    f = forcing_term(p, arc.side, coming.drive)
+        return 0.0, 0.0, 0.0
     if coming.event == IMPACT:
-        gained = impact_gain(p.block.restitution, f, float(side_after * arc.side))
-        return p.block.restitution, shear_of(gained, -coming.velocity)
+        f, turned = forcing_term(p, arc.side, coming.drive), float(side_after * arc.side)
+        e, gain = restitution_at(p, -coming.velocity)
+        gained = impact_gain(gain, restoring_acceleration(p), f, turned)
+        return e, shear_of(gained, -coming.velocity), gain
     if coming.event == BRACE:
         r = p.block.brace_restitution
-        return -r, shear_of(brace_gain(r, p.block.brace_angle, f), coming.velocity)
-    return (1.0 if coming.event == NONE else 0.0), 0.0
+        bend = acceleration(p, arc.side, p.block.brace_angle, coming.drive)
+        return -r, shear_of(brace_gain(r, bend), coming.velocity), -r
+    kept = 1.0 if coming.event == NONE else 0.0
+    return kept, 0.0, kept
 
 
 @njit(**KERNEL_INLINE)
@@ -217,7 +230,7 @@ def carry(p, tangent, state, before, coming, after):
     """
     if in_registers(state):
         if before.mode == FLIGHT:
-            tangent = along(tangent, coming.sinh, coming.versinh)
+            tangent = along(tangent, transfer_to_event(p, before.arc, coming))
         tangent = through(tangent, event_map(p, before.arc, coming, after.mode, after.arc.side))
         return normalised(tangent, state.growth) if is_measured(state) and out_of_scale(tangent) else tangent
     if state.columns.shape[0] > 0:
@@ -234,10 +247,10 @@ def carry_arc(p, arc, state, t, elapsed):
     """
     columns, growth = state
     steps = math.ceil(t) if growth.shape[0] == TANGENT and t > 1.0 else 1
-    sinh, versinh, _, _ = hyperbolic(t / steps)
-    for _ in range(steps):
+    for step in range(steps):
+        moved = transfer(p, arc, step * (t / steps), t / steps)
         for k in range(columns.shape[0]):
-            columns[k, 0], columns[k, 1] = carry_along((columns[k, 0], columns[k, 1]), sinh, versinh)
+            columns[k, 0], columns[k, 1] = carry_along((columns[k, 0], columns[k, 1]), moved)
         if growth.shape[0] == TANGENT:
             orthonormalise(columns, growth)
     if columns.shape[0] == SENSITIVITIES:
@@ -250,13 +263,13 @@ def carry_rows(p, state, before, coming, after):
     columns, arc, flies_on = state.columns, before.arc, after.mode == FLIGHT
     if before.mode == FLIGHT:
         carry_arc(p, arc, state, coming.wait, before.cycle * p.clock.cycle_length + arc.start)
-    factor, shear = event_map(p, arc, coming, after.mode, after.arc.side)
+    factor, shear, gain = event_map(p, arc, coming, after.mode, after.arc.side)
     side, velocity = arc.side, arc.side * coming.velocity
     extra = columns.shape[0] == SENSITIVITIES
     if extra and coming.event == BRACE:
         columns[Row.BRACE_ANGLE, 0] -= side
     for k in range(columns.shape[0]):
-        columns[k, 0], columns[k, 1] = carry_through((columns[k, 0], columns[k, 1]), factor, shear)
+        columns[k, 0], columns[k, 1] = carry_through((columns[k, 0], columns[k, 1]), factor, shear, gain)
     if extra and coming.event == IMPACT and flies_on:
         columns[Row.RESTITUTION, 1] += velocity
     if extra and coming.event == BRACE:

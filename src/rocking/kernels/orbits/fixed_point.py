@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 from rocking.kernels.compile_options import AST_INLINE, INTERNAL, INTERNAL_INLINE
 from rocking.kernels.deferred import njit
-from rocking.kernels.forcing.harmonic.parameters import HarmonicParameters
+from rocking.kernels.forcing.parameters import PeriodicParameters
 from rocking.kernels.march.initial_state import begin
 from rocking.kernels.march.march import DONE, march_on
 from rocking.kernels.march.progress import Recording
@@ -35,7 +35,7 @@ ANYWHERE = Patience(MAX_STEPS, 2.0, 4, 1e3)
 class ReturnMap(NamedTuple):
     """Map from the state at ``start`` within the first cycle to ``sign`` times that at the end of ``cycles``."""
 
-    p: HarmonicParameters
+    p: PeriodicParameters
     cycles: int
     start: float
     sign: float  # -1 if the image is mirrored, else 1

@@ -8,7 +8,8 @@ import math
 from rocking.kernels.compile_options import INTERNAL, KERNEL
 from rocking.kernels.deferred import njit
 from rocking.kernels.entry_point import entry_point
-from rocking.kernels.forcing.harmonic.parameters import HarmonicParameters, later
+from rocking.kernels.forcing.parameters import PeriodicParameters
+from rocking.kernels.forcing.periodic import later
 from rocking.kernels.march.initial_state import UNKNOWN
 from rocking.kernels.march.no_recording import NoRecording
 from rocking.kernels.orbits.fixed_point import ANYWHERE, UNBOUNDED, Guess, ReturnMap, find_fixed_point
@@ -29,7 +30,7 @@ def return_map(p, period, mirrored):
 
 @entry_point(**KERNEL)
 def newton_from_starts(
-    p: HarmonicParameters,
+    p: PeriodicParameters,
     period: int,
     mirrored: bool,
     starts: Floats2,

@@ -18,11 +18,15 @@ from typing import NamedTuple
 import numpy as np
 
 from rocking.kernels.compile_options import INTERNAL, INTERNAL_INLINE, KERNEL
-from rocking.kernels.deferred import njit
+from rocking.kernels.deferred import njit, provide
 from rocking.kernels.entry_point import entry_point
+from rocking.kernels.forcing import periodic
 from rocking.kernels.forcing.arc import Arc
+from rocking.kernels.forcing.contract import arc_at
 from rocking.kernels.forcing.drives import HarmonicConstants, HarmonicDrive
+from rocking.kernels.forcing.full.parameters import FullHarmonicParameters
 from rocking.kernels.forcing.harmonic.acceleration import TURN
+from rocking.kernels.forcing.harmonic.parameters import HarmonicParameters
 from rocking.kernels.forcing.harmonic.solution import arc_from, evaluate
 from rocking.kernels.numerics.elementary import size
 
@@ -84,10 +88,7 @@ def closed_form_plain(
 
 @njit(**INTERNAL)
 def nearest(p, order, angle, velocity):
-    """Return the state of the faster (1, ``order``) mode nearest to (angle, velocity), at the start of a cycle.
-
-    The distance is infinite if the mode is not stable.
-    """
+    """Provide ``periodic.nearest_mode``, at the start of a cycle."""
     half = order * math.pi * p.forcing.per_frequency
     best = Nearest(math.inf, order, math.nan, math.nan, NOWHERE, 0.0, half)
     if order % 2 == 0 or p.block.restitution == 0.0:
@@ -110,3 +111,14 @@ def nearest(p, order, angle, velocity):
         if distance < best.distance:
             best = Nearest(distance, order, place, rate, arc, since, half)
     return best
+
+
+@njit(**INTERNAL)
+def none_known(p, order, angle, velocity):
+    """Provide ``periodic.nearest_mode`` for the full block, whose modes have no closed form."""
+    arc = arc_at(p, 1, 0, 0.0, 0.0, 0.0)
+    return Nearest(math.inf, order, math.nan, math.nan, arc, 0.0, 0.0)
+
+
+provide(HarmonicParameters, {periodic.nearest_mode: nearest})
+provide(FullHarmonicParameters, {periodic.nearest_mode: none_known})

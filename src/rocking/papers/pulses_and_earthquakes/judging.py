@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-SMALL_ANGLE = "needs the block without a small angle"
 NO_RECORD = "needs a record that does not come with the package"
 BEYOND = "the exact threshold lies beyond the printed pair by less than"
 INTEGRATION = f"the printed numbers come from numerical integration, and {BEYOND}"

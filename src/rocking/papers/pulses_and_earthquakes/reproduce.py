@@ -13,11 +13,11 @@ ROOM = "rocking.papers.pulses_and_earthquakes"
 TITLE = "The rocking block under pulses and earthquakes, recomputed"
 LEAD = """\
 Formulas and numbers of Housner (1963), Shi et al. (1996), Makris & Roussos (2000), Zhang & Makris (2001) and Makris & Konstantinidis
-(2003), recomputed with rocking {version} for the slender block. Each verdict was computed when this page was generated. The claims are
-paraphrased; their numbers and locations are those of the papers. The explanations after a verdict are written by hand. If the
-computation does not support an explanation, the verdict is “not confirmed”. Rows that need the block without a small angle are not
-judged; the slender block's number stands next to them. e is the ratio of the velocities after and before an impact. A = a/(gθcr) is the
-normalised acceleration, Ω the frequency of a pulse over the frequency parameter of the block."""
+(2003), recomputed with rocking {version}. They are those of the slender block or, where a row says so, of the full equation of motion.
+Each verdict was computed when this page was generated. The claims are paraphrased; their numbers and locations are those of the papers. The
+explanations after a verdict are written by hand. If the computation does not support an explanation, the verdict is “not confirmed”. Rows
+that need a record which does not come with the package are not judged. e is the ratio of the velocities after and before an impact. A =
+a/(gθcr) is the normalised acceleration, Ω the frequency of a pulse over the frequency parameter of the block."""
 
 
 def reproduce(

@@ -18,15 +18,39 @@ STEP = 0.02
 """Step of the search for the lowest amplitude that overturns the block."""
 
 
-def run(kind: str, amplitude: float, frequency: float, restitution: float) -> rk.Motion:
-    """Return the motion from rest under a pulse with the normalised frequency Ω."""
+def system(
+    kind: str, amplitude: float, frequency: float, restitution: float, angle: float | None = None
+) -> rk.System:
+    """Return a block under a pulse with the normalised frequency Ω; with a critical angle, for the full equation."""
     pulse = rk.Pulse(kind, amplitude=amplitude, duration=TURNS[kind] / frequency)
-    return rk.simulate(rk.System(pulse, restitution), record="none")
+    return rk.System(pulse, restitution, critical_angle=angle)
 
 
-def falls(kind: str, amplitude: float, frequency: float, restitution: float) -> bool:
+def run(
+    kind: str, amplitude: float, frequency: float, restitution: float, angle: float | None = None
+) -> rk.Motion:
+    """Return the motion from rest under a pulse."""
+    return rk.simulate(system(kind, amplitude, frequency, restitution, angle), record="none")
+
+
+def falls(
+    kind: str, amplitude: float, frequency: float, restitution: float, angle: float | None = None
+) -> bool:
     """Return whether a pulse overturns the block."""
-    return run(kind, amplitude, frequency, restitution).outcome is rk.Outcome.OVERTURNED
+    return run(kind, amplitude, frequency, restitution, angle).outcome is rk.Outcome.OVERTURNED
+
+
+def speed_lacking(
+    kind: str, amplitude: float, frequency: float, restitution: float, angle: float | None = None
+) -> float:
+    """Return the share of the speed after the first impact that the block lacks to overturn then; 1 without an impact.
+
+    The impact must come after the pulse.
+    """
+    events = rk.simulate(system(kind, amplitude, frequency, restitution, angle)).events
+    speeds = np.abs(events["after"][events["kind"] == "impact"])
+    needed = 1.0 if angle is None else 2 * math.sin(angle / 2) / angle
+    return 1 - float(speeds[0]) / needed if speeds.size else 1.0
 
 
 def at_once(kind: str, frequency: float, amplitude: float) -> bool:
@@ -45,9 +69,11 @@ def bisected(question: Callable[[float], bool], no: float, yes: float) -> float:
     return yes
 
 
-def threshold(kind: str, frequency: float, restitution: float, no: float, yes: float) -> float:
+def threshold(
+    kind: str, frequency: float, restitution: float, no: float, yes: float, angle: float | None = None
+) -> float:
     """Return the amplitude between `no` and `yes` at which a pulse begins or ceases to overturn the block."""
-    return bisected(lambda amplitude: falls(kind, amplitude, frequency, restitution), no, yes)
+    return bisected(lambda amplitude: falls(kind, amplitude, frequency, restitution, angle), no, yes)
 
 
 def lowest(kind: str, frequency: float, restitution: float) -> float:
@@ -63,11 +89,13 @@ def lowest_of(kind: str, frequencies: np.ndarray, restitution: float) -> np.ndar
     return np.array([lowest(kind, frequency, restitution) for frequency in frequencies.tolist()])
 
 
-def in_g(block: rk.Block, kind: str, duration: float, stands: float, overturns: float) -> float:
+def in_g(
+    block: rk.Block, kind: str, duration: float, stands: float, overturns: float, angle: float | None = None
+) -> float:
     """Return the acceleration in g at which a pulse begins to overturn a block; one that stands and one that overturns are given."""
     frequency = TURNS[kind] / block.time(duration)
 
     def question(acceleration: float) -> bool:
-        return falls(kind, block.amplitude(acceleration * GRAVITY), frequency, block.restitution)
+        return falls(kind, block.amplitude(acceleration * GRAVITY), frequency, block.restitution, angle)
 
     return bisected(question, stands, overturns)

@@ -11,7 +11,6 @@ SYMBOLS = {
     "I_A": "$I_A$",
     "PGA/(g tan θcr)": r"PGA$/(g\,\tan\theta_\mathrm{cr})$",
     "α PGV/(g tan θcr)": r"$\alpha\,$PGV$/(g\,\tan\theta_\mathrm{cr})$",
-    "s": "$s$",
 }
 
 
@@ -21,6 +20,8 @@ def level_label(scale: Any) -> str:
     name = scale.attrs["long_name"]
     if "/" in symbol:
         name = ""
+    elif symbol in name:
+        symbol = ""
     return " ".join(
         filter(None, (name, SYMBOLS.get(symbol, symbol), "" if unit in ("1", "") else f"({unit})"))
     )

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rocking.model import instance, refusal, refuse_if, within
-from rocking.motion import FALLEN, Motion, end_shown, has_cycles
+from rocking.motion import Motion, end_shown, fallen, has_cycles
 
 SAMPLES_PER_TIME = 64
 SAMPLES_PER_PICTURE = 1000
@@ -18,7 +18,7 @@ def window(motion: Motion, cycles: tuple[float, float] | None) -> tuple[float, f
     """Return the first and the last instant shown, in τ.
 
     `cycles` = (first, last) counts from the start; None selects the whole motion. An overturned motion is shown up to
-    |Θ| = 3, beyond the instant at which overturning is certain.
+    |Θ| = 3, or until it lies flat with the full equation, beyond the instant at which overturning is certain.
     """
     instance("motion", motion, Motion)
     end = end_shown(motion)
@@ -38,9 +38,8 @@ def window(motion: Motion, cycles: tuple[float, float] | None) -> tuple[float, f
     if within("cycles", last, 0, motion.cycles) <= first:
         raise ValueError(refusal("cycles", "be a pair (first, last) with first < last", cycles))
     period = motion.system.periodic.period
-    refuse_if(
-        first * period >= end, "cycles", f"begin before |Θ| = {FALLEN:g}, in cycle {end / period:.4g}", cycles
-    )
+    allowed = f"begin before |Θ| = {fallen(motion):g}, in cycle {end / period:.4g}"
+    refuse_if(first * period >= end, "cycles", allowed, cycles)
     return first * period, min(last * period, end)
 
 

@@ -70,11 +70,12 @@ def destination(max_cycles: int, max_period: int, title: str) -> Measurement:
     return Measurement(title, judge, load_kernels, variables, budget(max_cycles, max_period), batch.METHOD)
 
 
-def load_kernels(may_last: bool) -> None:
+def load_kernels(may_last: bool, full: bool) -> None:
     """Load or compile the classification and the functions that follow orbits."""
-    batch.load_kernels(may_last)
-    kernel.anchor_each.load()
-    simulate(System(Harmonic(0.0, period=1.0), 0.0), cycles=1, record="section")
+    batch.load_kernels(may_last, full)
+    kernel.anchor_each[batch.kind_of(full)].load()
+    still = System(Harmonic(0.0, period=1.0), 0.0, critical_angle=0.1 if full else None)
+    simulate(still, cycles=1, record="section")
 
 
 def classify_with_anchor(
@@ -185,7 +186,7 @@ def alike(states: np.ndarray, others: np.ndarray) -> np.ndarray:
 
 def section_of(system: System, anchor: np.ndarray, period: int) -> np.ndarray:
     """Return the states (n, 2) of an orbit on the section, beginning with its representative state."""
-    phase = system.harmonic.phase + math.tau * kernel.SECTION
+    phase = system.periodic.phase + math.tau * kernel.SECTION
     clocked = system_of(NO_BRACES | quantities(system) | {"phase": phase})
     return np.asarray(simulate(clocked, State(*anchor), cycles=period, record="section").section()[:period])
 

@@ -6,10 +6,12 @@ import math
 
 import numpy as np
 
-from rocking.kernels.march import finite_motion
+from rocking.kernels.march import ending as ends
+from rocking.kernels.march import finite_runs
 from rocking.model import GroundMotion, Pulse, record_set
 from rocking.survey.measurement import Arrays
-from rocking.survey.measures.ending import answers, judge
+from rocking.survey.measures import pulse_ending
+from rocking.survey.measures.ending import answers, judge, load_kernels
 from rocking.survey.motion_spec import motion_question
 
 WITH_PEAK = {"with_peak": 1}
@@ -26,18 +28,20 @@ class BlockEndings:
         Base motion in SI units.
     scale : float
         Factor of the base motion.
+    model : {"slender", "full"}
+        Equation of motion.
     """
 
-    def __init__(self, base: GroundMotion | Pulse, scale: float) -> None:
+    def __init__(self, base: GroundMotion | Pulse, scale: float, model: str) -> None:
         self.scale = scale
         self.pulse = base if isinstance(base, Pulse) and base.cosine is not None else None
         motion = base if isinstance(base, GroundMotion) else _samples(base)
         given = {"size": [1.0, 2.0], "slenderness": [0.1, 0.2], "angle": 0.0, "polarity": 1.0, "scale": scale}
-        self.asked = motion_question(record_set(motion), given, intensity="scale")
+        self.asked = motion_question(record_set(motion), given, intensity="scale", model=model)
 
     def load(self) -> None:
         """Compile or load the kernels of `at`."""
-        (finite_motion.run_batch if self.pulse is None else finite_motion.run_pulses).load()
+        (load_kernels if self.pulse is None else pulse_ending.load_kernels)(False, self.asked.full)
 
     def at(self, size: np.ndarray, slenderness: np.ndarray, stop: np.ndarray) -> Arrays | None:
         """Return outcome, certified, peak, margin and impacts at n points; None if another thread sets `stop` (1,).
@@ -50,15 +54,17 @@ class BlockEndings:
         assert self.pulse.cosine is not None
         turns, phase = self.pulse.cosine
         asked, rows = (
-            np.empty(size.size, finite_motion.PULSE_ROW),
-            np.empty(size.size, finite_motion.ENDING_ROW),
+            np.empty(size.size, finite_runs.PULSE_ROW),
+            np.empty(size.size, ends.ENDING_ROW),
         )
         asked["amplitude"] = runs.factor * abs(self.pulse.amplitude)
         asked["duration"] = runs.frequency_parameter * self.pulse.duration
         asked["frequency"] = 2 * math.pi * turns / asked["duration"]
         asked["phase"] = phase if self.pulse.amplitude >= 0 else phase + math.pi
-        asked["restitution"] = runs.restitution
-        return answers(rows, with_peak=True) if finite_motion.run_pulses(asked, True, rows, stop) else None
+        asked["restitution"], asked["critical_angle"] = runs.restitution, runs.slenderness
+        kind = pulse_ending.a_pulse(full=runs.full)
+        done = finite_runs.run_pulses(kind, asked, True, rows, stop)
+        return answers(rows, with_peak=True, assessed=not runs.full) if done else None
 
 
 def _samples(pulse: Pulse) -> GroundMotion:

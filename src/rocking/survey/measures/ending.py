@@ -9,15 +9,18 @@ from itertools import pairwise, starmap
 import numpy as np
 
 from rocking.kernels.forcing import parameters as numbers
-from rocking.kernels.march import finite_motion as kernel
+from rocking.kernels.march import ending as ends
+from rocking.kernels.march import finite_runs as kernel
 from rocking.kernels.march import march
-from rocking.model import Outcome
+from rocking.model import Outcome, PiecewiseLinear
 from rocking.survey.measurement import Arrays, Measurement, Variable
 from rocking.survey.motion_spec import Runs
 
 METHOD = 1
 """Version of the method; a change of the results increases it."""
 OUTCOMES = tuple(Outcome)
+UNDECIDED, CERTIFIED, NOT_ASSESSED = range(3)
+"""Codes of the effect of rounding errors on an outcome."""
 OVERTURNED = OUTCOMES.index(Outcome.OVERTURNED)
 CODES = {
     march.OVERTURNED: OVERTURNED,
@@ -41,8 +44,8 @@ VARIABLES = (
         255,
         {
             "long_name": "whether no rounding error can have changed the outcome",
-            "flag_values": np.arange(2, dtype=np.uint8),
-            "flag_meanings": "undecided certified",
+            "flag_values": np.arange(3, dtype=np.uint8),
+            "flag_meanings": "undecided certified not-assessed",
         },
     ),
     Variable(
@@ -82,16 +85,17 @@ def ending(title: str, *, with_peak: bool = True) -> Measurement:
     )
 
 
-def load_kernels(may_last: bool) -> None:
+def load_kernels(may_last: bool, full: bool) -> None:
     """Compile or load the kernels of `judge`."""
-    kernel.run_batch.load()
+    kernel.run_batch[numbers.FullSampledParameters if full else numbers.SampledParameters].load()
 
 
 def judge(runs: Runs, options: Mapping[str, int], stop: np.ndarray) -> Arrays | None:
     """Follow runs to their ends; None if another thread sets `stop`. Neighbours with the same record and α share tables."""
     with_peak = bool(options["with_peak"])
-    rows, asked = np.empty(runs.record.size, kernel.ENDING_ROW), np.empty(runs.record.size, kernel.RUN_ROW)
+    rows, asked = np.empty(runs.record.size, ends.ENDING_ROW), np.empty(runs.record.size, kernel.RUN_ROW)
     asked["restitution"], asked["angle"] = runs.restitution, runs.angle
+    asked["critical_angle"] = runs.slenderness
     for part in alike(runs):
         motion, alpha = (
             runs.motions[int(runs.record[part.start])],
@@ -99,12 +103,18 @@ def judge(runs: Runs, options: Mapping[str, int], stop: np.ndarray) -> Arrays | 
         )
         base = motion.normalised(1.0, alpha)
         asked["scale"][part] = base.scale * runs.factor[part]
-        p = numbers.sampled_parameters(
-            numbers.tables_of(base.values, base.step), 1.0, numbers.CYCLE * base.step, 1.0
-        )
+        p = sampled(base, full=runs.full)
         if not kernel.run_batch(p, asked[part], with_peak, rows[part], stop):
             return None
-    return answers(rows, with_peak=with_peak)
+    return answers(rows, with_peak=with_peak, assessed=not runs.full)
+
+
+def sampled(base: PiecewiseLinear, *, full: bool) -> numbers.AnySampledParameters:
+    """Return parameters with the tables of a base motion, for runs of any blocks of one kind."""
+    tables, length = numbers.tables_of(base.values, base.step), numbers.CYCLE * base.step
+    if full:
+        return numbers.full_sampled_parameters(numbers.full_block(1.0, 1.0), tables, 1.0, length)
+    return numbers.sampled_parameters(tables, 1.0, length, 1.0)
 
 
 def alike(runs: Runs) -> Iterator[slice]:
@@ -114,15 +124,16 @@ def alike(runs: Runs) -> Iterator[slice]:
     yield from starmap(slice, pairwise(edges))
 
 
-def answers(rows: np.ndarray, *, with_peak: bool) -> Arrays:
-    """Return the variables of the rows of the kernel."""
+def answers(rows: np.ndarray, *, with_peak: bool, assessed: bool) -> Arrays:
+    """Return the variables of the rows of the kernel; `assessed` says whether it considers rounding errors."""
     outcome = np.zeros(rows.size, np.uint8)
     for status, code in CODES.items():
         outcome[rows["status"] == status] = code
+    certified = ((rows["decided"] != 0) & (rows["status"] != march.CROWDED)).astype(np.uint8)
     peak = np.where(outcome == OVERTURNED, math.inf, rows["peak"] if with_peak else math.nan)
     return {
         "outcome": outcome,
-        "certified": ((rows["decided"] != 0) & (rows["status"] != march.CROWDED)).astype(np.uint8),
+        "certified": certified if assessed else np.full_like(certified, NOT_ASSESSED),
         "peak": peak,
         "margin": rows["margin"],
         "impacts_since_rest": rows["since_rest"].astype(np.int32),

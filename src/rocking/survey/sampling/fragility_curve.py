@@ -23,21 +23,23 @@ def fitted(
     limit: float, levels: np.ndarray, exceeding: np.ndarray, rocking: np.ndarray, weights: np.ndarray
 ) -> tuple[LognormalFit, np.ndarray]:
     """Return the fit of one limit, and its curve with the ends of the band, shape (3, levels)."""
-    from scipy.special import ndtr
-
     one = lognormal_fits(levels, exceeding.sum(axis=(0, 1))[None], rocking.sum(axis=(0, 1))[None])
-    problem = _problem(one, limit, len(rocking))
+    problem = _problem(one, limit, len(rocking)) if levels.size > 1 else "give two levels or more"
     if problem:
         nan = math.nan
         return LognormalFit(limit, nan, nan, nan, nan, nan, nan, nan, problem), np.full(
             (3, levels.size), np.nan
         )
     median, dispersion = float(one.median[0]), float(one.dispersion[0])
+    nan = math.nan
+    curve = rocking.mean(axis=(0, 1)) * LognormalFit(
+        limit, median, nan, nan, dispersion, nan, nan, nan
+    ).probability(levels)
     rocks, exceeds = (weighted_counts(each, weights) for each in (rocking, exceeding))
     many = lognormal_fits(levels, exceeds, rocks)
     total = rocking.shape[0] * rocking.shape[1]
-    curve = rocking.mean(axis=(0, 1)) * ndtr(np.log(levels / median) / dispersion)
-    misfit = float(np.abs(exceeding.mean(axis=(0, 1)) - curve).max())
+    # two parameters fit two levels exactly
+    misfit = float(np.abs(exceeding.mean(axis=(0, 1)) - curve).max()) if levels.size > 2 else math.nan
     count = rocking.shape[0]
     band = _band(levels, many, exceeds / total, rocks / total, _tails(count))
     ends = (

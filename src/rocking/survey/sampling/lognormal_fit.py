@@ -59,7 +59,9 @@ def lognormal_fits(levels: np.ndarray, exceeding: np.ndarray, rocking: np.ndarra
         a, b = _maximum((logarithms - centre) / width, exceeding[fitted], remaining[fitted])
         with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
             median[fitted], dispersion[fitted] = np.exp(centre - width * a / b), width / b
-        kind[np.flatnonzero(fitted)[~(b > 0.0)]] = DECREASING
+        # a fraction that hardly grows has its median far outside all numbers
+        possible = (b > 0.0) & (median[fitted] > 0.0) & np.isfinite(median[fitted])
+        kind[np.flatnonzero(fitted)[~possible]] = DECREASING
     median[kind != DETERMINED] = dispersion[kind != DETERMINED] = np.nan
     # between the levels of the runs on both sides; a separated set has its maximum at a dispersion of 0
     least = np.select([kind == SEPARATED, kind == ALL_BELOW], [levels[highest_below]] * 2, 0.0)

@@ -22,7 +22,7 @@ def sampled(points: Points, measure: Measurement, executor: Executor | None = No
     """Return the results of a measurement at points, in their order."""
     if executor is not None:
         instance("executor", executor, Executor)
-    measure.compile(bool(points.may_last.any()))
+    measure.compile(bool(points.may_last.any()), points.full)
     total = len(points.systems)
     with engine(executor) as (pool, stop):
         futures = []

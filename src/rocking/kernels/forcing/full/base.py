@@ -12,6 +12,11 @@ def series_from(p, side, slope, sine, cosine, drive):
 
 
 @contract
+def transfer_series(p, side, slope, sine, cosine, drive):
+    """Return the coefficients of t^2, t^3, ... of two perturbations of u, which start with (1, 0) and with (0, 1)."""
+
+
+@contract
 def acceleration_of(p, drive):
     """Return the base acceleration."""
 
@@ -37,6 +42,11 @@ def largest_ahead(p, side, drive):
 
 
 @contract
+def largest_within(p, drive, time):
+    """Return an upper bound of |base acceleration| up to a time before the next corner."""
+
+
+@contract
 def largest_near(p, drive, radius):
     """Return an upper bound of |base acceleration| in the complex disc around an instant, of the series from there."""
 
@@ -44,6 +54,16 @@ def largest_near(p, drive, radius):
 @contract
 def lift_off(p, arc):
     """Return the lift-off that ends a rest."""
+
+
+@contract
+def departure(p, arc):
+    """Return the departure that ends a contact with a brace."""
+
+
+@contract
+def stays_at_brace(p, arc):
+    """Return whether a block at rest at the brace is pressed against it."""
 
 
 @contract

@@ -1,20 +1,35 @@
-"""Bodies of ``forcing.contract`` for the full block, with either forcing."""
+"""Bodies of ``forcing.contract`` for the full block, with any forcing."""
 
-from rocking.kernels.compile_options import INTERNAL, INTERNAL_INLINE
+from rocking.kernels.compile_options import INTERNAL_INLINE
 from rocking.kernels.deferred import njit, provide
-from rocking.kernels.forcing import contract
+from rocking.kernels.forcing import contract, finite, periodic
 from rocking.kernels.forcing.arc import no_guess, unchanged
-from rocking.kernels.forcing.extrema import arc_peak
-from rocking.kernels.forcing.full import cosine_base, sampled_base, solution  # noqa: F401 (they provide)
-from rocking.kernels.forcing.full.base import acceleration_of, change_within, side_to_lift_at
-from rocking.kernels.forcing.full.parameters import FullHarmonicParameters, FullSampledParameters
-from rocking.kernels.forcing.full.settling import settling
+from rocking.kernels.forcing.full import cosine_base, extrema, pulse_base, sampled_base, solution  # noqa: F401 (they provide)
+from rocking.kernels.forcing.full.base import acceleration_of, change_within, side_to_lift_at, stays_at_brace
+from rocking.kernels.forcing.full.parameters import (
+    FullHarmonicParameters,
+    FullPulseParameters,
+    FullSampledParameters,
+    later,
+    with_pulse,
+    with_row,
+    with_run,
+)
+from rocking.kernels.forcing.full.restitution import restitution_at
+from rocking.kernels.forcing.full.settling import brace_settling_time, settling
+from rocking.kernels.forcing.sampled.rounding import has_ended
 
 
 @njit(**INTERNAL_INLINE)
 def forcing_term(p, side, drive):
     """Provide ``contract.forcing_term``: u'' at the base."""
     return solution.acceleration(p, side, 0.0, drive)
+
+
+@njit(**INTERNAL_INLINE)
+def restoring_acceleration(p):
+    """Provide ``contract.restoring_acceleration``."""
+    return p.block.press
 
 
 @njit(**INTERNAL_INLINE)
@@ -37,25 +52,13 @@ def side_to_lift(p, start, drive):
 
 @njit(**INTERNAL_INLINE)
 def stays_leaning(p, arc):
-    """Provide ``contract.stays_leaning``: there are no braces."""
-    return False
-
-
-@njit(**INTERNAL)
-def largest_on(p, arc, until, peak):
-    """Provide ``contract.largest_on``."""
-    return arc_peak(p, arc, until, peak)
-
-
-@njit(**INTERNAL)
-def peak_with(p, arc, coming, peak):
-    """Provide ``contract.peak_with``."""
-    return arc_peak(p, arc, coming.wait, peak)
+    """Provide ``contract.stays_leaning``."""
+    return stays_at_brace(p, arc)
 
 
 @njit(**INTERNAL_INLINE)
 def sensitivities(p, arc, t, sinh, versinh, excess):
-    """Provide ``contract.sensitivities``: tangent vectors are those of the slender block alone."""
+    """Provide ``contract.sensitivities``: those of the parameters are of the slender block alone."""
     return 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
 
 
@@ -67,6 +70,9 @@ BODIES = {
     contract.evaluate: solution.evaluate,
     contract.acceleration: solution.acceleration,
     contract.forcing_term: forcing_term,
+    contract.restoring_acceleration: restoring_acceleration,
+    contract.transfer: solution.transfer,
+    contract.transfer_to_event: solution.transfer_to_event,
     contract.guess_from: no_guess,
     contract.next_event: solution.next_event,
     contract.no_return_time: solution.no_return_time,
@@ -75,10 +81,19 @@ BODIES = {
     contract.acceleration_size: acceleration_size,
     contract.acceleration_change_bound: change_bound,
     contract.settling: settling,
-    contract.peak_with: peak_with,
-    contract.largest_on: largest_on,
-    contract.next_turn: solution.next_turn,
+    contract.brace_settling_time: brace_settling_time,
+    contract.restitution_at: restitution_at,
+    contract.peak_with: extrema.peak_with,
+    contract.largest_on: extrema.largest_on,
+    contract.next_turn: extrema.next_turn,
     contract.sensitivities: sensitivities,
 }
-provide(FullHarmonicParameters, BODIES)
-provide(FullSampledParameters, BODIES)
+provide(FullHarmonicParameters, {**BODIES, periodic.later: later, periodic.with_row: with_row})
+provide(
+    FullSampledParameters,
+    {**BODIES, finite.has_ended: has_ended, finite.with_run: with_run},
+)
+provide(
+    FullPulseParameters,
+    {**BODIES, finite.has_ended: pulse_base.has_ended, finite.with_pulse: with_pulse},
+)

@@ -4,12 +4,12 @@ import math
 
 from rocking.kernels.compile_options import INTERNAL, INTERNAL_INLINE
 from rocking.kernels.deferred import njit, provide
-from rocking.kernels.event_kinds import LIFT_OFF, NONE
+from rocking.kernels.event_kinds import LEAVE, LIFT_OFF, NONE
 from rocking.kernels.forcing.arc import Next
 from rocking.kernels.forcing.drives import FullHarmonicConstants, FullHarmonicDrive
 from rocking.kernels.forcing.full import base
 from rocking.kernels.forcing.full.parameters import FullHarmonicParameters
-from rocking.kernels.forcing.full.series import cosine_series
+from rocking.kernels.forcing.full.series import cosine_series, cosine_transfer
 from rocking.kernels.forcing.harmonic import next_event
 from rocking.kernels.numerics.elementary import circular
 
@@ -17,12 +17,17 @@ from rocking.kernels.numerics.elementary import circular
 @njit(**INTERNAL_INLINE)
 def series_from(p, side, slope, sine, cosine, drive):
     """Provide ``base.series_from``."""
-    alpha = p.block.critical_angle
-    size = side * alpha * p.forcing.amplitude
-    scale = -1.0 / alpha
+    size, scale = side * p.block.critical_angle * p.forcing.amplitude, -1.0 / p.block.critical_angle
     return cosine_series(
         slope, sine, cosine, scale, size * drive.cosine, size * drive.sine, p.forcing.frequency
     )
+
+
+@njit(**INTERNAL_INLINE)
+def transfer_series(p, side, slope, sine, cosine, drive):
+    """Provide ``base.transfer_series``."""
+    size = side * p.block.critical_angle * p.forcing.amplitude
+    return cosine_transfer(slope, sine, cosine, size * drive.cosine, size * drive.sine, p.forcing.frequency)
 
 
 @njit(**INTERNAL_INLINE)
@@ -67,6 +72,12 @@ def largest_ahead(p, side, drive):
 
 
 @njit(**INTERNAL_INLINE)
+def largest_within(p, drive, time):
+    """Provide ``base.largest_within``."""
+    return p.forcing.amplitude
+
+
+@njit(**INTERNAL_INLINE)
 def largest_near(p, drive, radius):
     """Provide ``base.largest_near``."""
     return p.forcing.amplitude * math.exp(p.forcing.frequency * radius)
@@ -78,6 +89,20 @@ def lift_off(p, arc):
     wait, side = next_event.wait_at_rest(p.forcing.resting, phase_at(p, arc.start))
     event = LIFT_OFF if wait < math.inf else NONE
     return Next(wait, event, side, 0.0, 0.0, arc.drive, 0.0, 0.0)
+
+
+@njit(**INTERNAL)
+def departure(p, arc):
+    """Provide ``base.departure``: that of the slender block which stays as long."""
+    wait = next_event.wait_leaning(p.forcing.resting, arc.side, phase_at(p, arc.start))
+    event = LEAVE if wait < math.inf else NONE
+    return Next(wait, event, arc.side, p.block.brace_angle, 0.0, arc.drive, 0.0, 0.0)
+
+
+@njit(**INTERNAL_INLINE)
+def stays_at_brace(p, arc):
+    """Provide ``base.stays_at_brace``."""
+    return next_event.stays_leaning(p.forcing.resting, arc)
 
 
 @njit(**INTERNAL_INLINE)
@@ -109,13 +134,17 @@ provide(
     FullHarmonicParameters,
     {
         base.series_from: series_from,
+        base.transfer_series: transfer_series,
         base.acceleration_of: acceleration_of,
         base.smooth_time: smooth_time,
         base.drive_later: drive_later,
         base.drive_on_clock: drive_on_clock,
         base.largest_ahead: largest_ahead,
+        base.largest_within: largest_within,
         base.largest_near: largest_near,
         base.lift_off: lift_off,
+        base.departure: departure,
+        base.stays_at_brace: stays_at_brace,
         base.side_to_lift_at: side_to_lift_at,
         base.change_within: change_within,
         base.drive_after_event: drive_after_event,

@@ -21,6 +21,9 @@ def never_returns(p, side, angle, velocity, drive):
     if alpha * angle >= FLAT:
         return True
     x, slope = alpha * (angle - 1.0), alpha * velocity
+    # Most blocks are far too slow, whatever the base does. With beta >= 0, r >= 1 and y = -x, 2 sin(y/2) >= y - y^3/24.
+    if x < 0.0 and slope < -x * (1.0 - x * x / 24.0):
+        return False
     largest = alpha * largest_ahead(p, side, drive)
     lean = x - math.atan(largest)
     return lean > -math.pi and slope + 2.0 * math.sqrt(math.hypot(1.0, largest)) * math.sin(0.5 * lean) >= 0.0

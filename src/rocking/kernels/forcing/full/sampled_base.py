@@ -4,19 +4,22 @@ import math
 
 from rocking.kernels.compile_options import INTERNAL, INTERNAL_INLINE
 from rocking.kernels.deferred import njit, provide
-from rocking.kernels.event_kinds import LIFT_OFF, NONE
-from rocking.kernels.forcing.arc import Next
-from rocking.kernels.forcing.drives import FullSampledConstants, FullSampledDrive, SampledDrive
+from rocking.kernels.forcing.arc import Arc, Next
+from rocking.kernels.forcing.drives import (
+    FullSampledConstants,
+    FullSampledDrive,
+    SampledConstants,
+    SampledDrive,
+)
 from rocking.kernels.forcing.full import base
 from rocking.kernels.forcing.full.parameters import FullSampledParameters
-from rocking.kernels.forcing.full.series import linear_series
+from rocking.kernels.forcing.full.series import linear_series, linear_transfer
 from rocking.kernels.forcing.sampled import held
 from rocking.kernels.forcing.sampled.solution import (
     acceleration_at,
     interval,
     last_index,
     place_at,
-    time_between,
 )
 
 
@@ -27,6 +30,14 @@ def series_from(p, side, slope, sine, cosine, drive):
     start, rate = interval(p, drive.index)
     size = side * alpha
     return linear_series(slope, sine, cosine, -1.0 / alpha, size * (start + rate * drive.offset), size * rate)
+
+
+@njit(**INTERNAL_INLINE)
+def transfer_series(p, side, slope, sine, cosine, drive):
+    """Provide ``base.transfer_series``."""
+    start, rate = interval(p, drive.index)
+    size = side * p.block.critical_angle
+    return linear_transfer(slope, sine, cosine, size * (start + rate * drive.offset), size * rate)
 
 
 @njit(**INTERNAL_INLINE)
@@ -63,22 +74,45 @@ def largest_ahead(p, side, drive):
 
 
 @njit(**INTERNAL_INLINE)
-def largest_near(p, drive, radius):
-    """Provide ``base.largest_near``."""
+def largest_within(p, drive, time):
+    """Provide ``base.largest_within``."""
     start, rate = interval(p, drive.index)
-    return abs(start + rate * drive.offset) + abs(rate) * radius
+    return abs(start + rate * drive.offset) + abs(rate) * time
+
+
+@njit(**INTERNAL_INLINE)
+def largest_near(p, drive, radius):
+    """Provide ``base.largest_near``: the bound on a line is that on a circle, too."""
+    return largest_within(p, drive, radius)
+
+
+@njit(**INTERNAL_INLINE)
+def resting_arc(arc):
+    """Return the arc of the slender block that rests, or stays at its brace, as long as the full one does."""
+    place = SampledDrive(arc.drive.index, arc.drive.offset)
+    return Arc(arc.side, arc.start, arc.angle, arc.velocity, place, SampledConstants(0.0, 0.0))
 
 
 @njit(**INTERNAL)
 def lift_off(p, arc):
-    """Provide ``base.lift_off``: that of the slender block whose level is 1."""
-    resting, place = p.forcing.resting, SampledDrive(arc.drive.index, arc.drive.offset)
-    found, end = held.rises_above(resting, 0, 1.0, place)
-    if not found:
-        return Next(math.inf, NONE, arc.side, 0.0, 0.0, arc.drive, 0.0, 0.0)
-    side = -1 if acceleration_at(resting, end) > 0.0 else 1
-    drive = FullSampledDrive(end.index, end.offset)
-    return Next(time_between(resting, place, end), LIFT_OFF, side, 0.0, 0.0, drive, 0.0, 0.0)
+    """Provide ``base.lift_off``: that of the slender block which rests as long."""
+    found = held.lift_off(p.forcing.resting, resting_arc(arc))
+    drive = FullSampledDrive(found.drive.index, found.drive.offset)
+    return Next(found.wait, found.event, found.side, 0.0, 0.0, drive, 0.0, 0.0)
+
+
+@njit(**INTERNAL)
+def departure(p, arc):
+    """Provide ``base.departure``: that of the slender block which stays as long."""
+    found = held.departure(p.forcing.resting, resting_arc(arc))
+    drive = FullSampledDrive(found.drive.index, found.drive.offset)
+    return Next(found.wait, found.event, arc.side, p.block.brace_angle, 0.0, drive, 0.0, 0.0)
+
+
+@njit(**INTERNAL_INLINE)
+def stays_at_brace(p, arc):
+    """Provide ``base.stays_at_brace``."""
+    return held.stays_leaning(p.forcing.resting, resting_arc(arc))
 
 
 @njit(**INTERNAL_INLINE)
@@ -109,13 +143,17 @@ provide(
     FullSampledParameters,
     {
         base.series_from: series_from,
+        base.transfer_series: transfer_series,
         base.acceleration_of: acceleration_of,
         base.smooth_time: smooth_time,
         base.drive_later: drive_later,
         base.drive_on_clock: drive_on_clock,
         base.largest_ahead: largest_ahead,
+        base.largest_within: largest_within,
         base.largest_near: largest_near,
         base.lift_off: lift_off,
+        base.departure: departure,
+        base.stays_at_brace: stays_at_brace,
         base.side_to_lift_at: side_to_lift_at,
         base.change_within: change_within,
         base.drive_after_event: drive_after_event,

@@ -57,27 +57,63 @@ def cosine_lines() -> list[str]:
             f"g{k} = h{k - 1} * (frequency * {-1.0 / k!r})",
             f"h{k} = g{k - 1} * (frequency * {1.0 / k!r})",
         ]
-    lines += lines_of_block(lambda k: [f"g{j} * c{k - j}" for j in range(k + 1)])
-    return [*lines, f"return {COEFFICIENTS}"]
+    lines += lines_of_block(lambda k: cosine_terms("c", k))
+    return lines
 
 
 def linear_lines() -> list[str]:
     """Return the source of the series under a + rate t."""
-    lines = lines_of_block(lambda k: [f"g0 * c{k}"] + ([f"rate * c{k - 1}"] if k else []))
-    return [*lines, f"return {COEFFICIENTS}"]
+    return lines_of_block(lambda k: linear_terms("c", k))
+
+
+def cosine_terms(factor: str, k: int) -> list[str]:
+    """Return the terms of coefficient k of the product of a cosine and a ``factor``, s or c."""
+    return [f"g{j} * {factor}{k - j}" for j in range(k + 1)]
+
+
+def linear_terms(factor: str, k: int) -> list[str]:
+    """Return the terms of coefficient k of the product of a + rate t and a ``factor``, s or c."""
+    return [f"g0 * {factor}{k}"] + ([f"rate * {factor}{k - 1}"] if k else [])
+
+
+def transfer_lines(forced: Callable[[str, int], list[str]]) -> list[str]:
+    """Return the source of two solutions of x'' = (cos w - sigma alpha A sin w) x, the equation of small perturbations.
+
+    x starts with (x, x') = (1, 0), y with (0, 1). ``forced`` gives the terms of products with the forcing.
+    """
+    lines = ["x0, x1, y0, y1 = 1.0, 0.0, 0.0, 1.0"]
+    for k in range(ORDER - 1):
+        lines.append(f"q{k} = c{k} - ({total(forced('s', k))})")
+        for name in "xy":
+            terms = total([f"q{j} * {name}{k - j}" for j in range(k + 1)])
+            lines.append(f"{name}{k + 2} = ({terms}) * {1.0 / ((k + 1) * (k + 2))!r}")
+    both = ", ".join("(" + ", ".join(f"{name}{k}" for k in range(2, ORDER + 1)) + ")" for name in "xy")
+    return [*lines, f"return {both}"]
 
 
 cosine_series = kernel(
     "cosine_series",
     "w1, s0, c0, scale, g0, h0, frequency",
-    cosine_lines(),
+    [*cosine_lines(), f"return {COEFFICIENTS}"],
     "Return w2, w3, ... under a cosine, times a scale.",
 )
 linear_series = kernel(
     "linear_series",
     "w1, s0, c0, scale, g0, rate",
-    linear_lines(),
+    [*linear_lines(), f"return {COEFFICIENTS}"],
     "Return w2, w3, ... under an acceleration that is linear in time, times a scale.",
+)
+cosine_transfer = kernel(
+    "cosine_transfer",
+    "w1, s0, c0, g0, h0, frequency",
+    [*cosine_lines(), *transfer_lines(cosine_terms)],
+    "Return x2, x3, ... and y2, y3, ... of the solutions of ``transfer_lines`` under a cosine.",
+)
+linear_transfer = kernel(
+    "linear_transfer",
+    "w1, s0, c0, g0, rate",
+    [*linear_lines(), *transfer_lines(linear_terms)],
+    "Return x2, x3, ... and y2, y3, ... of the solutions of ``transfer_lines`` under a linear acceleration.",
 )
 
 
@@ -133,6 +169,12 @@ def derivative_lines() -> list[str]:
     return [f"return sign * b, sign * (2.0 * w[0]), ({later}, 0.0)"]
 
 
+negative = kernel(
+    "negative",
+    "w",
+    [f"return {', '.join(f'-w[{k}]' for k in range(ORDER - 1))}"],
+    "Return the coefficients times -1.",
+)
 derivative = kernel(
     "derivative",
     "b, w, sign",

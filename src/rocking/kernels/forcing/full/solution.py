@@ -1,14 +1,15 @@
-"""Arcs of the full block, step by step: states, the next event, and extremes of the angle."""
+"""Arcs of the full block, step by step: states, perturbations and the next event."""
 
 import math
 
 from rocking.kernels.compile_options import INTERNAL, INTERNAL_INLINE
 from rocking.kernels.deferred import njit
-from rocking.kernels.event_kinds import FLIGHT, IMPACT, NONE
-from rocking.kernels.forcing.arc import CROSSING, LATER, MAX_ARC_TIME, Arc, Instant, Next
+from rocking.kernels.event_kinds import BRACE, FLIGHT, IMPACT, LEAN, NONE
+from rocking.kernels.forcing.arc import MAX_ARC_TIME, Arc, Instant, Next, Transfer
 from rocking.kernels.forcing.full.base import (
     acceleration_of,
     constants_at,
+    departure,
     drive_after_event,
     drive_later,
     drive_on_clock,
@@ -16,11 +17,8 @@ from rocking.kernels.forcing.full.base import (
 )
 from rocking.kernels.forcing.full.crossing import first_zero
 from rocking.kernels.forcing.full.overturning import never_returns
-from rocking.kernels.forcing.full.series import derivative
-from rocking.kernels.forcing.full.step import state_in, step_from
-
-# After an extremum the search starts later by this fraction of the time, so that rounding cannot find it again.
-PASSED = 2.0**-50
+from rocking.kernels.forcing.full.series import negative
+from rocking.kernels.forcing.full.step import cannot_reach_base, state_in, step_from, transfer_in
 
 
 @njit(**INTERNAL_INLINE)
@@ -59,13 +57,58 @@ def evaluate(p, arc, t):
     return Instant(angle + rise, risen + rise, velocity, drive_later(p, drive, left, False), 0.0, 0.0)
 
 
+@njit(**INTERNAL_INLINE)
+def product(later, earlier):
+    """Return the transfer over two times, one after the other."""
+    return Transfer(
+        later.angle_by_angle * earlier.angle_by_angle + later.angle_by_velocity * earlier.velocity_by_angle,
+        later.angle_by_angle * earlier.angle_by_velocity
+        + later.angle_by_velocity * earlier.velocity_by_velocity,
+        later.velocity_by_angle * earlier.angle_by_angle
+        + later.velocity_by_velocity * earlier.velocity_by_angle,
+        later.velocity_by_angle * earlier.angle_by_velocity
+        + later.velocity_by_velocity * earlier.velocity_by_velocity,
+    )
+
+
+@njit(**INTERNAL)
+def transfer(p, arc, start, time):
+    """Provide ``contract.transfer``."""
+    now = evaluate(p, arc, start)
+    angle, velocity, drive, left = now.angle, now.velocity, now.drive, time
+    done = Transfer(1.0, 0.0, 0.0, 1.0)
+    while left > 0.0:
+        step = step_from(p, arc.side, angle, velocity, drive)
+        t = min(left, step.length)
+        done = product(transfer_in(p, arc.side, step, drive, t), done)
+        rise, velocity = state_in(step, t)
+        drive = drive_later(p, drive, t, step.to_corner and t == step.length)
+        angle, left = angle + rise, left - t
+    return done
+
+
+@njit(**INTERNAL)
+def transfer_to_event(p, arc, coming):
+    """Provide ``contract.transfer_to_event``."""
+    return transfer(p, arc, 0.0, coming.wait)
+
+
 @njit(**INTERNAL)
 def first_event(p, arc):
     """Return the first event of an arc: an impact, the proof that none follows, or a restart after a long time."""
     angle, velocity, drive, elapsed = arc.angle, arc.velocity, arc.drive, 0.0
+    brace = p.block.brace_angle
     while elapsed < MAX_ARC_TIME:
         step = step_from(p, arc.side, angle, velocity, drive)
-        t = first_zero(step.angle, step.velocity, step.series, step.length)
+        t = math.inf
+        if not cannot_reach_base(p, step, drive):
+            t = first_zero(step.angle, step.velocity, step.series, step.length)
+        if brace < math.inf:
+            hit = first_zero(brace - angle, -velocity, negative(step.series), step.length)
+            if hit < t:
+                _, velocity = state_in(step, hit)
+                drive = drive_later(p, drive, hit, False)
+                return Next(elapsed + hit, BRACE, arc.side, brace, velocity, drive, 0.0, 0.0)
         if t < math.inf:
             _, velocity = state_in(step, t)
             drive = drive_later(p, drive, t, False)
@@ -73,15 +116,17 @@ def first_event(p, arc):
         rise, velocity = state_in(step, step.length)
         angle, elapsed = angle + rise, elapsed + step.length
         drive = drive_later(p, drive, step.length, step.to_corner)
-        if never_returns(p, arc.side, angle, velocity, drive):
+        if brace == math.inf and never_returns(p, arc.side, angle, velocity, drive):
             return Next(math.inf, NONE, arc.side, 0.0, 0.0, drive, 0.0, 0.0)
     return Next(elapsed, NONE, arc.side, angle, velocity, drive, 0.0, 0.0)
 
 
 @njit(**INTERNAL)
 def next_event(p, mode, arc, guess):
-    """Provide ``contract.next_event``; there are no braces."""
-    return (first_event(p, arc) if mode == FLIGHT else lift_off(p, arc)), guess
+    """Provide ``contract.next_event``."""
+    if mode == FLIGHT:
+        return first_event(p, arc), guess
+    return (departure(p, arc) if mode == LEAN else lift_off(p, arc)), guess
 
 
 @njit(**INTERNAL)
@@ -94,27 +139,3 @@ def no_return_time(p, arc):
         angle, elapsed = angle + rise, elapsed + step.length
         drive = drive_later(p, drive, step.length, step.to_corner)
     return elapsed
-
-
-@njit(**INTERNAL)
-def next_turn(p, arc, sign, t, until):
-    """Provide ``contract.next_turn``."""
-    start, passed = t, PASSED * (1.0 + t)
-    while start < until:
-        now = evaluate(p, arc, start)
-        angle, velocity, drive, elapsed, found = now.angle, now.velocity, now.drive, start, math.inf
-        while elapsed < until and found == math.inf:
-            step = step_from(p, arc.side, angle, velocity, drive)
-            slope, bend, rest = derivative(step.velocity, step.series, sign)
-            if elapsed == start:
-                slope = max(slope, 0.0)  # just after an extremum u' may have the other sign to rounding
-            found = elapsed + first_zero(slope, bend, rest, min(step.length, until - elapsed))
-            rise, velocity = state_in(step, step.length)
-            angle, elapsed = angle + rise, elapsed + step.length
-            drive = drive_later(p, drive, step.length, step.to_corner)
-        if found > until:
-            return LATER, until, evaluate(p, arc, until)
-        if found > t:
-            return CROSSING, found, evaluate(p, arc, found)
-        start, passed = start + passed, 2.0 * passed
-    return LATER, until, evaluate(p, arc, until)

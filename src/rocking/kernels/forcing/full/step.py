@@ -3,9 +3,10 @@
 The last two terms are below TOLERANCE at the end. The error is then bounded, by Schwarz's lemma. The defect of the polynomial p is
 D = p'' - f(p, t), an entire function and O(t^(n-1)). On |t| = r it is at most M. So |D(t)| <= M (t/r)^(n-1), and
 
-    |u - p| <= M (h/r)^(n-1) h^2/(n (n + 1)) cosh(sqrt(1 + a^2) h).
+    |u - p| <= M (h/r)^(n-1) h^2/(n (n + 1)) cosh(k h),
 
-Exponentials bound the hyperbolic functions.
+because the derivative of f by w is at most k^2 = sqrt(1 + a^2) for an acceleration a, here on |t| = h. Exponentials bound the
+hyperbolic functions.
 """
 
 import math
@@ -13,15 +14,28 @@ from typing import NamedTuple
 
 from rocking.kernels.compile_options import INTERNAL, INTERNAL_INLINE
 from rocking.kernels.deferred import njit
-from rocking.kernels.forcing.full.base import largest_near, series_from, smooth_time
+from rocking.kernels.forcing.arc import Transfer
+from rocking.kernels.forcing.full.base import (
+    largest_near,
+    largest_within,
+    series_from,
+    smooth_time,
+    transfer_series,
+)
 from rocking.kernels.forcing.full.series import ORDER, divided_1, sizes
 
 TOLERANCE = 2e-17
-LONGEST = 1.0
 # Limit of the bound of the error of u; a step that exceeds it is shortened.
 ERROR = 1e-16
-# Radius of the circle of the bound, in steps.
-RADIUS = 4.0
+# Radius of the circle of the bound, in steps. With it the bound is least, or nearly so, over all base motions.
+RADIUS = 6.0
+RATIO = RADIUS ** (1.0 - ORDER)
+# Room for rounding in a comparison that takes the place of an exact one.
+ROOM = 1e-12
+# Distance from the base beyond which no rounding error of a step counts.
+CLEAR = 1e-9
+# Part of the step that the bound allows, so that the next bound is not too large again.
+SHORTER = 0.95
 
 
 class Step(NamedTuple):
@@ -35,10 +49,29 @@ class Step(NamedTuple):
 
 
 @njit(**INTERNAL_INLINE)
-def time_of_term(coefficient, order):
-    """Return the time at which a term reaches the tolerance."""
+def log_time_of_term(coefficient, order):
+    """Return the logarithm of the time at which a term reaches the tolerance; at most 0, since no step is longer than 1."""
     size = abs(coefficient)
-    return math.exp(math.log(TOLERANCE / size) / order) if size > TOLERANCE else LONGEST
+    return math.log(TOLERANCE / size) / order if size > TOLERANCE else 0.0
+
+
+@njit(**INTERNAL_INLINE)
+def ends_at_corner(c, corner):
+    """Return whether the last two terms are below the tolerance up to a corner, which spares their logarithms."""
+    limit = TOLERANCE * (1.0 - ROOM)
+    power = corner ** (ORDER - 1)
+    return abs(c[ORDER - 3]) * power <= limit and abs(c[ORDER - 2]) * (power * corner) <= limit
+
+
+@njit(**INTERNAL_INLINE)
+def remainder(alpha, bend, base, size, h, growth):
+    """Return the bound of the module's text.
+
+    On the circle |t| = r, `bend` bounds |w''| of the polynomial, `base` the acceleration, and `size` |sin w| and |cos w|.
+    `growth` bounds cosh(k h).
+    """
+    largest = bend + (1.0 + base) * size
+    return largest / alpha * RATIO * h * h / (ORDER * (ORDER + 1)) * growth
 
 
 @njit(**INTERNAL)
@@ -49,27 +82,86 @@ def error_bound(p, velocity, series, h, drive):
     y, z = sizes(velocity, series, radius)
     y, z = alpha * y, alpha * z
     base = alpha * largest_near(p, drive, radius)
-    largest = z + (1.0 + base) * math.exp(y)
-    ratio = (1.0 / RADIUS) ** (ORDER - 1)
-    stiffness = math.sqrt(1.0 + base * base)
-    return largest / alpha * ratio * h * h / (ORDER * (ORDER + 1)) * math.exp(stiffness * h)
+    near = alpha * largest_near(p, drive, h)
+    rate = math.sqrt(math.sqrt(1.0 + near * near))
+    return remainder(alpha, z, base, math.exp(y), h, math.exp(rate * h))
+
+
+@njit(**INTERNAL_INLINE)
+def exponential_bound(x):
+    """Return an upper bound of exp(x) for x >= 0: exp(z) <= 1/(1 - z) for z = x/16."""
+    if x >= 8.0:
+        return math.inf
+    once = 1.0 / (1.0 - 0.0625 * x)
+    once = once * once
+    once = once * once
+    once = once * once
+    return once * once
+
+
+@njit(**INTERNAL_INLINE)
+def is_accurate(p, velocity, series, h, drive):
+    """Return whether an upper bound of ``error_bound``, cheaper to compute, is below the limit."""
+    alpha = p.block.critical_angle
+    y, z = sizes(velocity, series, RADIUS * h)
+    y, z = alpha * y, alpha * z
+    base = alpha * largest_near(p, drive, RADIUS * h)
+    rate = math.sqrt(1.0 + alpha * largest_near(p, drive, h))
+    bound = remainder(alpha, z, base, exponential_bound(y), h, exponential_bound(rate * h))
+    return bound <= ERROR * (1.0 - ROOM)
+
+
+@njit(**INTERNAL)
+def shortened(h, bound):
+    """Return a shorter step after one whose error bound is too large; the bound grows with h^(n + 1) or faster."""
+    share = math.exp(math.log(ERROR / bound) / (ORDER + 1)) if bound < math.inf else 0.0
+    return h * max(SHORTER * share, 0.5)
+
+
+@njit(**INTERNAL_INLINE)
+def lean_of(block, angle):
+    """Return the sine and cosine of w = alpha (1 - u)."""
+    if angle == 0.0:
+        return block.sine, block.cosine
+    w = block.critical_angle * (1.0 - angle)
+    return math.sin(w), math.cos(w)
 
 
 @njit(**INTERNAL)
 def step_from(p, side, angle, velocity, drive):
     """Return the step of an arc from an instant on."""
-    block = p.block
-    sine, cosine = block.sine, block.cosine
-    if angle != 0.0:
-        w = block.critical_angle * (1.0 - angle)
-        sine, cosine = math.sin(w), math.cos(w)
-    c = series_from(p, side, -block.critical_angle * velocity, sine, cosine, drive)
-    length = min(time_of_term(c[ORDER - 2], ORDER), time_of_term(c[ORDER - 3], ORDER - 1), LONGEST)
+    sine, cosine = lean_of(p.block, angle)
+    c = series_from(p, side, -p.block.critical_angle * velocity, sine, cosine, drive)
     corner = smooth_time(p, drive)
-    to_corner, length = corner <= length, min(length, corner)
-    while error_bound(p, velocity, c, length, drive) > ERROR:
-        to_corner, length = False, 0.5 * length
+    if corner < 1.0 and ends_at_corner(c, corner):
+        to_corner, length = True, corner
+    else:
+        length = math.exp(
+            min(log_time_of_term(c[ORDER - 2], ORDER), log_time_of_term(c[ORDER - 3], ORDER - 1))
+        )
+        to_corner, length = corner <= length, min(length, corner)
+    if is_accurate(p, velocity, c, length, drive):
+        return Step(angle, velocity, c, length, to_corner)
+    bound = error_bound(p, velocity, c, length, drive)
+    while bound > ERROR:
+        to_corner, length = False, shortened(length, bound)
+        bound = error_bound(p, velocity, c, length, drive)
     return Step(angle, velocity, c, length, to_corner)
+
+
+@njit(**INTERNAL)
+def transfer_in(p, side, step, drive, t):
+    """Return the ``Transfer`` from the start of a step to a time t in it."""
+    sine, cosine = lean_of(p.block, step.angle)
+    x, y = transfer_series(p, side, -p.block.critical_angle * step.velocity, sine, cosine, drive)
+    by_angle, by_angle_rate = divided_1(1.0, 0.0, x, t)
+    by_velocity, by_velocity_rate = divided_1(0.0, 1.0, y, t)
+    return Transfer(
+        1.0 + by_angle * t,
+        by_velocity * t,
+        by_angle + by_angle_rate * t,
+        by_velocity + by_velocity_rate * t,
+    )
 
 
 @njit(**INTERNAL_INLINE)
@@ -77,3 +169,12 @@ def state_in(step, t):
     """Return u - u0 and u' a time t into a step."""
     slope, bend = divided_1(step.angle, step.velocity, step.series, t)
     return slope * t, slope + bend * t
+
+
+@njit(**INTERNAL_INLINE)
+def cannot_reach_base(p, step, drive):
+    """Return whether the block is so far from the base that it cannot reach it within a step: |u''| <= sqrt(1 + a^2)/alpha."""
+    alpha, h = p.block.critical_angle, step.length
+    base = alpha * largest_within(p, drive, h)
+    push = math.sqrt(1.0 + base * base) / alpha
+    return step.angle + min(step.velocity, 0.0) * h - 0.5 * push * h * h > CLEAR

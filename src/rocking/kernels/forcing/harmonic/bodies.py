@@ -2,11 +2,19 @@
 
 from rocking.kernels.compile_options import INTERNAL_INLINE
 from rocking.kernels.deferred import njit, provide
-from rocking.kernels.forcing import contract
+from rocking.kernels.forcing import contract, periodic
 from rocking.kernels.forcing.drives import HarmonicDrive
-from rocking.kernels.forcing.harmonic import acceleration, extrema, first_zero, next_event, solution
+from rocking.kernels.forcing.harmonic import (
+    acceleration,
+    extrema,
+    first_zero,
+    next_event,
+    parameters,
+    solution,
+)
 from rocking.kernels.forcing.harmonic.parameters import HarmonicParameters
 from rocking.kernels.forcing.settling import settling_by_change
+from rocking.kernels.forcing.slender import SLENDER
 
 
 @njit(**INTERNAL_INLINE)
@@ -42,12 +50,6 @@ def forcing_term(p, side, drive):
 
 
 @njit(**INTERNAL_INLINE)
-def slender_acceleration(p, side, angle, drive):
-    """Provide ``contract.acceleration``."""
-    return angle + forcing_term(p, side, drive)
-
-
-@njit(**INTERNAL_INLINE)
 def acceleration_size(p, drive):
     """Provide ``contract.acceleration_size``."""
     return p.forcing.amplitude * abs(drive.cosine)
@@ -68,12 +70,12 @@ def sensitivities(p, arc, t, sinh, versinh, excess):
 provide(
     HarmonicParameters,
     {
+        **SLENDER,
         contract.arc_at: arc_at,
         contract.arc_renewed: arc_renewed,
         contract.arc_after: arc_after,
         contract.resynchronise: resynchronise,
         contract.evaluate: solution.evaluate,
-        contract.acceleration: slender_acceleration,
         contract.forcing_term: forcing_term,
         contract.guess_from: solution.propagator_or_none,
         contract.next_event: next_event.next_event,
@@ -87,5 +89,7 @@ provide(
         contract.largest_on: extrema.largest_on,
         contract.next_turn: extrema.next_turn,
         contract.sensitivities: sensitivities,
+        periodic.later: parameters.later,
+        periodic.with_row: parameters.with_row,
     },
 )

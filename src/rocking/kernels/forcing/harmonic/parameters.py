@@ -107,15 +107,16 @@ def make(amplitude, frequency, period, phase, restitution, brace_angle, brace_re
     return HarmonicParameters(block, forcing, Clock(period))
 
 
-def row_of(p: HarmonicParameters) -> tuple[float, ...]:
-    """Return the arguments of ``make`` that gave these parameters."""
-    return (*p.forcing[:4], *p.block)
-
-
 @njit(**INTERNAL)
 def parameters_from_row(row):
     """Return the parameters of a system from a row that holds the arguments of ``make``."""
     return make(row[0], row[1], row[2], row[3], row[4], row[5], row[6])
+
+
+@njit(**INTERNAL)
+def with_row(p, row):
+    """Provide ``periodic.with_row``."""
+    return parameters_from_row(row)
 
 
 @entry_point(**KERNEL)
@@ -152,10 +153,16 @@ def within_a_turn(phase: float) -> float:
 
 
 @njit(**INTERNAL)
+def phase_later(forcing, time):
+    """Return the forcing phase at a time, within half a turn of 0."""
+    phase = forcing.phase + forcing.frequency * time
+    return phase - 2.0 * math.pi * round(phase / (2.0 * math.pi))
+
+
+@njit(**INTERNAL)
 def later(p, time):
-    """Return the system with its clock set to 0 at ``time`` (within a period), which changes its phase."""
-    phase = p.forcing.phase + p.forcing.frequency * time
-    return at_phase(p, phase - 2.0 * math.pi * round(phase / (2.0 * math.pi)))
+    """Provide ``periodic.later``."""
+    return at_phase(p, phase_later(p.forcing, time))
 
 
 @njit(**INTERNAL)

@@ -21,9 +21,10 @@ from rocking.kernels.forcing.harmonic import acceleration, extrema, first_zero
 from rocking.kernels.forcing.harmonic import next_event as harmonic
 from rocking.kernels.forcing.harmonic.solution import ROUNDING, exponentials
 from rocking.kernels.forcing.pulse import solution
-from rocking.kernels.forcing.pulse.parameters import PulseParameters
+from rocking.kernels.forcing.pulse.parameters import PulseParameters, with_pulse
 from rocking.kernels.forcing.pulse.solution import arc_at_time, drive_at, harmonic_arc, system_at
 from rocking.kernels.forcing.settling import settling_by_change
+from rocking.kernels.forcing.slender import SLENDER
 
 
 @njit(**INTERNAL_INLINE)
@@ -42,12 +43,6 @@ def arc_after(p, side, start, angle, velocity, coming):
 def forcing_term(p, side, drive):
     """Provide ``contract.forcing_term``."""
     return acceleration.forcing_term(system_at(p, drive.time), drive.cosine)
-
-
-@njit(**INTERNAL_INLINE)
-def slender_acceleration(p, side, angle, drive):
-    """Provide ``contract.acceleration``."""
-    return angle + forcing_term(p, side, drive)
 
 
 @njit(**INTERNAL_INLINE)
@@ -161,12 +156,12 @@ def has_ended(p, drive):
 provide(
     PulseParameters,
     {
+        **SLENDER,
         contract.arc_at: arc_at,
         contract.arc_renewed: arc_after,
         contract.arc_after: arc_after,
         contract.resynchronise: unchanged,
         contract.evaluate: solution.evaluate,
-        contract.acceleration: slender_acceleration,
         contract.forcing_term: forcing_term,
         contract.guess_from: no_guess,
         contract.next_event: next_event,
@@ -184,5 +179,6 @@ provide(
         finite.has_ended: has_ended,
         finite.next_event_and_extremes: next_event_and_extremes,
         finite.rounding_error: rounding_error,
+        finite.with_pulse: with_pulse,
     },
 )

@@ -41,6 +41,13 @@ def make_pulse(amplitude, frequency, phase, duration, cycle_length, block):
     return PulseParameters(block, PulseForcing(duration, during, after, end_response), Clock(cycle_length))
 
 
+@njit(**INTERNAL)
+def with_pulse(p, pulse):
+    """Provide ``finite.with_pulse``."""
+    block = BlockParameters(pulse.restitution, math.inf, 1.0)
+    return make_pulse(pulse.amplitude, pulse.frequency, pulse.phase, pulse.duration, pulse.duration, block)
+
+
 @entry_point(**KERNEL)
 def make_pulse_plain(
     amplitude: float,

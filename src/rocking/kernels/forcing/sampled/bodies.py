@@ -8,8 +8,9 @@ from rocking.kernels.event_kinds import FLIGHT, REST
 from rocking.kernels.forcing import contract, finite
 from rocking.kernels.forcing.arc import NO_EXTREMES, no_guess, unchanged
 from rocking.kernels.forcing.sampled import extrema, held, rounding, search, settling, solution
-from rocking.kernels.forcing.sampled.parameters import SampledParameters
+from rocking.kernels.forcing.sampled.parameters import SampledParameters, with_run
 from rocking.kernels.forcing.sampled.solution import arc_at_place, place_at
+from rocking.kernels.forcing.slender import SLENDER
 
 
 @njit(**INTERNAL)
@@ -29,12 +30,6 @@ def arc_after(p, side, start, angle, velocity, coming):
 def forcing_term(p, side, drive):
     """Provide ``contract.forcing_term``."""
     return -1.0 - side * solution.acceleration_at(p, drive)
-
-
-@njit(**INTERNAL_INLINE)
-def slender_acceleration(p, side, angle, drive):
-    """Provide ``contract.acceleration``."""
-    return angle + forcing_term(p, side, drive)
 
 
 @njit(**INTERNAL)
@@ -86,12 +81,12 @@ def sensitivities(p, arc, t, sinh, versinh, excess):
 provide(
     SampledParameters,
     {
+        **SLENDER,
         contract.arc_at: arc_at,
         contract.arc_renewed: arc_after,
         contract.arc_after: arc_after,
         contract.resynchronise: unchanged,
         contract.evaluate: solution.evaluate,
-        contract.acceleration: slender_acceleration,
         contract.forcing_term: forcing_term,
         contract.guess_from: no_guess,
         contract.next_event: next_event,
@@ -109,5 +104,6 @@ provide(
         finite.has_ended: rounding.has_ended,
         finite.next_event_and_extremes: next_event_and_extremes,
         finite.rounding_error: rounding.rounding_error,
+        finite.with_run: with_run,
     },
 )

@@ -3,6 +3,8 @@
 import math
 from typing import NamedTuple
 
+from rocking.kernels.compile_options import INTERNAL
+from rocking.kernels.deferred import njit
 from rocking.kernels.forcing.sampled.tables import Tables
 from rocking.kernels.parameters import BlockParameters, Clock
 
@@ -36,3 +38,10 @@ def sampled_parameters(
     """Return the parameters of a system with sampled forcing."""
     block = BlockParameters(float(restitution), float(brace_angle), float(brace_restitution))
     return SampledParameters(block, SampledForcing(float(scale), tables), Clock(float(cycle_length)))
+
+
+@njit(**INTERNAL)
+def with_run(p, run):
+    """Provide ``finite.with_run``."""
+    block = BlockParameters(run.restitution, p.block.brace_angle, p.block.brace_restitution)
+    return SampledParameters(block, SampledForcing(run.scale, p.forcing.tables), p.clock)

@@ -1,0 +1,84 @@
+"""Extremes of the angle along an arc of the full block, step by step."""
+
+import math
+
+from rocking.kernels.compile_options import INTERNAL
+from rocking.kernels.deferred import njit
+from rocking.kernels.event_kinds import BRACE
+from rocking.kernels.forcing.arc import CROSSING, LATER, within_reach
+from rocking.kernels.forcing.full.base import acceleration_of, drive_later
+from rocking.kernels.forcing.full.crossing import first_zero
+from rocking.kernels.forcing.full.series import bend_0, derivative
+from rocking.kernels.forcing.full.solution import evaluate
+from rocking.kernels.forcing.full.step import state_in, step_from
+
+# After an extremum the search starts later by this fraction of the time, so that rounding cannot find it again.
+PASSED = 2.0**-50
+# Rounding error of u'', relative to its parts.
+NOISE = 2.0**-49
+
+
+@njit(**INTERNAL)
+def first_turn(step, h, noise):
+    """Return the time within h of a step at which u' first changes its sign, or infinity.
+
+    At a lift-off u' and u'' vanish. There u'' is at most its rounding error, ``noise``, and the third derivative gives the sign.
+    """
+    half = step.series[0] if step.velocity != 0.0 or abs(step.series[0]) > noise else 0.0
+    leading = step.velocity if step.velocity != 0.0 else half if half != 0.0 else step.series[1]
+    sign = 1.0 if leading > 0.0 else -1.0
+    slope, _, rest = derivative(step.velocity, step.series, sign)
+    return first_zero(slope, sign * 2.0 * half, rest, h)
+
+
+@njit(**INTERNAL)
+def largest_on(p, arc, until, peak):
+    """Provide ``contract.largest_on``: after an extremum that may count, a new step starts there with u' = 0."""
+    angle, velocity, drive, left = arc.angle, arc.velocity, arc.drive, until
+    while left > 0.0:
+        step = step_from(p, arc.side, angle, velocity, drive)
+        h = min(step.length, left)
+        rise, velocity = state_in(step, h)
+        top = max(angle, angle + rise) + 0.125 * h * h * bend_0(angle, step.velocity, step.series, h)
+        if top > peak:
+            noise = NOISE * (p.block.press + abs(acceleration_of(p, drive)))
+            turn = first_turn(step, h, noise)
+            if turn < h and left - turn < left:
+                h, velocity = turn, 0.0
+                rise = state_in(step, h)[0]
+        angle, left = angle + rise, left - h
+        drive = drive_later(p, drive, h, step.to_corner and h == step.length)
+        peak = max(peak, within_reach(p, angle))
+    return peak
+
+
+@njit(**INTERNAL)
+def peak_with(p, arc, coming, peak):
+    """Provide ``contract.peak_with``."""
+    if coming.event == BRACE:
+        return p.block.brace_angle
+    return largest_on(p, arc, coming.wait, peak)
+
+
+@njit(**INTERNAL)
+def next_turn(p, arc, sign, t, until):
+    """Provide ``contract.next_turn``."""
+    start, passed = t, PASSED * (1.0 + t)
+    while start < until:
+        now = evaluate(p, arc, start)
+        angle, velocity, drive, elapsed, found = now.angle, now.velocity, now.drive, start, math.inf
+        while elapsed < until and found == math.inf:
+            step = step_from(p, arc.side, angle, velocity, drive)
+            slope, bend, rest = derivative(step.velocity, step.series, sign)
+            if elapsed == start:
+                slope = max(slope, 0.0)  # just after an extremum u' may have the other sign to rounding
+            found = elapsed + first_zero(slope, bend, rest, min(step.length, until - elapsed))
+            rise, velocity = state_in(step, step.length)
+            angle, elapsed = angle + rise, elapsed + step.length
+            drive = drive_later(p, drive, step.length, step.to_corner)
+        if found > until:
+            return LATER, until, evaluate(p, arc, until)
+        if found > t:
+            return CROSSING, found, evaluate(p, arc, found)
+        start, passed = start + passed, 2.0 * passed
+    return LATER, until, evaluate(p, arc, until)
