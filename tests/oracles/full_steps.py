@@ -19,17 +19,58 @@ NARROWEST = 2.0**-40
 UNIT = arb(0, 1)
 
 
+class Wave(NamedTuple):
+    """Base acceleration A (cosine cos(frequency t) - sine sin(frequency t)), t from the start of a step."""
+
+    amplitude: float
+    frequency: float
+    cosine: float
+    sine: float
+
+    def largest(self, _):
+        """Return a bound up to a time."""
+        return abs(arb(self.amplitude)) * (arb(self.cosine) ** 2 + arb(self.sine) ** 2).sqrt()
+
+    def series(self):
+        """Return the series in t."""
+        turn = arb_series([0, arb(self.frequency)])
+        return arb(self.amplitude) * (arb(self.cosine) * turn.cos() - arb(self.sine) * turn.sin())
+
+    def later(self, time):
+        """Return the base acceleration from a later time on."""
+        turn = arb(self.frequency) * time
+        cosine = self.cosine * turn.cos() - self.sine * turn.sin()
+        return self._replace(cosine=cosine, sine=self.sine * turn.cos() + self.cosine * turn.sin())
+
+
+class Line(NamedTuple):
+    """Base acceleration value + slope t, as between two samples."""
+
+    value: float
+    slope: float
+    frequency: float = 0.0
+
+    def largest(self, time):
+        """Return a bound up to a time."""
+        return abs(arb(self.value)) + abs(arb(self.slope)) * time
+
+    def series(self):
+        """Return the series in t."""
+        return arb_series([arb(self.value), arb(self.slope)])
+
+    def later(self, time):
+        """Return the base acceleration from a later time on."""
+        return self._replace(value=self.value + arb(self.slope) * time)
+
+
 class Start(NamedTuple):
-    """Start of a step: side, u and u', the base acceleration A (cosine cos(frequency t) - sine sin(frequency t))."""
+    """Start of a step: side, u, u' and the base acceleration from then on."""
 
     alpha: float
     side: int
     angle: float
     velocity: float
-    amplitude: float
-    frequency: float
-    cosine: float
-    sine: float
+    base: Wave | Line
 
 
 class Touch(NamedTuple):
@@ -51,12 +92,10 @@ def precision():
         ctx.prec, ctx.cap = before
 
 
-def series(start, w, rate, cosine, sine):
-    """Return the coefficients of w up to t^ORDER, from balls of w, w' and of the phase, by Picard's iteration."""
+def series(start, w, rate, base):
+    """Return the coefficients of w up to t^ORDER, from balls of w, w' and of the base acceleration, by Picard's iteration."""
     ctx.cap = ORDER + 1  # a series keeps the number of terms with which it is made
-    turn = arb_series([0, arb(start.frequency)])
-    push = arb(start.side) * arb(start.alpha) * arb(start.amplitude)
-    base = push * (cosine * turn.cos() - sine * turn.sin())
+    base = arb(start.side) * arb(start.alpha) * base.series()
     first = found = arb_series([w, rate])
     for iteration in range(1, ORDER // 2 + 1):
         ctx.cap = 2 * iteration + 1  # two orders each
@@ -69,8 +108,8 @@ class Motion:
     """Enclosure of u on a step, by pieces."""
 
     def __init__(self, start, length):
-        rate = math.sqrt(1.0 + start.alpha * start.amplitude)
-        self.start, self.count = start, math.ceil(length * max(rate / LONGEST, start.frequency / TURN))
+        rate = math.sqrt(1.0 + start.alpha * float(start.base.largest(length).upper()))
+        self.start, self.count = start, math.ceil(length * max(rate / LONGEST, start.base.frequency / TURN))
         self.length, self.piece = length, length / self.count
         with precision():
             self.pieces = self._enclosed()
@@ -78,14 +117,13 @@ class Motion:
     def _enclosed(self):
         start, alpha, h = self.start, arb(self.start.alpha), arb(self.piece)
         w, rate = alpha * (1 - arb(start.angle)), -alpha * arb(start.velocity)
-        cosine, sine = arb(start.cosine), arb(start.sine)
-        push = 1 + alpha * abs(arb(start.amplitude)) * (cosine * cosine + sine * sine).sqrt()
-        angle, velocity, found = arb(start.angle), arb(start.velocity), []
+        angle, velocity, base, found = arb(start.angle), arb(start.velocity), start.base, []
         for _ in range(self.count):
+            push = 1 + alpha * base.largest(h)
             whole = (h / 2) * arb(1, 1)  # 0 to h
             box, speeds = w + rate * whole + UNIT * push * h * h / 2, rate + UNIT * push * h
-            exact = series(start, w, rate, cosine, sine)
-            over_all = series(start, box, speeds, *self._turned(cosine, sine, whole))
+            exact = series(start, w, rate, base)
+            over_all = series(start, box, speeds, base.later(whole))
             # u = 1 - w/alpha, with u and u' at the start as they are given
             rest = [-each / alpha for each in (*exact[2:ORDER], over_all[ORDER])]
             part = arb_poly([angle, velocity, *rest])
@@ -93,13 +131,8 @@ class Motion:
             # The box holds for u' too: its remainder is ORDER times the same coefficient.
             angle, velocity = part(h), part.derivative()(h)
             w, rate = alpha * (1 - angle), -alpha * velocity
-            cosine, sine = self._turned(cosine, sine, h)
+            base = base.later(h)
         return found
-
-    def _turned(self, cosine, sine, time):
-        """Return cosine and sine of the phase a time later."""
-        turn = arb(self.start.frequency) * time
-        return cosine * turn.cos() - sine * turn.sin(), sine * turn.cos() + cosine * turn.sin()
 
     def at(self, time):
         """Return the ball of u at a time."""

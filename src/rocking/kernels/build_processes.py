@@ -20,15 +20,25 @@ from rocking.kernels.waiting import report
 MAX_BUILDERS = 2
 # Seconds of one core that the longest entry points took when measured, in the order in which they are compiled.
 SECONDS = {
-    "march.march_plain.HarmonicParameters": 9.0,
-    "batch.classify_batch_scalar.HarmonicParameters": 12.0,
-    "scheduler.classify_batch_lanes": 22.0,
-    "march.march_plain.SampledParameters": 9.0,
-    "attractor_anchor.anchor_each.HarmonicParameters": 2.2,
-    "sweep.sweep.HarmonicParameters": 1.3,
+    "march.march_plain.HarmonicParameters": 12.0,
+    "batch.classify_batch_scalar.HarmonicParameters": 16.0,
+    "scheduler.classify_batch_lanes": 26.0,
+    "march.march_plain.SampledParameters": 14.0,
+    "finite_runs.run_to_end.SampledParameters": 12.0,
+    "march.march_plain.PulseParameters": 18.0,
+    "finite_runs.run_to_end.PulseParameters": 8.0,
+    "attractor_anchor.anchor_each.HarmonicParameters": 2.7,
+    "sweep.sweep.HarmonicParameters": 1.9,
     "newton_search.newton_from_starts.HarmonicParameters": 1.1,
-    "continuation.follow": 5.0,
-    "bifurcation_curve.follow_curve": 5.0,
+    "continuation.follow": 9.0,
+    "bifurcation_curve.follow_curve": 7.0,
+    "march.march_plain.FullHarmonicParameters": 20.0,
+    "march.march_plain.FullSampledParameters": 20.0,
+    "finite_runs.run_to_end.FullSampledParameters": 9.0,
+    "march.march_plain.FullPulseParameters": 14.0,
+    "finite_runs.run_to_end.FullPulseParameters": 6.0,
+    "batch.classify_batch_scalar.FullHarmonicParameters": 30.0,
+    "attractor_anchor.anchor_each.FullHarmonicParameters": 2.9,
 }
 SECONDS_OF_OTHERS = 0.3
 # Starts of the builders, in case that some are killed.

@@ -91,15 +91,26 @@ def compile_into(folder: Path, name: str) -> None:
             error.write_text(traceback.format_exc())
 
 
+def place_of(name: str) -> float:
+    """Return the place of an entry point in the order: that of SECONDS, or just after the first of its kind of parameters.
+
+    Without such a kind it comes after the first of all. What a kind needs is compiled with the first of the kind.
+    """
+    long = list(SECONDS)
+    if name in long:
+        return long.index(name)
+    kind = name.rpartition(".")[2]
+    return 0.5 + next((place for place, other in enumerate(long) if other.endswith(f".{kind}")), 0)
+
+
 def compile_missing(folder: Path) -> None:
     """Compile all entry points that have no machine code, as long as there are any that no other builder compiles.
 
-    The march comes first, then all that take less than a second, then the others in the order of SECONDS.
+    Those of the slender block come first.
     """
     import_all()
     bind_compiled()
-    long = list(SECONDS)
-    names = sorted(ENTRY_POINTS, key=lambda name: long.index(name) if name in long else 0.5)
+    names = sorted(ENTRY_POINTS, key=place_of)
     while (name := next_name(folder, names)) is not None:
         names.remove(name)
         with hold_lock(folder / f"{name}.lock") as free:

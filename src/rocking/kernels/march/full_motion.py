@@ -10,9 +10,9 @@ from rocking.kernels.deferred import njit, provide
 from rocking.kernels.event_kinds import BRACE, FLIGHT, IMPACT, REST
 from rocking.kernels.forcing import finite
 from rocking.kernels.forcing.arc import shift_clock
-from rocking.kernels.forcing.contract import guess_from, next_event, peak_with
 from rocking.kernels.forcing.finite import has_ended
 from rocking.kernels.forcing.full.parameters import FullPulseParameters, FullSampledParameters
+from rocking.kernels.forcing.full.solution import event_and_peak
 from rocking.kernels.march.accumulated_error import EXACT
 from rocking.kernels.march.ending import Ending
 from rocking.kernels.march.finite_motion import is_lossless, resolved
@@ -37,12 +37,11 @@ def to_end(p, angle, velocity, until, cut, want_peak):
     mode, arc, peak = progress.mode, progress.arc, progress.peak
     impacts, since_rest, brace_hits, cycle, status = 0, 0, int(hit), 0, CROWDED
     for _ in range(MAX_EVENTS):
-        coming, _ = next_event(p, mode, arc, guess_from(p, 0.0))
+        coming, highest = event_and_peak(p, mode, arc, peak if want_peak else math.inf)
         if coming.wait == math.inf or cycle * p.clock.cycle_length + arc.start + coming.wait > until:
             status = DONE if coming.wait < math.inf else OVERTURNED if mode == FLIGHT else STILL
             break
-        if want_peak and mode == FLIGHT:
-            peak = peak_with(p, arc, coming, peak)
+        peak = highest if want_peak else peak
         impacts += coming.event == IMPACT
         brace_hits += coming.event == BRACE
         mode, arc = resolved(p, arc, coming, cut, peak if want_peak else math.inf, EXACT)

@@ -7,8 +7,11 @@ from rocking.kernels.deferred import contract
 
 
 @contract
-def series_from(p, side, slope, sine, cosine, drive):
-    """Return the coefficients of t^2, t^3, ... of u from an instant on, where w' = slope and w has this sine and cosine."""
+def series_from(p, side, slope, sine, cosine, drive, short):
+    """Return the coefficients of t^2, t^3, ... of u from an instant on, where w' = slope and w has this sine and cosine.
+
+    A ``short`` series has zeros beyond SHORT_ORDER.
+    """
 
 
 @contract

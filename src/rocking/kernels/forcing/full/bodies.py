@@ -4,7 +4,7 @@ from rocking.kernels.compile_options import INTERNAL_INLINE
 from rocking.kernels.deferred import njit, provide
 from rocking.kernels.forcing import contract, finite, periodic
 from rocking.kernels.forcing.arc import no_guess, unchanged
-from rocking.kernels.forcing.full import cosine_base, extrema, pulse_base, sampled_base, solution  # noqa: F401 (they provide)
+from rocking.kernels.forcing.full import cosine_base, extrema, pulse_base, sampled_base, solution, turns  # noqa: F401 (they provide)
 from rocking.kernels.forcing.full.base import acceleration_of, change_within, side_to_lift_at, stays_at_brace
 from rocking.kernels.forcing.full.parameters import (
     FullHarmonicParameters,
@@ -85,7 +85,7 @@ BODIES = {
     contract.restitution_at: restitution_at,
     contract.peak_with: extrema.peak_with,
     contract.largest_on: extrema.largest_on,
-    contract.next_turn: extrema.next_turn,
+    contract.next_turn: turns.next_turn,
     contract.sensitivities: sensitivities,
 }
 provide(FullHarmonicParameters, {**BODIES, periodic.later: later, periodic.with_row: with_row})

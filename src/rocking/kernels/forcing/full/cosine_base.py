@@ -9,18 +9,19 @@ from rocking.kernels.forcing.arc import Next
 from rocking.kernels.forcing.drives import FullHarmonicConstants, FullHarmonicDrive
 from rocking.kernels.forcing.full import base
 from rocking.kernels.forcing.full.parameters import FullHarmonicParameters
-from rocking.kernels.forcing.full.series import cosine_series, cosine_transfer
+from rocking.kernels.forcing.full.series import cosine_series, cosine_transfer, short_cosine_series
 from rocking.kernels.forcing.harmonic import next_event
 from rocking.kernels.numerics.elementary import circular
 
 
 @njit(**INTERNAL_INLINE)
-def series_from(p, side, slope, sine, cosine, drive):
+def series_from(p, side, slope, sine, cosine, drive, short):
     """Provide ``base.series_from``."""
     size, scale = side * p.block.critical_angle * p.forcing.amplitude, -1.0 / p.block.critical_angle
-    return cosine_series(
-        slope, sine, cosine, scale, size * drive.cosine, size * drive.sine, p.forcing.frequency
-    )
+    g, h, frequency = size * drive.cosine, size * drive.sine, p.forcing.frequency
+    if short:
+        return short_cosine_series(slope, sine, cosine, scale, g, h, frequency)
+    return cosine_series(slope, sine, cosine, scale, g, h, frequency)
 
 
 @njit(**INTERNAL_INLINE)

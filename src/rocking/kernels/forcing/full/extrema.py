@@ -1,19 +1,14 @@
-"""Extremes of the angle along an arc of the full block, step by step."""
-
-import math
+"""Largest angle along an arc of the full block, step by step."""
 
 from rocking.kernels.compile_options import INTERNAL
 from rocking.kernels.deferred import njit
 from rocking.kernels.event_kinds import BRACE
-from rocking.kernels.forcing.arc import CROSSING, LATER, within_reach
+from rocking.kernels.forcing.arc import Arc, within_reach
 from rocking.kernels.forcing.full.base import acceleration_of, drive_later
 from rocking.kernels.forcing.full.crossing import first_zero
 from rocking.kernels.forcing.full.series import bend_0, derivative
-from rocking.kernels.forcing.full.solution import evaluate
 from rocking.kernels.forcing.full.step import state_in, step_from
 
-# After an extremum the search starts later by this fraction of the time, so that rounding cannot find it again.
-PASSED = 2.0**-50
 # Rounding error of u'', relative to its parts.
 NOISE = 2.0**-49
 
@@ -53,32 +48,20 @@ def largest_on(p, arc, until, peak):
 
 
 @njit(**INTERNAL)
+def peak_in(p, arc, step, drive, h, peak):
+    """Return the largest angle up to a time h of a step of an arc, and ``peak`` at least."""
+    rise = state_in(step, h)[0]
+    bend = bend_0(step.angle, step.velocity, step.series, h)
+    if max(step.angle, step.angle + rise) + 0.125 * h * h * bend <= peak:
+        return peak
+    if step.velocity > h * bend:  # the angle only grows
+        return max(peak, within_reach(p, step.angle + rise))
+    return largest_on(p, Arc(arc.side, arc.start, step.angle, step.velocity, drive, arc.constants), h, peak)
+
+
+@njit(**INTERNAL)
 def peak_with(p, arc, coming, peak):
     """Provide ``contract.peak_with``."""
     if coming.event == BRACE:
         return p.block.brace_angle
     return largest_on(p, arc, coming.wait, peak)
-
-
-@njit(**INTERNAL)
-def next_turn(p, arc, sign, t, until):
-    """Provide ``contract.next_turn``."""
-    start, passed = t, PASSED * (1.0 + t)
-    while start < until:
-        now = evaluate(p, arc, start)
-        angle, velocity, drive, elapsed, found = now.angle, now.velocity, now.drive, start, math.inf
-        while elapsed < until and found == math.inf:
-            step = step_from(p, arc.side, angle, velocity, drive)
-            slope, bend, rest = derivative(step.velocity, step.series, sign)
-            if elapsed == start:
-                slope = max(slope, 0.0)  # just after an extremum u' may have the other sign to rounding
-            found = elapsed + first_zero(slope, bend, rest, min(step.length, until - elapsed))
-            rise, velocity = state_in(step, step.length)
-            angle, elapsed = angle + rise, elapsed + step.length
-            drive = drive_later(p, drive, step.length, step.to_corner)
-        if found > until:
-            return LATER, until, evaluate(p, arc, until)
-        if found > t:
-            return CROSSING, found, evaluate(p, arc, found)
-        start, passed = start + passed, 2.0 * passed
-    return LATER, until, evaluate(p, arc, until)

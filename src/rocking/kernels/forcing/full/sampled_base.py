@@ -13,7 +13,7 @@ from rocking.kernels.forcing.drives import (
 )
 from rocking.kernels.forcing.full import base
 from rocking.kernels.forcing.full.parameters import FullSampledParameters
-from rocking.kernels.forcing.full.series import linear_series, linear_transfer
+from rocking.kernels.forcing.full.series import linear_series, linear_transfer, short_linear_series
 from rocking.kernels.forcing.sampled import held
 from rocking.kernels.forcing.sampled.solution import (
     acceleration_at,
@@ -24,12 +24,15 @@ from rocking.kernels.forcing.sampled.solution import (
 
 
 @njit(**INTERNAL_INLINE)
-def series_from(p, side, slope, sine, cosine, drive):
+def series_from(p, side, slope, sine, cosine, drive, short):
     """Provide ``base.series_from``."""
     alpha = p.block.critical_angle
     start, rate = interval(p, drive.index)
-    size = side * alpha
-    return linear_series(slope, sine, cosine, -1.0 / alpha, size * (start + rate * drive.offset), size * rate)
+    size, scale = side * alpha, -1.0 / alpha
+    now, change = size * (start + rate * drive.offset), size * rate
+    if short:
+        return short_linear_series(slope, sine, cosine, scale, now, change)
+    return linear_series(slope, sine, cosine, scale, now, change)
 
 
 @njit(**INTERNAL_INLINE)

@@ -5,34 +5,45 @@ With w = alpha (1 - u), on side sigma,
     w'' = sin w + sigma alpha A(t) cos w.
 
 S = sin w and C = cos w obey S' = w' C and C' = -w' S. A cosine A = g, with H = A sin(phase), obeys g' = -Omega H and H' = Omega g.
-So the coefficients follow one from another. Each sum is in two parts, which halves its latency. The source of the kernels is
-made here, because a loop over an array costs as much as the series itself.
+So the coefficients follow one from another. A sum starts with what is known first, so that little is left to do when the last
+coefficient is there: this halves the time. The source of the kernels is
+made here, because a loop over an array costs as much as the series itself. A short series ends with zeros.
 """
 
 from collections.abc import Callable
-from typing import Any
+from typing import Any, NamedTuple
 
 from rocking.kernels.compile_options import INTERNAL
 from rocking.kernels.deferred import njit
 
 ORDER = 20
+# Order up to the next corner of the base acceleration, if that is near.
+SHORT_ORDER = 12
 
 
-def total(terms: list[str]) -> str:
-    """Return the source of a sum, in two parts."""
-    halves = [" + ".join(terms[k::2]) for k in range(2)]
-    return f"({halves[0]}) + ({halves[1]})" if halves[1] else halves[0]
+class Term(NamedTuple):
+    """Source of a term, and the step of the recursion after which it is known."""
+
+    known: int
+    source: str
 
 
-def lines_of_block(forced: Callable[[int], list[str]]) -> list[str]:
+def total(terms: list[Term]) -> str:
+    """Return the source of a sum: first the terms that are known first, in two parts, and the last one at the end."""
+    *early, last = [term.source for term in sorted(terms, key=lambda term: term.known)]
+    halves = [" + ".join(early[k::2]) for k in range(2)]
+    return " + ".join([f"({half})" for half in halves if half] + [last])
+
+
+def lines_of_block(forced: Callable[[int], list[Term]], order: int) -> list[str]:
     """Return the source lines that compute w2, w3, ... from w0, w1, s0 and c0; ``forced`` gives the terms of the forcing."""
     lines = ["d1 = w1"]
-    for k in range(ORDER - 1):
+    for k in range(order - 1):
         if k:
-            here = [f"d{j} * {{}}{k - j}" for j in range(1, k + 1)]
-            lines.append(f"s{k} = ({total([term.format('c') for term in here])}) * {1.0 / k!r}")
-            lines.append(f"c{k} = ({total([term.format('s') for term in here])}) * {-1.0 / k!r}")
-        terms = total([f"s{k}", *forced(k)])
+            for name, other, factor in (("s", "c", 1.0 / k), ("c", "s", -1.0 / k)):
+                here = [Term(max(j - 2, k - j), f"d{j} * {other}{k - j}") for j in range(1, k + 1)]
+                lines.append(f"{name}{k} = ({total(here)}) * {factor!r}")
+        terms = total([Term(k, f"s{k}"), *forced(k)])
         lines.append(f"w{k + 2} = ({terms}) * {1.0 / ((k + 1) * (k + 2))!r}")
         lines.append(f"d{k + 2} = {k + 2}.0 * w{k + 2}")
     return lines
@@ -46,37 +57,39 @@ def kernel(name: str, arguments: str, lines: list[str], document: str) -> Any:
     return njit(**INTERNAL)(scope[name])
 
 
-COEFFICIENTS = "(" + ", ".join(f"w{k} * scale" for k in range(2, ORDER + 1)) + ")"
+def coefficients(order: int) -> str:
+    """Return the source of w2, w3, ... times the scale, with zeros beyond the order."""
+    return "(" + ", ".join([f"w{k} * scale" for k in range(2, order + 1)] + ["0.0"] * (ORDER - order)) + ")"
 
 
-def cosine_lines() -> list[str]:
+def cosine_lines(order: int = ORDER) -> list[str]:
     """Return the source of the series under a cosine."""
     lines = []
-    for k in range(1, ORDER - 1):
+    for k in range(1, order - 1):
         lines += [
             f"g{k} = h{k - 1} * (frequency * {-1.0 / k!r})",
             f"h{k} = g{k - 1} * (frequency * {1.0 / k!r})",
         ]
-    lines += lines_of_block(lambda k: cosine_terms("c", k))
+    lines += lines_of_block(lambda k: cosine_terms("c", k), order)
     return lines
 
 
-def linear_lines() -> list[str]:
+def linear_lines(order: int = ORDER) -> list[str]:
     """Return the source of the series under a + rate t."""
-    return lines_of_block(lambda k: linear_terms("c", k))
+    return lines_of_block(lambda k: linear_terms("c", k), order)
 
 
-def cosine_terms(factor: str, k: int) -> list[str]:
+def cosine_terms(factor: str, k: int) -> list[Term]:
     """Return the terms of coefficient k of the product of a cosine and a ``factor``, s or c."""
-    return [f"g{j} * {factor}{k - j}" for j in range(k + 1)]
+    return [Term(k - j, f"g{j} * {factor}{k - j}") for j in range(k + 1)]
 
 
-def linear_terms(factor: str, k: int) -> list[str]:
+def linear_terms(factor: str, k: int) -> list[Term]:
     """Return the terms of coefficient k of the product of a + rate t and a ``factor``, s or c."""
-    return [f"g0 * {factor}{k}"] + ([f"rate * {factor}{k - 1}"] if k else [])
+    return [Term(k, f"g0 * {factor}{k}"), *([Term(k - 1, f"rate * {factor}{k - 1}")] if k else [])]
 
 
-def transfer_lines(forced: Callable[[str, int], list[str]]) -> list[str]:
+def transfer_lines(forced: Callable[[str, int], list[Term]]) -> list[str]:
     """Return the source of two solutions of x'' = (cos w - sigma alpha A sin w) x, the equation of small perturbations.
 
     x starts with (x, x') = (1, 0), y with (0, 1). ``forced`` gives the terms of products with the forcing.
@@ -85,24 +98,23 @@ def transfer_lines(forced: Callable[[str, int], list[str]]) -> list[str]:
     for k in range(ORDER - 1):
         lines.append(f"q{k} = c{k} - ({total(forced('s', k))})")
         for name in "xy":
-            terms = total([f"q{j} * {name}{k - j}" for j in range(k + 1)])
+            terms = total([Term(max(j, k - j - 2), f"q{j} * {name}{k - j}") for j in range(k + 1)])
             lines.append(f"{name}{k + 2} = ({terms}) * {1.0 / ((k + 1) * (k + 2))!r}")
     both = ", ".join("(" + ", ".join(f"{name}{k}" for k in range(2, ORDER + 1)) + ")" for name in "xy")
     return [*lines, f"return {both}"]
 
 
-cosine_series = kernel(
-    "cosine_series",
-    "w1, s0, c0, scale, g0, h0, frequency",
-    [*cosine_lines(), f"return {COEFFICIENTS}"],
-    "Return w2, w3, ... under a cosine, times a scale.",
-)
-linear_series = kernel(
-    "linear_series",
-    "w1, s0, c0, scale, g0, rate",
-    [*linear_lines(), f"return {COEFFICIENTS}"],
-    "Return w2, w3, ... under an acceleration that is linear in time, times a scale.",
-)
+def series_kernel(name: str, base: str, lines: Callable[[int], list[str]], order: int) -> Any:
+    """Return the kernel of a series up to an order, with the arguments of the ``base`` acceleration."""
+    document = "Return w2, w3, ... times a scale."
+    body = [*lines(order), f"return {coefficients(order)}"]
+    return kernel(name, f"w1, s0, c0, scale, {base}", body, document)
+
+
+cosine_series = series_kernel("cosine_series", "g0, h0, frequency", cosine_lines, ORDER)
+short_cosine_series = series_kernel("short_cosine_series", "g0, h0, frequency", cosine_lines, SHORT_ORDER)
+linear_series = series_kernel("linear_series", "g0, rate", linear_lines, ORDER)
+short_linear_series = series_kernel("short_linear_series", "g0, rate", linear_lines, SHORT_ORDER)
 cosine_transfer = kernel(
     "cosine_transfer",
     "w1, s0, c0, g0, h0, frequency",
@@ -117,11 +129,11 @@ linear_transfer = kernel(
 )
 
 
-def polynomial_lines(first: int) -> list[str]:
+def polynomial_lines(first: int, order: int = ORDER) -> list[str]:
     """Return the source of the value and the derivative of the terms from t^``first`` on, divided by t^``first``."""
-    names = ["a", "b", *(f"w[{k}]" for k in range(ORDER - 1))]
-    lines = [f"p, q = {names[ORDER]}, 0.0"]
-    for k in range(ORDER - 1, first - 1, -1):
+    names = ["a", "b", *(f"w[{k}]" for k in range(order - 1))]
+    lines = [f"p, q = {names[order]}, 0.0"]
+    for k in range(order - 1, first - 1, -1):
         lines += ["q = q * t + p", f"p = p * t + {names[k]}"]
     return [*lines, "return p, q"]
 
@@ -147,20 +159,34 @@ def bend(first: int) -> Any:
 
 
 divided_0, divided_1, divided_2, divided_3 = (divided(first) for first in range(4))
+short_divided_1 = kernel(
+    "short_divided_1",
+    "a, b, w, t",
+    polynomial_lines(1, SHORT_ORDER),
+    "Return ``divided_1`` of a short series.",
+)
 bend_0, bend_1, bend_2, bend_3 = (bend(first) for first in range(4))
 
 
-def size_lines() -> list[str]:
-    """Return the source of the sums of |w_k| r^k from k = 1 on, and of k (k - 1) |w_k| r^(k - 2)."""
-    lines = ["y, z = 0.0, 0.0"]
-    for k in range(ORDER, 1, -1):
-        lines += [f"y = y * r + abs(w[{k - 2}])", f"z = z * r + {float(k * (k - 1))!r} * abs(w[{k - 2}])"]
-    return [*lines, "return (y * r + abs(b)) * r, z"]
+def size_lines(order: int) -> list[str]:
+    """Return the source of the sums of |w_k| r^k from k = 1 on, and of k (k - 1) |w_k| r^(k - 2).
+
+    Even and odd orders are two sums, which halves the latency.
+    """
+    lines = ["s = r * r", "y0, z0, y1, z1 = 0.0, 0.0, 0.0, 0.0"]
+    for k in range(order, 1, -1):
+        y, z, w = f"y{k % 2}", f"z{k % 2}", f"abs(w[{k - 2}])"
+        lines += [f"{y} = {y} * s + {w}", f"{z} = {z} * s + {float(k * (k - 1))!r} * {w}"]
+    return [*lines, "return (abs(b) + y0 * r + y1 * s) * r, z0 + z1 * r"]
 
 
-sizes = kernel(
-    "sizes", "b, w, r", size_lines(), "Return the sums of |w_k| r^k and of k (k - 1) |w_k| r^(k - 2)."
-)
+def sizes_up_to(name: str, order: int) -> Any:
+    """Return the kernel of the bounds of a series up to an order, and of its second derivative, on a circle of radius r."""
+    document = "Return the sums of |w_k| r^k and of k (k - 1) |w_k| r^(k - 2)."
+    return kernel(name, "b, w, r", size_lines(order), document)
+
+
+sizes, short_sizes = sizes_up_to("sizes", ORDER), sizes_up_to("short_sizes", SHORT_ORDER)
 
 
 def derivative_lines() -> list[str]:

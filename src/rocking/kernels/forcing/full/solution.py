@@ -16,6 +16,7 @@ from rocking.kernels.forcing.full.base import (
     lift_off,
 )
 from rocking.kernels.forcing.full.crossing import first_zero
+from rocking.kernels.forcing.full.extrema import peak_in
 from rocking.kernels.forcing.full.overturning import never_returns
 from rocking.kernels.forcing.full.series import negative
 from rocking.kernels.forcing.full.step import cannot_reach_base, state_in, step_from, transfer_in
@@ -94,8 +95,11 @@ def transfer_to_event(p, arc, coming):
 
 
 @njit(**INTERNAL)
-def first_event(p, arc):
-    """Return the first event of an arc: an impact, the proof that none follows, or a restart after a long time."""
+def first_event(p, arc, peak):
+    """Return the first event of an arc: an impact, the proof that none follows, or a restart after a long time.
+
+    The second result is the largest angle until then, and ``peak`` at least. An infinite ``peak`` spares the search for it.
+    """
     angle, velocity, drive, elapsed = arc.angle, arc.velocity, arc.drive, 0.0
     brace = p.block.brace_angle
     while elapsed < MAX_ARC_TIME:
@@ -108,25 +112,33 @@ def first_event(p, arc):
             if hit < t:
                 _, velocity = state_in(step, hit)
                 drive = drive_later(p, drive, hit, False)
-                return Next(elapsed + hit, BRACE, arc.side, brace, velocity, drive, 0.0, 0.0)
+                return Next(elapsed + hit, BRACE, arc.side, brace, velocity, drive, 0.0, 0.0), brace
+        if peak < math.inf:
+            peak = peak_in(p, arc, step, drive, min(t, step.length), peak)
         if t < math.inf:
             _, velocity = state_in(step, t)
             drive = drive_later(p, drive, t, False)
-            return Next(elapsed + t, IMPACT, arc.side, 0.0, velocity, drive, 0.0, 0.0)
+            return Next(elapsed + t, IMPACT, arc.side, 0.0, velocity, drive, 0.0, 0.0), peak
         rise, velocity = state_in(step, step.length)
         angle, elapsed = angle + rise, elapsed + step.length
         drive = drive_later(p, drive, step.length, step.to_corner)
         if brace == math.inf and never_returns(p, arc.side, angle, velocity, drive):
-            return Next(math.inf, NONE, arc.side, 0.0, 0.0, drive, 0.0, 0.0)
-    return Next(elapsed, NONE, arc.side, angle, velocity, drive, 0.0, 0.0)
+            return Next(math.inf, NONE, arc.side, 0.0, 0.0, drive, 0.0, 0.0), peak
+    return Next(elapsed, NONE, arc.side, angle, velocity, drive, 0.0, 0.0), peak
+
+
+@njit(**INTERNAL)
+def event_and_peak(p, mode, arc, peak):
+    """Return the next event, and the largest angle until then, ``peak`` at least."""
+    if mode == FLIGHT:
+        return first_event(p, arc, peak)
+    return (departure(p, arc) if mode == LEAN else lift_off(p, arc)), peak
 
 
 @njit(**INTERNAL)
 def next_event(p, mode, arc, guess):
     """Provide ``contract.next_event``."""
-    if mode == FLIGHT:
-        return first_event(p, arc), guess
-    return (departure(p, arc) if mode == LEAN else lift_off(p, arc)), guess
+    return event_and_peak(p, mode, arc, math.inf)[0], guess
 
 
 @njit(**INTERNAL)

@@ -22,20 +22,39 @@ from rocking.kernels.forcing.full.base import (
     smooth_time,
     transfer_series,
 )
-from rocking.kernels.forcing.full.series import ORDER, divided_1, sizes
+from rocking.kernels.forcing.full.series import (
+    ORDER,
+    SHORT_ORDER,
+    divided_1,
+    short_divided_1,
+    short_sizes,
+    sizes,
+)
 
 TOLERANCE = 2e-17
 # Limit of the bound of the error of u; a step that exceeds it is shortened.
 ERROR = 1e-16
-# Radius of the circle of the bound, in steps. With it the bound is least, or nearly so, over all base motions.
-RADIUS = 6.0
-RATIO = RADIUS ** (1.0 - ORDER)
+# Up to a corner of the base acceleration that is nearer than this, a short series is tried first.
+NEAR = 0.1
 # Room for rounding in a comparison that takes the place of an exact one.
 ROOM = 1e-12
 # Distance from the base beyond which no rounding error of a step counts.
 CLEAR = 1e-9
 # Part of the step that the bound allows, so that the next bound is not too large again.
 SHORTER = 0.95
+
+
+class Truncation(NamedTuple):
+    """Order n of a series, the radius r/h of the circle of its bound, and (r/h)^(1 - n)."""
+
+    order: int
+    radius: float
+    ratio: float
+
+
+# With these radii the bounds are least, or nearly so, over all base motions.
+FULL = Truncation(ORDER, 6.0, 6.0 ** (1.0 - ORDER))
+SHORT = Truncation(SHORT_ORDER, 40.0, 40.0 ** (1.0 - SHORT_ORDER))
 
 
 class Step(NamedTuple):
@@ -46,6 +65,7 @@ class Step(NamedTuple):
     series: tuple[float, ...]
     length: float
     to_corner: bool  # whether the step ends at a corner of the base acceleration
+    short: bool  # whether the series is short
 
 
 @njit(**INTERNAL_INLINE)
@@ -56,35 +76,35 @@ def log_time_of_term(coefficient, order):
 
 
 @njit(**INTERNAL_INLINE)
-def ends_at_corner(c, corner):
+def ends_at_corner(c, corner, order):
     """Return whether the last two terms are below the tolerance up to a corner, which spares their logarithms."""
     limit = TOLERANCE * (1.0 - ROOM)
-    power = corner ** (ORDER - 1)
-    return abs(c[ORDER - 3]) * power <= limit and abs(c[ORDER - 2]) * (power * corner) <= limit
+    power = corner ** (order - 1)
+    return abs(c[order - 3]) * power <= limit and abs(c[order - 2]) * (power * corner) <= limit
 
 
 @njit(**INTERNAL_INLINE)
-def remainder(alpha, bend, base, size, h, growth):
+def remainder(truncation, alpha, bend, base, size, h, growth):
     """Return the bound of the module's text.
 
     On the circle |t| = r, `bend` bounds |w''| of the polynomial, `base` the acceleration, and `size` |sin w| and |cos w|.
     `growth` bounds cosh(k h).
     """
-    largest = bend + (1.0 + base) * size
-    return largest / alpha * RATIO * h * h / (ORDER * (ORDER + 1)) * growth
+    largest, n = bend + (1.0 + base) * size, truncation.order
+    return largest / alpha * truncation.ratio * h * h / (n * (n + 1)) * growth
 
 
 @njit(**INTERNAL)
 def error_bound(p, velocity, series, h, drive):
     """Return the bound of |u - p| up to a time h of a step."""
     alpha = p.block.critical_angle
-    radius = RADIUS * h
+    radius = FULL.radius * h
     y, z = sizes(velocity, series, radius)
     y, z = alpha * y, alpha * z
     base = alpha * largest_near(p, drive, radius)
     near = alpha * largest_near(p, drive, h)
     rate = math.sqrt(math.sqrt(1.0 + near * near))
-    return remainder(alpha, z, base, math.exp(y), h, math.exp(rate * h))
+    return remainder(FULL, alpha, z, base, math.exp(y), h, math.exp(rate * h))
 
 
 @njit(**INTERNAL_INLINE)
@@ -100,14 +120,17 @@ def exponential_bound(x):
 
 
 @njit(**INTERNAL_INLINE)
-def is_accurate(p, velocity, series, h, drive):
+def is_accurate(p, velocity, series, h, drive, truncation):
     """Return whether an upper bound of ``error_bound``, cheaper to compute, is below the limit."""
-    alpha = p.block.critical_angle
-    y, z = sizes(velocity, series, RADIUS * h)
+    alpha, radius = p.block.critical_angle, truncation.radius * h
+    if truncation.order == SHORT_ORDER:
+        y, z = short_sizes(velocity, series, radius)
+    else:
+        y, z = sizes(velocity, series, radius)
     y, z = alpha * y, alpha * z
-    base = alpha * largest_near(p, drive, RADIUS * h)
+    base = alpha * largest_near(p, drive, radius)
     rate = math.sqrt(1.0 + alpha * largest_near(p, drive, h))
-    bound = remainder(alpha, z, base, exponential_bound(y), h, exponential_bound(rate * h))
+    bound = remainder(truncation, alpha, z, base, exponential_bound(y), h, exponential_bound(rate * h))
     return bound <= ERROR * (1.0 - ROOM)
 
 
@@ -131,22 +154,26 @@ def lean_of(block, angle):
 def step_from(p, side, angle, velocity, drive):
     """Return the step of an arc from an instant on."""
     sine, cosine = lean_of(p.block, angle)
-    c = series_from(p, side, -p.block.critical_angle * velocity, sine, cosine, drive)
-    corner = smooth_time(p, drive)
-    if corner < 1.0 and ends_at_corner(c, corner):
+    slope, corner = -p.block.critical_angle * velocity, smooth_time(p, drive)
+    if corner < NEAR:
+        c = series_from(p, side, slope, sine, cosine, drive, True)
+        if ends_at_corner(c, corner, SHORT_ORDER) and is_accurate(p, velocity, c, corner, drive, SHORT):
+            return Step(angle, velocity, c, corner, True, True)
+    c = series_from(p, side, slope, sine, cosine, drive, False)
+    if corner < 1.0 and ends_at_corner(c, corner, ORDER):
         to_corner, length = True, corner
     else:
         length = math.exp(
             min(log_time_of_term(c[ORDER - 2], ORDER), log_time_of_term(c[ORDER - 3], ORDER - 1))
         )
         to_corner, length = corner <= length, min(length, corner)
-    if is_accurate(p, velocity, c, length, drive):
-        return Step(angle, velocity, c, length, to_corner)
+    if is_accurate(p, velocity, c, length, drive, FULL):
+        return Step(angle, velocity, c, length, to_corner, False)
     bound = error_bound(p, velocity, c, length, drive)
     while bound > ERROR:
         to_corner, length = False, shortened(length, bound)
         bound = error_bound(p, velocity, c, length, drive)
-    return Step(angle, velocity, c, length, to_corner)
+    return Step(angle, velocity, c, length, to_corner, False)
 
 
 @njit(**INTERNAL)
@@ -167,7 +194,10 @@ def transfer_in(p, side, step, drive, t):
 @njit(**INTERNAL_INLINE)
 def state_in(step, t):
     """Return u - u0 and u' a time t into a step."""
-    slope, bend = divided_1(step.angle, step.velocity, step.series, t)
+    if step.short:
+        slope, bend = short_divided_1(step.angle, step.velocity, step.series, t)
+    else:
+        slope, bend = divided_1(step.angle, step.velocity, step.series, t)
     return slope * t, slope + bend * t
 
 
