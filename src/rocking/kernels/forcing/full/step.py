@@ -30,18 +30,17 @@ from rocking.kernels.forcing.full.series import (
     short_sizes,
     sizes,
 )
+from rocking.kernels.numerics.elementary import exponential_bound, sine_and_cosine
 
 TOLERANCE = 2e-17
 # Limit of the bound of the error of u; a step that exceeds it is shortened.
 ERROR = 1e-16
 # Up to a corner of the base acceleration that is nearer than this, a short series is tried first.
 NEAR = 0.1
-# Room for rounding in a comparison that takes the place of an exact one.
-ROOM = 1e-12
 # Distance from the base beyond which no rounding error of a step counts.
 CLEAR = 1e-9
-# Part of the step that the bound allows, so that the next bound is not too large again.
-SHORTER = 0.95
+# Part of a step that is kept if its bound is too large: 20 % of the bound is left.
+SHORTER = 0.92
 
 
 class Truncation(NamedTuple):
@@ -53,7 +52,7 @@ class Truncation(NamedTuple):
 
 
 # With these radii the bounds are least, or nearly so, over all base motions.
-FULL = Truncation(ORDER, 6.0, 6.0 ** (1.0 - ORDER))
+FULL = Truncation(ORDER, 7.0, 7.0 ** (1.0 - ORDER))
 SHORT = Truncation(SHORT_ORDER, 40.0, 40.0 ** (1.0 - SHORT_ORDER))
 
 
@@ -78,67 +77,26 @@ def log_time_of_term(coefficient, order):
 @njit(**INTERNAL_INLINE)
 def ends_at_corner(c, corner, order):
     """Return whether the last two terms are below the tolerance up to a corner, which spares their logarithms."""
-    limit = TOLERANCE * (1.0 - ROOM)
     power = corner ** (order - 1)
-    return abs(c[order - 3]) * power <= limit and abs(c[order - 2]) * (power * corner) <= limit
+    return abs(c[order - 3]) * power <= TOLERANCE and abs(c[order - 2]) * (power * corner) <= TOLERANCE
 
 
 @njit(**INTERNAL_INLINE)
-def remainder(truncation, alpha, bend, base, size, h, growth):
-    """Return the bound of the module's text.
+def error_bound(p, velocity, series, h, drive, truncation):
+    """Return the bound of the module's text of |u - p| up to a time h of a step.
 
-    On the circle |t| = r, `bend` bounds |w''| of the polynomial, `base` the acceleration, and `size` |sin w| and |cos w|.
-    `growth` bounds cosh(k h).
+    M is at most w'' of the polynomial and the acceleration that it should have, on the circle. There |sin w| and |cos w| are
+    at most exp |w - w0|.
     """
-    largest, n = bend + (1.0 + base) * size, truncation.order
-    return largest / alpha * truncation.ratio * h * h / (n * (n + 1)) * growth
-
-
-@njit(**INTERNAL)
-def error_bound(p, velocity, series, h, drive):
-    """Return the bound of |u - p| up to a time h of a step."""
-    alpha = p.block.critical_angle
-    radius = FULL.radius * h
-    y, z = sizes(velocity, series, radius)
-    y, z = alpha * y, alpha * z
-    base = alpha * largest_near(p, drive, radius)
-    near = alpha * largest_near(p, drive, h)
-    rate = math.sqrt(math.sqrt(1.0 + near * near))
-    return remainder(FULL, alpha, z, base, math.exp(y), h, math.exp(rate * h))
-
-
-@njit(**INTERNAL_INLINE)
-def exponential_bound(x):
-    """Return an upper bound of exp(x) for x >= 0: exp(z) <= 1/(1 - z) for z = x/16."""
-    if x >= 8.0:
-        return math.inf
-    once = 1.0 / (1.0 - 0.0625 * x)
-    once = once * once
-    once = once * once
-    once = once * once
-    return once * once
-
-
-@njit(**INTERNAL_INLINE)
-def is_accurate(p, velocity, series, h, drive, truncation):
-    """Return whether an upper bound of ``error_bound``, cheaper to compute, is below the limit."""
-    alpha, radius = p.block.critical_angle, truncation.radius * h
-    if truncation.order == SHORT_ORDER:
-        y, z = short_sizes(velocity, series, radius)
+    alpha, n, radius = p.block.critical_angle, truncation.order, truncation.radius * h
+    if n == SHORT_ORDER:
+        change, bend = short_sizes(velocity, series, radius)
     else:
-        y, z = sizes(velocity, series, radius)
-    y, z = alpha * y, alpha * z
-    base = alpha * largest_near(p, drive, radius)
+        change, bend = sizes(velocity, series, radius)
+    push = 1.0 + alpha * largest_near(p, drive, radius)
+    largest = alpha * bend + push * exponential_bound(alpha * change)
     rate = math.sqrt(1.0 + alpha * largest_near(p, drive, h))
-    bound = remainder(truncation, alpha, z, base, exponential_bound(y), h, exponential_bound(rate * h))
-    return bound <= ERROR * (1.0 - ROOM)
-
-
-@njit(**INTERNAL)
-def shortened(h, bound):
-    """Return a shorter step after one whose error bound is too large; the bound grows with h^(n + 1) or faster."""
-    share = math.exp(math.log(ERROR / bound) / (ORDER + 1)) if bound < math.inf else 0.0
-    return h * max(SHORTER * share, 0.5)
+    return largest / alpha * truncation.ratio * h * h / (n * (n + 1)) * exponential_bound(rate * h)
 
 
 @njit(**INTERNAL_INLINE)
@@ -146,8 +104,7 @@ def lean_of(block, angle):
     """Return the sine and cosine of w = alpha (1 - u)."""
     if angle == 0.0:
         return block.sine, block.cosine
-    w = block.critical_angle * (1.0 - angle)
-    return math.sin(w), math.cos(w)
+    return sine_and_cosine(block.critical_angle * (1.0 - angle))
 
 
 @njit(**INTERNAL)
@@ -157,7 +114,8 @@ def step_from(p, side, angle, velocity, drive):
     slope, corner = -p.block.critical_angle * velocity, smooth_time(p, drive)
     if corner < NEAR:
         c = series_from(p, side, slope, sine, cosine, drive, True)
-        if ends_at_corner(c, corner, SHORT_ORDER) and is_accurate(p, velocity, c, corner, drive, SHORT):
+        near = ends_at_corner(c, corner, SHORT_ORDER)
+        if near and error_bound(p, velocity, c, corner, drive, SHORT) <= ERROR:
             return Step(angle, velocity, c, corner, True, True)
     c = series_from(p, side, slope, sine, cosine, drive, False)
     if corner < 1.0 and ends_at_corner(c, corner, ORDER):
@@ -167,12 +125,8 @@ def step_from(p, side, angle, velocity, drive):
             min(log_time_of_term(c[ORDER - 2], ORDER), log_time_of_term(c[ORDER - 3], ORDER - 1))
         )
         to_corner, length = corner <= length, min(length, corner)
-    if is_accurate(p, velocity, c, length, drive, FULL):
-        return Step(angle, velocity, c, length, to_corner, False)
-    bound = error_bound(p, velocity, c, length, drive)
-    while bound > ERROR:
-        to_corner, length = False, shortened(length, bound)
-        bound = error_bound(p, velocity, c, length, drive)
+    while error_bound(p, velocity, c, length, drive, FULL) > ERROR:
+        to_corner, length = False, SHORTER * length
     return Step(angle, velocity, c, length, to_corner, False)
 
 
