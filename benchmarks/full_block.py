@@ -4,6 +4,7 @@ Errors are those of the state after 20 cycles, or at a time under a ground motio
 of impacts within its step. Heyoka finds impacts as events, under a ground motion from sample to sample.
 """
 
+import time
 from functools import partial
 from math import cos, sin
 from typing import NamedTuple
@@ -30,6 +31,7 @@ STEPS_OF_RK4 = 1_000
 STEPS_PER_SAMPLE = 10
 OVER_HEYOKA, OVER_RK4 = 2.5, 20.0
 RECORD_OVER_HEYOKA, RECORD_OVER_RK4 = 10.0, 4.0
+SECONDS_OF_MAP = 15.0
 
 
 class Case(NamedTuple):
@@ -257,6 +259,21 @@ def speed():
         "RK4, ten steps per sample": (partial(rk4, case), 1, RECORD_OVER_RK4),
     }
     yield from compared(case, peers, 1)
+    yield map_of_responses()
+
+
+def map_of_responses():
+    """Time a map over the ranges of figure 11 of Yim & Lin."""
+
+    def computed(points):
+        start = time.perf_counter()
+        amplitudes, periods = np.linspace(0.0, 16.0, points), np.linspace(0.2, 3.0, points)
+        rk.parametric_map(amplitude=amplitudes, period=periods, restitution=0.925, critical_angle=0.25)
+        return time.perf_counter() - start
+
+    computed(10)  # loads the kernels
+    note = "0 ≤ A ≤ 16, 0.2 ≤ T ≤ 3"
+    return Figure("map, 99,856 points, e=0.925 θcr=0.25", computed(316), "s", SECONDS_OF_MAP, note=note)
 
 
 def compared(case, peers, cycles):

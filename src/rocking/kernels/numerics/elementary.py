@@ -110,7 +110,10 @@ def sine_and_cosine(x):
 
 @njit(**KERNEL_INLINE)
 def exponential_bound(x):
-    """Return an upper bound of exp x for x >= 0, 1 + x**2/128 times as large for small x: exp(z) <= 1/(1 - z) for z = x/64."""
+    """Return an upper bound of exp x for x >= 0. For small x it is 1 + x**2/128 times as large.
+
+    With z = x/64, exp(z) <= 1/(1 - z).
+    """
     if x >= 32.0:
         return math.inf
     once = 1.0 / (1.0 - x / 64.0)

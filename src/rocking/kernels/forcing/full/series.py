@@ -130,12 +130,18 @@ linear_transfer = kernel(
 
 
 def polynomial_lines(first: int, order: int = ORDER) -> list[str]:
-    """Return the source of the value and the derivative of the terms from t^``first`` on, divided by t^``first``."""
-    names = ["a", "b", *(f"w[{k}]" for k in range(order - 1))]
-    lines = [f"p, q = {names[order]}, 0.0"]
-    for k in range(order - 1, first - 1, -1):
-        lines += ["q = q * t + p", f"p = p * t + {names[k]}"]
-    return [*lines, "return p, q"]
+    """Return the source of the value and the derivative of the terms from t^``first`` on, divided by t^``first``.
+
+    Even and odd terms are two sums, with their derivatives by t^2. This halves the latency.
+    """
+    names = ["a", "b", *(f"w[{k}]" for k in range(order - 1))][first:]
+    lines = ["s = t * t"]
+    for part in range(2):
+        last, *others = names[part::2][::-1]
+        lines.append(f"p{part}, q{part} = {last}, 0.0")
+        for name in others:
+            lines += [f"q{part} = q{part} * s + p{part}", f"p{part} = p{part} * s + {name}"]
+    return [*lines, "return p0 + p1 * t, p1 + 2.0 * t * (q0 + q1 * t)"]
 
 
 def divided(first: int) -> Any:
