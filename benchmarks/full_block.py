@@ -1,6 +1,6 @@
 """The full block: the engine, heyoka, SciPy's DOP853 and RK4 on the same motions, with the error of each.
 
-Errors are those of the state after 20 cycles, or at a time under a ground motion, against 34 digits. RK4 interpolates the instants
+Errors are those of the state after 20 cycles, or at a time under a ground motion, against 40 digits. RK4 interpolates the instants
 of impacts within its step. Heyoka finds impacts as events, under a ground motion from sample to sample.
 """
 

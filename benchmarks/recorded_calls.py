@@ -64,12 +64,15 @@ def workload():
     rk.parametric_map(amplitude=axes["amplitude"], period=1.0, restitution=0.8, critical_angle=[0.1, 0.3])
     rk.basin_map(full, angle=starts, velocity=starts, max_cycles=500)
     rows, never, runs = np.empty(50, ENDING_ROW), np.zeros(1, np.int64), np.zeros(50, RUN_ROW)
-    runs["scale"], runs["restitution"] = np.linspace(0.5, 2.0, 50), 0.8
-    run_batch(parameters(rk.System(rk.PiecewiseLinear(samples, step=0.05), 0.8)), runs, True, rows, never)
+    runs["scale"], runs["restitution"], runs["critical_angle"] = np.linspace(0.5, 2.0, 50), 0.8, 0.3
     pulses = np.zeros(50, PULSE_ROW)
     pulses["amplitude"], pulses["restitution"] = np.linspace(1.0, 9.0, 50), 0.9
     pulses["frequency"], pulses["phase"], pulses["duration"] = 5.0, -np.pi / 2, 0.4 * np.pi
-    run_pulses(pulses, True, rows, never)
+    pulses["critical_angle"] = 0.3
+    for angle in (None, 0.3):
+        sampled, pulse = (parameters(rk.System(base, 0.8, critical_angle=angle)) for base in bases)
+        run_batch(sampled, runs, True, rows, never)
+        run_pulses(pulse, pulses, True, rows, never)
 
 
 def record_calls():

@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 from pathlib import Path
 from typing import NamedTuple
+from zlib import crc32
 
 import numpy as np
 import pytest
@@ -28,6 +29,8 @@ def reproduced(tmp_path_factory):
 def pytest_addoption(parser):
     what = "run only the tests that check a sample, and let them check the whole"
     parser.addoption("--exhaustive", action="store_true", help=what)
+    what = "run only the tests of a part of the files: K/N, with K from 0 to N - 1"
+    parser.addoption("--part", default="0/1", metavar="K/N", help=what)
 
 
 @pytest.fixture
@@ -48,13 +51,16 @@ def thin(request):
 
 @pytest.hookimpl(tryfirst=True)  # before items are selected and grouped by their marks
 def pytest_collection_modifyitems(config, items):
-    """Mark the tests of the whole report as long, for one worker. Select the tests of --exhaustive."""
+    """Mark the tests of the whole report as long, for one worker. Select the tests of --part and of --exhaustive."""
     for item in items:
         if "reproduced" in getattr(item, "fixturenames", ()):
             item.add_marker(pytest.mark.xdist_group("reproduced"))
             item.add_marker(pytest.mark.long)
             item.add_marker(pytest.mark.timeout(1200))
+    part, parts = map(int, config.getoption("part").split("/"))
+    chosen = [item for item in items if crc32(item.path.name.encode()) % parts == part]
     if config.getoption("exhaustive"):
-        rest = [item for item in items if "thin" not in getattr(item, "fixturenames", ())]
-        config.hook.pytest_deselected(items=rest)
-        items[:] = [item for item in items if item not in rest]
+        chosen = [item for item in chosen if "thin" in getattr(item, "fixturenames", ())]
+    kept = set(chosen)
+    config.hook.pytest_deselected(items=[item for item in items if item not in kept])
+    items[:] = chosen

@@ -10,7 +10,7 @@ from itertools import pairwise
 import mpmath as mp
 import numpy as np
 
-DIGITS = 34
+DIGITS = 40
 STAGES = 12
 # Steps are so short that a block rarely meets the base twice within one.
 LONGEST = mp.mpf(1) / 32

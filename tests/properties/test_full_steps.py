@@ -179,10 +179,10 @@ def sampled(start, random):
 
 
 def fault_of(kernels, place, random, start, order):
-    """Return what is wrong with the first zero of a step: "missed", "invented" or nothing; and whether it has a zero."""
+    """Return what is wrong with a step: "inaccurate", or its first zero is "missed" or "invented"; and whether it has a zero."""
     find, take = kernels
     p, drive = place(start, random)
-    step, _, _, clear = take(p, start.side, start.angle, start.velocity, drive)
+    step, (rise, _), _, clear = take(p, start.side, start.angle, start.velocity, drive)
     found = math.inf if clear else find(step.angle, step.velocity, step.series, step.length)
     exact = Motion(start, step.length)
     fall = exact.first_fall(order)
@@ -192,6 +192,8 @@ def fault_of(kernels, place, random, start, order):
         size = start.angle + abs(start.velocity) * time + push * time**2
         return 16 * ROUNDING * size + 1e-16 * (time / step.length) ** 2
 
+    if abs(float(exact.at(step.length).mid()) - (start.angle + rise)) > rounding(step.length):
+        return "inaccurate", fall is not None
     if found < math.inf and float(abs(exact.at(found)).mid()) > rounding(found):
         return "invented" if fall is None or found < fall.low else "misplaced", True
     if fall is not None and fall.low < found:

@@ -5,6 +5,7 @@ import pytest
 
 import rocking as rk
 from benchmarks import verdicts
+from benchmarks.recorded_calls import record_calls
 from rocking.kernels.classify import verdict_record
 
 
@@ -23,3 +24,7 @@ def test_map_of_the_bench_is_the_map(monkeypatch, restitution):
     assert np.mean(kinds == found.kind.values.ravel()) > 0.98
     assert np.mean(grounds == found.evidence.values.ravel()) > 0.98
     assert (work[kinds == verdict_record.PERIODIC] > 0).all()
+
+
+def test_calls_of_every_entry_point_are_recorded():
+    assert [name for name, calls in record_calls().items() if not calls] == []
