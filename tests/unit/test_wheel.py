@@ -101,6 +101,10 @@ import rocking as rk
 system = rk.System(rk.Harmonic(2.0, period=1.0), 0.925)
 print(rk.__file__, rk.simulate(system, cycles=9).impacts, rk.classify(system).kind)
 print(*rk.parametric_map(amplitude=[1.2, 2.0], period=[0.5, 1.0], restitution=1.0, max_cycles=500).kind.values.ravel())
+block = rk.Block(height=1.0, width=0.3)
+record = rk.example_ground_motion().scaled(pga=5.0)
+shaken = [rk.simulate(block.system(record, model=model)) for model in ("slender", "full")]
+print(*[(motion.outcome, motion.impacts > 9) for motion in shaken])
 print("numba" in sys.modules)
 """
 
@@ -108,9 +112,10 @@ print("numba" in sys.modules)
 @pytest.mark.long
 @pytest.mark.skipif(machine_code.processor_class() == "native", reason="the wheel has no machine code for it")
 def test_nothing_is_compiled_and_numba_is_not_loaded(run):
-    first, kinds, loaded = run("-c", WITHOUT_COMPILER).splitlines()
+    first, kinds, outcomes, loaded = run("-c", WITHOUT_COMPILER).splitlines()
     assert first == f"{run.folder}/packages/rocking/__init__.py 17 periodic"
     assert len(kinds.split()) == 4
+    assert outcomes == "('at-rest', True) ('at-rest', True)"
     assert loaded == "False"
 
 
