@@ -104,7 +104,7 @@ print(*rk.parametric_map(amplitude=[1.2, 2.0], period=[0.5, 1.0], restitution=1.
 block = rk.Block(height=1.0, width=0.3)
 record = rk.example_ground_motion().scaled(pga=5.0)
 shaken = [rk.simulate(block.system(record, model=model)) for model in ("slender", "full")]
-print(*[(motion.outcome, motion.impacts > 9) for motion in shaken])
+print(*[(str(motion.outcome), motion.impacts > 9) for motion in shaken])
 print("numba" in sys.modules)
 """
 
