@@ -88,6 +88,8 @@ RESTING = [
     Case("one-cosine", 1.1, 6.0, 0.6, 0.2, 6.1),
     Case("one-cosine", 1.2, 6.0, 0.1, 0.2, 5.0),
 ]
+# By collocation they take ten seconds each.
+SLOW = [pytest.param(case, marks=pytest.mark.long) for case in RESTING[1:]]
 
 
 def name_of(case):
@@ -125,7 +127,7 @@ def test_states_are_those_of_collocation(case):
     assert impacts == times.size
 
 
-@pytest.mark.parametrize("case", RESTING, ids=name_of)
+@pytest.mark.parametrize("case", [RESTING[0], *SLOW], ids=name_of)
 def test_block_that_rests_before_the_end_lifts_off_again_at_the_same_time(case):
     motion, time, _ = compare(case)
     lifts = motion.events["time"][motion.events["kind"] == "lift-off"]

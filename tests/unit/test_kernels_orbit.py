@@ -13,7 +13,8 @@ from rocking.kernels.march.initial_state import UNKNOWN
 from rocking.kernels.march.tangent import Tangent
 from rocking.kernels.orbits import fixed_point, floquet, symmetric_mode
 
-pytestmark = pytest.mark.xdist_group("kernels_orbit")  # its kernels are compiled once
+# Its kernels are compiled once, for most of a minute. The tests of the searches run the same code in the fast tests.
+pytestmark = [pytest.mark.xdist_group("kernels_orbit"), pytest.mark.long]
 
 RANDOM = np.random.default_rng(1991)
 
