@@ -34,11 +34,11 @@ def test_report_has_a_row_per_record(rocking, found):
         [rk.example_ground_motion(), rk.read_ground_motion("push.csv")], BLOCK, LEVELS, intensity="pga-g"
     )
     code, message, out = rocking(f"overturning-set example push.csv {SIZE} {AXIS}")
-    title, heading, first, second, equation = out.splitlines()
+    title, missed, heading, first, second, equation = out.splitlines()
     assert (code, message) == (0, "")
-    assert title == str(both)
-    assert heading.split("   ")[:3] == ["record", *heading.split("   ")[1:3]]
-    assert "lowest, g" in heading
+    assert [title, missed] == str(both).splitlines()
+    assert missed == f"Intervals and gaps narrower than {np.diff(LEVELS).max():.3g} g may be missed"
+    assert heading.split()[:3] == ["record", "lowest", "found,"]
     assert f"{found.lowest[0]:.6g}" in first
     assert f"   {len(found.intervals())}   " in first
     assert second.startswith("push")
@@ -68,6 +68,7 @@ def test_json_holds_intervals_and_switches(rocking, found):
     assert one["intervals"] == found.intervals().tolist()
     assert [each["level"] for each in one["switches"]] == found.switches["level"].tolist()
     assert one["lowest"] == found.lowest[0]
+    assert told["spacing"] == found.spacing
     assert told["records_sha256"] == found.records.digest
 
 

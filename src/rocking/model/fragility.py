@@ -40,7 +40,7 @@ class LognormalFit:
     >>> import rocking as rk
     >>> fit = rk.LognormalFit(1.0, 5.0, 4.4, 5.8, 0.3, 0.2, 0.4, 0.03)
     >>> print(fit)
-    median 5 (4.4–5.8), dispersion 0.3 (0.2–0.4), misfit 3.0 %
+    median 5 (4.4–5.8), dispersion 0.3 (0.2–0.4), largest misfit 3.0 %
     """
 
     limit: float
@@ -59,7 +59,7 @@ class LognormalFit:
             return f"no fit: {self.problem}"
         median = _with_ends(self.median, self.median_low, self.median_high, unit)
         dispersion = _with_ends(self.dispersion, self.dispersion_low, self.dispersion_high)
-        misfit = "" if math.isnan(self.misfit) else f", misfit {100.0 * self.misfit:.1f} %"
+        misfit = "" if math.isnan(self.misfit) else f", largest misfit {100.0 * self.misfit:.1f} %"
         return f"median {median}, dispersion {dispersion}{misfit}"
 
     def probability(self, levels: Any) -> Any:

@@ -67,7 +67,8 @@ class OverturningSet(NotebookPicture):
     >>> import rocking as rk
     >>> push = rk.GroundMotion([1.0, 1.0], step=0.4, name="push")
     >>> print(rk.overturning_set(push, rk.Block(2.0, 0.5), np.linspace(0.1, 2, 20), intensity="pga-g"))
-    1 record, 20 levels of PGA from 0.1 to 2 g: 1 switch; 85.6 % of the range overturns; lowest 0.373175 g
+    1 record, 20 levels of PGA from 0.1 to 2 g: 1 switch; 85.6 % of the range overturns; lowest found 0.373175 g
+    Intervals and gaps narrower than 0.1 g may be missed
     """
 
     dataset: xr.Dataset = field(repr=False)
@@ -83,6 +84,11 @@ class OverturningSet(NotebookPicture):
     def scales(self) -> np.ndarray:
         """Levels of the grid, shape (n_levels,)."""
         return np.asarray(self.dataset["scale"].values)
+
+    @property
+    def spacing(self) -> float:
+        """Largest distance between two neighbouring levels. Intervals and gaps that are narrower may be missed."""
+        return float(np.diff(self.scales).max())
 
     @property
     def overturned(self) -> np.ndarray:
@@ -120,7 +126,10 @@ class OverturningSet(NotebookPicture):
 
     @property
     def lowest(self) -> np.ndarray:
-        """Lowest overturning level of each record, NaN if none; shape (n_records,)."""
+        """Lowest overturning level that was found of each record, NaN if none; shape (n_records,).
+
+        Narrow intervals below it may be missed, see `spacing`. More levels find more of them.
+        """
         return np.asarray(self.dataset["lowest"].values)
 
     @property
@@ -203,4 +212,7 @@ class OverturningSet(NotebookPicture):
         if np.isnan(self.lowest).all():
             return f"{told}no level overturns"
         least = np.nanmin(self.lowest)
-        return f"{told}{percent(self.share.mean())} of the range overturns; lowest {least:.6g}{unit}"
+        return (
+            f"{told}{percent(self.share.mean())} of the range overturns; lowest found {least:.6g}{unit}\n"
+            f"Intervals and gaps narrower than {self.spacing:.3g}{unit} may be missed"
+        )

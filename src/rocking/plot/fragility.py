@@ -69,7 +69,7 @@ def fragility(found: Fragility, ax: Axes | None = None) -> Axes:
     count = data.sizes["limit"]
     refuse_if(count > len(COLOURS), "found", f"have at most {len(COLOURS) - 1} limits to be drawn", count - 1)
     ax = style.own(ax, height=3.7)
-    style.block_title(ax, found.block)
+    style.block_title(ax, found.block, full=found.dataset.attrs.get("model") == "full")
     levels = data.scale.values
     shades = [*COLOURS[: count - 1], COLOURS[-1]]
     step = APART * float(np.diff(levels).min() if levels.size > 1 else ALONE * levels[0])

@@ -65,7 +65,7 @@ def incremental_dynamic_analysis(
 
         raise ValueError(refusal("fractiles", f"hold 1 to {len(SHADES)} fractions", fractiles))
     ax = style.own(ax, height=3.3)
-    style.block_title(ax, found.block)
+    style.block_title(ax, found.block, full=found.dataset.attrs.get("model") == "full")
     data = found.dataset
     levels = data.scale.values
     peaks = found.block.degrees(data.peak.transpose("record", "scale").values)

@@ -60,7 +60,7 @@ def overturning_set(found: OverturningSet, ax: Axes | None = None) -> Axes:
     instance("found", found, OverturningSet)
     count = len(found.records)
     ax = style.own(ax, height=min(REST + ROW * count, TALLEST))
-    style.block_title(ax, found.block)
+    style.block_title(ax, found.block, full=found.dataset.attrs.get("model") == "full")
     narrowest = float(np.ptp(found.scales)) * NARROWEST
     doubtful = found.undecided
     for row in range(count):

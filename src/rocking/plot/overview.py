@@ -71,7 +71,7 @@ def _with_base(motion: Motion, block: Block | None) -> Figure:
     below, right = figure.add_subplot(grid[1, 0], sharex=above), figure.add_subplot(grid[:, 1])
     for letter, ax in zip("abc", (above, below, right), strict=True):
         style.title(ax, f"({letter})")
-    style.block_title(above, block)
+    style.block_title(above, block, full=motion.system.critical_angle is not None)
     draw_with_base(above, below, motion, block)
     phase_portrait(motion, right, block)
     return figure

@@ -129,7 +129,7 @@ def _head(ax: Axes, found: xr.Dataset) -> None:
         heading = shortened(
             str(found["name"].values) if "name" in found.coords else found.attrs["record"], 30
         )
-    style.title(ax, heading)
+    style.title(ax, heading + style.FULL_EQUATION * (found.attrs.get("model") == "full"))
     constants = []
     if "slenderness" not in found.dims:
         constants.append(rf"$\theta_\mathrm{{cr}}$ = {np.degrees(float(value(found, 'slenderness'))):.3g}°")

@@ -1,4 +1,4 @@
-"""Overturning set: all levels of ground motions that overturn a block, with the switches located to the last digit."""
+"""Overturning set: levels of ground motions that overturn a block, with the switches located to the last digit."""
 
 from __future__ import annotations
 
@@ -83,7 +83,7 @@ def overturning_set(
     model: str = "slender",
     executor: Executor | None = None,
 ) -> OverturningSet:
-    """Find all levels at which ground motions overturn a block, not only the lowest.
+    """Find the levels at which ground motions overturn a block, not only the lowest.
 
     Overturning is not monotone: a stronger motion can spare a block that a weaker one overturns. "The" overturning acceleration
     does not exist. Every interval of overturning or of standing levels that is wider than the distance of two neighbouring

@@ -25,7 +25,7 @@ def overturning_set(
     polarity: record_source.Polarity = None,
     **shared: Any,
 ) -> None:
-    """Find all levels at which records overturn a block.
+    """Find the levels at which records overturn a block.
 
     Overturning is not monotone: a stronger motion can spare a block that a weaker one overturns. Every interval wider than the
     distance of two levels is found. AXIS is START:STOP:COUNT: COUNT evenly spaced levels, both ends included. COUNT is optional.

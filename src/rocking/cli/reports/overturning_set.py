@@ -56,7 +56,13 @@ def undecided(found: OverturningSet) -> Iterator[str]:
 def rows(found: OverturningSet) -> Iterator[Row]:
     """Yield one row per record."""
     unit = "" if found.measure.unit in ("", "1") else f", {found.measure.unit}"
-    yield "record", f"lowest{unit}", "intervals", "overturning share of the range", f"first intervals{unit}"
+    yield (
+        "record",
+        f"lowest found{unit}",
+        "intervals",
+        "overturning share of the range",
+        f"first intervals{unit}",
+    )
     for number, name in list(enumerate(found.records.names))[:MAX_ROWS]:
         intervals = found.intervals(number)
         lowest = found.lowest[number]
@@ -84,6 +90,7 @@ def record(found: OverturningSet, doubts: Sequence[str], files: Sequence[Path]) 
             "stop": float(found.scales[-1]),
             "count": int(found.scales.size),
         },
+        "spacing": found.spacing,
         "block": size_of(block) | {"restitution": block.restitution, "inertia_ratio": block.inertia_ratio},
         "model": data.attrs["model"],
         "angle": data.attrs["angle"],

@@ -40,8 +40,13 @@ def show(
 
 
 def heading(ground: GroundMotion) -> str:
-    """Return the name of a record and its peak, for a figure."""
-    return f"{ground.name}, PGA {ground.pga / GRAVITY:.3g} g"
+    """Return the name of a record with its component and its peak, for a figure."""
+    return f"{named(ground)}, PGA {ground.pga / GRAVITY:.3g} g"
+
+
+def named(ground: GroundMotion) -> str:
+    """Return the name of a record with its component."""
+    return ", ".join(filter(None, (ground.name, ground.component)))
 
 
 def verdict(motion: Motion, block: Block) -> str:
@@ -67,7 +72,7 @@ def undecided(motion: Motion) -> Iterator[str]:
 
 def of_ground(ground: GroundMotion) -> Iterator[Row]:
     """Yield the rows of the ground motion."""
-    yield "motion", ", ".join(filter(None, (ground.name, ground.component)))
+    yield "motion", named(ground)
     file = ground.file
     if file is not None:
         parts = (file.name, file.format, file.channel, f"SHA-256 {file.sha256[:DIGITS_OF_DIGEST]}…")
@@ -141,6 +146,7 @@ def record(
     overturning = motion.overturning
     return {
         "outcome": str(motion.outcome),
+        "model": "slender" if motion.system.critical_angle is None else "full",
         "certified": motion.certified,
         "overturning_s": None if overturning is None else float(block.seconds(overturning.time)),
         "ground_motion": {

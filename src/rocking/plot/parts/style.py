@@ -38,6 +38,8 @@ INK = "#262626"
 GUIDE = "#9A9A9A"
 FALLEN = "#CCCCCC"
 
+# In the heading of a figure of blocks that are not slender.
+FULL_EQUATION = ", full equation"
 # Lines outside the range in which they are valid.
 DOTTED = (0, (1, 1.5))
 
@@ -121,10 +123,10 @@ def title(ax: Axes, text: str) -> None:
     ax.set_title(f"{letter} {text}" if letter else text, loc="left", fontsize=TEXT, color=INK)
 
 
-def block_title(ax: Axes, block: Block | None) -> None:
-    """Write the size of the block above the axes at the left, for a figure in SI units."""
+def block_title(ax: Axes, block: Block | None, *, full: bool = False) -> None:
+    """Write the size of the block above the axes at the left, for a figure in SI units, and whether its equation is full."""
     if block is not None:
-        title(ax, f"block {block.size}")
+        title(ax, f"block {block.size}{FULL_EQUATION * full}")
 
 
 def note(ax: Axes, text: str) -> None:
