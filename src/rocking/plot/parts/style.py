@@ -38,8 +38,8 @@ INK = "#262626"
 GUIDE = "#9A9A9A"
 FALLEN = "#CCCCCC"
 
-# In the heading of a figure of blocks that are not slender.
-FULL_EQUATION = ", full equation"
+# In the heading of a figure of blocks that are not slender; a line of its own, clear of the note at the right.
+FULL_EQUATION = "\nfull equation"
 # Lines outside the range in which they are valid.
 DOTTED = (0, (1, 1.5))
 
