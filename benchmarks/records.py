@@ -38,6 +38,7 @@ STRONG = 2.0
 # Angle beyond which a block counts as overturned.
 FALLEN = 3.0
 OVER_RK4, OVER_RK4_ON_AVERAGE, OVER_DOP853 = 10, 25, 20_000
+OVER_ULP = 10
 BLOCKS = {"h 2 m": rk.Block(height=2.0, width=0.5), "h 8 m": rk.Block(height=8.0, width=1.6)}
 SIMULATION_MS = 1.0
 SURVEY_S = 10.0
@@ -283,16 +284,43 @@ def scale_of_fast_impacts(cell):
     return -max(counts)[1]
 
 
+def exact_times(cell, scale):
+    """Return the times of the first fast impacts in 60 digits."""
+    run = segments.motion(cell.values, cell.step, cell.restitution, scale=float(scale))
+    return [impact.time for impact in run.impacts if impact.speed > FAST][:FAST_IMPACTS]
+
+
+def errors(wanted, found):
+    """Return the errors of the times of the impacts that both have."""
+    return np.array([abs(float(exact - time)) for exact, time in zip(wanted, found, strict=False)])
+
+
 def error(cell, scales, found):
     """Return the median of the largest errors of the runs' first fast impacts."""
-    worst = []
-    for scale, times in zip(scales, found, strict=True):
-        run = segments.motion(cell.values, cell.step, cell.restitution, scale=float(scale))
-        wanted = [float(impact.time) for impact in run.impacts if impact.speed > FAST]
-        count = min(len(wanted), len(times), FAST_IMPACTS)
-        if count:
-            worst.append(np.abs(np.array(times[:count]) - wanted[:count]).max())
+    off = [
+        errors(exact_times(cell, scale), times[:FAST_IMPACTS])
+        for scale, times in zip(scales, found, strict=True)
+    ]
+    worst = [each.max() for each in off if len(each)]
     return float(np.median(worst)) if worst else 0.0
+
+
+def rounding():
+    """Compare the errors of the times of fast impacts with the effect of one unit in the last place of the scale."""
+    ratios = []
+    for cell in cells():
+        scales = cell.scales(CHECKED + 1)[1:]
+        for scale, times in zip(scales, times_of_simulation(cell, scales), strict=True):
+            wanted = exact_times(cell, scale)
+            effect = errors(wanted, exact_times(cell, np.nextafter(scale, math.inf)))
+            ratios += [
+                one / other for one, other in zip(errors(wanted, times), effect, strict=False) if other > 0.0
+            ]
+    median, most = np.quantile(ratios, (0.5, 0.9))
+    note = f"median of {len(ratios)} impacts; 90 % are below {most:.3g}"
+    return Figure(
+        "Error of impact times, effect of one ulp of the scale", float(median), "×", OVER_ULP, note=note
+    )
 
 
 def speed():
@@ -321,6 +349,7 @@ def speed():
             yield Figure(f"  {name}", slow / (fast / MANY_SCALES), "×", goal, least=True, note=note)
     mean = geometric_mean(ratios)
     yield Figure("RK4, geometric mean", mean, "×", OVER_RK4_ON_AVERAGE, least=True)
+    yield rounding()
     yield simulation()
     yield survey()
 

@@ -14,7 +14,7 @@ from oracles.full_steps import Line, Motion, Start, Wave
 from rocking.kernels.forcing import parameters as numbers
 from rocking.kernels.forcing.drives import FullHarmonicDrive, FullPulseDrive, FullSampledDrive
 from rocking.kernels.forcing.full.crossing import first_zero
-from rocking.kernels.forcing.full.step import FULL, cannot_reach_base, error_bound, state_in, step_from
+from rocking.kernels.forcing.full.step import LONG, cannot_reach_base, error_bound, state_in, step_from
 from rocking.motion.kernel_parameters import parameters
 
 FEW, MANY = 1_000, 20_000
@@ -43,7 +43,7 @@ def kernels():
     @njit
     def take(p, side, angle, velocity, drive):
         made = step(p, side, angle, velocity, drive)
-        error = bound(p, velocity, made.series, made.length, drive, FULL)
+        error = bound(p, velocity, made.series, made.length, drive, LONG)
         return made, state(made, made.length), error, clear(p, made, drive)
 
     return find, take
@@ -75,8 +75,11 @@ def test_error_of_a_step_is_below_its_bound(kernels):
 
 
 def polynomial(random):
-    """Return a + b t + c t^2 + ... on [0, 1] as (a, b, tuple): often with a zero at the start, or nearly with a double one."""
-    kind = random.integers(4)
+    """Return a + b t + c t^2 + ... on [0, 1] as (a, b, tuple): often with a zero at the start, or nearly with a double one.
+
+    Kinds 4 to 7 begin with terms of very different sizes, as after a lift-off shortly before a sample.
+    """
+    kind = random.integers(8)
     c = random.normal(size=19) / np.cumprod(np.arange(2.0, 21.0))
     a, b = abs(random.normal()) * 10.0 ** random.uniform(-9, 0), random.normal()
     if kind == 1:
@@ -89,6 +92,16 @@ def polynomial(random):
         c = c * 1e-3
         c[0] = bend
         a = abs(a)
+    if kind == 4:
+        a, b, c[0] = 0.0, 0.0, 10.0 ** random.uniform(-16, 0)
+    if kind == 5:
+        a, b = 10.0 ** random.uniform(-30, -9), abs(b)
+    if kind == 6:
+        a, b, c[0] = (
+            sign * 10.0 ** random.uniform(-18, -3) for sign in (1.0, *random.choice([-1.0, 1.0], 2))
+        )
+    if kind == 7:
+        a, b, c[0], c[1] = 0.0, 0.0, 0.0, 10.0 ** random.uniform(-9, 0)
     return float(a), float(b), tuple(map(float, c))
 
 
@@ -132,14 +145,23 @@ def test_first_zero_of_many_polynomials_is_that_of_exact_isolation(kernels, seed
 
 
 def start_of_step(random, sampled):
-    """Return the start of a step and the order of its zero: after an impact, at a lift-off, in flight, or shortly before a touch."""
+    """Return the start of a step and the order of its zero.
+
+    It lies after an impact, at a lift-off, in flight, shortly before a touch, or just after a lift-off at which |A| hardly
+    exceeds the limit but grows fast.
+    """
     alpha, amplitude = float(random.uniform(0.02, 1.2)), float(random.uniform(0.0, 8.0))
     frequency, phase = 2 * math.pi / float(random.uniform(0.3, 3.0)), float(random.uniform(-math.pi, math.pi))
-    side, kind = int(random.choice([-1, 1])), random.integers(4)
+    side, kind = int(random.choice([-1, 1])), random.integers(5)
     cosine, sine = math.cos(phase), math.sin(phase)
     angle, velocity, order = float(random.uniform(0.0, 1.2)), float(random.uniform(-1.0, 1.0)), 0
     if kind in (1, 3):  # pushed away from the base
         cosine = -side * abs(cosine)
+    if kind == 4:
+        least = math.tan(alpha) / alpha
+        amplitude = max(amplitude, 2.0 * least)
+        cosine = -side * (1.0 + 10.0 ** float(random.uniform(-12, -1))) * least / amplitude
+        sine = side * math.sqrt(1.0 - cosine**2)
     now = amplitude * cosine
     base = Line(now, frequency * amplitude * sine) if sampled else Wave(amplitude, frequency, cosine, sine)
     bend = -math.sin(alpha) / alpha - side * now * math.cos(alpha)
@@ -151,6 +173,10 @@ def start_of_step(random, sampled):
         time = float(random.uniform(0.01, 0.3))
         angle = abs(bend * time**2 / 2 + random.normal() * 10.0 ** random.uniform(-15, -4))
         velocity = -bend * time
+    elif kind == 4:
+        angle, velocity, order = 0.0, 0.0, 2
+        if random.random() < 0.5:
+            angle, order = 10.0 ** float(random.uniform(-20, -9)), 0
     return Start(alpha, side, angle, velocity, base), order
 
 

@@ -49,6 +49,7 @@ from rocking.model.record_file import RecordFile
 from rocking.model.record_set import RecordSet, record_set
 from rocking.model.sensitivity import Sensitivity
 from rocking.model.si_units import PHYSICAL, block_attributes
+from rocking.model.start_checks import check_periodic, check_start
 from rocking.model.survey_results import (
     ChaosShare,
     OverturningCurve,
@@ -70,8 +71,6 @@ from rocking.model.system import (
     check_below_flat,
     check_between,
     check_constant_restitution,
-    check_periodic,
-    check_start,
     quantities,
     system_of,
 )

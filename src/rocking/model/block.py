@@ -10,8 +10,8 @@ from attrs import field, frozen
 
 from rocking.model.block_formulas import GRAVITY, frequency_in_hertz, frequency_parameter, housner_restitution
 from rocking.model.forcing import FREQUENCIES, MAX_AMPLITUDE, BaseMotion, Harmonic
-from rocking.model.system import MODELS, Braces, System
-from rocking.model.validation import exactly_one, instance, one_of, reals, refusal, within
+from rocking.model.system import Braces, System, critical_angle_for
+from rocking.model.validation import exactly_one, instance, reals, refusal, within
 
 SIZES = (1e-3, 1e3)
 INERTIA_RATIOS = (1.0, 10.0)
@@ -160,7 +160,7 @@ class Block:
         braces : Braces, optional
             Braces with a normalised angle, such as `Braces(angle=block.angle(degrees=3))`. Default: no braces.
         model : {"slender", "full"}
-            Equation of motion: that of small angles, or the full one, which has no braces. Default: "slender".
+            Equation of motion: that of small angles, or the full one. Default: "slender".
 
         Returns
         -------
@@ -186,7 +186,7 @@ class Block:
             "frequency_hz": frequency_hz,
             "period_s": period_s,
         }
-        angle = self.critical_angle if one_of("model", model, MODELS) == "full" else None
+        angle = critical_angle_for(model, self.critical_angle, self.width)
         if base is None:
             return System(self._harmonic(**harmonic, phase=phase), self.restitution, braces, angle)
         given = [name for name, value in harmonic.items() if value is not None] + ["phase"] * (phase != 0.0)

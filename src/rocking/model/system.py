@@ -9,7 +9,7 @@ from itertools import pairwise
 from attrs import field, frozen
 
 from rocking.model.forcing import FREQUENCIES, MAX_AMPLITUDE, MAX_PHASE, PERIODS, Forcing, Harmonic
-from rocking.model.validation import finite, instance, pair, refusal, refuse_if, within
+from rocking.model.validation import finite, instance, one_of, pair, refusal, refuse_if, within
 
 BRACE_ANGLES = (1e-3, 1e3)
 CRITICAL_ANGLES = (1e-3, 1.2)
@@ -92,6 +92,7 @@ def _braces(value: Braces | None) -> Braces | None:
 def _restitution_table(value: Iterable[tuple[float, float]]) -> tuple[tuple[float, float], ...]:
     """Return rows of speed and coefficient of restitution, after checking them."""
     allowed = "be rows (speed, coefficient of restitution), the speeds positive and ascending"
+    refuse_if(not isinstance(value, Iterable), "restitution_table", allowed, value)
     rows = [pair("restitution_table", row, allowed) for row in value]
     checked = tuple((within("speed", speed, 0, MAX_STATE), _restitution(kept)) for speed, kept in rows)
     speeds = [0.0, *(speed for speed, _ in checked)]
@@ -258,43 +259,20 @@ class State:
     velocity: float = field(default=0.0, converter=_velocity)
 
 
-def check_start(system: System, start: State | None) -> State:
-    """Return the initial state of a motion, by default at rest.
-
-    Raises
-    ------
-    TypeError
-        If `system` is not a System or `start` is not a State.
-    ValueError
-        If the initial state lies outside [-1000, 1000] or beyond a brace.
-    """
-    instance("system", system, System)
-    start = State() if start is None else instance("start", start, State)
-    within("angle", start.angle, -MAX_START, MAX_START)
-    within("velocity", start.velocity, -MAX_START, MAX_START)
-    if system.braces is not None:
-        check_between(start.angle, system.braces.angle)
-    return start
-
-
-def check_periodic(system: System, start: State | None) -> State:
-    """Return the initial state as `check_start` does, for an analysis that needs a periodic base motion.
-
-    Raises
-    ------
-    TypeError
-        If the base motion is not periodic, or as in `check_start`.
-    ValueError
-        As in `check_start`.
-    """
-    instance("system", system, System).periodic  # noqa: B018 (it refuses)
-    return check_start(system, start)
-
-
 def check_constant_restitution(system: System) -> None:
     """Raise ValueError for a table of the coefficient of restitution, which surveys and diagrams do not take."""
     allowed = "be omitted for many systems at once"
     refuse_if(bool(system.restitution_table), "restitution_table", allowed, system.restitution_table)
+
+
+def critical_angle_for(model: str, angle: float, width: float) -> float | None:
+    """Return the critical angle of a block, None for the slender model; ValueError if the full equation does not take it."""
+    if one_of("model", model, MODELS) == "slender":
+        return None
+    low, high = CRITICAL_ANGLES
+    allowed = f"give a critical angle atan(width/height) in [{low}, {high}] with the full equation"
+    refuse_if(not low <= angle <= high, "width", allowed, width)
+    return angle
 
 
 def check_below_flat(brace_angle: float, critical_angle: float) -> None:

@@ -34,7 +34,7 @@ class TooManyEvents(ValueError):
     >>> system = rk.System(rk.Harmonic(amplitude=0.0, period=6000.0), restitution=1.0, braces=rk.Braces(0.001))
     >>> rk.simulate(system, rk.State(velocity=1000.0), cycles=1, record="none")
     Traceback (most recent call last):
-    rocking.model.validation.TooManyEvents: more than 10,000,000 events in one forcing cycle: ...
+    rocking.model.validation.TooManyEvents: more than 10,000,000 events without an end: ...
     """
 
 

@@ -98,8 +98,8 @@ def run(
 def _crowded(status: int) -> str:
     if status == kernel.CROWDED:
         return (
-            f"more than {kernel.MAX_EVENTS:,} events in one forcing cycle: the block chatters with little energy loss "
-            "(increase the initial velocity, or reduce restitution)"
+            f"more than {kernel.MAX_EVENTS:,} events without an end: the block chatters with little energy loss "
+            "(reduce restitution)"
         )
     return (
         f'more than {MAX_RECORDED:,} events to record (run fewer cycles, or use record="section" or "none")'

@@ -34,6 +34,9 @@ from rocking.kernels.march.tangent import event_map
 from rocking.kernels.numerics.elementary import hyperbolic
 from rocking.kernels.numerics.replace_fields import replacing
 
+# Number of impacts from one trial to prove that chattering ends in rest to the next: a trial costs as much as an impact.
+TRIED = 4
+
 
 class Closeness(NamedTuple):
     """Margin and accumulated rounding error of a motion, up to the present arc."""
@@ -76,9 +79,11 @@ def settles(p, drive, speed, error, peak):
 
 
 @njit(**INTERNAL_INLINE)
-def is_lossless(p, event):
-    """Return whether an event takes no energy: an impact at the base, or at a brace."""
-    return (p.block.brace_restitution if event == BRACE else p.block.restitution) == 1.0
+def is_lossless(p, coming):
+    """Return whether an event is an impact, at the base or at a brace, that takes no energy."""
+    if coming.event == BRACE:
+        return p.block.brace_restitution == 1.0
+    return coming.event == IMPACT and restitution_at(p, -coming.velocity)[0] == 1.0
 
 
 @njit(**INTERNAL)
@@ -155,13 +160,14 @@ def to_end(p, angle, velocity, until, cut, want_peak):
         impacts += coming.event == IMPACT
         brace_hits += coming.event == BRACE
         close = with_error(close, error_at_event(p, mode, arc, coming, close.error))
-        after = resolved(p, arc, coming, cut, highest.reached if want_peak else math.inf, close.error)
+        tried = cut and since_rest % TRIED == TRIED - 1
+        after = resolved(p, arc, coming, tried, highest.reached if want_peak else math.inf, close.error)
         close = after_its_event(p, arc, coming, after, close, cut)
         mode, arc = after
         since_rest = 0 if mode == REST else since_rest + int(coming.event == IMPACT)
         while arc.start > p.clock.cycle_length:
             cycle, arc = cycle + 1, shift_clock(arc, p.clock.cycle_length)
-        if coming.event in (IMPACT, BRACE) and is_lossless(p, coming.event) and has_ended(p, arc.drive):
+        if is_lossless(p, coming) and has_ended(p, arc.drive):
             spare = abs(arc.velocity) - 1.0  # the energy decides
             decided = close.decided and (not free or exceeds(spare, of_growth(close.error)))
             status = OVERTURNED if free and spare > 0.0 else DONE

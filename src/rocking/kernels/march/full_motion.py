@@ -48,7 +48,7 @@ def to_end(p, angle, velocity, until, cut, want_peak):
         since_rest = 0 if mode == REST else since_rest + int(coming.event == IMPACT)
         while arc.start > p.clock.cycle_length:
             cycle, arc = cycle + 1, shift_clock(arc, p.clock.cycle_length)
-        if coming.event in (IMPACT, BRACE) and is_lossless(p, coming.event) and has_ended(p, arc.drive):
+        if is_lossless(p, coming) and has_ended(p, arc.drive):
             status = OVERTURNED if overturns_freely(p, abs(arc.velocity)) else DONE
             break
     return Ending(status, impacts, since_rest, brace_hits, peak, math.nan, math.nan, False)

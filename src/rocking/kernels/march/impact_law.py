@@ -36,8 +36,9 @@ def after_impact(p, arc, time, coming, horizon):
         Mode and arc.
     """
     before = max(-coming.velocity, 0.0)
-    speed = restitution_at(p, before)[0] * before
-    if speed < NEGLIGIBLE and p.block.restitution < 1.0:
+    restitution, _ = restitution_at(p, before)
+    speed = restitution * before
+    if speed < NEGLIGIBLE and restitution < 1.0:
         speed = 0.0
     side, mode = -arc.side, FLIGHT
     if speed == 0.0:
@@ -46,7 +47,7 @@ def after_impact(p, arc, time, coming, horizon):
             side, mode = arc.side, REST
     after = arc_after(p, side, time, 0.0, speed, coming)
     may_cut = horizon > 0.0 or speed < SLOWEST
-    if may_cut and mode == FLIGHT and 0.0 < speed < SLOW and p.block.restitution < 1.0:
+    if may_cut and mode == FLIGHT and 0.0 < speed < SLOW and restitution < 1.0:
         settled = base_settling_time(p, after.drive, speed)
         if settled < math.inf and (settled <= horizon or speed < SLOWEST):
             mode = REST

@@ -81,7 +81,8 @@ def largest_within(p, drive, time):
 @njit(**INTERNAL_INLINE)
 def largest_near(p, drive, radius):
     """Provide ``base.largest_near``."""
-    return p.forcing.amplitude * exponential_bound(p.forcing.frequency * radius)
+    amplitude = p.forcing.amplitude
+    return amplitude * exponential_bound(p.forcing.frequency * radius) if amplitude > 0.0 else 0.0
 
 
 @njit(**INTERNAL)

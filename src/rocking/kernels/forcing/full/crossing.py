@@ -18,11 +18,17 @@ from rocking.kernels.forcing.full.series import (
     divided_1,
     divided_2,
     divided_3,
+    shifted,
 )
 
-STEPS = 200
+# Steps of a search before the polynomial is written in a later time.
+STEPS = 50
 ITERATIONS = 100
 ROUNDING = 2.0**-53
+# Factor on a bound, for its rounding.
+MARGIN = 1.0 + 1e-12
+# Length of a window relative to that of its proof, or to the window before.
+NARROWER, WIDER = 6.0, 2.0
 
 
 @njit(**INTERNAL)
@@ -79,25 +85,69 @@ def bracketed_zero(a, b, c, order, low, high):
 
 
 @njit(**INTERNAL)
-def first_zero(a, b, c, h):
-    """Return the first time in (0, h] at which a + b t + c2 t^2 + ... falls through zero; infinity if there is none."""
-    if a == 0.0 and b < 0.0:
-        return 0.0
-    order = order_at_start(a, b, c)
-    bend, t = bend_of(a, b, c, order, h) * (1.0 + 1e-12), 0.0
+def search(a, b, c, order, h):
+    """Search for the first time in (0, h] at which g falls through zero; it is positive just after the start.
+
+    The bound of |g''| holds up to the end of a window. If a proof reaches a small part of the window only, the window is
+    shortened, which makes the bound smaller. From the end of a window the next one begins.
+
+    Returns
+    -------
+    tuple of (bool, float)
+        Whether the search is complete: if not, there is no zero up to the time.
+        The time, infinite if there is no zero.
+    """
+    t, end = 0.0, h
+    bend = bend_of(a, b, c, order, end) * MARGIN
     for _ in range(STEPS):
         g, dg = quotient(a, b, c, order, t)
         if g <= 0.0:
-            return t
-        x = 2.0 * g / (math.sqrt(dg * dg + 2.0 * bend * g) - dg) if bend > 0.0 or dg < 0.0 else math.inf
-        if t + x >= h:
-            return math.inf
-        if dg < 0.0 and 2.0 * bend * g < dg * dg:
-            end = min(t - 2.0 * g / dg, h)
-            if quotient(a, b, c, order, end)[0] > 0.0:
-                return math.inf if end == h else end
-            return bracketed_zero(a, b, c, order, t, end)
+            return True, t
+        x, root = math.inf, math.sqrt(dg * dg + 2.0 * bend * g)
+        if dg < 0.0:
+            x = 2.0 * g / (root - dg)
+        elif bend > 0.0:
+            x = (root + dg) / bend
+        if t + x >= end:
+            if end == h:
+                return True, math.inf
+            t, end = end, min(WIDER * end, h)
+            bend = bend_of(a, b, c, order, end) * MARGIN
+            continue
+        if dg < 0.0 and 2.0 * bend * g < dg * dg:  # g falls as far as its zero, or the end of the window
+            low = min(t - 2.0 * g / dg, end)
+            if quotient(a, b, c, order, low)[0] <= 0.0:
+                return True, bracketed_zero(a, b, c, order, t, low)
+            if low < end:
+                return True, low
+            if end == h:
+                return True, math.inf
+            t = end
+            continue
         if t + x == t:
-            return t
+            return True, t
+        if NARROWER * x < end - t:
+            end = t + NARROWER * x
+            bend = bend_of(a, b, c, order, end) * MARGIN
         t += x
-    return t
+    return False, t
+
+
+@njit(**INTERNAL)
+def first_zero(a, b, c, h):
+    """Return the first time in (0, h] at which a + b t + c2 t^2 + ... falls through zero; infinity if there is none.
+
+    Where the search advances slowly, the polynomial is expanded again, in the time since then. A start below zero that falls is a
+    zero at the end of the step before, to rounding.
+    """
+    if a <= 0.0 and b < 0.0:
+        return 0.0
+    order, passed = order_at_start(a, b, c), 0.0
+    while True:
+        complete, t = search(a, b, c, order, h - passed)
+        if complete:
+            return passed + t
+        a, b, c = shifted(a if order == 0 else 0.0, b if order < 2 else 0.0, c[0] if order < 3 else 0.0, c, t)
+        order, passed = 0, passed + t
+        if a <= 0.0:
+            return passed

@@ -11,6 +11,8 @@ from rocking.kernels.forcing.full.step import state_in, step_from
 
 # Rounding error of u'', relative to its parts.
 NOISE = 2.0**-49
+# Part of a step by which the search for extrema advances at least.
+SHORTEST = 2.0**-30
 
 
 @njit(**INTERNAL)
@@ -27,6 +29,15 @@ def first_turn(step, h, noise):
 
 
 @njit(**INTERNAL)
+def highest_possible(step, rise, bend, h):
+    """Return a bound on the angle up to a time h, from the rise over it.
+
+    The angle exceeds its chord by h^2/8 max|u''| at most.
+    """
+    return max(step.angle, step.angle + rise) + 0.125 * h * h * bend
+
+
+@njit(**INTERNAL)
 def largest_on(p, arc, until, peak):
     """Provide ``contract.largest_on``: after an extremum that may count, a new step starts there with u' = 0."""
     angle, velocity, drive, left = arc.angle, arc.velocity, arc.drive, until
@@ -34,11 +45,13 @@ def largest_on(p, arc, until, peak):
         step = step_from(p, arc.side, angle, velocity, drive)
         h = min(step.length, left)
         rise, velocity = state_in(step, h)
-        top = max(angle, angle + rise) + 0.125 * h * h * bend_0(angle, step.velocity, step.series, h)
-        if top > peak:
+        bend = bend_0(angle, step.velocity, step.series, h)
+        if highest_possible(step, rise, bend, h) > peak:
             noise = NOISE * (p.block.press + abs(acceleration_of(p, drive)))
-            turn = first_turn(step, h, noise)
-            if turn < h and left - turn < left:
+            turn, least = first_turn(step, h, noise), SHORTEST * h
+            if turn <= least:  # an extremum that rounding finds again
+                h, (rise, velocity) = least, state_in(step, least)
+            elif turn < h:
                 h, velocity = turn, 0.0
                 rise = state_in(step, h)[0]
         angle, left = angle + rise, left - h
@@ -52,7 +65,7 @@ def peak_in(p, arc, step, drive, h, peak):
     """Return the largest angle up to a time h of a step of an arc, and ``peak`` at least."""
     rise = state_in(step, h)[0]
     bend = bend_0(step.angle, step.velocity, step.series, h)
-    if max(step.angle, step.angle + rise) + 0.125 * h * h * bend <= peak:
+    if highest_possible(step, rise, bend, h) <= peak:
         return peak
     if step.velocity > h * bend:  # the angle only grows
         return max(peak, within_reach(p, step.angle + rise))

@@ -19,3 +19,14 @@ def restitution_at(p, speed):
             e = law[k - 1, 1] + slope * (speed - law[k - 1, 0])
             return e, e + slope * speed
     return law[count - 1, 1], law[count - 1, 1]
+
+
+@njit(**INTERNAL)
+def largest_up_to(p, speed):
+    """Return the largest coefficient at all speeds up to this one."""
+    law = p.block.law
+    largest, _ = restitution_at(p, speed)
+    for k in range(law.shape[0]):
+        if k == 0 or law[k, 0] < speed:
+            largest = max(largest, law[k, 1])
+    return largest

@@ -174,6 +174,22 @@ short_divided_1 = kernel(
 bend_0, bend_1, bend_2, bend_3 = (bend(first) for first in range(4))
 
 
+def shifted_lines() -> list[str]:
+    """Return the source of the polynomial in the time since t, by repeated synthetic division."""
+    lines = ["p0, p1, p2 = a, b, second", *(f"p{k} = w[{k - 2}]" for k in range(3, ORDER + 1))]
+    for first in range(ORDER):
+        lines += [f"p{k} = p{k} + t * p{k + 1}" for k in range(ORDER - 1, first - 1, -1)]
+    return [*lines, f"return p0, p1, ({', '.join(f'p{k}' for k in range(2, ORDER + 1))})"]
+
+
+shifted = kernel(
+    "shifted",
+    "a, b, second, w, t",
+    shifted_lines(),
+    "Return a + b t + second t^2 + w3 t^3 + ... in the time since t.",
+)
+
+
 def size_lines(order: int) -> list[str]:
     """Return the source of the sums of |w_k| r^k from k = 1 on, and of k (k - 1) |w_k| r^(k - 2).
 

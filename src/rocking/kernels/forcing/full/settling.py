@@ -11,6 +11,7 @@ from rocking.kernels.compile_options import INTERNAL
 from rocking.kernels.deferred import njit
 from rocking.kernels.forcing.contract import acceleration
 from rocking.kernels.forcing.full.base import acceleration_of, change_within
+from rocking.kernels.forcing.full.restitution import largest_up_to
 
 # Time that is looked at, relative to that of arcs under the present acceleration.
 LONGER = 2.5
@@ -37,7 +38,7 @@ def bounded(speed, e, press, moved, softness, clearance):
 def settling(p, drive, speed):
     """Provide ``contract.settling``."""
     block, swing = p.block, abs(acceleration_of(p, drive))
-    e, press = block.restitution, block.press - block.cosine * swing
+    e, press = largest_up_to(p, speed), block.press - block.cosine * swing
     if e >= 1.0 or press <= 0.0:
         return math.inf, math.inf
     window = LONGER * 2.0 * speed / (press * (1.0 - e))

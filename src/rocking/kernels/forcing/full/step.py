@@ -53,7 +53,7 @@ class Truncation(NamedTuple):
 
 
 # With these radii the bounds are least, or nearly so, over all base motions.
-FULL = Truncation(ORDER, 7.0, 7.0 ** (1.0 - ORDER))
+LONG = Truncation(ORDER, 7.0, 7.0 ** (1.0 - ORDER))
 SHORT = Truncation(SHORT_ORDER, 40.0, 40.0 ** (1.0 - SHORT_ORDER))
 
 
@@ -111,16 +111,28 @@ def lean_of(block, angle):
 
 
 @njit(**INTERNAL)
+def series_at(p, side, angle, velocity, sine, cosine, drive, short):
+    """Return the series from an instant on. A block that starts from rest leaves the base, or its brace, also to rounding."""
+    c = series_from(p, side, -p.block.critical_angle * velocity, sine, cosine, drive, short)
+    if velocity == 0.0:
+        if angle == 0.0:
+            return (max(c[0], 0.0), *c[1:])
+        if angle == p.block.brace_angle:
+            return (min(c[0], 0.0), *c[1:])
+    return c
+
+
+@njit(**INTERNAL)
 def step_from(p, side, angle, velocity, drive):
     """Return the step of an arc from an instant on."""
     sine, cosine = lean_of(p.block, angle)
-    slope, corner = -p.block.critical_angle * velocity, smooth_time(p, drive)
+    corner = smooth_time(p, drive)
     if corner < NEAR:
-        c = series_from(p, side, slope, sine, cosine, drive, True)
+        c = series_at(p, side, angle, velocity, sine, cosine, drive, True)
         near = ends_at_corner(c, corner, SHORT_ORDER)
         if near and error_bound(p, velocity, c, corner, drive, SHORT) <= ERROR:
             return Step(angle, velocity, c, corner, True, True)
-    c = series_from(p, side, slope, sine, cosine, drive, False)
+    c = series_at(p, side, angle, velocity, sine, cosine, drive, False)
     if corner < 1.0 and ends_at_corner(c, corner, ORDER):
         to_corner, length = True, corner
     else:
@@ -128,7 +140,7 @@ def step_from(p, side, angle, velocity, drive):
             min(log_time_of_term(c[ORDER - 2], ORDER), log_time_of_term(c[ORDER - 3], ORDER - 1))
         )
         to_corner, length = corner <= length, min(length, corner)
-    while error_bound(p, velocity, c, length, drive, FULL) > ERROR:
+    while not error_bound(p, velocity, c, length, drive, LONG) <= ERROR and length > 0.0:
         to_corner, length = False, SHORTER * length
     return Step(angle, velocity, c, length, to_corner, False)
 

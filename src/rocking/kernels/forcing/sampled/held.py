@@ -17,6 +17,9 @@ from rocking.kernels.forcing.sampled.solution import (
 )
 from rocking.kernels.forcing.sampled.tables import BLOCK
 
+# Rounding error of the base acceleration between two samples, relative to its terms.
+TOUCH = 2.0**-51
+
 
 @njit(**INTERNAL_INLINE)
 def push(p, side, acceleration):
@@ -42,6 +45,16 @@ def next_sample_above(p, side, level, index):
     return count
 
 
+@njit(**INTERNAL_INLINE)
+def only_touches(p, side, level, drive):
+    """Return whether ``push`` is that of the level to rounding, and does not grow: a block that lifts here returns at once."""
+    start, rate = interval(p, drive.index)
+    moved = rate * drive.offset
+    now = start + moved
+    grows = (now if side == 0 else side) * rate > 0.0
+    return not grows and push(p, side, now) - level <= TOUCH * (abs(start) + abs(moved) + abs(level))
+
+
 @njit(**INTERNAL)
 def rises_above(p, side, level, drive):
     """Return the first place from ``drive`` on where ``push`` exceeds a level.
@@ -55,9 +68,9 @@ def rises_above(p, side, level, drive):
     last, step = last_index(p), p.forcing.tables.step
     if drive.index >= last:
         return False, drive
-    if push(p, side, acceleration_at(p, drive)) > level:
+    if push(p, side, acceleration_at(p, drive)) > level and not only_touches(p, side, level, drive):
         return True, drive
-    after = next_sample_above(p, side, level, drive.index + 1)
+    after = next_sample_above(p, side, level + TOUCH * abs(level), drive.index + 1)
     if after > last:
         return False, drive
     start, rate = interval(p, after - 1)

@@ -117,13 +117,14 @@ def state_at_sample(p, side, index, growing, shrinking):
 def along_step(p, side, index, total, difference):
     """Return u + u' and u - u' at the sample after ``index``, from those at ``index``, which is not the last.
 
-    (u + u')' = (u + u') + f and (u - u')' = -(u - u') - f, where f = -1 - sigma a is linear.
+    (u + u')' = (u + u') + f and (u - u')' = -(u - u') - f, where f = -1 - sigma a is linear. Changes are added, so that a factor
+    e^h, rounded, does not act as a wrong step.
     """
     tables, turned = p.forcing.tables, side * p.forcing.scale
     weight, interval = tables.near + tables.far, tables.intervals[index]
     return (
-        tables.growth * total - (tables.growth * weight + turned * interval.ahead),
-        tables.decay * difference + (weight + turned * interval.behind),
+        total + (tables.gain * total - (tables.growth * weight + turned * interval.ahead)),
+        difference - (tables.loss * difference - (weight + turned * interval.behind)),
     )
 
 

@@ -2,7 +2,8 @@
 
 They hold the bounded solution P of P'' - P = -a, and its derivative. Both are linear in a: scale, sign, slenderness and
 restitution share the tables. With L' = -L + a from the left and R' = R - a from the right, P = (L + R)/2 and
-P' = (R - L)/2. Either recursion contracts and has positive weights, so that nothing cancels.
+P' = (R - L)/2. Either recursion contracts and has positive weights, so that nothing cancels. It adds changes: a rounded factor
+e^-h would act at each sample as a step that is a little wrong.
 """
 
 import math
@@ -36,6 +37,8 @@ class Tables(NamedTuple):
     excess: float  # sinh - step
     growth: float  # e^step
     decay: float  # e^-step
+    gain: float  # e^step - 1
+    loss: float  # 1 - e^-step
     near: float  # the two weights of the samples
     far: float
     bend: float  # of the bound in ``search``
@@ -78,23 +81,25 @@ def fill_intervals(samples, step, growth, near, far, intervals):
 @entry_point(**KERNEL)
 def fill(
     samples: Floats1, step: float, intervals: Intervals, knots: Knots, blocks: Floats1, variation: Floats1
-) -> tuple[float, float, float, float, float, float, float, float, float, float]:
+) -> tuple[float, float, float, float, float, float, float, float, float, float, float, float]:
     """Fill the arrays of the tables; return the numbers from ``sinh`` to ``error``."""
     n = samples.shape[0]
     sinh, versinh, excess, _ = hyperbolic(step)
     growth, decay, (near, far) = math.exp(step), math.exp(-step), weights(step)
+    gain = sinh + versinh
+    loss = 1.0 - decay if step > 1.0 else decay * gain
     fill_intervals(samples, step, growth, near, far, intervals)
     left = variation[0] = 0.0
     for k in range(n):
         if k > 0:
-            left = decay * left + near * samples[k] + far * samples[k - 1]
+            left -= loss * left - (near * samples[k] + far * samples[k - 1])
             variation[k] = variation[k - 1] + abs(samples[k] - samples[k - 1])
         knots[k].mean = left
     right, lowest, highest, largest = 0.0, 0.0, 0.0, 0.0
     for j in range(n):
         k = n - 1 - j
         if j > 0:
-            right = decay * right + near * samples[k] + far * samples[k + 1]
+            right -= loss * right - (near * samples[k] + far * samples[k + 1])
         left = knots[k].mean
         mean = 0.5 * (left + right)
         lowest, highest = min(lowest, mean), max(highest, mean)
@@ -107,7 +112,20 @@ def fill(
         blocks[k // BLOCK] = max(blocks[k // BLOCK], abs(samples[k]))
     quarter = 0.125 * step * step
     bend = quarter / (1.0 - quarter)
-    return sinh, versinh, excess, growth, decay, near, far, bend, largest, 1.0 / math.sqrt(min(step, 1.0))
+    return (
+        sinh,
+        versinh,
+        excess,
+        growth,
+        decay,
+        gain,
+        loss,
+        near,
+        far,
+        bend,
+        largest,
+        1.0 / math.sqrt(min(step, 1.0)),
+    )
 
 
 def tables_of(samples: np.ndarray, step: float) -> Tables:
