@@ -21,6 +21,7 @@ if TYPE_CHECKING:
         Fragility,
         GroundMotion,
         Harmonic,
+        Horseshoe,
         IncrementalDynamicAnalysis,
         Kind,
         LognormalFit,
@@ -32,6 +33,7 @@ if TYPE_CHECKING:
         OverturningCurve,
         OverturningSet,
         PiecewiseLinear,
+        Proof,
         Pulse,
         RecordFile,
         RecordSet,
@@ -70,6 +72,7 @@ if TYPE_CHECKING:
         switch_branch,
         tangency_amplitude,
     )
+    from rocking.proof import horseshoe, prove
     from rocking.records import (
         RecordError,
         example_ground_motion,
@@ -121,6 +124,7 @@ __all__ = [
     "FrequencyResponse",
     "GroundMotion",
     "Harmonic",
+    "Horseshoe",
     "IncrementalDynamicAnalysis",
     "Kind",
     "LognormalFit",
@@ -138,6 +142,7 @@ __all__ = [
     "OverturningSet",
     "Peak",
     "PiecewiseLinear",
+    "Proof",
     "Pulse",
     "RecordError",
     "RecordFile",
@@ -171,6 +176,7 @@ __all__ = [
     "find_orbits",
     "fragility",
     "frequency_response",
+    "horseshoe",
     "impact_section",
     "incremental_dynamic_analysis",
     "lyapunov",
@@ -181,6 +187,7 @@ __all__ = [
     "overturning_spectrum",
     "parametric_map",
     "plot",
+    "prove",
     "read_ground_motion",
     "read_ground_motions",
     "read_record_set",
@@ -206,6 +213,7 @@ _NAMES = {
         "SpecialPoint bifurcation_curve continue_orbit find_orbit find_orbits frequency_response "
         "manifold_gap orbit_diagram saddle_manifolds switch_branch tangency_amplitude"
     ),
+    "proof": "horseshoe prove",
     "records": (
         "RecordError example_ground_motion read_ground_motion read_ground_motions read_record_set "
         "synthetic_ground_motions"

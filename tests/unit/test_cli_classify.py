@@ -1,6 +1,7 @@
 """`rocking classify`: output, JSON, error messages and exit codes."""
 
 import json
+import sys
 
 import pytest
 
@@ -198,3 +199,34 @@ def test_start_in_degrees_is_hinted_at(rocking):
         assert f"; 3° is --angle {degrees:.4g})\n" in out
         assert "warning: --angle" not in rocking(f"{command} {line} 0.9")[2]
         assert "not in degrees" in " ".join(rocking(f"{command} --help")[2].split())
+
+
+def test_proof_is_in_the_table_and_in_json(rocking):
+    proof = rk.classify(*TENTH, prove=True).orbit.proof
+    out = " ".join(rocking(f"classify {PERIODIC} --prove")[2].split())
+    assert "Evidence: proved" in out
+    assert "In ball arithmetic, proved: exactly one asymmetric orbit of period 10" in out
+    assert "proof 128 bits, multipliers to ±" in out
+    read = told(rocking, f"{PERIODIC} --prove")
+    assert read["evidence"]["level"] == "proved"
+    assert read["proof"]["claim"] == proof.claim
+    assert read["proof"]["phases"] == [list(pair) for pair in proof.phases]
+    assert read["proof"]["multipliers"] == [[z.real, z.imag, radius] for z, radius in proof.multipliers]
+    assert told(rocking, PERIODIC)["proof"] is None
+
+
+def test_proof_of_the_full_block_is_refused(rocking):
+    code, message, out = rocking(f"classify {SI} --model full --prove")
+    assert (code, out) == (2, "")
+    assert (
+        message == "proofs are available for the slender block only (omit --critical-angle and --model full)"
+    )
+
+
+def test_proof_without_flint_says_what_to_install(rocking, monkeypatch):
+    for name in [name for name in sys.modules if name.startswith("rocking.proof.")]:
+        monkeypatch.delitem(sys.modules, name)
+    monkeypatch.setitem(sys.modules, "flint", None)
+    code, message, out = rocking(f"classify {PERIODIC} --prove")
+    assert (code, out) == (2, "")
+    assert message == "proofs need python-flint (run pip install '.[proof]' in a copy of the repository)"

@@ -39,11 +39,13 @@ from rocking.model.ground_motion import BASELINES, STEPS, GroundMotion
 from rocking.model.incremental_dynamic_analysis import FRACTILES, IncrementalDynamicAnalysis
 from rocking.model.intensity import INTENSITIES, Intensity, intensity_of
 from rocking.model.notebook_renderers import NotebookPicture
+from rocking.model.orbit import Orbit
 from rocking.model.orbit_event import OrbitEvent
 from rocking.model.orbit_stability import Stability, stability_of
 from rocking.model.outcome import Outcome, Overturning
 from rocking.model.overturning_set import SWITCH_ROW, OverturningSet, intervals_of
 from rocking.model.piecewise_linear import PiecewiseLinear
+from rocking.model.proof import Horseshoe, Proof
 from rocking.model.pulse import KINDS, SINES, Pulse
 from rocking.model.record_file import RecordFile
 from rocking.model.record_set import RecordSet, record_set
@@ -91,7 +93,7 @@ from rocking.model.validation import (
     whole,
     within,
 )
-from rocking.model.verdict import Evidence, Orbit, Verdict
+from rocking.model.verdict import Evidence, Verdict
 from rocking.model.version import VERSION
 
 __all__ = [
@@ -133,6 +135,7 @@ __all__ = [
     "Fragility",
     "GroundMotion",
     "Harmonic",
+    "Horseshoe",
     "IncrementalDynamicAnalysis",
     "Intensity",
     "Kind",
@@ -147,6 +150,7 @@ __all__ = [
     "OverturningCurve",
     "OverturningSet",
     "PiecewiseLinear",
+    "Proof",
     "Pulse",
     "ReadOnlyArrays",
     "RecordFile",

@@ -9,8 +9,9 @@ from attrs import field, frozen
 from rocking.model.binomial_share import Share
 from rocking.model.classification import Kind
 from rocking.model.notebook_renderers import NotebookPicture
+from rocking.model.orbit import Orbit
 from rocking.model.system import System
-from rocking.model.verdict import Orbit, Verdict
+from rocking.model.verdict import Verdict
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -121,6 +121,14 @@ class Harmonic(Forcing):
         return math.tau / self._period if self._frequency is None else self._frequency  # type: ignore[operator]
 
     @property
+    def given(self) -> tuple[str, float]:
+        """Name and value of the one of `period` and `frequency` that was given; the other is rounded."""
+        if self._frequency is None:
+            assert self._period is not None
+            return "period", self._period
+        return "frequency", self._frequency
+
+    @property
     def largest(self) -> float:
         """Largest |acceleration|, A."""
         return self.amplitude

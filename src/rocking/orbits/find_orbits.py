@@ -9,7 +9,7 @@ from concurrent.futures import ThreadPoolExecutor
 from typing import Any, overload
 
 import numpy as np
-from attrs import field, frozen
+from attrs import evolve, field, frozen
 
 from rocking.kernels.classify import attractor_anchor
 from rocking.model import Orbit, Stability, System, instance, pair, refuse_if, whole, within
@@ -17,6 +17,8 @@ from rocking.orbits.event_chain import clocked
 from rocking.orbits.find_orbit import newton_from_starts
 from rocking.orbits.orbit_registry import OrbitRegistry
 from rocking.orbits.saddle_orbits import response
+from rocking.proof import check_provable
+from rocking.proof import prove as proved
 
 MAX_PERIOD = 64
 # Number of initial guesses per map in the first round; it doubles in later rounds.
@@ -88,6 +90,9 @@ class Orbits(Sequence[Orbit]):
         stable = f"{counts[Stability.STABLE]} of them stable"
         if counts[Stability.NEUTRAL]:
             stable += f", {counts[Stability.NEUTRAL]} neutral"
+        shown = [orbit.proof for orbit in self if orbit.proof is not None]
+        if shown:
+            stable += f", {sum(proof.proved for proof in shown)} of them proved"
         least = min(self.hits, default=0)
         last = (
             "the last half of them found no new orbit"
@@ -107,6 +112,7 @@ def find_orbits(
     velocities: tuple[float, float] | None = None,
     effort: float = 1.0,
     seed: int = 0,
+    prove: bool = False,
 ) -> Orbits:
     """Search for all periodic orbits up to a period, stable and unstable.
 
@@ -128,6 +134,8 @@ def find_orbits(
         Number of initial guesses per map in the first round, in units of 2048, in [0.01, 1000]. Default: 1.
     seed : int
         First index of the sequence of guesses, in [0, 2³² − 1]. Default: 0.
+    prove : bool
+        Whether to prove each orbit in ball arithmetic, as `orbit.proof`. Default: False.
 
     Returns
     -------
@@ -166,6 +174,8 @@ def find_orbits(
     max_period = whole("max_period", max_period, 1, MAX_PERIOD)
     effort = within("effort", effort, 0.01, 1000.0)
     seed = whole("seed", seed, 0, 2**32 - 1)
+    if prove:
+        check_provable(system)
     box = _box(system, angles, velocities)
     there = clocked(system, (system.periodic.phase + math.tau * attractor_anchor.SECTION) % math.tau)
     known, used = OrbitRegistry(system, there.periodic.phase), 0
@@ -186,13 +196,14 @@ def find_orbits(
                 settled = True
                 break
     order = sorted(range(len(known.orbits)), key=lambda i: _rank(known.orbits[i]))
+    orbits = [known.orbits[i] for i in order]
     return Orbits(
         system=system,
         max_period=max_period,
         hits=tuple(known.hits[i] for i in order),
         starts=used * len(jobs),
         settled=settled,
-        orbits=tuple(known.orbits[i] for i in order),
+        orbits=tuple(evolve(orbit, proof=proved(orbit)) if prove else orbit for orbit in orbits),
     )
 
 

@@ -13,6 +13,7 @@ from rocking.kernels.classify import verdict_record as kernel
 from rocking.model import Kind, Orbit, Outcome, State, System, Verdict, check_periodic, whole
 from rocking.motion import Motion, simulate, start_march
 from rocking.response.evidence import Case, evidence_of
+from rocking.response.proved_verdict import Wanted, check_wanted, with_proof
 
 MAX_CYCLES = 100_000_000
 MAX_PERIOD = 10_000
@@ -28,7 +29,11 @@ KINDS = tuple(Kind)
 
 
 def classify(
-    system: System, start: State | None = None, max_cycles: int = 100_000, max_period: int = 64
+    system: System,
+    start: State | None = None,
+    max_cycles: int = 100_000,
+    max_period: int = 64,
+    prove: Wanted = False,
 ) -> Verdict:
     """Classify the response of a block, with evidence: the first test that succeeds determines the verdict.
 
@@ -58,6 +63,9 @@ def classify(
     max_period : int
         Longest period to search for, in forcing cycles, in [1, 10⁴]. The period of a superstable response may be longer.
         Default: 64.
+    prove : bool or "orbit"
+        True: prove a periodic orbit in ball arithmetic, and that the motion from `start` converges to it. Then the level of the
+        evidence is "proved". "orbit": prove the orbit only, as `verdict.orbit.proof`. Default: False.
 
     Returns
     -------
@@ -72,7 +80,9 @@ def classify(
     TypeError
         If an argument is of the wrong type.
     ValueError
-        If an argument lies outside its range.
+        If an argument lies outside its range, or if a proof is wanted and the block is not slender.
+    ImportError
+        If a proof is wanted and python-flint is not installed.
 
     See Also
     --------
@@ -106,10 +116,10 @@ def classify(
     """
     start = check_periodic(system, start)
     max_cycles, max_period = budget(max_cycles, max_period).values()
+    check_wanted(prove, system)
     judgement = _judged(system, start, max_cycles, max_period)
-    return _verdict(
-        start, Case(system, max_cycles, max_period, judgement, _to_its_end(system, start, judgement))
-    )
+    case = Case(system, max_cycles, max_period, judgement, _to_its_end(system, start, judgement))
+    return with_proof(_verdict(start, case), prove)
 
 
 def budget(max_cycles: int, max_period: int) -> dict[str, int]:

@@ -13,6 +13,8 @@ EXAMPLES = """\
 # Normalised input.
 rocking classify --amplitude 6.5 --period 0.4 --restitution 0.925 \\
     --plot verdict.png
+# The same, proved.
+rocking classify --amplitude 6.5 --period 0.4 --restitution 0.925 --prove
 # A block of 2 m × 0.5 m, in SI units.
 rocking classify --height 2 --width 0.5 --acceleration 4 --frequency-hz 1.2"""
 
@@ -23,6 +25,7 @@ def classify(
     model: ask.Model = None,
     max_cycles: ask.MaxCycles = 100_000,
     max_period: ask.MaxPeriod = 64,
+    prove: ask.Prove = False,
     plot: ask.VerdictPlot = None,
     json: ask.Json = False,
     **shared: Any,
@@ -35,7 +38,7 @@ def classify(
     motion_files.check_picture(plot)
     system, start, block = ask.question(context.params)
     with your_input(ARGUMENTS):
-        verdict = judge(system, start, max_cycles, max_period)
+        verdict = judge(system, start, max_cycles, max_period, prove)
     if plot is not None:
         motion_files.write_verdict(verdict, block, plot)
     report.show(verdict, block, plot, as_json=json)

@@ -156,6 +156,10 @@ MaxCycles = Annotated[int, number_option("--max-cycles", "Maximum number of forc
 MaxPeriod = Annotated[
     int, number_option("--max-period", "Longest response period sought, in forcing cycles.")
 ]
+Prove = Annotated[
+    bool,
+    typer.Option("--prove", help="Prove a periodic response in ball arithmetic; needs the extra `proof`."),
+]
 ModeCycles = Annotated[int, number_option("-n", "Response period in forcing cycles: 1, 3, 5, ….")]
 ModesPlot = Annotated[
     Path | None,

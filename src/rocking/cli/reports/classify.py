@@ -13,7 +13,7 @@ from rocking.cli.option_names import as_typed, options
 from rocking.cli.output.console import Row, print_json, print_table
 from rocking.cli.reports import validity
 from rocking.cli.reports.motion import asked, beyond, physical, question, reach
-from rocking.model import Block, Verdict, counted, plus_minus
+from rocking.model import Block, Proof, Verdict, counted, plus_minus
 
 BUDGET = options("max_cycles", "max_period")
 
@@ -42,6 +42,8 @@ def found(verdict: Verdict, block: Block | None) -> Iterator[Row]:
         if verdict.system.braces is not None:
             yield "brace impacts per period", _count(orbit.brace_hits), ""
         yield "Floquet multipliers", _pair(*orbit.multipliers), ""
+        if orbit.proof is not None and orbit.proof.proved:
+            yield "proof", f"{orbit.proof.bits} bits, multipliers to {_accuracy(orbit.proof)}", ""
     if exponent is not None:
         yield "largest Lyapunov exponent", *_exponent(exponent, verdict.exponent_error, block)
     peak = "largest |Θ| until overturning was certain" if verdict.kind == "overturned" else "largest |Θ|"
@@ -84,6 +86,7 @@ def record(verdict: Verdict, block: Block | None, file: Path | None) -> dict[str
         "orbit": None
         if orbit is None
         else {"phase": orbit.phase, "residual": orbit.residual} | attrs.asdict(orbit.state),
+        "proof": None if orbit is None or orbit.proof is None else _proof(orbit.proof),
         "files": [] if file is None else [str(file)],
     }
     if block is None:
@@ -91,6 +94,18 @@ def record(verdict: Verdict, block: Block | None, file: Path | None) -> dict[str
     over, motion = validity.validity_motion(verdict)
     record = validity.record(motion, block)
     return told | {"block": physical(verdict, block), "judged": over, "validity": record}
+
+
+def _proof(proof: Proof) -> dict[str, Any]:
+    """Return the proof as a JSON object; multipliers are [real, imaginary, radius]."""
+    told = attrs.asdict(proof, filter=attrs.filters.exclude("system", "multipliers"))
+    discs = [[value.real, value.imag, radius] for value, radius in proof.multipliers or ()]
+    return told | {"multipliers": discs or None}
+
+
+def _accuracy(proof: Proof) -> str:
+    """Return the largest radius of the multipliers."""
+    return f"±{max((radius for _, radius in proof.multipliers or ()), default=0.0):.1e}"
 
 
 def _count(hits: int | None) -> str:

@@ -1,0 +1,207 @@
+"""Periodic orbit, and its states."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from operator import itemgetter
+from typing import Any
+
+from attrs import evolve, field, frozen
+
+from rocking.model.forcing import MAX_PHASE
+from rocking.model.formatting import counted
+from rocking.model.orbit_event import OrbitEvent
+from rocking.model.orbit_stability import Stability, stability_of
+from rocking.model.proof import Proof
+from rocking.model.system import NO_BRACES, State, System, quantities
+from rocking.model.validation import within
+
+# An event within this time after an instant, in forcing periods, counts as at that instant, to be safe from rounding.
+SAME_INSTANT = 1e-12
+
+
+@frozen
+class Orbit:
+    """Periodic orbit; found by `find_orbit`, `find_orbits`, `classify` and along a `Branch`.
+
+    `orbit.motion()` simulates it, as does `simulate(orbit.system, orbit.start)`.
+
+    Attributes
+    ----------
+    system : System
+        System of the orbit, as it was passed.
+    state : State
+        State on the section at the forcing phase `phase`. This is usually not the phase of the forcing at τ = 0; `start`
+        is the state there.
+    phase : float
+        Forcing phase ψ of the section of `state`, rad, in [0, 2π). It is chosen away from all events.
+    period : int
+        Number of forcing cycles per response period.
+    symmetric : bool
+        True if the orbit is its own mirror image half a period later.
+    impacts, brace_hits : int or None
+        Number of impacts at Θ = 0 and on the braces per period. None if infinitely many precede rest or sustained
+        contact with a brace (complete chattering).
+    multipliers : tuple of two complex
+        Floquet multipliers over one response period, the larger first.
+    residual : float
+        Distance between `state` and the state one period later.
+    proof : Proof or None
+        Proof of the orbit by `prove`; None without one.
+
+    Examples
+    --------
+    >>> import rocking as rk
+    >>> orbit = rk.classify(rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925)).orbit
+    >>> print(orbit)
+    symmetric orbit of period 1 with 2 impacts
+    """
+
+    system: System
+    state: State
+    phase: float
+    period: int
+    symmetric: bool
+    impacts: int | None
+    brace_hits: int | None
+    multipliers: tuple[complex, complex]
+    residual: float
+    _simulate: Callable[..., Any] = field(repr=False, eq=False)
+    _events: tuple[OrbitEvent, ...] = field(default=(), repr=False, eq=False)
+    _grazes: bool = field(default=False, repr=False, eq=False)
+    proof: Proof | None = field(default=None, repr=False, eq=False)
+
+    @property
+    def start(self) -> State:
+        """State at τ = 0, at the forcing phase of the system itself: a motion from this state is the orbit."""
+        return self.at(self.system.periodic.phase)
+
+    def at(self, phase: float) -> State:
+        """Return the state of the orbit at a forcing phase.
+
+        The state is computed from the nearest event of the orbit, forward or backward in time. It therefore lies on the
+        orbit even if the orbit is so unstable that a simulation leaves it within one period.
+
+        Parameters
+        ----------
+        phase : float
+            Forcing phase ψ in radians, in [-1000, 1000]. It continues from `start`: an increase by 2π is one forcing
+            cycle.
+
+        Returns
+        -------
+        State
+            State at this phase, just after an event if there is one.
+
+        Raises
+        ------
+        TypeError, ValueError
+            If `phase` is not a real number in its range.
+
+        Examples
+        --------
+        >>> import math
+        >>> import rocking as rk
+        >>> orbit = rk.classify(rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925)).orbit
+        >>> here, later = orbit.at(0.5), orbit.at(0.5 + math.pi)  # a symmetric orbit
+        >>> abs(here.angle + later.angle) < 1e-12
+        True
+        """
+        forcing = self.system.periodic
+        phase = within("phase", phase, -MAX_PHASE, MAX_PHASE)
+        whole, hair = math.tau * self.period, math.tau * SAME_INSTANT
+        turned = ((forcing.phase - self.phase) % math.tau + (phase - forcing.phase) % whole) % whole
+        if not self._events:
+            return self._marched(self.phase, self.state, turned)
+        since, last = min(
+            (((turned + hair - one.turned) % whole, one) for one in self._events), key=itemgetter(0)
+        )
+        until, following = min(
+            (((one.turned - turned - hair) % whole, one) for one in self._events), key=itemgetter(0)
+        )
+        if since <= until:
+            return self._marched(
+                self.phase + last.turned, State(last.angle, last.after), max(since - hair, 0.0)
+            )
+        # Time reversal negates the forcing phase and the velocities.
+        there = State(following.angle, -following.before)
+        state = self._marched(-self.phase - following.turned, there, until + hair)
+        return State(state.angle, -state.velocity)
+
+    def _marched(self, phase: float, state: State, turned: float) -> State:
+        """Return the state after the forcing phase has advanced by `turned` from `phase`."""
+        forcing = self.system.periodic
+        time = turned / forcing.frequency
+        begun = evolve(self.system, forcing=evolve(forcing, phase=phase % math.tau))
+        motion = self._simulate(begun, state, cycles=int(turned // math.tau) + 1)
+        events = motion.events["time"]
+        there = events[(events > time) & (events <= time + SAME_INSTANT * forcing.period)]
+        angle, velocity = motion.at(min(there[-1] if len(there) else time, motion.duration))
+        return State(float(angle), float(velocity))
+
+    def motion(self, cycles: int | None = None, record: str = "all") -> Any:
+        """Simulate the orbit from `start`.
+
+        A simulated motion near an unstable orbit leaves it, because rounding errors grow by |multiplier| in each period.
+        `at` returns states of the orbit itself.
+
+        Parameters
+        ----------
+        cycles : int, optional
+            Number of forcing cycles. Default: one response period.
+        record : {"all", "section", "none"}
+            Recorded data, as in `simulate`. Default: "all".
+
+        Returns
+        -------
+        Motion
+            Simulated motion.
+
+        Raises
+        ------
+        TypeError, ValueError
+            As in `simulate`.
+
+        Examples
+        --------
+        >>> import rocking as rk
+        >>> orbit = rk.classify(rk.System(rk.Harmonic(amplitude=6.5, period=0.4), restitution=0.925)).orbit
+        >>> orbit.motion().impacts == orbit.impacts
+        True
+        """
+        return self._simulate(self.system, self.start, self.period if cycles is None else cycles, record)
+
+    @property
+    def stability(self) -> Stability:
+        """Linear stability: stable, unstable or, without dissipation, neutral."""
+        trace, determinant = sum(self.multipliers).real, self._determinant
+        if self.symmetric:
+            # With t and d of the half period, trace = t² − 2d ≥ −2d, so only the upper bound can be reached.
+            trace = max(trace, 0.0)
+        return stability_of(trace, determinant)
+
+    @property
+    def superstable(self) -> bool:
+        """True if both multipliers are zero, because each period contains rest or sustained contact with a brace."""
+        return self.multipliers == (0j, 0j)
+
+    @property
+    def stable(self) -> bool:
+        """True if both multipliers lie inside the unit circle, so that nearby motions converge to the orbit."""
+        return self.stability is Stability.STABLE
+
+    @property
+    def _determinant(self) -> float:
+        """Product of the multipliers, computed from the number of impacts: exactly 1 without dissipation."""
+        if self.impacts is None or self.brace_hits is None or self.multipliers == (0j, 0j):
+            return 0.0
+        system = NO_BRACES | quantities(self.system)
+        return float(
+            system["restitution"] ** (2 * self.impacts) * system["brace_restitution"] ** (2 * self.brace_hits)
+        )
+
+    def __str__(self) -> str:
+        symmetry = "symmetric" if self.symmetric else "asymmetric"
+        impacts = "infinitely many impacts" if self.impacts is None else counted(self.impacts, "impact")
+        return f"{symmetry} orbit of period {self.period} with {impacts}"

@@ -1,0 +1,113 @@
+"""Results of proofs in ball arithmetic: of a periodic orbit, and of a chaotic invariant set."""
+
+from __future__ import annotations
+
+import math
+
+from attrs import field, frozen
+
+from rocking.model.system import System
+
+Disc = tuple[complex, float]
+
+
+@frozen
+class Proof:
+    """Proof of a periodic orbit in ball arithmetic, or the reason why there is none; returned by `prove`.
+
+    The proof holds for the exact system whose parameters are the numbers given. If the system was given by its period T, the
+    angular frequency is 2π/T, not its nearest double. With `uncertain` the proof holds for each system in the ranges.
+
+    Attributes
+    ----------
+    system : System
+        System of the orbit.
+    proved : bool
+        True if exactly one periodic orbit with this order of events exists near the one given. It meets the base and the braces
+        at these events only.
+    claim : str
+        What is proved, in words; what is not, with the reason.
+    phases : tuple of (float, float)
+        Middle and radius of the forcing phase of each event, in rad; of a symmetric orbit, over half a period.
+    existence : float
+        Radius, in rad, within which the orbit has these phases.
+    uniqueness : float
+        Radius, in rad, within which no other orbit has the same order of events.
+    multipliers : tuple of two (complex, float), or None
+        Middle and radius of each Floquet multiplier over one period.
+    stable : bool or None
+        True if both multipliers lie inside the unit circle, False if one lies outside. None if neither is proved.
+    symmetric : bool
+        True if the orbit is its own mirror image half a period later.
+    period : int
+        Least period, in forcing cycles.
+    impacts, brace_hits : int or None
+        Number of impacts per period, at the base and on the braces. None if infinitely many precede rest.
+    attracts : float or None
+        Radius around the state of the orbit on its section. All motions from this circle converge to the orbit. None if it was
+        not computed or is not proved.
+    starts : bool or None
+        True if the initial state of the verdict is proved to lead to the orbit. None if only an orbit was given.
+    bits : int
+        Precision of the numbers, in bits.
+
+    Examples
+    --------
+    >>> import rocking as rk
+    >>> verdict = rk.classify(rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925))
+    >>> print(rk.prove(verdict.orbit))
+    proved: exactly one symmetric orbit of period 1 with 2 impacts has event phases within 0.15 rad of these; it is stable
+    """
+
+    system: System
+    proved: bool
+    claim: str
+    phases: tuple[tuple[float, float], ...] = ()
+    existence: float = math.nan
+    uniqueness: float = math.nan
+    multipliers: tuple[Disc, Disc] | None = None
+    stable: bool | None = None
+    symmetric: bool = False
+    period: int = 0
+    impacts: int | None = None
+    brace_hits: int | None = None
+    attracts: float | None = None
+    starts: bool | None = None
+    bits: int = 0
+
+    def __str__(self) -> str:
+        return f"{'proved' if self.proved else 'not proved'}: {self.claim}"
+
+
+@frozen
+class Horseshoe:
+    """Proof of a chaotic invariant set, or the reason why there is none; returned by `horseshoe`.
+
+    The set is a Smale horseshoe: infinitely many unstable orbits, and motions that follow any sequence of two patterns. It makes
+    basin boundaries fractal. It does not show that an attractor is chaotic.
+
+    Attributes
+    ----------
+    system : System
+        System.
+    proved : bool
+        True if the set exists.
+    claim : str
+        What is proved, in words, or the reason why it is not.
+    phase : float
+        Forcing phase, in rad, at which the manifolds of the two saddle orbits cross at Θ = 0; NaN without a proof.
+
+    Examples
+    --------
+    >>> import rocking as rk
+    >>> print(rk.horseshoe(rk.System(rk.Harmonic(amplitude=3.7, period=1.0), restitution=0.8)))
+    proved: the manifolds of the saddle orbits cross transversally at Θ = 0, at the forcing phase 2.45 rad
+    """
+
+    system: System = field(repr=False)
+    proved: bool
+    claim: str
+    phase: float = math.nan
+
+    def __str__(self) -> str:
+        return f"{'proved' if self.proved else 'not proved'}: {self.claim}"

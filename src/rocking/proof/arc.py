@@ -1,0 +1,126 @@
+"""Arc in balls: the closed form of u = side * angle, Eq. (5) of Yim & Lin (1991), and the proof that it meets nothing on its way.
+
+On one side u'' = u - 1 - side A cos psi, so that
+
+    u = 1 + side beta cos psi + grow e^s + shrink e^-s,  psi = psi0 + frequency s.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+from flint import arb
+
+from rocking.proof.balls import Balls, hull
+
+# Number of times that an interval is halved before a proof is given up.
+DEPTH = 60
+# Number of intervals of one proof.
+PIECES = 4000
+
+
+class Values(NamedTuple):
+    """A function and its first three derivatives at a time, as balls."""
+
+    value: arb
+    first: arb
+    second: arb
+    third: arb
+
+
+Function = Callable[[arb], Values]
+
+
+class Arc(NamedTuple):
+    """Arc from a forcing phase on."""
+
+    p: Balls
+    side: int
+    phase: arb
+    grow: arb
+    shrink: arb
+
+    def at(self, time: arb) -> Values:
+        """Return u and its derivatives at a time after the start."""
+        p, turned = self.p, self.phase + self.p.frequency * time
+        sine, cosine = turned.sin_cos()
+        swing, rate = self.side * p.response, p.frequency
+        growth = time.exp()
+        more, less = self.grow * growth, self.shrink / growth
+        first = swing * rate
+        second = first * rate
+        return Values(
+            1 + swing * cosine + (more + less),
+            (more - less) - first * sine,
+            (more + less) - second * cosine,
+            (more - less) + second * rate * sine,
+        )
+
+    def below_brace(self, time: arb) -> Values:
+        """Return the distance from the brace, and its derivatives."""
+        u = self.at(time)
+        assert self.p.brace_angle is not None
+        return Values(self.p.brace_angle - u.value, -u.first, -u.second, -u.third)
+
+
+def arc_from(p: Balls, side: int, phase: arb, angle: arb, velocity: arb) -> Arc:
+    """Return the arc through (u, u') = (angle, velocity) at a forcing phase."""
+    sine, cosine = phase.sin_cos()
+    swing = side * p.response
+    above, faster = angle - 1 - swing * cosine, velocity + swing * p.frequency * sine
+    return Arc(p, side, phase, (above + faster) / 2, (above - faster) / 2)
+
+
+def stays_positive(function: Function, end: arb, order: int, arrives: bool) -> bool:
+    """Return whether it is proved that a function is positive inside (0, end).
+
+    Parameters
+    ----------
+    function : callable
+        Function with its derivatives.
+    end : arb
+        End of the interval.
+    order : int
+        Order of the known zero at time 0, with a positive derivative of this order; 0 if the function is positive there.
+    arrives : bool
+        Whether the function is known to vanish at the end.
+    """
+    pieces = [(arb(0), end, order, arrives, 0)]
+    for _ in range(PIECES):
+        if not pieces:
+            return True
+        low, high, zero, last, depth = pieces.pop()
+        if piece_is_positive(function, low, high, zero, last):
+            continue
+        if depth >= DEPTH:
+            return False
+        middle = ((low + high) / 2).mid()
+        if not function(middle).value > 0:
+            return False
+        pieces += [(middle, high, 0, last, depth + 1), (low, middle, zero, False, depth + 1)]
+    return False
+
+
+def piece_is_positive(function: Function, low: arb, high: arb, order: int, arrives: bool) -> bool:
+    """Return whether one bound proves that a function is positive inside an interval.
+
+    At the ends the function is positive, or it vanishes as ``order`` and ``arrives`` say. It is positive inside if it is so over
+    the whole ball. It is so, too, if it is concave. After a zero of an order its derivative of this order may be positive
+    throughout, and before a zero its slope negative.
+    """
+    over = function(hull(low, high))
+    if over.second < 0:
+        return True
+    if order and over[order] > 0:
+        return True
+    if arrives and over.first < 0:
+        return True
+    if order or arrives:
+        return False
+    if over.value > 0:
+        return True
+    middle = ((low + high) / 2).mid()
+    half = (high - low).abs_upper() / 2
+    at = function(middle)
+    return bool(at.value - abs(at.first) * half - over.second.abs_upper() * half * half / 2 > 0)

@@ -1,0 +1,354 @@
+"""Proofs of periodic orbits: known cases, random responses, and everything that must never be proved."""
+
+import math
+
+import numpy as np
+import pytest
+from attrs import evolve
+from flint import arb, ctx
+
+import rocking as rk
+from rocking.kernels.event_kinds import BRACE, IMPACT
+from rocking.proof import cases, krawczyk, periodic
+from rocking.proof.balls import Refused, balls_of
+from rocking.proof.chain import Chain
+from rocking.proof.orbit_chain import chain_of
+
+FEW, MANY = 40, 300
+STARTS, MANY_STARTS = 15, 150
+RESETS, MANY_RESETS = 15, 100
+BITS = 128
+
+
+def system_of(amplitude, period, restitution, **more):
+    braces = more.pop("braces", None)
+    return rk.System(rk.Harmonic(amplitude=amplitude, period=period, **more), restitution, braces)
+
+
+def orbit_of(amplitude, period, restitution, start=None, **more):
+    return rk.classify(system_of(amplitude, period, restitution, **more), start).orbit
+
+
+ONE = (2.0, 1.0, 0.925)
+THREE = (6.5, 0.4, 0.925)
+CHAOS = (10.103037, 1.721328, 0.8)
+
+
+@pytest.mark.parametrize(
+    ("case", "more", "start", "size", "unique"),
+    [
+        (ONE, {}, None, 0.925**2, 0.1),
+        (THREE, {}, None, 0.925**2, 0.1),
+        ((5.5, 0.5, 0.925), {"phase": 1.8}, rk.State(0.0, 0.15), 0.925**4, 4e-3),
+    ],
+)
+def test_orbits_of_figure_2_are_proved_with_the_size_of_their_multipliers(case, more, start, size, unique):
+    orbit = orbit_of(*case, start, **more)
+    proof = rk.prove(orbit)
+    assert proof.proved
+    assert proof.stable is True
+    assert (proof.period, proof.symmetric, proof.impacts) == (orbit.period, orbit.symmetric, orbit.impacts)
+    assert proof.bits == BITS
+    assert proof.existence < 1e-30
+    assert proof.uniqueness > unique
+    for (middle, radius), known in zip(proof.multipliers, orbit.multipliers, strict=True):
+        assert abs(abs(middle) - size) <= radius + 1e-15
+        assert abs(middle - known) < 1e-11
+
+
+def random_verdicts(seed, count, amplitude=lambda rng: rng.uniform(0, 16), superstable=None):
+    """Yield periodic verdicts from rest of random systems."""
+    rng = np.random.default_rng(seed)
+    while count:
+        system = system_of(
+            float(amplitude(rng)), float(rng.uniform(0.2, 3)), float(rng.choice([0.5, 0.8, 0.925]))
+        )
+        verdict = rk.classify(system)
+        if verdict.kind is rk.Kind.PERIODIC and superstable in (None, verdict.superstable):
+            count -= 1
+            yield verdict
+
+
+def check_orbits(verdicts):
+    for verdict in verdicts:
+        proof = rk.prove(verdict.orbit)
+        assert proof.proved, (verdict.system, proof.claim)
+        assert (proof.stable, proof.period, proof.symmetric) == (True, verdict.period, verdict.symmetric)
+
+
+def check_starts(verdicts):
+    """Return the number of starts that are not proved to reach their orbit."""
+    missed = 0
+    for verdict in verdicts:
+        proof = rk.prove(verdict)
+        assert proof.proved
+        missed += not proof.starts
+    return missed
+
+
+def weak(rng):
+    """An amplitude little above that of lift-off."""
+    return 1.0 + rng.exponential(0.3)
+
+
+def test_random_orbits_are_proved():
+    check_orbits(random_verdicts(0, FEW))
+
+
+def test_random_starts_are_proved_to_reach_their_orbits():
+    assert check_starts(random_verdicts(1, STARTS)) == 0
+
+
+def test_random_orbits_that_rest_are_proved():
+    check_orbits(random_verdicts(2, RESETS, weak, superstable=True))
+
+
+@pytest.mark.long
+def test_300_random_orbits_are_proved():
+    check_orbits(random_verdicts(10, MANY))
+
+
+@pytest.mark.long
+def test_148_of_150_random_starts_are_proved_to_reach_their_orbits():
+    assert check_starts(random_verdicts(11, MANY_STARTS)) <= 2
+
+
+@pytest.mark.long
+def test_100_random_orbits_that_rest_are_proved():
+    check_orbits(random_verdicts(12, MANY_RESETS, weak, superstable=True))
+
+
+def test_every_orbit_found_at_a_chaotic_system_is_proved():
+    found = rk.find_orbits(system_of(*CHAOS), 3, prove=True)
+    assert len(found) >= 8
+    for orbit in found:
+        assert orbit.proof.proved, orbit.proof.claim
+        assert orbit.proof.stable is orbit.stable
+    assert f"{len(found)} of them proved" in str(found)
+
+
+@pytest.mark.long
+def test_every_orbit_found_between_braces_is_proved():
+    system = system_of(15.0, 2.0, 0.925, braces=rk.Braces(1.0))
+    found = rk.find_orbits(system, 3, prove=True)
+    with_events = [orbit for orbit in found if orbit.impacts or orbit.brace_hits]
+    assert len(with_events) >= 60
+    assert all(orbit.proof.proved and orbit.proof.stable is False for orbit in with_events)
+
+
+def test_motion_without_events_is_proved_unstable():
+    found = [orbit for orbit in rk.find_orbits(system_of(*ONE), 1) if not orbit.impacts]
+    assert len(found) == 2
+    for orbit in found:
+        proof = rk.prove(orbit)
+        assert proof.proved
+        assert proof.stable is False
+        assert abs(proof.multipliers[0][0] - math.e) < 1e-15
+
+
+def test_without_losses_the_orbit_is_proved_and_its_stability_is_not():
+    proof = rk.prove(rk.find_orbits(system_of(4.0, 0.4, 1.0), 3)[0])
+    assert proof.proved
+    assert proof.stable is not True
+
+
+# Never proved
+
+
+def enclosed(chain, system):
+    with ctx.workprec(BITS):
+        return periodic.enclosed(balls_of(system, {}), chain)
+
+
+def test_box_without_the_orbit_is_never_proved():
+    """Krawczyk's image of a box around a perturbed orbit that does not contain the orbit never lies inside the box."""
+    rng, chain = np.random.default_rng(3), chain_of(orbit_of(5.5, 0.5, 0.925, rk.State(0.0, 0.15), phase=1.8))
+    system = system_of(5.5, 0.5, 0.925, phase=1.8)
+    exact = [float(psi.mid()) for psi in enclosed(chain, system).found.box]
+    with ctx.workprec(BITS):
+        equations = periodic.equations(balls_of(system, {}), chain)
+        for _ in range(1000):
+            size = 10.0 ** rng.uniform(-9, -2)
+            moved = [
+                psi + size * x for psi, x in zip(exact, rng.choice([-1.0, 1.0], len(exact)), strict=True)
+            ]
+            box = krawczyk.operator(equations, [arb(psi) for psi in moved])
+            assert box.image(0.9 * size) is None
+
+
+@pytest.mark.parametrize("change", ["side", "kinds", "order", "missing", "mirrored"])
+def test_wrong_order_of_events_is_never_proved(change):
+    system = system_of(15.0, 2.0, 0.925, braces=rk.Braces(1.0))
+    proved = 0
+    for orbit in rk.find_orbits(system, 1):
+        if not (orbit.impacts and orbit.brace_hits):
+            continue
+        chain = chain_of(orbit)
+        enclosed(chain, system)
+        kinds, phases = chain.kinds, chain.phases
+        wrong = {
+            "side": chain._replace(side=-chain.side),
+            "kinds": chain._replace(kinds=tuple(BRACE if kind == IMPACT else IMPACT for kind in kinds)),
+            "order": chain._replace(kinds=kinds[1:] + kinds[:1]),
+            "missing": chain._replace(kinds=kinds[:-1], phases=phases[:-1]),
+            "mirrored": chain._replace(mirrored=not chain.mirrored),
+        }[change]
+        if change == "order" and wrong.kinds == kinds:
+            continue
+        proved += 1
+        with pytest.raises(Refused):
+            enclosed(wrong, system)
+    assert proved > 0
+
+
+def test_orbit_is_proved_up_to_its_grazing_and_not_beyond():
+    """Another event comes from the next double on: (1, 3) mode, T = .4, e = .925."""
+    last = 10.541711176647445
+
+    def mode(amplitude):
+        fastest = max(rk.theory.symmetric_modes(amplitude, 0.4, 0.925, 3), key=lambda one: one.velocity)
+        return Chain((IMPACT,), 1, 3, True, (fastest.phase,)), system_of(amplitude, 0.4, 0.925)
+
+    enclosed(*mode(last))
+    for amplitude in (math.nextafter(last, 11.0), 11.0, 12.0, 14.0):
+        with pytest.raises(Refused, match="another event"):
+            enclosed(*mode(amplitude))
+
+
+def test_nothing_is_proved_below_a_fold():
+    """Both modes of the (1, 1) fold at T = 2, e = .925 are proved just above A_E, and none below."""
+    threshold = rk.theory.existence_amplitude(2.0, 0.925, 1)
+    for above in (1e-2, 1e-6, 1e-10):
+        modes = rk.theory.symmetric_modes(threshold * (1.0 + above), 2.0, 0.925, 1)
+        assert len(modes) == 2
+        for mode in modes:
+            chain = Chain((IMPACT,), 1, 1, True, (mode.phase,))
+            enclosed(chain, system_of(threshold * (1.0 + above), 2.0, 0.925))
+            with pytest.raises(Refused):
+                enclosed(chain, system_of(threshold * (1.0 - above), 2.0, 0.925))
+
+
+def test_symmetry_breaking_is_not_decided_over_a_range_of_amplitudes():
+    amplitude, period, restitution = 7.333153027271592, 1.721328, 0.8
+    symmetric = evolve(orbit_of(7.333, period, restitution), system=system_of(amplitude, period, restitution))
+    assert symmetric.symmetric
+    assert rk.prove(symmetric).stable is not None
+    for width in (1e-15, 1e-9, 1e-6):
+        proof = rk.prove(symmetric, uncertain={"amplitude": width})
+        assert proof.proved
+        assert proof.stable is None
+
+
+def test_proof_for_a_range_of_parameters():
+    orbit = orbit_of(*ONE)
+    wide = rk.prove(orbit, uncertain={"amplitude": 0.01})
+    assert wide.proved
+    assert wide.stable
+    assert wide.existence > 1e-3
+    assert not rk.prove(orbit, uncertain={"amplitude": 0.9}).proved
+    for amplitude in (1.99, 2.01):
+        assert (
+            abs(rk.prove(orbit_of(amplitude, 1.0, 0.925)).phases[0][0] - wide.phases[0][0]) <= wide.existence
+        )
+
+
+def test_twice_the_period_is_not_proved_as_least():
+    chain, system = chain_of(orbit_of(*ONE)), system_of(*ONE)
+    k, turn = len(chain.phases), math.pi * chain.half_turns
+    twice = chain._replace(
+        kinds=chain.kinds * 3,
+        phases=tuple(psi + turn * n for n in range(3) for psi in chain.phases),
+        half_turns=3 * chain.half_turns,
+    )
+    assert len(twice.phases) == 3 * k
+    with pytest.raises(Refused, match="shorter period"):
+        enclosed(twice, system)
+
+
+def test_symmetric_orbit_is_not_proved_as_an_unsymmetric_one():
+    chain, system = chain_of(orbit_of(*ONE)), system_of(*ONE)
+    whole = chain._replace(
+        kinds=chain.kinds * 2,
+        phases=chain.phases + tuple(psi + math.pi * chain.half_turns for psi in chain.phases),
+        half_turns=2 * chain.half_turns,
+        mirrored=False,
+    )
+    with pytest.raises(Refused, match="symmetry"):
+        enclosed(whole, system)
+
+
+def test_start_that_overturns_is_not_proved_to_reach_the_orbit():
+    verdict = rk.classify(system_of(*ONE))
+    other = evolve(verdict, start=rk.State(0.9, 0.9))
+    assert rk.classify(other.system, other.start).kind is rk.Kind.OVERTURNED
+    proof = rk.prove(other)
+    assert proof.proved
+    assert proof.starts is False
+    assert "is not proved" in proof.claim
+
+
+def test_start_that_converges_to_another_orbit_is_not_proved_to_reach_this_one():
+    system = system_of(10.0, 1.721328, 0.8)
+    verdict = rk.classify(system)
+    mirrored = rk.State(-verdict.orbit.state.angle, -verdict.orbit.state.velocity)
+    if verdict.symmetric:
+        pytest.fail("the test needs an orbit without symmetry")
+    forcing = evolve(system.forcing, phase=(verdict.orbit.phase + math.pi) % math.tau)
+    begun = evolve(system, forcing=forcing)
+    proof = rk.prove(evolve(verdict, system=begun, start=mirrored, orbit=verdict.orbit))
+    assert proof.starts is False
+
+
+def test_period_of_a_given_frequency_is_that_of_the_double():
+    by_period, by_frequency = (
+        rk.System(rk.Harmonic(2.0, **given), 0.925) for given in ({"period": 1.0}, {"frequency": math.tau})
+    )
+    with ctx.workprec(BITS):
+        first, second = (balls_of(system, {}).frequency for system in (by_period, by_frequency))
+        assert not first.overlaps(second)
+        assert first.overlaps(2 * arb.pi())
+        assert second == arb(math.tau)
+
+
+# Verdicts
+
+
+def test_level_of_a_proved_start_is_proved_and_that_of_a_proved_orbit_is_not():
+    system = system_of(*THREE)
+    plain, orbit, whole = (rk.classify(system, prove=how) for how in (False, "orbit", True))
+    assert [one.evidence.level for one in (plain, orbit, whole)] == ["verified", "verified", "proved"]
+    assert plain.orbit.proof is None
+    assert orbit.orbit.proof.proved
+    assert orbit.orbit.proof.starts is None
+    assert whole.orbit.proof.starts is True
+    assert "Evidence: proved" in str(whole)
+    assert whole.kind is plain.kind
+    assert whole.orbit == plain.orbit
+
+
+def test_other_verdicts_have_no_proof():
+    verdict = rk.classify(system_of(1.75, 2.0, 0.95), prove=True)
+    assert verdict.kind is rk.Kind.OVERTURNED
+    assert verdict.evidence.level == "exact"
+
+
+def test_wrong_arguments_are_refused():
+    system = system_of(*ONE)
+    orbit = rk.classify(system).orbit
+    with pytest.raises(ValueError, match='prove must be False, True or "orbit"; got'):
+        rk.classify(system, prove="yes")
+    with pytest.raises(TypeError, match="subject must be"):
+        rk.prove(system)
+    with pytest.raises(
+        ValueError, match="uncertain must name parameters given: amplitude, period, restitution; got"
+    ):
+        rk.prove(orbit, uncertain={"frequency": 1e-9})
+    with pytest.raises(ValueError, match="amplitude must lie in"):
+        rk.prove(orbit, uncertain={"amplitude": -1.0})
+    with pytest.raises(ValueError, match="subject must be an orbit or a periodic verdict; got 'overturned'"):
+        rk.prove(rk.classify(system_of(1.75, 2.0, 0.95)))
+    full = rk.System(rk.Harmonic(2.0, period=1.0), 0.925, critical_angle=0.2)
+    for refused in (lambda: rk.classify(full, prove=True), lambda: rk.horseshoe(full)):
+        with pytest.raises(ValueError, match="proofs are available for the slender block only"):
+            refused()
+    assert cases.PRECISIONS[0] == BITS
