@@ -66,13 +66,14 @@ if TYPE_CHECKING:
         find_orbit,
         find_orbits,
         frequency_response,
+        horseshoe,
         manifold_gap,
         orbit_diagram,
         saddle_manifolds,
         switch_branch,
         tangency_amplitude,
     )
-    from rocking.proof import horseshoe, prove
+    from rocking.proof import prove
     from rocking.records import (
         RecordError,
         example_ground_motion,
@@ -211,9 +212,9 @@ _NAMES = {
     "orbits": (
         "BifurcationCurve Branch FrequencyResponse Manifold OrbitDiagram Orbits SaddleManifolds "
         "SpecialPoint bifurcation_curve continue_orbit find_orbit find_orbits frequency_response "
-        "manifold_gap orbit_diagram saddle_manifolds switch_branch tangency_amplitude"
+        "horseshoe manifold_gap orbit_diagram saddle_manifolds switch_branch tangency_amplitude"
     ),
-    "proof": "horseshoe prove",
+    "proof": "prove",
     "records": (
         "RecordError example_ground_motion read_ground_motion read_ground_motions read_record_set "
         "synthetic_ground_motions"

@@ -95,7 +95,11 @@ class Horseshoe:
     claim : str
         What is proved, in words, or the reason why it is not.
     phase : float
-        Forcing phase, in rad, at which the manifolds of the two saddle orbits cross at Θ = 0; NaN without a proof.
+        Forcing phase, in rad, at which the manifolds of the two saddle orbits cross at Θ = 0; NaN if this was not proved.
+    cycles : tuple of int
+        Numbers of forcing cycles of the two patterns of events; empty if none were proved.
+    entropy : float
+        Lower bound of the topological entropy per forcing cycle, from the two patterns; NaN if this was not proved.
 
     Examples
     --------
@@ -108,6 +112,8 @@ class Horseshoe:
     proved: bool
     claim: str
     phase: float = math.nan
+    cycles: tuple[int, ...] = ()
+    entropy: float = math.nan
 
     def __str__(self) -> str:
         return f"{'proved' if self.proved else 'not proved'}: {self.claim}"

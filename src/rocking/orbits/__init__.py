@@ -7,6 +7,7 @@ from rocking.orbits.find_orbit import find_orbit
 from rocking.orbits.find_orbits import Orbits, find_orbits
 from rocking.orbits.frequency_response import frequency_response
 from rocking.orbits.frequency_response_result import FrequencyResponse
+from rocking.orbits.horseshoe import horseshoe
 from rocking.orbits.manifold_tangency import manifold_gap, tangency_amplitude
 from rocking.orbits.orbit_diagram import orbit_diagram
 from rocking.orbits.orbit_diagram_result import OrbitDiagram
@@ -27,6 +28,7 @@ __all__ = [
     "find_orbit",
     "find_orbits",
     "frequency_response",
+    "horseshoe",
     "manifold_gap",
     "orbit_diagram",
     "saddle_manifolds",

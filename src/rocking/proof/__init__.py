@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from rocking.proof.horseshoe import horseshoe
-from rocking.proof.prove import check_provable, prove
+from rocking.proof.prove import check_provable, module, prove
 
-__all__ = ["check_provable", "horseshoe", "prove"]
+__all__ = ["check_provable", "module", "prove"]

@@ -55,13 +55,13 @@ def equations(p: Balls, chain: Chain) -> Equations:
     return Equations(values, derivatives)
 
 
-def enclosed(p: Balls, chain: Chain) -> Enclosed:
-    """Return the only orbit near a chain, at the present precision.
+def solved(p: Balls, chain: Chain) -> tuple[Solution, list[Link]]:
+    """Return the only closed motion near a chain, with its arcs, at the present precision; it may be repeated or symmetric.
 
     Raises
     ------
     Refused
-        If the orbit is not proved, with the reason.
+        If the motion is not proved, with the reason.
     """
     if not chain.closes:
         raise Refused("the events do not close the orbit")
@@ -70,6 +70,12 @@ def enclosed(p: Balls, chain: Chain) -> Enclosed:
     if links is None:
         raise Refused("two events may come at the same time")
     check_arcs(p, chain, links)
+    return found, links
+
+
+def enclosed(p: Balls, chain: Chain) -> Enclosed:
+    """Return the only orbit near a chain, with its least period and its symmetry; raise Refused as `solved` does."""
+    found, links = solved(p, chain)
     if not stability.is_least(chain, found.box):
         raise Refused("a shorter period, or another symmetry, is not excluded")
     matrix = stability.monodromy(p, chain, links)
@@ -79,17 +85,22 @@ def enclosed(p: Balls, chain: Chain) -> Enclosed:
 def check_arcs(p: Balls, chain: Chain, links: list[Link]) -> None:
     """Raise Refused unless every arc leaves its first event, meets nothing on its way, and reaches its last event."""
     for j, (side, one) in enumerate(zip(chain.sides, links, strict=True)):
-        first, last = chain.kinds[j], chain.kinds[(j + 1) % len(links)]
-        leaves = one.leaves > 0 if first == IMPACT else one.leaves < 0
-        arrives = one.arrives < 0 if last == IMPACT else one.arrives > 0
-        if not (leaves and arrives):
-            raise Refused("a speed at an event has the wrong sign, or may have it")
-        arc = one.arc(p, side, place(p, first))
-        clear = stays_positive(arc.at, one.time, int(first == IMPACT), last == IMPACT)
-        if clear and p.brace_angle is not None:
-            clear = stays_positive(arc.below_brace, one.time, int(first == BRACE), last == BRACE)
-        if not clear:
-            raise Refused("another event comes between, or may come")
+        check_arc(p, side, (chain.kinds[j], chain.kinds[(j + 1) % len(links)]), one)
+
+
+def check_arc(p: Balls, side: int, kinds: tuple[int, int], one: Link) -> None:
+    """Raise Refused unless an arc between events of two kinds meets nothing on its way, with the right signs of its speeds."""
+    first, last = kinds
+    leaves = one.leaves > 0 if first == IMPACT else one.leaves < 0
+    arrives = one.arrives < 0 if last == IMPACT else one.arrives > 0
+    if not (leaves and arrives):
+        raise Refused("a speed at an event has the wrong sign, or may have it")
+    arc = one.arc(p, side, place(p, first))
+    clear = stays_positive(arc.at, one.time, int(first == IMPACT), last == IMPACT)
+    if clear and p.brace_angle is not None:
+        clear = stays_positive(arc.below_brace, one.time, int(first == BRACE), last == BRACE)
+    if not clear:
+        raise Refused("another event comes between, or may come")
 
 
 def moves_between(p: Balls) -> None:

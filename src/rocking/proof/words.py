@@ -1,0 +1,229 @@
+"""Block shift of two words of events: proof of a chaotic invariant set with a lower bound of its entropy.
+
+The word a is the chain of events of an unstable orbit. The word b follows this orbit, then another one that comes near it, and then
+the first one again. So every word begins and ends with the events of a.
+
+The equations of the events couple a word to its neighbours: to the last event before it, and to the first event after it. These
+two phases may lie anywhere in balls. Krawczyk's operator must take the box of each word into itself for all of
+them. Then every sequence of a and b has exactly one motion (Schauder's theorem, and contraction). If the words are distinct at one
+event, with n_a and n_b cycles,
+
+    entropy >= h,  e^(-h n_a) + e^(-h n_b) = 1.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from itertools import pairwise, permutations
+from typing import NamedTuple
+
+import numpy as np
+from flint import arb, arb_mat, ctx
+
+from rocking.kernels.event_kinds import IMPACT
+from rocking.model import Horseshoe, Orbit, System
+from rocking.proof.balls import Balls, Refused, balls_of, hull
+from rocking.proof.chain import Chain, Link, law, link, links_of, place
+from rocking.proof.orbit_chain import chain_of
+from rocking.proof.periodic import check_arc, solved
+
+# Radii of the boxes of both words that are tried, in rad.
+RADII = (3e-4, 1e-4, 3e-5, 1e-5, 3e-6, 1e-6, 1e-7)
+# Largest distance of two orbits at an event, in forcing phase and in speed.
+NEAR = 0.3
+BITS = 128
+# Number of pairs that are tried, from the nearest on.
+PAIRS = 400
+
+
+class Word(NamedTuple):
+    """Closed chain of events over whole cycles, with the middles of its phases."""
+
+    chain: Chain
+    phases: list[arb]  # exact
+
+    @property
+    def cycles(self) -> int:
+        """Number of forcing cycles."""
+        return self.chain.half_turns // 2
+
+    @property
+    def kinds(self) -> tuple[int, ...]:
+        """Kinds of the last event before the word, of its own events, and of the first event after it."""
+        return (self.chain.kinds[-1], *self.chain.kinds, self.chain.kinds[0])
+
+    @property
+    def sides(self) -> list[int]:
+        """Side of the arc before the first event, and of the arc after each event."""
+        return [self.chain.side * (-1 if self.chain.kinds[0] == IMPACT else 1), *self.chain.sides]
+
+    def boxes(self, radius: float) -> list[arb]:
+        """Return the boxes of the phases."""
+        return [psi + arb(0, radius) for psi in self.phases]
+
+
+def whole_chain(chain: Chain, phases: list[float]) -> Chain:
+    """Return the chain over a whole period: of a symmetric orbit, half a period and its mirror image."""
+    if not chain.mirrored:
+        return chain._replace(phases=tuple(phases))
+    turn = chain.half_turns * math.pi
+    later = tuple(psi + turn for psi in phases)
+    return Chain(2 * chain.kinds, chain.side, 2 * chain.half_turns, False, (*phases, *later))
+
+
+def rotated(chain: Chain, count: int) -> Chain:
+    """Return a chain that begins with a later event, at a phase in [0, 2 pi)."""
+    turn = chain.half_turns * math.pi
+    phases = [*chain.phases[count:], *(psi + turn for psi in chain.phases[:count])]
+    back = math.tau * math.floor(phases[0] / math.tau)
+    kinds = chain.kinds[count:] + chain.kinds[:count]
+    return chain._replace(kinds=kinds, side=chain.sides[count], phases=tuple(psi - back for psi in phases))
+
+
+def joined(*chains: Chain) -> Chain:
+    """Return chains one after the other, as a guess of a closed chain."""
+    phases: list[float] = []
+    kinds: tuple[int, ...] = ()
+    turns = 0
+    for chain in chains:
+        phases += [psi + turns * math.pi for psi in chain.phases]
+        kinds, turns = kinds + chain.kinds, turns + chain.half_turns
+    return Chain(kinds, chains[0].side, turns, False, tuple(phases))
+
+
+def pairs(p: Balls, chains: list[Chain]) -> Iterator[tuple[Chain, Chain]]:
+    """Yield pairs of chains that begin with events near each other in phase and speed, the shortest pairs first."""
+    starts = []
+    for number, chain in enumerate(chains):
+        links = links_of(p, chain, [arb(psi) for psi in chain.phases]) or []
+        starts += [(number, k, float(one.leaves.mid())) for k, one in enumerate(links)]
+    near = []
+    for (i, k, one), (j, m, other) in permutations(starts, 2):
+        first, second = chains[i], chains[j]
+        if i == j or (first.kinds[k], first.sides[k]) != (second.kinds[m], second.sides[m]):
+            continue
+        apart = max(abs(math.remainder(first.phases[k] - second.phases[m], math.tau)), abs(one - other))
+        if apart < NEAR:
+            near.append((apart, i, k, j, m))
+    for _, i, k, j, m in sorted(near)[:PAIRS]:
+        yield rotated(chains[i], k), rotated(chains[j], m)
+
+
+def word_of(p: Balls, chain: Chain) -> Word:
+    """Return the word of a proved closed chain; raise Refused if it is not proved."""
+    found, _ = solved(p, chain)
+    return Word(chain, [psi.mid() for psi in found.box])
+
+
+def block_links(p: Balls, word: Word, phases: list[arb]) -> list[Link]:
+    """Return the arcs of a word. ``phases`` begin with the last event before it and end with the first event after it."""
+    kinds = word.kinds
+    if not all(one < other for one, other in pairwise(phases)):
+        raise Refused("events may change their order")
+    return [
+        link(p, side, (place(p, kinds[j]), place(p, kinds[j + 1])), (phases[j], phases[j + 1]))
+        for j, side in enumerate(word.sides)
+    ]
+
+
+def check_block(p: Balls, word: Word, radius: float, before: arb, after: arb) -> None:
+    """Raise Refused unless the box of a word is taken into itself for all neighbours in balls, without other events.
+
+    The neighbours vary by at least the radius, so that the operator is a contraction of whole sequences, too.
+    """
+    k = len(word.phases)
+    exact = block_links(p, word, [before.mid(), *word.phases, after.mid()])
+    links = block_links(p, word, [before, *word.boxes(radius), after])
+    laws = [law(p, kind) for kind in word.chain.kinds]
+    residual = arb_mat([[exact[j + 1].leaves + laws[j] * exact[j].arrives] for j in range(k)])
+    rows = [[arb(0)] * (k + 2) for _ in range(k)]
+    for j in range(k):
+        rows[j][j] += laws[j] * links[j].by[2]
+        rows[j][j + 1] += laws[j] * links[j].by[3] + links[j + 1].by[0]
+        rows[j][j + 2] += links[j + 1].by[1]
+    middle = np.array([[float(x.mid()) for x in row[1:-1]] for row in rows])
+    inverse = arb_mat([[arb(float(x)) for x in row] for row in np.linalg.inv(middle)])
+    step, product = inverse * residual, inverse * arb_mat(rows)
+    reach = [before.rad(), *[arb(radius)] * k, after.rad()]
+    for i in range(k):
+        spread = sum((abs(int(j == i + 1) - product[i, j]) * reach[j] for j in range(k + 2)), arb(0))
+        if not spread + abs(step[i, 0]) < radius:
+            raise Refused("the box of a word is not taken into itself")
+    for j, one in enumerate(links):
+        check_arc(p, word.sides[j], (word.kinds[j], word.kinds[j + 1]), one)
+
+
+def are_distinct(a: Word, b: Word, radius: float) -> bool:
+    """Return whether the first event after the word a certainly differs from the event of the longer word b with its number."""
+    k, turn = len(a.phases), 2 * a.cycles * arb.pi()
+    if len(b.phases) <= k:
+        return False
+    if b.chain.kinds[k] != a.chain.kinds[0]:
+        return True
+    here = b.boxes(radius)[k]
+    return not any(here.overlaps(one.boxes(radius)[0] + turn) for one in (a, b))
+
+
+def check_shift(p: Balls, a: Word, b: Word, radius: float) -> None:
+    """Raise Refused unless every sequence of two words is the sequence of events of exactly one motion."""
+    if not are_distinct(a, b, radius):
+        raise Refused("the two words are not distinct: their events may be the same")
+    ends = [word.boxes(radius)[-1] - 2 * word.cycles * arb.pi() for word in (a, b)]
+    starts = [word.boxes(radius)[0] for word in (a, b)]
+    for word in (a, b):
+        after = hull(*starts) + 2 * word.cycles * arb.pi()
+        check_block(p, word, radius, hull(*ends), after)
+
+
+def entropy(a: int, b: int) -> float:
+    """Return a lower bound of h with e^(-h a) + e^(-h b) = 1, by bisection."""
+    low, high = 0.0, 1.0
+    for _ in range(60):
+        h = 0.5 * (low + high)
+        low, high = (h, high) if math.exp(-h * a) + math.exp(-h * b) > 1.0 + 1e-12 else (low, h)
+    return low
+
+
+def shift_of(p: Balls, chains: list[Chain]) -> tuple[Word, Word]:
+    """Return two words made of the chains of unstable orbits; raise Refused if there are none."""
+    for first, second in pairs(p, chains):
+        try:
+            a, b = word_of(p, first), word_of(p, joined(first, second, first))
+        except Refused:
+            continue
+        for radius in RADII:
+            try:
+                check_shift(p, a, b, radius)
+            except Refused:
+                continue
+            return a, b
+    raise Refused("no two words of the orbits are proved to follow each other in any order")
+
+
+def whole_chains(p: Balls, orbits: list[Orbit]) -> Iterator[Chain]:
+    """Yield the chains of those orbits that are proved and have events."""
+    for orbit in orbits:
+        if not orbit.superstable and (orbit.impacts or orbit.brace_hits):
+            try:
+                chain = chain_of(orbit)
+                found, _ = solved(p, chain)
+            except (Refused, ValueError):
+                continue
+            yield whole_chain(chain, [float(psi.mid()) for psi in found.box])
+
+
+def horseshoe_of(system: System, orbits: list[Orbit]) -> Horseshoe:
+    """Return the proof by two words made of unstable orbits of a system."""
+    with ctx.workprec(BITS):
+        p = balls_of(system, {})
+        try:
+            a, b = shift_of(p, list(whole_chains(p, orbits)))
+        except Refused as refusal:
+            return Horseshoe(system, False, str(refusal))
+    bound = entropy(a.cycles, b.cycles)
+    claim = (
+        f"each sequence of two patterns, with {len(a.phases)} events in {a.cycles} cycles and {len(b.phases)} events in {b.cycles} "
+        f"cycles, is followed by exactly one motion; the topological entropy is at least {math.floor(1e4 * bound) / 1e4:.4f} per cycle"
+    )
+    return Horseshoe(system, True, claim, cycles=(a.cycles, b.cycles), entropy=bound)
