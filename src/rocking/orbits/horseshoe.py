@@ -68,7 +68,11 @@ def horseshoe(system: System, search: bool = False, max_period: int = 4) -> Hors
         refuse_if(system.braces is not None, "system", "have no braces without search=True", system)
         crossing: Horseshoe = module("crossing_manifolds").horseshoe_of(system)
         return crossing
-    found = find_orbits(system, whole("max_period", max_period, 1, MAX_PERIOD))
-    unstable = [orbit for orbit in found if orbit.stability is Stability.UNSTABLE]
-    shift: Horseshoe = module("words").horseshoe_of(system, unstable)
+    max_period = whole("max_period", max_period, 1, MAX_PERIOD)
+    for period in range(1, max_period + 1):  # short orbits are found sooner, and few of them suffice
+        found = find_orbits(system, period)
+        unstable = [orbit for orbit in found if orbit.stability is Stability.UNSTABLE]
+        shift: Horseshoe = module("words").horseshoe_of(system, unstable)
+        if shift.proved:
+            break
     return shift

@@ -15,7 +15,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from itertools import pairwise, permutations
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -92,22 +92,25 @@ def joined(*chains: Chain) -> Chain:
     return Chain(kinds, chains[0].side, turns, False, tuple(phases))
 
 
-def pairs(p: Balls, chains: list[Chain]) -> Iterator[tuple[Chain, Chain]]:
-    """Yield pairs of chains that begin with events near each other in phase and speed, the shortest pairs first."""
+def pairs(p: Balls, chains: list[Chain]) -> list[tuple[Chain, Chain]]:
+    """Return pairs of chains that begin with events near each other in phase and speed, the nearest first."""
     starts = []
-    for number, chain in enumerate(chains):
+    for owner, chain in enumerate(chains):
         links = links_of(p, chain, [arb(psi) for psi in chain.phases]) or []
-        starts += [(number, k, float(one.leaves.mid())) for k, one in enumerate(links)]
-    near = []
-    for (i, k, one), (j, m, other) in permutations(starts, 2):
-        first, second = chains[i], chains[j]
-        if i == j or (first.kinds[k], first.sides[k]) != (second.kinds[m], second.sides[m]):
-            continue
-        apart = max(abs(math.remainder(first.phases[k] - second.phases[m], math.tau)), abs(one - other))
-        if apart < NEAR:
-            near.append((apart, i, k, j, m))
-    for _, i, k, j, m in sorted(near)[:PAIRS]:
-        yield rotated(chains[i], k), rotated(chains[j], m)
+        starts += [
+            (owner, k, chain.kinds[k], chain.sides[k], chain.phases[k] % math.tau, float(one.leaves.mid()))
+            for k, one in enumerate(links)
+        ]
+    number, event, kind, side, phase, speed = np.array(starts).T.reshape(6, -1)
+    near: list[tuple[float, int, int]] = []
+    for i in range(len(starts)):
+        apart = np.maximum(abs(phase - phase[i]), abs(speed - speed[i]))
+        same = (number != number[i]) & (kind == kind[i]) & (side == side[i]) & (apart < NEAR)
+        near += [(float(apart[j]), i, int(j)) for j in np.flatnonzero(same)]
+    return [
+        (rotated(chains[int(number[i])], int(event[i])), rotated(chains[int(number[j])], int(event[j])))
+        for _, i, j in sorted(near)[:PAIRS]
+    ]
 
 
 def word_of(p: Balls, chain: Chain) -> Word:
