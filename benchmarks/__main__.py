@@ -35,6 +35,7 @@ def main():
     report.section("Maps", survey.maps())
     report.section("Maps: workers, stores, memory", survey.engines())
     report.section("Periodic orbits", orbits.following())
+    report.section("Proofs", orbits.proofs())
     report.section("Dimension", verdicts.dimension())
     report.section("Closed forms of the theory", closed_forms.amplitudes())
     report.section("Explorer in a browser", explorer.page())

@@ -1,10 +1,16 @@
 """Periodic orbits: a branch, a curve through two parameters, a search."""
 
+import time
+
+import numpy as np
+
 import rocking as rk
 from benchmarks.clock import quickest
 from benchmarks.table import Figure
 
 RUNS = 5
+# Random verdicts that are proved, and the goals of the medians.
+VERDICTS, PROOF_MS, START_MS = 60, 1.0, 6.0
 
 
 def following():
@@ -30,3 +36,39 @@ def following():
     yield Figure(
         "all orbits up to period 7", seconds, "s", note=f"{len(orbits)} orbits, {orbits.starts} starts"
     )
+
+
+def proofs():
+    """Time proofs of random periodic responses from rest, of their orbits and of their initial states, and two horseshoes."""
+    verdicts = list(periodic(VERDICTS))
+    for what, goal, subjects in (
+        ("proof of an orbit", PROOF_MS, [verdict.orbit for verdict in verdicts]),
+        ("proof of an initial state", START_MS, verdicts),
+    ):
+        times, proved = [], 0
+        for subject in subjects:
+            rk.prove(subject)
+            begun = time.perf_counter()
+            proof = rk.prove(subject)
+            times.append(1e3 * (time.perf_counter() - begun))
+            proved += proof.proved if proof.starts is None else proof.starts
+        note = f"median; {proved} of {len(subjects)} proved; slowest {max(times):.3g} ms"
+        yield Figure(what, float(np.median(times)), "ms", goal, note=note)
+    for name, system, arguments in (
+        ("horseshoe, closed form", rk.System(rk.Harmonic(2.0, period=1.0), 0.925), {}),
+        ("horseshoe, two words", rk.System(rk.Harmonic(10.103037, period=1.721328), 0.8), {"search": True}),
+    ):
+        seconds, found = quickest(RUNS, lambda one=system, how=arguments: rk.horseshoe(one, **how))
+        yield Figure(name, 1e3 * seconds, "ms", note="proved" if found.proved else "not proved")
+
+
+def periodic(count):
+    """Yield periodic verdicts from rest of random systems."""
+    random = np.random.default_rng(1)
+    while count:
+        amplitude, period = float(random.uniform(0, 16)), float(random.uniform(0.2, 3))
+        restitution = float(random.choice([0.5, 0.8, 0.925]))
+        verdict = rk.classify(rk.System(rk.Harmonic(amplitude, period=period), restitution))
+        if verdict.kind is rk.Kind.PERIODIC:
+            count -= 1
+            yield verdict

@@ -34,6 +34,7 @@ if TYPE_CHECKING:
         OverturningSet,
         PiecewiseLinear,
         Proof,
+        ProvedShare,
         Pulse,
         RecordFile,
         RecordSet,
@@ -104,6 +105,7 @@ if TYPE_CHECKING:
         overturning_set,
         overturning_spectrum,
         parametric_map,
+        proved_share,
         repeatability,
         repeatability_map,
         rocking_spectrum,
@@ -144,6 +146,7 @@ __all__ = [
     "Peak",
     "PiecewiseLinear",
     "Proof",
+    "ProvedShare",
     "Pulse",
     "RecordError",
     "RecordFile",
@@ -189,6 +192,7 @@ __all__ = [
     "parametric_map",
     "plot",
     "prove",
+    "proved_share",
     "read_ground_motion",
     "read_ground_motions",
     "read_record_set",
@@ -225,7 +229,7 @@ _NAMES = {
     ),
     "survey": (
         "basin_map chaos_share fragility incremental_dynamic_analysis overturning_amplitude overturning_set "
-        "overturning_spectrum parametric_map repeatability repeatability_map rocking_spectrum safe_basin sensitivity"
+        "overturning_spectrum parametric_map proved_share repeatability repeatability_map rocking_spectrum safe_basin sensitivity"
     ),
 }
 """Public names by subpackage. Names that are not listed belong to `model`."""

@@ -352,3 +352,40 @@ def test_wrong_arguments_are_refused():
         with pytest.raises(ValueError, match="proofs are available for the slender block only"):
             refused()
     assert cases.PRECISIONS[0] == BITS
+
+
+# Maps
+
+
+def test_share_of_a_map_counts_proofs_and_reasons():
+    found = rk.parametric_map(
+        amplitude=np.linspace(1.0, 9.0, 8), period=np.linspace(0.4, 2.0, 8), restitution=0.925
+    )
+    periodic = int((found.kind == rk.Kind.PERIODIC.code).sum())
+    shares = rk.proved_share(found, points=20, seed=3)
+    assert (shares.orbits.count, shares.orbits.of) == (20, 20)
+    assert shares.starts.count + sum(shares.reasons.values()) == 20
+    assert rk.proved_share(found, points=20, seed=3) == shares
+    assert rk.proved_share(found.isel(amplitude=[4]), points=1000).orbits.of <= periodic
+
+
+def test_share_of_a_map_names_what_was_refused(monkeypatch):
+    from rocking.proof import attraction
+
+    monkeypatch.setattr(attraction, "MAX_CYCLES", 2)
+    found = rk.parametric_map(amplitude=[2.0, 2.1], period=[1.0, 1.1], restitution=0.925)
+    shares = rk.proved_share(found)
+    assert (shares.orbits.count, shares.starts.count) == (4, 0)
+    assert list(shares.reasons.values()) == [4]
+    assert "does not reach the neighbourhood within 2 cycles" in str(shares)
+
+
+def test_maps_without_periodic_responses_and_full_blocks_are_refused():
+    still = rk.parametric_map(amplitude=[0.5, 0.6], period=[1.0, 1.1], restitution=0.925)
+    with pytest.raises(ValueError, match="found must be a map with periodic responses; got"):
+        rk.proved_share(still)
+    full = rk.parametric_map(amplitude=[2.0, 2.1], period=[1.0, 1.1], restitution=0.925, critical_angle=0.2)
+    with pytest.raises(ValueError, match="proofs are available for the slender block only"):
+        rk.proved_share(full)
+    with pytest.raises(ValueError, match="points must"):
+        rk.proved_share(full, points=0)

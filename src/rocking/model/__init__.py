@@ -45,7 +45,7 @@ from rocking.model.orbit_stability import Stability, stability_of
 from rocking.model.outcome import Outcome, Overturning
 from rocking.model.overturning_set import SWITCH_ROW, OverturningSet, intervals_of
 from rocking.model.piecewise_linear import PiecewiseLinear
-from rocking.model.proof import Horseshoe, Proof
+from rocking.model.proof import Horseshoe, Proof, ProvedShare
 from rocking.model.pulse import KINDS, SINES, Pulse
 from rocking.model.record_file import RecordFile
 from rocking.model.record_set import RecordSet, record_set
@@ -151,6 +151,7 @@ __all__ = [
     "OverturningSet",
     "PiecewiseLinear",
     "Proof",
+    "ProvedShare",
     "Pulse",
     "ReadOnlyArrays",
     "RecordFile",

@@ -6,6 +6,7 @@ import math
 
 from attrs import field, frozen
 
+from rocking.model.binomial_share import Share
 from rocking.model.system import System
 
 Disc = tuple[complex, float]
@@ -117,3 +118,33 @@ class Horseshoe:
 
     def __str__(self) -> str:
         return f"{'proved' if self.proved else 'not proved'}: {self.claim}"
+
+
+@frozen
+class ProvedShare:
+    """Fractions of the periodic responses of a map that were proved; returned by `proved_share`.
+
+    Attributes
+    ----------
+    orbits : Share
+        Fraction of responses whose orbit was proved.
+    starts : Share
+        Fraction of responses whose initial state was proved to lead to the orbit, too.
+    reasons : dict of str to int
+        Number of the other responses by the reason, the most frequent first.
+
+    Examples
+    --------
+    >>> import rocking as rk
+    >>> found = rk.parametric_map(amplitude=[2.0, 3.0], period=[0.5, 1.0], restitution=0.925)
+    >>> print(rk.proved_share(found))
+    orbits proved: 100 % (95 % CI 51 %–100 %, n = 4); initial states proved: 100 % (95 % CI 51 %–100 %, n = 4)
+    """
+
+    orbits: Share
+    starts: Share
+    reasons: dict[str, int] = field(hash=False)
+
+    def __str__(self) -> str:
+        text = f"orbits proved: {self.orbits}; initial states proved: {self.starts}"
+        return text + "".join(f"; {count} not proved: {reason}" for reason, count in self.reasons.items())

@@ -109,7 +109,8 @@ def _passages(p: Any, side: int, waits: NDArray[np.float64]) -> NDArray[np.float
 def tangency_amplitude(system: System) -> float:
     """Compute the amplitude at which the manifolds of the two saddle orbits first touch: the zero of `manifold_gap`.
 
-    Beyond this amplitude the boundary between overturning and bounded motions is fractal.
+    Beyond this amplitude, up to √(1 + Ω²), the boundary between overturning and bounded motions is fractal if e > 0. `horseshoe`
+    proves it, and checks larger amplitudes.
     `rocking.theory.heteroclinic_amplitude` is the same amplitude in closed form, and `rocking.theory.melnikov_amplitude` is
     Melnikov's approximation.
 

@@ -14,6 +14,7 @@ from rocking.survey.overturning_amplitude import MAX_PHASES, overturning_amplitu
 from rocking.survey.overturning_set import overturning_set
 from rocking.survey.overturning_spectrum import overturning_spectrum
 from rocking.survey.parametric_map import parametric_map
+from rocking.survey.proved_share import proved_share
 from rocking.survey.repeatability import repeatability
 from rocking.survey.repeatability_map import repeatability_map
 from rocking.survey.rocking_spectrum import rocking_spectrum
@@ -41,6 +42,7 @@ __all__ = [
     "overturning_set",
     "overturning_spectrum",
     "parametric_map",
+    "proved_share",
     "question",
     "repeatability",
     "repeatability_map",

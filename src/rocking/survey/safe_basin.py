@@ -40,7 +40,8 @@ def safe_basin(
 
     The result includes the thresholds A* and A_M of the amplitude.
 
-    Above A* the boundary of the overturning initial states is fractal. The safe fraction does not necessarily decrease
+    For e > 0 and A* < A < √(1 + Ω²) the boundary of the overturning initial states is fractal (`horseshoe`).
+    The safe fraction does not necessarily decrease
     from there on. Both thresholds hold for a slender block without braces, and are NaN
     for any other.
 

@@ -27,8 +27,8 @@ def heteroclinic_amplitude(period: Any, restitution: Any) -> Any:
     Returns
     -------
     float or ndarray
-        A* = (1+Ω²)(1−e)/√((1+e)² + Ω²(1−e)²), the limit of `existence_amplitude` for large n. Above A* the boundary between
-        overturning and bounded motions is fractal.
+        A* = (1+Ω²)(1−e)/√((1+e)² + Ω²(1−e)²), the limit of `existence_amplitude` for large n. For e > 0 and
+        A* < A < √(1+Ω²) the boundary between overturning and bounded motions is fractal; beyond, `horseshoe` checks it.
 
     Raises
     ------

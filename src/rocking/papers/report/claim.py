@@ -6,9 +6,12 @@ import inspect
 import re
 from collections.abc import Callable
 from enum import StrEnum
+from importlib.util import find_spec
 
 from attrs import evolve, frozen
 
+PROVABLE = find_spec("flint") is not None
+"""Whether the extra `proof` is installed, so that claims on periodic responses are proved, too."""
 SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 

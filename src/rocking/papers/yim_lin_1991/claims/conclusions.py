@@ -51,7 +51,7 @@ def unrepeatable() -> Finding:
 
 @CHAPTER.claim(
     "Conclusion 2",
-    qualified="a first approximation: the manifolds touch at A*, above which the boundary of overturning is fractal",
+    qualified="a first approximation: the manifolds touch at A*, above which, up to √(1 + Ω²), the boundary of overturning is fractal",
 )
 def boundary_given() -> Finding:
     """The analysis gives a boundary for the existence of chaotic response."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 import rocking as rk
-from rocking.papers.report.claim import Chapter, Finding, small
+from rocking.papers.report.claim import PROVABLE, Chapter, Finding, small
 from rocking.papers.yim_lin_1991 import cached_surveys
 
 CHAPTER = Chapter("Response of damped systems")
@@ -242,10 +242,12 @@ def damped_quasi_periodic() -> Finding:
 @CHAPTER.claim("Numerical results")
 def damped_chaos() -> Finding:
     """Other initial states and parameters give damped chaotic responses."""
-    found = rk.classify(rk.System(rk.Harmonic(10.103037, period=1.721328), 0.8))
-    return Finding(
-        found.kind is rk.Kind.CHAOTIC, f"A = 10.103037, T = 1.721328, e = 0.8 from rest: {found.evidence}"
-    )
+    system = rk.System(rk.Harmonic(10.103037, period=1.721328), 0.8)
+    found = rk.classify(system)
+    text = f"A = 10.103037, T = 1.721328, e = 0.8 from rest: {found.evidence}"
+    if PROVABLE:
+        text += f" A chaotic invariant set is {rk.horseshoe(system, search=True)}."
+    return Finding(found.kind is rk.Kind.CHAOTIC, text)
 
 
 @CHAPTER.claim(

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 import rocking as rk
-from rocking.papers.report.claim import Chapter, Finding, agreement
+from rocking.papers.report.claim import PROVABLE, Chapter, Finding, agreement
 from rocking.papers.yim_lin_1991 import cached_surveys, table_exponents
 from rocking.papers.yim_lin_1991.cases import CHAOTIC, OVERTURNING, PERIODIC, QUASI_PERIODIC, Case
 
@@ -13,7 +13,7 @@ CHAPTER = Chapter("Classes of response")
 
 
 def _periodic(case: Case, period: int, symmetric: bool, impacts: int) -> tuple[bool, str]:
-    found = rk.classify(case.system, case.start)
+    found = rk.classify(case.system, case.start, prove=PROVABLE)
     as_said = (found.kind, found.period, found.symmetric, found.impacts_per_period) == (
         rk.Kind.PERIODIC,
         period,
@@ -21,8 +21,9 @@ def _periodic(case: Case, period: int, symmetric: bool, impacts: int) -> tuple[b
         impacts,
     )
     shape = "symmetric" if found.symmetric else "asymmetric"
+    proved = ", proved in ball arithmetic" if found.evidence.level == "proved" else ""
     return as_said, (
-        f"{found.kind}, period {found.period}, {shape}, {found.impacts_per_period} impacts per period, largest |Θ| {found.peak:.4f}"
+        f"{found.kind}, period {found.period}, {shape}, {found.impacts_per_period} impacts per period, largest |Θ| {found.peak:.4f}{proved}"
     )
 
 
