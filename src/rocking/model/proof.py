@@ -138,7 +138,7 @@ class ProvedShare:
     >>> import rocking as rk
     >>> found = rk.parametric_map(amplitude=[2.0, 3.0], period=[0.5, 1.0], restitution=0.925)
     >>> print(rk.proved_share(found))
-    orbits proved: 100 % (95 % CI 51 %–100 %, n = 4); initial states proved: 100 % (95 % CI 51 %–100 %, n = 4)
+    4 periodic responses; orbits proved: 100 % (51.0–100 %); initial states proved: 100 % (51.0–100 %)
     """
 
     orbits: Share
@@ -146,5 +146,5 @@ class ProvedShare:
     reasons: dict[str, int] = field(hash=False)
 
     def __str__(self) -> str:
-        text = f"orbits proved: {self.orbits}; initial states proved: {self.starts}"
+        text = f"{self.orbits.of} periodic responses; orbits proved: {self.orbits}; initial states proved: {self.starts}"
         return text + "".join(f"; {count} not proved: {reason}" for reason, count in self.reasons.items())
