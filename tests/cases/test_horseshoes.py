@@ -32,6 +32,13 @@ def test_horseshoe_above_the_tangency(case):
     assert leaves > 0
 
 
+@pytest.mark.parametrize("amplitude", [0.5, 1.0, 3.687813])
+def test_below_the_tangency_the_manifolds_do_not_cross(amplitude):
+    found = rk.horseshoe(system_of(amplitude, 1.0, 0.8))
+    assert not found.proved
+    assert found.claim.startswith("the manifolds do not cross")
+
+
 @pytest.mark.parametrize(
     "case",
     [

@@ -201,6 +201,25 @@ def test_wrong_order_of_events_is_never_proved(change):
     assert proved > 0
 
 
+def test_solution_with_a_negative_speed_after_the_impact_is_never_proved():
+    """The second root of the (1, 1) mode at A = 2, T = 1 leaves the base with V = -0.063: no block does."""
+    amplitude, period, e = ONE
+    frequency, half = math.tau / period, 0.5 * period
+    t, beta = math.tanh(0.5 * half), amplitude / (1.0 + frequency**2)
+    less, more = (1.0 - e) / (2.0 * e), (1.0 + e) / (2.0 * e)
+    square = (frequency * t * less) ** 2 + more**2
+    speeds = np.roots([square, -2.0 * t * more, t * t - (frequency * beta) ** 2])
+    for speed in speeds:
+        phase = math.atan2((t - speed * more) / (beta * frequency), -t * speed * less / beta)
+        chain = Chain((IMPACT,), 1, 1, True, (phase,))
+        if speed > 0:
+            enclosed(chain, system_of(*ONE))
+        else:
+            with pytest.raises(Refused, match="wrong sign"):
+                enclosed(chain, system_of(*ONE))
+    assert speeds.min() < 0 < speeds.max()
+
+
 def test_orbit_is_proved_up_to_its_grazing_and_not_beyond():
     """Another event comes from the next double on: (1, 3) mode, T = .4, e = .925."""
     last = 10.541711176647445

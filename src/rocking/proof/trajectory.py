@@ -16,7 +16,7 @@ from rocking.proof.balls import Balls, Refused, hull, largest, least, whole
 from rocking.proof.chain import law
 
 # Longest window of the search for an event, in forcing cycles and in time. No simple part of a cycle: many events lie there.
-CYCLES, LONGEST = 0.2137, 0.5
+CYCLES, LONGEST = 0.37, 1.0
 # Number of windows in which no event comes, after which the motion is given up.
 WINDOWS = 400
 # Steps of Newton's method for the time of an event, and of widening the interval around it.
