@@ -306,6 +306,26 @@ def test_start_that_overturns_is_not_proved_to_reach_the_orbit():
     assert "is not proved" in proof.claim
 
 
+def test_orbit_with_contact_at_a_brace_is_not_proved():
+    verdict = rk.classify(
+        system_of(2.555908015993062, 2.9903134527330972, 0.1, braces=rk.Braces(0.0466, restitution=0.3))
+    )
+    assert verdict.superstable
+    assert verdict.brace_hits_per_period is None
+    proof = rk.prove(verdict)
+    assert not proof.proved
+    assert "contact with a brace" in proof.claim
+
+
+def test_set_of_states_that_may_reach_the_base_is_refused():
+    """On a section at an event of the orbit every neighbourhood contains states beyond the base."""
+    verdict = rk.classify(system_of(*ONE))
+    psi = rk.prove(verdict.orbit).phases[0][0]
+    for shift in (0.0, 1e-13, -1e-13):
+        moved = evolve(verdict, orbit=evolve(verdict.orbit, phase=(psi + shift) % math.tau))
+        assert not rk.prove(moved).starts
+
+
 def test_start_that_converges_to_another_orbit_is_not_proved_to_reach_this_one():
     system = system_of(10.0, 1.721328, 0.8)
     verdict = rk.classify(system)
@@ -362,6 +382,8 @@ def test_wrong_arguments_are_refused():
         ValueError, match="uncertain must name parameters given: amplitude, period, restitution; got"
     ):
         rk.prove(orbit, uncertain={"frequency": 1e-9})
+    with pytest.raises(TypeError, match="uncertain must be a dict; got 0.1"):
+        rk.prove(orbit, uncertain=0.1)
     with pytest.raises(ValueError, match="amplitude must lie in"):
         rk.prove(orbit, uncertain={"amplitude": -1.0})
     with pytest.raises(ValueError, match="subject must be an orbit or a periodic verdict; got 'overturned'"):

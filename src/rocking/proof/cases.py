@@ -71,6 +71,8 @@ def _by_its_events(orbit: Orbit, p: Balls) -> Proof:
 
 
 def _resting(orbit: Orbit, p: Balls) -> Proof:
+    if orbit.state.angle != 0.0:
+        raise Refused("sustained contact with a brace is not covered")
     turns = reset.turns_of_reset(p)
     symmetric = turns % 2 == 1
     period = turns if symmetric else turns // 2
@@ -80,7 +82,7 @@ def _resting(orbit: Orbit, p: Balls) -> Proof:
     return Proof(
         orbit.system,
         True,
-        f"the {orbit} is the only one that rests; it is stable",
+        f"the {orbit} is the only one with rest at the base; it is stable",
         phases=((middle, radius),),
         existence=radius,
         multipliers=((0j, 0.0), (0j, 0.0)),

@@ -94,7 +94,7 @@ def check_provable(system: System) -> None:
 
 
 def _checked(orbit: Orbit, uncertain: Mapping[str, float] | None, verdict: Verdict | None) -> Proof:
-    system, widths = orbit.system, dict(uncertain or {})
+    system, widths = orbit.system, dict(instance("uncertain", uncertain or {}, dict))
     check_provable(system)
     present = {system.periodic.given[0], "amplitude", "restitution"}
     present |= set() if system.braces is None else {"brace_angle", "brace_restitution"}

@@ -118,6 +118,10 @@ class Flight(NamedTuple):
 
 def flight(p: Balls, state: State, limit: arb) -> Flight:
     """Return the flight from a state to its first event, or to the time ``limit`` if none comes before."""
+    if not state.order and not state.angle > 0:
+        raise Refused("the set of states may reach the base")
+    if p.brace_angle is not None and not state.at_brace and not state.angle < p.brace_angle:
+        raise Refused("the set of states may reach a brace")
     arc = arc_from(p, state.side, state.phase, state.angle, state.velocity)
     step = min(LONGEST, CYCLES * 6.283 / float(p.frequency.mid()))
     functions = [(IMPACT, arc.at, state.order)]

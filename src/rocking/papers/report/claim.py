@@ -11,7 +11,7 @@ from importlib.util import find_spec
 from attrs import evolve, frozen
 
 PROVABLE = find_spec("flint") is not None
-"""Whether the extra `proof` is installed, so that claims on periodic responses are proved, too."""
+"""True if the extra `proof` is installed. Then the report proves its periodic responses, too."""
 SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
