@@ -9,7 +9,7 @@ from flint import arb, ctx
 
 import rocking as rk
 from rocking.kernels.event_kinds import BRACE, IMPACT
-from rocking.proof import cases, krawczyk, periodic
+from rocking.proof import cases, krawczyk, periodic, trajectory
 from rocking.proof.balls import Refused, balls_of
 from rocking.proof.chain import Chain
 from rocking.proof.orbit_chain import chain_of
@@ -315,6 +315,15 @@ def test_orbit_with_contact_at_a_brace_is_not_proved():
     proof = rk.prove(verdict)
     assert not proof.proved
     assert "contact with a brace" in proof.claim
+
+
+@pytest.mark.parametrize(("middle", "brace"), [(1e-3, None), (0.999, rk.Braces(1.0))])
+def test_flight_of_states_that_may_lie_beyond_the_base_or_a_brace_is_refused(middle, brace):
+    with ctx.workprec(BITS):
+        p = balls_of(system_of(*ONE, braces=brace), {})
+        state = trajectory.State(1, arb(0.3), arb(middle, 2e-3), arb(0.01), 0, False)
+        with pytest.raises(Refused, match="may reach"):
+            trajectory.flight(p, state, arb(0.001))
 
 
 def test_set_of_states_that_may_reach_the_base_is_refused():
