@@ -57,10 +57,11 @@ class Krawczyk(NamedTuple):
         slope = self.equations.derivatives(box)
         if slope is None:
             return None
-        product, k, image = self.inverse * slope, len(box), []
+        # A ball has a radius of few digits, rounded up.
+        product, k, image, reach = self.inverse * slope, len(box), [], largest(x.rad() for x in box)
         for i in range(k):
             spread = sum((abs(int(i == j) - product[i, j]).abs_upper() for j in range(k)), arb(0))
-            moved = self.middle[i] - self.step[i, 0] + arb(0, 1) * (spread * arb(radius)).abs_upper()
+            moved = self.middle[i] - self.step[i, 0] + arb(0, 1) * (spread * reach).abs_upper()
             if not box[i].contains_interior(moved):
                 return None
             image.append(moved)
