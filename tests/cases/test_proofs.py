@@ -49,7 +49,7 @@ def test_orbits_of_figure_2_are_proved_with_the_size_of_their_multipliers(case, 
     assert proof.stable is True
     assert (proof.period, proof.symmetric, proof.impacts) == (orbit.period, orbit.symmetric, orbit.impacts)
     assert proof.bits == BITS
-    assert proof.existence < 1e-30
+    assert proof.existence < 1e-14
     assert proof.uniqueness > unique
     for (middle, radius), known in zip(proof.multipliers, orbit.multipliers, strict=True):
         assert abs(abs(middle) - size) <= radius + 1e-15
@@ -141,6 +141,9 @@ def test_motion_without_events_is_proved_unstable():
     assert len(found) == 2
     for orbit in found:
         proof = rk.prove(orbit)
+        beta = 2.0 / (1.0 + (2.0 * math.pi) ** 2)
+        assert "Θ = ±1 + β cos ψ" in proof.claim
+        assert orbit.at(0.0).angle == pytest.approx(math.copysign(1.0, orbit.at(0.0).angle) + beta, abs=1e-9)
         assert proof.proved
         assert proof.stable is False
         assert abs(proof.multipliers[0][0] - math.e) < 1e-15
@@ -294,6 +297,39 @@ def test_symmetric_orbit_is_not_proved_as_an_unsymmetric_one():
     )
     with pytest.raises(Refused, match="symmetry"):
         enclosed(whole, system)
+
+
+def test_mirror_image_after_whole_cycles_is_never_a_symmetry():
+    """The chain of A = 1.68584537, T = 2.03158606, e = .8 closes after two cycles, mirrored, which no motion does."""
+    chain = Chain((IMPACT,), 1, 2, True, (0.2,))
+    assert not chain.closes
+    orbit = orbit_of(*ONE)
+    assert not rk.prove(evolve(orbit, period=2)).proved
+
+
+def test_orbit_with_other_counts_of_events_is_not_proved():
+    orbit = orbit_of(*ONE)
+    for wrong in ({"impacts": 1, "brace_hits": 1}, {"impacts": 4}, {"impacts": 2, "brace_hits": 2}):
+        assert not rk.prove(evolve(orbit, **wrong)).proved
+
+
+def test_verdict_with_the_orbit_of_another_system_is_refused():
+    verdict = rk.classify(system_of(*ONE))
+    with pytest.raises(ValueError, match="subject must have the system of its orbit"):
+        rk.prove(evolve(verdict, system=system_of(2.5, 1.0, 0.925)))
+
+
+def test_start_whose_rest_leads_to_the_mirror_image_is_not_proved_to_reach_the_orbit():
+    system = system_of(1.0869527, 1.3382289, 0.8)
+    verdict = rk.classify(system)
+    assert verdict.superstable
+    assert not verdict.symmetric
+    assert rk.prove(verdict).starts
+    forcing = evolve(system.forcing, phase=math.pi)
+    proof = rk.prove(evolve(verdict, system=evolve(system, forcing=forcing)))
+    assert proof.proved
+    assert proof.starts is False
+    assert "mirror image" in proof.claim
 
 
 def test_start_that_overturns_is_not_proved_to_reach_the_orbit():

@@ -24,16 +24,17 @@ class Proof:
     system : System
         System of the orbit.
     proved : bool
-        True if exactly one periodic orbit with this order of events exists near the one given. It meets the base and the braces
-        at these events only.
+        True if exactly one periodic orbit with this order of events and this symmetry exists near the one given. It meets the
+        base and the braces at these events only.
     claim : str
         What is proved, in words; what is not, with the reason.
     phases : tuple of (float, float)
         Middle and radius of the forcing phase of each event, in rad; of a symmetric orbit, over half a period.
     existence : float
-        Radius, in rad, within which the orbit has these phases.
+        Largest radius of the phases, in rad.
     uniqueness : float
-        Radius, in rad, within which no other orbit has the same order of events.
+        Radius around the phases, in rad, within which no other orbit has the same order of events. For a symmetric orbit: no
+        other symmetric one.
     multipliers : tuple of two (complex, float), or None
         Middle and radius of each Floquet multiplier over one period.
     stable : bool or None
@@ -84,8 +85,8 @@ class Proof:
 class Horseshoe:
     """Proof of a chaotic invariant set, or the reason why there is none; returned by `horseshoe`.
 
-    The set is a Smale horseshoe: infinitely many unstable orbits, and motions that follow any sequence of two patterns. It makes
-    basin boundaries fractal. It does not show that an attractor is chaotic.
+    The set is a Smale horseshoe: infinitely many unstable orbits, and motions that follow any sequence of two patterns. It does not
+    show that an attractor is chaotic. If it follows from crossing manifolds, basin boundaries are fractal.
 
     Attributes
     ----------

@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 from flint import arb
 
-from rocking.proof.balls import Balls, hull
+from rocking.proof.balls import Balls, hull, largest
 
 # Number of times that an interval is halved before a proof is given up.
 DEPTH = 60
@@ -121,6 +121,6 @@ def piece_is_positive(function: Function, low: arb, high: arb, order: int, arriv
     if over.value > 0:
         return True
     middle = ((low + high) / 2).mid()
-    half = (high - low).abs_upper() / 2
+    half = largest([(high - middle).abs_upper(), (middle - low).abs_upper()])
     at = function(middle)
     return bool(at.value - abs(at.first) * half - over.second.abs_upper() * half * half / 2 > 0)

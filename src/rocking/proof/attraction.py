@@ -17,7 +17,7 @@ from scipy.linalg import solve_discrete_lyapunov
 
 from rocking.model import Orbit
 from rocking.model import State as InitialState
-from rocking.proof.balls import Balls, Refused, above, largest, whole
+from rocking.proof.balls import Balls, Refused, TooLong, below, largest, whole
 from rocking.proof.periodic import Enclosed
 from rocking.proof.trajectory import (
     State,
@@ -135,7 +135,7 @@ def neighbourhood(orbit: Enclosed, found: Orbit) -> Neighbourhood:
             tangent = None
         if tangent is not None and norm(inverse * tangent * axes) < 1:
             middle = arb_mat([[here.side * here.angle], [here.side * here.velocity]])
-            return Neighbourhood(found.phase, middle, inverse, arb(radius), radius / above(norm(inverse)))
+            return Neighbourhood(found.phase, middle, inverse, arb(radius), below(radius / norm(inverse)))
         radius *= FACTOR
     raise Refused("no neighbourhood is proved to converge to the orbit")
 
@@ -200,4 +200,4 @@ def follow_to(p: Balls, state: State, goal: Neighbourhood) -> None:
             return
         if largest(there.radii) > WIDE:
             now = there
-    raise Refused(f"the motion does not reach the neighbourhood within {MAX_CYCLES} cycles")
+    raise TooLong(f"the motion does not reach the neighbourhood within {MAX_CYCLES} cycles")

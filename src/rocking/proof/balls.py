@@ -16,6 +16,10 @@ class Refused(Exception):
     """A condition of a proof is not shown; the text names it."""
 
 
+class TooLong(Refused):
+    """A motion is followed too long; more digits do not help."""
+
+
 class Balls(NamedTuple):
     """Parameters of a slender block under a harmonic base motion."""
 
@@ -69,6 +73,11 @@ def least(values: Iterable[arb]) -> arb:
 def above(value: arb) -> float:
     """Return a double that is not below any number of a ball."""
     return math.nextafter(float(value.upper()), math.inf)
+
+
+def below(value: arb) -> float:
+    """Return a double that is not above any number of a ball."""
+    return math.nextafter(float(value.lower()), -math.inf)
 
 
 def whole(value: arb) -> int:

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 
+import numpy as np
 from attrs import evolve
 from flint import acb, arb, ctx
 
 from rocking.model import Orbit, Proof, Verdict
 from rocking.proof import attraction, periodic, reset, stability, trajectory
-from rocking.proof.balls import Balls, Refused, above, balls_of
+from rocking.proof.balls import Balls, Refused, TooLong, above, balls_of, below
 from rocking.proof.orbit_chain import chain_of
 
 PRECISIONS = (128, 256, 512, 1024, 2048, 4096)
@@ -20,6 +21,14 @@ ORBIT = PRECISIONS[:4]
 
 def proof_of(orbit: Orbit, widths: Mapping[str, float], verdict: Verdict | None) -> Proof:
     """Return the proof of an orbit, and of the initial state of a verdict, if there is one."""
+    proof = _proof_of(orbit, widths, verdict)
+    if not (proof.proved and widths):
+        return proof
+    ranges = ", ".join(f"{name} ± {width:g}" for name, width in widths.items())
+    return evolve(proof, claim=f"{proof.claim}; for every system with {ranges}")
+
+
+def _proof_of(orbit: Orbit, widths: Mapping[str, float], verdict: Verdict | None) -> Proof:
     if orbit.superstable:
         proof = _first(orbit, widths, _resting, PRECISIONS)
         return proof if verdict is None or not proof.proved else _started(proof, widths, verdict, None)
@@ -52,13 +61,15 @@ def _by_its_events(orbit: Orbit, p: Balls) -> Proof:
     first, second = stability.multipliers(proved.trace, proved.determinant, chain.mirrored)
     stable = stability.stable(proved.trace, proved.determinant)
     words = {True: "it is stable", False: "it is unstable", None: "its stability is not proved"}[stable]
-    reach = proved.found.uniqueness
+    phases = tuple(_middle_and_radius(psi) for psi in proved.found.box)
+    existence = max(radius for _, radius in phases)
+    reach = below(arb(proved.found.uniqueness) - proved.found.existence - existence)
     return Proof(
         orbit.system,
         True,
         f"exactly one {orbit} has event phases within {reach:.2g} rad of these; {words}",
-        phases=tuple(_middle_and_radius(psi) for psi in proved.found.box),
-        existence=proved.found.existence,
+        phases=phases,
+        existence=existence,
         uniqueness=reach,
         multipliers=(_disc(first), _disc(second)),
         stable=stable,
@@ -82,7 +93,7 @@ def _resting(orbit: Orbit, p: Balls) -> Proof:
     return Proof(
         orbit.system,
         True,
-        f"the {orbit} is the only one with rest at the base; it is stable",
+        f"the {orbit} is the only one with rest at the base, up to its mirror image; it is stable",
         phases=((middle, radius),),
         existence=radius,
         multipliers=((0j, 0.0), (0j, 0.0)),
@@ -99,7 +110,7 @@ def _without_events(orbit: Orbit, p: Balls) -> Proof:
     return Proof(
         orbit.system,
         True,
-        "Θ = ±(1 + β cos ψ) is an orbit of period 1 without events; it is unstable",
+        "Θ = ±1 + β cos ψ is an orbit of period 1 without events; it is unstable",
         existence=0.0,
         multipliers=(_disc(acb(growth)), _disc(acb(1 / growth))),
         stable=False,
@@ -117,8 +128,10 @@ def _started(proof: Proof, widths: Mapping[str, float], verdict: Verdict, orbit:
         with ctx.workprec(bits):
             try:
                 reach = _reached(balls_of(verdict.system, widths), verdict, orbit)
-            except Refused as refusal:
+            except (Refused, np.linalg.LinAlgError, ZeroDivisionError) as refusal:
                 reason = str(refusal)
+                if isinstance(refusal, TooLong):
+                    break
                 continue
         claim = f"{proof.claim}, and the motion from the initial state converges to it"
         return evolve(proof, claim=claim, attracts=reach, starts=True, bits=max(bits, proof.bits))
@@ -130,11 +143,21 @@ def _reached(p: Balls, verdict: Verdict, orbit: Orbit | None) -> float | None:
     """Return the radius of attraction of the orbit that a motion reaches, None if it rests; raise Refused if it may not."""
     state = attraction.initial(p, verdict.system.periodic.phase, verdict.start)
     if orbit is None:
-        reset.next_release(p, state)
+        half_turns = reset.next_release(p, state)
+        release = _resting_half_turns(p, verdict)
+        if (half_turns - release) % (1 if verdict.symmetric else 2):
+            raise Refused("the motion leads to the mirror image of the orbit")
         return None
     goal = attraction.neighbourhood(periodic.enclosed(p, chain_of(orbit)), orbit)
     attraction.follow_to(p, state, goal)
     return goal.reach
+
+
+def _resting_half_turns(p: Balls, verdict: Verdict) -> int:
+    """Return m of the release psi = m pi - arccos(1/A) with which the orbit of a verdict begins."""
+    assert verdict.orbit is not None
+    number = (arb(verdict.orbit.phase) + (1 / p.amplitude).acos()) / arb.pi()
+    return round(float(number.mid()))
 
 
 def _middle_and_radius(value: arb) -> tuple[float, float]:

@@ -36,6 +36,8 @@ class Chain(NamedTuple):
     @property
     def closes(self) -> bool:
         """True if the side after the last arc is that of the first one, or its mirror image."""
+        if self.half_turns % 2 != self.mirrored:  # mirror images differ by an odd number of half turns
+            return False
         last = self.sides[-1] * (-1 if self.kinds[0] == IMPACT else 1)
         return last == (-self.side if self.mirrored else self.side)
 

@@ -21,9 +21,13 @@ def chain_of(orbit: Orbit) -> Chain:
     forcing, half = orbit.system.periodic, orbit.symmetric
     begun = evolve(orbit.system, forcing=evolve(forcing, phase=orbit.phase))
     events = simulate(begun, orbit.state, cycles=orbit.period).events
-    kinds = [IMPACT if kind == "impact" else BRACE for kind in events["kind"]]
-    if len(kinds) != (orbit.impacts or 0) + (orbit.brace_hits or 0):
-        raise ValueError("the simulated motion leaves the orbit within one period")
+    names = [str(name) for name in events["kind"]]
+    counts = names.count("impact"), names.count("brace")
+    if counts != (orbit.impacts, orbit.brace_hits) or sum(counts) != len(names):
+        raise ValueError(
+            "the simulated motion has not the events of the orbit: it leaves it within one period"
+        )
+    kinds = [IMPACT if name == "impact" else BRACE for name in names]
     count = len(kinds) // 2 if half else len(kinds)
     phases = [orbit.phase + forcing.frequency * float(time) for time in events["time"][:count]]
     return Chain(

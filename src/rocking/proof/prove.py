@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from importlib import import_module
 from typing import Any
 
-from rocking.model import Orbit, Proof, System, Verdict, instance, refuse_if, within
+from rocking.model import Orbit, Proof, System, Verdict, check_start, instance, refuse_if, within
 
 INSTALL = "run pip install '.[proof]' in a copy of the repository"
 MAX_HALF_WIDTH = 1.0
@@ -81,7 +81,16 @@ def prove(subject: Orbit | Verdict, uncertain: Mapping[str, float] | None = None
         return _checked(orbit, uncertain, None)
     refuse_if(subject.orbit is None, "subject", "be an orbit or a periodic verdict", str(subject.kind))
     assert subject.orbit is not None
+    check_start(subject.system, subject.start)
+    same = _without_phase(subject.system) == _without_phase(subject.orbit.system)
+    refuse_if(not same, "subject", "have the system of its orbit", subject.system)
     return _checked(subject.orbit, uncertain, subject)
+
+
+def _without_phase(system: System) -> tuple[object, ...]:
+    """Return the quantities of a system but for the phase of its base motion, which is that of the start."""
+    forcing = system.periodic
+    return forcing.amplitude, forcing.given, system.restitution, system.braces, system.critical_angle
 
 
 def check_provable(system: System) -> None:
@@ -102,5 +111,5 @@ def _checked(orbit: Orbit, uncertain: Mapping[str, float] | None, verdict: Verdi
         refuse_if(
             name not in present, "uncertain", f"name parameters given: {', '.join(sorted(present))}", name
         )
-        widths[name] = within(name, width, 0.0, MAX_HALF_WIDTH)
+        widths[name] = within(f"half-width of {name}", width, 0.0, MAX_HALF_WIDTH)
     return module("cases").proof_of(orbit, widths, verdict)

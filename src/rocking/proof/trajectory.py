@@ -38,7 +38,6 @@ class State(NamedTuple):
     velocity: arb
     order: int  # of the known zero of u: 0 none, 1 after an impact, 2 pushed away from rest, 3 at the instant of a lift-off
     at_brace: bool  # whether the state lies at a brace, which it leaves
-    resting: bool = False
 
 
 def half_turns_to_release(p: Balls, phase: arb) -> int:

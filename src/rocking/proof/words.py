@@ -225,8 +225,9 @@ def horseshoe_of(system: System, orbits: list[Orbit]) -> Horseshoe:
         except Refused as refusal:
             return Horseshoe(system, False, str(refusal))
     bound = entropy(a.cycles, b.cycles)
+    words = " and ".join(f"{len(one.phases)} events in {one.cycles} cycles" for one in (a, b))
     claim = (
-        f"each sequence of two patterns, with {len(a.phases)} events in {a.cycles} cycles and {len(b.phases)} events in {b.cycles} "
-        f"cycles, is followed by exactly one motion; the topological entropy is at least {math.floor(1e4 * bound) / 1e4:.4f} per cycle"
+        f"each sequence of two patterns, with {words}, is followed by exactly one motion near them; "
+        f"the topological entropy is at least {math.floor(1e4 * bound) / 1e4:.4f} per cycle"
     )
     return Horseshoe(system, True, claim, cycles=(a.cycles, b.cycles), entropy=bound)
