@@ -66,8 +66,24 @@ def order_at_start(a, b, c):
 
 
 @njit(**INTERNAL)
-def bracketed_zero(a, b, c, order, low, high):
-    """Return the only zero of g in [low, high], where g falls."""
+def leading(a, b, c, order):
+    """Return g and g' at the start."""
+    if order == 0:
+        return a, b
+    if order == 1:
+        return b, c[0]
+    if order == 2:
+        return c[0], c[1]
+    return c[1], c[2]
+
+
+@njit(**INTERNAL)
+def bracketed_zero(a, b, c, order, bend, low, high):
+    """Return the only zero of g in [low, high], where g falls and |g''| is at most ``bend``.
+
+    Newton's step d from x leaves an error of at most bend d^2/(2 |g'(x)|), to its first order. Below rounding no further step is
+    needed.
+    """
     x = 0.5 * (low + high)
     for _ in range(ITERATIONS):
         g, dg = quotient(a, b, c, order, x)
@@ -78,7 +94,8 @@ def bracketed_zero(a, b, c, order, low, high):
         ahead = x - g / dg if dg < 0.0 else 0.5 * (low + high)
         if not low <= ahead <= high:
             ahead = 0.5 * (low + high)
-        if abs(ahead - x) <= 2.0 * ROUNDING * ahead:
+        step = abs(ahead - x)
+        if step <= 2.0 * ROUNDING * ahead or bend * step * step <= -ROUNDING * ahead * dg:
             return ahead
         x = ahead
     return x
@@ -100,7 +117,7 @@ def search(a, b, c, order, h):
     t, end = 0.0, h
     bend = bend_of(a, b, c, order, end) * MARGIN
     for _ in range(STEPS):
-        g, dg = quotient(a, b, c, order, t)
+        g, dg = leading(a, b, c, order) if t == 0.0 else quotient(a, b, c, order, t)
         if g <= 0.0:
             return True, t
         x, root = math.inf, math.sqrt(dg * dg + 2.0 * bend * g)
@@ -117,7 +134,7 @@ def search(a, b, c, order, h):
         if dg < 0.0 and 2.0 * bend * g < dg * dg:  # g falls as far as its zero, or the end of the window
             low = min(t - 2.0 * g / dg, end)
             if quotient(a, b, c, order, low)[0] <= 0.0:
-                return True, bracketed_zero(a, b, c, order, t, low)
+                return True, bracketed_zero(a, b, c, order, bend, t, low)
             if low < end:
                 return True, low
             if end == h:

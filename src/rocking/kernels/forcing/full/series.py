@@ -151,11 +151,13 @@ def divided(first: int) -> Any:
 
 
 def bend_lines(first: int) -> list[str]:
-    """Return the source of the bound of the second derivative of ``divided`` on [0, h]."""
+    """Return the source of the bound of the second derivative of ``divided`` on [0, h], in two sums as ``polynomial_lines``."""
     names = ["a", "b", *(f"w[{k}]" for k in range(ORDER - 1))]
-    orders = range(ORDER, first + 1, -1)
-    terms = [f"p = p * h + {float((k - first) * (k - first - 1))!r} * abs({names[k]})" for k in orders]
-    return ["p = 0.0", *terms, "return p"]
+    lines = ["s = h * h", "p0, p1 = 0.0, 0.0"]
+    for k in range(ORDER, first + 1, -1):
+        part = f"p{(k - first) % 2}"
+        lines.append(f"{part} = {part} * s + {float((k - first) * (k - first - 1))!r} * abs({names[k]})")
+    return [*lines, "return p0 + p1 * h"]
 
 
 def bend(first: int) -> Any:

@@ -33,15 +33,16 @@ from rocking.kernels.forcing.full.series import (
 from rocking.kernels.numerics.elementary import exponential_bound, sine_and_cosine
 
 # With it most bounds hold at once.
-TOLERANCE = 3e-18
+TOLERANCE = 6e-18
+LOG_TOLERANCE = math.log(TOLERANCE)
 # Limit of the bound of the error of u; a step that exceeds it is shortened.
 ERROR = 1e-16
 # Up to a corner of the base acceleration that is nearer than this, a short series is tried first.
 NEAR = 0.1
 # Distance from the base beyond which no rounding error of a step counts.
 CLEAR = 1e-9
-# Part of a step that is kept if its bound is too large: 20 % of the bound is left.
-SHORTER = 0.92
+# Part of a step that is kept if its bound is too large: 34 % of the bound is left.
+SHORTER = 0.95
 
 
 class Truncation(NamedTuple):
@@ -72,7 +73,7 @@ class Step(NamedTuple):
 def log_time_of_term(coefficient, order):
     """Return the logarithm of the time at which a term reaches the tolerance; at most 0, since no step is longer than 1."""
     size = abs(coefficient)
-    return math.log(TOLERANCE / size) / order if size > TOLERANCE else 0.0
+    return (LOG_TOLERANCE - math.log(size)) * (1.0 / order) if size > TOLERANCE else 0.0
 
 
 @njit(**INTERNAL_INLINE)
