@@ -1,11 +1,12 @@
 """Proofs of periodic orbits: known cases, random responses, and everything that must never be proved."""
 
 import math
+from itertools import islice, product
 
 import numpy as np
 import pytest
 from attrs import evolve
-from flint import arb, ctx
+from flint import arb, arb_mat, ctx
 
 import rocking as rk
 from rocking.kernels.event_kinds import BRACE, IMPACT
@@ -13,6 +14,7 @@ from rocking.proof import cases, krawczyk, periodic, trajectory
 from rocking.proof.balls import Refused, balls_of
 from rocking.proof.chain import Chain
 from rocking.proof.orbit_chain import chain_of
+from rocking.proof.sets import States, renewed, sets_on_sections, states_on_sections
 
 FEW, MANY = 40, 300
 STARTS, MANY_STARTS = 15, 150
@@ -359,7 +361,7 @@ def test_flight_of_states_that_may_lie_beyond_the_base_or_a_brace_is_refused(mid
         p = balls_of(system_of(*ONE, braces=brace), {})
         state = trajectory.State(1, arb(0.3), arb(middle, 2e-3), arb(0.01), 0, False)
         with pytest.raises(Refused, match="may reach"):
-            trajectory.flight(p, state, arb(0.001))
+            trajectory.flight(p, state)
 
 
 def test_set_of_states_that_may_reach_the_base_is_refused():
@@ -369,6 +371,30 @@ def test_set_of_states_that_may_reach_the_base_is_refused():
     for shift in (0.0, 1e-13, -1e-13):
         moved = evolve(verdict, orbit=evolve(verdict.orbit, phase=(psi + shift) % math.tau))
         assert not rk.prove(moved).starts
+
+
+@pytest.mark.parametrize("braces", [None, rk.Braces(0.7, 0.6)])
+def test_sets_contain_the_motions_of_their_states(braces):
+    """The corners of a set, followed one by one at a higher precision, lie in its images, cycle after cycle."""
+    system, size = system_of(*ONE, braces=braces), 1e-5
+    with ctx.workprec(BITS):
+        p, phase, last = balls_of(system, {}), arb(0.4), arb(60)
+        basis = arb_mat([[0.6, -0.3], [0.8, 0.5]])
+        first = States(1, phase, arb_mat([[0.3], [0.2]]), basis, (arb(size), arb(0.5 * size)))
+        images = [first, *islice(sets_on_sections(p, first, last), 4)]
+        images += islice(sets_on_sections(p, renewed(images[-1]), last), 3)
+    assert len(images) == 8
+    with ctx.workprec(2 * BITS):
+        for one, other in product((-size, size), (-0.5 * size, 0.5 * size)):
+            r = arb_mat([[one], [other]])
+            angle, velocity = (first.centre + basis * r).entries()
+            state = trajectory.State(1, phase, angle, velocity, 0, False)
+            motion = islice(states_on_sections(p, state, phase, last), 7)
+            for now, there in zip(images[1:], motion, strict=True):
+                box = now.box()
+                assert now.side == there.side
+                assert box.angle.contains(there.angle)
+                assert box.velocity.contains(there.velocity)
 
 
 def test_start_that_converges_to_another_orbit_is_not_proved_to_reach_this_one():

@@ -7,6 +7,7 @@ On one side u'' = u - 1 - side A cos psi, so that
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from typing import NamedTuple
 
@@ -36,26 +37,41 @@ class Arc(NamedTuple):
     """Arc from a forcing phase on."""
 
     p: Balls
-    side: int
     phase: arb
+    swing: tuple[arb, arb, arb, arb]  # side * beta, times 1, frequency, its square and its cube
     grow: arb
     shrink: arb
 
     def at(self, time: arb) -> Values:
         """Return u and its derivatives at a time after the start."""
-        p, turned = self.p, self.phase + self.p.frequency * time
-        sine, cosine = turned.sin_cos()
-        swing, rate = self.side * p.response, p.frequency
+        sine, cosine = (self.phase + self.p.frequency * time).sin_cos()
         growth = time.exp()
         more, less = self.grow * growth, self.shrink / growth
-        first = swing * rate
-        second = first * rate
+        even, odd, swing = more + less, more - less, self.swing
         return Values(
-            1 + swing * cosine + (more + less),
-            (more - less) - first * sine,
-            (more + less) - second * cosine,
-            (more - less) + second * rate * sine,
+            1 + swing[0] * cosine + even,
+            odd - swing[1] * sine,
+            even - swing[2] * cosine,
+            odd + swing[3] * sine,
         )
+
+    def angle(self, time: arb) -> arb:
+        """Return u alone, in half the time."""
+        growth = time.exp()
+        swing = self.swing[0] * (self.phase + self.p.frequency * time).cos()
+        return 1 + swing + (self.grow * growth + self.shrink / growth)
+
+    def in_double(self) -> Callable[[float], tuple[float, float]]:
+        """Return the function that gives u and u' in double precision."""
+        numbers = self.phase, self.p.frequency, self.swing[0], self.swing[1], self.grow, self.shrink
+        phase, frequency, swing, faster, grow, shrink = (float(number) for number in numbers)
+
+        def values(time: float) -> tuple[float, float]:
+            turned, growth = phase + frequency * time, math.exp(time)
+            more, less = grow * growth, shrink / growth
+            return 1.0 + swing * math.cos(turned) + more + less, more - less - faster * math.sin(turned)
+
+        return values
 
     def below_brace(self, time: arb) -> Values:
         """Return the distance from the brace, and its derivatives."""
@@ -67,9 +83,11 @@ class Arc(NamedTuple):
 def arc_from(p: Balls, side: int, phase: arb, angle: arb, velocity: arb) -> Arc:
     """Return the arc through (u, u') = (angle, velocity) at a forcing phase."""
     sine, cosine = phase.sin_cos()
-    swing = side * p.response
-    above, faster = angle - 1 - swing * cosine, velocity + swing * p.frequency * sine
-    return Arc(p, side, phase, (above + faster) / 2, (above - faster) / 2)
+    swing, rate = side * p.response, p.frequency
+    first = swing * rate
+    above, faster = angle - 1 - swing * cosine, velocity + first * sine
+    swings = swing, first, first * rate, first * rate * rate
+    return Arc(p, phase, swings, (above + faster) / 2, (above - faster) / 2)
 
 
 def stays_positive(function: Function, end: arb, order: int, arrives: bool) -> bool:
@@ -91,7 +109,7 @@ def stays_positive(function: Function, end: arb, order: int, arrives: bool) -> b
         if not pieces:
             return True
         low, high, zero, last, depth = pieces.pop()
-        if piece_is_positive(function, low, high, zero, last):
+        if positive_over(function, low, high, function(hull(low, high)), zero, last):
             continue
         if depth >= DEPTH:
             return False
@@ -102,14 +120,13 @@ def stays_positive(function: Function, end: arb, order: int, arrives: bool) -> b
     return False
 
 
-def piece_is_positive(function: Function, low: arb, high: arb, order: int, arrives: bool) -> bool:
-    """Return whether one bound proves that a function is positive inside an interval.
+def positive_over(function: Function, low: arb, high: arb, over: Values, order: int, arrives: bool) -> bool:
+    """Return whether one bound proves that a function is positive inside an interval, where its values are ``over``.
 
     At the ends the function is positive, or it vanishes as ``order`` and ``arrives`` say. It is positive inside if it is so over
     the whole ball. It is so, too, if it is concave. After a zero of an order its derivative of this order may be positive
     throughout, and before a zero its slope negative.
     """
-    over = function(hull(low, high))
     if over.second < 0:
         return True
     if order and over[order] > 0:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
+from typing import TypeVar
 
 import numpy as np
 from attrs import evolve
@@ -12,11 +13,14 @@ from rocking.model import Orbit, Proof, Verdict
 from rocking.proof import attraction, periodic, reset, stability, trajectory
 from rocking.proof.balls import Balls, Refused, TooLong, above, balls_of, below
 from rocking.proof.orbit_chain import chain_of
+from rocking.proof.periodic import Enclosed
 
 PRECISIONS = (128, 256, 512, 1024, 2048, 4096)
 """Bits of the numbers: the next one after a refusal."""
 ORBIT = PRECISIONS[:4]
 """Bits for an orbit with finitely many events, which needs no long march."""
+
+Result = TypeVar("Result")
 
 
 def proof_of(orbit: Orbit, widths: Mapping[str, float], verdict: Verdict | None) -> Proof:
@@ -30,32 +34,32 @@ def proof_of(orbit: Orbit, widths: Mapping[str, float], verdict: Verdict | None)
 
 def _proof_of(orbit: Orbit, widths: Mapping[str, float], verdict: Verdict | None) -> Proof:
     if orbit.superstable:
-        proof = _first(orbit, widths, _resting, PRECISIONS)
-        return proof if verdict is None or not proof.proved else _started(proof, widths, verdict, None)
-    if not (orbit.impacts or orbit.brace_hits):
-        return _first(orbit, widths, _without_events, ORBIT)
-    proof = _first(orbit, widths, _by_its_events, ORBIT)
-    return proof if verdict is None or not proof.stable else _started(proof, widths, verdict, orbit)
+        attempt = _resting
+    else:
+        attempt = _by_its_events if orbit.impacts or orbit.brace_hits else _without_events
+    try:
+        precisions = PRECISIONS if orbit.superstable else ORBIT
+        proof, known = _first(precisions, lambda: attempt(orbit, balls_of(orbit.system, widths)))
+    except Refused as refusal:
+        return Proof(orbit.system, False, str(refusal))
+    return proof if verdict is None or not proof.stable else _started(proof, widths, verdict, known)
 
 
-def _first(
-    orbit: Orbit,
-    widths: Mapping[str, float],
-    attempt: Callable[[Orbit, Balls], Proof],
-    precisions: tuple[int, ...],
-) -> Proof:
-    """Return the result of the first precision at which an attempt succeeds."""
+def _first(precisions: Iterable[int], attempt: Callable[[], Result]) -> Result:
+    """Return the result of an attempt at the first precision at which it succeeds; raise Refused if there is none."""
     reason = ""
     for bits in precisions:
         with ctx.workprec(bits):
             try:
-                return attempt(orbit, balls_of(orbit.system, widths))
-            except (Refused, ValueError) as refusal:
+                return attempt()
+            except TooLong:
+                raise
+            except (Refused, np.linalg.LinAlgError, ZeroDivisionError) as refusal:
                 reason = str(refusal)
-    return Proof(orbit.system, False, reason)
+    raise Refused(reason)
 
 
-def _by_its_events(orbit: Orbit, p: Balls) -> Proof:
+def _by_its_events(orbit: Orbit, p: Balls) -> tuple[Proof, Enclosed | None]:
     chain = chain_of(orbit)
     proved = periodic.enclosed(p, chain)
     first, second = stability.multipliers(proved.trace, proved.determinant, chain.mirrored)
@@ -64,7 +68,7 @@ def _by_its_events(orbit: Orbit, p: Balls) -> Proof:
     phases = tuple(_middle_and_radius(psi) for psi in proved.found.box)
     existence = max(radius for _, radius in phases)
     reach = below(arb(proved.found.uniqueness) - proved.found.existence - existence)
-    return Proof(
+    proof = Proof(
         orbit.system,
         True,
         f"exactly one {orbit} has event phases within {reach:.2g} rad of these; {words}",
@@ -79,9 +83,10 @@ def _by_its_events(orbit: Orbit, p: Balls) -> Proof:
         brace_hits=orbit.brace_hits,
         bits=ctx.prec,
     )
+    return proof, proved
 
 
-def _resting(orbit: Orbit, p: Balls) -> Proof:
+def _resting(orbit: Orbit, p: Balls) -> tuple[Proof, Enclosed | None]:
     if orbit.state.angle != 0.0:
         raise Refused("sustained contact with a brace is not covered")
     turns = reset.turns_of_reset(p)
@@ -90,7 +95,7 @@ def _resting(orbit: Orbit, p: Balls) -> Proof:
     if (symmetric, period) != (orbit.symmetric, orbit.period):
         raise Refused(f"the released block repeats its motion with period {period}")
     middle, radius = _middle_and_radius(trajectory.release(p, 0).phase)
-    return Proof(
+    proof = Proof(
         orbit.system,
         True,
         f"the {orbit} is the only one with rest at the base, up to its mirror image; it is stable",
@@ -102,12 +107,13 @@ def _resting(orbit: Orbit, p: Balls) -> Proof:
         period=period,
         bits=ctx.prec,
     )
+    return proof, None
 
 
-def _without_events(orbit: Orbit, p: Balls) -> Proof:
+def _without_events(orbit: Orbit, p: Balls) -> tuple[Proof, Enclosed | None]:
     periodic.moves_between(p)
     growth = (2 * arb.pi() / p.frequency).exp()
-    return Proof(
+    proof = Proof(
         orbit.system,
         True,
         "Θ = ±1 + β cos ψ is an orbit of period 1 without events; it is unstable",
@@ -119,54 +125,69 @@ def _without_events(orbit: Orbit, p: Balls) -> Proof:
         brace_hits=0,
         bits=ctx.prec,
     )
+    return proof, None
 
 
-def _started(proof: Proof, widths: Mapping[str, float], verdict: Verdict, orbit: Orbit | None) -> Proof:
-    """Return the proof with that of the initial state of a verdict; ``orbit`` is None if the orbit rests."""
-    reason = ""
-    for bits in PRECISIONS:
-        with ctx.workprec(bits):
-            try:
-                reach = _reached(balls_of(verdict.system, widths), verdict, orbit)
-            except (Refused, np.linalg.LinAlgError, ZeroDivisionError) as refusal:
-                reason = str(refusal)
-                if isinstance(refusal, TooLong):
-                    break
-                continue
-        claim = f"{proof.claim}, and the motion from the initial state converges to it"
-        return evolve(proof, claim=claim, attracts=reach, starts=True, bits=max(bits, proof.bits))
-    claim = f"{proof.claim}. That the initial state leads to it is not proved: {reason}"
-    return evolve(proof, claim=claim, starts=False)
+def _started(proof: Proof, widths: Mapping[str, float], verdict: Verdict, known: Enclosed | None) -> Proof:
+    """Return the proof with that of the initial state of a verdict; the orbit is ``known``, or rests."""
+    reach = None
+    try:
+        if known is None:
+            bits = _first(PRECISIONS, lambda: _released_alike(widths, verdict))
+        else:
+            precisions = [bits for bits in ORBIT if bits >= proof.bits]
+            goal = _first(precisions, lambda: _goal(proof, widths, verdict, known))
+            bits, reach = _first(PRECISIONS, lambda: _arrived(widths, verdict, goal)), goal.reach
+    except Refused as refusal:
+        claim = f"{proof.claim}. That the initial state leads to it is not proved: {refusal}"
+        return evolve(proof, claim=claim, starts=False)
+    claim = f"{proof.claim}, and the motion from the initial state converges to it"
+    return evolve(proof, claim=claim, attracts=reach, starts=True, bits=max(bits, proof.bits))
 
 
-def _reached(p: Balls, verdict: Verdict, orbit: Orbit | None) -> float | None:
-    """Return the radius of attraction of the orbit that a motion reaches, None if it rests; raise Refused if it may not."""
-    state = attraction.initial(p, verdict.system.periodic.phase, verdict.start)
-    if orbit is None:
-        half_turns = reset.next_release(p, state)
-        release = _resting_half_turns(p, verdict)
-        if (half_turns - release) % (1 if verdict.symmetric else 2):
-            raise Refused("the motion leads to the mirror image of the orbit")
-        return None
-    goal = attraction.neighbourhood(periodic.enclosed(p, chain_of(orbit)), orbit)
-    attraction.follow_to(p, state, goal)
-    return goal.reach
+def _goal(
+    proof: Proof, widths: Mapping[str, float], verdict: Verdict, known: Enclosed
+) -> attraction.Neighbourhood:
+    assert verdict.orbit is not None
+    orbit = known
+    if ctx.prec > proof.bits:
+        orbit = periodic.enclosed(balls_of(verdict.system, widths), known.chain)
+    return attraction.neighbourhood(orbit, verdict.orbit)
+
+
+def _arrived(widths: Mapping[str, float], verdict: Verdict, goal: attraction.Neighbourhood) -> int:
+    """Return the present precision if it suffices to show that the motion comes to the goal."""
+    p = balls_of(verdict.system, widths)
+    attraction.follow_to(p, trajectory.initial(p, verdict.system.periodic.phase, verdict.start), goal)
+    return ctx.prec
+
+
+def _released_alike(widths: Mapping[str, float], verdict: Verdict) -> int:
+    """Return the present precision if it suffices to show that the motion rests, and is released as the orbit is.
+
+    The mirror image of the orbit is another orbit, unless the orbit is symmetric.
+    """
+    p = balls_of(verdict.system, widths)
+    half_turns = reset.next_release(p, trajectory.initial(p, verdict.system.periodic.phase, verdict.start))
+    if (half_turns - _resting_half_turns(p, verdict)) % (1 if verdict.symmetric else 2):
+        raise Refused("the motion leads to the mirror image of the orbit")
+    return ctx.prec
 
 
 def _resting_half_turns(p: Balls, verdict: Verdict) -> int:
     """Return m of the release psi = m pi - arccos(1/A) with which the orbit of a verdict begins."""
     assert verdict.orbit is not None
     number = (arb(verdict.orbit.phase) + (1 / p.amplitude).acos()) / arb.pi()
-    return round(float(number.mid()))
+    return round(float(number))
 
 
 def _middle_and_radius(value: arb) -> tuple[float, float]:
     """Return the nearest double of a ball, and a bound of the distance from it."""
-    middle = float(value.mid())
+    middle = float(value)
     return middle, above(abs(value - middle))
 
 
 def _disc(value: acb) -> tuple[complex, float]:
     """Return the nearest complex double of a ball, and a bound of the distance from it."""
-    middle = complex(float(value.real.mid()), float(value.imag.mid()))
+    middle = complex(float(value.real), float(value.imag))
     return middle, above(abs(value - acb(middle.real, middle.imag)))

@@ -37,7 +37,7 @@ def horseshoe_of(system: System) -> Horseshoe:
     for bits in PRECISIONS:
         with ctx.workprec(bits):
             try:
-                phase = float(crossing(balls_of(system, {})).mid())
+                phase = float(crossing(balls_of(system, {})))
             except Refused as refusal:
                 reason = str(refusal)
                 continue

@@ -74,7 +74,7 @@ def operator(equations: Equations, middle: list[arb]) -> Krawczyk:
     if values is None or slope is None:
         raise Refused("the events change their order near the orbit")
     k = len(middle)
-    rows = np.array([[float(slope[i, j].mid()) for j in range(k)] for i in range(k)])
+    rows = np.array([[float(slope[i, j]) for j in range(k)] for i in range(k)])
     try:
         inverse = np.linalg.inv(rows)
     except np.linalg.LinAlgError:

@@ -1,13 +1,14 @@
-"""Chain of events of an orbit: a guess, taken from a simulation of one period."""
+"""Chain of events of an orbit: a guess, taken from the motion from its state over one period."""
 
 from __future__ import annotations
 
-from attrs import evolve
+from flint import arb
 
 from rocking.kernels.event_kinds import BRACE, IMPACT
 from rocking.model import Orbit
-from rocking.motion import simulate
+from rocking.proof.balls import Refused, balls_of
 from rocking.proof.chain import Chain
+from rocking.proof.trajectory import State, after_event, flight, initial
 
 
 def chain_of(orbit: Orbit) -> Chain:
@@ -15,25 +16,28 @@ def chain_of(orbit: Orbit) -> Chain:
 
     Raises
     ------
-    ValueError
-        If the simulated motion has another number of events than the orbit.
+    Refused
+        If the motion has another number of events than the orbit.
     """
-    forcing, half = orbit.system.periodic, orbit.symmetric
-    begun = evolve(orbit.system, forcing=evolve(forcing, phase=orbit.phase))
-    events = simulate(begun, orbit.state, cycles=orbit.period).events
-    names = [str(name) for name in events["kind"]]
-    counts = names.count("impact"), names.count("brace")
-    if counts != (orbit.impacts, orbit.brace_hits) or sum(counts) != len(names):
-        raise ValueError(
-            "the simulated motion has not the events of the orbit: it leaves it within one period"
-        )
-    kinds = [IMPACT if name == "impact" else BRACE for name in names]
+    p, half = balls_of(orbit.system, {}), orbit.symmetric
+    state = initial(p, orbit.phase, orbit.state)
+    end = state.phase + orbit.period * 2 * arb.pi()
+    kinds: list[int] = []
+    after: list[State] = []
+    while len(kinds) <= (orbit.impacts or 0) + (orbit.brace_hits or 0):
+        flown = flight(p, state)
+        state = after_event(p, state, flown)
+        if not state.phase < end:
+            break
+        kinds.append(flown.event)
+        after.append(state)
+    if (kinds.count(IMPACT), kinds.count(BRACE)) != (orbit.impacts, orbit.brace_hits):
+        raise Refused("the motion from its state has not the events of the orbit within one period")
     count = len(kinds) // 2 if half else len(kinds)
-    phases = [orbit.phase + forcing.frequency * float(time) for time in events["time"][:count]]
     return Chain(
         tuple(kinds[:count]),
-        1 if events["after"][0] * (1 if kinds[0] == IMPACT else -1) > 0 else -1,
+        after[0].side,
         orbit.period if half else 2 * orbit.period,
         half,
-        tuple(phases),
+        tuple(float(state.phase) for state in after[:count]),
     )

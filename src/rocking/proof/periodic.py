@@ -35,7 +35,7 @@ class Enclosed(NamedTuple):
         ]
         since = [(phase - psi) / whole for psi, *_ in events]
         ago = [(turned - turned.floor()) * whole for turned in since]
-        last = min(range(len(events)), key=lambda j: float(ago[j].mid()))
+        last = min(range(len(events)), key=lambda j: float(ago[j]))
         psi, side, kind, leaves = events[last]
         here = arc_from(self.p, side, psi, place(self.p, kind), leaves).at(ago[last] / self.p.frequency)
         return State(side, phase, here.value, here.first, 0, False)

@@ -7,8 +7,6 @@ period j. If j is even, it has the period j/2. Perturbations vanish at rest, so 
 
 from __future__ import annotations
 
-from flint import arb
-
 from rocking.proof.balls import Balls, Refused
 from rocking.proof.trajectory import State, after_event, flight, half_turns_to_release, release, rests
 
@@ -21,7 +19,7 @@ def next_release(p: Balls, state: State) -> int:
     for _ in range(MAX_EVENTS):
         if rests(p, state) is not None:
             return half_turns_to_release(p, state.phase)
-        state = after_event(p, state, flight(p, state, arb("inf")))
+        state = after_event(p, state, flight(p, state))
     raise Refused(f"the block does not rest within {MAX_EVENTS} events")
 
 

@@ -8,19 +8,19 @@ from __future__ import annotations
 from itertools import pairwise
 from typing import NamedTuple
 
-from flint import arb, arb_mat, ctx
+from flint import arb, arb_mat
 
 from rocking.kernels.event_kinds import BRACE, IMPACT
-from rocking.proof.arc import DEPTH, Arc, Function, arc_from, piece_is_positive
+from rocking.model import State as InitialState
+from rocking.proof.arc import Arc, arc_from
 from rocking.proof.balls import Balls, Refused, hull, largest, least, whole
-from rocking.proof.chain import law
+from rocking.proof.chain import law, place
+from rocking.proof.search import Search
 
 # Longest window of the search for an event, in forcing cycles and in time. No simple part of a cycle: many events lie there.
 CYCLES, LONGEST = 0.37, 1.0
 # Number of windows in which no event comes, after which the motion is given up.
 WINDOWS = 400
-# Steps of Newton's method for the time of an event, and of widening the interval around it.
-STEPS, WIDER = 40, 12
 # Speed below which chattering is tested.
 SLOW = 0.3
 # Trials of a window that contains the whole chattering.
@@ -57,100 +57,73 @@ def release(p: Balls, half_turns: int) -> State:
     return State(1 if half_turns % 2 else -1, phase, arb(0), arb(0), 3, False)
 
 
-def first_zero(function: Function, low: arb, high: arb, order: int, depth: int = 0) -> tuple[arb, arb] | None:
-    """Return an interval that contains the first zero in [low, high] and no other; None if there is none.
-
-    The function is positive at ``low``, or has a zero of an ``order`` there and is positive just after it.
-    """
-    if piece_is_positive_to(function, low, high, order):
-        return None
-    if not order and function(hull(low, high)).first < 0 and function(high).value < 0:
-        return low, high
-    if depth >= DEPTH:
-        raise Refused("whether an event comes is not decided: the motion nearly touches the base or a brace")
-    middle = ((low + high) / 2).mid()
-    found = first_zero(function, low, middle, order, depth + 1)
-    return first_zero(function, middle, high, 0, depth + 1) if found is None else found
-
-
-def piece_is_positive_to(function: Function, low: arb, high: arb, order: int) -> bool:
-    """Return whether one bound proves that a function is positive up to ``high``, this end included."""
-    return bool(function(high).value > 0) and piece_is_positive(function, low, high, order, False)
-
-
-def time_of_zero(function: Function, low: arb, high: arb) -> arb:
-    """Return the time of the only zero in an interval where the function falls.
-
-    Newton's method gives a guess. The zero lies between two times at which the function has opposite signs, and in the image of
-    Newton's operator.
-    """
-    time = ((low + high) / 2).mid()
-    here = function(time)
-    for _ in range(STEPS):
-        if here.value > 0:
-            low = time
-        elif here.value < 0:
-            high = time
-        else:
-            break
-        ahead = (time - here.value / here.first).mid() if here.first < 0 else low
-        time = ahead if low < ahead < high else ((low + high) / 2).mid()
-        here = function(time)
-    width = (abs(here.value) / -here.first).abs_upper() * 2 + abs(time) * arb(2) ** (8 - ctx.prec)
-    for _ in range(WIDER):
-        first, last = (time - width).mid(), (time + width).mid()
-        if function(first).value > 0 and function(last).value < 0:
-            around = hull(first, last)
-            return around.intersection(time - here.value / function(around).first)
-        width *= 4
-    raise Refused("the time of an event is not enclosed")
+def initial(p: Balls, phase: float, start: InitialState) -> State:
+    """Return the state of a motion at its start: in flight, pushed away from the base, or at its next release from rest."""
+    here, angle, velocity = arb(phase), start.angle, start.velocity
+    if angle != 0.0 or velocity != 0.0:
+        side = 1 if (angle if angle != 0.0 else velocity) > 0 else -1
+        return State(side, here, arb(abs(angle)), arb(side * velocity), int(angle == 0.0), False)
+    push = p.amplitude * here.cos()
+    if abs(push) > 1:
+        return State(-1 if push > 0 else 1, here, arb(0), arb(0), 2, False)
+    if abs(push) < 1:
+        return release(p, half_turns_to_release(p, here))
+    raise Refused("whether the block lifts off at once is not decided")
 
 
 class Flight(NamedTuple):
-    """Arc up to its first event, or up to the end of the time."""
+    """Arc up to its first event."""
 
     arc: Arc
     time: arb
-    event: int | None
+    event: int
     velocity: arb  # at the event
 
 
-def flight(p: Balls, state: State, limit: arb) -> Flight:
-    """Return the flight from a state to its first event, or to the time ``limit`` if none comes before."""
+def flight(p: Balls, state: State) -> Flight:
+    """Return the flight from a state to its first event."""
     if not state.order and not state.angle > 0:
         raise Refused("the set of states may reach the base")
     if p.brace_angle is not None and not state.at_brace and not state.angle < p.brace_angle:
         raise Refused("the set of states may reach a brace")
     arc = arc_from(p, state.side, state.phase, state.angle, state.velocity)
-    step = min(LONGEST, CYCLES * 6.283 / float(p.frequency.mid()))
-    functions = [(IMPACT, arc.at, state.order)]
+    step = min(LONGEST, CYCLES * 6.283 / float(p.frequency))
+    searches = [(Search(arc, IMPACT), state.order)]
     if p.brace_angle is not None:
-        functions.append((BRACE, arc.below_brace, int(state.at_brace)))
-    low = arb(0)
+        searches.append((Search(arc, BRACE), int(state.at_brace)))
     for number in range(WINDOWS):
-        high = arb(step * (number + 1))
-        last = not high < limit
-        high = limit if last else high
         found = []
-        for event, function, order in functions:
-            bracket = first_zero(function, low, high, order if number == 0 else 0)
-            if bracket is not None:
-                found.append((time_of_zero(function, *bracket), event))
+        for search, order in searches:
+            time = search.first(arb(step * number), arb(step * (number + 1)), 0 if number else order)
+            if time is not None:
+                found.append((time, search.event))
         if found:
-            time, event = min(found, key=lambda one: float(one[0].mid()))
+            time, event = min(found, key=lambda one: float(one[0]))
             if any(not time < other for other, name in found if name != event):
                 raise Refused("two events may come at the same time")
             return Flight(arc, time, event, arc.at(time).first)
-        if last:
-            return Flight(arc, limit, None, arc.at(limit).first)
-        low = high
     raise Refused("no event comes for a long time")
+
+
+def flight_within(p: Balls, state: State, wide: Flight) -> Flight:
+    """Return the flight of one state of a set, whose flight is ``wide``.
+
+    The time of its event lies in that of the set, where the rate of every arc lies in the velocity of the set. So the mean value
+    theorem encloses the time, from an approximation of it.
+    """
+    arc, level = arc_from(p, state.side, state.phase, state.angle, state.velocity), place(p, wide.event)
+    middle = wide.time.mid()
+    here = arc.at(middle)
+    nearer = (middle - (here.value - level) / here.first).mid()
+    if wide.time.contains(nearer):
+        middle = nearer
+    time = wide.time.intersection(middle - (arc.at(middle).value - level) / wide.velocity)
+    return Flight(arc, time, wide.event, arc.at(time).first)
 
 
 def after_event(p: Balls, state: State, flown: Flight) -> State:
     """Return the state after the event that ends a flight."""
     phase = state.phase + p.frequency * flown.time
-    assert flown.event is not None
     speed = -law(p, flown.event) * flown.velocity
     if flown.event == IMPACT:
         if not speed > 0:
@@ -169,13 +142,15 @@ def propagator(time: arb) -> arb_mat:
     return arb_mat([[cosh, sinh], [sinh, cosh]])
 
 
-def jump(p: Balls, state: State, flown: Flight, after: State) -> arb_mat:
-    """Return the derivative of the state after an event by that at the start of the flight: arc, then saltation."""
-    assert flown.event is not None
-    kept, cosine = law(p, flown.event), after.phase.cos()
-    before, later = (after.angle - 1 - side * p.amplitude * cosine for side in (state.side, after.side))
-    shear = (later + kept * before) / flown.velocity
-    return arb_mat([[-kept, 0], [shear, -kept]]) * propagator(flown.time)
+def saltation(p: Balls, event: int, side: int, after: State) -> arb_mat:
+    """Return the derivative of (u, u') just after an event by that just before it, at a fixed time; ``side`` is that before.
+
+    It is [[-law, 0], [(u''+ + law u''-)/u'-, -law]].
+    """
+    kept, cosine = law(p, event), after.phase.cos()
+    before, later = (after.angle - 1 - one * p.amplitude * cosine for one in (side, after.side))
+    shear = -kept * (later + kept * before) / after.velocity
+    return arb_mat([[-kept, 0], [shear, -kept]])
 
 
 def swing_over(p: Balls, start: arb, end: arb) -> tuple[arb, arb]:

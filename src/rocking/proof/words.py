@@ -98,7 +98,7 @@ def pairs(p: Balls, chains: list[Chain]) -> list[tuple[Chain, Chain]]:
     for owner, chain in enumerate(chains):
         links = links_of(p, chain, [arb(psi) for psi in chain.phases]) or []
         starts += [
-            (owner, k, chain.kinds[k], chain.sides[k], chain.phases[k] % math.tau, float(one.leaves.mid()))
+            (owner, k, chain.kinds[k], chain.sides[k], chain.phases[k] % math.tau, float(one.leaves))
             for k, one in enumerate(links)
         ]
     number, event, kind, side, phase, speed = np.array(starts).T.reshape(6, -1)
@@ -145,7 +145,7 @@ def check_block(p: Balls, word: Word, radius: float, before: arb, after: arb) ->
         rows[j][j] += laws[j] * links[j].by[2]
         rows[j][j + 1] += laws[j] * links[j].by[3] + links[j + 1].by[0]
         rows[j][j + 2] += links[j + 1].by[1]
-    middle = np.array([[float(x.mid()) for x in row[1:-1]] for row in rows])
+    middle = np.array([[float(x) for x in row[1:-1]] for row in rows])
     inverse = arb_mat([[arb(float(x)) for x in row] for row in np.linalg.inv(middle)])
     step, product = inverse * residual, inverse * arb_mat(rows)
     reach = [before.rad(), *[arb(radius)] * k, after.rad()]
@@ -211,9 +211,9 @@ def whole_chains(p: Balls, orbits: list[Orbit]) -> Iterator[Chain]:
             try:
                 chain = chain_of(orbit)
                 found, _ = solved(p, chain)
-            except (Refused, ValueError):
+            except Refused:
                 continue
-            yield whole_chain(chain, [float(psi.mid()) for psi in found.box])
+            yield whole_chain(chain, [float(psi) for psi in found.box])
 
 
 def horseshoe_of(system: System, orbits: list[Orbit]) -> Horseshoe:
