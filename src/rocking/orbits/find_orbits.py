@@ -174,7 +174,7 @@ def find_orbits(
     max_period = whole("max_period", max_period, 1, MAX_PERIOD)
     effort = within("effort", effort, 0.01, 1000.0)
     seed = whole("seed", seed, 0, 2**32 - 1)
-    if prove:
+    if instance("prove", prove, bool):
         check_provable(system)
     box = _box(system, angles, velocities)
     there = clocked(system, (system.periodic.phase + math.tau * attractor_anchor.SECTION) % math.tau)

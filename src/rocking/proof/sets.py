@@ -89,8 +89,8 @@ def states_on_sections(p: Balls, state: State, end: arb, last: arb) -> Iterator[
 def sets_on_sections(p: Balls, now: States, last: arb) -> Iterator[States | State]:
     """Yield the sets of states on the sections after that of a set; when the block comes to rest, its state, and no more.
 
-    Every event is shown over a box of states. The box is then narrowed by the mean value theorem: phase, speed and time of flight
-    are those of the centre, and the derivatives times r. So it does not grow from event to event.
+    Every event is shown over a box of states. The box is then narrowed by the mean value theorem. Phase, speed and time of flight
+    differ from those of the centre by the derivatives times r. So the box does not grow from event to event.
     """
     state, box, moved, late, end = now.point(), now.box(), now.basis, (arb(0), arb(0)), now.phase
     while state.phase < last:

@@ -32,8 +32,11 @@ def with_proof(verdict: Verdict, wanted: Wanted) -> Verdict:
 
     Only the proof that the initial state leads to the orbit raises the level of the evidence to "proved".
     """
-    if not wanted or verdict.orbit is None:
+    if not wanted:
         return verdict
+    if verdict.orbit is None:
+        shown = f"{verdict.evidence.shown} Only a periodic response is proved in ball arithmetic."
+        return evolve(verdict, evidence=evolve(verdict.evidence, shown=shown))
     proof = prove(verdict.orbit if wanted == "orbit" else verdict)
     shown, level = verdict.evidence.shown, verdict.evidence.level
     if proof.starts:
