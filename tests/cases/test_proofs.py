@@ -11,9 +11,11 @@ from flint import arb, arb_mat, ctx
 import rocking as rk
 from rocking.kernels.event_kinds import BRACE, IMPACT
 from rocking.proof import cases, krawczyk, periodic, trajectory
+from rocking.proof.arc import arc_from
 from rocking.proof.balls import Refused, balls_of
 from rocking.proof.chain import Chain
 from rocking.proof.orbit_chain import chain_of
+from rocking.proof.search import Search
 from rocking.proof.sets import States, renewed, sets_on_sections, states_on_sections
 
 FEW, MANY = 40, 300
@@ -373,6 +375,38 @@ def test_set_of_states_that_may_reach_the_base_is_refused():
         assert not rk.prove(moved).starts
 
 
+@pytest.mark.parametrize("width", [0.01, 0.02, 0.03])
+def test_one_orbit_lies_within_the_radius_of_uniqueness_for_a_range_of_amplitudes(width):
+    """The phases of the whole range lie within this radius, as those of both ends do."""
+    proof = rk.prove(orbit_of(*ONE), uncertain={"amplitude": width})
+    assert proof.proved
+    assert 0 < proof.existence <= proof.uniqueness
+    for sign in (-1, 1):
+        end = rk.prove(orbit_of(ONE[0] + sign * width, *ONE[1:]))
+        away = [abs(a - b) for (a, _), (b, _) in zip(proof.phases, end.phases, strict=True)]
+        assert max(away) <= proof.existence
+
+
+def test_orbit_with_a_changed_field_does_not_prove_another_orbit():
+    orbit = orbit_of(*ONE)
+    assert not rk.prove(evolve(orbit, impacts=0)).proved
+    resting = rk.classify(rk.System(rk.Harmonic(1.1, period=2.0), 0.5)).orbit
+    assert resting.superstable
+    assert rk.prove(resting).proved
+    for change in ({"phase": resting.phase + 1.0}, {"state": rk.State(velocity=0.3)}):
+        assert not rk.prove(evolve(resting, **change)).proved
+
+
+def test_zero_outside_the_interval_of_an_event_is_refused():
+    """A guess in double precision may be wrong: then the zero that Newton's method finds is not that of the event."""
+    with ctx.workprec(BITS):
+        arc = arc_from(balls_of(system_of(*ONE), {}), 1, arb(0.3), arb(0), arb(0.5))
+        first = Search(arc, IMPACT).first(arb(0), arb(3), 1)
+        assert arc.at(first).value.contains(0)
+        with pytest.raises(Refused, match="not enclosed"):
+            Search(arc, IMPACT).time(first.upper() + 0.1, first.upper() + 0.2)
+
+
 @pytest.mark.parametrize("braces", [None, rk.Braces(0.7, 0.6)])
 def test_sets_contain_the_motions_of_their_states(braces):
     """The corners of a set, followed one by one at a higher precision, lie in its images, cycle after cycle."""
@@ -494,10 +528,12 @@ def test_share_of_a_map_names_what_was_refused(monkeypatch):
 
 def test_maps_without_periodic_responses_and_full_blocks_are_refused():
     still = rk.parametric_map(amplitude=[0.5, 0.6], period=[1.0, 1.1], restitution=0.925)
-    with pytest.raises(ValueError, match="found must be a map with periodic responses; got"):
+    with pytest.raises(ValueError, match="found must have periodic responses; the map has none"):
         rk.proved_share(still)
     full = rk.parametric_map(amplitude=[2.0, 2.1], period=[1.0, 1.1], restitution=0.925, critical_angle=0.2)
     with pytest.raises(ValueError, match="proofs are available for the slender block only"):
         rk.proved_share(full)
     with pytest.raises(ValueError, match="points must"):
         rk.proved_share(full, points=0)
+    with pytest.raises(TypeError, match="found must be a map of responses; got None"):
+        rk.proved_share(None)

@@ -64,7 +64,7 @@ def horseshoe(system: System, search: bool = False, max_period: int = 4) -> Hors
     """
     instance("system", system, System).periodic  # noqa: B018 (it refuses)
     check_provable(system)
-    if not search:
+    if not instance("search", search, bool):
         refuse_if(system.braces is not None, "system", "have no braces without search=True", system)
         crossing: Horseshoe = module("crossing_manifolds").horseshoe_of(system)
         return crossing

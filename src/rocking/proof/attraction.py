@@ -90,6 +90,11 @@ def after_cycles(p: Balls, now: States, cycles: int) -> arb_mat:
     raise Refused("the orbit rests, or has an event on its section")
 
 
+def not_reached() -> TooLong:
+    """Return the refusal of a motion that is followed too long."""
+    return TooLong(f"the motion does not reach the neighbourhood within {MAX_CYCLES} cycles")
+
+
 def advanced(p: Balls, now: States | State, goal: Neighbourhood, last: arb) -> States | State | None:
     """Return a motion some cycles later; None once it is proved to lie in the neighbourhood of an orbit."""
     if isinstance(now, State):
@@ -100,7 +105,7 @@ def advanced(p: Balls, now: States | State, goal: Neighbourhood, last: arb) -> S
                 return None
             if largest(there.radii) > WIDE:
                 return there
-        raise TooLong(f"the motion does not reach the neighbourhood within {MAX_CYCLES} cycles")
+        raise not_reached()
     reached = now
     for later in islice(sets_on_sections(p, now, last), RENEWED):
         if isinstance(later, State):
@@ -109,7 +114,7 @@ def advanced(p: Balls, now: States | State, goal: Neighbourhood, last: arb) -> S
             return None
         reached = later
     if reached is now:
-        raise TooLong("the motion has an event on every section")
+        raise not_reached()
     return renewed(reached)
 
 
@@ -119,5 +124,5 @@ def follow_to(p: Balls, state: State, goal: Neighbourhood) -> None:
     now: States | State | None = state
     while now is not None:
         if not now.phase < last:
-            raise TooLong(f"the motion does not reach the neighbourhood within {MAX_CYCLES} cycles")
+            raise not_reached()
         now = advanced(p, now, goal, last)

@@ -20,19 +20,14 @@ PRECISIONS = (128, 256, 512, 1024, 2048, 4096)
 ORBIT = PRECISIONS[:4]
 """Bits for an orbit with finitely many events, which needs no long march."""
 
+LIKE = 1e-6
+"""Distance up to which a state in double precision is that of an orbit known in closed form."""
+
 Result = TypeVar("Result")
 
 
 def proof_of(orbit: Orbit, widths: Mapping[str, float], verdict: Verdict | None) -> Proof:
     """Return the proof of an orbit, and of the initial state of a verdict, if there is one."""
-    proof = _proof_of(orbit, widths, verdict)
-    if not (proof.proved and widths):
-        return proof
-    ranges = ", ".join(f"{name} ± {width:g}" for name, width in widths.items())
-    return evolve(proof, claim=f"{proof.claim}; for every system with {ranges}")
-
-
-def _proof_of(orbit: Orbit, widths: Mapping[str, float], verdict: Verdict | None) -> Proof:
     if orbit.superstable:
         attempt = _resting
     else:
@@ -42,6 +37,9 @@ def _proof_of(orbit: Orbit, widths: Mapping[str, float], verdict: Verdict | None
         proof, known = _first(precisions, lambda: attempt(orbit, balls_of(orbit.system, widths)))
     except Refused as refusal:
         return Proof(orbit.system, False, str(refusal))
+    if widths:
+        ranges = ", ".join(f"{name} ± {width:g}" for name, width in widths.items())
+        proof = evolve(proof, claim=f"{proof.claim}; for every system with {ranges}")
     return proof if verdict is None or not proof.stable else _started(proof, widths, verdict, known)
 
 
@@ -65,9 +63,16 @@ def _by_its_events(orbit: Orbit, p: Balls) -> tuple[Proof, Enclosed | None]:
     first, second = stability.multipliers(proved.trace, proved.determinant, chain.mirrored)
     stable = stability.stable(proved.trace, proved.determinant)
     words = {True: "it is stable", False: "it is unstable", None: "its stability is not proved"}[stable]
-    phases = tuple(_middle_and_radius(psi) for psi in proved.found.box)
+    phases = tuple(
+        (float(middle), above(abs(psi - float(middle))))
+        for psi, middle in zip(proved.found.box, proved.found.middle, strict=True)
+    )
     existence = max(radius for _, radius in phases)
-    reach = below(arb(proved.found.uniqueness) - proved.found.existence - existence)
+    reach = min(
+        below(proved.found.uniqueness - abs(middle - float(middle))) for middle in proved.found.middle
+    )
+    if not existence <= reach:
+        raise Refused("the range of the phases is wider than that in which there is one orbit only")
     proof = Proof(
         orbit.system,
         True,
@@ -89,6 +94,9 @@ def _by_its_events(orbit: Orbit, p: Balls) -> tuple[Proof, Enclosed | None]:
 def _resting(orbit: Orbit, p: Balls) -> tuple[Proof, Enclosed | None]:
     if orbit.state.angle != 0.0:
         raise Refused("sustained contact with a brace is not covered")
+    turns_there = (arb(orbit.phase) - trajectory.release(p, 0).phase) / arb.pi()
+    if orbit.state.velocity != 0.0 or not abs(turns_there - round(float(turns_there))) < LIKE:
+        raise Refused("the orbit does not begin with a release from rest")
     turns = reset.turns_of_reset(p)
     symmetric = turns % 2 == 1
     period = turns if symmetric else turns // 2
@@ -112,6 +120,12 @@ def _resting(orbit: Orbit, p: Balls) -> tuple[Proof, Enclosed | None]:
 
 def _without_events(orbit: Orbit, p: Balls) -> tuple[Proof, Enclosed | None]:
     periodic.moves_between(p)
+    sine, cosine = arb(orbit.phase).sin_cos()
+    side = 1 if orbit.state.angle > 0 else -1
+    away = abs(orbit.state.angle - side - p.response * cosine)
+    faster = abs(orbit.state.velocity + p.response * p.frequency * sine)
+    if not (away < LIKE and faster < LIKE and orbit.period == 1):
+        raise Refused("the orbit without events has another state, or another period")
     growth = (2 * arb.pi() / p.frequency).exp()
     proof = Proof(
         orbit.system,
@@ -169,7 +183,8 @@ def _released_alike(widths: Mapping[str, float], verdict: Verdict) -> int:
     """
     p = balls_of(verdict.system, widths)
     half_turns = reset.next_release(p, trajectory.initial(p, verdict.system.periodic.phase, verdict.start))
-    if (half_turns - _resting_half_turns(p, verdict)) % (1 if verdict.symmetric else 2):
+    assert verdict.orbit is not None
+    if (half_turns - _resting_half_turns(p, verdict)) % (1 if verdict.orbit.symmetric else 2):
         raise Refused("the motion leads to the mirror image of the orbit")
     return ctx.prec
 

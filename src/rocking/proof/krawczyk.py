@@ -39,8 +39,8 @@ class Solution(NamedTuple):
     """The only solution in a box."""
 
     box: list[arb]  # which contains it
-    existence: float  # radius of this box
-    uniqueness: float  # radius around its middle within which there is no other
+    middle: list[arb]  # exact
+    uniqueness: float  # radius of a box around the middle that contains ``box``, and no other solution
 
 
 class Krawczyk(NamedTuple):
@@ -106,7 +106,7 @@ def solve(equations: Equations, guess: list[float]) -> Solution:
     while radius < LARGEST:
         image = here.image(radius)
         if image is not None:
-            return Solution(image, radius, largest_radius(here, radius))
+            return Solution(image, here.middle, largest_radius(here, radius))
         radius *= WIDER
     raise Refused("no box around the orbit is proved to contain exactly one solution")
 

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from importlib import import_module
 from typing import Any
 
-from rocking.model import Orbit, Proof, System, Verdict, check_start, instance, refuse_if, within
+from rocking.model import Orbit, Proof, System, Verdict, check_start, instance, refusal, refuse_if, within
 
 INSTALL = "run pip install '.[proof]' in a copy of the repository"
 MAX_HALF_WIDTH = 1.0
@@ -77,8 +77,9 @@ def prove(subject: Orbit | Verdict, uncertain: Mapping[str, float] | None = None
     (True, True, True)
     """
     if not isinstance(subject, Verdict):
-        orbit = instance("subject", subject, Orbit)
-        return _checked(orbit, uncertain, None)
+        if not isinstance(subject, Orbit):
+            raise TypeError(refusal("subject", "be an Orbit or a Verdict", subject))
+        return _checked(subject, uncertain, None)
     refuse_if(subject.orbit is None, "subject", "be an orbit or a periodic verdict", str(subject.kind))
     assert subject.orbit is not None
     check_start(subject.system, subject.start)
@@ -103,7 +104,7 @@ def check_provable(system: System) -> None:
 
 
 def _checked(orbit: Orbit, uncertain: Mapping[str, float] | None, verdict: Verdict | None) -> Proof:
-    system, widths = orbit.system, dict(instance("uncertain", uncertain or {}, dict))
+    system, widths = orbit.system, dict(instance("uncertain", {} if uncertain is None else uncertain, dict))
     check_provable(system)
     present = {system.periodic.given[0], "amplitude", "restitution"}
     present |= set() if system.braces is None else {"brace_angle", "brace_restitution"}
@@ -112,4 +113,4 @@ def _checked(orbit: Orbit, uncertain: Mapping[str, float] | None, verdict: Verdi
             name not in present, "uncertain", f"name parameters given: {', '.join(sorted(present))}", name
         )
         widths[name] = within(f"half-width of {name}", width, 0.0, MAX_HALF_WIDTH)
-    return module("cases").proof_of(orbit, widths, verdict)
+    return module("cases").proof_of(orbit, {name: width for name, width in widths.items() if width}, verdict)

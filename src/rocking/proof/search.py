@@ -61,7 +61,8 @@ class Search(NamedTuple):
     def time(self, low: arb, high: arb) -> arb:
         """Return the time of the only zero in an interval where the function falls.
 
-        For an interval X around m, let N = m - f(m)/f'(X). If N lies inside X, it contains the zero.
+        For an interval X around m, let N = m - f(m)/f'(X). If N lies inside X, it contains a zero. If m lies in the given interval,
+        the function falls over both intervals together, so that this is the zero.
         """
         middle, small = arb(self.guess(float(low), float(high))), 2.0 ** (-ctx.prec // 2)
         for _ in range(EXACT):
@@ -69,6 +70,8 @@ class Search(NamedTuple):
             if not here.first < 0 or abs(float(here.value)) < small or here.value.contains(0):
                 break
             middle = (middle - here.value / here.first).mid()
+        if not (low <= middle and middle <= high):
+            raise Refused("the time of an event is not enclosed")
         width = 2 * abs(here.value / here.first).upper() + abs(middle) * arb(2) ** (8 - ctx.prec)
         for _ in range(WIDER):
             around = hull(middle - width, middle + width)

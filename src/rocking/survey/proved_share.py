@@ -16,7 +16,7 @@ from rocking.model import (
     Share,
     State,
     System,
-    refuse_if,
+    refusal,
     whole,
 )
 from rocking.proof import check_provable
@@ -86,9 +86,12 @@ def proved_share(found: Dataset, points: int = 300, seed: int = 0) -> ProvedShar
     """
     points = whole("points", points, 1, MAX_POINTS)
     random = generator(seed)
+    if not hasattr(found, "dims"):
+        raise TypeError(refusal("found", "be a map of responses", found))
     periodic = found["kind"] == Kind.PERIODIC.code
     places = np.argwhere(periodic.values)
-    refuse_if(not len(places), "found", "be a map with periodic responses", "none of them")
+    if not len(places):
+        raise ValueError("found must have periodic responses; the map has none")
     chosen = places[np.sort(random.choice(len(places), min(points, len(places)), replace=False))]
     orbits, starts, reasons = 0, 0, Counter[str]()
     for place in chosen:
