@@ -16,12 +16,14 @@ from typing import NamedTuple
 from rocking.kernels.compile_options import INTERNAL, INTERNAL_INLINE
 from rocking.kernels.deferred import njit
 from rocking.kernels.numerics.elementary import brief_hyperbolic
-from rocking.kernels.numerics.taylor import reversion
+from rocking.kernels.numerics.taylor import I3, reversion
 
 ITERATIONS = 100
 # After this number of steps every second one is a bisection.
 MAX_STEPS = 8
 ROUNDING = 2.0**-53
+# Limit of the square of a step's small parameter: its fourth power, which ``reversion`` neglects, is below rounding.
+NEAR = 2.0**-28
 
 
 class Piece(NamedTuple):
@@ -67,18 +69,20 @@ def refine(piece, low, high, x):
         else:
             high = x
         second, third = w + piece.force + piece.rate * x, dw + piece.rate
-        ahead = 0.5 * (low + high)
+        ahead, near = 0.5 * (low + high), False
         if dw < 0.0 and not (k > MAX_STEPS and k % 2 == 0):
             per = 1.0 / dw
             y = -w * per
             factor = reversion(y, second, third, second, per)
+            near = y * y * max((second * per) * (second * per), abs(third * per), 1.0) < NEAR
             ahead = x + (y * factor if 0.5 < factor < 2.0 else y)
             if not low <= ahead <= high:
-                ahead = 0.5 * (low + high)
-        dw += second * (ahead - x)
-        converged = abs(ahead - x) <= 4.0 * ROUNDING * ahead
+                ahead, near = 0.5 * (low + high), False
+        step = ahead - x
+        dw += step * (second + step * (0.5 * third + step * (I3 * second)))
+        near = near or abs(step) <= 4.0 * ROUNDING * ahead
         x = ahead
-        if converged:
+        if near:
             break
     return x, dw
 
