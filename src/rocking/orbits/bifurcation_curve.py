@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 from attrs import field, frozen
 from numpy.typing import NDArray
@@ -11,8 +13,12 @@ from rocking.kernels.orbits import bifurcation_curve as kernel
 from rocking.model import ReadOnlyArrays, instance, one_of, pair, read_only, refusal, whole, within
 from rocking.orbits.branch import SpecialPoint, chain_at
 from rocking.orbits.branch_result import ENDS
+from rocking.orbits.datasets import of_curve
 from rocking.orbits.event_chain import IMPACT, NAMES, Chain, Condition, End, Special, problem_of
 from rocking.orbits.parameter import checked_range, value_of
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 
 @frozen(eq=False)
@@ -53,6 +59,16 @@ class BifurcationCurve(ReadOnlyArrays):
 
     def __len__(self) -> int:
         return len(self.points)
+
+    def to_xarray(self) -> xr.Dataset:
+        """Return the curve as a dataset, which xarray writes to netCDF and pandas to CSV.
+
+        Returns
+        -------
+        xarray.Dataset
+            Both parameters along `point`.
+        """
+        return of_curve(self)
 
     def __str__(self) -> str:
         (low, lower), (high, higher) = self.points.min(axis=0), self.points.max(axis=0)

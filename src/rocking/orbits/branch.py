@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import TYPE_CHECKING
 
 import numpy as np
 from attrs import field, frozen
@@ -19,8 +20,12 @@ from rocking.model import (
     within,
 )
 from rocking.orbits.branch_rows import BranchRows
+from rocking.orbits.datasets import of_branch
 from rocking.orbits.event_chain import Chain, multipliers_of
 from rocking.orbits.grazing import Touch
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 # End of a branch at the special point from which ``switch_branch`` follows it.
 BRANCHES_OFF = "branches off at a special point"
@@ -236,6 +241,17 @@ class Branch(ReadOnlyArrays, NotebookPicture):
         True
         """
         return self._rows.section(phase)
+
+    def to_xarray(self) -> xr.Dataset:
+        """Return the branch as a dataset, which xarray writes to netCDF and pandas to CSV.
+
+        Returns
+        -------
+        xarray.Dataset
+            Columns of `points` along `point`, with the multipliers in real and imaginary parts; special points along
+            `special_point`.
+        """
+        return of_branch(self)
 
     def __str__(self) -> str:
         low, high = float(self.points["parameter"].min()), float(self.points["parameter"].max())

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from rocking.model import VERSION
 
 LONG_NAMES = {
@@ -12,12 +14,19 @@ LONG_NAMES = {
     "restitution": "coefficient of restitution of an impact, e",
     "brace_angle": "brace angle, Theta_b",
     "brace_restitution": "coefficient of restitution of a brace impact, r",
+    "critical_angle": "critical angle of the block, theta_cr",
 }
+IN_RADIANS = ("phase", "critical_angle")
 
 
 def named(text: str) -> dict[str, str]:
     """Return the attributes of a normalised variable."""
     return {"long_name": text, "units": "1"}
+
+
+def coordinate_of(along: str, name: str, values: Any) -> tuple[str, Any, dict[str, str]]:
+    """Return the values of a parameter as a variable."""
+    return along, values, {"long_name": LONG_NAMES[name], "units": "rad" if name in IN_RADIANS else "1"}
 
 
 def described(what: str) -> dict[str, object]:

@@ -6,19 +6,23 @@ import math
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from typing import Any, overload
+from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
 from attrs import evolve, field, frozen
 
 from rocking.kernels.classify import attractor_anchor
 from rocking.model import Orbit, Stability, System, instance, pair, refuse_if, whole, within
+from rocking.orbits.datasets import of_orbits
 from rocking.orbits.event_chain import clocked
 from rocking.orbits.find_orbit import newton_from_starts
 from rocking.orbits.orbit_registry import OrbitRegistry
 from rocking.orbits.saddle_orbits import response
 from rocking.proof import check_provable
 from rocking.proof import prove as proved
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 MAX_PERIOD = 64
 # Number of initial guesses per map in the first round; it doubles in later rounds.
@@ -84,6 +88,16 @@ class Orbits(Sequence[Orbit]):
 
     def __len__(self) -> int:
         return len(self.orbits)
+
+    def to_xarray(self) -> xr.Dataset:
+        """Return the orbits as a dataset, which xarray writes to netCDF and pandas to CSV.
+
+        Returns
+        -------
+        xarray.Dataset
+            Period, stability, events, multipliers and section of each orbit along `orbit`.
+        """
+        return of_orbits(self)
 
     def __str__(self) -> str:
         counts = Counter(orbit.stability for orbit in self)

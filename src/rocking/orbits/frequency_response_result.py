@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from rocking.model import Kind, NotebookPicture, ReadOnlyArrays, read_only
 from rocking.orbits.branch import Branch
-from rocking.orbits.dataset_attributes import LONG_NAMES, described, named
+from rocking.orbits.dataset_attributes import LONG_NAMES, coordinate_of, described, named
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -135,7 +135,7 @@ class FrequencyResponse(ReadOnlyArrays, NotebookPicture):
             "phase": 0.0,
             "modes": list(self.modes),
         }
-        coordinate = {name: (name, self.values, {"long_name": LONG_NAMES[name], "units": "1"})}
+        coordinate = {name: coordinate_of(name, name, self.values)}
         return xr.Dataset(variables, coordinate, attributes)
 
     def __str__(self) -> str:

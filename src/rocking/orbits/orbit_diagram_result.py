@@ -9,7 +9,7 @@ from attrs import field, frozen
 from numpy.typing import NDArray
 
 from rocking.model import NotebookPicture, ReadOnlyArrays, State, System, quantities, read_only
-from rocking.orbits.dataset_attributes import LONG_NAMES, described, named
+from rocking.orbits.dataset_attributes import coordinate_of, described, named
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -97,10 +97,9 @@ class OrbitDiagram(ReadOnlyArrays, NotebookPicture):
                 | {"flag_meanings": "bounded overturned"},
             ),
         }
-        unit = "rad" if name == "phase" else "1"
         coordinates = {
             "sweep": ("sweep", np.array(self.sweeps), {"long_name": "order of the values"}),
-            name: (name, self.values, {"long_name": LONG_NAMES[name], "units": unit}),
+            name: coordinate_of(name, name, self.values),
             "cycle": ("cycle", np.arange(self.cycles), {"long_name": "forcing cycles since the transient"}),
         }
         attributes = described("Orbit diagram") | {

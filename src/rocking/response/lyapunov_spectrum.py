@@ -4,12 +4,16 @@ from __future__ import annotations
 
 import math
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 from attrs import field, frozen
 
-from rocking.model import ReadOnlyArrays, State, System, TooShort, counted, plus_minus, read_only
+from rocking.model import VERSION, ReadOnlyArrays, State, System, TooShort, counted, plus_minus, read_only
 from rocking.response.batch_means import BatchMean, batch_mean
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 HISTORY = np.dtype([("cycles", "i8"), ("values", "f8", 2), ("errors", "f8", 2)])
 
@@ -130,6 +134,52 @@ class LyapunovSpectrum(ReadOnlyArrays):
                 1.0 + max(one, 0.0) / abs(two),
             )
         return 1.0 - one / two, error / abs(two) + one * other / two**2
+
+    def to_xarray(self) -> xr.Dataset:
+        """Return the exponents and their running estimates as a dataset.
+
+        Returns
+        -------
+        xarray.Dataset
+            `value` and `error` of each `exponent`; `running_value` and `running_error` over `cycles` since the transient.
+        """
+        import xarray as xr
+
+        history = self.history
+        per_time = {"units": "1"}
+        variables = {
+            "value": ("exponent", self.values, {"long_name": "Lyapunov exponent per tau"} | per_time),
+            "error": (
+                "exponent",
+                self.errors,
+                {"long_name": "error of the Lyapunov exponent per tau"} | per_time,
+            ),
+            "running_value": (
+                ("cycles", "exponent"),
+                history["values"],
+                {"long_name": "running estimate of the Lyapunov exponent per tau"} | per_time,
+            ),
+            "running_error": (
+                ("cycles", "exponent"),
+                history["errors"],
+                {"long_name": "error of the running estimate per tau"} | per_time,
+            ),
+        }
+        cycles = (
+            "cycles",
+            history["cycles"],
+            {"long_name": "forcing cycles since the transient", "units": "1"},
+        )
+        attributes = {
+            "Conventions": "CF-1.11",
+            "title": "Lyapunov exponents of a free-standing block on a shaking base",
+            "source": f"rocking {VERSION}",
+            "transient": self.transient,
+            "bounded": int(self.bounded),
+            "impacts": self.impacts,
+            "brace_hits": self.brace_hits,
+        }
+        return xr.Dataset(variables, {"cycles": cycles}, attributes)
 
     def __str__(self) -> str:
         over = f"over {counted(self.cycles, 'cycle')} after {self.transient:,}"

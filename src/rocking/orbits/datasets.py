@@ -1,0 +1,119 @@
+"""Datasets of branches, bifurcation curves and sets of periodic orbits."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from rocking.orbits.dataset_attributes import coordinate_of, described, named
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from rocking.orbits.bifurcation_curve import BifurcationCurve
+    from rocking.orbits.branch import Branch
+    from rocking.orbits.find_orbits import Orbits
+
+IN_RADIANS = "rad"
+
+
+def multipliers(along: str, values: np.ndarray) -> dict[str, Any]:
+    """Return the real and imaginary parts of Floquet multipliers, shape (n, 2), as variables: netCDF has no complex numbers."""
+    return {
+        f"multiplier_{part}": (
+            (along, "multiplier"),
+            getattr(values, part),
+            named(f"{text} of the Floquet multipliers"),
+        )
+        for part, text in (("real", "real part"), ("imag", "imaginary part"))
+    }
+
+
+def of_branch(branch: Branch) -> xr.Dataset:
+    """Return a branch as a dataset along `point`."""
+    import xarray as xr
+
+    points = branch.points
+    variables = {
+        "parameter": coordinate_of("point", branch.name, points["parameter"]),
+        "event_phase": (
+            "point",
+            points["phase"],
+            {"long_name": "forcing phase of the first event", "units": IN_RADIANS},
+        ),
+        "event_velocity": ("point", points["velocity"], named("speed just after the first event")),
+        "peak": ("point", points["peak"], named("largest magnitude of the angle of the orbit")),
+        "stability": ("point", points["stability"].astype(str), {"long_name": "stability of the orbit"}),
+        "special": (
+            "special_point",
+            np.array([one.kind for one in branch.special], dtype="U17"),
+            {"long_name": "type of the special point"},
+        ),
+        "special_parameter": coordinate_of(
+            "special_point", branch.name, np.array([one.parameter for one in branch.special], float)
+        ),
+        **multipliers("point", points["multipliers"]),
+    }
+    attributes = described("Branch of periodic orbits") | {
+        "parameter": branch.name,
+        "orbit_period": branch.period,
+        "symmetric": int(branch.symmetric),
+        "impacts": branch.impacts,
+        "brace_hits": branch.brace_hits,
+        "ends": list(branch.ends),
+    }
+    return xr.Dataset(variables, attrs=attributes)
+
+
+def of_curve(curve: BifurcationCurve) -> xr.Dataset:
+    """Return a bifurcation curve as a dataset along `point`."""
+    import xarray as xr
+
+    variables = {
+        name: coordinate_of("point", name, values)
+        for name, values in zip(curve.names, curve.points.T, strict=True)
+    }
+    attributes = described("Bifurcation curve") | {
+        "kind": curve.kind,
+        "orbit_period": curve.period,
+        "impacts": curve.impacts,
+        "ends": list(curve.ends),
+    }
+    return xr.Dataset(variables, attrs=attributes)
+
+
+def of_orbits(found: Orbits) -> xr.Dataset:
+    """Return periodic orbits as a dataset along `orbit`."""
+    import xarray as xr
+
+    def column(text: str, values: list[Any], unit: str = "1") -> tuple[str, np.ndarray, dict[str, str]]:
+        return "orbit", np.array(values), {"long_name": text, "units": unit}
+
+    def count(values: list[int | None]) -> list[int]:
+        return [-1 if value is None else value for value in values]
+
+    variables = {
+        "period": column("forcing cycles per response period", [one.period for one in found]),
+        "symmetric": column("1 if the orbit is its own mirror image", [int(one.symmetric) for one in found]),
+        "stability": (
+            "orbit",
+            np.array([str(one.stability) for one in found], "U8"),
+            {"long_name": "stability"},
+        ),
+        "impacts": column("impacts per period; -1 if infinitely many", count([one.impacts for one in found])),
+        "brace_hits": column(
+            "brace impacts per period; -1 if infinitely many", count([one.brace_hits for one in found])
+        ),
+        "section_phase": column("forcing phase of the section", [one.phase for one in found], IN_RADIANS),
+        "angle": column("angle at the section", [one.state.angle for one in found]),
+        "velocity": column("angular velocity at the section", [one.state.velocity for one in found]),
+        "hits": column("initial guesses that led to the orbit", list(found.hits)),
+        **multipliers("orbit", np.array([one.multipliers for one in found], complex).reshape(-1, 2)),
+    }
+    attributes = described("Periodic orbits") | {
+        "max_period": found.max_period,
+        "starts": found.starts,
+        "settled": int(found.settled),
+    }
+    return xr.Dataset(variables, attrs=attributes)

@@ -1,0 +1,113 @@
+"""Datasets of branches, bifurcation curves and sets of orbits: every value comes back, also from a file."""
+
+import numpy as np
+import pytest
+import xarray as xr
+
+import rocking as rk
+
+SYSTEM = rk.System(rk.Harmonic(amplitude=15.0, period=1.0), restitution=0.9)
+
+
+@pytest.fixture(scope="module")
+def branch():
+    return rk.continue_orbit(rk.classify(SYSTEM).orbit, "amplitude", (10, 30), step=0.05)
+
+
+@pytest.fixture(scope="module")
+def curve(branch):
+    return rk.bifurcation_curve(branch.special[0], "period", "amplitude", ((1, 1.2), (1, 30)), step=0.05)
+
+
+@pytest.fixture(scope="module")
+def orbits():
+    return rk.find_orbits(rk.System(rk.Harmonic(amplitude=5.5, period=0.5), restitution=0.925), 3)
+
+
+def through_file(data, tmp_path):
+    """Return a dataset as it comes back from a netCDF file."""
+    data.to_netcdf(tmp_path / "a.nc", engine="h5netcdf")
+    return xr.load_dataset(tmp_path / "a.nc", engine="h5netcdf")
+
+
+def multipliers_of(data):
+    return data["multiplier_real"].values + 1j * data["multiplier_imag"].values
+
+
+def test_every_variable_has_a_name_and_every_number_a_unit(branch, curve, orbits):
+    for found in (branch, curve, orbits):
+        for name, variable in found.to_xarray().variables.items():
+            assert variable.attrs["long_name"], name
+            assert variable.dtype.kind in "US" or "units" in variable.attrs, name
+
+
+def test_branch_comes_back_with_its_special_points(branch, tmp_path):
+    data = through_file(branch.to_xarray(), tmp_path)
+    assert data.attrs["parameter"] == "amplitude"
+    assert list(data.attrs["ends"]) == list(branch.ends)
+    for name, field in {
+        "parameter": "parameter",
+        "event_phase": "phase",
+        "event_velocity": "velocity",
+    }.items():
+        np.testing.assert_array_equal(data[name], branch.points[field])
+    np.testing.assert_array_equal(data["peak"], branch.points["peak"])
+    np.testing.assert_array_equal(data["stability"].values.astype(str), branch.points["stability"])
+    np.testing.assert_array_equal(multipliers_of(data), branch.points["multipliers"])
+    assert data["special"].values.tolist() == [one.kind for one in branch.special] == ["symmetry-breaking"]
+    assert data["special_parameter"].values.tolist() == [one.parameter for one in branch.special]
+
+
+def test_branch_without_special_points_has_an_empty_dimension(tmp_path):
+    branch = rk.continue_orbit(rk.classify(SYSTEM).orbit, "amplitude", (14, 16), step=0.1)
+    data = through_file(branch.to_xarray(), tmp_path)
+    assert dict(data.sizes) == {"point": len(branch), "special_point": 0, "multiplier": 2}
+
+
+def test_branch_over_the_slenderness_of_a_full_block_has_radians():
+    system = rk.System(rk.Harmonic(amplitude=3.0, period=1.0), 0.9, critical_angle=0.2)
+    branch = rk.continue_orbit(rk.classify(system).orbit, "critical_angle", (0.19, 0.21), step=0.1)
+    assert branch.to_xarray()["parameter"].attrs["units"] == "rad"
+
+
+def test_curve_comes_back(curve, tmp_path):
+    data = through_file(curve.to_xarray(), tmp_path)
+    for name, values in zip(curve.names, curve.points.T, strict=True):
+        np.testing.assert_array_equal(data[name], values)
+    assert data.attrs["kind"] == "symmetry-breaking"
+
+
+@pytest.mark.parametrize(
+    ("amplitude", "period", "restitution", "superstable"),
+    [(10.103037, 1.721328, 0.8, False), (1.1, 2.0, 0.5, True)],
+)
+def test_exponents_come_back_with_their_history(amplitude, period, restitution, superstable, tmp_path):
+    system = rk.System(rk.Harmonic(amplitude, period=period), restitution)
+    spectrum = rk.lyapunov(system, cycles=2_000)
+    assert spectrum.superstable is superstable
+    data = through_file(spectrum.to_xarray(), tmp_path)
+    np.testing.assert_array_equal(data["value"], spectrum.values)
+    np.testing.assert_array_equal(data["error"], spectrum.errors)
+    np.testing.assert_array_equal(data["cycles"], spectrum.history["cycles"])
+    np.testing.assert_array_equal(data["running_value"], spectrum.history["values"])
+
+
+def test_orbits_come_back_and_pandas_writes_a_table(orbits, tmp_path):
+    data = through_file(orbits.to_xarray(), tmp_path)
+    assert data.sizes["orbit"] == len(orbits)
+    for k, orbit in enumerate(orbits):
+        here = data.isel(orbit=k)
+        assert here["period"] == orbit.period
+        assert here["impacts"] == orbit.impacts
+        assert here["angle"] == orbit.state.angle
+        assert here["velocity"] == orbit.state.velocity
+        assert str(here["stability"].values) == str(orbit.stability)
+        assert tuple(multipliers_of(here)) == orbit.multipliers
+    assert len(data.drop_dims("multiplier").to_dataframe()) == len(orbits)
+
+
+def test_infinitely_many_impacts_are_minus_one():
+    resting = rk.find_orbits(rk.System(rk.Harmonic(amplitude=1.1, period=2.0), restitution=0.5), 1)
+    counts = resting.to_xarray()["impacts"].values.tolist()
+    assert -1 in counts
+    assert counts == [-1 if orbit.impacts is None else orbit.impacts for orbit in resting]
