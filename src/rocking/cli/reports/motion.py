@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
     from rocking.motion import Motion
+    from rocking.response import LyapunovSpectrum
 
 
 def show(motion: Motion, block: Block | None, files: Sequence[Path], *, as_json: bool) -> None:
@@ -45,7 +46,7 @@ def verdict(motion: Motion) -> str:
     return f"bounded over {counted(motion.cycles, 'cycle')} (neither rest nor overturning was proved)"
 
 
-def asked(result: Motion | Verdict, block: Block | None) -> Iterator[Row]:
+def asked(result: Motion | Verdict | LyapunovSpectrum, block: Block | None) -> Iterator[Row]:
     """Yield the rows of the input, normalised and in SI."""
     yield from asked_of(result.system, block)
     yield (
@@ -219,7 +220,7 @@ def closeness(motion: Motion) -> dict[str, Any]:
     }
 
 
-def question(result: Motion | Verdict) -> dict[str, Any]:
+def question(result: Motion | Verdict | LyapunovSpectrum) -> dict[str, Any]:
     """Return the system and the initial state as a JSON object."""
     return question_of(result.system) | {"start": attrs.asdict(result.start)}
 

@@ -1,0 +1,78 @@
+"""Report of Lyapunov exponents, as text or JSON."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from rocking.cli.option_names import YourInput
+from rocking.cli.output.console import Row, print_json, print_table
+from rocking.cli.reports.motion import asked, beyond, physical_of, question
+from rocking.model import Block, TooShort, counted, plus_minus
+
+if TYPE_CHECKING:
+    from rocking.response import LyapunovSpectrum
+
+
+def write_plot(spectrum: LyapunovSpectrum, path: Path) -> None:
+    """Write the picture of the running estimate; YourInput if the exponent is −∞."""
+    from rocking import plot
+
+    if spectrum.superstable:
+        raise YourInput(
+            f"--plot must be omitted: the exponents are −∞, so that nothing converges ({spectrum})"
+        )
+    plot.save(plot.convergence(spectrum), path)
+
+
+def show(spectrum: LyapunovSpectrum, block: Block | None, files: Sequence[Path], *, as_json: bool) -> None:
+    """Print the exponents on stdout, and the paths of the files."""
+    if as_json:
+        print_json(record(spectrum, block, files))
+        return
+    rows = [*asked(spectrum, block), *found(spectrum, block)]
+    print_table(str(spectrum), rows, files, [*beyond(spectrum.start.angle, block)])
+
+
+def found(spectrum: LyapunovSpectrum, block: Block | None) -> Iterator[Row]:
+    """Yield the rows of the result."""
+    if not spectrum.superstable:
+        values, errors = spectrum.per_cycle
+        for number, (value, error) in enumerate(zip(values, errors, strict=True)):
+            rate = "" if block is None else f"{spectrum.values[number] * block.frequency_parameter:.4g} per s"
+            yield f"λ{'₁₂'[number]} per cycle", plus_minus(value, error), rate
+    dimension = dimension_of(spectrum)
+    if dimension is not None:
+        yield "Kaplan–Yorke dimension of the section", plus_minus(*dimension), ""
+    yield "averaged over", f"{counted(spectrum.cycles, 'cycle')} after {spectrum.transient:,}", ""
+    yield "impacts in this time", f"{spectrum.impacts:,}", ""
+    if spectrum.system.braces is not None:
+        yield "brace impacts in this time", f"{spectrum.brace_hits:,}", ""
+
+
+def dimension_of(spectrum: LyapunovSpectrum) -> tuple[float, float] | None:
+    """Return the Kaplan–Yorke dimension and its error; None where there is none, or it is undecided."""
+    try:
+        return spectrum.kaplan_yorke
+    except (ValueError, TooShort):
+        return None
+
+
+def record(spectrum: LyapunovSpectrum, block: Block | None, files: Sequence[Path]) -> dict[str, Any]:
+    """Return the exponents as a JSON object; an exponent of −∞ is null."""
+    told = {
+        **question(spectrum),
+        "exponents": [None if value == -math.inf else float(value) for value in spectrum.values],
+        "errors": [float(error) for error in spectrum.errors],
+        "bounded": spectrum.bounded,
+        "superstable": spectrum.superstable,
+        "kaplan_yorke": dimension_of(spectrum),
+        "cycles": spectrum.cycles,
+        "transient": spectrum.transient,
+        "impacts": spectrum.impacts,
+        "brace_hits": spectrum.brace_hits,
+        "files": [str(file) for file in files],
+    }
+    return told if block is None else told | {"block": physical_of(spectrum.system, block)}

@@ -1,0 +1,87 @@
+"""`rocking lyapunov`: output, files and error messages."""
+
+import json
+
+import pytest
+import xarray as xr
+
+import rocking as rk
+
+CHAOS = "--amplitude 10.103037 --period 1.721328 --restitution 0.8 --cycles 3000"
+RESTS = "--amplitude 1.1 --period 2 --restitution 0.5 --cycles 200"
+SI = "--height 2 --width 0.5 --acceleration 4 --frequency-hz 1.2 --cycles 300"
+
+
+def spectrum_of_chaos():
+    system = rk.System(rk.Harmonic(10.103037, period=1.721328), 0.8)
+    return rk.lyapunov(system, cycles=3000)
+
+
+def told(rocking, line):
+    code, message, out = rocking(f"lyapunov {line} --json")
+    assert (code, message) == (0, "")
+    return json.loads(out, parse_constant=pytest.fail)
+
+
+def test_the_first_line_is_that_of_the_result_and_rates_are_per_cycle(rocking):
+    code, message, out = rocking(f"lyapunov {CHAOS}")
+    spectrum = spectrum_of_chaos()
+    assert (code, message) == (0, "")
+    assert out.splitlines()[0] == str(spectrum)
+    (value, _), (error, _) = spectrum.per_cycle
+    row = next(line for line in out.splitlines() if line.startswith("λ₁ per cycle"))
+    shown, _, wide = row.split()[3:6]
+    assert float(shown) == pytest.approx(value, abs=error / 10)
+    assert float(wide) == pytest.approx(error, rel=0.05)
+    assert "Kaplan–Yorke dimension of the section" in out
+
+
+def test_json_holds_the_numbers(rocking):
+    read, spectrum = told(rocking, CHAOS), spectrum_of_chaos()
+    assert read["exponents"] == spectrum.values.tolist()
+    assert read["errors"] == spectrum.errors.tolist()
+    assert tuple(read["kaplan_yorke"]) == spectrum.kaplan_yorke
+    assert (read["amplitude"], read["cycles"]) == (10.103037, 3000)
+
+
+def test_block_in_si_has_rates_per_second(rocking):
+    out = rocking(f"lyapunov {SI}")[2]
+    assert " per s" in out
+    assert told(rocking, SI)["block"]["height_m"] == 2.0
+    assert " per s" not in rocking(f"lyapunov {CHAOS}")[2]
+
+
+def test_full_block_is_measured(rocking):
+    assert told(rocking, f"{SI} --model full")["critical_angle"] == pytest.approx(0.244979, abs=1e-6)
+
+
+def test_exponents_of_a_block_that_rests_are_null(rocking):
+    read = told(rocking, RESTS)
+    assert (read["exponents"], read["superstable"], read["kaplan_yorke"]) == ([None, None], True, None)
+
+
+def test_files_are_written(rocking, tmp_path):
+    code, _, out = rocking(f"lyapunov {CHAOS} --plot {tmp_path}/a.png --netcdf {tmp_path}/a.nc")
+    assert code == 0
+    assert f"{tmp_path}/a.png" in out
+    assert (tmp_path / "a.png").stat().st_size > 5000
+    data = xr.load_dataset(tmp_path / "a.nc", engine="h5netcdf")
+    assert data["value"].values.tolist() == spectrum_of_chaos().values.tolist()
+
+
+@pytest.mark.parametrize(
+    ("line", "message"),
+    [
+        (f"{RESTS} --plot a.png", "--plot must be omitted: the exponents are −∞"),
+        ("--amplitude 10.1 --period 1.7 --restitution 0.8 --cycles 20", "--cycles must be at least 32"),
+        ("--amplitude 10.1 --period 1.7 --restitution 0.8 --cycles 0", "--cycles must"),
+        ("--amplitude 10.1 --period 1.7 --restitution 0.8 --transient -1", "--transient must"),
+        ("--amplitude 60 --period 1 --restitution 0.9", "overturning is certain"),
+        ("--amplitude 60", "--period"),
+    ],
+)
+def test_refusals_are_one_line(rocking, line, message):
+    code, said, out = rocking(f"lyapunov {line}")
+    assert (code, out) == (2, "")
+    assert message in said
+    assert "\n" not in said
