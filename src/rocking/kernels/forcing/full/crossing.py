@@ -78,13 +78,29 @@ def leading(a, b, c, order):
 
 
 @njit(**INTERNAL)
-def bracketed_zero(a, b, c, order, bend, low, high):
-    """Return the only zero of g in [low, high], where g falls and |g''| is at most ``bend``.
+def between(low, start, high, end):
+    """Return a guess of the zero in [low, high] from (g, g') at both ends: the cubic for the time as a function of g.
+
+    If g does not fall at both ends, the guess is the middle.
+    """
+    (g, dg), (g_end, dg_end) = start, end
+    if not (dg < 0.0 and dg_end < 0.0):
+        return 0.5 * (low + high)
+    span = g - g_end
+    share = g / span
+    rest = 1.0 - share
+    guess = rest * rest * ((1.0 + 2.0 * share) * low - share * span / dg)
+    guess += share * share * ((1.0 + 2.0 * rest) * high + rest * span / dg_end)
+    return guess if low < guess < high else 0.5 * (low + high)
+
+
+@njit(**INTERNAL)
+def bracketed_zero(a, b, c, order, bend, low, high, x):
+    """Return the only zero of g in [low, high], where g falls and |g''| is at most ``bend``, from a guess x.
 
     Newton's step d from x leaves an error of at most bend d^2/(2 |g'(x)|), to its first order. Below rounding no further step is
     needed.
     """
-    x = 0.5 * (low + high)
     for _ in range(ITERATIONS):
         g, dg = quotient(a, b, c, order, x)
         if g > 0.0:
@@ -133,8 +149,10 @@ def search(a, b, c, order, h):
             continue
         if dg < 0.0 and 2.0 * bend * g < dg * dg:  # g falls as far as its zero, or the end of the window
             low = min(t - 2.0 * g / dg, end)
-            if quotient(a, b, c, order, low)[0] <= 0.0:
-                return True, bracketed_zero(a, b, c, order, bend, t, low)
+            there = quotient(a, b, c, order, low)
+            if there[0] <= 0.0:
+                guess = between(t, (g, dg), low, there)
+                return True, bracketed_zero(a, b, c, order, bend, t, low, guess)
             if low < end:
                 return True, low
             if end == h:
