@@ -330,10 +330,11 @@ def test_start_whose_rest_leads_to_the_mirror_image_is_not_proved_to_reach_the_o
     assert not verdict.symmetric
     assert rk.prove(verdict).starts
     forcing = evolve(system.forcing, phase=math.pi)
-    proof = rk.prove(evolve(verdict, system=evolve(system, forcing=forcing)))
-    assert proof.proved
-    assert proof.starts is False
-    assert "mirror image" in proof.claim
+    for named in (False, True):  # the symmetry is that of the proved orbit, whatever the verdict says
+        proof = rk.prove(evolve(verdict, system=evolve(system, forcing=forcing), symmetric=named))
+        assert proof.proved
+        assert proof.starts is False
+        assert "mirror image" in proof.claim
 
 
 def test_start_that_overturns_is_not_proved_to_reach_the_orbit():

@@ -15,8 +15,6 @@ if TYPE_CHECKING:
     from rocking.orbits.branch import Branch
     from rocking.orbits.find_orbits import Orbits
 
-IN_RADIANS = "rad"
-
 
 def multipliers(along: str, values: np.ndarray) -> dict[str, Any]:
     """Return the real and imaginary parts of Floquet multipliers, shape (n, 2), as variables: netCDF has no complex numbers."""
@@ -40,7 +38,7 @@ def of_branch(branch: Branch) -> xr.Dataset:
         "event_phase": (
             "point",
             points["phase"],
-            {"long_name": "forcing phase of the first event", "units": IN_RADIANS},
+            {"long_name": "forcing phase of the first event", "units": "rad"},
         ),
         "event_velocity": ("point", points["velocity"], named("speed just after the first event")),
         "peak": ("point", points["peak"], named("largest magnitude of the angle of the orbit")),
@@ -105,7 +103,7 @@ def of_orbits(found: Orbits) -> xr.Dataset:
         "brace_hits": column(
             "brace impacts per period; -1 if infinitely many", count([one.brace_hits for one in found])
         ),
-        "section_phase": column("forcing phase of the section", [one.phase for one in found], IN_RADIANS),
+        "section_phase": column("forcing phase of the section", [one.phase for one in found], "rad"),
         "angle": column("angle at the section", [one.state.angle for one in found]),
         "velocity": column("angular velocity at the section", [one.state.velocity for one in found]),
         "hits": column("initial guesses that led to the orbit", list(found.hits)),

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from rocking.cli.option_names import YourInput
 from rocking.cli.output.console import Row, print_json, print_table
 from rocking.cli.reports.motion import asked, beyond, physical_of, question
-from rocking.model import Block, TooShort, counted, plus_minus
+from rocking.model import Block, counted, plus_minus
 
 if TYPE_CHECKING:
     from rocking.response import LyapunovSpectrum
@@ -56,7 +56,7 @@ def dimension_of(spectrum: LyapunovSpectrum) -> tuple[float, float] | None:
     """Return the Kaplan–Yorke dimension and its error; None where there is none, or it is undecided."""
     try:
         return spectrum.kaplan_yorke
-    except (ValueError, TooShort):
+    except ValueError:
         return None
 
 
