@@ -18,7 +18,7 @@ from rocking.kernels.march import initial_state
 from rocking.kernels.march import march as kernel
 from rocking.kernels.march.event_rows import EVENT_ROW
 from rocking.kernels.march.progress import Recording
-from rocking.kernels.numerics import elementary
+from rocking.kernels.numerics import elementary, estimates
 from rocking.kernels.numerics.replace_fields import replacing
 from scripts import wheel
 
@@ -147,6 +147,14 @@ def test_elementary_functions_keep_their_relative_accuracy_from_the_shortest_arc
                 worst, [abs(float((f - e) / s)) for f, e, s in zip(found, exact, scales, strict=True)]
             )
     assert np.all(worst <= 8 * 2.0**-53)
+
+
+def test_rough_logarithms_and_powers_of_two_are_as_accurate_as_they_say():
+    random = np.random.default_rng(3)
+    exponents = np.concatenate([random.uniform(-1000.0, 1000.0, 3000), np.arange(-40.0, 40.0, 0.5)])
+    for y in exponents:
+        assert abs(estimates.rough_log2(2.0**y) - y) <= 0.0431, y
+        assert abs(estimates.rough_exp2(y) / 2.0**y - 1.0) <= 0.002, y
 
 
 def test_modes_and_events_are_told_by_name():

@@ -31,10 +31,11 @@ from rocking.kernels.forcing.full.series import (
     sizes,
 )
 from rocking.kernels.numerics.elementary import exponential_bound, sine_and_cosine
+from rocking.kernels.numerics.estimates import rough_exp2, rough_log2
 
 # With it most bounds hold at once.
 TOLERANCE = 6e-18
-LOG_TOLERANCE = math.log(TOLERANCE)
+LOG_TOLERANCE = math.log2(TOLERANCE)
 # Limit of the bound of the error of u; a step that exceeds it is shortened.
 ERROR = 1e-16
 # Up to a corner of the base acceleration that is nearer than this, a short series is tried first.
@@ -71,9 +72,8 @@ class Step(NamedTuple):
 
 @njit(**INTERNAL_INLINE)
 def log_time_of_term(coefficient, order):
-    """Return the logarithm of the time at which a term reaches the tolerance; at most 0, since no step is longer than 1."""
-    size = abs(coefficient)
-    return (LOG_TOLERANCE - math.log(size)) * (1.0 / order) if size > TOLERANCE else 0.0
+    """Return about the logarithm of the time at which a term reaches the tolerance; at most 0, since no step is longer than 1."""
+    return (LOG_TOLERANCE - rough_log2(max(abs(coefficient), TOLERANCE))) * (1.0 / order)
 
 
 @njit(**INTERNAL_INLINE)
@@ -137,7 +137,7 @@ def step_from(p, side, angle, velocity, drive):
     if corner < 1.0 and ends_at_corner(c, corner, ORDER):
         to_corner, length = True, corner
     else:
-        length = math.exp(
+        length = rough_exp2(
             min(log_time_of_term(c[ORDER - 2], ORDER), log_time_of_term(c[ORDER - 3], ORDER - 1))
         )
         to_corner, length = corner <= length, min(length, corner)
