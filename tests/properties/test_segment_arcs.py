@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from flint import arb
 
-from oracles.segment_arcs import AMBIGUOUS, ROUNDING, arcs, first_events, lowest_dip, size, state_at
+from oracles.segment_arcs import AMBIGUOUS, ROUNDING, Arc, arcs, first_events, lowest_dip, size, state_at
 from rocking.kernels import event_kinds
 from rocking.kernels.compile_options import KERNEL
 from rocking.kernels.deferred import njit
@@ -35,6 +35,7 @@ def event_of(p, side, index, offset, angle, velocity):
         coming.wait,
         extremes.dip,
         extremes.dip_time,
+        extremes.low,
     )
 
 
@@ -45,7 +46,7 @@ def search_from(arc):
 
 def found_by_package(arc):
     """Return kind, sample and time after it, and u' there."""
-    kind, *place, velocity, _, _, _ = search_from(arc)
+    kind, *place, velocity, _, _, _, _ = search_from(arc)
     return KINDS[kind], *place, velocity
 
 
@@ -100,7 +101,7 @@ def test_lowest_dip_before_the_event_is_found(family):
     """A dip that spans no sample may be missed only above the distance that proves its interval to contain no event."""
     checked = 0
     for arc in arcs(family, 1_000, 5):
-        *_, wait, angle, time = search_from(arc)
+        *_, wait, angle, time, _ = search_from(arc)
         lowest, when = lowest_dip(arc, wait)
         if lowest > arc.step**2 / 8:
             continue
@@ -116,3 +117,34 @@ def test_dips_of_the_arcs_are_shallow():
     hidden = sum(not events[0].definite for events in dips)
     assert 5 < hidden < 200
     assert sum(math.isfinite(float(events[-1].time)) for events in dips) > 100
+
+
+@pytest.mark.parametrize("step", [0.005, 0.01, 0.02, 0.05])
+@pytest.mark.parametrize("side", [-1, 1])
+def test_minimum_within_a_stride_lies_above_its_bound(side, step):
+    """Pushed upwards, a falling block turns before it reaches the base. Its minimum is not searched."""
+    for fall in np.linspace(0.3, 1.0, 40):
+        values = np.full(int(2.0 / step), -2.0 * side)
+        arc = Arc(values, step, side, 0, 0.3 * step, 0.6, -float(fall), math.inf)
+        *_, wait, angle, _, low = search_from(arc)
+        lowest, _ = lowest_dip(arc, wait)
+        assert angle == wait == math.inf
+        assert lowest - 0.12**2 / 2 < low < lowest
+
+
+@pytest.mark.parametrize(("step", "intervals"), [(1e-4, 64), (0.007, 16), (0.03, 4), (0.2, 1)])
+def test_a_stride_is_its_intervals_one_after_another(step, intervals):
+    tables = tables_of(np.random.default_rng(4).normal(size=200), step)
+    assert tables.stride == intervals
+    growth, decay = arb(step).exp(), (-arb(step)).exp()
+    for first in range(0, 200 - intervals, 7):
+        ahead, behind = arb(0), arb(0)
+        for k in range(first, first + intervals):
+            start, end = (arb(float(a)) for a in tables.samples[k : k + 2])
+            mean = (growth - 1) / step
+            ahead = growth * ahead + start * (growth - mean) + end * (mean - 1)
+            mean = (1 - decay) / step
+            behind = decay * behind + start * (mean - decay) + end * (1 - mean)
+        row, size = tables.strides[first], 4 * ROUNDING * intervals**2 * step
+        assert abs(ahead - float(row["ahead"])) < size
+        assert abs(behind - float(row["behind"])) < size

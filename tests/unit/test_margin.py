@@ -9,7 +9,14 @@ import pytest
 from scipy.integrate import quad
 
 import rocking as rk
+from rocking.kernels.compile_options import KERNEL
+from rocking.kernels.deferred import njit
+from rocking.kernels.forcing.arc import Extremes
+from rocking.kernels.forcing.drives import SampledDrive
+from rocking.kernels.forcing.sampled.solution import arc_at_place
+from rocking.kernels.march.accumulated_error import Covariance
 from rocking.kernels.march.ending import ENDING_ROW
+from rocking.kernels.march.finite_motion import is_decided
 from rocking.kernels.march.finite_runs import RUN_ROW, run_batch
 from rocking.kernels.march.march import DONE, OVERTURNED
 from rocking.motion.kernel_parameters import parameters
@@ -109,6 +116,23 @@ def test_a_graze_of_the_base_is_undecided():
         low, high = (middle, high) if impacts == 0 else (low, middle)
     assert not found(low).certified
     assert found(low - 1e-3).certified
+
+
+@njit(**KERNEL)
+def decided_with(p, low, variance_at_start, variance_at_event):
+    arc = arc_at_place(p, 1, 0.0, 0.0, 2.0, SampledDrive(0, 0.0))
+    extremes = Extremes(math.inf, 0.0, low, 0.0, 0.0)
+    at_start, at_event = Covariance(variance_at_start, 0.0, 0.0), Covariance(variance_at_event, 0.0, 0.0)
+    return is_decided(p, arc, extremes, at_start, at_event)
+
+
+def test_angle_that_rounding_may_have_taken_below_the_base_is_undecided():
+    p = parameters(rk.System(rk.PiecewiseLinear([0.0, 0.0], step=0.1), 0.9))
+    far, near = (1e-3 / (32 * factor) for factor in (1.001, 0.999))
+    assert decided_with(p, 1e-3, far**2, far**2)
+    assert not decided_with(p, 1e-3, near**2, far**2)
+    assert not decided_with(p, 1e-3, far**2, near**2)
+    assert decided_with(p, math.inf, near**2, near**2)
 
 
 def test_without_losses_the_energy_after_the_base_motion_decides():

@@ -20,6 +20,7 @@ from rocking.kernels.forcing.drives import (
     SampledConstants,
     SampledDrive,
 )
+from rocking.kernels.numerics.replace_fields import replacing
 
 Drive = HarmonicDrive | SampledDrive | PulseDrive | FullHarmonicDrive | FullSampledDrive | FullPulseDrive
 Constants = (
@@ -112,14 +113,16 @@ class Next(NamedTuple):
 class Extremes(NamedTuple):
     """Extremes of the angle on an arc before its event."""
 
-    dip: float  # least of all minima; infinity if there is none
+    dip: float  # least of all minima that were searched; infinity if there is none
     dip_time: float  # time from the start of the arc to there
+    low: float  # lower bound of the angle where no minimum was searched, between the start and the event; or infinity
     reached: float  # an angle that the arc reaches, or 0
     top: float  # an upper bound of the angle
 
 
-NO_EXTREMES = Extremes(math.inf, 0.0, 0.0, 0.0)
-UNKNOWN_TOP = Extremes(math.inf, 0.0, 0.0, math.inf)
+NO_EXTREMES = Extremes(math.inf, 0.0, math.inf, 0.0, 0.0)
+UNKNOWN_TOP = Extremes(math.inf, 0.0, math.inf, 0.0, math.inf)
+with_low = replacing(Extremes, "low")
 
 
 @njit(**INTERNAL_INLINE)

@@ -26,14 +26,6 @@ EXACT = Covariance(0.0, 0.0, 0.0)
 
 
 @njit(**INTERNAL_INLINE)
-def transformed(c, a, b, d, e):
-    """Return M C M^T for M = [[a, b], [d, e]]."""
-    left_u, left_v = a * c.uu + b * c.uv, a * c.uv + b * c.vv
-    right_u, right_v = d * c.uu + e * c.uv, d * c.uv + e * c.vv
-    return Covariance(left_u * a + left_v * b, left_u * d + left_v * e, right_u * d + right_v * e)
-
-
-@njit(**INTERNAL_INLINE)
 def widened(c, error):
     """Return the covariance with an independent error of u and of u'."""
     return Covariance(c.uu + error * error, c.uv, c.vv + error * error)
@@ -43,13 +35,22 @@ def widened(c, error):
 def after_time(c, sinh, versinh):
     """Return the covariance a time later on the same arc."""
     cosh = 1.0 + versinh
-    return transformed(c, cosh, sinh, sinh, cosh)
+    straight, across, product = cosh * cosh, sinh * sinh, sinh * cosh
+    mixed = 2.0 * product * c.uv
+    return Covariance(
+        straight * c.uu + across * c.vv + mixed,
+        product * (c.uu + c.vv) + (straight + across) * c.uv,
+        across * c.uu + straight * c.vv + mixed,
+    )
 
 
 @njit(**INTERNAL_INLINE)
 def after_saltation(c, factor, shear, gain):
     """Return the covariance after an event with the matrix [[factor, 0], [shear, gain]] of ``tangent.event_map``."""
-    return transformed(c, factor, 0.0, shear, gain)
+    moved = shear * c.uu + gain * c.uv
+    return Covariance(
+        factor * factor * c.uu, factor * moved, shear * moved + gain * (shear * c.uv + gain * c.vv)
+    )
 
 
 @njit(**INTERNAL_INLINE)

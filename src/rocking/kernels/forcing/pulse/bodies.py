@@ -143,7 +143,7 @@ def next_event_and_extremes(p, mode, arc):
         if found != CROSSING:
             return coming, extremes
         if sign < 0.0 and now.angle < extremes.dip:
-            extremes = Extremes(now.angle, t, 0.0, math.inf)
+            extremes = Extremes(now.angle, t, math.inf, 0.0, math.inf)
         sign = -sign
 
 

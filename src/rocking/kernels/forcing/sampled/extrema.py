@@ -129,7 +129,7 @@ def largest_on(p, arc, until, peak):
             ended = time_between(p, arc.drive, SampledDrive(index, 0.0))
             after, rate = state_at_sample(p, arc.side, index, growing, shrinking)
         larger = max(angle, after)
-        if larger + tables.bend * (larger + force) > peak * (1.0 - MARGIN):
+        if larger + tables.single.bend * (larger + force) > peak * (1.0 - MARGIN):
             peak = largest_turn(p, arc, velocity, begun, ended, peak)
         begun, angle, velocity = ended, after, rate
         growing, shrinking = growing * tables.growth, shrinking * tables.decay

@@ -1,14 +1,14 @@
 """Certified first event of an arc under a sampled base acceleration.
 
 The first intervals are decided by ``segment.first_zero`` on the local closed form, which keeps the digits of short arcs.
-They are the rest of the interval of the start, and FIRST more. From there on u and u' go from sample to sample. Between two
-samples u leaves its chord by at most h^2/8 max|u''|. With |u''| <= |u| + F, F = 1 + max|a|, and ``bend`` = q/(1 - q),
-q = h^2/8,
+They are the rest of the interval of the start, and FIRST more. From there on u and u' go from sample to sample, or over a
+stride of several. Between two samples a time t apart u leaves its chord by at most t^2/8 max|u''|. With |u''| <= |u| + F,
+F = 1 + max|a|, and ``bend`` = q/(1 - q), q = t^2/8,
 
     |u - chord| <= bend (max(|u|, |u|) + F),
 
-so that most intervals contain no event. All others are decided by ``segment.first_zero``. A step of MAX_STEP or more is
-decided interval by interval.
+so that most strides contain no event. In the others each interval is decided by this bound, or by ``segment.first_zero``. A
+step of MAX_STEP or more is decided interval by interval.
 """
 
 import math
@@ -16,22 +16,20 @@ import math
 from rocking.kernels.compile_options import INTERNAL, INTERNAL_INLINE
 from rocking.kernels.deferred import njit
 from rocking.kernels.event_kinds import BRACE, IMPACT, NONE
-from rocking.kernels.forcing.arc import MAX_ARC_TIME, NO_EXTREMES, Extremes, Next
+from rocking.kernels.forcing.arc import MAX_ARC_TIME, NO_EXTREMES, Extremes, Next, with_low
 from rocking.kernels.forcing.drives import SampledDrive
 from rocking.kernels.forcing.sampled.segment import Piece, at, first_zero, minimum
 from rocking.kernels.forcing.sampled.solution import (
     across_step,
-    along_step,
+    along,
     last_index,
     piece_from,
     time_between,
 )
-from rocking.kernels.numerics.elementary import hyperbolic
+from rocking.kernels.numerics.elementary import brief_hyperbolic
 
 FIRST = 2
 MAX_STEP = 2.0
-# Samples between two attempts to prove that the block never returns.
-WINDOW = 16
 
 
 @njit(**INTERNAL_INLINE)
@@ -41,10 +39,17 @@ def nothing_more(side, drive):
 
 
 @njit(**INTERNAL)
+def no_return(p, arc, drive):
+    """Return that no event follows, with the hyperbolic functions of the time until the place where this is certain."""
+    sinh, versinh, _ = brief_hyperbolic(time_between(p, arc.drive, drive))
+    return Next(math.inf, NONE, arc.side, 0.0, 0.0, drive, sinh, versinh)
+
+
+@njit(**INTERNAL)
 def arrival(p, arc, drive, at_brace, velocity):
     """Return the event at a place: impact or brace impact."""
     wait = time_between(p, arc.drive, drive)
-    sinh, versinh, _, _ = hyperbolic(wait)
+    sinh, versinh, _ = brief_hyperbolic(wait)
     kind, angle = (BRACE, p.block.brace_angle) if at_brace else (IMPACT, 0.0)
     return Next(wait, kind, arc.side, angle, velocity, drive, sinh, versinh)
 
@@ -107,7 +112,7 @@ def free_event(p, arc, drive, angle, velocity):
         at_brace = x_brace < x
         x = min(x, x_brace)
     if x == math.inf:
-        return nothing_more(arc.side, drive)
+        return no_return(p, arc, drive)
     end = brace if at_brace else 0.0
     # the height above the end as a product: at a brace the speed of a short hop keeps its digits
     speed = math.sqrt(max(velocity * velocity + (angle - end) * (2.0 - angle - end), 0.0))
@@ -138,10 +143,9 @@ MARGIN = 1e-12
 
 
 @njit(**INTERNAL_INLINE)
-def bend_of(p):
-    """Return the two numbers of the bound on how far u leaves its chord: ``bend``, and F."""
-    tables = p.forcing.tables
-    return tables.bend * (1.0 + MARGIN), 1.0 + abs(p.forcing.scale) * tables.largest
+def largest_push(p):
+    """Return F, a bound of |f|, with the margin over rounding of the bound that it serves."""
+    return (1.0 + abs(p.forcing.scale) * p.forcing.tables.largest) * (1.0 + MARGIN)
 
 
 @njit(**INTERNAL_INLINE)
@@ -157,9 +161,14 @@ def rises_throughout(piece, length):
 
 
 @njit(**INTERNAL_INLINE)
-def is_clear(p, before, here, bend, force):
-    """Return whether an interval contains no event by its bound, from u at its ends."""
-    reach = bend * (max(abs(before), abs(here)) + force)
+def reach_over(passage, before, here, force):
+    """Return the bound on how far u leaves its chord, from u at both ends."""
+    return passage.bend * (max(abs(before), abs(here)) + force)
+
+
+@njit(**INTERNAL_INLINE)
+def is_clear(p, before, here, reach):
+    """Return whether there is no event between two samples by the bound ``reach``, from u at both ends."""
     return min(before, here) > reach and p.block.brace_angle - max(before, here) > reach
 
 
@@ -180,7 +189,7 @@ def event_within(p, arc, place, piece, length, end, extremes):
         length, end = x, (coming.angle, coming.velocity)
     angle, turn = minimum(piece, length, end)
     if angle < extremes.dip:
-        extremes = Extremes(angle, begun + turn, 0.0, 0.0)
+        extremes = Extremes(angle, begun + turn, extremes.low, 0.0, 0.0)
     return coming, extremes
 
 
@@ -193,18 +202,17 @@ def first_event(p, arc):
     tuple of (Next, Extremes)
     """
     coming, extremes, reached = event_and_dip(p, arc)
-    top = reached
+    top = reached + reach_over(p.forcing.tables.several, reached, reached, largest_push(p))
     if coming.drive.index >= last_index(p) or p.forcing.tables.step >= MAX_STEP:
         top = math.inf
-    bend, force = bend_of(p)
-    return coming, Extremes(extremes.dip, extremes.dip_time, reached, top + bend * (top + force))
+    return coming, Extremes(extremes.dip, extremes.dip_time, extremes.low, reached, top)
 
 
 @njit(**INTERNAL)
 def event_and_dip(p, arc):
     """Return the first event of an arc, its lowest dip before, and the largest u of its start, its end and all samples."""
     place, last, step, extremes = arc.drive, last_index(p), p.forcing.tables.step, NO_EXTREMES
-    angle, velocity, top, (bend, force) = arc.angle, arc.velocity, arc.angle, bend_of(p)
+    angle, velocity, top, force = arc.angle, arc.velocity, arc.angle, largest_push(p)
     far = last if step >= MAX_STEP else min(place.index + FIRST, last - 1)
     while place.index < last and place.index <= far:
         piece, rest = piece_from(p, arc.side, place, angle, velocity), step - place.offset
@@ -212,7 +220,8 @@ def event_and_dip(p, arc):
         angle, velocity = across_step(p, piece) if place.offset == 0.0 else at(piece, rest)
         quiet = rises_throughout(piece, rest) and angle < p.block.brace_angle
         if not quiet and place.offset == 0.0 and not fell < 0.0 <= velocity:
-            quiet = step < MAX_STEP and is_clear(p, before, angle, bend, force)
+            reach = reach_over(p.forcing.tables.single, before, angle, force)
+            quiet = step < MAX_STEP and is_clear(p, before, angle, reach)
         if not quiet:
             coming, extremes = event_within(p, arc, place, piece, rest, (angle, velocity), extremes)
             if coming.event != NONE:
@@ -238,23 +247,33 @@ def scan(p, arc, index, start, extremes, top):
         The extremes.
         The largest u of all samples so far.
     """
-    side, last, tables, (bend, force) = arc.side, last_index(p), p.forcing.tables, bend_of(p)
+    side, last, tables, force = arc.side, last_index(p), p.forcing.tables, largest_push(p)
     total, difference = start[0] + start[1], start[0] - start[1]
     while index < last:
-        before = 0.5 * (total + difference)
-        for k in range(index, min(index + WINDOW, last)):
-            ahead, behind = along_step(p, side, k, total, difference)
+        end, before, clear = index + tables.stride, 0.5 * (total + difference), False
+        if end <= last:
+            ahead, behind = along(p, side, tables.several, tables.strides[index], total, difference)
             here = 0.5 * (ahead + behind)
-            if not is_clear(p, before, here, bend, force) or (total < difference and ahead >= behind):
-                place, end = SampledDrive(k, 0.0), (here, 0.5 * (ahead - behind))
-                piece = piece_from(p, side, place, before, 0.5 * (total - difference))
-                coming, extremes = event_within(p, arc, place, piece, tables.step, end, extremes)
-                if coming.event != NONE:
-                    return before, piece.dw, coming, extremes, max(top, coming.angle)
-            total, difference, before, top = ahead, behind, here, max(top, here)
-        index = min(index + WINDOW, last)
+            reach = reach_over(tables.several, before, here, force)
+            clear = is_clear(p, before, here, reach)
+        if clear:
+            total, difference, top = ahead, behind, max(top, here)
+            extremes = with_low(extremes, min(extremes.low, min(before, here) - reach))
+        else:
+            for k in range(index, min(end, last)):
+                ahead, behind = along(p, side, tables.single, tables.intervals[k], total, difference)
+                here = 0.5 * (ahead + behind)
+                reach = reach_over(tables.single, before, here, force)
+                if not is_clear(p, before, here, reach) or (total < difference and ahead >= behind):
+                    place, ended = SampledDrive(k, 0.0), (here, 0.5 * (ahead - behind))
+                    piece = piece_from(p, side, place, before, 0.5 * (total - difference))
+                    coming, extremes = event_within(p, arc, place, piece, tables.step, ended, extremes)
+                    if coming.event != NONE:
+                        return before, piece.dw, coming, extremes, max(top, coming.angle)
+                total, difference, before, top = ahead, behind, here, max(top, here)
+        index = min(end, last)
         if p.block.brace_angle == math.inf and never_returns(p, side, index, total, difference):
-            return before, 0.0, nothing_more(side, arc.drive), extremes, math.inf
+            return before, 0.0, no_return(p, arc, SampledDrive(index, 0.0)), extremes, math.inf
     drive = SampledDrive(last, 0.0)
     coming = Next(MAX_ARC_TIME, NONE, side, 0.0, 0.0, drive, 0.0, 0.0)
     return 0.5 * (total + difference), 0.5 * (total - difference), coming, extremes, top

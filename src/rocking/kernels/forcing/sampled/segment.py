@@ -52,7 +52,48 @@ def with_hyperbolic(piece, sinh, versinh, excess):
     )
 
 
+class Approximation(NamedTuple):
+    """Approximation x of the only zero of w in [low, high], and w' there; w > 0 just after low and w <= 0 at high."""
+
+    low: float
+    high: float
+    x: float
+    dw: float
+    is_last: bool  # whether it is exact to rounding
+
+
+@njit(**INTERNAL_INLINE)
+def improved(piece, old, bisect):
+    """Return a better approximation, by Newton's method of higher order or, on request, by bisection."""
+    w, dw = at(piece, old.x)
+    low, high = (old.x, old.high) if w > 0.0 else (old.low, old.x)
+    second, third = w + piece.force + piece.rate * old.x, dw + piece.rate
+    ahead, is_last = 0.5 * (low + high), False
+    if dw < 0.0 and not bisect:
+        per = 1.0 / dw
+        y = -w * per
+        factor = reversion(y, second, third, second, per)
+        is_last = y * y * max((second * per) * (second * per), abs(third * per), 1.0) < NEAR
+        ahead = old.x + (y * factor if 0.5 < factor < 2.0 else y)
+        if not low <= ahead <= high:
+            ahead, is_last = 0.5 * (low + high), False
+    step = ahead - old.x
+    dw += step * (second + step * (0.5 * third + step * (I3 * second)))
+    is_last = is_last or abs(step) <= 4.0 * ROUNDING * ahead
+    return Approximation(low, high, ahead, dw, is_last)
+
+
 @njit(**INTERNAL)
+def repeated(piece, zero):
+    """Improve an approximation until it is exact to rounding."""
+    for k in range(1, ITERATIONS):
+        zero = improved(piece, zero, k > MAX_STEPS and k % 2 == 0)
+        if zero.is_last:
+            break
+    return zero.x, zero.dw
+
+
+@njit(**INTERNAL_INLINE)
 def refine(piece, low, high, x):
     """Refine the only zero of w in [low, high], from the guess x: w > 0 just after low and w <= 0 at high.
 
@@ -61,43 +102,29 @@ def refine(piece, low, high, x):
     tuple of (float, float)
         The zero, and w' there.
     """
-    dw = 0.0
-    for k in range(ITERATIONS):
-        w, dw = at(piece, x)
-        if w > 0.0:
-            low = x
-        else:
-            high = x
-        second, third = w + piece.force + piece.rate * x, dw + piece.rate
-        ahead, near = 0.5 * (low + high), False
-        if dw < 0.0 and not (k > MAX_STEPS and k % 2 == 0):
-            per = 1.0 / dw
-            y = -w * per
-            factor = reversion(y, second, third, second, per)
-            near = y * y * max((second * per) * (second * per), abs(third * per), 1.0) < NEAR
-            ahead = x + (y * factor if 0.5 < factor < 2.0 else y)
-            if not low <= ahead <= high:
-                ahead, near = 0.5 * (low + high), False
-        step = ahead - x
-        dw += step * (second + step * (0.5 * third + step * (I3 * second)))
-        near = near or abs(step) <= 4.0 * ROUNDING * ahead
-        x = ahead
-        if near:
-            break
-    return x, dw
+    # Mostly the first step is the last one.
+    zero = improved(piece, Approximation(low, high, x, 0.0, False), False)
+    return (zero.x, zero.dw) if zero.is_last else repeated(piece, zero)
 
 
 @njit(**INTERNAL)
 def guess(piece, start, high):
-    """Return a first guess of the zero in (start, high): that of the parabola if it lies there, else the middle."""
+    """Return a first guess of the zero in (start, high): nearly that of the cubic if it lies there, else the middle."""
     (t, w, dw), f = start, piece.force + piece.rate * start[0]
     second = w + f
     under = dw * dw - 2.0 * w * second
     x = math.inf
-    if under >= 0.0 and second < 0.0:
-        x = (dw + math.sqrt(under)) / -second
-    elif under >= 0.0 and dw < 0.0:
-        x = 2.0 * w / (-dw + math.sqrt(under))
+    if under > 0.0:
+        root = math.sqrt(under)
+        if second < 0.0:
+            x = (dw + root) / -second
+        elif dw < 0.0:
+            x = 2.0 * w / (root - dw)
+        # At x the cubic lies w''' x^3/6 above the parabola, whose slope there is -root: two terms of Newton's step.
+        third, per = dw + piece.rate, 1.0 / root
+        square, bent = x * x, 0.5 * per * third
+        more = square * (x * (bent * (1.0 / 3.0)))
+        x += more * (1.0 + square * bent + (0.5 * per * (second + x * third)) * more)
     return t + x if 0.0 < x < high - t else 0.5 * (t + high)
 
 

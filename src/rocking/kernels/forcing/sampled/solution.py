@@ -114,17 +114,16 @@ def state_at_sample(p, side, index, growing, shrinking):
 
 
 @njit(**INTERNAL_INLINE)
-def along_step(p, side, index, total, difference):
-    """Return u + u' and u - u' at the sample after ``index``, from those at ``index``, which is not the last.
+def along(p, side, passage, row, total, difference):
+    """Return u + u' and u - u' at a later sample, from those at a sample, by the ``Passage`` and its row of the tables.
 
     (u + u')' = (u + u') + f and (u - u')' = -(u - u') - f, where f = -1 - sigma a is linear. Changes are added, so that a factor
     e^h, rounded, does not act as a wrong step.
     """
-    tables, turned = p.forcing.tables, side * p.forcing.scale
-    weight, interval = tables.near + tables.far, tables.intervals[index]
+    turned = side * p.forcing.scale
     return (
-        total + (tables.gain * total - (tables.growth * weight + turned * interval.ahead)),
-        difference - (tables.loss * difference - (weight + turned * interval.behind)),
+        total + (passage.gain * total - (passage.ahead + turned * row.ahead)),
+        difference - (passage.loss * difference - (passage.behind + turned * row.behind)),
     )
 
 

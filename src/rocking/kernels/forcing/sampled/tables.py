@@ -26,6 +26,21 @@ Knots = Annotated[np.ndarray, KNOT, 1]
 # From each sample to the next: the rate of a, and what a adds to u + u' and takes from u - u'.
 INTERVAL = np.dtype([(name, float) for name in ("rate", "ahead", "behind")], align=True)
 Intervals = Annotated[np.ndarray, INTERVAL, 1]
+# ``ahead`` and ``behind`` over several intervals.
+STRIDE = np.dtype([(name, float) for name in ("ahead", "behind")], align=True)
+Strides = Annotated[np.ndarray, STRIDE, 1]
+# Longest stride in units of time, and in intervals. The bound of a longer one holds less often, and a shorter one takes more of them.
+STRIDE_TIME, LONGEST = 0.12, 64
+
+
+class Passage(NamedTuple):
+    """From a sample to one a time t later: u + u' and u - u' without base acceleration, and the bound of ``search``."""
+
+    gain: float  # e^t - 1
+    loss: float  # 1 - e^-t
+    ahead: float  # what a = 1 adds to u + u'
+    behind: float  # what it takes from u - u'
+    bend: float  # q/(1 - q), q = t^2/8
 
 
 class Tables(NamedTuple):
@@ -37,16 +52,15 @@ class Tables(NamedTuple):
     excess: float  # sinh - step
     growth: float  # e^step
     decay: float  # e^-step
-    gain: float  # e^step - 1
-    loss: float  # 1 - e^-step
-    near: float  # the two weights of the samples
-    far: float
-    bend: float  # of the bound in ``search``
     largest: float  # |a| of all samples
     # Rounding error of P, in units of the largest |P|: each step adds its own, and the recursion forgets it in a unit of time.
     error: float
+    single: Passage  # over one interval
+    several: Passage  # over ``stride`` intervals
+    stride: int
     samples: Floats1  # (n,)
     intervals: Intervals  # (n,), the last is 0
+    strides: Strides  # (n,), over ``stride`` intervals from each sample on; without meaning near the last one
     # (n,): P and P' at each sample; least and greatest of 0 and of P from this sample on
     knots: Knots
     blocks: Floats1  # largest |a| in each block of samples
@@ -78,17 +92,51 @@ def fill_intervals(samples, step, growth, near, far, intervals):
     intervals[last].rate = intervals[last].ahead = intervals[last].behind = 0.0
 
 
+@njit(**INTERNAL)
+def passage_over(time, ahead, behind):
+    """Return the ``Passage`` over a time."""
+    sinh, versinh, _, _ = hyperbolic(time)
+    decay, gain, q = math.exp(-time), sinh + versinh, 0.125 * time * time
+    loss = 1.0 - decay if time > 1.0 else decay * gain
+    return Passage(gain, loss, ahead, behind, q / (1.0 - q))
+
+
+@njit(**INTERNAL)
+def fill_strides(intervals, single, stride, time, strides):
+    """Fill the rows of ``strides`` and return their ``Passage``, over the doubled number of intervals again and again."""
+    n, passed, several = intervals.shape[0], 1, single
+    for k in range(n):
+        strides[k].ahead, strides[k].behind = intervals[k].ahead, intervals[k].behind
+    while passed < stride:
+        growth, decay = 1.0 + several.gain, 1.0 - several.loss
+        for k in range(n - passed):
+            row, later = strides[k], strides[k + passed]
+            row.ahead, row.behind = growth * row.ahead + later.ahead, decay * row.behind + later.behind
+        passed *= 2
+        several = passage_over(time * passed, (growth + 1.0) * several.ahead, (decay + 1.0) * several.behind)
+    return several
+
+
 @entry_point(**KERNEL)
 def fill(
-    samples: Floats1, step: float, intervals: Intervals, knots: Knots, blocks: Floats1, variation: Floats1
-) -> tuple[float, float, float, float, float, float, float, float, float, float, float, float]:
-    """Fill the arrays of the tables; return the numbers from ``sinh`` to ``error``."""
+    samples: Floats1,
+    step: float,
+    stride: int,
+    intervals: Intervals,
+    strides: Strides,
+    knots: Knots,
+    blocks: Floats1,
+    variation: Floats1,
+) -> tuple[float, float, float, float, float, float, float, Passage, Passage]:
+    """Fill the arrays of the tables; return the values from ``sinh`` to ``several``."""
     n = samples.shape[0]
     sinh, versinh, excess, _ = hyperbolic(step)
     growth, decay, (near, far) = math.exp(step), math.exp(-step), weights(step)
-    gain = sinh + versinh
-    loss = 1.0 - decay if step > 1.0 else decay * gain
     fill_intervals(samples, step, growth, near, far, intervals)
+    weight = near + far
+    single = passage_over(step, growth * weight, weight)
+    loss = single.loss
+    several = fill_strides(intervals, single, stride, step, strides)
     left = variation[0] = 0.0
     for k in range(n):
         if k > 0:
@@ -110,28 +158,16 @@ def fill(
         blocks[k] = 0.0
     for k in range(n):
         blocks[k // BLOCK] = max(blocks[k // BLOCK], abs(samples[k]))
-    quarter = 0.125 * step * step
-    bend = quarter / (1.0 - quarter)
-    return (
-        sinh,
-        versinh,
-        excess,
-        growth,
-        decay,
-        gain,
-        loss,
-        near,
-        far,
-        bend,
-        largest,
-        1.0 / math.sqrt(min(step, 1.0)),
-    )
+    error = 1.0 / math.sqrt(min(step, 1.0))
+    return sinh, versinh, excess, growth, decay, largest, error, single, several
 
 
 def tables_of(samples: np.ndarray, step: float) -> Tables:
     """Make the tables of samples (n,), n >= 1, at a step in normalised time."""
-    n = len(samples)
-    intervals, knots = np.empty(n, INTERVAL), np.empty(n, KNOT)
+    n, stride = len(samples), 1
+    while 2 * stride * step <= STRIDE_TIME and stride < LONGEST:
+        stride *= 2
+    intervals, strides, knots = np.empty(n, INTERVAL), np.empty(n, STRIDE), np.empty(n, KNOT)
     blocks, variation = np.empty(-(-n // BLOCK)), np.empty(n)
-    numbers = fill(samples, step, intervals, knots, blocks, variation)
-    return Tables(step, *numbers, samples, intervals, knots, blocks, variation)
+    numbers = fill(samples, step, stride, intervals, strides, knots, blocks, variation)
+    return Tables(step, *numbers, stride, samples, intervals, strides, knots, blocks, variation)
