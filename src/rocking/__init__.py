@@ -55,6 +55,7 @@ if TYPE_CHECKING:
     from rocking.motion import Motion, simulate
     from rocking.orbits import (
         BifurcationCurve,
+        BifurcationSet,
         Branch,
         FrequencyResponse,
         Manifold,
@@ -63,6 +64,7 @@ if TYPE_CHECKING:
         SaddleManifolds,
         SpecialPoint,
         bifurcation_curve,
+        bifurcation_set,
         continue_orbit,
         find_orbit,
         find_orbits,
@@ -117,6 +119,7 @@ __all__ = [
     "Attractor",
     "BasinMap",
     "BifurcationCurve",
+    "BifurcationSet",
     "Block",
     "Braces",
     "Branch",
@@ -170,6 +173,7 @@ __all__ = [
     "__version__",
     "basin_map",
     "bifurcation_curve",
+    "bifurcation_set",
     "chaos_share",
     "cite",
     "classify",
@@ -214,8 +218,8 @@ __all__ = [
 _NAMES = {
     "motion": "Motion simulate",
     "orbits": (
-        "BifurcationCurve Branch FrequencyResponse Manifold OrbitDiagram Orbits SaddleManifolds "
-        "SpecialPoint bifurcation_curve continue_orbit find_orbit find_orbits frequency_response "
+        "BifurcationCurve BifurcationSet Branch FrequencyResponse Manifold OrbitDiagram Orbits SaddleManifolds "
+        "SpecialPoint bifurcation_curve bifurcation_set continue_orbit find_orbit find_orbits frequency_response "
         "horseshoe manifold_gap orbit_diagram saddle_manifolds switch_branch tangency_amplitude"
     ),
     "proof": "prove",

@@ -9,7 +9,7 @@ import numpy as np
 import rocking as rk
 from rocking.model import percent
 from rocking.papers.yim_lin_1991 import cached_surveys, figure11
-from rocking.papers.yim_lin_1991.beyond import chaos, coexistence, crisis, zoom
+from rocking.papers.yim_lin_1991.beyond import bifurcations, chaos, coexistence, crisis, zoom
 
 
 def title(ax):
@@ -125,3 +125,30 @@ def test_caption_of_figure_11_says_what_lies_beyond_the_first_curve(reproduced):
     assert "most points overturn; nearly all others have period 1 and are asymmetric" in caption(figure11)
     assert stay.sum() < 0.5 * beyond.sum()
     assert (stay & alike.values).sum() > 0.95 * stay.sum()
+
+
+def test_caption_of_the_bifurcation_curves_tells_what_is_drawn(monkeypatch):
+    shown = rk.parametric_map(**cached_surveys.axes(8), restitution=0.925, max_cycles=200)
+    monkeypatch.setattr(cached_surveys, "damped", lambda: shown)
+    monkeypatch.setattr(bifurcations, "LINES", 3)
+    whole, part = bifurcations.draw().axes
+    curves = [line for line in whole.lines if line.get_gid() not in (None, "codimension-2")]
+    assert title(whole) == f"(a) {len(curves)} curves"
+    assert part.get_ylim() == bifurcations.PART[1]
+    told = caption(bifurcations)
+    assert f"up to period {bifurcations.MAX_PERIOD} over" in told
+    assert f"above A = {bifurcations.AMPLITUDES[0]}" in told
+    assert "12 × 12 points" in told
+
+
+def test_orbit_of_period_3_stays_stable_below_its_region_of_the_map():
+    """As the caption of the bifurcation curves says; the edge of the region is that of a basin."""
+
+    def response(amplitude):
+        return rk.classify(rk.System(rk.Harmonic(amplitude, period=0.3), 0.925))
+
+    branch = rk.continue_orbit(response(4.0).orbit, "amplitude", (1.3, 4.0))
+    assert branch.period == 3
+    assert branch.points["stable"].all()
+    assert branch.points["parameter"].min() == 1.3
+    assert response(3.4).period == 1

@@ -1,6 +1,7 @@
 """Periodic orbits, their continuation and bifurcations, orbit diagrams, and manifolds of the saddle orbits."""
 
 from rocking.orbits.bifurcation_curve import BifurcationCurve, bifurcation_curve
+from rocking.orbits.bifurcation_set import BifurcationSet, bifurcation_set
 from rocking.orbits.branch import BRANCHES_OFF, Branch, SpecialPoint
 from rocking.orbits.continuation import continue_orbit, switch_branch
 from rocking.orbits.find_orbit import find_orbit
@@ -16,6 +17,7 @@ from rocking.orbits.saddle_manifolds import Manifold, SaddleManifolds, saddle_ma
 __all__ = [
     "BRANCHES_OFF",
     "BifurcationCurve",
+    "BifurcationSet",
     "Branch",
     "FrequencyResponse",
     "Manifold",
@@ -24,6 +26,7 @@ __all__ = [
     "SaddleManifolds",
     "SpecialPoint",
     "bifurcation_curve",
+    "bifurcation_set",
     "continue_orbit",
     "find_orbit",
     "find_orbits",

@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
     from rocking.orbits.bifurcation_curve import BifurcationCurve
+    from rocking.orbits.bifurcation_set import BifurcationSet
     from rocking.orbits.branch import Branch
     from rocking.orbits.find_orbits import Orbits
 
@@ -78,6 +79,34 @@ def of_curve(curve: BifurcationCurve) -> xr.Dataset:
         "impacts": curve.impacts,
         "ends": list(curve.ends),
     }
+    return xr.Dataset(variables, attrs=attributes)
+
+
+def of_curves(found: BifurcationSet) -> xr.Dataset:
+    """Return a bifurcation set as a dataset along `point` and `curve`."""
+    import xarray as xr
+
+    lengths = [len(curve) for curve in found.curves]
+    points = np.concatenate([np.empty((0, 2)), *(curve.points for curve in found.curves)])
+    variables = {
+        name: coordinate_of("point", name, values) for name, values in zip(found.names, points.T, strict=True)
+    }
+    variables["number"] = (
+        "point",
+        np.repeat(np.arange(len(lengths)), lengths),
+        {"long_name": "number of the curve", "units": "1"},
+    )
+    for name, text in (
+        ("kind", "type of the special points"),
+        ("period", "forcing cycles per response period"),
+        ("impacts", "impacts per response period"),
+    ):
+        variables[f"curve_{name}"] = (
+            "curve",
+            np.array([getattr(curve, name) for curve in found.curves], "U17" if name == "kind" else int),
+            {"long_name": text} | ({} if name == "kind" else {"units": "1"}),
+        )
+    attributes = described("Bifurcation set") | {"max_period": found.max_period}
     return xr.Dataset(variables, attrs=attributes)
 
 

@@ -21,6 +21,7 @@ from rocking.orbits import Branch, FrequencyResponse, OrbitDiagram, SaddleManifo
 from rocking.plot.animation import animation
 from rocking.plot.basins import basins
 from rocking.plot.bifurcation_curve import bifurcation_curve
+from rocking.plot.bifurcation_set import bifurcation_set
 from rocking.plot.branch import branch
 from rocking.plot.chaos_share import chaos_share
 from rocking.plot.convergence import convergence
@@ -57,6 +58,7 @@ __all__ = [
     "animation",
     "basins",
     "bifurcation_curve",
+    "bifurcation_set",
     "branch",
     "chaos_share",
     "convergence",

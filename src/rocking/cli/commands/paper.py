@@ -20,7 +20,7 @@ rocking paper --list"""
 FIGURES = typer.Argument(
     metavar="FIGURE",
     help="Name of the report: yim-lin-1991 (default) or pulses-and-earthquakes. Then figures, tables or additional figures of it. "
-    "For yim-lin-1991: 1 to 12, 13a, 13b, exponents, claims, chaos, cascade, crisis, threshold, coexistence, zoom. "
+    "For yim-lin-1991: 1 to 12, 13a, 13b, exponents, claims, chaos, cascade, crisis, threshold, coexistence, zoom, bifurcations. "
     "For pulses-and-earthquakes: 1 to 5, claims. Default: all of them, and an HTML report.",
 )
 OUTPUT = typer.Option(

@@ -29,7 +29,7 @@ FIGURES = {
 TABLES = ("exponents", "claims")
 ROOM = "rocking.papers.yim_lin_1991"
 # Figures with many points, which the page shows as PNG.
-PIXELS = ("6", "7", "10", "11", "13a", "13b", "cascade", "crisis", "coexistence", "zoom")
+PIXELS = ("6", "7", "10", "11", "13a", "13b", "cascade", "crisis", "coexistence", "zoom", "bifurcations")
 
 
 TITLE = "Yim & Lin (1991), recomputed"
@@ -54,7 +54,7 @@ def reproduce(
         Folder for the files; created if it does not exist.
     figures : iterable of str or int, optional
         Figures of the paper, 1 to 12, "13a" and "13b". Tables: "exponents" and "claims". Additional figures: "chaos", "cascade",
-        "crisis", "threshold", "coexistence" and "zoom". Default: all of them, and the report index.html, also as PDF if
+        "crisis", "threshold", "coexistence", "zoom" and "bifurcations". Default: all of them, and the report index.html, also as PDF if
         WeasyPrint is installed.
     progress : callable, optional
         Called as ``progress(done, total, name)`` before each figure, table and claim, and once at the end.

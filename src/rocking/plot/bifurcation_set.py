@@ -1,0 +1,87 @@
+"""Bifurcation set: the curves of all types in the plane of two parameters, alone or over a map."""
+
+from matplotlib.axes import Axes
+from matplotlib.patheffects import Normal, Stroke
+
+from rocking.model import Block, instance
+from rocking.orbits import BifurcationSet
+from rocking.plot.bifurcation_curve import LOOKS
+from rocking.plot.parts import style
+from rocking.plot.parts.axis_units import parameter
+from rocking.plot.parts.branch_lines import unless_there
+
+# White edge around a line, so that it stands out from the colours of a map; in points.
+EDGE = 1.5
+# Size of a dot, in points.
+DOT = 3.0
+GRAZED = "grazing"
+
+
+def bifurcation_set(result: BifurcationSet, ax: Axes | None = None, block: Block | None = None) -> Axes:
+    """Plot all curves of a bifurcation set, one colour and dash per type, thinner for longer periods.
+
+    A dot marks an end of a curve at another grazing, which is a point of codimension two.
+
+    Parameters
+    ----------
+    result : BifurcationSet
+        Result of `rocking.bifurcation_set`.
+    ax : matplotlib Axes, optional
+        Axes to draw into, for example those of `parametric_map` over the same parameters. Default: a new figure, one column
+        wide.
+    block : Block, optional
+        Block for SI axes. Default: normalised axes.
+
+    Returns
+    -------
+    matplotlib Axes
+
+    Raises
+    ------
+    TypeError
+        If `result` is not a bifurcation set.
+
+    See Also
+    --------
+    bifurcation_curve : Plot single curves.
+    parametric_map : Plot the map below the curves.
+    rocking.bifurcation_set : Compute the set.
+
+    Examples
+    --------
+    >>> import rocking as rk
+    >>> system = rk.System(rk.Harmonic(amplitude=4.0, period=2.0), restitution=0.9)
+    >>> found = rk.bifurcation_set(system, 1, lines=3, period=(1.5, 2.5), amplitude=(3.0, 12.0))
+    >>> [text.get_text() for text in rk.plot.bifurcation_set(found).get_legend().get_texts()]
+    ['period doubling', 'symmetry breaking']
+    """
+    instance("result", result, BifurcationSet)
+    (across, x_label), (upright, y_label) = (parameter(name, block) for name in result.names)
+    ax = style.own(ax, height=2.9)
+    for curve in result.curves:
+        colour, dashes = LOOKS[curve.kind]
+        width = style.LINE / curve.period**0.5
+        ax.plot(
+            across(curve.points[:, 0]),
+            upright(curve.points[:, 1]),
+            color=colour,
+            linestyle=dashes,
+            linewidth=width,
+            path_effects=[Stroke(linewidth=width + EDGE, foreground="white"), Normal()],
+            label=unless_there(ax, curve.kind.replace("-", " ")),
+            gid=curve.kind,
+        )
+        met = curve.points[[place for place, end in zip((0, -1), curve.ends, strict=True) if end == GRAZED]]
+        ax.plot(
+            across(met[:, 0]),
+            upright(met[:, 1]),
+            "o",
+            color=style.INK,
+            markersize=DOT,
+            zorder=3,
+            gid="codimension-2",
+        )
+    style.label(ax, x_label, y_label)
+    if result.curves:
+        style.key(ax)
+    return ax

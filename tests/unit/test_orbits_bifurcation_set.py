@@ -1,0 +1,195 @@
+"""Bifurcation sets: closed forms, searches on both sides of each curve, and special points of lines that are not on the grid."""
+
+import matplotlib.pyplot as plt
+import numpy as np
+import pytest
+
+import rocking as rk
+
+BOUNDS = {"period": (1.2, 2.6), "amplitude": (2.0, 14.0)}
+SYSTEMS = {
+    "e 0.925": (rk.System(rk.Harmonic(4.0, period=2.0), 0.925), 2, BOUNDS),
+    "e 0.8": (rk.System(rk.Harmonic(4.0, period=2.0), 0.8), 1, BOUNDS),
+    "braced": (
+        rk.System(rk.Harmonic(4.0, period=2.0), 0.9, rk.Braces(0.6, 0.7)),
+        1,
+        {"period": (1.2, 2.0), "amplitude": (4.0, 8.0)},
+    ),
+}
+
+
+@pytest.fixture(scope="module", params=SYSTEMS)
+def case(request):
+    system, longest, bounds = SYSTEMS[request.param]
+    return system, longest, rk.bifurcation_set(system, longest, lines=8, **bounds)
+
+
+def at(system, values):
+    """The system with other values of period and amplitude."""
+    period, amplitude = (float(value) for value in values)
+    return rk.System(rk.Harmonic(amplitude, period=period), system.restitution, system.braces)
+
+
+def spans(found):
+    return np.array([high - low for low, high in found.bounds])
+
+
+def distance(curve, point, unit):
+    """Distance of a point from the points of a curve, in units of the ranges."""
+    return np.hypot(*((curve.points - point) / unit).T).min()
+
+
+def test_curves_of_each_system(case):
+    _, longest, found = case
+    assert found.names == ("period", "amplitude")
+    assert {curve.period for curve in found.curves} == set(range(1, longest + 1))
+    assert {"period-doubling", "fold", "grazing"} & {curve.kind for curve in found.curves}
+    for curve in found.curves:
+        assert len(curve) > 1
+        for values, (low, high) in zip(curve.points.T, found.bounds, strict=True):
+            assert low <= values.min() <= values.max() <= high
+
+
+def test_special_points_of_other_lines_lie_on_the_curves(case):
+    """Brute force: orbits at random places, each followed through the amplitude."""
+    system, longest, found = case
+    random, near, checked = np.random.default_rng(5), 0.012, 0
+    for _ in range(8):
+        place = [random.uniform(*ends) for ends in found.bounds]
+        for orbit in rk.find_orbits(at(system, place), longest):
+            if orbit.superstable or not orbit.impacts:
+                continue
+            branch = rk.continue_orbit(orbit, "amplitude", found.bounds[1])
+            for special in branch.special:
+                try:
+                    rk.bifurcation_curve(special, *found.names, found.bounds)
+                except ValueError:
+                    continue  # cannot be followed
+                checked += 1
+                same = [
+                    curve
+                    for curve in found.curves
+                    if (curve.kind, curve.period) == (special.kind, special.orbit.period)
+                ]
+                here = np.array([place[0], special.parameter])
+                assert min(distance(curve, here, spans(found)) for curve in same) < near, str(special)
+    assert checked > 5
+
+
+def count(system, period, symmetric=None):
+    """Number of orbits with impacts of a period that a search finds."""
+    return sum(
+        orbit.period == period and bool(orbit.impacts) and symmetric in (None, orbit.symmetric)
+        for orbit in rk.find_orbits(system, period)
+    )
+
+
+CHANGES = {
+    "fold": lambda curve: (curve.period, None),
+    "symmetry-breaking": lambda curve: (curve.period, False),
+    "period-doubling": lambda curve: (2 * curve.period, None),
+}
+
+
+def test_searches_on_both_sides_of_a_curve_find_other_numbers_of_orbits(case):
+    """Two orbits appear at a fold and at a symmetry breaking, or two pairs; one or two of twice the period at a doubling."""
+    system, _, found = case
+    seen = set()
+    for curve in found.curves:
+        if curve.kind not in CHANGES or len(curve) < 20:
+            continue
+        middle = len(curve) // 2
+        along = np.diff(curve.points[middle - 1 : middle + 2 : 2], axis=0)[0] / spans(found)
+        across = np.array([-along[1], along[0]]) / np.hypot(*along) * spans(found)
+        period, symmetric = CHANGES[curve.kind](curve)
+        sides = [
+            count(at(system, curve.points[middle] + off * across), period, symmetric) for off in (-2e-3, 2e-3)
+        ]
+        assert sides[0] != sides[1], str(curve)
+        seen.add(curve.kind)
+    assert seen
+
+
+def test_symmetry_breaking_is_that_of_the_closed_form():
+    system, _, bounds = SYSTEMS["e 0.925"]
+    found = rk.bifurcation_set(system, 1, lines=4, **bounds)
+    (curve,) = (curve for curve in found.curves if curve.kind == "symmetry-breaking")
+    exact = [rk.theory.symmetry_breaking_amplitude(period, 0.925, 1) for period in curve.points[:, 0]]
+    np.testing.assert_allclose(curve.points[:, 1], exact, rtol=1e-9)
+
+
+def test_motions_double_their_period_across_a_curve():
+    system, _, bounds = SYSTEMS["e 0.8"]
+    found = rk.bifurcation_set(system, 1, lines=6, **bounds)
+    curve = max((one for one in found.curves if one.kind == "period-doubling"), key=len)
+    for period, amplitude in curve.points[20:-20:20].tolist():
+        below = rk.find_orbits(at(system, (period, amplitude * 0.995)), 1)
+        stable = next(orbit for orbit in below if orbit.stability == "stable" and not orbit.symmetric)
+        branch = rk.continue_orbit(stable, "amplitude", (amplitude * 0.99, amplitude * 1.01))
+        verdicts = []
+        for factor in (0.999, 1.001):
+            (orbit,) = branch.at(amplitude * factor)
+            start = rk.State(orbit.state.angle + 1e-7, orbit.state.velocity)
+            clocked = rk.Harmonic(orbit.system.forcing.amplitude, period=period, phase=orbit.phase)
+            verdicts.append(rk.classify(rk.System(clocked, 0.8), start))
+        assert [verdict.period for verdict in verdicts] == [1, 2]
+
+
+def test_dataset_holds_every_curve():
+    system, _, bounds = SYSTEMS["e 0.8"]
+    found = rk.bifurcation_set(system, 1, lines=3, **bounds)
+    data = found.to_xarray()
+    assert data.curve_kind.values.tolist() == [curve.kind for curve in found.curves]
+    for number, curve in enumerate(found.curves):
+        part = data.isel(point=data.number.values == number)
+        np.testing.assert_array_equal(np.column_stack([part.period, part.amplitude]), curve.points)
+
+
+def test_picture_shows_each_curve_and_marks_ends_at_grazings():
+    system, _, bounds = SYSTEMS["e 0.925"]
+    found = rk.bifurcation_set(system, 2, lines=6, **bounds)
+    ax = rk.plot.bifurcation_set(found)
+    drawn = [line for line in ax.lines if line.get_gid() != "codimension-2"]
+    assert [line.get_gid() for line in drawn] == [curve.kind for curve in found.curves]
+    marked = sum(len(line.get_xdata()) for line in ax.lines if line.get_gid() == "codimension-2")
+    assert marked == sum(end == "grazing" for curve in found.curves for end in curve.ends)
+    plt.close(ax.figure)
+
+
+@pytest.mark.parametrize(
+    ("call", "message"),
+    [
+        (
+            lambda s: rk.bifurcation_set(s, 1, period=(1, 2)),
+            "ranges must hold the ranges of two different parameters",
+        ),
+        (
+            lambda s: rk.bifurcation_set(s, 1, period=(1, 2), frequency=(3, 6)),
+            "ranges must hold the ranges of two different parameters.*; got 'period, frequency'",
+        ),
+        (lambda s: rk.bifurcation_set(s, 1, period=(1, 2), phase=(0, 1)), "ranges must be"),
+        (lambda s: rk.bifurcation_set(s, 1, period=(2, 1), amplitude=(1, 2)), "bounds must be"),
+        (lambda s: rk.bifurcation_set(s, 0, period=(1, 2), amplitude=(1, 2)), "max_period must be"),
+        (lambda s: rk.bifurcation_set(s, 1, lines=0, period=(1, 2), amplitude=(1, 2)), "lines must be"),
+        (lambda s: rk.bifurcation_set(3, 1, period=(1, 2), amplitude=(1, 2)), "system must be a System"),
+        (
+            lambda s: rk.bifurcation_set(
+                rk.System(s.forcing, 0.9, critical_angle=0.2), 1, period=(1, 2), amplitude=(1, 2)
+            ),
+            "critical_angle must be None",
+        ),
+        (
+            lambda s: rk.bifurcation_set(
+                rk.System(rk.Pulse("one-sine", amplitude=2, duration=1), 0.9),
+                1,
+                period=(1, 2),
+                amplitude=(1, 2),
+            ),
+            "system must have a periodic base motion",
+        ),
+    ],
+)
+def test_refusals(call, message):
+    with pytest.raises((TypeError, ValueError), match=message) as raised:
+        call(SYSTEMS["e 0.8"][0])
+    assert "\n" not in str(raised.value)
