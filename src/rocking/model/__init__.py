@@ -24,6 +24,7 @@ from rocking.model.block import INERTIA_RATIOS, RECTANGLE, SIZES, Block
 from rocking.model.block_formulas import GRAVITY, frequency_parameter, housner_restitution
 from rocking.model.citation import cite
 from rocking.model.classification import Criterion, Kind
+from rocking.model.dataset_attributes import described, named
 from rocking.model.forcing import (
     FREQUENCIES,
     MAX_AMPLITUDE,
@@ -180,6 +181,7 @@ __all__ = [
     "check_writable",
     "cite",
     "counted",
+    "described",
     "exactly_one",
     "finite",
     "frequency_parameter",
@@ -189,6 +191,7 @@ __all__ = [
     "intervals_of",
     "limit_name",
     "members",
+    "named",
     "notebook_renderers",
     "one_of",
     "ordinal",

@@ -10,7 +10,17 @@ from numpy.typing import NDArray
 
 from rocking.kernels.orbits import arclength
 from rocking.kernels.orbits import bifurcation_curve as kernel
-from rocking.model import ReadOnlyArrays, instance, one_of, pair, read_only, refusal, whole, within
+from rocking.model import (
+    NotebookPicture,
+    ReadOnlyArrays,
+    instance,
+    one_of,
+    pair,
+    read_only,
+    refusal,
+    whole,
+    within,
+)
 from rocking.orbits.branch import SpecialPoint, chain_at
 from rocking.orbits.branch_result import ENDS
 from rocking.orbits.datasets import of_curve
@@ -22,7 +32,7 @@ if TYPE_CHECKING:
 
 
 @frozen(eq=False)
-class BifurcationCurve(ReadOnlyArrays):
+class BifurcationCurve(ReadOnlyArrays, NotebookPicture):
     """Curve of special points of one kind in the plane of two parameters; returned by `bifurcation_curve`.
 
     Attributes

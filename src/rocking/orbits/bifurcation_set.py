@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from attrs import field, frozen
 
-from rocking.model import System, instance, one_of, refusal, whole, within
+from rocking.model import NotebookPicture, System, instance, one_of, refusal, whole, within
 from rocking.orbits.bifurcation_curve import BifurcationCurve, bifurcation_curve
 from rocking.orbits.branch import Branch, SpecialPoint
 from rocking.orbits.continuation import continue_orbit, switch_branch
@@ -27,7 +27,7 @@ ON_CURVE = 2.0
 
 
 @frozen
-class BifurcationSet:
+class BifurcationSet(NotebookPicture):
     """Curves of special points in the plane of two parameters; returned by `bifurcation_set`.
 
     Attributes

@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from rocking.orbits.dataset_attributes import coordinate_of, described, named
+from rocking.model import described, named
+from rocking.orbits.dataset_attributes import coordinate_of
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -10,9 +10,9 @@ import numpy as np
 from attrs import field, frozen
 from numpy.typing import NDArray
 
-from rocking.model import Kind, NotebookPicture, ReadOnlyArrays, read_only
+from rocking.model import Kind, NotebookPicture, ReadOnlyArrays, described, named, read_only
 from rocking.orbits.branch import Branch
-from rocking.orbits.dataset_attributes import LONG_NAMES, coordinate_of, described, named
+from rocking.orbits.dataset_attributes import LONG_NAMES, coordinate_of
 
 if TYPE_CHECKING:
     import xarray as xr

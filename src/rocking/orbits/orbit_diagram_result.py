@@ -8,8 +8,17 @@ import numpy as np
 from attrs import field, frozen
 from numpy.typing import NDArray
 
-from rocking.model import NotebookPicture, ReadOnlyArrays, State, System, quantities, read_only
-from rocking.orbits.dataset_attributes import coordinate_of, described, named
+from rocking.model import (
+    NotebookPicture,
+    ReadOnlyArrays,
+    State,
+    System,
+    described,
+    named,
+    quantities,
+    read_only,
+)
+from rocking.orbits.dataset_attributes import coordinate_of
 
 if TYPE_CHECKING:
     import xarray as xr

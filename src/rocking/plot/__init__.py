@@ -17,7 +17,14 @@ from rocking.model import (
     notebook_renderers,
 )
 from rocking.motion import Motion
-from rocking.orbits import Branch, FrequencyResponse, OrbitDiagram, SaddleManifolds
+from rocking.orbits import (
+    BifurcationCurve,
+    BifurcationSet,
+    Branch,
+    FrequencyResponse,
+    OrbitDiagram,
+    SaddleManifolds,
+)
 from rocking.plot.animation import animation
 from rocking.plot.basins import basins
 from rocking.plot.bifurcation_curve import bifurcation_curve
@@ -53,6 +60,7 @@ from rocking.plot.thresholds import thresholds
 from rocking.plot.time_history import time_history
 from rocking.plot.verdict import verdict
 from rocking.plot.zoomable_map import tiles
+from rocking.response import CorrelationDimension, LyapunovSpectrum, SpectralDensity
 
 __all__ = [
     "animation",
@@ -95,7 +103,12 @@ __all__ = [
 ]
 
 for kind, draw in (
+    (BifurcationCurve, bifurcation_curve),
+    (BifurcationSet, bifurcation_set),
     (Branch, branch),
+    (CorrelationDimension, dimension),
+    (LyapunovSpectrum, convergence),
+    (SpectralDensity, spectrum),
     (FrequencyResponse, frequency_response),
     (Motion, overview),
     (OrbitDiagram, orbit_diagram),

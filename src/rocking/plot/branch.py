@@ -1,6 +1,7 @@
 """Branches of periodic orbits over the continuation parameter, with their special points."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -35,8 +36,9 @@ def branch(
         Results of `continue_orbit` and `switch_branch`, over one parameter.
     ax : matplotlib Axes, optional
         Axes to draw into. Default: a new figure, one column wide.
-    quantity : {"peak", "angle", "velocity"}
-        Quantity to draw: the largest |Θ|, or Θ or Θ' at the section, one line per cycle of the period. Default: "peak".
+    quantity : {"peak", "angle", "velocity", "multiplier"}
+        Quantity to draw: the largest |Θ|; Θ or Θ' at the section, one line per cycle of the period; or the modulus |μ| of the
+        largest Floquet multiplier on a logarithmic axis, with a line at 1. Default: "peak".
     phase : float
         Forcing phase ψ of the section, rad. Default: 0.
     block : Block, optional
@@ -70,12 +72,16 @@ def branch(
     ['symmetric, stable', 'symmetric, unstable', 'asymmetric, stable']
     """
     branches = _branches(result)
-    quantity = one_of("quantity", quantity, branch_lines.QUANTITIES)
+    quantity = one_of("quantity", quantity, (*branch_lines.QUANTITIES, "multiplier"))
     phase = within("phase", phase, -MAX_PHASE, MAX_PHASE)
     shown = quantities(block)
     across, x_label = parameter(branches[0].name, block)
-    upright = shown.velocity if quantity == "velocity" else shown.angle
+    scales: dict[str, Callable[[Any], Any]] = {"velocity": shown.velocity, "multiplier": np.asarray}
+    upright = scales.get(quantity, shown.angle)
     ax = style.own(ax, height=3.0)
+    if quantity == "multiplier":
+        ax.set_yscale("log")
+        ax.axhline(1.0, color=style.TABLE, linewidth=0.8, gid="unit")
     for one in sorted(branches, key=lambda one: not one.symmetric):
         line = branch_lines.line(one, quantity, phase).shown(across, upright)
         for stability in Stability:

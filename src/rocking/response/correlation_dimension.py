@@ -3,15 +3,29 @@
 from __future__ import annotations
 
 import math
+from typing import TYPE_CHECKING
 
 import numpy as np
 from attrs import field, frozen
 from numpy.typing import ArrayLike, NDArray
 
-from rocking.model import ReadOnlyArrays, TooShort, read_only, reals, refusal, refuse_if
+from rocking.model import (
+    NotebookPicture,
+    ReadOnlyArrays,
+    TooShort,
+    described,
+    named,
+    read_only,
+    reals,
+    refusal,
+    refuse_if,
+)
 from rocking.motion import Motion
 from rocking.response.pair_counts import pairs_within
 from rocking.response.scaling_region import Scaling, scaling_region
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 Array = NDArray[np.float64]
 
@@ -24,7 +38,7 @@ ROUNDING = 1e-12
 
 
 @frozen(eq=False, slots=False)
-class CorrelationDimension(ReadOnlyArrays):
+class CorrelationDimension(ReadOnlyArrays, NotebookPicture):
     """Correlation dimension of a set of points, with an interval; returned by `correlation_dimension`.
 
     Attributes
@@ -81,6 +95,39 @@ class CorrelationDimension(ReadOnlyArrays):
     def decades(self) -> float:
         """Width of the scaling region, in decades of r."""
         return 0.0 if self.isolated else math.log10(self.scaling_region[1] / self.scaling_region[0])
+
+    def to_xarray(self) -> xr.Dataset:
+        """Return the correlation sums and their slopes as a dataset, which xarray writes to netCDF and pandas to CSV.
+
+        Returns
+        -------
+        xarray.Dataset
+            `correlation_sum` over `radius`; `slope` and `slope_error` along `interval`, between neighbouring radii.
+        """
+        import xarray as xr
+
+        variables = {
+            "correlation_sum": ("radius", self.sums, named("fraction of pairs within the radius")),
+            "slope": (
+                "interval",
+                self.slopes,
+                named("slope of ln C against ln r between neighbouring radii"),
+            ),
+            "slope_error": ("interval", self.slope_errors, named("standard error of the slope")),
+        }
+        radius = "radius", self.radii, named("radius in standard deviations of each coordinate")
+        attributes = described("Correlation dimension of the motion") | {
+            "value": self.value,
+            "interval_ends": list(self.interval),
+            "scaling_region": list(self.scaling_region),
+            "points": self.points,
+            "theiler": self.theiler,
+            "isolated": self.isolated or 0,
+        }
+        return xr.Dataset(variables, {"radius": radius}, attributes)
+
+    def _repr_html_(self) -> str | None:
+        return None if self.isolated else super()._repr_html_()
 
     def __str__(self) -> str:
         if self.isolated:

@@ -9,7 +9,18 @@ from typing import TYPE_CHECKING
 import numpy as np
 from attrs import field, frozen
 
-from rocking.model import VERSION, ReadOnlyArrays, State, System, TooShort, counted, plus_minus, read_only
+from rocking.model import (
+    NotebookPicture,
+    ReadOnlyArrays,
+    State,
+    System,
+    TooShort,
+    counted,
+    described,
+    named,
+    plus_minus,
+    read_only,
+)
 from rocking.response.batch_means import BatchMean, batch_mean
 
 if TYPE_CHECKING:
@@ -19,7 +30,7 @@ HISTORY = np.dtype([("cycles", "i8"), ("values", "f8", 2), ("errors", "f8", 2)])
 
 
 @frozen(eq=False, slots=False)
-class LyapunovSpectrum(ReadOnlyArrays):
+class LyapunovSpectrum(ReadOnlyArrays, NotebookPicture):
     """Both Lyapunov exponents of a motion, with errors; returned by `lyapunov`.
 
     Attributes
@@ -146,40 +157,28 @@ class LyapunovSpectrum(ReadOnlyArrays):
         import xarray as xr
 
         history = self.history
-        per_time = {"units": "1"}
+        running = ("cycles", "exponent")
         variables = {
-            "value": ("exponent", self.values, {"long_name": "Lyapunov exponent per tau"} | per_time),
-            "error": (
-                "exponent",
-                self.errors,
-                {"long_name": "error of the Lyapunov exponent per tau"} | per_time,
-            ),
+            "value": ("exponent", self.values, named("Lyapunov exponent per tau")),
+            "error": ("exponent", self.errors, named("error of the Lyapunov exponent per tau")),
             "running_value": (
-                ("cycles", "exponent"),
+                running,
                 history["values"],
-                {"long_name": "running estimate of the Lyapunov exponent per tau"} | per_time,
+                named("running estimate of the Lyapunov exponent per tau"),
             ),
-            "running_error": (
-                ("cycles", "exponent"),
-                history["errors"],
-                {"long_name": "error of the running estimate per tau"} | per_time,
-            ),
+            "running_error": (running, history["errors"], named("error of the running estimate per tau")),
         }
-        cycles = (
-            "cycles",
-            history["cycles"],
-            {"long_name": "forcing cycles since the transient", "units": "1"},
-        )
-        attributes = {
-            "Conventions": "CF-1.11",
-            "title": "Lyapunov exponents of a free-standing block on a shaking base",
-            "source": f"rocking {VERSION}",
+        cycles = "cycles", history["cycles"], named("forcing cycles since the transient")
+        attributes = described("Lyapunov exponents") | {
             "transient": self.transient,
             "bounded": int(self.bounded),
             "impacts": self.impacts,
             "brace_hits": self.brace_hits,
         }
         return xr.Dataset(variables, {"cycles": cycles}, attributes)
+
+    def _repr_html_(self) -> str | None:
+        return None if self.superstable else super()._repr_html_()
 
     def __str__(self) -> str:
         over = f"over {counted(self.cycles, 'cycle')} after {self.transient:,}"

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from attrs import field, frozen
 
-from rocking.model import ReadOnlyArrays, System, counted, read_only
+from rocking.model import NotebookPicture, ReadOnlyArrays, System, counted, described, named, read_only
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 SHOWN = 16
 SHARE_OF_LINES = 0.9
@@ -55,7 +58,7 @@ class Peak:
 
 
 @frozen(eq=False)
-class SpectralDensity(ReadOnlyArrays):
+class SpectralDensity(ReadOnlyArrays, NotebookPicture):
     """One-sided power spectral density of Θ, in Θ² per (cycle per τ); returned by `spectral_density`.
 
     Attributes
@@ -147,6 +150,46 @@ class SpectralDensity(ReadOnlyArrays):
     def broad_band(self) -> bool:
         """True if more than a tenth of the variance lies outside the spectral lines."""
         return self.line_share < SHARE_OF_LINES
+
+    def to_xarray(self) -> xr.Dataset:
+        """Return the density and its lines as a dataset, which xarray writes to netCDF and pandas to CSV.
+
+        Returns
+        -------
+        xarray.Dataset
+            `density` over `frequency`; `line_frequency`, `line_amplitude` and `line_name` along `line`, the strongest first.
+        """
+        import xarray as xr
+
+        variables = {
+            "density": ("frequency", self.density, named("power spectral density of the angle")),
+            "line_frequency": (
+                "line",
+                np.array([peak.frequency for peak in self.peaks], float),
+                named("frequency of a spectral line in cycles per tau"),
+            ),
+            "line_amplitude": (
+                "line",
+                np.array([peak.amplitude for peak in self.peaks], float),
+                named("amplitude of a spectral line"),
+            ),
+            "line_name": (
+                "line",
+                np.array([peak.name for peak in self.peaks], str),
+                {"long_name": "combination of the forcing frequency f and the rotation frequency f_r"},
+            ),
+        }
+        frequency = "frequency", self.frequency, named("frequency in cycles per tau")
+        attributes = described("Power spectral density of the angle") | {
+            "window": str(self.window),
+            "segment": self.segment,
+            "segments": self.segments,
+            "overlap": self.overlap,
+            "samples": self.samples,
+            "mean": self.mean,
+            "variance": self.variance,
+        }
+        return xr.Dataset(variables, {"frequency": frequency}, attributes)
 
     def __str__(self) -> str:
         unnamed = sum(not peak.name for peak in self.peaks)

@@ -23,6 +23,8 @@ DASHES: dict[Stability, Any] = {
 
 def height_label(quantity: str, shown: Quantities) -> str:
     """Return the label of the vertical axis for a quantity of an orbit."""
+    if quantity == "multiplier":
+        return r"largest Floquet multiplier $|\mu|$"
     if quantity == "peak":
         symbol, _, unit = shown.angle_label.partition("$")[2].partition("$")
         return f"largest $|{symbol.split(' = ')[0]}|${unit}"
@@ -43,12 +45,14 @@ class Line(NamedTuple):
 
 
 def line(branch: Branch, quantity: str, phase: float) -> Line:
-    """Return a branch as one line per cycle of its period, or as one line of its peaks."""
+    """Return a branch as one line per cycle of its period, or as one line of its peaks or largest multipliers."""
     points = branch.points
     values, stability = points["parameter"], points["stability"]
-    heights = (
-        points["peak"][:, None] if quantity == "peak" else branch.section(phase)[:, :, COLUMNS[quantity]]
-    )
+    if quantity in COLUMNS:
+        heights = branch.section(phase)[:, :, COLUMNS[quantity]]
+    else:
+        own = points["peak"] if quantity == "peak" else np.abs(points["multipliers"]).max(axis=1)
+        heights = own[:, None]
     inner = [one for one in branch.special if one.kind != "grazing" and 0 < one.index < len(values)]
     places = np.array([one.index for one in inner], int)
     added = np.array([one.parameter for one in inner], float)
@@ -67,7 +71,9 @@ def line(branch: Branch, quantity: str, phase: float) -> Line:
 
 
 def heights_of(orbit: Orbit, quantity: str, phase: float) -> np.ndarray:
-    """Return the heights of one orbit: its peak, or its angle or velocity at each section."""
+    """Return the heights of one orbit: its peak or largest multiplier, or its angle or velocity at each section."""
+    if quantity == "multiplier":
+        return np.array([max(abs(value) for value in orbit.multipliers)])
     if quantity == "peak":
         return np.array([orbit.motion().peak])
     states = [orbit.at(phase + 2.0 * np.pi * cycle) for cycle in range(orbit.period)]

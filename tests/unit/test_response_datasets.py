@@ -1,0 +1,79 @@
+"""Responses as datasets and as pictures in a notebook."""
+
+import numpy as np
+import pytest
+import xarray as xr
+
+import rocking as rk
+
+PERIOD_3 = rk.System(rk.Harmonic(amplitude=6.5, period=0.4), restitution=0.925)
+RESTS = rk.System(rk.Harmonic(amplitude=1.1, period=2.0), restitution=0.5)
+
+
+@pytest.fixture(scope="module")
+def density():
+    return rk.spectral_density(rk.simulate(PERIOD_3, cycles=1200), transient=600)
+
+
+@pytest.fixture(scope="module")
+def dimension():
+    return rk.correlation_dimension(np.random.default_rng(1).random((6_000, 2)))
+
+
+def read_back(result, folder):
+    """The dataset of a result, written to netCDF and read again."""
+    result.to_xarray().to_netcdf(folder / "result.nc")
+    with xr.open_dataset(folder / "result.nc") as data:
+        return data.load()
+
+
+def test_file_of_a_spectral_density_holds_the_density_and_its_lines(density, tmp_path):
+    data = read_back(density, tmp_path)
+    np.testing.assert_array_equal(data.density, density.density)
+    np.testing.assert_array_equal(data.frequency, density.frequency)
+    assert data.line_name.values.tolist() == [peak.name for peak in density.peaks]
+    assert data.line_amplitude.values.tolist() == [peak.amplitude for peak in density.peaks]
+    assert float(data.density.integrate("frequency")) == pytest.approx(data.attrs["variance"], rel=1e-3)
+
+
+def test_file_of_a_correlation_dimension_gives_the_slopes(dimension, tmp_path):
+    data = read_back(dimension, tmp_path)
+    slopes = np.diff(np.log(data.correlation_sum)) / np.diff(np.log(data.radius))
+    np.testing.assert_allclose(data.slope, slopes, rtol=1e-9)
+    assert data.attrs["value"] == dimension.value
+    assert data.attrs["isolated"] == 0
+
+
+def test_notebooks_show_a_picture_over_the_line(density, dimension):
+    spectrum = rk.lyapunov(PERIOD_3, cycles=300)
+    system = rk.System(rk.Harmonic(amplitude=4.0, period=2.0), restitution=0.9)
+    found = rk.bifurcation_set(system, 1, lines=2, period=(1.5, 2.0), amplitude=(3.0, 12.0))
+    for result in (density, dimension, spectrum, found, found.curves[0]):
+        assert result._repr_html_().startswith(f'<figure><img alt="{str(result)[:20]}')
+
+
+def test_without_a_picture_a_notebook_shows_the_line_alone():
+    assert rk.lyapunov(RESTS, cycles=100)._repr_html_() is None
+    points = rk.simulate(PERIOD_3, cycles=3000, record="section").section()[1000:]
+    assert rk.correlation_dimension(points)._repr_html_() is None
+
+
+def test_multipliers_along_a_branch_pass_1_at_its_special_points():
+    system = rk.System(rk.Harmonic(amplitude=15.0, period=1.0), restitution=0.9)
+    branch = rk.continue_orbit(rk.classify(system).orbit, "amplitude", (10, 30))
+    ax = rk.plot.branch(branch, quantity="multiplier")
+    (breaking,) = (line for line in ax.lines if line.get_gid() == "symmetry-breaking")
+    np.testing.assert_allclose(breaking.get_ydata(), 1.0, rtol=1e-6)
+    lines = {line.get_gid(): line.get_xydata() for line in ax.lines}
+    assert np.nanmax(lines["symmetric, stable"][:, 1]) <= 1.0 + 1e-3
+    unstable = lines["symmetric, unstable"]
+    drawn = unstable[~np.isnan(unstable[:, 1])]
+    assert drawn[-1, 1] == pytest.approx(max(abs(value) for value in branch.points["multipliers"][-1]))
+    assert ax.get_yscale() == "log"
+
+
+def test_a_diagram_of_orbits_has_no_multipliers():
+    with pytest.raises(ValueError, match="quantity must be"):
+        rk.plot.orbit_diagram(
+            rk.orbit_diagram(PERIOD_3, "amplitude", [6.4, 6.5], cycles=5, transient=5), quantity="multiplier"
+        )
