@@ -72,6 +72,22 @@ def test_multipliers_along_a_branch_pass_1_at_its_special_points():
     assert ax.get_yscale() == "log"
 
 
+def test_points_of_each_orbit_are_on_its_section():
+    found = rk.find_orbits(rk.System(rk.Harmonic(amplitude=8.0, period=2.0), restitution=0.925), 2)
+    ax = rk.plot.orbits(found, phase=0.7)
+    drawn = {line.get_gid(): line.get_xydata() for line in ax.lines}
+    for orbit in found:
+        begun = rk.simulate(
+            rk.System(rk.Harmonic(8.0, period=2.0, phase=orbit.phase), 0.925),
+            orbit.state,
+            cycles=orbit.period,
+        )
+        for state in begun.section(0.7):
+            assert np.hypot(*(drawn[str(orbit.stability)] - state).T).min() < 1e-6
+    assert sum(map(len, drawn.values())) == sum(orbit.period for orbit in found)
+    assert found._repr_html_().startswith("<figure>")
+
+
 def test_a_diagram_of_orbits_has_no_multipliers():
     with pytest.raises(ValueError, match="quantity must be"):
         rk.plot.orbit_diagram(

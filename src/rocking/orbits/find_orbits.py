@@ -12,7 +12,7 @@ import numpy as np
 from attrs import evolve, field, frozen
 
 from rocking.kernels.classify import attractor_anchor
-from rocking.model import Orbit, Stability, System, instance, pair, refuse_if, whole, within
+from rocking.model import NotebookPicture, Orbit, Stability, System, instance, pair, refuse_if, whole, within
 from rocking.orbits.datasets import of_orbits
 from rocking.orbits.event_chain import clocked
 from rocking.orbits.find_orbit import newton_from_starts
@@ -35,7 +35,7 @@ PLASTIC = 1.324717957244746
 
 
 @frozen(eq=False)
-class Orbits(Sequence[Orbit]):
+class Orbits(Sequence[Orbit], NotebookPicture):
     """Periodic orbits found by `find_orbits`: a sequence of `Orbit`, ordered by period, then from stable to unstable.
 
     Attributes

@@ -23,6 +23,7 @@ from rocking.orbits import (
     Branch,
     FrequencyResponse,
     OrbitDiagram,
+    Orbits,
     SaddleManifolds,
 )
 from rocking.plot.animation import animation
@@ -41,6 +42,7 @@ from rocking.plot.manifolds import manifolds
 from rocking.plot.melnikov import heteroclinic, melnikov
 from rocking.plot.modes import modes
 from rocking.plot.orbit_diagram import orbit_diagram
+from rocking.plot.orbits import orbits
 from rocking.plot.overturning import overturning
 from rocking.plot.overturning_set import overturning_set
 from rocking.plot.overturning_spectrum import overturning_spectrum
@@ -80,6 +82,7 @@ __all__ = [
     "melnikov",
     "modes",
     "orbit_diagram",
+    "orbits",
     "overturning",
     "overturning_set",
     "overturning_spectrum",
@@ -112,6 +115,7 @@ for kind, draw in (
     (FrequencyResponse, frequency_response),
     (Motion, overview),
     (OrbitDiagram, orbit_diagram),
+    (Orbits, orbits),
     (SaddleManifolds, manifolds),
     (Verdict, verdict),
     (BasinMap, basins),
