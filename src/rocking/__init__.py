@@ -60,6 +60,7 @@ if TYPE_CHECKING:
         FrequencyResponse,
         Manifold,
         OrbitDiagram,
+        OrbitManifolds,
         Orbits,
         SaddleManifolds,
         SpecialPoint,
@@ -72,6 +73,7 @@ if TYPE_CHECKING:
         horseshoe,
         manifold_gap,
         orbit_diagram,
+        orbit_manifolds,
         saddle_manifolds,
         switch_branch,
         tangency_amplitude,
@@ -141,6 +143,7 @@ __all__ = [
     "NoOrbit",
     "Orbit",
     "OrbitDiagram",
+    "OrbitManifolds",
     "Orbits",
     "Outcome",
     "Overturning",
@@ -190,6 +193,7 @@ __all__ = [
     "lyapunov",
     "manifold_gap",
     "orbit_diagram",
+    "orbit_manifolds",
     "overturning_amplitude",
     "overturning_set",
     "overturning_spectrum",
@@ -218,9 +222,9 @@ __all__ = [
 _NAMES = {
     "motion": "Motion simulate",
     "orbits": (
-        "BifurcationCurve BifurcationSet Branch FrequencyResponse Manifold OrbitDiagram Orbits SaddleManifolds "
+        "BifurcationCurve BifurcationSet Branch FrequencyResponse Manifold OrbitDiagram OrbitManifolds Orbits SaddleManifolds "
         "SpecialPoint bifurcation_curve bifurcation_set continue_orbit find_orbit find_orbits frequency_response "
-        "horseshoe manifold_gap orbit_diagram saddle_manifolds switch_branch tangency_amplitude"
+        "horseshoe manifold_gap orbit_diagram orbit_manifolds saddle_manifolds switch_branch tangency_amplitude"
     ),
     "proof": "prove",
     "records": (

@@ -12,6 +12,7 @@ from rocking.orbits.horseshoe import horseshoe
 from rocking.orbits.manifold_tangency import manifold_gap, tangency_amplitude
 from rocking.orbits.orbit_diagram import orbit_diagram
 from rocking.orbits.orbit_diagram_result import OrbitDiagram
+from rocking.orbits.orbit_manifolds import OrbitManifolds, orbit_manifolds
 from rocking.orbits.saddle_manifolds import Manifold, SaddleManifolds, saddle_manifolds
 
 __all__ = [
@@ -22,6 +23,7 @@ __all__ = [
     "FrequencyResponse",
     "Manifold",
     "OrbitDiagram",
+    "OrbitManifolds",
     "Orbits",
     "SaddleManifolds",
     "SpecialPoint",
@@ -34,6 +36,7 @@ __all__ = [
     "horseshoe",
     "manifold_gap",
     "orbit_diagram",
+    "orbit_manifolds",
     "saddle_manifolds",
     "switch_branch",
     "tangency_amplitude",

@@ -3,36 +3,29 @@
 from __future__ import annotations
 
 import math
+from functools import partial
 from typing import Any
 
 import numpy as np
 from attrs import field, frozen
 from numpy.typing import NDArray
 
-from rocking.kernels.march import march
 from rocking.kernels.orbits import saddle_manifold as kernel
 from rocking.model import (
     MAX_PHASE,
     NotebookPicture,
     ReadOnlyArrays,
     System,
-    TooManyEvents,
     read_only,
     whole,
     within,
 )
-from rocking.orbits.saddle_orbits import check, parameters, response, saddle
+from rocking.orbits.manifold_growth import grown, pieces, region
+from rocking.orbits.saddle_orbits import check, parameters, response, saddle, too_many_impacts
 
 MAX_CYCLES = 100
 SPACINGS = (1e-5, 1.0)
-# Largest angle between neighbouring pieces of a curve, rad, if they are longer than this fraction of the spacing.
-BEND, SHORT = 0.2, 1e-2
 FIRST_POINTS = 64
-MAX_POINTS = 400_000
-# Smallest difference of departure times, in periods, above rounding.
-FINEST = 1e-13
-# Margin around the region of bounded motions.
-MARGIN = 0.5
 
 
 @frozen(eq=False)
@@ -199,79 +192,22 @@ def saddle_manifolds(
 def _manifold(
     system: System, phase: float, cycles: int, spacing: float, side: int, backward: bool
 ) -> Manifold:
-    beta, frequency = response(system), system.harmonic.frequency
-    box = np.array([1.0 + beta, 1.0 + beta * (1.0 + frequency)]) + MARGIN
+    box = region(response(system), system.harmonic.frequency)
     p = parameters(system, phase, backward)
-    times, points, resolved = _grown(p, side, cycles, spacing, box)
+    first = np.linspace(0.0, cycles * p.forcing.period, FIRST_POINTS * cycles + 1)
+    times, points, resolved = grown(partial(_images, p, side), first, spacing, box)
     centre = np.array(saddle(system, -phase if backward else phase, side))
     end = centre + side * (2.0 * box.max())
-    rows = _within(points, box)
-    # An impact at the phase of the section makes the curve discontinuous: Θ' jumps to e Θ'.
-    torn = np.concatenate([[False], np.hypot(*np.diff(points, axis=0).T) > spacing])
-    apart = np.flatnonzero((np.diff(rows) > 1) | torn[rows[1:]]) + 1
-    curve = np.concatenate([[end, centre], np.insert(points[rows], apart, math.nan, axis=0)])
-    moments = np.concatenate([[math.nan, -math.inf], np.insert(times[rows], apart, math.nan)])
+    moments, curve = pieces(times, points, spacing, box)
+    curve = np.concatenate([[end, centre], curve])
+    moments = np.concatenate([[math.nan, -math.inf], moments])
     if backward:
         curve[:, 1] *= -1.0
     return Manifold(stable=backward, side=side, points=curve, times=moments, resolved=resolved)
 
 
-def _within(points: np.ndarray, box: np.ndarray) -> np.ndarray:
-    """Return the indices of the points inside the box, and of their neighbours."""
-    inside = (np.abs(points) <= box).all(axis=1)
-    near = inside.copy()
-    near[1:] |= inside[:-1]
-    near[:-1] |= inside[1:]
-    return np.flatnonzero(near & np.isfinite(points).all(axis=1))
-
-
-def _grown(
-    p: Any, side: int, cycles: int, spacing: float, box: np.ndarray
-) -> tuple[np.ndarray, np.ndarray, bool]:
-    """Grow the inner half of a manifold, with points added until neighbours are close.
-
-    Returns
-    -------
-    tuple of (ndarray, ndarray, bool)
-        Times; points; True if the curve is resolved.
-    """
-    times = np.linspace(0.0, cycles * p.forcing.period, FIRST_POINTS * cycles + 1)
-    points = _images(p, side, times)
-    while True:
-        wide = _too_wide(points, spacing, box)
-        wide &= np.diff(times) > FINEST * cycles * p.forcing.period
-        if not wide.any():
-            return times, points, True
-        if len(times) + wide.sum() > MAX_POINTS:
-            return times, points, False
-        new = 0.5 * (times[:-1] + times[1:])[wide]
-        where = np.flatnonzero(wide) + 1
-        points = np.insert(points, where, _images(p, side, new), axis=0)
-        times = np.insert(times, where, new)
-
-
 def _images(p: Any, side: int, times: np.ndarray) -> np.ndarray:
     out = np.empty((len(times), 2))
     if not kernel.images(p, side, times, out):
-        raise TooManyEvents(
-            f"more than {march.MAX_EVENTS:,} impacts before one point: the block chatters with little energy loss "
-            "(reduce restitution or cycles)"
-        )
+        raise too_many_impacts("restitution or cycles")
     return out
-
-
-def _too_wide(points: np.ndarray, spacing: float, box: np.ndarray) -> np.ndarray:
-    """Return which pieces between neighbours must be halved: too long, too bent, or across the region of bounded motions."""
-    with np.errstate(invalid="ignore", over="ignore"):
-        steps = np.diff(points, axis=0)
-        lengths = np.hypot(*steps.T)
-        inside = (np.abs(points) <= box).all(axis=1)
-        seen = inside[:-1] | inside[1:] | (np.sign(points[:-1, 0]) != np.sign(points[1:, 0]))
-        wide = seen & ~(lengths <= spacing)
-        cross = steps[:-1, 0] * steps[1:, 1] - steps[:-1, 1] * steps[1:, 0]
-        dot = (steps[:-1] * steps[1:]).sum(axis=1)
-        bent = (np.abs(np.arctan2(cross, dot)) > BEND) & inside[1:-1]
-        long = lengths > SHORT * spacing
-        wide[:-1] |= bent & long[:-1] & seen[:-1]
-        wide[1:] |= bent & long[1:] & seen[1:]
-    return wide

@@ -7,7 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from rocking.model import OrbitEvent, State, System, instance, refusal, refuse_if
+from rocking.kernels.march import march
+from rocking.model import OrbitEvent, State, System, TooManyEvents, instance, refusal, refuse_if
 from rocking.motion import start_march
 from rocking.theory import saddle_orbit
 
@@ -17,18 +18,29 @@ ON_IT = 1e-8
 
 def check(system: System) -> None:
     """Raise ValueError for a system without saddle orbits on one side of Θ = 0, or with impacts that cannot be reversed."""
-    instance("system", system, System).harmonic  # noqa: B018 (it refuses)
-    if system.braces is not None:
-        raise ValueError(
-            refusal("system", "have no braces: there are no saddle orbits between them", system.braces)
-        )
-    refuse_if(
-        system.restitution == 0.0, "restitution", "be positive, so that impacts can be reversed in time", 0.0
-    )
+    instance("system", system, System)
+    check_reversible(system)
     if response(system) >= 1.0:
         most = 1.0 + system.harmonic.frequency**2
         allowed = f"be below 1 + Ω² = {most:.6g}, where the saddle orbits touch Θ = 0"
         raise ValueError(refusal("amplitude", allowed, system.harmonic.amplitude))
+
+
+def check_reversible(system: System) -> None:
+    """Raise ValueError for a system with braces, or with impacts that cannot be reversed in time."""
+    _ = system.harmonic  # refuses other base motions, and the full block
+    if system.braces is not None:
+        raise ValueError(refusal("system", "have no braces", system.braces))
+    refuse_if(
+        system.restitution == 0.0, "restitution", "be positive, so that impacts can be reversed in time", 0.0
+    )
+
+
+def too_many_impacts(remedy: str) -> TooManyEvents:
+    """Return the error for a motion with too many impacts; ``remedy`` is what should be reduced."""
+    return TooManyEvents(
+        f"more than {march.MAX_EVENTS:,} impacts before one point: the block chatters with little energy loss (reduce {remedy})"
+    )
 
 
 def response(system: System) -> float:

@@ -23,6 +23,7 @@ from rocking.orbits import (
     Branch,
     FrequencyResponse,
     OrbitDiagram,
+    OrbitManifolds,
     Orbits,
     SaddleManifolds,
 )
@@ -42,6 +43,7 @@ from rocking.plot.manifolds import manifolds
 from rocking.plot.melnikov import heteroclinic, melnikov
 from rocking.plot.modes import modes
 from rocking.plot.orbit_diagram import orbit_diagram
+from rocking.plot.orbit_manifolds import orbit_manifolds
 from rocking.plot.orbits import orbits
 from rocking.plot.overturning import overturning
 from rocking.plot.overturning_set import overturning_set
@@ -82,6 +84,7 @@ __all__ = [
     "melnikov",
     "modes",
     "orbit_diagram",
+    "orbit_manifolds",
     "orbits",
     "overturning",
     "overturning_set",
@@ -115,6 +118,7 @@ for kind, draw in (
     (FrequencyResponse, frequency_response),
     (Motion, overview),
     (OrbitDiagram, orbit_diagram),
+    (OrbitManifolds, orbit_manifolds),
     (Orbits, orbits),
     (SaddleManifolds, manifolds),
     (Verdict, verdict),

@@ -1,5 +1,7 @@
 """Unstable manifolds of the saddle orbit 1 + beta cos psi and its mirror image, inward branches, along exact lines.
 
+For other orbits there are images of any states on the section.
+
 On its side of the base every motion that comes from the saddle orbit is s = (u, u')_saddle - c e^t (1, 1). It
 has not touched the base before as long as c e^t < 1 - beta. So the lines need no small distance from the
 saddle, and the time spent near it does not magnify rounding.
@@ -19,7 +21,7 @@ from rocking.kernels.march.event_rows import state_at
 from rocking.kernels.march.impact_law import after_event
 from rocking.kernels.march.initial_state import UNKNOWN, begin
 from rocking.kernels.march.march import MAX_EVENTS
-from rocking.kernels.signature import Floats1, Floats2
+from rocking.kernels.signature import Floats1, Floats2, Integers1
 
 # Distance from the saddle orbit, over 1 - beta, at which a motion is started.
 NEAR = 0.5
@@ -44,6 +46,30 @@ def leaving(p, side):
     return side * (1.0 + displacement - distance), side * (forced_velocity - distance)
 
 
+@njit(**INTERNAL)
+def section_after(q, angle, velocity, cycles, wait):
+    """Return whether the events were not too many, and (Theta, Theta') after whole cycles and a further time.
+
+    A motion that overturns is followed all the same.
+    """
+    progress, _ = begin(q, angle, velocity, UNKNOWN)
+    mode, arc, crowd = progress.mode, progress.arc, 0
+    while True:
+        end = cycles * q.forcing.period + wait
+        coming = any_event(q, mode, arc)
+        at = arc.start + coming.wait
+        if at > end:
+            break
+        crowd += 1
+        if crowd > MAX_EVENTS:
+            return False, 0.0, 0.0
+        mode, arc = after_event(q, arc, at, coming, end - at)
+        while cycles > 0 and arc.start > q.forcing.period:
+            arc, cycles = shift_clock(arc, q.forcing.period), cycles - 1
+    angle, velocity = state_at(q, mode, arc, end - arc.start)
+    return True, angle, velocity
+
+
 @entry_point(**KERNEL)
 def images(p: HarmonicParameters, side: int, times: Floats1, out: Floats2) -> bool:
     """Write (Theta, Theta') into ``out`` (n, 2), at the section psi = phase, a time ``times[k]`` after ``leaving``.
@@ -55,21 +81,22 @@ def images(p: HarmonicParameters, side: int, times: Floats1, out: Floats2) -> bo
         wait = min(max(times[k] - cycles * p.forcing.period, 0.0), p.forcing.period)
         q = later(p, -wait)
         angle, velocity = leaving(q, side)
-        progress, _ = begin(q, angle, velocity, UNKNOWN)
-        mode, arc, crowd = progress.mode, progress.arc, 0
-        while True:
-            end = cycles * q.forcing.period + wait
-            coming = any_event(q, mode, arc)
-            at = arc.start + coming.wait
-            if at > end:
-                break
-            crowd += 1
-            if crowd > MAX_EVENTS:
-                return False
-            mode, arc = after_event(q, arc, at, coming, end - at)
-            while cycles > 0 and arc.start > q.forcing.period:
-                arc, cycles = shift_clock(arc, q.forcing.period), cycles - 1
-        out[k, 0], out[k, 1] = state_at(q, mode, arc, end - arc.start)
+        followed, out[k, 0], out[k, 1] = section_after(q, angle, velocity, cycles, wait)
+        if not followed:
+            return False
+    return True
+
+
+@entry_point(**KERNEL)
+def returns(p: HarmonicParameters, starts: Floats2, cycles: Integers1, out: Floats2) -> bool:
+    """Write (Theta, Theta') into ``out`` (n, 2), ``cycles[k]`` forcing cycles after the state ``starts[k]`` at the section.
+
+    Returns False if a motion has too many events.
+    """
+    for k in range(starts.shape[0]):
+        followed, out[k, 0], out[k, 1] = section_after(p, starts[k, 0], starts[k, 1], cycles[k], 0.0)
+        if not followed:
+            return False
     return True
 
 
