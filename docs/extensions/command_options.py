@@ -16,6 +16,7 @@ GROUPS = {
 }
 REST = "Runs and files"
 AXIS = "|AXIS"  # end of the placeholder of a value that may be an axis
+RANGE = "|RANGE"  # end of that of a value that may be a range
 
 
 class Option(NamedTuple):
@@ -28,8 +29,8 @@ class Option(NamedTuple):
 
     @property
     def signature(self):
-        """Spelling with the placeholder of its value, without the axis that some commands allow."""
-        return f"{self.typed} {self.value.removesuffix(AXIS)}".strip()
+        """Spelling with the placeholder of its value, without the axis or the range that some commands allow."""
+        return f"{self.typed} {self.value.removesuffix(AXIS).removesuffix(RANGE)}".strip()
 
     @property
     def meaning(self):

@@ -7,7 +7,7 @@
 import inspect
 import re
 
-from command_options import AXIS, GROUPS, REST, commands, group_of, options, shared
+from command_options import AXIS, GROUPS, RANGE, REST, commands, group_of, options, shared
 from docutils import nodes
 from docutils.parsers.rst import Directive
 from docutils.statemachine import StringList
@@ -79,11 +79,15 @@ class Command(Made):
         )
         yield from ("", f"Usage: `rocking {name} [OPTIONS]{arguments}`", "")
         common = [one for one in options(name) if one.meaning in shared()]
-        axes = [one for one in common if one.value.endswith(AXIS)]
+        axes, ranges = ([one for one in common if one.value.endswith(end)] for end in (AXIS, RANGE))
         groups = [
             (title, [one for one in common if group_of(one.name) == title]) for title in (*GROUPS, REST)
         ]
-        for title, members in [*groups, ("An axis is possible for", axes)]:
+        for title, members in [
+            *groups,
+            ("An axis is possible for", axes),
+            ("A range is possible for", ranges),
+        ]:
             if members:
                 yield f"- {title}: {', '.join(map(link, members))}"
         yield from ("", f"```{{program}} rocking {name}", "```", "")

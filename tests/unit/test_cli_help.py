@@ -24,7 +24,8 @@ def examples(printed, command):
 
 def made_small(example):
     """Return an example with fewer points, cycles or samples, which run the same code in less time."""
-    example = re.sub(r"(:\d+)\b(?= |$)", lambda count: f":{min(int(count[0][1:]), 9)}", example)
+    # the third number of an axis; the second one of a range is its end
+    example = re.sub(r"(:[^ :]+:)(\d+)\b(?= |$)", lambda axis: f"{axis[1]}{min(int(axis[2]), 9)}", example)
     return re.sub(r"--samples \d+", "--samples 50", example)
 
 

@@ -11,8 +11,8 @@ from rocking.cli.option_names import NORMALISED, SI
 
 GROUPS = dict.fromkeys(NORMALISED, "Normalised input") | dict.fromkeys(SI, "SI input")
 UNITS = "θcr is the critical angle of the block, α its frequency parameter."
-# Wide enough for `--brace-restitution NUMBER|AXIS`.
-MAX_COLUMN = 31
+# Wide enough for `--brace-restitution NUMBER|RANGE`.
+MAX_COLUMN = 32
 DEFAULT = re.compile(r"  \[default: (.+?)(?:\.0)?\]$")
 # Characters at which no line breaks, so that names stay whole and a default stands next to its value.
 UNBROKEN = {"-": "\u2011", "Default: ": "Default:\u00a0"}

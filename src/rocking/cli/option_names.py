@@ -17,6 +17,7 @@ TOLD = tuple(name for name in (*SYSTEM, *START) if name not in SI)
 """Quantities of a survey, in the order in which they are printed."""
 COUNTS = ("max_cycles", "max_period")
 AXIS_FORM = "START:STOP:COUNT"
+RANGE_FORM = "START:STOP"
 
 
 class YourInput(typer.TyperException):

@@ -1,14 +1,15 @@
-"""Options whose value may be an axis, START:STOP:COUNT."""
+"""Options whose value may be an axis, START:STOP:COUNT, or a range, START:STOP."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from contextlib import suppress
 from typing import Any, NamedTuple
 
 import typer
 
 from rocking.cli.input.options import number, number_option
-from rocking.cli.option_names import AXIS_FORM
+from rocking.cli.option_names import AXIS_FORM, RANGE_FORM, YourInput, option
 
 DEFAULT_COUNT = 200
 MAX_POINTS = 1_000_000
@@ -20,6 +21,13 @@ class Axis(NamedTuple):
     start: float
     stop: float
     points: int
+
+
+class Range(NamedTuple):
+    """Values from one end to the other, in the order typed."""
+
+    start: float
+    stop: float
 
 
 def number_or_axis(text: str) -> float | Axis:
@@ -38,6 +46,30 @@ def number_or_axis(text: str) -> float | Axis:
     )
 
 
+def number_or_range(text: str) -> float | Range:
+    """Return the number or the range START:STOP in a text."""
+    if not isinstance(text, str):  # a default
+        return text
+    with suppress(typer.BadParameter):
+        return number(text)
+    with suppress(ValueError):
+        start, stop = text.split(":")
+        ends = Range(float(start), float(stop))
+        if ends.start != ends.stop:
+            return ends
+    raise typer.BadParameter(
+        f"must be a number or {RANGE_FORM} with START ≠ STOP; got {text!r} (example: 1:3)"
+    )
+
+
+def only_axis(text: str) -> Axis:
+    """Return the axis START:STOP:COUNT in a text; COUNT is optional."""
+    found = number_or_axis(text)
+    if isinstance(found, Axis):
+        return found
+    raise typer.BadParameter(f"must be {AXIS_FORM}; got {text!r} (example: 1:3:60)")
+
+
 def axis_option(name: str, text: str) -> Any:
     """Declare an option whose value is an axis."""
     return typer.Option(name, parser=number_or_axis, metavar="AXIS", help=text)
@@ -48,6 +80,29 @@ def value_option(name: str, text: str) -> Any:
     if name in ("--height", "--width"):
         return number_option(name, text)
     return typer.Option(name, parser=number_or_axis, metavar="NUMBER|AXIS", help=text)
+
+
+def range_option(name: str, text: str) -> Any:
+    """Declare an option whose value is a number or a range; phase, height and width are numbers."""
+    if name in ("--height", "--width", "--phase"):
+        return number_option(name, text)
+    return typer.Option(name, parser=number_or_range, metavar="NUMBER|RANGE", help=text)
+
+
+def forcing_axis_option(name: str, text: str) -> Any:
+    """Declare an option whose value is an axis if it is a period or a frequency, else a number."""
+    if name.startswith(("--period", "--frequency")):
+        return typer.Option(name, parser=only_axis, metavar="AXIS", help=text)
+    return number_option(name, text)
+
+
+def check_displacement(given: Mapping[str, Any], varied: str) -> None:
+    """Raise YourInput if the displacement is fixed and the frequency varies: the amplitude then varies, too."""
+    if given["displacement"] is not None and varied in ("frequency_hz", "period_s"):
+        raise YourInput(
+            f"--displacement with {'an axis' if isinstance(given[varied], Axis) else 'a range'} of {option(varied)} varies "
+            "amplitude and frequency: use --acceleration instead"
+        )
 
 
 # SI option → the normalised quantity that it varies.

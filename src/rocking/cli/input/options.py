@@ -21,6 +21,8 @@ Command = TypeVar("Command", bound=Callable[..., None])
 
 def number(text: str) -> float:
     """Return the number in a text: an int if possible, else a float."""
+    if not isinstance(text, str):  # a default
+        return text
     for kind in (int, float):
         with suppress(ValueError):
             return kind(text)
@@ -155,6 +157,13 @@ VerdictPlot = Annotated[
 MaxCycles = Annotated[int, number_option("--max-cycles", "Maximum number of forcing cycles.")]
 MaxPeriod = Annotated[
     int, number_option("--max-period", "Longest response period sought, in forcing cycles.")
+]
+Step = Annotated[
+    float,
+    number_option(
+        "--step",
+        "Largest step along a branch, in units of the range and of one radian of phase, in [1e-6, 0.1].",
+    ),
 ]
 Prove = Annotated[
     bool,

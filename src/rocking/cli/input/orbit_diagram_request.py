@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from rocking.cli.input.axis import VARIES, Axis
+from rocking.cli.input.axis import VARIES, Axis, check_displacement
 from rocking.cli.input.options import question
 from rocking.cli.option_names import ARGUMENTS, AXIS_FORM, YourInput, option, options, your_input
 
@@ -40,10 +40,7 @@ def study(given: Mapping[str, Any]) -> Study:
         got = " and ".join(map(option, axes)) or "none"
         raise YourInput(f"exactly one option must be an axis, {AXIS_FORM}; got {got}")
     name, axis = axes[0], given[axes[0]]
-    if given["displacement"] is not None and name in ("frequency_hz", "period_s"):
-        raise YourInput(
-            f"--displacement with an axis of {option(name)} varies amplitude and frequency: use --acceleration instead"
-        )
+    check_displacement(given, name)
     values = np.linspace(axis.start, axis.stop, axis.points)
     # Valid ranges are intervals, so that two valid ends imply valid values between them.
     system, start, block = question({**given, name: axis.start})

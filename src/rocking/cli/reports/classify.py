@@ -38,10 +38,10 @@ def found(verdict: Verdict, block: Block | None) -> Iterator[Row]:
         time = orbit.period * verdict.system.periodic.period
         seconds = "" if block is None else f"{block.seconds(time):.4g} s"
         yield "period", f"{counted(orbit.period, 'cycle')}, τ = {time:.6g}", seconds
-        yield "impacts per period", _count(orbit.impacts), ""
+        yield "impacts per period", count_shown(orbit.impacts), ""
         if verdict.system.braces is not None:
-            yield "brace impacts per period", _count(orbit.brace_hits), ""
-        yield "Floquet multipliers", _pair(*orbit.multipliers), ""
+            yield "brace impacts per period", count_shown(orbit.brace_hits), ""
+        yield "Floquet multipliers", multipliers_shown(*orbit.multipliers), ""
         if orbit.proof is not None and orbit.proof.proved:
             yield "proof", f"{orbit.proof.bits} bits, multipliers to {_accuracy(orbit.proof)}", ""
     if exponent is not None:
@@ -86,7 +86,7 @@ def record(verdict: Verdict, block: Block | None, file: Path | None) -> dict[str
         "orbit": None
         if orbit is None
         else {"phase": orbit.phase, "residual": orbit.residual} | attrs.asdict(orbit.state),
-        "proof": None if orbit is None or orbit.proof is None else _proof(orbit.proof),
+        "proof": None if orbit is None or orbit.proof is None else proof_record(orbit.proof),
         "files": [] if file is None else [str(file)],
     }
     if block is None:
@@ -96,7 +96,7 @@ def record(verdict: Verdict, block: Block | None, file: Path | None) -> dict[str
     return told | {"block": physical(verdict, block), "judged": over, "validity": record}
 
 
-def _proof(proof: Proof) -> dict[str, Any]:
+def proof_record(proof: Proof) -> dict[str, Any]:
     """Return the proof as a JSON object; multipliers are [real, imaginary, radius]."""
     told = attrs.asdict(proof, filter=attrs.filters.exclude("system", "multipliers"))
     discs = [[value.real, value.imag, radius] for value, radius in proof.multipliers or ()]
@@ -108,11 +108,13 @@ def _accuracy(proof: Proof) -> str:
     return f"±{max((radius for _, radius in proof.multipliers or ()), default=0.0):.1e}"
 
 
-def _count(hits: int | None) -> str:
+def count_shown(hits: int | None) -> str:
+    """Return a number of impacts per period as text; None stands for infinitely many."""
     return "infinitely many, before rest or sustained contact with a brace" if hits is None else f"{hits}"
 
 
-def _pair(larger: complex, smaller: complex) -> str:
+def multipliers_shown(larger: complex, smaller: complex) -> str:
+    """Return two Floquet multipliers as text, conjugate ones with one ±."""
     if larger.imag:
         return f"{larger.real:.6g} ± {abs(larger.imag):.6g}i"
     return f"{larger.real:.6g}, {smaller.real:.6g}"
