@@ -1,0 +1,240 @@
+"""`rocking continue`: one range among the options, output, files and error messages."""
+
+import csv
+import json
+
+import numpy as np
+import pytest
+import xarray as xr
+
+import rocking as rk
+
+LINE = "--amplitude 7:0.1 --period 1.721328 --restitution 0.8"
+SYSTEM = rk.System(rk.Harmonic(7.0, period=1.721328), 0.8)
+SI = "--height 2 --width 0.5 --step 0.05"
+
+
+@pytest.fixture(scope="module")
+def branch():
+    return rk.continue_orbit(rk.classify(SYSTEM).orbit, "amplitude", (0.1, 7.0))
+
+
+def told(rocking, line):
+    code, message, out = rocking(f"continue {line} --json")
+    assert (code, message) == (0, "")
+    return json.loads(out, parse_constant=pytest.fail)
+
+
+def rows_of(out):
+    return dict(line.split("   ", 1) for line in out.splitlines()[1:] if "   " in line)
+
+
+def test_branch_comes_first_then_special_points_and_ends(rocking, branch):
+    code, message, out = rocking(f"continue {LINE}")
+    assert (code, message) == (0, "")
+    assert out.splitlines()[0] == str(branch)
+    rows = {name: value.strip() for name, value in rows_of(out).items()}
+    assert rows["varied"] == "--amplitude 7 to 0.1"
+    assert rows["orbit followed"] == f"stable {branch.orbit(len(branch) - 1)}"
+    assert rows["first end"] == f"amplitude {branch.points['parameter'][0]:.6g}: grazing"
+    assert rows["last end"] == "amplitude 7: end of the range"
+    assert rows["largest |Θ|"] == f"{branch.points['peak'].max():.6g}"
+
+
+def test_fold_lies_at_the_existence_amplitude(rocking):
+    fold = rows_of(rocking(f"continue {LINE}")[2])["fold"].split()[-1]
+    assert float(fold) == pytest.approx(rk.theory.existence_amplitude(1.721328, 0.8, 1), abs=1e-9)
+
+
+def test_json_holds_the_numbers(rocking, branch):
+    read = told(rocking, LINE)
+    assert (read["parameter"], read["period"], read["points"]) == ("amplitude", 1.721328, len(branch))
+    assert read["stable_points"] == int(branch.points["stable"].sum()) < len(branch)
+    assert [(each["kind"], each["amplitude"]) for each in read["special"]] == [
+        (special.kind, special.parameter) for special in branch.special
+    ]
+    assert [each["reason"] for each in read["ends"]] == list(branch.ends)
+    assert read["orbit"]["stability"] == "stable"
+    start = rk.State(**read["orbit"]["start"])
+    motion = rk.simulate(SYSTEM, start, cycles=1)
+    assert motion.final.angle == pytest.approx(start.angle, abs=1e-9)
+
+
+def test_files_hold_every_point(rocking, branch, tmp_path):
+    code, _, out = rocking(f"continue {LINE} --plot a.png --csv a.csv --netcdf a.nc")
+    assert (code, out.splitlines()[-3:]) == (0, ["wrote a.png", "wrote a.csv", "wrote a.nc"])
+    assert (tmp_path / "a.png").stat().st_size > 5000
+    with (tmp_path / "a.csv").open(encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    for heading, values in {
+        "amplitude [g theta_cr]": branch.points["parameter"],
+        "phase [rad]": branch.points["phase"],
+        "velocity [alpha theta_cr]": branch.points["velocity"],
+        "peak [theta_cr]": branch.points["peak"],
+        "multiplier_1_real": branch.points["multipliers"][:, 0].real,
+        "multiplier_2_imag": branch.points["multipliers"][:, 1].imag,
+    }.items():
+        np.testing.assert_array_equal([float(row[heading]) for row in rows], values)
+    assert [row["stability"] for row in rows] == branch.points["stability"].tolist()
+    data = xr.load_dataset(tmp_path / "a.nc", engine="h5netcdf")
+    np.testing.assert_array_equal(data["parameter"], branch.points["parameter"])
+    assert data["special"].values.tolist() == [special.kind for special in branch.special]
+    assert (data.attrs["period"], data.attrs["restitution"]) == (1.721328, 0.8)
+    assert "amplitude" not in data.attrs
+
+
+def test_orbit_is_found_where_asked_and_followed_both_ways(rocking):
+    read = told(rocking, "--amplitude 10:30 --at 15 --period 1 --restitution 0.9 --step 0.05")
+    assert (read["amplitude"], read["period"]) == (15.0, 1.0)
+    assert [each["amplitude"] for each in read["ends"]] == [10.0, 30.0]
+    (special,) = read["special"]
+    closed_form = rk.theory.symmetry_breaking_amplitude(1.0, 0.9, 1)
+    assert (special["kind"], special["amplitude"]) == (
+        "symmetry-breaking",
+        pytest.approx(closed_form, abs=1e-9),
+    )
+
+
+def test_response_period_finds_an_unstable_orbit_near_the_initial_state(rocking):
+    line = "--amplitude 5:6.5 --at 5.5 --period 0.5 --restitution 0.925 --angle 0.064 --velocity 0.054"
+    read = told(rocking, f"{line} --response-period 3 --step 0.05")
+    system = rk.System(rk.Harmonic(5.5, period=0.5), 0.925)
+    orbit = rk.find_orbit(system, rk.State(0.064, 0.054), 3)
+    assert [complex(*pair) for pair in read["orbit"]["multipliers"]] == list(orbit.multipliers)
+    assert (read["orbit"]["period"], read["orbit"]["stability"]) == (3, "unstable")
+    assert told(rocking, f"{line} --step 0.05")["orbit"]["stability"] == "stable"
+
+
+@pytest.mark.parametrize(
+    ("line", "parameter", "ends"),
+    [
+        ("--amplitude 5 --period 0.4:0.6 --restitution 0.925", "period", (0.4, 0.6)),
+        ("--amplitude 5 --frequency 14:12 --restitution 0.925", "frequency", (12.0, 14.0)),
+        ("--amplitude 5 --period 0.5 --restitution 0.8:0.9", "restitution", (0.8, 0.9)),
+        ("--amplitude 3 --period 1 --restitution 0.9 --brace-angle 0.05:0.1", "brace_angle", (0.05, 0.1)),
+        (
+            "--amplitude 3 --period 1 --restitution 0.9 --brace-angle 0.05 --brace-restitution 1:0.9",
+            "brace_restitution",
+            (0.9, 1.0),
+        ),
+        (
+            "--amplitude 3 --period 1 --restitution 0.9 --critical-angle 0.2:0.3 --step 0.1",
+            "critical_angle",
+            (0.2, 0.3),
+        ),
+    ],
+)
+def test_every_parameter_can_be_the_range(rocking, line, parameter, ends):
+    read = told(rocking, f"{line} --step 0.1")
+    assert read["parameter"] == parameter
+    assert [each[parameter] for each in read["ends"]] == pytest.approx(ends)
+
+
+@pytest.mark.parametrize(
+    ("line", "key", "ends"),
+    [
+        ("--acceleration 4:2 --frequency-hz 1.2", "acceleration_m_per_s2", (2.0, 4.0)),
+        ("--displacement 0.05:0.08 --frequency-hz 1.2", None, (0.05, 0.08)),
+        ("--acceleration 4 --frequency-hz 1.8:1.2", "frequency_hz", (1.2, 1.8)),
+        ("--acceleration 4 --period-s 0.6:0.8 --at 0.7", "period_s", (0.6, 0.8)),
+    ],
+)
+def test_ranges_in_si_vary_what_they_are_proportional_to(rocking, tmp_path, line, key, ends):
+    read = told(rocking, f"{SI} {line} --csv a.csv --netcdf a.nc")
+    block = rk.Block(2.0, 0.5)
+    if key is None:
+        key = "acceleration_m_per_s2"
+        ends = [
+            block.acceleration(block.system(displacement=each, frequency_hz=1.2).forcing.amplitude)
+            for each in ends
+        ]
+    assert [each[key] for each in read["ends"]] == pytest.approx(ends)
+    data = xr.load_dataset(tmp_path / "a.nc", engine="h5netcdf")
+    assert data[key].values[[0, -1]] == pytest.approx(ends)
+    with (tmp_path / "a.csv").open(encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    heading = {"acceleration_m_per_s2": "acceleration [m/s^2]", "period_s": "period [s]"}.get(
+        key, "frequency [Hz]"
+    )
+    assert float(rows[-1][heading]) == pytest.approx(ends[1])
+    peaks = [float(row["peak [rad]"]) for row in rows]
+    assert np.degrees(max(peaks)) == pytest.approx(read["block"]["peak_deg"])
+
+
+def test_full_block_is_followed(rocking):
+    line = "--height 2 --width 1 --step 0.1 --acceleration 6:6.5 --frequency-hz 1.2"
+    read = told(rocking, f"{line} --model full")
+    block = rk.Block(2.0, 1.0)
+    ends = [
+        block.system(acceleration=each, frequency_hz=1.2, model="full").forcing.amplitude
+        for each in (6.0, 6.5)
+    ]
+    system = block.system(acceleration=6.0, frequency_hz=1.2, model="full")
+    branch = rk.continue_orbit(rk.classify(system).orbit, "amplitude", tuple(ends), step=0.1)
+    assert read["peak"] == branch.points["peak"].max()
+    assert read["warnings"] == []
+    assert "outside the slender range" in rocking(f"continue {line}")[2]
+
+
+NORMALISED = "--period 1 --restitution 0.9"
+
+
+@pytest.mark.parametrize(
+    ("line", "message"),
+    [
+        (f"--amplitude 2 {NORMALISED}", "exactly one option must be a range, START:STOP; got none"),
+        (
+            "--amplitude 2:3 --period 1:2 --restitution 0.9",
+            "exactly one option must be a range, START:STOP; got --amplitude and --period",
+        ),
+        (f"--amplitude 2:2 {NORMALISED}", "Invalid value for '--amplitude': must be a number or START:STOP"),
+        (
+            f"--amplitude 2:3:9 {NORMALISED}",
+            "Invalid value for '--amplitude': must be a number or START:STOP",
+        ),
+        (f"--amplitude -1:2 {NORMALISED}", "--amplitude must lie in [0, 1000]; got -1.0"),
+        ("--amplitude 2:3 --period 1", "missing --restitution: give --amplitude"),
+        ("--amplitude 2 --period 1 --restitution 0.9 --phase 0:1", "Invalid value for '--phase': must be a"),
+        (f"--amplitude 2:3 {NORMALISED} --at 4", "--at must lie in [2, 3]; got 4"),
+        (f"--amplitude 3:2 {NORMALISED} --at nan", "--at must lie in [2, 3]; got nan"),
+        (f"--amplitude 2:3 {NORMALISED} --step 1", "--step must lie in [1e-06, 0.1]; got 1"),
+        (
+            "--amplitude 2 --period 1 --restitution 0.9:0",
+            "--restitution must lie in [0.001, 1]; got 0.0",
+        ),
+        (
+            f"--amplitude 0.5:3 {NORMALISED}",
+            "the response from the initial state must be periodic; got rest (give --response-period, or another --angle",
+        ),
+        ("--amplitude 1.2:1 --period 1 --restitution 0.1", "an orbit that rests or stays in contact"),
+        (
+            f"--amplitude 3:2 {NORMALISED} --response-period 0",
+            "--response-period must be a whole number in [1, 1000]; got 0",
+        ),
+        (
+            f"--amplitude 3:2 {NORMALISED} --response-period 1 --angle 3",
+            "the initial state must not overturn within 2 cycles; got State(angle=3.0, velocity=0.0) (give --angle and",
+        ),
+        (
+            f"--amplitude 3:2 {NORMALISED} --response-period 5 --angle 0.3",
+            "no orbit of period 5 was found from State(angle=0.3, velocity=0.0)",
+        ),
+        (f"--amplitude 3:2 {NORMALISED} --response-period 1 --angle 0.81", "orbit must have an impact"),
+        (
+            "--height 2 --width 0.5 --displacement 0.1 --frequency-hz 1:2",
+            "--displacement with a range of --frequency-hz varies amplitude and frequency: use --acceleration instead",
+        ),
+        (f"--amplitude 2:3 {NORMALISED} --plot a.gif", "--plot must end in .png, .svg, .pdf; got 'a.gif'"),
+    ],
+)
+def test_refusals_are_one_line_and_leave_nothing(rocking, tmp_path, line, message):
+    code, said, out = rocking(f"continue {line}")
+    assert (code, out) == (2, "")
+    assert said.startswith(message)
+    assert "\n" not in said
+    assert not list(tmp_path.iterdir())
+
+
+def test_message_on_an_orbit_that_is_not_found_names_the_options(rocking):
+    said = rocking(f"continue --amplitude 3:2 {NORMALISED} --response-period 5 --angle 0.3")[1]
+    assert said.endswith("(give --angle and --velocity nearer to the orbit, or another --response-period)")
