@@ -235,6 +235,16 @@ def test_refusals_are_one_line_and_leave_nothing(rocking, tmp_path, line, messag
     assert not list(tmp_path.iterdir())
 
 
+def test_remedy_for_an_orbit_that_cannot_be_followed_is_an_option(rocking):
+    line = (
+        "--amplitude 2:3 --period 1 --restitution 0.9 --critical-angle 0.2 --response-period 1 --angle 0.95"
+    )
+    code, said, _ = rocking(f"continue {line}")
+    assert code == 2
+    assert said.startswith("orbit must have impacts")
+    assert said.endswith("(give another --at)")
+
+
 def test_message_on_an_orbit_that_is_not_found_names_the_options(rocking):
     said = rocking(f"continue --amplitude 3:2 {NORMALISED} --response-period 5 --angle 0.3")[1]
     assert said.endswith("(give --angle and --velocity nearer to the orbit, or another --response-period)")

@@ -22,6 +22,15 @@ GUESS = {
 }
 """Words about the guess of `find_orbit` → words about the options that give it."""
 
+FOLLOWED = dict.fromkeys(
+    (
+        "use a neighbouring one, branch.orbit(index), or find it again with find_orbit",
+        "use a neighbouring one, or find it again with find_orbit",
+    ),
+    "give another --at",
+)
+"""Remedies of `continue_orbit` → the one on the command line."""
+
 
 class Study(NamedTuple):
     """Branch to compute: the system at which the orbit is found, and the range of its varied parameter."""
@@ -65,7 +74,7 @@ def compute(study: Study, response_period: int | None, step: float) -> tuple[Orb
         raise YourInput(
             "an orbit that rests or stays in contact with a brace cannot be followed (use rocking orbit-diagram)"
         )
-    typed = {f"bounds of {study.parameter}": option(study.name)}
+    typed = FOLLOWED | {f"bounds of {study.parameter}": option(study.name)}
     with your_input(typed | options("step")):
         return orbit, continue_orbit(orbit, study.parameter, study.bounds, step)
 
