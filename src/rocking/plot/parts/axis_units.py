@@ -89,6 +89,7 @@ PARAMETERS = {
     "restitution": r"coefficient of restitution $e$",
     "brace_angle": r"brace angle $\Theta_\mathrm{b}$",
     "brace_restitution": r"coefficient of restitution of the braces $r$",
+    "critical_angle": r"critical angle $\theta_\mathrm{cr}$ (rad)",
     "angle": r"initial angle $\Theta_0$",
     "velocity": r"initial velocity $\Theta'_0$",
 }
