@@ -10,9 +10,9 @@ import numpy as np
 from attrs import field, frozen
 from numpy.typing import NDArray
 
-from rocking.model import Kind, NotebookPicture, ReadOnlyArrays, described, named, read_only
+from rocking.model import NotebookPicture, ReadOnlyArrays, described, named, read_only
 from rocking.orbits.branch import Branch
-from rocking.orbits.dataset_attributes import LONG_NAMES, coordinate_of
+from rocking.orbits.dataset_attributes import LONG_NAMES, coordinate_of, kinds_of
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -81,11 +81,8 @@ class FrequencyResponse(ReadOnlyArrays, NotebookPicture):
         import xarray as xr
 
         name, rest = self.parameter, self.rest
-        kinds = [kind.value for kind in Kind]
-        flags = {"flag_values": list(range(len(kinds))), "flag_meanings": " ".join(kinds)}
-        codes = np.array([kinds.index(kind) for kind in rest["kind"]], np.uint8)
         variables = {
-            "rest_kind": (name, codes, {"long_name": "type of the response from rest"} | flags),
+            "rest_kind": kinds_of(name, rest["kind"], "type of the response from rest"),
             "rest_period": (
                 name,
                 rest["period"],

@@ -23,14 +23,12 @@ from rocking.model import (
     check_periodic,
     instance,
     one_of,
-    reals,
-    refusal,
     whole,
     within,
 )
 from rocking.motion import start_march
 from rocking.orbits.orbit_diagram_result import OrbitDiagram
-from rocking.orbits.parameter import PARAMETERS, with_value
+from rocking.orbits.parameter import PARAMETERS, ordered_values, with_value
 
 SWEEPS = {"up": ("up",), "down": ("down",), "both": ("up", "down"), "rest": ("rest",)}
 MAX_CYCLES = 1_000_000
@@ -95,6 +93,7 @@ def orbit_diagram(
     See Also
     --------
     continue_orbit : Follow orbits, stable or not.
+    response_diagram : Classify the response at each value.
     parametric_map : Vary two quantities.
     rocking.plot.orbit_diagram : Plot the diagram.
 
@@ -116,7 +115,7 @@ def orbit_diagram(
     """
     instance("system", system, System)
     parameter = one_of("parameter", parameter, PARAMETERS)
-    ordered = _values(values)
+    ordered = ordered_values(values, MAX_POINTS)
     start = State() if start is None else start
     ways = SWEEPS[one_of("sweep", sweep, tuple(SWEEPS))]
     transient = whole("transient", transient, 0, MAX_CYCLES)
@@ -147,13 +146,6 @@ def orbit_diagram(
         transient=transient,
         section_phase=section_phase,
     )
-
-
-def _values(values: ArrayLike) -> NDArray[np.float64]:
-    ordered = np.unique(reals("values", values))
-    if not 0 < len(ordered) <= MAX_POINTS or not np.isfinite(ordered).all():
-        raise ValueError(refusal("values", f"be 1 to {MAX_POINTS:,} finite numbers", values))
-    return ordered
 
 
 def _row(system: System, start: State) -> tuple[float, ...]:

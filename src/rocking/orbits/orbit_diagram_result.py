@@ -8,17 +8,9 @@ import numpy as np
 from attrs import field, frozen
 from numpy.typing import NDArray
 
-from rocking.model import (
-    NotebookPicture,
-    ReadOnlyArrays,
-    State,
-    System,
-    described,
-    named,
-    quantities,
-    read_only,
-)
+from rocking.model import NotebookPicture, ReadOnlyArrays, State, System, described, named, read_only
 from rocking.orbits.dataset_attributes import coordinate_of
+from rocking.orbits.parameter import fixed_quantities
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -79,9 +71,7 @@ class OrbitDiagram(ReadOnlyArrays, NotebookPicture):
     @property
     def fixed(self) -> dict[str, float]:
         """Parameters that were not varied, by name."""
-        varied = "period" if self.parameter == "frequency" else self.parameter
-        found = quantities(self.system)
-        return {name: found[name] for name in found if name not in ("frequency", varied)}
+        return fixed_quantities(self.system, self.parameter)
 
     def to_xarray(self) -> xr.Dataset:
         """Return the diagram as a dataset.

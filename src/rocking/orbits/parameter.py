@@ -2,9 +2,22 @@
 
 from __future__ import annotations
 
+import numpy as np
 from attrs import evolve
+from numpy.typing import ArrayLike, NDArray
 
-from rocking.model import RANGES, Braces, Harmonic, System, pair, quantities, refuse_if, within
+from rocking.model import (
+    RANGES,
+    Braces,
+    Harmonic,
+    System,
+    pair,
+    quantities,
+    reals,
+    refusal,
+    refuse_if,
+    within,
+)
 
 PARAMETERS = (
     "amplitude",
@@ -50,6 +63,21 @@ def with_value(system: System, parameter: str, value: float) -> System:
         return evolve(system, critical_angle=value)
     braces = system.braces or Braces(angle=value)
     return evolve(system, braces=evolve(braces, **{parameter.removeprefix("brace_"): value}))
+
+
+def ordered_values(values: ArrayLike, most: int) -> NDArray[np.float64]:
+    """Return the different values of a parameter, ascending, after checking that they are finite and at most `most`."""
+    ordered = np.unique(reals("values", values))
+    if not 0 < len(ordered) <= most or not np.isfinite(ordered).all():
+        raise ValueError(refusal("values", f"be 1 to {most:,} finite numbers", values))
+    return ordered
+
+
+def fixed_quantities(system: System, parameter: str) -> dict[str, float]:
+    """Return the parameters of a system that do not vary, by name."""
+    varied = "period" if parameter == "frequency" else parameter
+    found = quantities(system)
+    return {name: found[name] for name in found if name not in ("frequency", varied)}
 
 
 def checked_range(parameter: str, bounds: tuple[float, float]) -> tuple[float, float]:
