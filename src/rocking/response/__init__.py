@@ -5,6 +5,7 @@ from rocking.response.correlation_dimension import CorrelationDimension, correla
 from rocking.response.impact_section import impact_section
 from rocking.response.lyapunov import lyapunov
 from rocking.response.lyapunov_spectrum import LyapunovSpectrum
+from rocking.response.mean_impacts import MeanImpacts, mean_impacts
 from rocking.response.rotation_number import RotationNumber, rotation_number
 from rocking.response.spectral_density import Peak, SpectralDensity
 from rocking.response.welch_spectrum import spectral_density
@@ -15,6 +16,7 @@ __all__ = [
     "MAX_PERIOD",
     "CorrelationDimension",
     "LyapunovSpectrum",
+    "MeanImpacts",
     "Peak",
     "RotationNumber",
     "SpectralDensity",
@@ -23,6 +25,7 @@ __all__ = [
     "correlation_dimension",
     "impact_section",
     "lyapunov",
+    "mean_impacts",
     "rotation_number",
     "spectral_density",
 ]

@@ -142,10 +142,14 @@ def rotation_number(system: System, start: State | None = None, cycles: int = 20
     """
     start = check_periodic(system, start)
     motion = simulate(system, start, cycles=whole("cycles", cycles, 1, MAX_CYCLES), record="all")
-    section, phases, speeds = _strikes(motion)
-    mean, digits = average(_flights(motion, section))
+    return rotation_of(motion, *strikes_of(motion))
+
+
+def rotation_of(motion: Motion, section: str, phases: Array, speeds: Array) -> RotationNumber:
+    """Return the rotation numbers of a motion from its impacts, as `strikes_of` gives them; errors as of `rotation_number`."""
+    mean, digits = average(flights_of(motion, section))
     found = RotationNumber(
-        system=system,
+        system=motion.system,
         start=motion.start,
         cycles=motion.cycles,
         section=section,
@@ -165,7 +169,7 @@ def rotation_number(system: System, start: State | None = None, cycles: int = 20
     return _about_the_centre(locked, phases, speeds)
 
 
-def _strikes(motion: Motion) -> tuple[str, Array, Array]:
+def strikes_of(motion: Motion) -> tuple[str, Array, Array]:
     """Return the impacts of an undamped motion.
 
     Returns
@@ -208,7 +212,7 @@ def _strikes(motion: Motion) -> tuple[str, Array, Array]:
     return section, strikes["phase"], np.abs(strikes["before"])
 
 
-def _flights(motion: Motion, section: str) -> Array:
+def flights_of(motion: Motion, section: str) -> Array:
     """Return the times between impacts in forcing cycles, to full precision at any time in the run."""
     strikes = motion.events[motion.events["kind"] == ("impact" if section == "impacts" else "brace")]
     parts = np.diff(strikes["phase"]) / (2.0 * math.pi)
