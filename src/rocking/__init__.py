@@ -62,6 +62,7 @@ if TYPE_CHECKING:
         OrbitDiagram,
         OrbitManifolds,
         Orbits,
+        ResponseDiagram,
         SaddleManifolds,
         SpecialPoint,
         bifurcation_curve,
@@ -74,6 +75,7 @@ if TYPE_CHECKING:
         manifold_gap,
         orbit_diagram,
         orbit_manifolds,
+        response_diagram,
         saddle_manifolds,
         switch_branch,
         tangency_amplitude,
@@ -159,6 +161,7 @@ __all__ = [
     "RecordSet",
     "Repeatability",
     "RepeatabilityMap",
+    "ResponseDiagram",
     "RotationNumber",
     "SaddleManifolds",
     "SafeBasin",
@@ -206,6 +209,7 @@ __all__ = [
     "read_record_set",
     "repeatability",
     "repeatability_map",
+    "response_diagram",
     "rocking_spectrum",
     "rotation_number",
     "saddle_manifolds",
@@ -222,9 +226,9 @@ __all__ = [
 _NAMES = {
     "motion": "Motion simulate",
     "orbits": (
-        "BifurcationCurve BifurcationSet Branch FrequencyResponse Manifold OrbitDiagram OrbitManifolds Orbits SaddleManifolds "
+        "BifurcationCurve BifurcationSet Branch FrequencyResponse Manifold OrbitDiagram OrbitManifolds Orbits ResponseDiagram SaddleManifolds "
         "SpecialPoint bifurcation_curve bifurcation_set continue_orbit find_orbit find_orbits frequency_response "
-        "horseshoe manifold_gap orbit_diagram orbit_manifolds saddle_manifolds switch_branch tangency_amplitude"
+        "horseshoe manifold_gap orbit_diagram orbit_manifolds response_diagram saddle_manifolds switch_branch tangency_amplitude"
     ),
     "proof": "prove",
     "records": (

@@ -13,6 +13,8 @@ from rocking.orbits.manifold_tangency import manifold_gap, tangency_amplitude
 from rocking.orbits.orbit_diagram import orbit_diagram
 from rocking.orbits.orbit_diagram_result import OrbitDiagram
 from rocking.orbits.orbit_manifolds import OrbitManifolds, orbit_manifolds
+from rocking.orbits.response_diagram import response_diagram
+from rocking.orbits.response_diagram_result import ResponseDiagram
 from rocking.orbits.saddle_manifolds import Manifold, SaddleManifolds, saddle_manifolds
 
 __all__ = [
@@ -25,6 +27,7 @@ __all__ = [
     "OrbitDiagram",
     "OrbitManifolds",
     "Orbits",
+    "ResponseDiagram",
     "SaddleManifolds",
     "SpecialPoint",
     "bifurcation_curve",
@@ -37,6 +40,7 @@ __all__ = [
     "manifold_gap",
     "orbit_diagram",
     "orbit_manifolds",
+    "response_diagram",
     "saddle_manifolds",
     "switch_branch",
     "tangency_amplitude",

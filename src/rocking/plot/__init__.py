@@ -25,6 +25,7 @@ from rocking.orbits import (
     OrbitDiagram,
     OrbitManifolds,
     Orbits,
+    ResponseDiagram,
     SaddleManifolds,
 )
 from rocking.plot.animation import animation
@@ -55,6 +56,7 @@ from rocking.plot.parts.save import save
 from rocking.plot.parts.style import panels, title
 from rocking.plot.phase_portrait import phase_portrait
 from rocking.plot.repeatability import repeatability, repeatability_map
+from rocking.plot.response_diagram import response_diagram
 from rocking.plot.rocking_spectrum import rocking_spectrum
 from rocking.plot.safe_basin import safe_basin
 from rocking.plot.schematic import schematic
@@ -95,6 +97,7 @@ __all__ = [
     "phase_portrait",
     "repeatability",
     "repeatability_map",
+    "response_diagram",
     "rocking_spectrum",
     "safe_basin",
     "save",
@@ -120,6 +123,7 @@ for kind, draw in (
     (OrbitDiagram, orbit_diagram),
     (OrbitManifolds, orbit_manifolds),
     (Orbits, orbits),
+    (ResponseDiagram, response_diagram),
     (SaddleManifolds, manifolds),
     (Verdict, verdict),
     (BasinMap, basins),
