@@ -250,18 +250,33 @@ def test_progress_counts_every_value():
     assert sum(done) == 37
 
 
-def test_no_value_begins_after_an_interruption(monkeypatch):
-    module, begun = sys.modules["rocking.orbits.response_diagram"], []
+@pytest.fixture
+def begun(monkeypatch):
+    """Systems whose classification has begun."""
+    module, systems = sys.modules["rocking.orbits.response_diagram"], []
     real = module.classify
 
     def counting(system, *arguments):
-        begun.append(system)
+        systems.append(system)
         return real(system, *arguments)
 
+    monkeypatch.setattr(module, "classify", counting)
+    return systems
+
+
+def test_value_that_does_not_take_the_start_is_refused_before_any_verdict(begun):
+    """At θcr = 1 a block lies flat at Θ = π/2."""
+    with pytest.raises(
+        ValueError, match=r"^angle must lie within ±1\.5708, where the block lies flat; got 2"
+    ):
+        rk.response_diagram(FULL, "critical_angle", [0.1, 0.2, 1.0], rk.State(2.0))
+    assert begun == []
+
+
+def test_no_value_begins_after_an_interruption(begun):
     def interrupted(_):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(module, "classify", counting)
     with pytest.raises(KeyboardInterrupt):
         rk.response_diagram(UNDAMPED, "amplitude", np.linspace(1.5, 3.0, 2_000), progress=interrupted)
     assert len(begun) < 500

@@ -78,7 +78,8 @@ def response_diagram(
     It is NaN if the block overturns, if the response is undetermined, or if infinitely many impacts precede rest. Half of it
     is the mean number of turns of (Θ, Θ') about the origin per forcing cycle.
 
-    Limits: another initial state may lead to another response. Narrow intervals between two values are not found.
+    Limits: another initial state may lead to another response. Narrow intervals between two values are not found. The run whose
+    impacts are counted rounds differently from `classify`, and may follow another chaotic transient.
 
     Examples
     --------
@@ -95,6 +96,7 @@ def response_diagram(
     ordered = ordered_values(values, MAX_VALUES)
     limits = budget(max_cycles, max_period)
     systems = [with_value(system, parameter, value) for value in ordered.tolist()]
+    # A value that is refused is refused before the first verdict.
     for each in systems:
         check_periodic(each, start)
     start = State() if start is None else start
@@ -105,14 +107,10 @@ def response_diagram(
 
     found = []
     with ThreadPoolExecutor() as pool:
-        try:
-            for pair in pool.map(respond, systems):
-                found.append(pair)
-                if progress is not None:
-                    progress(1)
-        finally:
-            # After an interruption, no further value begins.
-            pool.shutdown(wait=False, cancel_futures=True)
+        for pair in pool.map(respond, systems):
+            found.append(pair)
+            if progress is not None:
+                progress(1)
     verdicts, means = zip(*found, strict=True)
     return ResponseDiagram(
         system=system,
