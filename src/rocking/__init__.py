@@ -226,9 +226,10 @@ __all__ = [
 _NAMES = {
     "motion": "Motion simulate",
     "orbits": (
-        "BifurcationCurve BifurcationSet Branch FrequencyResponse Manifold OrbitDiagram OrbitManifolds Orbits ResponseDiagram SaddleManifolds "
-        "SpecialPoint bifurcation_curve bifurcation_set continue_orbit find_orbit find_orbits frequency_response "
-        "horseshoe manifold_gap orbit_diagram orbit_manifolds response_diagram saddle_manifolds switch_branch tangency_amplitude"
+        "BifurcationCurve BifurcationSet Branch FrequencyResponse Manifold OrbitDiagram OrbitManifolds Orbits "
+        "ResponseDiagram SaddleManifolds SpecialPoint bifurcation_curve bifurcation_set continue_orbit find_orbit "
+        "find_orbits frequency_response horseshoe manifold_gap orbit_diagram orbit_manifolds response_diagram "
+        "saddle_manifolds switch_branch tangency_amplitude"
     ),
     "proof": "prove",
     "records": (
