@@ -9,8 +9,18 @@ import numpy as np
 from attrs import field, frozen
 from numpy.typing import NDArray
 
-from rocking.model import Kind, NotebookPicture, ReadOnlyArrays, State, System, Verdict, read_only
-from rocking.orbits.dataset_attributes import coordinate_of, described, kinds_of, named
+from rocking.model import (
+    Kind,
+    NotebookPicture,
+    ReadOnlyArrays,
+    State,
+    System,
+    Verdict,
+    described,
+    named,
+    read_only,
+)
+from rocking.orbits.dataset_attributes import coordinate_of, kinds_of
 from rocking.orbits.parameter import fixed_quantities
 from rocking.response import RotationNumber
 

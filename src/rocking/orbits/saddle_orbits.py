@@ -30,7 +30,9 @@ def check_reversible(system: System) -> None:
     """Raise ValueError for a system with braces, or with impacts that cannot be reversed in time."""
     _ = system.harmonic  # refuses other base motions, and the full block
     if system.braces is not None:
-        raise ValueError(refusal("system", "have no braces", system.braces))
+        raise ValueError(
+            refusal("system", "have no braces: impacts on them are not reversed in time", system.braces)
+        )
     refuse_if(
         system.restitution == 0.0, "restitution", "be positive, so that impacts can be reversed in time", 0.0
     )
