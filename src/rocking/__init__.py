@@ -57,6 +57,7 @@ if TYPE_CHECKING:
         BifurcationCurve,
         BifurcationSet,
         Branch,
+        Cascade,
         FrequencyResponse,
         Manifold,
         OrbitDiagram,
@@ -67,6 +68,7 @@ if TYPE_CHECKING:
         SpecialPoint,
         bifurcation_curve,
         bifurcation_set,
+        cascade,
         continue_orbit,
         find_orbit,
         find_orbits,
@@ -127,6 +129,7 @@ __all__ = [
     "Block",
     "Braces",
     "Branch",
+    "Cascade",
     "ChaosShare",
     "CorrelationDimension",
     "Evidence",
@@ -180,6 +183,7 @@ __all__ = [
     "basin_map",
     "bifurcation_curve",
     "bifurcation_set",
+    "cascade",
     "chaos_share",
     "cite",
     "classify",
@@ -226,10 +230,10 @@ __all__ = [
 _NAMES = {
     "motion": "Motion simulate",
     "orbits": (
-        "BifurcationCurve BifurcationSet Branch FrequencyResponse Manifold OrbitDiagram OrbitManifolds Orbits "
-        "ResponseDiagram SaddleManifolds SpecialPoint bifurcation_curve bifurcation_set continue_orbit find_orbit "
-        "find_orbits frequency_response horseshoe manifold_gap orbit_diagram orbit_manifolds response_diagram "
-        "saddle_manifolds switch_branch tangency_amplitude"
+        "BifurcationCurve BifurcationSet Branch Cascade FrequencyResponse Manifold OrbitDiagram OrbitManifolds "
+        "Orbits ResponseDiagram SaddleManifolds SpecialPoint bifurcation_curve bifurcation_set cascade "
+        "continue_orbit find_orbit find_orbits frequency_response horseshoe manifold_gap orbit_diagram "
+        "orbit_manifolds response_diagram saddle_manifolds switch_branch tangency_amplitude"
     ),
     "proof": "prove",
     "records": (

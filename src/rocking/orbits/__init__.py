@@ -3,6 +3,7 @@
 from rocking.orbits.bifurcation_curve import BifurcationCurve, bifurcation_curve
 from rocking.orbits.bifurcation_set import BifurcationSet, bifurcation_set
 from rocking.orbits.branch import BRANCHES_OFF, Branch, SpecialPoint
+from rocking.orbits.cascade import Cascade, cascade
 from rocking.orbits.continuation import continue_orbit, switch_branch
 from rocking.orbits.find_orbit import find_orbit
 from rocking.orbits.find_orbits import Orbits, find_orbits
@@ -22,6 +23,7 @@ __all__ = [
     "BifurcationCurve",
     "BifurcationSet",
     "Branch",
+    "Cascade",
     "FrequencyResponse",
     "Manifold",
     "OrbitDiagram",
@@ -32,6 +34,7 @@ __all__ = [
     "SpecialPoint",
     "bifurcation_curve",
     "bifurcation_set",
+    "cascade",
     "continue_orbit",
     "find_orbit",
     "find_orbits",

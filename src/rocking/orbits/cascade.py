@@ -1,0 +1,153 @@
+"""Cascade of period doublings, and the value of the parameter at which it accumulates."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from attrs import field, frozen
+from numpy.typing import NDArray
+
+from rocking.model import ReadOnlyArrays, instance, plus_minus, read_only, refusal, whole
+from rocking.orbits.branch import SpecialPoint
+from rocking.orbits.continuation import switch_branch
+from rocking.orbits.parameter import checked_range
+
+# A branch is followed this far on both sides of its special point, in distances of the last two period doublings: the next one is
+# nearer by the ratio of the cascade.
+WIDTH = 1.0
+
+
+@frozen(eq=False)
+class Cascade(ReadOnlyArrays):
+    """Cascade of period doublings; returned by `cascade`.
+
+    Attributes
+    ----------
+    special : tuple of SpecialPoint
+        Period doublings, each on the branch that bifurcates at the one before.
+    end : str
+        Reason why the cascade is not followed further.
+
+    Examples
+    --------
+    >>> import rocking as rk
+    >>> system = rk.System(rk.Harmonic(amplitude=10.46, period=1.721328), restitution=0.8)
+    >>> orbit = rk.classify(system).orbit
+    >>> doubling = rk.continue_orbit(orbit, "amplitude", (10.3, 10.9)).special[0]
+    >>> found = rk.cascade(doubling, (10.3, 10.9), doublings=6)
+    >>> found.periods.tolist(), found.ratios.round(2).tolist()
+    ([1, 2, 4, 8, 16, 32], [6.8, 4.93, 4.69, 4.67])
+    """
+
+    special: tuple[SpecialPoint, ...] = field(repr=False)
+    end: str
+
+    @property
+    def values(self) -> NDArray[np.float64]:
+        """Values of the parameter at the period doublings, shape (n,)."""
+        return read_only(np.array([one.parameter for one in self.special]))
+
+    @property
+    def periods(self) -> NDArray[np.int64]:
+        """Periods of the orbits that lose their stability, in forcing cycles, shape (n,)."""
+        return read_only(np.array([one.orbit.period for one in self.special], np.int64))
+
+    @property
+    def ratios(self) -> NDArray[np.float64]:
+        """Ratios of neighbouring distances, shape (n − 2,).
+
+        They tend to 4.6692 with losses (Feigenbaum 1978, J. Stat. Phys. 19, 25), and to 8.7211 without (Greene et al. 1981,
+        Physica D 3, 468).
+        """
+        distances = np.diff(self.values)
+        return read_only(distances[:-1] / distances[1:])
+
+    @property
+    def accumulation(self) -> tuple[float, float]:
+        """Value at which the cascade accumulates, by Aitken's extrapolation of the last three values, and its error.
+
+        The error is the change by the last period doubling. Both are NaN for less than four period doublings.
+        """
+        if len(self.special) < 4:
+            return math.nan, math.nan
+        last, before = (
+            _limit(self.values[end - 3 : end]) for end in (len(self.special), len(self.special) - 1)
+        )
+        return last, abs(last - before)
+
+    def __str__(self) -> str:
+        name, values, periods = self.special[0].name, self.values, self.periods
+        limit = ""
+        if len(values) > 3:
+            limit = f", accumulation at {plus_minus(*self.accumulation)}, last ratio {self.ratios[-1]:.6g}"
+        return (
+            f"cascade of {len(values)} period doublings over {name}, {values[0]:.9g} to {values[-1]:.9g}, periods "
+            f"{periods[0]} to {periods[-1]}{limit}; end: {self.end}"
+        )
+
+
+def cascade(special: SpecialPoint, bounds: tuple[float, float], doublings: int = 7) -> Cascade:
+    """Follow a cascade of period doublings, and extrapolate where it accumulates.
+
+    At each period doubling the branch of twice the period is followed to its own first period doubling. The range and the step of
+    each branch come from the distance of the last two.
+
+    Parameters
+    ----------
+    special : SpecialPoint
+        First period doubling, of a slender block.
+    bounds : (float, float)
+        Range of the parameter in which the cascade is followed; it contains the special point.
+    doublings : int
+        Number of period doublings wanted, with the first, in [2, 10]. Each takes about four times as long as the one before.
+        Default: 7.
+
+    Returns
+    -------
+    Cascade
+        Period doublings, their ratios, and the accumulation.
+
+    Raises
+    ------
+    TypeError
+        If an argument is of the wrong type, or the block is not slender.
+    ValueError
+        If an argument lies outside its range, or if `special` is no period doubling.
+
+    See Also
+    --------
+    continue_orbit : Follow an orbit through a parameter.
+    switch_branch : Follow one branch that bifurcates.
+
+    Examples
+    --------
+    >>> import rocking as rk
+    >>> system = rk.System(rk.Harmonic(amplitude=10.46, period=1.721328), restitution=0.8)
+    >>> doubling = rk.continue_orbit(rk.classify(system).orbit, "amplitude", (10.3, 10.9)).special[0]
+    >>> value, error = rk.cascade(doubling, (10.3, 10.9), doublings=6).accumulation
+    >>> round(value, 5), error < 1e-5
+    (10.73261, True)
+    """
+    instance("special", special, SpecialPoint)
+    if special.kind != "period-doubling":
+        raise ValueError(refusal("special", "be a period doubling", special.kind))
+    low, high = checked_range(special.name, bounds)
+    wanted = whole("doublings", doublings, 2, 10)
+    found, around, end = [special], (low, high), "number of period doublings wanted"
+    while len(found) < wanted:
+        (branch,) = switch_branch(found[-1], around)
+        following = [one for one in branch.special if one.kind == "period-doubling"]
+        if not following:
+            end = f"no period doubling on the branch of period {branch.period}: {branch.ends[1]}"
+            break
+        found.append(min(following, key=lambda one: one.index))
+        width = WIDTH * abs(found[-1].parameter - found[-2].parameter)
+        around = max(low, found[-1].parameter - width), min(high, found[-1].parameter + width)
+    return Cascade(tuple(found), end)
+
+
+def _limit(values: np.ndarray) -> float:
+    """Return the limit of a sequence by Aitken's method, from three values whose distances fall by a constant ratio."""
+    first, second = np.diff(values)
+    return float(values[2] + second * second / (first - second))

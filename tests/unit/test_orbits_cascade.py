@@ -1,0 +1,92 @@
+"""Cascades of period doublings: Feigenbaum's ratios, periods by marching, and the accumulation by another method."""
+
+import numpy as np
+import pytest
+
+import rocking as rk
+
+DAMPED = rk.System(rk.Harmonic(amplitude=10.46, period=1.721328), 0.8)
+BOUNDS = (10.3, 10.9)
+
+
+def doubling(system, bounds):
+    branch = rk.continue_orbit(rk.classify(system).orbit, "amplitude", bounds)
+    return next(special for special in branch.special if special.kind == "period-doubling")
+
+
+@pytest.fixture(scope="module")
+def found():
+    return rk.cascade(doubling(DAMPED, BOUNDS), BOUNDS, doublings=8)
+
+
+def test_ratios_tend_to_feigenbaums_number(found):
+    off = np.abs(found.ratios - 4.669201609)
+    assert off[-1] < 1e-3
+    assert off[-1] < off[0] / 100
+    assert found.periods.tolist() == [2**n for n in range(8)]
+    assert found.end == "number of period doublings wanted"
+
+
+def test_ratios_without_losses_tend_to_those_of_area_preserving_maps():
+    system = rk.System(rk.Harmonic(amplitude=1.5, period=1.0), 1.0)
+    branches = [
+        rk.continue_orbit(orbit, "amplitude", (0.2, 30.0))
+        for orbit in rk.find_orbits(system, 2)
+        if orbit.period == 2 and orbit.stability == "neutral"
+    ]
+    doublings = [each for branch in branches for each in branch.special if each.kind == "period-doubling"]
+    first = min(doublings, key=lambda special: abs(special.parameter - 1.9739))
+    found = rk.cascade(first, (0.2, 30.0), doublings=6)
+    assert found.ratios[-1] == pytest.approx(8.721097, abs=2e-3)
+
+
+def test_marching_finds_each_period_between_two_doublings(found):
+    for left, right in zip(found.special[:4], found.special[1:5], strict=True):
+        (branch,) = rk.switch_branch(left, (left.parameter - 1e-3, right.parameter))
+        (orbit,) = branch.at(0.5 * (left.parameter + right.parameter))[:1]
+        clocked = rk.Harmonic(orbit.system.forcing.amplitude, period=1.721328, phase=orbit.phase)
+        start = rk.State(orbit.state.angle + 1e-7, orbit.state.velocity)
+        assert rk.classify(rk.System(clocked, 0.8), start).period == 2 * left.orbit.period
+
+
+def test_accumulation_is_the_limit_of_the_values(found):
+    value, error = found.accumulation
+    assert found.values[-1] < value < found.values[-1] + 0.5 * (found.values[-1] - found.values[-2])
+    # one more doubling, and the geometric series with Feigenbaum's number
+    more = rk.cascade(found.special[0], BOUNDS, doublings=9)
+    exact = more.values[-1] + (more.values[-1] - more.values[-2]) / (4.669201609 - 1)
+    assert abs(value - exact) <= error
+    assert abs(more.accumulation[0] - exact) <= error
+    assert error < 1e-8
+
+
+def test_too_few_doublings_have_no_limit_and_a_branch_may_have_none(found):
+    short = rk.cascade(found.special[0], (10.4, 10.7), doublings=6)
+    assert len(short.special) == 2
+    assert np.isnan(short.accumulation).all()
+    assert short.end == "no period doubling on the branch of period 4: end of the range"
+    assert "accumulation" not in str(short)
+    assert "accumulation at 10.7326113" in str(found)
+
+
+def test_refusals(found):
+    breaking = rk.continue_orbit(
+        rk.classify(rk.System(rk.Harmonic(15.0, period=1.0), 0.9)).orbit, "amplitude", (10, 30)
+    ).special[0]
+    for call, error, message in (
+        (
+            lambda: rk.cascade(breaking, (10, 30)),
+            ValueError,
+            "special must be a period doubling; got 'symmetry-br",
+        ),
+        (lambda: rk.cascade(found, BOUNDS), TypeError, "special must be a SpecialPoint"),
+        (lambda: rk.cascade(found.special[0], (11, 12)), ValueError, "bounds must contain the amplitude"),
+        (
+            lambda: rk.cascade(found.special[0], BOUNDS, doublings=1),
+            ValueError,
+            "doublings must be a whole number",
+        ),
+    ):
+        with pytest.raises(error, match=message) as raised:
+            call()
+        assert "\n" not in str(raised.value)
