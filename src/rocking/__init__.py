@@ -227,28 +227,33 @@ __all__ = [
     "theory",
 ]
 
-_NAMES = {
-    "motion": "Motion simulate",
-    "orbits": (
-        "BifurcationCurve BifurcationSet Branch Cascade FrequencyResponse Manifold OrbitDiagram OrbitManifolds "
-        "Orbits ResponseDiagram SaddleManifolds SpecialPoint bifurcation_curve bifurcation_set cascade "
-        "continue_orbit find_orbit find_orbits frequency_response horseshoe manifold_gap orbit_diagram "
-        "orbit_manifolds response_diagram saddle_manifolds switch_branch tangency_amplitude"
+_NAMES = (
+    ("motion", "Motion simulate"),
+    (
+        "orbits",
+        "BifurcationCurve BifurcationSet Branch Cascade FrequencyResponse Manifold OrbitDiagram OrbitManifolds",
     ),
-    "proof": "prove",
-    "records": (
-        "RecordError example_ground_motion read_ground_motion read_ground_motions read_record_set "
-        "synthetic_ground_motions"
+    (
+        "orbits",
+        "Orbits ResponseDiagram SaddleManifolds SpecialPoint bifurcation_curve bifurcation_set cascade",
     ),
-    "response": (
-        "CorrelationDimension LyapunovSpectrum Peak RotationNumber SpectralDensity classify "
-        "correlation_dimension impact_section lyapunov rotation_number spectral_density"
+    (
+        "orbits",
+        "continue_orbit find_orbit find_orbits frequency_response horseshoe manifold_gap orbit_diagram",
     ),
-    "survey": (
-        "basin_map chaos_share fragility incremental_dynamic_analysis overturning_amplitude overturning_set "
-        "overturning_spectrum parametric_map proved_share repeatability repeatability_map rocking_spectrum safe_basin sensitivity"
+    ("orbits", "orbit_manifolds response_diagram saddle_manifolds switch_branch tangency_amplitude"),
+    ("proof", "prove"),
+    ("records", "RecordError example_ground_motion read_ground_motion read_ground_motions read_record_set"),
+    ("records", "synthetic_ground_motions"),
+    ("response", "CorrelationDimension LyapunovSpectrum Peak RotationNumber SpectralDensity classify"),
+    ("response", "correlation_dimension impact_section lyapunov rotation_number spectral_density"),
+    (
+        "survey",
+        "basin_map chaos_share fragility incremental_dynamic_analysis overturning_amplitude overturning_set",
     ),
-}
+    ("survey", "overturning_spectrum parametric_map proved_share repeatability repeatability_map"),
+    ("survey", "rocking_spectrum safe_basin sensitivity"),
+)
 """Public names by subpackage. Names that are not listed belong to `model`."""
 _ALIAS = {"__version__": "VERSION"}
 _SUB_NAMESPACES = ("plot", "theory")
@@ -261,7 +266,7 @@ def __getattr__(name: str) -> Any:
     if name in _SUB_NAMESPACES:
         value = import_module(f"rocking.{name}")
     else:
-        room = next((room for room, names in _NAMES.items() if name in names.split()), "model")
+        room = next((room for room, names in _NAMES if name in names.split()), "model")
         value = getattr(import_module(f"rocking.{room}"), _ALIAS.get(name, name))
     globals()[name] = value
     return value
