@@ -11,6 +11,7 @@ import rocking as rk
 
 # a symmetric orbit and a pair of mirror images, found by marching from many initial states
 PAIR = rk.System(rk.Harmonic(amplitude=8.0, period=1.721328), 0.8, rk.Braces(1.0, 0.8))
+SMOOTH = rk.System(rk.Harmonic(amplitude=3.5, period=1.0), 0.8)
 MANY = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), 0.925)
 RESTING = rk.System(rk.Harmonic(amplitude=0.378, period=2.0), 0.925)
 LEANING = rk.System(rk.Harmonic(amplitude=0.5, period=1.0), 0.5, rk.Braces(3.0, 0.3))
@@ -256,3 +257,54 @@ def test_what_is_drawn_at_random_can_be_drawn_again_from_what_the_dataset_says()
     system = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), 0.925)
     found = rk.basin_map(system, **asked, boundary_runs=0).dataset
     assert found.attrs["seed"] == 7
+
+
+def test_runs_are_added_until_the_intervals_are_as_narrow_as_wanted(capsys):
+    how = {"angle": (-1, 1), "velocity": (-1, 1), "samples": 500, "seed": 2}
+    few = rk.basin_map(SMOOTH, **how, boundary_runs=6_000)
+    more = rk.basin_map(SMOOTH, **how, boundary_runs=6_000, boundary_width=0.3)
+    widths = [
+        max(
+            one.high - one.low
+            for one in (found.uncertainty_exponent, found.attractor_exponent)
+            if one is not None
+        )
+        for found in (few, more)
+    ]
+    assert widths[0] > 0.3 >= widths[1]
+    counts = [found.attractor_exponent.uncertain[0].of for found in (few, more)]
+    assert counts[0] == 6_000 // 24 < counts[1]
+    enough = [
+        rk.basin_map(SMOOTH, **how, boundary_runs=30_000, boundary_width=width) for width in (None, 1.0)
+    ]
+    assert enough[0].attractor_exponent == enough[1].attractor_exponent
+    assert capsys.readouterr().err == ""
+
+
+def test_no_runs_are_added_that_do_not_narrow_an_interval():
+    """The fractions of this system follow no power law. So the interval is as wide as they scatter, however many runs there are."""
+    found = rk.basin_map(
+        MANY, angle=(-1, 1), velocity=(-1, 1), samples=500, seed=2, boundary_runs=6_000, boundary_width=0.05
+    )
+    assert found.attractor_exponent.misfit > 2
+    assert found.attractor_exponent.uncertain[0].of < 100_000
+
+
+def test_progress_shows_random_states_and_boundary_runs(capsys):
+    rk.basin_map(MANY, angle=(-1, 1), velocity=(-1, 1), samples=500, boundary_runs=3_000, progress=True)
+    shown = capsys.readouterr().err
+    assert "initial states" in shown
+    assert "boundary runs" in shown
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"boundary_width": 0}, "boundary_width must lie in"),
+        ({"boundary_width": "a"}, "boundary_width must be a real number"),
+        ({"boundary_width": 0.1, "boundary_runs": 0}, "boundary_runs must be positive to be added to; got 0"),
+    ],
+)
+def test_a_width_that_cannot_be_reached_is_refused(change, message):
+    with pytest.raises((TypeError, ValueError), match=message):
+        rk.basin_map(MANY, angle=(-1, 1), velocity=(-1, 1), samples=10, **change)

@@ -1,6 +1,7 @@
 """Surveys: responses at the points of a grid or sample, on all cores or a cluster, in memory or in a store."""
 
 from rocking.survey import notebook
+from rocking.survey.basin_boundaries import WIDTHS as BOUNDARY_WIDTHS
 from rocking.survey.basin_map import basin_map
 from rocking.survey.chaos_share import chaos_share
 from rocking.survey.engine.tile_loop import cores
@@ -24,6 +25,7 @@ from rocking.survey.sensitivity import sensitivity
 from rocking.survey.store.export import counts, tables, to_netcdf
 
 __all__ = [
+    "BOUNDARY_WIDTHS",
     "MAX_PHASES",
     "MAX_SAMPLES",
     "MAX_SEED",

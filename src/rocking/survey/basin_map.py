@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
+import math
 import os
 from concurrent.futures import Executor
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from rocking.kernels.classify import verdict_record as kernel
 from rocking.model import (
     MAX_START,
     Attractor,
@@ -16,22 +16,21 @@ from rocking.model import (
     Kind,
     Share,
     System,
-    UncertaintyExponent,
     check_between,
-    check_constant_restitution,
-    check_periodic,
     instance,
-    quantities,
     refusal,
+    refuse_if,
     whole,
+    within,
 )
+from rocking.survey.basin_boundaries import WIDTHS, Boundaries
 from rocking.survey.engine.run_survey import run_survey
-from rocking.survey.harmonic_spec import HarmonicSpec, Points, coordinate, points, question
-from rocking.survey.measurement import Measurement
+from rocking.survey.harmonic_spec import HarmonicSpec, coordinate, question
+from rocking.survey.measurement import Arrays, Measurement
 from rocking.survey.measures.attractors import destination, label_attractors, make_attractors
 from rocking.survey.sampling.random_points import MAX_SAMPLES, generator, sampled, span
-from rocking.survey.sampling.uncertainty_exponent import distances, exponent, perturbed_triples
 from rocking.survey.store.dataset import attributes
+from rocking.survey.system_points import asked_of, points_of
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -49,6 +48,7 @@ def basin_map(
     max_cycles: int = 10_000,
     max_period: int = 64,
     boundary_runs: int = 100_000,
+    boundary_width: float | None = None,
     store: str | os.PathLike[str] | None = None,
     executor: Executor | None = None,
     progress: bool = False,
@@ -72,8 +72,11 @@ def basin_map(
         Default: 10,000 and 64.
     boundary_runs : int
         Approximate number of additional runs for the uncertainty exponents; 0 disables them. Default: 100,000.
+    boundary_width : float, optional
+        Largest width of the intervals of both exponents, in [1e-4, 1]. More runs are added to `boundary_runs` until the intervals
+        are narrower, until further runs narrow them no more, or until there are 10⁷ runs. Default: no further runs.
     store, executor, progress, repair
-        As in `parametric_map`. A store holds a grid, so that it excludes `samples`.
+        As in `parametric_map`. A store holds a grid, so that it excludes `samples`. The progress bars include the further runs.
 
     Returns
     -------
@@ -123,6 +126,8 @@ def basin_map(
     instance("system", system, System)
     measure = destination(max_cycles, max_period, TITLE)
     runs = whole("boundary_runs", boundary_runs, 0, MAX_SAMPLES)
+    width = math.inf if boundary_width is None else within("boundary_width", boundary_width, *WIDTHS)
+    refuse_if(runs == 0 and width < math.inf, "boundary_runs", "be positive to be added to", runs)
     random = generator(seed)
     if samples is None:
         asked = question({**asked_of(system), "angle": angle, "velocity": velocity}, 2, "a basin map")
@@ -136,13 +141,15 @@ def basin_map(
         reach = MAX_START if system.braces is None else system.braces.angle
         check_between(max(ends["angle"], key=abs), reach)
         starts = random.uniform(*_corners(ends), (whole("samples", samples, 1, MAX_SAMPLES), 2))
-        found = _random_dataset(system, starts, measure, executor).assign_attrs(seed=seed)
+        shown = "initial states" if progress else None
+        answers = sampled(points_of(system, starts), measure, executor, shown)
+        found = _random_dataset(system, starts, measure, answers).assign_attrs(seed=seed)
     labels, first = label_attractors(system, {str(name): found[name].values for name in found.data_vars})
     attractors = make_attractors(system, starts, first, max_cycles, max_period)
     _attach(found, labels, [each.name for each in attractors])
     fractions = _fractions(np.bincount(labels), attractors)
-    exponents = _exponents(system, ends, runs, random, measure, executor) if runs else (None, None)
-    return BasinMap(system, found, attractors, fractions, *exponents)
+    boundaries = Boundaries(system, *_corners(ends), random, measure, executor, progress)
+    return BasinMap(system, found, attractors, fractions, *boundaries.exponents(runs, width))
 
 
 def _fractions(counts: np.ndarray, attractors: tuple[Attractor, ...]) -> tuple[Share, ...]:
@@ -153,19 +160,6 @@ def _fractions(counts: np.ndarray, attractors: tuple[Attractor, ...]) -> tuple[S
         Share(count, counts.sum(), 0 if not_known else unknown)
         for count, not_known in zip(counts, undetermined, strict=True)
     )
-
-
-def asked_of(system: System) -> dict[str, float]:
-    """Return the quantities of a system as a survey takes them: the period but not the frequency."""
-    check_periodic(system, None)
-    check_constant_restitution(system)
-    found = quantities(system)
-    return {name: found[name] for name in found if name != "frequency"}
-
-
-def points_of(system: System, starts: np.ndarray) -> Points:
-    """Return the points of one system with initial states (n, 2)."""
-    return points({"angle": starts[:, 0], "velocity": starts[:, 1]}, asked_of(system))
 
 
 def grid_starts(asked: HarmonicSpec) -> np.ndarray:
@@ -180,13 +174,10 @@ def _corners(ends: dict[str, tuple[float, float]]) -> tuple[tuple[float, float],
     return (a, c), (b, d)
 
 
-def _random_dataset(
-    system: System, starts: np.ndarray, measure: Measurement, executor: Executor | None
-) -> xr.Dataset:
-    """Return the dataset of random initial states."""
+def _random_dataset(system: System, starts: np.ndarray, measure: Measurement, answers: Arrays) -> xr.Dataset:
+    """Return the dataset of random initial states from their results."""
     import xarray as xr
 
-    answers = sampled(points_of(system, starts), measure, executor)
     return xr.Dataset(
         {each.name: ("sample", answers[each.name], each.attributes) for each in measure.variables},
         {
@@ -206,24 +197,3 @@ def _attach(found: xr.Dataset, labels: np.ndarray, names: list[str]) -> None:
         "flag_meanings": " ".join(words),
     }
     found["attractor"] = (found.kind.dims, labels.reshape(found.kind.shape).astype(np.int32), told)
-
-
-def _exponents(
-    system: System,
-    ends: dict[str, tuple[float, float]],
-    runs: int,
-    random: np.random.Generator,
-    measure: Measurement,
-    executor: Executor | None,
-) -> tuple[UncertaintyExponent | None, UncertaintyExponent | None]:
-    """Return the uncertainty exponents of the boundary of overturning and of all boundaries."""
-    low, high = _corners(ends)
-    tried = perturbed_triples(low, high, runs, random)
-    starts = tried.reshape(-1, 2)
-    if system.braces is not None:
-        starts[:, 0] = np.clip(starts[:, 0], -system.braces.angle, system.braces.angle)
-    answers = sampled(points_of(system, starts), measure, executor)
-    labels, _ = label_attractors(system, answers)
-    reach = distances((high[0] - low[0], high[1] - low[1]))
-    overturned = (answers["kind"] == kernel.OVERTURNS).reshape(tried.shape[:3])
-    return exponent(reach, overturned), exponent(reach, labels.reshape(tried.shape[:3]))

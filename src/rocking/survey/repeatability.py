@@ -12,10 +12,10 @@ import numpy as np
 from rocking.kernels.classify import verdict_record as kernel
 from rocking.model import Kind, Repeatability, Share, State, System, check_periodic, counted, whole, within
 from rocking.response import KINDS
-from rocking.survey.basin_map import points_of
 from rocking.survey.measures.response import response
 from rocking.survey.sampling.perturbation import INPUTS, MAX_RELATIVE, TITLE, perturbed
 from rocking.survey.sampling.random_points import MAX_SAMPLES, generator, sampled
+from rocking.survey.system_points import points_of
 
 Name = TypeVar("Name", bound=str)
 

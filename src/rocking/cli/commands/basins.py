@@ -43,6 +43,13 @@ BoundaryRuns = Annotated[
         "Number of runs used for the uncertainty exponents; 0 disables them. Default: 100,000.",
     ),
 ]
+BoundaryWidth = Annotated[
+    ask.Number,
+    ask.number_option(
+        "--boundary-width",
+        "Largest width of the intervals of these exponents; runs are added until they are narrower. Default: no further runs.",
+    ),
+]
 Plot = Annotated[
     Path | None,
     ask.file_option(
@@ -62,6 +69,7 @@ def basins(
     max_cycles: ask.SurveyCycles = None,
     max_period: ask.SurveyPeriod = None,
     boundary_runs: BoundaryRuns = None,
+    boundary_width: BoundaryWidth = None,
     study: Study = None,
     store: ask.Store = None,
     repair: ask.Repair = False,

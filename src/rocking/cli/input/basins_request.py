@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -21,11 +22,15 @@ DEFAULT_STARTS = 200
 
 def question(typed: Mapping[str, Any], file: Path | None) -> dict[str, Any]:
     """Return the arguments given by options and study file; options take precedence."""
-    checks = {
+    from rocking.model import within
+    from rocking.survey import BOUNDARY_WIDTHS
+
+    checks: dict[str, Callable[[Any], Any]] = {
         **survey_quantities.fixed(*SYSTEM),
         "model": study_file.model,
         **survey_quantities.varying(*START),
         **survey_quantities.counts("samples", "seed", *COUNTS, "boundary_runs"),
+        "boundary_width": partial(within, "boundary_width", low=BOUNDARY_WIDTHS[0], high=BOUNDARY_WIDTHS[1]),
         **survey_quantities.path_checks("store", *FILES),
     }
     return study_file.asked(typed, file, checks)

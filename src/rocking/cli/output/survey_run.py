@@ -15,7 +15,17 @@ from rocking.cli.output.files import check_apart, check_files, with_block, write
 if TYPE_CHECKING:
     from rocking.model import BasinMap, Block, OverturningCurve, Share
 
-OWN = ("samples", "seed", "boundary_runs", "phases", "store", "repair", "brace_angle", "brace_restitution")
+OWN = (
+    "samples",
+    "seed",
+    "boundary_runs",
+    "boundary_width",
+    "phases",
+    "store",
+    "repair",
+    "brace_angle",
+    "brace_restitution",
+)
 # On the command line an array is typed as an axis.
 ARGUMENTS = SYSTEM_ARGUMENTS | options(*OWN) | {"as arrays": f"as axes, {AXIS_FORM}"}
 FILES = ("plot", "netcdf")

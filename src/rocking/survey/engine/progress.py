@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from types import TracebackType
 
 import numpy as np
@@ -82,3 +84,14 @@ class Bar:
             ((count, self.meanings[value]) for value, count in self.counts.items() if count), reverse=True
         )
         return ", ".join(f"{meaning} {percent(count / self.settled_points)}" for count, meaning in largest)
+
+
+@contextmanager
+def counting(what: str, total: int) -> Iterator[Callable[[int], None]]:
+    """Show a bar on stderr for runs that are no grid; the function that it gives adds completed runs."""
+    console = Console(stderr=True, highlight=False)
+    with Progress(
+        BarColumn(12), TaskProgressColumn(), Rate(), TimeRemainingColumn(), TextColumn(what), console=console
+    ) as bar:
+        task = bar.add_task("", total=total)
+        yield lambda runs: bar.update(task, advance=runs)

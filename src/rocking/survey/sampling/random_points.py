@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
 from concurrent.futures import CancelledError, Executor
+from contextlib import contextmanager
 from typing import Any
 
 import numpy as np
@@ -18,25 +20,44 @@ MAX_SAMPLES = 10_000_000
 MAX_SEED = 2**32 - 1
 
 
-def sampled(points: Points, measure: Measurement, executor: Executor | None = None) -> Arrays:
-    """Return the results of a measurement at points, in their order."""
+def sampled(
+    points: Points, measure: Measurement, executor: Executor | None = None, shown_as: str | None = None
+) -> Arrays:
+    """Return the results of a measurement at points, in their order; with a progress bar if they are ``shown_as`` something."""
     if executor is not None:
         instance("executor", executor, Executor)
     measure.compile(bool(points.may_last.any()), points.full)
     total = len(points.systems)
-    with engine(executor) as (pool, stop):
+    with engine(executor) as (pool, stop), _bar(shown_as, total) as add:
         futures = []
         try:
             for first in range(0, total, AT_ONCE):
                 part = Points(*(array[first : first + AT_ONCE] for array in points))
                 futures.append(pool.submit(measure.judge, part, measure.options, stop))
-            answers = [told for told in (future.result() for future in futures) if told is not None]
+            answers = []
+            for future in futures:
+                told = future.result()
+                if told is not None:
+                    answers.append(told)
+                    add(len(next(iter(told.values()))))
         finally:
             for future in futures:
                 future.cancel()
     if len(answers) < len(futures):
         raise CancelledError("the survey was stopped")
     return {name: np.concatenate([each[name] for each in answers]) for name in answers[0]}
+
+
+@contextmanager
+def _bar(shown_as: str | None, total: int) -> Iterator[Callable[[int], None]]:
+    """Return the function that adds completed points to a progress bar, if there is one."""
+    if shown_as is None:
+        yield lambda _: None
+        return
+    from rocking.survey.engine.progress import counting
+
+    with counting(shown_as, total) as add:
+        yield add
 
 
 def generator(seed: int) -> np.random.Generator:
