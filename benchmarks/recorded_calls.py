@@ -45,6 +45,7 @@ def workload():
     rk.orbit_diagram(system, "amplitude", np.linspace(10.0, 15.0, 40))
     rk.theory.symmetric_modes(6.5, 0.4, 0.925, 3)
     rk.saddle_manifolds(rk.System(rk.Harmonic(1.2, period=2.0), 0.9))
+    rk.orbit_manifolds(rk.find_orbits(rk.System(rk.Harmonic(6.0, period=2.0), 0.925), 1)[2], length=0.1)
     rk.rotation_number(rk.System(rk.Harmonic(4.0, period=0.4), 1.0))
     rk.tangency_amplitude(rk.System(rk.Harmonic(1.0, period=1.0), 0.8))
     rk.theory.manifold_gap(np.linspace(0.0, 6.0, 50), 1.5, 1.0, 0.8)

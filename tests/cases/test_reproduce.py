@@ -19,7 +19,7 @@ from rocking.papers.yim_lin_1991.claims import CHAPTERS
 
 NAMES = ["01", "02", "03", "04", "05", "06", "07", "08", "09", "10", "11", "12", "13a", "13b"]
 TABLES = [f"table-{name}{kind}" for name in ("exponents", "claims") for kind in (".csv", ".md")]
-BEYOND = ["chaos", "cascade", "crisis", "threshold", "coexistence", "zoom"]
+BEYOND = ["chaos", "cascade", "crisis", "threshold", "coexistence", "zoom", "bifurcations"]
 PAGE = ["index.html", *(["index.pdf"] if page.can_print() else [])]
 
 
@@ -115,7 +115,7 @@ def test_unknown_figure_is_refused_before_anything_is_written(tmp_path):
     with pytest.raises(
         ValueError,
         match="^figures must be among 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13a, 13b, exponents, claims, "
-        "chaos, cascade, crisis, threshold, coexistence, zoom; got '14'$",
+        "chaos, cascade, crisis, threshold, coexistence, zoom, bifurcations; got '14'$",
     ):
         reproduce(tmp_path / "new", figures=[1, 14])
     assert not list(tmp_path.iterdir())

@@ -149,8 +149,10 @@ OF_A_SYSTEM = sorted(
     and next(iter(inspect.signature(getattr(rk, name)).parameters), "") == "system"
 )
 MORE = {
+    "bifurcation_set": {"max_period": 1, "period": (1.0, 2.0), "amplitude": (1.0, 2.0)},
     "basin_map": {"angle": [0.0, 0.1], "velocity": [0.0, 0.1]},
     "orbit_diagram": {"parameter": "amplitude", "values": [1.0, 2.0]},
+    "response_diagram": {"parameter": "amplitude", "values": [1.0, 2.0]},
     "find_orbit": {"guess": rk.State(), "period": 1},
     "find_orbits": {"max_period": 1},
 }
