@@ -130,7 +130,7 @@ def test_caption_of_figure_11_says_what_lies_beyond_the_first_curve(reproduced):
 def test_caption_of_the_bifurcation_curves_tells_what_is_drawn(monkeypatch):
     shown = rk.parametric_map(**cached_surveys.axes(8), restitution=0.925, max_cycles=200)
     monkeypatch.setattr(cached_surveys, "damped", lambda: shown)
-    monkeypatch.setattr(bifurcations, "LINES", 3)
+    monkeypatch.setattr(bifurcations, "GRID", 3)
     whole, part = bifurcations.draw().axes
     curves = [line for line in whole.lines if line.get_gid() not in (None, "codimension-2")]
     assert title(whole) == f"(a) {len(curves)} curves"

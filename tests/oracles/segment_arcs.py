@@ -301,6 +301,17 @@ def long(rng):
     return touching(rng, (20, 70))
 
 
+def coarse(rng):
+    """Fast starts under few samples with long steps, which are decided interval by interval."""
+    values, _ = _base(rng, int(rng.integers(3, 9)))
+    step = rng.uniform(0.4, 3.0)
+    index, near = _start(rng)
+    angle, velocity = _log_uniform(rng, 1e-3, 1.5), float(3.0 * rng.normal())
+    return Arc(
+        values, step, int(rng.choice([-1, 1])), min(index, len(values) - 2), near * step, angle, velocity
+    )
+
+
 def grazing_start(rng):
     """Slow starts from the base, just before the forcing term turns outward: the block returns or just does not."""
     while True:
@@ -335,7 +346,9 @@ def grazing_brace(rng):
                 break
 
 
-FAMILIES = {family.__name__: family for family in (generic, touching, long, grazing_start, grazing_brace)}
+FAMILIES = {
+    family.__name__: family for family in (generic, touching, long, grazing_start, grazing_brace, coarse)
+}
 
 
 def arcs(family, count, seed):

@@ -16,8 +16,15 @@ from rocking.kernels.forcing.sampled.search import first_event
 from rocking.kernels.forcing.sampled.solution import arc_at_place
 from rocking.kernels.forcing.sampled.tables import tables_of
 
-# 20,000 arcs; 50 times as many in the long test.
-COUNTS = {"generic": 6_000, "touching": 5_000, "grazing_start": 5_000, "long": 2_000, "grazing_brace": 2_000}
+# 22,000 arcs; 50 times as many in the long test.
+COUNTS = {
+    "generic": 6_000,
+    "touching": 5_000,
+    "grazing_start": 5_000,
+    "long": 2_000,
+    "grazing_brace": 2_000,
+    "coarse": 2_000,
+}
 LONG_CHUNKS = 50
 KINDS = {event_kinds.IMPACT: "base", event_kinds.BRACE: "brace", event_kinds.NONE: "none"}
 
@@ -130,6 +137,13 @@ def test_minimum_within_a_stride_lies_above_its_bound(side, step):
         lowest, _ = lowest_dip(arc, wait)
         assert angle == wait == math.inf
         assert lowest - 0.12**2 / 2 < low < lowest
+
+
+@pytest.mark.parametrize("side", [-1, 1])
+def test_strides_that_only_rise_have_no_bound(side):
+    values = np.full(100, -2.0 * side)
+    *_, wait, angle, _, low = search_from(Arc(values, 0.01, side, 0, 0.0, 0.6, 3.0, math.inf))
+    assert angle == wait == low == math.inf
 
 
 @pytest.mark.parametrize(("step", "intervals"), [(1e-4, 64), (0.007, 16), (0.03, 4), (0.2, 1)])

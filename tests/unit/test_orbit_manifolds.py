@@ -140,13 +140,36 @@ def test_picture_shows_all_halves():
     plt.close(ax.figure)
 
 
+def test_halves_that_are_too_short_are_told(case):
+    _, manifolds = case
+    short = [one.length < 4.0 for one in (*manifolds.unstable, *manifolds.stable)]
+    told = f"{sum(short)} of {len(short)} halves end before a length of 4" if any(short) else "points"
+    assert str(manifolds).endswith(told)
+
+
+def test_curves_keep_to_the_region_of_bounded_motions():
+    orbit = next(
+        each for each in rk.find_orbits(rk.System(rk.Harmonic(6.0, period=2.0), 0.3), 1) if each.symmetric
+    )
+    manifolds = rk.orbit_manifolds(orbit, length=2.0)
+    for one in (*manifolds.unstable, *manifolds.stable):
+        assert np.nanmax(np.abs(one.points)) < 6.0
+
+
 def test_refusals():
     orbit = saddle_of("period 1")
     stable = rk.find_orbits(orbit.system, 1)[0]
+    onset = rk.theory.symmetry_breaking_amplitude(2.0, 0.925, 1)
+    weak = next(
+        each
+        for each in rk.find_orbits(rk.System(rk.Harmonic(onset + 1e-3, period=2.0), 0.925), 1)
+        if each.symmetric
+    )
     braced = rk.System(rk.Harmonic(amplitude=15.0, period=2.0), 0.9, rk.Braces(1.0, 0.5))
     between = rk.find_orbits(braced, 1)[0]
     for call, error, message in (
         (lambda: rk.orbit_manifolds(stable), ValueError, "orbit must be a saddle orbit with impacts"),
+        (lambda: rk.orbit_manifolds(weak), ValueError, "orbit must have a multiplier of at least 1.02"),
         (lambda: rk.orbit_manifolds(3), TypeError, "orbit must be an Orbit"),
         (lambda: rk.orbit_manifolds(orbit, length=0), ValueError, "length must"),
         (lambda: rk.orbit_manifolds(orbit, spacing=2), ValueError, "spacing must"),

@@ -21,7 +21,7 @@ SYSTEMS = {
 @pytest.fixture(scope="module", params=SYSTEMS)
 def case(request):
     system, longest, bounds = SYSTEMS[request.param]
-    return system, longest, rk.bifurcation_set(system, longest, lines=8, **bounds)
+    return system, longest, rk.bifurcation_set(system, longest, grid=8, **bounds)
 
 
 def at(system, values):
@@ -112,7 +112,7 @@ def test_searches_on_both_sides_of_a_curve_find_other_numbers_of_orbits(case):
 
 def test_symmetry_breaking_is_that_of_the_closed_form():
     system, _, bounds = SYSTEMS["e 0.925"]
-    found = rk.bifurcation_set(system, 1, lines=4, **bounds)
+    found = rk.bifurcation_set(system, 1, grid=4, **bounds)
     (curve,) = (curve for curve in found.curves if curve.kind == "symmetry-breaking")
     exact = [rk.theory.symmetry_breaking_amplitude(period, 0.925, 1) for period in curve.points[:, 0]]
     np.testing.assert_allclose(curve.points[:, 1], exact, rtol=1e-9)
@@ -120,7 +120,7 @@ def test_symmetry_breaking_is_that_of_the_closed_form():
 
 def test_motions_double_their_period_across_a_curve():
     system, _, bounds = SYSTEMS["e 0.8"]
-    found = rk.bifurcation_set(system, 1, lines=6, **bounds)
+    found = rk.bifurcation_set(system, 1, grid=6, **bounds)
     curve = max((one for one in found.curves if one.kind == "period-doubling"), key=len)
     for period, amplitude in curve.points[20:-20:20].tolist():
         below = rk.find_orbits(at(system, (period, amplitude * 0.995)), 1)
@@ -137,17 +137,48 @@ def test_motions_double_their_period_across_a_curve():
 
 def test_dataset_holds_every_curve():
     system, _, bounds = SYSTEMS["e 0.8"]
-    found = rk.bifurcation_set(system, 1, lines=3, **bounds)
+    found = rk.bifurcation_set(system, 1, grid=3, **bounds)
     data = found.to_xarray()
     assert data.curve_kind.values.tolist() == [curve.kind for curve in found.curves]
     for number, curve in enumerate(found.curves):
-        part = data.isel(point=data.number.values == number)
+        part = data.isel(point=data.curve_number.values == number)
         np.testing.assert_array_equal(np.column_stack([part.period, part.amplitude]), curve.points)
+
+
+def test_special_points_that_are_not_followed_lie_on_no_curve(case):
+    """Grazings after which an orbit has no impact: without braces they lie at A = 1 + Ω²."""
+    system, longest, _ = case
+    if system.braces is None and longest == 1:
+        found = rk.bifurcation_set(system, 1, grid=4, period=(1.8, 2.6), amplitude=(2.0, 14.0))
+        assert found.not_followed == sum(
+            1.0 + (2.0 * np.pi / period) ** 2 < 14.0 for period in 1.8 + 0.8 * (np.arange(4) + 0.5) / 4
+        )
+        assert found.to_xarray().attrs["not_followed"] == found.not_followed
+        assert found.to_xarray().attrs["restitution"] == system.restitution
+
+
+def test_picture_refuses_axes_of_other_quantities():
+    system, _, bounds = SYSTEMS["e 0.8"]
+    found = rk.bifurcation_set(system, 1, grid=2, **bounds)
+    turned = rk.parametric_map(
+        amplitude=np.linspace(2, 14, 3), period=np.linspace(1.2, 2.6, 3), restitution=0.8
+    )
+    ax = rk.plot.parametric_map(turned)
+    keys = [text.get_text() for text in ax.get_legend().get_texts()]
+    rk.plot.bifurcation_set(found, ax)
+    both = [text.get_text() for text in ax.get_legend().get_texts()]
+    assert both[: len(keys)] == keys
+    assert "symmetry breaking" in both
+    plt.close(ax.figure)
+    other = rk.plot.section(rk.simulate(system, cycles=3))
+    with pytest.raises(ValueError, match="^ax must show period .* and amplitude"):
+        rk.plot.bifurcation_set(found, other)
+    plt.close(other.figure)
 
 
 def test_picture_shows_each_curve_and_marks_ends_at_grazings():
     system, _, bounds = SYSTEMS["e 0.925"]
-    found = rk.bifurcation_set(system, 2, lines=6, **bounds)
+    found = rk.bifurcation_set(system, 2, grid=6, **bounds)
     ax = rk.plot.bifurcation_set(found)
     drawn = [line for line in ax.lines if line.get_gid() != "codimension-2"]
     assert [line.get_gid() for line in drawn] == [curve.kind for curve in found.curves]
@@ -168,9 +199,9 @@ def test_picture_shows_each_curve_and_marks_ends_at_grazings():
             "ranges must hold the ranges of two different parameters.*; got 'period, frequency'",
         ),
         (lambda s: rk.bifurcation_set(s, 1, period=(1, 2), phase=(0, 1)), "ranges must be"),
-        (lambda s: rk.bifurcation_set(s, 1, period=(2, 1), amplitude=(1, 2)), "bounds must be"),
+        (lambda s: rk.bifurcation_set(s, 1, period=(2, 1), amplitude=(1, 2)), "period must be"),
         (lambda s: rk.bifurcation_set(s, 0, period=(1, 2), amplitude=(1, 2)), "max_period must be"),
-        (lambda s: rk.bifurcation_set(s, 1, lines=0, period=(1, 2), amplitude=(1, 2)), "lines must be"),
+        (lambda s: rk.bifurcation_set(s, 1, grid=0, period=(1, 2), amplitude=(1, 2)), "grid must be"),
         (lambda s: rk.bifurcation_set(3, 1, period=(1, 2), amplitude=(1, 2)), "system must be a System"),
         (
             lambda s: rk.bifurcation_set(

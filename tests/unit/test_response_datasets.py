@@ -47,7 +47,7 @@ def test_file_of_a_correlation_dimension_gives_the_slopes(dimension, tmp_path):
 def test_notebooks_show_a_picture_over_the_line(density, dimension):
     spectrum = rk.lyapunov(PERIOD_3, cycles=300)
     system = rk.System(rk.Harmonic(amplitude=4.0, period=2.0), restitution=0.9)
-    found = rk.bifurcation_set(system, 1, lines=2, period=(1.5, 2.0), amplitude=(3.0, 12.0))
+    found = rk.bifurcation_set(system, 1, grid=2, period=(1.5, 2.0), amplitude=(3.0, 12.0))
     for result in (density, dimension, spectrum, found, found.curves[0]):
         assert result._repr_html_().startswith(f'<figure><img alt="{str(result)[:20]}')
 

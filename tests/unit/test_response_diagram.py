@@ -222,9 +222,10 @@ def test_dataset_comes_back_from_a_file(tmp_path):
     with xr.open_dataset(tmp_path / "a.nc") as read:
         names = read["kind"].attrs["flag_meanings"].split()
         assert [names[code] for code in read["kind"].values] == found.kind.tolist()
-        for name in ("period", "symmetric", "exponent", "exponent_error", "rotation", "rotation_error"):
+        for name in ("symmetric", "exponent", "exponent_error", "rotation", "rotation_error"):
             assert read[name].dims == ("amplitude",)
             np.testing.assert_array_equal(read[name], getattr(found, name))
+        assert read["orbit_period"].values.tolist() == found.period.tolist()
         assert tuple(read["evidence"].values.tolist()) == found.evidence
         assert read["level"].values.tolist() == [verdict.evidence.level for verdict in found.verdicts]
         assert read["amplitude"].values.tolist() == found.values.tolist()
@@ -316,3 +317,12 @@ def test_refusals_are_one_line(change, error, message):
     with pytest.raises(error, match=f"^{message}") as refused:
         rk.response_diagram(**given)
     assert "\n" not in str(refused.value)
+
+
+def test_dataset_over_the_period_holds_the_periods_of_the_responses():
+    system = rk.System(rk.Harmonic(amplitude=5.5, period=1.0), restitution=0.925)
+    data = rk.response_diagram(system, "period", [0.3, 1.0]).to_xarray()
+    assert data.period.values.tolist() == [0.3, 1.0]
+    assert data.orbit_period.values.tolist() == [
+        rk.classify(rk.System(rk.Harmonic(5.5, period=period), 0.925)).period or 0 for period in (0.3, 1.0)
+    ]

@@ -49,9 +49,9 @@ class Motion(Trajectory, NotebookPicture):
         Time τ of that lift-off or impact.
     certified : bool
         False if the outcome is undecided in double precision: the accumulated rounding error exceeds |K₊| somewhere, or the
-        clearance of a minimum of |Θ| between two impacts. The error is an estimate from the rounding of each arc and its
-        growth. True for a harmonic base motion, and between braces, which prevent overturning. False for a block with a critical
-        angle under a base motion of finite length: its rounding errors are not assessed.
+        clearance of a minimum of |Θ| between two impacts, or a lower bound of it. The error is an estimate from the rounding of
+        each arc and its growth. True for a harmonic base motion, and between braces, which prevent overturning. False for a block
+        with a critical angle under a base motion of finite length: its rounding errors are not assessed.
     final : State
         Θ and Θ' at the end, just after an event if there is one.
     duration : float

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from attrs import field, frozen
 
-from rocking.model import NotebookPicture, System, instance, one_of, refusal, whole, within
+from rocking.model import NotebookPicture, System, counted, instance, one_of, refusal, whole, within
 from rocking.orbits.bifurcation_curve import BifurcationCurve, bifurcation_curve
 from rocking.orbits.branch import Branch, SpecialPoint
 from rocking.orbits.continuation import continue_orbit, switch_branch
@@ -32,6 +32,8 @@ class BifurcationSet(NotebookPicture):
 
     Attributes
     ----------
+    system : System
+        System of which two parameters are varied.
     names : tuple of two str
         Names of the parameters.
     bounds : tuple of two (float, float)
@@ -41,17 +43,18 @@ class BifurcationSet(NotebookPicture):
     curves : tuple of BifurcationCurve
         Curves by period of their orbits, type and number of impacts.
     not_followed : int
-        Number of special points that are on no curve, because no curve could be followed from them.
+        Number of special points from which no curve could be followed, and which lie on none.
 
     Examples
     --------
     >>> import rocking as rk
     >>> system = rk.System(rk.Harmonic(amplitude=4.0, period=2.0), restitution=0.9)
-    >>> found = rk.bifurcation_set(system, 1, lines=3, period=(1.5, 2.5), amplitude=(3.0, 12.0))
+    >>> found = rk.bifurcation_set(system, 1, grid=3, period=(1.5, 2.5), amplitude=(3.0, 12.0))
     >>> [(curve.kind, curve.impacts) for curve in found.curves]
     [('period-doubling', 2), ('symmetry-breaking', 2)]
     """
 
+    system: System
     names: tuple[str, str]
     bounds: tuple[Range, Range]
     max_period: int
@@ -71,12 +74,12 @@ class BifurcationSet(NotebookPicture):
     def __str__(self) -> str:
         counts = Counter(curve.kind for curve in self.curves)
         found = ", ".join(f"{number} of {kind}" for kind, number in counts.items()) or "none"
-        lost = f"; {self.not_followed} special points not followed" if self.not_followed else ""
+        lost = f"; {counted(self.not_followed, 'special point')} not followed" if self.not_followed else ""
         return f"bifurcation curves of orbits up to period {self.max_period}: {found}{lost}"
 
 
 def bifurcation_set(
-    system: System, max_period: int, *, lines: int = 12, step: float = 0.01, **ranges: Range
+    system: System, max_period: int, *, grid: int = 12, step: float = 0.01, **ranges: Range
 ) -> BifurcationSet:
     """Search for all bifurcation curves of periodic orbits in the plane of two parameters.
 
@@ -90,8 +93,8 @@ def bifurcation_set(
         Slender block, base motion and braces. Its values of the two parameters do not matter.
     max_period : int
         Longest period of the orbits, in forcing cycles, in [1, 64].
-    lines : int
-        Number of values of each parameter on the grid, in [1, 200]. Default: 12.
+    grid : int
+        Number of values of each parameter at which orbits are searched for, in [1, 200]. Default: 12.
     step : float
         Largest step along branches and curves, as in `bifurcation_curve`. Default: 0.01.
     **ranges : (float, float)
@@ -118,7 +121,7 @@ def bifurcation_set(
     Notes
     -----
     Completeness is not guaranteed. A curve is missed if the branches that meet it contain no orbit of the grid, and do not
-    bifurcate from branches that do. A larger `lines` makes this less likely.
+    bifurcate from branches that do. A larger `grid` and a smaller `step` make this less likely.
 
     A grazing after which an orbit has no impact is not followed. Without braces it lies at A = 1 + Ω², where the saddle orbit
     Θ = ±(1 + β cos ψ) reaches the base, because β = A/(1 + Ω²).
@@ -127,26 +130,26 @@ def bifurcation_set(
     --------
     >>> import rocking as rk
     >>> system = rk.System(rk.Harmonic(amplitude=4.0, period=2.0), restitution=0.9)
-    >>> print(rk.bifurcation_set(system, 1, lines=3, period=(1.5, 2.5), amplitude=(3.0, 12.0)))
+    >>> print(rk.bifurcation_set(system, 1, grid=3, period=(1.5, 2.5), amplitude=(3.0, 12.0)))
     bifurcation curves of orbits up to period 1: 1 of period-doubling, 1 of symmetry-breaking; 3 special points not followed
     """
     instance("system", system, System)
     longest = whole("max_period", max_period, 1, 64)
-    number, step = whole("lines", lines, 1, 200), within("step", step, 1e-6, 0.1)
+    number, step = whole("grid", grid, 1, 200), within("step", step, 1e-6, 0.1)
     if len(ranges) != 2 or set(ranges) == {"period", "frequency"}:
         allowed = "hold the ranges of two different parameters, such as period=(0.5, 3), amplitude=(1, 16)"
         raise TypeError(refusal("ranges", allowed, ", ".join(ranges) or "none"))
     for name in ranges:
         one_of("ranges", name, tuple(NAMES))
     first, second = ranges
-    bounds = checked_range(first, ranges[first]), checked_range(second, ranges[second])
+    bounds = checked_range(first, ranges[first], first), checked_range(second, ranges[second], second)
     _ = system.harmonic  # refuses other base motions, and the full block
     search = _Search((first, second), bounds, longest, step)
     for value in _middles(bounds[0], number):
         at_value = with_value(system, first, value)
         search.along([with_value(at_value, second, other) for other in _middles(bounds[1], number)])
     curves = sorted(search.curves, key=lambda curve: (curve.period, curve.kind, curve.impacts))
-    return BifurcationSet((first, second), bounds, longest, tuple(curves), search.not_followed)
+    return BifurcationSet(system, (first, second), bounds, longest, tuple(curves), search.not_followed)
 
 
 class _Search:
@@ -157,7 +160,7 @@ class _Search:
     ) -> None:
         self.names, self.bounds, self.max_period, self.step = names, bounds, max_period, step
         self.curves: list[BifurcationCurve] = []
-        self.not_followed = 0
+        self.alone: list[SpecialPoint] = []
 
     def along(self, systems: list[System]) -> None:
         """Follow the orbits of systems that differ in the second parameter, and the branches that bifurcate from them."""
@@ -195,21 +198,36 @@ class _Search:
         try:
             curve = bifurcation_curve(special, *self.names, self.bounds, self.step)
         except ValueError:
-            self.not_followed += 1
+            self.alone.append(special)
             return
         if len(curve) > 1:
             self.curves.append(curve)
         else:
-            self.not_followed += 1
+            self.alone.append(special)
+
+    @property
+    def not_followed(self) -> int:
+        """Number of special points that lie on no curve.
+
+        A branch that bifurcates from another one ends in a point of zero speed along the parameter, as at a fold. So the type is not
+        compared.
+        """
+        return sum(
+            not any(self.distance(curve, each) < ON_CURVE for curve in self.curves) for each in self.alone
+        )
 
     def is_on(self, curve: BifurcationCurve, special: SpecialPoint) -> bool:
-        """Return whether a special point lies on a curve of its type, as exactly as its chords tell."""
+        """Return whether a special point lies on a curve of its type, to the error of its chords."""
         orbit = special.orbit
         if (curve.kind, curve.period, curve.impacts) != (special.kind, orbit.period, orbit.impacts):
             return False
+        return self.distance(curve, special) < ON_CURVE
+
+    def distance(self, curve: BifurcationCurve, special: SpecialPoint) -> float:
+        """Return the distance of a special point from a curve, in squared steps."""
         spans = np.array([high - low for low, high in self.bounds])
-        here = np.array([value_of(orbit.system, name) for name in self.names]) / spans
-        return _distance(curve.points / spans, here) < ON_CURVE * self.step**2
+        here = np.array([value_of(special.orbit.system, name) for name in self.names]) / spans
+        return _distance(curve.points / spans, here) / self.step**2
 
 
 def _identity(special: SpecialPoint) -> tuple[object, ...]:

@@ -8,7 +8,7 @@ import numpy as np
 from attrs import field, frozen
 from numpy.typing import NDArray
 
-from rocking.model import ReadOnlyArrays, instance, plus_minus, read_only, refusal, whole
+from rocking.model import ReadOnlyArrays, counted, instance, plus_minus, read_only, refusal, whole
 from rocking.orbits.branch import SpecialPoint
 from rocking.orbits.continuation import switch_branch
 from rocking.orbits.parameter import checked_range
@@ -82,7 +82,7 @@ class Cascade(ReadOnlyArrays):
         if len(values) > 3:
             limit = f", accumulation at {plus_minus(*self.accumulation)}, last ratio {self.ratios[-1]:.6g}"
         return (
-            f"cascade of {len(values)} period doublings over {name}, {values[0]:.9g} to {values[-1]:.9g}, periods "
+            f"cascade of {counted(len(values), 'period doubling')} over {name}, {values[0]:.9g} to {values[-1]:.9g}, periods "
             f"{periods[0]} to {periods[-1]}{limit}; end: {self.end}"
         )
 
@@ -91,7 +91,7 @@ def cascade(special: SpecialPoint, bounds: tuple[float, float], doublings: int =
     """Follow a cascade of period doublings, and extrapolate where it accumulates.
 
     At each period doubling the branch of twice the period is followed to its own first period doubling. The range and the step of
-    each branch come from the distance of the last two.
+    each branch come from the distance of the last two, and from `bounds` if there is no period doubling in this range.
 
     Parameters
     ----------
@@ -136,9 +136,12 @@ def cascade(special: SpecialPoint, bounds: tuple[float, float], doublings: int =
     wanted = whole("doublings", doublings, 2, 10)
     found, around, end = [special], (low, high), "number of period doublings wanted"
     while len(found) < wanted:
-        (branch,) = switch_branch(found[-1], around)
-        following = [one for one in branch.special if one.kind == "period-doubling"]
-        if not following:
+        for bounds in (around, (low, high)):
+            (branch,) = switch_branch(found[-1], bounds)
+            following = [one for one in branch.special if one.kind == "period-doubling"]
+            if following:
+                break
+        else:
             end = f"no period doubling on the branch of period {branch.period}: {branch.ends[1]}"
             break
         found.append(min(following, key=lambda one: one.index))

@@ -8,6 +8,7 @@ import numpy as np
 
 from rocking.model import described, named
 from rocking.orbits.dataset_attributes import coordinate_of
+from rocking.orbits.parameter import fixed_quantities
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -92,7 +93,7 @@ def of_curves(found: BifurcationSet) -> xr.Dataset:
     variables = {
         name: coordinate_of("point", name, values) for name, values in zip(found.names, points.T, strict=True)
     }
-    variables["number"] = (
+    variables["curve_number"] = (
         "point",
         np.repeat(np.arange(len(lengths)), lengths),
         {"long_name": "number of the curve", "units": "1"},
@@ -107,7 +108,12 @@ def of_curves(found: BifurcationSet) -> xr.Dataset:
             np.array([getattr(curve, name) for curve in found.curves], "U17" if name == "kind" else int),
             {"long_name": text} | ({} if name == "kind" else {"units": "1"}),
         )
-    attributes = described("Bifurcation set") | {"max_period": found.max_period}
+    first, second = (fixed_quantities(found.system, name) for name in found.names)
+    attributes = described("Bifurcation set") | {
+        **{name: value for name, value in first.items() if name in second},
+        "max_period": found.max_period,
+        "not_followed": found.not_followed,
+    }
     return xr.Dataset(variables, attrs=attributes)
 
 

@@ -208,10 +208,10 @@ def orbit_from(system: System, phase: float, state: State, period: int) -> Orbit
     chain = chain_of(orbit)
     found = solved(chain, "amplitude", system.periodic.amplitude, chain.phases)
     if not found.found:
-        return orbit
+        return orbit if orbit.residual <= SAME else None
     half = _half(chain._replace(phases=found.phases[:-1]))
     if half is not None:
         chain, found = half, solved(half, "amplitude", system.periodic.amplitude, half.phases)
         if not found.found:
-            return orbit
+            return orbit if orbit.residual <= SAME else None
     return orbit_of(chain, "amplitude", found.phases, found.trace, found.determinant)

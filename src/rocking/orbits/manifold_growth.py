@@ -49,19 +49,20 @@ def pieces(
     times: np.ndarray, points: np.ndarray, spacing: float, box: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
     """Return times and points of a curve within the region, with a row of NaN between its pieces."""
-    rows = _within(points, box)
     # An impact at the phase of the section makes the curve discontinuous: Θ' jumps to e Θ'.
-    torn = np.concatenate([[False], np.hypot(*np.diff(points, axis=0).T) > spacing])
+    with np.errstate(invalid="ignore", over="ignore"):
+        torn = np.concatenate([[False], ~(np.hypot(*np.diff(points, axis=0).T) <= spacing)])
+    rows = _within(points, torn, box)
     apart = np.flatnonzero((np.diff(rows) > 1) | torn[rows[1:]]) + 1
     return np.insert(times[rows], apart, math.nan), np.insert(points[rows], apart, math.nan, axis=0)
 
 
-def _within(points: np.ndarray, box: np.ndarray) -> np.ndarray:
-    """Return the indices of the points inside the box, and of their neighbours."""
+def _within(points: np.ndarray, torn: np.ndarray, box: np.ndarray) -> np.ndarray:
+    """Return the indices of the points inside the box, and of the neighbours from which they are not ``torn``."""
     inside = (np.abs(points) <= box).all(axis=1)
     near = inside.copy()
-    near[1:] |= inside[:-1]
-    near[:-1] |= inside[1:]
+    near[1:] |= inside[:-1] & ~torn[1:]
+    near[:-1] |= inside[1:] & ~torn[1:]
     return np.flatnonzero(near & np.isfinite(points).all(axis=1))
 
 

@@ -36,7 +36,9 @@ NEAR = 1e-6
 FIRST_POINTS = 8
 # A curve ends if it grows by less than this fraction of the length wanted from one return to the next.
 STILL = 1e-9
-MAX_RETURNS = 2_000
+MAX_RETURNS = 1_000
+# Least modulus of the multiplier outside the unit circle: at it a curve becomes as long as 1 within MAX_RETURNS.
+SLOWEST = 1.02
 
 
 @frozen(eq=False)
@@ -49,6 +51,8 @@ class OrbitManifolds(ReadOnlyArrays, NotebookPicture):
         The saddle orbit.
     phase : float
         Forcing phase ψ of the section, rad.
+    wanted : float
+        Length that was wanted of each half.
     points : ndarray, shape (period, 2)
         Θ and Θ' of the orbit on the section.
     unstable, stable : tuple of Manifold
@@ -67,6 +71,7 @@ class OrbitManifolds(ReadOnlyArrays, NotebookPicture):
 
     orbit: Orbit
     phase: float
+    wanted: float
     points: NDArray[np.float64] = field(repr=False, converter=read_only)
     unstable: tuple[Manifold, ...] = field(repr=False)
     stable: tuple[Manifold, ...] = field(repr=False)
@@ -75,7 +80,9 @@ class OrbitManifolds(ReadOnlyArrays, NotebookPicture):
         curves = (*self.unstable, *self.stable)
         lengths = [sum(one.length for one in halves) for halves in (self.unstable, self.stable)]
         rough = sum(not one.resolved for one in curves)
-        gaps = f"; {rough} of {len(curves)} not resolved (reduce length)" if rough else ""
+        gaps = f"; {rough} of {len(curves)} halves not resolved (reduce length)" if rough else ""
+        short = sum(one.length < self.wanted for one in curves)
+        gaps += f"; {short} of {len(curves)} halves end before a length of {self.wanted:.4g}" if short else ""
         return (
             f"manifolds of an orbit of period {self.orbit.period} at ψ = {self.phase:.4g}: unstable length {lengths[0]:.4g}, "
             f"stable length {lengths[1]:.4g}, {sum(len(one.points) for one in curves):,} points{gaps}"
@@ -96,7 +103,8 @@ def orbit_manifolds(
     orbit : Orbit
         Saddle orbit with impacts, of a slender block without braces: one real multiplier outside the unit circle, one inside.
     length : float
-        Length over which each half is followed, at least, in the plane of Θ and Θ', in [1e-3, 1e4]. Default: 10.
+        Length over which each half is followed, at least, in the plane of Θ and Θ', in [1e-3, 1e4]. The last return may add much
+        more. Default: 10.
     phase : float, optional
         Forcing phase ψ of the section, rad. Default: that of the orbit, `orbit.phase`.
     spacing : float
@@ -142,7 +150,10 @@ def orbit_manifolds(
     check_reversible(orbit.system)
     moduli = sorted(abs(value) for value in orbit.multipliers)
     if orbit.superstable or not moduli[0] < 1.0 < moduli[1] or not orbit.impacts:
-        raise ValueError(refusal("orbit", "be a saddle orbit with impacts", str(orbit)))
+        raise ValueError(refusal("orbit", "be a saddle orbit with impacts", f"{orbit.stability} {orbit}"))
+    if moduli[1] < SLOWEST:
+        allowed = f"have a multiplier of at least {SLOWEST} in modulus, so that its manifolds grow in reasonable time"
+        raise ValueError(refusal("orbit", allowed, moduli[1]))
     length, spacing = within("length", length, *LENGTHS), within("spacing", spacing, *SPACINGS)
     phase = orbit.phase if phase is None else within("phase", phase, -MAX_PHASE, MAX_PHASE)
     points = np.array(
@@ -156,7 +167,7 @@ def orbit_manifolds(
         )
         for backward in (False, True)
     )
-    return OrbitManifolds(orbit, phase, points, unstable, stable)
+    return OrbitManifolds(orbit, phase, length, points, unstable, stable)
 
 
 def _half(

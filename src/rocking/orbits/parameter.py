@@ -80,10 +80,13 @@ def fixed_quantities(system: System, parameter: str) -> dict[str, float]:
     return {name: found[name] for name in found if name not in ("frequency", varied)}
 
 
-def checked_range(parameter: str, bounds: tuple[float, float]) -> tuple[float, float]:
+def checked_range(
+    parameter: str, bounds: tuple[float, float], argument: str = "bounds"
+) -> tuple[float, float]:
     """Return the bounds of a parameter, after checking that they are ordered and within its range."""
     allowed = "be (lowest, highest), the one below the other"
-    ends = pair("bounds", bounds, allowed)
-    low, high = (within(f"bounds of {parameter}", value, *ALLOWED[parameter]) for value in ends)
-    refuse_if(not low < high, "bounds", allowed, bounds)
+    ends = pair(argument, bounds, allowed)
+    shown = f"bounds of {parameter}" if argument == "bounds" else argument
+    low, high = (within(shown, value, *ALLOWED[parameter]) for value in ends)
+    refuse_if(not low < high, argument, allowed, bounds)
     return low, high

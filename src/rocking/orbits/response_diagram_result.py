@@ -116,7 +116,7 @@ class ResponseDiagram(ReadOnlyArrays, NotebookPicture):
         Returns
         -------
         xarray.Dataset
-            Over the parameter: `kind` (a code, explained by its attributes), `period`, `symmetric`, `exponent`,
+            Over the parameter: `kind` (a code, explained by its attributes), `orbit_period`, `symmetric`, `exponent`,
             `exponent_error`, `rotation`, `rotation_error`, and the `evidence` in words with its `level`.
         """
         import xarray as xr
@@ -125,7 +125,11 @@ class ResponseDiagram(ReadOnlyArrays, NotebookPicture):
         levels = [verdict.evidence.level for verdict in self.verdicts]
         variables = {
             "kind": kinds_of(name, self.kind.tolist(), "type of the response"),
-            "period": (name, self.period, named("forcing cycles per response period; 0 if not periodic")),
+            "orbit_period": (
+                name,
+                self.period,
+                named("forcing cycles per response period; 0 if not periodic"),
+            ),
             "symmetric": (name, self.symmetric.astype(np.int8), named("1 if the response is symmetric")),
             "exponent": (name, self.exponent, named("largest Lyapunov exponent per tau")),
             "exponent_error": (name, self.exponent_error, named("error of the largest Lyapunov exponent")),

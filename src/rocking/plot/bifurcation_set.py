@@ -40,6 +40,8 @@ def bifurcation_set(result: BifurcationSet, ax: Axes | None = None, block: Block
     ------
     TypeError
         If `result` is not a bifurcation set.
+    ValueError
+        If `ax` shows other quantities.
 
     See Also
     --------
@@ -51,13 +53,15 @@ def bifurcation_set(result: BifurcationSet, ax: Axes | None = None, block: Block
     --------
     >>> import rocking as rk
     >>> system = rk.System(rk.Harmonic(amplitude=4.0, period=2.0), restitution=0.9)
-    >>> found = rk.bifurcation_set(system, 1, lines=3, period=(1.5, 2.5), amplitude=(3.0, 12.0))
+    >>> found = rk.bifurcation_set(system, 1, grid=3, period=(1.5, 2.5), amplitude=(3.0, 12.0))
     >>> [text.get_text() for text in rk.plot.bifurcation_set(found).get_legend().get_texts()]
     ['period doubling', 'symmetry breaking']
     """
     instance("result", result, BifurcationSet)
     (across, x_label), (upright, y_label) = (parameter(name, block) for name in result.names)
+    is_new = ax is None
     ax = style.own(ax, height=2.9)
+    style.check_labels(ax, x_label, y_label)
     for curve in result.curves:
         colour, dashes = LOOKS[curve.kind]
         width = style.LINE / curve.period**0.5
@@ -83,5 +87,8 @@ def bifurcation_set(result: BifurcationSet, ax: Axes | None = None, block: Block
         )
     style.label(ax, x_label, y_label)
     if result.curves:
-        style.key(ax)
+        style.key_beside(ax)
+    if is_new:
+        ax.set_xlim(*(float(across(end)) for end in result.bounds[0]))
+        ax.set_ylim(*(float(upright(end)) for end in result.bounds[1]))
     return ax

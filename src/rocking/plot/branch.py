@@ -90,6 +90,9 @@ def branch(
                 ax, line, stability, name, color=COLOURS[one.symmetric], linewidth=style.LINE, gid=name
             )
     _marks(ax, branches, lambda orbit: upright(branch_lines.heights_of(orbit, quantity, phase)), across)
+    if quantity == "multiplier":
+        low, high = ax.get_ylim()
+        ax.set_ylim(min(low, 0.5), max(high, 2.0))  # rounding of a modulus of 1 does not fill the axis
     style.label(ax, x_label, branch_lines.height_label(quantity, shown))
     style.key(ax)
     return ax

@@ -1,9 +1,11 @@
 """Stable and unstable manifolds of a saddle orbit on a section."""
 
 from matplotlib.axes import Axes
+from matplotlib.patheffects import Normal, Stroke
 
 from rocking.model import Block, instance
 from rocking.orbits import OrbitManifolds
+from rocking.plot.bifurcation_set import EDGE
 from rocking.plot.manifolds import STABLE, UNSTABLE
 from rocking.plot.parts import style
 from rocking.plot.parts.axis_units import quantities
@@ -19,7 +21,7 @@ def orbit_manifolds(result: OrbitManifolds, ax: Axes | None = None, block: Block
     result : OrbitManifolds
         Result of `rocking.orbit_manifolds`.
     ax : matplotlib Axes, optional
-        Axes to draw into, for example those of `basins` at the same forcing phase. Default: a new figure, one column wide.
+        Axes to draw into, for example those of `basins`, which shows the phase φ of the forcing. Default: a new figure, one column wide.
     block : Block, optional
         Block for SI axes. Default: normalised axes.
 
@@ -31,6 +33,8 @@ def orbit_manifolds(result: OrbitManifolds, ax: Axes | None = None, block: Block
     ------
     TypeError
         If `result` is not an OrbitManifolds.
+    ValueError
+        If `ax` shows other quantities.
 
     See Also
     --------
@@ -49,6 +53,7 @@ def orbit_manifolds(result: OrbitManifolds, ax: Axes | None = None, block: Block
     instance("result", result, OrbitManifolds)
     shown = quantities(block)
     ax = style.own(ax, height=2.9)
+    style.check_labels(ax, shown.angle_label, shown.velocity_label)
     for name, colour, halves in (("stable", STABLE, result.stable), ("unstable", UNSTABLE, result.unstable)):
         for one in halves:
             ax.plot(
@@ -56,6 +61,7 @@ def orbit_manifolds(result: OrbitManifolds, ax: Axes | None = None, block: Block
                 shown.velocity(one.points[:, 1]),
                 color=colour,
                 linewidth=style.THIN,
+                path_effects=[Stroke(linewidth=style.THIN + EDGE, foreground="white"), Normal()],
                 rasterized=len(one.points) > style.MAX_CORNERS,
                 label=unless_there(ax, name),
                 gid=name,
@@ -74,5 +80,5 @@ def orbit_manifolds(result: OrbitManifolds, ax: Axes | None = None, block: Block
     )
     style.label(ax, shown.angle_label, shown.velocity_label)
     style.note(ax, at_phase(result.phase))
-    style.key(ax)
+    style.key_beside(ax)
     return ax

@@ -115,7 +115,7 @@ class Extremes(NamedTuple):
 
     dip: float  # least of all minima that were searched; infinity if there is none
     dip_time: float  # time from the start of the arc to there
-    low: float  # lower bound of the angle where no minimum was searched, between the start and the event; or infinity
+    low: float  # lower bound of the angle in strides that may contain a minimum and were not searched; infinity if there is none
     reached: float  # an angle that the arc reaches, or 0
     top: float  # an upper bound of the angle
 

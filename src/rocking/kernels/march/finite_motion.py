@@ -35,7 +35,7 @@ from rocking.kernels.numerics.elementary import hyperbolic
 from rocking.kernels.numerics.replace_fields import replacing
 
 # Number of impacts from one trial to prove that chattering ends in rest to the next: a trial costs as much as an impact. Over the
-# ground motions of the benchmark the time is least near this number.
+# ground motions of the benchmark a run takes the least time near this number.
 TRIED = 8
 
 
@@ -54,7 +54,7 @@ with_error = replacing(Closeness, "error")
 
 @njit(**INTERNAL)
 def is_decided(p, arc, extremes, error, at_event):
-    """Return whether K+ of an arc, and its angle before its event, exceed the accumulated rounding error.
+    """Return whether K+ of an arc, and its minima before its event, exceed the accumulated rounding error.
 
     The variance of u is a sum of e^2t and e^-2t with weights that are not negative, and a constant. So it is largest at the start
     or at the event, or where it is certain that none follows.
@@ -62,7 +62,9 @@ def is_decided(p, arc, extremes, error, at_event):
     constant, rounded = growth_constant(p, arc)
     if not exceeds(constant, of_growth(widened(error, rounded))):
         return False
-    if extremes.low < math.inf and not exceeds(extremes.low, max(error.uu, at_event.uu)):
+    if extremes.low < math.inf and not (
+        exceeds(extremes.low, error.uu) and exceeds(extremes.low, at_event.uu)
+    ):
         return False
     if extremes.dip == math.inf:
         return True

@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, MaxNLocator, NullLocator, ScalarFormatter
 from numpy.typing import NDArray
 
-from rocking.model import Block, instance, members, refuse_if, whole, within
+from rocking.model import Block, instance, members, refusal, refuse_if, whole, within
 
 COLUMN = 3.5
 PAGE = 7.2
@@ -164,6 +164,27 @@ def key(ax: Axes) -> None:
     """Draw a legend of all labelled artists, with marks of normal size."""
     for mark in ax.legend(**BELOW, ncols=2, columnspacing=1.2).get_lines():
         mark.set(markersize=MARK, markeredgewidth=0.8)
+
+
+def key_beside(ax: Axes) -> None:
+    """Add all labelled artists to the legend that the axes may have already, as those of a map have."""
+    old = ax.get_legend()
+    if old is None:
+        key(ax)
+        return
+    handles: list[Any] = list(old.legend_handles)
+    names = [text.get_text() for text in old.get_texts()]
+    for handle, name in zip(*ax.get_legend_handles_labels(), strict=True):
+        if name not in names:
+            handles, names = [*handles, handle], [*names, name]
+    ax.legend(handles, names, **BELOW, ncols=2, columnspacing=1.2)
+
+
+def check_labels(ax: Axes, across: str, upright: str) -> None:
+    """Raise ValueError if axes that are drawn into show other quantities than these."""
+    there = ax.get_xlabel(), ax.get_ylabel()
+    if any(there) and there != (across, upright):
+        raise ValueError(refusal("ax", f"show {across} and {upright}", " and ".join(there)))
 
 
 def patches(ax: Axes, handles: list, columns: int = 2) -> None:

@@ -1,6 +1,6 @@
 """One step of an arc: u = angle + velocity t + c2 t^2 + ..., up to a time at which the terms reach rounding level.
 
-The last two terms are below TOLERANCE at the end. The error is then bounded, by Schwarz's lemma. The defect of the polynomial p is
+The last two terms are about TOLERANCE at the end. The error is then bounded, by Schwarz's lemma. The defect of the polynomial p is
 D = p'' - f(p, t), an entire function and O(t^(n-1)). On |t| = r it is at most M. So |D(t)| <= M (t/r)^(n-1), and
 
     |u - p| <= M (h/r)^(n-1) h^2/(n (n + 1)) cosh(k h),
@@ -42,6 +42,8 @@ ERROR = 1e-16
 NEAR = 0.1
 # Distance from the base beyond which no rounding error of a step counts.
 CLEAR = 1e-9
+# A step is not shortened further: its bound is infinite or NaN.
+SHORTEST = 1e-300
 # Part of a step that is kept if its bound is too large: 34 % of the bound is left.
 SHORTER = 0.95
 
@@ -72,7 +74,7 @@ class Step(NamedTuple):
 
 @njit(**INTERNAL_INLINE)
 def log_time_of_term(coefficient, order):
-    """Return about the logarithm of the time at which a term reaches the tolerance; at most 0, since no step is longer than 1."""
+    """Return about the logarithm of the time at which a term reaches the tolerance; 0 if it is below it at the time 1."""
     return (LOG_TOLERANCE - rough_log2(max(abs(coefficient), TOLERANCE))) * (1.0 / order)
 
 
@@ -141,7 +143,7 @@ def step_from(p, side, angle, velocity, drive):
             min(log_time_of_term(c[ORDER - 2], ORDER), log_time_of_term(c[ORDER - 3], ORDER - 1))
         )
         to_corner, length = corner <= length, min(length, corner)
-    while not error_bound(p, velocity, c, length, drive, LONG) <= ERROR and length > 0.0:
+    while not error_bound(p, velocity, c, length, drive, LONG) <= ERROR and length > SHORTEST:
         to_corner, length = False, SHORTER * length
     return Step(angle, velocity, c, length, to_corner, False)
 

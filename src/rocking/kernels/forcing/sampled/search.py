@@ -5,10 +5,10 @@ They are the rest of the interval of the start, and FIRST more. From there on u 
 stride of several. Between two samples a time t apart u leaves its chord by at most t^2/8 max|u''|. With |u''| <= |u| + F,
 F = 1 + max|a|, and ``bend`` = q/(1 - q), q = t^2/8,
 
-    |u - chord| <= bend (max(|u|, |u|) + F),
+    |u - chord| <= bend (max|u| + F),
 
-so that most strides contain no event. In the others each interval is decided by this bound, or by ``segment.first_zero``. A
-step of MAX_STEP or more is decided interval by interval.
+with the larger |u| of both ends. So most strides contain no event. In the others each interval is decided by this bound, or
+by ``segment.first_zero``. A step of MAX_STEP or more is decided interval by interval.
 """
 
 import math
@@ -152,12 +152,12 @@ def largest_push(p):
 def rises_throughout(piece, length):
     """Return whether u' > 0 on a part of a segment: |u''| <= u + |f|, and u stays below the bound that this gives.
 
-    With q = length^2/2 that bound is (u + u' length + |f| q)/(1 - q).
+    With q = length^2/2 that bound is (u + u' length + |f| q)/(1 - q), where u' >= 0 at the start.
     """
     force = max(abs(piece.force), abs(piece.force + piece.rate * length))
     half = 0.5 * length * length
     largest = force + piece.w + piece.dw * length  # times 1 - q
-    return half < 0.5 and piece.dw * (1.0 - half) > length * largest * (1.0 + MARGIN)
+    return piece.dw > 0.0 and half < 0.5 and piece.dw * (1.0 - half) > length * largest * (1.0 + MARGIN)
 
 
 @njit(**INTERNAL_INLINE)
@@ -170,6 +170,12 @@ def reach_over(passage, before, here, force):
 def is_clear(p, before, here, reach):
     """Return whether there is no event between two samples by the bound ``reach``, from u at both ends."""
     return min(before, here) > reach and p.block.brace_angle - max(before, here) > reach
+
+
+@njit(**INTERNAL_INLINE)
+def is_monotone(speeds, time, push):
+    """Return whether u' certainly keeps its sign over a time, from its values at both ends and a bound of |u''|."""
+    return speeds[0] * speeds[1] > 0.0 and max(abs(speeds[0]), abs(speeds[1])) > time * push * (1.0 + MARGIN)
 
 
 @njit(**INTERNAL)
@@ -257,8 +263,10 @@ def scan(p, arc, index, start, extremes, top):
             reach = reach_over(tables.several, before, here, force)
             clear = is_clear(p, before, here, reach)
         if clear:
+            speeds = 0.5 * (total - difference), 0.5 * (ahead - behind)
+            if not is_monotone(speeds, tables.stride * tables.step, max(before, here) + reach + force):
+                extremes = with_low(extremes, min(extremes.low, min(before, here) - reach))
             total, difference, top = ahead, behind, max(top, here)
-            extremes = with_low(extremes, min(extremes.low, min(before, here) - reach))
         else:
             for k in range(index, min(end, last)):
                 ahead, behind = along(p, side, tables.single, tables.intervals[k], total, difference)

@@ -29,7 +29,7 @@ Intervals = Annotated[np.ndarray, INTERVAL, 1]
 # ``ahead`` and ``behind`` over several intervals.
 STRIDE = np.dtype([(name, float) for name in ("ahead", "behind")], align=True)
 Strides = Annotated[np.ndarray, STRIDE, 1]
-# Longest stride in units of time, and in intervals. The bound of a longer one holds less often, and a shorter one takes more of them.
+# Longest stride in units of time, and in intervals. The bound of a longer one holds less often, and there are more shorter ones.
 STRIDE_TIME, LONGEST = 0.12, 64
 
 
@@ -103,7 +103,7 @@ def passage_over(time, ahead, behind):
 
 @njit(**INTERNAL)
 def fill_strides(intervals, single, stride, time, strides):
-    """Fill the rows of ``strides`` and return their ``Passage``, over the doubled number of intervals again and again."""
+    """Fill the rows of ``strides`` and return their ``Passage``. Each round doubles the number of intervals."""
     n, passed, several = intervals.shape[0], 1, single
     for k in range(n):
         strides[k].ahead, strides[k].behind = intervals[k].ahead, intervals[k].behind

@@ -13,7 +13,7 @@ import rocking as rk
 from rocking.papers.yim_lin_1991 import cached_surveys
 
 PERIODS, AMPLITUDES = (0.2, 3.0), (1.3, 16.0)
-MAX_PERIOD, LINES = 3, 12
+MAX_PERIOD, GRID = 3, 12
 PART = (0.2, 2.0), (1.3, 5.0)
 
 
@@ -21,7 +21,7 @@ def draw() -> Figure:
     """Draw the curves over the map, and a part of it."""
     shown = cached_surveys.damped()
     system = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925)
-    found = rk.bifurcation_set(system, MAX_PERIOD, lines=LINES, period=PERIODS, amplitude=AMPLITUDES)
+    found = rk.bifurcation_set(system, MAX_PERIOD, grid=GRID, period=PERIODS, amplitude=AMPLITUDES)
     figure, axes = rk.plot.panels(columns=2, height=4.4)
     for ax in axes:
         rk.plot.parametric_map(shown, ax)
