@@ -91,7 +91,7 @@ def cascade(special: SpecialPoint, bounds: tuple[float, float], doublings: int =
     """Follow a cascade of period doublings, and extrapolate where it accumulates.
 
     At each period doubling the branch of twice the period is followed to its own first period doubling. The range and the step of
-    each branch come from the distance of the last two, and from `bounds` if there is no period doubling in this range.
+    each branch come from the distance of the last two. If there is no period doubling in this range, `bounds` is the range.
 
     Parameters
     ----------

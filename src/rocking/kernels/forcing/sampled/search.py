@@ -18,6 +18,14 @@ from rocking.kernels.deferred import njit
 from rocking.kernels.event_kinds import BRACE, IMPACT, NONE
 from rocking.kernels.forcing.arc import MAX_ARC_TIME, NO_EXTREMES, Extremes, Next, with_low
 from rocking.kernels.forcing.drives import SampledDrive
+from rocking.kernels.forcing.sampled.bounds import (
+    is_clear,
+    is_monotone,
+    largest_push,
+    never_returns,
+    reach_over,
+    rises_throughout,
+)
 from rocking.kernels.forcing.sampled.segment import Piece, at, first_zero, minimum
 from rocking.kernels.forcing.sampled.solution import (
     across_step,
@@ -120,64 +128,6 @@ def free_event(p, arc, drive, angle, velocity):
     return arrival(p, arc, SampledDrive(drive.index, drive.offset + x), at_brace, arrive)
 
 
-@njit(**INTERNAL_INLINE)
-def never_returns(p, side, index, total, difference):
-    """Return whether u certainly stays positive from a sample on, from u + u' and u - u' there.
-
-    u >= 1 + least P - (h^2/4) max|a| + (K+ e^t - |K-| e^-t)/2, because P leaves its chord by h^2/8 max|P''| <= h^2/4 max|a|.
-    A quarter of K+ e^t must suffice, so that u keeps a distance from 0 that grows with its rounding error.
-    """
-    tables, scale = p.forcing.tables, p.forcing.scale
-    turned, knot = side * scale, tables.knots[index]
-    growing = total - 1.0 - turned * (knot.mean + knot.rate)
-    shrinking = difference - 1.0 - turned * (knot.mean - knot.rate)
-    least = turned * (knot.lowest if turned > 0.0 else knot.highest)
-    bend = 0.25 * tables.step * tables.step * abs(scale) * tables.largest
-    return growing > 0.0 and 2.0 * (1.0 + least - bend) + 0.25 * growing - abs(shrinking) > MARGIN * (
-        growing + abs(shrinking)
-    )
-
-
-# Relative safety margin of bounds over rounding.
-MARGIN = 1e-12
-
-
-@njit(**INTERNAL_INLINE)
-def largest_push(p):
-    """Return F, a bound of |f|, with the margin over rounding of the bound that it serves."""
-    return (1.0 + abs(p.forcing.scale) * p.forcing.tables.largest) * (1.0 + MARGIN)
-
-
-@njit(**INTERNAL_INLINE)
-def rises_throughout(piece, length):
-    """Return whether u' > 0 on a part of a segment: |u''| <= u + |f|, and u stays below the bound that this gives.
-
-    With q = length^2/2 that bound is (u + u' length + |f| q)/(1 - q), where u' >= 0 at the start.
-    """
-    force = max(abs(piece.force), abs(piece.force + piece.rate * length))
-    half = 0.5 * length * length
-    largest = force + piece.w + piece.dw * length  # times 1 - q
-    return piece.dw > 0.0 and half < 0.5 and piece.dw * (1.0 - half) > length * largest * (1.0 + MARGIN)
-
-
-@njit(**INTERNAL_INLINE)
-def reach_over(passage, before, here, force):
-    """Return the bound on how far u leaves its chord, from u at both ends."""
-    return passage.bend * (max(abs(before), abs(here)) + force)
-
-
-@njit(**INTERNAL_INLINE)
-def is_clear(p, before, here, reach):
-    """Return whether there is no event between two samples by the bound ``reach``, from u at both ends."""
-    return min(before, here) > reach and p.block.brace_angle - max(before, here) > reach
-
-
-@njit(**INTERNAL_INLINE)
-def is_monotone(speeds, time, push):
-    """Return whether u' certainly keeps its sign over a time, from its values at both ends and a bound of |u''|."""
-    return speeds[0] * speeds[1] > 0.0 and max(abs(speeds[0]), abs(speeds[1])) > time * push * (1.0 + MARGIN)
-
-
 @njit(**INTERNAL)
 def event_within(p, arc, place, piece, length, end, extremes):
     """Return the first event on the rest of an interval, which starts at a place and ends in the state ``end``.
@@ -241,6 +191,28 @@ def event_and_dip(p, arc):
     return free_event(p, arc, place, angle, velocity), extremes, top
 
 
+@njit(**INTERNAL_INLINE)
+def over_stride(p, side, index, total, difference, force):
+    """Pass a stride from a sample, from u + u' and u - u' there.
+
+    Returns
+    -------
+    tuple of (bool, float, float, float)
+        Whether the stride certainly contains no event.
+        u + u' and u - u' at its end.
+        A lower bound of the minimum that it may contain; infinite if it contains none.
+    """
+    tables, before = p.forcing.tables, 0.5 * (total + difference)
+    ahead, behind = along(p, side, tables.several, tables.strides[index], total, difference)
+    here, low = 0.5 * (ahead + behind), math.inf
+    reach = reach_over(tables.several, before, here, force)
+    clear = is_clear(p, before, here, reach)
+    speeds = 0.5 * (total - difference), 0.5 * (ahead - behind)
+    if clear and not is_monotone(speeds, tables.stride * tables.step, max(before, here) + reach + force):
+        low = min(before, here) - reach
+    return clear, ahead, behind, low
+
+
 @njit(**INTERNAL)
 def scan(p, arc, index, start, extremes, top):
     """Search from a sample, where (u, u') is ``start``, to the last, with the extremes so far.
@@ -258,15 +230,10 @@ def scan(p, arc, index, start, extremes, top):
     while index < last:
         end, before, clear = index + tables.stride, 0.5 * (total + difference), False
         if end <= last:
-            ahead, behind = along(p, side, tables.several, tables.strides[index], total, difference)
-            here = 0.5 * (ahead + behind)
-            reach = reach_over(tables.several, before, here, force)
-            clear = is_clear(p, before, here, reach)
+            clear, ahead, behind, low = over_stride(p, side, index, total, difference, force)
         if clear:
-            speeds = 0.5 * (total - difference), 0.5 * (ahead - behind)
-            if not is_monotone(speeds, tables.stride * tables.step, max(before, here) + reach + force):
-                extremes = with_low(extremes, min(extremes.low, min(before, here) - reach))
-            total, difference, top = ahead, behind, max(top, here)
+            total, difference, top = ahead, behind, max(top, 0.5 * (ahead + behind))
+            extremes = with_low(extremes, min(extremes.low, low))
         else:
             for k in range(index, min(end, last)):
                 ahead, behind = along(p, side, tables.single, tables.intervals[k], total, difference)
