@@ -131,7 +131,7 @@ def bifurcation_set(
     >>> import rocking as rk
     >>> system = rk.System(rk.Harmonic(amplitude=4.0, period=2.0), restitution=0.9)
     >>> print(rk.bifurcation_set(system, 1, grid=3, period=(1.5, 2.5), amplitude=(3.0, 12.0)))
-    bifurcation curves of orbits up to period 1: 1 of period-doubling, 1 of symmetry-breaking; 3 special points not followed
+    bifurcation curves of orbits up to period 1: 1 of period-doubling, 1 of symmetry-breaking; 2 special points not followed
     """
     instance("system", system, System)
     longest = whole("max_period", max_period, 1, 64)

@@ -33,8 +33,6 @@ def orbit_manifolds(result: OrbitManifolds, ax: Axes | None = None, block: Block
     ------
     TypeError
         If `result` is not an OrbitManifolds.
-    ValueError
-        If `ax` shows other quantities.
 
     See Also
     --------
@@ -52,8 +50,8 @@ def orbit_manifolds(result: OrbitManifolds, ax: Axes | None = None, block: Block
     """
     instance("result", result, OrbitManifolds)
     shown = quantities(block)
+    is_new = ax is None
     ax = style.own(ax, height=2.9)
-    style.check_labels(ax, shown.angle_label, shown.velocity_label)
     for name, colour, halves in (("stable", STABLE, result.stable), ("unstable", UNSTABLE, result.unstable)):
         for one in halves:
             ax.plot(
@@ -78,7 +76,8 @@ def orbit_manifolds(result: OrbitManifolds, ax: Axes | None = None, block: Block
         gid="saddle",
         zorder=3,
     )
-    style.label(ax, shown.angle_label, shown.velocity_label)
+    if is_new:
+        style.label(ax, shown.angle_label, shown.velocity_label)
     style.note(ax, at_phase(result.phase))
     style.key_beside(ax)
     return ax
