@@ -1,5 +1,7 @@
 """Cascades of period doublings: Feigenbaum's ratios, periods by marching, and the accumulation by another method."""
 
+import sys
+
 import numpy as np
 import pytest
 
@@ -69,19 +71,10 @@ def test_too_few_doublings_have_no_limit_and_a_branch_may_have_none(found):
     assert "accumulation at 10.7326113" in str(found)
 
 
-def test_branch_that_turns_beyond_the_usual_range_is_followed_within_the_bounds():
-    """The distances of period doublings fall by another ratio where two cascades meet."""
-    system = rk.System(rk.Harmonic(amplitude=1.5, period=1.0), 1.0)
-    orbit = next(
-        each for each in rk.find_orbits(system, 2) if each.period == 2 and each.stability == "neutral"
-    )
-    branch = rk.continue_orbit(orbit, "amplitude", (0.2, 30.0))
-    for special in branch.special:
-        if special.kind == "period-doubling":
-            found = rk.cascade(special, (0.2, 30.0), doublings=3)
-            if len(found.special) < 3:
-                (last,) = rk.switch_branch(found.special[-1], (0.2, 30.0))
-                assert not [each for each in last.special if each.kind == "period-doubling"]
+def test_without_a_doubling_in_the_usual_range_all_of_the_bounds_are_searched(found, monkeypatch):
+    monkeypatch.setattr(sys.modules["rocking.orbits.cascade"], "WIDTH", 1e-6)
+    again = rk.cascade(found.special[0], BOUNDS, doublings=4)
+    np.testing.assert_allclose(again.values, found.values[:4], rtol=1e-9)
 
 
 def test_refusals(found):

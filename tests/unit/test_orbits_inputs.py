@@ -112,3 +112,9 @@ def test_nothing_is_born_at_a_fold(orbit):
     with pytest.raises(ValueError, match=r"^second must be another parameter than period"):
         rk.bifurcation_curve(fold, "period", "frequency", ((1, 2), (3, 7)))
     assert str(branch).startswith("branch of symmetric orbits of period 1, amplitude ")
+
+
+def test_a_block_on_a_base_at_rest_has_no_orbit_with_impacts():
+    """Each impact takes energy, so that no motion with impacts repeats itself."""
+    system = rk.System(rk.Harmonic(amplitude=0.0, period=1.7), restitution=0.925)
+    assert not [orbit for orbit in rk.find_orbits(system, 3) if orbit.impacts]

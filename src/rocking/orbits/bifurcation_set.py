@@ -209,8 +209,7 @@ class _Search:
     def not_followed(self) -> int:
         """Number of special points that lie on no curve.
 
-        A branch that bifurcates from another one ends in a point of zero speed along the parameter, as at a fold. So the type is not
-        compared.
+        A branch that bifurcates from another one turns back there, as at a fold. So the types are not compared.
         """
         return sum(
             not any(self.distance(curve, each) < ON_CURVE for curve in self.curves) for each in self.alone
