@@ -22,11 +22,12 @@ def draw() -> Figure:
     shown = cached_surveys.damped()
     system = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925)
     found = rk.bifurcation_set(system, MAX_PERIOD, grid=GRID, period=PERIODS, amplitude=AMPLITUDES)
-    figure, axes = rk.plot.panels(columns=2, height=4.4)
+    figure, axes = rk.plot.panels(columns=2, height=5.0)
     for ax in axes:
         rk.plot.parametric_map(shown, ax)
         rk.plot.bifurcation_set(found, ax)
     whole, part = axes
+    part.get_legend().remove()  # it is that of the whole
     rk.plot.title(whole, f"{len(found.curves)} curves")
     part.set_xlim(*PART[0])
     part.set_ylim(*PART[1])
