@@ -106,7 +106,7 @@ class Next(NamedTuple):
     angle: float
     velocity: float
     drive: Drive
-    sinh: float
+    sinh: float  # of the time until it; 0 from a search that does not need it
     versinh: float
 
 

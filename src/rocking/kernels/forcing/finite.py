@@ -1,6 +1,6 @@
 """Functions that a forcing of finite length provides besides those of ``contract``. It is 0 after its end.
 
-``growth_constant``, ``rounding_error`` and ``next_event_and_extremes`` are for slender blocks alone. There an arc is
+``growth_constant``, ``rounding_error``, ``elapsed_until`` and ``next_event_and_extremes`` are for slender blocks alone. There an arc is
 u = (K+ e^t + K- e^-t)/2 and bounded terms. So the block leaves for good if K+ > 0, unless it comes back before.
 """
 
@@ -15,6 +15,11 @@ def growth_constant(p, arc):
 @contract
 def rounding_error(p, arc, wait, growth):
     """Return an estimate of the rounding error of (u, u') that a time ``wait`` along an arc adds; ``growth`` is e^wait."""
+
+
+@contract
+def elapsed_until(p, arc, drive):
+    """Return the time from the start of an arc to a place of the forcing."""
 
 
 @contract

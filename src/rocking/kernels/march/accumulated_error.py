@@ -32,9 +32,8 @@ def widened(c, error):
 
 
 @njit(**INTERNAL_INLINE)
-def after_time(c, sinh, versinh):
+def after_time(c, sinh, cosh):
     """Return the covariance a time later on the same arc."""
-    cosh = 1.0 + versinh
     straight, across, product = cosh * cosh, sinh * sinh, sinh * cosh
     mixed = 2.0 * product * c.uv
     return Covariance(

@@ -12,7 +12,13 @@ from rocking.kernels.event_kinds import BRACE, FLIGHT, IMPACT, REST
 from rocking.kernels.forcing import finite
 from rocking.kernels.forcing.arc import shift_clock
 from rocking.kernels.forcing.contract import restitution_at, settling
-from rocking.kernels.forcing.finite import growth_constant, has_ended, next_event_and_extremes, rounding_error
+from rocking.kernels.forcing.finite import (
+    elapsed_until,
+    growth_constant,
+    has_ended,
+    next_event_and_extremes,
+    rounding_error,
+)
 from rocking.kernels.forcing.pulse.parameters import PulseParameters
 from rocking.kernels.forcing.sampled.parameters import SampledParameters
 from rocking.kernels.march.accumulated_error import (
@@ -31,7 +37,7 @@ from rocking.kernels.march.impact_law import SLOW, SLOWEST, after_chattering, af
 from rocking.kernels.march.initial_state import UNKNOWN, begin
 from rocking.kernels.march.march import CROWDED, DONE, MAX_EVENTS, OVERTURNED, STILL
 from rocking.kernels.march.tangent import event_map
-from rocking.kernels.numerics.elementary import hyperbolic
+from rocking.kernels.numerics.elementary import rough_hyperbolic
 from rocking.kernels.numerics.replace_fields import replacing
 
 # Number of impacts from one trial to prove that chattering ends in rest to the next: a trial costs as much as an impact. Over the
@@ -52,6 +58,13 @@ class Closeness(NamedTuple):
 with_error = replacing(Closeness, "error")
 
 
+@njit(**INTERNAL_INLINE)
+def error_after(p, arc, time, error):
+    """Return the accumulated error a time after the start of an arc."""
+    sinh, cosh = rough_hyperbolic(time)
+    return widened(after_time(error, sinh, cosh), rounding_error(p, arc, time, sinh + cosh))
+
+
 @njit(**INTERNAL)
 def is_decided(p, arc, extremes, error, at_event):
     """Return whether K+ of an arc, and its minima before its event, exceed the accumulated rounding error.
@@ -68,9 +81,7 @@ def is_decided(p, arc, extremes, error, at_event):
         return False
     if extremes.dip == math.inf:
         return True
-    sinh, versinh, _, _ = hyperbolic(extremes.dip_time)
-    added = rounding_error(p, arc, extremes.dip_time, 1.0 + sinh + versinh)
-    return extremes.dip > 0.0 and exceeds(extremes.dip, widened(after_time(error, sinh, versinh), added).uu)
+    return extremes.dip > 0.0 and exceeds(extremes.dip, error_after(p, arc, extremes.dip_time, error).uu)
 
 
 @njit(**INTERNAL)
@@ -108,11 +119,8 @@ def after_arc(p, arc, time, extremes, so_far, at_event):
 
 @njit(**INTERNAL)
 def error_at_event(p, mode, arc, coming, error):
-    """Return the accumulated error at the event that ends an arc."""
-    if mode != FLIGHT:
-        return error
-    added = rounding_error(p, arc, coming.wait, 1.0 + coming.sinh + coming.versinh)
-    return widened(after_time(error, coming.sinh, coming.versinh), added)
+    """Return the accumulated error at the event that ends an arc, or where it is certain that none follows."""
+    return error_after(p, arc, elapsed_until(p, arc, coming.drive), error) if mode == FLIGHT else error
 
 
 @njit(**INTERNAL)

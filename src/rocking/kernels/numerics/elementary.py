@@ -19,6 +19,8 @@ EVEN = tuple(1.0 / math.factorial(k) for k in range(4, 28, 2))
 SHORT = 2.0
 # Up to here four terms suffice: the first omitted one is below 2**-54 of the sum.
 BRIEF = 0.0625
+# Up to here 1/(1 - x) bounds exp x closely enough: 1.22 times.
+NEAR_ONE = 0.5
 
 # pi/2 in three parts. The first two have 33 bits, so their products with the quadrant number are exact up to
 # 2**20 quadrants.
@@ -100,6 +102,18 @@ def brief_hyperbolic(t):
 
 
 @njit(**KERNEL_INLINE)
+def rough_hyperbolic(t):
+    """Evaluate sinh t and cosh t of t >= 0 for estimates: the relative error is below 0.002."""
+    if t > SHORT:
+        grown = 0.5 * math.exp(t)
+        shrunk = 0.25 / grown
+        return grown - shrunk, grown + shrunk
+    q = t * t
+    sinh = t * fma(fma(fma(ODD[2], q, ODD[1]), q, ODD[0]), q, 1.0)
+    return sinh, fma(fma(fma(EVEN[1], q, EVEN[0]), q, 0.5), q, 1.0)
+
+
+@njit(**KERNEL_INLINE)
 def sine_and_cosine(x):
     """Return sin x and cos x, up to pi/4 in half the time of the standard functions."""
     if abs(x) > EIGHTH_TURN:
@@ -110,12 +124,14 @@ def sine_and_cosine(x):
 
 @njit(**KERNEL_INLINE)
 def exponential_bound(x):
-    """Return an upper bound of exp x for x >= 0. For small x it is 1 + x**2/128 times as large.
+    """Return an upper bound of exp x for x >= 0: at most 1.3 times as large up to 5.
 
-    With z = x/64, exp(z) <= 1/(1 - z).
+    exp(z) <= 1/(1 - z). From NEAR_ONE on z = x/64, which is then squared six times.
     """
     if x >= 32.0:
         return math.inf
+    if x < NEAR_ONE:
+        return 1.0 / (1.0 - x)
     once = 1.0 / (1.0 - x / 64.0)
     for _ in range(6):
         once = once * once

@@ -15,6 +15,7 @@ from typing import Any, NamedTuple
 
 from rocking.kernels.compile_options import INTERNAL
 from rocking.kernels.deferred import njit
+from rocking.kernels.numerics.elementary import fma  # noqa: F401  the source of the kernels uses it
 
 ORDER = 20
 # Order up to the next corner of the base acceleration, if that is near.
@@ -22,44 +23,63 @@ SHORT_ORDER = 12
 
 
 class Term(NamedTuple):
-    """Source of a term, and the step of the recursion after which it is known."""
+    """Product of two names in the source, and the step of the recursion after which it is known."""
 
     known: int
-    source: str
+    one: str
+    other: str
+
+
+def chain(terms: list[Term]) -> str:
+    """Return the source of a sum of products in this order, by fused multiplications and additions."""
+    *before, last = terms
+    return f"fma({last.one}, {last.other}, {chain(before)})" if before else f"{last.one} * {last.other}"
 
 
 def total(terms: list[Term]) -> str:
-    """Return the source of a sum: first the terms that are known first, in two parts, and the last one at the end."""
-    *early, last = [term.source for term in sorted(terms, key=lambda term: term.known)]
-    halves = [" + ".join(early[k::2]) for k in range(2)]
-    return " + ".join([f"({half})" for half in halves if half] + [last])
+    """Return the source of a sum of products: first the terms that are known first, in two parts, and the last one at the end."""
+    *early, last = sorted(terms, key=lambda term: term.known)
+    halves = [chain(half) for half in (early[0::2], early[1::2]) if half]
+    return f"fma({last.one}, {last.other}, {' + '.join(halves)})" if halves else chain([last])
 
 
-def lines_of_block(forced: Callable[[int], list[Term]], order: int) -> list[str]:
-    """Return the source lines that compute w2, w3, ... from w0, w1, s0 and c0; ``forced`` gives the terms of the forcing."""
-    lines = ["d1 = w1"]
-    for k in range(order - 1):
-        if k:
-            for name, other, factor in (("s", "c", 1.0 / k), ("c", "s", -1.0 / k)):
-                here = [Term(max(j - 2, k - j), f"d{j} * {other}{k - j}") for j in range(1, k + 1)]
-                lines.append(f"{name}{k} = ({total(here)}) * {factor!r}")
-        terms = total([Term(k, f"s{k}"), *forced(k)])
-        lines.append(f"w{k + 2} = ({terms}) * {1.0 / ((k + 1) * (k + 2))!r}")
-        lines.append(f"d{k + 2} = {k + 2}.0 * w{k + 2}")
+def lines_of_block(later: Callable[[str, int], list[Term]], order: int) -> list[str]:
+    """Return the source lines that compute dk = k wk, k = 2, 3, ..., from w1, s0, c0 and the base acceleration.
+
+    ``later`` gives the terms of the forcing without that of g0. tk = k sk and rk = -k ck are sums that wait for dk. So the next
+    one, d(k + 2), uses them at once.
+    """
+    lines = ["d1 = w1", "d2 = fma(g0, c0, s0)"]
+    for k in range(1, order - 1):
+        for name, other in (("t", "c"), ("r", "s")):
+            lines.append(
+                f"{name}{k} = {total([Term(max(j - 2, k - j), f'd{j}', f'{other}{k - j}') for j in range(1, k + 1)])}"
+            )
+        per = 1.0 / (k * (k + 1))
+        lines += [
+            f"s{k}, c{k} = t{k} * {1.0 / k!r}, r{k} * {-1.0 / k!r}",
+            f"d{k + 2} = fma(t{k}, {per!r}, fma(r{k}, g0 * {-per!r}, ({total(later('c', k))}) * {1.0 / (k + 1)!r}))",
+        ]
     return lines
 
 
 def kernel(name: str, arguments: str, lines: list[str], document: str) -> Any:
     """Return a kernel with these source lines."""
     body = "\n".join(f"    {line}" for line in lines)
-    scope: dict[str, Any] = {"__name__": __name__}
-    exec(f'def {name}({arguments}):\n    """{document}"""\n{body}\n', scope)
+    scope: dict[str, Any] = {}
+    exec(f'def {name}({arguments}):\n    """{document}"""\n{body}\n', globals(), scope)
     return njit(**INTERNAL)(scope[name])
 
 
 def coefficients(order: int) -> str:
-    """Return the source of w2, w3, ... times the scale, with zeros beyond the order."""
-    return "(" + ", ".join([f"w{k} * scale" for k in range(2, order + 1)] + ["0.0"] * (ORDER - order)) + ")"
+    """Return the source of wk = dk/k, k = 2, 3, ..., times the scale, with zeros beyond the order."""
+    return (
+        "("
+        + ", ".join(
+            [f"d{k} * (scale * {1.0 / k!r})" for k in range(2, order + 1)] + ["0.0"] * (ORDER - order)
+        )
+        + ")"
+    )
 
 
 def cosine_lines(order: int = ORDER) -> list[str]:
@@ -70,35 +90,34 @@ def cosine_lines(order: int = ORDER) -> list[str]:
             f"g{k} = h{k - 1} * (frequency * {-1.0 / k!r})",
             f"h{k} = g{k - 1} * (frequency * {1.0 / k!r})",
         ]
-    lines += lines_of_block(lambda k: cosine_terms("c", k), order)
-    return lines
+    return lines + lines_of_block(cosine_terms, order)
 
 
 def linear_lines(order: int = ORDER) -> list[str]:
     """Return the source of the series under a + rate t."""
-    return lines_of_block(lambda k: linear_terms("c", k), order)
+    return lines_of_block(linear_terms, order)
 
 
 def cosine_terms(factor: str, k: int) -> list[Term]:
-    """Return the terms of coefficient k of the product of a cosine and a ``factor``, s or c."""
-    return [Term(k - j, f"g{j} * {factor}{k - j}") for j in range(k + 1)]
+    """Return the terms of coefficient k of the product of a cosine and a ``factor``, s or c, without that of g0."""
+    return [Term(k - j, f"g{j}", f"{factor}{k - j}") for j in range(1, k + 1)]
 
 
 def linear_terms(factor: str, k: int) -> list[Term]:
-    """Return the terms of coefficient k of the product of a + rate t and a ``factor``, s or c."""
-    return [Term(k, f"g0 * {factor}{k}"), *([Term(k - 1, f"rate * {factor}{k - 1}")] if k else [])]
+    """Return the terms of coefficient k of the product of a + rate t and a ``factor``, s or c, without that of a."""
+    return [Term(k - 1, "rate", f"{factor}{k - 1}")] if k else []
 
 
-def transfer_lines(forced: Callable[[str, int], list[Term]]) -> list[str]:
+def transfer_lines(later: Callable[[str, int], list[Term]]) -> list[str]:
     """Return the source of two solutions of x'' = (cos w - sigma alpha A sin w) x, the equation of small perturbations.
 
-    x starts with (x, x') = (1, 0), y with (0, 1). ``forced`` gives the terms of products with the forcing.
+    x starts with (x, x') = (1, 0), y with (0, 1). ``later`` gives the terms of the forcing without that of g0.
     """
     lines = ["x0, x1, y0, y1 = 1.0, 0.0, 0.0, 1.0"]
     for k in range(ORDER - 1):
-        lines.append(f"q{k} = c{k} - ({total(forced('s', k))})")
+        lines.append(f"q{k} = c{k} - ({total([Term(k, 'g0', f's{k}'), *later('s', k)])})")
         for name in "xy":
-            terms = total([Term(max(j, k - j - 2), f"q{j} * {name}{k - j}") for j in range(k + 1)])
+            terms = total([Term(max(j, k - j - 2), f"q{j}", f"{name}{k - j}") for j in range(k + 1)])
             lines.append(f"{name}{k + 2} = ({terms}) * {1.0 / ((k + 1) * (k + 2))!r}")
     both = ", ".join("(" + ", ".join(f"{name}{k}" for k in range(2, ORDER + 1)) + ")" for name in "xy")
     return [*lines, f"return {both}"]
@@ -140,8 +159,8 @@ def polynomial_lines(first: int, order: int = ORDER) -> list[str]:
         last, *others = names[part::2][::-1]
         lines.append(f"p{part}, q{part} = {last}, 0.0")
         for name in others:
-            lines += [f"q{part} = q{part} * s + p{part}", f"p{part} = p{part} * s + {name}"]
-    return [*lines, "return p0 + p1 * t, p1 + 2.0 * t * (q0 + q1 * t)"]
+            lines += [f"q{part} = fma(q{part}, s, p{part})", f"p{part} = fma(p{part}, s, {name})"]
+    return [*lines, "return fma(p1, t, p0), fma(2.0 * t, fma(q1, t, q0), p1)"]
 
 
 def divided(first: int) -> Any:
@@ -156,7 +175,7 @@ def bend_lines(first: int) -> list[str]:
     lines = ["s = h * h", "p0, p1 = 0.0, 0.0"]
     for k in range(ORDER, first + 1, -1):
         part = f"p{(k - first) % 2}"
-        lines.append(f"{part} = {part} * s + {float((k - first) * (k - first - 1))!r} * abs({names[k]})")
+        lines.append(f"{part} = fma({part}, s, {float((k - first) * (k - first - 1))!r} * abs({names[k]}))")
     return [*lines, "return p0 + p1 * h"]
 
 
@@ -180,7 +199,7 @@ def shifted_lines() -> list[str]:
     """Return the source of the polynomial in the time since t, by repeated synthetic division."""
     lines = ["p0, p1, p2 = a, b, second", *(f"p{k} = w[{k - 2}]" for k in range(3, ORDER + 1))]
     for first in range(ORDER):
-        lines += [f"p{k} = p{k} + t * p{k + 1}" for k in range(ORDER - 1, first - 1, -1)]
+        lines += [f"p{k} = fma(t, p{k + 1}, p{k})" for k in range(ORDER - 1, first - 1, -1)]
     return [*lines, f"return p0, p1, ({', '.join(f'p{k}' for k in range(2, ORDER + 1))})"]
 
 
@@ -200,7 +219,7 @@ def size_lines(order: int) -> list[str]:
     lines = ["s = r * r", "y0, z0, y1, z1 = 0.0, 0.0, 0.0, 0.0"]
     for k in range(order, 1, -1):
         y, z, w = f"y{k % 2}", f"z{k % 2}", f"abs(w[{k - 2}])"
-        lines += [f"{y} = {y} * s + {w}", f"{z} = {z} * s + {float(k * (k - 1))!r} * {w}"]
+        lines += [f"{y} = fma({y}, s, {w})", f"{z} = fma({z}, s, {float(k * (k - 1))!r} * {w})"]
     return [*lines, "return (abs(b) + y0 * r + y1 * s) * r, z0 + z1 * r"]
 
 

@@ -175,8 +175,7 @@ def state_in(step, t):
 
 @njit(**INTERNAL_INLINE)
 def cannot_reach_base(p, step, drive):
-    """Return whether the block is so far from the base that it cannot reach it within a step: |u''| <= sqrt(1 + a^2)/alpha."""
+    """Return whether the block is so far from the base that it cannot reach it within a step: |u''| <= 1/alpha + |a|."""
     alpha, h = p.block.critical_angle, step.length
-    base = alpha * largest_within(p, drive, h)
-    push = math.sqrt(1.0 + base * base) / alpha
-    return step.angle + min(step.velocity, 0.0) * h - 0.5 * push * h * h > CLEAR
+    push = 1.0 + alpha * largest_within(p, drive, h)
+    return alpha * (step.angle + min(step.velocity, 0.0) * h - CLEAR) > 0.5 * push * h * h

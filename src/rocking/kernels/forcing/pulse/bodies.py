@@ -153,6 +153,12 @@ def has_ended(p, drive):
     return drive.time >= p.forcing.duration
 
 
+@njit(**INTERNAL_INLINE)
+def elapsed_until(p, arc, drive):
+    """Provide ``finite.elapsed_until``."""
+    return drive.time - arc.drive.time
+
+
 provide(
     PulseParameters,
     {
@@ -175,6 +181,7 @@ provide(
         contract.largest_on: largest_on,
         contract.next_turn: next_turn,
         contract.sensitivities: sensitivities,
+        finite.elapsed_until: elapsed_until,
         finite.growth_constant: growth_constant,
         finite.has_ended: has_ended,
         finite.next_event_and_extremes: next_event_and_extremes,

@@ -10,7 +10,7 @@ from rocking.kernels.forcing.arc import NO_EXTREMES, no_guess, unchanged
 from rocking.kernels.forcing.sampled import extrema, held, rounding, search, settling, solution
 from rocking.kernels.forcing.sampled.parameters import SampledParameters, with_run
 from rocking.kernels.forcing.sampled.solution import arc_at_place, place_at
-from rocking.kernels.forcing.slender import SLENDER
+from rocking.kernels.forcing.slender import SLENDER, transfer
 
 
 @njit(**INTERNAL)
@@ -68,6 +68,12 @@ def acceleration_size(p, drive):
     return abs(solution.acceleration_at(p, drive))
 
 
+@njit(**INTERNAL_INLINE)
+def transfer_to_event(p, arc, coming):
+    """Provide ``contract.transfer_to_event``: the search for the event does not need the hyperbolic functions."""
+    return transfer(p, arc, 0.0, solution.time_between(p, arc.drive, coming.drive))
+
+
 @njit(**INTERNAL)
 def sensitivities(p, arc, t, sinh, versinh, excess):
     """Provide ``contract.sensitivities`` by the scale; a sampled forcing has neither phase nor frequency."""
@@ -100,6 +106,8 @@ provide(
         contract.largest_on: extrema.largest_on,
         contract.next_turn: extrema.next_turn,
         contract.sensitivities: sensitivities,
+        contract.transfer_to_event: transfer_to_event,
+        finite.elapsed_until: rounding.elapsed_until,
         finite.growth_constant: rounding.growth_constant,
         finite.has_ended: rounding.has_ended,
         finite.next_event_and_extremes: next_event_and_extremes,

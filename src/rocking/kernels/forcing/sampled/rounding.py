@@ -7,7 +7,7 @@ from rocking.kernels.deferred import njit
 from rocking.kernels.forcing.arc import error_of_arc
 from rocking.kernels.forcing.sampled.search import FIRST
 from rocking.kernels.forcing.sampled.segment import ROUNDING
-from rocking.kernels.forcing.sampled.solution import last_index
+from rocking.kernels.forcing.sampled.solution import last_index, time_between
 
 
 @njit(**INTERNAL)
@@ -31,6 +31,12 @@ def growth_constant(p, arc):
 def has_ended(p, drive):
     """Provide ``finite.has_ended``."""
     return drive.index >= last_index(p)
+
+
+@njit(**INTERNAL_INLINE)
+def elapsed_until(p, arc, drive):
+    """Provide ``finite.elapsed_until``."""
+    return time_between(p, arc.drive, drive)
 
 
 @njit(**INTERNAL)

@@ -34,7 +34,6 @@ from rocking.kernels.forcing.sampled.solution import (
     piece_from,
     time_between,
 )
-from rocking.kernels.numerics.elementary import brief_hyperbolic
 
 FIRST = 2
 MAX_STEP = 2.0
@@ -46,20 +45,17 @@ def nothing_more(side, drive):
     return Next(math.inf, NONE, side, 0.0, 0.0, drive, 0.0, 0.0)
 
 
-@njit(**INTERNAL)
-def no_return(p, arc, drive):
-    """Return that no event follows, with the hyperbolic functions of the time until the place where this is certain."""
-    sinh, versinh, _ = brief_hyperbolic(time_between(p, arc.drive, drive))
-    return Next(math.inf, NONE, arc.side, 0.0, 0.0, drive, sinh, versinh)
+@njit(**INTERNAL_INLINE)
+def no_return(arc, drive):
+    """Return that no event follows. The place is that where this is certain."""
+    return Next(math.inf, NONE, arc.side, 0.0, 0.0, drive, 0.0, 0.0)
 
 
 @njit(**INTERNAL)
 def arrival(p, arc, drive, at_brace, velocity):
     """Return the event at a place: impact or brace impact."""
-    wait = time_between(p, arc.drive, drive)
-    sinh, versinh, _ = brief_hyperbolic(wait)
     kind, angle = (BRACE, p.block.brace_angle) if at_brace else (IMPACT, 0.0)
-    return Next(wait, kind, arc.side, angle, velocity, drive, sinh, versinh)
+    return Next(time_between(p, arc.drive, drive), kind, arc.side, angle, velocity, drive, 0.0, 0.0)
 
 
 @njit(**INTERNAL_INLINE)
@@ -120,7 +116,7 @@ def free_event(p, arc, drive, angle, velocity):
         at_brace = x_brace < x
         x = min(x, x_brace)
     if x == math.inf:
-        return no_return(p, arc, drive)
+        return no_return(arc, drive)
     end = brace if at_brace else 0.0
     # the height above the end as a product: at a brace the speed of a short hop keeps its digits
     speed = math.sqrt(max(velocity * velocity + (angle - end) * (2.0 - angle - end), 0.0))
@@ -248,7 +244,7 @@ def scan(p, arc, index, start, extremes, top):
                 total, difference, before, top = ahead, behind, here, max(top, here)
         index = min(end, last)
         if p.block.brace_angle == math.inf and never_returns(p, side, index, total, difference):
-            return before, 0.0, no_return(p, arc, SampledDrive(index, 0.0)), extremes, math.inf
+            return before, 0.0, no_return(arc, SampledDrive(index, 0.0)), extremes, math.inf
     drive = SampledDrive(last, 0.0)
     coming = Next(MAX_ARC_TIME, NONE, side, 0.0, 0.0, drive, 0.0, 0.0)
     return 0.5 * (total + difference), 0.5 * (total - difference), coming, extremes, top
