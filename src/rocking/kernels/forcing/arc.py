@@ -116,13 +116,11 @@ class Extremes(NamedTuple):
     dip: float  # least of all minima that were searched; infinity if there is none
     dip_time: float  # time from the start of the arc to there
     low: float  # lower bound of the angle in strides that may contain a minimum and were not searched; infinity if there is none
-    reached: float  # an angle that the arc reaches, or 0
-    top: float  # an upper bound of the angle
+    reached: float  # an angle that the arc reaches, or 0; infinite if no event follows
 
 
-NO_EXTREMES = Extremes(math.inf, 0.0, math.inf, 0.0, 0.0)
-UNKNOWN_TOP = Extremes(math.inf, 0.0, math.inf, 0.0, math.inf)
-with_low = replacing(Extremes, "low")
+NO_EXTREMES = Extremes(math.inf, 0.0, math.inf, 0.0)
+with_low, with_reached = replacing(Extremes, "low"), replacing(Extremes, "reached")
 
 
 @njit(**INTERNAL_INLINE)

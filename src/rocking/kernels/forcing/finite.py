@@ -1,6 +1,6 @@
 """Functions that a forcing of finite length provides besides those of ``contract``. It is 0 after its end.
 
-``growth_constant``, ``rounding_error``, ``elapsed_until`` and ``next_event_and_extremes`` are for slender blocks alone. There an arc is
+All but ``has_ended``, ``to_end``, ``with_run`` and ``with_pulse`` are for slender blocks alone. There an arc is
 u = (K+ e^t + K- e^-t)/2 and bounded terms. So the block leaves for good if K+ > 0, unless it comes back before.
 """
 
@@ -25,6 +25,11 @@ def elapsed_until(p, arc, drive):
 @contract
 def next_event_and_extremes(p, mode, arc):
     """Find the next event as ``contract.next_event`` does, and the ``Extremes`` of the arc before it."""
+
+
+@contract
+def largest_before(p, arc, coming, reached):
+    """Return an upper bound of the angle on an arc before its event, where ``Extremes.reached`` is known."""
 
 
 @contract

@@ -1,7 +1,7 @@
 """Largest angle of a motion: only the arc that may contain it is searched for its maximum.
 
-The search for an event gives two bounds of the maximum of an arc, from its samples. An arc below the largest angle that was
-reached before cannot contain the maximum of the motion.
+The search for an event gives a lower bound of the maximum of an arc, from its samples. An upper bound follows from that. An arc
+below the largest angle that was reached before cannot contain the maximum of the motion.
 """
 
 import math
@@ -12,6 +12,7 @@ from rocking.kernels.deferred import njit
 from rocking.kernels.event_kinds import NONE
 from rocking.kernels.forcing.arc import Arc, Next
 from rocking.kernels.forcing.contract import peak_with
+from rocking.kernels.forcing.finite import largest_before
 
 
 class Highest(NamedTuple):
@@ -41,10 +42,11 @@ def peak_of(p, highest):
 @njit(**INTERNAL)
 def highest_with(p, highest, arc, coming, extremes):
     """Return the ``Highest`` that includes one more arc, with its extremes."""
-    if extremes.top <= highest.reached:
+    top = largest_before(p, arc, coming, extremes.reached)
+    if top <= highest.reached:
         return highest
     if extremes.reached <= highest.reached:
         peak = peak_with(p, arc, coming, highest.peak)
         return Highest(peak, max(peak, highest.reached), highest.top, highest.arc, highest.coming)
     peak = highest.peak if highest.top <= extremes.reached else peak_of(p, highest)
-    return Highest(peak, max(peak, extremes.reached), extremes.top, arc, coming)
+    return Highest(peak, max(peak, extremes.reached), top, arc, coming)

@@ -9,7 +9,7 @@ from rocking.kernels.forcing import contract, finite
 from rocking.kernels.forcing.arc import (
     CROSSING,
     MAX_ARC_TIME,
-    UNKNOWN_TOP,
+    NO_EXTREMES,
     Extremes,
     Instant,
     error_of_arc,
@@ -131,7 +131,7 @@ def next_event_and_extremes(p, mode, arc):
 
     After a lift-off u rises as long as f > 0; rounding may deny it at the very start.
     """
-    coming, extremes = solution.next_event(p, mode, arc), UNKNOWN_TOP
+    coming, extremes = solution.next_event(p, mode, arc), NO_EXTREMES
     if mode != FLIGHT:
         return coming, extremes
     until = min(coming.wait, MAX_ARC_TIME)
@@ -143,8 +143,14 @@ def next_event_and_extremes(p, mode, arc):
         if found != CROSSING:
             return coming, extremes
         if sign < 0.0 and now.angle < extremes.dip:
-            extremes = Extremes(now.angle, t, math.inf, 0.0, math.inf)
+            extremes = Extremes(now.angle, t, math.inf, 0.0)
         sign = -sign
+
+
+@njit(**INTERNAL_INLINE)
+def largest_before(p, arc, coming, reached):
+    """Provide ``finite.largest_before``: unknown."""
+    return math.inf
 
 
 @njit(**INTERNAL_INLINE)
@@ -184,6 +190,7 @@ provide(
         finite.elapsed_until: elapsed_until,
         finite.growth_constant: growth_constant,
         finite.has_ended: has_ended,
+        finite.largest_before: largest_before,
         finite.next_event_and_extremes: next_event_and_extremes,
         finite.rounding_error: rounding_error,
         finite.with_pulse: with_pulse,

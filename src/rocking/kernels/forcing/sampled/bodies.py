@@ -110,6 +110,7 @@ provide(
         finite.elapsed_until: rounding.elapsed_until,
         finite.growth_constant: rounding.growth_constant,
         finite.has_ended: rounding.has_ended,
+        finite.largest_before: extrema.largest_before,
         finite.next_event_and_extremes: next_event_and_extremes,
         finite.rounding_error: rounding.rounding_error,
         finite.with_run: with_run,

@@ -11,6 +11,7 @@ from rocking.kernels.event_kinds import BRACE
 from rocking.kernels.forcing.arc import CROSSING, LATER, within_reach
 from rocking.kernels.forcing.drives import SampledDrive
 from rocking.kernels.forcing.extrema import arc_peak, first_turn_sign
+from rocking.kernels.forcing.sampled.bounds import largest_push, reach_over
 from rocking.kernels.forcing.sampled.search import MAX_STEP
 from rocking.kernels.forcing.sampled.segment import Piece, at, first_zero
 from rocking.kernels.forcing.sampled.solution import (
@@ -105,11 +106,23 @@ def largest_turn(p, arc, sign, begun, ended, peak):
     return max(peak, within_reach(p, now.angle)) if found == CROSSING else peak
 
 
+@njit(**INTERNAL_INLINE)
+def may_peak(rate, bend, later_rate, later_bend):
+    """Return whether u may have a maximum between two instants of an interval, from u' and u'' at both.
+
+    y = u'' obeys y'' = y, so that it changes its sign once at most, and u' twice.
+    """
+    if (rate > 0.0) == (later_rate > 0.0):
+        return (bend > 0.0) != (later_bend > 0.0)
+    return rate > 0.0
+
+
 @njit(**INTERNAL)
 def largest_on(p, arc, until, peak):
     """Return the largest of ``peak`` and the angles of an arc up to the time ``until``.
 
-    Only the intervals are searched in which the angle may exceed ``peak`` and all samples, by the bound of ``search``.
+    Only the intervals are searched in which the angle may have a maximum, and exceed ``peak`` and all samples by the bound of
+    ``search``.
     """
     last, tables, end = last_index(p), p.forcing.tables, evaluate(p, arc, until)
     if tables.step >= MAX_STEP or end.drive.index >= last:
@@ -122,18 +135,52 @@ def largest_on(p, arc, until, peak):
         peak = max(peak, within_reach(p, now.angle))
     force = 1.0 + abs(p.forcing.scale) * tables.largest
     growing, shrinking = at_first(p, arc)
-    begun, angle, velocity = 0.0, arc.angle, first_turn_sign(p, arc)
+    place, angle, velocity = arc.drive, arc.angle, first_turn_sign(p, arc)
     for index in range(first, end.drive.index + 2):
-        ended, after, rate = until, end.angle, end.velocity
+        ended, after, rate = end.drive, end.angle, end.velocity
         if index <= end.drive.index:
-            ended = time_between(p, arc.drive, SampledDrive(index, 0.0))
+            ended = SampledDrive(index, 0.0)
             after, rate = state_at_sample(p, arc.side, index, growing, shrinking)
         larger = max(angle, after)
         if larger + tables.single.bend * (larger + force) > peak * (1.0 - MARGIN):
-            peak = largest_turn(p, arc, velocity, begun, ended, peak)
-        begun, angle, velocity = ended, after, rate
+            push, change = forcing_on(p, arc.side, place.index)
+            bend, later_bend = angle + (push + change * place.offset), after + push
+            later_bend += change * (tables.step if ended.index > place.index else ended.offset)
+            if may_peak(velocity, bend, rate, later_bend):
+                begun, over = time_between(p, arc.drive, place), time_between(p, arc.drive, ended)
+                peak = largest_turn(p, arc, velocity, begun, over, peak)
+        place, angle, velocity = ended, after, rate
         growing, shrinking = growing * tables.growth, shrinking * tables.decay
     return min(peak, p.block.brace_angle)
+
+
+@njit(**INTERNAL_INLINE)
+def free_top(arc):
+    """Return a bound of u on an arc that starts after the last sample: (1 - u)^2 - u'^2 is constant. Infinite if it may overturn."""
+    least = (1.0 - arc.angle) * (1.0 - arc.angle) - arc.velocity * arc.velocity
+    if not (arc.velocity > 0.0 and arc.angle < 1.0 and least > 0.0):
+        return math.inf
+    return (
+        (arc.angle * (2.0 - arc.angle) + arc.velocity * arc.velocity)
+        / (1.0 + math.sqrt(least))
+        * (1.0 + MARGIN)
+    )
+
+
+@njit(**INTERNAL_INLINE)
+def largest_before(p, arc, coming, reached):
+    """Provide ``finite.largest_before``: ``reached`` is the largest u of both ends of the arc and of the samples that were passed.
+
+    Two of these are at most a stride apart, or as long as the arc if that is less. For times t within a stride, the bound of
+    ``reach_over`` is convex in t^2 and 0 at 0.
+    """
+    tables, last = p.forcing.tables, last_index(p)
+    if arc.drive.index >= last:
+        return free_top(arc)
+    if coming.drive.index >= last or tables.step >= MAX_STEP:
+        return math.inf
+    part = min(coming.wait / (tables.stride * tables.step), 1.0)
+    return reached + part * part * reach_over(tables.several, reached, reached, largest_push(p))
 
 
 @njit(**INTERNAL)

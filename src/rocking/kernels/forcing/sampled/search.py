@@ -16,7 +16,7 @@ import math
 from rocking.kernels.compile_options import INTERNAL, INTERNAL_INLINE
 from rocking.kernels.deferred import njit
 from rocking.kernels.event_kinds import BRACE, IMPACT, NONE
-from rocking.kernels.forcing.arc import MAX_ARC_TIME, NO_EXTREMES, Extremes, Next, with_low
+from rocking.kernels.forcing.arc import MAX_ARC_TIME, NO_EXTREMES, Extremes, Next, with_low, with_reached
 from rocking.kernels.forcing.drives import SampledDrive
 from rocking.kernels.forcing.sampled.bounds import (
     is_clear,
@@ -141,7 +141,7 @@ def event_within(p, arc, place, piece, length, end, extremes):
         length, end = x, (coming.angle, coming.velocity)
     angle, turn = minimum(piece, length, end)
     if angle < extremes.dip:
-        extremes = Extremes(angle, begun + turn, extremes.low, 0.0, 0.0)
+        extremes = Extremes(angle, begun + turn, extremes.low, 0.0)
     return coming, extremes
 
 
@@ -154,10 +154,7 @@ def first_event(p, arc):
     tuple of (Next, Extremes)
     """
     coming, extremes, reached = event_and_dip(p, arc)
-    top = reached + reach_over(p.forcing.tables.several, reached, reached, largest_push(p))
-    if coming.drive.index >= last_index(p) or p.forcing.tables.step >= MAX_STEP:
-        top = math.inf
-    return coming, Extremes(extremes.dip, extremes.dip_time, extremes.low, reached, top)
+    return coming, with_reached(extremes, reached)
 
 
 @njit(**INTERNAL)
