@@ -121,7 +121,7 @@ def test_a_graze_of_the_base_is_undecided():
 @njit(**KERNEL)
 def decided_with(p, low, variance_at_start, variance_at_event):
     arc = arc_at_place(p, 1, 0.0, 0.0, 2.0, SampledDrive(0, 0.0))
-    extremes = Extremes(math.inf, 0.0, low, 0.0, 0.0)
+    extremes = Extremes(math.inf, 0.0, low, 0.0)
     at_start, at_event = Covariance(variance_at_start, 0.0, 0.0), Covariance(variance_at_event, 0.0, 0.0)
     return is_decided(p, arc, extremes, at_start, at_event)
 

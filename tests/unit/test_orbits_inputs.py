@@ -59,14 +59,6 @@ def test_braces_are_needed_to_follow_them(orbit):
         rk.continue_orbit(orbit, "brace_angle", (0.5, 1))
 
 
-def test_an_orbit_that_rests_is_not_followed():
-    system = rk.System(rk.Harmonic(amplitude=1.2, period=4.0), restitution=0.2)
-    resting = rk.classify(system).orbit
-    assert resting.impacts is None
-    with pytest.raises(ValueError, match=r"^orbit must neither rest nor lean"):
-        rk.continue_orbit(resting, "amplitude", (1, 2))
-
-
 def test_a_response_that_is_not_periodic_has_no_orbit_to_follow():
     resting = rk.classify(rk.System(rk.Harmonic(amplitude=0.5, period=1.0), restitution=0.9)).orbit
     said = r"^orbit must be an Orbit; got None \(rk.classify returns one only if the response is periodic; "

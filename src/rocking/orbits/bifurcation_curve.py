@@ -194,9 +194,10 @@ def _half(
 
 def _condition(special: SpecialPoint) -> tuple[Chain, Condition]:
     """Return the chain to follow and its condition; of a grazing, the chain without the grazing event."""
+    chain = chain_at(special)
     if special.kind != "grazing":
         kind = Special.FOLD if special.kind == "fold" else Special.PERIOD_DOUBLING
-        chain = chain_at(special)._replace(system=special.orbit.system, phases=special._row[:-1])
+        chain = chain._replace(system=special.orbit.system, phases=special._row[:-1])
         return chain, Condition(kind, -1, IMPACT, 0.0)
     if special._touch is None:
         raise ValueError("special must have an event other than the grazing one to be followed; it has none")

@@ -63,7 +63,8 @@ class SpecialPoint:
     name : str
         Name of the parameter.
     index : int
-        The point lies between the points `index - 1` and `index` of its branch. A grazing is the first or last point.
+        The point lies between the points `index - 1` and `index` of its branch. A grazing is the first or last point, unless
+        the orbit rests: its branch then continues.
 
     Notes
     -----
@@ -94,7 +95,10 @@ class SpecialPoint:
 
 
 def chain_at(special: SpecialPoint) -> Chain:
-    """Return the chain of events at a special point; TypeError for a full block, which has none."""
+    """Return the chain of events at a special point; TypeError for a full block or an orbit that rests, which have none."""
+    if special.orbit.superstable:
+        allowed = "be that of an orbit without rest and without sustained contact with a brace"
+        raise TypeError(refusal("special", allowed, f"one of kind {special.kind} with it"))
     if special._chain is None:
         allowed = "be that of a slender block, whose arcs are closed forms"
         raise TypeError(refusal("special", allowed, f"critical_angle {special.orbit.system.critical_angle}"))
@@ -113,8 +117,9 @@ class Branch(ReadOnlyArrays, NotebookPicture):
         Number of forcing cycles per response period.
     symmetric : bool
         True if each orbit is its own mirror image half a period later.
-    impacts, brace_hits : int
-        Number of impacts at Θ = 0 and on the braces per response period.
+    impacts, brace_hits : int or None
+        Number of impacts at Θ = 0 and on the braces per response period. None if infinitely many precede rest or sustained
+        contact with a brace.
     points : structured ndarray
         One row per orbit, in order along the branch, with the fields
 
@@ -141,8 +146,8 @@ class Branch(ReadOnlyArrays, NotebookPicture):
     name: str
     period: int
     symmetric: bool
-    impacts: int
-    brace_hits: int
+    impacts: int | None
+    brace_hits: int | None
     points: NDArray[np.void] = field(repr=False, converter=read_only)
     special: tuple[SpecialPoint, ...] = field(repr=False)
     ends: tuple[str, str]

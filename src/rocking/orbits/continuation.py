@@ -10,6 +10,7 @@ from rocking.kernels.orbits import arclength, branch_point
 from rocking.kernels.orbits import continuation as kernel
 from rocking.model import Orbit, instance, one_of, refusal, refuse_if, whole, within
 from rocking.motion import simulate
+from rocking.orbits import resting_branch
 from rocking.orbits.branch import BRANCHES_OFF, Branch, SpecialPoint, chain_at
 from rocking.orbits.branch_result import ENDS, branch_of
 from rocking.orbits.event_chain import (
@@ -48,12 +49,13 @@ def continue_orbit(
     further events. Special points are accurate to rounding.
 
     For a full block the unknowns are the angle and the velocity at a forcing phase, and the equations those of the return map.
+    Rest, and sustained contact with a brace, erase what was before. An orbit with them is the motion from there, which needs no
+    equations. Its branch goes on through grazings, and ends where a rest or contact shrinks to nothing.
 
     Parameters
     ----------
     orbit : Orbit
-        Orbit from `find_orbit`, `find_orbits` or a verdict. It must have impacts or brace impacts, and neither rest nor
-        sustained contact with a brace.
+        Orbit from `find_orbit`, `find_orbits` or a verdict. It must have impacts or brace impacts.
     parameter : str
         "amplitude", "period", "frequency", "restitution", "brace_angle" or "brace_restitution"; for a full block also
         "critical_angle".
@@ -75,7 +77,7 @@ def continue_orbit(
         If an argument is of the wrong type.
     ValueError
         If the parameter is unknown, or belongs to braces that the system does not have. If the range is empty or does not
-        contain the value for `orbit`. If the orbit rests, stays in contact with a brace, grazes, or is a branch point.
+        contain the value for `orbit`. If the orbit grazes or is a branch point, unless it rests.
 
     See Also
     --------
@@ -109,6 +111,8 @@ def continue_orbit(
     )
     step = within("step", step, 1e-6, 0.1)
     most = whole("max_points", max_points, 2, 1_000_000)
+    if orbit.superstable:
+        return resting_branch.followed(orbit, parameter, (low, high), step, most)
     if orbit.system.critical_angle is not None:
         return followed(orbit, parameter, (low, high), step, most)
     chain = chain_of(orbit)

@@ -60,10 +60,10 @@ def of_branch(branch: Branch) -> xr.Dataset:
         "parameter": branch.name,
         "orbit_period": branch.period,
         "symmetric": int(branch.symmetric),
-        "impacts": branch.impacts,
-        "brace_hits": branch.brace_hits,
         "ends": list(branch.ends),
     }
+    counts = {"impacts": branch.impacts, "brace_hits": branch.brace_hits}
+    attributes |= {name: count for name, count in counts.items() if count is not None}
     return xr.Dataset(variables, attrs=attributes)
 
 

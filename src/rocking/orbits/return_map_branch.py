@@ -38,16 +38,16 @@ def followed(orbit: Orbit, name: str, bounds: tuple[float, float], step: float, 
     Raises
     ------
     ValueError
-        If the orbit rests, stays in contact with a brace, or does not close.
+        If the orbit has no impacts or does not close.
     """
     low, high = bounds
     way = ReturnMap(orbit.system, name, orbit.period, orbit.symmetric, low, high)
     start = np.array(
         [orbit.state.angle, orbit.state.velocity, (value_of(orbit.system, name) - low) / (high - low)]
     )
-    first = None if orbit.superstable else way.corrected(orbit.phase, start, ALONG)
+    first = way.corrected(orbit.phase, start, ALONG)
     if first is None:
-        allowed = "have impacts, neither rest nor lean, and close after its period"
+        allowed = "have impacts, and close after its period"
         remedy = "use a neighbouring one, or find it again with find_orbit"
         raise ValueError(refusal("orbit", allowed, str(orbit), remedy))
     along = first.tangent if first.tangent[2] >= 0.0 else -first.tangent
