@@ -78,10 +78,10 @@ def safe_basin(
     json: ask.Json = False,
     **shared: Any,
 ) -> None:
-    """Estimate the fraction of initial states that do not overturn.
+    """Estimate the safe fraction of initial states.
 
-    The fraction is given at each amplitude, with its 95 % confidence interval. Give the amplitude as an AXIS,
-    START:STOP:COUNT: COUNT evenly spaced values, both ends included. COUNT is optional. Default: 200.
+    It is the fraction of the initial states that do not overturn, at each amplitude, with its 95 % confidence interval. Give the
+    amplitude as an AXIS, START:STOP:COUNT: COUNT evenly spaced values, both ends included. COUNT is optional. Default: 200.
     """
     from rocking.cli.input import safe_basin_request as request
     from rocking.cli.output.files import check_apart, check_files
