@@ -6,6 +6,7 @@ import pytest
 import xarray as xr
 
 import rocking as rk
+from rocking.model import plus_minus
 
 CHAOS = "--amplitude 10.103037 --period 1.721328 --restitution 0.8 --cycles 3000"
 RESTS = "--amplitude 1.1 --period 2 --restitution 0.5 --cycles 200"
@@ -49,6 +50,30 @@ def test_block_in_si_has_rates_per_second(rocking):
     assert " per s" in out
     assert told(rocking, SI)["block"]["height_m"] == 2.0
     assert " per s" not in rocking(f"lyapunov {CHAOS}")[2]
+
+
+def test_each_error_in_si_is_per_second_in_text_json_and_file(rocking, tmp_path):
+    block = rk.Block(2.0, 0.5)
+    spectrum = rk.lyapunov(block.system(acceleration=4.0, frequency_hz=1.2), cycles=300)
+    values, errors = (per_tau / block.seconds(1.0) for per_tau in (spectrum.values, spectrum.errors))
+    out = rocking(f"lyapunov {SI} --netcdf {tmp_path}/a.nc")[2]
+    for name, value, error in zip(("λ₁", "λ₂"), values, errors, strict=True):
+        row = next(line for line in out.splitlines() if line.startswith(f"{name} per cycle"))
+        shown = row.removesuffix(" per s").split("   ")[-1]
+        assert shown == plus_minus(value, error)
+    physical = told(rocking, SI)["block"]
+    assert physical["exponents_per_s"] == pytest.approx(values)
+    assert physical["errors_per_s"] == pytest.approx(errors)
+    data = xr.load_dataset(tmp_path / "a.nc", engine="h5netcdf")
+    assert data["value_per_s"].values == pytest.approx(values)
+    assert data["error_per_s"].values == pytest.approx(errors)
+    assert data["running_error_per_s"].values == pytest.approx(
+        data["running_error"].values / block.seconds(1.0)
+    )
+    assert data["error_per_s"].attrs == {
+        "long_name": "error of the Lyapunov exponent per second",
+        "units": "s-1",
+    }
 
 
 def test_full_block_is_measured(rocking):

@@ -324,6 +324,7 @@ SURVEYS = (
     f"overturning {WIDE} --acceleration 5:9:4 --frequency-hz 1.2 --phases 2",
     f"overturning-spectrum --pulse one-sine {WIDE} --acceleration-g 0.5:1:3 --frequency-hz 1:2:2",
     f"basins {WIDE} --acceleration 5 --frequency-hz 1.2 --angle=-0.5:0.5:3 --velocity=-0.5:0.5:3 --boundary-runs 0",
+    f"safe-basin {WIDE} --acceleration 5:6:2 --frequency-hz 1.2 --samples 20",
 )
 
 

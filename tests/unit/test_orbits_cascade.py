@@ -40,6 +40,8 @@ def test_ratios_without_losses_tend_to_those_of_area_preserving_maps():
     first = min(doublings, key=lambda special: abs(special.parameter - 1.9739))
     found = rk.cascade(first, (0.2, 30.0), doublings=6)
     assert found.ratios[-1] == pytest.approx(8.721097, abs=2e-3)
+    guide = next(line for line in rk.plot.cascade(found).lines if line.get_gid() == "universal").get_ydata()
+    assert guide[0] / guide[1] == pytest.approx(8.721097)
 
 
 def test_marching_finds_each_period_between_two_doublings(found):
@@ -75,6 +77,34 @@ def test_without_a_doubling_in_the_usual_range_all_of_the_bounds_are_searched(fo
     monkeypatch.setattr(sys.modules["rocking.orbits.cascade"], "WIDTH", 1e-6)
     again = rk.cascade(found.special[0], BOUNDS, doublings=4)
     np.testing.assert_allclose(again.values, found.values[:4], rtol=1e-9)
+
+
+def test_picture_shows_the_distances_beside_the_universal_ratio(found):
+    ax = rk.plot.cascade(found)
+    lines = {line.get_gid(): line for line in ax.lines}
+    assert lines["distances"].get_xdata().tolist() == found.periods[:-1].tolist()
+    assert lines["distances"].get_ydata() == pytest.approx(np.diff(found.values))
+    guide = lines["universal"].get_ydata()
+    assert guide[:-1] / guide[1:] == pytest.approx(np.full(6, 4.669201609))
+    assert guide[-1] == lines["distances"].get_ydata()[-1]
+    assert [tick.get_text() for tick in ax.get_xticklabels()] == ["1", "2", "4", "8", "16", "32", "64"]
+    assert found._repr_html_().startswith("<figure>")
+    block = rk.Block(2.0, 0.5)
+    ax = rk.plot.cascade(found, block=block)
+    (distances,) = (line for line in ax.lines if line.get_gid() == "distances")
+    assert distances.get_ydata() == pytest.approx(np.diff(block.acceleration(found.values)))
+    assert ax.get_ylabel() == "distance in amplitude $a_x$ (m/s²)"
+
+
+def test_a_single_doubling_has_no_picture(found):
+    short = rk.cascade(found.special[0], (10.4, 10.6), doublings=6)
+    assert len(short.special) == 1
+    assert short._repr_html_() is None
+    assert short.to_xarray()["ratio"].isnull().all()
+    with pytest.raises(ValueError, match="result must hold two period doublings or more to be drawn; got 1$"):
+        rk.plot.cascade(short)
+    with pytest.raises(TypeError, match="result must be a Cascade; got 3"):
+        rk.plot.cascade(3)
 
 
 def test_refusals(found):

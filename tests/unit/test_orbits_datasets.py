@@ -1,4 +1,4 @@
-"""Datasets of branches, bifurcation curves and sets of orbits: every value comes back, also from a file."""
+"""Datasets of branches, bifurcation curves, cascades, sets of orbits and manifolds: every value comes back, also from a file."""
 
 import numpy as np
 import pytest
@@ -24,6 +24,25 @@ def orbits():
     return rk.find_orbits(rk.System(rk.Harmonic(amplitude=5.5, period=0.5), restitution=0.925), 3)
 
 
+@pytest.fixture(scope="module")
+def cascade():
+    system = rk.System(rk.Harmonic(amplitude=10.46, period=1.721328), restitution=0.8)
+    doubling = rk.continue_orbit(rk.classify(system).orbit, "amplitude", (10.3, 10.9)).special[0]
+    return rk.cascade(doubling, (10.3, 10.9), doublings=4)
+
+
+@pytest.fixture(scope="module")
+def manifolds():
+    """Manifolds of an orbit of period 3, whose halves begin at three points."""
+    system = rk.System(rk.Harmonic(amplitude=6.5, period=0.4), 0.925)
+    saddle = next(
+        orbit
+        for orbit in rk.find_orbits(system, 3)
+        if orbit.period == 3 and orbit.impacts and orbit.stability == "unstable"
+    )
+    return rk.orbit_manifolds(saddle, length=0.5)
+
+
 def through_file(data, tmp_path):
     """Return a dataset as it comes back from a netCDF file."""
     data.to_netcdf(tmp_path / "a.nc", engine="h5netcdf")
@@ -34,8 +53,8 @@ def multipliers_of(data):
     return data["multiplier_real"].values + 1j * data["multiplier_imag"].values
 
 
-def test_every_variable_has_a_name_and_every_number_a_unit(branch, curve, orbits):
-    for found in (branch, curve, orbits):
+def test_every_variable_has_a_name_and_every_number_a_unit(branch, curve, orbits, cascade, manifolds):
+    for found in (branch, curve, orbits, cascade, manifolds):
         for name, variable in found.to_xarray().variables.items():
             assert variable.attrs["long_name"], name
             assert variable.dtype.kind in "US" or "units" in variable.attrs, name
@@ -90,6 +109,42 @@ def test_exponents_come_back_with_their_history(amplitude, period, restitution, 
     np.testing.assert_array_equal(data["error"], spectrum.errors)
     np.testing.assert_array_equal(data["cycles"], spectrum.history["cycles"])
     np.testing.assert_array_equal(data["running_value"], spectrum.history["values"])
+
+
+def test_cascade_comes_back_with_its_orbits(cascade, tmp_path):
+    data = through_file(cascade.to_xarray(), tmp_path)
+    np.testing.assert_array_equal(data["parameter"], cascade.values)
+    np.testing.assert_array_equal(data["period"], [1, 2, 4, 8])
+    np.testing.assert_array_equal(data["ratio"][1:-1], cascade.ratios)
+    assert np.isnan(data["ratio"].values[[0, -1]]).all()
+    assert (data.attrs["accumulation"], data.attrs["accumulation_error"]) == cascade.accumulation
+    assert (data.attrs["parameter"], data.attrs["end"]) == ("amplitude", cascade.end)
+    assert (data.attrs["restitution"], data.attrs["period"]) == (0.8, 1.721328)
+    assert "amplitude" not in data.attrs
+    for k, special in enumerate(cascade.special):
+        here, orbit = data.isel(doubling=k), special.orbit
+        assert (here["angle"], here["velocity"]) == (orbit.state.angle, orbit.state.velocity)
+        assert here["section_phase"] == orbit.phase
+        assert tuple(multipliers_of(here)) == orbit.multipliers
+
+
+def test_manifolds_come_back_half_by_half(manifolds, tmp_path):
+    data = through_file(manifolds.to_xarray(), tmp_path)
+    halves = (*manifolds.unstable, *manifolds.stable)
+    assert data.sizes["curve"] == len(halves) == 12
+    for k, half in enumerate(halves):
+        here = data.isel(point=data["curve_number"].values == k)
+        np.testing.assert_array_equal(np.column_stack([here["angle"], here["velocity"]]), half.points)
+        np.testing.assert_array_equal(here["time"], half.times)
+        told = data.isel(curve=k)
+        assert told["curve_stable"] == half.stable
+        assert told["curve_resolved"] == half.resolved
+        assert told["curve_side"] == half.side
+        start = data.isel(orbit_point=int(told["curve_orbit_point"]))
+        assert (start["orbit_angle"], start["orbit_velocity"]) == tuple(half.points[0])
+    assert data.attrs["section_phase"] == manifolds.phase
+    assert (data.attrs["orbit_period"], data.attrs["wanted_length"]) == (3, 0.5)
+    assert (data.attrs["amplitude"], data.attrs["restitution"]) == (6.5, 0.925)
 
 
 def test_orbits_come_back_and_pandas_writes_a_table(orbits, tmp_path):

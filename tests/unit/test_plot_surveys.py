@@ -76,6 +76,17 @@ def test_a_safe_area_is_drawn_beside_its_thresholds():
     assert upright == sorted([found.heteroclinic_amplitude, found.melnikov_amplitude])
 
 
+def test_safe_area_and_thresholds_of_a_block_are_drawn_over_its_acceleration():
+    found = rk.safe_basin(amplitude=[3.0, 4.0, 5.0], period=1.0, restitution=0.8, samples=20)
+    block = rk.Block(2.0, 0.5)
+    ax = rk.plot.safe_basin(found, block=block)
+    assert drawn(ax, "safe").get_xdata() == pytest.approx(block.acceleration([3.0, 4.0, 5.0]))
+    upright = sorted(line.get_xdata()[0] for line in ax.lines if line.get_gid() != "safe")
+    thresholds = [found.melnikov_amplitude, found.heteroclinic_amplitude]
+    assert upright == pytest.approx(block.acceleration(thresholds))
+    assert ax.get_xlabel() == "amplitude $a_x$ (m/s²)"
+
+
 def test_an_overturning_curve_lies_over_the_shares(curve):
     ax = rk.plot.overturning(curve)
     assert drawn(ax, "lowest").get_ydata() == pytest.approx(curve.dataset.lowest.values, nan_ok=True)

@@ -297,6 +297,16 @@ def test_progress_shows_random_states_and_boundary_runs(capsys):
     assert "boundary runs" in shown
 
 
+def test_progress_of_a_safe_basin_counts_the_states_of_all_amplitudes(capsys):
+    given = {"amplitude": [3.0, 6.0], "period": 1.0, "restitution": 0.8, "samples": 300}
+    quiet = rk.safe_basin(**given)
+    assert capsys.readouterr().err == ""
+    assert rk.safe_basin(**given, progress=True).shares == quiet.shares
+    shown = capsys.readouterr().err
+    assert "initial states" in shown
+    assert "100%" in shown
+
+
 @pytest.mark.parametrize(
     ("change", "message"),
     [

@@ -3,15 +3,29 @@
 from __future__ import annotations
 
 import math
+from typing import TYPE_CHECKING
 
 import numpy as np
 from attrs import field, frozen
 from numpy.typing import NDArray
 
-from rocking.model import ReadOnlyArrays, counted, instance, plus_minus, read_only, refusal, whole
+from rocking.model import (
+    NotebookPicture,
+    ReadOnlyArrays,
+    counted,
+    instance,
+    plus_minus,
+    read_only,
+    refusal,
+    whole,
+)
 from rocking.orbits.branch import SpecialPoint
 from rocking.orbits.continuation import switch_branch
+from rocking.orbits.datasets import of_cascade
 from rocking.orbits.parameter import checked_range
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 # A branch is followed this far on both sides of its special point, in distances of the last two period doublings: the next one is
 # nearer by the ratio of the cascade.
@@ -19,7 +33,7 @@ WIDTH = 1.0
 
 
 @frozen(eq=False)
-class Cascade(ReadOnlyArrays):
+class Cascade(ReadOnlyArrays, NotebookPicture):
     """Cascade of period doublings; returned by `cascade`.
 
     Attributes
@@ -76,6 +90,20 @@ class Cascade(ReadOnlyArrays):
         )
         return last, abs(last - before)
 
+    def to_xarray(self) -> xr.Dataset:
+        """Return the cascade as a dataset, which xarray writes to netCDF and pandas to CSV.
+
+        Returns
+        -------
+        xarray.Dataset
+            Along `doubling`: the parameter, and the period, state at the section and Floquet multipliers of the orbit. `ratio` is
+            NaN at the first and the last one. The accumulation and its error are attributes.
+        """
+        return of_cascade(self)
+
+    def _repr_html_(self) -> str | None:
+        return super()._repr_html_() if len(self.special) > 1 else None
+
     def __str__(self) -> str:
         name, values, periods = self.special[0].name, self.values, self.periods
         limit = ""
@@ -119,6 +147,7 @@ def cascade(special: SpecialPoint, bounds: tuple[float, float], doublings: int =
     --------
     continue_orbit : Follow an orbit through a parameter.
     switch_branch : Follow one branch that bifurcates.
+    rocking.plot.cascade : Plot the distances.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""Datasets of branches, bifurcation curves and sets of periodic orbits."""
+"""Datasets of branches, bifurcation curves, cascades, sets of periodic orbits and their manifolds."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from rocking.model import described, named
+from rocking.model import described, named, quantities
 from rocking.orbits.dataset_attributes import coordinate_of
 from rocking.orbits.parameter import fixed_quantities
 
@@ -16,7 +16,9 @@ if TYPE_CHECKING:
     from rocking.orbits.bifurcation_curve import BifurcationCurve
     from rocking.orbits.bifurcation_set import BifurcationSet
     from rocking.orbits.branch import Branch
+    from rocking.orbits.cascade import Cascade
     from rocking.orbits.find_orbits import Orbits
+    from rocking.orbits.orbit_manifolds import OrbitManifolds
 
 
 def multipliers(along: str, values: np.ndarray) -> dict[str, Any]:
@@ -113,6 +115,77 @@ def of_curves(found: BifurcationSet) -> xr.Dataset:
         **{name: value for name, value in first.items() if name in second},
         "max_period": found.max_period,
         "not_followed": found.not_followed,
+    }
+    return xr.Dataset(variables, attrs=attributes)
+
+
+def of_cascade(found: Cascade) -> xr.Dataset:
+    """Return a cascade of period doublings as a dataset along `doubling`."""
+    import xarray as xr
+
+    def column(text: str, values: Any, unit: str = "1") -> tuple[str, Any, dict[str, str]]:
+        return "doubling", values, {"long_name": text, "units": unit}
+
+    first = found.special[0]
+    orbits = [one.orbit for one in found.special]
+    ratios = np.full(len(orbits), np.nan)
+    ratios[1:-1] = found.ratios
+    accumulation, error = found.accumulation
+    variables = {
+        "parameter": coordinate_of("doubling", first.name, found.values),
+        "period": column("forcing cycles per response period", found.periods),
+        "ratio": column("distance to the previous period doubling over that to the next", ratios),
+        "section_phase": column("forcing phase of the section", [one.phase for one in orbits], "rad"),
+        "angle": column("angle at the section", [one.state.angle for one in orbits]),
+        "velocity": column("angular velocity at the section", [one.state.velocity for one in orbits]),
+        **multipliers("doubling", np.array([one.multipliers for one in orbits], complex)),
+    }
+    attributes = described("Cascade of period doublings") | {
+        **fixed_quantities(first.orbit.system, first.name),
+        "parameter": first.name,
+        "accumulation": accumulation,
+        "accumulation_error": error,
+        "end": found.end,
+    }
+    return xr.Dataset(variables, attrs=attributes)
+
+
+def of_manifolds(found: OrbitManifolds) -> xr.Dataset:
+    """Return the manifolds of an orbit as a dataset along `point`, `curve` and `orbit_point`."""
+    import xarray as xr
+
+    curves = (*found.unstable, *found.stable)
+    points = np.concatenate([one.points for one in curves])
+    # Two halves at each point of the orbit, one after another, first of the unstable manifold.
+    starts = np.arange(len(curves)) // 2 % len(found.points)
+    counts = {
+        "curve_stable": ("1 if the half is stable, 0 if unstable", [int(one.stable) for one in curves]),
+        "curve_side": ("sign of the change of the angle where the half begins", [one.side for one in curves]),
+        "curve_resolved": ("1 if the half is resolved", [int(one.resolved) for one in curves]),
+        "curve_orbit_point": ("number of the point of the orbit where the half begins", starts),
+    }
+    variables = {
+        "angle": ("point", points[:, 0], named("angle")),
+        "velocity": ("point", points[:, 1], named("angular velocity")),
+        "time": (
+            "point",
+            np.concatenate([one.times for one in curves]),
+            named("time from or to a distance of 1e-6 from the orbit"),
+        ),
+        "curve_number": (
+            "point",
+            np.repeat(np.arange(len(curves)), [len(one.points) for one in curves]),
+            named("number of the half"),
+        ),
+        **{name: ("curve", np.array(values), named(text)) for name, (text, values) in counts.items()},
+        "orbit_angle": ("orbit_point", found.points[:, 0], named("angle of the orbit")),
+        "orbit_velocity": ("orbit_point", found.points[:, 1], named("angular velocity of the orbit")),
+    }
+    attributes = described("Manifolds of a periodic orbit") | {
+        **quantities(found.orbit.system),
+        "orbit_period": found.orbit.period,
+        "section_phase": found.phase,
+        "wanted_length": found.wanted,
     }
     return xr.Dataset(variables, attrs=attributes)
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from functools import partial
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from attrs import field, frozen
@@ -24,10 +24,14 @@ from rocking.model import (
     within,
 )
 from rocking.motion import monodromy
+from rocking.orbits.datasets import of_manifolds
 from rocking.orbits.event_chain import clocked
 from rocking.orbits.manifold_growth import MAX_POINTS, grown, pieces, region
 from rocking.orbits.saddle_manifolds import SPACINGS, Manifold
 from rocking.orbits.saddle_orbits import check_reversible, parameters, too_many_impacts
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 LENGTHS = (1e-3, 1e4)
 # Distance from the orbit at which a curve starts. Its curvature there is an error of this size, relative to the distance.
@@ -75,6 +79,17 @@ class OrbitManifolds(ReadOnlyArrays, NotebookPicture):
     points: NDArray[np.float64] = field(repr=False, converter=read_only)
     unstable: tuple[Manifold, ...] = field(repr=False)
     stable: tuple[Manifold, ...] = field(repr=False)
+
+    def to_xarray(self) -> xr.Dataset:
+        """Return all halves as one dataset, which xarray writes to netCDF and pandas to CSV.
+
+        Returns
+        -------
+        xarray.Dataset
+            States, times and the number of the half along `point`. Along `curve`: whether a half is stable and resolved, its side,
+            and the point of the orbit where it begins. The points of the orbit along `orbit_point`.
+        """
+        return of_manifolds(self)
 
     def __str__(self) -> str:
         curves = (*self.unstable, *self.stable)

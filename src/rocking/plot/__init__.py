@@ -21,6 +21,7 @@ from rocking.orbits import (
     BifurcationCurve,
     BifurcationSet,
     Branch,
+    Cascade,
     FrequencyResponse,
     OrbitDiagram,
     OrbitManifolds,
@@ -33,6 +34,7 @@ from rocking.plot.basins import basins
 from rocking.plot.bifurcation_curve import bifurcation_curve
 from rocking.plot.bifurcation_set import bifurcation_set
 from rocking.plot.branch import branch
+from rocking.plot.cascade import cascade
 from rocking.plot.chaos_share import chaos_share
 from rocking.plot.convergence import convergence
 from rocking.plot.correlation_dimension import dimension
@@ -74,6 +76,7 @@ __all__ = [
     "bifurcation_curve",
     "bifurcation_set",
     "branch",
+    "cascade",
     "chaos_share",
     "convergence",
     "dimension",
@@ -115,6 +118,7 @@ for kind, draw in (
     (BifurcationCurve, bifurcation_curve),
     (BifurcationSet, bifurcation_set),
     (Branch, branch),
+    (Cascade, cascade),
     (CorrelationDimension, dimension),
     (LyapunovSpectrum, convergence),
     (SpectralDensity, spectrum),

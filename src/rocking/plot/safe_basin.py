@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 from matplotlib.axes import Axes
 
-from rocking.model import SafeBasin, instance
+from rocking.model import Block, SafeBasin, instance
 from rocking.plot.parts import style
-from rocking.plot.parts.axis_units import PARAMETERS
+from rocking.plot.parts.axis_units import parameter
 
 
-def safe_basin(found: SafeBasin, ax: Axes | None = None) -> Axes:
+def safe_basin(found: SafeBasin, ax: Axes | None = None, block: Block | None = None) -> Axes:
     """Plot the fraction of initial states that do not overturn, with its 95 % interval, over the amplitude.
 
     Parameters
@@ -19,6 +19,8 @@ def safe_basin(found: SafeBasin, ax: Axes | None = None) -> Axes:
         Result of `rocking.safe_basin`.
     ax : matplotlib Axes, optional
         Axes to draw into. Default: a new figure, one column wide.
+    block : Block, optional
+        Block for SI axes and a title. Default: normalised axes.
 
     Returns
     -------
@@ -27,7 +29,7 @@ def safe_basin(found: SafeBasin, ax: Axes | None = None) -> Axes:
     Raises
     ------
     TypeError
-        If `found` is not a SafeBasin, or `ax` is not Axes.
+        If `found` is not a SafeBasin, or an argument has the wrong type.
 
     See Also
     --------
@@ -43,8 +45,10 @@ def safe_basin(found: SafeBasin, ax: Axes | None = None) -> Axes:
     """
     instance("found", found, SafeBasin)
     ax = style.own(ax, height=2.9)
+    style.block_title(ax, block)
     data = found.dataset
-    across = data.amplitude.values
+    level, x_label = parameter("amplitude", block)
+    across = level(data.amplitude.values)
     ax.fill_between(
         across, 100 * data.safe_low, 100 * data.safe_high, color=style.MOTION, alpha=0.3, linewidth=0
     )
@@ -61,19 +65,19 @@ def safe_basin(found: SafeBasin, ax: Axes | None = None) -> Axes:
     )
     if np.isfinite(found.heteroclinic_amplitude):
         ax.axvline(
-            found.heteroclinic_amplitude,
+            level(found.heteroclinic_amplitude),
             color=style.IMPACT,
             linewidth=style.LINE,
             label="exact tangency $A^*$",
         )
         ax.axvline(
-            found.melnikov_amplitude,
+            level(found.melnikov_amplitude),
             color=style.INK,
             linewidth=style.LINE,
             linestyle=(0, (5, 2)),
             label="Melnikov's $A_M$",
         )
-    style.label(ax, PARAMETERS["amplitude"], "safe fraction (%)")
+    style.label(ax, x_label, "safe fraction (%)")
     ax.set_ylim(bottom=0.0)
     style.key(ax)
     return ax

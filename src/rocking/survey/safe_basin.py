@@ -11,7 +11,7 @@ from rocking.kernels.classify import verdict_record as kernel
 from rocking.model import RANGES, SafeBasin, Share, refusal, whole
 from rocking.survey.harmonic_spec import HarmonicSpec, Points, coordinate, points, question
 from rocking.survey.measures.kind import interval_variables, outcome
-from rocking.survey.sampling.random_points import MAX_SAMPLES, generator, sampled, span
+from rocking.survey.sampling.random_points import MAX_SAMPLES, counted, generator, sampled, span
 from rocking.survey.store.dataset import attributes
 from rocking.theory import heteroclinic_amplitude, melnikov_amplitude
 
@@ -35,6 +35,7 @@ def safe_basin(
     max_cycles: int = 10_000,
     max_period: int = 64,
     executor: Executor | None = None,
+    progress: bool = False,
 ) -> SafeBasin:
     """Estimate the fraction of initial states that do not overturn, over the amplitude.
 
@@ -61,6 +62,8 @@ def safe_basin(
         As in `classify`. Default: 10,000 and 64.
     executor : concurrent.futures.Executor, optional
         Executor that runs the computation. Default: threads on all cores.
+    progress : bool
+        Whether to print a progress bar on stderr. Default: False.
 
     Returns
     -------
@@ -111,10 +114,11 @@ def safe_basin(
     )
     low, high = zip(span("angle", angle, reach), span("velocity", velocity), strict=True)
     starts = generator(seed).uniform(low, high, (whole("samples", samples, 1, MAX_SAMPLES), 2))
-    amplitudes = asked.axes["amplitude"]
-    kinds = [
-        sampled(_placed(asked, value, starts), measure, executor)["kind"] for value in amplitudes.tolist()
-    ]
+    amplitudes, kinds = asked.axes["amplitude"].tolist(), []
+    with counted("initial states" if progress else None, len(amplitudes) * len(starts)) as add:
+        for value in amplitudes:
+            kinds.append(sampled(_placed(asked, value, starts), measure, executor)["kind"])
+            add(len(starts))
     drawn = {"seed": seed, "angle_range": [low[0], high[0]], "velocity_range": [low[1], high[1]]}
     return _summed_up(asked, measure, kinds, drawn)
 

@@ -42,7 +42,7 @@ def lyapunov(
     **shared: Any,
 ) -> None:
     """Measure both Lyapunov exponents with their errors."""
-    from rocking.cli.output.files import check_files, with_block, write_dataset
+    from rocking.cli.output.files import check_files
     from rocking.cli.reports import lyapunov as report
     from rocking.response import lyapunov as measure
 
@@ -53,5 +53,5 @@ def lyapunov(
     if plot is not None:
         report.write_plot(spectrum, plot)
     if netcdf is not None:
-        write_dataset(with_block(spectrum.to_xarray(), block), netcdf)
+        report.write_netcdf(spectrum, block, netcdf)
     report.show(spectrum, block, list(files.values()), as_json=json)

@@ -13,6 +13,8 @@ from rocking.cli.option_names import AXIS_FORM, RANGE_FORM, YourInput, option
 
 DEFAULT_COUNT = 200
 MAX_POINTS = 1_000_000
+AMPLITUDES = ("amplitude", "acceleration", "acceleration_g", "displacement")
+"""Options of the amplitude of the base motion."""
 
 
 class Axis(NamedTuple):
@@ -70,6 +72,14 @@ def only_axis(text: str) -> Axis:
     raise typer.BadParameter(f"must be {AXIS_FORM}; got {text!r} (example: 1:3:60)")
 
 
+def only_range(text: str) -> Range:
+    """Return the range START:STOP in a text."""
+    found = number_or_range(text)
+    if isinstance(found, Range):
+        return found
+    raise typer.BadParameter(f"must be {RANGE_FORM}; got {text!r} (example: -1:1)")
+
+
 def axis_option(name: str, text: str) -> Any:
     """Declare an option whose value is an axis."""
     return typer.Option(name, parser=number_or_axis, metavar="AXIS", help=text)
@@ -92,6 +102,13 @@ def range_option(name: str, text: str) -> Any:
 def forcing_axis_option(name: str, text: str) -> Any:
     """Declare an option whose value is an axis if it is a period or a frequency, else a number."""
     if name.startswith(("--period", "--frequency")):
+        return typer.Option(name, parser=only_axis, metavar="AXIS", help=text)
+    return number_option(name, text)
+
+
+def amplitude_axis_option(name: str, text: str) -> Any:
+    """Declare an option whose value is an axis if it is an amplitude of the base motion, else a number."""
+    if name.removeprefix("--").replace("-", "_") in AMPLITUDES:
         return typer.Option(name, parser=only_axis, metavar="AXIS", help=text)
     return number_option(name, text)
 

@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from rocking.cli.option_names import YourInput
 from rocking.cli.output.console import Row, print_json, print_table
+from rocking.cli.output.files import with_block, write_dataset
 from rocking.cli.reports.motion import asked, beyond, physical_of, question
 from rocking.model import Block, counted, plus_minus
 
 if TYPE_CHECKING:
+    import numpy as np
+
     from rocking.response import LyapunovSpectrum
 
 
@@ -41,8 +43,7 @@ def found(spectrum: LyapunovSpectrum, block: Block | None) -> Iterator[Row]:
     if not spectrum.superstable:
         values, errors = spectrum.per_cycle
         for number, (value, error) in enumerate(zip(values, errors, strict=True)):
-            rate = "" if block is None else f"{spectrum.values[number] * block.frequency_parameter:.4g} per s"
-            yield f"λ{'₁₂'[number]} per cycle", plus_minus(value, error), rate
+            yield f"λ{'₁₂'[number]} per cycle", plus_minus(value, error), _rate(spectrum, number, block)
     dimension = dimension_of(spectrum)
     if dimension is not None:
         yield "Kaplan–Yorke dimension of the section", plus_minus(*dimension), ""
@@ -50,6 +51,34 @@ def found(spectrum: LyapunovSpectrum, block: Block | None) -> Iterator[Row]:
     yield "impacts in this time", f"{spectrum.impacts:,}", ""
     if spectrum.system.braces is not None:
         yield "brace impacts in this time", f"{spectrum.brace_hits:,}", ""
+
+
+def _rate(spectrum: LyapunovSpectrum, number: int, block: Block | None) -> str:
+    """Return an exponent with its error per second; an empty text without a block."""
+    if block is None:
+        return ""
+    return f"{plus_minus(*(float(part[number]) for part in per_second(spectrum, block)))} per s"
+
+
+def per_second(spectrum: LyapunovSpectrum, block: Block) -> tuple[np.ndarray, np.ndarray]:
+    """Return the exponents and their errors per second, each of shape (2,)."""
+    return spectrum.values * block.frequency_parameter, spectrum.errors * block.frequency_parameter
+
+
+def write_netcdf(spectrum: LyapunovSpectrum, block: Block | None, path: Path) -> None:
+    """Write the dataset; with a block, each variable also per second."""
+    data = spectrum.to_xarray()
+    if block is not None:
+        rates = {
+            f"{name}_per_s": (
+                each.dims,
+                each.values * block.frequency_parameter,
+                {"long_name": each.attrs["long_name"].replace("per tau", "per second"), "units": "s-1"},
+            )
+            for name, each in data.data_vars.items()
+        }
+        data = data.assign(rates)
+    write_dataset(with_block(data, block), path)
 
 
 def dimension_of(spectrum: LyapunovSpectrum) -> tuple[float, float] | None:
@@ -64,7 +93,7 @@ def record(spectrum: LyapunovSpectrum, block: Block | None, files: Sequence[Path
     """Return the exponents as a JSON object; an exponent of −∞ is null."""
     told = {
         **question(spectrum),
-        "exponents": [None if value == -math.inf else float(value) for value in spectrum.values],
+        "exponents": spectrum.values.tolist(),
         "errors": [float(error) for error in spectrum.errors],
         "bounded": spectrum.bounded,
         "superstable": spectrum.superstable,
@@ -75,4 +104,8 @@ def record(spectrum: LyapunovSpectrum, block: Block | None, files: Sequence[Path
         "brace_hits": spectrum.brace_hits,
         "files": [str(file) for file in files],
     }
-    return told if block is None else told | {"block": physical_of(spectrum.system, block)}
+    if block is None:
+        return told
+    values, errors = per_second(spectrum, block)
+    rates = {"exponents_per_s": values.tolist(), "errors_per_s": errors.tolist()}
+    return told | {"block": physical_of(spectrum.system, block) | rates}

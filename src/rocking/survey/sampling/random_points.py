@@ -28,7 +28,7 @@ def sampled(
         instance("executor", executor, Executor)
     measure.compile(bool(points.may_last.any()), points.full)
     total = len(points.systems)
-    with engine(executor) as (pool, stop), _bar(shown_as, total) as add:
+    with engine(executor) as (pool, stop), counted(shown_as, total) as add:
         futures = []
         try:
             for first in range(0, total, AT_ONCE):
@@ -49,7 +49,7 @@ def sampled(
 
 
 @contextmanager
-def _bar(shown_as: str | None, total: int) -> Iterator[Callable[[int], None]]:
+def counted(shown_as: str | None, total: int) -> Iterator[Callable[[int], None]]:
     """Return the function that adds completed points to a progress bar, if there is one."""
     if shown_as is None:
         yield lambda _: None
