@@ -99,7 +99,9 @@ def test_orbits_are_looked_for_from_the_box_that_is_given():
 def test_nothing_is_born_at_a_fold(orbit):
     branch = rk.continue_orbit(orbit, "amplitude", (0.01, 3))
     fold = next(point for point in branch.special if point.kind == "fold")
-    with pytest.raises(ValueError, match=r"^special must be of kind symmetry-breaking or period-doubling"):
+    with pytest.raises(
+        ValueError, match=r"^special must be of kind symmetry-breaking, period-doubling or grazing"
+    ):
         rk.switch_branch(fold, (0.01, 3))
     with pytest.raises(ValueError, match=r"^second must be another parameter than period"):
         rk.bifurcation_curve(fold, "period", "frequency", ((1, 2), (3, 7)))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from attrs import field, frozen
@@ -40,6 +40,13 @@ POINT = np.dtype(
         ("peak", float),
     ]
 )
+
+
+class Origin(NamedTuple):
+    """Branch on which a special point was met."""
+
+    counts: tuple[int, int]  # impacts and brace impacts per period
+    side: float  # on which side of the special point the parameter of its points lies: -1 or 1
 
 
 @frozen(eq=False)
@@ -89,6 +96,7 @@ class SpecialPoint:
     _chain: Chain | None = field(repr=False)  # None for a full block
     _row: np.ndarray = field(repr=False)
     _touch: Touch | None = field(default=None, repr=False)
+    _origin: Origin | None = field(default=None, repr=False)
 
     def __str__(self) -> str:
         return f"{self.kind} at {self.name} {self.parameter:.10g}: {self.orbit}"

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from rocking.kernels.orbits import continuation as kernel
-from rocking.orbits.branch import Branch, SpecialPoint, table
+from rocking.orbits.branch import Branch, Origin, SpecialPoint, table
 from rocking.orbits.branch_rows import ChainRows
 from rocking.orbits.event_chain import Chain, End, Special, equations, orbit_of
 from rocking.orbits.grazing import grazing_at
@@ -30,7 +30,7 @@ def branch_of(chain: Chain, parameter: str, joined: kernel.BranchTable, ends: tu
     """Return the public value of a branch."""
     impacts, brace_hits = chain.counts()
     special = tuple(
-        special_of(chain, parameter, row, Special(kind), index)
+        special_of(chain, parameter, row, Special(kind), index, _beside(joined.rows, index))
         for row, (kind, index) in zip(joined.specials, joined.changes.tolist(), strict=True)
     )
     return Branch(
@@ -46,9 +46,16 @@ def branch_of(chain: Chain, parameter: str, joined: kernel.BranchTable, ends: tu
     )
 
 
-def special_of(chain: Chain, parameter: str, row: np.ndarray, kind: Special, index: int) -> SpecialPoint:
-    """Return a special point with its orbit."""
-    touch = None
+def _beside(rows: np.ndarray, index: int) -> float:
+    """Return the parameter of a point of a branch near a special point, but not at its end."""
+    return float(rows[min(max(index, 1), max(len(rows) - 2, 0)), -1])
+
+
+def special_of(
+    chain: Chain, parameter: str, row: np.ndarray, kind: Special, index: int, beside: float
+) -> SpecialPoint:
+    """Return a special point with its orbit; ``beside`` is the parameter of a point of its branch near it."""
+    touch, counts = None, chain.counts()
     if kind == Special.GRAZING:
         orbit, chain, row, touch = grazing_at(chain, parameter, row)
     else:
@@ -63,4 +70,5 @@ def special_of(chain: Chain, parameter: str, row: np.ndarray, kind: Special, ind
         chain=chain,
         row=row.copy(),
         touch=touch,
+        origin=Origin(counts, float(np.sign(beside - row[-1]))),
     )

@@ -10,7 +10,7 @@ from rocking.kernels.orbits import arclength, branch_point
 from rocking.kernels.orbits import continuation as kernel
 from rocking.model import Orbit, instance, one_of, refusal, refuse_if, whole, within
 from rocking.motion import simulate
-from rocking.orbits import resting_branch
+from rocking.orbits import grazed_branch, resting_branch
 from rocking.orbits.branch import BRANCHES_OFF, Branch, SpecialPoint, chain_at
 from rocking.orbits.branch_result import ENDS, branch_of
 from rocking.orbits.event_chain import (
@@ -134,24 +134,28 @@ def continue_orbit(
 def switch_branch(
     special: SpecialPoint, bounds: tuple[float, float], step: float = 0.01, max_points: int = 10_000
 ) -> tuple[Branch, ...]:
-    """Follow the branches that bifurcate at a symmetry breaking (two, mirror images of each other) or a period doubling (one).
+    """Follow the branches that begin at a special point: a symmetry breaking, a period doubling or a grazing.
+
+    At a symmetry breaking there are two, mirror images of each other, and at a period doubling one. At a grazing it is the branch
+    of the orbit with one contact more or less; its period may be a divisor. The first entry of its `ends` says if the orbit
+    persists, or if two orbits meet, as at a fold.
 
     Parameters
     ----------
     special : SpecialPoint
-        Special point of kind "symmetry-breaking" or "period-doubling".
+        Special point of kind "symmetry-breaking", "period-doubling" or "grazing".
     bounds, step, max_points
         As in `continue_orbit`; the value of the parameter at `special` must lie within `bounds`.
 
     Returns
     -------
     tuple of Branch
-        Branches that begin at the special point.
+        Branches that begin at the special point. Empty at a grazing if the other orbit has no events, or was not found.
 
     Raises
     ------
     TypeError, ValueError
-        As in `continue_orbit`; also if `special` is a fold or a grazing, at which no branch bifurcates.
+        As in `continue_orbit`; also if `special` is a fold, at which no branch begins, or of an orbit that rests.
 
     See Also
     --------
@@ -168,9 +172,10 @@ def switch_branch(
     (2, False, 23.185055)
     """
     instance("special", special, SpecialPoint)
-    if special.kind not in ("symmetry-breaking", "period-doubling"):
-        allowed = "be of kind symmetry-breaking or period-doubling to switch branches"
+    if special.kind not in ("symmetry-breaking", "period-doubling", "grazing"):
+        allowed = "be of kind symmetry-breaking, period-doubling or grazing to switch branches"
         raise ValueError(refusal("special", allowed, special.kind))
+    chain_at(special)  # refuses a full block, and an orbit that rests
     low, high = checked_range(special.name, bounds)
     refuse_if(
         not low <= special.parameter <= high,
@@ -180,6 +185,8 @@ def switch_branch(
     )
     step = within("step", step, 1e-6, 0.1)
     most = whole("max_points", max_points, 2, 1_000_000)
+    if special.kind == "grazing":
+        return _other_side(special, (low, high), step, most)
     chain, row = _twice(special)
     problem = problem_of(chain, [special.name], [(low, high)], step, [high - low])
     direction = np.append(null_direction(chain, special.name, row), 0.0)
@@ -189,6 +196,24 @@ def switch_branch(
         half = _follow(problem, _beside(problem, row, sense * direction), sense * direction, most)
         branches.append(_branch_from_special(chain, special, row, half))
     return tuple(branches)
+
+
+def _other_side(
+    special: SpecialPoint, bounds: tuple[float, float], step: float, most: int
+) -> tuple[Branch, ...]:
+    """Return the other branch at a grazing, if there is one."""
+    low, high = bounds
+
+    def follow(chain: Chain, start: arclength.Tangent, most: int) -> _Half:
+        problem = problem_of(chain, [special.name], [bounds], step, [high - low])
+        return _follow(problem, start.point, start.direction, most)
+
+    found = grazed_branch.begun(special, lambda chain, start: len(follow(chain, start, 1).table.rows))
+    if found is None:
+        return ()
+    half = follow(*found, most)
+    changes = grazed_branch.transition(special, float(half.table.rows[0, -1]))
+    return (branch_of(found[0], special.name, half.table, (f"grazing: {changes}", ENDS[half.end])),)
 
 
 def _first_direction(problem: arclength.Problem, row: np.ndarray, jacobian: np.ndarray) -> np.ndarray | None:

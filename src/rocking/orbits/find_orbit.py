@@ -118,7 +118,7 @@ def find_orbit(system: System, guess: State, period: int) -> Orbit:
     return orbit
 
 
-def _half(chain: Chain) -> Chain | None:
+def mirrored_half(chain: Chain) -> Chain | None:
     """Return the events of half a period if the other half is its mirror image, or None.
 
     A simulation may leave an unstable orbit too soon to show the symmetry.
@@ -209,7 +209,7 @@ def orbit_from(system: System, phase: float, state: State, period: int) -> Orbit
     found = solved(chain, "amplitude", system.periodic.amplitude, chain.phases)
     if not found.found:
         return orbit if orbit.residual <= SAME else None
-    half = _half(chain._replace(phases=found.phases[:-1]))
+    half = mirrored_half(chain._replace(phases=found.phases[:-1]))
     if half is not None:
         chain, found = half, solved(half, "amplitude", system.periodic.amplitude, half.phases)
         if not found.found:
