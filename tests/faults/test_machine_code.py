@@ -377,6 +377,23 @@ def test_settings_of_the_compiler_do_not_reach_code_that_others_use(package, mon
     assert len(package.compilers) == 1
 
 
+EDITED = """
+from rocking.kernels import machine_code, sums
+machine_code.hash_sources()
+source = machine_code.SOURCES / "sums.py"
+source.write_text(source.read_text().replace("2.0", "3.0"))
+"""
+
+
+def test_code_of_sources_that_were_edited_later_is_not_stored(package):
+    with package.start(EDITED + RUN) as process:
+        out, errors = process.communicate(timeout=100)
+    assert json.loads(out)["result"] == RIGHT, errors
+    assert package.compilers == [process.pid]
+    assert ".o" not in package.files()
+    assert package.run()["result"] == 1.5 * RIGHT
+
+
 BROKEN = """
 from rocking.kernels.compile_options import KERNEL
 from rocking.kernels.entry_point import entry_point

@@ -47,6 +47,8 @@ STARTS = 2
 INTERVAL = 0.05
 # Environment variable of a builder. It starts no builders of its own.
 IS_BUILDER = "ROCKING_IS_BUILDER"
+# Environment variable of a builder: the hash of the sources of the process that asks. A folder is named by it.
+BUILDER_SOURCES = "ROCKING_BUILDER_SOURCES"
 
 
 @contextmanager
@@ -86,6 +88,7 @@ def builder_environment(processors: str) -> dict[str, str]:
     environment = {name: value for name, value in os.environ.items() if not name.startswith("NUMBA_")}
     paths = str(machine_code.SOURCES.parents[1]), os.environ.get("PYTHONPATH", "")
     environment |= {"PYTHONPATH": os.pathsep.join(filter(None, paths)), IS_BUILDER: "1"}
+    environment[BUILDER_SOURCES] = machine_code.hash_sources()
     if processors != "native":
         features = ",".join(f"+{feature}" for feature in machine_code.CLASSES[processors].split(","))
         environment |= {"NUMBA_CPU_NAME": processors, "NUMBA_CPU_FEATURES": features}

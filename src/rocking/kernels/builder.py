@@ -5,7 +5,8 @@ import sys
 import time
 from pathlib import Path
 
-from rocking.kernels.build_processes import INTERVAL, hold_lock, lock_paths
+from rocking.kernels.build_processes import BUILDER_SOURCES, INTERVAL, hold_lock, lock_paths
+from rocking.kernels.machine_code import hash_sources
 
 # Trials to get a lock, because a process that looks whether a builder runs holds its lock for an instant.
 TRIALS = 3
@@ -14,6 +15,8 @@ TRIALS = 3
 def main() -> None:
     """Compile what is missing in a folder, unless enough builders do, or write the object file of an entry point to stdout."""
     what, target = sys.argv[1:]
+    if os.environ.get(BUILDER_SOURCES, hash_sources()) != hash_sources():
+        sys.exit("the sources have changed since the process started that asks for machine code")
     if what == "entry":
         from rocking.kernels.compile_missing import compile_one
 
