@@ -135,24 +135,34 @@ def _nearest(chain: Chain, orbit: Orbit) -> Touch | None:
 
 
 def _solved(touch: Touch, parameter: str) -> tuple[Touch, np.ndarray] | None:
-    """Return the grazing orbit, with its phases and the value of the parameter; None if Newton's method fails.
+    """Return the grazing orbit, with its phases and the value of the parameter; None if Newton's method fails."""
+    chain = touch.chain
+    row = special_row(
+        chain, touch.condition, parameter, np.append(chain.phases, value_of(chain.system, parameter))
+    )
+    if row is None:
+        return None
+    system = with_value(chain.system, parameter, float(row[-1]))
+    return touch._replace(chain=chain._replace(system=system, phases=row[:-1])), row
 
-    It is the first point of a curve of grazings that starts along a second parameter, which therefore keeps its value.
+
+def special_row(chain: Chain, condition: Condition, parameter: str, near: np.ndarray) -> np.ndarray | None:
+    """Return the phases and the value of the parameter at which a condition holds; None if Newton's method fails.
+
+    It is the first point of a curve of special points that starts along a second parameter, which therefore keeps its value.
     """
-    chain, k = touch.chain, len(touch.chain.phases)
+    k, chain = len(near) - 1, chain._replace(system=with_value(chain.system, parameter, float(near[-1])))
     kept = "amplitude" if parameter in ("period", "frequency") else "frequency"
     here = [value_of(chain.system, name) for name in (kept, parameter)]
     limits = [(value * (1.0 - NEAR), value * (1.0 + NEAR)) for value in here]
     out, direction = np.empty((1, k + 2)), np.zeros(k + 2)
     direction[k] = 1.0
     problem = problem_of(chain, (kept, parameter), limits, 0.1, here)
-    start = arclength.Tangent(np.append(chain.phases, here), direction)
-    count, _ = kernel.follow_curve(problem, start, touch.condition, out)
+    start = arclength.Tangent(np.append(near[:-1], here), direction)
+    count, _ = kernel.follow_curve(problem, start, condition, out)
     if count == 0 or not abs(out[0, -1] - here[1]) <= NEAR * abs(here[1]):
         return None
-    row = np.append(out[0, :k], out[0, -1])
-    system = with_value(chain.system, parameter, float(row[-1]))
-    return touch._replace(chain=chain._replace(system=system, phases=row[:-1])), row
+    return np.append(out[0, :k], out[0, -1])
 
 
 def _eventless(chain: Chain, parameter: str, row: np.ndarray) -> Orbit | None:
