@@ -1,8 +1,8 @@
 """Points at which a branch passes the branch from which it bifurcates: symmetry breakings and period doublings.
 
-The branch turns at such a point. The test function of a fold vanishes there without a change of sign, so that rounding decides
-if the kernel finds the point, how often, and under which name. Here it is found by the two halves of the chain: they change
-places, and at the point they are equal. The orbit there is one of the other branch, on which the point is solved.
+The branch turns at such a point. The test function of a fold vanishes there without a change of sign. Rounding therefore decides
+if the kernel finds the point, how often, and under which name. Here it is found by the two halves of the chain, which are equal
+there and change places. The orbit there is one of the other branch, on which the point is solved.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from rocking.kernels.orbits.continuation import BranchTable
+from rocking.kernels.orbits import continuation as kernel
 from rocking.orbits.event_chain import IMPACT, Chain, Condition, Special, equations
 from rocking.orbits.grazing import special_row
 
@@ -35,7 +35,7 @@ class Found(NamedTuple):
     place: int  # index of the point of the branch after it
 
 
-def special_points(chain: Chain, parameter: str, table: BranchTable) -> list[Found]:
+def special_points(chain: Chain, parameter: str, table: kernel.BranchTable) -> list[Found]:
     """Return the special points of a branch, with one at each passage of the branch from which it bifurcates."""
     found = [
         Found(chain, row, Special(kind), index)
