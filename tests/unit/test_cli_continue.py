@@ -105,6 +105,15 @@ def test_response_period_finds_an_unstable_orbit_near_the_initial_state(rocking)
     assert told(rocking, f"{line} --step 0.05")["orbit"]["stability"] == "stable"
 
 
+def test_an_orbit_of_a_shorter_response_period_is_refused_in_one_line(rocking):
+    line = "--amplitude 5:20 --at 15 --period 1 --restitution 0.9"
+    assert told(rocking, f"{line} --response-period 1")["orbit"]["period"] == 1
+    code, error, out = rocking(f"continue {line} --response-period 2")
+    assert (code, out) == (2, "")
+    assert "must have --response-period 2; got period 1 (give --angle and --velocity nearer" in error
+    assert len(error.splitlines()) == 1
+
+
 @pytest.mark.parametrize(
     ("line", "parameter", "ends"),
     [

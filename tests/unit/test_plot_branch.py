@@ -4,8 +4,11 @@ import math
 
 import numpy as np
 import pytest
+from matplotlib.colors import to_rgb
 
 import rocking as rk
+from rocking.plot.bifurcation_curve import LOOKS as CURVES
+from rocking.plot.parts.legend import LOOKS
 
 BLOCK = rk.Block(2.0, 0.5)
 
@@ -97,6 +100,32 @@ def test_curves_have_a_look_a_kind():
     assert (ax.get_xlabel(), ax.get_ylabel()) == ("period $T$", "amplitude $A$")
     across = rk.plot.bifurcation_curve(curves[0], block=BLOCK)
     np.testing.assert_allclose(across.lines[0].get_ydata(), BLOCK.acceleration(curves[0].points[:, 1]))
+
+
+def test_types_of_curves_have_no_colour_of_a_map_and_a_white_edge():
+    """Each differs from every colour of a map by a tenth of the range of a channel at least."""
+    shown = [to_rgb(look.colour) for look in LOOKS]
+    for colour, _ in CURVES.values():
+        assert min(np.abs(np.subtract(to_rgb(colour), each)).max() for each in shown) > 0.1
+    system = rk.System(rk.Harmonic(amplitude=4.0, period=2.0), restitution=0.9)
+    ax = rk.plot.bifurcation_set(
+        rk.bifurcation_set(system, 1, grid=2, period=(1.9, 2.1), amplitude=(3.0, 8.0))
+    )
+    for line in (line for line in ax.lines if line.get_gid() != "codimension-2"):
+        (edge, _) = line.get_path_effects()
+        assert edge._gc["foreground"] == "white"
+        assert edge._gc["linewidth"] >= line.get_linewidth() + 2.0
+
+
+def test_multipliers_of_a_neutral_branch_have_ticks_in_plain_numbers():
+    system = rk.System(rk.Harmonic(amplitude=1.5, period=1.0), restitution=1.0)
+    orbit = next(orbit for orbit in rk.find_orbits(system, 1) if orbit.stability == "neutral")
+    ax = rk.plot.branch(rk.continue_orbit(orbit, "amplitude", (0.2, 3.0)), quantity="multiplier")
+    ax.figure.canvas.draw()
+    low, high = ax.get_ylim()
+    texts = [tick.get_text() for tick in ax.get_yticklabels() if low <= tick.get_position()[1] <= high]
+    assert texts == ["0.5", "1", "2"]
+    assert not ax.yaxis.get_minorticklabels()
 
 
 def test_what_a_start_from_rest_does_is_marked_at_every_value(response):

@@ -59,6 +59,8 @@ CALLS = {
     "one ratio": (lambda v: rk.plot.panels(columns=2, ratios=3), "ratios must be 2 positive numbers, one per column; got 3"),
     "too few ratios": (lambda v: rk.plot.panels(columns=2, ratios=(3,)), "ratios must be 2 positive numbers, one per column"),
     "an array of times": (lambda v: rk.theory.melnikov_integral([0.3], 2.0, 1.0, 0.9), "time must be a finite real number "),
+    "progress of responses": (lambda v: rk.response_diagram(SYSTEM, "amplitude", [1], progress=5), "progress must be .*; got 5 "),
+    "progress of orbits": (lambda v: rk.orbit_diagram(SYSTEM, "amplitude", [1], progress=True), "progress must be a function .*got True"),
     "no time": (lambda v: rk.theory.melnikov_integral(float("inf"), 2.0, 1.0, 0.9), "time must be a finite real number "),
 }  # fmt: skip
 

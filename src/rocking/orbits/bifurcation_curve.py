@@ -200,5 +200,10 @@ def _condition(special: SpecialPoint) -> tuple[Chain, Condition]:
         chain = chain._replace(system=special.orbit.system, phases=special._row[:-1])
         return chain, Condition(kind, -1, IMPACT, 0.0)
     if special._touch is None:
+        if special.orbit.impacts or special.orbit.brace_hits:
+            raise ValueError(
+                "special must be a grazing whose contact is located; it is not "
+                "(use that of a branch with another step, or in another parameter)"
+            )
         raise ValueError("special must have an event other than the grazing one to be followed; it has none")
     return special._touch

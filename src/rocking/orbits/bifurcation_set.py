@@ -207,13 +207,8 @@ class _Search:
 
     @property
     def not_followed(self) -> int:
-        """Number of special points that lie on no curve.
-
-        A branch that bifurcates from another one turns back there, as at a fold. So the types are not compared.
-        """
-        return sum(
-            not any(self.distance(curve, each) < ON_CURVE for curve in self.curves) for each in self.alone
-        )
+        """Number of special points that lie on no curve."""
+        return sum(not any(self.is_on(curve, each) for curve in self.curves) for each in self.alone)
 
     def is_on(self, curve: BifurcationCurve, special: SpecialPoint) -> bool:
         """Return whether a special point lies on a curve of its type, to the error of its chords."""

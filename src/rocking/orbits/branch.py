@@ -75,6 +75,9 @@ class SpecialPoint:
 
     Notes
     -----
+    A branch turns where it meets the branch from which it bifurcates. There it has a symmetry breaking or a period doubling, as
+    the other branch has, and `orbit` is the orbit of the other branch.
+
     In a simulation of a grazing orbit, rounding decides if the grazing impact occurs. If it does, with a speed of about
     10⁻⁸, the motion leaves the orbit, and `orbit.residual` is the resulting distance. `continue_orbit` therefore rejects this
     orbit. Use a neighbouring one, `branch.orbit(index)`.
@@ -138,7 +141,7 @@ class Branch(ReadOnlyArrays, NotebookPicture):
         - "peak": largest |Θ|.
     special : tuple of SpecialPoint
         Special points, in order along the branch. A branch of asymmetric orbits may pass a symmetry breaking and continue
-        along their mirror images. It then contains each special point twice, once with each orbit.
+        along their mirror images. It then contains each other special point twice, once with each orbit.
     ends : tuple of two str
         Reasons why the branch ends at its first and at its last point.
 

@@ -9,6 +9,7 @@ from rocking.orbits.branch import Branch, Origin, SpecialPoint, table
 from rocking.orbits.branch_rows import ChainRows
 from rocking.orbits.event_chain import Chain, End, Special, equations, orbit_of
 from rocking.orbits.grazing import grazing_at
+from rocking.orbits.parent_branch import special_points
 
 KINDS = {
     Special.FOLD: "fold",
@@ -30,8 +31,8 @@ def branch_of(chain: Chain, parameter: str, joined: kernel.BranchTable, ends: tu
     """Return the public value of a branch."""
     impacts, brace_hits = chain.counts()
     special = tuple(
-        special_of(chain, parameter, row, Special(kind), index, _beside(joined.rows, index))
-        for row, (kind, index) in zip(joined.specials, joined.changes.tolist(), strict=True)
+        special_of(one.chain, parameter, one.row, one.kind, one.place, _beside(joined.rows, one.place))
+        for one in special_points(chain, parameter, joined)
     )
     return Branch(
         name=parameter,

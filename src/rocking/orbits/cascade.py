@@ -167,7 +167,11 @@ def cascade(special: SpecialPoint, bounds: tuple[float, float], doublings: int =
     while len(found) < wanted:
         for bounds in (around, (low, high)):
             (branch,) = switch_branch(found[-1], bounds)
-            following = [one for one in branch.special if one.kind == "period-doubling"]
+            following = [
+                one
+                for one in branch.special
+                if one.kind == "period-doubling" and one.orbit.period == branch.period
+            ]
             if following:
                 break
         else:

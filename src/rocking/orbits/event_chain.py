@@ -216,8 +216,7 @@ def _events(chain: Chain, parameter: str, row: np.ndarray, phase: float) -> tupl
     _, links, trace, _ = equations(chain, parameter, row)
     if math.isnan(trace):
         return ()  # at the end of a branch two events may have changed places
-    flips = np.where(chain.kinds == IMPACT, -1, 1)
-    sides = chain.side * np.cumprod(np.append(1, flips[1:]))
+    flips, sides = np.where(chain.kinds == IMPACT, -1, 1), sides_of(chain)
     before = -flips * sides * _arrivals(chain, parameter, row, int(sides[-1]))
     after = sides * links["leaves"]
     angles = [
@@ -234,6 +233,12 @@ def _events(chain: Chain, parameter: str, row: np.ndarray, phase: float) -> tupl
             for one in events
         ]
     return tuple(events)
+
+
+def sides_of(chain: Chain) -> np.ndarray:
+    """Return the side of the block after each event."""
+    flips = np.where(chain.kinds == IMPACT, -1, 1)
+    return np.asarray(chain.side * np.cumprod(np.append(1, flips[1:])))
 
 
 def _arrivals(chain: Chain, parameter: str, row: np.ndarray, last_side: int) -> np.ndarray:

@@ -27,13 +27,17 @@ from rocking.orbits.event_chain import (
     equations,
     orbit_of,
     problem_of,
+    sides_of,
 )
 from rocking.orbits.parameter import value_of, with_value
 from rocking.orbits.saddle_orbits import response, saddle, saddle_events
 
-# Largest speed of an event that is taken as grazing.
-SLOW = 1e-4
-SAMPLES = 4096
+# Largest speed of an event that may be grazing.
+SLOW = 1e-2
+# Samples of an arc, between which its turning points lie.
+SAMPLES = 1001
+# Largest distance from the base or a brace of a turning point that may be the contact.
+CLOSE = 1e-2
 # Largest relative distance of the grazing from the end of the branch.
 NEAR = 1e-3
 
@@ -61,38 +65,39 @@ def grazing_at(chain: Chain, parameter: str, row: np.ndarray) -> Grazing:
 
 
 def _located(chain: Chain, parameter: str, row: np.ndarray) -> Grazing:
-    """Return the grazing with its orbit as solved."""
-    touch = _touch_of(chain, parameter, row)
-    if touch is not None and (solved := _solved(touch, parameter)):
-        touch, row = solved
-        *_, trace, determinant = equations(touch.chain, parameter, row)
-        return Grazing(orbit_of(touch.chain, parameter, row, trace, determinant), touch.chain, row, touch)
-    alone = _eventless(chain, parameter, row) if touch is None else None
+    """Return the grazing with its orbit as solved: of all possible contacts, the one nearest to the end of the branch."""
+    chain = chain._replace(system=with_value(chain.system, parameter, float(row[-1])), phases=row[:-1])
+    links = equations(chain, parameter, row)[1]
+    touches = (
+        _solved(touch, parameter) for touch in (*_slow_event(chain, links), *_near_contacts(chain, links))
+    )
+    solved = [each for each in touches if each is not None]
+    if solved:
+        touch, place = min(solved, key=lambda each: abs(each[1][-1] - row[-1]))
+        *_, trace, determinant = equations(touch.chain, parameter, place)
+        return Grazing(orbit_of(touch.chain, parameter, place, trace, determinant), touch.chain, place, touch)
+    alone = _eventless(chain, parameter, row) if len(chain.kinds) <= 2 else None
     if alone is not None:
         return Grazing(alone, chain, np.append(row[:-1], value_of(alone.system, parameter)), None)
     *_, trace, determinant = equations(chain, parameter, row)
     return Grazing(orbit_of(chain, parameter, row, trace, determinant), chain, row, None)
 
 
-def _touch_of(chain: Chain, parameter: str, row: np.ndarray) -> Touch | None:
-    """Return the contact that an orbit has at the end of its branch; None if none is found, or if no event remains."""
-    chain = chain._replace(system=with_value(chain.system, parameter, float(row[-1])), phases=row[:-1])
-    links = equations(chain, parameter, row)[1]
+def _slow_event(chain: Chain, links: np.ndarray) -> list[Touch]:
+    """Return the contact at the slowest event of an orbit; none if it is not slow, or if no event remains without it."""
     arrives, times, k = np.abs(links["arrives"]), links["time"], len(chain.phases)
     slowest = int(arrives.argmin())
     event = (slowest + 1) % k
-    if arrives[slowest] > SLOW:
-        return _nearest(chain, orbit_of(chain, parameter, row, math.nan, math.nan))
     level, lost = int(chain.kinds[event]), 1
     if level == IMPACT:
         # The block crosses Θ = 0 and returns at once: two impacts with a short arc in between.
         event, lost = (event if times[event] < times[slowest] else slowest), 2
-    if k <= lost:
-        return None
+    if arrives[slowest] > SLOW or k <= lost:
+        return []
     chain = _rotated(chain, (event + lost) % k)
     time = (chain.phases[k - lost] - chain.phases[k - lost - 1]) / chain.system.harmonic.frequency
     kept = chain._replace(kinds=chain.kinds[: k - lost].copy(), phases=chain.phases[: k - lost])
-    return Touch(kept, Condition(Special.GRAZING, k - lost - 1, level, float(time)))
+    return [Touch(kept, Condition(Special.GRAZING, k - lost - 1, level, float(time)))]
 
 
 def _rotated(chain: Chain, by: int) -> Chain:
@@ -104,55 +109,73 @@ def _rotated(chain: Chain, by: int) -> Chain:
     return chain._replace(side=side, kinds=np.roll(kinds, -by), phases=phases)
 
 
-def _nearest(chain: Chain, orbit: Orbit) -> Touch | None:
-    """Return the turning point of the motion nearest to the base or to a brace."""
-    forcing, phases = orbit.system.harmonic, chain.phases
-    motion = simulate(clocked(orbit.system, orbit.phase), orbit.state, cycles=orbit.period)
-    times = np.linspace(0.0, orbit.period * forcing.period, SAMPLES * orbit.period)
-    angles = motion.at(times)[0]
-    size = np.abs(angles)
-    inner, before, after = size[1:-1], size[:-2], size[2:]
-    # An impact lies between samples on both sides, and a turning point between samples on one side.
-    low = (inner < before) & (inner < after) & (np.diff(np.sign(angles))[1:] == 0.0)
-    candidates = [(inner[i], IMPACT, times[i + 1]) for i in np.flatnonzero(low)]
-    if orbit.system.braces is not None:
-        high = (inner > before) & (inner > after)
-        reach = orbit.system.braces.angle
-        candidates += [(reach - inner[i], BRACE, times[i + 1]) for i in np.flatnonzero(high)]
-    events = motion.events["time"]
-    candidates = [
-        one for one in candidates if not len(events) or np.abs(events - one[2]).min() > 2.0 * times[1]
+def _near_contacts(chain: Chain, links: np.ndarray) -> list[Touch]:
+    """Return the turning point of each arc that is closest to the base or to a brace, the closest first.
+
+    The arcs are those of the chain. In a simulation, rounding decides if the contact is an event.
+    """
+    found = []
+    for arc, side in enumerate(sides_of(chain)):
+        times = np.linspace(0.0, links["time"][arc], SAMPLES)
+        height = _heights(chain, arc, side, links["leaves"][arc], times)
+        rise = np.diff(height)
+        low, high = (
+            np.flatnonzero((sign * rise[:-1] < 0.0) & (sign * rise[1:] >= 0.0)) + 1 for sign in (1, -1)
+        )
+        gaps = [(np.abs(height), IMPACT, low)]
+        if chain.system.braces is not None:
+            gaps.append((np.abs(chain.system.braces.angle - height), BRACE, high))
+        for gap, level, turns in gaps:
+            if len(turns):
+                nearest = turns[gap[turns].argmin()]
+                found.append((gap[nearest], level, arc, times[nearest]))
+    return [
+        Touch(chain, Condition(Special.GRAZING, arc, int(level), float(time)))
+        for apart, level, arc, time in sorted(found)
+        if apart <= CLOSE
     ]
-    if not candidates:
-        return None
-    _, level, time = min(candidates)
-    start = phases[0]
-    psi = orbit.phase + math.tau * math.ceil((start - orbit.phase) / math.tau) + forcing.frequency * time
-    psi = start + (psi - start) % chain.turn
-    arc = int(np.searchsorted(phases, psi, side="right")) - 1
-    time = float((psi - phases[arc]) / forcing.frequency)
-    return Touch(chain, Condition(Special.GRAZING, arc, int(level), time))
+
+
+def _heights(chain: Chain, arc: int, side: int, speed: float, times: np.ndarray) -> np.ndarray:
+    """Return |Θ| on an arc that starts with a speed away from Θ = 0: the saddle orbit of its side, and exponentials."""
+    frequency, phase, braces = chain.system.harmonic.frequency, chain.phases[arc], chain.system.braces
+    start = 0.0 if braces is None or chain.kinds[arc] == IMPACT else braces.angle
+    swing = side * response(chain.system)
+    even = start - 1.0 - swing * math.cos(phase)
+    odd = speed + swing * frequency * math.sin(phase)
+    forced = 1.0 + swing * np.cos(phase + frequency * times)
+    return np.asarray(forced + even * np.cosh(times) + odd * np.sinh(times))
 
 
 def _solved(touch: Touch, parameter: str) -> tuple[Touch, np.ndarray] | None:
-    """Return the grazing orbit, with its phases and the value of the parameter; None if Newton's method fails.
+    """Return the grazing orbit, with its phases and the value of the parameter; None if Newton's method fails."""
+    chain = touch.chain
+    row = special_row(
+        chain, touch.condition, parameter, np.append(chain.phases, value_of(chain.system, parameter))
+    )
+    if row is None:
+        return None
+    system = with_value(chain.system, parameter, float(row[-1]))
+    return touch._replace(chain=chain._replace(system=system, phases=row[:-1])), row
 
-    It is the first point of a curve of grazings that starts along a second parameter, which therefore keeps its value.
+
+def special_row(chain: Chain, condition: Condition, parameter: str, near: np.ndarray) -> np.ndarray | None:
+    """Return the phases and the value of the parameter at which a condition holds; None if Newton's method fails.
+
+    It is the first point of a curve of special points that starts along a second parameter, which therefore keeps its value.
     """
-    chain, k = touch.chain, len(touch.chain.phases)
+    k, chain = len(near) - 1, chain._replace(system=with_value(chain.system, parameter, float(near[-1])))
     kept = "amplitude" if parameter in ("period", "frequency") else "frequency"
     here = [value_of(chain.system, name) for name in (kept, parameter)]
     limits = [(value * (1.0 - NEAR), value * (1.0 + NEAR)) for value in here]
     out, direction = np.empty((1, k + 2)), np.zeros(k + 2)
     direction[k] = 1.0
     problem = problem_of(chain, (kept, parameter), limits, 0.1, here)
-    start = arclength.Tangent(np.append(chain.phases, here), direction)
-    count, _ = kernel.follow_curve(problem, start, touch.condition, out)
+    start = arclength.Tangent(np.append(near[:-1], here), direction)
+    count, _ = kernel.follow_curve(problem, start, condition, out)
     if count == 0 or not abs(out[0, -1] - here[1]) <= NEAR * abs(here[1]):
         return None
-    row = np.append(out[0, :k], out[0, -1])
-    system = with_value(chain.system, parameter, float(row[-1]))
-    return touch._replace(chain=chain._replace(system=system, phases=row[:-1])), row
+    return np.append(out[0, :k], out[0, -1])
 
 
 def _eventless(chain: Chain, parameter: str, row: np.ndarray) -> Orbit | None:

@@ -21,6 +21,7 @@ from rocking.model import (
     TooManyEvents,
     check_constant_restitution,
     check_periodic,
+    check_progress,
     instance,
     one_of,
     whole,
@@ -114,6 +115,7 @@ def orbit_diagram(
     [1, 2]
     """
     instance("system", system, System)
+    check_progress(progress)
     parameter = one_of("parameter", parameter, PARAMETERS)
     ordered = ordered_values(values, MAX_POINTS)
     start = State() if start is None else start

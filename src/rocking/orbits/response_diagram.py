@@ -8,7 +8,7 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 from numpy.typing import ArrayLike
 
-from rocking.model import State, System, Verdict, check_periodic, instance, one_of
+from rocking.model import State, System, Verdict, check_periodic, check_progress, instance, one_of
 from rocking.orbits.parameter import PARAMETERS, ordered_values, with_value
 from rocking.orbits.response_diagram_result import ResponseDiagram
 from rocking.response import MeanImpacts, budget, classify, mean_impacts
@@ -92,6 +92,7 @@ def response_diagram(
     [2.0, 2.0, 2.0, nan]
     """
     instance("system", system, System)
+    check_progress(progress)
     parameter = one_of("parameter", parameter, PARAMETERS)
     ordered = ordered_values(values, MAX_VALUES)
     limits = budget(max_cycles, max_period)

@@ -10,7 +10,7 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from attrs import frozen
+from attrs import evolve, frozen
 
 from rocking.model import Orbit, Outcome, State, System
 from rocking.motion import Motion, monodromy, simulate
@@ -126,12 +126,21 @@ class ReturnMap:
         return found
 
     def asymmetry(self, point: Point) -> float:
-        """Return the distance of a state from the mirror image of that half a period later; infinite for an even period."""
-        if self.period % 2 == 0:
-            return math.inf
-        motion = self._motion(point.phase, point.unknowns)
+        """Return the distance of a state from that half a period later, mirrored if the period is odd."""
+        return float(np.hypot(*(point.unknowns[:2] - self._half_later(point.phase, point.unknowns))))
+
+    def parent(self, point: Point) -> Point | None:
+        """Return the orbit that repeats, or mirrors itself, after half the period, at the parameter of an orbit near it."""
+        odd = self.period % 2 == 1
+        way = evolve(self, symmetric=odd, period=self.period if odd else self.period // 2)
+        state = 0.5 * (point.unknowns[:2] + self._half_later(point.phase, point.unknowns))
+        return way.corrected(point.phase, np.append(state, point.unknowns[2]), np.array([0.0, 0.0, 1.0]))
+
+    def _half_later(self, phase: float, unknowns: np.ndarray) -> np.ndarray:
+        """Return the state half a period later, mirrored if the period is odd: the forcing has then changed its sign."""
+        motion = self._motion(phase, unknowns)
         half = np.array(motion.at(0.5 * self.period * motion.system.periodic.period))
-        return float(np.hypot(*(half + point.unknowns[:2])))
+        return -half if self.period % 2 == 1 else half
 
     def _symmetrised(self, phase: float, unknowns: np.ndarray) -> np.ndarray:
         """Return the mean of a state and the mirror image of that half a period later, on a branch of symmetric orbits.
@@ -140,9 +149,7 @@ class ReturnMap:
         """
         if not self.symmetric:
             return unknowns
-        motion = self._motion(phase, unknowns)
-        half = np.array(motion.at(0.5 * self.period * motion.system.periodic.period))
-        return np.append(0.5 * (unknowns[:2] - half), unknowns[2])
+        return np.append(0.5 * (unknowns[:2] + self._half_later(phase, unknowns)), unknowns[2])
 
     def _linearised(self, phase: float, unknowns: np.ndarray) -> tuple[np.ndarray, np.ndarray] | None:
         """Return the distance of the image from the state, and its derivative (2, 3); None if the block overturns."""

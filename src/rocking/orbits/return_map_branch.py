@@ -121,7 +121,8 @@ def advanced(way: ReturnMap, here: Point, direction: np.ndarray, length: float) 
     if (there.impacts, there.brace_hits) != (here.impacts, here.brace_hits):
         return None, End.GRAZED
     far = np.hypot(*(there.unknowns[:2] - here.unknowns[:2])) > 10.0 * length
-    strays = way.symmetric and way.asymmetry(there) > SYMMETRIC
+    # onto a branch that bifurcates from this one, or from which this one bifurcates
+    strays = way.symmetric != (way.asymmetry(there) <= SYMMETRIC)
     return (None, End.LOST) if far or strays else (there, End.LOST)
 
 
@@ -140,13 +141,21 @@ def passed(way: ReturnMap, here: Point, there: Point) -> list[tuple[str, Point]]
     doubles = crossing(way, here, there, lambda point: 1.0 + point.trace + point.determinant)
     found: list[tuple[str, Point]] = []
     if turns is not None:
-        broken = not way.symmetric and way.asymmetry(turns) < np.sqrt(SYMMETRIC)
-        found.append(("symmetry-breaking" if broken else "fold", turns))
+        found.append(turn(way, turns))
     elif meets is not None and way.symmetric:
         found.append(("symmetry-breaking", meets))
     if doubles is not None:
         found.append(("period-doubling", doubles))
     return found
+
+
+def turn(way: ReturnMap, point: Point) -> tuple[str, Point]:
+    """Return a point at which a branch turns, with its kind: it may lie on the branch from which this one bifurcates."""
+    if not way.symmetric and way.asymmetry(point) < np.sqrt(SYMMETRIC):
+        parent = way.parent(point)
+        if parent is not None:
+            return ("symmetry-breaking" if way.period % 2 == 1 else "period-doubling"), parent
+    return "fold", point
 
 
 def crossing(way: ReturnMap, here: Point, there: Point, test: Callable[[Point], float]) -> Point | None:

@@ -11,10 +11,11 @@ from rocking.plot.parts import style
 from rocking.plot.parts.axis_units import parameter
 from rocking.plot.parts.branch_lines import several, unless_there
 
+# No colour of a map of responses, so that each type stands out from it.
 LOOKS: dict[str, tuple[str, Any]] = {
-    "fold": (style.MOTION, "-"),
-    "symmetry-breaking": (style.IMPACT, (0, (5, 2))),
-    "period-doubling": (style.BRACE, (0, (6, 2, 1, 2))),
+    "fold": ("#C2185B", "-"),
+    "symmetry-breaking": ("#E69F00", (0, (5, 2))),
+    "period-doubling": ("#00695C", (0, (6, 2, 1, 2))),
     "grazing": (style.INK, (0, (1, 1.5))),
 }
 

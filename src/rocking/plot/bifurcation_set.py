@@ -11,7 +11,7 @@ from rocking.plot.parts.axis_units import parameter
 from rocking.plot.parts.branch_lines import unless_there
 
 # White edge around a line, so that it stands out from the colours of a map; in points.
-EDGE = 1.5
+EDGE = 2.2
 # Size of a dot, in points.
 DOT = 3.0
 GRAZED = "grazing"

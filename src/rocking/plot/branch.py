@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.ticker import FuncFormatter
 
 from rocking.model import MAX_PHASE, Block, Stability, one_of, refusal, within
 from rocking.orbits import Branch
@@ -93,6 +94,9 @@ def branch(
     if quantity == "multiplier":
         low, high = ax.get_ylim()
         ax.set_ylim(min(low, 0.5), max(high, 2.0))  # rounding of a modulus of 1 does not fill the axis
+        style.logarithmic(ax.yaxis)
+        if max(high, 2.0) < 100.0 * min(low, 0.5):
+            ax.yaxis.set_major_formatter(FuncFormatter(lambda modulus, _: f"{modulus:g}"))
     style.label(ax, x_label, branch_lines.height_label(quantity, shown))
     style.key(ax)
     return ax

@@ -94,10 +94,16 @@ def _approached(study: Study) -> Orbit:
 
 
 def _nearest(study: Study, response_period: int) -> Orbit:
-    """Return an orbit near the initial state."""
+    """Return an orbit near the initial state with the response period wanted; YourInput if Newton's method finds none."""
     from rocking.model import whole
     from rocking.orbits import find_orbit
 
     with your_input(GUESS):
         period = whole("--response-period", response_period, 1, MAX_RESPONSE_PERIOD)
-        return find_orbit(study.system, study.start, period)
+        orbit = find_orbit(study.system, study.start, period)
+    if orbit.period != period:
+        raise YourInput(
+            f"the orbit found near the initial state must have --response-period {period}; got period {orbit.period} "
+            "(give --angle and --velocity nearer to the orbit)"
+        )
+    return orbit
