@@ -150,6 +150,11 @@ def test_curves_refuse_a_special_point_of_an_orbit_that_rests(branches):
         rk.bifurcation_curve(special, "amplitude", "period", ((1.0, 2.0), (4.0, 6.0)))
 
 
+def test_multipliers_of_orbits_that_rest_are_not_drawn(branches):
+    with pytest.raises(ValueError, match="quantity must be another one for orbits that rest"):
+        rk.plot.branch(branches["symmetric"], quantity="multiplier")
+
+
 def test_a_resting_orbit_can_be_followed_through_any_parameter():
     system, _ = SYSTEMS["full"]
     branch = rk.continue_orbit(rk.classify(system).orbit, "critical_angle", (0.05, 0.5))
