@@ -71,7 +71,7 @@ def test_rests_and_contacts_end_where_the_branch_ends(name, branches):
     branch = branches[name]
     checked = 0
     for end, index, outwards in zip(branch.ends, (0, -1), (-1.0, 1.0), strict=True):
-        if "shrinks to nothing" not in end:
+        if "begins or ends" not in end:
             continue
         checked += 1
         limit, start = branch.points["parameter"][index], branch.orbit(index).start
@@ -148,6 +148,36 @@ def test_curves_refuse_a_special_point_of_an_orbit_that_rests(branches):
     (special,) = branches["asymmetric"].special
     with pytest.raises(TypeError, match="special must be that of an orbit without rest"):
         rk.bifurcation_curve(special, "amplitude", "period", ((1.0, 2.0), (4.0, 6.0)))
+
+
+BRACED_FULL = rk.System(
+    rk.Harmonic(1.5727212769923467, period=7.302048535585846, phase=0.552762932163534),
+    0.2935808219572348,
+    rk.Braces(0.08846253729062294, 0.8025306001866487),
+    critical_angle=0.421171178144032,
+)
+ALL_ENERGY_LOST = rk.System(rk.Harmonic(2.67416733942678, period=2.5087234306445483, phase=3.36), 0.0)
+NEAR_LIFT_OFF = rk.System(rk.Harmonic(1.000207443525973, period=1.6442288534396587, phase=0.83), 0.56909889)
+
+
+@pytest.mark.parametrize(
+    ("system", "name", "bounds"),
+    [
+        (BRACED_FULL, "frequency", (0.4302344, 1.37675)),
+        (ALL_ENERGY_LOST, "period", (1.2543617, 4.0139575)),
+        (NEAR_LIFT_OFF, "amplitude", (0.4, 1.6)),
+    ],
+)
+def test_ends_and_grazings_do_not_depend_on_the_step(system, name, bounds):
+    orbit = rk.classify(system, max_cycles=2000).orbit
+    first, *others = (rk.continue_orbit(orbit, name, bounds, step) for step in (0.01, 0.03, 0.0037))
+    for other in others:
+        # beyond an end the number of impacts changes ever faster
+        assert [end.split(";")[0] for end in other.ends] == [end.split(";")[0] for end in first.ends]
+        assert other.points["parameter"][[0, -1]] == pytest.approx(first.points["parameter"][[0, -1]])
+        assert [one.parameter for one in other.special] == pytest.approx(
+            [one.parameter for one in first.special]
+        )
 
 
 def test_multipliers_of_orbits_that_rest_are_not_drawn(branches):

@@ -109,7 +109,7 @@ def chain_at(special: SpecialPoint) -> Chain:
     """Return the chain of events at a special point; TypeError for a full block or an orbit that rests, which have none."""
     if special.orbit.superstable:
         allowed = "be that of an orbit without rest and without sustained contact with a brace"
-        raise TypeError(refusal("special", allowed, f"one of kind {special.kind} with it"))
+        raise TypeError(refusal("special", allowed, f"a {special.kind} of an orbit that rests"))
     if special._chain is None:
         allowed = "be that of a slender block, whose arcs are closed forms"
         raise TypeError(refusal("special", allowed, f"critical_angle {special.orbit.system.critical_angle}"))

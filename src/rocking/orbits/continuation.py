@@ -49,8 +49,8 @@ def continue_orbit(
     further events. Special points are accurate to rounding.
 
     For a full block the unknowns are the angle and the velocity at a forcing phase, and the equations those of the return map.
-    Rest, and sustained contact with a brace, erase what was before. An orbit with them is the motion from there, which needs no
-    equations. Its branch goes on through grazings, and ends where a rest or contact shrinks to nothing.
+    Rest, and sustained contact with a brace, erase what was before. An orbit with them is followed by simulation from there. Its
+    branch goes on through grazings, and ends where a rest or contact begins or ends.
 
     Parameters
     ----------
@@ -89,7 +89,8 @@ def continue_orbit(
     -----
     Steps are shorter where the multipliers change fast. A special point then lies between neighbouring points with different
     signs of its test function. Limit: a multiplier that passes ±1 and returns within one step is not detected. A smaller
-    `step` makes this less likely.
+    `step` makes this less likely. The same holds for a gap, without the orbit, between two points of a branch of orbits that
+    rest.
 
     Examples
     --------

@@ -5,8 +5,8 @@ Both multipliers are zero. The same holds for sustained contact with a brace. Ne
 So the method serves the full block, too.
 
 Between special points the motion is a smooth function of the parameter. At a grazing, an arc just touches the base or a brace,
-and the branch goes on. Where a rest shrinks to nothing, the branch ends. Beyond, the number of impacts is finite, and changes
-ever faster towards the end. Both are found by bisection.
+and the branch goes on. It ends where a rest begins or ends. With e > 0 the number of impacts is finite beyond, and changes ever
+faster towards the end. Both are found by bisection.
 """
 
 from __future__ import annotations
@@ -30,16 +30,18 @@ from rocking.response import classify
 NARROW = 1e-13
 """Width of a bracket of a special point at which the bisection ends, relative to the range."""
 SMALLEST = 1e-3
-"""Smallest step, in units of the largest: a change that is not small then is a jump."""
-JUMP = 0.05
-"""Change of the phases (rad) and of the relative peak from one point to the next that is not small."""
+"""Smallest step, in units of the largest: with it the order of events may change."""
+SYMMETRIC = 1e-6
+"""Largest difference of the two halves of a symmetric orbit: near a grazing it is the root of a rounding error."""
+JUMP, LOW = 0.05, 0.1
+"""Change from one point to the next that is not small: of the phases, rad, and of the peak relative to itself or to LOW."""
 SLIGHT = 1e-4
 """Speed of an impact that counts as grazing, and duration of a rest, in rad, that counts as vanishing, at a special point."""
 BEFORE = 0.2
 """Longest wait, in rad, from the start of a motion to the end of its rest."""
 SAMPLES = 32
 """Number of instants at which the two halves of a period are compared."""
-SHRUNK = "a rest or contact shrinks to nothing"
+SHRUNK = "a rest or contact begins or ends"
 CYCLES = 2_000
 """Longest motion, in forcing cycles, by which the response beyond an end is judged."""
 BEGINS, RELEASES = ("rest", "lean"), ("lift-off", "leave")
@@ -67,15 +69,13 @@ class Held(NamedTuple):
         """Forcing phase in the middle of the last rest."""
         return float(0.5 * (self.marks[-2] + self.marks[-1])) % math.tau
 
-    def has_order_of(self, other: Held) -> bool:
-        """Return whether both motions close, with the same order of events."""
+    def continues(self, other: Held) -> bool:
+        """Return whether both motions close, with the same order of events, and nearly agree."""
         same = (self.resets, self.turns, self.symmetric) == (other.resets, other.turns, other.symmetric)
-        return self.closes and other.closes and same
-
-    def is_near(self, other: Held) -> bool:
-        """Return whether the events and the peak of two motions in the same order nearly agree."""
+        if not (self.closes and other.closes and same):
+            return False
         moved = float(np.abs(self.marks - other.marks).max())
-        return moved < JUMP and abs(self.peak - other.peak) <= JUMP * max(self.peak, other.peak)
+        return moved < JUMP and abs(self.peak - other.peak) <= JUMP * max(self.peak, other.peak, LOW)
 
 
 @frozen
@@ -137,7 +137,7 @@ def _is_symmetric(motion: Motion, begun: float, whole: float) -> bool:
         return False
     times = (begun + np.linspace(0.0, 0.5 * whole, SAMPLES)) / motion.system.periodic.frequency
     half = 0.5 * whole / motion.system.periodic.frequency
-    return bool(np.abs(np.array(motion.at(times)) + np.array(motion.at(times + half))).max() < SAME)
+    return bool(np.abs(np.array(motion.at(times)) + np.array(motion.at(times + half))).max() < SYMMETRIC)
 
 
 class Half(NamedTuple):
@@ -207,11 +207,12 @@ def _follow(way: RestingMap, first: Held, bounds: tuple[float, float], step: flo
         if here.value == (low if step < 0.0 else high):
             return Half(points, specials, ENDS[End.RANGE])
         there = way.at(min(max(here.value + length, low), high), here.release)
-        ordered = here.has_order_of(there)
-        if ordered and not here.is_near(there) and abs(length) > SMALLEST * abs(longest):
+        if abs(length) > SMALLEST * abs(longest) and not (
+            here.continues(there) and here.continues(way.at(0.5 * (here.value + there.value), here.release))
+        ):
             length *= 0.5
             continue
-        if not ordered:
+        if not here.continues(there):
             last, there = _bracket(way, here, there, NARROW * (high - low))
             if last.value != here.value:
                 points.append(last)
@@ -226,20 +227,22 @@ def _follow(way: RestingMap, first: Held, bounds: tuple[float, float], step: flo
 
 
 def _bracket(way: RestingMap, here: Held, there: Held, width: float) -> tuple[Held, Held]:
-    """Return the last point with an order of events, and the first one with another, by bisection."""
+    """Return the last point that continues a branch, and the first one that does not, by bisection."""
     while abs(there.value - here.value) > width:
         middle = way.at(0.5 * (here.value + there.value), here.release)
         if middle.value in (here.value, there.value):
             break
-        if here.has_order_of(middle):
+        if here.continues(middle):
             here = middle
         else:
             there = middle
-    return here, there
+    return here, way.at(there.value, here.release)  # from the nearest end of the rest
 
 
 def _kind(last: Held, there: Held) -> str | None:
     """Return what lies between two motions, or None if there is no evidence."""
+    if last.continues(there):
+        return None
     if min(last.shortest, there.shortest) < SLIGHT:
         return SHRUNK
     if min(last.slowest, there.slowest) < SLIGHT:

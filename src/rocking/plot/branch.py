@@ -54,8 +54,8 @@ def branch(
     TypeError
         If `result` holds anything but branches.
     ValueError
-        If the branches have different parameters, `quantity` is unknown, or `phase` lies outside its range. If multipliers are asked
-        for orbits that rest.
+        If the branches have different parameters, `quantity` is unknown, or `phase` lies outside its range. If `quantity` is
+        "multiplier" for orbits that rest.
 
     See Also
     --------
@@ -76,7 +76,9 @@ def branch(
     branches = _branches(result)
     quantity = one_of("quantity", quantity, (*branch_lines.QUANTITIES, "multiplier"))
     if quantity == "multiplier" and not any(one.points["multipliers"].any() for one in branches):
-        allowed = "be another one for orbits that rest or stay in contact with a brace: their multipliers are 0"
+        allowed = (
+            "be another one for orbits that rest or stay in contact with a brace: their multipliers are 0"
+        )
         raise ValueError(refusal("quantity", allowed, quantity))
     phase = within("phase", phase, -MAX_PHASE, MAX_PHASE)
     shown = quantities(block)

@@ -70,10 +70,6 @@ def compute(study: Study, response_period: int | None, step: float) -> tuple[Orb
     from rocking.orbits import continue_orbit
 
     orbit = _approached(study) if response_period is None else _nearest(study, response_period)
-    if orbit.superstable:
-        raise YourInput(
-            "an orbit that rests or stays in contact with a brace cannot be followed (use rocking orbit-diagram)"
-        )
     typed = FOLLOWED | {f"bounds of {study.parameter}": option(study.name)}
     with your_input(typed | options("step")):
         return orbit, continue_orbit(orbit, study.parameter, study.bounds, step)

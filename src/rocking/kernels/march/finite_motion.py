@@ -157,6 +157,15 @@ def after_its_event(p, arc, coming, after, so_far, cut):
 
 
 @njit(**INTERNAL)
+def by_energy(p, arc, close):
+    """Return status and closeness after the base motion, where no energy is lost from now on: it decides."""
+    spare, free = abs(arc.velocity) - 1.0, p.block.brace_angle == math.inf
+    decided = close.decided and (not free or exceeds(spare, of_growth(close.error)))
+    status = OVERTURNED if free and spare > 0.0 else DONE
+    return status, Closeness(close.margin, close.time, decided, False, close.error)
+
+
+@njit(**INTERNAL)
 def to_end(p, angle, velocity, until, cut, want_peak):
     """Provide ``finite.to_end``."""
     progress, hit = begin(p, angle, velocity, UNKNOWN)
@@ -186,10 +195,11 @@ def to_end(p, angle, velocity, until, cut, want_peak):
         while arc.start > p.clock.cycle_length:
             cycle, arc = cycle + 1, shift_clock(arc, p.clock.cycle_length)
         if is_lossless(p, coming) and has_ended(p, arc.drive):
-            spare = abs(arc.velocity) - 1.0  # the energy decides
-            decided = close.decided and (not free or exceeds(spare, of_growth(close.error)))
-            status = OVERTURNED if free and spare > 0.0 else DONE
-            close = Closeness(close.margin, close.time, decided, False, close.error)
+            status, close = by_energy(p, arc, close)
+            if want_peak and mode == FLIGHT and status == DONE:
+                # all later arcs reach what the next one reaches
+                coming, extremes = next_event_and_extremes(p, mode, arc)
+                highest = highest_with(p, highest, arc, coming, extremes)
             break
     peak = peak_of(p, highest)
     return Ending(status, impacts, since_rest, brace_hits, peak, close.margin, close.time, close.decided)

@@ -50,6 +50,8 @@ def to_end(p, angle, velocity, until, cut, want_peak):
             cycle, arc = cycle + 1, shift_clock(arc, p.clock.cycle_length)
         if is_lossless(p, coming) and has_ended(p, arc.drive):
             status = OVERTURNED if overturns_freely(p, abs(arc.velocity)) else DONE
+            if want_peak and mode == FLIGHT and status == DONE:
+                _, peak = event_and_peak(p, mode, arc, peak)  # all later arcs reach what the next one reaches
             break
     return Ending(status, impacts, since_rest, brace_hits, peak, math.nan, math.nan, False)
 

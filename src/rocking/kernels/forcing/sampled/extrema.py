@@ -27,6 +27,8 @@ from rocking.kernels.forcing.sampled.solution import (
 # After an extremum the search starts later by this fraction of the time, and by ever more, so that rounding cannot find the
 # same extremum again.
 PASSED = 2.0**-50
+# Least (1 - u)^2 at a maximum: below it, rounding of the square exceeds the margin of its root.
+BARELY = 1e-6
 # Relative safety margin of a bound over rounding.
 MARGIN = 1e-12
 
@@ -158,7 +160,7 @@ def largest_on(p, arc, until, peak):
 def free_top(arc):
     """Return a bound of u on an arc that starts after the last sample: (1 - u)^2 - u'^2 is constant. Infinite if it may overturn."""
     least = (1.0 - arc.angle) * (1.0 - arc.angle) - arc.velocity * arc.velocity
-    if not (arc.velocity > 0.0 and arc.angle < 1.0 and least > 0.0):
+    if not (arc.velocity > 0.0 and arc.angle < 1.0 and least > BARELY):
         return math.inf
     return (
         (arc.angle * (2.0 - arc.angle) + arc.velocity * arc.velocity)
