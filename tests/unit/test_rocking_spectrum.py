@@ -113,6 +113,22 @@ def differing(count, seed):
     return wrong, certified
 
 
+@pytest.mark.parametrize("model", ["slender", "full"])
+def test_without_losses_the_peak_is_that_of_the_free_motion_too(model):
+    """A block that falls when the base motion ends rises higher on the other side."""
+    ground = rk.GroundMotion([0.7233053866521985, -2.0, -1.5803530364312197], step=0.02)
+    found = rk.rocking_spectrum(
+        ground, size=[1.0, 1.5], slenderness=0.2, restitution=1.0, angle=-0.5, model=model
+    )
+    for size, peak in zip((1.0, 1.5), found.peak.values, strict=True):
+        block = rk.Block(2 * size * math.cos(0.2), 2 * size * math.sin(0.2), 1.0)
+        motion = rk.simulate(block.system(ground, model=model), rk.State(-0.5), duration=40.0)
+        times = np.linspace(0.0, motion.duration, 200_000)
+        assert peak == pytest.approx(np.abs(motion.at(times)[0]).max(), rel=1e-6)
+        assert peak == pytest.approx(motion.peak, rel=1e-9)
+        assert peak > 0.501
+
+
 def test_random_points_end_as_simulate_says():
     wrong, certified = differing(500, seed=11)
     assert wrong == []

@@ -166,6 +166,13 @@ def by_energy(p, arc, close):
 
 
 @njit(**INTERNAL)
+def with_free_arc(p, arc, highest):
+    """Return the ``Highest`` that includes the next arc without base motion and losses: all later arcs are as high."""
+    coming, extremes = next_event_and_extremes(p, FLIGHT, arc)
+    return highest_with(p, highest, arc, coming, extremes)
+
+
+@njit(**INTERNAL)
 def to_end(p, angle, velocity, until, cut, want_peak):
     """Provide ``finite.to_end``."""
     progress, hit = begin(p, angle, velocity, UNKNOWN)
@@ -197,9 +204,7 @@ def to_end(p, angle, velocity, until, cut, want_peak):
         if is_lossless(p, coming) and has_ended(p, arc.drive):
             status, close = by_energy(p, arc, close)
             if want_peak and mode == FLIGHT and status == DONE:
-                # all later arcs reach what the next one reaches
-                coming, extremes = next_event_and_extremes(p, mode, arc)
-                highest = highest_with(p, highest, arc, coming, extremes)
+                highest = with_free_arc(p, arc, highest)
             break
     peak = peak_of(p, highest)
     return Ending(status, impacts, since_rest, brace_hits, peak, close.margin, close.time, close.decided)
