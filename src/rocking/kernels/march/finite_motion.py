@@ -166,13 +166,6 @@ def by_energy(p, arc, close):
 
 
 @njit(**INTERNAL)
-def with_free_arc(p, arc, highest):
-    """Return the ``Highest`` that includes the next arc without base motion and losses: all later arcs are as high."""
-    coming, extremes = next_event_and_extremes(p, FLIGHT, arc)
-    return highest_with(p, highest, arc, coming, extremes)
-
-
-@njit(**INTERNAL)
 def to_end(p, angle, velocity, until, cut, want_peak):
     """Provide ``finite.to_end``."""
     progress, hit = begin(p, angle, velocity, UNKNOWN)
@@ -184,13 +177,15 @@ def to_end(p, angle, velocity, until, cut, want_peak):
         coming, extremes = next_event_and_extremes(p, mode, arc)
         time = cycle * p.clock.cycle_length + arc.start
         error = error_at_event(p, mode, arc, coming, close.error)
-        if mode == FLIGHT and free:
+        if mode == FLIGHT and free and status == CROWDED:
             close = after_arc(p, arc, time, extremes, close, error)
         if coming.wait == math.inf or time + coming.wait > until:
             status = DONE if coming.wait < math.inf else OVERTURNED if mode == FLIGHT else STILL
             break
         if want_peak and mode == FLIGHT:
             highest = highest_with(p, highest, arc, coming, extremes)
+        if status != CROWDED:  # the end is known: without losses all later arcs are as high as this one
+            break
         impacts += coming.event == IMPACT
         brace_hits += coming.event == BRACE
         close = with_error(close, error)
@@ -203,9 +198,8 @@ def to_end(p, angle, velocity, until, cut, want_peak):
             cycle, arc = cycle + 1, shift_clock(arc, p.clock.cycle_length)
         if is_lossless(p, coming) and has_ended(p, arc.drive):
             status, close = by_energy(p, arc, close)
-            if want_peak and mode == FLIGHT and status == DONE:
-                highest = with_free_arc(p, arc, highest)
-            break
+            if not (want_peak and mode == FLIGHT and status == DONE):
+                break
     peak = peak_of(p, highest)
     return Ending(status, impacts, since_rest, brace_hits, peak, close.margin, close.time, close.decided)
 
