@@ -21,6 +21,7 @@ from attrs import frozen
 from rocking.model import Kind, Orbit, State, System, refusal
 from rocking.motion import Motion, simulate
 from rocking.orbits.branch import POINT, Branch, SpecialPoint
+from rocking.orbits.branch_halves import Half, joined
 from rocking.orbits.branch_result import ENDS
 from rocking.orbits.event_chain import End, clocked
 from rocking.orbits.find_orbit import SAME, orbit_from
@@ -140,14 +141,6 @@ def _is_symmetric(motion: Motion, begun: float, whole: float) -> bool:
     return bool(np.abs(np.array(motion.at(times)) + np.array(motion.at(times + half))).max() < SYMMETRIC)
 
 
-class Half(NamedTuple):
-    """Branch in one direction from its first point."""
-
-    points: list[Held]
-    specials: list[tuple[str, Held, int]]  # kind, point, and index of the point after it
-    end: str
-
-
 def followed(orbit: Orbit, name: str, bounds: tuple[float, float], step: float, most: int) -> Branch:
     """Return the branch of an orbit that rests or stays in contact with a brace: ``continue_orbit`` for superstable orbits.
 
@@ -161,10 +154,7 @@ def followed(orbit: Orbit, name: str, bounds: tuple[float, float], step: float, 
         allowed, remedy = "close after its period", "find it again with find_orbit"
         raise ValueError(refusal("orbit", allowed, str(orbit), remedy))
     back, on = (_follow(way, first, bounds, sense * step, most) for sense in (-1.0, 1.0))
-    last = len(back.points) - 1
-    specials = [(kind, point, last + 1 - index) for kind, point, index in reversed(back.specials)]
-    specials += [(kind, point, last + index) for kind, point, index in on.specials]
-    points = (*reversed(back.points), *on.points[1:])
+    points, specials = joined(back, on)
     return Branch(
         name=name,
         period=orbit.period,
@@ -197,7 +187,7 @@ def _first(orbit: Orbit, name: str) -> tuple[RestingMap, Held | None]:
     return way, there if there.closes else None
 
 
-def _follow(way: RestingMap, first: Held, bounds: tuple[float, float], step: float, most: int) -> Half:
+def _follow(way: RestingMap, first: Held, bounds: tuple[float, float], step: float, most: int) -> Half[Held]:
     """Follow a branch in one direction, the sign of ``step``, which is a part of the range."""
     (low, high), points, here = bounds, [first], first
     specials: list[tuple[str, Held, int]] = []

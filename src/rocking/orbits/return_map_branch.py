@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import NamedTuple
 
 import numpy as np
 
 from rocking.model import Orbit, refusal, stability_of
 from rocking.orbits.branch import POINT, Branch, SpecialPoint
+from rocking.orbits.branch_halves import Half, joined
 from rocking.orbits.branch_result import ENDS
 from rocking.orbits.event_chain import End
 from rocking.orbits.parameter import value_of
@@ -22,14 +22,6 @@ NARROW = 1e-12
 MAX_HALVINGS = 60
 ALONG = np.array([0.0, 0.0, 1.0])
 SAME_TRACE = 1e-2
-
-
-class Half(NamedTuple):
-    """Branch in one direction from its first point."""
-
-    points: list[Point]
-    specials: list[tuple[str, Point, int]]  # kind, point, and index of the point after it
-    end: End
 
 
 def followed(orbit: Orbit, name: str, bounds: tuple[float, float], step: float, most: int) -> Branch:
@@ -52,12 +44,9 @@ def followed(orbit: Orbit, name: str, bounds: tuple[float, float], step: float, 
         raise ValueError(refusal("orbit", allowed, str(orbit), remedy))
     along = first.tangent if first.tangent[2] >= 0.0 else -first.tangent
     back, on = (follow(way, first, sense * along, step, most) for sense in (-1.0, 1.0))
-    if back.end == End.CLOSED:
-        on = Half([first], [], End.CLOSED)
-    last = len(back.points) - 1
-    specials = [(kind, point, last + 1 - index) for kind, point, index in reversed(back.specials)]
-    specials += [(kind, point, last + index) for kind, point, index in on.specials]
-    points = (*reversed(back.points), *on.points[1:])
+    if back.end == ENDS[End.CLOSED]:
+        on = Half([first], [], back.end)
+    points, specials = joined(back, on)
     return Branch(
         name=name,
         period=orbit.period,
@@ -66,12 +55,12 @@ def followed(orbit: Orbit, name: str, bounds: tuple[float, float], step: float, 
         brace_hits=first.brace_hits,
         points=table(way, points),
         special=tuple(special(way, *each) for each in specials),
-        ends=(ENDS[back.end], ENDS[on.end]),
+        ends=(back.end, on.end),
         rows=MapRows(way, points),
     )
 
 
-def follow(way: ReturnMap, first: Point, direction: np.ndarray, step: float, most: int) -> Half:
+def follow(way: ReturnMap, first: Point, direction: np.ndarray, step: float, most: int) -> Half[Point]:
     """Follow a branch in one direction, with steps that shrink where Newton's method fails."""
     points, specials, length = [first], [], step
     here, end = first, End.MANY
@@ -99,7 +88,7 @@ def follow(way: ReturnMap, first: Point, direction: np.ndarray, step: float, mos
             break
         direction = there.tangent if there.tangent @ chord >= 0.0 else -there.tangent
         here, length = there, min(GROWTH * length, step)
-    return Half(points, specials, end)
+    return Half(points, specials, ENDS[end])
 
 
 def advanced(way: ReturnMap, here: Point, direction: np.ndarray, length: float) -> tuple[Point | None, End]:
