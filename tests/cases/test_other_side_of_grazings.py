@@ -72,6 +72,9 @@ def test_orbits_of_the_other_branch_are_motions(crossed):
             events = [event for event in orbit._events if event.before != 0.0]
             assert orbit.residual < 1e-6 * max(1.0, abs(orbit.multipliers[0]))
             assert len(events) == other.impacts + other.brace_hits
+            if orbit.stability == "stable":
+                found = rk.find_orbit(orbit.system, orbit.start, orbit.period)
+                assert (found.period, found.symmetric) == (other.period, other.symmetric)
 
 
 def test_both_branches_at_a_fold_lie_on_one_side_and_else_on_both(crossed):

@@ -171,6 +171,10 @@ NEAR_LIFT_OFF = rk.System(rk.Harmonic(1.000207443525973, period=1.64422885343965
 def test_ends_and_grazings_do_not_depend_on_the_step(system, name, bounds):
     orbit = rk.classify(system, max_cycles=2000).orbit
     first, *others = (rk.continue_orbit(orbit, name, bounds, step) for step in (0.01, 0.03, 0.0037))
+    for branch in (first, *others):
+        values = branch.points["parameter"]
+        for special in branch.special:
+            assert values[special.index - 1] <= special.parameter <= values[special.index]
     for other in others:
         # beyond an end the number of impacts changes ever faster
         assert [end.split(";")[0] for end in other.ends] == [end.split(";")[0] for end in first.ends]
