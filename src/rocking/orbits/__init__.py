@@ -9,6 +9,7 @@ from rocking.orbits.find_orbit import find_orbit
 from rocking.orbits.find_orbits import Orbits, find_orbits
 from rocking.orbits.frequency_response import frequency_response
 from rocking.orbits.frequency_response_result import FrequencyResponse
+from rocking.orbits.grazing_transition import GrazingTransition, grazing_transition
 from rocking.orbits.horseshoe import horseshoe
 from rocking.orbits.manifold_tangency import manifold_gap, tangency_amplitude
 from rocking.orbits.orbit_diagram import orbit_diagram
@@ -25,6 +26,7 @@ __all__ = [
     "Branch",
     "Cascade",
     "FrequencyResponse",
+    "GrazingTransition",
     "Manifold",
     "OrbitDiagram",
     "OrbitManifolds",
@@ -39,6 +41,7 @@ __all__ = [
     "find_orbit",
     "find_orbits",
     "frequency_response",
+    "grazing_transition",
     "horseshoe",
     "manifold_gap",
     "orbit_diagram",

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from rocking.model import described, named, quantities
-from rocking.orbits.dataset_attributes import coordinate_of
+from rocking.orbits.dataset_attributes import coordinate_of, kinds_of
 from rocking.orbits.parameter import fixed_quantities
 
 if TYPE_CHECKING:
@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from rocking.orbits.branch import Branch
     from rocking.orbits.cascade import Cascade
     from rocking.orbits.find_orbits import Orbits
+    from rocking.orbits.grazing_transition import GrazingTransition
     from rocking.orbits.orbit_manifolds import OrbitManifolds
 
 
@@ -148,6 +149,58 @@ def of_cascade(found: Cascade) -> xr.Dataset:
         "end": found.end,
     }
     return xr.Dataset(variables, attrs=attributes)
+
+
+def of_transition(found: GrazingTransition) -> xr.Dataset:
+    """Return the transition at a grazing as a dataset along the parameter."""
+    import xarray as xr
+
+    special, verdicts = found.special, found.verdicts
+    name = special.name
+
+    def numbers(values: list[float | None]) -> np.ndarray:
+        return np.array([np.nan if value is None else value for value in values])
+
+    order, order_error = found.order
+    variables = {
+        "distance": (name, found.distances, named("relative distance of the parameter from the grazing")),
+        "kind": kinds_of(name, [str(one.kind) for one in verdicts], "type of the response"),
+        "orbit_period": (
+            name,
+            np.array([one.period or 0 for one in verdicts]),
+            named("forcing cycles per response period; 0 if not periodic"),
+        ),
+        "exponent": (
+            name,
+            numbers([one.exponent for one in verdicts]),
+            named("largest Lyapunov exponent per tau"),
+        ),
+        "exponent_error": (
+            name,
+            numbers([one.exponent_error for one in verdicts]),
+            named("error of the largest Lyapunov exponent"),
+        ),
+        "nearest": (
+            name,
+            found.nearest,
+            named("smallest distance of the attractor from the grazing orbit"),
+        ),
+        "farthest": (
+            name,
+            found.farthest,
+            named("largest distance of the attractor from the grazing orbit"),
+        ),
+    }
+    attributes = described("Transition at a grazing") | {
+        **fixed_quantities(special.orbit.system, name),
+        "grazing": special.parameter,
+        "orbits": found.orbits,
+        "transition": found.kind,
+        "order": order,
+        "order_error": order_error,
+        "section_phase": special.orbit.phase,
+    }
+    return xr.Dataset(variables, {name: coordinate_of(name, name, found.values)}, attributes)
 
 
 def of_manifolds(found: OrbitManifolds) -> xr.Dataset:

@@ -20,6 +20,7 @@ from rocking.orbits.find_orbit import SAME, mirrored_half
 
 OFFS = (1e-4, 1e-3, 1e-5)
 """Distances of the first point from the grazing, in rad or units of the range, that are tried one after another."""
+PERSISTS, MEETS = "the orbit persists", "two orbits meet, as at a fold"
 
 
 class Beginning(NamedTuple):
@@ -96,4 +97,4 @@ def transition(special: SpecialPoint, value: float) -> str:
     if special._origin is None:
         return "unknown"
     same = (value - special.parameter) * special._origin.side > 0.0
-    return "two orbits meet, as at a fold" if same else "the orbit persists"
+    return MEETS if same else PERSISTS
