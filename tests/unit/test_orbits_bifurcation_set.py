@@ -174,15 +174,39 @@ def test_picture_refuses_axes_of_other_quantities():
     plt.close(other.figure)
 
 
-def test_picture_shows_each_curve_and_marks_ends_at_grazings():
-    system, _, bounds = SYSTEMS["e 0.925"]
-    found = rk.bifurcation_set(system, 2, grid=6, **bounds)
+def test_picture_shows_each_curve_and_marks_points_of_codimension_two():
+    braced = rk.System(rk.Harmonic(1.19, period=4.2), 0.68, rk.Braces(0.37, 0.81))
+    found = rk.bifurcation_set(braced, 1, grid=3, period=(3.0, 5.5), amplitude=(0.8, 2.5))
     ax = rk.plot.bifurcation_set(found)
     drawn = [line for line in ax.lines if line.get_gid() != "codimension-2"]
     assert [line.get_gid() for line in drawn] == [curve.kind for curve in found.curves]
-    marked = sum(len(line.get_xdata()) for line in ax.lines if line.get_gid() == "codimension-2")
-    assert marked == sum(end == "grazing" for curve in found.curves for end in curve.ends)
+    marks = [line for line in ax.lines if line.get_gid() == "codimension-2"]
+    marked = [
+        (line.get_marker(), *values)
+        for line in marks
+        for values in zip(line.get_xdata(), line.get_ydata(), strict=True)
+    ]
+    points = [point for curve in found.curves for point in curve.special]
+    of_kinds = {
+        "cusp": "D",
+        "degenerate-period-doubling": "*",
+        "degenerate-symmetry-breaking": "P",
+    }
+    assert sorted(marked) == sorted((of_kinds.get(point.kind, "o"), *point.values) for point in points)
+    assert {marker for marker, *_ in marked} == {"D", "*", "P", "o"}
+    ends = sum(end == "grazing" for curve in found.curves for end in curve.ends)
+    assert 0 < ends <= sum(point.kind.endswith("-grazing") for point in points)
     plt.close(ax.figure)
+
+
+def test_dataset_holds_points_of_codimension_two_of_every_curve():
+    braced = rk.System(rk.Harmonic(1.19, period=4.2), 0.68, rk.Braces(0.37, 0.81))
+    found = rk.bifurcation_set(braced, 1, grid=2, period=(3.0, 5.5), amplitude=(0.8, 2.5))
+    data = found.to_xarray()
+    points = [(number, point) for number, curve in enumerate(found.curves) for point in curve.special]
+    assert data.special_curve.values.tolist() == [number for number, _ in points]
+    assert data.special.values.tolist() == [point.kind for _, point in points]
+    assert data.special_amplitude.values.tolist() == [point.values[1] for _, point in points]
 
 
 @pytest.mark.parametrize(

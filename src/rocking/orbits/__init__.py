@@ -4,6 +4,7 @@ from rocking.orbits.bifurcation_curve import BifurcationCurve, bifurcation_curve
 from rocking.orbits.bifurcation_set import BifurcationSet, bifurcation_set
 from rocking.orbits.branch import BRANCHES_OFF, Branch, SpecialPoint
 from rocking.orbits.cascade import Cascade, cascade
+from rocking.orbits.codimension_two import CodimensionTwoPoint
 from rocking.orbits.continuation import continue_orbit, switch_branch
 from rocking.orbits.find_orbit import find_orbit
 from rocking.orbits.find_orbits import Orbits, find_orbits
@@ -25,6 +26,7 @@ __all__ = [
     "BifurcationSet",
     "Branch",
     "Cascade",
+    "CodimensionTwoPoint",
     "FrequencyResponse",
     "GrazingTransition",
     "Manifold",

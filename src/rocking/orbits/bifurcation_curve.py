@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -23,6 +24,7 @@ from rocking.model import (
 )
 from rocking.orbits.branch import SpecialPoint, chain_at
 from rocking.orbits.branch_result import ENDS
+from rocking.orbits.codimension_two import CodimensionTwoPoint, CurveRows, coefficients_of, points_of
 from rocking.orbits.datasets import of_curve
 from rocking.orbits.event_chain import IMPACT, NAMES, Chain, Condition, End, Special, problem_of
 from rocking.orbits.parameter import checked_range, value_of
@@ -66,6 +68,27 @@ class BifurcationCurve(ReadOnlyArrays, NotebookPicture):
     ends: tuple[str, str]
     period: int
     impacts: int
+    _rows: CurveRows = field(repr=False)
+
+    @cached_property
+    def special(self) -> tuple[CodimensionTwoPoint, ...]:
+        """Points of codimension two, in order along the curve; computed at first use."""
+        return points_of(self._rows)
+
+    @cached_property
+    def coefficients(self) -> NDArray[np.float64]:
+        """Coefficients of the normal form of the return map at each point, shape (n,); computed at first use.
+
+        The amplitude s is the root mean square of the changes of the phases of the events, in rad.
+
+        - At a fold the map is s → s + b s². The sign of b is kept along the curve, but has no meaning of its own.
+        - At a period doubling it is s → −s + c s³ (Kuznetsov 2004, ch. 4), at a symmetry breaking the same after half a period. For
+          c > 0 the bifurcation is supercritical: the new orbits exist where the old one is unstable.
+        - On a grazing curve it is NaN.
+
+        Without losses the coefficients are infinite, with the same sign.
+        """
+        return read_only(coefficients_of(self._rows))
 
     def __len__(self) -> int:
         return len(self.points)
@@ -132,7 +155,17 @@ def bifurcation_curve(
 
     Notes
     -----
-    Every point is checked by simulation. The curve ends where it meets another grazing.
+    Every point is checked by simulation. The curve ends where it meets another grazing. `special` names this end and all points
+    of codimension two between neighbouring points of the curve where a test function changes its sign. Limit: two such points
+    within one step are not detected.
+
+    The determinant of the return map is the product of the squared coefficients of restitution of all impacts in a period. It
+    has the following consequences:
+
+    - With losses it is below one, so that two complex multipliers lie inside the unit circle. There is no Neimark-Sacker
+      bifurcation. Its degenerate form (Chenciner, for flows Bautin) and the strong resonances do not exist either.
+    - Two multipliers are 1, or −1, at one point only without losses (e = 1). Then they are so along a whole curve.
+    - It is positive, so that multipliers 1 and −1 never occur together. A fold-flip does not exist, with or without losses.
 
     Examples
     --------
@@ -166,13 +199,23 @@ def bifurcation_curve(
     if start == End.CLOSED:
         back, on, end = back[::-1], back[:1], start
     impacts, _ = chain.counts()
+    rows = np.concatenate([back[::-1], on[1:]])
     return BifurcationCurve(
         kind=special.kind,
         names=(first, second),
-        points=np.concatenate([back[::-1], on[1:]])[:, -2:],
+        points=rows[:, -2:].copy(),
         ends=(ENDS[start], ENDS[end]),
         period=chain.period,
         impacts=impacts,
+        rows=CurveRows(
+            chain,
+            condition,
+            (first, second),
+            (limits[0], limits[1]),
+            step,
+            rows,
+            (start, end),
+        ),
     )
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -17,6 +18,7 @@ if TYPE_CHECKING:
     from rocking.orbits.bifurcation_set import BifurcationSet
     from rocking.orbits.branch import Branch
     from rocking.orbits.cascade import Cascade
+    from rocking.orbits.codimension_two import CodimensionTwoPoint
     from rocking.orbits.find_orbits import Orbits
     from rocking.orbits.grazing_transition import GrazingTransition
     from rocking.orbits.orbit_manifolds import OrbitManifolds
@@ -70,6 +72,20 @@ def of_branch(branch: Branch) -> xr.Dataset:
     return xr.Dataset(variables, attrs=attributes)
 
 
+def special_points(names: tuple[str, str], points: Sequence[CodimensionTwoPoint]) -> dict[str, Any]:
+    """Return points of codimension two as variables along `special_point`."""
+    values = np.array([one.values for one in points]).reshape(-1, 2)
+    errors = np.array([one.errors for one in points]).reshape(-1, 2)
+    kinds = np.array([one.kind for one in points], dtype="U28")
+    variables: dict[str, Any] = {
+        "special": ("special_point", kinds, {"long_name": "type of the point of codimension two"})
+    }
+    for name, value, error in zip(names, values.T, errors.T, strict=True):
+        variables[f"special_{name}"] = coordinate_of("special_point", name, value)
+        variables[f"special_{name}_error"] = ("special_point", error, named(f"error of the {name}"))
+    return variables
+
+
 def of_curve(curve: BifurcationCurve) -> xr.Dataset:
     """Return a bifurcation curve as a dataset along `point`."""
     import xarray as xr
@@ -78,6 +94,12 @@ def of_curve(curve: BifurcationCurve) -> xr.Dataset:
         name: coordinate_of("point", name, values)
         for name, values in zip(curve.names, curve.points.T, strict=True)
     }
+    variables["coefficient"] = (
+        "point",
+        curve.coefficients,
+        named("coefficient of the normal form of the return map"),
+    )
+    variables |= special_points(curve.names, curve.special)
     attributes = described("Bifurcation curve") | {
         "kind": curve.kind,
         "orbit_period": curve.period,
@@ -111,6 +133,13 @@ def of_curves(found: BifurcationSet) -> xr.Dataset:
             np.array([getattr(curve, name) for curve in found.curves], "U17" if name == "kind" else int),
             {"long_name": text} | ({} if name == "kind" else {"units": "1"}),
         )
+    specials = [one for curve in found.curves for one in curve.special]
+    variables |= special_points(found.names, specials)
+    variables["special_curve"] = (
+        "special_point",
+        np.repeat(np.arange(len(lengths)), [len(curve.special) for curve in found.curves]),
+        {"long_name": "number of the curve of the special point", "units": "1"},
+    )
     first, second = (fixed_quantities(found.system, name) for name in found.names)
     attributes = described("Bifurcation set") | {
         **{name: value for name, value in first.items() if name in second},

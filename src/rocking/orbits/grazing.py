@@ -94,13 +94,13 @@ def _slow_event(chain: Chain, links: np.ndarray) -> list[Touch]:
         event, lost = (event if times[event] < times[slowest] else slowest), 2
     if arrives[slowest] > SLOW or k <= lost:
         return []
-    chain = _rotated(chain, (event + lost) % k)
+    chain = rotated(chain, (event + lost) % k)
     time = (chain.phases[k - lost] - chain.phases[k - lost - 1]) / chain.system.harmonic.frequency
     kept = chain._replace(kinds=chain.kinds[: k - lost].copy(), phases=chain.phases[: k - lost])
     return [Touch(kept, Condition(Special.GRAZING, k - lost - 1, level, float(time)))]
 
 
-def _rotated(chain: Chain, by: int) -> Chain:
+def rotated(chain: Chain, by: int) -> Chain:
     """Return the same chain, begun ``by`` events later."""
     side, kinds = chain.side, chain.kinds
     for j in range(by):
@@ -145,6 +145,19 @@ def _heights(chain: Chain, arc: int, side: int, speed: float, times: np.ndarray)
     odd = speed + swing * frequency * math.sin(phase)
     forced = 1.0 + swing * np.cos(phase + frequency * times)
     return np.asarray(forced + even * np.cosh(times) + odd * np.sinh(times))
+
+
+def turning_time(chain: Chain, parameter: str, row: np.ndarray, condition: Condition) -> float:
+    """Return the time of the turning point at which an arc touches, from the start of the arc: that nearest to a known time."""
+    at_value = np.append(chain.phases, row[-1])
+    links, sides = equations(chain, parameter, at_value)[1], sides_of(chain)
+    arc = condition.arc
+    times = np.linspace(0.0, links["time"][arc], SAMPLES)
+    rise = np.diff(_heights(chain, arc, sides[arc], links["leaves"][arc], times))
+    turns = np.flatnonzero(rise[:-1] * rise[1:] < 0.0) + 1
+    if not len(turns):
+        return float(condition.time)
+    return float(times[turns[np.abs(times[turns] - condition.time).argmin()]])
 
 
 def _solved(touch: Touch, parameter: str) -> tuple[Touch, np.ndarray] | None:
@@ -193,7 +206,7 @@ def _eventless(chain: Chain, parameter: str, row: np.ndarray) -> Orbit | None:
     value = float(brentq(clear, *ends, xtol=1e-300, rtol=8.9e-16))
     system = with_value(chain.system, parameter, value)
     times = equations(chain, parameter, row)[1]["time"]
-    longest = _rotated(chain._replace(phases=row[:-1]), int(times.argmax()))
+    longest = rotated(chain._replace(phases=row[:-1]), int(times.argmax()))
     # half a forcing period away from the contact
     phase = 0.0 if longest.side > 0 else math.pi
     start = State(*saddle(system, phase, longest.side))

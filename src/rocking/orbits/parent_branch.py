@@ -41,7 +41,7 @@ def special_points(chain: Chain, parameter: str, table: kernel.BranchTable) -> l
         Found(chain, row, Special(kind), index)
         for row, (kind, index) in zip(table.specials, table.changes.tolist(), strict=True)
     ]
-    parent = _parent(chain)
+    parent = parent_of(chain)
     if parent is None:
         return found
     passed: list[Found] = []
@@ -54,7 +54,7 @@ def special_points(chain: Chain, parameter: str, table: kernel.BranchTable) -> l
             others.append(one)
         else:
             _add(passed, near)
-    apart = _apart(chain, table.rows)
+    apart = apart_of(chain, table.rows)
     clear = np.flatnonzero(np.abs(apart).max(axis=1) > EQUAL)
     for before, after in zip(clear[:-1].tolist(), clear[1:].tolist(), strict=True):
         if apart[before] @ apart[after] < 0.0:
@@ -64,7 +64,7 @@ def special_points(chain: Chain, parameter: str, table: kernel.BranchTable) -> l
     return sorted(others + passed, key=lambda one: one.place)
 
 
-def _parent(chain: Chain) -> Chain | None:
+def parent_of(chain: Chain) -> Chain | None:
     """Return the chain of the orbits that repeat, or mirror themselves, after half a chain; None if there are none."""
     half, odd = divmod(len(chain.kinds), 2)
     if odd or chain.mirrored or not np.array_equal(chain.kinds[:half], chain.kinds[half:]):
@@ -86,7 +86,7 @@ def _has_multiplier_one(special: Found, parameter: str) -> bool:
     return abs(1.0 - trace + determinant) < abs(1.0 + trace + determinant)
 
 
-def _apart(chain: Chain, rows: np.ndarray) -> np.ndarray:
+def apart_of(chain: Chain, rows: np.ndarray) -> np.ndarray:
     """Return the distances of the phases of the second half of a chain from half a turn after those of the first."""
     half = len(chain.kinds) // 2
     return np.asarray(rows[:, half:-1] - rows[:, :half] - 0.5 * chain.turn)

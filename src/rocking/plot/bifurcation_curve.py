@@ -7,7 +7,7 @@ from matplotlib.axes import Axes
 
 from rocking.model import Block, refuse_if
 from rocking.orbits import BifurcationCurve
-from rocking.plot.parts import style
+from rocking.plot.parts import codimension_two, style
 from rocking.plot.parts.axis_units import parameter
 from rocking.plot.parts.branch_lines import several, unless_there
 
@@ -24,6 +24,8 @@ def bifurcation_curve(
     result: BifurcationCurve | Sequence[BifurcationCurve], ax: Axes | None = None, block: Block | None = None
 ) -> Axes:
     """Plot one or several bifurcation curves in the plane of their two parameters, one colour and dash per type.
+
+    A mark shows each point of codimension two.
 
     Parameters
     ----------
@@ -78,6 +80,7 @@ def bifurcation_curve(
             label=unless_there(ax, f"{one.kind.replace('-', ' ')}, period {one.period}"),
             gid=one.kind,
         )
+    codimension_two.mark(ax, each, across, upright)
     style.label(ax, x_label, y_label)
     style.key(ax)
     return ax

@@ -6,21 +6,18 @@ from matplotlib.patheffects import Normal, Stroke
 from rocking.model import Block, instance
 from rocking.orbits import BifurcationSet
 from rocking.plot.bifurcation_curve import LOOKS
-from rocking.plot.parts import style
+from rocking.plot.parts import codimension_two, style
 from rocking.plot.parts.axis_units import parameter
 from rocking.plot.parts.branch_lines import unless_there
 
 # White edge around a line, so that it stands out from the colours of a map; in points.
 EDGE = 2.2
-# Size of a dot, in points.
-DOT = 3.0
-GRAZED = "grazing"
 
 
 def bifurcation_set(result: BifurcationSet, ax: Axes | None = None, block: Block | None = None) -> Axes:
     """Plot all curves of a bifurcation set, one colour and dash per type, thinner for longer periods.
 
-    A dot marks an end of a curve at another grazing, which is a point of codimension two.
+    A mark shows each point of codimension two: a dot one at a grazing, such as an end of a curve.
 
     Parameters
     ----------
@@ -75,16 +72,7 @@ def bifurcation_set(result: BifurcationSet, ax: Axes | None = None, block: Block
             label=unless_there(ax, curve.kind.replace("-", " ")),
             gid=curve.kind,
         )
-        met = curve.points[[place for place, end in zip((0, -1), curve.ends, strict=True) if end == GRAZED]]
-        ax.plot(
-            across(met[:, 0]),
-            upright(met[:, 1]),
-            "o",
-            color=style.INK,
-            markersize=DOT,
-            zorder=3,
-            gid="codimension-2",
-        )
+    codimension_two.mark(ax, result.curves, across, upright)
     style.label(ax, x_label, y_label)
     if result.curves:
         style.key_beside(ax)
