@@ -24,7 +24,8 @@ from rocking.model import (
 )
 from rocking.orbits.branch import SpecialPoint, chain_at
 from rocking.orbits.branch_result import ENDS
-from rocking.orbits.codimension_two import CodimensionTwoPoint, CurveRows, coefficients_of, points_of
+from rocking.orbits.codimension_two import CodimensionTwoPoint, coefficients_of, points_of
+from rocking.orbits.curve_rows import CurveRows
 from rocking.orbits.datasets import of_curve
 from rocking.orbits.event_chain import IMPACT, NAMES, Chain, Condition, End, Special, problem_of
 from rocking.orbits.parameter import checked_range, value_of
