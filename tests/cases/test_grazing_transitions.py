@@ -2,6 +2,7 @@
 
 import math
 
+import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 
@@ -183,6 +184,25 @@ def test_dataset_holds_the_evidence(case):
     np.testing.assert_array_equal(data.farthest, found.farthest)
     assert (data.attrs["orbits"], data.attrs["transition"]) == (orbits, kind)
     assert data.exponent.values[-1] == found.attractor.exponent
+
+
+def test_picture_shows_both_distances_and_the_square_root(case):
+    *_, found, (_, kind, _) = case
+    ax = rk.plot.grazing_transition(found)
+    lines = {line.get_gid(): np.array(line.get_data()) for line in ax.lines}
+    np.testing.assert_array_equal(lines["farthest"], [found.distances, found.farthest])
+    np.testing.assert_array_equal(lines["nearest"], [found.distances, found.nearest])
+    x, y = lines["square-root"]
+    np.testing.assert_allclose(y / y[-1], np.sqrt(x / x[-1]))
+    off = np.abs(np.log(y / found.farthest)).max()
+    assert (off < 0.6) == (kind == "local")
+    assert found._repr_html_().startswith("<figure>")
+    plt.close(ax.figure)
+
+
+def test_picture_refuses_other_results():
+    with pytest.raises(TypeError, match="^result must be a GrazingTransition; got 3"):
+        rk.plot.grazing_transition(3)
 
 
 def test_summary_names_the_attractor():

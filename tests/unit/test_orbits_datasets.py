@@ -32,6 +32,13 @@ def cascade():
 
 
 @pytest.fixture(scope="module")
+def transition():
+    system = rk.System(rk.Harmonic(4.0, period=1.0), 0.8, rk.Braces(0.3, 0.7))
+    branch = rk.continue_orbit(rk.classify(system).orbit, "amplitude", (0.5, 15.0))
+    return rk.grazing_transition(branch.special[-1])
+
+
+@pytest.fixture(scope="module")
 def manifolds():
     """Manifolds of an orbit of period 3, whose halves begin at three points."""
     system = rk.System(rk.Harmonic(amplitude=6.5, period=0.4), 0.925)
@@ -53,11 +60,13 @@ def multipliers_of(data):
     return data["multiplier_real"].values + 1j * data["multiplier_imag"].values
 
 
-def test_every_variable_has_a_name_and_every_number_a_unit(branch, curve, orbits, cascade, manifolds):
-    for found in (branch, curve, orbits, cascade, manifolds):
+def test_every_variable_has_a_name_and_every_number_a_unit(
+    branch, curve, orbits, cascade, transition, manifolds
+):
+    for found in (branch, curve, orbits, cascade, transition, manifolds):
         for name, variable in found.to_xarray().variables.items():
             assert variable.attrs["long_name"], name
-            assert variable.dtype.kind in "US" or "units" in variable.attrs, name
+            assert variable.dtype.kind in "US" or {"units", "flag_values"} & set(variable.attrs), name
 
 
 def test_branch_comes_back_with_its_special_points(branch, tmp_path):

@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from rocking.model import (
     Kind,
+    NotebookPicture,
     Orbit,
     ReadOnlyArrays,
     State,
@@ -54,7 +55,7 @@ TRANSIENT, KEPT = 20_000, 4_000
 
 
 @frozen(eq=False)
-class GrazingTransition(ReadOnlyArrays):
+class GrazingTransition(ReadOnlyArrays, NotebookPicture):
     """Transition at a grazing, with its evidence; returned by `grazing_transition`.
 
     Attributes
@@ -140,6 +141,9 @@ class GrazingTransition(ReadOnlyArrays):
         """
         return of_transition(self)
 
+    def _repr_html_(self) -> str | None:
+        return super()._repr_html_() if np.isfinite(self.farthest).any() else None
+
     def __str__(self) -> str:
         orbits = {"persistence": PERSISTS, "fold": MEETS, "none": "no other orbit was found"}[self.orbits]
         order, error = self.order
@@ -190,6 +194,7 @@ def grazing_transition(
     --------
     switch_branch : Follow the other branch at a grazing.
     classify : Classify one response.
+    rocking.plot.grazing_transition : Plot the distances.
 
     Notes
     -----

@@ -23,6 +23,7 @@ from rocking.orbits import (
     Branch,
     Cascade,
     FrequencyResponse,
+    GrazingTransition,
     OrbitDiagram,
     OrbitManifolds,
     Orbits,
@@ -40,6 +41,7 @@ from rocking.plot.convergence import convergence
 from rocking.plot.correlation_dimension import dimension
 from rocking.plot.fragility import fragility
 from rocking.plot.frequency_response import frequency_response
+from rocking.plot.grazing_transition import grazing_transition
 from rocking.plot.impact_section import impact_section
 from rocking.plot.incremental_dynamic_analysis import incremental_dynamic_analysis
 from rocking.plot.manifolds import manifolds
@@ -82,6 +84,7 @@ __all__ = [
     "dimension",
     "fragility",
     "frequency_response",
+    "grazing_transition",
     "heteroclinic",
     "impact_section",
     "incremental_dynamic_analysis",
@@ -123,6 +126,7 @@ for kind, draw in (
     (LyapunovSpectrum, convergence),
     (SpectralDensity, spectrum),
     (FrequencyResponse, frequency_response),
+    (GrazingTransition, grazing_transition),
     (Motion, overview),
     (OrbitDiagram, orbit_diagram),
     (OrbitManifolds, orbit_manifolds),
