@@ -369,3 +369,29 @@ def test_dataset_holds_coefficients_and_points():
     assert data.special.values.tolist() == [one.kind for one in curve.special]
     assert data.special_period.values.tolist() == [one.values[0] for one in curve.special]
     assert data.special_amplitude_error.values.tolist() == [one.errors[1] for one in curve.special]
+
+
+PLANES = {
+    ("period", "amplitude"): ((3.5, 4.5), (0.9, 2.0)),
+    ("frequency", "amplitude"): ((1.3, 1.7), (0.9, 2.0)),
+    ("brace_angle", "amplitude"): ((0.3, 0.45), (0.9, 2.0)),
+    ("brace_restitution", "amplitude"): ((0.7, 0.95), (0.9, 2.0)),
+    ("restitution", "amplitude"): ((0.6, 0.75), (0.9, 2.0)),
+}
+
+
+def test_coefficient_does_not_depend_on_the_plane():
+    system, period, kind, bounds, impacts, _ = CASES["braced"]
+    special = next(
+        one
+        for branch in branches(system, period, bounds)
+        for one in branch.special
+        if (one.kind, one.orbit.impacts) == (kind, impacts)
+    )
+    found = []
+    for names, plane in PLANES.items():
+        curve = rk.bifurcation_curve(special, *names, plane)
+        assert curve.names == names
+        start = np.abs(curve.points[:, 1] - special.parameter) < 1e-12
+        found.append(curve.coefficients[start].item())
+    np.testing.assert_allclose(found, found[0], rtol=1e-9)

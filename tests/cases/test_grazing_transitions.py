@@ -2,6 +2,7 @@
 
 import math
 
+import attrs
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
@@ -232,6 +233,26 @@ def test_an_unstable_orbit_is_named_and_one_without_events_has_no_other_branch()
     found = rk.grazing_transition(special)
     assert rk.switch_branch(special, (0.5, 15.0)) == ()
     assert (found.orbits, found.kind) == ("none", "unstable orbit")
+    assert str(found.attractor.kind) == "overturned"
+    assert np.isinf(found.farthest).all()
+    assert np.isnan(found.order).all()
+    assert str(found).endswith("beyond: motions leave the unstable orbit, here to overturning")
+    assert found._repr_html_() is None
+    with pytest.raises(ValueError, match="^result must hold a motion that does not overturn"):
+        rk.plot.grazing_transition(found)
+
+
+def test_a_motion_that_overturns_jumps():
+    """No stable orbit is known whose grazing ends in overturning: verdicts of another system take the place."""
+    system = rk.System(rk.Harmonic(amplitude=2.2, period=2.0), restitution=0.91)
+    special = next(
+        one for branch in branches(system, 1, (0.5, 15.0)) for one in branch.special if one.kind == "grazing"
+    )
+    wide, longest, amplitude, _ = CASES["without braces"]
+    stable = grazing(wide, longest, amplitude)[1]
+    found = attrs.evolve(rk.grazing_transition(special), special=stable)
+    assert found.kind == "jump"
+    assert str(found).endswith("the motion jumps to overturning")
 
 
 @pytest.mark.parametrize(

@@ -161,6 +161,7 @@ def switch_branch(
     See Also
     --------
     continue_orbit : Follow an orbit through a parameter.
+    grazing_transition : Determine what a motion does beyond a grazing.
     rocking.plot.branch : Plot branches.
 
     Examples
