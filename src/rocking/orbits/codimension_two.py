@@ -11,7 +11,6 @@ from typing import NamedTuple
 
 import numpy as np
 from attrs import evolve, field, frozen
-from scipy.optimize import brentq
 
 from rocking.kernels.orbits import arclength
 from rocking.model import Orbit, plus_minus
@@ -28,7 +27,7 @@ BLOCK = 2_000_000
 SMALL = 1e-6
 """Largest value of a test function at a zero, relative to those at the points around it: a pole is no zero."""
 ALMOST_EQUAL = 0.1
-"""Largest distance of the halves of a chain, in rad, at the lost end of a curve that ends where they are equal."""
+"""Largest distance of the halves of a chain, in rad, at the last point of a curve before a point at which they are equal."""
 UNSURE = 0.05
 """Part of the extrapolated distance to such a point that its error contains; 0.03 was the largest one of 45 cases."""
 ROUNDED = 1e-11
@@ -91,9 +90,8 @@ class Test(NamedTuple):
     """Test function of a point of codimension two."""
 
     kind: str
-    values: Callable[
-        [CurveRows, np.ndarray], Reduced
-    ]  # at rows of the curve, with directions on which their signs depend
+    # values at rows of the curve, with directions on which their signs depend
+    values: Callable[[CurveRows, np.ndarray], Reduced]
 
 
 def coefficients_of(rows: CurveRows) -> np.ndarray:
@@ -240,6 +238,8 @@ def _located(
 
 def _zero(rows: CurveRows, test: Test, i: int, direction: np.ndarray, size: float) -> np.ndarray | None:
     """Return the point after the point i of a curve at which a test function vanishes, or None."""
+    from scipy.optimize import brentq
+
     start, chord = rows.rows[i], rows.rows[i + 1] - rows.rows[i]
 
     def at(share: float) -> np.ndarray:
