@@ -1,5 +1,6 @@
 """`rocking lyapunov`: output, files and error messages."""
 
+import csv
 import json
 
 import pytest
@@ -94,10 +95,28 @@ def test_files_are_written(rocking, tmp_path):
     assert data["value"].values.tolist() == spectrum_of_chaos().values.tolist()
 
 
+def test_csv_holds_the_running_estimates_in_both_units(rocking, tmp_path):
+    block = rk.Block(2.0, 0.5)
+    spectrum = rk.lyapunov(block.system(acceleration=4.0, frequency_hz=1.2), cycles=300)
+    assert rocking(f"lyapunov {SI} --csv a.csv")[2].endswith("wrote a.csv\n")
+    with (tmp_path / "a.csv").open(encoding="utf-8", newline="") as file:
+        rows = list(csv.DictReader(file))
+    assert [int(row["cycles"]) for row in rows] == spectrum.history["cycles"].tolist()
+    for number in (0, 1):
+        for name in ("value", "error"):
+            expected = spectrum.history[f"{name}s"][:, number]
+            heading = f"{name}_{number + 1}"
+            assert [float(row[f"{heading} [alpha]"]) for row in rows] == expected.tolist()
+            assert [float(row[f"{heading} [1/s]"]) for row in rows] == pytest.approx(
+                expected / block.seconds(1.0)
+            )
+
+
 @pytest.mark.parametrize(
     ("line", "message"),
     [
         (f"{RESTS} --plot a.png", "--plot must be omitted: the exponents are −∞"),
+        (f"{RESTS} --csv a.csv", "--csv must be omitted: the exponents are −∞"),
         ("--amplitude 10.1 --period 1.7 --restitution 0.8 --cycles 20", "--cycles must be at least 32"),
         ("--amplitude 10.1 --period 1.7 --restitution 0.8 --cycles 0", "--cycles must"),
         ("--amplitude 10.1 --period 1.7 --restitution 0.8 --transient -1", "--transient must"),

@@ -1,5 +1,6 @@
 """`rocking modes`: output, files and error messages."""
 
+import csv
 import json
 import math
 
@@ -123,3 +124,25 @@ def test_block_out_of_the_slender_range_is_warned_of(rocking):
     assert "\nwarning: outside the slender range" in rocking(f"modes {line}")[2]
     assert "41.4%" in told(rocking, line)["warnings"][0]
     assert told(rocking, SI)["warnings"] == []
+
+
+def test_csv_has_a_row_per_mode_in_both_units(rocking, tmp_path):
+    block = rk.Block(2.0, 0.5)
+    read = told(rocking, f"{SI} --csv a.csv --plot a.png")
+    assert read["files"] == ["a.png", "a.csv"]
+    with (tmp_path / "a.csv").open(encoding="utf-8", newline="") as file:
+        rows = list(csv.DictReader(file))
+    assert [row["mode"] for row in rows] == ["faster", "slower"][: len(read["modes"])]
+    for row, mode in zip(rows, read["modes"], strict=True):
+        assert float(row["velocity [alpha theta_cr]"]) == mode["velocity"]
+        assert float(row["velocity [rad/s]"]) == pytest.approx(block.radians_per_second(mode["velocity"]))
+        assert float(row["phase [rad]"]) == mode["phase"]
+        assert float(row["peak [rad]"]) == pytest.approx(block.radians(mode["peak"]))
+        assert [float(row["multiplier_2_real"]), float(row["multiplier_2_imag"])] == mode["multipliers"][1]
+        assert (row["stability"], row["admissible"]) == (mode["stability"], str(mode["admissible"]))
+
+
+def test_csv_without_modes_has_only_headings(rocking, tmp_path):
+    assert rocking(f"modes {NONE} --csv a.csv")[0] == 0
+    (line,) = (tmp_path / "a.csv").read_text(encoding="utf-8").splitlines()
+    assert line.startswith("mode,velocity [alpha theta_cr],phase [rad],")

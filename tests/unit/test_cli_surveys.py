@@ -1,5 +1,6 @@
 """`rocking basins` and `rocking overturning`: output, files and error messages."""
 
+import csv
 import json
 from pathlib import Path
 
@@ -293,6 +294,76 @@ def test_overturning_in_si_is_refused_in_the_words_of_its_options(rocking, line,
     code, told, _ = rocking(f"overturning --height 2 {line}")
     assert code == 2
     assert told.startswith(message)
+
+
+UNITS = {"angle": "theta_cr", "velocity": "alpha theta_cr"}
+
+
+def rows_of(path):
+    with path.open(encoding="utf-8", newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def test_csv_of_basins_has_a_row_per_initial_state_in_both_units(rocking, tmp_path):
+    block = rk.Block(2.0, 0.5)
+    line = "basins --height 2 --width 0.5 --acceleration 1.5 --frequency-hz 1.2 --boundary-runs 0"
+    assert rocking(f"{line} --angle=-1:1:5 --velocity=-0.5:0.5:3 --csv a.csv")[2].endswith("wrote a.csv\n")
+    system = block.system(acceleration=1.5, frequency_hz=1.2)
+    angle, velocity = np.linspace(-1, 1, 5), np.linspace(-0.5, 0.5, 3)
+    found = rk.basin_map(system, angle=angle, velocity=velocity, boundary_runs=0)
+    assert len(found.attractors) > 1
+    rows = rows_of(tmp_path / "a.csv")
+    assert len(rows) == 15
+    for row in rows:
+        state = {name: float(row[f"{name} [{unit}]"]) for name, unit in UNITS.items()}
+        at = found.dataset.sel(state)
+        assert int(row["attractor"]) == at.attractor
+        assert row["name"] == found.attractors[int(at.attractor)].name
+        assert row["kind"] == list(rk.Kind)[int(at.kind)]
+        assert float(row["angle [rad]"]) == pytest.approx(block.radians(state["angle"]))
+        assert float(row["velocity [rad/s]"]) == pytest.approx(block.radians_per_second(state["velocity"]))
+
+
+def test_csv_of_random_initial_states_holds_these_states(rocking, tmp_path):
+    assert rocking(f"{BASINS} --samples 50 --seed 4 --boundary-runs 0 --csv a.csv")[0] == 0
+    system = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), 0.925)
+    data = rk.basin_map(system, angle=(-1, 1), velocity=(-1, 1), samples=50, seed=4, boundary_runs=0).dataset
+    rows = rows_of(tmp_path / "a.csv")
+    for name, unit in UNITS.items():
+        assert [float(row[f"{name} [{unit}]"]) for row in rows] == data[name].values.tolist()
+    assert [int(row["attractor"]) for row in rows] == data.attractor.values.tolist()
+    assert not [heading for heading in rows[0] if "rad" in heading or heading == "sample"]
+
+
+def test_csv_of_overturning_has_a_row_per_value_in_both_units(rocking, tmp_path):
+    line = f"overturning {CABINET} --frequency-hz 1.5:2:2 --acceleration-g 0.2:1:41"
+    read = json.loads(rocking(f"{line} --csv a.csv --json")[2])
+    rows = rows_of(tmp_path / "a.csv")
+    assert read["files"] == ["a.csv"]
+    assert [float(row["frequency [Hz]"]) for row in rows] == pytest.approx([1.5, 2.0])
+    for row, told in zip(rows, read["curve"], strict=True):
+        for name in ("lowest", "resolution", "survived_up_to"):
+            assert float(row[f"{name} [g theta_cr]"]) == told[name]
+            assert float(row[f"{name}_acceleration [m/s^2]"]) == told[f"{name}_acceleration_m_per_s2"]
+        assert float(row["lowest_phase [rad]"]) == told["lowest_phase"]
+        assert float(row["surviving_above"]) == told["surviving_above"]
+
+
+def test_csv_of_two_varied_quantities_and_of_none(rocking, tmp_path):
+    line = f"{CURVE.replace('0.925', '0.8:0.9:2')} --max-cycles 50"
+    read = json.loads(rocking(f"{line} --csv a.csv --json")[2])
+    rows = rows_of(tmp_path / "a.csv")
+    for row, told in zip(rows, read["curve"], strict=True):
+        assert [float(row["period [1/alpha]"]), float(row["restitution"])] == [
+            told["period"],
+            told["restitution"],
+        ]
+        assert float(row["lowest [g theta_cr]"]) == told["lowest"]
+    single = f"{line.replace('1.2:2.2:3', '1.2').replace('0.8:0.9:2', '0.8')} --csv b.csv"
+    assert rocking(single)[0] == 0
+    (row,) = rows_of(tmp_path / "b.csv")
+    assert float(row["lowest [g theta_cr]"]) == read["curve"][0]["lowest"]
+    assert not {"period [1/alpha]", "restitution"} & set(row)
 
 
 def test_basins_of_a_block_have_its_units_and_its_warnings(rocking, tmp_path):

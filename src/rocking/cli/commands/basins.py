@@ -17,7 +17,8 @@ EXAMPLES = """\
 rocking basins --amplitude 5.5 --period 1 --restitution 0.8 \\
     --angle=-1:1:300 --velocity=-1:1:300 --plot basins.png
 # 10,000 random initial states.
-rocking basins --amplitude 5.5 --period 1 --restitution 0.8 --samples 10000"""
+rocking basins --amplitude 5.5 --period 1 --restitution 0.8 \\
+    --samples 10000 --csv basins.csv"""
 
 Angle = Annotated[
     Any,
@@ -57,6 +58,8 @@ Plot = Annotated[
     ),
 ]
 
+Csv = Annotated[Path | None, ask.file_option("--csv", "Write one row per initial state (.csv).")]
+
 
 @ask.with_options(*SYSTEM)
 def basins(
@@ -74,6 +77,7 @@ def basins(
     store: ask.Store = None,
     repair: ask.Repair = False,
     plot: Plot = None,
+    csv: Csv = None,
     netcdf: ask.SurveyNetcdf = None,
     json: ask.Json = False,
     **shared: Any,
@@ -92,5 +96,5 @@ def basins(
     files = survey_run.files_of(asked)
     found, block = basins_request.compute(asked)
     with survey_run.complete(asked.get("store")):
-        survey_run.write(found, "basins", files, block)
+        report.write(found, files, block)
     report.show(found, block, survey_run.written(asked, files), as_json=json)

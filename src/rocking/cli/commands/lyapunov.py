@@ -15,7 +15,8 @@ EXAMPLES = """\
 rocking lyapunov --amplitude 10.103037 --period 1.721328 \\
     --restitution 0.8 --cycles 20000 --plot exponent.png
 # A block of 2 m × 0.5 m, in SI units.
-rocking lyapunov --height 2 --width 0.5 --acceleration 4 --frequency-hz 1.2"""
+rocking lyapunov --height 2 --width 0.5 --acceleration 4 --frequency-hz 1.2 \\
+    --csv exponents.csv"""
 
 Cycles = Annotated[int, ask.number_option("--cycles", "Number of forcing cycles of the average.")]
 Transient = Annotated[
@@ -29,6 +30,11 @@ Plot = Annotated[
     ask.file_option("--plot", "Plot the running estimate of the largest exponent (.png .svg .pdf)."),
 ]
 
+Csv = Annotated[
+    Path | None,
+    ask.file_option("--csv", "Write the running estimates of both exponents, with their errors (.csv)."),
+]
+
 
 @ask.with_options(*SYSTEM, *START, phase=0.0, angle=0.0, velocity=0.0)
 def lyapunov(
@@ -37,6 +43,7 @@ def lyapunov(
     cycles: Cycles = 10_000,
     transient: Transient = None,
     plot: Plot = None,
+    csv: Csv = None,
     netcdf: ask.Netcdf = None,
     json: ask.Json = False,
     **shared: Any,
@@ -46,12 +53,9 @@ def lyapunov(
     from rocking.cli.reports import lyapunov as report
     from rocking.response import lyapunov as measure
 
-    files = check_files({"plot": plot, "netcdf": netcdf})
+    files = check_files({"plot": plot, "csv": csv, "netcdf": netcdf})
     system, start, block = ask.question(context.params)
     with your_input(ARGUMENTS | options("transient")):
         spectrum = measure(system, start, cycles, transient)
-    if plot is not None:
-        report.write_plot(spectrum, plot)
-    if netcdf is not None:
-        report.write_netcdf(spectrum, block, netcdf)
+    report.write(spectrum, block, files)
     report.show(spectrum, block, list(files.values()), as_json=json)

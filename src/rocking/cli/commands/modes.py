@@ -14,7 +14,8 @@ EXAMPLES = """\
 rocking modes --amplitude 6.5 --period 0.4 --restitution 0.925 -n 3 \\
     --plot modes.png
 # The (1, 1) modes of a block of 2 m × 0.5 m, in SI units.
-rocking modes --height 2 --width 0.5 --acceleration 4 --frequency-hz 1.2"""
+rocking modes --height 2 --width 0.5 --acceleration 4 --frequency-hz 1.2 \\
+    --csv modes.csv"""
 
 
 @ask.with_options(*FORCED)
@@ -22,6 +23,7 @@ def modes(
     context: typer.Context,
     n: ask.ModeCycles = 1,
     plot: ask.ModesPlot = None,
+    csv: ask.ModesCsv = None,
     json: ask.Json = False,
     **shared: Any,
 ) -> None:
@@ -29,13 +31,12 @@ def modes(
 
     Prints their velocity and phase at impact, their stability and their admissibility.
     """
-    from rocking.cli.output import motion_files
+    from rocking.cli.output.files import check_files
     from rocking.cli.reports import modes as report
 
-    motion_files.check_picture(plot)
+    files = check_files({"plot": plot, "csv": csv})
     system, _, block = ask.question(context.params)
     with your_input(ARGUMENTS):
         answer = report.find(system, n)
-    if plot is not None:
-        motion_files.write_modes(system, answer.n, block, plot)
-    report.show(answer, block, plot, as_json=json)
+    report.write(answer, block, files)
+    report.show(answer, block, list(files.values()), as_json=json)

@@ -19,7 +19,8 @@ rocking overturning --period 0.4:3:50 --restitution 0.925 \\
 rocking overturning --period 1 --restitution 0.925 --amplitude 1:16:1501 \\
     --phases 1 --json
 # A block of 2 m × 0.5 m, in SI units.
-rocking overturning --height 2 --width 0.5 --frequency-hz 1:2:10"""
+rocking overturning --height 2 --width 0.5 --frequency-hz 1:2:10 \\
+    --csv overturning.csv"""
 
 SHAKEN = (
     "period",
@@ -64,6 +65,11 @@ Plot = Annotated[
     ),
 ]
 
+Csv = Annotated[
+    Path | None,
+    ask.file_option("--csv", "Write one row per forcing period, frequency or restitution (.csv)."),
+]
+
 
 @ask.with_options(*SHAKEN, declare=axis.value_option)
 def overturning(
@@ -79,6 +85,7 @@ def overturning(
     store: ask.Store = None,
     repair: ask.Repair = False,
     plot: Plot = None,
+    csv: Csv = None,
     netcdf: ask.SurveyNetcdf = None,
     json: ask.Json = False,
     **shared: Any,

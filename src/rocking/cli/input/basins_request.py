@@ -11,7 +11,8 @@ from rocking.cli.input import study_file, survey_quantities
 from rocking.cli.input.axis import Axis
 from rocking.cli.input.options import question as system_of
 from rocking.cli.option_names import COUNTS, START, SYSTEM
-from rocking.cli.output.survey_run import FILES, carried_out
+from rocking.cli.output.files import SUFFIXES
+from rocking.cli.output.survey_run import carried_out
 
 if TYPE_CHECKING:
     from rocking.model import BasinMap, Block
@@ -31,7 +32,7 @@ def question(typed: Mapping[str, Any], file: Path | None) -> dict[str, Any]:
         **survey_quantities.varying(*START),
         **survey_quantities.counts("samples", "seed", *COUNTS, "boundary_runs"),
         "boundary_width": partial(within, "boundary_width", low=BOUNDARY_WIDTHS[0], high=BOUNDARY_WIDTHS[1]),
-        **survey_quantities.path_checks("store", *FILES),
+        **survey_quantities.path_checks("store", *SUFFIXES),
     }
     return study_file.asked(typed, file, checks)
 
@@ -40,7 +41,7 @@ def compute(given: Mapping[str, Any]) -> tuple[BasinMap, Block | None]:
     """Compute the basins; return them with the block if they are in SI."""
     from rocking.survey import basin_map
 
-    asked = {name: each for name, each in given.items() if name not in FILES}
+    asked = {name: each for name, each in given.items() if name not in SUFFIXES}
     system, _, block = system_of({name: asked.pop(name) for name in (*SYSTEM, "model") if name in asked})
     reach = 1.0 if system.braces is None else min(system.braces.angle, 1.0)
     usual = {"angle": Axis(-reach, reach, DEFAULT_STARTS), "velocity": Axis(-1.0, 1.0, DEFAULT_STARTS)}

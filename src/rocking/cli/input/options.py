@@ -174,6 +174,7 @@ ModesPlot = Annotated[
     Path | None,
     file_option("--plot", "Plot the velocity and phase of the modes over the amplitude (.png .svg .pdf)."),
 ]
+ModesCsv = Annotated[Path | None, file_option("--csv", "Write one row per mode (.csv).")]
 Store = Annotated[
     Path | None,
     typer.Option(

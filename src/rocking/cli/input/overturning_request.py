@@ -10,7 +10,8 @@ from rocking.cli.input import study_file, survey_quantities
 from rocking.cli.input.axis import Axis
 from rocking.cli.input.options import kinds, require
 from rocking.cli.option_names import AXIS_FORM, COUNTS, SI, YourInput, option
-from rocking.cli.output.survey_run import FILES, carried_out
+from rocking.cli.output.files import SUFFIXES
+from rocking.cli.output.survey_run import carried_out
 
 if TYPE_CHECKING:
     from rocking.model import Block, OverturningCurve
@@ -26,7 +27,7 @@ def question(typed: Mapping[str, Any], file: Path | None) -> dict[str, Any]:
         **survey_quantities.varying(*ASKED, *SCANNED_SI),
         "model": study_file.model,
         **survey_quantities.counts("phases", *COUNTS),
-        **survey_quantities.path_checks("store", *FILES),
+        **survey_quantities.path_checks("store", *SUFFIXES),
     }
     given = study_file.asked(typed, file, checks)
     _, physical = kinds(given)
@@ -55,7 +56,7 @@ def compute(given: Mapping[str, Any]) -> tuple[OverturningCurve, Block | None]:
     from rocking.survey import overturning_amplitude
 
     shaken = {name: each for name, each in given.items() if name in (*ASKED, *SCANNED_SI, "model")}
-    others = {name: each for name, each in given.items() if name not in (*shaken, *FILES)}
+    others = {name: each for name, each in given.items() if name not in (*shaken, *SUFFIXES)}
     if shaken.keys() & set(SCANNED_SI):
         asked = _normalised(shaken)
     else:

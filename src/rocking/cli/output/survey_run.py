@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from rocking.cli.option_names import ARGUMENTS as SYSTEM_ARGUMENTS
 from rocking.cli.option_names import AXIS_FORM, NORMALISED, as_typed, option, options, your_input
-from rocking.cli.output.files import check_apart, check_files, with_block, write_result
+from rocking.cli.output.files import SUFFIXES, check_apart, check_files, columns, with_block, write_result
 
 if TYPE_CHECKING:
     from rocking.model import BasinMap, Block, OverturningCurve, Share
@@ -28,7 +28,6 @@ OWN = (
 )
 # On the command line an array is typed as an axis.
 ARGUMENTS = SYSTEM_ARGUMENTS | options(*OWN) | {"as arrays": f"as axes, {AXIS_FORM}"}
-FILES = ("plot", "netcdf")
 MAX_ROWS = 20
 
 
@@ -74,17 +73,25 @@ def complete(store: Path | None) -> Iterator[None]:
 
 def files_of(asked: Mapping[str, Any]) -> dict[str, Path]:
     """Return the requested files; YourInput if a file cannot be written."""
-    check_apart({name: asked.get(name) for name in ("store", *FILES)})
-    return check_files({name: asked.get(name) for name in FILES})
+    check_apart({name: asked.get(name) for name in ("store", *SUFFIXES)})
+    return check_files({name: asked.get(name) for name in SUFFIXES})
 
 
 def write(
-    found: BasinMap | OverturningCurve, picture: str, files: Mapping[str, Path], block: Block | None
+    found: BasinMap | OverturningCurve,
+    picture: str,
+    files: Mapping[str, Path],
+    block: Block | None,
+    tables: Callable[[], Iterable[Mapping[str, Any]]],
 ) -> None:
-    """Write a plot and the dataset, with SI axes if there is a block."""
+    """Write a plot, tables and the dataset; with a block, SI axes and further columns and coordinates in SI.
+
+    `tables` returns columns by heading, normalised.
+    """
     write_result(
         files,
         figure=lambda plot: getattr(plot, picture)(found, block=block),
+        tables=lambda: (columns(table, block) for table in tables()),
         data=lambda: with_block(found.dataset, block),
     )
 

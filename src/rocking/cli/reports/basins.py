@@ -1,19 +1,41 @@
-"""Report of basins of attraction, as text or JSON."""
+"""Report of basins of attraction, as text, JSON, CSV and netCDF."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
 import attrs
+import numpy as np
 
+from rocking.cli.option_names import START
+from rocking.cli.output import survey_run
 from rocking.cli.output.console import Row, print_json, print_table
 from rocking.cli.output.survey_run import MAX_ROWS, share_record
 from rocking.cli.reports.motion import asked_of, physical_of, question_of
 from rocking.cli.reports.validity import warned, warnings
 from rocking.model import BasinMap, Block, System, UncertaintyExponent, counted
+
+
+def write(found: BasinMap, files: Mapping[str, Path], block: Block | None) -> None:
+    """Write the plot, one row per initial state as CSV, and the dataset; with a block also in SI."""
+    survey_run.write(found, "basins", files, block, lambda: _tables(found))
+
+
+def _tables(found: BasinMap) -> Iterator[dict[str, np.ndarray]]:
+    """Yield columns by name: the initial state, its attractor as a number and by name, and all other variables."""
+    from rocking.survey import tables
+
+    names = np.array([each.name for each in found.attractors])
+    # Random initial states lie along one dimension, and their angles and velocities are no axes.
+    data = found.dataset.reset_coords([name for name in START if name not in found.dataset.dims])
+    data["attractor"] = data["attractor"].drop_attrs()
+    for table in tables(data):
+        first = {name: table[name] for name in (*START, "attractor")}
+        others = {name: column for name, column in table.items() if name not in (*first, "sample")}
+        yield first | {"name": names[first["attractor"]]} | others
 
 
 def show(found: BasinMap, block: Block | None, files: list[Path], *, as_json: bool) -> None:

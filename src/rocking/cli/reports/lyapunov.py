@@ -1,32 +1,51 @@
-"""Report of Lyapunov exponents, as text or JSON."""
+"""Report of Lyapunov exponents, as text, JSON, CSV and netCDF."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from rocking.cli.option_names import YourInput
+from rocking.cli.option_names import YourInput, option
 from rocking.cli.output.console import Row, print_json, print_table
-from rocking.cli.output.files import with_block, write_dataset
+from rocking.cli.output.files import with_block, write_result
 from rocking.cli.reports.motion import asked, beyond, physical_of, question
 from rocking.model import Block, counted, plus_minus
 
 if TYPE_CHECKING:
     import numpy as np
+    import xarray as xr
 
     from rocking.response import LyapunovSpectrum
 
 
-def write_plot(spectrum: LyapunovSpectrum, path: Path) -> None:
-    """Write the picture of the running estimate; YourInput if the exponent is −∞."""
-    from rocking import plot
+def write(spectrum: LyapunovSpectrum, block: Block | None, files: Mapping[str, Path]) -> None:
+    """Write the plot and the table of the running estimates, and the dataset; YourInput if there are no estimates."""
+    for name in ("plot", "csv"):
+        if name in files and spectrum.superstable:
+            raise YourInput(
+                f"{option(name)} must be omitted: the exponents are −∞, so that nothing converges ({spectrum})"
+            )
+    write_result(
+        files,
+        figure=lambda plot: plot.convergence(spectrum),
+        tables=lambda: [_table(spectrum, block)],
+        data=lambda: _dataset(spectrum, block),
+    )
 
-    if spectrum.superstable:
-        raise YourInput(
-            f"--plot must be omitted: the exponents are −∞, so that nothing converges ({spectrum})"
-        )
-    plot.save(plot.convergence(spectrum), path)
+
+def _table(spectrum: LyapunovSpectrum, block: Block | None) -> dict[str, Any]:
+    """Return the running estimates as columns by heading; with a block also per second."""
+    history = spectrum.history
+    rates = {
+        f"{name}_{number + 1}": history[f"{name}s"][:, number]
+        for number in (0, 1)
+        for name in ("value", "error")
+    }
+    told = {"cycles": history["cycles"]} | {f"{name} [alpha]": rate for name, rate in rates.items()}
+    if block is None:
+        return told
+    return told | {f"{name} [1/s]": rate * block.frequency_parameter for name, rate in rates.items()}
 
 
 def show(spectrum: LyapunovSpectrum, block: Block | None, files: Sequence[Path], *, as_json: bool) -> None:
@@ -65,8 +84,8 @@ def per_second(spectrum: LyapunovSpectrum, block: Block) -> tuple[np.ndarray, np
     return spectrum.values * block.frequency_parameter, spectrum.errors * block.frequency_parameter
 
 
-def write_netcdf(spectrum: LyapunovSpectrum, block: Block | None, path: Path) -> None:
-    """Write the dataset; with a block, each variable also per second."""
+def _dataset(spectrum: LyapunovSpectrum, block: Block | None) -> xr.Dataset:
+    """Return the dataset; with a block, each variable also per second."""
     data = spectrum.to_xarray()
     if block is not None:
         rates = {
@@ -78,7 +97,7 @@ def write_netcdf(spectrum: LyapunovSpectrum, block: Block | None, path: Path) ->
             for name, each in data.data_vars.items()
         }
         data = data.assign(rates)
-    write_dataset(with_block(data, block), path)
+    return with_block(data, block)
 
 
 def dimension_of(spectrum: LyapunovSpectrum) -> tuple[float, float] | None:

@@ -1,16 +1,20 @@
-"""Report of the symmetric modes of a system, as text or JSON."""
+"""Report of the symmetric modes of a system, as text, JSON and CSV."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 from attrs import frozen
 
+from rocking.cli.output import motion_files
 from rocking.cli.output.console import aligned, print_json, print_table
+from rocking.cli.output.files import columns, write_csv
 from rocking.cli.reports.motion import asked_of, in_si, physical_of, reach
+from rocking.cli.reports.orbits import multiplier_columns
 from rocking.cli.reports.validity import warned, warnings
 from rocking.model import Block, Mode, System, counted
 
@@ -70,15 +74,42 @@ def find(system: System, n: int) -> Answer:
     return Answer(system, int(n), modes, values)
 
 
-def show(answer: Answer, block: Block | None, file: Path | None, *, as_json: bool) -> None:
-    """Print the modes on stdout, and the path of their plot."""
+NAMES = ("faster", "slower")
+
+
+def write(answer: Answer, block: Block | None, files: Mapping[str, Path]) -> None:
+    """Write the plot of the modes over the amplitude, and one row per mode as CSV."""
+    if "plot" in files:
+        motion_files.write_modes(answer.system, answer.n, block, files["plot"])
+    if "csv" in files:
+        write_csv([_columns(answer.modes, block)], files["csv"])
+
+
+def _columns(modes: Sequence[Mode], block: Block | None) -> dict[str, Any]:
+    """Return the modes as columns by heading, with a block also in SI; the peak of an inadmissible mode is NaN."""
+    multipliers = np.array([mode.multipliers for mode in modes], complex).reshape(-1, 2)
+    told = {
+        "mode": np.array(NAMES[: len(modes)]),
+        "velocity": np.array([mode.velocity for mode in modes]),
+        "phase [rad]": np.array([mode.phase for mode in modes]),
+        "trace": np.array([mode.trace for mode in modes]),
+        **multiplier_columns(multipliers),
+        "peak": np.array([math.nan if mode.peak is None else mode.peak for mode in modes]),
+        "stability": np.array([str(mode.stability) for mode in modes]),
+        "admissible": np.array([mode.admissible for mode in modes]),
+    }
+    return columns(told, block)
+
+
+def show(answer: Answer, block: Block | None, files: Sequence[Path], *, as_json: bool) -> None:
+    """Print the modes on stdout, and the paths of the files."""
     if as_json:
-        print_json(record(answer, block, file))
+        print_json(record(answer, block, files))
         return
     rows = [*asked_of(answer.system, block), *bounds(answer, block)]
     columns = ["", *aligned(list(zip(*table(answer.modes, block), strict=True)))] if answer.modes else []
     more = [*columns, *warned(warnings(block, answer.amplitude, answer.system.restitution))]
-    print_table(str(answer), rows, [] if file is None else [file], more)
+    print_table(str(answer), rows, files, more)
 
 
 def bounds(answer: Answer, block: Block | None) -> Iterator[tuple[str, str, str]]:
@@ -101,7 +132,7 @@ def table(modes: list[Mode], block: Block | None) -> Iterator[tuple[str, ...]]:
         "stability",
         "admissible",
     )
-    for name, mode in zip(("faster", "slower"), modes, strict=False):
+    for name, mode in zip(NAMES, modes, strict=False):
         yield (
             name,
             f"{mode.velocity:.6g}{_degrees_per_second(mode.velocity, block)}",
@@ -114,7 +145,7 @@ def table(modes: list[Mode], block: Block | None) -> Iterator[tuple[str, ...]]:
         )
 
 
-def record(answer: Answer, block: Block | None, file: Path | None) -> dict[str, Any]:
+def record(answer: Answer, block: Block | None, files: Sequence[Path]) -> dict[str, Any]:
     """Return the modes as a JSON object; multipliers are pairs [real, imaginary], infinite numbers null."""
     forcing = answer.system.harmonic
     told: dict[str, Any] = {
@@ -137,7 +168,7 @@ def record(answer: Answer, block: Block | None, file: Path | None) -> dict[str, 
             }
             for mode in answer.modes
         ],
-        "files": [] if file is None else [str(file)],
+        "files": [str(path) for path in files],
     }
     if block is None:
         return told

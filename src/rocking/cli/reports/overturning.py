@@ -1,4 +1,4 @@
-"""Report of the lowest overturning amplitudes, as text or JSON."""
+"""Report of the lowest overturning amplitudes, as text, JSON, CSV and netCDF."""
 
 from __future__ import annotations
 
@@ -23,13 +23,30 @@ LEVELS = ("lowest", "resolution", "survived_up_to")
 
 
 def write(found: OverturningCurve, files: Mapping[str, Path], block: Block | None) -> None:
-    """Write the plot and the dataset; with a block, amplitudes also in SI."""
+    """Write the plot, one row per value as CSV, and the dataset; with a block, amplitudes also in SI."""
     data = found.dataset
     if block is not None:
         levels = {_key(name): block.acceleration(data[name].values) for name in LEVELS}
         told = {"units": PHYSICAL["amplitude"].cf}
         data = data.assign({name: (data.lowest.dims, each, told) for name, each in levels.items()})
-    survey_run.write(OverturningCurve(data), "overturning", files, block)
+    survey_run.write(OverturningCurve(data), "overturning", files, block, lambda: [_table(found, block)])
+
+
+def _table(found: OverturningCurve, block: Block | None) -> dict[str, Any]:
+    """Return columns by heading: the varied quantities and all variables over them, amplitudes with a block also in SI."""
+    import numpy as np
+
+    data, unit = found.dataset, PHYSICAL["amplitude"]
+    over = [str(name) for name in data.lowest.dims]
+    grids = np.meshgrid(*(data[name].values for name in over), indexing="ij")
+    told: dict[str, Any] = {name: grid.ravel() for name, grid in zip(over, grids, strict=True)}
+    levels = {name: data[name].values.ravel() for name in LEVELS}
+    told |= {f"{name} [{unit.normalised}]": level for name, level in levels.items()}
+    told |= {"lowest_phase [rad]": data.lowest_phase.values.ravel()}
+    told |= {name: data[name].values.ravel() for name in ("surviving_above", "undetermined")}
+    if block is None:
+        return told
+    return told | {f"{name}_{unit.heading}": block.acceleration(level) for name, level in levels.items()}
 
 
 def _key(level: str) -> str:
@@ -96,7 +113,7 @@ def rows(found: OverturningCurve, block: Block | None) -> Iterator[Row]:
     left = data.lowest.size - MAX_ROWS
     if left > 0:
         rest = len(heading) + len(known) + len(in_units) - 1
-        yield (f"and {left} more (all of them with --json, --netcdf or --plot)", *[""] * rest)
+        yield (f"and {left} more (all of them with --json, --csv, --netcdf or --plot)", *[""] * rest)
 
 
 def record(found: OverturningCurve, block: Block | None, files: list[Path]) -> dict[str, Any]:
