@@ -7,6 +7,7 @@ from typing import Any
 import typer
 
 from rocking.cli.input import options as ask
+from rocking.cli.input.study_option import with_study
 from rocking.cli.option_names import ARGUMENTS, START, SYSTEM, your_input
 
 EXAMPLES = """\
@@ -19,6 +20,7 @@ rocking classify --amplitude 6.5 --period 0.4 --restitution 0.925 --prove
 rocking classify --height 2 --width 0.5 --acceleration 4 --frequency-hz 1.2"""
 
 
+@with_study
 @ask.with_options(*SYSTEM, *START, phase=0.0, angle=0.0, velocity=0.0)
 def classify(
     context: typer.Context,

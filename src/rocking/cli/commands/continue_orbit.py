@@ -9,6 +9,7 @@ import typer
 
 from rocking.cli.input import axis
 from rocking.cli.input import options as ask
+from rocking.cli.input.study_option import with_study
 from rocking.cli.option_names import START, SYSTEM
 
 EXAMPLES = """\
@@ -44,6 +45,7 @@ Plot = Annotated[
 Csv = Annotated[Path | None, ask.file_option("--csv", "Write one row per point of the branch (.csv).")]
 
 
+@with_study
 @ask.with_options(*SYSTEM, declare=axis.range_option, phase=0.0)
 @ask.with_options(*START, angle=0.0, velocity=0.0)
 def continue_orbit(

@@ -9,6 +9,7 @@ import typer
 
 from rocking.cli.input import axis
 from rocking.cli.input import options as ask
+from rocking.cli.input.study_option import with_study
 from rocking.cli.option_names import FORCED
 
 EXAMPLES = """\
@@ -38,6 +39,7 @@ Csv = Annotated[
 ]
 
 
+@with_study
 @ask.with_options(*(name for name in FORCED if name != "displacement"), declare=axis.forcing_axis_option)
 def frequency_response(
     context: typer.Context,

@@ -8,6 +8,7 @@ from typing import Annotated, Any
 import typer
 
 from rocking.cli.input import options as ask
+from rocking.cli.input.study_option import with_study
 from rocking.cli.option_names import ARGUMENTS, START, SYSTEM, options, your_input
 
 EXAMPLES = """\
@@ -36,6 +37,7 @@ Csv = Annotated[
 ]
 
 
+@with_study
 @ask.with_options(*SYSTEM, *START, phase=0.0, angle=0.0, velocity=0.0)
 def lyapunov(
     context: typer.Context,

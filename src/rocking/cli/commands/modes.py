@@ -7,6 +7,7 @@ from typing import Any
 import typer
 
 from rocking.cli.input import options as ask
+from rocking.cli.input.study_option import with_study
 from rocking.cli.option_names import ARGUMENTS, FORCED, your_input
 
 EXAMPLES = """\
@@ -18,6 +19,7 @@ rocking modes --height 2 --width 0.5 --acceleration 4 --frequency-hz 1.2 \\
     --csv modes.csv"""
 
 
+@with_study
 @ask.with_options(*FORCED)
 def modes(
     context: typer.Context,

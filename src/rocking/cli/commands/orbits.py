@@ -8,6 +8,7 @@ from typing import Annotated, Any
 import typer
 
 from rocking.cli.input import options as ask
+from rocking.cli.input.study_option import with_study
 from rocking.cli.option_names import ARGUMENTS, SYSTEM, options, your_input
 
 EXAMPLES = """\
@@ -32,6 +33,7 @@ Csv = Annotated[
 ]
 
 
+@with_study
 @ask.with_options(*SYSTEM, phase=0.0)
 def orbits(
     context: typer.Context,

@@ -9,6 +9,7 @@ import typer
 
 from rocking.cli.input import options as ask
 from rocking.cli.input import record_request, record_source
+from rocking.cli.input.study_option import with_study
 from rocking.cli.option_names import START, your_input
 
 EXAMPLES = """\
@@ -45,6 +46,7 @@ Animate = Annotated[
 ]
 
 
+@with_study
 @ask.with_options(
     "height", "width", "restitution", "brace_angle", "brace_restitution", *START, angle=0.0, velocity=0.0
 )

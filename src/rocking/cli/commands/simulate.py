@@ -7,6 +7,7 @@ from typing import Any
 import typer
 
 from rocking.cli.input import options as ask
+from rocking.cli.input.study_option import with_study
 from rocking.cli.option_names import ARGUMENTS, START, SYSTEM, YourInput, your_input
 
 CYCLES = 200
@@ -24,6 +25,7 @@ rocking simulate --pulse one-sine --height 2 --width 0.5 \\
     --acceleration-g 0.5 --frequency-hz 1"""
 
 
+@with_study
 @ask.with_options(*SYSTEM, *START, phase=0.0, angle=0.0, velocity=0.0)
 def simulate(
     context: typer.Context,

@@ -1,0 +1,118 @@
+"""Study files of the commands that compute no survey: entries are options, and typed options come first."""
+
+import json
+import re
+from pathlib import Path
+
+import pytest
+import typer
+
+from rocking.cli.app import app
+
+SI = "--height 2 --width 0.5 --acceleration 4 --frequency-hz 1.2"
+LINES = {
+    "simulate": f"{SI} --pulse one-sine --angle 0.1 --csv a.csv",
+    "record": "--height 2 --width 0.5 --pga-g 0.7 --channel 1 --baseline mean --csv a.csv",
+    "classify": f"{SI} --phase 1 --max-cycles 500 --plot a.png",
+    "lyapunov": f"{SI} --cycles 40 --transient 3 --csv a.csv",
+    "modes": "--amplitude 6.5 --period 0.4 --restitution 0.925 -n 3 --csv a.csv",
+    "orbits": f"{SI} --max-period 1 --effort 0.05 --csv a.csv",
+    "continue": f"{SI.replace('4', '4:3.9')} --at 3.95 --step 0.1 --csv a.csv",
+    "frequency-response": f"{SI.replace('1.2', '1.2:1.3:2')} --modes 1 --step 0.1 --csv a.csv",
+    "orbit-diagram": f"{SI.replace('4', '4:5:3')} --sweep up --cycles 5 --transient 10 --csv a.csv",
+}
+WITHOUT = {"explore", "paper", "cite"}
+EXAMPLE = {"record": "example"}
+
+
+def entries(line):
+    """Return the options of a line as lines of a study file."""
+    pairs = re.findall(r"--?([\w-]+) (\S+)", line)
+    return [
+        f"{name} = {value}" if re.fullmatch(r"[\d.]+", value) else f'{name} = "{value}"'
+        for name, value in pairs
+    ]
+
+
+def run(rocking, command, line):
+    return rocking(" ".join(filter(None, (command, EXAMPLE.get(command), line))))
+
+
+def test_all_commands_that_compute_read_a_study_file():
+    commands = typer.main.get_command(app).commands
+    assert {
+        name for name, each in commands.items() if "study" not in [one.name for one in each.params]
+    } == WITHOUT
+
+
+@pytest.mark.parametrize("command", LINES)
+def test_study_file_gives_all_options(rocking, tmp_path, command):
+    Path("study.toml").write_text("\n".join(entries(LINES[command])))
+    typed = run(rocking, command, LINES[command])
+    (name,) = {path.name for path in tmp_path.iterdir()} - {"study.toml"}
+    content = (tmp_path / name).read_bytes()
+    (tmp_path / name).unlink()
+    assert typed[:2] == (0, "")
+    assert run(rocking, command, "--study study.toml") == typed
+    assert (tmp_path / name).read_bytes() == content
+
+
+def test_typed_options_come_first_also_where_they_equal_the_default(rocking):
+    Path("study.toml").write_text("amplitude = 2\nperiod = 1\nrestitution = 0.9\nphase = 1.5\ncycles = 7\n")
+    for line in ("--study study.toml --phase 0 --cycles 3", "--phase 0 --cycles 3 --study study.toml"):
+        read = json.loads(rocking(f"simulate {line} --json")[2])
+        assert (read["amplitude"], read["phase"], read["cycles"]) == (2.0, 0.0, 3)
+
+
+def test_axis_is_a_table_and_modes_are_a_list(rocking):
+    Path("study.toml").write_text(
+        "amplitude = 2\nperiod = { start = 1, stop = 1.2, count = 3 }\nrestitution = 0.9\nmodes = [1, 3]\nstep = 0.1\n"
+    )
+    read = json.loads(rocking("frequency-response --study study.toml --json")[2])
+    assert (read["first"], read["last"], read["count"], read["modes"]) == (1.0, 1.2, 3, [1, 3])
+
+
+@pytest.mark.parametrize(
+    ("command", "wrong", "told"),
+    [
+        (
+            "frequency-response",
+            "amplitude = 'a'\nperiod = 3\nmodes = '1'\nstep = true\nplot = 3\nseeds = 1\n",
+            [
+                "amplitude must be a number; got 'a'",
+                "period must be START:STOP:COUNT; got 3 (example: 1:3:60)",
+                "modes must be a number; got '1'",
+                "step must be a number; got True",
+                "plot must be a path; got 3",
+                "unknown 'seeds' (",
+            ],
+        ),
+        (
+            "continue",
+            "amplitude = '1:2:3'\nphase = [1]\nmodel = 2\njson = true\nstudy = 'b.toml'\n",
+            [
+                "amplitude must be a number or START:STOP with START ≠ STOP; got '1:2:3' (example: 1:3)",
+                "phase must be a number; got [1]",
+                "model must be a str; got 2",
+                "unknown 'json' (",
+                "unknown 'study' (",
+            ],
+        ),
+        ("orbits", "prove = 1\nfile = 'a'\n", ["prove must be a bool; got 1", "unknown 'file' ("]),
+        ("record", "file = 'a'\n", ["unknown 'file' ("]),
+    ],
+)
+def test_all_errors_of_a_study_file_are_reported_at_once(rocking, command, wrong, told):
+    Path("study.toml").write_text(wrong)
+    code, message, out = run(rocking, command, "--study study.toml")
+    assert (code, out) == (2, "")
+    assert message.startswith("study 'study.toml': ")
+    assert "\n" not in message
+    for each in told:
+        assert each in message
+    assert message.count("; got") + message.count("unknown") == len(told)
+
+
+def test_value_of_a_study_file_out_of_its_range_is_an_error_about_the_option(rocking):
+    Path("study.toml").write_text("amplitude = 2\nperiod = 1\nrestitution = 1.5\n")
+    assert rocking("orbits --study study.toml")[:2] == (2, "--restitution must lie in [0, 1]; got 1.5")
