@@ -87,6 +87,36 @@ def test_few_points_end_what_is_born_and_a_curve_as_well():
     assert curve.ends == ("maximum number of points", "maximum number of points")
 
 
+def test_point_of_a_branch_is_named_by_its_index(orbit):
+    branch = rk.continue_orbit(orbit, "amplitude", (1.5, 3), max_points=3)
+    count = len(branch)
+    first, last = (branch.points["parameter"][[0, -1]]).tolist()
+    for index, amplitude in {0: first, count - 1: last, -1: last, -count: first}.items():
+        assert branch.orbit(index).system.forcing.amplitude == amplitude
+    allowed = rf"^index must be a whole number in \[-{count}, {count - 1}\]; got "
+    for wrong in (count, -count - 1, 10_000, 0.5):
+        with pytest.raises(IndexError, match=allowed + str(wrong)):
+            branch.orbit(wrong)
+    for wrong in ("a", None, [0]):
+        with pytest.raises(TypeError, match=allowed):
+            branch.orbit(wrong)
+
+
+@pytest.mark.parametrize(
+    ("wrong", "error", "allowed"),
+    [
+        ("a", TypeError, r"be a real number in \[-1000, 1000\]; got 'a'"),
+        ([0.0], TypeError, r"be a real number in \[-1000, 1000\]; got \[0.0\]"),
+        (1e4, ValueError, r"lie in \[-1000, 1000\]; got 10000.0"),
+        (float("nan"), ValueError, r"lie in \[-1000, 1000\]; got nan"),
+    ],
+)
+def test_section_of_a_branch_is_at_a_phase(orbit, wrong, error, allowed):
+    branch = rk.continue_orbit(orbit, "amplitude", (1.5, 3), max_points=3)
+    with pytest.raises(error, match=f"^phase must {allowed}"):
+        branch.section(wrong)
+
+
 def test_orbits_are_looked_for_from_the_box_that_is_given():
     """From initial states at which overturning is certain no orbit is found."""
     assert len(rk.find_orbits(SYSTEM, 1, angles=(3.0, 4.0), velocities=(3.0, 4.0), effort=0.05)) == 0

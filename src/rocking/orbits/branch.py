@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -10,18 +9,19 @@ from attrs import field, frozen
 from numpy.typing import NDArray
 
 from rocking.model import (
+    MAX_PHASE,
     NotebookPicture,
     Orbit,
     ReadOnlyArrays,
     Stability,
     read_only,
     refusal,
-    stability_of,
+    whole,
     within,
 )
 from rocking.orbits.branch_rows import BranchRows
 from rocking.orbits.datasets import of_branch
-from rocking.orbits.event_chain import Chain, multipliers_of
+from rocking.orbits.event_chain import Chain
 from rocking.orbits.grazing import Touch
 
 if TYPE_CHECKING:
@@ -29,17 +29,6 @@ if TYPE_CHECKING:
 
 # End of a branch at the special point from which ``switch_branch`` follows it.
 BRANCHES_OFF = "branches off at a special point"
-POINT = np.dtype(
-    [
-        ("parameter", float),
-        ("phase", float),
-        ("velocity", float),
-        ("multipliers", complex, 2),
-        ("stable", bool),
-        ("stability", "U8"),
-        ("peak", float),
-    ]
-)
 
 
 class Origin(NamedTuple):
@@ -173,7 +162,7 @@ class Branch(ReadOnlyArrays, NotebookPicture):
         Parameters
         ----------
         index : int
-            Index of the point.
+            Index of the point; a negative one counts from the end.
 
         Returns
         -------
@@ -182,6 +171,8 @@ class Branch(ReadOnlyArrays, NotebookPicture):
 
         Raises
         ------
+        TypeError
+            If `index` is not a whole number.
         IndexError
             If the branch has no point with this index.
 
@@ -193,6 +184,11 @@ class Branch(ReadOnlyArrays, NotebookPicture):
         >>> print(branch.orbit(0))
         symmetric orbit of period 1 with 2 impacts
         """
+        count = len(self)
+        try:
+            index = whole("index", index, -count, count - 1)
+        except ValueError as error:
+            raise IndexError(str(error)) from None
         return self._rows.orbit(index)
 
     def at(self, value: float) -> list[Orbit]:
@@ -241,12 +237,17 @@ class Branch(ReadOnlyArrays, NotebookPicture):
         Parameters
         ----------
         phase : float
-            Forcing phase ψ, rad. Default: 0.
+            Forcing phase ψ, rad, in [-1000, 1000]. Default: 0.
 
         Returns
         -------
         ndarray, shape (points, period, 2)
             Θ and Θ' in each cycle of the response period.
+
+        Raises
+        ------
+        TypeError, ValueError
+            If `phase` is not a real number in its range.
 
         Examples
         --------
@@ -256,7 +257,7 @@ class Branch(ReadOnlyArrays, NotebookPicture):
         >>> branch.section(0.5).shape == (len(branch), 1, 2)
         True
         """
-        return self._rows.section(phase)
+        return self._rows.section(within("phase", phase, -MAX_PHASE, MAX_PHASE))
 
     def to_xarray(self) -> xr.Dataset:
         """Return the branch as a dataset, which xarray writes to netCDF and pandas to CSV.
@@ -300,18 +301,3 @@ class Branch(ReadOnlyArrays, NotebookPicture):
             within = values[first:after]
             ranges.append((min(*ends, within.min()), max(*ends, within.max())))
         return list(dict.fromkeys(ranges))
-
-
-def table(rows: np.ndarray, facts: np.ndarray, mirrored: bool) -> NDArray[np.void]:
-    """Return the public table of a branch."""
-    points = np.empty(len(rows), POINT)
-    points["parameter"] = rows[:, -1]
-    points["phase"] = np.mod(rows[:, 0], math.tau)
-    points["velocity"] = facts["velocity"]
-    traces = facts[["trace", "determinant"]].tolist()
-    points["multipliers"] = [multipliers_of(trace, determinant, mirrored) for trace, determinant in traces]
-    points["stability"] = [stability_of(trace, determinant) for trace, determinant in traces]
-    points["stable"] = points["stability"] == Stability.STABLE
-    points["peak"] = facts["peak"]
-    points.flags.writeable = False
-    return points

@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from rocking.kernels.orbits import continuation as kernel
-from rocking.orbits.branch import Branch, Origin, SpecialPoint, table
+from rocking.orbits.branch import Branch, Origin, SpecialPoint
 from rocking.orbits.branch_rows import ChainRows
+from rocking.orbits.branch_table import table
 from rocking.orbits.event_chain import Chain, End, Special, equations, orbit_of
 from rocking.orbits.grazing import grazing_at
 from rocking.orbits.parent_branch import special_points

@@ -20,9 +20,10 @@ from attrs import frozen
 
 from rocking.model import Kind, Orbit, State, System, refusal
 from rocking.motion import Motion, simulate
-from rocking.orbits.branch import POINT, Branch, SpecialPoint
+from rocking.orbits.branch import Branch, SpecialPoint
 from rocking.orbits.branch_halves import Half, joined
 from rocking.orbits.branch_result import ENDS
+from rocking.orbits.branch_table import POINT
 from rocking.orbits.event_chain import End, clocked
 from rocking.orbits.find_orbit import SAME, orbit_from
 from rocking.orbits.parameter import value_of, with_value

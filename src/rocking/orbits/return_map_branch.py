@@ -7,9 +7,10 @@ from collections.abc import Callable
 import numpy as np
 
 from rocking.model import Orbit, refusal, stability_of
-from rocking.orbits.branch import POINT, Branch, SpecialPoint
+from rocking.orbits.branch import Branch, SpecialPoint
 from rocking.orbits.branch_halves import Half, joined
 from rocking.orbits.branch_result import ENDS
+from rocking.orbits.branch_table import POINT
 from rocking.orbits.event_chain import End
 from rocking.orbits.parameter import value_of
 from rocking.orbits.return_map import NEAR_EVENT, SYMMETRIC, MapRows, Point, ReturnMap, multipliers
