@@ -132,7 +132,7 @@ NORMALISED = "--period 1:2:3 --restitution 0.9"
         ("--amplitude 2 --restitution 0.9", "missing --period: give --amplitude, --period (or --frequency)"),
         (
             "--amplitude 2 --period 1 --restitution 0.9",
-            "Invalid value for '--period': must be START:STOP:COUNT",
+            "Invalid value for '--period': must be an axis, START:STOP:COUNT with",
         ),
         ("--amplitude 2 --period 0:1:3 --restitution 0.9", "--period must lie in "),
         (

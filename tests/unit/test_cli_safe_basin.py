@@ -132,7 +132,10 @@ def test_study_file_gives_the_options_and_a_typed_one_comes_first(rocking):
     ("entries", "message"),
     [
         ("amplitude = 3", "--amplitude must be an axis, START:STOP:COUNT; got 3"),
-        ('amplitude = "3:6:4"\nangle = "0.1"', "study 'study.toml': angle must be START:STOP; got '0.1'"),
+        (
+            'amplitude = "3:6:4"\nangle = "0.1"',
+            "study 'study.toml': angle must be a range, START:STOP with START ≠ STOP; got '0.1'",
+        ),
         ('amplitude = "3:6:4"\nboundary-runs = 5', "study 'study.toml': unknown 'boundary_runs'"),
     ],
 )
@@ -145,6 +148,11 @@ def test_faults_of_a_study_file_are_one_line(rocking, entries, message):
 
 
 NORMALISED = "--amplitude 3:6:4 --period 1"
+AXIS = (
+    "Invalid value for '--amplitude': must be an axis, START:STOP:COUNT with START ≠ STOP and a whole COUNT in "
+    "[2, 1000000]"
+)
+RANGE = "Invalid value for '--angle': must be a range, START:STOP with START ≠ STOP"
 
 
 @pytest.mark.parametrize(
@@ -152,17 +160,18 @@ NORMALISED = "--amplitude 3:6:4 --period 1"
     [
         ("", "no system is given: give --amplitude"),
         (NORMALISED, "missing --restitution: give --amplitude"),
-        (
-            "--amplitude 3 --period 1 --restitution 0.8",
-            "Invalid value for '--amplitude': must be START:STOP:COUNT",
+        *(
+            (f"--amplitude {text} --period 1 --restitution 0.8", f"{AXIS}; got '{text}' (example: 1:3:60)")
+            for text in ("3", "3:6:1", "3:3:5", "3:6:1e7", "3:6:4:5", "a")
         ),
         (f"{NORMALISED} --restitution 1.5", "--restitution must lie in [0, 1]; got 1.5"),
         (
             f"{LINE} --angle 1:-1",
             "--angle must be a range, START:STOP, in [-1000, 1000] with START < STOP; got",
         ),
-        (f"{LINE} --angle 0.1", "Invalid value for '--angle': must be START:STOP; got '0.1'"),
-        (f"{LINE} --velocity 0:1:5", "Invalid value for '--velocity': must be"),
+        (f"{LINE} --angle 0.1", f"{RANGE}; got '0.1' (example: -1:1)"),
+        (f"{LINE} --angle 0.1:0.1", f"{RANGE}; got '0.1:0.1'"),
+        (f"{LINE} --velocity 0:1:5", "Invalid value for '--velocity': must be a range, START:STOP with"),
         (f"{LINE} --brace-angle 0.5 --angle=-1:1", "--angle must be a range, START:STOP, in [-0.5, 0.5]"),
         (f"{LINE} --samples 0", "--samples must be a whole number in [1, "),
         (f"{LINE} --seed -1", "--seed must be a whole number in [0, "),

@@ -80,7 +80,7 @@ def test_axis_is_a_table_and_modes_are_a_list(rocking):
             "amplitude = 'a'\nperiod = 3\nmodes = '1'\nstep = true\nplot = 3\nseeds = 1\n",
             [
                 "amplitude must be a number; got 'a'",
-                "period must be START:STOP:COUNT; got 3 (example: 1:3:60)",
+                "period must be an axis, START:STOP:COUNT with START ≠ STOP and a whole COUNT in [2, 1000000]; got 3",
                 "modes must be a number; got '1'",
                 "step must be a number; got True",
                 "plot must be a path; got 3",

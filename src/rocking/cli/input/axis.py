@@ -32,6 +32,10 @@ class Range(NamedTuple):
     stop: float
 
 
+AXIS_ALLOWED = f"{AXIS_FORM} with START ≠ STOP and a whole COUNT in [2, {MAX_POINTS}]"
+RANGE_ALLOWED = f"{RANGE_FORM} with START ≠ STOP"
+
+
 def number_or_axis(text: str) -> float | Axis:
     """Return the number or the axis START:STOP:COUNT in a text; COUNT is optional."""
     if not isinstance(text, str):  # a default
@@ -43,9 +47,7 @@ def number_or_axis(text: str) -> float | Axis:
         axis = Axis(float(start), float(stop), int(count))
         if axis.start != axis.stop and 2 <= axis.points <= MAX_POINTS:
             return axis
-    raise typer.BadParameter(
-        f"must be a number or {AXIS_FORM} with START ≠ STOP and a whole COUNT in [2, {MAX_POINTS}]; got {text!r} (example: 1:3:60)"
-    )
+    raise typer.BadParameter(f"must be a number or {AXIS_ALLOWED}; got {text!r} (example: 1:3:60)")
 
 
 def number_or_range(text: str) -> float | Range:
@@ -59,25 +61,25 @@ def number_or_range(text: str) -> float | Range:
         ends = Range(float(start), float(stop))
         if ends.start != ends.stop:
             return ends
-    raise typer.BadParameter(
-        f"must be a number or {RANGE_FORM} with START ≠ STOP; got {text!r} (example: 1:3)"
-    )
+    raise typer.BadParameter(f"must be a number or {RANGE_ALLOWED}; got {text!r} (example: 1:3)")
 
 
 def only_axis(text: str) -> Axis:
     """Return the axis START:STOP:COUNT in a text; COUNT is optional."""
-    found = number_or_axis(text)
-    if isinstance(found, Axis):
-        return found
-    raise typer.BadParameter(f"must be {AXIS_FORM}; got {text!r} (example: 1:3:60)")
+    with suppress(typer.BadParameter):
+        found = number_or_axis(text)
+        if isinstance(found, Axis):
+            return found
+    raise typer.BadParameter(f"must be an axis, {AXIS_ALLOWED}; got {text!r} (example: 1:3:60)")
 
 
 def only_range(text: str) -> Range:
     """Return the range START:STOP in a text."""
-    found = number_or_range(text)
-    if isinstance(found, Range):
-        return found
-    raise typer.BadParameter(f"must be {RANGE_FORM}; got {text!r} (example: -1:1)")
+    with suppress(typer.BadParameter):
+        found = number_or_range(text)
+        if isinstance(found, Range):
+            return found
+    raise typer.BadParameter(f"must be a range, {RANGE_ALLOWED}; got {text!r} (example: -1:1)")
 
 
 def axis_option(name: str, text: str) -> Any:
