@@ -140,6 +140,21 @@ def test_picture_shows_all_halves():
     plt.close(ax.figure)
 
 
+def test_legend_over_basins_with_long_names_fits_the_figure():
+    system = rk.System(rk.Harmonic(amplitude=5.5, period=0.5), restitution=0.925)
+    angle, velocity = np.linspace(-1, 1, 40), np.linspace(-1, 1, 40)
+    ax = rk.plot.basins(rk.basin_map(system, angle=angle, velocity=velocity, boundary_runs=0))
+    assert len(ax.get_legend().get_texts()) > 5
+    saddle = next(each for each in rk.find_orbits(system, 3) if each.stability == "unstable" and each.impacts)
+    rk.plot.orbit_manifolds(rk.orbit_manifolds(saddle, length=1.0), ax)
+    ax.figure.draw_without_rendering()
+    legend, figure = ax.get_legend().get_window_extent(), ax.figure.bbox
+    assert figure.x0 <= legend.x0
+    assert legend.x1 <= figure.x1
+    assert ax.get_window_extent().width > 0.75 * figure.width
+    plt.close(ax.figure)
+
+
 def test_halves_that_are_too_short_are_told(case):
     _, manifolds = case
     short = [one.length < 4.0 for one in (*manifolds.unstable, *manifolds.stable)]

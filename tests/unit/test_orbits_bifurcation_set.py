@@ -174,6 +174,28 @@ def test_picture_refuses_axes_of_other_quantities():
     plt.close(other.figure)
 
 
+@pytest.mark.parametrize("block", [None, rk.Block(2.0, 0.5)])
+def test_legend_over_a_map_fits_the_figure_also_with_small_shares(block):
+    """One point of 3,600 has a share of 0.03 %, whose name is long."""
+    system, _, bounds = SYSTEMS["e 0.8"]
+    plane = {name: np.linspace(*ends, 60) for name, ends in bounds.items()}
+    found = rk.parametric_map(**plane, restitution=0.8, max_cycles=1)
+    found.kind[:], found.response_period[:], found.symmetric[:] = rk.Kind.PERIODIC.code, 1, 0
+    for column, period in enumerate((3, 4, 5)):
+        found.response_period[0, column] = period
+    for column, kind in enumerate((rk.Kind.QUASI_PERIODIC, rk.Kind.CHAOTIC, rk.Kind.UNDETERMINED), start=3):
+        found.kind[0, column] = kind.code
+    ax = rk.plot.parametric_map(found, block=block)
+    rk.plot.bifurcation_set(rk.bifurcation_set(system, 1, grid=3, **bounds), ax, block)
+    assert "undetermined (0.03 %)" in [text.get_text() for text in ax.get_legend().get_texts()]
+    ax.figure.draw_without_rendering()
+    legend, figure = ax.get_legend().get_window_extent(), ax.figure.bbox
+    assert figure.x0 <= legend.x0
+    assert legend.x1 <= figure.x1
+    assert ax.get_window_extent().width > 0.75 * figure.width
+    plt.close(ax.figure)
+
+
 def test_picture_shows_each_curve_and_marks_points_of_codimension_two():
     braced = rk.System(rk.Harmonic(1.19, period=4.2), 0.68, rk.Braces(0.37, 0.81))
     found = rk.bifurcation_set(braced, 1, grid=3, period=(3.0, 5.5), amplitude=(0.8, 2.5))

@@ -96,6 +96,20 @@ def test_picture_shows_the_distances_beside_the_universal_ratio(found):
     assert ax.get_ylabel() == "distance in amplitude $a_x$ (m/s²)"
 
 
+@pytest.mark.parametrize("block", [None, rk.Block(2.0, 0.5)])
+@pytest.mark.parametrize("doublings", [3, 4, 7])
+def test_each_tick_has_its_number_and_the_legend_lies_below_the_axes(found, block, doublings):
+    ax = rk.plot.cascade(rk.cascade(found.special[0], BOUNDS, doublings=doublings), block=block)
+    ax.figure.draw_without_rendering()
+    low, high = ax.get_ylim()
+    ticks = [text for text in ax.get_yticklabels() if low <= text.get_position()[1] <= high]
+    assert len(ticks) >= 2
+    assert all(text.get_text() for text in ticks)
+    legend, axes = ax.get_legend().get_window_extent(), ax.get_window_extent()
+    assert axes.x0 < legend.x0
+    assert legend.x1 < axes.x1
+
+
 def test_a_single_doubling_has_no_picture(found):
     short = rk.cascade(found.special[0], (10.4, 10.6), doublings=6)
     assert len(short.special) == 1

@@ -84,7 +84,7 @@ def cascade(result: Cascade, ax: Axes | None = None, block: Block | None = None)
         "o",
         color=style.MOTION,
         markersize=style.MARK,
-        label="to the next period doubling",
+        label="to next doubling",
         gid="distances",
     )
     style.label(ax, "period of the orbit (forcing cycles)", f"distance in {shown_as}")

@@ -119,7 +119,7 @@ def parametric_map(
     style.block_title(ax, block)
     frame = (read.across, read.up) if symbols is None else (across, up)
     ax.set(xlim=turn_across(edges(frame[0]))[[0, -1]], ylim=turn_up(edges(frame[1]))[[0, -1]])
-    _legend(ax, [*keys, *lines])
+    ax.legend(handles=[*keys, *lines], **style.BELOW_MAP)
     return ax
 
 
@@ -236,14 +236,3 @@ def _symbol_keys(counts: np.ndarray, symbols: Sequence[Symbol]) -> list[Line2D]:
                 )
             )
     return keys
-
-
-def _legend(ax: Axes, keys: Sequence[Patch | Line2D]) -> None:
-    """Draw the legend in two columns below the axes, under their vertical label too, where two long names fit."""
-    ax.legend(
-        handles=keys,
-        **style.BELOW | {"fontsize": style.SMALL - 1.0, "bbox_to_anchor": (0.43, 0.0)},
-        ncols=2,
-        handlelength=1.5,
-        columnspacing=0.8,
-    )

@@ -4,13 +4,14 @@ Sizes fit a column of a journal (88 mm wide). The colours are those of Okabe and
 distinguish. All properties are set on the artists themselves; matplotlib's global settings and backend stay unchanged.
 """
 
+import math
 from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.axis import Axis
 from matplotlib.figure import Figure
-from matplotlib.ticker import LogLocator, MaxNLocator, NullLocator, ScalarFormatter
+from matplotlib.ticker import LogFormatterSciNotation, LogLocator, MaxNLocator, NullLocator, ScalarFormatter
 from numpy.typing import NDArray
 
 from rocking.model import Block, instance, members, refusal, refuse_if, whole, within
@@ -53,6 +54,16 @@ BELOW: dict[str, Any] = {
     "labelcolor": INK,
     "frameon": False,
 }
+# The legend of a map, under the vertical label too, where two long names fit side by side.
+BELOW_MAP = BELOW | {
+    "fontsize": SMALL - 1.0,
+    "bbox_to_anchor": (0.43, 0.0),
+    "ncols": 2,
+    "handlelength": 1.5,
+    "columnspacing": 0.8,
+}
+# Most letters of two names that fit side by side.
+MAX_NAMES = 52
 
 
 def own(ax: Axes | None, height: float = 2.4) -> Axes:
@@ -153,10 +164,15 @@ def label(ax: Axes, x: str, y: str) -> None:
 
 
 def logarithmic(axis: Axis) -> None:
-    """Set about five ticks of a logarithmic axis: at powers of ten, and at 2 and 5 over less than two decades."""
+    """Set about five ticks of a logarithmic axis, each with its number.
+
+    They stand at powers of ten, over less than two decades also at 2 and 5 times these.
+    """
     low, high = axis.get_view_interval()
     between = (1.0, 2.0, 5.0) if high < 100.0 * low else (1.0,)
     axis.set_major_locator(LogLocator(subs=between, numticks=6))
+    # Without thresholds, matplotlib numbers some of the ticks between powers of ten only, depending on the range.
+    axis.set_major_formatter(LogFormatterSciNotation(minor_thresholds=(math.inf, math.inf)))
     axis.set_minor_locator(NullLocator())
 
 
@@ -167,7 +183,7 @@ def key(ax: Axes) -> None:
 
 
 def key_beside(ax: Axes) -> None:
-    """Add all labelled artists to the legend that the axes may have already, as those of a map have."""
+    """Add all labelled artists to the legend that the axes may have already, which is that of a map."""
     old = ax.get_legend()
     if old is None:
         key(ax)
@@ -177,7 +193,9 @@ def key_beside(ax: Axes) -> None:
     for handle, name in zip(*ax.get_legend_handles_labels(), strict=True):
         if name not in names:
             handles, names = [*handles, handle], [*names, name]
-    ax.legend(handles, names, **BELOW, ncols=2, columnspacing=1.2)
+    half = -(-len(names) // 2)
+    wide = sum(max(map(len, column)) for column in (names[:half], names[half:])) > MAX_NAMES
+    ax.legend(handles, names, **BELOW_MAP | {"ncols": 1 if wide else 2})
 
 
 def check_labels(ax: Axes, across: str, upright: str) -> None:
