@@ -7,14 +7,13 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from attrs import frozen
-
 from rocking.cli.input import study_file, survey_quantities
 from rocking.cli.input.options import kinds, require
-from rocking.cli.option_names import AXIS_FORM, YourInput, option
+from rocking.cli.input.survey_quantities import Question
+from rocking.cli.option_names import YourInput, option
 from rocking.cli.output.files import SUFFIXES
 from rocking.cli.output.survey_run import carried_out
-from rocking.model import Block, instance
+from rocking.model import instance
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -25,15 +24,6 @@ SIZE = ("height", "width")
 PLACES = ("store", *SUFFIXES)
 NEEDS = "--amplitude, --frequency and --restitution"
 SI_NEEDS = "--height, --width, --acceleration (or --acceleration-g) and --frequency-hz"
-
-
-@frozen
-class Question:
-    """Request of an overturning spectrum: arguments of `overturning_spectrum`, output paths, and with SI input the block."""
-
-    arguments: dict[str, Any]
-    places: dict[str, Path]
-    block: Block | None
 
 
 def question(typed: Mapping[str, Any], file: Path | None) -> Question:
@@ -68,9 +58,7 @@ def _check_axes(given: Mapping[str, Any]) -> None:
             raise YourInput("give --acceleration or --acceleration-g, not both")
     else:
         require(given, (("amplitude",), ("frequency",), ("restitution",)), NEEDS)
-    for name in (*NORMALISED, *IN_SI):
-        if isinstance(given.get(name), int | float):
-            raise YourInput(f"{option(name)} must be an axis, {AXIS_FORM}; got {given[name]:g}")
+    survey_quantities.require_axes(given, *NORMALISED, *IN_SI)
 
 
 def compute(asked: Question) -> xr.Dataset:

@@ -8,14 +8,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import typer
-from attrs import frozen
 
 from rocking.cli.input import study_file, survey_quantities
 from rocking.cli.input.axis import AMPLITUDES, only_range
-from rocking.cli.option_names import AXIS_FORM, COUNTS, RANGE_FORM, START, SYSTEM, YourInput, option
+from rocking.cli.input.survey_quantities import Question
+from rocking.cli.option_names import COUNTS, RANGE_FORM, START, SYSTEM
 from rocking.cli.output.files import SUFFIXES
 from rocking.cli.output.survey_run import carried_out
-from rocking.model import Block
 
 if TYPE_CHECKING:
     from rocking.model import SafeBasin
@@ -23,15 +22,6 @@ if TYPE_CHECKING:
 # Words in messages of `safe_basin` → words on the command line.
 WORDS = {"a pair (low, high)": f"a range, {RANGE_FORM},", "low < high": "START < STOP"}
 OWN = ("samples", "seed", *COUNTS)
-
-
-@frozen
-class Question:
-    """Request of a safe basin: arguments of `safe_basin`, output paths, and with SI input the block."""
-
-    arguments: dict[str, Any]
-    places: dict[str, Path]
-    block: Block | None
 
 
 def question(typed: Mapping[str, Any], file: Path | None) -> Question:
@@ -48,9 +38,7 @@ def question(typed: Mapping[str, Any], file: Path | None) -> Question:
     places = {name: given.pop(name) for name in SUFFIXES if name in given}
     drawn = {name: given.pop(name) for name in (*START, *OWN) if name in given}
     numbers = survey_quantities.normalised(given)
-    for name in AMPLITUDES:
-        if isinstance(given.get(name), int | float):
-            raise YourInput(f"{option(name)} must be an axis, {AXIS_FORM}; got {given[name]:g}")
+    survey_quantities.require_axes(given, *AMPLITUDES)
     reach = min(numbers.get("brace_angle", 1.0), 1.0)
     system = {name: numbers[name] for name in SYSTEM if name in numbers}
     return Question({**system, "angle": (-reach, reach), **drawn}, places, survey_quantities.block_of(given))

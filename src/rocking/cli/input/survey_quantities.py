@@ -7,11 +7,22 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
+from attrs import frozen
+
 from rocking.cli.input.axis import VARIES, Axis
 from rocking.cli.input.options import question
 from rocking.cli.input.study_file import Check, quantity
 from rocking.cli.option_names import AXIS_FORM, SI, TOLD, YourInput, option
 from rocking.model import Block, instance, quantities, reals, refusal, whole
+
+
+@frozen
+class Question:
+    """Request of a survey: arguments of its function, output paths, and with SI input the block."""
+
+    arguments: dict[str, Any]
+    places: dict[str, Path]
+    block: Block | None
 
 
 def normalised(given: Mapping[str, Any]) -> dict[str, Any]:
@@ -64,6 +75,13 @@ def block_of(given: Mapping[str, Any]) -> Block | None:
     restitution = given.get("restitution")
     first = restitution.start if isinstance(restitution, Axis) else restitution
     return Block(given["height"], given["width"], first[0] if isinstance(first, list) else first)
+
+
+def require_axes(given: Mapping[str, Any], *names: str) -> None:
+    """Raise YourInput for a quantity that is a number, but must be an axis."""
+    for name in names:
+        if isinstance(given.get(name), int | float):
+            raise YourInput(f"{option(name)} must be an axis, {AXIS_FORM}; got {given[name]:g}")
 
 
 def values(asked: Any) -> Any:
