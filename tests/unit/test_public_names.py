@@ -45,6 +45,12 @@ def test_a_value_loads_no_kernel_and_no_picture():
     assert not {"h5netcdf", "matplotlib", "numba", "pandas", "rich", "scipy", "typer", "xarray"} & loaded
 
 
+@pytest.mark.parametrize("name", ["simulate", "find_orbits", "continue_orbit", "orbit_diagram", "theory"])
+def test_scipy_is_loaded_where_it_is_used(name):
+    """Its optimisation takes as long to load as all else."""
+    assert not {"scipy", "matplotlib", "xarray"} & loaded_after(f"import rocking; rocking.{name}")
+
+
 @pytest.mark.parametrize(
     "arguments",
     [["--help"], *([name, "--help"] for name in ("simulate", "classify", "modes", "orbit-diagram", "map"))],

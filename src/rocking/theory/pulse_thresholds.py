@@ -7,7 +7,6 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
-from scipy.optimize import brentq, minimize_scalar
 
 from rocking.theory.arguments import between, plain, restitutions
 
@@ -248,6 +247,7 @@ def _end_of_pulse(psi: float, rate: float) -> tuple[float, float]:
 
 def _range(rate: float, e: float) -> tuple[float, float]:
     """Return the lowest and the highest amplitude of mode 1 with the impact after the pulse, or NaN."""
+    from scipy.optimize import brentq, minimize_scalar
 
     def spare(psi: float) -> float:
         """Return (ew)² − 1: positive if the block overturns after its impact."""
