@@ -35,7 +35,7 @@ def sit_down(s, i, p, side, start, velocity, columns, cycles, angle=0.0):
     """A block in lane i that leaves the base, or flies already."""
     arc = arc_from(p, side, start, angle, velocity)
     progress = Progress(FLIGHT, 0, arc, True, 0, 0, 0, 0.0, math.inf, 1.0, 0.0, -math.inf)
-    load_block(s, i, p, progress, columns, 0)
+    load_block(s, i, p, progress, columns)
     set_leg(s, i, cycles, False)
 
 

@@ -17,6 +17,8 @@ from rocking.kernels.orbits import fixed_point, floquet, symmetric_mode
 pytestmark = [pytest.mark.xdist_group("kernels_orbit"), pytest.mark.long]
 
 RANDOM = np.random.default_rng(1991)
+# The sections here hold states, so that no system is needed to evaluate them.
+SYSTEM = harmonic_parameters(2.0, 2.0 * math.pi, 1.0, 0.0, 0.925)
 
 
 @pytest.fixture(scope="module", autouse=True)
@@ -32,8 +34,12 @@ def closest_return(section, most_lag):
 
 
 @njit()
+def approached_by(p, section, most_lag):
+    return recurrence.approached(p, section, len(section), 0.0, most_lag)
+
+
 def approached(section, most_lag):
-    return recurrence.approached(section, len(section), most_lag)
+    return approached_by(SYSTEM, section, most_lag)
 
 
 @njit()

@@ -25,7 +25,7 @@ from rocking.kernels.signature import Floats2, Integers1
 
 # Version of the results. It is raised whenever a result for the same request may change, so that a store
 # never mixes two versions.
-METHOD = 20
+METHOD = 21
 
 
 @entry_point(**KERNEL)
@@ -68,17 +68,17 @@ def has_simd():
 def lane_masks(systems):
     """Return masks of the points that profit from the lane path. They depend on each point only.
 
-    Only undamped motions and motions between braces often need long marches. Lanes are for slender blocks.
+    Lanes are for slender blocks that lift off and for forcing that is not too fast.
 
     Returns
     -------
     tuple of (array of bool, array of bool)
         Points without braces and points with braces.
     """
-    amplitude, _, period, _, restitution, brace_angle, _, critical_angle = systems.T
-    long, braced = (amplitude > 1.0) & (period >= MIN_LANE_PERIOD), brace_angle < math.inf
-    may = long & (critical_angle == 0.0) & has_simd()
-    return may & (restitution == 1.0) & ~braced, may & braced
+    amplitude, _, period, _, _, brace_angle, _, critical_angle = systems.T
+    lifts, braced = (amplitude > 1.0) & (period >= MIN_LANE_PERIOD), brace_angle < math.inf
+    may = lifts & (critical_angle == 0.0) & has_simd()
+    return may & ~braced, may & braced
 
 
 def classify_batch(systems, starts, max_cycles, max_period, stop):
@@ -86,11 +86,11 @@ def classify_batch(systems, starts, max_cycles, max_period, stop):
 
     Returns ``ResultArrays``, or None if another thread set ``stop`` (1,) before the end.
     """
-    answers, (lossless, braced) = empty_results(len(systems)), lane_masks(systems)
+    answers, (free, braced) = empty_results(len(systems)), lane_masks(systems)
     one_by_one = partial(classify_batch_scalar, parameters_of_row(systems[0]))
     parts = (
-        (~(lossless | braced), one_by_one, make_workspace),
-        (lossless, classify_batch_lanes, make_lane_workspace),
+        (~(free | braced), one_by_one, make_workspace),
+        (free, classify_batch_lanes, make_lane_workspace),
         (braced, classify_batch_lanes, make_lane_workspace),
     )
     for part, judge_part, memory in parts:
@@ -109,8 +109,8 @@ def kind_of(full):
     return FullHarmonicParameters if full else HarmonicParameters
 
 
-def load_kernels(may_last, full):
-    """Load or compile the kernels of ``classify_batch``; those of the lanes only if some points may need a long march."""
+def load_kernels(full):
+    """Load or compile the kernels of ``classify_batch``, for blocks of the full equation of motion or for slender ones."""
     classify_batch_scalar[kind_of(full)].load()
-    if may_last and not full:
+    if not full and has_simd():
         classify_batch_lanes.load()

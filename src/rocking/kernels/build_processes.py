@@ -91,6 +91,8 @@ def builder_environment(processors: str) -> dict[str, str]:
     environment[BUILDER_SOURCES] = machine_code.hash_sources()
     if processors != "native":
         features = ",".join(f"+{feature}" for feature in machine_code.CLASSES[processors].split(","))
+        # Else LLVM uses half of the width of the registers.
+        features += ",-prefer-256-bit"
         environment |= {"NUMBA_CPU_NAME": processors, "NUMBA_CPU_FEATURES": features}
     return environment
 

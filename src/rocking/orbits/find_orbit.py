@@ -7,7 +7,7 @@ import math
 import numpy as np
 from attrs import evolve
 
-from rocking.kernels.classify import periodicity
+from rocking.kernels.classify import least_period
 from rocking.kernels.classify import workspace as memory
 from rocking.kernels.orbits import newton_search as kernel
 from rocking.model import (
@@ -182,7 +182,7 @@ def orbit_from(system: System, phase: float, state: State, period: int) -> Orbit
         return None
     rows = motion.section()
     halves = np.column_stack(motion.at((np.arange(period) + 0.5) * system.periodic.period))
-    least, symmetric = periodicity.repetition_plain(rows, halves, state.angle, state.velocity, period, SAME)
+    least, symmetric = least_period.repetition_plain(rows, halves, state.angle, state.velocity, period, SAME)
     events = motion.events[motion.events["time"] <= least * system.periodic.period]
     rested, leaned = (bool(np.isin(events["kind"], kinds).any()) for kinds in (RESTING, LEANING))
     impacts, brace_hits = (int((events["kind"] == kind).sum()) for kind in ("impact", "brace"))

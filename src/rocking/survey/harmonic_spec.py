@@ -52,11 +52,6 @@ class Points(NamedTuple):
         return np.asarray(self.systems[:, SYSTEM.index("restitution")] == 1.0)
 
     @property
-    def may_last(self) -> np.ndarray:
-        """Mask of the points whose runs may be long: undamped blocks and blocks between braces."""
-        return self.lossless | (self.systems[:, SYSTEM.index("brace_angle")] < math.inf)
-
-    @property
     def full(self) -> bool:
         """True if the blocks follow the full equation of motion."""
         return bool(self.systems[0, SYSTEM.index("critical_angle")] > 0.0)
@@ -73,13 +68,6 @@ class HarmonicSpec(SurveySpec):
         "Attributes and coordinates are normalised as in Yim & Lin (1991), Eqs. (1)-(4); "
         "the base acceleration is amplitude cos(frequency time + phase)."
     )
-
-    @property
-    def may_last(self) -> bool:
-        """Flag: some runs may be long, because blocks are undamped or stand between braces."""
-        return "brace_angle" in (self.axes.keys() | self.fixed.keys()) or 1.0 in (
-            self.axes["restitution"] if "restitution" in self.axes else [self.fixed["restitution"]]
-        )
 
     @property
     def full(self) -> bool:

@@ -148,7 +148,7 @@ def overturning_set(
     if executor is not None:
         instance("executor", executor, Executor)
     full = one_of("model", model, MODELS) == "full"
-    load_kernels(False, full)
+    load_kernels(full)
     work = [
         Work(motion, measure, value, block, angle, float(polarity), full)
         for motion, value in zip(chosen, values.tolist(), strict=True)

@@ -38,11 +38,6 @@ class SurveySpec:
         return math.prod(self.shape)
 
     @property
-    def may_last(self) -> bool:
-        """Flag: some runs may be long."""
-        return False
-
-    @property
     def full(self) -> bool:
         """Flag: the blocks follow the full equation of motion."""
         return False

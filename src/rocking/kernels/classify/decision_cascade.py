@@ -31,6 +31,7 @@ from rocking.kernels.classify.classifier_state import (
     with_run,
     with_section,
 )
+from rocking.kernels.classify.lazy_section import evaluate_lazy_rows
 from rocking.kernels.classify.leg import march_leg
 from rocking.kernels.classify.periodicity import (
     ON_EVENT,
@@ -43,7 +44,6 @@ from rocking.kernels.classify.periodicity import (
 from rocking.kernels.classify.quasi_periodicity import (
     agreeing_digits,
     digits_of_speeds,
-    evaluate_lazy_rows,
     no_flights,
     under_way,
 )
@@ -66,7 +66,7 @@ from rocking.kernels.deferred import njit
 from rocking.kernels.march.march import DONE
 from rocking.kernels.numerics.elementary import size
 
-CHECKPOINTS_GROW = 1.25
+CHECKPOINTS_GROW = 1.5
 NEXT_SECTION = 0.6180339887498949
 # Newton's method may compute half as many events as the march, and this number in any case.
 FREE_WORK = 10
@@ -216,7 +216,6 @@ def seek_orbit(p, case, target, max_period, workspace, still):
     run, known, done = case.run, case.known, case.run.tracker.progress
     events = done.impacts + done.brace_hits
     most_work = events if still else FREE_WORK + events // 2 - case.work
-    evaluate_lazy_rows(p, workspace.section, 0, run.count, run.section_time)
     since = target - known.cycle
     check = check_periodicity(p, run, workspace, max_period, most_work, known.check, since, still)
     work = case.work + check.work
@@ -244,6 +243,7 @@ def expect_torus(case, workspace):
 def end_of_budget(p, case, target, max_period, workspace):
     """Return the verdict at the end of the budget."""
     run, known, section = case.run, case.known, workspace.section
+    evaluate_lazy_rows(p, section, 0, run.count, run.section_time)
     findings = Findings(
         measured=case.batches.measured,
         lossless=run.lossless,

@@ -3,7 +3,8 @@
 import numpy as np
 
 from rocking.kernels.classify.classifier_state import Run
-from rocking.kernels.classify.quasi_periodicity import append_lazy_rows, collect, section_needed
+from rocking.kernels.classify.lazy_section import append_lazy_rows
+from rocking.kernels.classify.quasi_periodicity import collect, section_needed
 from rocking.kernels.classify.reset import follow, moved_on
 from rocking.kernels.compile_options import AST_INLINE, INTERNAL, INTERNAL_INLINE
 from rocking.kernels.deferred import njit

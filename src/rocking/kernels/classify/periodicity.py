@@ -3,14 +3,14 @@
 import math
 from typing import NamedTuple
 
-from rocking.kernels.classify.recurrence import apart, approached, closest_return
-from rocking.kernels.compile_options import AST_INLINE, INTERNAL, KERNEL
+from rocking.kernels.classify.lazy_section import evaluate_lazy_rows
+from rocking.kernels.classify.least_period import SAME, least_period
+from rocking.kernels.classify.recurrence import approached, closest_return
+from rocking.kernels.compile_options import AST_INLINE, INTERNAL
 from rocking.kernels.deferred import njit
-from rocking.kernels.entry_point import entry_point
 from rocking.kernels.forcing.contract import largest_on
 from rocking.kernels.forcing.periodic import later, nearest_mode
 from rocking.kernels.march.initial_state import UNKNOWN
-from rocking.kernels.march.progress import Recording
 from rocking.kernels.march.tangent import Tangent
 from rocking.kernels.numerics.elementary import size
 from rocking.kernels.numerics.replace_fields import replacing
@@ -22,11 +22,10 @@ from rocking.kernels.orbits.fixed_point import (
     MapImage,
     ReturnMap,
     find_fixed_point,
-    image_after,
 )
 from rocking.kernels.orbits.floquet import adapted_norm, length, spectral_radius
+from rocking.kernels.orbits.mode_orbit import orbit_of_mode
 from rocking.kernels.orbits.symmetric_mode import Nearest
-from rocking.kernels.signature import Floats2
 
 # Candidates for Newton's method, in this order. REFINED repeats the search with the least period of the orbit
 # found.
@@ -48,8 +47,6 @@ NONLINEAR = 0.2
 BENT, APPROACH = 0.01, 0.3
 RETURNS = 3
 MAX_FORETOLD = 1 << 20
-# States of an orbit closer than this are equal.
-SAME = 1e-9
 # A motion closer than this to a neutral orbit is on it.
 NEUTRAL = 1e-10
 # A motion that passes an unstable orbit comes closer by this factor from checkpoint to checkpoint.
@@ -103,18 +100,19 @@ with_work = replacing(PeriodicityCheck, "work")
 
 
 @njit(**INTERNAL)
-def known_candidate(clocked, orbit, count, since):
+def known_candidate(p, clocked, orbit, run, section, since):
     """Return the candidate of the known orbit, found ``since`` cycles ago; none if the section is too short."""
-    row = count - 1 - since % max(orbit.period, 1)
+    row = run.count - 1 - since % max(orbit.period, 1)
     lag = orbit.period if row >= orbit.period else 0
+    evaluate_lazy_rows(p, section, row - RETURNS * lag, row + 1, run.section_time)
     return Candidate(lag, row, Guess(0.0, 0.0, UNKNOWN), UNBOUNDED, nearest_mode(clocked, 0, 0.0, 0.0))
 
 
 @njit(**INTERNAL)
-def approached_candidate(clocked, section, count, most_lag):
+def approached_candidate(p, clocked, run, section, most_lag):
     """Return the limit of the last returns, or the symmetric mode close to it."""
-    row = count - 1
-    lag, angle, velocity = approached(section, count, most_lag)
+    row = run.count - 1
+    lag, angle, velocity = approached(p, section, run.count, run.section_time, most_lag)
     mode, waits = nearest_mode(clocked, lag, angle, velocity), UNKNOWN
     left = size(section[row, 0] - angle, section[row, 1] - velocity)
     if mode.distance <= max(BESIDE * left, SAME):
@@ -132,12 +130,12 @@ def closest_candidate(section, count, most_lag, most_work, mode):
 
 
 @njit(**INTERNAL)
-def propose(clocked, section, count, most_lag, most_work, candidate, trying):
+def propose(p, clocked, run, section, most_lag, most_work, candidate, trying):
     """Return the next candidate; the known one and the refined one stay as they are."""
     if trying == APPROACHED:
-        return approached_candidate(clocked, section, count, most_lag)
+        return approached_candidate(p, clocked, run, section, most_lag)
     if trying == CLOSEST:
-        return closest_candidate(section, count, most_lag, most_work, candidate.mode)
+        return closest_candidate(section, run.count, most_lag, most_work, candidate.mode)
     return candidate
 
 
@@ -152,10 +150,14 @@ def refined_candidate(candidate, found, period):
 def orbit_near(clocked, candidate, workspace):
     """Return the orbit that Newton's method finds from a candidate, as a check without a result yet."""
     lag, mode, symmetric, peak = candidate.lag, candidate.mode, False, math.nan
-    mapping = ReturnMap(clocked, lag, 0.0, 1.0)
-    found = find_fixed_point(
-        mapping, candidate.guess, candidate.most_work, NEARBY, workspace.trial, workspace.nothing
-    )
+    found, guess = no_cycle(0).found, candidate.guess
+    if lag == mode.order and guess.angle == mode.angle and guess.velocity == mode.velocity:
+        found = orbit_of_mode(clocked, mode)
+    if not found.converged:
+        mapping = ReturnMap(clocked, lag, 0.0, 1.0)
+        found = find_fixed_point(
+            mapping, guess, candidate.most_work, NEARBY, workspace.trial, workspace.nothing
+        )
     if lag == mode.order and size(found.angle - mode.angle, found.velocity - mode.velocity) <= SAME:
         symmetric, peak = True, largest_on(clocked, mode.arc, mode.half, 0.0)
     return PeriodicityCheck(NOT_YET, lag, symmetric, found, peak, math.nan, 0, found.work)
@@ -174,9 +176,9 @@ def check_periodicity(p, run, workspace, most_lag, most_work, known, since, neut
     """
     count, clocked = run.count, later(p, run.section_time)
     trying, orbit, seen, work = KNOWN, known, no_cycle(0), 0
-    candidate = known_candidate(clocked, known, count, since)
+    candidate = known_candidate(p, clocked, known, run, workspace.section, since)
     while trying < NO_MORE:
-        candidate = propose(clocked, workspace.section, count, most_lag, most_work - work, candidate, trying)
+        candidate = propose(p, clocked, run, workspace.section, most_lag, most_work - work, candidate, trying)
         now, trying = trying, (NO_MORE if trying == REFINED else trying + 1)
         if candidate.lag == 0 or candidate.most_work <= 0:
             continue
@@ -223,49 +225,12 @@ def no_cycle(work):
 
 
 @njit(**INTERNAL)
-def repetition(rows, halves, angle, velocity, lag, same):
-    """Return least period and mirror symmetry (bool) of an orbit of ``lag`` cycles through a state.
-
-    ``rows`` are its states on any section, one cycle apart. ``halves`` are those from half a cycle after the
-    state on. States closer than ``same`` are equal.
-    """
-    period = lag
-    for divisor in range(1, min(lag, rows.shape[0])):
-        if lag % divisor == 0 and apart(rows, divisor, 0) <= same:
-            period = divisor
-            break
-    half = (period - 1) // 2
-    mirrored = period % 2 == 1 and size(halves[half, 0] + angle, halves[half, 1] + velocity) <= same
-    return period, mirrored
-
-
-@entry_point(**KERNEL)
-def repetition_plain(
-    rows: Floats2, halves: Floats2, angle: float, velocity: float, lag: int, same: float
-) -> tuple[int, bool]:
-    """Return ``repetition``; entry point for Python."""
-    return repetition(rows, halves, angle, velocity, lag, same)
-
-
-@njit(**INTERNAL)
 def attracts(p, image):
     """Return whether an orbit is stable and dissipates energy.
 
     In undamped motion rounding alone may move both multipliers inside the unit circle.
     """
     return spectral_radius(image.tangent) < 1.0 and loses(p, image.impacts, image.brace_hits)
-
-
-@njit(**INTERNAL)
-def least_period(p, clocked, found, lag, workspace):
-    """Return least period, mirror symmetry and image of an orbit that closes after ``lag`` cycles."""
-    scratch, nothing = workspace.scratch, workspace.nothing
-    guess = Guess(found.angle, found.velocity, found.image.waits)
-    recording = Recording(0.5 * p.forcing.period, scratch, nothing.events, True, False)
-    image = image_after(ReturnMap(clocked, lag, 0.0, 1.0), guess, recording, nothing.tangent)
-    same = max(SAME, 100.0 * found.error)
-    period, mirrored = repetition(scratch, scratch, found.angle, found.velocity, lag, same)
-    return period, mirrored, image
 
 
 @njit(**INTERNAL)

@@ -2,6 +2,7 @@
 
 import math
 
+from rocking.kernels.classify.lazy_section import evaluate_lazy_rows
 from rocking.kernels.compile_options import INTERNAL
 from rocking.kernels.deferred import njit
 from rocking.kernels.march.tangent import Tangent
@@ -43,7 +44,7 @@ def closest_return(section, count, most_lag):
 
 
 @njit(**INTERNAL)
-def approached(section, count, most_lag):
+def approached(p, section, count, section_time, most_lag):
     """Find the fixed point that the last returns approach, with the least lag.
 
     Near a fixed point x of the map over ``lag`` cycles the differences of returns obey one matrix, d0 = M d1,
@@ -57,6 +58,7 @@ def approached(section, count, most_lag):
     """
     last = count - 1
     for lag in range(1, most_lag + 1):
+        evaluate_lazy_rows(p, section, last - 4 * lag, count - 4 * (lag - 1), section_time)
         if lag < count and apart(section, last, last - lag) <= ARRIVED:
             return lag, section[last, 0], section[last, 1]
         if 4 * lag >= count:

@@ -11,6 +11,7 @@ from rocking.kernels.forcing.slender import hyperbolic_transfer
 from rocking.kernels.lanes.state import (
     AT_EVENT,
     BRACKET,
+    CHECK_ZENO,
     END_LEG,
     FAILED,
     FIND_EVENT,
@@ -23,6 +24,7 @@ from rocking.kernels.lanes.state import (
     UPDATE_PEAK,
     log_is_full,
 )
+from rocking.kernels.march.impact_law import SLOW
 from rocking.kernels.march.tangent import carry_along, carry_through, impact_gain
 from rocking.kernels.numerics.elementary import fma
 from rocking.kernels.numerics.simd import ROUGHLY, both_exponentials, choose, logarithms_of_ratios
@@ -50,8 +52,22 @@ def set_request(s, i, request, returned):
 @njit(**SIMD_INLINE)
 def request_before_impact(s, i):
     """Write the request of lane i before its impact, and return whether there is one."""
+    returned = s.restitution[i] * s.speed[i]
     request = choose(s.exceeds[i] == 0.0, NO_REQUEST, UPDATE_PEAK)
-    return set_request(s, i, request, s.restitution[i] * s.speed[i])
+    request = choose((returned < SLOW) & may_settle(s, i, returned), CHECK_ZENO, request)
+    return set_request(s, i, request, returned)
+
+
+@njit(**SIMD_INLINE)
+def may_settle(s, i, returned):
+    """Return whether the impact in lane i may begin chattering that ends in rest.
+
+    This is necessary in ``settling.settling_by_change``: the base acceleration changes by less than 1 less its size
+    within the window there.
+    """
+    press = 1.0 - s.amplitude[i] * abs(s.next_cosine[i])
+    moved = 5.0 * returned * s.amplitude_rate[i] * abs(s.next_sine[i])
+    return (press > 0.0) & (moved < press * press * (1.0 - s.restitution[i]))
 
 
 @njit(**SIMD_INLINE)
@@ -102,6 +118,7 @@ def apply_impact(s, i):
     turn_clock(s, i)
     arrived = s.stage[i] == AT_EVENT
     s.side[i] = choose(arrived, -s.side[i], s.side[i])
+    s.angle[i] = choose(arrived, 0.0, s.angle[i])
     s.velocity[i] = choose(arrived, s.restitution[i] * s.speed[i], s.velocity[i])
     s.cosine[i] = choose(arrived, -s.next_cosine[i], s.cosine[i])
     s.sine[i] = choose(arrived, -s.next_sine[i], s.sine[i])

@@ -16,10 +16,10 @@ AHEAD = 8
 
 
 @njit(**SIMD_INLINE)
-def mark_pending(s, i, most, braced):
+def mark_pending(s, i, most):
     """Compute the log slot of a lane (-1: none), the squared impact speed, and whether ``log_arc`` is due."""
     slot, rounds = s.events[i] - s.uncollected[i] - 1.0, s.events[i] * (1.0 / (RESYNCHRONISE + 1))
-    kept = (s.events[i] > s.counted[i]) & (slot < most) & (braced == False)  # noqa: E712
+    kept = (s.events[i] > s.counted[i]) & (slot >= 0.0) & (slot < most)
     # at regular numbers of events as in ``log_arc``, exactly: RESYNCHRONISE + 1 is a power of two
     due = (s.log_on[i] > 0.0) | ((np.floor(rounds) == rounds) & (s.stage[i] == BRACKET))
     s.slot[i] = choose(kept, slot, -1.0)
@@ -48,13 +48,13 @@ def log_arc(s, i, log):
 
 
 @njit(**INTERNAL)
-def log_arcs(s, flights, log, braced):
-    """Write the last arc of each lane without braces: its duration and squared speed; and ``log_arc`` if due.
+def log_arcs(s, flights, log):
+    """Write the last arc of each undamped lane: its duration and squared speed; and ``log_arc`` if due.
 
     The entry is written again at every pass until the next impact.
     """
     for i in range(LANES):
-        mark_pending(s, i, flights.shape[1], braced)
+        mark_pending(s, i, flights.shape[1])
     for i in range(LANES):
         slot = int(s.slot[i])
         if slot >= 0:

@@ -12,6 +12,7 @@ from rocking.kernels.lanes.state import (
     AT_EVENT,
     CHECK_ZENO,
     END_LEG,
+    FAILED,
     FIND_EVENT,
     FLUSH_LOG,
     NO_REQUEST,
@@ -81,6 +82,12 @@ def resolve_alone(s, i, p):
     if s.request[i] == FIND_EVENT:
         return find_event(s, i, p)
     return request_at_event(s, i, p) if s.request[i] == CHECK_ZENO else s.request[i]
+
+
+@njit(**INTERNAL_INLINE)
+def request_of_leg(s, i, p):
+    """Return the request of a lane at the start of its leg, where a newly loaded block may need its first event."""
+    return find_event(s, i, p) if s.stage[i] == FAILED else request_at_event(s, i, p)
 
 
 @njit(**INTERNAL_INLINE)

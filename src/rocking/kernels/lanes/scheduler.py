@@ -23,7 +23,7 @@ from rocking.kernels.entry_point import entry_point
 from rocking.kernels.event_kinds import FLIGHT, IMPACT
 from rocking.kernels.forcing.harmonic.parameters import HarmonicParameters, parameters_from_row
 from rocking.kernels.lanes.log import log_arcs
-from rocking.kernels.lanes.scalar_fallback import request_at_event, resolve_alone, update_peak
+from rocking.kernels.lanes.scalar_fallback import request_of_leg, resolve_alone, update_peak
 from rocking.kernels.lanes.state import (
     END_LEG,
     IDLE,
@@ -39,6 +39,7 @@ from rocking.kernels.lanes.transfer import (
     flights_by_now,
     load_block,
     read_growth,
+    set_collection,
     set_difference,
     set_leg,
     status_of,
@@ -49,6 +50,8 @@ from rocking.kernels.signature import Floats2, Integers1
 
 # With a shorter forcing period an arc has too many sign intervals for a search in lockstep.
 MIN_LANE_PERIOD = 0.1
+# Of the damped motions few last longer than this; at the end of a batch the last ones would occupy all lanes.
+MOST_LOSSY_CYCLES = 512
 
 
 class LaneWork(NamedTuple):
@@ -71,15 +74,16 @@ class BatchRequest(NamedTuple):
 
 @njit(**INTERNAL)
 def lane_eligible(p, case):
-    """Return whether a motion may be marched in lanes: between braces, or without braces and undamped."""
+    """Return whether a motion may be marched in lanes: undamped without braces, or damped and never at rest so far."""
     run, tracker = case.run, case.run.tracker
     progress, arc = tracker.progress, tracker.progress.arc
     if progress.mode != FLIGHT or not (p.forcing.amplitude > 1.0 and p.forcing.period >= MIN_LANE_PERIOD):
         return False
-    if p.block.brace_angle < math.inf:
-        return not (run.lossless or tracker.base.seen or tracker.brace.seen)
-    plain = p.block.restitution == 1.0 and arc.angle == 0.0 and arc.velocity >= SLOWEST
-    return plain and run.lossless and run.flights.event == IMPACT
+    braced = p.block.brace_angle < math.inf
+    if run.lossless:
+        return not braced and run.flights.event == IMPACT and arc.velocity >= SLOWEST
+    early = braced or progress.cycle < MOST_LOSSY_CYCLES
+    return early and not (tracker.base.seen or tracker.brace.seen)
 
 
 @njit(**INTERNAL_INLINE)
@@ -125,7 +129,8 @@ def start_leg(s, i, work, stays, max_cycles, own):
     if stays:
         set_difference(s, i, own.tangent.columns)
     else:
-        load_block(s, i, work.p, case.run.tracker.progress, own.tangent.columns, case.run.flights.count)
+        load_block(s, i, work.p, case.run.tracker.progress, own.tangent.columns)
+    set_collection(s, i, case.run)
     # no more cycles than the section has rows for
     target = min(next_look(case, max_cycles), case.run.tracker.progress.cycle + LEG)
     needed = section_needed(own.tangent.growth[0], target, max_cycles, own.scratch.shape[0])
@@ -189,7 +194,7 @@ def service_until_ready(s, i, request, work, queue, batch, workspace):
             skipped, work = try_skip_readback(s, i, work, batch.max_cycles, workspace)
         if not skipped:
             work, queue = service_lane(s, i, request, work, queue, batch, workspace)
-        request = request_at_event(s, i, work.p)
+        request = request_of_leg(s, i, work.p)
     return work, queue
 
 
@@ -201,7 +206,7 @@ def run_lanes(s, flights, log, braced, stop):
             apply_events(s)
         else:
             apply_impacts(s)
-        log_arcs(s, flights, log, braced)
+        log_arcs(s, flights, log)
         if advance_between(s) if braced else advance(s):
             return
 

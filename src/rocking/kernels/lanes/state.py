@@ -123,17 +123,20 @@ def set_system(s, i, p):
     s.outside[i] = p.forcing.base_outside
     s.turn_growth[i] = p.forcing.turn_growth
     s.turn_decay[i] = p.forcing.turn_decay
-    s.half_growth[i] = math.exp(0.5 * p.forcing.base_outside)
-    s.half_decay[i] = math.exp(-0.5 * p.forcing.base_outside)
-    s.half_tanh[i] = math.tanh(0.5 * p.forcing.base_outside) * (1.0 + MARGIN)
-    s.cosine_in[i] = math.cos(0.5 * p.forcing.base_half)
-    s.sine_in[i] = math.sin(0.5 * p.forcing.base_half)
+    growth, cosine = p.forcing.base_outside_growth, 1.0 / p.forcing.amplitude
+    s.half_growth[i] = math.sqrt(growth)
+    s.half_decay[i] = 1.0 / s.half_growth[i]
+    # tanh(x/2) = tanh x/(1 + 1/cosh x)
+    s.half_tanh[i] = p.forcing.base_outside_tanh / (1.0 + 2.0 / (growth + 1.0 / growth)) * (1.0 + MARGIN)
+    # cos(base_half) = -1/A; the functions of half the angle, and of its supplement
+    s.cosine_in[i] = math.sqrt(0.5 - 0.5 * cosine)
+    s.sine_in[i] = math.sqrt(0.5 + 0.5 * cosine)
     s.grow_in[i] = math.exp(0.25 * p.forcing.base_inside)
-    s.decay_in[i] = math.exp(-0.25 * p.forcing.base_inside)
+    s.decay_in[i] = 1.0 / s.grow_in[i]
     s.cosine_out[i] = -s.sine_in[i]
     s.sine_out[i] = -s.cosine_in[i]
-    s.grow_out[i] = math.exp(0.25 * p.forcing.base_outside)
-    s.decay_out[i] = math.exp(-0.25 * p.forcing.base_outside)
+    s.grow_out[i] = math.sqrt(s.half_growth[i])
+    s.decay_out[i] = 1.0 / s.grow_out[i]
 
 
 @njit(**SIMD_INLINE)

@@ -3,8 +3,9 @@
 import math
 
 from rocking.kernels.classify.classifier_state import Run
+from rocking.kernels.classify.lazy_section import append_lazy_rows
 from rocking.kernels.classify.leg import make_room, most_events
-from rocking.kernels.classify.quasi_periodicity import Flights, append_lazy_rows
+from rocking.kernels.classify.quasi_periodicity import Flights
 from rocking.kernels.classify.reset import moved_on
 from rocking.kernels.compile_options import INTERNAL, INTERNAL_INLINE
 from rocking.kernels.deferred import njit
@@ -12,7 +13,7 @@ from rocking.kernels.event_kinds import FLIGHT, IMPACT
 from rocking.kernels.forcing.arc import shift_clock
 from rocking.kernels.forcing.drives import HarmonicDrive
 from rocking.kernels.forcing.harmonic.solution import arc_with
-from rocking.kernels.lanes.state import AT_EVENT, END_LEG, NEW_ARC, set_system
+from rocking.kernels.lanes.state import AT_EVENT, END_LEG, FAILED, NEW_ARC, SLOWEST, set_system
 from rocking.kernels.march.initial_state import UNKNOWN
 from rocking.kernels.march.march import CROWDED, DONE
 from rocking.kernels.march.progress import Progress
@@ -21,8 +22,8 @@ LN2 = math.log(2.0)
 
 
 @njit(**INTERNAL)
-def load_block(s, i, p, progress, columns, collected):
-    """Load a block into a lane; ``collected`` of its arcs are already stored."""
+def load_block(s, i, p, progress, columns):
+    """Load a block into a lane."""
     set_system(s, i, p)
     arc, events = progress.arc, progress.impacts + progress.brace_hits
     s.cycle[i] = progress.cycle
@@ -34,10 +35,12 @@ def load_block(s, i, p, progress, columns, collected):
     s.sine[i] = arc.drive.sine
     s.events[i] = events
     s.counted[i] = events
-    s.uncollected[i] = events - collected
     s.brace_hits[i] = progress.brace_hits
     s.peak[i] = progress.peak
-    s.stage[i] = NEW_ARC
+    # A block that starts inside its range or slowly has no event of the lanes before.
+    known = p.block.brace_angle < math.inf or (arc.angle == 0.0 and arc.velocity >= SLOWEST)
+    s.stage[i] = NEW_ARC if known else FAILED
+    s.exceeds[i] = 1.0
     set_difference(s, i, columns)
 
 
@@ -54,6 +57,12 @@ def set_leg(s, i, target, logged):
     """Set the end of the leg of a lane, and whether its arcs are logged."""
     s.target[i] = target
     s.log_on[i] = logged
+
+
+@njit(**INTERNAL_INLINE)
+def set_collection(s, i, run):
+    """Set the number of events of a lane before its first collected arc; the arcs of damped motions are not collected."""
+    s.uncollected[i] = s.events[i] - run.flights.count if run.lossless else math.inf
 
 
 @njit(**INTERNAL)
@@ -127,7 +136,8 @@ def unload_block(s, i, request, p, run, workspace, log):
     else:
         count = 0
     s.counted[i] = s.events[i]
-    read_growth(s, i, workspace.tangent.columns, workspace.tangent.growth)
+    if lossless or measuring:
+        read_growth(s, i, workspace.tangent.columns, workspace.tangent.growth)
     return Run(moved_on(tracker, after), flights, section_time, count, lossless, measuring)
 
 

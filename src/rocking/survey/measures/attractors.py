@@ -70,9 +70,9 @@ def destination(max_cycles: int, max_period: int, title: str) -> Measurement:
     return Measurement(title, judge, load_kernels, variables, budget(max_cycles, max_period), batch.METHOD)
 
 
-def load_kernels(may_last: bool, full: bool) -> None:
+def load_kernels(full: bool) -> None:
     """Load or compile the classification and the functions that follow orbits."""
-    batch.load_kernels(may_last, full)
+    batch.load_kernels(full)
     kernel.anchor_each[batch.kind_of(full)].load()
     still = System(Harmonic(0.0, period=1.0), 0.0, critical_angle=0.1 if full else None)
     simulate(still, cycles=1, record="section")

@@ -41,7 +41,7 @@ class BlockEndings:
 
     def load(self) -> None:
         """Compile or load the kernels of `at`."""
-        (load_kernels if self.pulse is None else pulse_ending.load_kernels)(False, self.asked.full)
+        (load_kernels if self.pulse is None else pulse_ending.load_kernels)(self.asked.full)
 
     def at(self, size: np.ndarray, slenderness: np.ndarray, stop: np.ndarray) -> Arrays | None:
         """Return outcome, certified, peak, margin and impacts at n points; None if another thread sets `stop` (1,).

@@ -85,7 +85,7 @@ def ending(title: str, *, with_peak: bool = True) -> Measurement:
     )
 
 
-def load_kernels(may_last: bool, full: bool) -> None:
+def load_kernels(full: bool) -> None:
     """Compile or load the kernels of `judge`."""
     kernel.run_batch[numbers.FullSampledParameters if full else numbers.SampledParameters].load()
 

@@ -22,9 +22,9 @@ def pulse_ending(title: str) -> Measurement:
     return Measurement(title, judge, load_kernels, VARIABLES, {}, METHOD, shares="outcome")
 
 
-def load_kernels(may_last: bool, full: bool) -> None:
+def load_kernels(full: bool) -> None:
     """Compile or load the kernels of `judge`."""
-    load_sampled(may_last, full)
+    load_sampled(full)
     kernel.run_pulses[numbers.FullPulseParameters if full else numbers.PulseParameters].load()
 
 

@@ -8,6 +8,7 @@ from rocking.kernels.compile_options import INTERNAL, KERNEL
 from rocking.kernels.deferred import njit
 from rocking.kernels.entry_point import entry_point
 from rocking.kernels.numerics.elementary import fma
+from rocking.kernels.numerics.replace_fields import replacing
 from rocking.kernels.parameters import BlockParameters, Clock
 
 TURN = Fraction("6.28318530717958647692528676655900576839433879875021")
@@ -165,15 +166,10 @@ def later(p, time):
     return at_phase(p, phase_later(p.forcing, time))
 
 
+with_phase = replacing(HarmonicForcing, "phase")
+
+
 @njit(**INTERNAL)
 def at_phase(p, phase):
     """Return the system with a different forcing phase at time 0."""
-    return make(
-        amplitude=p.forcing.amplitude,
-        frequency=p.forcing.frequency,
-        period=p.forcing.period,
-        phase=phase,
-        restitution=p.block.restitution,
-        brace_angle=p.block.brace_angle,
-        brace_restitution=p.block.brace_restitution,
-    )
+    return HarmonicParameters(p.block, with_phase(p.forcing, phase), p.clock)
