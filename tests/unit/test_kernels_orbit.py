@@ -11,7 +11,7 @@ from rocking.kernels.deferred import njit
 from rocking.kernels.forcing.harmonic.parameters import harmonic_parameters
 from rocking.kernels.march.initial_state import UNKNOWN
 from rocking.kernels.march.tangent import Tangent
-from rocking.kernels.orbits import fixed_point, floquet, symmetric_mode
+from rocking.kernels.orbits import fixed_point, floquet, mode_orbit, symmetric_mode
 
 # Its kernels are compiled once, for most of a minute. The tests of the searches run the same code in the fast tests.
 pytestmark = [pytest.mark.xdist_group("kernels_orbit"), pytest.mark.long]
@@ -344,3 +344,50 @@ def test_multipliers_by_trace_and_determinant_are_the_eigenvalues(mirrored):
         assert np.iscomplexobj(expected) or "-0j" not in f"{found}"
         pairs += np.iscomplexobj(expected)
     assert 50 < pairs < 250
+
+
+@njit(error_model="numpy")
+def closed_and_marched(p, order, memory):
+    """Return the fixed points of a mode by its closed form and by Newton's method, and whether the mode exists."""
+    mode = symmetric_mode.nearest(p, order, 0.0, 0.0)
+    guess = fixed_point.Guess(mode.angle, mode.velocity, (mode.half - mode.since, mode.half))
+    mapping = fixed_point.ReturnMap(p, order, 0.0, 1.0)
+    marched = fixed_point.find_fixed_point(
+        mapping, guess, 1 << 40, fixed_point.NEARBY, memory.trial, memory.nothing
+    )
+    closed = mode_orbit.orbit_of_mode(p, mode)
+    return (
+        mode.distance < math.inf,
+        closed.converged,
+        marched.converged and marched.image.impacts == 2,
+        (closed.angle - marched.angle, closed.velocity - marched.velocity),
+        closed.image.tangent,
+        marched.image.tangent,
+        closed.residual,
+    )
+
+
+@pytest.mark.parametrize(("order", "true", "false"), [(1, 200, 0), (3, 40, 20), (5, 30, 0)])
+def test_mode_is_a_fixed_point_without_a_march_unless_an_impact_comes_earlier(order, true, false):
+    """Closed form and march agree on the orbit and its derivative. Where they do not, the search finds an earlier impact."""
+    memory, random = workspace.make_workspace(1000, 64), np.random.default_rng(2)
+    seen = {True: 0, False: 0}
+    for _ in range(1500):
+        period = 10.0 ** random.uniform(-0.7, 0.6)
+        p = harmonic_parameters(
+            random.uniform(1, 20), math.tau / period, period, random.uniform(-3, 3), random.uniform(0.3, 0.99)
+        )
+        exists, closed, marched, off, tangent, other, residual = closed_and_marched(p, order, memory)
+        if not exists:
+            continue
+        assert closed == marched
+        seen[closed] += 1
+        if closed:
+            size = max(map(abs, other))
+            assert max(map(abs, off)) <= 1e-12 * max(1.0, size)
+            # the derivative is a product of matrices as large as the growth on an arc
+            growth = math.exp(0.5 * order * period)
+            assert np.abs(np.subtract(tangent, other)).max() <= 1e-11 * max(size, growth)
+            assert residual <= 1e-13 * max(1.0, size)
+    assert seen[True] >= true
+    assert seen[False] >= false
