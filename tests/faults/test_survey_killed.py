@@ -30,7 +30,7 @@ import xarray, zarr
 from stored_surveys import SURVEYS
 
 survey, folder = SURVEYS[sys.argv[1]], sys.argv[2]
-survey.load(False, False)
+survey.load(False)
 """
 KILLED = (
     BEGIN
@@ -51,7 +51,7 @@ while killed < 10:
 FULL = (
     BEGIN
     + """
-survey.load(True, False)  # under the limit machine code could not be cached
+survey.load(False)  # under the limit machine code could not be cached
 resource.setrlimit(resource.RLIMIT_FSIZE, (survey.limit, survey.limit))
 try:
     survey.run(folder, **survey.uneven)

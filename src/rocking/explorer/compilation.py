@@ -55,7 +55,7 @@ NEEDED = {
     "basin": BASIN,
     "diagram": (*SIMULATION, "sweep.sweep.HarmonicParameters"),
 }
-"""Entry points of each figure; maps of undamped motions and of motions between braces also need those of the lanes."""
+"""Entry points of each figure; maps of slender blocks also need those of the lanes."""
 ALL = sorted({name for names in NEEDED.values() for name in names} | set(LANES))
 
 
@@ -63,8 +63,7 @@ def needed(figure: str, shown: ViewState) -> tuple[str, ...]:
     """Return the entry points of a figure of a view."""
     if shown.critical_angle is not None:
         return full(NEEDED[figure])
-    long = figure in ("map", "basin") and (shown.restitution == 1.0 or shown.brace_angle is not None)
-    return NEEDED[figure] + (LANES if long else ())
+    return NEEDED[figure] + (LANES if figure in ("map", "basin") else ())
 
 
 def full(names: Sequence[str]) -> tuple[str, ...]:

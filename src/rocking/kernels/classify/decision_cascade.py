@@ -66,7 +66,7 @@ from rocking.kernels.deferred import njit
 from rocking.kernels.march.march import DONE
 from rocking.kernels.numerics.elementary import size
 
-CHECKPOINTS_GROW = 1.5
+CHECKPOINTS_GROW = 1.25
 NEXT_SECTION = 0.6180339887498949
 # Newton's method may compute half as many events as the march, and this number in any case.
 FREE_WORK = 10
