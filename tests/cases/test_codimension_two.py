@@ -395,3 +395,19 @@ def test_coefficient_does_not_depend_on_the_plane():
         start = np.abs(curve.points[:, 1] - special.parameter) < 1e-12
         found.append(curve.coefficients[start].item())
     np.testing.assert_allclose(found, found[0], rtol=1e-9)
+
+
+def test_point_on_a_curve_of_grazings_far_from_its_start_is_where_the_folds_end():
+    """On the way the turning point that touches moves, and another one comes nearer to its first time."""
+    system = rk.System(rk.Harmonic(3.0, period=1.0), 0.8)
+    orbit = next(each for each in rk.find_orbits(system, 1) if each.symmetric and each.impacts == 2)
+    branch = rk.continue_orbit(orbit, "amplitude", (0.05, 10.0))
+    plane = "amplitude", "restitution", ((0.05, 10.0), (0.01, 1.0))
+    grazing, fold = (
+        next(each for each in branch.special if each.kind == kind) for kind in ("grazing", "fold")
+    )
+    (point,) = rk.bifurcation_curve(grazing, *plane).special
+    ends = [each for each in rk.bifurcation_curve(fold, *plane).special if each.kind == "fold-grazing"]
+    assert point.kind == "fold-grazing"
+    off = [np.abs(np.subtract(point.values, end.values)) / end.errors for end in ends]
+    assert min(each.max() for each in off) < 1.0

@@ -267,6 +267,30 @@ BETWEEN = [
 ]
 
 
+# A, T, φ, e: damped motions whose orbit is found from a return over many cycles, after another candidate has failed
+FROM_RETURNS = [
+    (11.346743889590396, 0.11275616135145128, -3.8974021592157464, 0.3188374294602877),
+    (11.866474132467523, 0.14144822552017083, 0.8653709939449468, 0.2677883320522687),
+    (15.733317501002032, 0.3758802594041618, 0.8601874326419239, 0.3495756321323046),
+    (5.898976697956789, 0.31380780761136057, 0.46792033946449063, 0.17736141842016417),
+    (13.162741777750012, 0.3445478999625934, -0.5429599437704056, 0.9610143520543379),
+    (2.193001782008698, 0.1587383263938781, -1.0338364789169492, 0.8589490040377348),
+]
+
+
+@pytest.mark.parametrize("case", FROM_RETURNS, ids=lambda case: f"A={case[0]:.3g}, e={case[3]:.3g}")
+def test_orbit_is_found_from_distant_returns_in_lanes_as_alone(case):
+    """The states of the section are evaluated only if they are needed; all of these are."""
+    amplitude, period, phase, restitution = case
+    systems = np.array([[amplitude, math.tau / period, period, phase, restitution, math.inf, 1.0, 0.0]])
+    starts, go_on = np.zeros((1, 2)), np.zeros(1, np.int64)
+    alone, found = empty_results(1), batch.classify_batch(systems, starts, 450, 64, go_on)
+    kind, memory = parameters_of_row(systems[0]), make_workspace(450, 64)
+    batch.classify_batch_scalar(kind, systems, starts, 450, 64, memory, alone, go_on)
+    for name in ("kind", "ground", "period", "symmetric", "impacts", "transient", "cycles"):
+        assert getattr(found, name) == getattr(alone, name), name
+
+
 @pytest.mark.parametrize("case", BETWEEN, ids=lambda case: f"A={case[0]:.3g}, e={case[3]}, r={case[5]}")
 def test_what_differences_forget_is_told_alike_between_braces(case):
     """Also when, after how many events of which kind, and how fast differences shrink."""

@@ -118,22 +118,28 @@ def _near_contacts(chain: Chain, links: np.ndarray) -> list[Touch]:
     for arc, side in enumerate(sides_of(chain)):
         times = np.linspace(0.0, links["time"][arc], SAMPLES)
         height = _heights(chain, arc, side, links["leaves"][arc], times)
-        rise = np.diff(height)
-        low, high = (
-            np.flatnonzero((sign * rise[:-1] < 0.0) & (sign * rise[1:] >= 0.0)) + 1 for sign in (1, -1)
-        )
-        gaps = [(np.abs(height), IMPACT, low)]
-        if chain.system.braces is not None:
-            gaps.append((np.abs(chain.system.braces.angle - height), BRACE, high))
-        for gap, level, turns in gaps:
-            if len(turns):
-                nearest = turns[gap[turns].argmin()]
-                found.append((gap[nearest], level, arc, times[nearest]))
+        for level in (IMPACT,) if chain.system.braces is None else (IMPACT, BRACE):
+            nearest, gap = _nearest_turn(chain, height, level)
+            if nearest is not None:
+                found.append((gap, level, arc, times[nearest]))
     return [
         Touch(chain, Condition(Special.GRAZING, arc, int(level), float(time)))
         for apart, level, arc, time in sorted(found)
         if apart <= CLOSE
     ]
+
+
+def _nearest_turn(chain: Chain, height: np.ndarray, level: int) -> tuple[int | None, float]:
+    """Return the turning point of sampled heights that is nearest to the base or to a brace, and its distance; None if none is."""
+    braces = chain.system.braces
+    # above the base or, downwards, beneath the brace
+    above = height if level == IMPACT or braces is None else braces.angle - height
+    rise = np.diff(above)
+    turns = np.flatnonzero((rise[:-1] < 0.0) & (rise[1:] >= 0.0)) + 1
+    if not len(turns):
+        return None, math.inf
+    nearest = int(turns[np.abs(above[turns]).argmin()])
+    return nearest, float(abs(above[nearest]))
 
 
 def _heights(chain: Chain, arc: int, side: int, speed: float, times: np.ndarray) -> np.ndarray:
@@ -148,16 +154,17 @@ def _heights(chain: Chain, arc: int, side: int, speed: float, times: np.ndarray)
 
 
 def turning_time(chain: Chain, parameter: str, row: np.ndarray, condition: Condition) -> float:
-    """Return the time of the turning point at which an arc touches, from the start of the arc: that nearest to a known time."""
+    """Return the time from the start of an arc to its turning point that is nearest to the level of the contact.
+
+    If there is no turning point, return the known time of the condition.
+    """
     at_value = np.append(chain.phases, row[-1])
     links, sides = equations(chain, parameter, at_value)[1], sides_of(chain)
     arc = condition.arc
     times = np.linspace(0.0, links["time"][arc], SAMPLES)
-    rise = np.diff(_heights(chain, arc, sides[arc], links["leaves"][arc], times))
-    turns = np.flatnonzero(rise[:-1] * rise[1:] < 0.0) + 1
-    if not len(turns):
-        return float(condition.time)
-    return float(times[turns[np.abs(times[turns] - condition.time).argmin()]])
+    height = _heights(chain, arc, sides[arc], links["leaves"][arc], times)
+    nearest, _ = _nearest_turn(chain, height, condition.level)
+    return float(condition.time if nearest is None else times[nearest])
 
 
 def _solved(touch: Touch, parameter: str) -> tuple[Touch, np.ndarray] | None:

@@ -52,6 +52,8 @@ def _check(parameter: Parameter) -> study_file.Check | None:
         return partial(_numbers, name)
     if option.parser is number:
         return partial(study_file.number, name)
+    if name == "model":
+        return study_file.model
     if option.parser is not None:
         return partial(_parsed, option.parser, name)
     if Path in kinds:

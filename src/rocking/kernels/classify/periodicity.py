@@ -121,10 +121,11 @@ def approached_candidate(p, clocked, run, section, most_lag):
 
 
 @njit(**INTERNAL)
-def closest_candidate(section, count, most_lag, most_work, mode):
+def closest_candidate(p, run, section, most_lag, most_work, mode):
     """Return the closest return of the last state, if it is close enough; far from an orbit it needs much work."""
-    row = count - 1
-    lag, away = closest_return(section, count, most_lag)
+    row = run.count - 1
+    evaluate_lazy_rows(p, section, row - RETURNS * most_lag, run.count, run.section_time)
+    lag, away = closest_return(section, run.count, most_lag)
     guess = Guess(section[row, 0], section[row, 1], UNKNOWN)
     return Candidate(lag if away <= CLOSE else 0, row, guess, most_work, mode)
 
@@ -135,7 +136,7 @@ def propose(p, clocked, run, section, most_lag, most_work, candidate, trying):
     if trying == APPROACHED:
         return approached_candidate(p, clocked, run, section, most_lag)
     if trying == CLOSEST:
-        return closest_candidate(section, run.count, most_lag, most_work, candidate.mode)
+        return closest_candidate(p, run, section, most_lag, most_work, candidate.mode)
     return candidate
 
 

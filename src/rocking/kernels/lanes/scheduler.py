@@ -74,7 +74,11 @@ class BatchRequest(NamedTuple):
 
 @njit(**INTERNAL)
 def lane_eligible(p, case):
-    """Return whether a motion may be marched in lanes: undamped without braces, or damped and never at rest so far."""
+    """Return whether a motion may be marched in lanes.
+
+    It is undamped without braces, or lies between braces, or is damped and in its first MOST_LOSSY_CYCLES. A damped motion
+    has not rested yet.
+    """
     run, tracker = case.run, case.run.tracker
     progress, arc = tracker.progress, tracker.progress.arc
     if progress.mode != FLIGHT or not (p.forcing.amplitude > 1.0 and p.forcing.period >= MIN_LANE_PERIOD):
