@@ -93,7 +93,7 @@ def test_axis_is_a_table_and_modes_are_a_list(rocking):
             [
                 "amplitude must be a number or START:STOP with START ≠ STOP; got '1:2:3' (example: 1:3)",
                 "phase must be a number; got [1]",
-                "model must be a str; got 2",
+                "model must be one of 'slender', 'full'; got 2",
                 "unknown 'json' (",
                 "unknown 'study' (",
             ],
