@@ -103,12 +103,13 @@ def make_lane_workspace(max_cycles, max_period):
     """
     one, room = make_workspace(max_cycles, max_period), np.zeros(LANE_STATE.itemsize + 64, np.uint8)
     first = -room.ctypes.data % 64
+    # Empty: a lane reads only what it has written, and zeros would be written to 30 MB for each tile of a map.
     section, flights, batches, columns, growth = (
-        np.zeros((LANES, *part.shape)) for part in (one.section, one.flights, one.batches, *one.tangent)
+        np.empty((LANES, *part.shape)) for part in (one.section, one.flights, one.batches, *one.tangent)
     )
     return LaneWorkspace(
         room[first : first + LANE_STATE.itemsize].view(LANE_STATE),
-        np.zeros((LANES, LOG_ROWS), EVENT_ROW),
+        np.empty((LANES, LOG_ROWS), EVENT_ROW),
         section,
         one.scratch,
         one.events,
