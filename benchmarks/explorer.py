@@ -67,7 +67,7 @@ def _figures(browser, address):
     asked(0.93)
     last, first = zip(*map(asked, RESTITUTIONS), strict=True)
     yield Figure("a new map, to its first picture", median(first) / 1e3, "s", 0.3)
-    yield Figure("  to 513 × 513 points, e < 1", median(last) / 1e3, "s", 1.0)
+    yield Figure("  to 513 × 513 points, e < 1", median(last) / 1e3, "s", 0.5)
     last, first = asked(1.0)
     yield Figure("  e = 1, to its first picture", first / 1e3, "s", 0.3)
     yield Figure("  e = 1, to 513 × 513 points", last / 1e3, "s", 6.0)

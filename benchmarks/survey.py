@@ -92,7 +92,7 @@ def maps():
     rk.parametric_map(**asked(20))
     (walls, works), (_, quarters) = in_turn(lambda: asked(POINTS), lambda: asked(POINTS // 2))
     note = f"the quickest of {TURNS}; {min(works):.3g} s of processors"
-    yield Figure("10⁶ points, e = .925, ≤ 10,000 cycles", min(walls), "s", 3, note=note)
+    yield Figure("10⁶ points, e = .925, ≤ 10,000 cycles", min(walls), "s", 1, note=note)
     _, _, found = taken(**asked(POINTS))
     unresolved = found.evidence.values == Criterion.UNRESOLVED_RESET
     undetermined = (found.kind.values == rk.Kind.UNDETERMINED.code) & ~unresolved
@@ -111,12 +111,12 @@ def maps():
     )
     rk.parametric_map(**asked(20, 1.0), max_cycles=200)
     wall, work, found = taken(**asked(POINTS, 1.0))
-    yield Figure("10⁶ points, e = 1, ≤ 10,000 cycles", wall, "s", 20, note=f"{work:.3g} s of processors")
+    yield Figure("10⁶ points, e = 1, ≤ 10,000 cycles", wall, "s", 8, note=f"{work:.3g} s of processors")
     open_share = 100.0 * np.isin(found.kind.values, (rk.Kind.CHAOTIC.code, rk.Kind.UNDETERMINED.code)).mean()
     yield Figure("  still chaotic or undetermined", open_share, "%", 3.5)
     braced = asked(POINTS) | {"brace_angle": 1.0, "max_cycles": 1000}
     wall, work, _ = taken(**braced)
-    yield Figure("10⁶ points with braces, ≤ 1,000 cycles", wall, "s", 60, note=f"{work:.3g} s of processors")
+    yield Figure("10⁶ points with braces, ≤ 1,000 cycles", wall, "s", 15, note=f"{work:.3g} s of processors")
 
 
 def engines():

@@ -195,10 +195,10 @@ def test_damped_motions_from_any_start_end_in_lanes_as_they_do_alone(restitution
         answers, go_on = empty_results(count), np.zeros(1, np.int64)
         kind, memory = parameters_of_row(changed[0]), make_workspace(cycles, 64)
         batch.classify_batch_scalar(kind, changed, starts, cycles, 64, memory, answers, go_on)
-        return np.stack([answers.kind, answers.period, answers.symmetric, answers.impacts])
+        return np.stack([answers.kind, answers.period, answers.symmetric, answers.impacts, answers.transient])
 
     alone, found = told(systems), together(systems, starts, cycles)
-    other = np.stack([found.kind, found.period, found.symmetric, found.impacts])
+    other = np.stack([found.kind, found.period, found.symmetric, found.impacts, found.transient])
     differs = np.any(other != alone, axis=0)
     for _ in range(64):
         if not differs.any():
