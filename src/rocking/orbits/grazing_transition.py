@@ -47,9 +47,11 @@ FITTED = 4
 SHRINKS = 0.2
 """Order above which an attractor shrinks onto the grazing orbit; 1/2 and 1 are expected, and 0 of a distant attractor."""
 SIGMAS = 2.0
+"""Number of standard errors of the order by which it must differ from `SHRINKS`."""
 NEARBY = 0.05
 """Relative range of the parameter in which the other branch is searched for."""
 MAX_PERIOD = 64
+"""Longest period of an attractor, in cycles."""
 TRANSIENT, KEPT = 20_000, 4_000
 """Cycles before and with the points of an attractor that is no orbit."""
 

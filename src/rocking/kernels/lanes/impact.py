@@ -62,8 +62,8 @@ def request_before_impact(s, i):
 def may_settle(s, i, returned):
     """Return whether the impact in lane i may begin chattering that ends in rest.
 
-    This is necessary in ``settling.settling_by_change``: the base acceleration changes by less than 1 less its size
-    within the window there.
+    ``settling.settling_by_change`` requires this: within its time window the base acceleration changes by less than the
+    difference of its size from 1.
     """
     press = 1.0 - s.amplitude[i] * abs(s.next_cosine[i])
     moved = 5.0 * returned * s.amplitude_rate[i] * abs(s.next_sine[i])

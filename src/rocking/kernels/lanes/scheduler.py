@@ -76,8 +76,7 @@ class BatchRequest(NamedTuple):
 def lane_eligible(p, case):
     """Return whether a motion may be marched in lanes.
 
-    It is undamped without braces, or lies between braces, or is damped and in its first MOST_LOSSY_CYCLES. A damped motion
-    has not rested yet.
+    Without braces it is undamped, or in its first MOST_LOSSY_CYCLES. A motion with losses has not rested before.
     """
     run, tracker = case.run, case.run.tracker
     progress, arc = tracker.progress, tracker.progress.arc

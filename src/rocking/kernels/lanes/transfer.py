@@ -37,7 +37,7 @@ def load_block(s, i, p, progress, columns):
     s.counted[i] = events
     s.brace_hits[i] = progress.brace_hits
     s.peak[i] = progress.peak
-    # A block that starts inside its range or slowly has no event of the lanes before.
+    # The first event of a block that starts away from the base, or slowly, is found by the functions for one block.
     known = p.block.brace_angle < math.inf or (arc.angle == 0.0 and arc.velocity >= SLOWEST)
     s.stage[i] = NEW_ARC if known else FAILED
     s.exceeds[i] = 1.0

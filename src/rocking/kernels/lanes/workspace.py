@@ -103,7 +103,7 @@ def make_lane_workspace(max_cycles, max_period):
     """
     one, room = make_workspace(max_cycles, max_period), np.zeros(LANE_STATE.itemsize + 64, np.uint8)
     first = -room.ctypes.data % 64
-    # Empty: a lane reads only what it has written, and zeros would be written to 30 MB for each tile of a map.
+    # Not cleared, because a lane reads only what it has written: clearing 30 MB for each tile of a map takes long.
     section, flights, batches, columns, growth = (
         np.empty((LANES, *part.shape)) for part in (one.section, one.flights, one.batches, *one.tangent)
     )
