@@ -11,6 +11,8 @@ from rocking.papers.yim_lin_1991.cases import BRACED
 
 CHAPTER = Chapter("Braced system")
 HITS_PER_CYCLE = 1.0
+SHIFT = 1e-13
+"""Relative change of the amplitude that reveals where rounding selects the attractor."""
 
 
 @CHAPTER.claim("Braced system")
@@ -18,18 +20,21 @@ def unfelt() -> Finding:
     """The braces do not affect responses below the brace angle."""
     axes = cached_surveys.axes(30)
     free = rk.parametric_map(**axes, restitution=0.925)
+    shifted = rk.parametric_map(
+        amplitude=axes["amplitude"] * (1.0 + SHIFT), period=axes["period"], restitution=0.925
+    )
     braced = rk.parametric_map(**axes, restitution=0.925, brace_angle=1.0, max_cycles=1_000)
     below = (free.peak.values < 1.0) & (free.kind.values != rk.Kind.OVERTURNED.code)
-    alike = all(
-        np.array_equal(free[name].values[below], braced[name].values[below])
-        for name in ("kind", "response_period", "symmetric")
-    )
-    # long transients diverge by rounding, which differs between the two methods of event location
-    close = np.isclose(free.peak.values[below], braced.peak.values[below], rtol=1e-6, atol=0.0)
+    # after a long chaotic transient rounding selects the attractor, and the two maps locate events in different ways
+    compared = below & np.isclose(free.peak.values, shifted.peak.values, rtol=1e-6, atol=0.0)
+    same = np.isclose(free.peak.values, braced.peak.values, rtol=1e-6, atol=0.0)
+    for name in ("kind", "response_period", "symmetric"):
+        same &= free[name].values == braced[name].values
     return Finding(
-        alike and bool(close.mean() > 0.99),
-        f"type, period and symmetry are equal at all {int(below.sum())} points of a map with |Θ| < 1; the largest |Θ| is equal to "
-        f"10⁻⁶ at {int(close.sum())} of them",
+        bool(same[compared].all() and compared.sum() > 0.99 * below.sum()),
+        f"type, period, symmetry and the largest |Θ| (to 10⁻⁶) are equal at {int(same[compared].sum())} of "
+        f"{int(compared.sum())} points of a map with |Θ| < 1; at {int((below & ~compared).sum())} more a change of A by "
+        f"10⁻¹³ changes the largest |Θ|",
     )
 
 
