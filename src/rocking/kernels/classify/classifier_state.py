@@ -11,7 +11,7 @@ from rocking.kernels.deferred import njit
 from rocking.kernels.march.initial_state import UNKNOWN, begin
 from rocking.kernels.numerics.replace_fields import replacing
 
-FIRST_CHECKPOINT = 14
+FIRST_CHECKPOINT = 17
 # Phase of the first section, in cycles: by chance alone an event lies there.
 FIRST_SECTION = 0.3819660112501051
 

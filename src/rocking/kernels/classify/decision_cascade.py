@@ -66,7 +66,11 @@ from rocking.kernels.deferred import njit
 from rocking.kernels.march.march import DONE
 from rocking.kernels.numerics.elementary import size
 
-CHECKPOINTS_GROW = 1.25
+# Maximum number of cycles to a predicted checkpoint, as a multiple of the cycles so far.
+MAX_AHEAD = 4
+# A checkpoint that is not predicted follows after this fraction of the cycles so far, but not after fewer than
+# MIN_AHEAD: in lanes a checkpoint costs as much as 20 cycles.
+CHECKPOINTS_GROW, MIN_AHEAD = 0.25, 10
 NEXT_SECTION = 0.6180339887498949
 # Newton's method may compute half as many events as the march, and this number in any case.
 FREE_WORK = 10
@@ -106,7 +110,9 @@ def next_checkpoint(cycle, coming):
 
     If an orbit was found, the cycle is predicted. Otherwise the intervals grow.
     """
-    return cycle + min(coming, cycle // 2) if coming > 0 else int(cycle * CHECKPOINTS_GROW)
+    if coming > 0:
+        return cycle + min(coming, MAX_AHEAD * cycle)
+    return cycle + max(int(CHECKPOINTS_GROW * cycle), MIN_AHEAD)
 
 
 @njit(**INTERNAL_INLINE)

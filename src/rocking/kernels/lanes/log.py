@@ -17,11 +17,14 @@ AHEAD = 8
 
 @njit(**SIMD_INLINE)
 def mark_pending(s, i, most):
-    """Compute the log slot of a lane (-1: none), the squared impact speed, and whether ``log_arc`` is due."""
+    """Compute the log slot of a lane (-1: none), the squared impact speed, and whether ``log_arc`` is due.
+
+    It is due in the first pass of an arc, in the stage BRACKET.
+    """
     slot, rounds = s.events[i] - s.uncollected[i] - 1.0, s.events[i] * (1.0 / (RESYNCHRONISE + 1))
     kept = (s.events[i] > s.counted[i]) & (slot >= 0.0) & (slot < most)
     # at regular numbers of events as in ``log_arc``, exactly: RESYNCHRONISE + 1 is a power of two
-    due = (s.log_on[i] > 0.0) | ((np.floor(rounds) == rounds) & (s.stage[i] == BRACKET))
+    due = ((s.log_on[i] > 0.0) | (np.floor(rounds) == rounds)) & (s.stage[i] == BRACKET)
     s.slot[i] = choose(kept, slot, -1.0)
     s.square[i] = s.velocity[i] * s.velocity[i]
     s.due[i] = choose(due, 1.0, 0.0)
@@ -43,7 +46,7 @@ def log_arc(s, i, log):
         row.side = side
         row.angle = angle
         row.velocity = s.velocity[i]
-    if events & RESYNCHRONISE == 0 and s.stage[i] == BRACKET:
+    if events & RESYNCHRONISE == 0:
         s.cosine[i], s.sine[i], _, _, _ = clock(s.frequency[i], s.phase[i], side, start)
 
 

@@ -15,13 +15,14 @@ from rocking.kernels.classify.leg import march_leg
 from rocking.kernels.classify.quasi_periodicity import section_needed
 from rocking.kernels.classify.reset import begin_tangent
 from rocking.kernels.classify.results import ResultArrays, store_result
-from rocking.kernels.classify.verdict_record import OPEN, undecided
+from rocking.kernels.classify.verdict_record import OPEN
 from rocking.kernels.classify.workspace import LEG
 from rocking.kernels.compile_options import INTERNAL, INTERNAL_INLINE, KERNEL
 from rocking.kernels.deferred import njit
 from rocking.kernels.entry_point import entry_point
 from rocking.kernels.event_kinds import FLIGHT, IMPACT
 from rocking.kernels.forcing.harmonic.parameters import HarmonicParameters, parameters_from_row
+from rocking.kernels.forcing.harmonic.solution import exponentials
 from rocking.kernels.lanes.log import log_arcs
 from rocking.kernels.lanes.scalar_fallback import request_of_leg, resolve_alone, update_peak
 from rocking.kernels.lanes.state import (
@@ -77,6 +78,7 @@ def lane_eligible(p, case):
     """Return whether a motion may be marched in lanes.
 
     Without braces it is undamped, or in its first MOST_LOSSY_CYCLES. A motion with losses has not rested before.
+    If c+ > 0 it probably overturns on this arc.
     """
     run, tracker = case.run, case.run.tracker
     progress, arc = tracker.progress, tracker.progress.arc
@@ -85,8 +87,8 @@ def lane_eligible(p, case):
     braced = p.block.brace_angle < math.inf
     if run.lossless:
         return not braced and run.flights.event == IMPACT and arc.velocity >= SLOWEST
-    early = braced or progress.cycle < MOST_LOSSY_CYCLES
-    return early and not (tracker.base.seen or tracker.brace.seen)
+    early = progress.cycle < MOST_LOSSY_CYCLES and not exponentials(p, arc)[0] > 0.0
+    return (braced or early) and not (tracker.base.seen or tracker.brace.seen)
 
 
 @njit(**INTERNAL_INLINE)
@@ -153,7 +155,7 @@ def service_lane(s, i, request, work, queue, batch, workspace):
         Next point of the queue.
     """
     own, max_cycles = lane_workspace(workspace, i), batch.max_cycles
-    verdict, settled, ended = undecided(work.case.run.tracker), request == LOAD_NEXT, request == END_LEG
+    settled, ended = request == LOAD_NEXT, request == END_LEG
     marched = ended and s.target[i] == next_look(work.case, max_cycles)
     stays, due = request < LOAD_NEXT or ended, marched or request == TO_SCALAR
     if not settled:
@@ -161,8 +163,6 @@ def service_lane(s, i, request, work, queue, batch, workspace):
         work = LaneWork(work.point, work.p, with_run(work.case, run))
     while due or settled or not lane_eligible(work.p, work.case):
         if settled:
-            if work.point >= 0:
-                store_result(batch.results, work.point, verdict)
             if queue == batch.systems.shape[0]:
                 s.stage[i] = IDLE
                 return LaneWork(-1, work.p, work.case), queue
@@ -177,6 +177,8 @@ def service_lane(s, i, request, work, queue, batch, workspace):
             status, run = march_leg(p, run, max_cycles, next_look(case, max_cycles), own)
         verdict, case = evaluate_checkpoint(p, case, status, run, max_cycles, batch.max_period, own)
         work, due, marched, settled = LaneWork(point, p, case), False, False, verdict[0] != OPEN
+        if settled:
+            store_result(batch.results, point, verdict)
     start_leg(s, i, work, stays, max_cycles, own)
     return work, queue
 
@@ -232,22 +234,25 @@ def classify_batch_lanes(
     batch = BatchRequest(systems, starts, max_cycles, max_period, results)
     s, p, queue, busy = workspace.state[0], parameters_from_row(systems[0]), np.int64(0), LANES
     braced = p.block.brace_angle < math.inf
-    idle, works = LaneWork(-1, p, opened(p, 0.0, 0.0, max_cycles)), workspace.works.ctypes.data
+    idle = LaneWork(-1, p, opened(p, 0.0, 0.0, max_cycles))
+    works, parameters = workspace.works.ctypes.data, workspace.parameters.ctypes.data
     for i in range(LANES):
         store_work(works, i, idle)
+        store_work(parameters, i, p)
         s.stage[i] = IDLE
         s.request[i] = LOAD_NEXT
     while stop[0] == 0:
         for i in range(LANES):
             if s.request[i] == NO_REQUEST:
                 continue
-            work = load_work(works, i, idle)
-            request = resolve_alone(s, i, work.p)
+            request = resolve_alone(s, i, load_work(parameters, i, p))
             if request > UPDATE_PEAK:
+                work = load_work(works, i, idle)
                 work, queue = service_until_ready(s, i, request, work, queue, batch, workspace)
                 store_work(works, i, work)
+                store_work(parameters, i, work.p)
                 busy -= work.point < 0
-            update_peak(s, i, work.p)
+            update_peak(s, i, load_work(parameters, i, p))
         if busy == 0:
             break
         run_lanes(s, workspace.flights, workspace.log, braced, stop)

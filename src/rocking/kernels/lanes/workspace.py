@@ -31,8 +31,9 @@ def prefetch_for_write(typingctx, address):
     return types.void(types.intp), generate
 
 
-# Room for the work item of a lane: its system and its classification.
-WORK_BYTES = 2048
+# Room for the work item of a lane: its system and its classification. An odd number of cache lines, for the reason in
+# ``classify.workspace.padded_row_length``.
+WORK_BYTES = 960
 
 LaneStates = Annotated[np.ndarray, LANE_STATE, 1]
 LaneLogs = Annotated[np.ndarray, EVENT_ROW, 2]
@@ -40,7 +41,7 @@ LaneLogs = Annotated[np.ndarray, EVENT_ROW, 2]
 
 @intrinsic
 def store_work(typingctx, address, lane, work):
-    """Store the work item of a lane in memory at an address: a list of them would be an allocation in compiled code."""
+    """Store a work item, or part of it, for a lane at an address: a list of them would be an allocation in compiled code."""
     from numba import types
 
     def generate(context, builder, signature, arguments):
@@ -53,7 +54,7 @@ def store_work(typingctx, address, lane, work):
 
 @intrinsic
 def load_work(typingctx, address, lane, like):
-    """Return the work item of a lane that ``store_work`` stored, of the type of ``like``."""
+    """Return what ``store_work`` stored for a lane, of the type of ``like``."""
     from numba import types
 
     def generate(context, builder, signature, arguments):
@@ -93,6 +94,9 @@ class LaneWorkspace(NamedTuple):
     tangent: LaneTangents
     trial: Floats2
     works: Bytes1  # (lanes WORK_BYTES,), by ``store_work``
+    parameters: (
+        Bytes1  # as ``works``: those of the systems once more, because most requests need nothing else
+    )
     nothing: NoRecording
 
 
@@ -118,6 +122,7 @@ def make_lane_workspace(max_cycles, max_period):
         batches,
         LaneTangents(columns, growth),
         one.trial,
+        np.zeros(LANES * WORK_BYTES, np.uint8),
         np.zeros(LANES * WORK_BYTES, np.uint8),
         one.nothing,
     )
