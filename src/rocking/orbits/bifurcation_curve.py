@@ -25,6 +25,7 @@ from rocking.model import (
 from rocking.orbits.branch import SpecialPoint, chain_at
 from rocking.orbits.branch_result import ENDS
 from rocking.orbits.codimension_two import CodimensionTwoPoint, coefficients_of, points_of
+from rocking.orbits.curve_ends import until_parent
 from rocking.orbits.curve_rows import CurveRows
 from rocking.orbits.datasets import of_curve
 from rocking.orbits.event_chain import IMPACT, NAMES, Chain, Condition, End, Special, problem_of
@@ -156,9 +157,13 @@ def bifurcation_curve(
 
     Notes
     -----
-    Every point is checked by simulation. The curve ends where it meets another grazing. `special` names this end and all points
-    of codimension two between neighbouring points of the curve where a test function changes its sign. Limit: two such points
-    within one step are not detected.
+    Every point is checked by simulation. The curve ends where it meets another grazing. A curve of folds also ends where its
+    orbits merge with those from which they bifurcate. Beyond this point, the equations have the same orbits again, one half
+    of a period later, or their mirror images.
+
+    `special` names these ends, and all points of codimension two between neighbouring points of the curve where a test function
+    changes its sign. A step is divided if the slopes of the test function allow two such points within it. Limits: two points
+    closer than 1/4096 of a step may be missed. So may two points where the test function varies faster than the steps resolve.
 
     The determinant of the return map is the product of the squared coefficients of restitution of all impacts in a period. It
     has the following consequences:
@@ -200,23 +205,19 @@ def bifurcation_curve(
     if start == End.CLOSED:
         back, on, end = back[::-1], back[:1], start
     impacts, _ = chain.counts()
-    rows = np.concatenate([back[::-1], on[1:]])
+    points = np.concatenate([back[::-1], on[1:]])
+    spans = (limits[0], limits[1])
+    rows = until_parent(
+        CurveRows(chain, condition, (first, second), spans, step, points, (start, end)), len(back) - 1
+    )
     return BifurcationCurve(
         kind=special.kind,
         names=(first, second),
-        points=rows[:, -2:].copy(),
-        ends=(ENDS[start], ENDS[end]),
+        points=rows.rows[:, -2:].copy(),
+        ends=(ENDS[rows.ends[0]], ENDS[rows.ends[1]]),
         period=chain.period,
         impacts=impacts,
-        rows=CurveRows(
-            chain,
-            condition,
-            (first, second),
-            (limits[0], limits[1]),
-            step,
-            rows,
-            (start, end),
-        ),
+        rows=rows,
     )
 
 

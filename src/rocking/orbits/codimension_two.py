@@ -6,30 +6,18 @@ the cubic coefficient (Kuznetsov 2004, Elements of Applied Bifurcation Theory, c
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import NamedTuple
-
 import numpy as np
-from attrs import evolve, field, frozen
+from attrs import field, frozen
 
 from rocking.kernels.orbits import arclength
 from rocking.model import Orbit, plus_minus
 from rocking.orbits import normal_form
+from rocking.orbits.curve_ends import degenerate_end, grazed_end
 from rocking.orbits.curve_rows import CurveRows
+from rocking.orbits.curve_zeros import Test, along, brackets, located
 from rocking.orbits.event_chain import End, Special, equations, orbit_of
 from rocking.orbits.normal_form import Reduced
-from rocking.orbits.parent_branch import apart_of, parent_of
 
-TOLERANCE = 1e-13
-"""Width of a bracket of a zero, in units of the distance of two points of the curve, at which the search ends."""
-BLOCK = 2_000_000
-"""Largest number of entries of the matrices of a block of points."""
-SMALL = 1e-6
-"""Largest value of a test function at a zero, relative to those at the points around it: a pole is no zero."""
-ALMOST_EQUAL = 0.1
-"""Largest distance of the halves of a chain, in rad, at the last point of a curve before a point at which they are equal."""
-UNSURE = 0.05
-"""Part of the extrapolated distance to such a point that its error contains; 0.03 was the largest one of 45 cases."""
 ROUNDED = 1e-11
 """Relative error below which a value is printed with ten digits, without the error."""
 
@@ -54,8 +42,8 @@ class CodimensionTwoPoint:
     values, errors : tuple of two float
         Values of the parameters, and their errors.
     orbit : Orbit
-        Orbit at this point, without grazing impacts. At a degenerate point on a curve of folds it is the nearest orbit of
-        the curve.
+        Orbit at this point, without grazing impacts. At the end of a curve of folds at a degenerate point it is the orbit from
+        which those of the curve bifurcate.
     index : int
         The point lies between the points `index - 1` and `index` of its curve, or is the first or last one.
 
@@ -86,20 +74,12 @@ class CodimensionTwoPoint:
         return f"{self.kind} at {place}: {self.orbit}"
 
 
-class Test(NamedTuple):
-    """Test function of a point of codimension two."""
-
-    kind: str
-    # values at rows of the curve, with directions on which their signs depend
-    values: Callable[[CurveRows, np.ndarray], Reduced]
-
-
 def coefficients_of(rows: CurveRows) -> np.ndarray:
     """Return the coefficient of the normal form at each point of a curve, NaN on a curve of grazings."""
     if rows.condition.kind == Special.GRAZING:
         return np.full(len(rows.rows), np.nan)
     (test,) = _tests(rows)
-    values, _ = _along(rows, test)
+    values, _ = along(rows, test)
     parameters = rows.chains(rows.rows).parameters
     impacts, hits = rows.chain._replace(mirrored=False).counts()
     kept = parameters["restitution"] ** (2 * impacts) * parameters["brace_restitution"] ** (2 * hits)
@@ -111,62 +91,33 @@ def coefficients_of(rows: CurveRows) -> np.ndarray:
 
 def points_of(rows: CurveRows) -> tuple[CodimensionTwoPoint, ...]:
     """Return the points of codimension two of a curve, in order along it."""
-    found: list[CodimensionTwoPoint | None] = []
+    found = []
     for test in _tests(rows):
-        values, directions = _along(rows, test)
-        for i in np.flatnonzero(values[:-1] * values[1:] < 0.0).tolist():
-            if test.kind == "cusp" and _passes_parent(rows, i):
-                point = _degenerate(rows, (rows.rows[i::-1], rows.rows[i + 1 :]), i + 1)
-            else:
-                point = _located(rows, test, i, (values[i], values[i + 1]), directions[i])
-            found.append(point)
+        for part in brackets(rows, test):
+            point = located(rows, test, part)
+            if point is not None:
+                found.append(_point(rows, test.kind, *point, part.place + 1))
     for end, inwards in zip(rows.ends, (rows.rows, rows.rows[::-1]), strict=True):
         place = 0 if inwards is rows.rows else len(rows.rows) - 1
         if end == End.GRAZED:
-            found.append(_grazed_end(rows, inwards[0], place))
-        elif end == End.LOST and _name(rows) == "fold":
-            found.append(_degenerate(rows, (inwards,), place))
-    return tuple(sorted((one for one in found if one is not None), key=lambda one: one.index))
+            found.append(_grazed_end(rows, inwards, place))
+        elif end == End.MERGED:
+            merger = degenerate_end(rows, inwards)
+            if merger is not None:
+                kind = f"degenerate-{_name(merger.rows)}"
+                found.append(_point(merger.rows, kind, merger.row, merger.errors, place))
+    return tuple(sorted(found, key=lambda one: one.index))
 
 
-def _grazed_end(rows: CurveRows, row: np.ndarray, place: int) -> CodimensionTwoPoint:
-    """Return the end of a curve at a grazing, to the last step."""
-    kind = _name(rows)
+def _grazed_end(rows: CurveRows, inwards: np.ndarray, place: int) -> CodimensionTwoPoint:
+    """Return the end of a curve at a grazing; to the last step, if the contact is not found."""
+    kind = "double-grazing" if _name(rows) == "grazing" else f"{_name(rows)}-grazing"
+    end = grazed_end(rows, inwards)
+    if end is not None:
+        return _point(rows, kind, end.row, end.errors, place)
     reach = arclength.GRAZING_STEP * rows.step
-    errors = tuple(reach * (high - low) for low, high in rows.limits)
-    return _point(rows, "double-grazing" if kind == "grazing" else f"{kind}-grazing", row, errors, place)
-
-
-def _passes_parent(rows: CurveRows, i: int) -> bool:
-    """Return whether both halves of the chain change places between two neighbouring points of the curve."""
-    if parent_of(rows.chain) is None:
-        return False
-    before, after = apart_of(rows.chain, rows.rows[i : i + 2, :-1])
-    return bool(before @ after < 0.0)
-
-
-def _degenerate(rows: CurveRows, sides: tuple[np.ndarray, ...], index: int) -> CodimensionTwoPoint | None:
-    """Return the point of a curve of folds at a degenerate bifurcation of the orbits from which its orbits bifurcate, or None.
-
-    Both halves of the chain are equal there, and the equations of the curve are singular. The parameters are extrapolated, linearly
-    in the squared distance of the halves, from pairs of points on each side.
-    """
-    if parent_of(rows.chain) is None:
-        return None
-    found = []
-    for side in sides:
-        squares = (apart_of(rows.chain, side[:, :-1]) ** 2).sum(axis=1)
-        places = [int(np.argmax(squares > times * squares[0])) for times in (2.0, 4.0)]
-        if 0 in places or squares[0] > ALMOST_EQUAL**2:
-            return None
-        found += [
-            side[0] - squares[0] / (squares[far] - squares[0]) * (side[far] - side[0]) for far in places
-        ]
-    # near the singular point the rows are less accurate
-    error = 2.0 * np.abs(found - found[0]).max(axis=0) + UNSURE * np.abs(found[0] - sides[0][0])
-    kind = f"degenerate-{'symmetry-breaking' if rows.chain.period % 2 else 'period-doubling'}"
-    values = float(found[0][-2]), float(found[0][-1])
-    return evolve(_point(rows, kind, sides[0][0], tuple(error[-2:].tolist()), index), values=values)
+    first, second = (reach * (high - low) for low, high in rows.limits)
+    return _point(rows, kind, inwards[0], (first, second), place)
 
 
 def _name(rows: CurveRows) -> str:
@@ -202,65 +153,8 @@ def _multiplier(rows: CurveRows, at: np.ndarray, sign: float) -> Reduced:
     return Reduced(np.array(values), np.ones((len(at), 1)))
 
 
-def _along(rows: CurveRows, test: Test) -> tuple[np.ndarray, np.ndarray]:
-    """Return a test function at all points of the curve, of one sense of its direction, and these directions."""
-    # blocks of rows, which bound the memory for the matrices
-    block = max(1, BLOCK // (4 * len(rows.chain.kinds) ** 2))
-    parts = [test.values(rows, rows.rows[i : i + block]) for i in range(0, len(rows.rows), block)]
-    values, directions = (np.concatenate(part) for part in zip(*parts, strict=True))
-    if test.kind == "cusp":
-        turned = (directions[:-1] * directions[1:]).sum(axis=1) < 0.0
-        signs = np.cumprod(np.append(1.0, np.where(turned, -1.0, 1.0)))
-        values, directions = signs * values, signs[:, None] * directions
-    return values, directions
-
-
-class _LostError(Exception):
-    """No point of the curve was found."""
-
-
-def _located(
-    rows: CurveRows, test: Test, i: int, ends: tuple[float, float], direction: np.ndarray
-) -> CodimensionTwoPoint | None:
-    """Return the point between two neighbouring points of the curve at which a test function vanishes, or None.
-
-    Its error is the difference from the same search in the chain that begins at the next event, which rounds differently.
-    """
-    row = _zero(rows, test, i, direction, max(map(abs, ends)))
-    later = rows.rotated()
-    other = _zero(later, test, i, np.roll(direction, -1), max(map(abs, ends)))
-    if row is None or other is None:
-        return None
-    ulps = 8.0 * np.finfo(float).eps * np.abs(row[-2:])
-    errors = tuple((2.0 * np.abs(row[-2:] - other[-2:]) + ulps).tolist())
-    return _point(rows, test.kind, row, errors, i + 1)
-
-
-def _zero(rows: CurveRows, test: Test, i: int, direction: np.ndarray, size: float) -> np.ndarray | None:
-    """Return the point after the point i of a curve at which a test function vanishes, or None."""
-    from scipy.optimize import brentq
-
-    start, chord = rows.rows[i], rows.rows[i + 1] - rows.rows[i]
-
-    def at(share: float) -> np.ndarray:
-        row = rows.corrected(start + share * chord, chord / np.linalg.norm(chord))
-        if row is None:
-            raise _LostError
-        return row
-
-    def value(share: float) -> float:
-        (found,), (along,) = test.values(rows, at(share)[None])
-        return float(-found if test.kind == "cusp" and along @ direction < 0.0 else found)
-
-    try:
-        share = float(brentq(value, 0.0, 1.0, xtol=TOLERANCE, rtol=TOLERANCE))
-        return at(share) if abs(value(share)) <= SMALL * size else None
-    except (_LostError, ValueError):
-        return None
-
-
 def _point(
-    rows: CurveRows, kind: str, row: np.ndarray, errors: tuple[float, ...], index: int
+    rows: CurveRows, kind: str, row: np.ndarray, errors: tuple[float, float], index: int
 ) -> CodimensionTwoPoint:
     """Return a point of codimension two with its orbit."""
     chain, name = rows.chain_at(row), rows.names[1]
@@ -271,7 +165,7 @@ def _point(
         kind=kind,
         names=rows.names,
         values=(float(row[-2]), float(row[-1])),
-        errors=(errors[0], errors[1]),
+        errors=errors,
         orbit=orbit_of(chain, name, there, trace, determinant),
         index=index,
     )

@@ -40,6 +40,9 @@ SAMPLES = 1001
 CLOSE = 1e-2
 # Largest relative distance of the grazing from the end of the branch.
 NEAR = 1e-3
+# Largest last correction of the time of a turning point, at which the height does not change to rounding.
+TURNED = 1e-9
+MAX_CORRECTIONS = 20
 
 
 class Touch(NamedTuple):
@@ -69,7 +72,7 @@ def _located(chain: Chain, parameter: str, row: np.ndarray) -> Grazing:
     chain = chain._replace(system=with_value(chain.system, parameter, float(row[-1])), phases=row[:-1])
     links = equations(chain, parameter, row)[1]
     touches = (
-        _solved(touch, parameter) for touch in (*_slow_event(chain, links), *_near_contacts(chain, links))
+        _solved(touch, parameter) for touch in (*_slow_event(chain, links), *near_contacts(chain, links))
     )
     solved = [each for each in touches if each is not None]
     if solved:
@@ -109,7 +112,7 @@ def rotated(chain: Chain, by: int) -> Chain:
     return chain._replace(side=side, kinds=np.roll(kinds, -by), phases=phases)
 
 
-def _near_contacts(chain: Chain, links: np.ndarray) -> list[Touch]:
+def near_contacts(chain: Chain, links: np.ndarray) -> list[Touch]:
     """Return the turning point of each arc that is closest to the base or to a brace, the closest first.
 
     The arcs are those of the chain. In a simulation, rounding decides if the contact is an event.
@@ -144,13 +147,46 @@ def _nearest_turn(chain: Chain, height: np.ndarray, level: int) -> tuple[int | N
 
 def _heights(chain: Chain, arc: int, side: int, speed: float, times: np.ndarray) -> np.ndarray:
     """Return |Θ| on an arc that starts with a speed away from Θ = 0: the saddle orbit of its side, and exponentials."""
+    phase, swing = chain.phases[arc], side * response(chain.system)
+    even, odd = _exponentials(chain, arc, swing, speed)
+    forced = 1.0 + swing * np.cos(phase + chain.system.harmonic.frequency * times)
+    return np.asarray(forced + even * np.cosh(times) + odd * np.sinh(times))
+
+
+def _exponentials(chain: Chain, arc: int, swing: float, speed: float) -> tuple[float, float]:
+    """Return the coefficients of cosh and sinh on an arc."""
     frequency, phase, braces = chain.system.harmonic.frequency, chain.phases[arc], chain.system.braces
     start = 0.0 if braces is None or chain.kinds[arc] == IMPACT else braces.angle
-    swing = side * response(chain.system)
-    even = start - 1.0 - swing * math.cos(phase)
-    odd = speed + swing * frequency * math.sin(phase)
-    forced = 1.0 + swing * np.cos(phase + frequency * times)
-    return np.asarray(forced + even * np.cosh(times) + odd * np.sinh(times))
+    return start - 1.0 - swing * math.cos(phase), speed + swing * frequency * math.sin(phase)
+
+
+def clearance(chain: Chain, parameter: str, row: np.ndarray, contact: Condition) -> float:
+    """Return the distance of a turning point of an arc from the base or the brace; negative beyond it, NaN if there is none.
+
+    The turning point is found by Newton's method from the time of the contact.
+    """
+    links, arc = equations(chain, parameter, np.append(chain.phases, row[-1]))[1], contact.arc
+    side, speed, end = sides_of(chain)[arc], links["leaves"][arc], links["time"][arc]
+    frequency, phase, swing = (
+        chain.system.harmonic.frequency,
+        chain.phases[arc],
+        side * response(chain.system),
+    )
+    even, odd = _exponentials(chain, arc, swing, speed)
+    time = contact.time
+    for _ in range(MAX_CORRECTIONS):
+        forced = phase + frequency * time
+        slope = even * math.sinh(time) + odd * math.cosh(time) - swing * frequency * math.sin(forced)
+        bend = even * math.cosh(time) + odd * math.sinh(time) - swing * frequency**2 * math.cos(forced)
+        step = -slope / bend
+        time += step
+        if not 0.0 < time < end:
+            return math.nan
+        if abs(step) <= TURNED:
+            break
+    (height,) = _heights(chain, arc, side, speed, np.array([time]))
+    braces = chain.system.braces
+    return float(height if contact.level == IMPACT or braces is None else braces.angle - height)
 
 
 def turning_time(chain: Chain, parameter: str, row: np.ndarray, condition: Condition) -> float:

@@ -1,0 +1,179 @@
+"""Ends of bifurcation curves: where the orbits merge with those from which they bifurcate, or graze."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+
+from rocking.kernels.orbits import arclength
+from rocking.orbits import grazing, normal_form
+from rocking.orbits.curve_rows import CurveRows
+from rocking.orbits.curve_zeros import Bracket, Test, located
+from rocking.orbits.event_chain import Chain, Condition, End, Special, equations
+from rocking.orbits.normal_form import Reduced
+from rocking.orbits.parent_branch import CONDITION, apart_of, parent_of
+
+ALMOST_EQUAL = 0.1
+"""Largest distance of the halves of a chain, in rad, at the last point of a curve before a point at which they are equal."""
+REACHES = (2.0, 4.0, 8.0)
+"""Lengths beyond the last point, in units of the extrapolated one, in which an end is searched for."""
+
+
+class Located(NamedTuple):
+    """End of a curve, on the same curve or on that of the orbits from which its orbits bifurcate."""
+
+    rows: CurveRows
+    row: np.ndarray
+    errors: tuple[float, float]
+
+
+def until_parent(rows: CurveRows, start: int) -> CurveRows:
+    """Return a curve of folds up to the points at which its orbits merge with those from which they bifurcate.
+
+    Both halves of the chain are equal at such a point, and change places beyond. The curve then has the same orbits again,
+    one half of a chain later, or their mirror images. The equations are singular at this point, so that rounding decides if the
+    kernel passes it.
+
+    Parameters
+    ----------
+    rows : CurveRows
+        Points of the curve.
+    start : int
+        Index of the point from which it was followed.
+
+    Returns
+    -------
+    CurveRows
+        Points between two such points, and those that do not lie beyond one.
+    """
+    if rows.condition.kind != Special.FOLD or parent_of(rows.chain) is None:
+        return rows
+    points, (first, last) = rows.rows, rows.ends
+    apart = apart_of(rows.chain, points[:, :-1])
+    passed = np.flatnonzero((apart[:-1] * apart[1:]).sum(axis=1) < 0.0)
+    before, after = passed[passed < start], passed[passed >= start]
+    if last == End.CLOSED and len(passed):
+        # the last point lies beyond the first one
+        points = np.concatenate([points[passed[-1] + 1 : -1], points[: passed[0] + 1]])
+        return rows._replace(rows=points, ends=(End.MERGED, End.MERGED))
+    low, high = 0, len(points)
+    if len(before):
+        low, first = int(before[-1]) + 1, End.MERGED
+    if len(after):
+        high, last = int(after[0]) + 1, End.MERGED
+    cut = rows._replace(rows=points[low:high])
+    first = End.MERGED if first == End.LOST and _places(cut.rows, cut) is not None else first
+    last = End.MERGED if last == End.LOST and _places(cut.rows[::-1], cut) is not None else last
+    return cut._replace(ends=(first, last))
+
+
+def _places(inwards: np.ndarray, rows: CurveRows) -> tuple[int, float] | None:
+    """Return a point where the squared distance of the halves is twice that of the first point, and the part of the way back.
+
+    The parameters are linear in this squared distance. None if the halves are not almost equal at the first point.
+    """
+    squares = (apart_of(rows.chain, inwards[:, :-1]) ** 2).sum(axis=1)
+    far = int(np.argmax(squares > 2.0 * squares[0]))
+    if far == 0 or squares[0] > ALMOST_EQUAL**2:
+        return None
+    return far, float(squares[0] / (squares[far] - squares[0]))
+
+
+def degenerate_end(rows: CurveRows, inwards: np.ndarray) -> Located | None:
+    """Return the end of a curve of folds at which its orbits merge with those from which they bifurcate, or None.
+
+    The bifurcation of the other orbits is degenerate there. The point is solved on their curve, which is regular.
+
+    Parameters
+    ----------
+    rows : CurveRows
+        Curve of folds.
+    inwards : ndarray, shape (n, k + 2)
+        Its points, beginning at this end.
+    """
+    parent, found = parent_of(rows.chain), _places(inwards, rows)
+    if parent is None or found is None:
+        return None
+    far, share = found
+    other = rows._replace(chain=parent, condition=CONDITION)
+    chord = _means(inwards[0], parent) - _means(inwards[far], parent)
+    start = other.corrected(_means(inwards[far], parent), chord / np.linalg.norm(chord))
+    kind = "symmetry-breaking" if parent.mirrored else "period-doubling"
+    test = Test(f"degenerate-{kind}", lambda of, at: normal_form.doublings(of.chains(at)))
+    return None if start is None else _between(other, test, start, chord, share)
+
+
+def _means(row: np.ndarray, parent: Chain) -> np.ndarray:
+    """Return a point with the mean phases of both halves of a chain."""
+    half = len(parent.kinds)
+    return np.append(0.5 * (row[:half] + row[half:-2] - parent.turn), row[-2:])
+
+
+def _between(
+    rows: CurveRows, test: Test, start: np.ndarray, chord: np.ndarray, share: float
+) -> Located | None:
+    """Return the zero of a test function between a point and one beyond the end of a chord from it, or None."""
+    for reach in REACHES:
+        stop = rows.corrected(start + (1.0 + reach * share) * chord, chord / np.linalg.norm(chord))
+        if stop is None:
+            return None
+        part = rows._replace(rows=np.stack([start, stop]))
+        (first, last), directions = test.values(part, part.rows)
+        if first * last < 0.0:
+            found = located(part, test, Bracket(0, 0.0, 1.0, max(abs(first), abs(last)), directions[0]))
+            return None if found is None else Located(part, *found)
+    return None
+
+
+def grazed_end(rows: CurveRows, inwards: np.ndarray) -> Located | None:
+    """Return the end of a curve at a grazing, where a turning point of an arc reaches the base or a brace, or None.
+
+    Beyond this end the equations of the chain remain regular, so that the clearance of the turning point changes its sign.
+
+    Parameters
+    ----------
+    rows : CurveRows
+        Curve.
+    inwards : ndarray, shape (n, k + 2)
+        Its points, beginning at this end. The grazing lies within the last step, which is `arclength.GRAZING_STEP` at most.
+    """
+    if len(inwards) < 2:
+        return None
+    chord = inwards[0] - inwards[1]
+    spans = np.array([high - low for low, high in rows.limits])
+    size = math.sqrt(np.mean(chord[:-2] ** 2) + ((chord[-2:] / spans) ** 2).sum())
+    share = arclength.GRAZING_STEP * rows.step / size
+    for contact in _contacts(rows, inwards[0]):
+        later = contact._replace(arc=(contact.arc - 1) % len(rows.chain.kinds))
+        test = Test("grazing", _clearance_of(contact), _clearance_of(later))
+        found = _between(rows, test, inwards[0], share * chord, 1.0)
+        if found is not None:
+            return found
+    return None
+
+
+def _contacts(rows: CurveRows, row: np.ndarray) -> list[Condition]:
+    """Return the turning points of the arcs at a point of a curve, the closest to the base or a brace first."""
+    chain = rows.chain_at(row)
+    links = equations(chain, rows.names[1], np.append(chain.phases, row[-1]))[1]
+    own = rows.condition
+    return [
+        touch.condition
+        for touch in grazing.near_contacts(chain, links)
+        if own.kind != Special.GRAZING
+        or (touch.condition.arc, touch.condition.level) != (own.arc, own.level)
+        or abs(touch.condition.time - grazing.turning_time(chain, rows.names[1], row, own)) > grazing.CLOSE
+    ]
+
+
+def _clearance_of(contact: Condition) -> Callable[[CurveRows, np.ndarray], Reduced]:
+    """Return the test function that is the clearance of a turning point."""
+
+    def values(rows: CurveRows, at: np.ndarray) -> Reduced:
+        found = [grazing.clearance(rows.chain_at(row), rows.names[1], row, contact) for row in at]
+        return Reduced(np.array(found), np.ones((len(at), 1)))
+
+    return values
