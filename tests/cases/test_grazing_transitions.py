@@ -187,17 +187,28 @@ def test_dataset_holds_the_evidence(case):
     assert data.exponent.values[-1] == found.attractor.exponent
 
 
-def test_picture_shows_both_distances_and_the_square_root(case):
+def test_picture_shows_both_distances_and_the_square_root_of_an_attractor_that_shrinks(case):
     *_, found, (_, kind, _) = case
     ax = rk.plot.grazing_transition(found)
     lines = {line.get_gid(): np.array(line.get_data()) for line in ax.lines}
     np.testing.assert_array_equal(lines["farthest"], [found.distances, found.farthest])
     np.testing.assert_array_equal(lines["nearest"], [found.distances, found.nearest])
-    x, y = lines["square-root"]
-    np.testing.assert_allclose(y / y[-1], np.sqrt(x / x[-1]))
-    off = np.abs(np.log(y / found.farthest)).max()
-    assert (off < 0.6) == (kind == "local")
+    assert ("square-root" in lines) == (kind == "local")
+    if kind == "local":
+        x, y = lines["square-root"]
+        np.testing.assert_allclose(y / y[-1], np.sqrt(x / x[-1]))
+        assert np.abs(np.log(y / found.farthest)).max() < 0.6
     assert found._repr_html_().startswith("<figure>")
+    plt.close(ax.figure)
+
+
+def test_picture_of_a_jump_shows_a_horizontal_line_in_the_middle_of_a_decade():
+    system, longest, amplitude, _ = CASES["without braces"]
+    found = rk.grazing_transition(grazing(system, longest, amplitude)[1])
+    ax = rk.plot.grazing_transition(found)
+    low, high = np.log10(ax.get_ylim())
+    assert high - low == pytest.approx(1.0)
+    assert np.abs(np.log10(found.farthest) - 0.5 * (low + high)).max() < 0.01
     plt.close(ax.figure)
 
 

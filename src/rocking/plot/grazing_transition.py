@@ -1,5 +1,7 @@
 """Transition at a grazing: distance of the attractor beyond it from the grazing orbit."""
 
+import math
+
 import numpy as np
 from matplotlib.axes import Axes
 
@@ -37,7 +39,8 @@ def grazing_transition(result: GrazingTransition, ax: Axes | None = None) -> Axe
     Notes
     -----
     Both axes are logarithmic. The dashed line is the square root of the distance of the parameter, through the last point. An
-    attractor that shrinks onto the grazing orbit follows it. After a jump the points lie on a horizontal line.
+    attractor that shrinks onto the grazing orbit follows it. After a jump the points lie on a horizontal line, and no dashed line
+    is drawn.
 
     Examples
     --------
@@ -54,15 +57,16 @@ def grazing_transition(result: GrazingTransition, ax: Axes | None = None) -> Axe
         raise ValueError(refusal("result", "hold a motion that does not overturn to be drawn", "none"))
     x, far, near = (values[shown] for values in (result.distances, result.farthest, result.nearest))
     ax = style.own(ax, height=2.9)
-    ax.plot(
-        x,
-        far[-1] * np.sqrt(x / x[-1]),
-        color=style.INK,
-        linewidth=style.LINE,
-        linestyle=(0, (5, 2)),
-        label="square root",
-        gid="square-root",
-    )
+    if result.kind in ("local", "undecided"):
+        ax.plot(
+            x,
+            far[-1] * np.sqrt(x / x[-1]),
+            color=style.INK,
+            linewidth=style.LINE,
+            linestyle=(0, (5, 2)),
+            label="square root",
+            gid="square-root",
+        )
     for values, marker, filled, name in ((far, "o", True, "farthest"), (near, "s", False, "nearest")):
         ax.plot(
             x,
@@ -78,6 +82,10 @@ def grazing_transition(result: GrazingTransition, ax: Axes | None = None) -> Axe
     style.label(ax, f"relative distance in {name}", "distance from the grazing orbit")
     ax.set_xscale("log")
     ax.set_yscale("log")
+    low, high = ax.get_ylim()
+    if high < 10.0 * low:
+        # points after a jump are almost equal: over less than a decade their differences would seem large
+        ax.set_ylim(math.sqrt(0.1 * low * high), math.sqrt(10.0 * low * high))
     style.logarithmic(ax.xaxis)
     style.logarithmic(ax.yaxis)
     style.key(ax)
