@@ -62,6 +62,13 @@ class BifurcationCurve(ReadOnlyArrays, NotebookPicture):
     >>> curve = rk.bifurcation_curve(branch.special[0], "period", "amplitude", ((1, 1.2), (1, 30)))
     >>> curve.kind, curve.names, curve.period
     ('symmetry-breaking', ('period', 'amplitude'), 1)
+
+    The bifurcation is supercritical along the whole curve, on which no point of codimension two lies:
+
+    >>> bool((curve.coefficients > 0.0).all()), curve.special
+    (True, ())
+    >>> curve.to_xarray().sizes["point"] == len(curve)
+    True
     """
 
     kind: str

@@ -57,6 +57,14 @@ class CodimensionTwoPoint:
     >>> curve = rk.bifurcation_curve(doubling, "period", "amplitude", ((2, 4), (1, 3)))
     >>> print(curve.special[0])
     degenerate-period-doubling at period 3.571434734, amplitude 1.777171661: asymmetric orbit of period 1 with 2 impacts
+
+    The bifurcation is supercritical before this point, and subcritical after it:
+
+    >>> point = curve.special[0]
+    >>> [bool(each > 0.0) for each in curve.coefficients[point.index - 1 : point.index + 1]]
+    [True, False]
+    >>> max(point.errors) < 1e-12
+    True
     """
 
     kind: str

@@ -87,6 +87,14 @@ class GrazingTransition(ReadOnlyArrays, NotebookPicture):
     >>> found = rk.grazing_transition(branch.special[-1])
     >>> found.orbits, found.kind, found.attractor.period
     ('fold', 'jump', 1)
+
+    The distance does not depend on that of the parameter, so that its exponent is 0:
+
+    >>> exponent, error = found.order
+    >>> abs(exponent) < 1e-3, error < 1e-3
+    (True, True)
+    >>> found.to_xarray()["orbit_period"].values.tolist()
+    [1, 1, 1, 1, 1]
     """
 
     special: SpecialPoint
