@@ -222,3 +222,42 @@ def test_a_grazing_with_a_brace_is_where_the_brace_is_the_peak():
     (point,) = special(branch, "grazing")
     assert point.parameter == pytest.approx(mode.peak, rel=1e-14, abs=0)
     assert (point.orbit.impacts, point.orbit.brace_hits) == (2, 0)
+
+
+POLES = {
+    "symmetric orbits": (
+        rk.System(
+            rk.Harmonic(5.720492618362348, period=3.2635994374026063),
+            0.8003231557876358,
+            rk.Braces(0.387610706342514, 0.41471287669423473),
+        ),
+        3.2800350048,
+    ),
+    "orbits of period 2": (
+        rk.System(
+            rk.Harmonic(7.7215087506518225, period=2.1420431409603435),
+            0.4124806202155763,
+            rk.Braces(0.9973199240440456, 0.9797096297532304),
+        ),
+        2.4283996611,
+    ),
+}
+
+
+@pytest.mark.parametrize("name", POLES)
+def test_no_bifurcation_is_named_at_a_grazing_where_the_multipliers_are_infinite(name):
+    """The trace changes its sign through infinity in the last step: a pole of both test functions."""
+    system, grazing = POLES[name]
+    period = system.forcing.period
+    met = 0
+    for orbit in rk.find_orbits(system, 2, effort=0.1):
+        if orbit.impacts or orbit.brace_hits:
+            branch = rk.continue_orbit(orbit, "period", (0.3 * period, 2.0 * period))
+            for point in branch.special:
+                sizes = np.abs(point.orbit.multipliers)
+                if point.kind == "grazing":
+                    met += abs(point.parameter - grazing) < 1e-8
+                else:
+                    # one multiplier is 1 or -1, and the other one is their product
+                    assert np.abs(sizes - 1.0).min() < 1e-3, (str(branch), point.kind)
+    assert met

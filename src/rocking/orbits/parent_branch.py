@@ -23,6 +23,8 @@ NEARLY_EQUAL = 1e-4
 SAME_VALUE = 1e-5
 # Largest difference of phases for two solved points to be identical.
 SAME_PHASE = 1e-6
+# Largest test function at a special point, relative to its terms; it is 1 where the trace is infinite.
+VANISHES = 0.5
 CONDITION = Condition(Special.PERIOD_DOUBLING, -1, IMPACT, 0.0)
 
 
@@ -40,6 +42,7 @@ def special_points(chain: Chain, parameter: str, table: kernel.BranchTable) -> l
     found = [
         Found(chain, row, Special(kind), index)
         for row, (kind, index) in zip(table.specials, table.changes.tolist(), strict=True)
+        if kind == Special.GRAZING or _is_zero(chain, parameter, row)
     ]
     parent = parent_of(chain)
     if parent is None:
@@ -76,6 +79,13 @@ def parent_of(chain: Chain) -> Chain | None:
     return chain._replace(
         period=period, mirrored=mirrored, kinds=chain.kinds[:half].copy(), phases=chain.phases[:half]
     )
+
+
+def _is_zero(chain: Chain, parameter: str, row: np.ndarray) -> bool:
+    """Return whether a test function has a zero at a point, and not a pole: at a grazing the trace is infinite, of either sign."""
+    *_, trace, determinant = equations(chain, parameter, row)
+    least = abs(abs(trace) - 1.0 - determinant)
+    return bool(least <= VANISHES * (1.0 + abs(trace) + determinant))
 
 
 def _has_multiplier_one(special: Found, parameter: str) -> bool:
