@@ -152,7 +152,7 @@ def test_all_errors_of_a_study_are_one_line(rocking, tmp_path):
     for part in (
         "study 'study.toml': ",
         "width must be a number; got '0.5'",
-        "pga_g must be a number or START:STOP:COUNT",
+        "pga-g must be a number or START:STOP:COUNT",
         "limit must be a real number or an array of real numbers; got 'half'",
         "samples must be a number; got True",
         "units must be a str; got 1",

@@ -205,7 +205,7 @@ def test_all_errors_of_a_study_file_are_told_at_once(rocking):
         "unknown 'amplitud' (did you mean 'amplitude'?)",
         "period must lie in [0.00628319, 6283.19]; got -1.0",
         "restitution must lie in [0, 1]; got 1.2",
-        "max_cycles must be a whole number in [1, 100000000]; got 0",
+        "max-cycles must be a whole number in [1, 100000000]; got 0",
         "plot must be a path; got 3",
         "phase must be a number or START:STOP:COUNT with START ≠ STOP and a whole COUNT in [2, 1000000]; got '1:2:3:4' (example: 1:3:60)",
         "angle must be a number, START:STOP:COUNT, or a table of start, stop and optionally count; got start",

@@ -136,7 +136,7 @@ def test_study_file_gives_the_options_and_a_typed_one_comes_first(rocking):
             'amplitude = "3:6:4"\nangle = "0.1"',
             "study 'study.toml': angle must be a range, START:STOP with START ≠ STOP; got '0.1'",
         ),
-        ('amplitude = "3:6:4"\nboundary-runs = 5', "study 'study.toml': unknown 'boundary_runs'"),
+        ('amplitude = "3:6:4"\nboundary-runs = 5', "study 'study.toml': unknown 'boundary-runs'"),
     ],
 )
 def test_faults_of_a_study_file_are_one_line(rocking, entries, message):

@@ -115,4 +115,116 @@ def test_all_errors_of_a_study_file_are_reported_at_once(rocking, command, wrong
 
 def test_value_of_a_study_file_out_of_its_range_is_an_error_about_the_option(rocking):
     Path("study.toml").write_text("amplitude = 2\nperiod = 1\nrestitution = 1.5\n")
-    assert rocking("orbits --study study.toml")[:2] == (2, "--restitution must lie in [0, 1]; got 1.5")
+    assert rocking("orbits --study study.toml")[:2] == (
+        2,
+        "--restitution must lie in [0, 1]; got 1.5 (study 'study.toml' gives restitution)",
+    )
+
+
+def test_range_is_a_table_as_it_is_a_text(rocking):
+    others = "\nperiod = 1.721328\nrestitution = 0.8\nstep = 0.1\n"
+    Path("table.toml").write_text("amplitude = { start = 7, stop = 6.9 }" + others)
+    Path("text.toml").write_text('amplitude = "7:6.9"' + others)
+    read = rocking("continue --study table.toml --json")
+    assert read[:2] == (0, "")
+    assert read == rocking("continue --study text.toml --json")
+
+
+def test_range_of_initial_states_is_a_table(rocking):
+    others = '\namplitude = "3:4:2"\nperiod = 1\nrestitution = 0.8\nsamples = 9\n'
+    Path("table.toml").write_text("angle = { start = -0.5, stop = 0.25 }" + others)
+    Path("text.toml").write_text('angle = "-0.5:0.25"' + others)
+    read = rocking("safe-basin --study table.toml --json")
+    assert (read[:2], json.loads(read[2])["angle"]) == ((0, ""), [-0.5, 0.25])
+    assert read == rocking("safe-basin --study text.toml --json")
+
+
+@pytest.mark.parametrize(
+    ("command", "table", "told"),
+    [
+        (
+            "continue",
+            "{ start = 1, stop = 2, count = 3 }",
+            "amplitude must be START:STOP, or a table of start and stop; got",
+        ),
+        (
+            "continue",
+            "{ start = 1 }",
+            "amplitude must be START:STOP, or a table of start and stop; got start",
+        ),
+        ("continue", "{ start = 1, stop = 1 }", "start and stop of amplitude must differ; got 1 for both"),
+        ("continue", "{ start = 1, stop = 'a' }", "stop of amplitude must be a number; got 'a'"),
+        ("orbit-diagram", "{ start = 1, stop = inf }", "stop of amplitude must be a finite number; got inf"),
+        ("map", "{ start = 1, stop = 1 }", "start and stop of amplitude must differ; got 1 for both"),
+        ("map", "{ start = nan, stop = 1 }", "start of amplitude must be a finite number; got nan"),
+    ],
+)
+def test_wrong_table_is_an_error_about_the_file(rocking, command, table, told):
+    Path("study.toml").write_text(f"amplitude = {table}\nperiod = 1\nrestitution = 0.9\n")
+    code, message, out = rocking(f"{command} --study study.toml")
+    assert (code, out) == (2, "")
+    assert message.startswith(f"study 'study.toml': {told}")
+
+
+@pytest.mark.parametrize(
+    ("command", "typed", "message"),
+    [
+        (
+            "simulate",
+            "--frequency 3",
+            "give exactly one of --period, --frequency; got --period=1.0 and --frequency=3.0 (study 'study.toml' gives period)",
+        ),
+        (
+            "basins",
+            "--frequency 3",
+            "give exactly one of --period, --frequency; got --period=1.0 and --frequency=3.0 (study 'study.toml' gives period)",
+        ),
+        (
+            "classify",
+            "--height 2",
+            (
+                "--amplitude is normalised and --height is SI: use one of the two (the SI option is --acceleration) "
+                "(study 'study.toml' gives amplitude)"
+            ),
+        ),
+        ("orbits", "--restitution 2", "--restitution must lie in [0, 1]; got 2"),
+    ],
+)
+def test_message_about_an_option_names_the_study_file_that_gives_it(rocking, command, typed, message):
+    Path("study.toml").write_text("amplitude = 2\nperiod = 1\nrestitution = 0.9\n")
+    for line in (f"{typed} --study study.toml", f"--study study.toml {typed}"):
+        assert rocking(f"{command} {line}") == (2, message, "")
+
+
+@pytest.mark.parametrize("command", ["simulate", "modes", "map", "basins", "overturning"])
+@pytest.mark.parametrize("value", ["nan", "inf", "-inf"])
+def test_numbers_that_are_not_finite_are_errors_about_the_file(rocking, command, value):
+    Path("study.toml").write_text(f"restitution = {value}\namplitude = 2\nperiod = 1\n")
+    code, message, out = rocking(f"{command} --study study.toml")
+    assert (code, out) == (2, "")
+    assert message.startswith("study 'study.toml': restitution must ")
+    assert message.endswith(f"; got {value}")
+
+
+def test_number_in_si_that_is_not_finite_is_an_error_that_names_the_file(rocking):
+    Path("study.toml").write_text(
+        "height = nan\nwidth = 0.5\nacceleration = '1:2:2'\nfrequency-hz = '1:2:2'\n"
+    )
+    assert rocking("map --study study.toml")[1].endswith("; got nan (study 'study.toml' gives height)")
+
+
+def test_keys_are_shown_as_they_are_written(rocking):
+    Path("study.toml").write_text(
+        "max-cycle = 3\nbrace_angel = 1\nbrace-restitutio = 1\nfrequencyhz = 2\nbrace-angle = 'a'\nmax_period = true\n"
+    )
+    message = rocking("classify --study study.toml")[1]
+    assert message.removeprefix("study 'study.toml': ").split("; ") == [
+        "brace-angle must be a number",
+        "got 'a'",
+        "max_period must be a number",
+        "got True",
+        "unknown 'brace_angel' (did you mean 'brace_angle'?)",
+        "unknown 'brace-restitutio' (did you mean 'brace-restitution'?)",
+        "unknown 'frequencyhz' (did you mean 'frequency-hz'?)",
+        "unknown 'max-cycle' (did you mean 'max-cycles'?)",
+    ]

@@ -132,7 +132,8 @@ def test_a_block_of_many_sizes_is_refused(rocking, command):
         'height = "1:2:3"\nwidth = 0.5\nfrequency-hz = "1:2:3"\nacceleration = "2:4:3"\n'
     )
     code, told, _ = rocking(f"{command} --study study.toml")
-    assert (code, told) == (2, "--height must be one number, in m: a survey has a single block")
+    wrong = "--height must be one number, in m: a survey has a single block"
+    assert (code, told) == (2, f"{wrong} (study 'study.toml' gives height)")
 
 
 def test_a_path_is_told_as_it_was_typed(rocking):
@@ -382,10 +383,8 @@ def test_a_picture_of_two_lists_in_a_study_file_is_refused_before_the_scan(rocki
     monkeypatch.setattr("rocking.cli.input.overturning_request.compute", lambda _: pytest.fail("computed"))
     Path("study.toml").write_text("period = [1, 2]\nrestitution = [0.8, 0.9]\nplot = 'b.png'\n")
     code, message, _ = rocking("overturning --study study.toml")
-    assert (code, message) == (
-        2,
-        "--plot needs a single axis; got --period and --restitution (give one of them as a number)",
-    )
+    wrong = "--plot needs a single axis; got --period and --restitution (give one of them as a number)"
+    assert (code, message) == (2, f"{wrong} (study 'study.toml' gives period, restitution, plot)")
 
 
 WIDE = "--height 2 --width 1"

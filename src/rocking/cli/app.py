@@ -6,7 +6,6 @@ from typing import Annotated
 
 import typer
 
-from rocking.cli.command_help import CommandHelp
 from rocking.cli.commands import (
     basins,
     cite,
@@ -30,6 +29,7 @@ from rocking.cli.commands import (
     spectrum,
 )
 from rocking.cli.commands import map as map_
+from rocking.cli.study_command import StudyCommand
 
 VERSION = typer.Option("--version", help="Show the version and exit.")
 
@@ -66,7 +66,7 @@ for name, command, examples in (
     ("cite", cite.cite, None),
 ):
     # The control character keeps the line breaks of the examples below the options.
-    app.command(name, cls=CommandHelp, epilog=examples and f"\b\nExamples:\n{examples}")(command)
+    app.command(name, cls=StudyCommand, epilog=examples and f"\b\nExamples:\n{examples}")(command)
 
 
 @app.callback(invoke_without_command=True)

@@ -45,7 +45,9 @@ def question(typed: Mapping[str, Any], file: Path | None) -> Question:
 
 
 def _range(name: str, entry: Any) -> Any:
-    """Return the ends of a range, START:STOP or a list of two numbers."""
+    """Return the ends of a range: START:STOP, a table of start and stop, or a list of two numbers."""
+    if isinstance(entry, Mapping):
+        return study_file.span(name, entry)
     if not isinstance(entry, str):
         return entry
     try:

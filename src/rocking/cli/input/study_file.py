@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import difflib
-from collections.abc import Callable, Mapping
+import math
+import re
+from collections.abc import Callable, Collection, Mapping
 from functools import partial
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
 
-from rocking.cli.input.axis import DEFAULT_COUNT, MAX_POINTS, Axis, number_or_axis
-from rocking.cli.option_names import AXIS_FORM, YourInput
+from rocking.cli.input.axis import DEFAULT_COUNT, MAX_POINTS, Axis, Range, number_or_axis
+from rocking.cli.option_names import AXIS_FORM, RANGE_FORM, YourInput, as_typed
 
 STUDY = (
     'Read options from a TOML file, for example restitution = 0.9 or period = "1:3:60". '
@@ -42,17 +44,35 @@ def quantity(name: str, given: Any) -> Any:
             f"{name} must be a number, {AXIS_FORM}, or a table of start, stop and optionally count; "
             f"got {', '.join(given) or 'an empty table'}"
         )
-    start, stop = (float(reals(f"{part} of {name}", given[part])) for part in ("start", "stop"))
-    return Axis(start, stop, whole(f"count of {name}", given.get("count", DEFAULT_COUNT), 2, MAX_POINTS))
+    count = whole(f"count of {name}", given.get("count", DEFAULT_COUNT), 2, MAX_POINTS)
+    return Axis(*_ends(name, given), count)
+
+
+def span(name: str, given: Mapping[str, Any]) -> Range:
+    """Return an entry that is a table of start and stop as a range."""
+    if given.keys() != {"start", "stop"}:
+        raise ValueError(
+            f"{name} must be {RANGE_FORM}, or a table of start and stop; got {', '.join(given) or 'an empty table'}"
+        )
+    return Range(*_ends(name, given))
+
+
+def _ends(name: str, given: Mapping[str, Any]) -> tuple[float, float]:
+    """Return the ends of an axis or a range from a table; they are finite and differ, as those of a text."""
+    start, stop = (float(number(f"{part} of {name}", given[part])) for part in ("start", "stop"))
+    if start == stop:
+        raise ValueError(f"start and stop of {name} must differ; got {start:g} for both")
+    return start, stop
 
 
 def number(name: str, given: Any) -> Any:
-    """Return an entry that is a number."""
+    """Return an entry that is a finite number; TOML also has nan and inf."""
     from rocking.model import reals, refusal
 
     if isinstance(given, bool) or not isinstance(given, int | float):
         raise TypeError(refusal(name, "be a number", given))
-    reals(name, given)
+    if not math.isfinite(reals(name, given)):
+        raise ValueError(refusal(name, "be a finite number", given))
     return given
 
 
@@ -81,28 +101,44 @@ def read(path: Path, checks: Mapping[str, Check]) -> dict[str, Any]:
 
     Keys are the names of options, with hyphens or underscores.
     """
+    said = _entries(path)
+    _check_once(path, said)
+    keys = {key.replace("-", "_"): key for key in said}
+    found: dict[str, Any] = {}
+    errors: list[str] = []
+    for name in filter(keys.__contains__, checks):
+        try:
+            found[name] = checks[name](said[keys[name]])
+        except (TypeError, ValueError) as error:
+            errors.append(as_typed(str(error), {name: keys[name]}))
+    errors += [_unknown(keys[name], checks) for name in sorted(keys.keys() - checks.keys())]
+    if errors:
+        raise YourInput(f"study {str(path)!r}: " + "; ".join(errors))
+    return found
+
+
+def _entries(path: Path) -> dict[str, Any]:
+    """Return the keys and values of a study file; YourInput if it cannot be read."""
     import tomllib
 
     try:
-        said = tomllib.loads(_text(path))
+        return tomllib.loads(_text(path))
     except (OSError, ValueError, RecursionError) as error:
         why = getattr(error, "strerror", None) or error
         if isinstance(error, RecursionError):
             why = "the file is nested too deeply"
         raise YourInput(f"--study must name a TOML file; got {str(path)!r}: {why}") from error
-    _check_once(path, said)
-    given = {key.replace("-", "_"): entry for key, entry in said.items()}
-    found: dict[str, Any] = {}
-    errors: list[str] = []
-    for name in filter(given.__contains__, checks):
-        try:
-            found[name] = checks[name](given[name])
-        except (TypeError, ValueError) as error:
-            errors.append(str(error))
-    errors += [_unknown(name, checks) for name in sorted(given.keys() - checks.keys())]
-    if errors:
-        raise YourInput(f"study {str(path)!r}: " + "; ".join(errors))
-    return found
+
+
+def with_keys(message: str, path: Path, typed: Collection[str]) -> str:
+    """Return a message with the keys of a study file that give the options named in it, except options `typed` as well."""
+    given = [key for key in _entries(path) if key.replace("-", "_") not in typed]
+    named = [
+        key
+        for key in given
+        if re.search(rf"(?<![\w-])--?{re.escape(key.replace('_', '-'))}(?![\w-])", message)
+    ]
+    return f"{message} (study {str(path)!r} gives {', '.join(named)})" if named else message
 
 
 def _text(path: Path) -> str:
@@ -125,8 +161,10 @@ def _check_once(path: Path, said: Mapping[str, Any]) -> None:
         )
 
 
-def _unknown(name: str, checks: Mapping[str, Check]) -> str:
-    """Return the message for an unknown key, with the most similar known one."""
-    close = difflib.get_close_matches(name, checks, 1)
-    meant = f"did you mean {close[0]!r}?" if close else "keys are the names of options of this command"
-    return f"unknown {name!r} ({meant})"
+def _unknown(key: str, checks: Mapping[str, Check]) -> str:
+    """Return the message for an unknown key as written in the file, with the most similar known one."""
+    close = difflib.get_close_matches(key.replace("-", "_"), checks, 1)
+    if not close:
+        return f"unknown {key!r} (keys are the names of options of this command)"
+    similar = close[0] if "_" in key else close[0].replace("_", "-")
+    return f"unknown {key!r} (did you mean {similar!r}?)"

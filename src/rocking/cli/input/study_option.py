@@ -67,9 +67,11 @@ def _numbers(name: str, entry: Any) -> list[Any]:
 
 
 def _parsed(parser: Callable[[Any], Any], name: str, entry: Any) -> Any:
-    """Return a number, an axis or a range as the parser of its option accepts it; an axis may be a table."""
+    """Return a number, an axis or a range as the parser of its option accepts it; an axis or a range may be a table."""
     if isinstance(entry, Mapping) and parser in (axis.number_or_axis, axis.only_axis):
         entry = study_file.quantity(name, entry)
+    elif isinstance(entry, Mapping) and parser is axis.number_or_range:
+        entry = study_file.span(name, entry)
     elif not isinstance(entry, str):
         entry = study_file.number(name, entry)
     try:
