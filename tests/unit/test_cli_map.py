@@ -75,9 +75,11 @@ def test_csv_has_a_row_a_point(rocking, found):
         rows = list(csv.DictReader(file))
     assert len(rows) == 360
     row, at = rows[5 * 18 + 7], found.isel(amplitude=5, period=7)
-    assert (float(row["amplitude"]), float(row["period"])) == (at.amplitude, at.period)
+    assert [
+        float(row[f"{name} [{unit}]"]) for name, unit in (("amplitude", "g theta_cr"), ("period", "1/alpha"))
+    ] == [at.amplitude, at.period]
     assert row["kind"] == list(rk.Kind)[int(at.kind)]
-    assert float(row["peak"]) == at.peak
+    assert float(row["peak [theta_cr]"]) == at.peak
 
 
 def test_store_is_gone_on_with_and_picture_drawn(rocking, found, tmp_path):

@@ -53,10 +53,11 @@ def test_files_hold_every_point(rocking, tmp_path):
     with (tmp_path / "a.csv").open() as file:
         head, *rows = csv.reader(file)
     angle, velocity = "angle [theta_cr]", "velocity [alpha theta_cr]"
-    assert head == ["sweep", "amplitude [g theta_cr]", "cycle", angle, velocity]
+    fixed = ["period [1/alpha]", "restitution", "phase [rad]"]
+    assert head == ["sweep", "amplitude [g theta_cr]", "cycle", *fixed, angle, velocity]
     gone = [row for row in rows if row[2] == "overturned"]
     assert len(gone) == DIAGRAM.overturned.sum()
-    kept = np.array([row[3:] for row in rows if row[2] != "overturned"], float)
+    kept = np.array([row[6:] for row in rows if row[2] != "overturned"], float)
     np.testing.assert_array_equal(kept, DIAGRAM.points[~DIAGRAM.overturned].reshape(-1, 2))
     with xr.open_dataset(tmp_path / "a.nc") as read:
         np.testing.assert_array_equal(read["angle"], DIAGRAM.points[..., 0])

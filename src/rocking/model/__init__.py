@@ -51,7 +51,7 @@ from rocking.model.pulse import KINDS, SINES, Pulse
 from rocking.model.record_file import RecordFile
 from rocking.model.record_set import RecordSet, record_set
 from rocking.model.sensitivity import Sensitivity
-from rocking.model.si_units import PHYSICAL, block_attributes
+from rocking.model.si_units import PHYSICAL, SAME_IN_SI, block_attributes
 from rocking.model.start_checks import check_periodic, check_start
 from rocking.model.survey_results import (
     ChaosShare,
@@ -119,6 +119,7 @@ __all__ = [
     "PHYSICAL",
     "RANGES",
     "RECTANGLE",
+    "SAME_IN_SI",
     "SINES",
     "SIZES",
     "STEPS",

@@ -24,6 +24,11 @@ class Physical(NamedTuple):
         return f"{self.name} [{self.unit}]"
 
 
+def _per_second(block: Block, rate: Any) -> Any:
+    """Convert a rate per τ to a rate per second."""
+    return rate * block.frequency_parameter
+
+
 PHYSICAL = {
     "amplitude": Physical(
         "g theta_cr", "acceleration", "m/s^2", "acceleration_m_per_s2", "m s-2", Block.acceleration
@@ -36,9 +41,24 @@ PHYSICAL = {
         "alpha theta_cr", "velocity", "rad/s", "velocity_rad_per_s", "rad s-1", Block.radians_per_second
     ),
     "peak": Physical("theta_cr", "peak", "rad", "peak_rad", "rad", Block.radians),
-    "brace_angle": Physical("theta_cr", "brace_angle", "rad", "brace_angle_rad", "rad", Block.radians),
+    "exponent": Physical("alpha", "exponent", "1/s", "exponent_per_s", "s-1", _per_second),
+    "exponent_error": Physical("alpha", "exponent_error", "1/s", "exponent_error_per_s", "s-1", _per_second),
 }
+for _name in ("brace_angle", "orbit_angle", "mean_angle", "mean_angle_error"):
+    PHYSICAL[_name] = PHYSICAL["angle"]._replace(name=_name, key=f"{_name}_rad")
+for _name in ("orbit_velocity", "margin"):
+    PHYSICAL[_name] = PHYSICAL["velocity"]._replace(name=_name, key=f"{_name}_rad_per_s")
 """SI counterparts by the name of the normalised quantity. Dimensionless quantities are absent."""
+SAME_IN_SI = {
+    "phase": "rad",
+    "forcing_phase": "rad",
+    "lowest_phase": "rad",
+    "critical_angle": "rad",
+    "response_period": "cycles",
+    "orbit_period": "cycles",
+    "transient": "cycles",
+}
+"""Units of quantities that are the same for normalised and SI input."""
 
 
 def block_attributes(block: Block) -> dict[str, float]:

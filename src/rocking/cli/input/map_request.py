@@ -122,12 +122,11 @@ def write_netcdf(found: xr.Dataset, path: Path, asked: Question) -> None:
 
 
 def write_csv(found: xr.Dataset, path: Path, asked: Question) -> None:
-    """Write one row per point as CSV: axes and variables, flags as words; with a block also in SI."""
+    """Write one row per point as CSV: its system and all variables, flags as words; with a block also in SI."""
     from rocking.survey import tables
 
-    block = asked.block
-    rows = tables(found)
-    files.write_csv(rows if block is None else (files.columns(table, block) for table in rows), path)
+    rows = (files.with_fixed(table, found.kind.dims, found.attrs) for table in tables(found))
+    files.write_csv((files.columns(row, asked.block) for row in rows), path)
 
 
 WRITERS: dict[str, Callable[[xr.Dataset, Path, Question], None]] = {

@@ -6,9 +6,10 @@ from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from rocking.cli.option_names import YourInput, option, your_input
+from rocking.cli.option_names import TOLD, YourInput, option, your_input
 from rocking.model import (
     PHYSICAL,
+    SAME_IN_SI,
     Block,
     block_attributes,
     check_writable,
@@ -69,13 +70,22 @@ def write_csv(tables: Iterable[Mapping[str, Any]], path: Path) -> None:
 def columns(table: Mapping[str, Any], block: Block | None) -> dict[str, Any]:
     """Return columns with units in their headings; with a block, its quantities are repeated in SI."""
     known = {name: PHYSICAL[name] for name in table if name in PHYSICAL}
-    told = {
-        f"{name} [{known[name].normalised}]" if name in known else name: column
-        for name, column in table.items()
-    }
+    units = SAME_IN_SI | {name: each.normalised for name, each in known.items()}
+    headed = {f"{name} [{units[name]}]" if name in units else name: column for name, column in table.items()}
     if block is None:
-        return told
-    return told | {each.heading: each.turn(block, table[name]) for name, each in known.items()}
+        return headed
+    return headed | {each.heading: each.turn(block, table[name]) for name, each in known.items()}
+
+
+def with_fixed(
+    table: Mapping[str, Any], varied: Iterable[Any], quantities: Mapping[Any, Any]
+) -> dict[str, Any]:
+    """Return the columns of the varied quantities, of the fixed ones, then all others, so that each row states its system."""
+    import numpy as np
+
+    count = len(next(iter(table.values())))
+    first = {str(name): table[str(name)] for name in varied}
+    return first | {name: np.full(count, quantities[name]) for name in TOLD if name in quantities} | table
 
 
 def with_block(data: xr.Dataset, block: Block | None) -> xr.Dataset:

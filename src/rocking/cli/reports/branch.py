@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from rocking.cli.output.console import Row, print_json, print_table
-from rocking.cli.output.files import columns, with_block, write_result
+from rocking.cli.output.files import columns, with_block, with_fixed, write_result
 from rocking.cli.reports.motion import asked_of, in_si, physical_of, question_of, reach, state_in_si
 from rocking.cli.reports.orbits import multiplier_columns, orbit_record, orbit_warnings
 from rocking.cli.reports.validity import warned
@@ -29,24 +29,31 @@ def write(branch: Branch, orbit: Orbit, block: Block | None, files: Mapping[str,
     write_result(
         files,
         figure=lambda plot: plot.branch(branch, block=block),
-        tables=lambda: [_table(branch, block)],
+        tables=lambda: [_table(branch, orbit, block)],
         data=lambda: _dataset(branch, orbit, block),
     )
 
 
-def _table(branch: Branch, block: Block | None) -> dict[str, Any]:
+def _table(branch: Branch, orbit: Orbit, block: Block | None) -> dict[str, Any]:
     """Return the points of a branch as columns by heading, with a block also in SI."""
-    points = branch.points
-    told = {branch.name: points["parameter"], "phase [rad]": points["phase"]}
-    told |= {name: points[name] for name in ("velocity", "peak", "stability")}
-    return columns(told | multiplier_columns(points["multipliers"]), block)
+    points, fixed = branch.points, _fixed(branch, orbit)
+    table = {branch.name: points["parameter"]}
+    # `phase` is that of the first event of a point.
+    table |= {"forcing_phase": np.full(len(points), fixed.pop("phase"))}
+    table |= {name: points[name] for name in ("phase", "velocity", "peak", "stability")}
+    table |= multiplier_columns(points["multipliers"])
+    return columns(with_fixed(table, [branch.name], fixed), block)
+
+
+def _fixed(branch: Branch, orbit: Orbit) -> dict[str, float]:
+    """Return the quantities of the system that do not vary along a branch."""
+    varied = (branch.name, SAME_QUANTITY.get(branch.name))
+    return {name: value for name, value in quantities(orbit.system).items() if name not in varied}
 
 
 def _dataset(branch: Branch, orbit: Orbit, block: Block | None) -> xr.Dataset:
     """Return the dataset of a branch; with a block, its parameter has a coordinate in SI."""
-    varied = (branch.name, SAME_QUANTITY.get(branch.name))
-    fixed = {name: value for name, value in quantities(orbit.system).items() if name not in varied}
-    data = branch.to_xarray().assign_attrs(fixed)
+    data = branch.to_xarray().assign_attrs(_fixed(branch, orbit))
     if block is not None:
         data = data.assign_coords({branch.name: data["parameter"]})
     return with_block(data, block)

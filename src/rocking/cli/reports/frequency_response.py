@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from rocking.cli.output.console import Row, aligned, print_json, print_table
-from rocking.cli.output.files import columns, with_block, write_result
+from rocking.cli.output.files import columns, with_block, with_fixed, write_result
 from rocking.cli.reports.branch import value_record
 from rocking.cli.reports.motion import asked_in_si, in_si, reach
 from rocking.cli.reports.validity import warned, warnings
@@ -32,33 +32,34 @@ def write(found: FrequencyResponse, block: Block | None, files: Mapping[str, Pat
 
 def _tables(found: FrequencyResponse, block: Block | None) -> Iterator[dict[str, Any]]:
     """Yield one table (columns by heading) per branch, and one of the responses from rest; cells that do not apply are empty."""
+    fixed = found.to_xarray().attrs
+    for table in _varying(found):
+        yield columns(with_fixed(table, ["branch", found.parameter], fixed), block)
+
+
+def _varying(found: FrequencyResponse) -> Iterator[dict[str, Any]]:
+    """Yield the columns that vary, for each branch and for the responses from rest."""
     for number, branch in enumerate(found.branches):
         count = len(branch)
-        yield columns(
-            {
-                "branch": np.full(count, str(number)),
-                "orbit_period": np.full(count, branch.period),
-                "symmetric": np.full(count, str(branch.symmetric)),
-                found.parameter: branch.points["parameter"],
-                "stability": branch.points["stability"],
-                "response": np.full(count, ""),
-                "peak": branch.points["peak"],
-            },
-            block,
-        )
+        yield {
+            "branch": np.full(count, str(number)),
+            "orbit_period": np.full(count, branch.period),
+            "symmetric": np.full(count, str(branch.symmetric)),
+            found.parameter: branch.points["parameter"],
+            "stability": branch.points["stability"],
+            "response": np.full(count, ""),
+            "peak": branch.points["peak"],
+        }
     rest, count = found.rest, len(found.values)
-    yield columns(
-        {
-            "branch": np.full(count, "from rest"),
-            "orbit_period": rest["period"],
-            "symmetric": np.full(count, ""),
-            found.parameter: found.values,
-            "stability": np.full(count, ""),
-            "response": rest["kind"],
-            "peak": _steady(found),
-        },
-        block,
-    )
+    yield {
+        "branch": np.full(count, "from rest"),
+        "orbit_period": rest["period"],
+        "symmetric": np.full(count, ""),
+        found.parameter: found.values,
+        "stability": np.full(count, ""),
+        "response": rest["kind"],
+        "peak": _steady(found),
+    }
 
 
 def _steady(found: FrequencyResponse) -> np.ndarray:

@@ -104,6 +104,7 @@ def write_csv(diagram: OrbitDiagram, block: Block | None, path: Path) -> None:
 
 def _tables(diagram: OrbitDiagram, block: Block | None) -> Iterator[dict[str, Any]]:
     """Yield one table (columns by heading) per sweep and parameter value."""
+    fixed = diagram.to_xarray().attrs
     for way, fell, points in zip(diagram.sweeps, diagram.overturned, diagram.points, strict=True):
         for value, gone, rows in zip(diagram.values, fell, points, strict=True):
             count = 1 if gone else len(rows)
@@ -112,7 +113,8 @@ def _tables(diagram: OrbitDiagram, block: Block | None) -> Iterator[dict[str, An
                 diagram.parameter: np.full(count, value),
                 "cycle": np.array(["overturned"]) if gone else np.arange(count),
             }
-            table = files.columns(said | {"angle": rows[:count, 0], "velocity": rows[:count, 1]}, block)
+            table = said | {"angle": rows[:count, 0], "velocity": rows[:count, 1]}
+            table = files.columns(files.with_fixed(table, said, fixed), block)
             yield {name: np.array([""]) if _empty(column) else column for name, column in table.items()}
 
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from rocking.cli.output import survey_run
 from rocking.cli.output.console import Row, print_json, print_table
+from rocking.cli.output.files import with_fixed
 from rocking.cli.output.survey_run import MAX_ROWS
 from rocking.cli.reports.motion import asked_in_si, in_si
 from rocking.cli.reports.validity import warned, warnings
@@ -20,6 +21,8 @@ if TYPE_CHECKING:
 
 LEVELS = ("lowest", "resolution", "survived_up_to")
 """Variables of the result that are amplitudes."""
+FIXED = ("period", "frequency", "restitution", "critical_angle")
+"""Quantities of a system that are attributes of the result if they do not vary; the phase of the base varies in every row."""
 
 
 def write(found: OverturningCurve, files: Mapping[str, Path], block: Block | None) -> None:
@@ -27,26 +30,26 @@ def write(found: OverturningCurve, files: Mapping[str, Path], block: Block | Non
     data = found.dataset
     if block is not None:
         levels = {_key(name): block.acceleration(data[name].values) for name in LEVELS}
-        told = {"units": PHYSICAL["amplitude"].cf}
-        data = data.assign({name: (data.lowest.dims, each, told) for name, each in levels.items()})
+        unit = {"units": PHYSICAL["amplitude"].cf}
+        data = data.assign({name: (data.lowest.dims, each, unit) for name, each in levels.items()})
     survey_run.write(OverturningCurve(data), "overturning", files, block, lambda: [_table(found, block)])
 
 
 def _table(found: OverturningCurve, block: Block | None) -> dict[str, Any]:
-    """Return columns by heading: the varied quantities and all variables over them, amplitudes with a block also in SI."""
+    """Return columns by heading: system of each row, then all variables; amplitudes with a block also in SI."""
     import numpy as np
 
     data, unit = found.dataset, PHYSICAL["amplitude"]
     over = [str(name) for name in data.lowest.dims]
     grids = np.meshgrid(*(data[name].values for name in over), indexing="ij")
-    told: dict[str, Any] = {name: grid.ravel() for name, grid in zip(over, grids, strict=True)}
     levels = {name: data[name].values.ravel() for name in LEVELS}
-    told |= {f"{name} [{unit.normalised}]": level for name, level in levels.items()}
-    told |= {"lowest_phase [rad]": data.lowest_phase.values.ravel()}
-    told |= {name: data[name].values.ravel() for name in ("surviving_above", "undetermined")}
+    table: dict[str, Any] = {name: grid.ravel() for name, grid in zip(over, grids, strict=True)}
+    table |= {f"{name} [{unit.normalised}]": level for name, level in levels.items()}
+    table |= {name: data[name].values.ravel() for name in ("lowest_phase", "surviving_above", "undetermined")}
+    table = with_fixed(table, over, {name: data.attrs[name] for name in FIXED if name in data.attrs})
     if block is None:
-        return told
-    return told | {f"{name}_{unit.heading}": block.acceleration(level) for name, level in levels.items()}
+        return table
+    return table | {f"{name}_{unit.heading}": block.acceleration(level) for name, level in levels.items()}
 
 
 def _key(level: str) -> str:
@@ -57,8 +60,8 @@ def show(found: OverturningCurve, block: Block | None, files: list[Path], *, as_
     """Print the lowest overturning amplitudes."""
     doubts = _warnings(found, block)
     if as_json:
-        told = {} if block is None else {"block": asked_in_si(found.dataset, block), "warnings": doubts}
-        print_json(record(found, block, files) | told)
+        physical = {} if block is None else {"block": asked_in_si(found.dataset, block), "warnings": doubts}
+        print_json(record(found, block, files) | physical)
     else:
         print_table(title(found, block), rows(found, block), files, warned(doubts))
 
@@ -72,8 +75,8 @@ def title(found: OverturningCurve, block: Block | None) -> str:
         return f"{found}: {in_si('amplitude', found.dataset.amplitude.values[[0, -1]], block)}"
     where = lowest.isel({} if lowest.ndim == 0 else lowest.argmin(...))
     at = [in_si(str(name), float(where[name]), block) for name in lowest.dims]
-    told = " and ".join([in_si("amplitude", float(where), block), *filter(None, at)])
-    return f"a block of {block.size} overturns from rest at {told}; normalised: {found}"
+    motion = " and ".join([in_si("amplitude", float(where), block), *filter(None, at)])
+    return f"a block of {block.size} overturns from rest at {motion}; normalised: {found}"
 
 
 def _warnings(found: OverturningCurve, block: Block | None) -> list[str]:
@@ -98,7 +101,7 @@ def rows(found: OverturningCurve, block: Block | None) -> Iterator[Row]:
     for index in list(_places(data))[:MAX_ROWS]:
         at = {name: data[name].values[k] for name, k in zip(over, index, strict=True)}
         low, step, up_to, above = (float(data[name].values[index]) for name in COLUMNS)
-        told = [
+        cells = [
             *(f"{value:.6g}" for value in at.values()),
             "none" if math.isnan(low) else f"{low:.6g}",
             _number(step),
@@ -106,10 +109,10 @@ def rows(found: OverturningCurve, block: Block | None) -> Iterator[Row]:
             "–" if math.isnan(above) else f"{100 * above:.3g} %",
         ]
         if block is not None:
-            told += [f"{PHYSICAL[name].turn(block, at[name]):.4g}" for name in known]
+            cells += [f"{PHYSICAL[name].turn(block, at[name]):.4g}" for name in known]
             levels = [block.acceleration(level) for level in (low, step, up_to)]
-            told += [_number(level, 4) for level in (levels[0], levels[0] / GRAVITY, *levels[1:])]
-        yield tuple(told)
+            cells += [_number(level, 4) for level in (levels[0], levels[0] / GRAVITY, *levels[1:])]
+        yield tuple(cells)
     left = data.lowest.size - MAX_ROWS
     if left > 0:
         rest = len(heading) + len(known) + len(in_units) - 1
@@ -134,7 +137,7 @@ def record(found: OverturningCurve, block: Block | None, files: list[Path]) -> d
                 if name in PHYSICAL
             }
             row |= {_key(name): float(block.acceleration(row[name])) for name in LEVELS}
-    fixed = {name: data.attrs[name] for name in ("period", "frequency", "restitution") if name in data.attrs}
+    fixed = {name: data.attrs[name] for name in FIXED if name in data.attrs}
     scanned = {"start": float(amplitudes[0]), "stop": float(amplitudes[-1]), "count": int(amplitudes.size)}
     return {
         **fixed,

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from rocking.cli.output.console import Row, print_json, print_table
-from rocking.cli.output.files import columns, with_block, write_result
+from rocking.cli.output.files import columns, with_block, with_fixed, write_result
 from rocking.cli.reports.motion import asked_in_si, in_si
 from rocking.cli.reports.spectrum import axes_of, undecided, values
 from rocking.cli.reports.validity import warned, warnings
@@ -28,7 +28,9 @@ def write(found: xr.Dataset, files: Mapping[str, Path], block: Block | None) -> 
     write_result(
         files,
         figure=lambda plot: plot.overturning_spectrum(found, block=block),
-        tables=lambda: (columns(table, block) for table in tables(found)),
+        tables=lambda: (
+            columns(with_fixed(table, found.outcome.dims, found.attrs), block) for table in tables(found)
+        ),
         data=lambda: with_block(found.load(), block),
     )
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from rocking.cli.option_names import TOLD
 from rocking.cli.output.console import Row, print_json, print_table
-from rocking.cli.output.files import columns, with_block, write_result
+from rocking.cli.output.files import columns, with_block, with_fixed, write_result
 from rocking.cli.output.survey_run import MAX_ROWS, share_record
 from rocking.cli.reports.motion import asked_in_si, in_si
 from rocking.cli.reports.validity import warned, warnings
@@ -26,10 +26,13 @@ def write(found: SafeBasin, block: Block | None, files: Mapping[str, Path]) -> N
     """Write the plot, one row per amplitude as CSV, and the dataset; with a block also in SI."""
     from rocking.survey import tables
 
+    data = found.dataset
     write_result(
         files,
         figure=lambda plot: plot.safe_basin(found, block=block),
-        tables=lambda: (columns(table, block) for table in tables(found.dataset)),
+        tables=lambda: (
+            columns(with_fixed(table, ["amplitude"], data.attrs), block) for table in tables(data)
+        ),
         data=lambda: _dataset(found, block),
     )
 

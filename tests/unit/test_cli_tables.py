@@ -1,0 +1,118 @@
+"""Tables of several systems (`--csv`): headings state units, and each row states the system that it belongs to."""
+
+import csv
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import rocking as rk
+
+BLOCK = rk.Block(2.0, 0.5)
+TYPED = "--restitution 0.8 --phase 0.5"
+PHASE = "phase [rad]"
+FAMILIES = {
+    "map": f"--amplitude 2:3:2 --period 1:1.2:2 --angle 0.1 --max-cycles 50 {TYPED}",
+    "safe-basin": f"--amplitude 2:3:2 --period 1 --samples 5 --max-cycles 50 {TYPED}",
+    "orbit-diagram": f"--amplitude 2:3:2 --period 1 --transient 5 --cycles 2 --sweep up {TYPED}",
+    "continue": f"--amplitude 2:2.1 --period 1 --step 0.1 {TYPED}",
+    "frequency-response": "--amplitude 2 --period 1:1.1:2 --modes 1 --step 0.1 --restitution 0.8",
+}
+
+
+def rows_of(rocking, line):
+    assert rocking(f"{line} --csv a.csv")[:2] == (0, "")
+    with Path("a.csv").open(encoding="utf-8", newline="") as file:
+        return list(csv.DictReader(file))
+
+
+@pytest.mark.parametrize("command", FAMILIES)
+def test_each_row_states_its_system(rocking, command):
+    for row in rows_of(rocking, f"{command} {FAMILIES[command]}"):
+        assert float(row["restitution"]) == 0.8
+        assert 2.0 <= float(row["amplitude [g theta_cr]"]) <= 3.0
+        assert 1.0 <= float(row["period [1/alpha]"]) <= 1.2
+        assert float(row[PHASE]) == (0.5 if "--phase" in FAMILIES[command] else 0.0) or command == "continue"
+        assert float(row.get("angle [theta_cr]", 0.1)) == 0.1 or command == "orbit-diagram"
+
+
+def test_row_of_a_branch_has_the_phases_of_the_base_and_of_the_section(rocking):
+    rows = rows_of(rocking, f"continue {FAMILIES['continue']}")
+    assert {float(row["forcing_phase [rad]"]) for row in rows} == {0.5}
+    assert len({float(row[PHASE]) for row in rows}) == len(rows)
+
+
+@pytest.mark.parametrize("fixed", ["--frequency 3", f"--period {2 * math.pi / 3!r}"])
+def test_each_row_of_overturning_over_restitution_states_the_base_motion(rocking, fixed):
+    line = f"overturning {fixed} --restitution 0.8:0.9:2 --amplitude 1:3:5 --phases 1 --max-cycles 20"
+    name, unit, value = (
+        ("frequency", "alpha", 3.0) if "freq" in fixed else ("period", "1/alpha", 2 * math.pi / 3)
+    )
+    rows = rows_of(rocking, line)
+    assert [float(row[f"{name} [{unit}]"]) for row in rows] == [value, value]
+    assert [float(row["restitution"]) for row in rows] == [0.8, 0.9]
+    assert PHASE not in rows[0]
+
+
+def test_each_row_of_overturning_in_si_states_block_and_base_motion(rocking):
+    line = "overturning --height 2 --width 0.5 --model full --restitution 0.8:0.9:2 --frequency-hz 1.5"
+    for row in rows_of(rocking, f"{line} --acceleration-g 0.2:0.6:3 --phases 1 --max-cycles 20"):
+        assert float(row["frequency [Hz]"]) == pytest.approx(1.5, rel=1e-14)
+        assert float(row["critical_angle [rad]"]) == pytest.approx(math.atan(0.25), rel=1e-14)
+
+
+def test_each_row_of_an_overturning_spectrum_states_the_restitution(rocking):
+    line = "overturning-spectrum --pulse ricker --amplitude 2:4:3 --frequency 1:2:2 --restitution 0.9"
+    assert {row["restitution"] for row in rows_of(rocking, line)} == {"0.9"}
+
+
+def test_headings_of_a_map_have_units(rocking):
+    row = rows_of(rocking, f"map {FAMILIES['map']}")[0]
+    assert list(row) == [
+        "amplitude [g theta_cr]",
+        "period [1/alpha]",
+        "restitution",
+        PHASE,
+        "angle [theta_cr]",
+        "velocity [alpha theta_cr]",
+        "kind",
+        "evidence",
+        "response_period [cycles]",
+        "impacts_per_period",
+        "brace_hits_per_period",
+        "symmetric",
+        "exponent [alpha]",
+        "exponent_error [alpha]",
+        "peak [theta_cr]",
+        "transient [cycles]",
+        "cycles",
+    ]
+
+
+def test_exponents_of_a_map_are_also_per_second(rocking):
+    line = "map --height 2 --width 0.5 --acceleration 4:4.2:2 --frequency-hz 1.2:1.3:2 --max-cycles 300"
+    rows = [row for row in rows_of(rocking, line) if row["kind"] == "periodic"]
+    assert len(rows) == 3
+    for row in rows:
+        for name in ("exponent", "exponent_error"):
+            per_tau, per_second = (float(row[f"{name} [{unit}]"]) for unit in ("alpha", "1/s"))
+            assert np.isfinite(per_tau)
+            assert per_second == pytest.approx(per_tau / BLOCK.seconds(1.0), rel=1e-14)
+
+
+def test_states_of_attractors_in_a_table_of_basins_have_both_units(rocking):
+    starts = "--angle=-0.5:0.5:3 --velocity=-0.2:0.2:2 --boundary-runs 0"
+    rows = rows_of(rocking, f"basins --height 2 --width 0.5 --acceleration 3 --frequency-hz 1.2 {starts}")
+    known = [row for row in rows if row["orbit_angle [theta_cr]"] != "nan"]
+    assert known
+    assert not {
+        name for name in known[0] if name in ("orbit_angle", "orbit_velocity", "mean_angle", "transient")
+    }
+    for row in known:
+        for name in ("orbit_angle", "mean_angle", "mean_angle_error"):
+            normalised = float(row[f"{name} [theta_cr]"])
+            assert float(row[f"{name} [rad]"]) == pytest.approx(BLOCK.radians(normalised), nan_ok=True)
+        normalised = float(row["orbit_velocity [alpha theta_cr]"])
+        assert float(row["orbit_velocity [rad/s]"]) == pytest.approx(BLOCK.radians_per_second(normalised))
+        assert int(row["transient [cycles]"]) >= 0
