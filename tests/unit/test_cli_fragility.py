@@ -68,7 +68,8 @@ def test_files_hold_the_probabilities(rocking, tmp_path):
         rows = list(csv.DictReader(file))
     assert len(rows) == 21
     assert [float(row["fraction_high"]) for row in rows] == data.fraction_high.values.ravel().tolist()
-    assert float(rows[7]["limit of |θ| [°]"]) == BLOCK.degrees(0.5)
+    assert float(rows[7]["limit [deg]"]) == BLOCK.degrees(0.5)
+    assert {float(row["limit [theta_cr]"]) for row in rows} == {0.1, 0.5, np.inf}
     assert (tmp_path / "f.png").read_bytes().startswith(b"\x89PNG")
     with xr.open_dataset("f.nc", engine="h5netcdf") as kept:
         assert np.array_equal(kept.peak, data.peak)

@@ -86,6 +86,24 @@ def test_exponents_of_a_block_that_rests_are_null(rocking):
     assert (read["exponents"], read["superstable"], read["kaplan_yorke"]) == ([None, None], True, None)
 
 
+def test_table_of_superstable_exponents_has_one_row(rocking, tmp_path):
+    line = "--height 2 --width 0.5 --acceleration 2.5 --frequency-hz 0.8 --restitution 0.5 --cycles 200"
+    assert told(rocking, f"{line} --csv a.csv")["superstable"]
+    with (tmp_path / "a.csv").open(encoding="utf-8", newline="") as file:
+        (row,) = csv.DictReader(file)
+    assert row == {"cycles": "200"} | {
+        f"{name}_{number} [{unit}]": value
+        for unit in ("alpha", "1/s")
+        for number in (1, 2)
+        for name, value in (("value", "-inf"), ("error", "0.0"))
+    }
+
+
+def test_plot_of_superstable_exponents_is_an_error_after_no_file(rocking, tmp_path):
+    assert rocking(f"lyapunov {RESTS} --plot a.png --csv a.csv")[0] == 2
+    assert not list(tmp_path.iterdir())
+
+
 def test_files_are_written(rocking, tmp_path):
     code, _, out = rocking(f"lyapunov {CHAOS} --plot {tmp_path}/a.png --netcdf {tmp_path}/a.nc")
     assert code == 0
@@ -116,7 +134,6 @@ def test_csv_holds_the_running_estimates_in_both_units(rocking, tmp_path):
     ("line", "message"),
     [
         (f"{RESTS} --plot a.png", "--plot must be omitted: the exponents are −∞"),
-        (f"{RESTS} --csv a.csv", "--csv must be omitted: the exponents are −∞"),
         ("--amplitude 10.1 --period 1.7 --restitution 0.8 --cycles 20", "--cycles must be at least 32"),
         ("--amplitude 10.1 --period 1.7 --restitution 0.8 --cycles 0", "--cycles must"),
         ("--amplitude 10.1 --period 1.7 --restitution 0.8 --transient -1", "--transient must"),

@@ -36,8 +36,8 @@ def tables(found: Fragility) -> Iterator[dict[str, Any]]:
     data = found.dataset
     for number, limit in enumerate(data.limit.values.tolist()):
         yield {
-            "limit of |Θ| [θcr]": np.full(data.sizes["scale"], limit),
-            "limit of |θ| [°]": np.full(data.sizes["scale"], found.block.degrees(limit)),
+            "limit [theta_cr]": np.full(data.sizes["scale"], limit),
+            "limit [deg]": np.full(data.sizes["scale"], found.block.degrees(limit)),
             heading(found, "[", "]"): data.scale.values,
         } | {name: data[name].values[number] for name in COLUMNS}
 

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from rocking.cli.option_names import YourInput, option
+from rocking.cli.option_names import YourInput
 from rocking.cli.output.console import Row, print_json, print_table
 from rocking.cli.output.files import with_block, write_result
 from rocking.cli.reports.motion import asked, beyond, physical_of, question
@@ -20,12 +20,11 @@ if TYPE_CHECKING:
 
 
 def write(spectrum: LyapunovSpectrum, block: Block | None, files: Mapping[str, Path]) -> None:
-    """Write the plot and the table of the running estimates, and the dataset; YourInput if there are no estimates."""
-    for name in ("plot", "csv"):
-        if name in files and spectrum.superstable:
-            raise YourInput(
-                f"{option(name)} must be omitted: the exponents are −∞, so that nothing converges ({spectrum})"
-            )
+    """Write the plot and the table of the running estimates, and the dataset; YourInput for a plot without estimates."""
+    if "plot" in files and spectrum.superstable:
+        raise YourInput(
+            f"--plot must be omitted: the exponents are −∞, so that there is no running estimate ({spectrum})"
+        )
     write_result(
         files,
         figure=lambda plot: plot.convergence(spectrum),
@@ -35,17 +34,31 @@ def write(spectrum: LyapunovSpectrum, block: Block | None, files: Mapping[str, P
 
 
 def _table(spectrum: LyapunovSpectrum, block: Block | None) -> dict[str, Any]:
-    """Return the running estimates as columns by heading; with a block also per second."""
-    history = spectrum.history
+    """Return the running estimates as columns by heading; with a block also per second.
+
+    Exponents of −∞ have one row, that of all cycles.
+    """
+    history = _final(spectrum) if spectrum.superstable else spectrum.history
     rates = {
         f"{name}_{number + 1}": history[f"{name}s"][:, number]
         for number in (0, 1)
         for name in ("value", "error")
     }
-    told = {"cycles": history["cycles"]} | {f"{name} [alpha]": rate for name, rate in rates.items()}
+    table = {"cycles": history["cycles"]} | {f"{name} [alpha]": rate for name, rate in rates.items()}
     if block is None:
-        return told
-    return told | {f"{name} [1/s]": rate * block.frequency_parameter for name, rate in rates.items()}
+        return table
+    return table | {f"{name} [1/s]": rate * block.frequency_parameter for name, rate in rates.items()}
+
+
+def _final(spectrum: LyapunovSpectrum) -> dict[str, np.ndarray]:
+    """Return the result after all cycles as one row of running estimates."""
+    import numpy as np
+
+    return {
+        "cycles": np.array([spectrum.cycles]),
+        "values": spectrum.values[np.newaxis],
+        "errors": spectrum.errors[np.newaxis],
+    }
 
 
 def show(spectrum: LyapunovSpectrum, block: Block | None, files: Sequence[Path], *, as_json: bool) -> None:
@@ -110,7 +123,7 @@ def dimension_of(spectrum: LyapunovSpectrum) -> tuple[float, float] | None:
 
 def record(spectrum: LyapunovSpectrum, block: Block | None, files: Sequence[Path]) -> dict[str, Any]:
     """Return the exponents as a JSON object; an exponent of −∞ is null."""
-    told = {
+    result = {
         **question(spectrum),
         "exponents": spectrum.values.tolist(),
         "errors": [float(error) for error in spectrum.errors],
@@ -124,7 +137,7 @@ def record(spectrum: LyapunovSpectrum, block: Block | None, files: Sequence[Path
         "files": [str(file) for file in files],
     }
     if block is None:
-        return told
+        return result
     values, errors = per_second(spectrum, block)
     rates = {"exponents_per_s": values.tolist(), "errors_per_s": errors.tolist()}
-    return told | {"block": physical_of(spectrum.system, block) | rates}
+    return result | {"block": physical_of(spectrum.system, block) | rates}

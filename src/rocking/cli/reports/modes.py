@@ -88,17 +88,17 @@ def write(answer: Answer, block: Block | None, files: Mapping[str, Path]) -> Non
 def _columns(modes: Sequence[Mode], block: Block | None) -> dict[str, Any]:
     """Return the modes as columns by heading, with a block also in SI; the peak of an inadmissible mode is NaN."""
     multipliers = np.array([mode.multipliers for mode in modes], complex).reshape(-1, 2)
-    told = {
+    values = {
         "mode": np.array(NAMES[: len(modes)]),
         "velocity": np.array([mode.velocity for mode in modes]),
-        "phase [rad]": np.array([mode.phase for mode in modes]),
+        "phase": np.array([mode.phase for mode in modes]),
         "trace": np.array([mode.trace for mode in modes]),
         **multiplier_columns(multipliers),
         "peak": np.array([math.nan if mode.peak is None else mode.peak for mode in modes]),
         "stability": np.array([str(mode.stability) for mode in modes]),
         "admissible": np.array([mode.admissible for mode in modes]),
     }
-    return columns(told, block)
+    return columns(values, block)
 
 
 def show(answer: Answer, block: Block | None, files: Sequence[Path], *, as_json: bool) -> None:
@@ -148,7 +148,7 @@ def table(modes: list[Mode], block: Block | None) -> Iterator[tuple[str, ...]]:
 def record(answer: Answer, block: Block | None, files: Sequence[Path]) -> dict[str, Any]:
     """Return the modes as a JSON object; multipliers are pairs [real, imaginary], infinite numbers null."""
     forcing = answer.system.harmonic
-    told: dict[str, Any] = {
+    result: dict[str, Any] = {
         "amplitude": forcing.amplitude,
         "period": forcing.period,
         "frequency": forcing.frequency,
@@ -171,9 +171,9 @@ def record(answer: Answer, block: Block | None, files: Sequence[Path]) -> dict[s
         "files": [str(path) for path in files],
     }
     if block is None:
-        return told
+        return result
     found = warnings(block, answer.amplitude, answer.system.restitution)
-    return told | {"block": physical_of(answer.system, block), "warnings": found}
+    return result | {"block": physical_of(answer.system, block), "warnings": found}
 
 
 def _complex(value: complex) -> str:

@@ -12,7 +12,7 @@ import numpy as np
 from rocking.cli.output.console import Row, print_json, print_table
 from rocking.cli.output.files import write_result
 from rocking.cli.reports.validity import equation, shape_warnings, warned
-from rocking.model import RecordSet, counted, percent
+from rocking.model import PHYSICAL, RecordSet, counted, percent
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -41,7 +41,7 @@ def tables(found: xr.Dataset) -> Iterator[dict[str, np.ndarray]]:
             number = table.pop("record").astype(int)
             columns = {"record": number, "name": found["name"].values[number]}
         for name, column in table.items():
-            unit = found[name].attrs.get("units", "1")
+            unit = PHYSICAL[name].normalised if name in PHYSICAL else found[name].attrs.get("units", "1")
             columns[name if unit in ("1", "") else f"{name} [{unit}]"] = column
         slenderness = table["slenderness"] if "slenderness" in table else found.attrs["slenderness"]
         columns["peak [deg]"] = table["peak"] * np.degrees(slenderness)
