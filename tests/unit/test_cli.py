@@ -311,7 +311,7 @@ REFUSED = {
     f"{NORMALISED} --amplitude -2": "--amplitude must lie in [0, 1000]; got -2 "
     "(for the opposite direction add π to --phase)",
     f"{NORMALISED} --amplitude inf": "--amplitude must lie in [0, 1000]; got inf",
-    f"{NORMALISED} --amplitude two": "Invalid value for '--amplitude': must be a number without a unit, such as 0.6; got 'two'",
+    f"{NORMALISED} --amplitude two": "--amplitude must be a number without a unit, such as 0.6; got 'two'",
     f"{NORMALISED} --restitution 1.2": "--restitution must lie in [0, 1]; got 1.2",
     f"{NORMALISED} --phase 1e4": "--phase must lie in [-1000, 1000]; got 10000.0",
     f"{NORMALISED} --brace-angle 0": "--brace-angle must lie in [0.001, 1000]; got 0",
@@ -326,6 +326,7 @@ REFUSED = {
     f"{NORMALISED} --cycles nan": "--cycles must be a whole number in [1, 1000000000]; got nan",
     f"{NORMALISED} --cycles 1e6 --csv a.csv": "--cycles must be at most 100000 with --csv; got 1000000.0",
     f"{NORMALISED} --plot a.jpeg": "--plot must end in .png, .svg, .pdf, .gif, .mp4; got 'a.jpeg'",
+    f"{NORMALISED} --csv -": "--csv must be the path of a file; got '-' (files are not written to stdout: use --json for the summary)",
     f"{NORMALISED} --csv nowhere/a.csv": "--csv must lie in an existing folder; got 'nowhere/a.csv'",
     f"{NORMALISED} --csv period/phase.csv": "--csv must lie in an existing folder; got 'period/phase.csv'",
     f"{NORMALISED} --netcdf .": "--netcdf must end in .nc; got '.'",
@@ -419,7 +420,7 @@ def test_whole_paper_ends_with_the_page_to_open(rocking, monkeypatch):
 @pytest.mark.parametrize(
     ("line", "message"),
     [
-        ("paper 99", "figures must be among "),
+        ("paper 99", "FIGURE must be among "),
         ("paper 1 --output taken/here", "--output must be a folder that can be written; "),
     ],
 )

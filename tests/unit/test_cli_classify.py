@@ -127,7 +127,7 @@ REFUSED = {
     f"{NORMALISED} --max-cycles 1e9": "--max-cycles must be a whole number in [1, 100000000]; got 1000000000.0",
     f"{NORMALISED} --max-cycles inf": "--max-cycles must be a whole number in [1, 100000000]; got inf",
     f"{NORMALISED} --max-period 2.5": "--max-period must be a whole number in [1, 10000]; got 2.5",
-    f"{NORMALISED} --max-period many": "Invalid value for '--max-period': must be a number without a unit, such as 0.6; got 'many'",
+    f"{NORMALISED} --max-period many": "--max-period must be a number without a unit, such as 0.6; got 'many'",
     f"{NORMALISED} --angle nan": "--angle must lie in [-1000, 1000]; got nan",
     f"{NORMALISED} --brace-angle 0.5 --angle 0.6": "--angle must lie between the braces, in [-0.5, 0.5]; got 0.6",
     f"{NORMALISED} --plot a.gif": "--plot must end in .png, .svg, .pdf; got 'a.gif'",

@@ -132,7 +132,7 @@ NORMALISED = "--period 1:2:3 --restitution 0.9"
         ("--amplitude 2 --restitution 0.9", "missing --period: give --amplitude, --period (or --frequency)"),
         (
             "--amplitude 2 --period 1 --restitution 0.9",
-            "Invalid value for '--period': must be an axis, START:STOP:COUNT with",
+            "--period must be an axis, START:STOP:COUNT with",
         ),
         ("--amplitude 2 --period 0:1:3 --restitution 0.9", "--period must lie in "),
         (
@@ -148,7 +148,7 @@ NORMALISED = "--period 1:2:3 --restitution 0.9"
             f"--amplitude 2 {NORMALISED} --modes 2",
             "--modes must be odd: no symmetric orbit repeats after an even number of cycles; got 2",
         ),
-        (f"--amplitude 2 {NORMALISED} --modes 1,3", "Invalid value for '--modes': must be a number"),
+        (f"--amplitude 2 {NORMALISED} --modes 1,3", "--modes must be a number"),
         (f"--amplitude 2 {NORMALISED} --step 5", "--step must lie in [1e-06, 0.1]; got 5"),
         (f"--amplitude 2 {NORMALISED} --max-cycles 0", "--max-cycles must be a whole number in [1, "),
         (f"--amplitude 2 {NORMALISED} --model full", "No such option: --model"),

@@ -225,14 +225,14 @@ REFUSED = {
         "a parametric map needs two quantities as axes, START:STOP:COUNT; got --amplitude"
     ),
     f"{LINE} --phase one": (
-        "Invalid value for '--phase': must be a number or START:STOP:COUNT with START ≠ STOP and a whole COUNT "
+        "--phase must be a number or START:STOP:COUNT with START ≠ STOP and a whole COUNT "
         "in [2, 1000000]; got 'one' (example: 1:3:60)"
     ),
     f"{LINE} --phase 1:2:2.5": (
-        "Invalid value for '--phase': must be a number or START:STOP:COUNT with START ≠ STOP and a whole COUNT "
+        "--phase must be a number or START:STOP:COUNT with START ≠ STOP and a whole COUNT "
         "in [2, 1000000]; got '1:2:2.5' (example: 1:3:60)"
     ),
-    f"{LINE} --max-cycles many": "Invalid value for '--max-cycles': must be a number without a unit, such as 0.6; got 'many'",
+    f"{LINE} --max-cycles many": "--max-cycles must be a number without a unit, such as 0.6; got 'many'",
     f"{LINE} --period 3:0.2:18": (
         "--period must hold two numbers or more in [0.00628319, 6283.19], ascending; got 3.0 before 2.835294117647059 at index 1"
     ),
@@ -253,7 +253,7 @@ REFUSED = {
     ),
     f"{LINE} --store map --tiles ./map": "--store and --tiles must differ; got 'map' for both",
     f"{LINE} --plot map.png --tiles map.png": "--tiles and --plot must differ; got 'map.png' for both",
-    f"{LINE} --store=": "Invalid value for '--store': must be the path of a folder; got ''",
+    f"{LINE} --store=": "--store must be the path of a folder; got ''",
     f"{LINE} --csv nowhere/map.csv": "--csv must lie in an existing folder; got 'nowhere/map.csv'",
     f"{LINE} --study nowhere.toml": "--study must name a TOML file; got 'nowhere.toml': No such file or directory",
 }

@@ -103,8 +103,8 @@ def test_picture_is_written_and_named(rocking, tmp_path, line, suffix):
 EVEN = "no mode with even n is symmetric: half a response later the forcing is unchanged, not reversed"
 REFUSED = {
     "--amplitude 2": "missing --period and --restitution: give --amplitude, --period (or --frequency) and --restitution",
-    "--amplitude 2 --period 1 --restitution 0.9 -n 2": f"n must be an odd whole number in [1, 9999]; got 2 ({EVEN})",
-    "--amplitude 2 --period 1 --restitution 0.9 -n some": "Invalid value for '-n': must be a number without a unit, "
+    "--amplitude 2 --period 1 --restitution 0.9 -n 2": f"-n must be an odd whole number in [1, 9999]; got 2 ({EVEN})",
+    "--amplitude 2 --period 1 --restitution 0.9 -n some": "-n must be a number without a unit, "
     "such as 0.6; got 'some'",
     "--amplitude 2 --period 1 --restitution 0": "--restitution must lie in (0, 1] for symmetric modes; got 0.0 "
     "(an impact that stops the block leaves no mode)",

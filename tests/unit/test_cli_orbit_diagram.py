@@ -135,19 +135,19 @@ NORMALISED = "--period 1 --restitution 0.9"
         ),
         (
             f"--amplitude 1:2:1 {NORMALISED}",
-            "Invalid value for '--amplitude': must be a number or START:STOP:",
+            "--amplitude must be a number or START:STOP:",
         ),
         (
             f"--amplitude 1:1:9 {NORMALISED}",
-            "Invalid value for '--amplitude': must be a number or START:STOP:",
+            "--amplitude must be a number or START:STOP:",
         ),
         (
             f"--amplitude 1:2:3:4 {NORMALISED}",
-            "Invalid value for '--amplitude': must be a number or START:STOP:",
+            "--amplitude must be a number or START:STOP:",
         ),
-        (f"--amplitude 1:x {NORMALISED}", "Invalid value for '--amplitude': must be a number or START:STOP:"),
+        (f"--amplitude 1:x {NORMALISED}", "--amplitude must be a number or START:STOP:"),
         (f"--amplitude 1:nan {NORMALISED}", "--amplitude must"),
-        (f"--amplitude x {NORMALISED}", "Invalid value for '--amplitude': must be a number"),
+        (f"--amplitude x {NORMALISED}", "--amplitude must be a number"),
         (f"--amplitude -1:2 {NORMALISED}", "--amplitude must lie in [0, 1000]; got -1.0"),
         ("--amplitude 2 --period 1 --restitution 0.5:1.5", "--restitution must lie in [0, 1]; got 1.5"),
         (
@@ -170,7 +170,7 @@ NORMALISED = "--period 1 --restitution 0.9"
         ("--amplitude 1:2 --period 1", "missing --restitution: give --amplitude"),
         (
             "--height 1:2 --width 0.5",
-            "Invalid value for '--height': must be a number without a unit, such as 0.6; got '1:2'",
+            "--height must be a number without a unit, such as 0.6; got '1:2'",
         ),
     ],
 )

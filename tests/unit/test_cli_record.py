@@ -267,7 +267,7 @@ def test_more_events_than_are_kept_are_counted_and_refused_only_to_a_file(rockin
         (f"pulse.csv {SIZE} --step 0.1", "pulse.csv: the file states its time step, 0.2; do not give --step"),
         (
             f"pulse.csv {SIZE} --step x",
-            "Invalid value for '--step': must be a number without a unit, such as 0.6; got 'x'",
+            "--step must be a number without a unit, such as 0.6; got 'x'",
         ),
         (f"pulse.csv {SIZE} --channel 2", "--channel must be 1 to 1, the channels of pulse.csv; got 2"),
         (

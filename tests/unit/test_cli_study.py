@@ -213,6 +213,20 @@ def test_number_in_si_that_is_not_finite_is_an_error_that_names_the_file(rocking
     assert rocking("map --study study.toml")[1].endswith("; got nan (study 'study.toml' gives height)")
 
 
+def test_section_is_an_error_with_its_remedy(rocking):
+    Path("study.toml").write_text("[simulate]\namplitude = 2\n")
+    assert rocking("simulate --study study.toml")[1] == (
+        "study 'study.toml': unknown 'simulate' (a section: write the keys of options without sections)"
+    )
+
+
+def test_file_that_is_no_text_is_an_error_with_the_encoding(rocking):
+    Path("study.toml").write_bytes(b"\xff\xfe\x00")
+    assert rocking("simulate --study study.toml")[1] == (
+        "--study must name a TOML file; got 'study.toml': the file is not text in UTF-8"
+    )
+
+
 def test_keys_are_shown_as_they_are_written(rocking):
     Path("study.toml").write_text(
         "max-cycle = 3\nbrace_angel = 1\nbrace-restitutio = 1\nfrequencyhz = 2\nbrace-angle = 'a'\nmax_period = true\n"

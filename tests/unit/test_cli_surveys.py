@@ -205,10 +205,10 @@ def test_all_errors_of_a_study_file_are_told_at_once(rocking, command, wrong, to
         ("basins --amplitude 2 --period 1", "missing --restitution"),
         (f"{BASINS} --max-cycles 0", "--max-cycles must be a whole number"),
         (f"{BASINS} --plot a.txt", "--plot must"),
-        ("basins --amplitude 2 --period 1 --restitution 0.9 --angle 1:2:x", "'--angle': must be a number or"),
+        ("basins --amplitude 2 --period 1 --restitution 0.9 --angle 1:2:x", "--angle must be a number or"),
         (
             "basins --amplitude 2 --period 1 --restitution 0.9 --samples 10 --angle 1",
-            "--angle must be a pair",
+            "--angle must be an axis, START:STOP:COUNT; got 1",
         ),
         (
             "overturning --amplitude 1:2:3",
@@ -287,7 +287,7 @@ def test_overturning_of_a_block_scans_the_usual_amplitudes_and_says_where_nothin
         ("--width 0.5 --frequency-hz 1 --amplitude 1:2", "--amplitude is normalised and --height is SI"),
         (
             "--width 0.5 --frequency-hz 1 --acceleration 3",
-            "--acceleration must be an axis to scan, START:STOP:COUNT",
+            "--acceleration must be an axis, START:STOP:COUNT",
         ),
     ],
 )
@@ -385,6 +385,25 @@ def test_a_picture_of_two_lists_in_a_study_file_is_refused_before_the_scan(rocki
     code, message, _ = rocking("overturning --study study.toml")
     wrong = "--plot needs a single axis; got --period and --restitution (give one of them as a number)"
     assert (code, message) == (2, f"{wrong} (study 'study.toml' gives period, restitution, plot)")
+
+
+@pytest.mark.parametrize(
+    ("line", "message"),
+    [
+        (f"{BASINS} --angle 0.5", "--angle must be an axis, START:STOP:COUNT; got 0.5"),
+        (f"{BASINS} --velocity 1 --samples 9", "--velocity must be an axis, START:STOP:COUNT; got 1"),
+        (
+            "overturning --period 1 --restitution 0.9 --amplitude 3",
+            "--amplitude must be an axis, START:STOP:COUNT; got 3",
+        ),
+        (
+            "overturning --height 2 --width 0.5 --period-s 1 --acceleration 3",
+            "--acceleration must be an axis, START:STOP:COUNT; got 3",
+        ),
+    ],
+)
+def test_number_in_place_of_an_axis_is_an_error_about_its_option(rocking, line, message):
+    assert rocking(line) == (2, message, "")
 
 
 WIDE = "--height 2 --width 1"

@@ -6,8 +6,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import typer
 
 import rocking as rk
+from rocking.cli.app import app
 
 BLOCK = rk.Block(2.0, 0.5)
 TYPED = "--restitution 0.8 --phase 0.5"
@@ -25,6 +27,12 @@ def rows_of(rocking, line):
     assert rocking(f"{line} --csv a.csv")[:2] == (0, "")
     with Path("a.csv").open(encoding="utf-8", newline="") as file:
         return list(csv.DictReader(file))
+
+
+def test_all_commands_that_compute_a_table_or_a_series_write_it():
+    commands = typer.main.get_command(app).commands
+    without = {name for name, each in commands.items() if "csv" not in [one.name for one in each.params]}
+    assert without == {"classify", "explore", "paper", "cite"}
 
 
 @pytest.mark.parametrize("command", FAMILIES)

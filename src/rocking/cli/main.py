@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import logging
 import os
+import re
 import signal
 import sys
 from pathlib import Path
@@ -82,7 +83,8 @@ def refused(error: Exception) -> tuple[int, str]:
     from rocking.model import FULL, WriteError
 
     if isinstance(error, TyperException):
-        return 2, error.format_message()
+        # Typer's "Invalid value for '--name': must …" in the form of all other messages.
+        return 2, re.sub(r"^Invalid value for '([\w-]+)': must ", r"\1 must ", error.format_message())
     if isinstance(error, WriteError):
         return 2, str(error)
     if isinstance(error, BrokenPipeError):  # the reader of the pipe has closed it

@@ -38,7 +38,7 @@ def modes(
 
     files = check_files({"plot": plot, "csv": csv})
     system, _, block = ask.question(context.params)
-    with your_input(ARGUMENTS):
+    with your_input(ARGUMENTS | {"n must": "-n must"}):
         answer = report.find(system, n)
     report.write(answer, block, files)
     report.show(answer, block, list(files.values()), as_json=json)

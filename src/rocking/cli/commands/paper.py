@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from rocking.cli.option_names import YourInput, your_input
+from rocking.cli.option_names import YourInput, as_typed, your_input
 
 EXAMPLES = """\
 # Figures 1 and 4 of Yim & Lin (1991) only.
@@ -78,7 +78,7 @@ def _written(name: str, folder: Path, figures: list[str], last: list[str]) -> li
     except (ValueError, OSError) as error:
         if bar.tasks:
             raise  # drawing has begun: the error is not in the input
-        raise YourInput(str(error)) from error
+        raise YourInput(as_typed(str(error), {"figures": "FIGURE"})) from error
     finally:
         if bar.tasks:
             bar.stop()

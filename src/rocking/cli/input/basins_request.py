@@ -34,7 +34,9 @@ def question(typed: Mapping[str, Any], file: Path | None) -> dict[str, Any]:
         "boundary_width": partial(within, "boundary_width", low=BOUNDARY_WIDTHS[0], high=BOUNDARY_WIDTHS[1]),
         **survey_quantities.path_checks("store", *SUFFIXES),
     }
-    return study_file.asked(typed, file, checks)
+    given = study_file.asked(typed, file, checks)
+    survey_quantities.require_axes(given, *START)
+    return given
 
 
 def compute(given: Mapping[str, Any]) -> tuple[BasinMap, Block | None]:

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 
 SCANNED_SI = tuple(name for name in SI if name != "displacement")
 """SI options except the displacement, whose acceleration depends on the frequency."""
+LEVELS = ("acceleration", "acceleration_g")
 ASKED = ("period", "frequency", "restitution", "amplitude", "critical_angle")
 
 
@@ -30,6 +31,7 @@ def question(typed: Mapping[str, Any], file: Path | None) -> dict[str, Any]:
         **survey_quantities.path_checks("store", *SUFFIXES),
     }
     given = study_file.asked(typed, file, checks)
+    survey_quantities.require_axes(given, "amplitude", *LEVELS)
     _, physical = kinds(given)
     if physical:
         needs = "--height, --width and --frequency-hz (or --period-s)"
@@ -41,7 +43,7 @@ def question(typed: Mapping[str, Any], file: Path | None) -> dict[str, Any]:
         name
         for name, each in given.items()
         if name in (*ASKED, *SCANNED_SI)
-        and name not in ("amplitude", "acceleration", "acceleration_g")
+        and name not in ("amplitude", *LEVELS)
         and not isinstance(each, int | float)
     ]
     if "plot" in given and len(varied) > 1:
@@ -67,7 +69,7 @@ def compute(given: Mapping[str, Any]) -> tuple[OverturningCurve, Block | None]:
 
 def _normalised(given: Mapping[str, Any]) -> dict[str, Any]:
     """Return the normalised arguments of a request in SI, without amplitude if no acceleration is given."""
-    levels = [name for name in ("acceleration", "acceleration_g") if name in given]
+    levels = [name for name in LEVELS if name in given]
     for name in levels:
         if not isinstance(given[name], Axis):
             raise YourInput(f"{option(name)} must be an axis to scan, {AXIS_FORM}; got {given[name]}")

@@ -111,7 +111,7 @@ def read(path: Path, checks: Mapping[str, Check]) -> dict[str, Any]:
             found[name] = checks[name](said[keys[name]])
         except (TypeError, ValueError) as error:
             errors.append(as_typed(str(error), {name: keys[name]}))
-    errors += [_unknown(keys[name], checks) for name in sorted(keys.keys() - checks.keys())]
+    errors += [_unknown(keys[name], said[keys[name]], checks) for name in sorted(keys.keys() - checks.keys())]
     if errors:
         raise YourInput(f"study {str(path)!r}: " + "; ".join(errors))
     return found
@@ -127,6 +127,8 @@ def _entries(path: Path) -> dict[str, Any]:
         why = getattr(error, "strerror", None) or error
         if isinstance(error, RecursionError):
             why = "the file is nested too deeply"
+        elif isinstance(error, UnicodeDecodeError):
+            why = "the file is not text in UTF-8"
         raise YourInput(f"--study must name a TOML file; got {str(path)!r}: {why}") from error
 
 
@@ -161,8 +163,10 @@ def _check_once(path: Path, said: Mapping[str, Any]) -> None:
         )
 
 
-def _unknown(key: str, checks: Mapping[str, Check]) -> str:
+def _unknown(key: str, entry: Any, checks: Mapping[str, Check]) -> str:
     """Return the message for an unknown key as written in the file, with the most similar known one."""
+    if isinstance(entry, Mapping) and not {"start", "stop"} & entry.keys():
+        return f"unknown {key!r} (a section: write the keys of options without sections)"
     close = difflib.get_close_matches(key.replace("-", "_"), checks, 1)
     if not close:
         return f"unknown {key!r} (keys are the names of options of this command)"

@@ -32,6 +32,10 @@ def check_files(
     """Return the requested files by the names of their options; YourInput if a file cannot be written."""
     asked = {name: path for name, path in paths.items() if path is not None}
     for name, path in asked.items():
+        if path == Path("-"):
+            raise YourInput(
+                f"{option(name)} must be the path of a file; got '-' (files are not written to stdout: use --json for the summary)"
+            )
         with your_input():
             check_writable(option(name), path, suffixes[name])
     return asked
