@@ -89,7 +89,9 @@ def with_fixed(
 
     count = len(next(iter(table.values())))
     first = {str(name): table[str(name)] for name in varied}
-    return first | {name: np.full(count, quantities[name]) for name in TOLD if name in quantities} | table
+    return (
+        first | {name: np.full(count, quantities[name]) for name in TOLD if name in quantities} | dict(table)
+    )
 
 
 def with_block(data: xr.Dataset, block: Block | None) -> xr.Dataset:
