@@ -71,9 +71,16 @@ def until_parent(rows: CurveRows, start: int) -> CurveRows:
 
 
 def _places(inwards: np.ndarray, rows: CurveRows) -> tuple[int, float] | None:
-    """Return a point where the squared distance of the halves is twice that of the first point, and the part of the way back.
+    """Extrapolate the points at an end of a curve to the place at which both halves of the chain are equal.
 
-    The parameters are linear in this squared distance. None if the halves are not almost equal at the first point.
+    The parameters are linear in the squared distance of the halves.
+
+    Returns
+    -------
+    tuple of (int, float) or None
+        Index of a point at which the squared distance is more than twice that of the first point.
+        Distance of the place from the first point, on the other side, as a fraction of the distance of these two points.
+        None if the halves are not almost equal at the first point.
     """
     squares = (apart_of(rows.chain, inwards[:, :-1]) ** 2).sum(axis=1)
     far = int(np.argmax(squares > 2.0 * squares[0]))

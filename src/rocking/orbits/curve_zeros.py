@@ -83,8 +83,8 @@ class _Step(NamedTuple):
     def may_hide(ends: tuple[float, float], slopes: tuple[float, float]) -> bool:
         """Return whether a function may have more zeros in [0, 1] than the signs at the ends show.
 
-        The coefficients of Bernstein of a cubic polynomial have at least as many changes of sign as it has zeros. The slopes
-        are estimates, whose error is in proportion to the curvature.
+        The Bernstein coefficients of a cubic polynomial change their sign at least as often as it has zeros in [0, 1]. The
+        slopes are estimates. Their error is proportional to the curvature.
         """
         one, other = ends
         inner = one + STEEPER * slopes[0] / 3.0, other - STEEPER * slopes[1] / 3.0
