@@ -78,8 +78,8 @@ def _places(inwards: np.ndarray, rows: CurveRows) -> tuple[int, float] | None:
     Returns
     -------
     tuple of (int, float) or None
-        Index of a point at which the squared distance is more than twice that of the first point.
-        Distance of the place from the first point, on the other side, as a fraction of the distance of these two points.
+        Index of a point whose squared distance is more than twice that of the first point.
+        Distance of the place from the first point, as a fraction of the distance of these two points.
         None if the halves are not almost equal at the first point.
     """
     squares = (apart_of(rows.chain, inwards[:, :-1]) ** 2).sum(axis=1)
