@@ -66,8 +66,9 @@ from rocking.kernels.deferred import njit
 from rocking.kernels.march.march import DONE
 from rocking.kernels.numerics.elementary import size
 
-# Maximum number of cycles to a predicted checkpoint, as a multiple of the cycles so far.
-MAX_AHEAD = 4
+# Maximum number of cycles to a predicted checkpoint, as a fraction of the cycles so far. The motion may approach another orbit
+# than the predicted one. That is noticed at the next checkpoint only.
+MAX_AHEAD = 0.5
 # A checkpoint that is not predicted follows after this fraction of the cycles so far, but not after fewer than
 # MIN_AHEAD: in lanes a checkpoint costs as much as 20 cycles.
 CHECKPOINTS_GROW, MIN_AHEAD = 0.25, 10
@@ -111,7 +112,7 @@ def next_checkpoint(cycle, coming):
     If an orbit was found, the cycle is predicted. Otherwise the intervals grow.
     """
     if coming > 0:
-        return cycle + min(coming, MAX_AHEAD * cycle)
+        return cycle + min(coming, int(MAX_AHEAD * cycle))
     return cycle + max(int(CHECKPOINTS_GROW * cycle), MIN_AHEAD)
 
 

@@ -191,7 +191,9 @@ def check_periodicity(p, run, workspace, most_lag, most_work, known, since, neut
         answer, away, coming = compare(p, workspace.section, candidate.row, candidate.lag, orbit.found)
         if answer != REACHED and not (neutral and away <= NEUTRAL):
             coming = max(coming - (count - 1 - candidate.row), 0)
-            nearer = away < known.distance * (1.0 if attracts(p, orbit.found.image) else MUCH_NEARER)
+            enough = 1.0 if attracts(p, orbit.found.image) else MUCH_NEARER
+            # a motion on another orbit stays as far away, but for rounding
+            nearer = away < enough * known.distance - ROUNDING
             if now == KNOWN and answer == NOT_YET and nearer:
                 return answered(orbit, NOT_YET, away, coming, work)
             # An orbit found repeatedly at different places gives no prediction.
