@@ -171,6 +171,8 @@ def bifurcation_curve(
     `special` names these ends, and all points of codimension two between neighbouring points of the curve where a test function
     changes its sign. A step is divided if the slopes of the test function allow two such points within it. Limits: two points
     closer than 1/4096 of a step may be missed. So may two points where the test function varies faster than the steps resolve.
+    An end at a grazing is named only if a turning point of an arc touches the base or a brace there. Where a contact of the orbit
+    vanishes instead, the place of the end depends on the step.
 
     The determinant of the return map is the product of the squared coefficients of restitution of all impacts in a period. It
     has the following consequences:

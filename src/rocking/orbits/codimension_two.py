@@ -9,7 +9,6 @@ from __future__ import annotations
 import numpy as np
 from attrs import field, frozen
 
-from rocking.kernels.orbits import arclength
 from rocking.model import Orbit, plus_minus
 from rocking.orbits import normal_form
 from rocking.orbits.curve_ends import degenerate_end, grazed_end
@@ -108,24 +107,17 @@ def points_of(rows: CurveRows) -> tuple[CodimensionTwoPoint, ...]:
     for end, inwards in zip(rows.ends, (rows.rows, rows.rows[::-1]), strict=True):
         place = 0 if inwards is rows.rows else len(rows.rows) - 1
         if end == End.GRAZED:
-            found.append(_grazed_end(rows, inwards, place))
+            grazed = grazed_end(rows, inwards)
+            # without a contact at the end, its place is not known
+            if grazed is not None:
+                kind = "double-grazing" if _name(rows) == "grazing" else f"{_name(rows)}-grazing"
+                found.append(_point(rows, kind, grazed.row, grazed.errors, place))
         elif end == End.MERGED:
             merger = degenerate_end(rows, inwards)
             if merger is not None:
                 kind = f"degenerate-{_name(merger.rows)}"
                 found.append(_point(merger.rows, kind, merger.row, merger.errors, place))
     return tuple(sorted(found, key=lambda one: one.index))
-
-
-def _grazed_end(rows: CurveRows, inwards: np.ndarray, place: int) -> CodimensionTwoPoint:
-    """Return the end of a curve at a grazing; to the last step, if the contact is not found."""
-    kind = "double-grazing" if _name(rows) == "grazing" else f"{_name(rows)}-grazing"
-    end = grazed_end(rows, inwards)
-    if end is not None:
-        return _point(rows, kind, end.row, end.errors, place)
-    reach = arclength.GRAZING_STEP * rows.step
-    first, second = (reach * (high - low) for low, high in rows.limits)
-    return _point(rows, kind, inwards[0], (first, second), place)
 
 
 def _name(rows: CurveRows) -> str:
