@@ -53,7 +53,9 @@ def test_an_orbit_is_found_again_from_its_own_start(system):
     again = rk.find_orbit(orbit.system, orbit.start, orbit.period)
     assert again.system == orbit.system
     assert again.period == orbit.period
-    assert apart(again.start, orbit.start) < 1e-10
+    # the orbit may start some cycles later
+    later = [rk.simulate(system, again.start, cycles=k).final for k in range(1, again.period + 1)]
+    assert min(apart(state, orbit.start) for state in later) < 1e-10
     np.testing.assert_allclose(again.multipliers, orbit.multipliers, rtol=1e-8, atol=1e-12)
 
 
