@@ -164,7 +164,8 @@ def bifurcation_curve(
 
     Notes
     -----
-    Every point is checked by simulation. The curve ends where it meets another grazing. A curve of folds also ends where its
+    Every point is checked by simulation. On a curve of grazings the rest of an arc after its touch is not checked. The curve ends
+    where it meets another grazing. A curve of folds also ends where its
     orbits merge with those from which they bifurcate. Beyond this point, the equations have the same orbits again, one half
     of a period later, or their mirror images.
 

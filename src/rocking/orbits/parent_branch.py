@@ -23,7 +23,7 @@ NEARLY_EQUAL = 1e-4
 SAME_VALUE = 1e-5
 # Largest difference of phases for two solved points to be identical.
 SAME_PHASE = 1e-6
-# Largest test function at a special point, relative to its terms; it is 1 where the trace is infinite.
+# Largest test function at a special point, relative to the sum of its terms. This ratio is 1 where the trace is infinite.
 VANISHES = 0.5
 CONDITION = Condition(Special.PERIOD_DOUBLING, -1, IMPACT, 0.0)
 
