@@ -159,7 +159,8 @@ def points(values: Values, fixed: Mapping[str, float]) -> Points:
     """
     count = next(iter(values.values())).size
     usual = {"phase": 0.0, **NO_BRACES, "critical_angle": 0.0, "angle": 0.0, "velocity": 0.0}
-    given = {name: np.full(count, value) for name, value in (usual | dict(fixed)).items()} | dict(values)
+    constants = usual | dict(fixed)
+    given = {name: np.broadcast_to(value, count) for name, value in constants.items()} | dict(values)
     if "frequency" in given:
         given["period"] = math.tau / given["frequency"]
     else:

@@ -98,8 +98,8 @@ def batches(tile: Tile, asked: SurveySpec, wanted: np.ndarray, measure: Measurem
     split = [wanted[part::parts] for part in range(parts)]
     if asked.contiguous:
         split = np.array_split(wanted, parts)
+    inside = asked.with_axes(tile.axes())
     for part in split:
-        inside = asked.with_axes(tile.axes())
         yield Batch(inside, part, measure.judge, measure.options)
 
 

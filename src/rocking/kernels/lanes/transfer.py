@@ -12,6 +12,7 @@ from rocking.kernels.deferred import njit
 from rocking.kernels.event_kinds import FLIGHT, IMPACT
 from rocking.kernels.forcing.arc import shift_clock
 from rocking.kernels.forcing.drives import HarmonicDrive
+from rocking.kernels.forcing.harmonic.acceleration import forcing_term
 from rocking.kernels.forcing.harmonic.solution import arc_with
 from rocking.kernels.lanes.state import AT_EVENT, END_LEG, FAILED, NEW_ARC, SLOWEST, set_system
 from rocking.kernels.march.initial_state import UNKNOWN
@@ -38,7 +39,8 @@ def load_block(s, i, p, progress, columns):
     s.brace_hits[i] = progress.brace_hits
     s.peak[i] = progress.peak
     # The first event of a block that starts away from the base, or slowly, is found by the functions for one block.
-    known = p.block.brace_angle < math.inf or (arc.angle == 0.0 and arc.velocity >= SLOWEST)
+    lifts = arc.velocity == 0.0 and forcing_term(p, arc.drive.cosine) > 0.0
+    known = p.block.brace_angle < math.inf or (arc.angle == 0.0 and (arc.velocity >= SLOWEST or lifts))
     s.stage[i] = NEW_ARC if known else FAILED
     s.exceeds[i] = 1.0
     set_difference(s, i, columns)

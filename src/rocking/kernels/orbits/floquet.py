@@ -70,8 +70,8 @@ def multipliers_plain(middle, square, determinant, mirrored):
 def adapted_norm(tangent, radius):
     """Return a norm in which a matrix with spectral radius < ``radius`` shrinks at least by the factor ``radius``.
 
-    Q = sum over k of N^kT N^k with N = M/radius, by doubling. No eigenvectors are needed, which coincide if
-    the multipliers do.
+    Q = sum over k < 2^j of N^kT N^k with N = M/radius, by doubling. In its norm no vector grows under N if the 2^j-th power
+    of N enlarges no vector. No eigenvectors are needed, which coincide if the multipliers do.
 
     Returns
     -------
@@ -87,7 +87,8 @@ def adapted_norm(tangent, radius):
         t21, t22 = q12 * a + q22 * b, q12 * c + q22 * d
         q11, q12, q22 = q11 + a * t11 + b * t21, q12 + a * t12 + b * t22, q22 + c * t12 + d * t22
         a, b, c, d = a * a + c * b, b * a + d * b, a * c + c * d, b * c + d * d
-        if max(abs(a), abs(b), abs(c), abs(d)) < 1e-9:
+        # then the power has a norm of at most 1
+        if max(abs(a), abs(b), abs(c), abs(d)) <= 0.5:
             break
     return q11, q12, q22
 

@@ -125,7 +125,10 @@ def classify_points(
 
 def judged(told: results.ResultArrays) -> Arrays:
     """Return the results of the classification by the names of the variables."""
-    unweighed = (told.kind == kernel.UNDETERMINED) & ~np.isin(told.ground, kernel.WEIGHED)
+    open_ = np.flatnonzero(told.kind == kernel.UNDETERMINED)
+    unweighed = open_[~np.isin(told.ground[open_], kernel.WEIGHED)]
+    exponent, error = told.exponent.copy(), told.error.copy()
+    exponent[unweighed], error[unweighed] = math.nan, math.nan
     overturns, periodic = told.kind == kernel.OVERTURNS, told.kind == kernel.PERIODIC
     return {
         "kind": told.kind,
@@ -134,8 +137,8 @@ def judged(told: results.ResultArrays) -> Arrays:
         "impacts_per_period": told.impacts,
         "brace_hits_per_period": told.brace_hits,
         "symmetric": np.where(periodic, told.symmetric, NOT_PERIODIC).astype(np.uint8),
-        "exponent": np.where(unweighed, math.nan, told.exponent),
-        "exponent_error": np.where(unweighed, math.nan, told.error),
+        "exponent": exponent,
+        "exponent_error": error,
         "peak": told.peak,
         "transient": np.where(overturns, np.maximum(told.cycles - 1, 0), told.transient).astype(np.int32),
         "cycles": told.cycles,

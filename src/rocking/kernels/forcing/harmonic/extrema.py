@@ -10,10 +10,10 @@ from rocking.kernels.event_kinds import BRACE, IMPACT
 from rocking.kernels.forcing.arc import CROSSING, LATER, within_reach
 from rocking.kernels.forcing.extrema import arc_peak
 from rocking.kernels.forcing.harmonic.acceleration import TURN, forcing_rates, forcing_term
-from rocking.kernels.forcing.harmonic.first_zero import EventFunction, first_zero, step_to_zero
-from rocking.kernels.forcing.harmonic.solution import evaluate, exponentials
+from rocking.kernels.forcing.harmonic.first_zero import EventFunction, first_zero
+from rocking.kernels.forcing.harmonic.solution import ROUNDING, evaluate, exponentials
 from rocking.kernels.numerics.elementary import fma
-from rocking.kernels.numerics.taylor import I2, I4, I6, I8
+from rocking.kernels.numerics.taylor import I2, I4, I6, I8, reversion, series, within_a_factor_of_two
 
 # After an extremum the search starts later by this fraction of the time, and by ever more, so that rounding
 # cannot find the same extremum again.
@@ -23,7 +23,7 @@ PASSED = 2.0**-50
 KNOWN, TIED = 1e-6, 1e-3
 # From this close, in units of 1/max(1, Omega), a Taylor series reaches a maximum to rounding. TRIES limits
 # the iterations.
-NEAR, TRIES = 1e-3, 6
+NEAR, TRIES = 0.03, 6
 RIGHT_ANGLE = 0.5 * math.pi
 
 
@@ -94,6 +94,31 @@ def may_rise_above(peak, m, away, frequency_square, response):
 
 
 @njit(**INTERNAL_INLINE)
+def maximum_near(p, now, second):
+    """Find the maximum of u near an instant by the Taylor series there; ``second`` is u''.
+
+    Returns
+    -------
+    tuple of (float, float, bool)
+        Step towards the maximum.
+        u there.
+        Whether both are accurate to rounding.
+    """
+    square = p.forcing.frequency * p.forcing.frequency
+    df, ddf = forcing_rates(p, now.drive.cosine, now.drive.sine)
+    third, fourth, per = now.velocity + df, second + ddf, 1.0 / second
+    fifth, sixth = third - square * df, fourth - square * ddf
+    seventh, eighth = fifth + square * square * df, sixth + square * square * ddf
+    y = -now.velocity * per
+    step = y * within_a_factor_of_two(reversion(y, third, fourth, fifth, per))
+    derivatives = now.angle, now.velocity, second, third, fourth, fifth, sixth, seventh, eighth
+    most, rate, _, _, _ = series(derivatives, step)
+    near = abs(step) < NEAR / max(1.0, p.forcing.frequency)
+    # Beyond it u rises by no more than that, as long as u'' is below half of ``second``.
+    return step, most, near and rate * rate <= ROUNDING * -second
+
+
+@njit(**INTERNAL_INLINE)
 def closed_form_peak(p, arc, until, peak):
     """Find the largest of ``peak`` and the angles on the arc up to ``until``, if certain without a search.
 
@@ -144,9 +169,7 @@ def closed_form_peak(p, arc, until, peak):
     t = min(max(middle + ahead * p.forcing.per_frequency * (acceleration / (acceleration + m)), low), high)
     for _ in range(TRIES):
         now = evaluate(p, arc, t)
-        f = forcing_term(p, now.drive.cosine)
-        df, ddf = forcing_rates(p, now.drive.cosine, now.drive.sine)
-        second, third = now.angle + f, now.velocity + df
+        second = now.angle + forcing_term(p, now.drive.cosine)
         if not second < 0.0:
             break
         # u' is concave: it lies below its tangent beyond the maximum, and above its chord before it.
@@ -154,13 +177,9 @@ def closed_form_peak(p, arc, until, peak):
         rest = now.velocity / (-second) if ahead_of else t - middle
         if now.angle + 0.5 * abs(now.velocity * rest) <= peak:
             return True, peak
-        step = step_to_zero(now.velocity, second, (df, ddf, -p.forcing.frequency * p.forcing.frequency * df))
-        if abs(step) < NEAR / max(1.0, p.forcing.frequency):
-            inside = 0.0 < t + step < until
-            rise = now.velocity + step * (
-                0.5 * second + step * ((1.0 / 6.0) * third + step * ((1.0 / 24.0) * (second + ddf)))
-            )
-            return inside, max(peak, within_reach(p, now.angle + step * rise))
+        step, most, accurate = maximum_near(p, now, second)
+        if accurate:
+            return 0.0 < t + step < until, max(peak, within_reach(p, most))
         before, t = t, min(max(t + step, low), high)
         if t == before:
             break
