@@ -20,6 +20,7 @@ from rocking.kernels.orbits.fixed_point import (
     FixedPoint,
     Guess,
     MapImage,
+    Patience,
     ReturnMap,
     find_fixed_point,
 )
@@ -92,9 +93,12 @@ class Candidate(NamedTuple):
     row: int  # of the section
     guess: Guess
     most_work: int  # maximum number of events to compute
+    left: float  # estimated distance of the last state from the orbit; infinite if unknown
     mode: Nearest  # the symmetric mode that may be the limit
 
 
+# A guess that the motion approaches has a residual below its distance from the motion.
+no_further = replacing(Patience, "first")
 answered = replacing(PeriodicityCheck, "answer", "distance", "coming", "work")
 with_work = replacing(PeriodicityCheck, "work")
 
@@ -105,7 +109,9 @@ def known_candidate(p, clocked, orbit, run, section, since):
     row = run.count - 1 - since % max(orbit.period, 1)
     lag = orbit.period if row >= orbit.period else 0
     evaluate_lazy_rows(p, section, row - RETURNS * lag, row + 1, run.section_time)
-    return Candidate(lag, row, Guess(0.0, 0.0, UNKNOWN), UNBOUNDED, nearest_mode(clocked, 0, 0.0, 0.0))
+    return Candidate(
+        lag, row, Guess(0.0, 0.0, UNKNOWN), UNBOUNDED, math.inf, nearest_mode(clocked, 0, 0.0, 0.0)
+    )
 
 
 @njit(**INTERNAL)
@@ -117,7 +123,7 @@ def approached_candidate(p, clocked, run, section, most_lag):
     left = size(section[row, 0] - angle, section[row, 1] - velocity)
     if mode.distance <= max(BESIDE * left, SAME):
         angle, velocity, waits = mode.angle, mode.velocity, (mode.half - mode.since, mode.half)
-    return Candidate(lag, row, Guess(angle, velocity, waits), UNBOUNDED, mode)
+    return Candidate(lag, row, Guess(angle, velocity, waits), UNBOUNDED, left, mode)
 
 
 @njit(**INTERNAL)
@@ -127,7 +133,7 @@ def closest_candidate(p, run, section, most_lag, most_work, mode):
     evaluate_lazy_rows(p, section, row - RETURNS * most_lag, run.count, run.section_time)
     lag, away = closest_return(section, run.count, most_lag)
     guess = Guess(section[row, 0], section[row, 1], UNKNOWN)
-    return Candidate(lag if away <= CLOSE else 0, row, guess, most_work, mode)
+    return Candidate(lag if away <= CLOSE else 0, row, guess, most_work, math.inf, mode)
 
 
 @njit(**INTERNAL)
@@ -144,7 +150,7 @@ def propose(p, clocked, run, section, most_lag, most_work, candidate, trying):
 def refined_candidate(candidate, found, period):
     """Return the fixed point that was found, over its least period."""
     guess = Guess(found.angle, found.velocity, UNKNOWN)
-    return Candidate(period, candidate.row, guess, UNBOUNDED, candidate.mode)
+    return Candidate(period, candidate.row, guess, UNBOUNDED, math.inf, candidate.mode)
 
 
 @njit(**AST_INLINE)
@@ -155,9 +161,9 @@ def orbit_near(clocked, candidate, workspace):
     if lag == mode.order and guess.angle == mode.angle and guess.velocity == mode.velocity:
         found = orbit_of_mode(clocked, mode)
     if not found.converged:
-        mapping = ReturnMap(clocked, lag, 0.0, 1.0)
+        mapping, patience = ReturnMap(clocked, lag, 0.0, 1.0), no_further(NEARBY, max(candidate.left, SAME))
         found = find_fixed_point(
-            mapping, guess, candidate.most_work, NEARBY, workspace.trial, workspace.nothing
+            mapping, guess, candidate.most_work, patience, workspace.trial, workspace.nothing
         )
     if lag == mode.order and size(found.angle - mode.angle, found.velocity - mode.velocity) <= SAME:
         symmetric, peak = True, largest_on(clocked, mode.arc, mode.half, 0.0)

@@ -25,11 +25,12 @@ class Patience(NamedTuple):
     worse: float  # a step that raises the residual by more, overturns or leads out of reach is halved
     halvings: int  # maximum number of halvings of a step
     reach: float  # range of the velocity, and of the angle if no brace is nearer
+    first: float  # maximum residual of the guess itself
 
 
 # For a guess that a motion approaches, and for an arbitrary guess.
-NEARBY = Patience(1, math.inf, 0, 10.0)
-ANYWHERE = Patience(MAX_STEPS, 2.0, 4, 1e3)
+NEARBY = Patience(1, math.inf, 0, 10.0, math.inf)
+ANYWHERE = Patience(MAX_STEPS, 2.0, 4, 1e3, math.inf)
 
 
 class ReturnMap(NamedTuple):
@@ -167,7 +168,9 @@ def find_fixed_point(mapping, guess, most_work, patience, columns, nothing):
         failures += not residual < 0.9 * best
         best = min(best, residual)
         error = size(to[0], to[1])
-        lost = failures > patience.failures or work > most_work or not error < math.inf
+        lost = (
+            failures > patience.failures or work > most_work or not error < math.inf or best > patience.first
+        )
         if converged or lost:
             break
     return FixedPoint(converged, at.angle, at.velocity, trial.image, residual, error, work)
