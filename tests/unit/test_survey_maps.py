@@ -49,8 +49,7 @@ def check_against_classify(found, axes, fixed, max_cycles=200, max_period=64):
             moved = abs(verdict_at(max_cycles, max_period, **asked).peak - verdict.peak)
             assert at["peak"] == pytest.approx(verdict.peak, abs=moved, rel=tolerance)
         assert at["cycles"] == verdict.cycles
-        if verdict.kind != "rest":  # which tells how long it took to come to rest from the motion itself
-            assert at["transient"] == told(verdict.transient, -1)
+        assert at["transient"] == told(verdict.transient, -1)
 
 
 def test_every_point_is_what_classify_says():
@@ -87,6 +86,17 @@ def test_any_two_quantities_are_axes(axes, fixed):
     found = rk.parametric_map(**axes, **fixed, max_cycles=100)
     assert set(found.kind.dims) == set(axes)
     check_against_classify(found, axes, fixed, max_cycles=100)
+
+
+def test_block_that_never_moves_has_no_transient():
+    """A block at rest, one in contact with a brace, and one that comes to rest."""
+    where = {"angle": [0.0, 1.2, 1.5], "velocity": [0.0, 0.5]}
+    found = rk.parametric_map(
+        **where, amplitude=0.2, period=2.0, restitution=0.9, brace_angle=1.5, brace_restitution=0.5
+    )
+    assert (found.kind == list(KINDS.values()).index("rest")).all()
+    assert found.transient.sel(velocity=0.0, angle=[0.0, 1.5]).values.tolist() == [0, 0]
+    assert found.transient.sel(angle=1.2, velocity=0.0) > 0
 
 
 def test_dataset_names_its_axes_flags_parameters_and_maker():

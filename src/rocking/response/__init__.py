@@ -8,6 +8,7 @@ from rocking.response.lyapunov_spectrum import LyapunovSpectrum
 from rocking.response.mean_impacts import MeanImpacts, mean_impacts
 from rocking.response.rotation_number import RotationNumber, rotation_number
 from rocking.response.spectral_density import Peak, SpectralDensity
+from rocking.response.transient import transient_of
 from rocking.response.welch_spectrum import spectral_density
 
 __all__ = [
@@ -28,4 +29,5 @@ __all__ = [
     "mean_impacts",
     "rotation_number",
     "spectral_density",
+    "transient_of",
 ]

@@ -14,6 +14,7 @@ from rocking.model import Kind, Orbit, Outcome, State, System, Verdict, check_pe
 from rocking.motion import Motion, simulate, start_march
 from rocking.response.evidence import Case, evidence_of
 from rocking.response.proved_verdict import Wanted, check_wanted, with_proof
+from rocking.response.transient import transient_of
 
 MAX_CYCLES = 100_000_000
 MAX_PERIOD = 10_000
@@ -180,12 +181,9 @@ def _verdict(start: State, case: Case) -> Verdict:
     orbit = _orbit(case) if judged.kind == kernel.PERIODIC else None
     # For an undetermined response, the exponent is reported only if it was tested.
     measured = judged.kind != kernel.UNDETERMINED or judged.ground in kernel.WEIGHED
-    steady, transient = _known(judged.steady_peak), None if judged.transient < 0 else judged.transient
+    steady, transient = _known(judged.steady_peak), int(transient_of(judged))
     if judged.kind == kernel.REST and motion is not None:
         steady = abs(motion.final.angle)
-        transient = transient if motion.impacts + motion.brace_hits else 0
-    if judged.kind == kernel.OVERTURNS:
-        transient = max(judged.cycles - 1, 0)
     return Verdict(
         system=case.system,
         start=start,
@@ -195,7 +193,7 @@ def _verdict(start: State, case: Case) -> Verdict:
         exponent_error=_known(judged.error) if measured else None,
         peak=judged.peak,
         steady_peak=steady,
-        transient=transient,
+        transient=None if transient < 0 else transient,
         cycles=judged.cycles,
         impacts=judged.work,
         orbit=orbit,

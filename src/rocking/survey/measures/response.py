@@ -11,7 +11,7 @@ from rocking.kernels import batch
 from rocking.kernels.classify import results
 from rocking.kernels.classify import verdict_record as kernel
 from rocking.model import Criterion, Kind
-from rocking.response import budget
+from rocking.response import budget, transient_of
 from rocking.survey.harmonic_spec import Points, points
 from rocking.survey.measurement import Arrays, Measurement, Variable
 
@@ -129,7 +129,7 @@ def judged(told: results.ResultArrays) -> Arrays:
     unweighed = open_[~np.isin(told.ground[open_], kernel.WEIGHED)]
     exponent, error = told.exponent.copy(), told.error.copy()
     exponent[unweighed], error[unweighed] = math.nan, math.nan
-    overturns, periodic = told.kind == kernel.OVERTURNS, told.kind == kernel.PERIODIC
+    periodic = told.kind == kernel.PERIODIC
     return {
         "kind": told.kind,
         "evidence": told.ground,
@@ -140,6 +140,6 @@ def judged(told: results.ResultArrays) -> Arrays:
         "exponent": exponent,
         "exponent_error": error,
         "peak": told.peak,
-        "transient": np.where(overturns, np.maximum(told.cycles - 1, 0), told.transient).astype(np.int32),
+        "transient": transient_of(told).astype(np.int32),
         "cycles": told.cycles,
     }
