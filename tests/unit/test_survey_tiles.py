@@ -5,10 +5,15 @@ import math
 import numpy as np
 import pytest
 
-from rocking.survey import measurement
+import rocking as rk
+from rocking.survey import classify_points, classify_with_anchor, measurement
 from rocking.survey.harmonic_spec import HarmonicSpec
 from rocking.survey.measurement import Batch, batches, compute
+from rocking.survey.measures import attractors, ending, kind, pulse_ending
 from rocking.survey.measures.response import response
+from rocking.survey.motion_spec import motion_question
+from rocking.survey.pulse_spec import pulse_question
+from rocking.survey.repeatability_map import judge as judge_repeatedly
 from rocking.survey.tiling import levels
 
 MEASURE = response(200, 64, "A map")
@@ -52,3 +57,48 @@ def test_the_work_of_a_survey_is_its_points_each_once(points, monkeypatch):
                 met[(rows + tile.region[0].start) * step, (columns + tile.region[1].start) * step] += 1
     assert (met == 1).all()
     assert pieces == needed
+
+
+BUDGET = {"max_cycles": 100, "max_period": 8}
+NONE = np.empty(0)
+FIXED = {"restitution": 0.9}
+HARMONIC = HarmonicSpec(AXES, FIXED).inputs({"amplitude": NONE, "period": NONE})
+MOTIONS = motion_question(
+    rk.RecordSet(rk.synthetic_ground_motions(1, seed=1)),
+    {"size": np.array([1.0, 2.0]), "slenderness": 0.2, "angle": 0.0, "polarity": 1.0, "scale": 1.0},
+    intensity="scale",
+).inputs({"size": NONE})
+EMPTY = {
+    "map": (response(100, 8, "A map"), HARMONIC),
+    "basins": (attractors.destination(100, 8, "Basins"), HARMONIC),
+    "kinds": (kind.outcome(100, 8, "Kinds"), HARMONIC),
+    "ground motions": (ending.ending("Endings"), MOTIONS),
+    **{
+        name: (
+            pulse_ending.pulse_ending("Pulses"),
+            pulse_question(name, AXES["amplitude"], AXES["period"], 0.9).inputs(
+                {"amplitude": NONE, "frequency": NONE}
+            ),
+        )
+        for name in ("one-sine", "triangular")
+    },
+}
+
+
+@pytest.mark.parametrize("name", EMPTY)
+def test_batch_without_points_has_empty_results(name):
+    measure, inputs = EMPTY[name]
+    found = measure.judge(inputs, measure.options, NO_STOP)
+    assert set(found) == {each.name for each in measure.variables}
+    assert {values.shape for values in found.values()} == {(0,)}
+
+
+def test_repeatability_of_no_points_is_empty():
+    found = judge_repeatedly(HARMONIC, BUDGET | {"samples": 2, "relative_millionths": 1}, NO_STOP)
+    assert {values.shape for values in found.values()} == {(0,)}
+
+
+@pytest.mark.parametrize("classified", [classify_points, classify_with_anchor])
+def test_no_points_are_classified_without_an_error(classified):
+    found = classified({"amplitude": NONE, "period": NONE}, FIXED, 100, 8, NO_STOP)
+    assert {values.shape for values in found.values()} == {(0,)}

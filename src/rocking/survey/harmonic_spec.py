@@ -54,7 +54,7 @@ class Points(NamedTuple):
     @property
     def full(self) -> bool:
         """True if the blocks follow the full equation of motion."""
-        return bool(self.systems[0, SYSTEM.index("critical_angle")] > 0.0)
+        return bool((self.systems[:, SYSTEM.index("critical_angle")] > 0.0).any())
 
 
 @frozen(eq=False)

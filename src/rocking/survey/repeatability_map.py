@@ -17,6 +17,7 @@ from rocking.survey.engine.run_survey import run_survey
 from rocking.survey.harmonic_spec import Points, question
 from rocking.survey.measurement import Arrays, Measurement, Variable
 from rocking.survey.measures.kind import KIND
+from rocking.survey.measures.verdicts import verdicts
 from rocking.survey.sampling.perturbation import MAX_RELATIVE, TITLE, perturbed, spread
 
 MILLIONTH = 1e-6
@@ -161,7 +162,7 @@ def judge(at: Points, options: Mapping[str, int], stop: np.ndarray) -> Arrays | 
         tried = perturbed(
             at, np.tile(units, (len(at.systems), 1)), options["relative_millionths"] * MILLIONTH
         )
-        told = batch.classify_batch(*tried, options["max_cycles"], options["max_period"], stop)
+        told = verdicts(tried, options, stop)
         if told is None:
             return None
         counts[np.arange(len(counts)), told.kind] += 1

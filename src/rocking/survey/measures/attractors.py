@@ -18,6 +18,7 @@ from rocking.survey.harmonic_spec import Points, points
 from rocking.survey.measurement import Arrays, Measurement, Variable
 from rocking.survey.measures.chaotic_means import averages, grouped
 from rocking.survey.measures.response import VARIABLES, judged
+from rocking.survey.measures.verdicts import anchors, verdicts
 
 SAME = 1e-6
 """Largest distance on the section of orbits that count as one."""
@@ -90,19 +91,19 @@ def classify_with_anchor(
     The state is in `orbit_angle` and `orbit_velocity`. Returns None if another thread sets `stop`.
     """
     asked = points(values, fixed)
-    told = batch.classify_batch(*asked, max_cycles, max_period, stop)
+    told = verdicts(asked, {"max_cycles": max_cycles, "max_period": max_period}, stop)
     if told is None:
         return None
-    angles, velocities = kernel.anchors_of(*asked, told).T
+    angles, velocities = anchors(asked, told).T
     return judged(told) | {"orbit_angle": angles, "orbit_velocity": velocities}
 
 
 def judge(points: Points, options: Mapping[str, int], stop: np.ndarray) -> Arrays | None:
     """Return the classification with the representative state and the chaotic mean of each attractor."""
-    told = batch.classify_batch(*points, options["max_cycles"], options["max_period"], stop)
+    told = verdicts(points, options, stop)
     if told is None:
         return None
-    anchors = kernel.anchors_of(*points, told)
+    states = anchors(points, told)
     # an undamped system has no attractor, and its mean angle does not converge in any practical time
     means = averages(
         points, (told.kind == verdict_record.CHAOTIC) & ~points.lossless, options["max_cycles"], stop
@@ -110,7 +111,7 @@ def judge(points: Points, options: Mapping[str, int], stop: np.ndarray) -> Array
     if stop[0]:
         return None
     answers = judged(told)
-    columns = zip((*ANCHORS, *AVERAGES), (*anchors.T, *means.T), strict=True)
+    columns = zip((*ANCHORS, *AVERAGES), (*states.T, *means.T), strict=True)
     return {name: answers[name] for name in (*KEPT, "transient", "cycles")} | {
         each.name: np.ascontiguousarray(column) for each, column in columns
     }

@@ -119,6 +119,8 @@ def sampled(base: PiecewiseLinear, *, full: bool) -> numbers.AnySampledParameter
 
 def alike(runs: Runs) -> Iterator[slice]:
     """Yield the stretches of neighbouring points that share the tables of a record."""
+    if not runs.record.size:
+        return
     differs = (np.diff(runs.record) != 0) | (np.diff(runs.frequency_parameter) != 0)
     edges = [0, *(np.flatnonzero(differs) + 1).tolist(), runs.record.size]
     yield from starmap(slice, pairwise(edges))

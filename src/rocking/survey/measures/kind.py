@@ -12,6 +12,7 @@ from rocking.response import budget
 from rocking.survey.harmonic_spec import Points
 from rocking.survey.measurement import Arrays, Measurement
 from rocking.survey.measures.response import VARIABLES
+from rocking.survey.measures.verdicts import verdicts
 
 KIND = VARIABLES[0]
 
@@ -25,7 +26,7 @@ def outcome(max_cycles: int, max_period: int, title: str) -> Measurement:
 
 def judge(points: Points, options: Mapping[str, int], stop: np.ndarray) -> Arrays | None:
     """Return the kind of response at points; None if another thread sets `stop`."""
-    told = batch.classify_batch(*points, options["max_cycles"], options["max_period"], stop)
+    told = verdicts(points, options, stop)
     return None if told is None else {"kind": told.kind}
 
 

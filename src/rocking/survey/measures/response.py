@@ -14,6 +14,7 @@ from rocking.model import Criterion, Kind
 from rocking.response import budget, transient_of
 from rocking.survey.harmonic_spec import Points, points
 from rocking.survey.measurement import Arrays, Measurement, Variable
+from rocking.survey.measures.verdicts import verdicts
 
 
 def meanings(enum: type[Kind] | type[Criterion]) -> dict[str, object]:
@@ -105,7 +106,7 @@ def response(max_cycles: int, max_period: int, title: str) -> Measurement:
 
 def judge(points: Points, options: Mapping[str, int], stop: np.ndarray) -> Arrays | None:
     """Return the verdicts at points, with the conventions of `classify`; None if another thread sets `stop`."""
-    told = batch.classify_batch(*points, options["max_cycles"], options["max_period"], stop)
+    told = verdicts(points, options, stop)
     return None if told is None else judged(told)
 
 
