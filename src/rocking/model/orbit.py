@@ -110,8 +110,14 @@ class Orbit:
         """
         forcing = self.system.periodic
         phase = within("phase", phase, -MAX_PHASE, MAX_PHASE)
+        whole = math.tau * self.period
+        return self._after(
+            ((forcing.phase - self.phase) % math.tau + (phase - forcing.phase) % whole) % whole
+        )
+
+    def _after(self, turned: float) -> State:
+        """Return the state of the orbit after the forcing phase has advanced by `turned`, less than a period, from `state`."""
         whole, hair = math.tau * self.period, math.tau * SAME_INSTANT
-        turned = ((forcing.phase - self.phase) % math.tau + (phase - forcing.phase) % whole) % whole
         if not self._events:
             return self._marched(self.phase, self.state, turned)
         since, last = min(

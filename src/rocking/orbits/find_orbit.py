@@ -79,7 +79,8 @@ def find_orbit(system: System, guess: State, period: int) -> Orbit:
 
     Notes
     -----
-    The orbit is not necessarily the one nearest to the guess.
+    The orbit is not necessarily the one nearest to the guess. Its `start` is the state, of those at τ = 0 and after whole
+    cycles, that is nearest to the guess.
 
     Examples
     --------
@@ -115,7 +116,28 @@ def find_orbit(system: System, guess: State, period: int) -> Orbit:
             reached,
             float(out[3]),
         )
-    return orbit
+    return _begun_near(orbit, guess)
+
+
+def _begun_near(orbit: Orbit, guess: State) -> Orbit:
+    """Return the orbit that starts in the cycle whose start is nearest to the guess.
+
+    Newton's method ends in the cycle after the guess, and the closed chain begins after its first event.
+    """
+    first = (orbit.system.periodic.phase - orbit.phase) % math.tau
+    starts = [orbit._after(first + math.tau * cycle) for cycle in range(orbit.period)]
+    distances = [math.hypot(one.angle - guess.angle, one.velocity - guess.velocity) for one in starts]
+    cycles = distances.index(min(distances))
+    if not cycles:
+        return orbit
+    turned, whole, state = math.tau * cycles, math.tau * orbit.period, orbit._after(math.tau * cycles)
+    final = simulate(clocked(orbit.system, orbit.phase), state, cycles=orbit.period, record="none").final
+    return evolve(
+        orbit,
+        state=state,
+        residual=math.hypot(final.angle - state.angle, final.velocity - state.velocity),
+        events=tuple(evolve(one, turned=(one.turned - turned) % whole) for one in orbit._events),
+    )
 
 
 def mirrored_half(chain: Chain) -> Chain | None:
