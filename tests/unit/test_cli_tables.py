@@ -1,6 +1,7 @@
 """Tables of several systems (`--csv`): headings state units, and each row states the system that it belongs to."""
 
 import csv
+import json
 import math
 from pathlib import Path
 
@@ -10,6 +11,7 @@ import typer
 
 import rocking as rk
 from rocking.cli.app import app
+from rocking.model import PHYSICAL
 
 BLOCK = rk.Block(2.0, 0.5)
 TYPED = "--restitution 0.8 --phase 0.5"
@@ -107,6 +109,31 @@ def test_exponents_of_a_map_are_also_per_second(rocking):
             per_tau, per_second = (float(row[f"{name} [{unit}]"]) for unit in ("alpha", "1/s"))
             assert np.isfinite(per_tau)
             assert per_second == pytest.approx(per_tau / BLOCK.seconds(1.0), rel=1e-14)
+
+
+def test_quantities_given_in_si_are_written_as_they_were_given(rocking):
+    """Normalised and converted back, 3 m/s² is 2.9999999999999996, and 2 Hz is 1.9999999999999998."""
+    given = "--height 2 --width 0.5 --acceleration 1:6:11 --frequency-hz 1:3:9 --max-cycles 20"
+    rows = rows_of(rocking, f"map {given}")
+    assert list(dict.fromkeys(row["acceleration [m/s^2]"] for row in rows)) == [
+        str(value) for value in np.linspace(1, 6, 11).tolist()
+    ]
+    assert list(dict.fromkeys(row["frequency [Hz]"] for row in rows)) == [
+        str(value) for value in np.linspace(1, 3, 9).tolist()
+    ]
+    read = json.loads(
+        rocking("simulate --height 2 --width 0.5 --acceleration 3 --period-s 0.7 --cycles 2 --json")[2]
+    )
+    assert (read["block"]["acceleration_m_per_s2"], read["block"]["period_s"]) == (3.0, 0.7)
+
+
+def test_conversion_to_si_changes_no_number_by_more_than_rounding():
+    amplitudes = np.append(np.random.default_rng(5).uniform(0, 20, 2_000), [np.nan, np.inf, 0.0])
+    found, plain = PHYSICAL["amplitude"].turn(BLOCK, amplitudes), BLOCK.acceleration(amplitudes)
+    np.testing.assert_allclose(found, plain, rtol=1e-15)
+    assert 1_000 < (found == plain).sum() < 2_000
+    assert isinstance(PHYSICAL["amplitude"].turn(BLOCK, 1.5), float)
+    assert PHYSICAL["period"].turn(BLOCK, np.empty((0, 2))).shape == (0, 2)
 
 
 def test_states_of_attractors_in_a_table_of_basins_have_both_units(rocking):

@@ -5,7 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
+import numpy as np
+
 from rocking.model.block import Block
+
+MAX_ROUNDING = 4
+"""Rounding errors by which a number differs at most that was normalised and converted back."""
 
 
 class Physical(NamedTuple):
@@ -24,6 +29,24 @@ class Physical(NamedTuple):
         return f"{self.name} [{self.unit}]"
 
 
+def _as_given(turn: Callable[[Block, Any], Any]) -> Callable[[Block, Any], Any]:
+    """Return a conversion of a quantity that may have been given in SI: rounding does not change 3 to 2.9999999999999996.
+
+    A number is replaced by one with 15 digits if both agree to rounding.
+    """
+
+    def turned(block: Block, value: Any) -> Any:
+        physical = np.asarray(turn(block, value))
+        distinct, places = np.unique(physical, return_inverse=True)
+        short = np.array([float(f"{each:.15g}") for each in distinct.tolist()])
+        with np.errstate(invalid="ignore"):
+            same = np.abs(short - distinct) <= MAX_ROUNDING * np.spacing(np.abs(distinct))
+        found = np.where(same, short, distinct)[places].reshape(physical.shape)
+        return found if found.ndim else float(found)
+
+    return turned
+
+
 def _per_second(block: Block, rate: Any) -> Any:
     """Convert a rate per τ to a rate per second."""
     return rate * block.frequency_parameter
@@ -31,10 +54,15 @@ def _per_second(block: Block, rate: Any) -> Any:
 
 PHYSICAL = {
     "amplitude": Physical(
-        "g theta_cr", "acceleration", "m/s^2", "acceleration_m_per_s2", "m s-2", Block.acceleration
+        "g theta_cr",
+        "acceleration",
+        "m/s^2",
+        "acceleration_m_per_s2",
+        "m s-2",
+        _as_given(Block.acceleration),
     ),
-    "period": Physical("1/alpha", "period", "s", "period_s", "s", Block.seconds),
-    "frequency": Physical("alpha", "frequency", "Hz", "frequency_hz", "Hz", Block.hertz),
+    "period": Physical("1/alpha", "period", "s", "period_s", "s", _as_given(Block.seconds)),
+    "frequency": Physical("alpha", "frequency", "Hz", "frequency_hz", "Hz", _as_given(Block.hertz)),
     "time": Physical("1/alpha", "time", "s", "time_s", "s", Block.seconds),
     "angle": Physical("theta_cr", "angle", "rad", "angle_rad", "rad", Block.radians),
     "velocity": Physical(

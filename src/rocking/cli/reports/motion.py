@@ -272,11 +272,12 @@ def physical_of(system: System, block: Block) -> dict[str, Any]:
     """Return the block and its base motion in SI as a JSON object."""
     if isinstance(system.forcing, Pulse):
         pulse = system.forcing
-        size, length = pulse.amplitude, {"duration_s": block.seconds(pulse.span)}
+        size, length = pulse.amplitude, {"duration_s": PHYSICAL["period"].turn(block, pulse.span)}
     else:
-        size, length = system.periodic.amplitude, {"period_s": block.seconds(system.periodic.period)}
+        size = system.periodic.amplitude
+        length = {"period_s": PHYSICAL["period"].turn(block, system.periodic.period)}
     return size_of(block) | {
-        "acceleration_m_per_s2": block.acceleration(size),
+        "acceleration_m_per_s2": PHYSICAL["amplitude"].turn(block, size),
         **length,
         "restitution_is_housners": block.has_housner_restitution,
     }

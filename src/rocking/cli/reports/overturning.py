@@ -29,8 +29,9 @@ def write(found: OverturningCurve, files: Mapping[str, Path], block: Block | Non
     """Write the plot, one row per value as CSV, and the dataset; with a block, amplitudes also in SI."""
     data = found.dataset
     if block is not None:
-        levels = {_key(name): block.acceleration(data[name].values) for name in LEVELS}
-        unit = {"units": PHYSICAL["amplitude"].cf}
+        amplitude = PHYSICAL["amplitude"]
+        levels = {_key(name): amplitude.turn(block, data[name].values) for name in LEVELS}
+        unit = {"units": amplitude.cf}
         data = data.assign({name: (data.lowest.dims, each, unit) for name, each in levels.items()})
     survey_run.write(OverturningCurve(data), "overturning", files, block, lambda: [_table(found, block)])
 
@@ -49,7 +50,7 @@ def _table(found: OverturningCurve, block: Block | None) -> dict[str, Any]:
     table = with_fixed(table, over, {name: data.attrs[name] for name in FIXED if name in data.attrs})
     if block is None:
         return table
-    return table | {f"{name}_{unit.heading}": block.acceleration(level) for name, level in levels.items()}
+    return table | {f"{name}_{unit.heading}": unit.turn(block, level) for name, level in levels.items()}
 
 
 def _key(level: str) -> str:
@@ -136,7 +137,7 @@ def record(found: OverturningCurve, block: Block | None, files: list[Path]) -> d
                 for name in over
                 if name in PHYSICAL
             }
-            row |= {_key(name): float(block.acceleration(row[name])) for name in LEVELS}
+            row |= {_key(name): PHYSICAL["amplitude"].turn(block, row[name]) for name in LEVELS}
     fixed = {name: data.attrs[name] for name in FIXED if name in data.attrs}
     scanned = {"start": float(amplitudes[0]), "stop": float(amplitudes[-1]), "count": int(amplitudes.size)}
     return {

@@ -94,7 +94,7 @@ def record(found: SafeBasin, block: Block | None, files: Sequence[Path]) -> dict
     fractions = [
         {
             "amplitude": float(amplitude),
-            **({} if block is None else {KEY: float(block.acceleration(amplitude))}),
+            **({} if block is None else {KEY: PHYSICAL["amplitude"].turn(block, amplitude)}),
             "safe": share_record(share),
             "undetermined": float(unknown),
         }
