@@ -81,10 +81,10 @@ def test_axis_is_a_table_and_modes_are_a_list(rocking):
             [
                 "amplitude must be a number; got 'a'",
                 "period must be an axis, START:STOP:COUNT with START ≠ STOP and a whole COUNT in [2, 1000000]; got 3",
-                "modes must be a number; got '1'",
+                "modes must be a number; got '1' (write a number without quotation marks)",
                 "step must be a number; got True",
                 "plot must be a path; got 3",
-                "unknown 'seeds' (",
+                "unknown 'seeds'; keys of this command: amplitude, ",
             ],
         ),
         (
@@ -94,12 +94,15 @@ def test_axis_is_a_table_and_modes_are_a_list(rocking):
                 "amplitude must be a number or START:STOP with START ≠ STOP; got '1:2:3' (example: 1:3)",
                 "phase must be a number; got [1]",
                 "model must be one of 'slender', 'full'; got 2",
-                "unknown 'json' (",
-                "unknown 'study' (",
+                "unknown 'json'; unknown 'study'; keys of this command: amplitude, ",
             ],
         ),
-        ("orbits", "prove = 1\nfile = 'a'\n", ["prove must be a bool; got 1", "unknown 'file' ("]),
-        ("record", "file = 'a'\n", ["unknown 'file' ("]),
+        (
+            "orbits",
+            "prove = 1\nfile = 'a'\n",
+            ["prove must be a bool; got 1", "unknown 'file'; keys of this command: amplitude, "],
+        ),
+        ("record", "file = 'a'\n", ["unknown 'file'; keys of this command: height, "]),
     ],
 )
 def test_all_errors_of_a_study_file_are_reported_at_once(rocking, command, wrong, told):
@@ -110,7 +113,7 @@ def test_all_errors_of_a_study_file_are_reported_at_once(rocking, command, wrong
     assert "\n" not in message
     for each in told:
         assert each in message
-    assert message.count("; got") + message.count("unknown") == len(told)
+    assert message.count("; got") + message.count("unknown") == len(told) + message.count("; unknown 'study'")
 
 
 def test_value_of_a_study_file_out_of_its_range_is_an_error_about_the_option(rocking):
@@ -242,3 +245,52 @@ def test_keys_are_shown_as_they_are_written(rocking):
         "unknown 'frequencyhz' (did you mean 'frequency-hz'?)",
         "unknown 'max-cycle' (did you mean 'max-cycles'?)",
     ]
+
+
+@pytest.mark.parametrize(
+    ("command", "key"),
+    [
+        *(("map", key) for key in ("height", "restitution")),
+        *(("simulate", key) for key in ("height", "restitution")),
+        *((command, "amplitude") for command in ("continue", "orbit-diagram", "safe-basin")),
+        *((command, "restitution") for command in ("basins", "overturning", "lyapunov")),
+    ],
+)
+def test_number_in_quotation_marks_is_an_error_of_every_command(rocking, command, key):
+    Path("study.toml").write_text(f"{key} = '0.8'\n")
+    code, message, out = rocking(f"{command} --study study.toml")
+    assert (code, out) == (2, "")
+    assert message.startswith(f"study 'study.toml': {key} must be a number")
+    assert message.endswith("; got '0.8' (write a number without quotation marks)")
+
+
+@pytest.mark.parametrize(
+    ("command", "line", "told"),
+    [
+        ("continue", "amplitude = [1, 2]", "amplitude must be a number or START:STOP; got [1, 2]"),
+        ("continue", "amplitude = true", "amplitude must be a number or START:STOP; got True"),
+        ("orbit-diagram", "phase = [1, 2]", "phase must be a number or START:STOP:COUNT; got [1, 2]"),
+        ("frequency-response", "period = [1, 2]", "period must be an axis, START:STOP:COUNT; got [1, 2]"),
+        ("frequency-response", "period = '2'", "period must be an axis, START:STOP:COUNT; got '2'"),
+    ],
+)
+def test_message_about_an_entry_states_its_form(rocking, command, line, told):
+    Path("study.toml").write_text(line)
+    assert rocking(f"{command} --study study.toml")[1].startswith(f"study 'study.toml': {told}")
+
+
+def test_keys_are_suggested_only_if_they_are_similar(rocking):
+    keys = ["restitution_coefficient", "foo_angle", "theta", "amplitudes", "frequenzy"]
+    Path("study.toml").write_text("".join(f"{key} = 1\n" for key in keys))
+    *unknown, known = (
+        rocking("simulate --study study.toml")[1].removeprefix("study 'study.toml': ").split("; ")
+    )
+    assert unknown == [
+        "unknown 'amplitudes' (did you mean 'amplitude'?)",
+        "unknown 'foo_angle'",
+        "unknown 'frequenzy' (did you mean 'frequency'?)",
+        "unknown 'restitution_coefficient'",
+        "unknown 'theta'",
+    ]
+    assert known.startswith("keys of this command: amplitude, period, frequency, height, width, ")
+    assert "brace-angle" in known

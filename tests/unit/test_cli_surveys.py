@@ -174,7 +174,7 @@ def test_overturning_reads_a_study_file(rocking):
                 "samples must be a whole number in [1, 10000000]; got 0",
                 "plot must be a path; got 3",
                 "unknown 'seeds' (did you mean 'seed'?)",
-                "unknown 'tiles' (keys are the names of options of this command)",
+                "unknown 'tiles'; keys of this command: amplitude, period, ",
             ],
         ),
         (
@@ -184,7 +184,7 @@ def test_overturning_reads_a_study_file(rocking):
                 "period must be a number or START:STOP:COUNT with START ≠ STOP and a whole COUNT in [2, 1000000]; got '1:2:1'",
                 "restitution must hold two numbers or more in [0, 1], ascending; got 0.9 before 0.8 at index 1",
                 "phases must be a whole number in [1, 100000]; got 0",
-                "unknown 'angle' (keys are the names of options of this command)",
+                "unknown 'angle'; keys of this command: ",
             ],
         ),
     ],

@@ -6,6 +6,7 @@ import difflib
 import math
 import re
 from collections.abc import Callable, Collection, Mapping
+from contextlib import suppress
 from functools import partial
 from pathlib import Path
 from typing import Annotated, Any
@@ -20,6 +21,9 @@ STUDY = (
     "Options on the command line take precedence."
 )
 Study = Annotated[Path | None, typer.Option("--study", metavar="FILE", help=STUDY)]
+UNQUOTED = "write a number without quotation marks"
+SIMILAR = 0.8
+"""Smallest similarity of an unknown key and the one that is suggested: one letter in four or five may differ."""
 MAX_BYTES = 1_000_000
 """Maximum size of a study file; a typical one has ten lines."""
 Check = Callable[[Any], Any]
@@ -28,11 +32,12 @@ Check = Callable[[Any], Any]
 def quantity(name: str, given: Any) -> Any:
     """Return an entry as a number, an `Axis` or a list of values.
 
-    The entry is a number, a text as on the command line, a table of start, stop and count, or a list.
+    The entry is a number, an axis in a text as on the command line, a table of start, stop and count, or a list.
     """
     from rocking.model import reals, whole
 
     if isinstance(given, str):
+        check_unquoted(name, given, f"be a number or {AXIS_FORM}")
         try:
             return number_or_axis(given)
         except typer.BadParameter as error:
@@ -65,10 +70,22 @@ def _ends(name: str, given: Mapping[str, Any]) -> tuple[float, float]:
     return start, stop
 
 
+def check_unquoted(name: str, given: str, allowed: str) -> None:
+    """Raise TypeError for a number in quotation marks; `allowed` states what the entry must be."""
+    from rocking.cli.input.options import number as number_of
+    from rocking.model import refusal
+
+    with suppress(typer.BadParameter):
+        number_of(given)
+        raise TypeError(refusal(name, allowed, given, UNQUOTED))
+
+
 def number(name: str, given: Any) -> Any:
     """Return an entry that is a finite number; TOML also has nan and inf."""
     from rocking.model import reals, refusal
 
+    if isinstance(given, str):
+        check_unquoted(name, given, "be a number")
     if isinstance(given, bool) or not isinstance(given, int | float):
         raise TypeError(refusal(name, "be a number", given))
     if not math.isfinite(reals(name, given)):
@@ -111,7 +128,10 @@ def read(path: Path, checks: Mapping[str, Check]) -> dict[str, Any]:
             found[name] = checks[name](said[keys[name]])
         except (TypeError, ValueError) as error:
             errors.append(as_typed(str(error), {name: keys[name]}))
-    errors += [_unknown(keys[name], said[keys[name]], checks) for name in sorted(keys.keys() - checks.keys())]
+    unknown = sorted(keys.keys() - checks.keys())
+    errors += [_unknown(keys[name], said[keys[name]], checks) for name in unknown]
+    if any(_similar(name, checks) is None and not _is_section(said[keys[name]]) for name in unknown):
+        errors.append("keys of this command: " + ", ".join(name.replace("_", "-") for name in checks))
     if errors:
         raise YourInput(f"study {str(path)!r}: " + "; ".join(errors))
     return found
@@ -164,11 +184,20 @@ def _check_once(path: Path, said: Mapping[str, Any]) -> None:
 
 
 def _unknown(key: str, entry: Any, checks: Mapping[str, Check]) -> str:
-    """Return the message for an unknown key as written in the file, with the most similar known one."""
-    if isinstance(entry, Mapping) and not {"start", "stop"} & entry.keys():
+    """Return the message for an unknown key as written in the file, with a known one if it is similar."""
+    if _is_section(entry):
         return f"unknown {key!r} (a section: write the keys of options without sections)"
-    close = difflib.get_close_matches(key.replace("-", "_"), checks, 1)
-    if not close:
-        return f"unknown {key!r} (keys are the names of options of this command)"
-    similar = close[0] if "_" in key else close[0].replace("_", "-")
-    return f"unknown {key!r} (did you mean {similar!r}?)"
+    similar = _similar(key.replace("-", "_"), checks)
+    if similar is None:
+        return f"unknown {key!r}"
+    return f"unknown {key!r} (did you mean {similar if '_' in key else similar.replace('_', '-')!r}?)"
+
+
+def _is_section(entry: Any) -> bool:
+    """Return whether an entry is a table other than an axis or a range."""
+    return isinstance(entry, Mapping) and not {"start", "stop"} & entry.keys()
+
+
+def _similar(name: str, checks: Mapping[str, Check]) -> str | None:
+    """Return the known name that is most similar to an unknown one; None if none is near."""
+    return next(iter(difflib.get_close_matches(name, checks, 1, SIMILAR)), None)

@@ -13,7 +13,16 @@ from typer.models import OptionInfo
 
 from rocking.cli.input import axis, study_file
 from rocking.cli.input.options import Command, number
+from rocking.cli.option_names import AXIS_FORM, RANGE_FORM
 
+FORMS: dict[Any, str] = {
+    axis.number_or_axis: f"a number or {AXIS_FORM}",
+    axis.only_axis: f"an axis, {AXIS_FORM}",
+    axis.number_or_range: f"a number or {RANGE_FORM}",
+    axis.only_range: f"a range, {RANGE_FORM}",
+}
+"""Allowed form of an entry, by the parser of its option."""
+AXES = (axis.number_or_axis, axis.only_axis)
 FILES = ("plot", "animate", "csv", "netcdf", "json")
 """Options of files, before which `--study` is listed."""
 
@@ -68,12 +77,17 @@ def _numbers(name: str, entry: Any) -> list[Any]:
 
 def _parsed(parser: Callable[[Any], Any], name: str, entry: Any) -> Any:
     """Return a number, an axis or a range as the parser of its option accepts it; an axis or a range may be a table."""
-    if isinstance(entry, Mapping) and parser in (axis.number_or_axis, axis.only_axis):
-        entry = study_file.quantity(name, entry)
-    elif isinstance(entry, Mapping) and parser is axis.number_or_range:
-        entry = study_file.span(name, entry)
-    elif not isinstance(entry, str):
+    from rocking.model import refusal
+
+    form = FORMS[parser]
+    if isinstance(entry, Mapping):
+        entry = (study_file.quantity if parser in AXES else study_file.span)(name, entry)
+    elif isinstance(entry, str):
+        study_file.check_unquoted(name, entry, f"be {form}")
+    elif isinstance(entry, int | float) and not isinstance(entry, bool):
         entry = study_file.number(name, entry)
+    else:
+        raise TypeError(refusal(name, f"be {form}", entry))
     try:
         return parser(entry)
     except typer.BadParameter as error:

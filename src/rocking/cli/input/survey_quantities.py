@@ -11,7 +11,7 @@ from attrs import frozen
 
 from rocking.cli.input.axis import VARIES, Axis
 from rocking.cli.input.options import question
-from rocking.cli.input.study_file import Check, quantity
+from rocking.cli.input.study_file import Check, number, quantity
 from rocking.cli.option_names import AXIS_FORM, SI, TOLD, YourInput, option
 from rocking.model import Block, instance, quantities, reals, refusal, whole
 
@@ -139,8 +139,7 @@ def _in_range(name: str, entry: Any) -> Any:
 def _number(name: str, entry: Any) -> Any:
     from rocking.survey import check_quantity
 
-    if not isinstance(entry, int | float):
-        raise TypeError(refusal(name, "be a number", entry))
+    number(name, entry)
     return reals(name, entry) if name in SI else check_quantity(name, entry)
 
 
