@@ -77,6 +77,31 @@ def test_each_row_of_an_overturning_spectrum_states_the_restitution(rocking):
     assert {row["restitution"] for row in rows_of(rocking, line)} == {"0.9"}
 
 
+def test_each_row_of_a_safe_basin_states_the_initial_states(rocking):
+    line = "safe-basin --height 2 --width 0.5 --acceleration 3:4:2 --frequency-hz 3 --max-cycles 20"
+    for row in rows_of(rocking, f"{line} --angle=-0.5:0.25 --samples 7 --seed 3"):
+        assert (row["samples"], row["seed"]) == ("7", "3")
+        for name, unit, given in (
+            ("angle", "theta_cr", (-0.5, 0.25)),
+            ("velocity", "alpha theta_cr", (-1, 1)),
+        ):
+            assert tuple(float(row[f"{name}_{end} [{unit}]"]) for end in ("low", "high")) == given
+        assert float(row["angle_low [rad]"]) == pytest.approx(BLOCK.radians(-0.5), rel=1e-15)
+        assert float(row["velocity_high [rad/s]"]) == pytest.approx(BLOCK.radians_per_second(1), rel=1e-15)
+
+
+def test_absent_counts_are_nan_and_infinitely_many_are_inf(rocking):
+    """The dataset has integers there: 0 for no period, -1 for no number of impacts or infinitely many."""
+    rows = rows_of(rocking, "map --amplitude 0.5:1.05:2 --period 3:6:2 --restitution 0.5 --max-cycles 300")
+    assert [row["kind"] for row in rows] == ["rest", "rest", "periodic", "periodic"]
+    counts = [(row["response_period [cycles]"], row["impacts_per_period"]) for row in rows]
+    assert counts == [("nan", "nan"), ("nan", "nan"), ("1", "inf"), ("1", "inf")]
+    starts = "--angle=-1:1:3 --velocity=-1:1:3 --boundary-runs 0"
+    rows = rows_of(rocking, f"basins --amplitude 2 --period 1 --restitution 0.9 {starts}")
+    names = ("response_period [cycles]", "impacts_per_period", "brace_hits_per_period")
+    assert {row[name] for row in rows if row["kind"] == "overturned" for name in names} == {"nan"}
+
+
 def test_headings_of_a_map_have_units(rocking):
     row = rows_of(rocking, f"map {FAMILIES['map']}")[0]
     assert list(row) == [

@@ -72,9 +72,9 @@ PHYSICAL = {
     "exponent": Physical("alpha", "exponent", "1/s", "exponent_per_s", "s-1", _per_second),
     "exponent_error": Physical("alpha", "exponent_error", "1/s", "exponent_error_per_s", "s-1", _per_second),
 }
-for _name in ("brace_angle", "orbit_angle", "mean_angle", "mean_angle_error"):
+for _name in ("brace_angle", "orbit_angle", "mean_angle", "mean_angle_error", "angle_low", "angle_high"):
     PHYSICAL[_name] = PHYSICAL["angle"]._replace(name=_name, key=f"{_name}_rad")
-for _name in ("orbit_velocity", "margin"):
+for _name in ("orbit_velocity", "margin", "velocity_low", "velocity_high"):
     PHYSICAL[_name] = PHYSICAL["velocity"]._replace(name=_name, key=f"{_name}_rad_per_s")
 """SI counterparts by the name of the normalised quantity. Dimensionless quantities are absent."""
 SAME_IN_SI = {

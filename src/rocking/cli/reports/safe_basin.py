@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from rocking.cli.option_names import TOLD
+from rocking.cli.option_names import START, TOLD
 from rocking.cli.output.console import Row, print_json, print_table
 from rocking.cli.output.files import columns, with_block, with_fixed, write_result
 from rocking.cli.output.survey_run import MAX_ROWS, share_record
@@ -31,10 +31,24 @@ def write(found: SafeBasin, block: Block | None, files: Mapping[str, Path]) -> N
         files,
         figure=lambda plot: plot.safe_basin(found, block=block),
         tables=lambda: (
-            columns(with_fixed(table, ["amplitude"], data.attrs), block) for table in tables(data)
+            columns(with_fixed(table, ["amplitude"], data.attrs) | _drawn(table, data), block)
+            for table in tables(data)
         ),
         data=lambda: _dataset(found, block),
     )
+
+
+def _drawn(table: Mapping[str, Any], data: xr.Dataset) -> dict[str, Any]:
+    """Return the columns of the random initial states: their ranges, number and seed."""
+    import numpy as np
+
+    ranges = {
+        f"{name}_{end}": bound
+        for name in START
+        for end, bound in zip(("low", "high"), data.attrs[f"{name}_range"], strict=True)
+    }
+    drawn = ranges | {name: data.attrs[name] for name in ("samples", "seed")}
+    return {name: np.full(len(table["amplitude"]), value) for name, value in drawn.items()}
 
 
 def _dataset(found: SafeBasin, block: Block | None) -> xr.Dataset:

@@ -9,11 +9,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from rocking.model import check_writable, replacing_hdf5
+from rocking.model import Kind, check_writable, replacing_hdf5
 
 if TYPE_CHECKING:
     import xarray as xr
 
+PER_PERIOD = ("impacts_per_period", "brace_hits_per_period")
+COUNTS = ("response_period", *PER_PERIOD, "transient")
+"""Variables with integers that stand for an absent number."""
 AT_ONCE = 1 << 20
 """Approximate number of points in memory at a time."""
 
@@ -42,7 +45,10 @@ def flags(told: Mapping[str, Any]) -> dict[int, str]:
 
 
 def tables(found: xr.Dataset) -> Iterator[dict[str, np.ndarray]]:
-    """Yield tables (columns by name) of the dataset in parts: the axes, then all variables, flags as words."""
+    """Yield tables (columns by name) of the dataset in parts: the axes, then all variables, flags as words.
+
+    Absent counts are NaN, and infinitely many events infinity, where the integers of the dataset are -1 or 0.
+    """
     words = {
         name: np.array([flags(found[name].attrs).get(value, "") for value in range(256)])
         for name in map(str, found.data_vars)
@@ -55,7 +61,17 @@ def tables(found: xr.Dataset) -> Iterator[dict[str, np.ndarray]]:
         for name in map(str, part.data_vars):
             values = part[name].values.ravel()
             table[name] = words[name][values] if name in words else values
-        yield table
+        yield table | {name: _count(name, table) for name in COUNTS if name in table}
+
+
+def _count(name: str, table: Mapping[str, np.ndarray]) -> np.ndarray:
+    """Return a column of counts as Python numbers: integers, NaN if absent, and infinity."""
+    values = table[name]
+    column = values.astype(object)
+    column[values < (1 if name == "response_period" else 0)] = math.nan
+    if name in PER_PERIOD:
+        column[(values == -1) & (table["kind"] == str(Kind.PERIODIC))] = math.inf
+    return column
 
 
 def to_netcdf(found: xr.Dataset, path: str | os.PathLike[str]) -> None:
