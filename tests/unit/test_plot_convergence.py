@@ -67,10 +67,18 @@ def test_axes_given_is_drawn_into(spectrum):
     assert rk.plot.convergence(spectrum, right) is right
 
 
+@pytest.mark.parametrize("exponent", [1, 2])
+def test_exponent_of_minus_infinity_has_its_value_and_its_cause_but_no_line(exponent):
+    resting = rk.lyapunov(rk.System(rk.Harmonic(1.05, period=3.0), 0.5), cycles=100)
+    ax = rk.plot.convergence(resting, exponent=exponent)
+    assert not ax.lines
+    assert ax.get_title(loc="right") == rf"$\lambda_{exponent}$ = −∞"
+    assert "perturbations vanish" in artist(ax, "cause").get_text()
+    assert (ax.get_xlim(), ax.get_xscale()) == ((1.0, 100.0), "log")
+    ax.figure.canvas.draw()
+
+
 def test_what_cannot_be_drawn_is_refused_in_one_line(spectrum):
-    still = rk.lyapunov(rk.System(rk.Harmonic(0.5, period=1.0), 0.9), cycles=100)
-    with pytest.raises(ValueError, match="^exponent must be finite to be drawn; got -inf$"):
-        rk.plot.convergence(still)
     with pytest.raises(TypeError, match="^spectrum must be a LyapunovSpectrum; got 3$"):
         rk.plot.convergence(3)
     for bad in (0, 3, math.nan):

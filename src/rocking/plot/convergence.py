@@ -5,7 +5,7 @@ import math
 import numpy as np
 from matplotlib.axes import Axes
 
-from rocking.model import instance, plus_minus, refuse_if, whole
+from rocking.model import instance, plus_minus, whole
 from rocking.plot.parts import style
 from rocking.response import LyapunovSpectrum
 
@@ -20,7 +20,7 @@ def convergence(spectrum: LyapunovSpectrum, ax: Axes | None = None, exponent: in
     ax : matplotlib Axes, optional
         Axes to draw into. Default: a new figure, one column wide.
     exponent : int
-        1 for λ₁, 2 for λ₂. An exponent of −∞ cannot be drawn. Default: 1.
+        1 for λ₁, 2 for λ₂. Default: 1.
 
     Returns
     -------
@@ -31,7 +31,7 @@ def convergence(spectrum: LyapunovSpectrum, ax: Axes | None = None, exponent: in
     TypeError
         If `spectrum` is not a LyapunovSpectrum, or an argument has the wrong type.
     ValueError
-        If `exponent` is neither 1 nor 2, or the exponent is −∞.
+        If `exponent` is neither 1 nor 2.
 
     See Also
     --------
@@ -40,7 +40,7 @@ def convergence(spectrum: LyapunovSpectrum, ax: Axes | None = None, exponent: in
     Notes
     -----
     There is no band where the batches are too few for an error. The dashed line is the final value. A thin line marks
-    zero if zero lies within the axes.
+    zero if zero lies within the axes. An exponent of −∞ has no line. The axes then state the value and its cause.
 
     Examples
     --------
@@ -53,9 +53,29 @@ def convergence(spectrum: LyapunovSpectrum, ax: Axes | None = None, exponent: in
     instance("spectrum", spectrum, LyapunovSpectrum)
     row = whole("exponent", exponent, 1, 2) - 1
     final, error = float(spectrum.values[row]), float(spectrum.errors[row])
-    refuse_if(final == -math.inf, "exponent", "be finite to be drawn", final)
     ax = style.own(ax)
     ax.set_xscale("log")
+    if final == -math.inf:
+        _superstable(ax, spectrum.cycles)
+    else:
+        _running(ax, spectrum, row)
+    style.label(ax, "cycles averaged over", rf"exponent $\lambda_{exponent}$ per $\tau$")
+    style.logarithmic(ax.xaxis)
+    style.note(ax, rf"$\lambda_{exponent}$ = {plus_minus(final, error)}")
+    return ax
+
+
+def _superstable(ax: Axes, cycles: int) -> None:
+    """State in empty axes that there is no running average, because perturbations vanish."""
+    ax.set(xlim=(1, max(cycles, 2)), yticks=[])
+    cause = "no line: perturbations vanish while the block\nrests or stays in contact with a brace"
+    ax.text(
+        0.5, 0.5, cause, transform=ax.transAxes, ha="center", va="center", fontsize=style.SMALL, gid="cause"
+    )
+
+
+def _running(ax: Axes, spectrum: LyapunovSpectrum, row: int) -> None:
+    """Draw the running average with its error, its final value, and zero if it lies within the axes."""
     history = spectrum.history
     cycles, values, errors = history["cycles"], history["values"][:, row], history["errors"][:, row]
     known = np.isfinite(errors)
@@ -68,12 +88,10 @@ def convergence(spectrum: LyapunovSpectrum, ax: Axes | None = None, exponent: in
         linewidth=0,
         gid="error",
     )
-    ax.axhline(final, color=style.GUIDE, linewidth=style.THIN, linestyle="--", gid="final")
+    ax.axhline(
+        float(spectrum.values[row]), color=style.GUIDE, linewidth=style.THIN, linestyle="--", gid="final"
+    )
     ax.plot(cycles, values, color=style.MOTION, linewidth=style.LINE, gid="running")
     low, high = ax.get_ylim()
     if low <= 0.0 <= high:
         ax.axhline(0.0, color=style.INK, linewidth=style.THIN, gid="zero")
-    style.label(ax, "cycles averaged over", rf"exponent $\lambda_{exponent}$ per $\tau$")
-    style.logarithmic(ax.xaxis)
-    style.note(ax, rf"$\lambda_{exponent}$ = {plus_minus(final, error)}")
-    return ax

@@ -6,7 +6,6 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from rocking.cli.option_names import YourInput
 from rocking.cli.output.console import Row, print_json, print_table
 from rocking.cli.output.files import with_block, write_result
 from rocking.cli.reports.motion import asked, beyond, physical_of, question
@@ -20,11 +19,7 @@ if TYPE_CHECKING:
 
 
 def write(spectrum: LyapunovSpectrum, block: Block | None, files: Mapping[str, Path]) -> None:
-    """Write the plot and the table of the running estimates, and the dataset; YourInput for a plot without estimates."""
-    if "plot" in files and spectrum.superstable:
-        raise YourInput(
-            f"--plot must be omitted: the exponents are −∞, so that there is no running estimate ({spectrum})"
-        )
+    """Write the plot and the table of the running estimates, and the dataset."""
     write_result(
         files,
         figure=lambda plot: plot.convergence(spectrum),
