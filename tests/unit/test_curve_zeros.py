@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from rocking.orbits import curve_zeros
-from rocking.orbits.curve_zeros import brackets, located
+from rocking.orbits.curve_zeros import find_brackets, locate_zero
 from rocking.orbits.normal_form import Reduced
 
 SEED = 5
@@ -40,7 +40,7 @@ def test_each_zero_is_in_one_bracket_wherever_the_points_lie(step, gap):
     together = 0
     for shift in random.uniform(0.0, step, 40):
         places, zeros, test = pairs(gap, shift, step)
-        found = list(brackets(line(places), test))
+        found = list(find_brackets(line(places), test))
         ends = [
             places[part.place]
             + np.array([part.low, part.high]) * (places[part.place + 1] - places[part.place])
@@ -49,7 +49,7 @@ def test_each_zero_is_in_one_bracket_wherever_the_points_lie(step, gap):
         assert [int(((low < zeros) & (zeros < high)).sum()) for low, high in ends] == [1] * len(zeros)
         together += len({part.place for part in found}) < len(found)
         for part, zero in zip(found, zeros, strict=True):
-            row, _ = located(line(places), test, part)
+            row, _ = locate_zero(line(places), test, part)
             assert row[0] == pytest.approx(zero, abs=1e-11)
     assert (together > 0) == (gap < step)
 
@@ -57,18 +57,18 @@ def test_each_zero_is_in_one_bracket_wherever_the_points_lie(step, gap):
 def test_a_step_with_one_zero_is_not_divided():
     places = np.linspace(0.0, 1.0, 8)
     for zero in np.random.default_rng(SEED).uniform(0.0, 1.0, 50):
-        (part,) = brackets(line(places), of(lambda x, zero=zero: (x - zero) * (1.0 + 0.3 * x)))
+        (part,) = find_brackets(line(places), of(lambda x, zero=zero: (x - zero) * (1.0 + 0.3 * x)))
         assert (part.low, part.high) == (0.0, 1.0)
 
 
 def test_three_zeros_within_one_step():
     places = np.linspace(-2.0, 2.0, 7)
     zeros = np.array([-0.2, 0.01, 0.25])
-    found = list(brackets(line(places), of(lambda x: (x - zeros[0]) * (x - zeros[1]) * (x - zeros[2]))))
+    found = list(find_brackets(line(places), of(lambda x: (x - zeros[0]) * (x - zeros[1]) * (x - zeros[2]))))
     assert len(found) == 3
 
 
 def test_a_pole_is_no_zero():
     places = np.linspace(0.0, 1.0, 8)
     test = of(lambda x: 1.0 / (x - 0.4))
-    assert all(located(line(places), test, part) is None for part in brackets(line(places), test))
+    assert all(locate_zero(line(places), test, part) is None for part in find_brackets(line(places), test))

@@ -375,7 +375,7 @@ def test_starts_beyond_the_braces_are_no_starts():
 
 def test_mirror_images_have_shades_of_their_own():
     fixed = {"amplitude": 14.0, "period": 1.35, "restitution": 0.925}
-    plane = Plane(("angle", Span(-0.5, 0.5)), ("velocity", Span(-0.5, 0.5)), fixed, 17, apart=True)
+    plane = Plane(("angle", Span(-0.5, 0.5)), ("velocity", Span(-0.5, 0.5)), fixed, 17, with_attractors=True)
     *_, last = refined(plane)
     starts = np.linspace(-0.5, 0.5, 17)
     system = rk.System(rk.Harmonic(14.0, period=1.35), 0.925)
@@ -713,7 +713,7 @@ figure, restitution, brace_angle, critical_angle = sys.argv[1], *(float(text) or
 shown = evolve(DEFAULT, restitution=restitution, brace_angle=brace_angle, critical_angle=critical_angle, first=3)
 stop = np.zeros(1, np.int64)
 if figure in ("map", "basin"):
-    plane = Plane(("period", shown.periods), ("amplitude", shown.amplitudes), shown.fixed, COARSEST + 1, apart=figure == "basin")
+    plane = Plane(("period", shown.periods), ("amplitude", shown.amplitudes), shown.fixed, COARSEST + 1, with_attractors=figure == "basin")
     Refinement(plane, Workers(), stop).coarse()
     figure_data.affordable(shown, 10)
 elif figure == "diagram":

@@ -71,7 +71,7 @@ class Plane:
         Largest |Θ₀| of a valid initial state: the brace angle. Default: unlimited.
     first : int
         Maximum number of cycles per point in the first map; fewer if cycles are expensive.
-    apart : bool
+    with_attractors : bool
         True to distinguish orbits of one category, for the initial states of one system. Default: False.
     """
 
@@ -81,7 +81,7 @@ class Plane:
     points: int
     reach: float = np.inf
     first: int = FIRST
-    apart: bool = False
+    with_attractors: bool = False
 
     def values(self, places: np.ndarray, side: int) -> dict[str, np.ndarray]:
         """Return the two quantities at points of a grid of `side` × `side`, given by indices in C order, rows upward."""
@@ -214,7 +214,7 @@ class Refinement:
         return self._judge(places, ALL), time.thread_time() - begun
 
     def _judge(self, places: np.ndarray, cycles: int) -> dict[str, np.ndarray]:
-        ask = classify_with_anchor if self.plane.apart else classify_points
+        ask = classify_with_anchor if self.plane.with_attractors else classify_points
         answers = ask(self.plane.values(places, self.side), self.plane.fixed, cycles, PERIOD, self.stop)
         if answers is None:
             raise asyncio.CancelledError
@@ -237,7 +237,7 @@ class Refinement:
     def _keep(self, places: np.ndarray, answers: dict[str, np.ndarray]) -> None:
         look = legend.looks(answers["kind"], answers["response_period"], answers["symmetric"])
         answers["look"] = look
-        if self.plane.apart:
+        if self.plane.with_attractors:
             states = np.column_stack([answers["orbit_angle"], answers["orbit_velocity"]])
             answers["orbit"] = self.orbits.numbers(look, states)
         for name in FIELDS.keys() & answers.keys():

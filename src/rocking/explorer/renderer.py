@@ -229,7 +229,7 @@ class SessionRenderer(DocumentRenderer):
             BASIN_POINTS,
             reach,
             _first(shown),
-            apart=shown.restitution < 1.0,  # an undamped motion has no attractor
+            with_attractors=shown.restitution < 1.0,  # an undamped motion has no attractor
         )
         basin = Refinement(plane, self.workers, stop)
         return basin, basin.coarse()

@@ -13,7 +13,7 @@ from rocking.model import Orbit, plus_minus
 from rocking.orbits import normal_form
 from rocking.orbits.curve_ends import degenerate_end, grazed_end
 from rocking.orbits.curve_rows import CurveRows
-from rocking.orbits.curve_zeros import Test, along, brackets, located
+from rocking.orbits.curve_zeros import Test, along, find_brackets, locate_zero
 from rocking.orbits.event_chain import End, Special, equations, orbit_of
 from rocking.orbits.normal_form import Reduced
 
@@ -100,8 +100,8 @@ def points_of(rows: CurveRows) -> tuple[CodimensionTwoPoint, ...]:
     """Return the points of codimension two of a curve, in order along it."""
     found = []
     for test in _tests(rows):
-        for part in brackets(rows, test):
-            point = located(rows, test, part)
+        for part in find_brackets(rows, test):
+            point = locate_zero(rows, test, part)
             if point is not None:
                 found.append(_point(rows, test.kind, *point, part.place + 1))
     for end, inwards in zip(rows.ends, (rows.rows, rows.rows[::-1]), strict=True):

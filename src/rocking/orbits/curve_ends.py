@@ -11,10 +11,10 @@ import numpy as np
 from rocking.kernels.orbits import arclength
 from rocking.orbits import grazing, normal_form
 from rocking.orbits.curve_rows import CurveRows
-from rocking.orbits.curve_zeros import Bracket, Test, located
+from rocking.orbits.curve_zeros import Bracket, Test, locate_zero
 from rocking.orbits.event_chain import Chain, Condition, End, Special, equations
 from rocking.orbits.normal_form import Reduced
-from rocking.orbits.parent_branch import CONDITION, apart_of, parent_of
+from rocking.orbits.parent_branch import CONDITION, half_differences, parent_of
 
 ALMOST_EQUAL = 0.1
 """Largest distance of the halves of a chain, in rad, at the last point of a curve before a point at which they are equal."""
@@ -22,7 +22,7 @@ REACHES = (2.0, 4.0, 8.0)
 """Lengths beyond the last point, in units of the extrapolated one, in which an end is searched for."""
 
 
-class Located(NamedTuple):
+class CurveEnd(NamedTuple):
     """End of a curve, on the same curve or on that of the orbits from which its orbits bifurcate."""
 
     rows: CurveRows
@@ -52,12 +52,12 @@ def until_parent(rows: CurveRows, start: int) -> CurveRows:
     if rows.condition.kind != Special.FOLD or parent_of(rows.chain) is None:
         return rows
     points, (first, last) = rows.rows, rows.ends
-    apart = apart_of(rows.chain, points[:, :-1])
-    passed = np.flatnonzero((apart[:-1] * apart[1:]).sum(axis=1) < 0.0)
-    before, after = passed[passed < start], passed[passed >= start]
-    if last == End.CLOSED and len(passed):
+    differences = half_differences(rows.chain, points[:, :-1])
+    swaps = np.flatnonzero((differences[:-1] * differences[1:]).sum(axis=1) < 0.0)
+    before, after = swaps[swaps < start], swaps[swaps >= start]
+    if last == End.CLOSED and len(swaps):
         # the last point lies beyond the first one
-        points = np.concatenate([points[passed[-1] + 1 : -1], points[: passed[0] + 1]])
+        points = np.concatenate([points[swaps[-1] + 1 : -1], points[: swaps[0] + 1]])
         return rows._replace(rows=points, ends=(End.MERGED, End.MERGED))
     low, high = 0, len(points)
     if len(before):
@@ -65,12 +65,12 @@ def until_parent(rows: CurveRows, start: int) -> CurveRows:
     if len(after):
         high, last = int(after[0]) + 1, End.MERGED
     cut = rows._replace(rows=points[low:high])
-    first = End.MERGED if first == End.LOST and _places(cut.rows, cut) is not None else first
-    last = End.MERGED if last == End.LOST and _places(cut.rows[::-1], cut) is not None else last
+    first = End.MERGED if first == End.LOST and _extrapolate_merger(cut.rows, cut) is not None else first
+    last = End.MERGED if last == End.LOST and _extrapolate_merger(cut.rows[::-1], cut) is not None else last
     return cut._replace(ends=(first, last))
 
 
-def _places(inwards: np.ndarray, rows: CurveRows) -> tuple[int, float] | None:
+def _extrapolate_merger(inwards: np.ndarray, rows: CurveRows) -> tuple[int, float] | None:
     """Extrapolate the points at an end of a curve to the place at which both halves of the chain are equal.
 
     The parameters are linear in the squared distance of the halves.
@@ -82,14 +82,14 @@ def _places(inwards: np.ndarray, rows: CurveRows) -> tuple[int, float] | None:
         Distance of the place from the first point, as a fraction of the distance of these two points.
         None if the halves are not almost equal at the first point.
     """
-    squares = (apart_of(rows.chain, inwards[:, :-1]) ** 2).sum(axis=1)
+    squares = (half_differences(rows.chain, inwards[:, :-1]) ** 2).sum(axis=1)
     far = int(np.argmax(squares > 2.0 * squares[0]))
     if far == 0 or squares[0] > ALMOST_EQUAL**2:
         return None
     return far, float(squares[0] / (squares[far] - squares[0]))
 
 
-def degenerate_end(rows: CurveRows, inwards: np.ndarray) -> Located | None:
+def degenerate_end(rows: CurveRows, inwards: np.ndarray) -> CurveEnd | None:
     """Return the end of a curve of folds at which its orbits merge with those from which they bifurcate, or None.
 
     The bifurcation of the other orbits is degenerate there. The point is solved on their curve, which is regular.
@@ -101,7 +101,7 @@ def degenerate_end(rows: CurveRows, inwards: np.ndarray) -> Located | None:
     inwards : ndarray, shape (n, k + 2)
         Its points, beginning at this end.
     """
-    parent, found = parent_of(rows.chain), _places(inwards, rows)
+    parent, found = parent_of(rows.chain), _extrapolate_merger(inwards, rows)
     if parent is None or found is None:
         return None
     far, share = found
@@ -121,7 +121,7 @@ def _means(row: np.ndarray, parent: Chain) -> np.ndarray:
 
 def _between(
     rows: CurveRows, test: Test, start: np.ndarray, chord: np.ndarray, share: float
-) -> Located | None:
+) -> CurveEnd | None:
     """Return the zero of a test function between a point and one beyond the end of a chord from it, or None."""
     for reach in REACHES:
         stop = rows.corrected(start + (1.0 + reach * share) * chord, chord / np.linalg.norm(chord))
@@ -130,12 +130,12 @@ def _between(
         part = rows._replace(rows=np.stack([start, stop]))
         (first, last), directions = test.values(part, part.rows)
         if first * last < 0.0:
-            found = located(part, test, Bracket(0, 0.0, 1.0, max(abs(first), abs(last)), directions[0]))
-            return None if found is None else Located(part, *found)
+            found = locate_zero(part, test, Bracket(0, 0.0, 1.0, max(abs(first), abs(last)), directions[0]))
+            return None if found is None else CurveEnd(part, *found)
     return None
 
 
-def grazed_end(rows: CurveRows, inwards: np.ndarray) -> Located | None:
+def grazed_end(rows: CurveRows, inwards: np.ndarray) -> CurveEnd | None:
     """Return the end of a curve at a grazing, where a turning point of an arc reaches the base or a brace, or None.
 
     Beyond this end the equations of the chain remain regular, so that the clearance of the turning point changes its sign.

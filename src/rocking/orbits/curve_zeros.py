@@ -125,7 +125,7 @@ def along(rows: CurveRows, test: Test) -> tuple[np.ndarray, np.ndarray]:
     return values, directions
 
 
-def brackets(rows: CurveRows, test: Test) -> Iterator[Bracket]:
+def find_brackets(rows: CurveRows, test: Test) -> Iterator[Bracket]:
     """Yield the parts of steps in which a test function changes its sign, in order along the curve.
 
     Two zeros within one step do not change the sign between its ends. A step is divided if the slopes at its ends allow
@@ -155,7 +155,7 @@ def _slopes(values: np.ndarray, lengths: np.ndarray) -> np.ndarray:
     return np.asarray(np.gradient(values, np.append(0.0, lengths.cumsum()), edge_order=2))
 
 
-def located(rows: CurveRows, test: Test, part: Bracket) -> tuple[np.ndarray, tuple[float, float]] | None:
+def locate_zero(rows: CurveRows, test: Test, part: Bracket) -> tuple[np.ndarray, tuple[float, float]] | None:
     """Return the point in a bracket at which a test function vanishes, and the errors of both parameters, or None.
 
     The error is the difference from the same search in the chain that begins at the next event, which rounds differently.

@@ -49,9 +49,9 @@ def beginning(special: SpecialPoint) -> Beginning | None:
     if count == 1:
         return _both_ways(chain, special.name, row)
     # two impacts at one instant: the arc between them only has a length on one side
-    apart = np.zeros(len(row))
-    apart[after], apart[after + 1] = -1.0, 1.0
-    return Beginning(chain, row, (apart,))
+    direction = np.zeros(len(row))
+    direction[after], direction[after + 1] = -1.0, 1.0
+    return Beginning(chain, row, (direction,))
 
 
 def _least(chain: Chain) -> Chain:

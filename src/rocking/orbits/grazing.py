@@ -63,11 +63,11 @@ class Grazing(NamedTuple):
 
 def grazing_at(chain: Chain, parameter: str, row: np.ndarray) -> Grazing:
     """Return the grazing at which a branch ends, accurate to rounding; if that fails, the last point of the branch."""
-    found = _located(chain, parameter, row)
+    found = _solve_grazing(chain, parameter, row)
     return found._replace(orbit=evolve(found.orbit, grazes=True))
 
 
-def _located(chain: Chain, parameter: str, row: np.ndarray) -> Grazing:
+def _solve_grazing(chain: Chain, parameter: str, row: np.ndarray) -> Grazing:
     """Return the grazing with its orbit as solved: of all possible contacts, the one nearest to the end of the branch."""
     chain = chain._replace(system=with_value(chain.system, parameter, float(row[-1])), phases=row[:-1])
     links = equations(chain, parameter, row)[1]
@@ -127,8 +127,8 @@ def near_contacts(chain: Chain, links: np.ndarray) -> list[Touch]:
                 found.append((gap, level, arc, times[nearest]))
     return [
         Touch(chain, Condition(Special.GRAZING, arc, int(level), float(time)))
-        for apart, level, arc, time in sorted(found)
-        if apart <= CLOSE
+        for gap, level, arc, time in sorted(found)
+        if gap <= CLOSE
     ]
 
 

@@ -227,14 +227,14 @@ def grazing_transition(
     if special.kind != "grazing":
         raise ValueError(refusal("special", "be a grazing", special.kind))
     chain_at(special)  # refuses a full block, and an orbit that rests
-    apart = np.unique(reals("distances", distances))[::-1]
-    if len(apart) < FITTED or not (apart[-1] >= 1e-9 and apart[0] <= 0.5):
+    ordered = np.unique(reals("distances", distances))[::-1]
+    if len(ordered) < FITTED or not (ordered[-1] >= 1e-9 and ordered[0] <= 0.5):
         raise ValueError(
             refusal("distances", f"be at least {FITTED} different numbers in [1e-9, 0.5]", distances)
         )
     budget(max_cycles, MAX_PERIOD)
     beyond = -1.0 if special._origin is None else -special._origin.side
-    values = special.parameter * (1.0 + beyond * apart)
+    values = special.parameter * (1.0 + beyond * ordered)
     for value in (values[0], values[-1]):
         within(f"{special.name} beyond the grazing", float(value), *ALLOWED[special.name])
     orbit = special.orbit
@@ -250,7 +250,7 @@ def grazing_transition(
     spans = [_span(verdict, orbit) for verdict in verdicts]
     nearest, farthest = np.array(spans).T.copy()
     return GrazingTransition(
-        special, _orbits(special), apart.copy(), values, tuple(verdicts), nearest, farthest
+        special, _orbits(special), ordered.copy(), values, tuple(verdicts), nearest, farthest
     )
 
 
@@ -272,8 +272,8 @@ def _span(verdict: Verdict, orbit: Orbit) -> tuple[float, float]:
     spans = []
     for turned, sign in ((0.0, 1.0), (math.pi, -1.0)):
         points = sign * _attractor(verdict, orbit.phase + turned)
-        apart = np.linalg.norm(points[:, None] - own, axis=2).min(axis=1)
-        spans.append((float(apart.max()), float(apart.min())))
+        distances = np.linalg.norm(points[:, None] - own, axis=2).min(axis=1)
+        spans.append((float(distances.max()), float(distances.min())))
     farthest, nearest = min(spans)
     return nearest, farthest
 

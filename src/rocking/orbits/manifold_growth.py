@@ -53,8 +53,8 @@ def pieces(
     with np.errstate(invalid="ignore", over="ignore"):
         torn = np.concatenate([[False], ~(np.hypot(*np.diff(points, axis=0).T) <= spacing)])
     rows = _within(points, torn, box)
-    apart = np.flatnonzero((np.diff(rows) > 1) | torn[rows[1:]]) + 1
-    return np.insert(times[rows], apart, math.nan), np.insert(points[rows], apart, math.nan, axis=0)
+    breaks = np.flatnonzero((np.diff(rows) > 1) | torn[rows[1:]]) + 1
+    return np.insert(times[rows], breaks, math.nan), np.insert(points[rows], breaks, math.nan, axis=0)
 
 
 def _within(points: np.ndarray, torn: np.ndarray, box: np.ndarray) -> np.ndarray:

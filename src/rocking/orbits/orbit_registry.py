@@ -63,9 +63,9 @@ class OrbitRegistry:
         """Return the number of the known orbit of each state, -1 for none."""
         if not len(self.rows):
             return np.full(len(states), -1)
-        apart = np.hypot(states[:, 0, None] - self.rows[:, 0], states[:, 1, None] - self.rows[:, 1])
-        nearest = apart.argmin(axis=1)
-        return np.where(apart[np.arange(len(states)), nearest] <= SAME, self.owner[nearest], -1)
+        distances = np.hypot(states[:, 0, None] - self.rows[:, 0], states[:, 1, None] - self.rows[:, 1])
+        nearest = distances.argmin(axis=1)
+        return np.where(distances[np.arange(len(states)), nearest] <= SAME, self.owner[nearest], -1)
 
     def _pair(self, orbit: Orbit) -> int:
         """Return the number under which an orbit and its mirror image are counted, and add them if they are new.

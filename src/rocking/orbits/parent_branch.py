@@ -47,7 +47,7 @@ def special_points(chain: Chain, parameter: str, table: kernel.BranchTable) -> l
     parent = parent_of(chain)
     if parent is None:
         return found
-    passed: list[Found] = []
+    passages: list[Found] = []
     others = []
     for one in found:
         near = None
@@ -56,15 +56,15 @@ def special_points(chain: Chain, parameter: str, table: kernel.BranchTable) -> l
         if near is None or not abs(near.row[-1] - one.row[-1]) <= SAME_VALUE * abs(one.row[-1]):
             others.append(one)
         else:
-            _add(passed, near)
-    apart = apart_of(chain, table.rows)
-    clear = np.flatnonzero(np.abs(apart).max(axis=1) > EQUAL)
+            _add(passages, near)
+    differences = half_differences(chain, table.rows)
+    clear = np.flatnonzero(np.abs(differences).max(axis=1) > EQUAL)
     for before, after in zip(clear[:-1].tolist(), clear[1:].tolist(), strict=True):
-        if apart[before] @ apart[after] < 0.0:
+        if differences[before] @ differences[after] < 0.0:
             near = _between(parent, parameter, table.rows[before], table.rows[after], after)
             if near is not None:
-                _add(passed, near)
-    return sorted(others + passed, key=lambda one: one.place)
+                _add(passages, near)
+    return sorted(others + passages, key=lambda one: one.place)
 
 
 def parent_of(chain: Chain) -> Chain | None:
@@ -96,7 +96,7 @@ def _has_multiplier_one(special: Found, parameter: str) -> bool:
     return abs(1.0 - trace + determinant) < abs(1.0 + trace + determinant)
 
 
-def apart_of(chain: Chain, rows: np.ndarray) -> np.ndarray:
+def half_differences(chain: Chain, rows: np.ndarray) -> np.ndarray:
     """Return the distances of the phases of the second half of a chain from half a turn after those of the first."""
     half = len(chain.kinds) // 2
     return np.asarray(rows[:, half:-1] - rows[:, :half] - 0.5 * chain.turn)
@@ -120,8 +120,8 @@ def _halves(parent: Chain, row: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 def _solved(parent: Chain, parameter: str, near: np.ndarray, index: int, reach: float) -> Found | None:
     """Return the special point of the other branch within a distance from a point, or None."""
-    phases, apart = _halves(parent, near)
-    if np.abs(apart).max() > reach:
+    phases, differences = _halves(parent, near)
+    if np.abs(differences).max() > reach:
         return None
     there = special_row(parent, CONDITION, parameter, np.append(phases, near[-1]))
     if there is None or np.abs(there[:-1] - phases).max() > reach:
@@ -130,7 +130,7 @@ def _solved(parent: Chain, parameter: str, near: np.ndarray, index: int, reach: 
     return Found(parent._replace(phases=there[:-1]), there, kind, index)
 
 
-def _add(passed: list[Found], point: Found) -> None:
+def _add(passages: list[Found], point: Found) -> None:
     """Add a point unless it is known: rounding, or the overlap of a closed branch, may show it twice."""
-    if all(np.abs(one.row[:-1] - point.row[:-1]).max() > SAME_PHASE for one in passed):
-        passed.append(point)
+    if all(np.abs(one.row[:-1] - point.row[:-1]).max() > SAME_PHASE for one in passages):
+        passages.append(point)

@@ -79,7 +79,7 @@ def follow(way: ReturnMap, first: Point, direction: np.ndarray, step: float, mos
                 break
             continue
         chord = there.unknowns - here.unknowns
-        specials += [(kind, point, len(points)) for kind, point in passed(way, here, there)]
+        specials += [(kind, point, len(points)) for kind, point in special_points_between(way, here, there)]
         points.append(there)
         if there.unknowns[2] in (0.0, 1.0):
             end = End.RANGE
@@ -123,7 +123,7 @@ def closes(way: ReturnMap, first: Point, there: Point, step: float) -> bool:
     return bool(np.abs(way.state(there, first.phase) - first.unknowns[:2]).max() < 0.5 * step)
 
 
-def passed(way: ReturnMap, here: Point, there: Point) -> list[tuple[str, Point]]:
+def special_points_between(way: ReturnMap, here: Point, there: Point) -> list[tuple[str, Point]]:
     """Return the special points between two neighbouring points, where a test function changes its sign."""
     chord = there.unknowns - here.unknowns
     turns = crossing(way, here, there, lambda point: float(point.tangent[2] * np.sign(point.tangent @ chord)))

@@ -82,10 +82,10 @@ def _still_for_ever(case: Case) -> Shown:
 def _reset(case: Case) -> Shown:
     judged = case.judgement
     which = "release from a brace" if judged.angle else "lift-off from rest"
-    apart = counted(judged.period, "half cycle") if judged.symmetric else counted(judged.period, "cycle")
+    interval = counted(judged.period, "half cycle") if judged.symmetric else counted(judged.period, "cycle")
     what = (
         f"superstable {_periodic(judged)}: every {which} has the same state{', on alternating sides' * judged.symmetric}; "
-        f"successive ones are {apart} of the forcing apart, and perturbations grew less than {MAX_GROWTH}-fold in between"
+        f"successive ones are {interval} of the forcing apart, and perturbations grew less than {MAX_GROWTH}-fold in between"
     )
     return Shown(what, f"verified, {_when(case)}", {"growth": float(MAX_GROWTH)})
 

@@ -168,7 +168,7 @@ def scan(work: Work, scales: np.ndarray, stop: np.ndarray) -> Scan:
     """Follow one record at all levels, and locate its switches; CancelledError if `stop` is set."""
     run = runs_of(work, stop)
     grid = run(scales)
-    return Scan({name: grid[name] for name in KEPT}, located(run, scales, grid))
+    return Scan({name: grid[name] for name in KEPT}, locate_switches(run, scales, grid))
 
 
 def runs_of(work: Work, stop: np.ndarray) -> Runs:
@@ -193,7 +193,7 @@ def runs_of(work: Work, stop: np.ndarray) -> Runs:
     return run
 
 
-def located(run: Runs, scales: np.ndarray, grid: Arrays) -> np.ndarray:
+def locate_switches(run: Runs, scales: np.ndarray, grid: Arrays) -> np.ndarray:
     """Locate a switch between any two neighbouring levels with different outcomes, all at the same time, by bisection."""
     fell = grid["outcome"] == OVERTURNED
     places = np.flatnonzero(fell[1:] != fell[:-1])

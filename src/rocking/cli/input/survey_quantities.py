@@ -58,9 +58,9 @@ def normalised(given: Mapping[str, Any]) -> dict[str, Any]:
 def _numbers(given: Mapping[str, Any]) -> dict[str, Any]:
     """Return the quantities of a system and an initial state by their names in `parametric_map`."""
     system, start, _ = question(given)
-    told = quantities(system) | {"angle": start.angle, "velocity": start.velocity}
-    del told["period" if "frequency" in given or "frequency_hz" in given else "frequency"]
-    return told
+    numbers = quantities(system) | {"angle": start.angle, "velocity": start.velocity}
+    del numbers["period" if "frequency" in given or "frequency_hz" in given else "frequency"]
+    return numbers
 
 
 def block_of(given: Mapping[str, Any]) -> Block | None:

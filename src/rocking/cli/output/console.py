@@ -34,9 +34,9 @@ def print_table(title: str, rows: Iterable[Row], files: Iterable[Path], more: It
         console.print(f"wrote {path}")
 
 
-def print_json(told: dict[str, Any]) -> None:
+def print_json(record: dict[str, Any]) -> None:
     """Print a JSON object."""
-    print(json.dumps(finite(told), indent=2, ensure_ascii=False, allow_nan=False))
+    print(json.dumps(finite(record), indent=2, ensure_ascii=False, allow_nan=False))
 
 
 def aligned(rows: Sequence[Row]) -> Iterator[str]:

@@ -66,8 +66,8 @@ def complete(store: Path | None) -> Iterator[None]:
         yield
     except KeyboardInterrupt:
         if store is not None:
-            told = f"{option('store')} {str(store)!r} is complete; repeat the command to write the remaining files"
-            print(f"rocking: {told}", file=sys.stderr)
+            note = f"{option('store')} {str(store)!r} is complete; repeat the command to write the remaining files"
+            print(f"rocking: {note}", file=sys.stderr)
         raise
 
 

@@ -43,8 +43,8 @@ def show(found: BasinMap, block: Block | None, files: list[Path], *, as_json: bo
     full = found.system.critical_angle is not None
     doubts = warnings(block, found.system.periodic.amplitude, found.system.restitution, full=full)
     if as_json:
-        told = {} if block is None else {"block": physical_of(found.system, block), "warnings": doubts}
-        print_json(record(found, files) | told)
+        in_units = {} if block is None else {"block": physical_of(found.system, block), "warnings": doubts}
+        print_json(record(found, files) | in_units)
         return
     responses = counted(len(found.attractors), "attractor")
     starts = f"{found.fractions[0].of:,} initial states"

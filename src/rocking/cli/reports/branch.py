@@ -100,7 +100,7 @@ def _ends(branch: Branch) -> Iterator[tuple[str, float, str]]:
 
 def record(branch: Branch, orbit: Orbit, block: Block | None, files: Sequence[Path]) -> dict[str, Any]:
     """Return the branch as a JSON object: the orbit followed, special points and ends."""
-    told: dict[str, Any] = {
+    result: dict[str, Any] = {
         "parameter": branch.name,
         **question_of(orbit.system),
         "orbit": orbit_record(orbit),
@@ -114,9 +114,9 @@ def record(branch: Branch, orbit: Orbit, block: Block | None, files: Sequence[Pa
         "files": [str(path) for path in files],
     }
     if block is None:
-        return told
-    physical = physical_of(orbit.system, block) | {"peak_deg": float(block.degrees(told["peak"]))}
-    return told | {"block": physical, "warnings": orbit_warnings(orbit.system, block)}
+        return result
+    physical = physical_of(orbit.system, block) | {"peak_deg": float(block.degrees(result["peak"]))}
+    return result | {"block": physical, "warnings": orbit_warnings(orbit.system, block)}
 
 
 def _special(special: SpecialPoint, block: Block | None) -> dict[str, Any]:

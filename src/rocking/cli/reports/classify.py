@@ -66,7 +66,7 @@ def found(verdict: Verdict, block: Block | None) -> Iterator[Row]:
 def record(verdict: Verdict, block: Block | None, file: Path | None) -> dict[str, Any]:
     """Return the verdict as a JSON object; multipliers are pairs [real, imaginary]."""
     orbit = verdict.orbit
-    told = {
+    result = {
         "kind": str(verdict.kind),
         "evidence": attrs.asdict(verdict.evidence),
         **question(verdict),
@@ -90,17 +90,17 @@ def record(verdict: Verdict, block: Block | None, file: Path | None) -> dict[str
         "files": [] if file is None else [str(file)],
     }
     if block is None:
-        return told
+        return result
     over, motion = validity.validity_motion(verdict)
     record = validity.record(motion, block)
-    return told | {"block": physical(verdict, block), "judged": over, "validity": record}
+    return result | {"block": physical(verdict, block), "judged": over, "validity": record}
 
 
 def proof_record(proof: Proof) -> dict[str, Any]:
     """Return the proof as a JSON object; multipliers are [real, imaginary, radius]."""
-    told = attrs.asdict(proof, filter=attrs.filters.exclude("system", "multipliers"))
+    result = attrs.asdict(proof, filter=attrs.filters.exclude("system", "multipliers"))
     discs = [[value.real, value.imag, radius] for value, radius in proof.multipliers or ()]
-    return told | {"multipliers": discs or None}
+    return result | {"multipliers": discs or None}
 
 
 def _accuracy(proof: Proof) -> str:

@@ -68,9 +68,9 @@ def _warnings(found: Fragility) -> Iterator[str]:
 
 def heading(found: Fragility, *brackets: str) -> str:
     """Return symbol and unit of the levels."""
-    told = found.dataset.scale.attrs
-    unit = "" if told["units"] in ("", "1") else f" {brackets[0]}{told['units']}{brackets[1]}"
-    return f"{told['symbol']}{unit}"
+    attributes = found.dataset.scale.attrs
+    unit = "" if attributes["units"] in ("", "1") else f" {brackets[0]}{attributes['units']}{brackets[1]}"
+    return f"{attributes['symbol']}{unit}"
 
 
 def rows(found: Fragility) -> Iterator[Row]:

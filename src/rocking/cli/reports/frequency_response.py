@@ -124,7 +124,7 @@ def _warnings(found: FrequencyResponse, block: Block | None) -> list[str]:
 
 def record(found: FrequencyResponse, block: Block | None, files: Sequence[Path]) -> dict[str, Any]:
     """Return the frequency response as a JSON object."""
-    told = {
+    result = {
         "parameter": found.parameter,
         "first": float(found.values[0]),
         "last": float(found.values[-1]),
@@ -137,8 +137,8 @@ def record(found: FrequencyResponse, block: Block | None, files: Sequence[Path])
         "files": [str(path) for path in files],
     }
     if block is None:
-        return told
-    return told | {"block": asked_in_si(found.to_xarray(), block), "warnings": _warnings(found, block)}
+        return result
+    return result | {"block": asked_in_si(found.to_xarray(), block), "warnings": _warnings(found, block)}
 
 
 def _branch(branch: Branch, block: Block | None) -> dict[str, Any]:

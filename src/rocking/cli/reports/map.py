@@ -26,8 +26,8 @@ def show(found: xr.Dataset, block: Block | None, files: list[Path], *, as_json: 
     full = "critical_angle" in (*found.coords, *found.attrs)
     doubts = warnings(block, _values(found, "amplitude"), _values(found, "restitution"), full=full)
     if as_json:
-        told = {} if block is None else {"block": asked_in_si(found, block), "warnings": doubts}
-        print_json(record(found, kinds, criteria, files) | told)
+        in_units = {} if block is None else {"block": asked_in_si(found, block), "warnings": doubts}
+        print_json(record(found, kinds, criteria, files) | in_units)
         return
     size = " × ".join(f"{found.sizes[name]:,}" for name in found.kind.dims)
     rows = [*_asked(found, block), *_found(kinds, criteria)]

@@ -59,7 +59,7 @@ def _warnings(diagram: OrbitDiagram, block: Block | None) -> list[str]:
 
 def record(diagram: OrbitDiagram, block: Block | None, files: Sequence[Path]) -> dict[str, Any]:
     """Return the result as a JSON object."""
-    told: dict[str, Any] = {
+    result: dict[str, Any] = {
         "parameter": diagram.parameter,
         "first": float(diagram.values[0]),
         "last": float(diagram.values[-1]),
@@ -81,13 +81,13 @@ def record(diagram: OrbitDiagram, block: Block | None, files: Sequence[Path]) ->
         "files": [str(path) for path in files],
     }
     if block is None:
-        return told
-    for sweep in told["sweeps"]:
+        return result
+    for sweep in result["sweeps"]:
         if diagram.parameter in PHYSICAL:
             varied = PHYSICAL[diagram.parameter]
             sweep[f"overturned_at_{varied.key}"] = varied.turn(block, sweep["overturned_at"]).tolist()
         sweep["peak_deg"] = None if sweep["peak"] is None else float(block.degrees(sweep["peak"]))
-    return told | {"block": asked_in_si(diagram.to_xarray(), block), "warnings": _warnings(diagram, block)}
+    return result | {"block": asked_in_si(diagram.to_xarray(), block), "warnings": _warnings(diagram, block)}
 
 
 def write_plot(diagram: OrbitDiagram, block: Block | None, path: Path) -> None:

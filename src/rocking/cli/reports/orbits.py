@@ -35,7 +35,7 @@ def _table(found: Orbits, block: Block | None) -> dict[str, Any]:
     """Return columns by heading, with the states at τ = 0 in the units of the file."""
     starts = [orbit.start for orbit in found]
     multipliers = np.array([orbit.multipliers for orbit in found], complex).reshape(-1, 2)
-    told = {
+    result = {
         "period [cycles]": np.array([orbit.period for orbit in found]),
         "symmetric": np.array([orbit.symmetric for orbit in found]),
         "impacts": _counts([orbit.impacts for orbit in found]),
@@ -48,7 +48,7 @@ def _table(found: Orbits, block: Block | None) -> dict[str, Any]:
         "angle": np.array([start.angle for start in starts]),
         "velocity": np.array([start.velocity for start in starts]),
     }
-    return told | columns(states, block)
+    return result | columns(states, block)
 
 
 def _counts(counts: Sequence[int | None]) -> np.ndarray:
@@ -125,7 +125,7 @@ def orbit_warnings(system: System, block: Block | None) -> list[str]:
 
 def record(found: Orbits, block: Block | None, files: Sequence[Path]) -> dict[str, Any]:
     """Return the orbits as a JSON object."""
-    told = {
+    result = {
         **question_of(found.system),
         "max_period": found.max_period,
         "starts": found.starts,
@@ -138,8 +138,11 @@ def record(found: Orbits, block: Block | None, files: Sequence[Path]) -> dict[st
         "files": [str(file) for file in files],
     }
     if block is None:
-        return told
-    return told | {"block": physical_of(found.system, block), "warnings": orbit_warnings(found.system, block)}
+        return result
+    return result | {
+        "block": physical_of(found.system, block),
+        "warnings": orbit_warnings(found.system, block),
+    }
 
 
 def orbit_record(orbit: Orbit) -> dict[str, Any]:

@@ -70,8 +70,8 @@ def show(found: SafeBasin, block: Block | None, files: Sequence[Path], *, as_jso
     full = "critical_angle" in data.attrs
     doubts = warnings(block, data.amplitude.values, data.attrs["restitution"], full=full)
     if as_json:
-        told = {} if block is None else {"block": asked_in_si(data, block), "warnings": doubts}
-        print_json(record(found, block, files) | told)
+        in_units = {} if block is None else {"block": asked_in_si(data, block), "warnings": doubts}
+        print_json(record(found, block, files) | in_units)
         return
     print_table(str(found), rows(found, block), files, [*_tangencies(found, block), *warned(doubts)])
 
@@ -83,8 +83,8 @@ def rows(found: SafeBasin, block: Block | None) -> Iterator[Row]:
     amplitudes = found.dataset.amplitude.values
     places = list(zip(amplitudes, found.shares, found.dataset.undetermined.values, strict=True))
     for amplitude, share, unknown in places[:MAX_ROWS]:
-        told = () if block is None else _accelerations(float(block.acceleration(amplitude)))
-        yield (f"{amplitude:.6g}", str(share), percent(float(unknown)), *told)
+        accelerations = () if block is None else _accelerations(float(block.acceleration(amplitude)))
+        yield (f"{amplitude:.6g}", str(share), percent(float(unknown)), *accelerations)
     if len(places) > MAX_ROWS:
         left = f"and {len(places) - MAX_ROWS} more (all of them with --json, --csv, --netcdf or --plot)"
         yield (left, "", "", *[""] * len(in_units))

@@ -119,14 +119,14 @@ def _outcomes(outcomes: dict[str, int], total: int) -> Iterator[Row]:
 
 
 def _results(found: xr.Dataset) -> Iterator[Row]:
-    told = results(found)
-    if told["largest_angle_deg"] is not None:
+    summary = results(found)
+    if summary["largest_angle_deg"] is not None:
         yield (
             "largest |θ| of blocks that stand",
-            f"{told['largest_angle_deg']:.4g}°, {told['largest_angle']:.4g} θcr",
+            f"{summary['largest_angle_deg']:.4g}°, {summary['largest_angle']:.4g} θcr",
         )
-    if told["largest_overturned_size_m"] is not None:
-        yield "largest R that overturns", f"{told['largest_overturned_size_m']:.6g} m"
+    if summary["largest_overturned_size_m"] is not None:
+        yield "largest R that overturns", f"{summary['largest_overturned_size_m']:.6g} m"
 
 
 def results(found: xr.Dataset) -> dict[str, Any]:

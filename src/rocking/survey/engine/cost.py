@@ -39,7 +39,7 @@ class Cost:
     done: int
     seconds: float
 
-    def told(self, workers: int | None) -> str:
+    def describe(self, workers: int | None) -> str:
         """Return the cost in one line, for a number of workers; None if their number is unknown."""
         what = f"{self.points:,} points in {self.tiles:,} tiles"
         if self.done:

@@ -39,8 +39,8 @@ class Bar:
 
     def __init__(self, cost: Cost, measure: Measurement, workers: int | None) -> None:
         self.cost, self.workers = cost, workers
-        told = next(each for each in measure.variables if each.name == measure.shares)
-        self.meanings = flags(told.attributes)
+        variable = next(each for each in measure.variables if each.name == measure.shares)
+        self.meanings = flags(variable.attributes)
         self.counts = dict.fromkeys(self.meanings, 0)
         self.settled_points = 0
         fixed = Column(no_wrap=True)
@@ -57,7 +57,7 @@ class Bar:
         self.before = 0
 
     def __enter__(self) -> Bar:
-        self.bar.console.print(self.cost.told(self.workers))
+        self.bar.console.print(self.cost.describe(self.workers))
         self.task = self.bar.add_task("", total=self.cost.points, shares="")
         self.bar.start()
         return self
