@@ -277,3 +277,15 @@ def test_arrays_are_read_only():
     for array in (spectrum.values, spectrum.errors, spectrum.history):
         with pytest.raises(ValueError, match="read-only"):
             array[0] = 0
+
+
+@pytest.mark.parametrize("cycles, transient", [(500, 500), (5_000, 500), (5_000, 5_000)])
+def test_exponents_of_a_stable_orbit_have_rounding_as_their_error(cycles, transient):
+    """Batches that differ by rounding alone are not correlated."""
+    system = rk.System(rk.Harmonic(7.0, period=1.721328), 0.8)
+    exact = [math.log(abs(each)) / 1.721328 for each in rk.classify(system).multipliers]
+    spectrum = rk.lyapunov(system, cycles=cycles, transient=transient)
+    assert np.abs(spectrum.values - exact).max() < 1e-12
+    assert (spectrum.errors < 1e-14).all()
+    assert spectrum.bounded
+    assert np.isfinite(spectrum.history["errors"][-1]).all()

@@ -9,11 +9,9 @@ import numpy as np
 from rocking.model import NO_BRACES, Outcome, State, System, TooShort, check_periodic, quantities, whole
 from rocking.motion import march_on, start_march
 from rocking.response.batch_means import MAX_BATCHES, MIN_BATCHES
-from rocking.response.lyapunov_spectrum import LyapunovSpectrum, means_of
+from rocking.response.lyapunov_spectrum import LyapunovSpectrum, means_of, rounding_of
 
 MAX_CYCLES = 1_000_000_000
-# Bound of the relative rounding of the two logarithms of one event.
-ROUNDING = 4.0 * np.finfo(float).eps
 
 
 def lyapunov(
@@ -152,8 +150,8 @@ def _spectrum(
     # If the exponents are equal, either vector may have grown more.
     growths = growths[:, np.argsort(-growths.sum(axis=0), kind="stable")]
     time = cycles * system.periodic.period
-    means = means_of(growths, lengths * system.periodic.period)
-    floor = ROUNDING * (1.0 + sum(counted) / time)
+    floor = rounding_of(sum(counted), time)
+    means = means_of(growths, lengths * system.periodic.period, floor)
     spectrum = LyapunovSpectrum(
         system=system,
         start=start,

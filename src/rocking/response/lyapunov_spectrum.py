@@ -7,7 +7,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
-from attrs import field, frozen
+from attrs import evolve, field, frozen
 
 from rocking.model import (
     NotebookPicture,
@@ -21,11 +21,13 @@ from rocking.model import (
     plus_minus,
     read_only,
 )
-from rocking.response.batch_means import BatchMean, batch_mean
+from rocking.response.batch_means import MIN_BATCHES, BatchMean, batch_mean
 
 if TYPE_CHECKING:
     import xarray as xr
 
+# Bound of the relative rounding of the two logarithms of one event.
+ROUNDING = 4.0 * np.finfo(float).eps
 HISTORY = np.dtype([("cycles", "i8"), ("values", "f8", 2), ("errors", "f8", 2)])
 
 
@@ -102,9 +104,10 @@ class LyapunovSpectrum(ReadOnlyArrays, NotebookPicture):
             return np.empty(0, HISTORY)
         history = np.empty(len(self.lengths), HISTORY)
         period = self.system.periodic.period
+        rounding = rounding_of(self.impacts + self.brace_hits, self.cycles * period)
         history["cycles"] = np.cumsum(self.lengths)
         for row in range(len(history)):
-            means = means_of(self.growths[: row + 1], self.lengths[: row + 1] * period)
+            means = means_of(self.growths[: row + 1], self.lengths[: row + 1] * period, rounding)
             history[row] = (
                 history["cycles"][row],
                 [mean.value for mean in means],
@@ -190,11 +193,21 @@ class LyapunovSpectrum(ReadOnlyArrays, NotebookPicture):
         )
 
 
-def means_of(growths: np.ndarray, times: np.ndarray) -> list[BatchMean]:
+def rounding_of(events: int, time: float) -> float:
+    """Return the bound of the rounding error of an exponent, from the number of events in a time."""
+    return float(ROUNDING * (1.0 + events / time))
+
+
+def means_of(growths: np.ndarray, times: np.ndarray, rounding: float) -> list[BatchMean]:
     """Mean of both exponents per unit of `times`; −∞ without an error if a batch contains rest or sustained contact."""
-    return [
-        batch_mean(column, times)
-        if np.isfinite(column).all()
-        else BatchMean(-math.inf, 0.0, 1.0, bounded=False, batches=len(column))
-        for column in growths.T
-    ]
+    return [_mean_of(column, times, rounding) for column in growths.T]
+
+
+def _mean_of(growths: np.ndarray, times: np.ndarray, rounding: float) -> BatchMean:
+    """Mean of an exponent. If the batches agree within their rounding, as on a periodic orbit, that is the error."""
+    if not np.isfinite(growths).all():
+        return BatchMean(-math.inf, 0.0, 1.0, bounded=False, batches=len(growths))
+    mean = batch_mean(growths, times)
+    if mean.batches >= MIN_BATCHES and np.ptp(growths / times) <= rounding:
+        return evolve(mean, error=rounding, correlation=1.0, bounded=True)
+    return mean
