@@ -5,6 +5,7 @@ import pytest
 import xarray as xr
 
 import rocking as rk
+from rocking.model import quantities
 
 SYSTEM = rk.System(rk.Harmonic(amplitude=15.0, period=1.0), restitution=0.9)
 
@@ -67,6 +68,16 @@ def test_every_variable_has_a_name_and_every_number_a_unit(
         for name, variable in found.to_xarray().variables.items():
             assert variable.attrs["long_name"], name
             assert variable.dtype.kind in "US" or {"units", "flag_values"} & set(variable.attrs), name
+
+
+def test_every_dataset_states_the_quantities_that_do_not_vary(branch, curve, orbits):
+    fixed = {"restitution": 0.9, "phase": 0.0}
+    along_branch, along_curve = branch.to_xarray().attrs, curve.to_xarray().attrs
+    assert (fixed | {"period": 1.0}).items() <= along_branch.items()
+    assert fixed.items() <= along_curve.items()
+    assert not {"amplitude", "frequency"} & (along_branch.keys() | along_curve.keys())
+    assert "period" not in along_curve
+    assert quantities(orbits.system).items() <= orbits.to_xarray().attrs.items()
 
 
 def test_branch_comes_back_with_its_special_points(branch, tmp_path):

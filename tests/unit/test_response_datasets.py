@@ -48,12 +48,11 @@ def test_notebooks_show_a_picture_over_the_line(density, dimension):
     spectrum = rk.lyapunov(PERIOD_3, cycles=300)
     system = rk.System(rk.Harmonic(amplitude=4.0, period=2.0), restitution=0.9)
     found = rk.bifurcation_set(system, 1, grid=2, period=(1.5, 2.0), amplitude=(3.0, 12.0))
-    for result in (density, dimension, spectrum, found, found.curves[0]):
+    for result in (density, dimension, spectrum, rk.lyapunov(RESTS, cycles=100), found, found.curves[0]):
         assert result._repr_html_().startswith(f'<figure><img alt="{str(result)[:20]}')
 
 
 def test_without_a_picture_a_notebook_shows_the_line_alone():
-    assert rk.lyapunov(RESTS, cycles=100)._repr_html_() is None
     points = rk.simulate(PERIOD_3, cycles=3000, record="section").section()[1000:]
     assert rk.correlation_dimension(points)._repr_html_() is None
 
@@ -93,3 +92,14 @@ def test_a_diagram_of_orbits_has_no_multipliers():
         rk.plot.orbit_diagram(
             rk.orbit_diagram(PERIOD_3, "amplitude", [6.4, 6.5], cycles=5, transient=5), quantity="multiplier"
         )
+
+
+def test_dataset_states_the_system_and_the_cycles(density, tmp_path):
+    spectrum = rk.lyapunov(PERIOD_3, rk.State(0.01, 0.02), cycles=200)
+    for found in (density, spectrum):
+        attributes = read_back(found, tmp_path).attrs
+        given = {"amplitude": 6.5, "period": 0.4, "phase": 0.0, "restitution": 0.925}
+        assert given.items() <= attributes.items()
+        assert attributes["transient"] == found.transient
+    assert read_back(density, tmp_path).attrs["cycles"] == density.cycles
+    assert (attributes["start_angle"], attributes["start_velocity"]) == (0.01, 0.02)

@@ -14,6 +14,7 @@ from rocking.orbits.parameter import fixed_quantities
 if TYPE_CHECKING:
     import xarray as xr
 
+    from rocking.model import System
     from rocking.orbits.bifurcation_curve import BifurcationCurve
     from rocking.orbits.bifurcation_set import BifurcationSet
     from rocking.orbits.branch import Branch
@@ -62,6 +63,7 @@ def of_branch(branch: Branch) -> xr.Dataset:
         **multipliers("point", points["multipliers"]),
     }
     attributes = described("Branch of periodic orbits") | {
+        **fixed_quantities(branch.orbit(len(branch) // 2).system, branch.name),
         "parameter": branch.name,
         "orbit_period": branch.period,
         "symmetric": int(branch.symmetric),
@@ -101,6 +103,7 @@ def of_curve(curve: BifurcationCurve) -> xr.Dataset:
     )
     variables |= special_points(curve.names, curve.special)
     attributes = described("Bifurcation curve") | {
+        **_fixed_quantities(curve._rows.chain.system, curve.names),
         "kind": curve.kind,
         "orbit_period": curve.period,
         "impacts": curve.impacts,
@@ -140,13 +143,18 @@ def of_curves(found: BifurcationSet) -> xr.Dataset:
         np.repeat(np.arange(len(lengths)), [len(curve.special) for curve in found.curves]),
         {"long_name": "number of the curve of the special point", "units": "1"},
     )
-    first, second = (fixed_quantities(found.system, name) for name in found.names)
     attributes = described("Bifurcation set") | {
-        **{name: value for name, value in first.items() if name in second},
+        **_fixed_quantities(found.system, found.names),
         "max_period": found.max_period,
         "not_followed": found.not_followed,
     }
     return xr.Dataset(variables, attrs=attributes)
+
+
+def _fixed_quantities(system: System, names: tuple[str, str]) -> dict[str, float]:
+    """Return the parameters of a system except two that vary, by name."""
+    first, second = (fixed_quantities(system, name) for name in names)
+    return {name: value for name, value in first.items() if name in second}
 
 
 def of_cascade(found: Cascade) -> xr.Dataset:
@@ -301,6 +309,7 @@ def of_orbits(found: Orbits) -> xr.Dataset:
         **multipliers("orbit", np.array([one.multipliers for one in found], complex).reshape(-1, 2)),
     }
     attributes = described("Periodic orbits") | {
+        **quantities(found.system),
         "max_period": found.max_period,
         "starts": found.starts,
         "settled": int(found.settled),

@@ -19,6 +19,7 @@ from rocking.model import (
     described,
     named,
     plus_minus,
+    quantities,
     read_only,
 )
 from rocking.response.batch_means import MIN_BATCHES, BatchMean, batch_mean
@@ -173,15 +174,15 @@ class LyapunovSpectrum(ReadOnlyArrays, NotebookPicture):
         }
         cycles = "cycles", history["cycles"], named("forcing cycles since the transient")
         attributes = described("Lyapunov exponents") | {
+            **quantities(self.system),
+            "start_angle": self.start.angle,
+            "start_velocity": self.start.velocity,
             "transient": self.transient,
             "bounded": int(self.bounded),
             "impacts": self.impacts,
             "brace_hits": self.brace_hits,
         }
         return xr.Dataset(variables, {"cycles": cycles}, attributes)
-
-    def _repr_html_(self) -> str | None:
-        return None if self.superstable else super()._repr_html_()
 
     def __str__(self) -> str:
         over = f"over {counted(self.cycles, 'cycle')} after {self.transient:,}"

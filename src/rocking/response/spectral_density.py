@@ -8,7 +8,16 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from attrs import field, frozen
 
-from rocking.model import NotebookPicture, ReadOnlyArrays, System, counted, described, named, read_only
+from rocking.model import (
+    NotebookPicture,
+    ReadOnlyArrays,
+    System,
+    counted,
+    described,
+    named,
+    quantities,
+    read_only,
+)
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -181,6 +190,9 @@ class SpectralDensity(ReadOnlyArrays, NotebookPicture):
         }
         frequency = "frequency", self.frequency, named("frequency in cycles per tau")
         attributes = described("Power spectral density of the angle") | {
+            **quantities(self.system),
+            "transient": self.transient,
+            "cycles": self.cycles,
             "window": str(self.window),
             "segment": self.segment,
             "segments": self.segments,

@@ -16,7 +16,7 @@ from rocking.cli.output.survey_run import MAX_ROWS
 from rocking.cli.reports.classify import multipliers_shown, proof_record
 from rocking.cli.reports.motion import asked_of, physical_of, question_of, state_in_si
 from rocking.cli.reports.validity import warned, warnings
-from rocking.model import Block, Orbit, System, quantities
+from rocking.model import Block, Orbit, System
 
 if TYPE_CHECKING:
     from rocking.orbits import Orbits
@@ -27,8 +27,7 @@ def write(found: Orbits, block: Block | None, files: Mapping[str, Path]) -> None
     if "csv" in files:
         write_csv([_table(found, block)], files["csv"])
     if "netcdf" in files:
-        data = found.to_xarray().assign_attrs(quantities(found.system))
-        write_dataset(with_block(data, block), files["netcdf"])
+        write_dataset(with_block(found.to_xarray(), block), files["netcdf"])
 
 
 def _table(found: Orbits, block: Block | None) -> dict[str, Any]:
