@@ -222,7 +222,7 @@ NORMALISED = "--period 1 --restitution 0.9"
         ),
         (
             f"--amplitude 0.5:3 {NORMALISED}",
-            "the response from the initial state must be periodic; got rest (give --response-period, or another --angle",
+            "the response from the initial state must be periodic; got rest (give --response-period, another --at, or another --angle",
         ),
         (
             f"--amplitude 3:2 {NORMALISED} --response-period 0",

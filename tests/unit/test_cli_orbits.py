@@ -168,3 +168,24 @@ def test_refusals_are_one_line_and_leave_nothing(rocking, tmp_path, line, messag
     assert said.startswith(message)
     assert "\n" not in said
     assert not list(tmp_path.iterdir())
+
+
+def test_numbers_of_the_size_of_rounding_errors_are_shown_as_zero(rocking):
+    """The saddle orbits have Θ' = 0 at the phase 0; rounding leaves some 1e-16."""
+    out = rocking("orbits --amplitude 2 --period 1 --restitution 0.9 --max-period 1 --effort 0.05")[2]
+    assert out.count("Θ' = 0\n") == 2
+    assert "e-1" not in out
+
+
+@pytest.mark.parametrize(
+    ("line", "told"),
+    [
+        ("--amplitude 60 --period 4", "1 orbit of period ≤ 1, 0 of them stable"),
+        (
+            "--amplitude 1000 --period 30",
+            "no orbit of period ≤ 1 was found from 408 initial guesses; completeness",
+        ),
+    ],
+)
+def test_summary_counts_one_orbit_and_none(rocking, line, told):
+    assert rocking(f"orbits {line} --restitution 0.9 --max-period 1 --effort 0.05")[2].startswith(told)

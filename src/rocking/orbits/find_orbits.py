@@ -12,7 +12,18 @@ import numpy as np
 from attrs import evolve, field, frozen
 
 from rocking.kernels.classify import attractor_anchor
-from rocking.model import NotebookPicture, Orbit, Stability, System, instance, pair, refuse_if, whole, within
+from rocking.model import (
+    NotebookPicture,
+    Orbit,
+    Stability,
+    System,
+    counted,
+    instance,
+    pair,
+    refuse_if,
+    whole,
+    within,
+)
 from rocking.orbits.datasets import of_orbits
 from rocking.orbits.event_chain import clocked
 from rocking.orbits.find_orbit import newton_from_starts
@@ -100,6 +111,11 @@ class Orbits(Sequence[Orbit], NotebookPicture):
         return of_orbits(self)
 
     def __str__(self) -> str:
+        if not len(self):
+            return (
+                f"no orbit of period ≤ {self.max_period} was found from {self.starts} initial guesses; "
+                "completeness is not guaranteed"
+            )
         counts = Counter(orbit.stability for orbit in self)
         stable = f"{counts[Stability.STABLE]} of them stable"
         if counts[Stability.NEUTRAL]:
@@ -114,7 +130,7 @@ class Orbits(Sequence[Orbit], NotebookPicture):
             else "the last of them still found new orbits"
         )
         return (
-            f"{len(self)} orbits of period ≤ {self.max_period}, {stable}, from {self.starts} initial guesses; {last}, "
+            f"{counted(len(self), 'orbit')} of period ≤ {self.max_period}, {stable}, from {self.starts} initial guesses; {last}, "
             f"and each orbit was found from at least {least} guesses; completeness is not guaranteed"
         )
 

@@ -83,8 +83,8 @@ def _approached(study: Study) -> Orbit:
         verdict = classify(study.system, study.start)
     if verdict.orbit is None:
         raise YourInput(
-            f"the response from the initial state must be periodic; got {verdict.kind} (give --response-period, or "
-            "another --angle and --velocity)"
+            f"the response from the initial state must be periodic; got {verdict.kind} (give --response-period, "
+            "another --at, or another --angle and --velocity)"
         )
     return verdict.orbit
 

@@ -16,10 +16,13 @@ from rocking.cli.output.survey_run import MAX_ROWS
 from rocking.cli.reports.classify import multipliers_shown, proof_record
 from rocking.cli.reports.motion import asked_of, physical_of, question_of, state_in_si
 from rocking.cli.reports.validity import warned, warnings
-from rocking.model import Block, Orbit, System
+from rocking.model import Block, Orbit, State, System
 
 if TYPE_CHECKING:
     from rocking.orbits import Orbits
+
+ROUNDING = 1e-12
+"""Size of an angle or a velocity below which it is shown as 0."""
 
 
 def write(found: Orbits, block: Block | None, files: Mapping[str, Path]) -> None:
@@ -95,7 +98,7 @@ def _rows(found: Orbits, block: Block | None) -> Iterator[Row]:
         *(["proof"] if shown else []),
     )
     for orbit in found[:MAX_ROWS]:
-        start = orbit.start
+        start = _without_rounding(orbit.start)
         yield (
             f"{orbit.period}",
             "yes" if orbit.symmetric else "no",
@@ -107,6 +110,11 @@ def _rows(found: Orbits, block: Block | None) -> Iterator[Row]:
             *([] if block is None else [state_in_si(start, block)]),
             *([_proof(orbit)] if shown else []),
         )
+
+
+def _without_rounding(state: State) -> State:
+    """Return a state in which numbers of the size of rounding errors are 0."""
+    return State(*(value if abs(value) > ROUNDING else 0.0 for value in (state.angle, state.velocity)))
 
 
 def _count(hits: int | None) -> str:
