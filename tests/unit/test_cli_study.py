@@ -271,7 +271,7 @@ def test_number_in_quotation_marks_is_an_error_of_every_command(rocking, command
         ("continue", "amplitude = true", "amplitude must be a number or START:STOP; got True"),
         ("orbit-diagram", "phase = [1, 2]", "phase must be a number or START:STOP:COUNT; got [1, 2]"),
         ("frequency-response", "period = [1, 2]", "period must be an axis, START:STOP:COUNT; got [1, 2]"),
-        ("frequency-response", "period = '2'", "period must be an axis, START:STOP:COUNT; got '2'"),
+        ("frequency-response", "period = '2'", "period must be an axis, START:STOP:COUNT with START ≠ STOP"),
     ],
 )
 def test_message_about_an_entry_states_its_form(rocking, command, line, told):

@@ -22,6 +22,7 @@ FORMS: dict[Any, str] = {
     axis.only_range: f"a range, {RANGE_FORM}",
 }
 """Allowed form of an entry, by the parser of its option."""
+NUMBERS = (axis.number_or_axis, axis.number_or_range)
 AXES = (axis.number_or_axis, axis.only_axis)
 FILES = ("plot", "animate", "csv", "netcdf", "json")
 """Options of files, before which `--study` is listed."""
@@ -83,7 +84,8 @@ def _parsed(parser: Callable[[Any], Any], name: str, entry: Any) -> Any:
     if isinstance(entry, Mapping):
         entry = (study_file.quantity if parser in AXES else study_file.span)(name, entry)
     elif isinstance(entry, str):
-        study_file.check_unquoted(name, entry, f"be {form}")
+        if parser in NUMBERS:
+            study_file.check_unquoted(name, entry, f"be {form}")
     elif isinstance(entry, int | float) and not isinstance(entry, bool):
         entry = study_file.number(name, entry)
     else:
