@@ -164,16 +164,17 @@ def bifurcation_curve(
 
     Notes
     -----
-    Every point is checked by simulation. On a curve of grazings the rest of an arc after its touch is not checked. The curve ends
-    where it meets another grazing. A curve of folds also ends where its
+    Every point is checked by simulation. On a curve of grazings the whole orbit is checked, also after its touch: it reaches
+    base and braces at its contacts, and nowhere else. The curve ends where it meets another grazing: a further contact begins
+    there, or one of the contacts vanishes. Beyond, no orbit with these contacts exists. A curve of folds also ends where its
     orbits merge with those from which they bifurcate. Beyond this point, the equations have the same orbits again, one half
     of a period later, or their mirror images.
 
     `special` names these ends, and all points of codimension two between neighbouring points of the curve where a test function
     changes its sign. A step is divided if the slopes of the test function allow two such points within it. Limits: two points
     closer than 1/4096 of a step may be missed. So may two points where the test function varies faster than the steps resolve.
-    An end at a grazing is named only if a turning point of an arc touches the base or a brace there. Where a contact of the orbit
-    vanishes instead, the place of the end depends on the step.
+    An end at a grazing is named only where its place is found: a turning point touches there, or a contact of the orbit vanishes.
+    Where several contacts change at once, it may have no name. The place of the last point then depends on the step.
 
     The determinant of the return map is the product of the squared coefficients of restitution of all impacts in a period. It
     has the following consequences:

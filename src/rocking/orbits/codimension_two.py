@@ -11,11 +11,11 @@ from attrs import field, frozen
 
 from rocking.model import Orbit, plus_minus
 from rocking.orbits import normal_form
-from rocking.orbits.curve_ends import degenerate_end, grazed_end
+from rocking.orbits.curve_ends import degenerate_end
 from rocking.orbits.curve_rows import CurveRows
 from rocking.orbits.curve_zeros import Test, along, find_brackets, locate_zero
 from rocking.orbits.event_chain import End, Special, equations, orbit_of
-from rocking.orbits.normal_form import Reduced
+from rocking.orbits.grazing_ends import grazing_end, multiplier
 
 ROUNDED = 1e-11
 """Relative error below which a value is printed with ten digits, without the error."""
@@ -35,7 +35,9 @@ class CodimensionTwoPoint:
           the period begins there;
         - "degenerate-symmetry-breaking": the same for a symmetry breaking, with folds of asymmetric orbits;
         - "fold-grazing", "period-doubling-grazing", "symmetry-breaking-grazing": the orbit of a bifurcation grazes;
-        - "double-grazing": the orbit grazes at two instants.
+        - "double-grazing": the orbit grazes at two instants;
+        - "degenerate-grazing": the curve ends, because a contact of its orbits vanishes. The orbit without the contact grazes there,
+          and the velocity at this instant has no effect on the angle one period later.
     names : tuple of two str
         Names of the parameters.
     values, errors : tuple of two float
@@ -107,16 +109,16 @@ def points_of(rows: CurveRows) -> tuple[CodimensionTwoPoint, ...]:
     for end, inwards in zip(rows.ends, (rows.rows, rows.rows[::-1]), strict=True):
         place = 0 if inwards is rows.rows else len(rows.rows) - 1
         if end == End.GRAZED:
-            grazed = grazed_end(rows, inwards)
+            grazed = grazing_end(rows, inwards)
             # without a contact at the end, its place is not known
             if grazed is not None:
                 kind = "double-grazing" if _name(rows) == "grazing" else f"{_name(rows)}-grazing"
-                found.append(_point(rows, kind, grazed.row, grazed.errors, place))
+                kind = kind if grazed.kind == "grazing" else grazed.kind
+                found.append(_point(grazed.rows, kind, grazed.row, grazed.errors, place))
         elif end == End.MERGED:
             merger = degenerate_end(rows, inwards)
             if merger is not None:
-                kind = f"degenerate-{_name(merger.rows)}"
-                found.append(_point(merger.rows, kind, merger.row, merger.errors, place))
+                found.append(_point(merger.rows, merger.kind, merger.row, merger.errors, place))
     return tuple(sorted(found, key=lambda one: one.index))
 
 
@@ -138,19 +140,9 @@ def _tests(rows: CurveRows) -> tuple[Test, ...]:
         return (Test(f"degenerate-{name}", lambda of, at: normal_form.doublings(of.chains(at))),)
     doubling = "symmetry-breaking" if rows.chain.mirrored else "period-doubling"
     return (
-        Test("fold-grazing", lambda of, at: _multiplier(of, at, -1.0)),
-        Test(f"{doubling}-grazing", lambda of, at: _multiplier(of, at, 1.0)),
+        Test("fold-grazing", lambda of, at: multiplier(of, at, -1.0)),
+        Test(f"{doubling}-grazing", lambda of, at: multiplier(of, at, 1.0)),
     )
-
-
-def _multiplier(rows: CurveRows, at: np.ndarray, sign: float) -> Reduced:
-    """Return 1 ± trace + determinant, which vanishes where a multiplier is −1 or 1."""
-    values = []
-    for row in at:
-        chain = rows.chain_at(row)
-        *_, trace, determinant = equations(chain, rows.names[1], np.append(chain.phases, row[-1]))
-        values.append(1.0 + sign * trace + determinant)
-    return Reduced(np.array(values), np.ones((len(at), 1)))
 
 
 def _point(

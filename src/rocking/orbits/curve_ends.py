@@ -1,19 +1,16 @@
-"""Ends of bifurcation curves: where the orbits merge with those from which they bifurcate, or graze."""
+"""Ends of bifurcation curves where the orbits merge with those from which they bifurcate."""
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
 
-from rocking.kernels.orbits import arclength
-from rocking.orbits import grazing, normal_form
+from rocking.orbits import normal_form
 from rocking.orbits.curve_rows import CurveRows
 from rocking.orbits.curve_zeros import Bracket, Test, locate_zero
-from rocking.orbits.event_chain import Chain, Condition, End, Special, equations
-from rocking.orbits.normal_form import Reduced
+from rocking.orbits.event_chain import Chain, End, Special
 from rocking.orbits.parent_branch import CONDITION, half_differences, parent_of
 
 ALMOST_EQUAL = 0.1
@@ -25,6 +22,7 @@ REACHES = (2.0, 4.0, 8.0)
 class CurveEnd(NamedTuple):
     """End of a curve, on the same curve or on that of the orbits from which its orbits bifurcate."""
 
+    kind: str  # of the test function
     rows: CurveRows
     row: np.ndarray
     errors: tuple[float, float]
@@ -52,12 +50,12 @@ def until_parent(rows: CurveRows, start: int) -> CurveRows:
     if rows.condition.kind != Special.FOLD or parent_of(rows.chain) is None:
         return rows
     points, (first, last) = rows.rows, rows.ends
-    differences = half_differences(rows.chain, points[:, :-1])
-    swaps = np.flatnonzero((differences[:-1] * differences[1:]).sum(axis=1) < 0.0)
-    before, after = swaps[swaps < start], swaps[swaps >= start]
-    if last == End.CLOSED and len(swaps):
+    apart = half_differences(rows.chain, points[:, :-1])
+    passed = np.flatnonzero((apart[:-1] * apart[1:]).sum(axis=1) < 0.0)
+    before, after = passed[passed < start], passed[passed >= start]
+    if last == End.CLOSED and len(passed):
         # the last point lies beyond the first one
-        points = np.concatenate([points[swaps[-1] + 1 : -1], points[: swaps[0] + 1]])
+        points = np.concatenate([points[passed[-1] + 1 : -1], points[: passed[0] + 1]])
         return rows._replace(rows=points, ends=(End.MERGED, End.MERGED))
     low, high = 0, len(points)
     if len(before):
@@ -106,81 +104,31 @@ def degenerate_end(rows: CurveRows, inwards: np.ndarray) -> CurveEnd | None:
         return None
     far, share = found
     other = rows._replace(chain=parent, condition=CONDITION)
-    chord = _means(inwards[0], parent) - _means(inwards[far], parent)
-    start = other.corrected(_means(inwards[far], parent), chord / np.linalg.norm(chord))
+    chord = mean_halves(inwards[0], parent) - mean_halves(inwards[far], parent)
+    start = other.corrected(mean_halves(inwards[far], parent), chord / np.linalg.norm(chord))
     kind = "symmetry-breaking" if parent.mirrored else "period-doubling"
     test = Test(f"degenerate-{kind}", lambda of, at: normal_form.doublings(of.chains(at)))
-    return None if start is None else _between(other, test, start, chord, share)
+    reaches = [1.0 + reach * share for reach in REACHES]
+    return None if start is None else zero_between(other, test, start, chord, reaches)
 
 
-def _means(row: np.ndarray, parent: Chain) -> np.ndarray:
+def mean_halves(row: np.ndarray, parent: Chain) -> np.ndarray:
     """Return a point with the mean phases of both halves of a chain."""
     half = len(parent.kinds)
     return np.append(0.5 * (row[:half] + row[half:-2] - parent.turn), row[-2:])
 
 
-def _between(
-    rows: CurveRows, test: Test, start: np.ndarray, chord: np.ndarray, share: float
+def zero_between(
+    rows: CurveRows, test: Test, start: np.ndarray, chord: np.ndarray, reaches: Sequence[float]
 ) -> CurveEnd | None:
-    """Return the zero of a test function between a point and one beyond the end of a chord from it, or None."""
-    for reach in REACHES:
-        stop = rows.corrected(start + (1.0 + reach * share) * chord, chord / np.linalg.norm(chord))
+    """Return the zero of a test function between a point and one at some chords from it, or None."""
+    for reach in reaches:
+        stop = rows.corrected(start + reach * chord, chord / np.linalg.norm(chord))
         if stop is None:
-            return None
+            continue
         part = rows._replace(rows=np.stack([start, stop]))
         (first, last), directions = test.values(part, part.rows)
         if first * last < 0.0:
             found = locate_zero(part, test, Bracket(0, 0.0, 1.0, max(abs(first), abs(last)), directions[0]))
-            return None if found is None else CurveEnd(part, *found)
+            return None if found is None else CurveEnd(test.kind, part, *found)
     return None
-
-
-def grazed_end(rows: CurveRows, inwards: np.ndarray) -> CurveEnd | None:
-    """Return the end of a curve at a grazing, where a turning point of an arc reaches the base or a brace, or None.
-
-    Beyond this end the equations of the chain remain regular, so that the clearance of the turning point changes its sign.
-
-    Parameters
-    ----------
-    rows : CurveRows
-        Curve.
-    inwards : ndarray, shape (n, k + 2)
-        Its points, beginning at this end. The grazing lies within the last step, which is `arclength.GRAZING_STEP` at most.
-    """
-    if len(inwards) < 2:
-        return None
-    chord = inwards[0] - inwards[1]
-    spans = np.array([high - low for low, high in rows.limits])
-    size = math.sqrt(np.mean(chord[:-2] ** 2) + ((chord[-2:] / spans) ** 2).sum())
-    share = arclength.GRAZING_STEP * rows.step / size
-    for contact in _contacts(rows, inwards[0]):
-        later = contact._replace(arc=(contact.arc - 1) % len(rows.chain.kinds))
-        test = Test("grazing", _clearance_of(contact), _clearance_of(later))
-        found = _between(rows, test, inwards[0], share * chord, 1.0)
-        if found is not None:
-            return found
-    return None
-
-
-def _contacts(rows: CurveRows, row: np.ndarray) -> list[Condition]:
-    """Return the turning points of the arcs at a point of a curve, the closest to the base or a brace first."""
-    chain = rows.chain_at(row)
-    links = equations(chain, rows.names[1], np.append(chain.phases, row[-1]))[1]
-    own = rows.condition
-    return [
-        touch.condition
-        for touch in grazing.near_contacts(chain, links)
-        if own.kind != Special.GRAZING
-        or (touch.condition.arc, touch.condition.level) != (own.arc, own.level)
-        or abs(touch.condition.time - grazing.turning_time(chain, rows.names[1], row, own)) > grazing.CLOSE
-    ]
-
-
-def _clearance_of(contact: Condition) -> Callable[[CurveRows, np.ndarray], Reduced]:
-    """Return the test function that is the clearance of a turning point."""
-
-    def values(rows: CurveRows, at: np.ndarray) -> Reduced:
-        found = [grazing.clearance(rows.chain_at(row), rows.names[1], row, contact) for row in at]
-        return Reduced(np.array(found), np.ones((len(at), 1)))
-
-    return values

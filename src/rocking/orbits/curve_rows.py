@@ -24,6 +24,7 @@ class CurveRows(NamedTuple):
     step: float
     rows: np.ndarray  # (n, k + 2): phases and both parameters
     ends: tuple[End, End]  # reasons for the ends
+    local: bool = False  # whether the time of the touch in the condition is that at all points
 
     def chain_at(self, row: np.ndarray) -> Chain:
         """Return the chain at a point, with its parameters."""
@@ -50,7 +51,7 @@ class CurveRows(NamedTuple):
         spans = [high - low for low, high in self.limits]
         problem = problem_of(self.chain, self.names, self.limits, self.step, spans)
         condition = self.condition
-        if condition.kind == Special.GRAZING:
+        if condition.kind == Special.GRAZING and not self.local:
             condition = condition._replace(
                 time=turning_time(self.chain_at(near), self.names[1], near, condition)
             )

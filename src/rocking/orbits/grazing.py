@@ -38,6 +38,8 @@ SLOW = 1e-2
 SAMPLES = 1001
 # Largest distance from the base or a brace of a turning point that may be the contact.
 CLOSE = 1e-2
+# An arc shorter than this leaves base or brace and returns to it, without another turning point.
+SHORT = 1e-3
 # Largest relative distance of the grazing from the end of the branch.
 NEAR = 1e-3
 # Largest last correction of the time of a turning point, at which the height does not change to rounding.
@@ -72,7 +74,7 @@ def _solve_grazing(chain: Chain, parameter: str, row: np.ndarray) -> Grazing:
     chain = chain._replace(system=with_value(chain.system, parameter, float(row[-1])), phases=row[:-1])
     links = equations(chain, parameter, row)[1]
     touches = (
-        _solved(touch, parameter) for touch in (*_slow_event(chain, links), *near_contacts(chain, links))
+        _solved(touch, parameter) for touch in (*slow_event(chain, links), *near_contacts(chain, links))
     )
     solved = [each for each in touches if each is not None]
     if solved:
@@ -86,7 +88,7 @@ def _solve_grazing(chain: Chain, parameter: str, row: np.ndarray) -> Grazing:
     return Grazing(orbit_of(chain, parameter, row, trace, determinant), chain, row, None)
 
 
-def _slow_event(chain: Chain, links: np.ndarray) -> list[Touch]:
+def slow_event(chain: Chain, links: np.ndarray) -> list[Touch]:
     """Return the contact at the slowest event of an orbit; none if it is not slow, or if no event remains without it."""
     arrives, times, k = np.abs(links["arrives"]), links["time"], len(chain.phases)
     slowest = int(arrives.argmin())
@@ -113,18 +115,19 @@ def rotated(chain: Chain, by: int) -> Chain:
 
 
 def near_contacts(chain: Chain, links: np.ndarray) -> list[Touch]:
-    """Return the turning point of each arc that is closest to the base or to a brace, the closest first.
+    """Return the turning points of the arcs that are close to the base or to a brace, the closest first.
 
     The arcs are those of the chain. In a simulation, rounding decides if the contact is an event.
     """
     found = []
     for arc, side in enumerate(sides_of(chain)):
+        if links["time"][arc] < SHORT:
+            continue
         times = np.linspace(0.0, links["time"][arc], SAMPLES)
         height = _heights(chain, arc, side, links["leaves"][arc], times)
         for level in (IMPACT,) if chain.system.braces is None else (IMPACT, BRACE):
-            nearest, gap = _nearest_turn(chain, height, level)
-            if nearest is not None:
-                found.append((gap, level, arc, times[nearest]))
+            turns, gaps = _turns(chain, height, level)
+            found += [(gap, level, arc, times[turn]) for turn, gap in zip(turns, gaps, strict=True)]
     return [
         Touch(chain, Condition(Special.GRAZING, arc, int(level), float(time)))
         for gap, level, arc, time in sorted(found)
@@ -132,17 +135,14 @@ def near_contacts(chain: Chain, links: np.ndarray) -> list[Touch]:
     ]
 
 
-def _nearest_turn(chain: Chain, height: np.ndarray, level: int) -> tuple[int | None, float]:
-    """Return the turning point of sampled heights that is nearest to the base or to a brace, and its distance; None if none is."""
+def _turns(chain: Chain, height: np.ndarray, level: int) -> tuple[np.ndarray, np.ndarray]:
+    """Return the turning points of sampled heights towards the base or a brace, and their distances from it."""
     braces = chain.system.braces
     # above the base or, downwards, beneath the brace
     above = height if level == IMPACT or braces is None else braces.angle - height
     rise = np.diff(above)
     turns = np.flatnonzero((rise[:-1] < 0.0) & (rise[1:] >= 0.0)) + 1
-    if not len(turns):
-        return None, math.inf
-    nearest = int(turns[np.abs(above[turns]).argmin()])
-    return nearest, float(abs(above[nearest]))
+    return turns, np.abs(above[turns])
 
 
 def _heights(chain: Chain, arc: int, side: int, speed: float, times: np.ndarray) -> np.ndarray:
@@ -161,7 +161,12 @@ def _exponentials(chain: Chain, arc: int, swing: float, speed: float) -> tuple[f
 
 
 def clearance(chain: Chain, parameter: str, row: np.ndarray, contact: Condition) -> float:
-    """Return the distance of a turning point of an arc from the base or the brace; negative beyond it, NaN if there is none.
+    """Return the distance of a turning point of an arc from the base or the brace; negative beyond it, NaN if there is none."""
+    return turning_point(chain, parameter, row, contact)[0]
+
+
+def turning_point(chain: Chain, parameter: str, row: np.ndarray, contact: Condition) -> tuple[float, float]:
+    """Return the distance of a turning point of an arc from the base or the brace, and its time; NaN if there is none.
 
     The turning point is found by Newton's method from the time of the contact.
     """
@@ -181,12 +186,12 @@ def clearance(chain: Chain, parameter: str, row: np.ndarray, contact: Condition)
         step = -slope / bend
         time += step
         if not 0.0 < time < end:
-            return math.nan
+            return math.nan, time
         if abs(step) <= TURNED:
             break
     (height,) = _heights(chain, arc, side, speed, np.array([time]))
     braces = chain.system.braces
-    return float(height if contact.level == IMPACT or braces is None else braces.angle - height)
+    return float(height if contact.level == IMPACT or braces is None else braces.angle - height), time
 
 
 def turning_time(chain: Chain, parameter: str, row: np.ndarray, condition: Condition) -> float:
@@ -199,8 +204,33 @@ def turning_time(chain: Chain, parameter: str, row: np.ndarray, condition: Condi
     arc = condition.arc
     times = np.linspace(0.0, links["time"][arc], SAMPLES)
     height = _heights(chain, arc, sides[arc], links["leaves"][arc], times)
-    nearest, _ = _nearest_turn(chain, height, condition.level)
-    return float(condition.time if nearest is None else times[nearest])
+    turns, gaps = _turns(chain, height, condition.level)
+    close = times[turns[gaps <= CLOSE]].tolist()
+    if len(close) > 1:
+        # samples do not decide which of two turning points is nearer
+        exact = [abs(clearance(chain, parameter, row, condition._replace(time=time))) for time in close]
+        return float(min(zip(exact, close, strict=True))[1])
+    return float(times[turns[gaps.argmin()]] if len(turns) else condition.time)
+
+
+def slope_of_return(chain: Chain, parameter: str, row: np.ndarray, touch: Condition) -> float:
+    """Return the derivative of the angle at a touch by the velocity at the touch before, along the orbit."""
+    links = equations(chain, parameter, np.append(chain.phases, row[-1]))[1]
+    k, angle, velocity = len(chain.kinds), 0.0, 1.0
+    spans = [float(links["time"][touch.arc]) - touch.time]
+    spans += [float(links["time"][(touch.arc + j) % k]) for j in range(1, k)] + [touch.time]
+    for j, span in enumerate(spans):
+        if j:
+            before, after = (touch.arc + j - 1) % k, (touch.arc + j) % k
+            braces = chain.system.braces
+            kept = chain.system.restitution
+            if chain.kinds[after] == BRACE and braces is not None:
+                kept = braces.restitution
+            shear = (links["acceleration"][after] + kept * links["push"][before]) / links["arrives"][before]
+            angle, velocity = -kept * angle, shear * angle - kept * velocity
+        sinh, cosh = math.sinh(span), math.cosh(span)
+        angle, velocity = cosh * angle + sinh * velocity, sinh * angle + cosh * velocity
+    return float(angle)
 
 
 def _solved(touch: Touch, parameter: str) -> tuple[Touch, np.ndarray] | None:

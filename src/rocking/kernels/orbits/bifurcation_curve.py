@@ -27,11 +27,13 @@ from rocking.kernels.orbits.arclength import (
     system_at,
 )
 from rocking.kernels.orbits.branch_point import Special, special_value
-from rocking.kernels.orbits.chain_validation import Condition, clearance, verify_chain
+from rocking.kernels.orbits.chain_validation import Condition, clearance, slowest_arrival, verify_chain
 from rocking.kernels.orbits.event_chain import assemble, monodromy
 from rocking.kernels.signature import Floats2
 
 DIFFERENCE = 1e-6
+# Speed of an event that is about to vanish, within ``GRAZING_STEP``.
+VANISHING_SPEED = 1e-3
 
 
 class CurveStep(NamedTuple):
@@ -91,6 +93,14 @@ def assemble_curve(problem, y, condition):
 
 
 @njit(**INTERNAL)
+def loses_contact(problem, y, condition):
+    """Return whether an event of the chain at ``y`` almost vanishes, beyond which the equations do not exist."""
+    links = problem.workspace.equations.links
+    condition_at(problem, y, condition, problem.workspace.equations)
+    return slowest_arrival(links, problem.chain.kinds.shape[0]) <= VANISHING_SPEED
+
+
+@njit(**INTERNAL)
 def next_point(problem, tangent, length, condition):
     """Step to the next point, with shorter steps if the curve bends.
 
@@ -105,6 +115,8 @@ def next_point(problem, tangent, length, condition):
                 return CurveStep(End.GOING, length, corrections, moved)
             if length <= GRAZING_STEP * problem.longest:
                 return CurveStep(End.GRAZED, length, corrections, moved)
+        elif length <= GRAZING_STEP * problem.longest and loses_contact(problem, tangent.point, condition):
+            return CurveStep(End.GRAZED, length, corrections, condition)
         length *= SHRINK
         if length < MIN_STEP * problem.longest:
             return CurveStep(End.LOST, length, corrections, moved)

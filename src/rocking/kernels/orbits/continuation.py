@@ -33,6 +33,7 @@ from rocking.kernels.orbits.branch_point import (
     special_value,
     validated_point_at,
 )
+from rocking.kernels.orbits.chain_validation import slowest_arrival
 from rocking.kernels.signature import Floats2
 
 # Maximum change of ``multiplier_angle`` in a step; a fold and a flip are pi/2 apart.
@@ -138,15 +139,6 @@ def store_special(table, found, y, kind, index):
 
 
 @njit(**INTERNAL)
-def slowest_arrival(problem):
-    """Return the least speed at which the last solved orbit reaches an event."""
-    slowest = math.inf
-    for j in range(problem.chain.kinds.shape[0]):
-        slowest = min(slowest, abs(problem.workspace.equations.links[j].arrives))
-    return slowest
-
-
-@njit(**INTERNAL)
 def resolves_multipliers(problem, state, point, length):
     """Return whether the multipliers change little in a step, so that no special point is passed unseen."""
     start = multiplier_angle(state.point.trace, state.point.determinant)
@@ -181,7 +173,8 @@ def next_step(problem, state):
         length *= SHRINK
         if length < MIN_STEP * longest:
             point = validated_point_at(problem, tangent, 0.0)
-            return Step(End.GRAZED if slowest_arrival(problem) < GRAZING_SPEED else End.LOST, 0.0, point)
+            slowest = slowest_arrival(workspace.equations.links, problem.chain.kinds.shape[0])
+            return Step(End.GRAZED if slowest < GRAZING_SPEED else End.LOST, 0.0, point)
     end = End.GOING
     if not point.valid:
         end, length = End.GRAZED, last_valid_length(problem, tangent, length)
