@@ -190,3 +190,30 @@ def test_a_curve_of_grazings_of_doubled_orbits_ends_where_the_multiplier_of_the_
     (met,) = (one for one in rk.bifurcation_curve(single, *PLANE, plane).special if one.kind == end.kind)
     assert (end.kind, end.index, end.orbit.period) == ("period-doubling-grazing", 0, 1)
     assert (np.abs(np.subtract(end.values, met.values)) < 3.0 * np.add(end.errors, met.errors)).all()
+
+
+def test_a_grazing_at_several_instants_of_a_period_is_refused():
+    """It is the grazing of an orbit of a shorter period or of a symmetric one, on whose curve each contact touches."""
+    system = rk.System(rk.Harmonic(6.58, period=1.47), 0.925, rk.Braces(0.57, 0.7))
+    found = [
+        one for one in specials(system, "period", (0.9, 2.0), 2) if abs(one.parameter - 1.764641193) < 1e-8
+    ]
+    assert {one.orbit.impacts for one in found} == {2, 4}
+    for one in found:
+        if one.orbit.impacts == 4:
+            with pytest.raises(ValueError, match="^special must be a grazing at one instant, not at several"):
+                rk.bifurcation_curve(one, *PLANE, ((1.0, 2.0), (2.0, 16.0)))
+        else:
+            assert len(rk.bifurcation_curve(one, *PLANE, ((1.0, 2.0), (2.0, 16.0)))) > 50
+
+
+def test_a_grazing_of_an_orbit_that_is_another_one_twice_is_refused_with_any_step():
+    system = rk.System(rk.Harmonic(4.19, period=2.44), 0.85, rk.Braces(0.9, 0.7))
+    found = [
+        one for one in specials(system, "period", (1.5, 3.4), 2) if abs(one.parameter - 2.361599527) < 1e-8
+    ]
+    twice = [one for one in found if one.orbit.period == 2]
+    assert twice
+    for step in (0.01, 0.001):
+        with pytest.raises(ValueError, match="^special must be a grazing at one instant, not at several"):
+            rk.bifurcation_curve(twice[0], *PLANE, ((1.5, 3.4), (1.0, 10.0)), step)

@@ -29,6 +29,7 @@ from rocking.orbits.curve_ends import until_parent
 from rocking.orbits.curve_rows import CurveRows
 from rocking.orbits.datasets import of_curve
 from rocking.orbits.event_chain import IMPACT, NAMES, Chain, Condition, End, Special, problem_of
+from rocking.orbits.grazing import touches_again
 from rocking.orbits.parameter import checked_range, value_of
 
 if TYPE_CHECKING:
@@ -155,7 +156,7 @@ def bifurcation_curve(
         If an argument is of the wrong type.
     ValueError
         If an argument lies outside its range, or if `bounds` does not contain the special point. Also if a grazing orbit has
-        no event other than the grazing one, or if no further point is found.
+        no event other than the grazing one or touches at several instants, or if no further point is found.
 
     See Also
     --------
@@ -262,4 +263,9 @@ def _condition(special: SpecialPoint) -> tuple[Chain, Condition]:
                 "(use that of a branch with another step, or in another parameter)"
             )
         raise ValueError("special must have an event other than the grazing one to be followed; it has none")
+    if touches_again(special._touch, special.name):
+        raise ValueError(
+            "special must be a grazing at one instant, not at several "
+            "(use that of a shorter period, or of the symmetric orbit)"
+        )
     return special._touch

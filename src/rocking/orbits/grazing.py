@@ -45,6 +45,8 @@ NEAR = 1e-3
 # Largest last correction of the time of a turning point, at which the height does not change to rounding.
 TURNED = 1e-9
 MAX_CORRECTIONS = 20
+# Largest distance from the base or a brace of a turning point that touches, and largest speed of an event that does.
+TOUCHING, TOUCHING_SPEED = 1e-11, 1e-5
 
 
 class Touch(NamedTuple):
@@ -211,6 +213,20 @@ def turning_time(chain: Chain, parameter: str, row: np.ndarray, condition: Condi
         exact = [abs(clearance(chain, parameter, row, condition._replace(time=time))) for time in close]
         return float(min(zip(exact, close, strict=True))[1])
     return float(times[turns[gaps.argmin()]] if len(turns) else condition.time)
+
+
+def touches_again(touch: Touch, parameter: str) -> bool:
+    """Return whether a grazing orbit touches at a second instant of its chain, as one does that is traversed twice."""
+    chain, own = touch.chain, touch.condition
+    row = np.append(chain.phases, value_of(chain.system, parameter))
+    links = equations(chain, parameter, row)[1]
+    if np.abs(links["arrives"]).min() <= TOUCHING_SPEED:
+        return True
+    return any(
+        abs(clearance(chain, parameter, row, other)) <= TOUCHING
+        for _, other in near_contacts(chain, links)
+        if (other.arc, other.level) != (own.arc, own.level) or abs(other.time - own.time) > CLOSE
+    )
 
 
 def slope_of_return(chain: Chain, parameter: str, row: np.ndarray, touch: Condition) -> float:
