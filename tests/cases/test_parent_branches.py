@@ -1,9 +1,11 @@
 """A branch turns where it meets the branch from which it bifurcates: the point has the kind and the orbit of that branch."""
 
+import attrs
 import numpy as np
 import pytest
 
 import rocking as rk
+from rocking.orbits.distinct_points import distinct
 
 STEPS = (0.05, 0.01, 0.003)
 
@@ -67,6 +69,35 @@ def test_the_other_branches_and_the_curve_start_there_as_from_the_other_branch(k
     assert curves[0].kind == curves[1].kind == kind
     assert curves[0].period == curves[1].period == special.orbit.period
     np.testing.assert_allclose(curves[0].points[[0, -1]], curves[1].points[[0, -1]], rtol=0, atol=1e-9)
+
+
+@pytest.mark.parametrize("kind", ["symmetry-breaking", "period-doubling"])
+def test_a_branch_that_comes_back_lists_each_special_point_once(kind):
+    """It passes the others again, with mirror images of their orbits or with the same orbits some cycles later."""
+    born = rk.switch_branch(bifurcation(kind), (4.5, 9.0))[0]
+    whole = rk.continue_orbit(born.orbit(5), "amplitude", (4.5, 9.0))
+    there = [point for point in whole.special if near_any(born, point)]
+    assert len(born.special) > 0
+    assert sorted(point.kind for point in there) == sorted(point.kind for point in born.special)
+    for point in born.special:
+        assert len(near(whole, point)) == 1
+    # the picture shows both passages
+    drawn = [point for point in whole._passages if near_any(born, point)]
+    assert len(drawn) == 2 * len(born.special)
+
+
+def near_any(branch, point):
+    return bool(near(branch, point))
+
+
+def test_two_special_points_at_one_value_with_other_orbits_are_both_listed():
+    """All events of both orbits are compared."""
+    found = rk.continue_orbit(rk.classify(forced(5.0)).orbit, "amplitude", (4.5, 9.0)).special[0]
+    moved = found._row.copy()
+    moved[0] += 1e-3
+    other = attrs.evolve(found, row=moved)
+    assert distinct([found, other]) == (found, other)
+    assert distinct([found, found]) == (found,)
 
 
 def test_a_fold_of_asymmetric_orbits_remains_a_fold():

@@ -130,7 +130,8 @@ class Branch(ReadOnlyArrays, NotebookPicture):
         - "peak": largest |Θ|.
     special : tuple of SpecialPoint
         Special points, in order along the branch. A branch of asymmetric orbits may pass a symmetry breaking and continue
-        along their mirror images. It then contains each other special point twice, once with each orbit.
+        along their mirror images. One of orbits that begin at a period doubling may pass it and continue along the same orbits,
+        some cycles later. Each special point is listed once, at its first passage.
     ends : tuple of two str
         Reasons why the branch ends at its first and at its last point.
 
@@ -152,6 +153,13 @@ class Branch(ReadOnlyArrays, NotebookPicture):
     special: tuple[SpecialPoint, ...] = field(repr=False)
     ends: tuple[str, str]
     _rows: BranchRows = field(repr=False)
+    # special points at each passage, if they are known
+    _passed: tuple[SpecialPoint, ...] = field(default=(), repr=False)
+
+    @property
+    def _passages(self) -> tuple[SpecialPoint, ...]:
+        """Special points, also those that the branch passes again with mirror images or later starts of its orbits."""
+        return self._passed or self.special
 
     def __len__(self) -> int:
         return len(self.points)
@@ -293,7 +301,7 @@ class Branch(ReadOnlyArrays, NotebookPicture):
 
         The parameter may turn back within a range; the range covers all its values.
         """
-        values, changes = self.points["parameter"], {one.index: one.parameter for one in self.special}
+        values, changes = self.points["parameter"], {one.index: one.parameter for one in self._passages}
         edges = np.flatnonzero(np.diff(self.points["stability"] == stability, prepend=False, append=False))
         ranges = []
         for first, after in edges.reshape(-1, 2).tolist():

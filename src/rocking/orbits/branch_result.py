@@ -8,6 +8,7 @@ from rocking.kernels.orbits import continuation as kernel
 from rocking.orbits.branch import Branch, Origin, SpecialPoint
 from rocking.orbits.branch_rows import ChainRows
 from rocking.orbits.branch_table import table
+from rocking.orbits.distinct_points import distinct
 from rocking.orbits.event_chain import Chain, End, Special, equations, orbit_of
 from rocking.orbits.grazing import grazing_at
 from rocking.orbits.parent_branch import special_points
@@ -31,7 +32,7 @@ ENDS = {
 def branch_of(chain: Chain, parameter: str, joined: kernel.BranchTable, ends: tuple[str, str]) -> Branch:
     """Return the public value of a branch."""
     impacts, brace_hits = chain.counts()
-    special = tuple(
+    passed = tuple(
         special_of(one.chain, parameter, one.row, one.kind, one.place, _beside(joined.rows, one.place))
         for one in special_points(chain, parameter, joined)
     )
@@ -42,9 +43,10 @@ def branch_of(chain: Chain, parameter: str, joined: kernel.BranchTable, ends: tu
         impacts=impacts,
         brace_hits=brace_hits,
         points=table(joined.rows, joined.facts, chain.mirrored),
-        special=special,
+        special=distinct(passed),
         ends=ends,
         rows=ChainRows(chain, parameter, joined.rows, joined.facts),
+        passed=passed,
     )
 
 

@@ -121,7 +121,7 @@ def _branches(result: Branch | Sequence[Branch]) -> list[Branch]:
 def _marks(ax: Axes, branches: Sequence[Branch], heights, across) -> None:
     """Draw a marker on every special point, at each of its states on the section."""
     for kind, (marker, filled, name) in MARKERS.items():
-        found = [special for one in branches for special in one.special if special.kind == kind]
+        found = [special for one in branches for special in one._passages if special.kind == kind]
         if not found:
             continue
         points = [

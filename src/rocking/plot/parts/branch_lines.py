@@ -53,7 +53,7 @@ def line(branch: Branch, quantity: str, phase: float) -> Line:
     else:
         own = points["peak"] if quantity == "peak" else np.abs(points["multipliers"]).max(axis=1)
         heights = own[:, None]
-    inner = [one for one in branch.special if one.kind != "grazing" and 0 < one.index < len(values)]
+    inner = [one for one in branch._passages if one.kind != "grazing" and 0 < one.index < len(values)]
     places = np.array([one.index for one in inner], int)
     added = np.array([one.parameter for one in inner], float)
     start, span = values[places - 1], values[places] - values[places - 1]
