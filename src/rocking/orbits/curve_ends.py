@@ -50,12 +50,12 @@ def until_parent(rows: CurveRows, start: int) -> CurveRows:
     if rows.condition.kind != Special.FOLD or parent_of(rows.chain) is None:
         return rows
     points, (first, last) = rows.rows, rows.ends
-    apart = half_differences(rows.chain, points[:, :-1])
-    passed = np.flatnonzero((apart[:-1] * apart[1:]).sum(axis=1) < 0.0)
-    before, after = passed[passed < start], passed[passed >= start]
-    if last == End.CLOSED and len(passed):
+    differences = half_differences(rows.chain, points[:, :-1])
+    swaps = np.flatnonzero((differences[:-1] * differences[1:]).sum(axis=1) < 0.0)
+    before, after = swaps[swaps < start], swaps[swaps >= start]
+    if last == End.CLOSED and len(swaps):
         # the last point lies beyond the first one
-        points = np.concatenate([points[passed[-1] + 1 : -1], points[: passed[0] + 1]])
+        points = np.concatenate([points[swaps[-1] + 1 : -1], points[: swaps[0] + 1]])
         return rows._replace(rows=points, ends=(End.MERGED, End.MERGED))
     low, high = 0, len(points)
     if len(before):

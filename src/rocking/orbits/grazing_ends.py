@@ -9,12 +9,12 @@ import numpy as np
 
 from rocking.kernels.orbits import arclength
 from rocking.orbits import grazing
-from rocking.orbits.curve_ends import Located, mean_halves, zero_between
+from rocking.orbits.curve_ends import CurveEnd, mean_halves, zero_between
 from rocking.orbits.curve_rows import CurveRows
 from rocking.orbits.curve_zeros import Test
 from rocking.orbits.event_chain import Chain, Condition, Special, equations
 from rocking.orbits.normal_form import Reduced
-from rocking.orbits.parent_branch import apart_of, parent_of
+from rocking.orbits.parent_branch import half_differences, parent_of
 
 AHEAD = (3.0, 5.0, 9.0, -3.0)
 """Distances from the last point, in units of the last step before a grazing, in which it is searched for."""
@@ -24,7 +24,7 @@ ALMOST_EQUAL = 1e-2
 """Largest distance of the halves of a chain, in rad, at the last point of a curve before a point at which they are equal."""
 
 
-def grazing_end(rows: CurveRows, inwards: np.ndarray) -> Located | None:
+def grazing_end(rows: CurveRows, inwards: np.ndarray) -> CurveEnd | None:
     """Return the end of a curve at a grazing, or None if its place is not known.
 
     Parameters
@@ -36,7 +36,7 @@ def grazing_end(rows: CurveRows, inwards: np.ndarray) -> Located | None:
 
     Returns
     -------
-    Located or None
+    CurveEnd or None
         The end; its kind is "grazing" where a further contact touches.
     """
     if len(inwards) < 2:
@@ -48,7 +48,7 @@ def grazing_end(rows: CurveRows, inwards: np.ndarray) -> Located | None:
     return None
 
 
-def _merged_end(rows: CurveRows, inwards: np.ndarray) -> Located | None:
+def _merged_end(rows: CurveRows, inwards: np.ndarray) -> CurveEnd | None:
     """Return the end of a curve of grazings, at which its orbits merge with those from which they bifurcate, or None.
 
     Both halves of such an orbit touch there. The point is solved on the curve of grazings of the other orbits, where a multiplier
@@ -69,12 +69,12 @@ def _merged_end(rows: CurveRows, inwards: np.ndarray) -> Located | None:
 def _halved(chain: Chain, touch: Condition, row: np.ndarray) -> tuple[Chain, Condition, np.ndarray] | None:
     """Return the chain, the touch and the phases of an orbit that repeats after half a chain, almost; None if it does not."""
     parent = parent_of(chain)
-    if parent is None or np.abs(apart_of(chain, row[None, :-1])).max() > ALMOST_EQUAL:
+    if parent is None or np.abs(half_differences(chain, row[None, :-1])).max() > ALMOST_EQUAL:
         return None
     return parent, touch._replace(arc=touch.arc % len(parent.kinds)), mean_halves(row, parent)
 
 
-def _vanished_end(rows: CurveRows, inwards: np.ndarray) -> Located | None:
+def _vanished_end(rows: CurveRows, inwards: np.ndarray) -> CurveEnd | None:
     """Return the end of a curve at a grazing, where a contact of its orbits vanishes, or None.
 
     The orbits without this contact are regular there. On a curve of grazings they touch at two instants, which may be the same
@@ -101,7 +101,7 @@ def _vanished_end(rows: CurveRows, inwards: np.ndarray) -> Located | None:
     return None
 
 
-def _touching_end(rows: CurveRows, inwards: np.ndarray) -> Located | None:
+def _touching_end(rows: CurveRows, inwards: np.ndarray) -> CurveEnd | None:
     """Return the end of a curve at a grazing, where a turning point of an arc reaches the base or a brace, or None.
 
     Beyond this end the equations of the chain remain regular, so that the clearance of the turning point changes its sign.
@@ -115,7 +115,7 @@ def _touching_end(rows: CurveRows, inwards: np.ndarray) -> Located | None:
     return None
 
 
-def _around(rows: CurveRows, test: Test, near: np.ndarray) -> Located | None:
+def _around(rows: CurveRows, test: Test, near: np.ndarray) -> CurveEnd | None:
     """Return the zero of a test function on a curve close to a point near it, in either direction, or None."""
     across = np.zeros(len(near))
     for which in (-1, -2):
