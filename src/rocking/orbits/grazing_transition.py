@@ -219,7 +219,7 @@ def grazing_transition(
     >>> found = rk.find_orbits(system, 1)
     >>> orbit = next(each for each in found if each.stable and not each.symmetric)
     >>> branch = rk.continue_orbit(orbit, "amplitude", (10.2, 10.6))
-    >>> found = rk.grazing_transition(branch.special[-1])
+    >>> found = rk.grazing_transition(branch.special[0])
     >>> found.orbits, found.kind, str(found.attractor.kind)
     ('persistence', 'local', 'chaotic')
     """
