@@ -18,7 +18,15 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import rocking as rk
-from rocking.explorer import bokeh_figures, compilation, figure_data, plane_axes, presets, texts
+from rocking.explorer import (
+    bokeh_figures,
+    compilation,
+    figure_data,
+    plane_axes,
+    presets,
+    progressive_map,
+    texts,
+)
 from rocking.explorer.attractor_labels import Orbits
 from rocking.explorer.field_readers import Refused, written
 from rocking.explorer.form_fields import READ, address, changed, from_address, in_metres
@@ -326,9 +334,35 @@ def test_refined_map_is_the_packages_map(block):
     )
     names = "kind", "response_period", "symmetric"
     assert (pictures[-1].look == looks(*(found[name].values for name in names))).all()
-    assert [len(picture.look) for picture in pictures if picture.settled == picture.of] == [5, 9, 17, 33]
+    assert [len(picture.look) for picture in (pictures[0], pictures[-1])] == [5, 33]
     assert [picture.done for picture in pictures] == [False] * (len(pictures) - 1) + [True]
     assert pictures[-1].colours().shape == (33, 33)
+
+
+def test_maps_under_way_show_classified_points_and_neighbours_of_the_others(monkeypatch):
+    plane = Plane(("period", Span(0.2, 3.0)), ("amplitude", Span(0.0, 16.0)), {"restitution": 0.925}, 33)
+    monkeypatch.setattr(progressive_map, "SHOWN_EVERY", 0.0)
+    monkeypatch.setattr(progressive_map, "FASTER", 1)
+    first, *others, last = refined(plane)
+    sides = [len(picture.look) for picture in others]
+    assert sides == sorted(sides)
+    assert {9, 17, 33} == set(sides)
+    for picture in others:
+        side = len(picture.look)
+        stride, even = 32 // (side - 1), np.arange(side) // 2 * 2
+        right = picture.look == last.look[::stride, ::stride]
+        right[::2, ::2] |= (picture.look[::2, ::2] == first.look) if stride == 4 else False
+        assert picture.settled <= picture.of
+        assert right[::2, ::2].all()
+        assert (right | (picture.look == picture.look[np.ix_(even, even)])).all()
+
+
+def test_map_without_valid_points_is_complete_at_once():
+    fixed = {"amplitude": 2.0, "period": 1.0, "restitution": 0.9}
+    plane = Plane(("angle", Span(-1.0, 1.0)), ("velocity", Span(-1.0, 1.0)), fixed, 17, reach=-1.0)
+    *_, last = refined(plane)
+    assert last.done
+    assert (last.look == NONE).all()
 
 
 def pieces(monkeypatch, seconds):

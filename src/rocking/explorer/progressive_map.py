@@ -33,18 +33,18 @@ FIELDS = {
 UNDETERMINED = Kind.UNDETERMINED.code
 FIRST, ALL = 60, 10_000
 """Maximum number of cycles per point: in the first, coarse map, and in the finer maps."""
-COARSEST = 8
-"""Ratio of the intervals of the finest grid to those of the first."""
+COARSEST, STRIDES = 8, (4, 2, 1)
+"""Intervals of the first grid and of the finer ones, in intervals of the finest."""
 PIECE = 0.12
 """Target duration of a batch, s. A thread takes up other work only between two batches."""
 AHEAD = 2
 """Batches queued or running per thread, so that no thread waits for the event loop."""
 START, FEW, LARGEST = 16, 256, 16_384
-"""Points of the first batch, of the last batches of a grid, and of the largest; fewer if points are expensive."""
+"""Points of the first batch, of the last batches, and of the largest; fewer if points are expensive."""
 FASTER = 8
 """Maximum growth factor between two batches, because a few cheap points do not represent the others."""
-SHOWN_EVERY = 0.5
-"""Minimum time between two images of an incomplete grid, s."""
+SHOWN_EVERY = 0.3
+"""Minimum time between two images, s. Browser and server need a sixth of it for one."""
 STRIPES, STRIPE = 7, 2
 """Spacing and width of the stripes of a hatch, in points."""
 SHADES = 3
@@ -83,11 +83,11 @@ class Plane:
     first: int = FIRST
     with_attractors: bool = False
 
-    def values(self, places: np.ndarray, side: int) -> dict[str, np.ndarray]:
-        """Return the two quantities at points of a grid of `side` × `side`, given by indices in C order, rows upward."""
-        rows, columns = np.divmod(places, side)
+    def values(self, places: np.ndarray) -> dict[str, np.ndarray]:
+        """Return the two quantities at points of the finest grid, given by indices in C order, rows upward."""
+        rows, columns = np.divmod(places, self.points)
         return {
-            name: np.linspace(span.low, span.high, side)[at]
+            name: np.linspace(span.low, span.high, self.points)[at]
             for (name, span), at in ((self.across, columns), (self.up, rows))
         }
 
@@ -154,56 +154,76 @@ def _stripes(points: int) -> np.ndarray:
 
 
 class Refinement:
-    """Refinement of a map on the worker threads, from coarse to fine, until `stop[0]` is set."""
+    """Refinement of a map on the worker threads, from coarse to fine, until `stop[0]` is set.
+
+    All grids consist of points of the finest one. Threads begin the next grid before the last batches of a grid end.
+    """
 
     def __init__(self, plane: Plane, workers: Workers, stop: np.ndarray) -> None:
         self.plane, self.workers, self.stop = plane, workers, stop
         self.piece = START
         self.orbits = Orbits()
-        self.fields: dict[str, np.ndarray] = {}
+        shape = plane.points, plane.points
+        self.fields = {name: np.zeros(shape, dtype) for name, dtype in FIELDS.items()}
+        values = plane.values(np.arange(plane.points**2))
+        angles = np.abs(values.get("angle", np.zeros(1)))
+        self.inside = np.broadcast_to(angles <= plane.reach, plane.points**2).reshape(shape)
+        self.fields["look"][~self.inside] = legend.NONE
+        self.known = ~self.inside
 
     def coarse(self) -> Picture:
         """Compute the first, coarse map in the calling thread."""
-        self._begin((self.plane.points - 1) // COARSEST + 1)
-        places = np.flatnonzero(self.inside)
+        places = self._shuffled(self._grid(COARSEST))
         self._keep(places, self._judge(places, self.plane.first))
-        return self._picture(places.size, places.size)
+        return self._picture(COARSEST, places.size, places.size)
 
     async def finer(self) -> AsyncIterator[Picture]:
         """Yield successive maps after `coarse`; the last one is complete."""
-        side, open_ = len(self.fields["kind"]), self.fields["kind"] == UNDETERMINED
-        while side < self.plane.points:
-            side = 2 * side - 1
-            self._begin(side)
-            due = np.ones((side, side), bool)
-            due[::2, ::2] = open_
-            async for picture in self._settle(np.flatnonzero(due & self.inside)):
-                yield picture
-            open_ = np.zeros((side, side), bool)
+        open_ = self.known & (self.fields["kind"] == UNDETERMINED)
+        grids: list[np.ndarray] = []
+        for stride in STRIDES:
+            due = self._grid(stride) & ~self._grid(2 * stride)
+            grids.append(self._shuffled(due if grids else due | open_))
+        ends = np.cumsum([grid.size for grid in grids])
+        stage, shown = 0, time.perf_counter()
+        async for classified in self._classify(np.concatenate(grids)):
+            while classified >= ends[stage] and stage + 1 < len(grids):
+                stage += 1
+            if classified == ends[-1] or time.perf_counter() - shown > SHOWN_EVERY:
+                settled = int(classified - ends[stage]) + grids[stage].size
+                yield self._picture(STRIDES[stage], settled, grids[stage].size)
+                shown = time.perf_counter()
 
-    async def _settle(self, places: np.ndarray) -> AsyncIterator[Picture]:
-        """Classify points in batches and yield intermediate maps."""
-        # random order, so that batches cover the whole map and cost about the same
-        order = np.random.default_rng(0).permutation(places)
-        under_way: dict[asyncio.Future[tuple[dict[str, np.ndarray], float]], np.ndarray] = {}
-        begun, settled, shown = 0, 0, time.perf_counter()
-        while settled < order.size:
+    def _grid(self, stride: int) -> np.ndarray:
+        """Return the mask of every `stride`-th point along each side."""
+        mask = np.zeros_like(self.inside)
+        mask[::stride, ::stride] = True
+        return mask
+
+    def _shuffled(self, due: np.ndarray) -> np.ndarray:
+        """Return the points of a mask in random order, so that batches cover the whole map and cost about the same."""
+        return np.random.default_rng(0).permutation(np.flatnonzero(due & self.inside))
+
+    async def _classify(self, order: np.ndarray) -> AsyncIterator[int]:
+        """Classify points in batches. Yield the number of leading points that are classified, from 0 to all."""
+        under_way: dict[asyncio.Task[tuple[dict[str, np.ndarray], float]], tuple[int, np.ndarray]] = {}
+        begun = classified = 0
+        yield classified
+        while classified < order.size:
             while begun < order.size and len(under_way) < AHEAD * self.workers.count:
                 piece = order[begun : begun + self._next(order.size - begun)]
+                task = asyncio.create_task(self.workers.later(partial(self._timed, piece)))
+                under_way[task] = begun, piece
                 begun += piece.size
-                under_way[asyncio.ensure_future(self.workers.later(partial(self._timed, piece)))] = piece
             done, _ = await asyncio.wait(under_way, return_when=asyncio.FIRST_COMPLETED)
-            for future in done:
-                piece = under_way.pop(future)
-                answers, taken = future.result()
+            for task in done:
+                _, piece = under_way.pop(task)
+                answers, taken = task.result()
                 self._keep(piece, answers)
-                settled += piece.size
                 times = min(PIECE / max(taken, 1e-6), FASTER)
                 self.piece = min(max(int(piece.size * times), 1), LARGEST)
-            if time.perf_counter() - shown > SHOWN_EVERY and settled < order.size:
-                shown = time.perf_counter()
-                yield self._picture(settled, order.size)
-        yield self._picture(settled, order.size)
+            classified = min((first for first, _ in under_way.values()), default=begun)
+            yield classified
 
     def _next(self, left: int) -> int:
         """Return the size of the next batch. The last batches are small, so that all threads finish together."""
@@ -215,24 +235,10 @@ class Refinement:
 
     def _judge(self, places: np.ndarray, cycles: int) -> dict[str, np.ndarray]:
         ask = classify_with_anchor if self.plane.with_attractors else classify_points
-        answers = ask(self.plane.values(places, self.side), self.plane.fixed, cycles, PERIOD, self.stop)
+        answers = ask(self.plane.values(places), self.plane.fixed, cycles, PERIOD, self.stop)
         if answers is None:
             raise asyncio.CancelledError
         return answers
-
-    def _begin(self, side: int) -> None:
-        """Start a grid of `side` × `side` points, filled with the nearest points of the previous grid."""
-        self.side = side
-        nearest = (np.arange(side) + 1) // 2
-        for name, dtype in FIELDS.items():
-            before = self.fields.get(name)
-            self.fields[name] = (
-                np.zeros((side, side), dtype) if before is None else before[np.ix_(nearest, nearest)]
-            )
-        values = self.plane.values(np.arange(side * side), side)
-        angles = np.abs(values.get("angle", np.zeros(1)))
-        self.inside = np.broadcast_to((angles <= self.plane.reach), side * side).reshape(side, side)
-        self.fields["look"][~self.inside] = legend.NONE
 
     def _keep(self, places: np.ndarray, answers: dict[str, np.ndarray]) -> None:
         look = legend.looks(answers["kind"], answers["response_period"], answers["symmetric"])
@@ -242,8 +248,13 @@ class Refinement:
             answers["orbit"] = self.orbits.numbers(look, states)
         for name in FIELDS.keys() & answers.keys():
             self.fields[name].reshape(-1)[places] = answers[name]
+        self.known.reshape(-1)[places] = True
 
-    def _picture(self, settled: int, of: int) -> Picture:
-        kept = {name: values.copy() for name, values in self.fields.items()}
-        done = self.side == self.plane.points and settled == of
-        return Picture(kept, self.plane.points, settled, of, done)
+    def _picture(self, stride: int, settled: int, of: int) -> Picture:
+        """Return the map of every `stride`-th point. A point not yet classified has the values of a neighbour."""
+        places = np.arange(0, self.plane.points, stride)
+        own, coarser = np.ix_(places, places), places // (2 * stride) * (2 * stride)
+        nearest = np.ix_(coarser, coarser)
+        known = self.known[own]
+        kept = {name: np.where(known, values[own], values[nearest]) for name, values in self.fields.items()}
+        return Picture(kept, self.plane.points, settled, of, stride == 1 and settled == of)

@@ -28,7 +28,7 @@ FIRST_HITS = 3e3
 GROWTH = (1_000, 2_000, 7_000, 20_000, 30_000, 40_000)
 """Cycles added to a section, step by step: 10⁵ in total."""
 MAP_FIRST = 1.0
-"""Maximum delay of a basin map in favour of the map of responses, s."""
+"""Maximum delay of a basin map and of a longer section in favour of the map of responses, s."""
 MAP_LIMITS = Span(*PERIODS), Span(0.0, MAX_AMPLITUDE)
 BASIN_LIMITS = Span(-MAX_START, MAX_START), Span(-MAX_START, MAX_START)
 VARIED = {"amplitude": "amplitude A", "period": "period T"}
@@ -201,6 +201,7 @@ class SessionRenderer(DocumentRenderer):
         self.link.draw(section=_drawn_section(drawn))
 
     async def _grow(self, section: figure_data.Section, period: int | None, stop: np.ndarray) -> None:
+        await self.jobs.over("map", MAP_FIRST)
         for cycles in GROWTH[1:]:
             if section.ended or stop[0]:
                 return
