@@ -1,7 +1,6 @@
 """Classification of a batch of systems, in SIMD lanes or one by one, in a single call from Python."""
 
 import math
-from functools import partial
 
 import numpy as np
 
@@ -81,15 +80,19 @@ def lane_masks(systems):
     return may & ~braced, may & braced
 
 
+def classify_one_by_one(systems, *arguments):
+    """Return ``classify_batch_scalar`` for one or more ``systems``."""
+    return classify_batch_scalar(parameters_of_row(systems[0]), systems, *arguments)
+
+
 def classify_batch(systems, starts, max_cycles, max_period, stop):
-    """Classify a batch of points, ``systems`` (n, 8), all slender or none, and ``starts`` (n, 2).
+    """Classify a batch of n >= 0 points, ``systems`` (n, 8), all slender or none, and ``starts`` (n, 2).
 
     Returns ``ResultArrays``, or None if another thread set ``stop`` (1,) before the end.
     """
     answers, (free, braced) = empty_results(len(systems)), lane_masks(systems)
-    one_by_one = partial(classify_batch_scalar, parameters_of_row(systems[0]))
     parts = (
-        (~(free | braced), one_by_one, make_workspace),
+        (~(free | braced), classify_one_by_one, make_workspace),
         (free, classify_batch_lanes, make_lane_workspace),
         (braced, classify_batch_lanes, make_lane_workspace),
     )

@@ -89,5 +89,7 @@ def anchor_each(
 def anchors_of(systems, starts, answers):
     """Return ``anchor_each`` for the results of ``batch.classify_batch``: an array (n, 2)."""
     anchors, scratch = np.empty((len(systems), 2)), np.empty((2 * answers.period.max(initial=1), 2))
-    anchor_each(parameters_of_row(systems[0]), systems, starts, answers, no_recording(), scratch, anchors)
+    if len(systems):
+        kind = parameters_of_row(systems[0])
+        anchor_each(kind, systems, starts, answers, no_recording(), scratch, anchors)
     return anchors

@@ -13,16 +13,12 @@ from rocking.survey.harmonic_spec import Points
 
 def verdicts(points: Points, options: Mapping[str, int], stop: np.ndarray) -> results.ResultArrays | None:
     """Return the verdicts at points, with the conventions of `classify`; None if another thread sets `stop`."""
-    if not len(points.systems):
-        return results.empty_results(0)
-    told: results.ResultArrays | None = batch.classify_batch(
+    found: results.ResultArrays | None = batch.classify_batch(
         *points, options["max_cycles"], options["max_period"], stop
     )
-    return told
+    return found
 
 
 def anchors(points: Points, judged: results.ResultArrays) -> np.ndarray:
     """Return a representative state (n, 2) of the orbit at each point; NaN if there is none."""
-    if not len(points.systems):
-        return np.empty((0, 2))
     return np.asarray(attractor_anchor.anchors_of(*points, judged))
