@@ -216,6 +216,9 @@ NORMALISED = "--period 1 --restitution 0.9"
         (f"--amplitude 2:3 {NORMALISED} --at 4", "--at must lie in [2, 3]; got 4"),
         (f"--amplitude 3:2 {NORMALISED} --at nan", "--at must lie in [2, 3]; got nan"),
         (f"--amplitude 2:3 {NORMALISED} --step 1", "--step must lie in [1e-06, 0.1]; got 1"),
+        # the response is at rest: what is invalid is found before it is computed
+        (f"--amplitude 0.5:3 {NORMALISED} --step 1", "--step must lie in [1e-06, 0.1]; got 1"),
+        ("--amplitude 0.5 --period 1 --restitution 0.9:0", "--restitution must lie in [0.001, 1]; got 0.0"),
         (
             "--amplitude 2 --period 1 --restitution 0.9:0",
             "--restitution must lie in [0.001, 1]; got 0.0",

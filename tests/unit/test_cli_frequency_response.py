@@ -2,6 +2,7 @@
 
 import csv
 import json
+import sys
 
 import numpy as np
 import pytest
@@ -150,6 +151,8 @@ NORMALISED = "--period 1:2:3 --restitution 0.9"
         ),
         (f"--amplitude 2 {NORMALISED} --modes 1,3", "--modes must be a number"),
         (f"--amplitude 2 {NORMALISED} --step 5", "--step must lie in [1e-06, 0.1]; got 5"),
+        # there is no orbit to follow
+        (f"--amplitude 0.1 {NORMALISED} --step 5", "--step must lie in [1e-06, 0.1]; got 5"),
         (f"--amplitude 2 {NORMALISED} --max-cycles 0", "--max-cycles must be a whole number in [1, "),
         (f"--amplitude 2 {NORMALISED} --model full", "No such option: --model"),
         (
@@ -173,3 +176,10 @@ def test_refusals_are_one_line_and_leave_nothing(rocking, tmp_path, line, messag
     assert said.startswith(message)
     assert "\n" not in said
     assert not list(tmp_path.iterdir())
+
+
+def test_what_is_invalid_is_refused_before_orbits_are_followed(rocking, monkeypatch):
+    monkeypatch.setattr(sys.modules["rocking.orbits.frequency_response"], "continue_orbit", pytest.fail)
+    code, said, _ = rocking(f"frequency-response --amplitude 2 {NORMALISED} --max-cycles 0")
+    assert code == 2
+    assert said.startswith("--max-cycles must be a whole number in [1, ")

@@ -16,6 +16,7 @@ from rocking.orbits.manifold_tangency import manifold_gap, tangency_amplitude
 from rocking.orbits.orbit_diagram import orbit_diagram
 from rocking.orbits.orbit_diagram_result import OrbitDiagram
 from rocking.orbits.orbit_manifolds import OrbitManifolds, orbit_manifolds
+from rocking.orbits.parameter import check_range, check_step
 from rocking.orbits.response_diagram import response_diagram
 from rocking.orbits.response_diagram_result import ResponseDiagram
 from rocking.orbits.saddle_manifolds import Manifold, SaddleManifolds, saddle_manifolds
@@ -39,6 +40,8 @@ __all__ = [
     "bifurcation_curve",
     "bifurcation_set",
     "cascade",
+    "check_range",
+    "check_step",
     "continue_orbit",
     "find_orbit",
     "find_orbits",

@@ -20,7 +20,6 @@ from rocking.model import (
     read_only,
     refusal,
     whole,
-    within,
 )
 from rocking.orbits.branch import SpecialPoint, chain_at
 from rocking.orbits.branch_result import ENDS
@@ -30,7 +29,7 @@ from rocking.orbits.curve_rows import CurveRows
 from rocking.orbits.datasets import of_curve
 from rocking.orbits.event_chain import IMPACT, NAMES, Chain, Condition, End, Special, problem_of
 from rocking.orbits.grazing import touches_again
-from rocking.orbits.parameter import checked_range, value_of
+from rocking.orbits.parameter import check_range, check_step, value_of
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -200,8 +199,8 @@ def bifurcation_curve(
     if first == second or {first, second} == {"period", "frequency"}:
         raise ValueError(refusal("second", f"be another parameter than {first}", second))
     ranges = pair("bounds", bounds, f"be two pairs (lowest, highest), of {first} and of {second}")
-    limits = [checked_range(name, bounds) for name, bounds in zip((first, second), ranges, strict=True)]
-    step = within("step", step, 1e-6, 0.1)
+    limits = [check_range(name, bounds) for name, bounds in zip((first, second), ranges, strict=True)]
+    step = check_step(step)
     most = whole("max_points", max_points, 2, 1_000_000)
     here = [value_of(special.orbit.system, name) for name in (first, second)]
     if not all(low <= value <= high for value, (low, high) in zip(here, limits, strict=True)):

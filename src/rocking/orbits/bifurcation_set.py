@@ -9,14 +9,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 from attrs import field, frozen
 
-from rocking.model import NotebookPicture, System, counted, instance, one_of, refusal, whole, within
+from rocking.model import NotebookPicture, System, counted, instance, one_of, refusal, whole
 from rocking.orbits.bifurcation_curve import BifurcationCurve, bifurcation_curve
 from rocking.orbits.branch import Branch, SpecialPoint
 from rocking.orbits.continuation import continue_orbit, switch_branch
 from rocking.orbits.datasets import of_curves
 from rocking.orbits.event_chain import NAMES
 from rocking.orbits.find_orbits import find_orbits
-from rocking.orbits.parameter import checked_range, value_of, with_value
+from rocking.orbits.parameter import check_range, check_step, value_of, with_value
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -135,14 +135,14 @@ def bifurcation_set(
     """
     instance("system", system, System)
     longest = whole("max_period", max_period, 1, 64)
-    number, step = whole("grid", grid, 1, 200), within("step", step, 1e-6, 0.1)
+    number, step = whole("grid", grid, 1, 200), check_step(step)
     if len(ranges) != 2 or set(ranges) == {"period", "frequency"}:
         allowed = "hold the ranges of two different parameters, such as period=(0.5, 3), amplitude=(1, 16)"
         raise TypeError(refusal("ranges", allowed, ", ".join(ranges) or "none"))
     for name in ranges:
         one_of("ranges", name, tuple(NAMES))
     first, second = ranges
-    bounds = checked_range(first, ranges[first], first), checked_range(second, ranges[second], second)
+    bounds = check_range(first, ranges[first], first), check_range(second, ranges[second], second)
     _ = system.harmonic  # refuses other base motions, and the full block
     search = _Search((first, second), bounds, longest, step)
     for value in _middles(bounds[0], number):

@@ -22,7 +22,7 @@ from rocking.model import (
 from rocking.orbits.branch import SpecialPoint
 from rocking.orbits.continuation import switch_branch
 from rocking.orbits.datasets import of_cascade
-from rocking.orbits.parameter import checked_range
+from rocking.orbits.parameter import check_range
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -161,7 +161,7 @@ def cascade(special: SpecialPoint, bounds: tuple[float, float], doublings: int =
     instance("special", special, SpecialPoint)
     if special.kind != "period-doubling":
         raise ValueError(refusal("special", "be a period doubling", special.kind))
-    low, high = checked_range(special.name, bounds)
+    low, high = check_range(special.name, bounds)
     wanted = whole("doublings", doublings, 2, 10)
     found, around, end = [special], (low, high), "number of period doublings wanted"
     while len(found) < wanted:

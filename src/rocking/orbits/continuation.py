@@ -8,7 +8,7 @@ import numpy as np
 
 from rocking.kernels.orbits import arclength, branch_point
 from rocking.kernels.orbits import continuation as kernel
-from rocking.model import Orbit, instance, one_of, refusal, refuse_if, whole, within
+from rocking.model import Orbit, instance, one_of, refusal, refuse_if, whole
 from rocking.motion import simulate
 from rocking.orbits import grazed_branch, resting_branch
 from rocking.orbits.branch import BRANCHES_OFF, Branch, SpecialPoint, chain_at
@@ -25,7 +25,7 @@ from rocking.orbits.event_chain import (
     problem_of,
     solved,
 )
-from rocking.orbits.parameter import checked_range, value_of
+from rocking.orbits.parameter import check_range, check_step, value_of
 from rocking.orbits.return_map_branch import followed
 
 MAX_SPECIAL = 1000
@@ -106,11 +106,11 @@ def continue_orbit(
         raise ValueError(refusal("orbit", allowed, str(orbit), "use a neighbouring one: branch.orbit(index)"))
     one_of("parameter", parameter, (*NAMES, "critical_angle"))
     here = value_of(orbit.system, parameter)
-    low, high = checked_range(parameter, bounds)
+    low, high = check_range(parameter, bounds)
     refuse_if(
         not low <= here <= high, parameter, f"lie in [{low:.6g}, {high:.6g}] to be followed there", here
     )
-    step = within("step", step, 1e-6, 0.1)
+    step = check_step(step)
     most = whole("max_points", max_points, 2, 1_000_000)
     if orbit.superstable:
         return resting_branch.followed(orbit, parameter, (low, high), step, most)
@@ -178,14 +178,14 @@ def switch_branch(
         allowed = "be of kind symmetry-breaking, period-doubling or grazing to switch branches"
         raise ValueError(refusal("special", allowed, special.kind))
     chain_at(special)  # refuses a full block, and an orbit that rests
-    low, high = checked_range(special.name, bounds)
+    low, high = check_range(special.name, bounds)
     refuse_if(
         not low <= special.parameter <= high,
         "bounds",
         f"contain the {special.name} of the special point",
         bounds,
     )
-    step = within("step", step, 1e-6, 0.1)
+    step = check_step(step)
     most = whole("max_points", max_points, 2, 1_000_000)
     if special.kind == "grazing":
         return _other_side(special, (low, high), step, most)

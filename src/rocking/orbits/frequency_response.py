@@ -28,7 +28,7 @@ from rocking.orbits.branch import Branch
 from rocking.orbits.continuation import continue_orbit, switch_branch
 from rocking.orbits.event_chain import IMPACT, Chain, chain_of, orbit_of, solved
 from rocking.orbits.frequency_response_result import FrequencyResponse
-from rocking.orbits.parameter import checked_range
+from rocking.orbits.parameter import check_range, check_step
 from rocking.response import classify
 from rocking.theory import symmetric_modes
 
@@ -107,7 +107,9 @@ def frequency_response(
     )
     restitution = _lossy(restitution)
     followed = tuple(dict.fromkeys(_odd(n) for n in _sequence(modes)))
+    step = check_step(step)
     systems = [System(Harmonic(amplitude, **{parameter: value}), restitution) for value in values.tolist()]
+    rest = _from_rest(systems, max_cycles)  # first, because it rejects an invalid max_cycles
     branches = [
         branch for n in followed for branch in _branches(systems, n, parameter, values[[0, -1]], step)
     ]
@@ -118,7 +120,7 @@ def frequency_response(
         parameter=parameter,
         values=values,
         branches=tuple(branches),
-        rest=_from_rest(systems, max_cycles),
+        rest=rest,
     )
 
 
@@ -126,7 +128,7 @@ def _values(name: str, values: Any) -> NDArray[np.float64]:
     ordered = np.unique(reals(name, values))
     if not 2 <= len(ordered) <= MAX_VALUES or not np.isfinite(ordered).all():
         raise ValueError(refusal(name, f"be 2 to {MAX_VALUES:,} different finite numbers", values))
-    checked_range(name, (float(ordered[0]), float(ordered[-1])))
+    check_range(name, (float(ordered[0]), float(ordered[-1])))
     return ordered
 
 

@@ -35,6 +35,8 @@ MISSING = dict.fromkeys(("brace_angle", "brace_restitution"), "braces=Braces(…
 }
 # Ranges of the model. Towards a coefficient of restitution of 0, an orbit cannot be continued.
 ALLOWED = RANGES | dict.fromkeys(("restitution", "brace_restitution"), (1e-3, 1.0))
+# Largest steps along a branch or a curve, in units of the ranges and of one radian of phase.
+STEPS = 1e-6, 0.1
 
 
 def value_of(system: System, parameter: str) -> float:
@@ -80,9 +82,7 @@ def fixed_quantities(system: System, parameter: str) -> dict[str, float]:
     return {name: found[name] for name in found if name not in ("frequency", varied)}
 
 
-def checked_range(
-    parameter: str, bounds: tuple[float, float], argument: str = "bounds"
-) -> tuple[float, float]:
+def check_range(parameter: str, bounds: tuple[float, float], argument: str = "bounds") -> tuple[float, float]:
     """Return the bounds of a parameter, after checking that they are ordered and within its range."""
     allowed = "be (lowest, highest), the one below the other"
     ends = pair(argument, bounds, allowed)
@@ -90,3 +90,8 @@ def checked_range(
     low, high = (within(shown, value, *ALLOWED[parameter]) for value in ends)
     refuse_if(not low < high, argument, allowed, bounds)
     return low, high
+
+
+def check_step(step: float) -> float:
+    """Return the largest step along a branch or a curve, after checking its range."""
+    return within("step", step, *STEPS)

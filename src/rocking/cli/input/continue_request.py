@@ -67,11 +67,14 @@ def study(given: Mapping[str, Any]) -> Study:
 
 def compute(study: Study, response_period: int | None, step: float) -> tuple[Orbit, Branch]:
     """Return the orbit found and its branch; YourInput if there is none, or an argument is invalid."""
-    from rocking.orbits import continue_orbit
+    from rocking.orbits import check_range, check_step, continue_orbit
 
+    typed = FOLLOWED | {f"bounds of {study.parameter}": option(study.name)} | options("step")
+    with your_input(typed):
+        check_range(study.parameter, study.bounds)
+        check_step(step)
     orbit = _approached(study) if response_period is None else _nearest(study, response_period)
-    typed = FOLLOWED | {f"bounds of {study.parameter}": option(study.name)}
-    with your_input(typed | options("step")):
+    with your_input(typed):
         return orbit, continue_orbit(orbit, study.parameter, study.bounds, step)
 
 
