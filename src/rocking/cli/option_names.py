@@ -13,7 +13,7 @@ SI = ("height", "width", "acceleration", "acceleration_g", "displacement", "freq
 FORCED = (*NORMALISED, *SI, "restitution")
 SYSTEM = (*FORCED, "phase", "brace_angle", "brace_restitution", "critical_angle")
 START = ("angle", "velocity")
-TOLD = tuple(name for name in (*SYSTEM, *START) if name not in SI)
+QUANTITIES = tuple(name for name in (*SYSTEM, *START) if name not in SI)
 """Quantities of a survey, in the order in which they are printed."""
 COUNTS = ("max_cycles", "max_period")
 AXIS_FORM = "START:STOP:COUNT"

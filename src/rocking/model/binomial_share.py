@@ -87,9 +87,9 @@ class Share:
 
     def __attrs_post_init__(self) -> None:
         if min(self.count, self.of, self.unknown) < 0 or self.count + self.unknown > self.of:
-            told = (self.count, self.of, self.unknown)
+            counts = (self.count, self.of, self.unknown)
             raise ValueError(
-                refusal("count, of and unknown", "be at least 0, and count + unknown at most of", told)
+                refusal("count, of and unknown", "be at least 0, and count + unknown at most of", counts)
             )
 
     @property

@@ -72,13 +72,13 @@ class IncrementalDynamicAnalysis(NotebookPicture):
         peaks = np.sort(self.dataset.peak.transpose("record", "scale").values, axis=0)
         # 0.07 · 100 is 7.000000000000001 in double precision
         places = np.ceil(fractions * len(peaks) - ROUNDING).astype(int) - 1
-        told = {"long_name": "largest absolute angle in units of theta_cr", "units": "1"}
+        attributes = {"long_name": "largest absolute angle in units of theta_cr", "units": "1"}
         return xr.DataArray(
             peaks[places],
             {"fractile": ("fractile", fractions), "scale": self.dataset.scale},
             ("fractile", "scale"),
             "peak",
-            told,
+            attributes,
         )
 
     @property
@@ -93,8 +93,8 @@ class IncrementalDynamicAnalysis(NotebookPicture):
         low, high = self.fractiles([0.16, 0.84]).values
         with np.errstate(divide="ignore", invalid="ignore"):
             found = 0.5 * np.log(high / np.where((low > 0.0) & np.isfinite(low), low, np.nan))
-        told = {"long_name": "record-to-record scatter of ln peak", "units": "1"}
-        return xr.DataArray(found, {"scale": self.dataset.scale}, ("scale",), "scatter", told)
+        attributes = {"long_name": "record-to-record scatter of ln peak", "units": "1"}
+        return xr.DataArray(found, {"scale": self.dataset.scale}, ("scale",), "scatter", attributes)
 
     def __str__(self) -> str:
         data = self.dataset

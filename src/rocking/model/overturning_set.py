@@ -205,14 +205,14 @@ class OverturningSet(NotebookPicture):
         low, high = self.scales[[0, -1]]
         count = self.dataset.sizes["switch"]
         unit = "" if self.measure.unit in ("1", "") else f" {self.measure.unit}"
-        told = (
+        start = (
             f"{counted(len(self.records), 'record')}, {self.scales.size:,} levels of {self.measure.symbol} from {low:.6g} "
             f"to {high:.6g}{unit}: {count:,} switch{'es' * (count != 1)}; "
         )
         if np.isnan(self.lowest).all():
-            return f"{told}no level overturns"
+            return f"{start}no level overturns"
         least = np.nanmin(self.lowest)
         return (
-            f"{told}{percent(self.share.mean())} of the range overturns; lowest found {least:.6g}{unit}.\n"
+            f"{start}{percent(self.share.mean())} of the range overturns; lowest found {least:.6g}{unit}.\n"
             f"Intervals and gaps narrower than {self.spacing:.3g}{unit} may be missed"
         )

@@ -49,13 +49,13 @@ class SafeBasin(NotebookPicture):
         amplitudes = self.dataset.amplitude.values
         least = min(range(len(self.shares)), key=lambda k: self.shares[k].value)
         first, last = self.shares[0], self.shares[-1]
-        told = (
+        summary = (
             f"safe fraction: {first} of {first.of:,} initial states at A = {amplitudes[0]:.6g}, {last} at A = {amplitudes[-1]:.6g}, "
             f"lowest {self.shares[least]} at A = {amplitudes[least]:.6g}"
         )
         if np.isnan(self.heteroclinic_amplitude):
-            return told
-        return f"{told}; A* = {self.heteroclinic_amplitude:.6g}, A_M = {self.melnikov_amplitude:.6g}"
+            return summary
+        return f"{summary}; A* = {self.heteroclinic_amplitude:.6g}, A_M = {self.melnikov_amplitude:.6g}"
 
 
 @frozen(eq=False)
@@ -126,8 +126,8 @@ class ChaosShare(NotebookPicture):
 
     def __str__(self) -> str:
         pairs = zip(self.dataset.restitution.values, self.shares, strict=True)
-        told = ", ".join(f"{share} at e = {restitution:.6g}" for restitution, share in pairs)
-        return f"chaotic fraction: {told}, of {self.shares[0].of:,} responses each"
+        fractions = ", ".join(f"{share} at e = {restitution:.6g}" for restitution, share in pairs)
+        return f"chaotic fraction: {fractions}, of {self.shares[0].of:,} responses each"
 
 
 @frozen
@@ -175,8 +175,8 @@ class Repeatability(NotebookPicture):
         return Share(0, share.of, share.of) if first is Kind.UNDETERMINED else share
 
     def __str__(self) -> str:
-        told = ", ".join(f"{name} {share}" for name, share in self.responses.items())
-        return f"{self.repeats.of:,} runs with inputs off by up to {100.0 * self.relative:.3g} %: {told}"
+        responses = ", ".join(f"{name} {share}" for name, share in self.responses.items())
+        return f"{self.repeats.of:,} runs with inputs off by up to {100.0 * self.relative:.3g} %: {responses}"
 
 
 @frozen(eq=False)

@@ -117,10 +117,10 @@ class OrbitDiagram(ReadOnlyArrays, NotebookPicture):
             if len(values) > 1
             else f"{values[0]:.6g}"
         )
-        told = "; ".join(
+        overturnings = "; ".join(
             _overturnings(way, fell, values) for way, fell in zip(self.sweeps, self.overturned, strict=True)
         )
-        return f"orbit diagram over {self.parameter} {span}, {self.cycles:,} points each after {self.transient:,} cycles: {told}"
+        return f"orbit diagram over {self.parameter} {span}, {self.cycles:,} points each after {self.transient:,} cycles: {overturnings}"
 
 
 def _overturnings(way: str, fell: np.ndarray, values: np.ndarray) -> str:

@@ -191,9 +191,9 @@ def _random_dataset(system: System, starts: np.ndarray, measure: Measurement, an
 def _attach(found: xr.Dataset, labels: np.ndarray, names: list[str]) -> None:
     """Add the variable `attractor`, the attractor of each initial state, to a dataset."""
     words = [name.replace(",", "").replace("(", "").replace(")", "").replace(" ", "-") for name in names]
-    told = {
+    metadata = {
         "long_name": "attractor of the initial state, in descending order of area fraction",
         "flag_values": np.arange(len(names), dtype=np.int32),
         "flag_meanings": " ".join(words),
     }
-    found["attractor"] = (found.kind.dims, labels.reshape(found.kind.shape).astype(np.int32), told)
+    found["attractor"] = (found.kind.dims, labels.reshape(found.kind.shape).astype(np.int32), metadata)

@@ -134,9 +134,9 @@ def _summed_up(
         "restitution": ("restitution", restitutions, coordinate("restitution")),
         "response": ("response", [str(kind) for kind in KINDS], {"long_name": "kind of response"}),
     }
-    told = attributes(HarmonicSpec({}, dict(fixed)), measure) | {
+    metadata = attributes(HarmonicSpec({}, dict(fixed)), measure) | {
         "samples": of,
         "seed": seed,
         **{f"{name}_range": list(ends) for name, ends in spans.items()},
     }
-    return ChaosShare(xr.Dataset(variables, coordinates, told), shares)
+    return ChaosShare(xr.Dataset(variables, coordinates, metadata), shares)

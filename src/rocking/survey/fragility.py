@@ -248,10 +248,15 @@ def _dataset(
         "effective_records": (fractions.effective, "number of independent records behind the interval"),
     }
     variables: dict[str, Any] = {
-        name: (over, values.T, {"long_name": told, "units": "1"}) for name, (values, told) in columns.items()
+        name: (over, values.T, {"long_name": long_name, "units": "1"})
+        for name, (values, long_name) in columns.items()
     }
-    told = ("lognormal fit", "lower end of the 95 % band of the fit", "upper end of the 95 % band of the fit")
-    for number, (name, text) in enumerate(zip(("fit", "fit_low", "fit_high"), told, strict=True)):
+    long_names = (
+        "lognormal fit",
+        "lower end of the 95 % band of the fit",
+        "upper end of the 95 % band of the fit",
+    )
+    for number, (name, text) in enumerate(zip(("fit", "fit_low", "fit_high"), long_names, strict=True)):
         variables[name] = (over, curves[:, number], {"long_name": text, "units": "1"})
     rocks = {"long_name": "fraction of the runs that rock", "units": "1"}
     variables["rocking"] = ("scale", rocking.mean(axis=(0, 1)), rocks)

@@ -158,6 +158,6 @@ def of_block(found: xr.Dataset, asked: MotionSpec, records: RecordSet, block: Bl
         kept = {name: value for name, value in found.attrs.items() if name != "scale"}
         found = found.expand_dims(scale=1, axis=-1).assign_coords(scale=level)
         found.attrs = kept
-    told = {"long_name": "record"}
-    named = found.assign_coords(name=("record", list(records.names), told))
+    metadata = {"long_name": "record"}
+    named = found.assign_coords(name=("record", list(records.names), metadata))
     return named.assign_attrs(block_attributes(block))

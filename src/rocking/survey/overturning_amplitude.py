@@ -178,9 +178,9 @@ def _summed_up(scan: Scan, lowest: np.ndarray, phase: np.ndarray) -> Overturning
         name: (
             dims,
             np.reshape(values, tuple(sizes[each] for each in dims)),
-            {"long_name": told, "units": unit} | ({"comment": note} if note else {}),
+            {"long_name": long_name, "units": unit} | ({"comment": note} if note else {}),
         )
-        for name, (dims, values, told, unit, note) in columns.items()
+        for name, (dims, values, long_name, unit, note) in columns.items()
     }
     coordinates = {name: (name, scan.kinds[name].values, coordinate(name)) for name in sizes}
     return OverturningCurve(xr.Dataset(variables, coordinates, attributes(scan.asked, scan.measure)))

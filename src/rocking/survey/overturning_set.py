@@ -160,8 +160,8 @@ def overturning_set(
         finally:
             for future in futures:
                 future.cancel()
-    told = {"intensity": intensity, "angle": angle, "polarity": float(polarity), "model": model}
-    return OverturningSet(_dataset(scans, scales, measure, chosen, told), chosen, block)
+    options = {"intensity": intensity, "angle": angle, "polarity": float(polarity), "model": model}
+    return OverturningSet(_dataset(scans, scales, measure, chosen, options), chosen, block)
 
 
 def scan(work: Work, scales: np.ndarray, stop: np.ndarray) -> Scan:
@@ -223,7 +223,7 @@ def locate_switches(run: Runs, scales: np.ndarray, grid: Arrays) -> np.ndarray:
 
 
 def _dataset(
-    scans: list[Scan], scales: np.ndarray, measure: Intensity, records: RecordSet, told: dict[str, Any]
+    scans: list[Scan], scales: np.ndarray, measure: Intensity, records: RecordSet, options: dict[str, Any]
 ) -> xr.Dataset:
     """Return the dataset of the result."""
     import xarray as xr
@@ -259,7 +259,7 @@ def _dataset(
         "Conventions": "CF-1.11",
         "title": "Overturning set of a block under ground motions",
         "source": f"rocking {VERSION}",
-        **told,
+        **options,
         "records_sha256": records.digest,
     }
     return xr.Dataset(variables, coordinates, attributes)

@@ -162,10 +162,10 @@ def judge(at: Points, options: Mapping[str, int], stop: np.ndarray) -> Arrays | 
         tried = perturbed(
             at, np.tile(units, (len(at.systems), 1)), options["relative_millionths"] * MILLIONTH
         )
-        told = verdicts(tried, options, stop)
-        if told is None:
+        arrays = verdicts(tried, options, stop)
+        if arrays is None:
             return None
-        counts[np.arange(len(counts)), told.kind] += 1
+        counts[np.arange(len(counts)), arrays.kind] += 1
     shares = (counts / options["samples"]).astype(np.float32)
     known = np.delete(shares, kernel.UNDETERMINED, axis=1)
     return {

@@ -122,15 +122,15 @@ def described(found: xr.Dataset, asked: MotionSpec, records: RecordSet) -> xr.Da
     """Return a dataset with names and peak accelerations of its records, and α of its sizes."""
     if "record" in found.dims:
         pga = np.array([motion.pga for motion in records])
-        told = {"long_name": "peak ground acceleration", "units": "m/s²"}
+        metadata = {"long_name": "peak ground acceleration", "units": "m/s²"}
         found = found.assign_coords(
-            name=("record", list(records.names), {"long_name": "record"}), pga=("record", pga, told)
+            name=("record", list(records.names), {"long_name": "record"}), pga=("record", pga, metadata)
         )
     else:
         found.attrs["record"] = records.names[0]
     if "size" in found.dims:
         ratio = asked.fixed["inertia_ratio"]
         alpha = [frequency_parameter(size, ratio) for size in found["size"].values.tolist()]
-        told = {"long_name": "frequency parameter", "symbol": "α", "units": "1/s"}
-        found = found.assign_coords(frequency_parameter=("size", np.array(alpha), told))
+        metadata = {"long_name": "frequency parameter", "symbol": "α", "units": "1/s"}
+        found = found.assign_coords(frequency_parameter=("size", np.array(alpha), metadata))
     return found

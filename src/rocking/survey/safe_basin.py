@@ -147,11 +147,11 @@ def _summed_up(
         open_ones,
         {"long_name": "fraction of the initial states whose response is undetermined", "units": "1"},
     )
-    told = attributes(asked, measure) | {
+    metadata = attributes(asked, measure) | {
         "samples": shares[0].of,
         **drawn,
         "heteroclinic_amplitude": exact,
         "melnikov_amplitude": first_order,
     }
     coordinates = {"amplitude": ("amplitude", asked.axes["amplitude"], coordinate("amplitude"))}
-    return SafeBasin(xr.Dataset(variables, coordinates, told), shares, exact, first_order)
+    return SafeBasin(xr.Dataset(variables, coordinates, metadata), shares, exact, first_order)

@@ -12,7 +12,7 @@ from attrs import frozen
 from rocking.cli.input.axis import VARIES, Axis
 from rocking.cli.input.options import question
 from rocking.cli.input.study_file import Check, number, quantity
-from rocking.cli.option_names import AXIS_FORM, SI, TOLD, YourInput, option
+from rocking.cli.option_names import AXIS_FORM, QUANTITIES, SI, YourInput, option
 from rocking.model import Block, instance, quantities, reals, refusal, whole
 
 
@@ -49,7 +49,7 @@ def normalised(given: Mapping[str, Any]) -> dict[str, Any]:
     points = {VARIES.get(name, name): span.points for name, span in varied.items()}
     asked = {
         name: np.linspace(first[name], last[name], points[name]) if name in points else first[name]
-        for name in TOLD
+        for name in QUANTITIES
         if name in first
     }
     return asked | lists

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from rocking.cli.option_names import TOLD, YourInput, option, your_input
+from rocking.cli.option_names import QUANTITIES, YourInput, option, your_input
 from rocking.model import (
     PHYSICAL,
     SAME_IN_SI,
@@ -90,7 +90,9 @@ def with_fixed(
     count = len(next(iter(table.values())))
     first = {str(name): table[str(name)] for name in varied}
     return (
-        first | {name: np.full(count, quantities[name]) for name in TOLD if name in quantities} | dict(table)
+        first
+        | {name: np.full(count, quantities[name]) for name in QUANTITIES if name in quantities}
+        | dict(table)
     )
 
 

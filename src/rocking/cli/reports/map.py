@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from rocking.cli.option_names import COUNTS, TOLD
+from rocking.cli.option_names import COUNTS, QUANTITIES
 from rocking.cli.output.console import Row, print_json, print_table
 from rocking.cli.reports.motion import asked_in_si, beyond, in_si
 from rocking.cli.reports.validity import warned, warnings
@@ -45,7 +45,7 @@ def _asked(found: xr.Dataset, block: Block | None) -> Iterator[Row]:
     for name in map(str, found.kind.dims):
         first, last = found[name].values[[0, -1]]
         yield name, f"{first:.6g} to {last:.6g}", in_si(name, (first, last), block)
-    for name in (*TOLD, "max_cycles"):
+    for name in (*QUANTITIES, "max_cycles"):
         if name in found.attrs:
             value = found.attrs[name]
             yield name.replace("_", " "), f"{value:.6g}", in_si(name, value, block)
@@ -76,7 +76,7 @@ def record(
     }
     return {
         "axes": axes,
-        **{name: found.attrs[name] for name in (*TOLD, *COUNTS) if name in found.attrs},
+        **{name: found.attrs[name] for name in (*QUANTITIES, *COUNTS) if name in found.attrs},
         "points": sum(kinds.values()),
         "kinds": kinds,
         "evidence": criteria,

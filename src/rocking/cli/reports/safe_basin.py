@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from rocking.cli.option_names import START, TOLD
+from rocking.cli.option_names import QUANTITIES, START
 from rocking.cli.output.console import Row, print_json, print_table
 from rocking.cli.output.files import columns, with_block, with_fixed, write_result
 from rocking.cli.output.survey_run import MAX_ROWS, share_record
@@ -117,7 +117,7 @@ def record(found: SafeBasin, block: Block | None, files: Sequence[Path]) -> dict
         )
     ]
     return {
-        **{name: data.attrs[name] for name in TOLD if name in data.attrs},
+        **{name: data.attrs[name] for name in QUANTITIES if name in data.attrs},
         "angle": data.attrs["angle_range"],
         "velocity": data.attrs["velocity_range"],
         "samples": data.attrs["samples"],

@@ -50,10 +50,10 @@ CURVES = {
 }
 
 
-def check(names: Iterable[str], axes: Iterable[str], told: Mapping[str, Any]) -> tuple[str, ...]:
+def check(names: Iterable[str], axes: Iterable[str], attributes: Mapping[str, Any]) -> tuple[str, ...]:
     """Return the names of curves; raise for an unknown name, or if curves do not apply to the map.
 
-    `axes` are the names of the map's axes, the vertical axis first; `told` are its attributes.
+    `axes` are the names of the map's axes, the vertical axis first; `attributes` are those of its dataset.
     """
     if isinstance(names, str):
         names = (names,)
@@ -66,28 +66,34 @@ def check(names: Iterable[str], axes: Iterable[str], told: Mapping[str, Any]) ->
         "lie over a map of the amplitude and the period, frequency or restitution",
         f"{upward} and {across}",
     )
-    if names and "brace_angle" in told:
+    if names and "brace_angle" in attributes:
         raise ValueError(
             refusal(
-                "curves", "lie over a map of a block without braces", f"brace_angle = {told['brace_angle']}"
+                "curves",
+                "lie over a map of a block without braces",
+                f"brace_angle = {attributes['brace_angle']}",
             )
         )
     return names
 
 
 def draw(
-    ax: Axes, names: Iterable[str], axes: dict[str, np.ndarray], told: dict[str, Any], turns: dict[str, Any]
+    ax: Axes,
+    names: Iterable[str],
+    axes: dict[str, np.ndarray],
+    attributes: dict[str, Any],
+    turns: dict[str, Any],
 ) -> list[Line2D]:
     """Draw checked curves over a map and return their legend handles."""
-    return [_line(ax, CURVES[name], axes, told, turns) for name in names]
+    return [_line(ax, CURVES[name], axes, attributes, turns) for name in names]
 
 
 def _line(
-    ax: Axes, curve: Curve, axes: dict[str, np.ndarray], told: dict[str, Any], turns: dict[str, Any]
+    ax: Axes, curve: Curve, axes: dict[str, np.ndarray], attributes: dict[str, Any], turns: dict[str, Any]
 ) -> Line2D:
     (_, heights), (across, values) = axes.items()
     places = np.linspace(values[0], values[-1], POINTS)
-    given = dict(told) | {across: places}
+    given = dict(attributes) | {across: places}
     period = math.tau / given["frequency"] if "frequency" in given else given["period"]
     period, restitution = np.broadcast_arrays(period, given["restitution"])
     lines = lines_of(curve, period, restitution, heights[0], heights[-1])

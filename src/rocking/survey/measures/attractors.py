@@ -17,7 +17,7 @@ from rocking.response import budget, classify
 from rocking.survey.harmonic_spec import Points, points
 from rocking.survey.measurement import Arrays, Measurement, Variable
 from rocking.survey.measures.chaotic_means import averages, grouped
-from rocking.survey.measures.response import VARIABLES, judged
+from rocking.survey.measures.response import VARIABLES, variables_of
 from rocking.survey.measures.verdicts import anchors, verdicts
 
 SAME = 1e-6
@@ -91,26 +91,26 @@ def classify_with_anchor(
     The state is in `orbit_angle` and `orbit_velocity`. Returns None if another thread sets `stop`.
     """
     asked = points(values, fixed)
-    told = verdicts(asked, {"max_cycles": max_cycles, "max_period": max_period}, stop)
-    if told is None:
+    arrays = verdicts(asked, {"max_cycles": max_cycles, "max_period": max_period}, stop)
+    if arrays is None:
         return None
-    angles, velocities = anchors(asked, told).T
-    return judged(told) | {"orbit_angle": angles, "orbit_velocity": velocities}
+    angles, velocities = anchors(asked, arrays).T
+    return variables_of(arrays) | {"orbit_angle": angles, "orbit_velocity": velocities}
 
 
 def judge(points: Points, options: Mapping[str, int], stop: np.ndarray) -> Arrays | None:
     """Return the classification with the representative state and the chaotic mean of each attractor."""
-    told = verdicts(points, options, stop)
-    if told is None:
+    arrays = verdicts(points, options, stop)
+    if arrays is None:
         return None
-    states = anchors(points, told)
+    states = anchors(points, arrays)
     # an undamped system has no attractor, and its mean angle does not converge in any practical time
     means = averages(
-        points, (told.kind == verdict_record.CHAOTIC) & ~points.lossless, options["max_cycles"], stop
+        points, (arrays.kind == verdict_record.CHAOTIC) & ~points.lossless, options["max_cycles"], stop
     )
     if stop[0]:
         return None
-    answers = judged(told)
+    answers = variables_of(arrays)
     columns = zip((*ANCHORS, *AVERAGES), (*states.T, *means.T), strict=True)
     return {name: answers[name] for name in (*KEPT, "transient", "cycles")} | {
         each.name: np.ascontiguousarray(column) for each, column in columns

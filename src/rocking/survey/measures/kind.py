@@ -26,8 +26,8 @@ def outcome(max_cycles: int, max_period: int, title: str) -> Measurement:
 
 def judge(points: Points, options: Mapping[str, int], stop: np.ndarray) -> Arrays | None:
     """Return the kind of response at points; None if another thread sets `stop`."""
-    told = verdicts(points, options, stop)
-    return None if told is None else {"kind": told.kind}
+    arrays = verdicts(points, options, stop)
+    return None if arrays is None else {"kind": arrays.kind}
 
 
 def interval_variables(
@@ -40,6 +40,6 @@ def interval_variables(
         f"{name}_high": ([each.high for each in shares], f"{meaning}, upper end of its 95 % interval"),
     }
     return {
-        part: (dimension, np.array(values), {"long_name": told, "units": "1"})
-        for part, (values, told) in parts.items()
+        part: (dimension, np.array(values), {"long_name": long_name, "units": "1"})
+        for part, (values, long_name) in parts.items()
     }

@@ -106,8 +106,8 @@ def response(max_cycles: int, max_period: int, title: str) -> Measurement:
 
 def judge(points: Points, options: Mapping[str, int], stop: np.ndarray) -> Arrays | None:
     """Return the verdicts at points, with the conventions of `classify`; None if another thread sets `stop`."""
-    told = verdicts(points, options, stop)
-    return None if told is None else judged(told)
+    arrays = verdicts(points, options, stop)
+    return None if arrays is None else variables_of(arrays)
 
 
 def classify_points(
@@ -124,23 +124,23 @@ def classify_points(
     return judge(points(values, fixed), {"max_cycles": max_cycles, "max_period": max_period}, stop)
 
 
-def judged(told: results.ResultArrays) -> Arrays:
+def variables_of(arrays: results.ResultArrays) -> Arrays:
     """Return the results of the classification by the names of the variables."""
-    open_ = np.flatnonzero(told.kind == kernel.UNDETERMINED)
-    unweighed = open_[~np.isin(told.ground[open_], kernel.WEIGHED)]
-    exponent, error = told.exponent.copy(), told.error.copy()
+    open_ = np.flatnonzero(arrays.kind == kernel.UNDETERMINED)
+    unweighed = open_[~np.isin(arrays.ground[open_], kernel.WEIGHED)]
+    exponent, error = arrays.exponent.copy(), arrays.error.copy()
     exponent[unweighed], error[unweighed] = math.nan, math.nan
-    periodic = told.kind == kernel.PERIODIC
+    periodic = arrays.kind == kernel.PERIODIC
     return {
-        "kind": told.kind,
-        "evidence": told.ground,
-        "response_period": told.period,
-        "impacts_per_period": told.impacts,
-        "brace_hits_per_period": told.brace_hits,
-        "symmetric": np.where(periodic, told.symmetric, NOT_PERIODIC).astype(np.uint8),
+        "kind": arrays.kind,
+        "evidence": arrays.ground,
+        "response_period": arrays.period,
+        "impacts_per_period": arrays.impacts,
+        "brace_hits_per_period": arrays.brace_hits,
+        "symmetric": np.where(periodic, arrays.symmetric, NOT_PERIODIC).astype(np.uint8),
         "exponent": exponent,
         "exponent_error": error,
-        "peak": told.peak,
-        "transient": transient_of(told).astype(np.int32),
-        "cycles": told.cycles,
+        "peak": arrays.peak,
+        "transient": transient_of(arrays).astype(np.int32),
+        "cycles": arrays.cycles,
     }

@@ -36,10 +36,10 @@ def sampled(
                 futures.append(pool.submit(measure.judge, part, measure.options, stop))
             answers = []
             for future in futures:
-                told = future.result()
-                if told is not None:
-                    answers.append(told)
-                    add(len(next(iter(told.values()))))
+                result = future.result()
+                if result is not None:
+                    answers.append(result)
+                    add(len(next(iter(result.values()))))
         finally:
             for future in futures:
                 future.cancel()

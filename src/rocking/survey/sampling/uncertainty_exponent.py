@@ -44,14 +44,14 @@ def exponent(reach: np.ndarray, labels: np.ndarray) -> UncertaintyExponent | Non
     """
     elsewhere = (labels[..., 1:] != labels[..., :1]).any(axis=-1)
     counts, each = elsewhere.sum(axis=1), elsewhere.shape[1]
-    told = counts < each
-    if counts[told].sum() < MIN_BOUNDARY or np.count_nonzero(counts[told]) < 3:
+    informative = counts < each
+    if counts[informative].sum() < MIN_BOUNDARY or np.count_nonzero(counts[informative]) < 3:
         return None
-    logs = np.log(reach[told])
+    logs = np.log(reach[informative])
     design = np.column_stack([np.ones(logs.size), logs - logs.mean()])
-    fitted, information = _scored(design, counts[told].astype(float), float(each))
+    fitted, information = _scored(design, counts[informative].astype(float), float(each))
     shares = np.minimum(np.exp(design @ fitted), 1.0 - 1e-9)
-    squares = (counts[told] - each * shares) ** 2 / (each * shares * (1.0 - shares))
+    squares = (counts[informative] - each * shares) ** 2 / (each * shares * (1.0 - shares))
     misfit = float(squares.sum() / max(logs.size - 2, 1))
     error = float(np.sqrt(np.linalg.inv(information)[1, 1] * max(misfit, 1.0)))
     half = NormalDist().inv_cdf(0.5 + 0.5 * LEVEL) * error

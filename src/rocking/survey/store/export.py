@@ -39,9 +39,11 @@ def counts(found: xr.Dataset, name: str) -> dict[str, int]:
     return {meaning: int(total[value]) for value, meaning in meanings.items()}
 
 
-def flags(told: Mapping[str, Any]) -> dict[int, str]:
+def flags(metadata: Mapping[str, Any]) -> dict[int, str]:
     """Return the meanings of the values of a variable from its attributes."""
-    return dict(zip(np.asarray(told["flag_values"]).tolist(), told["flag_meanings"].split(), strict=True))
+    return dict(
+        zip(np.asarray(metadata["flag_values"]).tolist(), metadata["flag_meanings"].split(), strict=True)
+    )
 
 
 def tables(found: xr.Dataset) -> Iterator[dict[str, np.ndarray]]:
@@ -103,9 +105,9 @@ def to_netcdf(found: xr.Dataset, path: str | os.PathLike[str]) -> None:
             begin = end
 
 
-def _plain(told: dict[Any, Any], dtype: Any = None) -> dict[str, Any]:
+def _plain(metadata: dict[Any, Any], dtype: Any = None) -> dict[str, Any]:
     """Convert attributes for netCDF; flags get the type of their variable."""
     return {
         str(name): np.asarray(value, dtype) if isinstance(value, list | np.ndarray) else value
-        for name, value in told.items()
+        for name, value in metadata.items()
     }

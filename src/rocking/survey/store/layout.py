@@ -159,10 +159,10 @@ def _join(path: str, name: str, there: np.ndarray, here: np.ndarray) -> tuple[np
     )
 
 
-def _flat(told: Mapping[str, Any]) -> dict[str, Any]:
+def _flat(metadata: Mapping[str, Any]) -> dict[str, Any]:
     """Return the compared properties by their names in messages."""
-    alone = {name: told.get(name) for name in ("survey", "over", "variables", "method", "format")}
-    return alone | dict(told.get("fixed", {})) | dict(told.get("options", {}))
+    alone = {name: metadata.get(name) for name in ("survey", "over", "variables", "method", "format")}
+    return alone | dict(metadata.get("fixed", {})) | dict(metadata.get("options", {}))
 
 
 def _difference(name: str, there: Any, here: Any) -> str:

@@ -183,8 +183,8 @@ class Store:
         mine = fingerprint(asked, self.measure)
         if not (self.path / ROOT).exists():
             layout = new_layout(asked)
-            told = {NAME: mine | described_layout(layout)}
-            return layout, zarr.create_group(self.files, zarr_format=3, attributes=told)
+            metadata = {NAME: mine | described_layout(layout)}
+            return layout, zarr.create_group(self.files, zarr_format=3, attributes=metadata)
         with reading(self.path):
             root = zarr.open_group(self.files, mode="r+", zarr_format=3, use_consolidated=False)
         stored: Any = root.attrs.get(NAME)

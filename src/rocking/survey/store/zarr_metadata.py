@@ -25,11 +25,11 @@ def make_groups(
     """Return one group for each level, with the attributes of the survey; groups that are not ``there`` are created."""
     from zarr.core.group import GroupMetadata
 
-    told = _plain(attributes(asked, measure))
-    found = _made(files, {level.name: GroupMetadata(told) for level in levels}, there)
+    metadata = _plain(attributes(asked, measure))
+    found = _made(files, {level.name: GroupMetadata(metadata) for level in levels}, there)
     for group in found.values():
-        if group.attrs.asdict() != told:
-            group.attrs.put(told)
+        if group.attrs.asdict() != metadata:
+            group.attrs.put(metadata)
     return list(found.values())
 
 
@@ -99,7 +99,7 @@ def _array(
     dtype: str,
     fill: float,
     names: list[str],
-    told: dict[str, Any],
+    metadata: dict[str, Any],
 ) -> Any:
     from zarr.core.metadata import ArrayV3Metadata
 
@@ -116,7 +116,7 @@ def _array(
             "fill_value": "NaN" if math.isnan(fill) else fill,
             "codecs": codecs(dtype),
             "dimension_names": names,
-            "attributes": _plain(told),
+            "attributes": _plain(metadata),
         }
     )
 
@@ -137,6 +137,8 @@ def _chunks(array: zarr.Array, values: np.ndarray) -> Iterator[tuple[str, bytes]
         yield f"{array.path}/c/{number}", encoded(values[first : first + edge], (edge,), math.nan)
 
 
-def _plain(told: dict[str, Any]) -> dict[str, Any]:
+def _plain(metadata: dict[str, Any]) -> dict[str, Any]:
     """Return attributes with lists instead of arrays, for JSON."""
-    return {name: value.tolist() if isinstance(value, np.ndarray) else value for name, value in told.items()}
+    return {
+        name: value.tolist() if isinstance(value, np.ndarray) else value for name, value in metadata.items()
+    }
