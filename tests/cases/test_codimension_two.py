@@ -285,7 +285,7 @@ MIRRORED = rk.System(
 MERGES = "merges with the branch from which it bifurcates"
 
 
-@pytest.mark.parametrize("step", [0.003, 0.01, 0.02])
+@pytest.mark.parametrize("step", [0.003, 0.01, 0.02, 0.04, 0.06, 0.095])
 def test_a_curve_of_folds_of_doubled_orbits_ends_where_they_merge_with_any_step(step):
     """With the step 0.02 the kernel passes both points, and follows the same orbits one period later until the loop is closed."""
     (curve,) = curves_of(*CASES["damped"])

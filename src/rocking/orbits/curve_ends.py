@@ -13,8 +13,11 @@ from rocking.orbits.curve_zeros import Bracket, Test, locate_zero
 from rocking.orbits.event_chain import Chain, End, Special
 from rocking.orbits.parent_branch import CONDITION, half_differences, parent_of
 
-ALMOST_EQUAL = 0.1
-"""Largest distance of the halves of a chain, in rad, at the last point of a curve before a point at which they are equal."""
+LOST_WITHIN = 0.1
+"""Largest distance of the halves of a chain, in rad, at the end of a curve that is lost because they become equal.
+
+With any step, curves were lost at distances from 0.005 to 0.01.
+"""
 REACHES = (2.0, 4.0, 8.0)
 """Lengths beyond the last point, in units of the extrapolated one, in which an end is searched for."""
 
@@ -63,9 +66,15 @@ def until_parent(rows: CurveRows, start: int) -> CurveRows:
     if len(after):
         high, last = int(after[0]) + 1, End.MERGED
     cut = rows._replace(rows=points[low:high])
-    first = End.MERGED if first == End.LOST and _extrapolate_merger(cut.rows, cut) is not None else first
-    last = End.MERGED if last == End.LOST and _extrapolate_merger(cut.rows[::-1], cut) is not None else last
+    first = End.MERGED if first == End.LOST and _nears_merger(cut.rows, cut) else first
+    last = End.MERGED if last == End.LOST and _nears_merger(cut.rows[::-1], cut) else last
     return cut._replace(ends=(first, last))
+
+
+def _nears_merger(inwards: np.ndarray, rows: CurveRows) -> bool:
+    """Return whether both halves of the chain are almost equal at an end of a curve, and less so inwards."""
+    distance = np.linalg.norm(half_differences(rows.chain, inwards[:1, :-1]))
+    return bool(distance <= LOST_WITHIN) and _extrapolate_merger(inwards, rows) is not None
 
 
 def _extrapolate_merger(inwards: np.ndarray, rows: CurveRows) -> tuple[int, float] | None:
@@ -78,11 +87,11 @@ def _extrapolate_merger(inwards: np.ndarray, rows: CurveRows) -> tuple[int, floa
     tuple of (int, float) or None
         Index of a point whose squared distance is more than twice that of the first point.
         Distance of the place from the first point, as a fraction of the distance of these two points.
-        None if the halves are not almost equal at the first point.
+        None if there is no such point.
     """
     squares = (half_differences(rows.chain, inwards[:, :-1]) ** 2).sum(axis=1)
     far = int(np.argmax(squares > 2.0 * squares[0]))
-    if far == 0 or squares[0] > ALMOST_EQUAL**2:
+    if far == 0:
         return None
     return far, float(squares[0] / (squares[far] - squares[0]))
 
