@@ -47,6 +47,27 @@ def test_title_gives_the_value_to_the_second_digit_of_its_error(spectrum):
     assert rk.plot.convergence(spectrum).get_title(loc="right") == rf"$\lambda_1$ = {value:.3f} ± {error:.3f}"
 
 
+def test_title_has_the_minus_sign_of_the_axis():
+    periodic = rk.lyapunov(rk.System(rk.Harmonic(2.0, period=1.0), 0.925), cycles=500)
+    title = rk.plot.convergence(periodic).get_title(loc="right")
+    assert title.startswith(r"$\lambda_1$ = −0.15")
+    assert "-" not in title
+
+
+def test_block_gives_exponents_per_second(spectrum):
+    block = rk.Block(2.0, 0.5)
+    normal, physical = (rk.plot.convergence(spectrum, block=each) for each in (None, block))
+    rate = block.frequency_parameter
+    for gid in ("running", "final"):
+        expected = rate * np.array(artist(normal, gid).get_ydata())
+        np.testing.assert_allclose(artist(physical, gid).get_ydata(), expected, rtol=1e-14)
+    (path,), (scaled,) = (artist(ax, "error").get_paths() for ax in (normal, physical))
+    np.testing.assert_allclose(scaled.vertices[:, 1], rate * path.vertices[:, 1], rtol=1e-14)
+    assert physical.get_ylabel() == r"exponent $\lambda_1$ (1/s)"
+    value, error = rate * spectrum.values[0], rate * spectrum.errors[0]
+    assert physical.get_title(loc="right") == rf"$\lambda_1$ = {value:.3f} ± {error:.3f}"
+
+
 def test_zero_is_drawn_where_it_comes_into_view(spectrum):
     far = {child.get_gid() for child in rk.plot.convergence(spectrum).get_children()}
     assert "zero" not in far

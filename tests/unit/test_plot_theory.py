@@ -79,7 +79,7 @@ def test_block_gives_si_axes():
     np.testing.assert_allclose(physical[1], np.degrees(block.radians_per_second(normal[1])), rtol=1e-14)
     ax = rk.plot.modes(1.0, 0.8, block=block)
     assert "m/s²" in ax.get_xlabel()
-    assert f"{block.seconds(1.0):.4g} s" in ax.get_title(loc="right")
+    assert f"$T = {block.seconds(1.0):.4g}$ s" in ax.get_title(loc="right")
 
 
 def test_melnikov_shows_both_functions_the_gap_and_the_thresholds():

@@ -5,12 +5,15 @@ import math
 import numpy as np
 from matplotlib.axes import Axes
 
-from rocking.model import instance, plus_minus, whole
+from rocking.model import Block, instance, plus_minus, whole
 from rocking.plot.parts import style
+from rocking.plot.parts.axis_units import Quantities, quantities
 from rocking.response import LyapunovSpectrum
 
 
-def convergence(spectrum: LyapunovSpectrum, ax: Axes | None = None, exponent: int = 1) -> Axes:
+def convergence(
+    spectrum: LyapunovSpectrum, ax: Axes | None = None, exponent: int = 1, block: Block | None = None
+) -> Axes:
     """Plot the running average of a Lyapunov exponent against the number of cycles, with its error as a band.
 
     Parameters
@@ -21,6 +24,8 @@ def convergence(spectrum: LyapunovSpectrum, ax: Axes | None = None, exponent: in
         Axes to draw into. Default: a new figure, one column wide.
     exponent : int
         1 for λ₁, 2 for λ₂. Default: 1.
+    block : Block, optional
+        Block for exponents per second. Default: exponents per τ.
 
     Returns
     -------
@@ -52,16 +57,18 @@ def convergence(spectrum: LyapunovSpectrum, ax: Axes | None = None, exponent: in
     """
     instance("spectrum", spectrum, LyapunovSpectrum)
     row = whole("exponent", exponent, 1, 2) - 1
-    final, error = float(spectrum.values[row]), float(spectrum.errors[row])
+    shown = quantities(block)
+    final, error = (float(shown.frequency(each[row])) for each in (spectrum.values, spectrum.errors))
     ax = style.own(ax)
     ax.set_xscale("log")
     if final == -math.inf:
         _superstable(ax, spectrum.cycles)
     else:
-        _running(ax, spectrum, row)
-    style.label(ax, "cycles averaged over", rf"exponent $\lambda_{exponent}$ per $\tau$")
+        _running(ax, spectrum, row, shown)
+    unit = r"per $\tau$" if block is None else "(1/s)"
+    style.label(ax, "cycles averaged over", rf"exponent $\lambda_{exponent}$ {unit}")
     style.logarithmic(ax.xaxis)
-    style.note(ax, rf"$\lambda_{exponent}$ = {plus_minus(final, error)}")
+    style.note(ax, rf"$\lambda_{exponent}$ = {plus_minus(final, error)}".replace("-", "−"))
     return ax
 
 
@@ -74,10 +81,11 @@ def _superstable(ax: Axes, cycles: int) -> None:
     )
 
 
-def _running(ax: Axes, spectrum: LyapunovSpectrum, row: int) -> None:
+def _running(ax: Axes, spectrum: LyapunovSpectrum, row: int, shown: Quantities) -> None:
     """Draw the running average with its error, its final value, and zero if it lies within the axes."""
     history = spectrum.history
-    cycles, values, errors = history["cycles"], history["values"][:, row], history["errors"][:, row]
+    cycles = history["cycles"]
+    values, errors = (shown.frequency(history[name][:, row]) for name in ("values", "errors"))
     known = np.isfinite(errors)
     ax.fill_between(
         cycles[known],
@@ -89,7 +97,11 @@ def _running(ax: Axes, spectrum: LyapunovSpectrum, row: int) -> None:
         gid="error",
     )
     ax.axhline(
-        float(spectrum.values[row]), color=style.GUIDE, linewidth=style.THIN, linestyle="--", gid="final"
+        float(shown.frequency(spectrum.values[row])),
+        color=style.GUIDE,
+        linewidth=style.THIN,
+        linestyle="--",
+        gid="final",
     )
     ax.plot(cycles, values, color=style.MOTION, linewidth=style.LINE, gid="running")
     low, high = ax.get_ylim()

@@ -125,7 +125,7 @@ def modes(
     label = shown.speed_label if quantity == "velocity" else r"forcing phase $\varphi$ at the impact (rad)"
     style.label(ax, x_label, label)
     ax.set_xlim(left=0.0)
-    forced = f"$T = {period:.6g}$" if block is None else f"{block.seconds(period):.4g} s"
+    forced = f"$T = {period:.6g}$" if block is None else f"$T = {block.seconds(period):.4g}$ s"
     style.note(ax, rf"(1, {n}) modes, {forced}, $e = {restitution:.4g}$")
     _explain(ax)
     return ax

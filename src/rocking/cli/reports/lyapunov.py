@@ -22,7 +22,7 @@ def write(spectrum: LyapunovSpectrum, block: Block | None, files: Mapping[str, P
     """Write the plot and the table of the running estimates, and the dataset."""
     write_result(
         files,
-        figure=lambda plot: plot.convergence(spectrum),
+        figure=lambda plot: plot.convergence(spectrum, block=block),
         tables=lambda: [_table(spectrum, block)],
         data=lambda: _dataset(spectrum, block),
     )
