@@ -102,6 +102,17 @@ def test_curves_have_a_look_a_kind():
     np.testing.assert_allclose(across.lines[0].get_ydata(), BLOCK.acceleration(curves[0].points[:, 1]))
 
 
+def test_legend_of_two_types_of_curves_lies_within_the_figure():
+    system = rk.System(rk.Harmonic(4.0, period=2.0), 0.9)
+    found = rk.bifurcation_set(system, 1, grid=3, period=(1.5, 2.5), amplitude=(3.0, 12.0))
+    ax = rk.plot.bifurcation_curve(found.curves)
+    ax.figure.canvas.draw()
+    names = [text.get_text() for text in ax.get_legend().get_texts()]
+    assert names == ["period doubling, period 1", "symmetry breaking, period 1"]
+    box, page = ax.get_legend().get_window_extent(), ax.figure.bbox
+    assert page.x0 <= box.x0 < box.x1 <= page.x1
+
+
 def test_types_of_curves_have_no_colour_of_a_map_and_a_white_edge():
     """Each differs from every colour of a map by a tenth of the range of a channel at least."""
     shown = [to_rgb(look.colour) for look in LOOKS]

@@ -177,8 +177,11 @@ def logarithmic(axis: Axis) -> None:
 
 
 def key(ax: Axes) -> None:
-    """Draw a legend of all labelled artists, with marks of normal size."""
-    for mark in ax.legend(**BELOW, ncols=2, columnspacing=1.2).get_lines():
+    """Draw a legend of all labelled artists, with marks of normal size; in one column if two do not fit into the figure."""
+    legend = ax.legend(**BELOW, ncols=2, columnspacing=1.2)
+    if legend.get_window_extent().width > ax.figure.bbox.width:
+        legend = ax.legend(**BELOW)
+    for mark in legend.get_lines():
         mark.set(markersize=MARK, markeredgewidth=0.8)
 
 
