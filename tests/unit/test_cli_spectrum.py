@@ -194,6 +194,14 @@ REFUSED = {
         "set --size 2:1:3 --slenderness-deg 10",
         "--size must hold two numbers or more in [0.001, 1000], asc",
     ),
+    "slenderness": (
+        "set --size 1:2:3 --slenderness-deg 100",
+        "--slenderness-deg must lie in [0.00572958, 89.9544]; got 100",
+    ),
+    "descending slenderness": (
+        "set --size 1:2:3 --slenderness-deg 10:5:3",
+        "--slenderness-deg must hold two numbers or more in [0.00572958, 89.9544], ascending; got 10.0 before 7.5",
+    ),
     "squat": (
         "set --size 1:2:3 --slenderness-deg 60",
         "--slenderness-deg, in rad, must be a critical angle in rad for which",

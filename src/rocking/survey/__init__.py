@@ -11,6 +11,7 @@ from rocking.survey.incremental_dynamic_analysis import incremental_dynamic_anal
 from rocking.survey.measures.attractors import alike, classify_with_anchor
 from rocking.survey.measures.block_endings import BlockEndings
 from rocking.survey.measures.response import classify_points
+from rocking.survey.motion_spec import SLENDERNESSES
 from rocking.survey.overturning_amplitude import MAX_PHASES, overturning_amplitude
 from rocking.survey.overturning_set import overturning_set
 from rocking.survey.overturning_spectrum import overturning_spectrum
@@ -22,6 +23,7 @@ from rocking.survey.rocking_spectrum import rocking_spectrum
 from rocking.survey.safe_basin import safe_basin
 from rocking.survey.sampling.random_points import MAX_SAMPLES, MAX_SEED
 from rocking.survey.sensitivity import sensitivity
+from rocking.survey.spec import number_or_axis
 from rocking.survey.store.export import counts, tables, to_netcdf
 
 __all__ = [
@@ -29,6 +31,7 @@ __all__ = [
     "MAX_PHASES",
     "MAX_SAMPLES",
     "MAX_SEED",
+    "SLENDERNESSES",
     "BlockEndings",
     "alike",
     "basin_map",
@@ -40,6 +43,7 @@ __all__ = [
     "counts",
     "fragility",
     "incremental_dynamic_analysis",
+    "number_or_axis",
     "overturning_amplitude",
     "overturning_set",
     "overturning_spectrum",

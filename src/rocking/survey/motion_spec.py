@@ -28,9 +28,11 @@ from rocking.model import (
 from rocking.survey.spec import SurveySpec, Values, number_or_axis
 
 MAX_LEVEL = 1e6
+SLENDERNESSES = 1e-4, 1.57
+"""Range of the critical angle, rad."""
 QUANTITIES: dict[str, tuple[str, str, str, tuple[float, float]]] = {
     "size": ("R", "distance from a corner to the centre of mass", "m", SIZES),
-    "slenderness": ("θcr", "critical angle", "rad", (1e-4, 1.57)),
+    "slenderness": ("θcr", "critical angle", "rad", SLENDERNESSES),
     "restitution": ("e", "coefficient of restitution", "1", RANGES["restitution"]),
     "angle": ("Θ", "initial angle in units of theta_cr", "1", RANGES["angle"]),
     "polarity": ("±", "direction of the ground motion", "1", (-1.0, 1.0)),

@@ -83,8 +83,14 @@ def _arguments(given: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, str]
 
 
 def _radians(degrees: Any) -> Any:
+    """Return a slenderness or an axis in rad; YourInput outside its range, in degrees as typed."""
     import numpy as np
 
+    from rocking.survey import SLENDERNESSES, number_or_axis
+
+    low, high = map(math.degrees, SLENDERNESSES)
+    with your_input():
+        number_or_axis("--slenderness-deg", degrees, (low, high))
     return np.radians(degrees) if np.ndim(degrees) else math.radians(degrees)
 
 
