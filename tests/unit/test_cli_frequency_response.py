@@ -100,6 +100,8 @@ def test_block_in_si_has_its_units_beside(rocking, tmp_path, axis, key):
     assert (read["block"][key]["start"], read["block"][key]["stop"]) == pytest.approx((first, last))
     assert read["block"]["acceleration_m_per_s2"] == pytest.approx(4.0)
     for branch in read["branches"]:
+        assert branch["peak_deg"] == pytest.approx(block.degrees(branch["peak"]))
+    for branch in read["branches"]:
         assert first <= branch["peak_at"][key] <= last
     with (tmp_path / "a.csv").open(encoding="utf-8") as file:
         rows = [row for row in csv.DictReader(file) if row["branch"] == "from rest"]

@@ -150,6 +150,7 @@ def _branch(branch: Branch, block: Block | None) -> dict[str, Any]:
         "points": len(branch),
         "stable_points": int(branch.points["stable"].sum()),
         "peak": peak,
+        **({} if block is None else {"peak_deg": float(block.degrees(peak))}),
         "peak_at": value_record(branch.name, place, block),
         "special": [
             {"kind": one.kind} | value_record(one.name, one.parameter, block) for one in branch.special
