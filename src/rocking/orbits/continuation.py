@@ -26,7 +26,7 @@ from rocking.orbits.event_chain import (
     solved,
 )
 from rocking.orbits.parameter import check_range, check_step, value_of
-from rocking.orbits.return_map_branch import followed
+from rocking.orbits.return_map_branch import branch_through
 
 MAX_SPECIAL = 1000
 # Largest relative deviation of the parameter at the first point of a branch from its value for the given orbit.
@@ -113,9 +113,9 @@ def continue_orbit(
     step = check_step(step)
     most = whole("max_points", max_points, 2, 1_000_000)
     if orbit.superstable:
-        return resting_branch.followed(orbit, parameter, (low, high), step, most)
+        return resting_branch.branch_through(orbit, parameter, (low, high), step, most)
     if orbit.system.critical_angle is not None:
-        return followed(orbit, parameter, (low, high), step, most)
+        return branch_through(orbit, parameter, (low, high), step, most)
     chain = chain_of(orbit)
     there = solved(chain, parameter, here, chain.phases)
     row = there.phases if there.found else np.append(chain.phases, here)

@@ -116,10 +116,10 @@ def find_orbit(system: System, guess: State, period: int) -> Orbit:
             reached,
             float(out[3]),
         )
-    return _begun_near(orbit, guess)
+    return _start_near(orbit, guess)
 
 
-def _begun_near(orbit: Orbit, guess: State) -> Orbit:
+def _start_near(orbit: Orbit, guess: State) -> Orbit:
     """Return the orbit that starts in the cycle whose start is nearest to the guess.
 
     Newton's method ends in the cycle after the guess, and the closed chain begins after its first event.

@@ -60,7 +60,7 @@ def _merged_end(rows: CurveRows, inwards: np.ndarray) -> CurveEnd | None:
     if rows.condition.kind != Special.GRAZING:
         return None
     own = _locally(rows, inwards[0]).condition
-    found = _halved(rows.chain, own, inwards[0])
+    found = _half_of(rows.chain, own, inwards[0])
     if found is None:
         return None
     parent, touch, near = found
@@ -69,7 +69,7 @@ def _merged_end(rows: CurveRows, inwards: np.ndarray) -> CurveEnd | None:
     return _around(other, Test(f"{kind}-grazing", lambda of, at: multiplier(of, at, 1.0)), near)
 
 
-def _halved(chain: Chain, touch: Condition, row: np.ndarray) -> tuple[Chain, Condition, np.ndarray] | None:
+def _half_of(chain: Chain, touch: Condition, row: np.ndarray) -> tuple[Chain, Condition, np.ndarray] | None:
     """Return the chain, the touch and the phases of an orbit that repeats after half a chain, almost; None if it does not."""
     parent = parent_of(chain)
     if parent is None or np.abs(half_differences(chain, row[None, :-1])).max() > EQUAL_AT_GRAZING:
@@ -91,7 +91,7 @@ def _vanished_end(rows: CurveRows, inwards: np.ndarray) -> CurveEnd | None:
         other, test = rows._replace(chain=kept, condition=touch.condition, local=True), DEGENERATE_GRAZING
         if rows.condition.kind == Special.GRAZING:
             own = _without(_locally(rows, inwards[0]).condition, chain, kept)
-            found = _halved(kept, touch.condition, near)
+            found = _half_of(kept, touch.condition, near)
             if found is not None:
                 parent, condition, near = found
                 other = other._replace(chain=parent, condition=condition)

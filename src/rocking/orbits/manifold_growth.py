@@ -21,7 +21,7 @@ def region(response: float, frequency: float) -> np.ndarray:
     return np.array([1.0 + response, 1.0 + response * (1.0 + frequency)]) + MARGIN
 
 
-def grown(
+def grow(
     images: Callable[[np.ndarray], np.ndarray], times: np.ndarray, spacing: float, box: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray, bool]:
     """Grow a curve from its points at ``times``; ``images`` returns its points (n, 2) at any times (n,).

@@ -26,7 +26,7 @@ from rocking.model import (
 from rocking.motion import monodromy
 from rocking.orbits.datasets import of_manifolds
 from rocking.orbits.event_chain import clocked
-from rocking.orbits.manifold_growth import MAX_POINTS, grown, pieces, region
+from rocking.orbits.manifold_growth import MAX_POINTS, grow, pieces, region
 from rocking.orbits.saddle_manifolds import SPACINGS, Manifold
 from rocking.orbits.saddle_orbits import check_reversible, parameters, too_many_impacts
 
@@ -225,7 +225,7 @@ def _followed(
     times, points, covered, resolved = np.zeros(1), images(np.zeros(1)), 0.0, True
     for number in range(MAX_RETURNS):
         first = np.linspace(number, number + 1, FIRST_POINTS + 1)
-        more, new, resolved = grown(images, first, spacing, box)
+        more, new, resolved = grow(images, first, spacing, box)
         times, points = np.concatenate([times, more[1:]]), np.concatenate([points, new[1:]])
         inside = (np.abs(new) <= box).all(axis=1)
         steps = np.hypot(*np.diff(new, axis=0).T)

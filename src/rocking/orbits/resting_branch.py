@@ -142,7 +142,7 @@ def _is_symmetric(motion: Motion, begun: float, whole: float) -> bool:
     return bool(np.abs(np.array(motion.at(times)) + np.array(motion.at(times + half))).max() < SYMMETRIC)
 
 
-def followed(orbit: Orbit, name: str, bounds: tuple[float, float], step: float, most: int) -> Branch:
+def branch_through(orbit: Orbit, name: str, bounds: tuple[float, float], step: float, most: int) -> Branch:
     """Return the branch of an orbit that rests or stays in contact with a brace: ``continue_orbit`` for superstable orbits.
 
     Raises

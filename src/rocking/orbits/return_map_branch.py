@@ -25,7 +25,7 @@ ALONG = np.array([0.0, 0.0, 1.0])
 SAME_TRACE = 1e-2
 
 
-def followed(orbit: Orbit, name: str, bounds: tuple[float, float], step: float, most: int) -> Branch:
+def branch_through(orbit: Orbit, name: str, bounds: tuple[float, float], step: float, most: int) -> Branch:
     """Return the branch of an orbit over a parameter in a range: ``continue_orbit`` for the full block.
 
     Raises
@@ -71,7 +71,7 @@ def follow(way: ReturnMap, first: Point, direction: np.ndarray, step: float, mos
             if moved is not None and moved.near > here.near:
                 sense = np.sign(direction[2] * moved.tangent[2]) or 1.0
                 here, direction = moved, sense * moved.tangent
-        there, reason = advanced(way, here, direction, length)
+        there, reason = advance(way, here, direction, length)
         if there is None:
             length *= 0.5
             if length < SMALLEST * step:
@@ -92,7 +92,7 @@ def follow(way: ReturnMap, first: Point, direction: np.ndarray, step: float, mos
     return Half(points, specials, ENDS[end])
 
 
-def advanced(way: ReturnMap, here: Point, direction: np.ndarray, length: float) -> tuple[Point | None, End]:
+def advance(way: ReturnMap, here: Point, direction: np.ndarray, length: float) -> tuple[Point | None, End]:
     """Return the next point, or None and what may be the reason."""
     near = here.unknowns + length * direction
     normal = direction

@@ -20,7 +20,7 @@ from rocking.model import (
     whole,
     within,
 )
-from rocking.orbits.manifold_growth import grown, pieces, region
+from rocking.orbits.manifold_growth import grow, pieces, region
 from rocking.orbits.saddle_orbits import check, parameters, response, saddle, too_many_impacts
 
 MAX_CYCLES = 100
@@ -195,7 +195,7 @@ def _manifold(
     box = region(response(system), system.harmonic.frequency)
     p = parameters(system, phase, backward)
     first = np.linspace(0.0, cycles * p.forcing.period, FIRST_POINTS * cycles + 1)
-    times, points, resolved = grown(partial(_images, p, side), first, spacing, box)
+    times, points, resolved = grow(partial(_images, p, side), first, spacing, box)
     centre = np.array(saddle(system, -phase if backward else phase, side))
     end = centre + side * (2.0 * box.max())
     moments, curve = pieces(times, points, spacing, box)
