@@ -233,11 +233,11 @@ NORMALISED = "--period 1 --restitution 0.9"
         ),
         (
             f"--amplitude 3:2 {NORMALISED} --response-period 1 --angle 3",
-            "the initial state must not overturn within 2 cycles; got State(angle=3.0, velocity=0.0) (give --angle and",
+            "the initial state must not overturn within 2 cycles; got --angle 3 and --velocity 0 (give --angle and",
         ),
         (
             f"--amplitude 3:2 {NORMALISED} --response-period 5 --angle 0.3",
-            "no orbit of period 5 was found from State(angle=0.3, velocity=0.0)",
+            "no orbit of period 5 was found from --angle 0.3 and --velocity 0",
         ),
         (f"--amplitude 3:2 {NORMALISED} --response-period 1 --angle 0.81", "orbit must have an impact"),
         (

@@ -97,9 +97,11 @@ def _nearest(study: Study, response_period: int) -> Orbit:
     from rocking.model import whole
     from rocking.orbits import find_orbit
 
-    with your_input(GUESS):
+    start = study.start
+    given = {repr(start): f"--angle {start.angle:.6g} and --velocity {start.velocity:.6g}"}
+    with your_input(GUESS | given):
         period = whole("--response-period", response_period, 1, MAX_RESPONSE_PERIOD)
-        orbit = find_orbit(study.system, study.start, period)
+        orbit = find_orbit(study.system, start, period)
     if orbit.period != period:
         raise YourInput(
             f"the orbit found near the initial state must have --response-period {period}; got period {orbit.period} "
