@@ -2,6 +2,7 @@
 
 import sys
 
+import attrs
 import numpy as np
 import pytest
 
@@ -108,6 +109,19 @@ def test_each_tick_has_its_number_and_the_legend_lies_below_the_axes(found, bloc
     legend, axes = ax.get_legend().get_window_extent(), ax.get_window_extent()
     assert axes.x0 < legend.x0
     assert legend.x1 < axes.x1
+
+
+@pytest.mark.parametrize("name", ["restitution", "brace_restitution"])
+def test_the_longest_label_fits_the_figure(name):
+    braces = rk.Braces(angle=3.0, restitution=0.5)
+    orbit = rk.classify(rk.System(DAMPED.forcing, 0.8, braces)).orbit
+    special = rk.continue_orbit(orbit, "restitution", (0.75, 0.82)).special[0]
+    found = rk.cascade(special, (0.75, 0.82), doublings=2)
+    special = attrs.evolve(special, name=name)
+    ax = rk.plot.cascade(attrs.evolve(found, special=(special, *found.special[1:])))
+    ax.figure.draw_without_rendering()
+    extent = ax.yaxis.label.get_window_extent()
+    assert 0.0 <= extent.y0 < extent.y1 <= ax.figure.bbox.y1
 
 
 def test_a_single_doubling_has_no_picture(found):

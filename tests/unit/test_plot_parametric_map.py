@@ -309,3 +309,18 @@ def test_what_cannot_be_drawn_is_refused_in_one_line(tmp_path):
         rk.plot.parametric_map(found.rename(period="phase"), curves=["melnikov"])
     with pytest.raises(ValueError, match="found must be the folder of a map's store"):
         rk.plot.parametric_map(tmp_path)
+
+
+def test_the_longest_name_fits_the_vertical_axis():
+    found = rk.parametric_map(
+        brace_restitution=[0.5, 0.7],
+        period=[1.0, 1.1],
+        amplitude=4.0,
+        restitution=0.8,
+        brace_angle=0.3,
+        max_cycles=200,
+    )
+    ax = rk.plot.parametric_map(found)
+    ax.figure.draw_without_rendering()
+    extent = ax.yaxis.label.get_window_extent()
+    assert 0.0 <= extent.y0 < extent.y1 <= ax.figure.bbox.y1

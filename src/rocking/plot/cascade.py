@@ -87,7 +87,9 @@ def cascade(result: Cascade, ax: Axes | None = None, block: Block | None = None)
         label="to next doubling",
         gid="distances",
     )
-    style.label(ax, "period of the orbit (forcing cycles)", f"distance in {shown_as}")
+    # in one line, a coefficient of restitution is longer than the figure is high
+    distance = f"distance in {shown_as}".replace(" coefficient", "\ncoefficient")
+    style.label(ax, "period of the orbit (forcing cycles)", distance)
     ax.set_xscale("log", base=2)
     ax.set_xticks(periods, [f"{period}" for period in periods])
     ax.set_yscale("log")

@@ -149,10 +149,11 @@ def label(ax: Axes, x: str, y: str) -> None:
     """Label both axes and set the sizes of ticks and frame.
 
     The horizontal axis has few ticks, so that their numbers fit. Numbers are complete: no axis has an offset text.
+    The name of the coefficient of restitution of the braces is longer than a figure is high, and broken there.
     """
     ax.xaxis.set_major_locator(MaxNLocator(5, steps=[1, 2, 2.5, 5, 10]))
     ax.set_xlabel(x, fontsize=TEXT, color=INK)
-    ax.set_ylabel(y, fontsize=TEXT, color=INK)
+    ax.set_ylabel(y.replace(" of the braces", "\nof the braces"), fontsize=TEXT, color=INK)
     ax.tick_params(labelsize=SMALL, color=INK, labelcolor=INK, width=THIN)
     for axis in (ax.xaxis, ax.yaxis):
         axis.get_offset_text().set(fontsize=SMALL, color=INK)
