@@ -168,3 +168,44 @@ def test_multipliers_match_differences_in_forty_digits(orbits, index):
     scale = max(1.0, abs(one))
     assert float(trace) == pytest.approx((one + other).real, abs=1e-10 * scale)
     assert float(determinant) == pytest.approx((one * other).real, abs=1e-10 * scale)
+
+
+def derivative_of(orbit, step=1e-6):
+    """Differences of the return map over a period."""
+    begun = evolve(orbit.system, forcing=evolve(orbit.system.forcing, phase=orbit.phase))
+    columns = []
+    for angle, velocity in ((step, 0.0), (0.0, step)):
+        ends = [
+            rk.simulate(
+                begun,
+                rk.State(orbit.state.angle + sign * angle, orbit.state.velocity + sign * velocity),
+                cycles=orbit.period,
+            ).final
+            for sign in (1.0, -1.0)
+        ]
+        columns.append([(ends[0].angle - ends[1].angle), (ends[0].velocity - ends[1].velocity)])
+    return np.array(columns).T / (2.0 * step)
+
+
+@pytest.mark.parametrize(
+    "system",
+    [
+        rk.System(rk.Harmonic(amplitude=8.0, period=2.0), 0.0),
+        rk.System(
+            rk.Harmonic(amplitude=2.5838043644402964, period=1.37517120435794),
+            0.99,
+            rk.Braces(angle=0.2864545540060415, restitution=0.0),
+        ),
+    ],
+    ids=["base", "braces"],
+)
+def test_multipliers_where_an_impact_takes_all_speed(system):
+    """The phase of the impact is all that is left of a perturbation, so that one multiplier is 0."""
+    lost = [each for each in rk.find_orbits(system, 1) if each.impacts and not each.superstable]
+    lost = [each for each in lost if system.restitution == 0.0 or each.brace_hits]
+    assert len(lost) >= 2
+    for orbit in lost:
+        first = np.trace(derivative_of(orbit))
+        assert orbit.multipliers == (pytest.approx(first, rel=1e-6), 0.0)
+        assert orbit.stable == (abs(first) < 1.0)
+    assert system.restitution == 0.0 or any(orbit.stable for orbit in lost)

@@ -142,3 +142,18 @@ def test_a_block_on_a_base_at_rest_has_no_orbit_with_impacts():
     """Each impact takes energy, so that no motion with impacts repeats itself."""
     system = rk.System(rk.Harmonic(amplitude=0.0, period=1.7), restitution=0.925)
     assert not [orbit for orbit in rk.find_orbits(system, 3) if orbit.impacts]
+
+
+@pytest.mark.parametrize("name", ["restitution", "brace_restitution"])
+def test_an_orbit_that_loses_all_speed_at_an_impact_is_not_followed(name):
+    braces = rk.Braces(angle=0.2864545540060415, restitution=0.0)
+    braced = rk.System(rk.Harmonic(amplitude=2.5838043644402964, period=1.37517120435794), 0.99, braces)
+    system = rk.System(rk.Harmonic(amplitude=8.0, period=2.0), 0.0) if name == "restitution" else braced
+    found = [orbit for orbit in rk.find_orbits(system, 1) if not orbit.superstable]
+    lost = [orbit for orbit in found if (orbit.impacts if name == "restitution" else orbit.brace_hits)]
+    assert len(lost) >= 2
+    for orbit in lost:
+        with pytest.raises(
+            ValueError, match=rf"^orbit must keep some speed at each impact .* 'one at {name} 0' \(find"
+        ):
+            rk.continue_orbit(orbit, "amplitude", (1.0, 10.0))

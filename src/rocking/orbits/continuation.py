@@ -19,6 +19,7 @@ from rocking.orbits.event_chain import (
     End,
     branch_table,
     chain_of,
+    check_speeds,
     clocked,
     equations,
     null_direction,
@@ -77,7 +78,8 @@ def continue_orbit(
         If an argument is of the wrong type.
     ValueError
         If the parameter is unknown, or belongs to braces that the system does not have. If the range is empty or does not
-        contain the value for `orbit`. If the orbit grazes or is a branch point, unless it rests.
+        contain the value for `orbit`. If the orbit grazes or is a branch point, unless it rests. If a slender block loses all
+        speed at an impact without a rest, because the coefficient of restitution is 0.
 
     See Also
     --------
@@ -116,6 +118,7 @@ def continue_orbit(
         return resting_branch.branch_through(orbit, parameter, (low, high), step, most)
     if orbit.system.critical_angle is not None:
         return branch_through(orbit, parameter, (low, high), step, most)
+    check_speeds(orbit)
     chain = chain_of(orbit)
     there = solved(chain, parameter, here, chain.phases)
     row = there.phases if there.found else np.append(chain.phases, here)

@@ -109,6 +109,16 @@ def chain_of(orbit: Orbit) -> Chain:
     return Chain(orbit.system, orbit.period, orbit.symmetric, kinds[:count], side, np.asarray(psi[:count]))
 
 
+def check_speeds(orbit: Orbit) -> None:
+    """Refuse an orbit with an impact that takes all speed: the kernels do not tell it from a grazing."""
+    braces, allowed = orbit.system.braces, "keep some speed at each impact to be followed"
+    remedy = "find it at a coefficient of restitution of 0.001 or more"
+    if orbit.system.restitution == 0.0 and orbit.impacts:
+        raise ValueError(refusal("orbit", allowed, "one at restitution 0", remedy))
+    if braces is not None and braces.restitution == 0.0 and orbit.brace_hits:
+        raise ValueError(refusal("orbit", allowed, "one at brace_restitution 0", remedy))
+
+
 def solved(chain: Chain, parameter: str, value: float, phases: np.ndarray) -> Solved:
     """Solve for the orbit at one value of a parameter, by Newton's method from approximate phases.
 

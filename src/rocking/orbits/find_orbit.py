@@ -159,12 +159,17 @@ def mirrored_half(chain: Chain) -> Chain | None:
 
 
 def _with_multipliers(orbit: Orbit) -> Orbit:
-    """Return an orbit of the full block with its multipliers and events, from the motion over one period."""
+    """Return an orbit with its multipliers and events, from the motion over one period.
+
+    So are those of the full block, and of an impact that takes all speed: its chain cannot be solved.
+    """
     begun = clocked(orbit.system, orbit.phase)
     derivative = monodromy(begun, orbit.state, orbit.period)
     determinant = float(np.linalg.det(derivative))
-    if not orbit.system.restitution_table and orbit.system.braces is None:
-        determinant = orbit.system.restitution ** (2 * (orbit.impacts or 0))  # no cancellation
+    if not orbit.system.restitution_table:  # no cancellation
+        determinant = orbit.system.restitution ** (2 * (orbit.impacts or 0))
+        if orbit.system.braces is not None:
+            determinant *= orbit.system.braces.restitution ** (2 * (orbit.brace_hits or 0))
     events, frequency = simulate(begun, orbit.state, cycles=orbit.period).events, begun.periodic.frequency
     return evolve(
         orbit,
@@ -230,10 +235,10 @@ def orbit_from(system: System, phase: float, state: State, period: int) -> Orbit
     chain = chain_of(orbit)
     found = solved(chain, "amplitude", system.periodic.amplitude, chain.phases)
     if not found.found:
-        return orbit if orbit.residual <= SAME else None
+        return _with_multipliers(orbit) if orbit.residual <= SAME else None
     half = mirrored_half(chain._replace(phases=found.phases[:-1]))
     if half is not None:
         chain, found = half, solved(half, "amplitude", system.periodic.amplitude, half.phases)
         if not found.found:
-            return orbit if orbit.residual <= SAME else None
+            return _with_multipliers(orbit) if orbit.residual <= SAME else None
     return orbit_of(chain, "amplitude", found.phases, found.trace, found.determinant)
