@@ -165,3 +165,21 @@ def test_what_cannot_be_followed_is_refused_in_one_line(branch, call, says):
         call(branch)
     assert says in str(refused.value)
     assert "\n" not in str(refused.value)
+
+
+@pytest.mark.parametrize("name", ["amplitude", "brace_angle"])
+def test_newtons_method_beyond_a_brace_shortens_the_step(name):
+    """The predictor leaves the range between the braces: that was an error of the initial state of a motion."""
+    braces = rk.Braces(angle=0.44, restitution=0.87)
+    system = rk.System(rk.Harmonic(amplitude=2.38, period=2.28), 0.88, braces, critical_angle=0.38)
+    value = 2.38 if name == "amplitude" else 0.44
+    orbits = [each for each in rk.find_orbits(system, 1) if each.brace_hits]
+    assert orbits
+    for orbit in orbits:
+        branch = rk.continue_orbit(orbit, name, (0.7 * value, 1.3 * value), step=0.05)
+        assert len(branch) > 10
+        assert not orbit.stable or branch.ends == ("end of the range", "end of the range")
+        for index in (0, len(branch) // 2, len(branch) - 1):
+            found = branch.orbit(index)
+            assert found.residual < 1e-9
+            assert (found.impacts, found.brace_hits) == (branch.impacts, branch.brace_hits)

@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from attrs import evolve, frozen
 
-from rocking.model import Orbit, Outcome, State, System
+from rocking.model import Orbit, Outcome, State, System, check_start
 from rocking.motion import Motion, monodromy, simulate
 from rocking.orbits.event_chain import clocked, multipliers_of, quiet_phase
 from rocking.orbits.find_orbit import RESTING, orbit_from
@@ -70,8 +70,18 @@ class ReturnMap:
         """Return the system with its parameter, and with time measured from the section."""
         return clocked(with_value(self.system, self.name, self.value(unknowns)), phase)
 
+    def begins(self, unknowns: np.ndarray) -> bool:
+        """Return whether a motion can begin at a state: Newton's method may reach one beyond a brace or flat on the ground."""
+        try:
+            check_start(with_value(self.system, self.name, self.value(unknowns)), _state(unknowns))
+        except ValueError:
+            return False
+        return True
+
     def image(self, phase: float, unknowns: np.ndarray) -> np.ndarray | None:
-        """Return the state a period later; None if the block overturns before."""
+        """Return the state a period later; None if the block overturns before, or if no motion can begin at the state."""
+        if not self.begins(unknowns):
+            return None
         motion = simulate(self.begun(phase, unknowns), _state(unknowns), cycles=self.period, record="none")
         if motion.outcome is Outcome.OVERTURNED:
             return None
@@ -147,7 +157,7 @@ class ReturnMap:
 
         Where symmetry breaks, nothing else keeps Newton's method on it.
         """
-        if not self.symmetric:
+        if not (self.symmetric and self.begins(unknowns)):
             return unknowns
         return np.append(0.5 * (unknowns[:2] + self._half_later(phase, unknowns)), unknowns[2])
 

@@ -104,7 +104,7 @@ def advance(way: ReturnMap, here: Point, direction: np.ndarray, length: float) -
         near[2], normal = edge, ALONG
     there = way.corrected(here.phase, near, normal)
     if there is None:
-        grazes = way.counts(here.phase, near) != (here.impacts, here.brace_hits)
+        grazes = way.begins(near) and way.counts(here.phase, near) != (here.impacts, here.brace_hits)
         return None, End.GRAZED if grazes else End.LOST
     if normal is ALONG:
         there = there._replace(unknowns=np.append(there.unknowns[:2], near[2]))
