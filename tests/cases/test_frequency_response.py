@@ -194,7 +194,7 @@ def test_where_there_is_no_orbit_it_says_so():
         (dict(period=None), TypeError, "give exactly one of period, frequency; got none"),
         (dict(period=1.0), ValueError, "period must be 2 to 100,000 different finite numbers; got 1.0"),
         (dict(period=[1.0, math.nan]), ValueError, "period must be 2 to 100,000 different finite numbers"),
-        (dict(period=[-1.0, 1.0]), ValueError, "bounds of period must lie in"),
+        (dict(period=[-1.0, 1.0]), ValueError, "period must lie in"),
         (dict(period="T"), TypeError, "period must be a real number or an array of real numbers; got 'T'"),
         (dict(amplitude=0.0), ValueError, "amplitude must be above 0"),
         (dict(amplitude=-1.0), ValueError, r"amplitude must lie in \[0, 1000\]; got -1.0"),

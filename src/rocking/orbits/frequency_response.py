@@ -128,7 +128,7 @@ def _values(name: str, values: Any) -> NDArray[np.float64]:
     ordered = np.unique(reals(name, values))
     if not 2 <= len(ordered) <= MAX_VALUES or not np.isfinite(ordered).all():
         raise ValueError(refusal(name, f"be 2 to {MAX_VALUES:,} different finite numbers", values))
-    check_range(name, (float(ordered[0]), float(ordered[-1])))
+    check_range(name, (float(ordered[0]), float(ordered[-1])), name)
     return ordered
 
 
