@@ -427,3 +427,17 @@ def test_the_example_follows_six_doublings_and_prints_their_ratios(capsys):
     ratios = np.diff(amplitudes)[:-1] / np.diff(amplitudes)[1:]
     assert ratios[-1] == pytest.approx(FEIGENBAUM, abs=1e-3)
     assert f"32 → 64   {amplitudes[-1]:.9f}   {ratios[-1]:.4f}" in capsys.readouterr().out
+
+
+def test_the_orbit_at_a_grazing_end_is_one_of_those_at_its_value():
+    braces = rk.Braces(angle=0.07124858133720009, restitution=1.0)
+    system = rk.System(rk.Harmonic(amplitude=3.058737897197251, period=1.601346285674916), 0.97, braces)
+    values = []
+    for orbit in rk.find_orbits(system, 1):
+        if orbit.impacts and not orbit.superstable:
+            branch = rk.continue_orbit(orbit, "restitution", (0.388, 1.0), step=0.05, max_points=400)
+            for index in (0, -1):
+                if branch.ends[index] == "grazing":
+                    values.append(branch.points["parameter"][index])
+                    assert len(branch.at(float(values[-1]))) >= 1
+    assert values

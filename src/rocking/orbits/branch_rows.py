@@ -43,7 +43,8 @@ class ChainRows(NamedTuple):
             near = near + share * (self.rows[index + 1] - near)
         there = solved(self.chain, self.name, value, near)
         if not there.found:
-            return None
+            # a grazing end, where a motion may touch or not, is known although it is not found again
+            return None if share else self.orbit(index)
         return orbit_of(self.chain, self.name, there.phases, there.trace, there.determinant)
 
     def section(self, phase: float) -> np.ndarray:
