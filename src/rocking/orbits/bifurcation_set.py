@@ -121,7 +121,8 @@ def bifurcation_set(
     Notes
     -----
     Completeness is not guaranteed. A curve is missed if the branches that meet it contain no orbit of the grid, and do not
-    bifurcate from branches that do. A larger `grid` and a smaller `step` make this less likely.
+    bifurcate from branches that do. A larger `grid` and a smaller `step` make this less likely. Orbits with impacts that take
+    all speed, because a coefficient of restitution is 0, are not followed.
 
     A grazing after which an orbit has no impact is not followed. Without braces it lies at A = 1 + Ω², where the saddle orbit
     Θ = ±(1 + β cos ψ) reaches the base, because β = A/(1 + Ω²).
