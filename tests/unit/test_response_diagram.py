@@ -326,3 +326,12 @@ def test_dataset_over_the_period_holds_the_periods_of_the_responses():
     assert data.orbit_period.values.tolist() == [
         rk.classify(rk.System(rk.Harmonic(5.5, period=period), 0.925)).period or 0 for period in (0.3, 1.0)
     ]
+
+
+def test_braces_that_a_varied_angle_adds_are_among_the_constant_parameters():
+    system = rk.System(rk.Harmonic(2.0, period=1.0), 0.9)
+    diagram = rk.response_diagram(system, "brace_angle", [0.2, 0.3], max_cycles=100)
+    responses = {verdict.system.braces.restitution for verdict in diagram.verdicts}
+    assert responses == {diagram.fixed["brace_restitution"]}
+    assert diagram.to_xarray().attrs["brace_restitution"] == diagram.fixed["brace_restitution"]
+    assert "brace_angle" not in diagram.fixed

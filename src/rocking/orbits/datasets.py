@@ -14,7 +14,6 @@ from rocking.orbits.parameter import fixed_quantities
 if TYPE_CHECKING:
     import xarray as xr
 
-    from rocking.model import System
     from rocking.orbits.bifurcation_curve import BifurcationCurve
     from rocking.orbits.bifurcation_set import BifurcationSet
     from rocking.orbits.branch import Branch
@@ -103,7 +102,7 @@ def of_curve(curve: BifurcationCurve) -> xr.Dataset:
     )
     variables |= special_points(curve.names, curve.special)
     attributes = described("Bifurcation curve") | {
-        **_fixed_quantities(curve._rows.chain.system, curve.names),
+        **fixed_quantities(curve._rows.chain.system, *curve.names),
         "kind": curve.kind,
         "orbit_period": curve.period,
         "impacts": curve.impacts,
@@ -144,17 +143,11 @@ def of_curves(found: BifurcationSet) -> xr.Dataset:
         {"long_name": "number of the curve of the special point", "units": "1"},
     )
     attributes = described("Bifurcation set") | {
-        **_fixed_quantities(found.system, found.names),
+        **fixed_quantities(found.system, *found.names),
         "max_period": found.max_period,
         "not_followed": found.not_followed,
     }
     return xr.Dataset(variables, attrs=attributes)
-
-
-def _fixed_quantities(system: System, names: tuple[str, str]) -> dict[str, float]:
-    """Return the parameters of a system except two that vary, by name."""
-    first, second = (fixed_quantities(system, name) for name in names)
-    return {name: value for name, value in first.items() if name in second}
 
 
 def of_cascade(found: Cascade) -> xr.Dataset:

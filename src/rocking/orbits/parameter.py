@@ -75,11 +75,14 @@ def ordered_values(values: ArrayLike, most: int) -> NDArray[np.float64]:
     return ordered
 
 
-def fixed_quantities(system: System, parameter: str) -> dict[str, float]:
-    """Return the parameters of a system that do not vary, by name."""
-    varied = "period" if parameter == "frequency" else parameter
-    found = quantities(system)
-    return {name: found[name] for name in found if name not in ("frequency", varied)}
+def fixed_quantities(system: System, *varied: str) -> dict[str, float]:
+    """Return the parameters of a system that do not vary, by name. A varied brace angle adds braces if there are none."""
+    if "brace_angle" in varied:
+        system = with_value(system, "brace_angle", 1.0)
+    found, left_out = quantities(system), {"frequency", *varied}
+    if "frequency" in varied:
+        left_out.add("period")
+    return {name: value for name, value in found.items() if name not in left_out}
 
 
 def check_range(parameter: str, bounds: tuple[float, float], argument: str = "bounds") -> tuple[float, float]:

@@ -38,7 +38,7 @@ from rocking.plot.branch import branch
 from rocking.plot.cascade import cascade
 from rocking.plot.chaos_share import chaos_share
 from rocking.plot.convergence import convergence
-from rocking.plot.correlation_dimension import dimension
+from rocking.plot.correlation_dimension import correlation_dimension
 from rocking.plot.fragility import fragility
 from rocking.plot.frequency_response import frequency_response
 from rocking.plot.grazing_transition import grazing_transition
@@ -81,7 +81,7 @@ __all__ = [
     "cascade",
     "chaos_share",
     "convergence",
-    "dimension",
+    "correlation_dimension",
     "fragility",
     "frequency_response",
     "grazing_transition",
@@ -122,7 +122,7 @@ for kind, draw in (
     (BifurcationSet, bifurcation_set),
     (Branch, branch),
     (Cascade, cascade),
-    (CorrelationDimension, dimension),
+    (CorrelationDimension, correlation_dimension),
     (LyapunovSpectrum, convergence),
     (SpectralDensity, spectrum),
     (FrequencyResponse, frequency_response),

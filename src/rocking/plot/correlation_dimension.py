@@ -7,7 +7,7 @@ from rocking.plot.parts import style
 from rocking.response import CorrelationDimension
 
 
-def dimension(result: CorrelationDimension, ax: Axes | None = None) -> Axes:
+def correlation_dimension(result: CorrelationDimension, ax: Axes | None = None) -> Axes:
     """Plot the correlation sum against the radius, its local slopes on the right axis, and the scaling region.
 
     Parameters
@@ -43,7 +43,7 @@ def dimension(result: CorrelationDimension, ax: Axes | None = None) -> Axes:
     >>> import numpy as np
     >>> import rocking as rk
     >>> points = np.random.default_rng(1).random((6_000, 2))
-    >>> ax = rk.plot.dimension(rk.correlation_dimension(points))
+    >>> ax = rk.plot.correlation_dimension(rk.correlation_dimension(points))
     >>> ax.get_xscale(), ax.get_yscale()
     ('log', 'log')
     """

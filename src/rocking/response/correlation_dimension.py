@@ -169,7 +169,7 @@ def correlation_dimension(points: ArrayLike) -> CorrelationDimension:
     See Also
     --------
     lyapunov : Lyapunov exponents.
-    rocking.plot.dimension : Plot the correlation sum and its slopes.
+    rocking.plot.correlation_dimension : Plot the correlation sum and its slopes.
 
     Notes
     -----

@@ -22,7 +22,7 @@ def slopes_axis(ax):
 
 
 def test_line_is_the_correlation_sum_on_logarithmic_axes(square):
-    ax = rk.plot.dimension(square)
+    ax = rk.plot.correlation_dimension(square)
     line = artist(ax, "correlation-sum")
     np.testing.assert_array_equal(line.get_xdata(), square.radii)
     np.testing.assert_array_equal(line.get_ydata(), square.sums)
@@ -30,7 +30,7 @@ def test_line_is_the_correlation_sum_on_logarithmic_axes(square):
 
 
 def test_marks_are_the_local_slopes_between_the_radii(square):
-    right = slopes_axis(rk.plot.dimension(square))
+    right = slopes_axis(rk.plot.correlation_dimension(square))
     (marks,) = (line for line in right.lines if len(line.get_xdata()) == len(square.slopes))
     np.testing.assert_array_equal(marks.get_ydata(), square.slopes)
     assert (marks.get_xdata() > square.radii[:-1]).all()
@@ -38,7 +38,7 @@ def test_marks_are_the_local_slopes_between_the_radii(square):
 
 
 def test_scaling_region_and_interval_are_marked(square):
-    ax = rk.plot.dimension(square)
+    ax = rk.plot.correlation_dimension(square)
     region = artist(ax, "scaling-region").get_extents().transformed(ax.transData.inverted())
     assert (region.x0, region.x1) == pytest.approx(square.scaling_region, rel=1e-9)
     band = artist(slopes_axis(ax), "interval").get_paths()[0].vertices
@@ -47,7 +47,7 @@ def test_scaling_region_and_interval_are_marked(square):
 
 
 def test_radii_have_ticks_that_can_be_read(square):
-    ax = rk.plot.dimension(square)
+    ax = rk.plot.correlation_dimension(square)
     ax.figure.canvas.draw()
     low, high = ax.get_xlim()
     shown = [tick for tick in ax.get_xticks() if low <= tick <= high]
@@ -57,11 +57,13 @@ def test_radii_have_ticks_that_can_be_read(square):
 
 def test_axes_given_is_drawn_into(square):
     _, (left, _) = rk.plot.panels(columns=2)
-    assert rk.plot.dimension(square, left) is left
+    assert rk.plot.correlation_dimension(square, left) is left
 
 
 def test_what_cannot_be_drawn_is_refused_in_one_line():
     with pytest.raises(ValueError, match="^result must hold pairs that scale; got '2 isolated points'$"):
-        rk.plot.dimension(rk.correlation_dimension(np.resize([[0.0, 1.0], [1.0, 0.0]], (1_000, 2))))
+        rk.plot.correlation_dimension(
+            rk.correlation_dimension(np.resize([[0.0, 1.0], [1.0, 0.0]], (1_000, 2)))
+        )
     with pytest.raises(TypeError, match="^result must be a CorrelationDimension; got 3$"):
-        rk.plot.dimension(3)
+        rk.plot.correlation_dimension(3)
