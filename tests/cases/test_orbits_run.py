@@ -257,6 +257,12 @@ def test_without_losses_modes_orbits_and_branches_are_neutral_up_to_the_symmetry
     assert {branch.orbit(i).stability for i in np.flatnonzero(below)[::10]} == {"neutral"}
 
 
+def test_a_range_of_one_value_is_written_as_one():
+    orbit = rk.classify(rk.System(rk.Harmonic(2.0, period=1.0), 0.95)).orbit
+    branch = rk.continue_orbit(orbit, "restitution", (0.9, 1.0))
+    assert ", neutral at 1: " in str(branch)
+
+
 def test_neutral_is_decided_by_the_trace_however_the_multipliers_are_rounded():
     for amplitude in np.linspace(0.5, 24.0, 20):
         mode, orbit = undamped(float(amplitude))

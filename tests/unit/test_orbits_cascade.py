@@ -127,6 +127,9 @@ def test_the_longest_label_fits_the_figure(name):
 def test_a_single_doubling_has_no_picture(found):
     short = rk.cascade(found.special[0], (10.4, 10.6), doublings=6)
     assert len(short.special) == 1
+    assert str(short).startswith(
+        f"cascade of 1 period doubling over amplitude, at {short.values[0]:.9g}, period 1; end"
+    )
     assert short._repr_html_() is None
     assert short.to_xarray()["ratio"].isnull().all()
     with pytest.raises(ValueError, match="result must hold two period doublings or more to be drawn; got 1$"):

@@ -290,7 +290,7 @@ class Branch(ReadOnlyArrays, NotebookPicture):
     def _stable_ranges(self) -> str:
         """Return the ranges of the parameter with stable or neutrally stable orbits, in order along the branch, as text."""
         said = [
-            f"{stability} from " + " and from ".join(f"{low:.6g} to {high:.6g}" for low, high in ranges)
+            f"{stability} " + " and ".join(_extent(f"{low:.6g}", f"{high:.6g}") for low, high in ranges)
             for stability in (Stability.STABLE, Stability.NEUTRAL)
             if (ranges := self._ranges_of(stability))
         ]
@@ -309,3 +309,8 @@ class Branch(ReadOnlyArrays, NotebookPicture):
             within = values[first:after]
             ranges.append((min(*ends, within.min()), max(*ends, within.max())))
         return list(dict.fromkeys(ranges))
+
+
+def _extent(low: str, high: str) -> str:
+    """Return a range of values in words; with six digits it may be a single value."""
+    return f"at {low}" if low == high else f"from {low} to {high}"

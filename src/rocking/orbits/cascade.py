@@ -106,13 +106,12 @@ class Cascade(ReadOnlyArrays, NotebookPicture):
 
     def __str__(self) -> str:
         name, values, periods = self.special[0].name, self.values, self.periods
-        limit = ""
+        limit, reached = "", f"at {values[0]:.9g}, period {periods[0]}"
+        if len(values) > 1:
+            reached = f"{values[0]:.9g} to {values[-1]:.9g}, periods {periods[0]} to {periods[-1]}"
         if len(values) > 3:
             limit = f", accumulation at {plus_minus(*self.accumulation)}, last ratio {self.ratios[-1]:.6g}"
-        return (
-            f"cascade of {counted(len(values), 'period doubling')} over {name}, {values[0]:.9g} to {values[-1]:.9g}, periods "
-            f"{periods[0]} to {periods[-1]}{limit}; end: {self.end}"
-        )
+        return f"cascade of {counted(len(values), 'period doubling')} over {name}, {reached}{limit}; end: {self.end}"
 
 
 def cascade(special: SpecialPoint, bounds: tuple[float, float], doublings: int = 7) -> Cascade:
