@@ -396,6 +396,11 @@ def test_coarse_map_calls_undetermined_what_it_cannot_know():
     assert (first.fields["kind"] == UNDETERMINED).any()
     assert not (first.look == chaotic).any()
     assert (last.look == chaotic).any()
+    # the open points of the coarse map are classified again
+    axes = {"period": np.linspace(1.1, 1.2, 9), "amplitude": np.linspace(6.95, 7.05, 9)}
+    found = rk.parametric_map(**axes, restitution=0.3)
+    names = "kind", "response_period", "symmetric"
+    assert (last.look == looks(*(found[name].values for name in names))).all()
 
 
 def test_starts_beyond_the_braces_are_no_starts():
