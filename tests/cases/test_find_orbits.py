@@ -200,7 +200,7 @@ def derivative_of(orbit, step=1e-6):
     ids=["base", "braces"],
 )
 def test_multipliers_where_an_impact_takes_all_speed(system):
-    """The phase of the impact is all that is left of a perturbation, so that one multiplier is 0."""
+    """After such an impact, a perturbed motion differs only in the phase of the impact, so that one multiplier is 0."""
     lost = [each for each in rk.find_orbits(system, 1) if each.impacts and not each.superstable]
     lost = [each for each in lost if system.restitution == 0.0 or each.brace_hits]
     assert len(lost) >= 2

@@ -110,7 +110,7 @@ def chain_of(orbit: Orbit) -> Chain:
 
 
 def check_speeds(orbit: Orbit) -> None:
-    """Refuse an orbit with an impact that takes all speed: the kernels do not tell it from a grazing."""
+    """Refuse an orbit with an impact that takes all speed: the kernels cannot distinguish it from a grazing."""
     braces, allowed = orbit.system.braces, "keep some speed at each impact to be followed"
     remedy = "find it at a coefficient of restitution of 0.001 or more"
     if orbit.system.restitution == 0.0 and orbit.impacts:

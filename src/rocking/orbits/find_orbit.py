@@ -161,7 +161,7 @@ def mirrored_half(chain: Chain) -> Chain | None:
 def _with_multipliers(orbit: Orbit) -> Orbit:
     """Return an orbit with its multipliers and events, from the motion over one period.
 
-    So are those of the full block, and of an impact that takes all speed: its chain cannot be solved.
+    Used for the full block, and where an impact takes all speed: the equations of such a chain have no solution.
     """
     begun = clocked(orbit.system, orbit.phase)
     derivative = monodromy(begun, orbit.state, orbit.period)

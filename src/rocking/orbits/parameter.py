@@ -35,7 +35,7 @@ MISSING = dict.fromkeys(("brace_angle", "brace_restitution"), "braces=Braces(…
 }
 # Ranges of the model. Towards a coefficient of restitution of 0, an orbit cannot be continued.
 ALLOWED = RANGES | dict.fromkeys(("restitution", "brace_restitution"), (1e-3, 1.0))
-# Largest steps along a branch or a curve, in units of the ranges and of one radian of phase.
+# Range of the largest step along a branch or a curve, in units of the ranges and of one radian of phase.
 STEPS = 1e-6, 0.1
 
 

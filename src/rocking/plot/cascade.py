@@ -87,7 +87,7 @@ def cascade(result: Cascade, ax: Axes | None = None, block: Block | None = None)
         label="to next doubling",
         gid="distances",
     )
-    # in one line, a coefficient of restitution is longer than the figure is high
+    # in one line, the label of a coefficient of restitution is longer than the figure is high
     distance = f"distance in {shown_as}".replace(" coefficient", "\ncoefficient")
     style.label(ax, "period of the orbit (forcing cycles)", distance)
     ax.set_xscale("log", base=2)

@@ -149,7 +149,7 @@ def label(ax: Axes, x: str, y: str) -> None:
     """Label both axes and set the sizes of ticks and frame.
 
     The horizontal axis has few ticks, so that their numbers fit. Numbers are complete: no axis has an offset text.
-    The name of the coefficient of restitution of the braces is longer than a figure is high, and broken there.
+    The name of the coefficient of restitution of the braces is longer than a figure is high. It has two lines there.
     """
     ax.xaxis.set_major_locator(MaxNLocator(5, steps=[1, 2, 2.5, 5, 10]))
     ax.set_xlabel(x, fontsize=TEXT, color=INK)
