@@ -30,9 +30,15 @@ def write(found: OverturningCurve, files: Mapping[str, Path], block: Block | Non
     data = found.dataset
     if block is not None:
         amplitude = PHYSICAL["amplitude"]
-        levels = {_key(name): amplitude.turn(block, data[name].values) for name in LEVELS}
-        unit = {"units": amplitude.cf}
-        data = data.assign({name: (data.lowest.dims, each, unit) for name, each in levels.items()})
+        levels = {
+            _key(name): (
+                data[name].dims,
+                amplitude.turn(block, data[name].values),
+                {"long_name": f"{data[name].attrs['long_name']} in SI", "units": amplitude.cf},
+            )
+            for name in LEVELS
+        }
+        data = data.assign(levels)
     survey_run.write(OverturningCurve(data), "overturning", files, block, lambda: [_table(found, block)])
 
 

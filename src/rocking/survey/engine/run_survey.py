@@ -8,7 +8,7 @@ from concurrent.futures import Executor
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
-from rocking.model import instance, refuse_if
+from rocking.model import instance
 from rocking.survey.engine.cost import cost
 from rocking.survey.engine.tile_loop import cores, run
 from rocking.survey.measurement import Measurement
@@ -32,9 +32,8 @@ def run_survey(
     """Run a survey, or resume it in a store; return its dataset."""
     if executor is not None:
         instance("executor", executor, Executor)
-    refuse_if(
-        store is None and repair, "repair", "be used with store, whose damaged tiles it recomputes", repair
-    )
+    if store is None and repair:
+        raise ValueError("repair must be used with store, whose damaged tiles it recomputes")
     if store is None:
         check_fits(asked, measure)
         results = Memory(asked, measure)
