@@ -120,6 +120,7 @@ def modes(
             markersize=style.MARK,
             markerfacecolor="none",
             color=style.INK,
+            label="given amplitude",
             gid="marked",
         )
     label = shown.speed_label if quantity == "velocity" else r"forcing phase $\varphi$ at the impact (rad)"
