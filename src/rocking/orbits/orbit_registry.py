@@ -60,12 +60,22 @@ class OrbitRegistry:
         return owners >= 0
 
     def _owners(self, states: np.ndarray) -> np.ndarray:
-        """Return the number of the known orbit of each state, -1 for none."""
-        if not len(self.rows):
-            return np.full(len(states), -1)
-        distances = np.hypot(states[:, 0, None] - self.rows[:, 0], states[:, 1, None] - self.rows[:, 1])
-        nearest = distances.argmin(axis=1)
-        return np.where(distances[np.arange(len(states)), nearest] <= SAME, self.owner[nearest], -1)
+        """Return the number of the known orbit of each state, -1 for none.
+
+        Each state is compared with the rows whose angle is no further away than `SAME`, not with all.
+        """
+        order = np.argsort(self.rows[:, 0])
+        angles = self.rows[order, 0]
+        first = np.searchsorted(angles, states[:, 0] - SAME)
+        counts = np.searchsorted(angles, states[:, 0] + SAME, side="right") - first
+        owners, nearest = np.full(len(states), -1), np.full(len(states), SAME)
+        for k in range(counts.max(initial=0)):
+            here = np.flatnonzero(counts > k)
+            rows = order[first[here] + k]
+            distances = np.hypot(*(states[here] - self.rows[rows]).T)
+            closer = distances <= nearest[here]
+            owners[here[closer]], nearest[here[closer]] = self.owner[rows[closer]], distances[closer]
+        return owners
 
     def _pair(self, orbit: Orbit) -> int:
         """Return the number under which an orbit and its mirror image are counted, and add them if they are new.
