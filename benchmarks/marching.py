@@ -81,7 +81,7 @@ def in_lanes(systems, speeds, cycles, memory):
                     p = parameters_from_row(systems[queue])
                     columns = memory.tangent.columns[i]
                     begin_tangent(TangentState(columns, memory.tangent.growth[i]))
-                    load_block(s, i, p, begin(p, 0.0, speeds[queue], UNKNOWN)[0], columns, 0)
+                    load_block(s, i, p, begin(p, 0.0, speeds[queue], UNKNOWN)[0], columns)
                     set_leg(s, i, cycles, False)
                     guests[i], queue = p, queue + 1
             else:
@@ -90,7 +90,7 @@ def in_lanes(systems, speeds, cycles, memory):
             return impacts
         while True:
             apply_impacts(s)
-            log_arcs(s, memory.flights, memory.log, False)
+            log_arcs(s, memory.flights, memory.log)
             if advance(s):
                 break
 

@@ -4,9 +4,11 @@ import numpy as np
 import pytest
 
 import rocking as rk
-from benchmarks import verdicts
+from benchmarks import lanes, marching, verdicts
 from benchmarks.recorded_calls import record_calls
 from rocking.kernels.classify import verdict_record
+from rocking.kernels.classify.workspace import make_workspace
+from rocking.kernels.lanes.workspace import make_lane_workspace
 
 
 @pytest.mark.long
@@ -24,6 +26,16 @@ def test_map_of_the_bench_is_the_map(monkeypatch, restitution):
     assert np.mean(kinds == found.kind.values.ravel()) > 0.98
     assert np.mean(grounds == found.evidence.values.ravel()) > 0.98
     assert (work[kinds == verdict_record.PERIODIC] > 0).all()
+
+
+@pytest.mark.long
+def test_marching_in_lanes_of_the_bench_meets_the_impacts_of_one_block_after_another():
+    systems = lanes.systems_of(12)
+    systems = systems[(systems[:, 0] > 1.0) & (systems[:, 0] < 6.0)]
+    speeds = np.full(len(systems), 0.2)
+    expected = marching.alone(systems, speeds, 50, make_workspace(50, 1))
+    assert expected > 1000
+    assert marching.in_lanes(systems, speeds, 50, make_lane_workspace(50, 1)) == expected
 
 
 def test_calls_of_every_entry_point_are_recorded():
