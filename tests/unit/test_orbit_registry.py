@@ -10,7 +10,9 @@ def test_states_belong_to_the_nearest_known_orbit_within_the_tolerance():
     random = np.random.default_rng(4)
     registry = OrbitRegistry(rk.System(rk.Harmonic(2.0, period=1.0), 0.9), 0.0)
     # many rows share an angle, as those of orbits that are at the base at the phase of the section
-    registry.rows = np.column_stack([random.choice([0.0, 0.1, -0.3], 300), random.uniform(-1.0, 1.0, 300)])
+    rows = np.column_stack([random.choice([0.0, 0.1, -0.3], 150), random.uniform(-1.0, 1.0, 150)])
+    # each row has another one closer than the tolerance
+    registry.rows = np.concatenate([rows, rows + 0.5 * SAME * random.uniform(-1.0, 1.0, (150, 2))])
     registry.owner = random.integers(0, 40, 300)
     away = SAME * random.uniform(-1.5, 1.5, (2000, 2))
     states = registry.rows[random.integers(0, 300, 2000)] + away
