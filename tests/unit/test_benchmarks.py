@@ -29,7 +29,7 @@ def test_map_of_the_bench_is_the_map(monkeypatch, restitution):
 
 
 @pytest.mark.long
-def test_marching_in_lanes_of_the_bench_meets_the_impacts_of_one_block_after_another():
+def test_marching_in_lanes_of_the_bench_counts_as_many_impacts_as_one_block_after_another():
     systems = lanes.systems_of(12)
     systems = systems[(systems[:, 0] > 1.0) & (systems[:, 0] < 6.0)]
     speeds = np.full(len(systems), 0.2)

@@ -259,7 +259,7 @@ def test_overturning_of_a_block_is_that_of_its_normalised_one_in_its_units(rocki
     with xr.open_dataset(tmp_path / "a.nc", engine="h5netcdf") as read:
         assert read.lowest_acceleration_m_per_s2.values == pytest.approx(lowest)
         assert read.frequency_hz.values == pytest.approx(hertz)
-        assert read.lowest_acceleration_m_per_s2.long_name == "lowest overturning amplitude found in SI"
+        assert read.lowest_acceleration_m_per_s2.long_name == "lowest overturning amplitude found, in SI"
         assert all(read[name].attrs["long_name"] for name in read.variables)
     title, _, *table = rocking(line)[2].splitlines()
     least, g = lowest.min(), lowest.min() / 9.80665

@@ -111,7 +111,14 @@ def modes(
         ]
         _draw(ax, points, colour, ("faster", "slower")[root])
     if amplitude is not None:
-        ax.axvline(across(marked), color=style.GUIDE, linewidth=style.THIN, zorder=0, gid="amplitude")
+        ax.axvline(
+            across(marked),
+            color=style.GUIDE,
+            linewidth=style.THIN,
+            zorder=0,
+            label="given amplitude",
+            gid="amplitude",
+        )
         ax.plot(
             [across(mode.amplitude) for mode in here],
             [up(mode) for mode in here],
@@ -120,7 +127,6 @@ def modes(
             markersize=style.MARK,
             markerfacecolor="none",
             color=style.INK,
-            label="given amplitude",
             gid="marked",
         )
     label = shown.speed_label if quantity == "velocity" else r"forcing phase $\varphi$ at the impact (rad)"

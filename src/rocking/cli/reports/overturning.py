@@ -34,7 +34,7 @@ def write(found: OverturningCurve, files: Mapping[str, Path], block: Block | Non
             _key(name): (
                 data[name].dims,
                 amplitude.turn(block, data[name].values),
-                {"long_name": f"{data[name].attrs['long_name']} in SI", "units": amplitude.cf},
+                {"long_name": f"{data[name].attrs['long_name']}, in SI", "units": amplitude.cf},
             )
             for name in LEVELS
         }
