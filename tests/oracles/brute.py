@@ -1,4 +1,4 @@
-"""Responses from rest by brute force: textbook closed form in plain doubles, sample by sample, to the last cycle.
+"""Responses by brute force: textbook closed form in plain doubles, sample by sample, to the last cycle.
 
 Nothing is decided early: the label follows from the states of the last cycles alone. The code is compiled, and shares
 nothing with the package except the equations of motion. Samples are so close that an event missed between two of them
@@ -78,21 +78,25 @@ def impact(time, u, v, side, psi, omega, ripple):
 
 
 @njit
-def march(amplitude, omega, restitution, cycles, rows):
-    """Return the end of a run from rest at ψ = 0; `rows` takes Θ and Θ' at the ends of its last cycles."""
-    if amplitude <= 1:
-        return AT_REST, rows
+def march(amplitude, omega, restitution, cycles, rows, angle=0.0, velocity=0.0, phase=0.0):
+    """Return the end of a run from ``angle`` and ``velocity`` at ψ = ``phase``; ``rows`` takes the ends of its last cycles."""
     ripple, turn = amplitude / (1 + omega**2), 2 * math.pi
     samples = math.ceil(DENSITY * max(1.0, turn / omega))
-    step, lift = turn / samples, math.acos(1 / amplitude)  # of ψ
+    step, lift = turn / samples, math.acos(min(1 / amplitude, 1.0))  # of ψ
+    psi, side = phase, -1 if angle < 0 or (angle == 0 and velocity <= 0) else 1
+    u, v, reach, lifted = side * angle, side * velocity, math.inf, False
+    rests = angle == 0 and velocity == 0
     for cycle in range(cycles):
-        if cycle == 0:
-            psi, u, v, side, lifted, reach = 0.0, 0.0, 0.0, -1, True, 0.0
-        else:
-            psi = 0.0
-        sample = 1
+        sample = math.floor((psi - phase) / step) + 1
         while sample <= samples:
-            wait = sample * step - psi
+            if rests:
+                if amplitude <= 1:
+                    return AT_REST, rows
+                half = math.ceil((psi - lift) / math.pi)  # it lifts off within ``lift`` of a multiple of π
+                psi, v, side, lifted = max(half * math.pi - lift, psi), 0.0, 2 * (half % 2) - 1, True
+                rests, sample = False, math.floor((psi - phase) / step) + 1
+                continue
+            wait = phase + sample * step - psi
             if lifted:  # nothing ends while the base throws it up; a shorter way drowns in rounding
                 if wait < 0.25 * step:
                     sample += 1
@@ -107,18 +111,16 @@ def march(amplitude, omega, restitution, cycles, rows):
                 u, v = at(wait / omega, u, v, side, psi, omega, ripple)
                 psi += wait
                 reach *= 2
-                if psi >= sample * step - 1e-14:
-                    psi = sample * step
+                if psi >= phase + sample * step - 1e-14:
+                    psi = phase + sample * step
                     sample += 1
                 if u > 10 * (1 + ripple) and v > 0:
                     return OVERTURNED, rows
                 continue
             v = -restitution * at(hit, u, v, side, psi, omega, ripple)[1]
             u, side, psi = 0.0, -side, psi + omega * hit
-            if v < STILL and amplitude * abs(math.cos(psi)) < 1:
-                half = math.pi if psi < math.pi - lift else turn
-                psi, v, side, lifted = half - lift, 0.0, 1 if half < turn else -1, True
-                sample = math.floor(psi / step) + 1
+            rests = v < STILL and amplitude * abs(math.cos(psi)) < 1
+        psi -= turn
         kept = cycle - (cycles - len(rows))
         if kept >= 0:
             rows[kept, 0], rows[kept, 1] = side * u, side * v

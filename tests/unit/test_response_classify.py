@@ -128,8 +128,8 @@ SAID = {
         {},
         (
             "periodic: stable orbit of period 10, asymmetric, 4 impacts: Newton residual |P(x) − x| ≤ …, largest Floquet "
-            "multiplier 0.732 in modulus; the motion converges to it at the predicted rate (distance … one period earlier). "
-            "Evidence: verified, after … cycles."
+            "multiplier 0.732 in modulus; the motion is so close (distance … one period earlier) that second-order terms cannot "
+            "turn it away: they are … % of the largest that are accepted. Evidence: verified, after … cycles."
         ),
     ),
     "neutral orbit": (

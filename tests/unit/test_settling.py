@@ -40,7 +40,7 @@ def test_certified_rest_comes_and_comes_in_time():
         speed = 10.0 ** random.uniform(-6, -1)
         period = 2.0 * math.pi / frequency
         p = parameters.harmonic_parameters(amplitude, frequency, period, phase, restitution)
-        bound = base_settling_time(p, HarmonicDrive(math.cos(phase), math.sin(phase)), speed)
+        bound = base_settling_time(p, HarmonicDrive(math.cos(phase), math.sin(phase)), speed, math.inf)
         if bound >= period:
             continue
         time, rests = first_reset(p, speed)
@@ -58,7 +58,7 @@ def test_bound_without_forcing_is_not_below_the_time_of_all_flights(restitution,
     """Against a press d a flight that begins with v lasts 2 artanh v/d: d is 1 at the base, 1/2 at a brace at 1.5."""
     p = parameters.harmonic_parameters(0.0, 1.0, 2.0 * math.pi, 0.0, restitution, 1.5, restitution)
     flights = math.fsum(2.0 * math.atanh(share * restitution**k) for k in range(400))
-    assert flights <= base_settling_time(p, STEADY, share) <= 1.1 * flights
+    assert flights <= base_settling_time(p, STEADY, share, math.inf) <= 1.1 * flights
     assert flights <= brace_settling_time(p, 1, STEADY, 0.5 * share) <= 1.1 * flights
 
 

@@ -44,7 +44,7 @@ def classify(
     2. *Periodic*, superstable: the motion comes to rest, or to sustained contact with a brace, and is released from the same
        state as before.
     3. *Periodic*: Newton's method with the exact Jacobian, started from the closest return, finds an orbit. It counts if it
-       is stable and the motion approaches it at the rate of its multipliers.
+       is stable and the motion comes nearer. The second-order terms of the return map must be too small to turn it away.
     4. *Quasi-periodic*: no event dissipates energy, weighted Birkhoff averages over the arcs converge, and nearby
        trajectories diverge no faster than linearly. Both hold over the simulated cycles.
     5. *Chaotic*, only after `max_cycles`: the largest Lyapunov exponent lies 6 standard errors above zero, from independent
@@ -73,8 +73,9 @@ def classify(
     Verdict
         Response type with its evidence, which `print` shows. In `evidence.tolerances`, `residual` is relative to the growth
         of perturbations over one period. `approach` is the largest deviation of a return from the prediction of the
-        multipliers, relative to the remaining distance. A hundredth of the whole distance is also accepted if the return
-        approaches at 30 % of the predicted rate or more.
+        multipliers, relative to the predicted approach. A hundredth of the distance is also accepted. `second order` limits
+        the second-order terms. For a positive multiplier it is a part of the way to the nearest unstable orbit. Otherwise
+        it is the relative change of coordinates that removes these terms.
 
     Raises
     ------
@@ -96,6 +97,8 @@ def classify(
     -----
     Limits:
 
+    - A periodic verdict is a test to second order. Where terms of higher order decide, a motion next to the boundary of two
+      basins may pass it and leave. `prove=True` excludes that.
     - A chaotic transient may last longer than any number of cycles, so chaos may end later.
     - An undamped motion that stays near a torus for long may be classified as quasi-periodic.
     - Another initial state may lead to another response.

@@ -8,7 +8,15 @@ from decimal import ROUND_UP, Context, Decimal
 
 from attrs import field, frozen
 
-from rocking.kernels.classify import decision_cascade, leg, periodicity, quasi_periodicity, reset, workspace
+from rocking.kernels.classify import (
+    approach,
+    decision_cascade,
+    leg,
+    periodicity,
+    quasi_periodicity,
+    reset,
+    workspace,
+)
 from rocking.kernels.classify import verdict_record as kernel
 from rocking.kernels.orbits import fixed_point
 from rocking.model import Criterion, Evidence, System, counted, plus_minus
@@ -95,7 +103,11 @@ def _orbit(case: Case) -> Shown:
     if judged.distance <= periodicity.ROUNDING:
         reached = f"the motion lies on the orbit to within {periodicity.ROUNDING:.0e}"
     else:
-        reached = f"the motion converges to it at the predicted rate (distance {judged.distance:.2g} one period earlier)"
+        share = "less than 1" if judged.excess < 0.01 else f"{100.0 * judged.excess:.0f}"
+        reached = (
+            f"the motion is so close (distance {judged.distance:.2g} one period earlier) that second-order terms cannot turn it "
+            f"away: they are {share} % of the largest that are accepted"
+        )
     what = (
         f"stable {_periodic(judged)}: Newton residual |P(x) − x| ≤ {at_most(judged.residual)}, largest Floquet multiplier "
         f"{_below_one(math.hypot(judged.real, judged.imaginary))} in modulus; {reached}"
@@ -104,6 +116,7 @@ def _orbit(case: Case) -> Shown:
         "residual": fixed_point.RESIDUAL,
         "approach": periodicity.NONLINEAR,
         "distance": periodicity.ROUNDING,
+        "second order": approach.HALF_WAY if judged.imaginary == 0.0 < judged.real else approach.BENDING,
     }
     return Shown(what, f"verified, {_when(case)}", tolerances)
 

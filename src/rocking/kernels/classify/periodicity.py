@@ -3,6 +3,7 @@
 import math
 from typing import NamedTuple
 
+from rocking.kernels.classify.approach import departure
 from rocking.kernels.classify.lazy_section import evaluate_lazy_rows
 from rocking.kernels.classify.least_period import SAME, least_period
 from rocking.kernels.classify.recurrence import approached, closest_return
@@ -42,9 +43,8 @@ BESIDE = 0.5
 CLEARANCE = 1e-6
 # Maximum deviation of a return from the multipliers' prediction, as a fraction of the predicted approach.
 NONLINEAR = 0.2
-# Near a bifurcation attraction is weak, and returns obey the multipliers alone only after 10**4 cycles or
-# more. There the returns may deviate by BENT of the whole distance, if they approach by at least APPROACH of
-# the predicted rate. Second-order terms this small cannot reverse the approach later.
+# Near a bifurcation attraction is weak, and returns obey the multipliers alone only after 10**4 cycles or more. There
+# they may deviate by BENT of the distance, if they approach by at least APPROACH of what the multipliers predict.
 BENT, APPROACH = 0.01, 0.3
 RETURNS = 3
 MAX_FORETOLD = 1 << 20
@@ -67,6 +67,7 @@ class PeriodicityCheck(NamedTuple):
     found: FixedPoint
     peak: float  # NaN if it was not requested
     distance: float  # from the orbit, one period before the last return
+    excess: float  # nonlinear terms over their limit, NaN if they were not needed (``approach``)
     coming: int  # predicted number of cycles until it may be reached; 0 if unknown
     work: int
 
@@ -99,7 +100,9 @@ class Candidate(NamedTuple):
 
 # A guess that the motion approaches has a residual below its distance from the motion.
 no_further = replacing(Patience, "first")
-answered = replacing(PeriodicityCheck, "answer", "distance", "coming", "work")
+measured = replacing(PeriodicityCheck, "distance", "excess")
+with_shape = replacing(PeriodicityCheck, "period", "symmetric", "peak")
+answered = replacing(PeriodicityCheck, "answer", "coming", "work")
 with_work = replacing(PeriodicityCheck, "work")
 
 
@@ -167,7 +170,30 @@ def orbit_near(clocked, candidate, workspace):
         )
     if lag == mode.order and size(found.angle - mode.angle, found.velocity - mode.velocity) <= SAME:
         symmetric, peak = True, largest_on(clocked, mode.arc, mode.half, 0.0)
-    return PeriodicityCheck(NOT_YET, lag, symmetric, found, peak, math.nan, 0, found.work)
+    return PeriodicityCheck(NOT_YET, lag, symmetric, found, peak, math.nan, math.nan, 0, found.work)
+
+
+class Comparison(NamedTuple):
+    """Comparison of a motion with an orbit; fields as in ``PeriodicityCheck``."""
+
+    answer: int
+    distance: float
+    excess: float
+    coming: int
+    work: int
+
+
+@njit(**INTERNAL)
+def compare_to_second_order(p, clocked, candidate, found, workspace):
+    """Compare a motion with an orbit by ``compare``. If it may have reached the orbit, test its ``departure``."""
+    section, row = workspace.section, candidate.row
+    answer, away, coming = compare(p, section, row, candidate.lag, found)
+    if answer != REACHED or away <= ROUNDING:
+        return Comparison(answer, away, math.nan, coming, 0)
+    mapping = ReturnMap(clocked, candidate.lag, 0.0, 1.0)
+    excess, coming = departure(mapping, found, section, row, workspace.trial, workspace.nothing)
+    work = 2 * (found.image.impacts + found.image.brace_hits)
+    return Comparison(REACHED if excess <= 1.0 else NOT_YET, away, excess, coming, work)
 
 
 @njit(**AST_INLINE)
@@ -194,27 +220,29 @@ def check_periodicity(p, run, workspace, most_lag, most_work, known, since, neut
             work += orbit.work
             if not orbit.found.converged:
                 continue
-        answer, away, coming = compare(p, workspace.section, candidate.row, candidate.lag, orbit.found)
-        if answer != REACHED and not (neutral and away <= NEUTRAL):
-            coming = max(coming - (count - 1 - candidate.row), 0)
+        close = compare_to_second_order(p, clocked, candidate, orbit.found, workspace)
+        work += close.work
+        orbit = measured(orbit, close.distance, close.excess)
+        if close.answer != REACHED and not (neutral and close.distance <= NEUTRAL):
+            coming = max(close.coming - (count - 1 - candidate.row), 0)
             enough = 1.0 if attracts(p, orbit.found.image) else MUCH_NEARER
             # a motion on another orbit stays as far away, but for rounding
-            nearer = away < enough * known.distance - ROUNDING
-            if now == KNOWN and answer == NOT_YET and nearer:
-                return answered(orbit, NOT_YET, away, coming, work)
+            nearer = close.distance < enough * known.distance - ROUNDING
+            if now == KNOWN and close.answer == NOT_YET and nearer:
+                return answered(orbit, NOT_YET, coming, work)
             # An orbit found repeatedly at different places gives no prediction.
             coming = coming if now == APPROACHED and known.period == 0 else 0
-            if now != KNOWN or answer == ON_EVENT:
-                seen = answered(orbit, answer, away, coming, work)
-            if answer == ON_EVENT or now == APPROACHED:
+            if now != KNOWN or close.answer == ON_EVENT:
+                seen = answered(orbit, close.answer, coming, work)
+            if close.answer == ON_EVENT or now == APPROACHED:
                 break
             continue
         if orbit.symmetric:
-            return answered(orbit, REACHED, away, 0, work)
+            return answered(orbit, REACHED, 0, work)
         period, mirrored, whole = least_period(p, clocked, orbit.found, candidate.lag, workspace)
         work += whole.impacts + whole.brace_hits
         if period == candidate.lag:
-            return PeriodicityCheck(REACHED, period, mirrored, orbit.found, whole.peak, away, 0, work)
+            return answered(with_shape(orbit, period, mirrored, whole.peak), REACHED, 0, work)
         candidate, trying = refined_candidate(candidate, orbit.found, period), REFINED
     return with_work(seen, work)
 
@@ -230,7 +258,7 @@ def constant_image(impacts, brace_hits):
 def no_cycle(work):
     """Return the check that stands for no orbit."""
     nothing = FixedPoint(False, math.nan, math.nan, constant_image(-1, -1), math.nan, math.nan, 0)
-    return PeriodicityCheck(NOT_YET, 0, False, nothing, math.nan, math.nan, 0, work)
+    return PeriodicityCheck(NOT_YET, 0, False, nothing, math.nan, math.nan, math.nan, 0, work)
 
 
 @njit(**INTERNAL)
@@ -246,11 +274,10 @@ def attracts(p, image):
 def compare(p, section, row, period, found):
     """Compare the last returns with an orbit by the Floquet criterion.
 
-    The orbit must be stable. Each of the last RETURNS returns must obey its multipliers and have the orbit's
-    own impacts. It may deviate by NONLINEAR of the predicted approach, (1 - spectral radius) times the
-    distance, or by BENT of the distance. One return may do so by chance, and the map may have kinks that only
-    later returns meet. An orbit with rest or sustained contact is not tested here: its section need not
-    resolve when they occur.
+    The orbit must be stable. Each of the last RETURNS returns must obey its multipliers and have the orbit's own impacts. It
+    may deviate by NONLINEAR of the predicted approach, (1 - spectral radius) times the distance, or by BENT of the distance.
+    One return may do so by chance, and the map may have kinks that only later returns meet. An orbit with rest or sustained
+    contact is not tested here: its section need not resolve when they occur.
 
     The relative deviation of a return shrinks like the distance, by the larger multiplier per return. If the
     motion does not come closer, nothing is predicted.

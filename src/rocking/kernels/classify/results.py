@@ -37,6 +37,7 @@ class ResultArrays(NamedTuple):
     velocity: Floats1
     residual: Floats1
     distance: Floats1
+    excess: Floats1
     digits: Floats1
 
 
@@ -72,4 +73,5 @@ def store_result(results, k, verdict):
         found.angle,
         found.velocity,
     )
-    results.residual[k], results.distance[k], results.digits[k] = found.residual, found.distance, found.digits
+    results.residual[k], results.distance[k] = found.residual, found.distance
+    results.excess[k], results.digits[k] = found.excess, found.digits

@@ -99,6 +99,7 @@ class Judgement(NamedTuple):
     velocity: float
     residual: float
     distance: float
+    excess: float
     digits: float
 
 
@@ -146,6 +147,7 @@ def pack_verdict(kind, ground, tracker, exponent, transient, check, section_time
         found.velocity,
         found.residual,
         check.distance,
+        check.excess,
         digits,
     )
 
@@ -187,7 +189,7 @@ def released(tracker, work):
     brace_hits = halves * tracker.brace_hits if tracker.brace_hits >= 0 else -1
     image = constant_image(impacts, brace_hits)
     release = FixedPoint(True, arc.side * arc.angle, 0.0, image, 0.0, 0.0, 0)
-    orbit = PeriodicityCheck(REACHED, period, symmetric, release, tracker.orbit_peak, 0.0, 0, work)
+    orbit = PeriodicityCheck(REACHED, period, symmetric, release, tracker.orbit_peak, 0.0, math.nan, 0, work)
     transient = max(tracker.progress.cycle - (half_periods + 1) // 2, 0)
     return pack_verdict(PERIODIC, RESET, tracker, (-math.inf, 0.0), transient, orbit, arc.start, math.nan)
 

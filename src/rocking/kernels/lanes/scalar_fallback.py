@@ -1,5 +1,7 @@
 """Scalar fallback of a lane, by the functions for one block: uncertain events, maxima of the angle, chattering."""
 
+import math
+
 from rocking.kernels.compile_options import INTERNAL, INTERNAL_INLINE
 from rocking.kernels.deferred import njit
 from rocking.kernels.event_kinds import BRACE, FLIGHT, IMPACT
@@ -43,7 +45,7 @@ def settles(s, i, p):
         return False
     if hits:
         return brace_settling_time(p, int(s.side[i]), HarmonicDrive(cosine, sine), speed) <= MAX_ARC_TIME
-    return base_settling_time(p, HarmonicDrive(-cosine, -sine), speed) <= MAX_ARC_TIME
+    return base_settling_time(p, HarmonicDrive(-cosine, -sine), speed, math.inf) <= MAX_ARC_TIME
 
 
 @njit(**INTERNAL)

@@ -138,7 +138,7 @@ def resolved(p, arc, coming, cut, peak, error):
         and settles(p, coming.drive, speed, error, peak)
     ):
         return after_chattering(p, arc, time, coming)
-    return after_event(p, arc, time, coming, 0.0)
+    return after_event(p, arc, time, coming, 0.0, math.inf)
 
 
 @njit(**INTERNAL)

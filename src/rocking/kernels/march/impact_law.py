@@ -24,11 +24,12 @@ SLOW = 0.1
 
 
 @njit(**KERNEL_INLINE)
-def after_impact(p, arc, time, coming, horizon):
+def after_impact(p, arc, time, coming, horizon, peak):
     """Return mode and arc after an impact at the base.
 
-    ``horizon`` is the time in which nothing is recorded, so that chattering may be cut short. If the block
-    returns before the clock has advanced, it has not left; the same holds at a brace.
+    ``horizon`` is the time in which nothing is recorded, so that chattering may be cut short. It is not cut if an
+    angle may exceed ``peak``, the largest one so far: while the base moves on, a slower arc may be higher. If the
+    block returns before the clock has advanced, it has not left; the same holds at a brace.
 
     Returns
     -------
@@ -48,7 +49,7 @@ def after_impact(p, arc, time, coming, horizon):
     after = arc_after(p, side, time, 0.0, speed, coming)
     may_cut = horizon > 0.0 or speed < SLOWEST
     if may_cut and mode == FLIGHT and 0.0 < speed < SLOW and restitution < 1.0:
-        settled = base_settling_time(p, after.drive, speed)
+        settled = base_settling_time(p, after.drive, speed, peak if speed >= SLOWEST else math.inf)
         if settled < math.inf and (settled <= horizon or speed < SLOWEST):
             mode = REST
     if mode == REST:
@@ -92,7 +93,7 @@ def after_chattering(p, arc, time, coming):
 
 
 @njit(**KERNEL_INLINE)
-def after_event(p, arc, time, coming, horizon):
+def after_event(p, arc, time, coming, horizon, peak):
     """Return mode and arc after the coming event; arguments as for ``after_impact``.
 
     Returns
@@ -101,7 +102,7 @@ def after_event(p, arc, time, coming, horizon):
         Mode and arc.
     """
     if coming.event == IMPACT:
-        return after_impact(p, arc, time, coming, horizon)
+        return after_impact(p, arc, time, coming, horizon, peak)
     if coming.event == BRACE:
         return after_brace(p, arc, time, coming, horizon)
     if coming.event == LIFT_OFF:

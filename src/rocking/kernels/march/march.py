@@ -143,7 +143,8 @@ def pass_event(p, progress, coming, horizon, want_peak):
         peak = peak_with(p, arc, coming, peak)
     impacts += coming.event == IMPACT
     brace_hits += coming.event == BRACE
-    mode, after = after_event(p, arc, arc.start + coming.wait, coming, horizon)
+    so_far = peak if want_peak else math.inf
+    mode, after = after_event(p, arc, arc.start + coming.wait, coming, horizon, so_far)
     return Progress(
         mode=mode,
         cycle=progress.cycle,

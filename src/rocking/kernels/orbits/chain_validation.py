@@ -60,7 +60,7 @@ def first_contact(p, arc, t, waited, peak):
         event = coming.event
         if event != NONE:
             break
-        _, arc = after_event(p, arc, arc.start + coming.wait, coming, 0.0)
+        _, arc = after_event(p, arc, arc.start + coming.wait, coming, 0.0, math.inf)
     return Contact(event, waited, peak)
 
 

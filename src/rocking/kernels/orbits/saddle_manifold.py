@@ -63,7 +63,7 @@ def section_after(q, angle, velocity, cycles, wait):
         crowd += 1
         if crowd > MAX_EVENTS:
             return False, 0.0, 0.0
-        mode, arc = after_event(q, arc, at, coming, end - at)
+        mode, arc = after_event(q, arc, at, coming, end - at, math.inf)
         while cycles > 0 and arc.start > q.forcing.period:
             arc, cycles = shift_clock(arc, q.forcing.period), cycles - 1
     angle, velocity = state_at(q, mode, arc, end - arc.start)

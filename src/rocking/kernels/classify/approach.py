@@ -1,0 +1,226 @@
+"""Test to second order that a motion near a stable orbit cannot turn away from it.
+
+Near the orbit the return map is z -> J z + D2P(z, z)/2 + ..., with z the deviation from the orbit. Let v and w be the
+eigenvectors of J with the multipliers rho and sigma, and z = u v + s w. Just above a fold, an unstable orbit lies
+close by in the direction v. A motion beyond it may come nearer for many returns, because its fast part s shrinks.
+It leaves afterwards. So neither a small deviation nor returns that come nearer are evidence.
+"""
+
+import math
+from typing import NamedTuple
+
+from rocking.kernels.compile_options import INTERNAL
+from rocking.kernels.deferred import njit
+from rocking.kernels.march.initial_state import UNKNOWN
+from rocking.kernels.march.progress import Recording
+from rocking.kernels.march.tangent import Tangent, TangentState
+from rocking.kernels.numerics.elementary import size
+from rocking.kernels.orbits.fixed_point import Guess, image_after
+from rocking.kernels.orbits.floquet import adapted_norm, length, multipliers
+
+# Step of the difference quotients of the Jacobian. The image keeps clear of the events near the section.
+STEP = 1e-7
+# The motion may be this fraction of the way to the nearest unstable orbit. There it still approaches at half the rate
+# of the multipliers.
+HALF_WAY = 0.5
+# Maximum relative change of coordinates that removes the second-order terms.
+BENDING = 0.3
+# Minimum contraction of the slow part of the deviation, as a fraction of what its multiplier predicts.
+SLOWEST = 0.3
+# Multipliers are distinct if the rates of their parts differ by this factor. Otherwise both parts are slow.
+DISTINCT = 2.0
+# Largest predicted number of returns.
+MAX_RETURNS = 1 << 20
+
+
+class Curvature(NamedTuple):
+    """Second derivative of a return map: the derivatives of its Jacobian by angle and velocity."""
+
+    known: bool  # the displaced motions have the impacts and brace impacts of the orbit
+    by_angle: Tangent
+    by_velocity: Tangent
+
+
+@njit(**INTERNAL)
+def difference_quotient(after, before, step):
+    """Return the difference quotient of two tangents."""
+    return Tangent(
+        (after.a - before.a) / step,
+        (after.b - before.b) / step,
+        (after.c - before.c) / step,
+        (after.d - before.d) / step,
+    )
+
+
+@njit(**INTERNAL)
+def curvature(mapping, found, columns, nothing):
+    """Return the second derivative of a return map at a fixed point, from two displaced motions with tangents.
+
+    If a displaced motion has another number of events, the opposite displacement is tried.
+    """
+    recording = Recording(0.0, nothing.section, nothing.events, False, False)
+    state, image = TangentState(columns, nothing.tangent.growth), found.image
+    slopes, known = (image.tangent, image.tangent), False
+    for step in (STEP, -STEP):
+        one = image_after(mapping, Guess(found.angle + step, found.velocity, UNKNOWN), recording, state)
+        two = image_after(mapping, Guess(found.angle, found.velocity + step, UNKNOWN), recording, state)
+        known = one.certain and one.impacts == image.impacts and one.brace_hits == image.brace_hits
+        known = known and two.certain and two.impacts == image.impacts and two.brace_hits == image.brace_hits
+        slopes = (
+            difference_quotient(one.tangent, image.tangent, step),
+            difference_quotient(two.tangent, image.tangent, step),
+        )
+        if known:
+            break
+    return Curvature(known, slopes[0], slopes[1])
+
+
+@njit(**INTERNAL)
+def apply(bend, first, second):
+    """Return D2P(first, second) of two vectors."""
+    one, two, (x, y) = bend.by_angle, bend.by_velocity, second
+    return (
+        first[0] * (one.a * x + one.c * y) + first[1] * (two.a * x + two.c * y),
+        first[0] * (one.b * x + one.d * y) + first[1] * (two.b * x + two.d * y),
+    )
+
+
+@njit(**INTERNAL)
+def eigenvector(tangent, value):
+    """Return a right eigenvector of the matrix whose columns are (a, b) and (c, d), of unit length."""
+    x, y = tangent.c + 0.0 * value, value - tangent.a
+    other_x, other_y = value - tangent.d, tangent.b + 0.0 * value
+    if abs(other_x) + abs(other_y) > abs(x) + abs(y):
+        x, y = other_x, other_y
+    shorter = 1.0 / size(abs(x), abs(y))
+    return x * shorter, y * shorter
+
+
+@njit(**INTERNAL)
+def area(first, second):
+    """Return the determinant of two vectors."""
+    return first[0] * second[1] - first[1] * second[0]
+
+
+@njit(**INTERNAL)
+def component(vector, along, across):
+    """Return the component of a vector along the first of two others."""
+    return area(vector, across) / area(along, across)
+
+
+@njit(**INTERNAL)
+def excess_in_ball(bend, tangent, radius, x, y):
+    """Return the second-order terms at (x, y) over their limit, in a norm in which the linear map shrinks.
+
+    Below the limit, the second-order map takes a ball around the orbit into itself. No eigenvectors are needed, but both
+    parts of the deviation must be small.
+    """
+    shrinks = 0.5 * (1.0 + radius)
+    norm = adapted_norm(tangent, shrinks)
+    # norm = R^T R with an upper triangle R; e1 and e2 are the columns of its inverse, of length 1 in the norm
+    r11 = math.sqrt(norm[0])
+    r12 = norm[1] / r11
+    r22 = math.sqrt(norm[2] - r12 * r12)
+    e1, e2 = (1.0 / r11, 0.0), (-r12 / (r11 * r22), 1.0 / r22)
+    large = 0.0
+    for first, second, twice in ((e1, e1, 1.0), (e1, e2, 2.0), (e2, e2, 1.0)):
+        image = apply(bend, first, second)
+        large += twice * length(norm, image[0], image[1]) ** 2
+    return 0.5 * math.sqrt(large) * length(norm, x, y) / (HALF_WAY * (1.0 - shrinks))
+
+
+@njit(**INTERNAL)
+def excess_of_real(bend, tangent, rho, sigma, x, y):
+    """Return the second-order terms at (x, y) over their limit, and the multiplier by which they shrink; real multipliers.
+
+    One return is u' = rho u + q u^2 + a u s + b s^2. Let U = u + a u s/(rho (1 - sigma)) + b s^2/(rho - sigma^2).
+    To second order U' = rho U + q U^2. The unstable orbit lies at U = (1 - rho)/q. On the other side of the orbit u may
+    have any size. For rho < 0 the term q u^2 is removed in the same way, and all terms must be small.
+    """
+    v, w = eigenvector(tangent, rho), eigenvector(tangent, sigma)
+    u, s = component((x, y), v, w), component((x, y), w, v)
+    q = 0.5 * component(apply(bend, v, v), v, w)
+    mixed = abs(component(apply(bend, v, w), v, w) * u * s / (rho * (1.0 - sigma)))
+    kicks = mixed + abs(0.5 * component(apply(bend, w, w), v, w) * s * s / (rho - sigma * sigma))
+    if rho < 0.0:
+        bent = kicks + abs(q * u * u / (rho - rho * rho))
+        return bent / (BENDING * (abs(u) + abs(s))), abs(rho)
+    towards = max(0.0, u if q > 0.0 else -u)
+    return abs(q) * (towards + kicks) / (HALF_WAY * (1.0 - rho)), (abs(sigma) if kicks > towards else rho)
+
+
+@njit(**INTERNAL)
+def excess_of_complex(bend, tangent, value, x, y):
+    """Return the second-order terms at (x, y) over their limit, for the complex multiplier ``value`` and its conjugate.
+
+    A change of coordinates removes them, unless the multiplier is near 1 or a cube root of 1. There unstable orbits lie
+    close by. Sizes of components suffice: compiled code cannot divide complex numbers without Python.
+    """
+    v, other = eigenvector(tangent, value), value.conjugate()
+    w = v[0].conjugate(), v[1].conjugate()
+    own = 0.5 * abs(area(apply(bend, v, v), w)) / abs(value - value * value)
+    mixed = abs(area(apply(bend, v, w), w)) / abs(value - value * other)
+    crossed = 0.5 * abs(area(apply(bend, w, w), w)) / abs(value - other * other)
+    between = abs(area(v, w))
+    return (own + mixed + crossed) / between * (abs(area((x, y), w)) / between) / BENDING
+
+
+@njit(**INTERNAL)
+def slow_part_shrinks(section, row, period, found, rho, sigma):
+    """Return whether the slow part of the deviation shrinks in each of the last returns, and after transients.
+
+    That detects terms of third order, which decide at symmetric orbits and for rho < 0. For rho < 0 a contraction is that
+    over two returns. The fast part disturbs each contraction by an amount that shrinks by sigma per return.
+    """
+    tangent, ahead = found.image.tangent, 1 if rho > 0.0 else 2
+    v, w = eigenvector(tangent, rho), eigenvector(tangent, sigma)
+    needed = SLOWEST * (1.0 - abs(rho) ** ahead)
+    last, spread, least = 0.0, 0.0, math.inf
+    for k in range(4 - ahead):
+        after, before = row - k * period, row - (k + ahead) * period
+        to = component((section[after, 0] - found.angle, section[after, 1] - found.velocity), v, w)
+        since = component((section[before, 0] - found.angle, section[before, 1] - found.velocity), v, w)
+        shrunk = 1.0 - to / since
+        if k == 0:
+            last = shrunk
+        least, spread = min(least, shrunk), max(spread, abs(shrunk - last))
+    damping = abs(sigma) ** (3 - ahead)
+    return least >= needed and last - damping / (1.0 - damping) * spread >= needed
+
+
+@njit(**INTERNAL)
+def excess_at(mapping, found, section, row, columns, nothing):
+    """Return the second-order terms over their limit at a row of the section near an orbit.
+
+    Returns
+    -------
+    tuple of (float, float)
+        Terms over their limit: at most 1 if they cannot turn the motion away, infinite if they are unknown.
+        Multiplier by which this shrinks per return, 0 if unknown.
+    """
+    bend = curvature(mapping, found, columns, nothing)
+    if not bend.known:
+        return math.inf, 0.0
+    x, y, tangent = section[row, 0] - found.angle, section[row, 1] - found.velocity, found.image.tangent
+    real, imaginary, other, _ = multipliers(tangent)
+    radius = size(real, imaginary)
+    in_ball = excess_in_ball(bend, tangent, radius, x, y)
+    if imaginary != 0.0:
+        return min(in_ball, excess_of_complex(bend, tangent, complex(real, imaginary), x, y)), radius
+    if 1.0 - abs(other) < DISTINCT * (1.0 - radius):
+        return in_ball, radius
+    along, shrinks = excess_of_real(bend, tangent, real, other, x, y)
+    excess = min(in_ball, along)
+    if excess <= 1.0 and not slow_part_shrinks(section, row, mapping.cycles, found, real, other):
+        return math.inf, 0.0
+    return excess, shrinks
+
+
+@njit(**INTERNAL)
+def departure(mapping, found, section, row, columns, nothing):
+    """Return ``excess_at`` a row, and the predicted number of cycles until it is at most 1; 0 if unknown."""
+    excess, shrinks = excess_at(mapping, found, section, row, columns, nothing)
+    if excess <= 1.0 or not (0.0 < shrinks < 1.0 and excess < math.inf):
+        return excess, 0
+    returns = math.ceil(min(1.0 + math.log(excess) / -math.log(shrinks), MAX_RETURNS))
+    return excess, mapping.cycles * returns
