@@ -317,6 +317,30 @@ def test_orbit_with_other_counts_of_events_is_not_proved():
         assert not rk.prove(evolve(orbit, **wrong)).proved
 
 
+ONE_SIDED = (
+    (6.785214554128202, 1.7354045891899763, 0.925, 0.4636711490294164),
+    (7.960670207456471, 2.1098980613433693, 0.925, 0.8186166898050804),
+    (4.863431097694022, 1.9888554000361183, 0.8, 0.41095380649030444),
+    (3.944541376602235, 2.2005194166073063, 0.925, 0.43628825026568696),
+    (4.016673691509082, 2.4207453348732524, 0.925, 0.552813908585378),
+    (5.4921360826026095, 2.272763700032252, 0.925, 0.6556131741242407),
+    (11.63949096488361, 1.1247740792252245, 0.925, 0.33859743914999607),
+)
+"""A, T, e and brace angle of responses with one brace impact on one side and two on the other. A symmetric orbit is near."""
+
+
+@pytest.mark.parametrize("case", ONE_SIDED)
+def test_asymmetric_orbit_given_as_a_symmetric_one_is_not_proved(case):
+    *harmonic, angle = case
+    orbit = orbit_of(*harmonic, braces=rk.Braces(angle, 0.5))
+    proof = rk.prove(orbit)
+    assert (proof.impacts, proof.brace_hits) == (orbit.impacts, orbit.brace_hits) == (2, 3)
+    assert "asymmetric orbit of period 1 with 2 impacts and 3 brace impacts" in proof.claim
+    wrong = rk.prove(evolve(orbit, symmetric=True))
+    assert not wrong.proved
+    assert "not symmetric" in wrong.claim
+
+
 def test_verdict_with_the_orbit_of_another_system_is_refused():
     verdict = rk.classify(system_of(*ONE))
     with pytest.raises(ValueError, match="subject must have the system of its orbit"):

@@ -40,7 +40,7 @@ from rocking.model.ground_motion import BASELINES, STEPS, GroundMotion
 from rocking.model.incremental_dynamic_analysis import FRACTILES, IncrementalDynamicAnalysis
 from rocking.model.intensity import INTENSITIES, Intensity, intensity_of
 from rocking.model.notebook_renderers import NotebookPicture
-from rocking.model.orbit import Orbit
+from rocking.model.orbit import Orbit, orbit_in_words
 from rocking.model.orbit_event import OrbitEvent
 from rocking.model.orbit_stability import Stability, stability_of
 from rocking.model.outcome import Outcome, Overturning
@@ -197,6 +197,7 @@ __all__ = [
     "named",
     "notebook_renderers",
     "one_of",
+    "orbit_in_words",
     "ordinal",
     "pair",
     "percent",

@@ -208,6 +208,18 @@ class Orbit:
         )
 
     def __str__(self) -> str:
-        symmetry = "symmetric" if self.symmetric else "asymmetric"
-        impacts = "infinitely many impacts" if self.impacts is None else counted(self.impacts, "impact")
-        return f"{symmetry} orbit of period {self.period} with {impacts}"
+        return orbit_in_words(self.symmetric, self.period, self.impacts, self.brace_hits)
+
+
+def orbit_in_words(symmetric: bool, period: int, impacts: int | None, brace_hits: int | None) -> str:
+    """Return symmetry, period and numbers of events of an orbit as text.
+
+    Examples
+    --------
+    >>> orbit_in_words(False, 1, 2, 3), orbit_in_words(True, 3, None, None)
+    ('asymmetric orbit of period 1 with 2 impacts and 3 brace impacts', 'symmetric orbit of period 3 with infinitely many impacts')
+    """
+    events = "infinitely many impacts" if impacts is None else counted(impacts, "impact")
+    if brace_hits:
+        events += f" and {counted(brace_hits, 'brace impact')}"
+    return f"{'symmetric' if symmetric else 'asymmetric'} orbit of period {period} with {events}"

@@ -9,7 +9,8 @@ import numpy as np
 from attrs import evolve
 from flint import acb, arb, ctx
 
-from rocking.model import Orbit, Proof, Verdict
+from rocking.kernels.event_kinds import BRACE, IMPACT
+from rocking.model import Orbit, Proof, Verdict, orbit_in_words
 from rocking.proof import attraction, periodic, reset, stability, trajectory
 from rocking.proof.balls import Balls, Refused, TooLong, above, balls_of, below
 from rocking.proof.orbit_chain import chain_of
@@ -73,19 +74,23 @@ def _by_its_events(orbit: Orbit, p: Balls) -> tuple[Proof, Enclosed | None]:
     )
     if not existence <= reach:
         raise Refused("the range of the phases is wider than that in which there is one orbit only")
+    whole = 2 if chain.mirrored else 1
+    period = chain.half_turns * whole // 2
+    impacts, brace_hits = (whole * chain.kinds.count(kind) for kind in (IMPACT, BRACE))
+    one = orbit_in_words(chain.mirrored, period, impacts, brace_hits)
     proof = Proof(
         orbit.system,
         True,
-        f"exactly one {orbit} has event phases within {reach:.2g} rad of these; {words}",
+        f"exactly one {one} has event phases within {reach:.2g} rad of these; {words}",
         phases=phases,
         existence=existence,
         uniqueness=reach,
         multipliers=(_disc(first), _disc(second)),
         stable=stable,
         symmetric=chain.mirrored,
-        period=orbit.period,
-        impacts=orbit.impacts,
-        brace_hits=orbit.brace_hits,
+        period=period,
+        impacts=impacts,
+        brace_hits=brace_hits,
         bits=ctx.prec,
     )
     return proof, proved
@@ -106,7 +111,7 @@ def _resting(orbit: Orbit, p: Balls) -> tuple[Proof, Enclosed | None]:
     proof = Proof(
         orbit.system,
         True,
-        f"the {orbit} is the only one with rest at the base, up to its mirror image; it is stable",
+        f"the {orbit_in_words(symmetric, period, None, None)} is the only one with rest at the base, up to its mirror image; it is stable",
         phases=((middle, radius),),
         existence=radius,
         multipliers=((0j, 0.0), (0j, 0.0)),

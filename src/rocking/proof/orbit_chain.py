@@ -17,7 +17,7 @@ def chain_of(orbit: Orbit) -> Chain:
     Raises
     ------
     Refused
-        If the motion has another number of events than the orbit.
+        If the motion has other events than the orbit, or differs in the second half of the period of a symmetric orbit.
     """
     p, half = balls_of(orbit.system, {}), orbit.symmetric
     state = initial(p, orbit.phase, orbit.state)
@@ -34,6 +34,10 @@ def chain_of(orbit: Orbit) -> Chain:
     if (kinds.count(IMPACT), kinds.count(BRACE)) != (orbit.impacts, orbit.brace_hits):
         raise Refused("the motion from its state has not the events of the orbit within one period")
     count = len(kinds) // 2 if half else len(kinds)
+    if half and kinds[:count] != kinds[count:]:
+        raise Refused(
+            "the orbit is not symmetric: the events of the second half period are not those of the first"
+        )
     return Chain(
         tuple(kinds[:count]),
         after[0].side,
