@@ -7,6 +7,7 @@ import numpy as np
 import rocking as rk
 from rocking.papers.report.claim import PROVABLE, Chapter, Finding, small
 from rocking.papers.yim_lin_1991 import cached_surveys
+from rocking.papers.yim_lin_1991.cases import PERIODIC
 
 CHAPTER = Chapter("Response of damped systems")
 
@@ -135,7 +136,9 @@ def even_orders() -> Finding:
 
 @CHAPTER.claim(
     "Numerical results",
-    error="they branch off the symmetric modes where these lose their stability, and can be continued from there",
+    qualified="true of its sample, figure 2c: over A, T and e its stable orbits begin at folds, and no symmetry breaks on its branches. "
+    "It is not true of the asymmetric modes that branch off the (1, 1) mode where stability analysis finds that this loses its "
+    "stability. Both can be continued without simulation",
 )
 def asymmetric() -> Finding:
     """Asymmetric modes cannot be predicted by stability analysis, only simulated, and show no pattern."""
@@ -148,12 +151,25 @@ def asymmetric() -> Finding:
     predicted = all(not off.symmetric and bool(off.points["stable"].any()) for off in pair)
     simulated = rk.classify(rk.System(rk.Harmonic(9.0, period=1.721328), 0.8))
     continued = predicted and abs(breaking.parameter - closed) < 1e-6 and simulated.symmetric is False
+    sample, places, apart = PERIODIC[2], [], True
+    found = rk.classify(sample.system, sample.start).orbit
+    assert found is not None
+    for name, symbol, ends in (
+        ("amplitude", "A", cached_surveys.AMPLITUDES),
+        ("period", "T", cached_surveys.PERIODS),
+        ("restitution", "e", (0.2, 1.0)),
+    ):
+        special = rk.continue_orbit(found, name, ends).special
+        folds = [point.parameter for point in special if point.kind == "fold"]
+        apart &= len(folds) == 1 and all(point.kind != "symmetry-breaking" for point in special)
+        places += [f"{symbol} = {each:.5f}" for each in folds]
     return Finding(
         not continued,
         f"T = 1.721, e = 0.8: {len(pair)} stable asymmetric branches from A = {breaking.parameter:.6f}, where the symmetry breaks "
         f"(closed form {closed:.6f}); simulated at A = 9: period {simulated.period}, "
-        f"{'symmetric' if simulated.symmetric else 'asymmetric'}",
-        shown=continued,
+        f"{'symmetric' if simulated.symmetric else 'asymmetric'}. Branches of figure 2c, period {found.period}: folds at "
+        f"{', '.join(places)}, {'no' if apart else 'a'} symmetry breaking",
+        shown=continued and apart,
     )
 
 

@@ -71,10 +71,10 @@ def figure_2b() -> Finding:
 
 @CHAPTER.claim(
     "Figs. 2c, 3c",
-    error="it is asymmetric with period 10, but has four impacts, hence two rocking cycles: a (2, 10) mode",
+    misprint="(2, 10): the response is asymmetric and has period 10, but four impacts per period, hence two rocking cycles",
 )
 def figure_2c() -> Finding:
-    """A = 5.5, T = 0.5, e = 0.925 from 0.15, φ = 1.8: asymmetric (1, 10) mode, one rocking per ten forcing cycles."""
+    """A = 5.5, T = 0.5, e = 0.925 from 0.15, φ = 1.8: asymmetric one-tenth subharmonic, the (1, 10) mode."""
     case = PERIODIC[2]
     one, figures = _periodic(case, 10, False, 2)
     two, _ = _periodic(case, 10, False, 4)
