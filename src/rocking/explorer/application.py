@@ -20,6 +20,7 @@ from rocking.explorer.server import local_server
 from rocking.explorer.session import Session
 from rocking.explorer.worker_pools import Workers
 from rocking.model import VERSION, Criterion
+from rocking.plot import palette
 from rocking.plot.parts import legend
 
 GROUND_ADDRESS = "/ground-motion"
@@ -86,9 +87,21 @@ def _ground_page() -> dict[str, object]:
     """Return the template of the page of ground motions and its variables, with the parts of all pages."""
     own = ground_page()
     return own | {
-        "style": f"{_text('page.css')}{own['style']}",
+        "style": f"{_style()}{own['style']}",
         "script": f"{_text('shared.js')}{own['script']}",
     }
+
+
+def _style() -> str:
+    """Return the style of all pages, with those colours that figures have, too."""
+    colours = {
+        "motion-light": palette.MOTION,
+        "motion-dark": palette.DARK_MOTION,
+        "block": palette.BLOCK,
+        "edge": palette.INK,
+    }
+    rules = " ".join(f"--{name}: {colour};" for name, colour in colours.items())
+    return f":root {{ {rules} }}\n{_text('page.css')}"
 
 
 def _text(name: str) -> str:
@@ -107,7 +120,7 @@ def _page() -> dict[str, object]:
     for case in presets.CASES:
         groups.setdefault(case.group, []).append(case)
     return {
-        "style": _text("page.css"),
+        "style": _style(),
         "script": _text("shared.js") + _text("page.js"),
         "given": json.dumps(given, ensure_ascii=False).replace("<", "\\u003c"),
         "fields": FIELDS,

@@ -10,14 +10,12 @@ from bokeh.models import ColumnDataSource, LinearAxis, LinearColorMapper, Range1
 from bokeh.models.annotations import Span, Title
 from bokeh.models.tickers import BasicTicker
 from bokeh.plotting import figure
-from matplotlib.colors import to_hex
 
 from rocking.explorer.progressive_map import SHADES
+from rocking.plot.palette import SELECTED
 from rocking.plot.parts import legend, style
 
-ACCENT = "#D81B60"
-"""Colour of the selection; no response type uses it."""
-SHADED = [to_hex(legend.paler(look.colour, shade)) for shade in range(SHADES) for look in legend.LOOKS]
+SHADED = [look.shade(number) for number in range(SHADES) for look in legend.LOOKS]
 PALETTE = [*SHADED, style.INK, "#00000000"]
 """Palette of a map, indexed by `Picture.colours`: shades of all categories, stripe of a hatch, transparent."""
 FONT = "11px"
@@ -85,7 +83,7 @@ def plane(name: str, title: str, across: str, up: str, palette: Sequence[str] = 
     drawn = made.image("image", "x", "y", "w", "h", source=image, color_mapper=colours)
     drawn.nonselection_glyph = drawn.selection_glyph = None
     point = empty("point", "x", "y")
-    for size, colour, width in ((15, "white", 4.5), (15, ACCENT, 2.2)):
+    for size, colour, width in ((15, "white", 4.5), (15, SELECTED, 2.2)):
         made.scatter("x", "y", source=point, size=size, fill_color=None, line_color=colour, line_width=width)
     made.yaxis.ticker = BasicTicker(desired_num_ticks=6)
     return made
@@ -152,7 +150,13 @@ def section() -> Any:
     )
     orbit = empty("orbit", "angle", "velocity")
     made.scatter(
-        "angle", "velocity", source=orbit, size=11, fill_color=None, line_color=ACCENT, line_width=1.6
+        "angle",
+        "velocity",
+        source=orbit,
+        size=11,
+        fill_color=None,
+        line_color=SELECTED,
+        line_width=1.6,
     )
     return made
 
@@ -196,5 +200,5 @@ def diagram() -> Any:
         line_color=None,
         marker="square",
     )
-    made.add_layout(Span(name="here", dimension="height", location=0.0, line_color=ACCENT, line_width=1.5))
+    made.add_layout(Span(name="here", dimension="height", location=0.0, line_color=SELECTED, line_width=1.5))
     return made

@@ -150,7 +150,7 @@ function theme(name) {
     view?.request_repaint?.();
   }
   const style = getComputedStyle(document.documentElement), colour = name => ({ value: style.getPropertyValue(name) });
-  for (const name of ["line", "accent"]) inks[name] = style.getPropertyValue(`--${name}`);
+  for (const name of ["line", "accent", "block", "edge"]) inks[name] = style.getPropertyValue(`--${name}`);
   for (const model of Object.values(models)) model.title.setv({ text_color: colour("--ink").value.trim() }, { sync: false });
   for (const { name, glyph } of Object.values(models).flatMap(model => model.renderers)) {
     if (name === "words") glyph.setv({ text_color: colour("--soft") }, { sync: false });
@@ -203,8 +203,8 @@ function frame() {
   ink.translate(turn > 0 ? half : -half, 0);
   ink.rotate(turn);
   ink.translate(turn > 0 ? -half : half, 0);
-  ink.fillStyle = "#E8C07D";
-  ink.strokeStyle = "#262626";
+  ink.fillStyle = inks.block;
+  ink.strokeStyle = inks.edge;
   ink.fillRect(-half, -tall, 2 * half, tall);
   ink.strokeRect(-half, -tall, 2 * half, tall);
   ink.restore();

@@ -40,7 +40,7 @@ def verdict(found: Verdict, block: Block | None) -> dict[str, Any]:
     facts.append(("simulated", counted(found.cycles, "cycle")))
     return {
         "kind": str(found.kind),
-        "colour": looks.COLOURS[found.kind],
+        "colour": looks.look_of(found).colour,
         "facts": facts,
         "evidence": str(found.evidence),
     }

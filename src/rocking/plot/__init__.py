@@ -30,6 +30,7 @@ from rocking.orbits import (
     ResponseDiagram,
     SaddleManifolds,
 )
+from rocking.plot import palette as palette
 from rocking.plot.animation import animation
 from rocking.plot.basins import basins
 from rocking.plot.bifurcation_curve import bifurcation_curve

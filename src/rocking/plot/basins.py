@@ -13,10 +13,8 @@ from rocking.model import Attractor, BasinMap, Block, Kind, instance, percent
 from rocking.plot.parametric_map import MAX_DRAWN
 from rocking.plot.parts import style
 from rocking.plot.parts.axis_units import parameter
-from rocking.plot.parts.legend import COLOURS, paler
+from rocking.plot.parts.legend import Look, look_of
 
-# Colours of the orbits, the largest basin first: those of Okabe and Ito that no type of response has, then paler shades.
-ORBITS = (style.MOTION, "#56B4E9", "#E69F00", "#CC79A7", "#8C6D31", "#B5A0D8", "#7FC8A9", "#F2B8A0")
 NAMED = 8
 """Maximum number of attractors in the legend; all attractors are drawn."""
 MAX_LENGTH = 12
@@ -28,7 +26,7 @@ HATCH = "////"
 
 
 def basins(found: BasinMap, ax: Axes | None = None, block: Block | None = None) -> Axes:
-    """Plot basins of attraction, one colour per attractor; overturning is light grey, undetermined is hatched.
+    """Plot basins of attraction in the colours of the types of response; attractors of one type have different shades.
 
     Parameters
     ----------
@@ -104,17 +102,14 @@ def basins(found: BasinMap, ax: Axes | None = None, block: Block | None = None) 
     return ax
 
 
-def colours(attractors: tuple[Attractor, ...]) -> list[str | tuple[float, float, float]]:
-    """Return the colours of attractors: one per orbit; other attractors have the colour of their type or a paler shade."""
-    hues: list[str | tuple[float, float, float]] = []
-    met: Counter[Kind] = Counter()
+def colours(attractors: tuple[Attractor, ...]) -> list[str]:
+    """Return the colours of attractors: that of the category, and other shades for more attractors of the same category."""
+    hues: list[str] = []
+    met: Counter[Look] = Counter()
     for each in attractors:
-        count = met[each.kind]
-        if each.kind is Kind.PERIODIC:
-            hues.append(paler(ORBITS[count % len(ORBITS)], count // len(ORBITS)))
-        else:
-            hues.append(paler(COLOURS[each.kind], count))
-        met[each.kind] += 1
+        look = look_of(each.verdict)
+        hues.append(look.shade(met[look]))
+        met[look] += 1
     return hues
 
 

@@ -7,15 +7,15 @@ from matplotlib.axes import Axes
 
 from rocking.model import Block, refuse_if
 from rocking.orbits import BifurcationCurve
+from rocking.plot import palette
 from rocking.plot.parts import codimension_two, style
 from rocking.plot.parts.axis_units import parameter
 from rocking.plot.parts.branch_lines import several, unless_there
 
-# No colour of a map of responses, so that each type stands out from it.
 LOOKS: dict[str, tuple[str, Any]] = {
-    "fold": ("#C2185B", "-"),
-    "symmetry-breaking": ("#E69F00", (0, (5, 2))),
-    "period-doubling": ("#00695C", (0, (6, 2, 1, 2))),
+    "fold": (palette.FOLD, "-"),
+    "symmetry-breaking": (palette.SYMMETRY_BREAKING, (0, (5, 2))),
+    "period-doubling": (palette.PERIOD_DOUBLING, (0, (6, 2, 1, 2))),
     "grazing": (style.INK, (0, (1, 1.5))),
 }
 

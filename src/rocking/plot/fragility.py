@@ -10,10 +10,11 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from rocking.model import Fragility, LognormalFit, counted, instance, refuse_if
+from rocking.plot import palette
 from rocking.plot.parts import style
 from rocking.plot.parts.intensity import level_label, limit_label
 
-COLOURS = (style.MOTION, style.BRACE, style.BLOCK, style.IMPACT)
+COLOURS = palette.SERIES[:4]
 MARKS = ("o", "s", "^", "D")
 APART = 0.12
 """Distance between the marks of neighbouring limits at one level, in units of the distance between levels."""

@@ -7,12 +7,13 @@ from matplotlib.axes import Axes
 
 from rocking.model import Block, Kind, Stability, instance
 from rocking.orbits import FrequencyResponse
+from rocking.plot import palette
 from rocking.plot.parts import branch_lines, style
 from rocking.plot.parts.axis_units import parameter, quantities
 from rocking.plot.parts.legend import COLOURS
 
-# One colour for each n: those of Okabe and Ito that no type of response has.
-LINES = ("#E69F00", "#CC79A7", "#56B4E9", style.GUIDE)
+# One colour for each n.
+LINES = palette.SERIES[:-1]
 # Position of the bar that marks overturning, and the room for it below the lines, as fractions of the axes' height.
 BAR, ROOM = 0.02, 0.06
 THICK = 2.0
@@ -89,7 +90,7 @@ def _from_rest(ax: Axes, result: FrequencyResponse, across, upright) -> None:
             marker="o",
             markersize=0.75 * style.MARK,
             markerfacecolor="none",
-            markeredgecolor=colour if kind is not Kind.REST else style.GUIDE,
+            markeredgecolor=colour,
             markeredgewidth=0.6,
             label=f"from rest: {kind.value}",
             gid=f"rest {kind.value}",
@@ -102,7 +103,7 @@ def _from_rest(ax: Axes, result: FrequencyResponse, across, upright) -> None:
             across(ends),
             np.full(len(ends), BAR),
             transform=ax.get_xaxis_transform(),
-            color=style.INK,
+            color=COLOURS[Kind.OVERTURNED],
             linewidth=THICK,
             solid_capstyle="butt",
             label="from rest: overturned",

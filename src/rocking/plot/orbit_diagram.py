@@ -4,11 +4,13 @@ from collections.abc import Sequence
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.patheffects import Normal, Stroke
 
-from rocking.model import Block, Stability, instance, members, one_of, refusal
+from rocking.model import Block, Kind, Stability, instance, members, one_of, refusal
 from rocking.orbits import Branch, OrbitDiagram
 from rocking.plot.parts import branch_lines, style
 from rocking.plot.parts.axis_units import parameter, quantities
+from rocking.plot.parts.legend import COLOURS
 
 WAYS = {
     "up": ("swept up", style.MOTION),
@@ -17,7 +19,7 @@ WAYS = {
 }
 # Room below the points for the bars that mark overturning, and their distance, as fractions of the axes' height.
 ROOM, BAR = 0.07, 0.025
-THICK = 2.0
+THICK, EDGE = 2.0, 1.2
 ASIDE = 0.03
 # A stable branch is visible on both sides of the points on it.
 OUTLINE = 1.8
@@ -180,13 +182,15 @@ def _bars(ax: Axes, result: OrbitDiagram, across) -> None:
         if not result.overturned[row].any():
             continue
         ends = branch_lines.spans(result.values, result.overturned[row])
+        edge = WAYS[way][1] if len(result.sweeps) > 1 else style.INK
         ax.plot(
             across(ends),
             np.full(len(ends), BAR * (row + 0.6)),
             transform=ax.get_xaxis_transform(),
-            color=WAYS[way][1] if len(result.sweeps) > 1 else style.INK,
+            color=COLOURS[Kind.OVERTURNED],
             linewidth=THICK,
             solid_capstyle="projecting",
+            path_effects=[Stroke(linewidth=THICK + EDGE, foreground=edge), Normal()],
             label="overturned" + (f", {way}" if len(result.sweeps) > 1 else ""),
             gid=f"overturned {way}",
         )

@@ -4,14 +4,17 @@ from __future__ import annotations
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.patches import Patch
 
 from rocking.model import OverturningSet, instance
+from rocking.plot import palette
 from rocking.plot.parts import style
 from rocking.plot.parts.names import shortened
 
 ROW, REST, TALLEST = 0.24, 1.0, 9.0
 """Height of a row and of everything else, and of the tallest figure, in inches."""
 BAND = 0.7
+EDGE = 0.3
 NARROWEST = 1 / 200
 """Width of the narrowest band, as a fraction of the range, so that it remains visible."""
 MAX_NAMED, LONGEST_NAME = 36, 18
@@ -45,7 +48,7 @@ def overturning_set(found: OverturningSet, ax: Axes | None = None) -> Axes:
 
     Notes
     -----
-    A triangle marks the lowest overturning level of a record. A cross below a band is a switch that rounding may have made. A band
+    A triangle marks the lowest overturning level of a record. A diamond below a band is a switch that rounding may have made. A band
     takes at least 1/200 of the range, so that the narrowest remain visible.
 
     Examples
@@ -68,8 +71,9 @@ def overturning_set(found: OverturningSet, ax: Axes | None = None) -> Axes:
         ax.broken_barh(
             [(low, max(high - low, narrowest)) for low, high in bands.tolist()],
             (row - BAND / 2, BAND),
-            facecolor=style.GUIDE,
-            linewidth=0,
+            facecolor=palette.OVERTURNED[0],
+            edgecolor=style.INK,
+            linewidth=EDGE,
             gid=f"bands {row}",
         )
     ax.plot(
@@ -87,9 +91,11 @@ def overturning_set(found: OverturningSet, ax: Axes | None = None) -> Axes:
             doubtful["level"],
             doubtful["record"] + BAND / 2,
             linestyle="none",
-            marker="x",
+            marker="D",
             markersize=style.MARK,
-            color=style.MOTION,
+            markerfacecolor=palette.UNDETERMINED[0],
+            markeredgecolor=style.INK,
+            markeredgewidth=style.THIN,
             label="undecided",
             gid="undecided",
         )
@@ -97,7 +103,9 @@ def overturning_set(found: OverturningSet, ax: Axes | None = None) -> Axes:
     ax.set_xlim(found.scales[0], found.scales[-1])
     ax.set_ylim(count - 0.5, -0.5)
     _name_rows(ax, found.records.names)
-    bands_entry = ax.fill_between([], [], color=style.GUIDE, linewidth=0, label="overturns")
+    bands_entry = Patch(
+        facecolor=palette.OVERTURNED[0], edgecolor=style.INK, linewidth=EDGE, label="overturns"
+    )
     ax.legend(handles=[bands_entry, *ax.lines], **style.BELOW, ncols=3, columnspacing=1.2)
     return ax
 

@@ -10,6 +10,7 @@ from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.patches import Patch
 
 from rocking.model import Block, Outcome, refusal
+from rocking.plot import palette
 from rocking.plot.parts import style
 from rocking.plot.parts.axis_units import parameter
 
@@ -17,12 +18,12 @@ if TYPE_CHECKING:
     import xarray as xr
 
 LOOKS = (
-    ("no motion", "#FFFFFF"),
-    ("stands", "#E4E4E4"),
-    ("falls, no impact", style.MOTION),
-    ("falls, 1 impact", style.IMPACT),
-    ("falls, 2 or more impacts", style.BRACE),
-    ("undecided", "#F0E442"),
+    ("no motion", palette.REST[0]),
+    ("stands", palette.STANDS),
+    ("falls, no impact", palette.OVERTURNED_AFTER[0]),
+    ("falls, 1 impact", palette.OVERTURNED_AFTER[1]),
+    ("falls, 2 or more impacts", palette.OVERTURNED_AFTER[2]),
+    ("undecided", palette.UNDETERMINED[0]),
 )
 """Names and colours of the categories, in the order of the codes that `categories` returns."""
 STILL, ROCKS, OVERTURNS, UNDECIDED = 0, 1, 2, 5

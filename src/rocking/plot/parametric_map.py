@@ -13,6 +13,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from rocking.model import Block, percent
+from rocking.plot import palette
 from rocking.plot.parts import style, theory_curves
 from rocking.plot.parts.axis_units import parameter
 from rocking.plot.parts.legend import LOOKS, NONE, PAPER, Symbol, check_symbols
@@ -141,7 +142,7 @@ def _thinned(read: Responses, most: int) -> tuple[np.ndarray, np.ndarray, np.nda
 
 def _cells(ax: Axes, codes: np.ndarray, x: np.ndarray, y: np.ndarray) -> None:
     """Draw one cell per point, and stripes over hatched cells."""
-    colours = ListedColormap([look.colour for look in LOOKS]).with_extremes(over="white")
+    colours = ListedColormap([look.colour for look in LOOKS]).with_extremes(over=palette.NOT_COMPUTED)
     norm = BoundaryNorm(np.arange(len(LOOKS) + 1) - 0.5, len(LOOKS))
     ax.pcolorfast(x, y, codes, cmap=colours, norm=norm).set(gid="map", rasterized=True)
     hatched = [number for number, look in enumerate(LOOKS) if look.hatch is not None]
@@ -210,7 +211,7 @@ def _cell_keys(counts: np.ndarray) -> list[Patch]:
         share = percent(counts[NONE] / counts.sum())
         keys.append(
             Patch(
-                facecolor="white",
+                facecolor=palette.NOT_COMPUTED,
                 edgecolor=style.GUIDE,
                 linewidth=style.THIN,
                 label=f"not computed ({share})",

@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
+import re
+
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.patches import Patch
 
 from rocking.model import Kind, Repeatability, RepeatabilityMap, instance, percent
+from rocking.plot import palette
 from rocking.plot.parts import style
 from rocking.plot.parts.axis_units import PARAMETERS
-from rocking.plot.parts.legend import COLOURS
+from rocking.plot.parts.legend import COLOURS, look_at
 
 SHOWN = 12
-UNCERTAIN = "#CC79A7"
 LEAST = 1e-4
 """Smallest fraction with a row in the legend."""
 
@@ -55,7 +57,7 @@ def repeatability(found: Repeatability, ax: Axes | None = None) -> Axes:
     up = np.arange(len(pairs))
     values = np.array([share.value for _, share in pairs])
     ends = np.array([[share.value - share.low, share.high - share.value] for _, share in pairs]).T
-    hues = [COLOURS[Kind(name)] if name in set(Kind) else COLOURS[Kind.PERIODIC] for name, _ in pairs]
+    hues = [_colour(name) for name, _ in pairs]
     error = {"elinewidth": style.LINE, "capsize": 2.5, "ecolor": style.GUIDE}
     ax.barh(up, 100 * values, xerr=100 * ends, color=hues, height=0.7, error_kw=error, gid="shares")
     style.label(ax, f"fraction of {found.repeats.of:,} runs (%)", "")
@@ -64,6 +66,14 @@ def repeatability(found: Repeatability, ax: Axes | None = None) -> Axes:
     ax.set_xlim(0.0, 100.0)
     style.note(ax, f"inputs vary by up to {100 * found.relative:.3g} %")
     return ax
+
+
+def _colour(name: str) -> str:
+    """Return the colour of a response by its name, such as "period 3, symmetric, 2 impacts" or "overturned"."""
+    periodic = re.match(r"period (\d+), (a?)symmetric", name)
+    if periodic is None:
+        return COLOURS[Kind(name)]
+    return look_at(Kind.PERIODIC, int(periodic[1]), not periodic[2]).colour
 
 
 def repeatability_map(found: RepeatabilityMap, ax: Axes | None = None) -> Axes:
@@ -113,7 +123,7 @@ def repeatability_map(found: RepeatabilityMap, ax: Axes | None = None) -> Axes:
     values = np.where(unknown > 0.0, Kind.UNDETERMINED.code, data.kind.values)
     # half a run, because fractions are rounded
     values = np.where(seen + unknown < 1.0 - 0.5 / data.attrs["samples"], count, values)
-    hues = [*(COLOURS[kind] for kind in Kind), UNCERTAIN]
+    hues = [*(COLOURS[kind] for kind in Kind), palette.UNCERTAIN]
     ax.pcolormesh(
         across,
         up,

@@ -12,6 +12,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from rocking.model import INTENSITIES, counted, one_of, refusal
+from rocking.plot import palette
 from rocking.plot.parts import style
 from rocking.plot.parts.map_levels import edges
 from rocking.plot.parts.names import shortened
@@ -32,7 +33,7 @@ UNITS = {
 }
 SLENDERNESS = r"critical angle $\theta_\mathrm{cr}$ (°)"
 LINES = ("record", "size", "slenderness")
-COLOURS = (style.MOTION, style.IMPACT, style.BRACE, "#CC79A7", "#56B4E9", "#8A6D00", "#3F0A6B", style.INK)
+COLOURS = palette.SERIES
 """Colours of lines with a name in the legend; more lines have the colour of their slenderness."""
 MOST_SLENDERNESSES = 6
 """Most critical angles of which each has lines; more give a map."""
@@ -144,7 +145,7 @@ def _head(ax: Axes, found: xr.Dataset) -> None:
 
 def _strip(ax: Axes, bottom: float, top: float) -> None:
     """Set the strip of the marks of overturned blocks apart from the axis of the angle."""
-    ax.axhspan(bottom, top, color=style.FALLEN, alpha=0.4, linewidth=0, zorder=0, gid="strip")
+    ax.axhspan(bottom, top, color=palette.OVERTURNED[0], alpha=0.4, linewidth=0, zorder=0, gid="strip")
     ax.set_yticks([tick for tick in ax.get_yticks() if 0.0 <= tick <= bottom])
 
 
@@ -263,20 +264,24 @@ def _map(found: xr.Dataset, ax: Axes | None, across: str, unit: str) -> Axes:
     overturned = overturned_runs(found).transpose("slenderness", "size").values
     ax = style.own(ax, height=3.0)
     corners = edges(places), edges(angles)
-    ax.pcolormesh(
-        *corners,
-        np.where(overturned, 1.0, np.nan),
-        cmap=ListedColormap([style.FALLEN]),
-        rasterized=True,
-        gid="overturned",
-    )
+    still = peak == 0.0
+    ends = [(overturned, palette.OVERTURNED[0], "overturned"), (still, palette.REST[0], "no motion")]
+    for where, colour, name in ends:
+        ax.pcolormesh(
+            *corners, np.where(where, 1.0, np.nan), cmap=ListedColormap([colour]), rasterized=True, gid=name
+        )
     image = ax.pcolormesh(
-        *corners, np.where(overturned, np.nan, peak), cmap="viridis", vmin=0.0, rasterized=True, gid="peak"
+        *corners,
+        np.where(overturned | still, np.nan, peak),
+        cmap=style.ANGLES,
+        vmin=0.0,
+        rasterized=True,
+        gid="peak",
     )
     bar = ax.figure.colorbar(image, ax=ax, pad=0.02)
     bar.set_label(UNITS[unit], fontsize=style.SMALL, color=style.INK)
     bar.ax.tick_params(labelsize=style.SMALL)
     _head(ax, found)
     style.label(ax, x_label, SLENDERNESS)
-    style.patches(ax, [Patch(facecolor=style.FALLEN, label="overturned")])
+    style.patches(ax, [Patch(facecolor=colour, label=name) for where, colour, name in ends if where.any()])
     return ax

@@ -17,7 +17,7 @@ from rocking.model import Block, Kind, Orbit, Outcome, State, TooManyEvents, Ver
 from rocking.motion import simulate
 from rocking.plot.parts import style
 from rocking.plot.parts.axis_units import quantities
-from rocking.plot.parts.legend import COLOURS
+from rocking.plot.parts.legend import look_of
 from rocking.plot.parts.sample_times import settled
 from rocking.plot.phase_portrait import phase_portrait
 from rocking.plot.section import section
@@ -85,7 +85,9 @@ def verdict(verdict: Verdict, block: Block | None = None) -> Figure:
     figure = Figure(
         figsize=(style.PAGE, 5.2), layout=ConstrainedLayoutEngine(rect=(2 * BAND, 0.0, 1.0 - 2 * BAND, 1.0))
     )
-    figure.add_artist(Rectangle((0.0, 0.0), BAND, 1.0, color=COLOURS[verdict.kind], linewidth=0, gid="kind"))
+    figure.add_artist(
+        Rectangle((0.0, 0.0), BAND, 1.0, color=look_of(verdict).colour, linewidth=0, gid="kind")
+    )
     sentence = textwrap.fill(str(verdict), LETTERS)
     figure.suptitle(sentence, x=3 * BAND, ha="left", fontsize=style.SMALL, color=style.INK)
     if verdict.kind in ENDS:
@@ -180,7 +182,7 @@ def _section(verdict: Verdict, ax: Axes, block: Block | None) -> None:
     phase = (orbit.phase + 0.5 * math.pi) % math.tau if orbit.superstable else orbit.phase
     points = motion.section(phase)
     section(points[: -orbit.period], ax, block, phase)
-    _ring(ax, _on(orbit, points), block, verdict.kind)
+    _ring(ax, _on(orbit, points), block, look_of(verdict).colour)
 
 
 def _on(orbit: Orbit, points: NDArray) -> NDArray:
@@ -191,7 +193,7 @@ def _on(orbit: Orbit, points: NDArray) -> NDArray:
     return simulate(system, orbit.state, cycles=orbit.period, record="section").section()[:-1]
 
 
-def _ring(ax: Axes, points: NDArray, block: Block | None, kind: Kind) -> None:
+def _ring(ax: Axes, points: NDArray, block: Block | None, colour: str) -> None:
     ax.lines[-1].set(color=style.GUIDE, label="transient")
     shown = quantities(block)
     ax.plot(
@@ -201,7 +203,7 @@ def _ring(ax: Axes, points: NDArray, block: Block | None, kind: Kind) -> None:
         marker="o",
         markersize=1.6 * style.MARK,
         markerfacecolor="none",
-        markeredgecolor=COLOURS[kind],
+        markeredgecolor=colour,
         label="orbit",
         gid="orbit",
         zorder=3,

@@ -13,6 +13,7 @@ from matplotlib.colors import to_rgb
 from PIL import Image
 
 from rocking.model import TILES, VERSION, Block, percent, replacing_folder
+from rocking.plot import palette
 from rocking.plot.parts import style
 from rocking.plot.parts.axis_units import parameter
 from rocking.plot.parts.legend import LOOKS, NONE
@@ -173,7 +174,7 @@ def _page(read: Responses, counts: np.ndarray, pyramid: Pyramid, block: Block | 
         legend.append(
             {
                 "name": "not computed",
-                "colour": "#FFFFFF",
+                "colour": palette.NOT_COMPUTED,
                 "hatch": "",
                 "share": percent(counts[NONE] / counts.sum()),
             }

@@ -9,7 +9,7 @@ import numpy as np
 from attrs import frozen
 
 from rocking.explorer.ground_motion.ground import Ground, thinned
-from rocking.explorer.ground_motion.size_map import OVERTURNED, STANDING, WARM
+from rocking.explorer.ground_motion.size_map import ANGLES, OVERTURNED, STILL
 from rocking.explorer.ground_motion.view import GroundView
 from rocking.model import GRAVITY, Block, Outcome
 from rocking.motion import Motion, end_shown, simulate
@@ -68,11 +68,11 @@ def _history(motion: Motion, block: Block, samples: int) -> tuple[np.ndarray, np
 
 def _words(motion: Motion, block: Block) -> dict[str, Any]:
     overturned, moves = motion.outcome == Outcome.OVERTURNED, motion.peak > 0.0
-    kind, colour = "stands still", STANDING
+    kind, colour = "stands still", STILL
     if overturned:
         kind, colour = "overturns", OVERTURNED
     elif moves:
-        kind, colour = "rocks and stands", WARM[min(int(motion.peak * len(WARM)), len(WARM) - 1)]
+        kind, colour = "rocks and stands", ANGLES[min(int(motion.peak * len(ANGLES)), len(ANGLES) - 1)]
     lift = block.acceleration(motion.system.lift_off) / GRAVITY
     facts: Facts = [
         ("block", f"{block.height:.4g} m × {block.width:.4g} m"),

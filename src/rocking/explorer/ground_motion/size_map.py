@@ -11,13 +11,14 @@ from typing import Any
 
 import numpy as np
 from attrs import field, frozen
-from matplotlib import colormaps
 from matplotlib.colors import to_hex
 
 from rocking.explorer.ground_motion.view import INTERVALS
 from rocking.explorer.view_state import Span
 from rocking.explorer.worker_pools import Workers
 from rocking.model import Outcome, percent
+from rocking.plot import palette
+from rocking.plot.parts import style
 from rocking.survey import BlockEndings
 
 POINTS = INTERVALS + 1
@@ -32,9 +33,9 @@ SHADES = 48
 """Number of colours of the largest angle of blocks that rock."""
 STANDS, OVERTURNS, ROCKS = 0, 1, 2
 """Palette indices: no motion, overturning, and the first shade of rocking."""
-STANDING, OVERTURNED = "#DCE8F2", "#262626"
-WARM = [to_hex(each) for each in colormaps["YlOrRd"](np.linspace(0.08, 0.92, SHADES))]
-PALETTE = [STANDING, OVERTURNED, *WARM]
+STILL, OVERTURNED = palette.REST[0], palette.OVERTURNED[0]
+ANGLES = [to_hex(each) for each in style.ANGLES(np.linspace(0.0, 1.0, SHADES))]
+PALETTE = [STILL, OVERTURNED, *ANGLES]
 FIELDS = {"outcome": np.uint8, "certified": np.uint8, "peak": np.float32, "margin": np.float32}
 """Stored results of each point, with their types, by the names of `rocking_spectrum`."""
 CODE = tuple(Outcome).index(Outcome.OVERTURNED)
@@ -99,8 +100,8 @@ class SizePicture:
         stands, rocks, overturns = map(percent, self.shares())
         undecided = float(np.mean(self.fields["certified"] == 0))
         return {
-            "stands": {"colour": STANDING, "share": stands},
-            "rocks": {"colours": WARM, "share": rocks},
+            "stands": {"colour": STILL, "share": stands},
+            "rocks": {"colours": ANGLES, "share": rocks},
             "overturns": {"colour": OVERTURNED, "share": overturns},
             "undecided": percent(undecided) if undecided else "",
             "side": self.side,

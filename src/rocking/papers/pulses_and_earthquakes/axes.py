@@ -4,8 +4,11 @@ from __future__ import annotations
 
 from matplotlib.axes import Axes
 
+import rocking as rk
+
 TEXT, SMALL = 9.0, 8.0
-BLUE, ORANGE, GREEN, PURPLE, INK, SHADE = "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#262626", "#DDDDDD"
+FIRST, SECOND, THIRD = rk.plot.palette.SERIES[:3]
+INK = rk.plot.palette.INK
 
 
 def finish(ax: Axes, across: str, up: str, columns: int = 2) -> None:

@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 
 import rocking as rk
 from rocking.papers.pulses_and_earthquakes import thresholds
-from rocking.papers.pulses_and_earthquakes.axes import BLUE, GREEN, INK, ORANGE, finish
+from rocking.papers.pulses_and_earthquakes.axes import FIRST, INK, SECOND, THIRD, finish
 
 FREQUENCIES, DURATIONS = (0.5, 1.0, 2.0, 3.0, 4.0, 5.0), (0.3, 0.7, 1.0, 2.0, 3.0, 4.0)
 
@@ -27,9 +27,9 @@ def draw() -> Figure:
     """Draw both pulses."""
     figure, (left, right) = rk.plot.panels(columns=2, height=3.2)
     rates, line = np.linspace(0.05, 5.2, 300), np.array([0.0, 3.0])
-    left.plot(rates, np.sqrt(1 + rates**2), color=ORANGE, lw=1.2, label="Housner, Eq. (12)")
-    left.plot(rates, rk.theory.half_sine_pulse_amplitude(math.pi / rates), color=BLUE, lw=1.2, label="exact")
-    left.plot(line, 1 + line / 2, color=GREEN, lw=1.2, ls="--", label=r"$1 + \Omega/2$")
+    left.plot(rates, np.sqrt(1 + rates**2), color=SECOND, lw=1.2, label="Housner, Eq. (12)")
+    left.plot(rates, rk.theory.half_sine_pulse_amplitude(math.pi / rates), color=FIRST, lw=1.2, label="exact")
+    left.plot(line, 1 + line / 2, color=THIRD, lw=1.2, ls="--", label=r"$1 + \Omega/2$")
     left.plot(FREQUENCIES, simulated("half-sine", FREQUENCIES), "o", ms=4, color=INK, label="simulated")
     left.set(xlim=(0.0, 5.2), ylim=(0.8, 5.5))
     rk.plot.title(left, "half sine")
@@ -38,7 +38,7 @@ def draw() -> Figure:
     right.plot(
         times,
         rk.theory.rectangular_pulse_amplitude(times),
-        color=BLUE,
+        color=FIRST,
         lw=1.2,
         label="exact, as Housner, Eq. (9)",
     )

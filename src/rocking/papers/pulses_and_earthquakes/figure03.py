@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 
 import rocking as rk
 from rocking.papers.pulses_and_earthquakes import records
-from rocking.papers.pulses_and_earthquakes.axes import BLUE, GREEN, ORANGE, finish
+from rocking.papers.pulses_and_earthquakes.axes import FIRST, SECOND, THIRD, finish
 
 TOP = 1.02
 
@@ -23,7 +23,7 @@ def draw() -> Figure:
     found = records.spectrum().transpose("slenderness", "size")
     periods = 2 * np.pi / found["frequency_parameter"].values
     rows = zip(found.peak.values, records.fallen(found), np.degrees(found["slenderness"].values), strict=True)
-    for number, ((peak, over, degrees), colour) in enumerate(zip(rows, (BLUE, ORANGE, GREEN), strict=True)):
+    for number, ((peak, over, degrees), colour) in enumerate(zip(rows, (FIRST, SECOND, THIRD), strict=True)):
         ax.plot(
             periods,
             np.where(over, np.nan, peak),

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 
 import rocking as rk
 from rocking.papers.pulses_and_earthquakes import records
-from rocking.papers.pulses_and_earthquakes.axes import BLUE, INK, ORANGE, finish
+from rocking.papers.pulses_and_earthquakes.axes import FIRST, INK, SECOND, finish
 
 TOP = 1.06
 
@@ -22,10 +22,16 @@ def draw() -> Figure:
     found = records.scales()
     over = records.fallen(found)
     left.plot(
-        records.RATIOS[~over], found.peak.values[~over], ".", ms=1.2, mew=0, color=BLUE, rasterized=True
+        records.RATIOS[~over], found.peak.values[~over], ".", ms=1.2, mew=0, color=FIRST, rasterized=True
     )
     left.plot(
-        records.RATIOS[over], np.full(over.sum(), TOP), "|", ms=7, mew=0.25, color=ORANGE, rasterized=True
+        records.RATIOS[over],
+        np.full(over.sum(), TOP),
+        "|",
+        ms=7,
+        mew=0.25,
+        color=rk.plot.palette.OVERTURNED[0],
+        rasterized=True,
     )
     left.set(xlim=(records.RATIOS[0], records.RATIOS[-1]), ylim=(0.0, TOP + 0.06))
     rk.plot.title(left, "bars: overturned")
@@ -33,7 +39,7 @@ def draw() -> Figure:
     steps = np.array(records.STRIDES) * (records.RATIOS[1] - records.RATIOS[0])
     counts = [records.switches(over[::stride]) for stride in records.STRIDES]
     right.loglog(steps, counts, "o-", ms=4, lw=0.9, color=INK)
-    right.loglog(steps, counts[-1] * steps[-1] / steps, "--", lw=0.8, color=ORANGE)
+    right.loglog(steps, counts[-1] * steps[-1] / steps, "--", lw=0.8, color=SECOND)
     rk.plot.title(right, "switches")
     finish(right, "step of PGA/($g\\,\\theta_{cr}$)", "number of switches")
     return figure

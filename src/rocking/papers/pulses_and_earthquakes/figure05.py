@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 
 import rocking as rk
 from rocking.papers.pulses_and_earthquakes import records
-from rocking.papers.pulses_and_earthquakes.axes import BLUE, ORANGE, finish
+from rocking.papers.pulses_and_earthquakes.axes import FIRST, SECOND, finish
 
 
 def draw() -> Figure:
@@ -20,8 +20,8 @@ def draw() -> Figure:
     figure, (ax,) = rk.plot.panels(height=3.0)
     wrong = records.wrong_verdicts()
     for shares, colour, name, shift in (
-        (wrong.at_end, ORANGE, "impact at the step's end", 0.97),
-        (wrong.interpolated, BLUE, "impact interpolated", 1.03),
+        (wrong.at_end, SECOND, "impact at the step's end", 0.97),
+        (wrong.interpolated, FIRST, "impact interpolated", 1.03),
     ):
         middle = np.array([100 * share.value for share in shares])
         ends = np.array([[100 * share.low, 100 * share.high] for share in shares]).T

@@ -32,5 +32,5 @@ def draw() -> Figure:
     # A_M has the same colour as in the figure of the exact threshold, A_SB a colour of its own
     for line in (*ax.lines, *ax.get_legend().legend_handles):
         if "SB" in str(line.get_label()):
-            line.set_color("#009E73")
+            line.set_color(rk.plot.palette.SERIES[2])
     return figure

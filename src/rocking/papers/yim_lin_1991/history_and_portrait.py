@@ -40,5 +40,11 @@ def draw_arrow(ax: Axes, motion: rk.Motion, cycle: float) -> None:
     """Draw an arrow in the direction of motion on a phase portrait, at a number of cycles from the start."""
     period = motion.system.harmonic.period
     tail, head = (motion.at((cycle + step) * period) for step in (-SHORT, SHORT))
-    arrow = {"arrowstyle": "-|>", "color": "#0072B2", "shrinkA": 0, "shrinkB": 0, "mutation_scale": 11}
+    arrow = {
+        "arrowstyle": "-|>",
+        "color": rk.plot.palette.MOTION,
+        "shrinkA": 0,
+        "shrinkB": 0,
+        "mutation_scale": 11,
+    }
     ax.annotate("", head, tail, arrowprops=arrow)

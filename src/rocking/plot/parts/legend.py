@@ -1,35 +1,20 @@
-"""Colours, marks and hatches of the types of response, the same in all figures and in the explorer.
+"""Marks and hatches of the types of response, with their colours, the same in all figures and in the explorer.
 
-Readers with protanopia or deuteranopia can distinguish the colours (the tests simulate both). Odd periods have a dark
-colour if the response is symmetric and a lighter tint, with a hollow mark, if it is asymmetric. Responses of even period
-are always asymmetric and green.
+Odd periods have a dark colour if the response is symmetric and a lighter tint, with a hollow mark, if it is asymmetric.
+Responses of even period are always asymmetric and green.
 """
 
 from __future__ import annotations
 
-import colorsys
-
 import numpy as np
 from attrs import frozen
-from matplotlib.colors import to_rgb
+from matplotlib.colors import to_hex, to_rgb
 
-from rocking.model import Kind, one_of
+from rocking.model import Kind, Verdict, one_of
+from rocking.plot import palette
 from rocking.plot.parts import style
 
-# Colours of Okabe and Ito for bounded motions; dark grey for rest, light grey for overturning.
-COLOURS = {
-    Kind.REST: "#4A4A4A",
-    Kind.PERIODIC: style.MOTION,
-    Kind.QUASI_PERIODIC: style.BRACE,
-    Kind.CHAOTIC: style.IMPACT,
-    Kind.OVERTURNED: style.FALLEN,
-    Kind.UNDETERMINED: "#F0E442",
-}
-PALER = 0.5
-ONE_ASYMMETRIC = "#8CC2FD"
-THREE, THREE_ASYMMETRIC = "#3F0A6B", "#8D5DF9"
-ODD, ODD_ASYMMETRIC = "#5F3A12", "#F5E3B8"
-EVEN = "#81D361"
+PALER = 0.8
 
 
 @frozen
@@ -37,42 +22,49 @@ class Look:
     """Appearance of a category of a map: a type of response, with the period and symmetry of a periodic response."""
 
     name: str
-    colour: str
+    shades: tuple[str, ...]
     marker: str
     hatch: str | None = None
     hollow: bool = False
 
+    @property
+    def colour(self) -> str:
+        """Colour of the category."""
+        return self.shades[0]
+
+    def shade(self, number: int) -> str:
+        """Return the colour of one of several attractors of the category, numbered from 0; those after the shades are paler."""
+        times, place = divmod(number, len(self.shades))
+        red, green, blue = (1.0 - (1.0 - part) * PALER**times for part in to_rgb(self.shades[place]))
+        return to_hex((red, green, blue)).upper()
+
 
 LOOKS = (
-    Look("rest", COLOURS[Kind.REST], "_"),
-    Look("period 1", COLOURS[Kind.PERIODIC], "o"),
-    Look("period 1, asymmetric", ONE_ASYMMETRIC, "o", hollow=True),
-    Look("period 3", THREE, "^"),
-    Look("period 3, asymmetric", THREE_ASYMMETRIC, "^", hollow=True),
-    Look("period 5, 7, …", ODD, "p"),
-    Look("5, 7, …, asymmetric", ODD_ASYMMETRIC, "p", hollow=True),
-    Look("even period", EVEN, "s"),
-    Look("quasi-periodic", COLOURS[Kind.QUASI_PERIODIC], "D"),
-    Look("chaotic", COLOURS[Kind.CHAOTIC], "+"),
-    Look("overturned", COLOURS[Kind.OVERTURNED], "x"),
-    Look("undetermined", COLOURS[Kind.UNDETERMINED], "*", style.INK),
+    Look("rest", palette.REST, "_"),
+    Look("period 1", palette.PERIOD_1, "o"),
+    Look("period 1, asymmetric", palette.PERIOD_1_ASYMMETRIC, "o", hollow=True),
+    Look("period 3", palette.PERIOD_3, "^"),
+    Look("period 3, asymmetric", palette.PERIOD_3_ASYMMETRIC, "^", hollow=True),
+    Look("period 5, 7, …", palette.ODD_PERIOD, "p"),
+    Look("5, 7, …, asymmetric", palette.ODD_PERIOD_ASYMMETRIC, "p", hollow=True),
+    Look("even period", palette.EVEN_PERIOD, "s"),
+    Look("quasi-periodic", palette.QUASI_PERIODIC, "D"),
+    Look("chaotic", palette.CHAOTIC, "+"),
+    Look("overturned", palette.OVERTURNED, "x"),
+    Look("undetermined", palette.UNDETERMINED, "*", style.INK),
 )
 """Categories of a map, in the order of the codes that `looks` returns."""
 NONE = 255
 """Code of a point that is not yet computed."""
 _OF_KIND = np.array([0, 1, 8, 9, 10, 11], np.uint8)  # in the order of `Kind`
+COLOURS = {kind: LOOKS[number].colour for kind, number in zip(Kind, _OF_KIND, strict=True)}
+"""Colours of the types of response; that of period 1 for periodic responses of any period."""
 
 
 def check_symbols(symbols: str | None) -> None:
     """Raise TypeError or ValueError for an unknown set of symbols."""
     if symbols is not None:
         one_of("symbols", symbols, ("kinds", *PAPER))
-
-
-def paler(colour: str, times: int) -> tuple[float, float, float]:
-    """Return a paler shade of a colour, for a further member of its class."""
-    hue, light, saturation = colorsys.rgb_to_hls(*to_rgb(colour))
-    return colorsys.hls_to_rgb(hue, 1.0 - (1.0 - light) * PALER**times, saturation)
 
 
 @frozen
@@ -119,3 +111,13 @@ def looks(kind: np.ndarray, period: np.ndarray, symmetric: np.ndarray) -> np.nda
     odd = np.select([period == 1, period == 3], [1, 3], 5) + (symmetric != 1)
     found[periodic] = np.where(period % 2 == 0, 7, odd)[periodic]
     return found
+
+
+def look_of(verdict: Verdict) -> Look:
+    """Return the category of a verdict."""
+    return look_at(verdict.kind, verdict.period or 0, bool(verdict.symmetric))
+
+
+def look_at(kind: Kind, period: int, symmetric: bool) -> Look:
+    """Return the category of a type, with the period and symmetry of a periodic response."""
+    return LOOKS[int(looks(*(np.array([value]) for value in (kind.code, period, symmetric)))[0])]

@@ -1,7 +1,7 @@
 """Sizes, colours and labels of all figures.
 
-Sizes fit a column of a journal (88 mm wide). The colours are those of Okabe and Ito, which colour-blind readers can
-distinguish. All properties are set on the artists themselves; matplotlib's global settings and backend stay unchanged.
+Sizes fit a column of a journal (88 mm wide). All properties are set on the artists themselves; matplotlib's global settings
+and backend stay unchanged.
 """
 
 import math
@@ -10,11 +10,13 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.axis import Axis
+from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure
 from matplotlib.ticker import LogFormatterSciNotation, LogLocator, MaxNLocator, NullLocator, ScalarFormatter
 from numpy.typing import NDArray
 
 from rocking.model import Block, instance, members, refusal, refuse_if, whole, within
+from rocking.plot import palette
 
 COLUMN = 3.5
 PAGE = 7.2
@@ -30,14 +32,11 @@ CELLS = 4096
 ROUNDING = 1e-9
 MAX_CORNERS = 50_000
 
-MOTION = "#0072B2"
-IMPACT = "#D55E00"
-BRACE = "#009E73"
-TABLE = "#CFCFCF"
-BLOCK = "#E8C07D"
-INK = "#262626"
-GUIDE = "#9A9A9A"
-FALLEN = "#CCCCCC"
+MOTION, IMPACT, BRACE = palette.MOTION, palette.IMPACT, palette.BRACE
+TABLE, BLOCK, INK, GUIDE = palette.TABLE, palette.BLOCK, palette.INK, palette.GUIDE
+
+ANGLES = LinearSegmentedColormap.from_list("angles", palette.ANGLES)
+"""Largest angle of a block that stands, from 0 to the critical angle."""
 
 # In the heading of a figure of blocks that are not slender; a line of its own, clear of the note at the right.
 FULL_EQUATION = "\nfull equation"

@@ -77,4 +77,4 @@ def _label(ax: Axes, found: rk.BasinMap) -> None:
                 "relpos": (0.0, 0.5),
             },
         )
-        ax.plot(across, up, "o", color="#262626", markersize=2.5)
+        ax.plot(across, up, "o", color=rk.plot.palette.INK, markersize=2.5)

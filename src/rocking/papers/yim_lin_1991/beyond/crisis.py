@@ -34,7 +34,7 @@ def draw() -> Figure:
                 linestyle="none",
                 marker="o",
                 markersize=4.0,
-                color="#E69F00",
+                color=rk.plot.palette.IMPACT,
                 gid="settled",
             )
         rk.plot.title(ax, f"$A = {amplitude:g}$: {text}")

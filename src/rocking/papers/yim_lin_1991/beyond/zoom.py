@@ -37,7 +37,7 @@ def draw() -> Figure:
         rk.plot.parametric_map(found, ax)
         rk.plot.title(ax, f"{100 * divided(found):.1f} % of neighbouring points differ")
     left, right = axes
-    for colour, thickness in (("white", 3.0), ("#262626", 1.2)):
+    for colour, thickness in (("white", 3.0), (rk.plot.palette.INK, 1.2)):
         left.plot(
             *CENTRE, "s", markersize=8.0, markerfacecolor="none", markeredgecolor=colour, markeredgewidth=thickness
         )  # fmt: skip

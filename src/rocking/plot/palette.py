@@ -1,0 +1,47 @@
+"""Colours of outcomes, of types of response and of lines: in all figures, in the explorer and in the reports.
+
+No other file states a colour of these. An outcome or a type has the same colour everywhere, and no other meaning has that
+colour. Lines of data have the colours of `SERIES`, an angle those of `ANGLES`. Readers with protanopia or deuteranopia can
+distinguish the colours; the tests simulate both. The outcomes differ in lightness, for print in grey, and marks or hatches
+support the colours.
+"""
+
+REST = ("#4A4A4A",)
+"""At rest, and not set in motion."""
+PERIOD_1 = ("#0072B2", "#0041AF", "#519BD3")
+PERIOD_1_ASYMMETRIC = ("#8CC2FD", "#6996F5", "#0025C1")
+PERIOD_3 = ("#3F0A6B", "#44325D", "#25003E")
+PERIOD_3_ASYMMETRIC = ("#8D5DF9", "#3D12F0", "#000089")
+ODD_PERIOD = ("#5F3A12", "#6A5D44", "#ECE6D3")
+ODD_PERIOD_ASYMMETRIC = ("#F5E3B8", "#956A38", "#F9FF7C")
+EVEN_PERIOD = ("#81D361", "#6EB469", "#D3FF9B")
+QUASI_PERIODIC = ("#009E73", "#1E3C23", "#001F19")
+CHAOTIC = ("#D55E00", "#914600", "#FF8F44")
+"""Shades of a type: the first one, then those of other attractors of the same type."""
+OVERTURNED = ("#CCCCCC",)
+UNDETERMINED = ("#F0E442",)
+"""Not determined by the run, or undecided by rounding; always with a hatch or an edge."""
+
+STANDS = "#C5DEFF"
+"""Rocked without overturning; the type of response is not told."""
+OVERTURNED_AFTER = ("#B789B1", "#8F5A87", "#270027")
+"""Overturned after no impact, after one, and after two or more."""
+UNCERTAIN = "#FF849C"
+"""Inexact inputs lead to several outcomes."""
+NOT_COMPUTED = "#FFFFFF"
+ANGLES = (STANDS, "#738CA5", "#295273", "#00213A")
+"""Largest angle of a block that stands, from 0 to the critical angle: the corners of a continuous scale."""
+
+SERIES = ("#20466B", "#F28C00", "#008C94", "#E8274A", "#5C7C41", "#9D90FF", "#A34107", "#262626")
+"""Lines and marks of data that belong together by their order alone."""
+MOTION, IMPACT, BRACE = SERIES[:3]
+FOLD, SYMMETRY_BREAKING, PERIOD_DOUBLING = SERIES[3], SERIES[1], SERIES[2]
+
+INK = "#262626"
+GUIDE = "#9A9A9A"
+TABLE = "#CFCFCF"
+BLOCK = "#E8C07D"
+DARK_MOTION = "#8FB4DB"
+"""Motion on a dark page."""
+SELECTED = "#D81B60"
+"""Selected point of a map in the explorer."""
