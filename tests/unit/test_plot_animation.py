@@ -11,6 +11,7 @@ import pytest
 from PIL import Image, ImageSequence
 
 import rocking as rk
+from rocking.plot import palette
 from rocking.plot.parts.film_scene import Scene, corners
 
 SYSTEM = rk.System(rk.Harmonic(amplitude=2.0, period=1.0), restitution=0.925)
@@ -97,7 +98,7 @@ def test_block_leans_as_the_motion_says(tmp_path):
 def test_base_moves_against_its_acceleration(tmp_path):
     motion = rk.simulate(BRACED, cycles=30)
     frames = gif_frames(rk.plot.animation(motion, tmp_path / "a.gif", seconds=1.6, cycles=(10, 14)))
-    place = np.array([pixels(frame, 0xD5, 0x5E, 0x00)[0].mean() for frame in frames])
+    place = np.array([pixels(frame, *bytes.fromhex(palette.IMPACT[1:]))[0].mean() for frame in frames])
     acceleration = np.cos(np.pi * np.linspace(20, 28, 40))
     assert np.corrcoef(place, -acceleration)[0, 1] > 0.999
     assert np.ptp(place) > 20

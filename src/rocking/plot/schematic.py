@@ -8,10 +8,13 @@ from matplotlib.patches import Arc, Polygon, Rectangle
 from numpy.typing import NDArray
 
 from rocking.model import Block, instance, within
+from rocking.plot import palette
 from rocking.plot.parts import style
 from rocking.plot.parts.film_scene import corners
 
 STOUT = Block(height=2.0, width=1.0)
+# Base motion and angle: readable on the colour of the block.
+SHAKEN = palette.SERIES[3]
 
 
 def schematic(ax: Axes | None = None, block: Block | None = None, lean: float = 0.5) -> Axes:
@@ -73,8 +76,8 @@ def _base(ax: Axes, height: float, width: float) -> None:
     ax.plot([-half, half], [0, 0], color=style.INK, linewidth=style.LINE)
     ax.set_xlim(-half, half)
     ax.set_ylim(-2.5 * deep, 1.3 * height)
-    _arrow(ax, (-0.22 * height, -1.4 * deep), (0.22 * height, -1.4 * deep), style.IMPACT, "-|>")
-    _write(ax, r"$a_g = a_x \cos(\omega t + \varphi)$", (0.0, -2.1 * deep), style.IMPACT)
+    _arrow(ax, (-0.22 * height, -1.4 * deep), (0.22 * height, -1.4 * deep), SHAKEN, "-|>")
+    _write(ax, r"$a_g = a_x \cos(\omega t + \varphi)$", (0.0, -2.1 * deep), SHAKEN)
 
 
 def _sides(ax: Axes, tilted: NDArray, height: float) -> None:
@@ -112,7 +115,7 @@ def _angles(ax: Axes, tilted: NDArray, height: float, critical: float, angle: fl
     )
     side = 90.0 - math.degrees(angle)
     for radius, last, name, colour in (
-        (0.72 * height, 90.0, r"$\theta$", style.IMPACT),
+        (0.72 * height, 90.0, r"$\theta$", SHAKEN),
         (0.36 * height, side + math.degrees(critical), r"$\theta_\mathrm{cr}$", style.MOTION),
     ):
         ax.add_patch(
