@@ -3,6 +3,7 @@
 import re
 from importlib.resources import files
 from itertools import combinations
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -182,7 +183,7 @@ def test_no_other_file_states_a_colour_of_the_palette():
     own = {colour.upper() for colour in (*OUTCOMES, *palette.SERIES)} - {palette.INK}
     elsewhere = {}
     for part in ("plot", "explorer", "papers", "cli"):
-        for path in files("rocking").joinpath(part).rglob("*"):
+        for path in (Path(rk.__file__).parent / part).rglob("*"):
             if path.suffix in (".py", ".css", ".js", ".html") and path.name != "palette.py":
                 stated = own & {colour.upper() for colour in STATED.findall(path.read_text(encoding="utf-8"))}
                 elsewhere |= {path.name: stated} if stated else {}

@@ -23,7 +23,7 @@ UNDETERMINED = ("#F0E442",)
 """Not determined by the run, or undecided by rounding; always with a hatch or an edge."""
 
 STANDS = "#C5DEFF"
-"""Rocked without overturning; the type of response is not told."""
+"""Rocked without overturning; the type of response is not known."""
 OVERTURNED_AFTER = ("#B789B1", "#8F5A87", "#270027")
 """Overturned after no impact, after one, and after two or more."""
 UNCERTAIN = "#FF849C"
