@@ -1,14 +1,19 @@
 """Damaged record files: each gives either one line that says what is wrong, or a motion of finite samples."""
 
 import random
+import re
 import sys
+import time
 import warnings
+from contextlib import suppress
+from itertools import product
 
 import numpy as np
 import pytest
 
 import record_files as write
 import rocking as rk
+from rocking.records import text_file
 
 WAVE = np.round(20 * np.sin(np.arange(43)) * np.exp(-np.arange(43) / 9), 3)
 FORMATS = {
@@ -168,3 +173,81 @@ def test_damaged_files_give_one_line_or_a_motion(kind, tmp_path):
 def test_many_damaged_files_give_one_line_or_a_motion(kind, tmp_path):
     errors, motions = run_many(kind, range(200, 2_200), tmp_path)
     assert min(errors, motions) > 100
+
+
+NASTY = {
+    "blanks": " ",
+    "tabs": "\t",
+    "digits": "1",
+    "open brackets": "(",
+    "bracket and blanks": ("[", " "),
+    "signs": "-",
+    "dots": ".",
+    "e": "e",
+    "numbers that end": ("1" * 30, "x"),
+    "commas": ",",
+    "colons": " :",
+    "quotes": "\"'",
+    "nested": "units=(",
+    "counts": "NPTS=",
+}
+"""Text that is repeated, or text and what is repeated after it."""
+LONG = 20_000
+MOST = 2.0
+"""Processor time in s: that of a reader is a hundredth, unless it grows faster than the line."""
+
+
+def nasty(kind, length):
+    first, again = NASTY[kind] if isinstance(NASTY[kind], tuple) else ("", NASTY[kind])
+    return (first + again * (length // len(again)))[:length]
+
+
+def seconds(outcome, **given):
+    """Return the processor time in s of reading a file."""
+    begun = time.process_time()
+    with outcome:
+        rk.read_ground_motions(**given)
+    return time.process_time() - begun
+
+
+@pytest.mark.parametrize("kind", FORMATS)
+def test_a_long_line_is_refused_at_once(kind, tmp_path):
+    path, lines = tmp_path / "file.x", FORMATS[kind]
+    cases = [(what, 100_000, line) for what in NASTY for line in (0, len(lines) - 1)]
+    for what, length, line in [*cases, ("digits", 10_000_000, 2)]:
+        data = "\n".join(
+            [*lines[:line], f"{lines[line]} {nasty(what, length)}x", *lines[line + 1 :]]
+        ).encode()
+        path.write_bytes(data)
+        rule = rf"^file.x, line {line + 1}: a line must have at most 10,000 characters; got [\d,]+; put each"
+        for given in ({"source": path}, {"source": data, "name": "file.x"}):
+            assert seconds(pytest.raises(rk.RecordError, match=rule), **given) < MOST
+
+
+def slow_lines(kind, places, nasties):
+    """Return the lines on which a reader spends too long, each with text at a place in the header; none is expected."""
+    lines, slow = FORMATS[kind], []
+    header = {line: index for index, line in enumerate(lines) if re.search("[A-Za-z]", line)}
+    for line, index in header.items():
+        for at in sorted({found.start() for found in re.finditer(places, line)}):
+            for what, end in product(nasties, {"", line[at:]}):
+                changed = line[:at] + nasty(what, LONG) + end
+                text = "\n".join([*lines[:index], changed, *lines[index + 1 :]])
+                took = seconds(suppress(rk.RecordError), source=text.encode())
+                slow += [(line, at, what, took)] * (took > MOST)
+    return slow
+
+
+@pytest.mark.filterwarnings("ignore::UserWarning")  # a peak that differs
+@pytest.mark.parametrize("kind", FORMATS)
+def test_the_time_of_a_line_grows_no_faster_than_its_length(kind, monkeypatch):
+    monkeypatch.setattr(text_file, "MAX_LINE", 10**9)  # the limit hides a slow expression
+    assert not slow_lines(kind, r"(?<=[=:(])|$", ("blanks", "digits"))
+
+
+@pytest.mark.long
+@pytest.mark.filterwarnings("ignore::UserWarning")
+@pytest.mark.parametrize("kind", FORMATS)
+def test_the_time_grows_no_faster_at_any_place_of_the_header(kind, monkeypatch):
+    monkeypatch.setattr(text_file, "MAX_LINE", 10**9)
+    assert not slow_lines(kind, r"\b|$|(?<=[=:(])", NASTY)

@@ -332,6 +332,10 @@ TABLES = {
         "set.csv, line 2: 3 cells under 2 columns; put a text with commas in",
     ),
     "no rows": (["file,m"], "set.csv: the table has no rows$"),
+    "no end of a quote": (
+        ["file,name", 'b.AT2,"', *["x" * 9_000] * 15],
+        r"set.csv, line \d+: field larger than field limit \(131072\); check the quotes$",
+    ),
 }
 
 

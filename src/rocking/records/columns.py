@@ -14,7 +14,7 @@ from rocking.records.units import unit_of
 
 ROW = re.compile(rf"\s*({NUMBER.pattern})(?:(?:\s*[,;]\s*|\s+)({NUMBER.pattern}))?\s*", re.ASCII)
 COMMENT = re.compile(r"\s*(?:[#%!]|//|$)")
-IN_BRACKETS = re.compile(r"[\[(]\s*([^\[\]()]+?)\s*[\])]")
+IN_BRACKETS = re.compile(r"[\[(]([^\[\]()]++)[\])]")
 AFTER_UNIT = re.compile(r"\bunits?\b(?:\s+(?:is|are|of|in)\b|\s*[:=])*\s*([^\s,;()\[\]]+)", re.IGNORECASE)
 HEADER_LINES = 100
 MAX_DIGITS = 17

@@ -10,7 +10,7 @@ from rocking.records.text_file import TextFile
 INTEGERS = r"^\s*(\d+)\s+Integer-header values follow"
 REALS = r"^\s*(\d+)\s+Real-header values follow on\s+(\d+)\s+lines,\s*Format\s*=\s*\((\d+)[EF](\d+)\.\d+\)"
 DATA = (
-    r"^\s*(\d+)\s+acceleration pts,.*units\s*=\s*([^,(]+)(?:\(\d*\))?\s*,"
+    r"^\s*(\d+)\s+acceleration pts,.*units\s*=([^,(=]++)(?:\(\d*\))?\s*,"
     r"\s*Format\s*=\s*\((?:1P)?(\d+)[EF](\d+)\.\d+\)"
 )
 ANNOUNCED = r"^\s*\S+\s+acceleration pts"
@@ -64,13 +64,13 @@ def _channel(file: TextFile, first: int, line: int) -> tuple[Channel, int]:
     at, text = file.field(begin, PEAK_AT, *columns)
     known = file.number(at, text, "the peak acceleration") != UNKNOWN
     top = max(0, header[0] - TEXT_LINES)
-    component = file.found(r"^Sta Cha[^(]*:\s*([^(:]+?)\s*\(", top, header[0])
+    component = file.found(r"^Sta Cha[^(]*:([^(:]++)\(", top, header[0])
     return Channel(
         samples,
         unit,
         step,
         "COSMOS V1" if file.find(RAW, top, header[0]) else "COSMOS V2",
         file.found(r"Code:\s*\S+\s*(.*)", top, header[0]),
-        re.sub(r"\s*deg$", "°", component),
+        f"{component.removesuffix('deg').rstrip()}°" if component.endswith("deg") else component,
         file.peak(at, text, unit) if known else None,
     ), after

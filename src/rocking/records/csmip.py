@@ -58,13 +58,16 @@ def _channel(file: TextFile, first: int, line: int) -> tuple[Channel, int]:
     samples, after = file.columns(line + 1, file.count(line, match.group(1)), *columns)
     title = file.find(TITLE, first, line)
     begin = title[0] if title else first
+    direction, *degrees = re.split(
+        r"DEG\b", file.found(CHANNEL, begin, line), maxsplit=1, flags=re.IGNORECASE
+    )
     channel = Channel(
         samples,
         unit,
         step,
         "CSMIP V1" if raw else "USC V2" if "IN UNITS" in match.group().upper() else "CSMIP V2",
         re.sub(r"\s{2,}.*", "", file.line(begin + (NAME_V1 if raw else NAME_V2)).strip()),
-        re.sub(r"\s*DEG\b.*", "°", file.found(CHANNEL, begin, line), flags=re.IGNORECASE),
+        f"{direction.rstrip()}°" if degrees else direction,
         _peak(file, RAW_PEAK if raw else PEAK, begin, line),
     )
     return channel, after

@@ -9,7 +9,7 @@ from rocking.records.text_file import TextFile
 
 TITLE = r"(ACCELERATION|VELOCITY|DISPLACEMENT)\s+TIME\s+(?:SERIES|HISTORY)\s+IN\s+UNITS\s+OF\s+(\S+)"
 OTHER = r"\b(VELOCITY|DISPLACEMENT)\b"
-NEW = r"NPTS\s*=\s*([^,\s]+)\s*,?\s*DT\s*=\s*([^\s,]+)"
+NEW = r"NPTS\s*=\s*([^,\s=]+)\s*(?:,\s*)?DT\s*=\s*([^\s,]+)"
 OLD = r"^\s*(\S+)\s+(\S+)\s+NPTS\s*,\s*DT"
 NO_TITLE = "line 3, 'ACCELERATION TIME SERIES IN UNITS OF G', is missing"
 

@@ -53,6 +53,8 @@ def read_ground_motion(
     - text with one column (acceleration) or two (time, acceleration);
     - miniSEED, SAC and Kinemetrics files, if ObsPy is installed.
 
+    A file has at most 300 MB, and a line of text at most 10,000 characters.
+
     Parameters
     ----------
     source : path, bytes, or Stream or Trace of ObsPy

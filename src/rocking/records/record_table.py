@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import csv
 import math
+from collections.abc import Iterator
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -48,7 +49,7 @@ def rows(path: Path) -> list[Row]:
     """Return the rows of a table; `RecordError` with the line of the first wrong cell."""
     text = TextFile(Content(path))
     lines = csv.reader(text.lines, delimiter=_delimiter(text.lines[0]) or ",")
-    heads = [cell.strip() for cell in next(lines)]
+    heads = [cell.strip() for cell in next(_cells(lines, text.name))]
     heads = [head.lower() if head.lower() in OWN else head for head in heads]
     for number, head in enumerate(heads):
         if not head or head in heads[:number]:
@@ -56,7 +57,7 @@ def rows(path: Path) -> list[Row]:
                 f"{text.name}: columns must have distinct names; got {shown(head)} in column {number + 1}"
             )
     found = []
-    for cells in lines:
+    for cells in _cells(lines, text.name):
         if any(cell.strip() for cell in cells):
             place = f"{text.name}, line {lines.line_num}"
             if len(cells) > len(heads):
@@ -70,6 +71,14 @@ def rows(path: Path) -> list[Row]:
     if not found:
         raise RecordError(f"{text.name}: the table has no rows")
     return found
+
+
+def _cells(lines: Any, name: str) -> Iterator[list[str]]:
+    """Yield the cells of each row; `RecordError` for one that the CSV format forbids, such as a quote without its end."""
+    try:
+        yield from lines
+    except csv.Error as error:
+        raise RecordError(f"{name}, line {lines.line_num}: {error}; check the quotes") from error
 
 
 def _delimiter(first: str) -> str | None:

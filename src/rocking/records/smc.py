@@ -34,8 +34,8 @@ def read(file: TextFile) -> list[Channel]:
     count = file.count(*file.field(TEXT, COUNT_AT, *INTEGER))
     step = file.step_of_rate(*file.field(reals, RATE_AT, *REAL))
     samples, _ = file.columns(reals + REALS + comments, count, *SAMPLE)
-    station = re.match(r"station\s*=\s*(.*?)\s*component=\s*(\S+)", file.line(5))
-    name, component = (station.group(1), station.group(2)) if station else ("", "")
+    station = re.match(r"station\s*=(.*?)component=\s*(\S+)", file.line(5))
+    name, component = (station.group(1).strip(), station.group(2)) if station else ("", "")
     component += "°" if component.isdigit() else ""
     peaks = [_peak(file, reals, place) for place in (LARGEST_AT, SMALLEST_AT)]
     largest = max((peak for peak in peaks if peak), default=None)

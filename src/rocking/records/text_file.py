@@ -13,10 +13,13 @@ from rocking.records.channel import Peak, RecordError
 from rocking.records.content import Content
 from rocking.records.units import UNITS, unit_of
 
-NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[EeDd][-+]?\d{1,4}(?!\d))?", re.ASCII)
+# No expression here or in a reader may try a blank or a digit in two places: see MAX_LINE.
+NUMBER = re.compile(r"[-+]?(?:\d++(?:\.\d*+)?|\.\d++)(?:[EeDd][-+]?\d{1,4}(?!\d))?", re.ASCII)
 SEPARATE = re.compile(rf"(?:(?<![^\s,])|(?=[-+])){NUMBER.pattern}", re.ASCII)
 """A number after a blank, a comma or nothing, or with a sign."""
 MAX_SAMPLES = 10_000_000
+MAX_LINE = 10_000
+"""Largest number of characters of a line. The time to read a line is proportional to its length."""
 INCOMPLETE = "it is incomplete: download it again"
 MAX_DIGITS = 3
 """Number of digits of each number in a format such as (8F10.3)."""
@@ -33,6 +36,10 @@ class TextFile:
         except UnicodeDecodeError:
             text = data.decode("latin-1")
         self.lines = text.replace("\r\n", "\n").replace("\r", "\n").split("\n")
+        for index, line in enumerate(self.lines):
+            if len(line) > MAX_LINE:
+                rule = f"a line must have at most {MAX_LINE:,} characters; got {len(line):,}"
+                raise self.error(index, f"{rule}; put each sample on a line of its own")
 
     def error(self, line: int, what: str) -> RecordError:
         """Return the error for a line."""
