@@ -6,7 +6,9 @@ import itertools
 import math
 import subprocess
 import sys
+import time
 from concurrent.futures import ThreadPoolExecutor
+from functools import partial
 
 import attrs
 import numpy as np
@@ -48,6 +50,7 @@ from rocking.explorer.ground_motion.view import (
 from rocking.explorer.view_state import Span
 from rocking.explorer.worker_pools import Workers
 from rocking.model import KINDS, Outcome
+from rocking.records import read_apart
 from rocking.survey import BlockEndings
 
 G = 9.80665
@@ -203,6 +206,40 @@ def test_file_is_refused_beyond_the_limit_and_without_bytes():
         with pytest.raises(ValueError, match="could not be received"):
             open_file(given_)
     assert open_file({"name": "a", "data": memoryview(b"12")}) == ("a", b"12")
+
+
+def test_reading_ends_at_its_limit_and_the_page_answers_meanwhile(workers, monkeypatch):
+    """A process reads, so that no reader can stop the threads of the page; it is killed, so that the next file is read."""
+    rows = b"0.0,0.0\n" * 6_000_000
+
+    async def answers():
+        reading = asyncio.ensure_future(workers.read(partial(read_file, "long.csv", rows, DEFAULT)))
+        turns = 0
+        while not reading.done():
+            await asyncio.sleep(0.01)
+            turns += 1
+        with pytest.raises(rk.RecordError, match=r"^reading takes longer than 0.5 s: give a shorter file$"):
+            await reading
+        return turns
+
+    monkeypatch.setattr("rocking.explorer.ground_motion.ground.READING", 0.5)
+    begun = time.process_time()
+    assert run(answers()) > 5
+    monkeypatch.setattr("rocking.explorer.ground_motion.ground.READING", 60.0)
+    short = "\n".join(write.peer(np.sin(np.arange(40)))).encode()
+    assert len(run(workers.read(partial(read_file, "town.AT2", short, DEFAULT)))) == 1
+    assert (
+        time.process_time() - begun < 2.0
+    )  # the reading of the long file itself takes longer, in whatever thread
+
+
+def test_reading_ends_at_its_limit_of_memory_with_one_sentence(monkeypatch):
+    monkeypatch.setattr(read_apart, "MAX_MEMORY", 500 << 20)
+    monkeypatch.setattr("rocking.explorer.ground_motion.ground.READING", 60.0)
+    with pytest.raises(
+        rk.RecordError, match=r"^reading takes more than 500 MB of memory: give a shorter file$"
+    ):
+        read_file("lines.txt", b"\n" * 49_999_990 + b"1", DEFAULT)
 
 
 def test_remark_states_both_peaks_if_the_header_differs():

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Mapping
 from functools import cached_property, lru_cache
 from typing import Any
@@ -12,13 +11,14 @@ from attrs import define
 
 from rocking.explorer.ground_motion.view import GroundView
 from rocking.model import GRAVITY, GroundMotion, Pulse
-from rocking.records import example_ground_motion, read_ground_motions, synthetic_ground_motions
+from rocking.records import example_ground_motion, synthetic_ground_motions
+from rocking.records.read_apart import read_apart
 
 SEED = 1
 MAX_FILE = 50_000_000
 """Largest file, in bytes."""
 READING = 5.0
-"""Longest time to read a file, s."""
+"""Longest time to read a file, s. The reading process is then killed."""
 MAX_DRAWN = 4_000
 """Largest number of points of a drawn line."""
 PULSE_POINTS = 4_001
@@ -137,9 +137,7 @@ def read_file(name: str, data: bytes, shown: GroundView) -> tuple[GroundMotion, 
     """Read all channels of a file from memory; RecordError or ValueError with one sentence if that is not possible."""
     if len(data) > MAX_FILE:
         raise ValueError(f"{name}: larger than {MAX_FILE // 1_000_000} MB")
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", UserWarning)  # the page states the remark itself
-        return read_ground_motions(data, name=name, units=shown.units or None, step=shown.step)
+    return read_apart(data, READING, name=name, units=shown.units or None, step=shown.step)
 
 
 def _remark(motion: GroundMotion) -> str:

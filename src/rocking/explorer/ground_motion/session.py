@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import asyncio
 import json
 import logging
 from functools import partial
@@ -15,7 +14,7 @@ from bokeh.events import Tap
 
 from rocking.explorer.compilation import GROUND_ALL, Compilation
 from rocking.explorer.field_readers import Refused, written
-from rocking.explorer.ground_motion.ground import READING, Ground, ground_of, open_file, read_file
+from rocking.explorer.ground_motion.ground import Ground, ground_of, open_file, read_file
 from rocking.explorer.ground_motion.renderer import GroundRenderer
 from rocking.explorer.ground_motion.view import (
     DEFAULT,
@@ -31,7 +30,6 @@ from rocking.explorer.worker_pools import Workers
 from rocking.model import GroundMotion
 
 LOST = "the link shows a file, which is not part of the link: choose the file again"
-SLOW = f"reading takes longer than {READING:g} s: give a shorter file"
 
 
 class GroundSession:
@@ -106,11 +104,8 @@ class GroundSession:
     async def _read(self, new: GroundView, stop: np.ndarray) -> None:
         """Read the file for a view, and show it; an error keeps the view."""
         assert self.file is not None
-        reading = self.renderer.workers.read(partial(read_file, *self.file, new))
         try:
-            channels = await asyncio.wait_for(reading, READING)
-        except TimeoutError:
-            await self.renderer.act(partial(self._refuse_file, SLOW))
+            channels = await self.renderer.workers.read(partial(read_file, *self.file, new))
         except (ValueError, OSError) as error:
             await self.renderer.act(partial(self._refuse_file, str(error)))
         except Exception:
