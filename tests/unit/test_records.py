@@ -461,10 +461,19 @@ def test_separators_of_columns(make, separator):
         (["% Units: gal"], 0.01),
         (["acceleration in units of m/s/s"], 1.0),
         (["units = mm/s2 (mm/s^2)"], 1e-3),
+        (["time,acceleration", "s,m/s^2"], 1.0),
+        (["time acceleration", "s g"], G),
+        (["# time | acc", "# sec | cm/s/s"], 0.01),
+        (["acceleration m/s^2"], 1.0),
+        (["time,acc_g"], G),
+        (["time in s, acceleration in gal"], 0.01),
+        (['"t","acceleration (mm/s2)"'], 1e-3),
     ],
 )
 def test_a_unit_in_the_header_counts_if_it_is_the_only_one(make, header, size):
-    assert rk.read_ground_motion(make([*header, "0, 1", "0.5, 2"])).pga == pytest.approx(2 * size)
+    path = make([*header, "0, 1", "0.5, 2"])
+    assert rk.read_ground_motion(path).pga == pytest.approx(2 * size)
+    assert "the file states the unit of its samples" in refusal_of(path, units="g" if size < 1.1 else "m/s²")
 
 
 @pytest.mark.parametrize(
@@ -472,6 +481,34 @@ def test_a_unit_in_the_header_counts_if_it_is_the_only_one(make, header, size):
 )
 def test_a_unit_that_is_not_clear_must_be_given(make, header):
     assert "give it, for example units=" in refusal_of(make([*header, "0, 1", "0.5, 2"]))
+
+
+@pytest.mark.parametrize(
+    ("header", "expected"),
+    [
+        (["acc (g) or acc (m/s2)"], "file.x: the header names the units g and m/s², not cm/s²; give one of"),
+        (
+            ["time,acceleration", "s,cm/s"],
+            "file.x, line 2: acceleration in m/s², cm/s², mm/s², g or gal expected",
+        ),
+        (
+            ["time (s), velocity (cm/s)"],
+            "file.x, line 1: acceleration in m/s², cm/s², mm/s², g or gal expected",
+        ),
+        (["s mg"], "expected; the header gives 'mg'"),
+        (["time (ms), acceleration"], "file.x, line 1: times in s expected; the header gives 'ms'"),
+    ],
+)
+def test_a_header_that_contradicts_the_unit_given_is_refused(make, header, expected):
+    assert expected in refusal_of(make([*header, "0, 1", "0.5, 2"]), units="gal")
+
+
+@pytest.mark.parametrize("third", ["ACCELERATION TIME SERIES (CM/S/S)", "ACCELERATION TIME SERIES IN CM/S/S"])
+def test_peer_file_states_its_unit_in_other_words_too(make, third):
+    lines = write.peer(WAVE)
+    path = make([*lines[:2], third, *lines[3:]])
+    np.testing.assert_allclose(rk.read_ground_motion(path).acceleration, 0.01 * WAVE, rtol=1e-12)
+    assert "the file states the unit of its samples, cm/s²" in refusal_of(path, units="g")
 
 
 def test_header_in_latin_1_and_with_a_mark_of_utf_8(make):

@@ -38,5 +38,7 @@ class Channel(NamedTuple):
     name: str = ""
     component: str = ""
     peak: Peak | None = None
+    named: frozenset[str] = frozenset()
+    """Units of acceleration that the header names, also where several leave the unit open."""
     lacking: str = ""
     """Sentence on the missing line that would state the unit; empty if no line is missing."""

@@ -10,12 +10,18 @@ import numpy as np
 from rocking.model import counted, shown
 from rocking.records.channel import Channel
 from rocking.records.text_file import MAX_SAMPLES, NUMBER, TextFile
-from rocking.records.units import unit_of
+from rocking.records.units import (
+    OTHER_TIMES,
+    SEPARATOR,
+    header_units,
+    is_line_of_units,
+    is_other,
+    only,
+    titles,
+)
 
 ROW = re.compile(rf"\s*({NUMBER.pattern})(?:(?:\s*[,;]\s*|\s+)({NUMBER.pattern}))?\s*", re.ASCII)
 COMMENT = re.compile(r"\s*(?:[#%!]|//|$)")
-IN_BRACKETS = re.compile(r"[\[(]([^\[\]()]++)[\])]")
-AFTER_UNIT = re.compile(r"\bunits?\b(?:\s+(?:is|are|of|in)\b|\s*[:=])*\s*([^\s,;()\[\]]+)", re.IGNORECASE)
 HEADER_LINES = 100
 MAX_DIGITS = 17
 DRIFT = 1e-2
@@ -46,8 +52,10 @@ def read(file: TextFile) -> list[Channel]:
     if len(rows) > MAX_SAMPLES:
         raise file.error(places[MAX_SAMPLES], f"more than {MAX_SAMPLES:,} samples")
     samples = file.numbers(places, [row[-1] for row in rows], "a sample")
+    named = header_units(file.lines[:first])
+    _check_titles(file, first, width)
     step = None if width == 1 else _step(file, places, [row[0] for row in rows])
-    return [Channel(samples, _unit(file, first), step, "text")]
+    return [Channel(samples, only(named), step, "text", named=named)]
 
 
 def _first_row(file: TextFile) -> int | None:
@@ -63,15 +71,18 @@ def _parts(line: str) -> tuple[str, ...]:
     return (first,) if second is None else (first, second)
 
 
-def _unit(file: TextFile, first: int) -> str | None:
-    """Return the only unit of acceleration that the header names in brackets, or after the word unit; None otherwise."""
-    named = {
-        unit_of(text)
-        for line in file.lines[:first]
-        for text in IN_BRACKETS.findall(line) + AFTER_UNIT.findall(line)
-    }
-    named.discard(None)
-    return named.pop() if len(named) == 1 else None
+def _check_titles(file: TextFile, first: int, width: int) -> None:
+    """Refuse columns whose titles or unit line state another quantity than acceleration, or times that are not in s."""
+    for index in range(first):
+        line = file.lines[index]
+        cells = titles(line)
+        if len(cells) != width or not (SEPARATOR.search(line) or is_line_of_units(line)):
+            continue  # words
+        if is_other(cells[-1]):
+            units = "m/s², cm/s², mm/s², g or gal"
+            raise file.error(index, f"acceleration in {units} expected; the header gives {shown(cells[-1])}")
+        if width > 1 and cells[0].lower() in OTHER_TIMES:
+            raise file.error(index, f"times in s expected; the header gives {shown(cells[0])}")
 
 
 def _step(file: TextFile, places: list[int], texts: list[str]) -> float:

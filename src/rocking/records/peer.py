@@ -6,6 +6,7 @@ import re
 
 from rocking.records.channel import Channel
 from rocking.records.text_file import TextFile
+from rocking.records.units import header_units, only
 
 TITLE = r"(ACCELERATION|VELOCITY|DISPLACEMENT)\s+TIME\s+(?:SERIES|HISTORY)\s+IN\s+UNITS\s+OF\s+(\S+)"
 OTHER = r"\b(VELOCITY|DISPLACEMENT)\b"
@@ -25,7 +26,8 @@ def read(file: TextFile) -> list[Channel]:
     if other:
         raise file.error(2, f"acceleration expected, but the file holds {other.lower()}; give the .AT2 file")
     title = file.find(TITLE, 2, 3)
-    unit = None if title is None else file.unit(2, title[1].group(2))
+    named = frozenset() if title else header_units(file.lines[:4])
+    unit = only(named) if title is None else file.unit(2, title[1].group(2))
     if title is not None:
         file.line(3)
     header = _counts(file, 2 if title is None else 3)
@@ -42,6 +44,7 @@ def read(file: TextFile) -> list[Channel]:
             "PEER AT2",
             name.strip(),
             component.strip(),
+            named=named,
             lacking="" if unit else NO_TITLE,
         )
     ]

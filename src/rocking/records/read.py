@@ -190,6 +190,11 @@ def _motion(source: _Source, number: int, given: _Given) -> GroundMotion:
         "the unit of its samples",
         "g" if channel.lacking else "m/s²",
     )
+    if given.unit and channel.named and unit not in channel.named:
+        names = " and ".join(sorted(channel.named))
+        raise RecordError(
+            f"{place}: the header names the units {names}, not {unit}; give one of them as units"
+        )
     step = _stated(place, "step", channel.step, given.step, "its time step", "0.01")
     samples = channel.samples * UNITS[unit]
     name, component = (" ".join(text.split()) for text in (channel.name, channel.component))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 
 from rocking.model import GRAVITY, refusal
 
@@ -21,6 +22,31 @@ SPELLINGS = {
     "g/10": "g/10",
 }
 """Spellings of the units, in lower case and after `_plain`."""
+OTHER_UNITS = {
+    "m/s",
+    "cm/s",
+    "mm/s",
+    "m",
+    "cm",
+    "mm",
+    "counts",
+    "v",
+    "mv",
+    "mg",
+    "%g",
+    "ft/s2",
+    "in/s2",
+    "nm/s2",
+    "um/s2",
+}
+"""Units of other quantities, and of acceleration in units that are not read, after `_plain`."""
+TIMES = {"s", "sec", "secs", "second", "seconds"}
+OTHER_TIMES = {"ms", "msec", "min", "minutes", "h", "hours", "us", "µs"}
+SEPARATOR = re.compile(r"[,;\t|]")
+IN_BRACKETS = re.compile(r"[\[(]([^\[\]()]++)[\])]")
+AFTER_WORD = re.compile(
+    r"\b(?:units?\b(?:\s+(?:is|are|of|in)\b|\s*[:=])*\s*|in\s+)([^\s,;()\[\]]+)", re.IGNORECASE
+)
 CHOICES = "be one of 'm/s²', 'cm/s²', 'mm/s²', 'g', 'gal'"
 
 
@@ -39,6 +65,66 @@ def unit_of(text: str) -> str | None:
     ('cm/s²', 'cm/s²', 'm/s²', None)
     """
     return SPELLINGS.get(_plain(text))
+
+
+def header_units(lines: Sequence[str]) -> frozenset[str]:
+    """Return the units of acceleration that a header names.
+
+    They stand in brackets, after the words unit or in, after a title that begins with acc, or in a line of units alone. A word that
+    can be nothing else, such as m/s², counts everywhere.
+
+    Examples
+    --------
+    >>> sorted(header_units(["time,acceleration", "s,m/s^2"])), sorted(header_units(["t acc_g", "a mass of 5 g"]))
+    (['m/s²'], ['g'])
+    """
+    named = []
+    for line in lines:
+        words = re.split(r"[\s,;|_\"'=:()\[\]]+", line)
+        named += IN_BRACKETS.findall(line) + AFTER_WORD.findall(line)
+        named += [word for word in words if not word.isalpha()]
+        named += [words[-1] for words in map(_words, _cells(line)) if words[0].lower().startswith("acc")]
+        if is_line_of_units(line):
+            named += titles(line)
+    return frozenset(unit for unit in map(unit_of, named) if unit is not None)
+
+
+def only(named: frozenset[str]) -> str | None:
+    """Return the unit that a header names; None if it names none, or several."""
+    return next(iter(named)) if len(named) == 1 else None
+
+
+def titles(line: str) -> list[str]:
+    """Return what the cells of a header line hold in brackets, or all of a cell without brackets.
+
+    Examples
+    --------
+    >>> titles("# time (s); acceleration (m/s²)"), titles("s  g")
+    (['s', 'm/s²'], ['s', 'g'])
+    """
+    return [(IN_BRACKETS.findall(cell) or [cell])[-1].strip() for cell in _cells(line)]
+
+
+def is_other(text: str) -> bool:
+    """Return whether a text is a unit in which acceleration is not read, such as cm/s."""
+    return _plain(text) in OTHER_UNITS
+
+
+def is_line_of_units(line: str) -> bool:
+    """Return whether a line holds units alone, such as "s,g"."""
+    return all(
+        unit_of(text) or is_other(text) or text.lower() in (*TIMES, *OTHER_TIMES) for text in titles(line)
+    )
+
+
+def _cells(line: str) -> list[str]:
+    """Return the cells of a header line: between separators or, without one, between blanks."""
+    plain = line.strip().lstrip("#%!/").replace('"', "")
+    return [cell.strip() for cell in (SEPARATOR.split(plain) if SEPARATOR.search(plain) else plain.split())]
+
+
+def _words(cell: str) -> list[str]:
+    return re.split(r"[\s_]+", cell)
 
 
 def given_unit(units: str) -> str:
