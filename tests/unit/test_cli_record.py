@@ -8,6 +8,7 @@ import attrs
 import numpy as np
 import pytest
 
+import record_files as write
 import rocking as rk
 from rocking.records import EXAMPLE_FILE
 
@@ -235,6 +236,14 @@ def test_header_that_contradicts_its_samples_is_a_warning(rocking, tmp_path):
     _, said = told(rocking, f"other.smc {SIZE}")
     assert "PGA in the header 2.222 m/s², differs from the samples, 1.044 m/s²" in said
     assert "warning: other.smc: the samples have a PGA of 1.0441 m/s²" in said
+
+
+def test_vertical_channel_is_a_warning(rocking, tmp_path):
+    lines = "\n".join(write.csmip_v1([0.3 * np.sin(np.arange(60))] * 3)).replace("270 Deg", "Up")
+    (tmp_path / "three.v1").write_text(lines, encoding="utf-8")
+    said = "warning: the component Up is vertical, and the base moves horizontally: choose a horizontal component"
+    assert said in told(rocking, f"three.v1 --channel 3 {SIZE}")[1]
+    assert "vertical" not in told(rocking, f"three.v1 --channel 2 {SIZE}")[1]
 
 
 def test_more_events_than_are_kept_are_counted_and_refused_only_to_a_file(rocking, monkeypatch):

@@ -260,6 +260,14 @@ def test_remark_states_both_peaks_if_the_header_differs():
     assert "header states 1.5 m/s²" in note
 
 
+def test_remark_tells_a_vertical_channel():
+    shown = attrs.evolve(DEFAULT, source="file")
+    up = rk.GroundMotion([0.0, 1.0, -1.0, 0.0], step=0.1, component="Up")
+    assert ground_of(shown, (up,)).note == (
+        "The component Up is vertical, and the base moves horizontally: choose a horizontal component."
+    )
+
+
 # ---- map
 
 

@@ -10,6 +10,7 @@ import pytest
 import record_files as write
 import rocking as rk
 
+pytestmark = pytest.mark.filterwarnings("ignore:.*several horizontal components of 1 station")
 G = 9.80665
 WAVE = np.round(np.sin(np.arange(40)) * np.exp(-np.arange(40) / 9), 3)
 
@@ -226,11 +227,11 @@ def test_velocities_and_displacements_beside_records_are_left_out_with_a_warning
     others = ["b.DT2", "b.VT2", "_SearchResults.csv", "c.vt2"]
     for count, name in enumerate(others, 1):
         saved(folder / name, VELOCITY)
-        named = ", ".join(sorted(others[:count])[:3]) + ", …" * (count > 3)
+        named = "; ".join(sorted(others[:count])[:3]) + "; …" * (count > 3)
         message = f"{folder}: {count} file{'s' * (count > 1)} without acceleration left out: {named}"
-        with pytest.warns(UserWarning, match=f"^{re.escape(message)}$") as caught:
+        with pytest.warns(rk.InputWarning, match=f"^{re.escape(message)}$") as caught:
             assert rk.read_record_set(folder).digest == digest
-        assert [each.filename for each in caught] == [__file__]
+        assert [each.filename for each in caught] == [__file__] * 2
 
 
 def test_velocities_alone_are_no_records_and_refused_if_named(tmp_path):
@@ -381,7 +382,7 @@ def test_peak_that_differs_from_the_header_is_a_warning(tmp_path):
     wrong = [line.replace("2.0000000E+02", "9.0000000E+02") for line in lines]
     assert wrong != lines
     with pytest.warns(
-        UserWarning, match=r"^a\.smc: the samples have a PGA of 2 m/s², the header states 9 m/s²$"
+        rk.InputWarning, match=r"^a\.smc: the samples have a PGA of 2 m/s², the header states 9 m/s²$"
     ):
         rk.read_record_set(saved(tmp_path / "a.smc", wrong))
 
@@ -389,3 +390,111 @@ def test_peak_that_differs_from_the_header_is_a_warning(tmp_path):
 def test_names_of_a_set_are_those_that_the_motions_have(folder):
     records = rk.read_record_set(folder)
     assert records.names == tuple(starmap("{}, {}".format, [(each.name, each.component) for each in records]))
+
+
+DEPENDENT = "their results depend on each other, and intervals that take them as independent are too narrow"
+
+
+@pytest.fixture
+def three(tmp_path):
+    """A file of two horizontal channels, of different length, and a vertical one, and a vertical one alone."""
+    lines = "\n".join(write.csmip_v1([WAVE, WAVE[:30], -WAVE])).replace("270 Deg", "Up").split("\n")
+    saved(tmp_path / "a.V1", lines)
+    saved(tmp_path / "b.asc", "\n".join(write.esm(WAVE)).replace("HNE", "HNZ").split("\n"))
+    return tmp_path
+
+
+def warnings_of(source):
+    with pytest.warns(rk.InputWarning) as caught:
+        records = rk.read_record_set(source)
+    assert {each.filename for each in caught} == {__file__}
+    return records, sorted(str(each.message) for each in caught)
+
+
+def test_vertical_channels_are_left_out_of_a_set_with_a_warning(three):
+    both = f"several horizontal components of 1 station (a.V1, 90°; a.V1, 180°): {DEPENDENT}"
+    folder = three.name
+    records, said = warnings_of(three)
+    assert records.names == ("a.V1, 90°", "a.V1, 180°")
+    assert said == [
+        f"{folder}: 2 vertical channels left out: a.V1, Up; b.asc, HNZ",
+        f"{folder}: {both}",
+    ]
+    assert warnings_of([three / "a.V1"])[1] == [
+        "source: 1 vertical channel left out: a.V1, Up",
+        f"source: {both}",
+    ]
+    records, said = warnings_of(saved(three / "set.csv", ["file,m", "a.V1,6", "b.asc,7"]))
+    assert records.columns["m"].tolist() == [6.0, 6.0]
+    assert said[0] == "set.csv: 2 vertical channels left out: a.V1, Up; b.asc, HNZ"
+
+
+def test_vertical_channel_that_a_table_chooses_stays_with_a_warning(three):
+    records, said = warnings_of(saved(three / "set.csv", ["file,channel", "a.V1,3", "a.V1,1", "a.V1,2"]))
+    assert len(records) == 3
+    assert said == [
+        f"set.csv: several horizontal components of 1 station (a.V1, channel 1, 90°; a.V1, channel 2, 180°): {DEPENDENT}",
+        "the component a.V1, channel 3, Up is vertical, and the base moves horizontally: choose a horizontal component",
+    ]
+
+
+def test_set_without_a_horizontal_channel_is_refused(three):
+    with pytest.raises(
+        rk.RecordError,
+        match=r"^b.asc: no channel is horizontal, and the base of a block moves hor.*: b.asc, HNZ$",
+    ):
+        rk.read_record_set(three / "b.asc")
+
+
+def test_components_of_one_station_in_two_files_are_told(tmp_path):
+    first = write.peer(WAVE)
+    saved(tmp_path / "a.AT2", first)
+    saved(tmp_path / "b.AT2", [line.replace(", 180", ", 270") for line in first])
+    saved(tmp_path / "c.AT2", [line.replace("Valley-02", "Valley-03") for line in first])
+    assert warnings_of(tmp_path)[1] == [
+        f"{tmp_path.name}: several horizontal components of 1 station (a.AT2, 180; b.AT2, 270): {DEPENDENT}"
+    ]
+
+
+@pytest.mark.parametrize(
+    "use",
+    [
+        lambda motion: rk.Block(2.0, 0.5).system(motion),
+        lambda motion: rk.RecordSet([motion]),
+        lambda motion: rk.rocking_spectrum(motion, size=[1.0, 2.0], slenderness=0.2, progress=False),
+    ],
+)
+def test_vertical_motion_that_shakes_a_block_is_a_warning(use):
+    with pytest.warns(
+        rk.InputWarning, match=r"^the component (a, )?Up is vertical, and the base moves hor"
+    ) as caught:
+        use(motion(name="a", component="Up"))
+    assert [each.filename for each in caught] == [__file__]
+
+
+@pytest.mark.parametrize(
+    ("components", "vertical"),
+    [
+        (
+            [
+                "Up",
+                "UP",
+                "DOWN",
+                "DWN",
+                "-V",
+                "VERT",
+                "Vertical",
+                "U-D",
+                "UD2",
+                "U-D 1",
+                "HNZ",
+                "Z",
+                "Up, channel 3",
+            ],
+            True,
+        ),
+        (["", "360°", "N28W", "HNE", "HN1", "E-W", "270", "S62W", "radial", "FN"], False),
+    ],
+)
+def test_vertical_components_are_known_by_their_names(components, vertical):
+    assert [motion(component=each).vertical for each in components] == [vertical] * len(components)

@@ -164,6 +164,13 @@ def test_samples_unit_step_and_names_are_those_of_the_file(make, kind, end):
         assert file.channel == (several if len(channels) > 1 else "")
 
 
+@pytest.mark.parametrize(("printed", "component"), [("4", "N-S 2"), ("6", "U-D 2"), ("U-D", "U-D")])
+def test_directions_of_kik_net_are_numbers(make, printed, component):
+    lines = [line.replace("N-S", printed) for line in write.knet(COUNTS)]
+    motion = rk.read_ground_motion(make(lines))
+    assert (motion.component, motion.vertical) == (component, component.startswith("U-D"))
+
+
 def test_cosmos_files_may_hold_velocity_between_the_channels(make):
     raw = write.cosmos([WAVE, OTHER], title="Uncorrected acceleration")
     velocity = changed(changed(raw, "acceleration", "velocity"), "cm/sec2(04)", "cm/sec(05)")
@@ -191,13 +198,13 @@ def test_the_example_has_the_peak_of_its_header():
 def test_a_peak_that_differs_from_the_header_is_reported(make):
     lines = [line.replace("PGA_CM/S^2: ", "PGA_CM/S^2: 1") for line in write.esm(WAVE)]
     with pytest.warns(
-        UserWarning, match=r"^file.x: the samples have a PGA of 0.00\S+ m/s², the header states"
+        rk.InputWarning, match=r"^file.x: the samples have a PGA of 0.00\S+ m/s², the header states"
     ) as caught:
         motion = rk.read_ground_motion(make(lines))
     assert caught[0].filename == __file__
     assert motion.file.pga_agrees is False
     assert motion.file.pga_difference < 0
-    with pytest.warns(UserWarning, match="header states") as caught:
+    with pytest.warns(rk.InputWarning, match="header states") as caught:
         rk.read_ground_motions(make(lines))
     assert caught[0].filename == __file__
 

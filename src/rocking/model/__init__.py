@@ -34,10 +34,11 @@ from rocking.model.forcing import (
     Forcing,
     Harmonic,
 )
-from rocking.model.formatting import counted, ordinal, percent, percent_with_ends, plus_minus
+from rocking.model.formatting import counted, listed, ordinal, percent, percent_with_ends, plus_minus
 from rocking.model.fragility import Fragility, LognormalFit, limit_name, runs_of
-from rocking.model.ground_motion import BASELINES, STEPS, GroundMotion
+from rocking.model.ground_motion import BASELINES, STEPS, GroundMotion, vertical_sentence
 from rocking.model.incremental_dynamic_analysis import FRACTILES, IncrementalDynamicAnalysis
+from rocking.model.input_warning import InputWarning, warn_of_input, warn_of_value
 from rocking.model.intensity import INTENSITIES, Intensity, intensity_of
 from rocking.model.notebook_renderers import NotebookPicture
 from rocking.model.orbit import Orbit, orbit_in_words
@@ -140,6 +141,7 @@ __all__ = [
     "Harmonic",
     "Horseshoe",
     "IncrementalDynamicAnalysis",
+    "InputWarning",
     "Intensity",
     "Kind",
     "LognormalFit",
@@ -193,6 +195,7 @@ __all__ = [
     "intensity_of",
     "intervals_of",
     "limit_name",
+    "listed",
     "members",
     "named",
     "notebook_renderers",
@@ -217,6 +220,9 @@ __all__ = [
     "shown",
     "stability_of",
     "system_of",
+    "vertical_sentence",
+    "warn_of_input",
+    "warn_of_value",
     "whole",
     "wilson",
     "within",

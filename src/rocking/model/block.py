@@ -10,6 +10,8 @@ from attrs import field, frozen
 
 from rocking.model.block_formulas import GRAVITY, frequency_in_hertz, frequency_parameter, housner_restitution
 from rocking.model.forcing import FREQUENCIES, MAX_AMPLITUDE, BaseMotion, Harmonic
+from rocking.model.ground_motion import GroundMotion, vertical_sentence
+from rocking.model.input_warning import warn_of_value
 from rocking.model.system import Braces, System, critical_angle_for
 from rocking.model.validation import exactly_one, instance, reals, refusal, within
 
@@ -174,6 +176,11 @@ class Block:
         ValueError
             If a value lies outside its range, which is stated in the unit of the argument.
 
+        Warns
+        -----
+        InputWarning
+            If `base` is a vertical component: the base moves horizontally.
+
         Examples
         --------
         >>> Block(height=2.0, width=0.5).system(acceleration_g=0.3, frequency_hz=1.2).forcing.amplitude > 1.2
@@ -192,6 +199,8 @@ class Block:
         given = [name for name, value in harmonic.items() if value is not None] + ["phase"] * (phase != 0.0)
         if given:
             raise TypeError(f"give base or {given[0]}, not both")
+        if isinstance(base, GroundMotion) and base.vertical:
+            warn_of_value(vertical_sentence([base.component]))
         forcing = instance("base", base, BaseMotion).normalised(
             self.acceleration(1.0), self.frequency_parameter
         )

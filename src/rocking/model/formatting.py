@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 # Number of significant decimal digits of double precision.
 MAX_DECIMALS = 15
@@ -75,3 +76,14 @@ def percent_with_ends(share: float, low: float, high: float) -> str:
     ('18.9 % (17.5–20.3 %)', '0 % (0–< 0.01 %)')
     """
     return f"{percent(share)} ({percent(low).removesuffix(' %')}–{percent(high)})"
+
+
+def listed(names: Sequence[str], most: int = 3) -> str:
+    """Return names with semicolons, because a name may hold a comma; the first `most` of them.
+
+    Examples
+    --------
+    >>> listed(["a", "b"]), listed(list("abcd"))
+    ('a; b', 'a; b; c; …')
+    """
+    return "; ".join(names[:most]) + "; …" * (len(names) > most)

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+import re
+from collections.abc import Sequence
 from typing import Any
 
 import attrs
@@ -12,6 +14,7 @@ from attrs import evolve, field, frozen
 from rocking.model.arrays import ReadOnlyArrays, read_only
 from rocking.model.block_formulas import GRAVITY
 from rocking.model.forcing import BaseMotion
+from rocking.model.formatting import listed
 from rocking.model.oscillator import pseudo_acceleration
 from rocking.model.piecewise_linear import PiecewiseLinear, samples, velocity_and_displacement
 from rocking.model.record_file import RecordFile
@@ -23,6 +26,8 @@ PERIODS = (1e-4, 1e4)
 MAX_DAMPING = 0.99
 BASELINES = {"none": None, "mean": 0, "linear": 1, "quadratic": 2}
 """Degree of the polynomial that is fitted to the acceleration and subtracted."""
+VERTICAL = {"u", "up", "v", "ver", "vert", "vertical", "z", "ud", "updown", "down", "dn", "dwn"}
+"""Letters of components that are vertical; so is each code of three letters that ends with z."""
 SIGNIFICANT = (0.05, 0.95)
 """Shares of the Arias intensity at the ends of the significant duration."""
 
@@ -106,6 +111,12 @@ class GroundMotion(BaseMotion, ReadOnlyArrays):
         fit = np.polynomial.Polynomial.fit(places, self._samples, min(degree, self._samples.size - 1))
         object.__setattr__(self, "_samples", read_only(self._samples - fit(places)))
         object.__setattr__(self, "_corrected", True)
+
+    @property
+    def vertical(self) -> bool:
+        """True if `component` names the vertical direction, as "Up", "U-D", "DWN", "V" and "HNZ" do."""
+        letters = re.sub("[^a-z]", "", self.component.partition(",")[0].lower())
+        return letters in VERTICAL or (len(letters) == 3 and letters.endswith("z"))
 
     @property
     def acceleration(self) -> np.ndarray:
@@ -315,3 +326,9 @@ class GroundMotion(BaseMotion, ReadOnlyArrays):
         named = ", ".join(filter(None, (self.name, self.component, f"{self._samples.size} samples")))
         treated = "" if self.baseline == "none" else f", {self.baseline} baseline removed"
         return f"GroundMotion({named}, step {self.step:g} s, PGA {self.pga:.4g} m/s²{treated})"
+
+
+def vertical_sentence(names: Sequence[str]) -> str:
+    """Return the warning that vertical components are used as horizontal ones."""
+    which = "the component {} is" if len(names) == 1 else "the components {} are"
+    return f"{which.format(listed(names))} vertical, and the base moves horizontally: choose a horizontal component"

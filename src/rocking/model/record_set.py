@@ -12,7 +12,8 @@ from attrs import field, frozen
 
 from rocking.model.arrays import read_only
 from rocking.model.formatting import counted
-from rocking.model.ground_motion import GroundMotion
+from rocking.model.ground_motion import GroundMotion, vertical_sentence
+from rocking.model.input_warning import warn_of_input, warn_of_value
 from rocking.model.validation import members, reals, refusal
 
 ALLOWED = "hold ground motions, one at least"
@@ -53,6 +54,11 @@ class RecordSet(Sequence[GroundMotion]):
     TypeError, ValueError
         If a value is of the wrong type. Also if two motions have the same name, or if a column has another length.
 
+    Warns
+    -----
+    InputWarning
+        If a motion is a vertical component: the base of a block moves horizontally.
+
     See Also
     --------
     read_record_set : Read the files of a folder or of a table.
@@ -69,6 +75,8 @@ class RecordSet(Sequence[GroundMotion]):
     columns: dict[str, np.ndarray] = field(factory=dict, converter=_columns)
 
     def __attrs_post_init__(self) -> None:
+        if names := self.vertical:
+            warn_of_value(vertical_sentence(names))
         seen: set[str] = set()
         for name in self.names:
             if name in seen:
@@ -96,6 +104,11 @@ class RecordSet(Sequence[GroundMotion]):
             found.update(base.values.tobytes())
         return found.hexdigest()
 
+    @property
+    def vertical(self) -> tuple[str, ...]:
+        """Names of the motions whose component is vertical."""
+        return tuple(name for name, each in zip(self.names, self.motions, strict=True) if each.vertical)
+
     def __len__(self) -> int:
         return len(self.motions)
 
@@ -111,5 +124,10 @@ class RecordSet(Sequence[GroundMotion]):
 
 
 def record_set(records: RecordSet | GroundMotion | Iterable[GroundMotion]) -> RecordSet:
-    """Return a set of records as it is, and one or more ground motions as a set."""
-    return records if isinstance(records, RecordSet) else RecordSet(records)
+    """Return a set of records as it is, and one or more ground motions as a set, with a warning of vertical components."""
+    if isinstance(records, RecordSet):
+        return records
+    found = RecordSet(records)
+    if names := found.vertical:
+        warn_of_input(vertical_sentence(names))
+    return found

@@ -9,6 +9,8 @@ from rocking.records.text_file import SEPARATE, TextFile
 HEADER = 17
 SCALE = r"^Scale Factor\s+(\S+?)\(gal\)/(\S+)"
 RATE = r"^Sampling Freq\S*\s+(\S+?)\s*Hz"
+DIRECTIONS = dict(zip("123456", ("N-S 1", "E-W 1", "U-D 1", "N-S 2", "E-W 2", "U-D 2"), strict=True))
+"""Directions of KiK-net: 1 to 3 in the borehole, 4 to 6 at the surface."""
 PEAK = r"^Max\. Acc\.\s*\(gal\)\s+(\S+)"
 
 
@@ -32,6 +34,7 @@ def read(file: TextFile) -> list[Channel]:
     if count == 0:
         raise file.error(len(file.lines) - 1, f"{counted(HEADER, 'line')} of header, then counts expected")
     samples, _ = file.separated(HEADER, count)
+    direction = file.found(r"^Dir\.\s+(\S+)", 0, HEADER)
     return [
         Channel(
             (samples - samples.mean()) * factor,
@@ -39,7 +42,7 @@ def read(file: TextFile) -> list[Channel]:
             file.step_of_rate(rate[0], rate[1].group(1)),
             "K-NET",
             file.found(r"^Station Code\s+(\S+)", 0, HEADER),
-            file.found(r"^Dir\.\s+(\S+)", 0, HEADER),
+            DIRECTIONS.get(direction, direction),
             file.peak(peak[0], peak[1].group(1), "cm/s²") if peak else None,
         )
     ]

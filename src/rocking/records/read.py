@@ -3,12 +3,21 @@
 from __future__ import annotations
 
 import os
-import warnings
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from rocking.model import BASELINES, STEPS, GroundMotion, RecordFile, one_of, refusal, whole, within
+from rocking.model import (
+    BASELINES,
+    STEPS,
+    GroundMotion,
+    RecordFile,
+    one_of,
+    refusal,
+    warn_of_input,
+    whole,
+    within,
+)
 from rocking.records import columns, cosmos, csmip, esm, geonet, knet, obspy_streams, peer, smc
 from rocking.records.channel import Channel, RecordError
 from rocking.records.content import Content
@@ -84,7 +93,7 @@ def read_ground_motion(
 
     Warns
     -----
-    UserWarning
+    InputWarning
         If the peak of the samples differs from the peak in the header: see `RecordFile.pga_agrees`.
 
     See Also
@@ -136,7 +145,7 @@ def read_ground_motions(
 
     Warns
     -----
-    UserWarning
+    InputWarning
         As for `read_ground_motion`.
 
     See Also
@@ -153,10 +162,7 @@ def read_ground_motions(
     """
     given = _given(units, step, baseline)
     found = _source(source, name)
-    motions = []
-    for number in range(1, len(found.channels) + 1):
-        motions.append(_motion(found, number, given))  # noqa: PERF401 - a warning names the caller's line
-    return tuple(motions)
+    return tuple(_motion(found, number, given) for number in range(1, len(found.channels) + 1))
 
 
 def _given(units: str | None, step: float | None, baseline: str) -> _Given:
@@ -222,9 +228,8 @@ def _motion(source: _Source, number: int, given: _Given) -> GroundMotion:
     except ValueError as error:
         raise RecordError(f"{place}: {error}") from error
     if file is not None and file.pga_agrees is False:
-        warnings.warn(
-            f"{place}: the samples have a PGA of {file.pga:.5g} m/s², the header states {file.header_pga:.5g} m/s²",
-            stacklevel=3,
+        warn_of_input(
+            f"{place}: the samples have a PGA of {file.pga:.5g} m/s², the header states {file.header_pga:.5g} m/s²"
         )
     return motion
 

@@ -4,15 +4,23 @@ from __future__ import annotations
 
 import os
 import re
-import warnings
 from collections import Counter
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from attrs import evolve
 
-from rocking.model import GroundMotion, RecordSet, counted, members, refusal
+from rocking.model import (
+    GroundMotion,
+    RecordSet,
+    counted,
+    listed,
+    members,
+    refusal,
+    vertical_sentence,
+    warn_of_input,
+)
 from rocking.records.channel import RecordError
 from rocking.records.read import read_ground_motion, read_ground_motions
 from rocking.records.record_table import is_table, rows
@@ -22,7 +30,6 @@ LEFT_OUT = ("readme", "license", "licence")
 """Beginnings of names of files that accompany records: they state their source and terms."""
 OTHER_QUANTITIES = (".vt2", ".dt2", "_searchresults.csv")
 """Ends of names, in lower case, of files in downloads of PEER without acceleration: velocity, displacement and the search."""
-MAX_NAMED = 3
 FORMATS = "PEER AT2, COSMOS, CSMIP, USC, SMC, K-NET, ESM, GeoNet, and text with one or two columns"
 
 
@@ -33,9 +40,10 @@ def read_record_set(
     step: float | None = None,
     baseline: str = "none",
 ) -> RecordSet:
-    """Read a folder, a table or a list of record files: all channels of each, vertical ones included.
+    """Read a folder, a table or a list of record files: all channels of each but the vertical ones.
 
-    A motion is named by its file and, in a file with several channels, by its component.
+    A motion is named by its file and, in a file with several channels, by its component. A vertical channel is left out, because
+    the base of a block moves horizontally; a table that names its number in the column `channel` keeps it.
 
     Parameters
     ----------
@@ -45,7 +53,7 @@ def read_record_set(
         - A folder: all its files, sorted by name. Hidden files and files named README… or LICENSE… are left out. So are the
           files without acceleration in a download of PEER: .VT2, .DT2 and _SearchResults.csv.
         - Paths of record files, or the path of one.
-        - A table: a CSV file with a column `file`, relative to the table. The columns `channel` (default: all channels),
+        - A table: a CSV file with a column `file`, relative to the table. The columns `channel` (default: all horizontal channels),
           `scale` (a factor), `units`, `step` and `name` are optional. Each other column holds numbers, such as magnitudes, and
           becomes one of `RecordSet.columns`. An empty cell there is NaN.
     units, step, baseline
@@ -60,14 +68,17 @@ def read_record_set(
     ------
     RecordError
         If a file cannot be read or is no record, or if a table has a wrong cell.
-        Also if two motions have the same name. Unit and step of a file must be stated once, by the file or by an argument.
+        Also if no channel is horizontal, or if two motions have the same name.
+        Unit and step of a file must be stated once, by the file or by an argument.
     TypeError, ValueError
         If an argument is of the wrong type or lies outside its range.
 
     Warns
     -----
-    UserWarning
-        As for `read_ground_motion`. Also if files of a folder without acceleration are left out.
+    InputWarning
+        As for `read_ground_motion`. Also if vertical channels, or files of a folder without acceleration, are left out. Also if the
+        set holds several horizontal components of one station, whose results depend on each other: channels of one file, or records
+        whose headers have the same name, step and number of samples.
 
     See Also
     --------
@@ -89,14 +100,32 @@ def read_record_set(
     if isinstance(source, str | os.PathLike):
         path = Path(source)
         if path.is_dir():
-            return _distinct(_of_files(_folder(path), given, _way_out_of(path)))
+            return _set(_of_files(_folder(path), given, _way_out_of(path)), path.name)
         if is_table(path):
             return _of_table(path, given)
-        return _distinct(_of_files([path], given))
+        return _set(_of_files([path], given), path.name)
     paths = [_path(each) for each in members("source", source, ALLOWED)]
     if not paths:
         raise ValueError(refusal("source", "name one record file at least", paths))
-    return _distinct(_of_files(paths, given))
+    return _set(_of_files(paths, given), "source")
+
+
+_Station = tuple[str, float, int]
+"""Name in the header, step and number of samples: in general the same for all components of a station."""
+
+
+class _Member(NamedTuple):
+    """Motion of a set, named."""
+
+    motion: GroundMotion
+    station: _Station
+    numbers: Mapping[str, float]
+    chosen: bool
+    """True if a table names the channel."""
+
+    @property
+    def label(self) -> str:
+        return ", ".join(filter(None, (self.motion.name, self.motion.component)))
 
 
 def _path(value: Any) -> Path:
@@ -112,9 +141,8 @@ def _folder(path: Path) -> list[Path]:
     if len(files) == len(others):
         raise RecordError(f"{path}: the folder holds no record file; the formats are {FORMATS}")
     if others:
-        names = ", ".join(others[:MAX_NAMED]) + ", …" * (len(others) > MAX_NAMED)
-        left_out = f"{counted(len(others), 'file')} without acceleration left out: {names}"
-        warnings.warn(f"{path}: {left_out}", stacklevel=3)
+        left_out = f"{counted(len(others), 'file')} without acceleration left out"
+        warn_of_input(f"{path}: {left_out}: {listed(others)}")
     return [each for each in files if each.name not in others]
 
 
@@ -124,7 +152,7 @@ def _way_out_of(path: Path) -> str:
     )
 
 
-def _of_files(paths: Sequence[Path], given: dict[str, Any], way_out: str = "") -> list[GroundMotion]:
+def _of_files(paths: Sequence[Path], given: dict[str, Any], way_out: str = "") -> list[_Member]:
     """Return the motions of files, each named by its file; by its path if several files have that name."""
     names = Counter(path.name for path in paths)
     found = []
@@ -133,7 +161,7 @@ def _of_files(paths: Sequence[Path], given: dict[str, Any], way_out: str = "") -
             motions = read_ground_motions(path, **given)
         except RecordError as error:
             raise RecordError(f"{error}{_of_several(error) if len(paths) > 1 else ''}{way_out}") from error
-        found += _named(motions, path.name if names[path.name] == 1 else path.as_posix())
+        found += _members(motions, path.name if names[path.name] == 1 else path.as_posix())
     return found
 
 
@@ -145,35 +173,40 @@ def _of_several(error: RecordError) -> str:
     return ""
 
 
-def _named(motions: Sequence[GroundMotion], name: str) -> list[GroundMotion]:
+def _members(
+    motions: Sequence[GroundMotion],
+    name: str,
+    numbers: Mapping[str, float] | None = None,
+    *,
+    chosen: bool = False,
+) -> list[_Member]:
     """Return the motions of one file under its name, with distinct components if there are several."""
     several = Counter(motion.component for motion in motions)
-    components = [
-        motion.component
-        if len(motions) == 1 or (motion.component and several[motion.component] == 1)
-        else ", ".join(filter(None, (motion.component, f"channel {number}")))
-        for number, motion in enumerate(motions, 1)
-    ]
-    return [
-        evolve(motion, name=name, component=part) for motion, part in zip(motions, components, strict=True)
-    ]
+    found = []
+    for number, motion in enumerate(motions, 1):
+        component = motion.component
+        if len(motions) > 1 and not (component and several[component] == 1):
+            component = ", ".join(filter(None, (component, f"channel {number}")))
+        named = evolve(motion, name=name, component=component)
+        station = (motion.name, motion.step, motion.times.size)
+        found.append(_Member(named, station, numbers or {}, chosen=chosen))
+    return found
 
 
 def _of_table(path: Path, given: dict[str, Any]) -> RecordSet:
     table = rows(path)
     names = Counter(row.path.name for row in table)
-    motions: list[GroundMotion] = []
-    columns: dict[str, list[float]] = {name: [] for name in table[0].numbers}
+    found: list[_Member] = []
     for row in table:
         own = given | {
             name: value for name, value in (("units", row.units), ("step", row.step)) if value is not None
         }
         try:
             if row.channel is None:
-                found: Sequence[GroundMotion] = read_ground_motions(row.path, **own)
+                motions: Sequence[GroundMotion] = read_ground_motions(row.path, **own)
             else:
-                found = (read_ground_motion(row.path, row.channel, **own),)
-            found = [motion if row.scale is None else motion.scaled(row.scale) for motion in found]
+                motions = (read_ground_motion(row.path, row.channel, **own),)
+            motions = [motion if row.scale is None else motion.scaled(row.scale) for motion in motions]
         except ValueError as error:
             raise RecordError(f"{row.place}: {error}") from error
         # Rows of one file differ by its components, or by the numbers of its channels.
@@ -182,21 +215,47 @@ def _of_table(path: Path, given: dict[str, Any]) -> RecordSet:
             if names[row.path.name] == 1 or row.channel is None
             else f"{row.path.name}, channel {row.channel}"
         )
-        motions += _named(found, row.name or plain)
-        for name, value in row.numbers.items():
-            columns[name] += [value] * len(found)
-    return _distinct(motions, columns, f"{path.name}: ", "give distinct names in the column 'name'")
+        found += _members(motions, row.name or plain, row.numbers, chosen=row.channel is not None)
+    return _set(found, path.name, f"{path.name}: ", "give distinct names in the column 'name'")
 
 
-def _distinct(
-    motions: Sequence[GroundMotion],
-    columns: dict[str, list[float]] | None = None,
-    place: str = "",
-    way_out: str = "name each file once",
+def _set(
+    found: Sequence[_Member], source: str, place: str = "", way_out: str = "name each file once"
 ) -> RecordSet:
-    """Return the set; `RecordError` if two motions have the same name."""
-    labels = Counter(", ".join(filter(None, (motion.name, motion.component))) for motion in motions)
-    label, count = labels.most_common(1)[0]
+    """Return the set, without vertical channels that nobody chose; `RecordError` if two motions have the same name."""
+    kept = [each for each in found if each.chosen or not each.motion.vertical]
+    left_out = [each.label for each in found if each.motion.vertical and not each.chosen]
+    if not kept:
+        rule = "no channel is horizontal, and the base of a block moves horizontally"
+        raise RecordError(f"{source}: {rule}: {listed(left_out)}")
+    label, count = Counter(each.label for each in kept).most_common(1)[0]
     if count > 1:
         raise RecordError(f"{place}{label} occurs {count} times; {way_out}")
-    return RecordSet(motions, columns or {})
+    if left_out:
+        warn_of_input(f"{source}: {counted(len(left_out), 'vertical channel')} left out: {listed(left_out)}")
+    _warn_of_stations(kept, source)
+    records = RecordSet(
+        [each.motion for each in kept],
+        {name: [each.numbers[name] for each in kept] for name in kept[0].numbers},
+    )
+    if records.vertical:
+        warn_of_input(vertical_sentence(records.vertical))
+    return records
+
+
+def _warn_of_stations(found: Sequence[_Member], source: str) -> None:
+    """Warn of stations with several horizontal components."""
+    of_file: dict[str, _Station] = {}
+    stations: dict[_Station, list[str]] = {}
+    for each in found:
+        if not each.motion.vertical:
+            assert each.motion.file is not None
+            station = of_file.setdefault(each.motion.file.sha256, each.station)
+            stations.setdefault(station, []).append(each.label)
+    several = [labels for labels in stations.values() if len(labels) > 1]
+    if several:
+        which = f"several horizontal components of {counted(len(several), 'station')}"
+        doubt = (
+            "their results depend on each other, and intervals that take them as independent are too narrow"
+        )
+        warn_of_input(f"{source}: {which} ({listed(several[0])}): {doubt}")

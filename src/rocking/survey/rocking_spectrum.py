@@ -100,8 +100,9 @@ def rocking_spectrum(
     >>> found.peak.dims, found.attrs["slenderness"]
     (('size',), 0.2)
     """
+    chosen = record_set(records)
     asked = motion_question(
-        record_set(records),
+        chosen,
         {
             "size": size,
             "slenderness": slenderness,
@@ -115,7 +116,7 @@ def rocking_spectrum(
         model=model,
     )
     found = run_survey(asked, ending(TITLE), store, executor, progress=progress, repair=repair)
-    return described(found, asked, record_set(records))
+    return described(found, asked, chosen)
 
 
 def described(found: xr.Dataset, asked: MotionSpec, records: RecordSet) -> xr.Dataset:

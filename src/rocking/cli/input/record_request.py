@@ -65,7 +65,7 @@ def block_of(given: Mapping[str, Any]) -> Block:
 
 def ground_motion(given: Mapping[str, Any]) -> tuple[GroundMotion, list[str]]:
     """Return the ground motion of the options, scaled, and the warnings of the reader; YourInput if invalid."""
-    from rocking.model import GRAVITY, refuse_if, within
+    from rocking.model import GRAVITY, refuse_if, vertical_sentence, within
     from rocking.records import RecordError, read_ground_motion
 
     if given["scale"] is not None and given["pga_g"] is not None:
@@ -85,7 +85,8 @@ def ground_motion(given: Mapping[str, Any]) -> tuple[GroundMotion, list[str]]:
             ground = ground.scaled(pga=GRAVITY * within("pga_g", given["pga_g"], 0, MAX_PGA, "g"))
         elif given["scale"] is not None:
             ground = ground.scaled(given["scale"])
-    return ground, [str(doubt.message) for doubt in doubts]
+    vertical = [vertical_sentence([ground.component])] if ground.vertical else []
+    return ground, [*(str(doubt.message) for doubt in doubts), *vertical]
 
 
 def as_options(text: str) -> str:

@@ -10,7 +10,7 @@ import numpy as np
 from attrs import define
 
 from rocking.explorer.ground_motion.view import GroundView
-from rocking.model import GRAVITY, GroundMotion, Pulse
+from rocking.model import GRAVITY, GroundMotion, Pulse, vertical_sentence
 from rocking.records import example_ground_motion, synthetic_ground_motions
 from rocking.records.read_apart import read_apart
 
@@ -141,13 +141,15 @@ def read_file(name: str, data: bytes, shown: GroundView) -> tuple[GroundMotion, 
 
 
 def _remark(motion: GroundMotion) -> str:
-    """Return a sentence if the peak of a file differs from the peak in its header."""
-    if motion.file is None or motion.file.pga_agrees is not False:
-        return ""
-    return (
-        f"The samples have a PGA of {motion.file.pga:.5g} m/s², the header states "
-        f"{motion.file.header_pga:.5g} m/s²."
-    )
+    """Return a sentence for each doubt about the record of a file."""
+    found = []
+    if motion.file is not None and motion.file.pga_agrees is False:
+        found.append(
+            f"The samples have a PGA of {motion.file.pga:.5g} m/s², the header states "
+            f"{motion.file.header_pga:.5g} m/s²."
+        )
+    doubts = [vertical_sentence([motion.component])] if motion.vertical else []
+    return " ".join([*found, *(f"{each[0].upper()}{each[1:]}." for each in doubts)])
 
 
 def open_file(given: Any) -> tuple[str, bytes]:

@@ -8,7 +8,7 @@ import numpy as np
 
 from rocking.kernels.march import ending as ends
 from rocking.kernels.march import finite_runs
-from rocking.model import GroundMotion, Pulse, record_set
+from rocking.model import GroundMotion, Pulse, RecordSet
 from rocking.survey.measurement import Arrays
 from rocking.survey.measures import pulse_ending
 from rocking.survey.measures.ending import answers, judge, load_kernels
@@ -37,7 +37,7 @@ class BlockEndings:
         self.pulse = base if isinstance(base, Pulse) and base.cosine is not None else None
         motion = base if isinstance(base, GroundMotion) else _samples(base)
         given = {"size": [1.0, 2.0], "slenderness": [0.1, 0.2], "angle": 0.0, "polarity": 1.0, "scale": scale}
-        self.asked = motion_question(record_set(motion), given, intensity="scale", model=model)
+        self.asked = motion_question(RecordSet(motion), given, intensity="scale", model=model)
 
     def load(self) -> None:
         """Compile or load the kernels of `at`."""
