@@ -246,6 +246,21 @@ def test_vertical_channel_is_a_warning(rocking, tmp_path):
     assert "vertical" not in told(rocking, f"three.v1 --channel 2 {SIZE}")[1]
 
 
+def test_drift_is_a_warning_with_the_baseline_as_remedy(rocking, tmp_path):
+    times = 0.01 * np.arange(6_000)
+    shaken = rk.synthetic_ground_motions(1, seed=3, duration=59.99)[0].acceleration
+    rows = ["time (s), acceleration (m/s²)", *map("{:.2f}, {:.6f}".format, times, shaken + 0.05)]
+    (tmp_path / "drift.csv").write_text("\n".join(rows), encoding="utf-8")
+    text = told(rocking, f"drift.csv {SIZE}")[1]
+    assert (
+        "warning: the PGV and PGD are those of a drift, because no baseline is removed and the velocity at"
+        in text
+    )
+    assert "for example --baseline='linear'" in text
+    assert "drift of" not in told(rocking, f"drift.csv {SIZE} --baseline linear")[1]
+    assert "those of a drift" not in told(rocking, f"example {SIZE}")[1]
+
+
 def test_more_events_than_are_kept_are_counted_and_refused_only_to_a_file(rocking, monkeypatch):
     monkeypatch.setattr("rocking.motion.march_loop.MAX_RECORDED", 10)
     first, text = told(rocking, f"pulse.csv {SIZE}")

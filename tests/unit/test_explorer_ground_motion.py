@@ -243,28 +243,32 @@ def test_reading_ends_at_its_limit_of_memory_with_one_sentence(monkeypatch):
 
 
 def test_remark_states_both_peaks_if_the_header_differs():
-    lines = write.smc(100 * np.sin(np.arange(40)))
+    lines = write.smc(100 * np.cos(np.arange(45)))
     assert (
         ground_of(
             attrs.evolve(DEFAULT, source="file"), read_file("a.smc", "\n".join(lines).encode(), DEFAULT)
         ).note
         == ""
     )
-    samples = 100 * np.sin(np.arange(40))
+    samples = 100 * np.cos(np.arange(45))
     largest = format(min(samples, key=lambda sample: -abs(sample)), "15.7E")
     other = [line.replace(largest, format(150.0, "15.7E")) for line in lines]
     assert other != lines
     channels = read_file("a.smc", "\n".join(other).encode(), DEFAULT)
     note = ground_of(attrs.evolve(DEFAULT, source="file"), channels).note
-    assert note.startswith("The samples have a PGA of 0.99999 m/s²")
+    assert note.startswith("The samples have a PGA of 1 m/s²")
     assert "header states 1.5 m/s²" in note
 
 
-def test_remark_tells_a_vertical_channel():
+def test_remark_tells_a_vertical_channel_and_a_drift():
     shown = attrs.evolve(DEFAULT, source="file")
-    up = rk.GroundMotion([0.0, 1.0, -1.0, 0.0], step=0.1, component="Up")
+    up = rk.GroundMotion([0.0, 1.0, -1.0, -1.0, 1.0, 0.0], step=0.1, component="Up")
     assert ground_of(shown, (up,)).note == (
         "The component Up is vertical, and the base moves horizontally: choose a horizontal component."
+    )
+    pushed = rk.GroundMotion([0.0, 1.0, 0.0], step=0.1)
+    assert ground_of(shown, (pushed,)).note == (
+        "The PGV is that of a drift, because the baseline is not corrected: give a corrected record."
     )
 
 

@@ -239,3 +239,37 @@ def test_ten_million_samples_are_quick():
     assert motion.arias_intensity == pytest.approx(math.pi / (2 * G) * 2 / 3 * 1e5, rel=0.01)
     assert motion.response_spectrum(1.0) > 0
     assert motion.scaled(2.0).pgv > 0
+
+
+SHAKEN = rk.synthetic_ground_motions(1, seed=3, duration=59.99)[0].acceleration
+PLACES = np.linspace(-1.0, 1.0, SHAKEN.size)
+
+
+@pytest.mark.parametrize(
+    ("wrong", "reason"),
+    [
+        (0.0 * PLACES, ""),
+        (0.05 + 0.0 * PLACES, "no baseline is removed and the velocity at the end is 100 % of the PGV"),
+        (0.5 * PLACES, "no baseline is removed and the mean velocity is 91 % of its root mean square"),
+        (0.02 * PLACES, "no baseline is removed and PGA PGD/PGV² is 1"),
+    ],
+)
+def test_motion_drifts_if_the_ground_does_not_come_to_rest_or_moves_too_far(wrong, reason):
+    motion = rk.GroundMotion(SHAKEN + wrong, step=0.01)
+    assert reason in motion.drift_doubt()
+    assert motion.drifts == motion.scaled(-3.0).drifts == bool(reason)
+    assert motion.drift_doubt().endswith("correct it, for example baseline='linear'" * bool(reason))
+    assert rk.GroundMotion(SHAKEN + wrong, step=0.01, baseline="linear").drift_doubt() == ""
+
+
+def test_drift_that_a_baseline_leaves_needs_a_higher_degree_or_a_corrected_record():
+    # The zero of the instrument shifts four times.
+    wrong = SHAKEN + 0.1 * (np.abs(PLACES) < 0.1) - 0.1 * (np.abs(PLACES - 0.5) < 0.1)
+    for baseline, remedy in (
+        ("linear", "for example baseline='quadratic'"),
+        ("quadratic", "use a corrected record"),
+    ):
+        doubt = rk.GroundMotion(wrong, step=0.01, baseline=baseline).drift_doubt()
+        assert f"a {baseline} baseline is removed" in doubt
+        assert doubt.endswith(remedy)
+    assert not rk.GroundMotion([0.0, 0.0], step=0.01).drifts

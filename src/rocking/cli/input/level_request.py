@@ -24,6 +24,10 @@ if TYPE_CHECKING:
 BLOCK = ("height", "width", "restitution", "inertia_ratio")
 
 
+OF_BASELINE = ("pgv", "pgd", "pgv_ratio")
+"""Options of levels that a wrong baseline changes most."""
+
+
 @frozen
 class Question:
     """Request of a survey: its arguments, their names in messages, records with warnings, and output paths."""
@@ -70,6 +74,8 @@ def question(
     }
     names = RECORD_ARGUMENTS | options(*own) | {"records": "SOURCE", levels: option(measure)}
     places = {name: given[name] for name in SUFFIXES if name in given}
+    if measure in OF_BASELINE:
+        doubts += record_source.drift_doubts(records)
     return Question(arguments, names, sources, doubts, places)
 
 

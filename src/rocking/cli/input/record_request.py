@@ -85,8 +85,9 @@ def ground_motion(given: Mapping[str, Any]) -> tuple[GroundMotion, list[str]]:
             ground = ground.scaled(pga=GRAVITY * within("pga_g", given["pga_g"], 0, MAX_PGA, "g"))
         elif given["scale"] is not None:
             ground = ground.scaled(given["scale"])
-    vertical = [vertical_sentence([ground.component])] if ground.vertical else []
-    return ground, [*(str(doubt.message) for doubt in doubts), *vertical]
+    vertical = vertical_sentence([ground.component]) if ground.vertical else ""
+    more = filter(None, (vertical, as_options(ground.drift_doubt())))
+    return ground, [*(str(doubt.message) for doubt in doubts), *more]
 
 
 def as_options(text: str) -> str:

@@ -149,6 +149,19 @@ def record_set(
     return records, [str(doubt.message) for doubt in doubts]
 
 
+def drift_doubts(records: RecordSet) -> list[str]:
+    """Return a warning of the records whose PGV and PGD are those of a drift; none without such a record."""
+    from rocking.model import listed
+
+    names = [name for name, motion in zip(records.names, records, strict=True) if motion.drifts]
+    if not names:
+        return []
+    count = f"{len(names)} of {len(records)} records" if len(records) > 1 else "the record"
+    return [
+        f"the PGV and PGD of {count} are those of a drift of the baseline ({listed(names)}): give --baseline linear"
+    ]
+
+
 def files_of(places: Mapping[str, Path], sources: Sequence[Path], records: RecordSet) -> dict[str, Path]:
     """Return the output files among the `places`; YourInput if one cannot be written or would overwrite a record.
 

@@ -148,8 +148,13 @@ def _remark(motion: GroundMotion) -> str:
             f"The samples have a PGA of {motion.file.pga:.5g} m/s², the header states "
             f"{motion.file.header_pga:.5g} m/s²."
         )
-    doubts = [vertical_sentence([motion.component])] if motion.vertical else []
-    return " ".join([*found, *(f"{each[0].upper()}{each[1:]}." for each in doubts)])
+    if motion.vertical:
+        found.append(vertical_sentence([motion.component]))
+    if motion.drifts:
+        found.append(
+            "the PGV is that of a drift, because the baseline is not corrected: give a corrected record"
+        )
+    return " ".join(f"{each[0].upper()}{each[1:]}" + "." * (each[-1] != ".") for each in found)
 
 
 def open_file(given: Any) -> tuple[str, bytes]:
