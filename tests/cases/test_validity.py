@@ -310,6 +310,7 @@ def test_what_concerns_the_block_is_said_without_a_motion_as_with_one():
     assert not list(block_warnings(TALL, 2.0, 1.0))
 
 
+@pytest.mark.filterwarnings("ignore:height 190 m")
 def test_height_of_a_tower_is_a_warning_with_either_equation_of_motion():
     tower = Block(height=190.0, width=55.0)
     said = "height 190 m is unusual: sizes are in metres"

@@ -227,3 +227,44 @@ def test_quantities_have_the_names_of_kernel_parameters():
 
 def test_a_system_without_braces_has_no_quantities_of_theirs():
     assert not quantities(SYSTEM).keys() & NO_BRACES.keys()
+
+
+@pytest.mark.parametrize(
+    ("make", "message"),
+    [
+        (
+            lambda: rk.State(angle=3),
+            r"angle 3 is 3 times the critical angle, .*: block.angle\(degrees=3\) converts degrees$",
+        ),
+        (lambda: rk.State(-2.5, 1.0), r"angle -2.5 is 2.5 times the critical angle"),
+        (lambda: rk.Braces(angle=3), r"angle 3 is 3 times the critical angle"),
+        (lambda: rk.Block(height=200, width=50), r"height 200 m is unusual: sizes are in metres$"),
+        (
+            lambda: rk.Block(height=1.0, width=120.0, restitution=0.5),
+            r"width 120 m is unusual: sizes are in metres$",
+        ),
+        (lambda: rk.Block(height=0.002, width=0.001), r"height 0.002 m is unusual: sizes are in metres$"),
+        (
+            lambda: rk.GroundMotion([0.0, 312.0], step=0.01),
+            r"a PGA of 312 m/s² is unusual: check the unit of the samples$",
+        ),
+        (lambda: rk.GroundMotion([0.0, 0.003], step=0.01), r"a PGA of 0.003 m/s² is unusual"),
+    ],
+)
+def test_value_out_of_all_reason_is_a_warning_at_the_line_of_the_user(make, message):
+    with pytest.warns(rk.InputWarning, match=f"^{message}") as caught:
+        make()
+    assert [each.filename for each in caught] == [__file__]
+
+
+@pytest.mark.filterwarnings("error")
+def test_values_that_the_package_makes_or_that_are_usual_give_no_warning():
+    far = {"brace_angle": 5.0, "brace_restitution": 0.5}
+    assert (
+        system_of({"amplitude": 2.0, "period": 1.0, "phase": 0.0, "restitution": 0.9} | far).braces.angle
+        == 5.0
+    )
+    rk.State(2.0), rk.State(velocity=50.0), rk.Braces(2.0), rk.Block(100.0, 20.0), rk.Block(0.01, 0.002)
+    ground = rk.GroundMotion([0.0, 50.0, -0.01], step=0.01)
+    assert ground.scaled(100.0).pga == 5_000.0
+    assert rk.GroundMotion([0.0, 0.0], step=0.01).pga == 0.0

@@ -10,7 +10,10 @@ import pytest
 import record_files as write
 import rocking as rk
 
-pytestmark = pytest.mark.filterwarnings("ignore:.*several horizontal components of 1 station")
+pytestmark = [
+    pytest.mark.filterwarnings("ignore:.*several horizontal components of 1 station"),
+    pytest.mark.filterwarnings("ignore:.*a PGA of .* is unusual"),
+]
 G = 9.80665
 WAVE = np.round(np.sin(np.arange(40)) * np.exp(-np.arange(40) / 9), 3)
 
@@ -400,7 +403,7 @@ def three(tmp_path):
     """A file of two horizontal channels, of different length, and a vertical one, and a vertical one alone."""
     lines = "\n".join(write.csmip_v1([WAVE, WAVE[:30], -WAVE])).replace("270 Deg", "Up").split("\n")
     saved(tmp_path / "a.V1", lines)
-    saved(tmp_path / "b.asc", "\n".join(write.esm(WAVE)).replace("HNE", "HNZ").split("\n"))
+    saved(tmp_path / "b.asc", "\n".join(write.esm(100 * WAVE)).replace("HNE", "HNZ").split("\n"))
     return tmp_path
 
 

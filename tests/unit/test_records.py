@@ -3,6 +3,7 @@
 import hashlib
 import sys
 import types
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -11,6 +12,7 @@ import pytest
 import record_files as write
 import rocking as rk
 
+pytestmark = pytest.mark.filterwarnings("ignore:.*a PGA of .* is unusual")
 G = 9.80665
 WAVE = np.round(np.sin(np.arange(37)) * np.exp(-np.arange(37) / 9), 3)
 OTHER = np.round(-0.5 * WAVE[:30], 3)
@@ -673,3 +675,23 @@ def test_synthetic_motions_follow_their_envelope():
 def test_arguments_of_synthetic_motions(wrong):
     with pytest.raises(ValueError, match=f"^{next(iter(wrong))} must"):
         rk.synthetic_ground_motions(**{"count": 1, "seed": 1} | wrong)
+
+
+@pytest.mark.parametrize(
+    ("samples", "units", "said"),
+    [
+        ([0, 300, -200], "m/s²", "a PGA of 300 m/s² is unusual: check the unit of the samples, m/s²"),
+        ([0, 312, -200], "g", "a PGA of 3060 m/s² is unusual: check the unit of the samples, g"),
+        ([0, 0.3, -0.2], "gal", "a PGA of 0.003 m/s² is unusual: check the unit of the samples, cm/s²"),
+        ([0, 0.3, -0.2], "g", None),
+        ([0, 0, 0], "g", None),
+    ],
+)
+def test_peak_in_another_unit_is_a_warning(make, samples, units, said):
+    path = make(list(map(str, samples)))
+    for read in (rk.read_ground_motion, rk.read_ground_motions, rk.read_record_set):
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            read(path, units=units, step=0.01)
+        assert [str(each.message) for each in caught] == ([f"file.x: {said}"] if said else [])
+        assert {(each.category, each.filename) for each in caught} <= {(rk.InputWarning, __file__)}

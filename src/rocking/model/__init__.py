@@ -36,7 +36,7 @@ from rocking.model.forcing import (
 )
 from rocking.model.formatting import counted, listed, ordinal, percent, percent_with_ends, plus_minus
 from rocking.model.fragility import Fragility, LognormalFit, limit_name, runs_of
-from rocking.model.ground_motion import BASELINES, STEPS, GroundMotion, vertical_sentence
+from rocking.model.ground_motion import BASELINES, STEPS, GroundMotion, pga_doubt, vertical_sentence
 from rocking.model.incremental_dynamic_analysis import FRACTILES, IncrementalDynamicAnalysis
 from rocking.model.input_warning import InputWarning, warn_of_input, warn_of_value
 from rocking.model.intensity import INTENSITIES, Intensity, intensity_of
@@ -205,6 +205,7 @@ __all__ = [
     "pair",
     "percent",
     "percent_with_ends",
+    "pga_doubt",
     "plus_minus",
     "quantities",
     "read_only",

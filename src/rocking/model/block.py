@@ -16,6 +16,8 @@ from rocking.model.system import Braces, System, critical_angle_for
 from rocking.model.validation import exactly_one, instance, reals, refusal, within
 
 SIZES = (1e-3, 1e3)
+LOWEST, LARGEST = 0.01, 100.0
+"""Smallest height, and largest height or width, in m, without a warning."""
 INERTIA_RATIOS = (1.0, 10.0)
 RECTANGLE = 4 / 3
 
@@ -62,6 +64,12 @@ class Block:
         If a value lies outside its range, or if Housner's coefficient of restitution is negative (a squat block) and
         `restitution` is not given.
 
+    Warns
+    -----
+    InputWarning
+        If the height is below 0.01 m, or height or width above 100 m: blocks in tests are higher than 1 cm, and bridges and towers
+        that rock are lower than 100 m.
+
     Notes
     -----
     Any proportions are allowed, but the equations are those of a slender block, sin θ ≈ θ. `Motion.validity` reports
@@ -92,6 +100,9 @@ class Block:
     inertia_ratio: float = field(default=RECTANGLE, converter=_inertia_ratio)
 
     def __attrs_post_init__(self) -> None:
+        for name, size in (("height", self.height), ("width", self.width)):
+            if size > LARGEST or (name == "height" and size < LOWEST):
+                warn_of_value(f"{name} {size:.4g} m is unusual: sizes are in metres")
         if self.has_housner_restitution and self.restitution < 0:
             raise ValueError(
                 f"restitution by Housner's formula is {self.restitution:.3g} for a block {self.height:g} m high and "

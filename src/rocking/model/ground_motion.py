@@ -15,6 +15,7 @@ from rocking.model.arrays import ReadOnlyArrays, read_only
 from rocking.model.block_formulas import GRAVITY
 from rocking.model.forcing import BaseMotion
 from rocking.model.formatting import listed
+from rocking.model.input_warning import warn_of_value
 from rocking.model.oscillator import pseudo_acceleration
 from rocking.model.piecewise_linear import PiecewiseLinear, samples, velocity_and_displacement
 from rocking.model.record_file import RecordFile
@@ -28,6 +29,8 @@ BASELINES = {"none": None, "mean": 0, "linear": 1, "quadratic": 2}
 """Degree of the polynomial that is fitted to the acceleration and subtracted."""
 MAX_END, MAX_MEAN, MAX_RATIO = 0.2, 0.5, 30.0
 """Largest |velocity| at the end over PGV, |mean velocity| over its root mean square, and PGA PGD/PGV² without drift."""
+USUAL_PGA = (0.01, 50.0)
+"""Peaks in m/s² without a warning: nobody feels a smaller one, and about 40 m/s² is the largest that was recorded."""
 VERTICAL = {"u", "up", "v", "ver", "vert", "vertical", "z", "ud", "updown", "down", "dn", "dwn"}
 """Letters of components that are vertical; so is each code of three letters that ends with z."""
 SIGNIFICANT = (0.05, 0.95)
@@ -85,6 +88,12 @@ class GroundMotion(BaseMotion, ReadOnlyArrays):
     TypeError, ValueError
         If a value is of the wrong type or lies outside its range.
 
+    Warns
+    -----
+    InputWarning
+        If the PGA is below 0.01 m/s², which moves no block, or above 50 m/s², more than in any record: the samples are probably in
+        another unit. A scaled motion has any PGA.
+
     Examples
     --------
     >>> motion = GroundMotion([0.0, 3.0, -2.0, 0.0], step=0.1, name="example")
@@ -106,6 +115,8 @@ class GroundMotion(BaseMotion, ReadOnlyArrays):
     _corrected: bool = field(default=False, kw_only=True, repr=False, eq=False)
 
     def __attrs_post_init__(self) -> None:
+        if self.factor == 1.0 and (doubt := pga_doubt(self.pga)):
+            warn_of_value(doubt)
         degree = BASELINES[self.baseline]
         if degree is None or self._corrected:
             return
@@ -370,6 +381,16 @@ class GroundMotion(BaseMotion, ReadOnlyArrays):
         named = ", ".join(filter(None, (self.name, self.component, f"{self._samples.size} samples")))
         treated = "" if self.baseline == "none" else f", {self.baseline} baseline removed"
         return f"GroundMotion({named}, step {self.step:g} s, PGA {self.pga:.4g} m/s²{treated})"
+
+
+def pga_doubt(pga: float) -> str:
+    """Return a sentence on a peak in m/s² that is probably in another unit; empty for any other."""
+    low, high = USUAL_PGA
+    return (
+        ""
+        if pga == 0.0 or low <= pga <= high
+        else f"a PGA of {pga:.4g} m/s² is unusual: check the unit of the samples"
+    )
 
 
 def vertical_sentence(names: Sequence[str]) -> str:

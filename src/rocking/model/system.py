@@ -9,6 +9,7 @@ from itertools import pairwise
 from attrs import field, frozen
 
 from rocking.model.forcing import FREQUENCIES, MAX_AMPLITUDE, MAX_PHASE, PERIODS, Forcing, Harmonic
+from rocking.model.input_warning import warn_of_value
 from rocking.model.validation import finite, instance, one_of, pair, refusal, refuse_if, within
 
 BRACE_ANGLES = (1e-3, 1e3)
@@ -19,6 +20,8 @@ NO_BRACES = {"brace_angle": math.inf, "brace_restitution": 1.0}
 """Quantities of braces for a system without braces."""
 MAX_STATE = 1e300
 MAX_START = 1e3
+MAX_USUAL_ANGLE = 2.0
+"""Largest |Θ| of a state or brace without a warning."""
 FORCINGS = "make one: rk.Harmonic(amplitude=2.0, period=1.0) or rk.PiecewiseLinear([0.0, 2.0, 0.0], step=0.1)"
 RANGES = {
     "amplitude": (0.0, MAX_AMPLITUDE),
@@ -75,6 +78,12 @@ class Braces:
     ValueError
         If a value lies outside its range.
 
+    Warns
+    -----
+    InputWarning
+        If the angle exceeds 2. A block is rarely beyond 1, from where it overturns under its own weight:
+        a larger number is probably in degrees.
+
     Examples
     --------
     >>> Braces(angle=1.0)
@@ -83,6 +92,10 @@ class Braces:
 
     angle: float = field(converter=_brace_angle)
     restitution: float = field(default=1.0, converter=_restitution)
+
+    def __attrs_post_init__(self) -> None:
+        if doubt := _angle_doubt(self.angle):
+            warn_of_value(doubt)
 
 
 def _braces(value: Braces | None) -> Braces | None:
@@ -249,6 +262,11 @@ class State:
     ValueError
         If a value lies outside its range.
 
+    Warns
+    -----
+    InputWarning
+        If |angle| exceeds 2. Beyond 1 a block overturns under its own weight: a larger number is probably in degrees.
+
     Examples
     --------
     >>> State(velocity=0.15)
@@ -257,6 +275,20 @@ class State:
 
     angle: float = field(default=0.0, converter=_angle)
     velocity: float = field(default=0.0, converter=_velocity)
+
+    def __attrs_post_init__(self) -> None:
+        if doubt := _angle_doubt(self.angle):
+            warn_of_value(doubt)
+
+
+def _angle_doubt(angle: float) -> str:
+    """Return a sentence on an angle that is probably in degrees; empty for any other."""
+    if abs(angle) <= MAX_USUAL_ANGLE:
+        return ""
+    return (
+        f"angle {angle:.6g} is {abs(angle):.6g} times the critical angle, beyond which a block overturns under its own weight: "
+        f"block.angle(degrees={angle:.6g}) converts degrees"
+    )
 
 
 def check_constant_restitution(system: System) -> None:

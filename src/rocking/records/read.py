@@ -13,6 +13,7 @@ from rocking.model import (
     GroundMotion,
     RecordFile,
     one_of,
+    pga_doubt,
     refusal,
     warn_of_input,
     whole,
@@ -94,7 +95,8 @@ def read_ground_motion(
     Warns
     -----
     InputWarning
-        If the peak of the samples differs from the peak in the header: see `RecordFile.pga_agrees`.
+        If the peak of the samples differs from the peak in the header: see `RecordFile.pga_agrees`. Also if the PGA is below 0.01
+        or above 50 m/s²: the unit is probably another.
 
     See Also
     --------
@@ -227,6 +229,8 @@ def _motion(source: _Source, number: int, given: _Given) -> GroundMotion:
         )
     except ValueError as error:
         raise RecordError(f"{place}: {error}") from error
+    if doubt := pga_doubt(float(np.abs(samples).max())):
+        warn_of_input(f"{place}: {doubt}, {unit}")
     if file is not None and file.pga_agrees is False:
         warn_of_input(
             f"{place}: the samples have a PGA of {file.pga:.5g} m/s², the header states {file.header_pga:.5g} m/s²"

@@ -246,13 +246,13 @@ def _set(
 def _warn_of_stations(found: Sequence[_Member], source: str) -> None:
     """Warn of stations with several horizontal components."""
     of_file: dict[str, _Station] = {}
-    stations: dict[_Station, list[str]] = {}
+    stations: dict[_Station, dict[str, str]] = {}
     for each in found:
         if not each.motion.vertical:
             assert each.motion.file is not None
             station = of_file.setdefault(each.motion.file.sha256, each.station)
-            stations.setdefault(station, []).append(each.label)
-    several = [labels for labels in stations.values() if len(labels) > 1]
+            stations.setdefault(station, {})[each.motion.component] = each.label
+    several = [list(labels.values()) for labels in stations.values() if len(labels) > 1]
     if several:
         which = f"several horizontal components of {counted(len(several), 'station')}"
         doubt = (
