@@ -50,7 +50,7 @@ from rocking.explorer.ground_motion.view import (
 from rocking.explorer.view_state import Span
 from rocking.explorer.worker_pools import Workers
 from rocking.model import KINDS, Outcome
-from rocking.records import read_apart
+from rocking.records import reading_process
 from rocking.survey import BlockEndings
 
 G = 9.80665
@@ -234,7 +234,7 @@ def test_reading_ends_at_its_limit_and_the_page_answers_meanwhile(workers, monke
 
 
 def test_reading_ends_at_its_limit_of_memory_with_one_sentence(monkeypatch):
-    monkeypatch.setattr(read_apart, "MAX_MEMORY", 500 << 20)
+    monkeypatch.setattr(reading_process, "MAX_MEMORY", 500 << 20)
     monkeypatch.setattr("rocking.explorer.ground_motion.ground.READING", 60.0)
     with pytest.raises(
         rk.RecordError, match=r"^reading takes more than 500 MB of memory: give a shorter file$"

@@ -256,10 +256,10 @@ PLACES = np.linspace(-1.0, 1.0, SHAKEN.size)
 )
 def test_motion_drifts_if_the_ground_does_not_come_to_rest_or_moves_too_far(wrong, reason):
     motion = rk.GroundMotion(SHAKEN + wrong, step=0.01)
-    assert reason in motion.drift_doubt()
-    assert motion.drifts == motion.scaled(-3.0).drifts == bool(reason)
-    assert motion.drift_doubt().endswith("correct it, for example baseline='linear'" * bool(reason))
-    assert rk.GroundMotion(SHAKEN + wrong, step=0.01, baseline="linear").drift_doubt() == ""
+    assert reason in motion.drift_doubt
+    assert bool(motion.drift_doubt) == bool(motion.scaled(-3.0).drift_doubt) == bool(reason)
+    assert motion.drift_doubt.endswith("correct it, for example baseline='linear'" * bool(reason))
+    assert rk.GroundMotion(SHAKEN + wrong, step=0.01, baseline="linear").drift_doubt == ""
 
 
 def test_drift_that_a_baseline_leaves_needs_a_higher_degree_or_a_corrected_record():
@@ -269,7 +269,7 @@ def test_drift_that_a_baseline_leaves_needs_a_higher_degree_or_a_corrected_recor
         ("linear", "for example baseline='quadratic'"),
         ("quadratic", "use a corrected record"),
     ):
-        doubt = rk.GroundMotion(wrong, step=0.01, baseline=baseline).drift_doubt()
+        doubt = rk.GroundMotion(wrong, step=0.01, baseline=baseline).drift_doubt
         assert f"a {baseline} baseline is removed" in doubt
         assert doubt.endswith(remedy)
-    assert not rk.GroundMotion([0.0, 0.0], step=0.01).drifts
+    assert not rk.GroundMotion([0.0, 0.0], step=0.01).drift_doubt

@@ -20,7 +20,8 @@ from rocking.model.atomic_files import (
 )
 from rocking.model.basin_map import Attractor, BasinMap, UncertaintyExponent
 from rocking.model.binomial_share import LEVEL, Share, wilson
-from rocking.model.block import INERTIA_RATIOS, RECTANGLE, SIZES, Block
+from rocking.model.block import Block
+from rocking.model.block_checks import INERTIA_RATIOS, RECTANGLE, SIZES
 from rocking.model.block_formulas import GRAVITY, frequency_parameter, housner_restitution
 from rocking.model.citation import cite
 from rocking.model.classification import Criterion, Kind
@@ -36,7 +37,9 @@ from rocking.model.forcing import (
 )
 from rocking.model.formatting import counted, listed, ordinal, percent, percent_with_ends, plus_minus
 from rocking.model.fragility import Fragility, LognormalFit, limit_name, runs_of
-from rocking.model.ground_motion import BASELINES, STEPS, GroundMotion, pga_doubt, vertical_sentence
+from rocking.model.ground_motion import GroundMotion
+from rocking.model.ground_motion_checks import BASELINES, STEPS
+from rocking.model.ground_motion_doubts import pga_doubt, vertical_sentence
 from rocking.model.incremental_dynamic_analysis import FRACTILES, IncrementalDynamicAnalysis
 from rocking.model.input_warning import InputWarning, warn_of_input, warn_of_value
 from rocking.model.intensity import INTENSITIES, Intensity, intensity_of

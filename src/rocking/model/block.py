@@ -8,34 +8,15 @@ from typing import Any
 import numpy as np
 from attrs import field, frozen
 
+from rocking.model import block_checks
+from rocking.model.block_checks import RECTANGLE
 from rocking.model.block_formulas import GRAVITY, frequency_in_hertz, frequency_parameter, housner_restitution
 from rocking.model.forcing import FREQUENCIES, MAX_AMPLITUDE, BaseMotion, Harmonic
-from rocking.model.ground_motion import GroundMotion, vertical_sentence
+from rocking.model.ground_motion import GroundMotion
+from rocking.model.ground_motion_doubts import vertical_sentence
 from rocking.model.input_warning import warn_of_value
 from rocking.model.system import Braces, System, critical_angle_for
 from rocking.model.validation import exactly_one, instance, reals, refusal, within
-
-SIZES = (1e-3, 1e3)
-LOWEST, LARGEST = 0.01, 100.0
-"""Smallest height, and largest height or width, in m, without a warning."""
-INERTIA_RATIOS = (1.0, 10.0)
-RECTANGLE = 4 / 3
-
-
-def _height(value: float) -> float:
-    return within("height", value, *SIZES, unit="m")
-
-
-def _width(value: float) -> float:
-    return within("width", value, *SIZES, unit="m")
-
-
-def _restitution(value: float | None) -> float | None:
-    return None if value is None else within("restitution", value, 0, 1)
-
-
-def _inertia_ratio(value: float) -> float:
-    return within("inertia_ratio", value, *INERTIA_RATIOS)
 
 
 @frozen(repr=False)
@@ -67,8 +48,7 @@ class Block:
     Warns
     -----
     InputWarning
-        If the height is below 0.01 m, or height or width above 100 m: blocks in tests are higher than 1 cm, and bridges and towers
-        that rock are lower than 100 m.
+        If the height is below 0.01 m, or if height or width exceed 100 m. Even models, bridges and towers lie between.
 
     Notes
     -----
@@ -94,15 +74,14 @@ class Block:
     True
     """
 
-    height: float = field(converter=_height)
-    width: float = field(converter=_width)
-    _restitution: float | None = field(default=None, converter=_restitution)
-    inertia_ratio: float = field(default=RECTANGLE, converter=_inertia_ratio)
+    height: float = field(converter=block_checks.height)
+    width: float = field(converter=block_checks.width)
+    _restitution: float | None = field(default=None, converter=block_checks.restitution)
+    inertia_ratio: float = field(default=RECTANGLE, converter=block_checks.inertia_ratio)
 
     def __attrs_post_init__(self) -> None:
-        for name, size in (("height", self.height), ("width", self.width)):
-            if size > LARGEST or (name == "height" and size < LOWEST):
-                warn_of_value(f"{name} {size:.4g} m is unusual: sizes are in metres")
+        for doubt in block_checks.size_doubts(self.height, self.width):
+            warn_of_value(doubt)
         if self.has_housner_restitution and self.restitution < 0:
             raise ValueError(
                 f"restitution by Housner's formula is {self.restitution:.3g} for a block {self.height:g} m high and "

@@ -3,62 +3,28 @@
 from __future__ import annotations
 
 import math
-import re
-from collections.abc import Sequence
 from typing import Any
 
 import attrs
 import numpy as np
 from attrs import evolve, field, frozen
 
+from rocking.model import ground_motion_checks
 from rocking.model.arrays import ReadOnlyArrays, read_only
 from rocking.model.block_formulas import GRAVITY
 from rocking.model.forcing import BaseMotion
-from rocking.model.formatting import listed
+from rocking.model.ground_motion_checks import BASELINES, MAX_ACCELERATION, MAX_FACTOR
+from rocking.model.ground_motion_doubts import drift_doubt, is_vertical, pga_doubt
 from rocking.model.input_warning import warn_of_value
 from rocking.model.oscillator import pseudo_acceleration
-from rocking.model.piecewise_linear import PiecewiseLinear, samples, velocity_and_displacement
+from rocking.model.piecewise_linear import PiecewiseLinear, velocity_and_displacement
 from rocking.model.record_file import RecordFile
-from rocking.model.validation import exactly_one, finite, instance, one_of, reals, refusal, within
+from rocking.model.validation import exactly_one, finite, reals, refusal, within
 
-STEPS = (1e-6, 1e3)
-MAX_ACCELERATION = MAX_FACTOR = 1e6
 PERIODS = (1e-4, 1e4)
 MAX_DAMPING = 0.99
-BASELINES = {"none": None, "mean": 0, "linear": 1, "quadratic": 2}
-"""Degree of the polynomial that is fitted to the acceleration and subtracted."""
-MAX_END, MAX_MEAN, MAX_RATIO = 0.2, 0.5, 30.0
-"""Largest |velocity| at the end over PGV, |mean velocity| over its root mean square, and PGA PGD/PGV² without drift."""
-USUAL_PGA = (0.01, 50.0)
-"""Peaks in m/s² without a warning: nobody feels a smaller one, and about 40 m/s² is the largest that was recorded."""
-VERTICAL = {"u", "up", "v", "ver", "vert", "vertical", "z", "ud", "updown", "down", "dn", "dwn"}
-"""Letters of components that are vertical; so is each code of three letters that ends with z."""
 SIGNIFICANT = (0.05, 0.95)
 """Shares of the Arias intensity at the ends of the significant duration."""
-
-
-def _samples(values: Any) -> np.ndarray:
-    return samples("acceleration", values, MAX_ACCELERATION)
-
-
-def _step(value: float) -> float:
-    return within("step", value, *STEPS, "s")
-
-
-def _name(value: str) -> str:
-    return instance("name", value, str)
-
-
-def _component(value: str) -> str:
-    return instance("component", value, str)
-
-
-def _factor(value: float) -> float:
-    return finite("factor", value, MAX_FACTOR)
-
-
-def _baseline(value: str) -> str:
-    return one_of("baseline", value, tuple(BASELINES))
 
 
 @frozen(repr=False)
@@ -91,8 +57,7 @@ class GroundMotion(BaseMotion, ReadOnlyArrays):
     Warns
     -----
     InputWarning
-        If the PGA is below 0.01 m/s², which moves no block, or above 50 m/s², more than in any record: the samples are probably in
-        another unit. A scaled motion has any PGA.
+        If the PGA is below 0.01 or above 50 m/s²: the unit is probably another. A scaled motion may have any PGA.
 
     Examples
     --------
@@ -104,13 +69,16 @@ class GroundMotion(BaseMotion, ReadOnlyArrays):
     """
 
     _samples: np.ndarray = field(
-        alias="acceleration", converter=_samples, eq=attrs.cmp_using(eq=np.array_equal), hash=False
+        alias="acceleration",
+        converter=ground_motion_checks.samples,
+        eq=attrs.cmp_using(eq=np.array_equal),
+        hash=False,
     )
-    step: float = field(converter=_step, kw_only=True)
-    name: str = field(default="", converter=_name, kw_only=True)
-    component: str = field(default="", converter=_component, kw_only=True)
-    baseline: str = field(default="none", converter=_baseline, kw_only=True)
-    factor: float = field(default=1.0, converter=_factor, kw_only=True)
+    step: float = field(converter=ground_motion_checks.step, kw_only=True)
+    name: str = field(default="", converter=ground_motion_checks.name, kw_only=True)
+    component: str = field(default="", converter=ground_motion_checks.component, kw_only=True)
+    baseline: str = field(default="none", converter=ground_motion_checks.baseline, kw_only=True)
+    factor: float = field(default=1.0, converter=ground_motion_checks.factor, kw_only=True)
     file: RecordFile | None = field(default=None, kw_only=True)
     _corrected: bool = field(default=False, kw_only=True, repr=False, eq=False)
 
@@ -128,8 +96,7 @@ class GroundMotion(BaseMotion, ReadOnlyArrays):
     @property
     def vertical(self) -> bool:
         """True if `component` names the vertical direction, as "Up", "U-D", "DWN", "V" and "HNZ" do."""
-        letters = re.sub("[^a-z]", "", self.component.partition(",")[0].lower())
-        return letters in VERTICAL or (len(letters) == 3 and letters.endswith("z"))
+        return is_vertical(self.component)
 
     @property
     def acceleration(self) -> np.ndarray:
@@ -160,8 +127,7 @@ class GroundMotion(BaseMotion, ReadOnlyArrays):
     def displacement(self) -> np.ndarray:
         """Displacement of the ground at the samples in m, from rest, by exact integration of the straight segments.
 
-        Errors of the baseline grow quadratically in time: the displacement at the end is a measure of them, and `drifts` tells
-        whether they prevail.
+        Errors of the baseline grow quadratically in time: the displacement at the end is a measure of them. See `drift_doubt`.
         """
         return velocity_and_displacement(self.acceleration, self.step)[1]
 
@@ -181,45 +147,13 @@ class GroundMotion(BaseMotion, ReadOnlyArrays):
         return float(np.abs(self.displacement).max())
 
     @property
-    def drifts(self) -> bool:
-        """True if PGV and PGD are those of a wrong baseline rather than of the ground, which is at rest after an earthquake.
-
-        One of these is too large: the velocity at the end, above 20 % of the PGV; |mean velocity|, above half its root mean square;
-        PGA PGD/PGV², above 30. The last is about 6 in general (Newmark & Hall 1982). Tests on twenty channels: with a corrected
-        baseline the three are at most 6 %, 0.05 and 16; without one, one of them is too large in all channels but one.
-        """
-        return bool(self.drift_doubt())
-
     def drift_doubt(self) -> str:
-        """Return a sentence with the reason and the remedy for a motion that `drifts`; empty for any other.
+        """Why PGV and PGD are those of a wrong baseline rather than of the ground, with the remedy; empty if they are not.
 
-        Examples
-        --------
-        >>> GroundMotion([0.0, 2.0, -2.0, -2.0, 2.0, 0.0], step=0.1).drift_doubt()
-        ''
-        >>> GroundMotion([0.0, 1.0, -0.1, 0.0], step=0.1).drift_doubt().partition(":")[0]
-        'the PGV and PGD are those of a drift, because no baseline is removed and the velocity at the end is 94 % of the PGV'
+        The ground is at rest after an earthquake. So one of these is too large: the velocity at the end, above 20 % of the PGV;
+        |mean velocity|, above half its root mean square; PGA PGD/PGV², above 30. The last is about 6 in general (Newmark & Hall 1982).
         """
-        pgv, velocity = self.pgv, self.velocity
-        if pgv == 0.0:
-            return ""
-        end = abs(float(velocity[-1])) / pgv
-        mean = abs(float(velocity.mean())) / math.sqrt(float((velocity**2).mean()))
-        ratio = self.pga * self.pgd / pgv**2
-        reasons = {
-            f"the velocity at the end is {end:.0%} of the PGV".replace("%", " %"): end / MAX_END,
-            f"the mean velocity is {mean:.0%} of its root mean square".replace("%", " %"): mean / MAX_MEAN,
-            f"PGA PGD/PGV² is {ratio:.3g}, where 6 is usual": ratio / MAX_RATIO,
-        }
-        worst = max(reasons, key=reasons.__getitem__)
-        if reasons[worst] <= 1.0:
-            return ""
-        treated = (
-            f"a {self.baseline} baseline is removed" if self.baseline != "none" else "no baseline is removed"
-        )
-        better = {"linear": "quadratic", "quadratic": None}.get(self.baseline, "linear")
-        remedy = f"correct it, for example baseline={better!r}" if better else "use a corrected record"
-        return f"the PGV and PGD are those of a drift, because {treated} and {worst}: {remedy}"
+        return drift_doubt(self)
 
     @property
     def arias_intensity(self) -> float:
@@ -381,19 +315,3 @@ class GroundMotion(BaseMotion, ReadOnlyArrays):
         named = ", ".join(filter(None, (self.name, self.component, f"{self._samples.size} samples")))
         treated = "" if self.baseline == "none" else f", {self.baseline} baseline removed"
         return f"GroundMotion({named}, step {self.step:g} s, PGA {self.pga:.4g} m/s²{treated})"
-
-
-def pga_doubt(pga: float) -> str:
-    """Return a sentence on a peak in m/s² that is probably in another unit; empty for any other."""
-    low, high = USUAL_PGA
-    return (
-        ""
-        if pga == 0.0 or low <= pga <= high
-        else f"a PGA of {pga:.4g} m/s² is unusual: check the unit of the samples"
-    )
-
-
-def vertical_sentence(names: Sequence[str]) -> str:
-    """Return the warning that vertical components are used as horizontal ones."""
-    which = "the component {} is" if len(names) == 1 else "the components {} are"
-    return f"{which.format(listed(names))} vertical, and the base moves horizontally: choose a horizontal component"

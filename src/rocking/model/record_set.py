@@ -12,7 +12,8 @@ from attrs import field, frozen
 
 from rocking.model.arrays import read_only
 from rocking.model.formatting import counted
-from rocking.model.ground_motion import GroundMotion, vertical_sentence
+from rocking.model.ground_motion import GroundMotion
+from rocking.model.ground_motion_doubts import vertical_sentence
 from rocking.model.input_warning import warn_of_input, warn_of_value
 from rocking.model.validation import members, reals, refusal
 

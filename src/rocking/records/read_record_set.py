@@ -77,8 +77,8 @@ def read_record_set(
     -----
     InputWarning
         As for `read_ground_motion`. Also if vertical channels, or files of a folder without acceleration, are left out. Also if the
-        set holds several horizontal components of one station, whose results depend on each other: channels of one file, or records
-        whose headers have the same name, step and number of samples.
+        set holds several horizontal components of one station, whose results depend on each other. These are channels of one file,
+        or records whose headers have the same name, step and number of samples.
 
     See Also
     --------

@@ -86,7 +86,7 @@ def ground_motion(given: Mapping[str, Any]) -> tuple[GroundMotion, list[str]]:
         elif given["scale"] is not None:
             ground = ground.scaled(given["scale"])
     vertical = vertical_sentence([ground.component]) if ground.vertical else ""
-    more = filter(None, (vertical, as_options(ground.drift_doubt())))
+    more = filter(None, (vertical, as_options(ground.drift_doubt)))
     return ground, [*(str(doubt.message) for doubt in doubts), *more]
 
 

@@ -153,7 +153,7 @@ def drift_doubts(records: RecordSet) -> list[str]:
     """Return a warning of the records whose PGV and PGD are those of a drift; none without such a record."""
     from rocking.model import listed
 
-    names = [name for name, motion in zip(records.names, records, strict=True) if motion.drifts]
+    names = [name for name, motion in zip(records.names, records, strict=True) if motion.drift_doubt]
     if not names:
         return []
     count = f"{len(names)} of {len(records)} records" if len(records) > 1 else "the record"

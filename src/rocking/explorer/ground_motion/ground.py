@@ -11,8 +11,7 @@ from attrs import define
 
 from rocking.explorer.ground_motion.view import GroundView
 from rocking.model import GRAVITY, GroundMotion, Pulse, vertical_sentence
-from rocking.records import example_ground_motion, synthetic_ground_motions
-from rocking.records.read_apart import read_apart
+from rocking.records import example_ground_motion, read_apart, synthetic_ground_motions
 
 SEED = 1
 MAX_FILE = 50_000_000
@@ -150,7 +149,7 @@ def _remark(motion: GroundMotion) -> str:
         )
     if motion.vertical:
         found.append(vertical_sentence([motion.component]))
-    if motion.drifts:
+    if motion.drift_doubt:
         found.append(
             "the PGV is that of a drift, because the baseline is not corrected: give a corrected record"
         )

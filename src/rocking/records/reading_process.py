@@ -27,7 +27,7 @@ def read_apart(data: bytes, seconds: float, **given: Any) -> tuple[GroundMotion,
     same = {"PYTHONPATH": os.pathsep.join(sys.path), "OPENBLAS_NUM_THREADS": "1"}
     try:
         done = subprocess.run(
-            [sys.executable, "-P", "-m", __name__],
+            [sys.executable, "-P", "-c", f"from {__name__} import answer; answer()"],
             input=pickle.dumps((data, given, MAX_MEMORY)),
             capture_output=True,
             timeout=seconds,
@@ -44,7 +44,7 @@ def read_apart(data: bytes, seconds: float, **given: Any) -> tuple[GroundMotion,
     return found
 
 
-def _main() -> None:
+def answer() -> None:
     """Read the file that comes on stdin, and write its channels, or the error, on stdout."""
     data, given, memory = pickle.load(sys.stdin.buffer)
     with suppress(ImportError, ValueError, OSError):  # no such limit on Windows; a lower one stays
@@ -61,7 +61,3 @@ def _main() -> None:
     except (ValueError, TypeError) as error:
         found = error
     sys.stdout.buffer.write(pickle.dumps(found))
-
-
-if __name__ == "__main__":
-    _main()
