@@ -217,3 +217,13 @@ def test_bad_input_is_refused_in_one_line(rocking, line, message):
     assert (code, out) == (2, "")
     assert told.startswith(message)
     assert "\n" not in told
+
+
+def test_levels_of_the_peak_velocity_warn_of_records_that_drift(rocking, tmp_path):
+    path = tmp_path / "push.csv"
+    path.write_text("time (s), acceleration (m/s²)\n0, 0\n0.5, 12\n1, 0\n", encoding="utf-8")
+    said = "the PGV and PGD of the record are those of a drift of the baseline (push.csv): give --baseline linear"
+    for level, warned in (("pgv 0.1:1:4", True), ("pga 1:5:4", False)):
+        code, _, out = rocking(f"fragility {path} --height 2 --width 0.5 --{level} --json")
+        assert code == 0
+        assert (said in json.loads(out)["warnings"]) == warned

@@ -148,7 +148,7 @@ class GroundMotion(BaseMotion, ReadOnlyArrays):
 
     @property
     def drift_doubt(self) -> str:
-        """Why PGV and PGD are those of a wrong baseline rather than of the ground, with the remedy; empty if they are not.
+        """Sentence on PGV and PGD that are those of a wrong baseline, with reason and remedy; empty for those of the ground.
 
         The ground is at rest after an earthquake. So one of these is too large: the velocity at the end, above 20 % of the PGV;
         |mean velocity|, above half its root mean square; PGA PGD/PGV², above 30. The last is about 6 in general (Newmark & Hall 1982).
