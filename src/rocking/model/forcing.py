@@ -52,6 +52,11 @@ class Forcing:
         """Time τ in which the acceleration varies by the order of its size."""
         raise NotImplementedError
 
+    @property
+    def corners(self) -> np.ndarray:
+        """Times τ (n,) at which the acceleration or its rate jumps."""
+        return np.empty(0)
+
     def acceleration(self, times: Any) -> Any:
         """Return the base acceleration at normalised times, in units of g θcr."""
         raise NotImplementedError

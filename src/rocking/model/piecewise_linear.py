@@ -114,6 +114,11 @@ class PiecewiseLinear(Forcing, ReadOnlyArrays):
         """Largest |acceleration|, in units of g θcr. A block at rest lifts off if it exceeds 1."""
         return float(np.abs(self.values).max()) * abs(self.scale)
 
+    @property
+    def corners(self) -> np.ndarray:
+        """Times τ (n,) of the samples, at which the rate of the acceleration jumps."""
+        return np.arange(self.values.size) * self.step
+
     def quantities(self) -> dict[str, float]:
         """Return the number of samples, step and scale, by name."""
         return {"samples": self.values.size, "step": self.step, "scale": self.scale}

@@ -148,6 +148,11 @@ class Pulse(Forcing, BaseMotion):
         """Time in which the acceleration varies by the order of its size: the duration."""
         return self.duration
 
+    @property
+    def corners(self) -> np.ndarray:
+        """Times (n,) at which the acceleration or its rate jumps."""
+        return np.array([0.0, self.duration]) if self.cosine is not None else self.samples.corners
+
     def quantities(self) -> dict[str, float]:
         """Return amplitude and duration, by name."""
         return {"amplitude": self.amplitude, "pulse_duration": self.duration}

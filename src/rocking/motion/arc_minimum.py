@@ -1,4 +1,4 @@
-"""Extremes of a function along a motion: a grid on every arc, refined around each possible extreme."""
+"""Smallest value of a quotient along a motion: the arcs are divided where the quotient can still be smaller."""
 
 from __future__ import annotations
 
@@ -7,17 +7,32 @@ from collections.abc import Callable, Iterator
 from typing import NamedTuple
 
 import numpy as np
+from numpy.polynomial import chebyshev
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
-Measure = Callable[[Array, Array], Array]
+Quotient = Callable[[Array, Array], tuple[Array, Array]]
+"""Function of times and sides (n,). It returns numerators (k, n) and their common denominator (n,), all of them smooth."""
 
-POINTS_PER_PERIOD = 32
-POINTS_AT_ONCE = 500_000
+CELLS_PER_SCALE = 8
+CELLS_AT_ONCE = 60_000
+HALVINGS = 14
+"""Largest number of divisions of a cell. After them, a cell is so short that the quotient changes by rounding alone."""
+TOLERANCE = 1e-12
+"""Relative error of the smallest value."""
+DEGREE = 6
+NODES = chebyshev.chebpts2(DEGREE + 1)
+TO_COEFFICIENTS = np.linalg.inv(chebyshev.chebvander(NODES, DEGREE)).T
+_ORDER = np.arange(DEGREE + 1.0)
+BELOW_CHORD = 2 * np.max(np.diff(NODES)) ** 2 / 8 * _ORDER**2 * (_ORDER**2 - 1) / 3
+"""Depth below the chords between nodes, for each coefficient of a Chebyshev series, doubled for what the series omits.
+
+It is at most an eighth of the squared distance of the nodes, times the largest second derivative.
+"""
 
 
 class Arcs(NamedTuple):
-    """Arcs of a motion between two events, with the side (−1, 0 at rest, 1) of the block on each."""
+    """Pieces of a motion without an event, on which the base acceleration is smooth, with the side (−1, 0 at rest, 1) on each."""
 
     starts: Array
     ends: Array
@@ -26,6 +41,17 @@ class Arcs(NamedTuple):
     def where(self, chosen: NDArray[np.bool_]) -> Arcs:
         """Return the selected arcs."""
         return Arcs(*(column[chosen] for column in self))
+
+    def divided(self, parts: NDArray[np.intp]) -> Arcs:
+        """Divide each arc into a number of equal parts."""
+        which = np.repeat(np.arange(parts.size), parts)
+        step = np.arange(which.size) - (np.cumsum(parts) - parts)[which]
+        starts, lengths = self.starts[which], (self.ends - self.starts)[which]
+        begins = starts + lengths * (step / parts[which])
+        ends = np.where(
+            step + 1 == parts[which], self.ends[which], starts + lengths * ((step + 1) / parts[which])
+        )
+        return Arcs(begins, ends, self.sides[which])
 
 
 class Extreme(NamedTuple):
@@ -38,47 +64,47 @@ class Extreme(NamedTuple):
 NOTHING = Extreme(math.inf, 0.0)
 
 
-def global_minimum(measure: Measure, arcs: Arcs, scale: float) -> Extreme:
-    """Return the smallest value of a function of times and sides over all arcs.
+def global_minimum(quotient: Quotient, arcs: Arcs, scale: float) -> Extreme:
+    """Return the smallest value of a quotient over all arcs; −∞ where its denominator is not positive.
 
-    The function varies over times of `scale`. The minimum can lie next to a grid point that is no higher than its
-    neighbours. It is then no further below this point than the neighbours are above it, because the function is convex
-    there. Only points where this bound is not above the lowest grid value are refined.
+    Numerators and denominator vary over times of `scale`. A value below μ, the smallest one found so far, means that a
+    numerator minus μ times the denominator is negative. This difference is smooth, also where the denominator is nearly 0.
+    A cell is divided in two as long as the Chebyshev series of the difference admits a negative value between its nodes.
     """
-    from scipy.optimize import elementwise
-
     best = NOTHING
-    for times, sides, which in grids(arcs, scale):
-        values = measure(times, sides)
-        best = min(best, lowest(values, times))
-        before, here, after = values[:-2], values[1:-1], values[2:]
-        bracketed = (which[:-2] == which[2:]) & (here <= before) & (here <= after) & np.isfinite(here)
-        chosen = np.flatnonzero(bracketed)
-        chosen = chosen[2 * here[chosen] - np.maximum(before, after)[chosen] <= best.value]
-        if chosen.size:
-            bracket = (times[chosen], times[chosen + 1], times[chosen + 2])
-            refined = elementwise.find_minimum(measure, bracket, args=(sides[chosen + 1],))
-            best = min(best, lowest(refined.f_x, refined.x))
+    for batch in _cells(arcs, scale):
+        cells = batch
+        for _ in range(HALVINGS):
+            best, open_ = _improved(quotient, cells, best)
+            cells = cells.where(open_)
+            if best.value == -math.inf or not cells.starts.size:
+                break
+            cells = cells.divided(np.full(cells.starts.size, 2))
     return best
 
 
-def lowest(values: Array, times: Array) -> Extreme:
-    """Return the smallest of the given values, with its time."""
-    index = int(np.argmin(values))
-    return Extreme(float(values[index]), float(times[index]))
+def _improved(quotient: Quotient, cells: Arcs, best: Extreme) -> tuple[Extreme, NDArray[np.bool_]]:
+    """Return the smallest value at the nodes of all cells and before, and the cells that can hold a smaller one."""
+    middles, halves = (cells.starts + cells.ends) / 2, (cells.ends - cells.starts) / 2
+    times = np.clip(middles[:, None] + halves[:, None] * NODES, cells.starts[:, None], cells.ends[:, None])
+    tops, bottom = quotient(times.ravel(), np.repeat(cells.sides, NODES.size))
+    values = np.divide(tops.min(axis=0), bottom, out=np.full(bottom.size, -math.inf), where=bottom > 0)
+    lowest = int(np.argmin(values))
+    best = min(best, Extreme(float(values[lowest]), float(times.flat[lowest])))
+    if best.value == -math.inf:
+        return best, np.zeros(cells.starts.size, bool)
+    shape = (len(tops), *times.shape)
+    over = (tops - best.value * bottom).reshape(shape)
+    size = (np.abs(tops) + abs(best.value) * bottom).reshape(shape).max(axis=-1)
+    least = over.min(axis=-1) - np.abs(over @ TO_COEFFICIENTS) @ BELOW_CHORD
+    return best, (least < -TOLERANCE * size).any(axis=0)
 
 
-def grids(arcs: Arcs, scale: float) -> Iterator[tuple[Array, Array, NDArray[np.intp]]]:
-    """Yield times on the arcs, both ends included, with the side and the index of the arc of each.
-
-    The last time on an arc is the floating-point number before its final event.
-    """
-    steps = 8 + np.ceil(POINTS_PER_PERIOD * (arcs.ends - arcs.starts) / scale)
-    steps = np.minimum(steps, POINTS_AT_ONCE).astype(int)
-    batches = np.cumsum(steps) // POINTS_AT_ONCE
+def _cells(arcs: Arcs, scale: float) -> Iterator[Arcs]:
+    """Yield the arcs, divided into cells that are short against `scale`, some at a time."""
+    parts = np.clip(np.ceil(CELLS_PER_SCALE * (arcs.ends - arcs.starts) / scale), 1, CELLS_AT_ONCE).astype(
+        int
+    )
+    batches = np.cumsum(parts) // CELLS_AT_ONCE
     for batch in np.unique(batches):
-        chosen, points = arcs.where(batches == batch), steps[batches == batch] + 1
-        which = np.repeat(np.arange(points.size), points)
-        step = np.arange(which.size) - (np.cumsum(points) - points)[which]
-        times = chosen.starts[which] + (chosen.ends - chosen.starts)[which] * (step / (points[which] - 1))
-        yield np.minimum(times, np.nextafter(chosen.ends, -math.inf)[which]), chosen.sides[which], which
+        yield arcs.where(batches == batch).divided(parts[batches == batch])
