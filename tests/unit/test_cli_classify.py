@@ -88,7 +88,7 @@ def test_json_of_an_overturned_block_has_neither_orbit_nor_exponent(rocking):
     names = ("response_period", "multipliers", "exponent", "exponent_error", "orbit", "symmetric")
     assert [read[name] for name in names] == [None] * len(names)
     assert read["superstable"] is False
-    assert "largest |Θ| until overturning was certain" in rocking(f"classify {FALLING}")[2]
+    assert "largest |Θ|" not in rocking(f"classify {FALLING}")[2]
 
 
 def test_json_in_si_has_the_block(rocking):

@@ -399,6 +399,7 @@ def test_block_that_stays_still_or_falls_is_described_so():
     assert falls.words["kind"] == "overturns"
     assert np.abs(falls.angle["angle"]).max() > DEFAULT.block.degrees(1.0)
     assert "overturning certain from" in dict(falls.words["facts"])
+    assert "largest |θ|" not in dict(falls.words["facts"])
 
 
 def test_margin_is_the_speed_that_the_block_lacked_or_had_to_spare():

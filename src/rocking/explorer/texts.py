@@ -31,8 +31,8 @@ def verdict(found: Verdict, block: Block | None) -> dict[str, Any]:
         facts.append(("period", f"{counted(found.period, 'cycle')}, {symmetry}{seconds}"))
         hits = [("impacts", found.impacts_per_period), ("brace impacts", found.brace_hits_per_period)]
         facts += [(f"{what} per period", impacts(number)) for what, number in hits if number != 0]
-    largest = "largest |Θ|" + " until overturning was certain" * (found.kind == Kind.OVERTURNED)
-    facts.append((largest, f"{found.peak:.6g}" + _reach(found.peak, block)))
+    if found.kind != Kind.OVERTURNED:
+        facts.append(("largest |Θ|", f"{found.peak:.6g}" + _reach(found.peak, block)))
     if found.multipliers is not None:
         facts.append(("Floquet multipliers", _pair(*found.multipliers)))
     if found.exponent is not None:

@@ -36,7 +36,8 @@ class Motion(Trajectory, NotebookPicture):
     impacts, brace_hits : int
         Number of impacts at Θ = 0 and on the braces.
     peak : float
-        Largest |Θ| of the run, [0, `duration`].
+        Largest |Θ| of the run, [0, `duration`]. If the block overturns, the run ends before the angle reaches 90°, and `peak`
+        says nothing about the fall.
     margin : float
         What the block lacked to overturn (negative) or had to spare, in units of αθcr. It is the K₊ of least size over all
         lift-offs and impacts.
@@ -151,6 +152,7 @@ class Motion(Trajectory, NotebookPicture):
         if self.system.braces is not None:
             counts.append(counted(self.brace_hits, "brace impact"))
         if self.overturning is None:
+            counts.append(f"peak |Θ| {self.peak:.4g}")
             over = counted(self.cycles, "cycle") if self.cycles else f"τ = {self.duration:.6g}"
             how = f"{self.outcome} over {over}"
         else:
@@ -158,4 +160,4 @@ class Motion(Trajectory, NotebookPicture):
             how = f"overturned{since} from τ = {self.overturning.time:.6g}"
         margin = "" if math.isnan(self.margin) else f", margin {self.margin:.4g}"
         doubt = f" ({self.doubt})" if self.doubt else ""
-        return f"{how}{doubt}; {', '.join(counts)}, peak |Θ| {self.peak:.4g}{margin}"
+        return f"{how}{doubt}; {', '.join(counts)}{margin}"

@@ -46,8 +46,8 @@ def found(verdict: Verdict, block: Block | None) -> Iterator[Row]:
             yield "proof", f"{orbit.proof.bits} bits, multipliers to {_accuracy(orbit.proof)}", ""
     if exponent is not None:
         yield "largest Lyapunov exponent", *_exponent(exponent, verdict.exponent_error, block)
-    peak = "largest |Θ| until overturning was certain" if verdict.kind == "overturned" else "largest |Θ|"
-    yield peak, f"{verdict.peak:.6g}", reach(verdict.peak, block)
+    if verdict.kind != "overturned":
+        yield "largest |Θ|", f"{verdict.peak:.6g}", reach(verdict.peak, block)
     if verdict.steady_peak is not None:
         yield (
             "largest |Θ| after the transient",

@@ -148,7 +148,8 @@ def found(motion: Motion, block: Block | None) -> Iterator[Row]:
     yield "impacts", f"{motion.impacts}{_cut(motion, 'rest')}", ""
     if motion.system.braces is not None:
         yield "brace impacts", f"{motion.brace_hits}{_cut(motion, 'sustained contact')}", ""
-    yield f"largest |Θ|{until_overturning(motion)}", f"{motion.peak:.6g}", reach(motion.peak, block)
+    if motion.overturning is None:
+        yield "largest |Θ|", f"{motion.peak:.6g}", reach(motion.peak, block)
     if not math.isnan(motion.margin):
         at = "" if block is None else f" = {block.seconds(motion.margin_time):.4g} s"
         yield "margin K₊", f"{motion.margin:.6g}", f"at τ = {motion.margin_time:.6g}{at}"
@@ -157,11 +158,6 @@ def found(motion: Motion, block: Block | None) -> Iterator[Row]:
         f"Θ = {motion.final.angle:.6g}, Θ' = {motion.final.velocity:.6g}",
         _state(motion.final, block),
     )
-
-
-def until_overturning(motion: Motion) -> str:
-    """Return the end of the time over which the peak of an overturned motion is the largest angle; else an empty text."""
-    return "" if motion.overturning is None else f" until overturning was {_known(motion)}"
 
 
 def _known(motion: Motion) -> str:

@@ -112,10 +112,8 @@ def of_block(motion: Motion, block: Block) -> Iterator[Row]:
 def found(motion: Motion, block: Block) -> Iterator[Row]:
     """Yield the rows of the result."""
     yield "impacts", counted_impacts(motion)
-    yield (
-        f"largest |θ|{common.until_overturning(motion)}",
-        f"{common.reach(motion.peak, block)}, {motion.peak:.4g} θcr",
-    )
+    if motion.overturning is None:
+        yield "largest |θ|", f"{common.reach(motion.peak, block)}, {motion.peak:.4g} θcr"
     yield "margin K₊", margin(motion, block)
     yield from validity.friction_row(motion, block)
 

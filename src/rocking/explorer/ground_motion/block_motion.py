@@ -81,9 +81,9 @@ def _words(motion: Motion, block: Block) -> dict[str, Any]:
         ("e", f"{block.restitution:.4g} (Housner)"),
         ("lifts off at", f"{lift:.4g} g"),
     ]
+    if moves and not overturned:
+        facts.append(("largest |θ|", f"{block.degrees(motion.peak):.4g}°, {motion.peak:.4g} θcr"))
     if moves:
-        largest = "largest |θ|" + " until overturning was certain" * overturned
-        facts.append((largest, f"{block.degrees(motion.peak):.4g}°, {motion.peak:.4g} θcr"))
         facts.append(("impacts", f"{motion.impacts:,}"))
     if motion.overturning is not None:
         facts.append(("overturning certain from", f"{block.seconds(motion.overturning.time):.4g} s"))
