@@ -13,6 +13,7 @@ from concurrent.futures import ProcessPoolExecutor
 import rocking as rk
 
 chaotic = rk.System(rk.Harmonic(15.0, period=2.0), 0.925, rk.Braces(1.0))
+section = rk.simulate(chaotic, cycles=1000, record="section").section()
 free = rk.System(rk.Harmonic(0.0, period=1.0), 0.9)  # which loses energy, and so has no orbit
 
 
@@ -20,7 +21,7 @@ def told(result):
     try:
         return result()
     except rk.TooShort as error:
-        return f"TooShort {len(error.estimate.values)} exponents"
+        return f"TooShort {type(error.estimate).__name__}"
     except rk.NoOrbit as error:
         return f"NoOrbit {type(error.state).__name__} {error.residual >= 0.0}"
 
@@ -34,7 +35,7 @@ SHOWN = """
 POOL = f"""
     with method.Pool(1) as pool:
         short, missing, fine = (
-            pool.apply_async(rk.lyapunov, (chaotic,), {{"cycles": 20}}).get,
+            pool.apply_async(rk.correlation_dimension, (section,)).get,
             pool.apply_async(rk.find_orbit, (free, rk.State(angle=0.5), 1)).get,
             pool.apply_async(rk.simulate, (free,)).get,
         )
@@ -42,7 +43,7 @@ POOL = f"""
 EXECUTOR = f"""
     with ProcessPoolExecutor(1, mp_context=method) as pool:
         short, missing, fine = (
-            pool.submit(rk.lyapunov, chaotic, cycles=20).result,
+            pool.submit(rk.correlation_dimension, section).result,
             pool.submit(rk.find_orbit, free, rk.State(angle=0.5), 1).result,
             pool.submit(rk.simulate, free).result,
         )
@@ -60,5 +61,5 @@ def test_refusal_in_a_process_arrives_with_what_it_carries(pool, method, tmp_pat
     assert done.stderr == ""
     assert (
         done.stdout
-        == "TooShort 2 exponents; NoOrbit State True; at-rest over 200 cycles; 0 impacts, peak |Θ| 0\n"
+        == "TooShort CorrelationDimension; NoOrbit State True; at-rest over 200 cycles; 0 impacts, peak |Θ| 0\n"
     )

@@ -134,7 +134,10 @@ def test_csv_holds_the_running_estimates_in_both_units(rocking, tmp_path):
 @pytest.mark.parametrize(
     ("line", "message"),
     [
-        ("--amplitude 10.1 --period 1.7 --restitution 0.8 --cycles 20", "--cycles must be at least 32"),
+        (
+            "--amplitude 10.1 --period 1.7 --restitution 0.8 --cycles 20",
+            "--cycles must be a whole number in [32, ",
+        ),
         ("--amplitude 10.1 --period 1.7 --restitution 0.8 --cycles 0", "--cycles must"),
         ("--amplitude 10.1 --period 1.7 --restitution 0.8 --transient -1", "--transient must"),
         ("--amplitude 60 --period 1 --restitution 0.9", "overturning is certain"),

@@ -49,12 +49,13 @@ class TooShort(ValueError):
     Examples
     --------
     >>> import rocking as rk
-    >>> system = rk.System(rk.Harmonic(amplitude=10.103037, period=1.721328), restitution=0.8)
+    >>> system = rk.System(rk.Harmonic(amplitude=15.0, period=2.0), restitution=0.925, braces=rk.Braces(1.0))
+    >>> section = rk.simulate(system, cycles=1000, record="section").section()
     >>> try:
-    ...     _ = rk.lyapunov(system, cycles=20)
+    ...     _ = rk.correlation_dimension(section)
     ... except rk.TooShort as error:
     ...     print(type(error.estimate).__name__)
-    LyapunovSpectrum
+    CorrelationDimension
     """
 
     def __init__(self, message: str, estimate: Any) -> None:

@@ -30,8 +30,8 @@ def lyapunov(
     start : State, optional
         Initial state (Θ, Θ') at τ = 0. Default: at rest.
     cycles : int
-        Number of forcing cycles of the average, in [1, 10⁹]. An error estimate needs at least 32. A good one needs 256
-        times the correlation time of the motion. Default: 10,000.
+        Number of forcing cycles of the average, in [32, 10⁹]. A good estimate of the error needs 256 times the correlation
+        time of the motion. Default: 10,000.
     transient : int, optional
         Number of forcing cycles discarded before the average. Default: a tenth of `cycles`.
 
@@ -43,9 +43,9 @@ def lyapunov(
     Raises
     ------
     TooShort
-        If the run does not support an error: fewer than 32 cycles, or 256 batches that are still correlated. Correlation
-        remains during a transient, and if the sojourns of a chaotic motion near islands are as long as the run. Its
-        `estimate` is the spectrum with infinite errors.
+        If the run does not support an error, because its batches are still correlated. Correlation remains during a
+        transient, and if the sojourns of a chaotic motion near islands are as long as the run. Its `estimate` is the
+        spectrum with infinite errors.
     ValueError
         If the block overturns, or if an argument lies outside its range.
     TypeError
@@ -83,7 +83,7 @@ def lyapunov(
     True
     """
     start = check_periodic(system, start)
-    cycles = whole("cycles", cycles, 1, MAX_CYCLES)
+    cycles = whole("cycles", cycles, MIN_BATCHES, MAX_CYCLES)
     transient = cycles // 10 if transient is None else whole("transient", transient, 0, MAX_CYCLES)
     motion = _Carried(system, start)
     motion.to(transient)
@@ -168,7 +168,11 @@ def _spectrum(
         lengths=lengths,
     )
     if np.isinf(spectrum.errors).any():
-        raise TooShort(_too_short(spectrum), spectrum)
+        raise TooShort(
+            f"{cycles} cycles are too few for an exponent with an error: {len(lengths)} batches are still correlated "
+            f"(λ₁ = {spectrum.values[0]:.3g} per τ; increase cycles or transient)",
+            spectrum,
+        )
     return spectrum
 
 
@@ -188,13 +192,3 @@ def _sum_rule_error(system: System, growths: np.ndarray, counted: tuple[int, int
         if count
     )
     return math.fsum(growths.flat) - taken
-
-
-def _too_short(spectrum: LyapunovSpectrum) -> str:
-    value = f"λ₁ = {spectrum.values[0]:.3g} per τ"
-    if len(spectrum.lengths) < MIN_BATCHES:
-        return f"cycles must be at least {MIN_BATCHES} for an exponent with an error; got {spectrum.cycles} ({value})"
-    return (
-        f"{spectrum.cycles} cycles are too few for an exponent with an error: {len(spectrum.lengths)} batches are still "
-        f"correlated ({value}; increase cycles or transient)"
-    )

@@ -19,7 +19,9 @@ rocking lyapunov --amplitude 10.103037 --period 1.721328 \\
 rocking lyapunov --height 2 --width 0.5 --acceleration 4 --frequency-hz 1.2 \\
     --csv exponents.csv"""
 
-Cycles = Annotated[int, ask.number_option("--cycles", "Number of forcing cycles of the average.")]
+Cycles = Annotated[
+    int, ask.number_option("--cycles", "Number of forcing cycles of the average, at least 32.")
+]
 Transient = Annotated[
     int | None,
     ask.number_option(
