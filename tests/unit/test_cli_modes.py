@@ -7,6 +7,7 @@ import math
 import pytest
 
 import rocking as rk
+from rocking.cli.output.motion_files import write_modes
 
 THIRD = "--amplitude 6.5 --period 0.4 --restitution 0.925 -n 3"
 PAIR = "--amplitude 5.5 --period 0.5 --restitution 0.925 -n 7"
@@ -117,6 +118,13 @@ REFUSED = {
 def test_what_has_no_modes_is_refused_in_one_line(rocking, tmp_path, line):
     assert rocking(f"modes {line}") == (2, REFUSED[line], "")
     assert list(tmp_path.iterdir()) == []
+
+
+def test_picture_has_one_legend_for_both_panels(tmp_path, monkeypatch):
+    figures = []
+    monkeypatch.setattr(rk.plot, "save", lambda figure, path: figures.append(figure))
+    write_modes(rk.System(rk.Harmonic(2.0, period=1.0), 0.925), 1, None, tmp_path / "a.png")
+    assert [ax.get_legend() is None for ax in figures[0].axes] == [True, False]
 
 
 def test_block_out_of_the_slender_range_is_warned_of(rocking):

@@ -181,6 +181,8 @@ def test_legend_over_a_map_fits_the_figure_also_with_small_shares(block):
     plane = {name: np.linspace(*ends, 60) for name, ends in bounds.items()}
     found = rk.parametric_map(**plane, restitution=0.8, max_cycles=1)
     found.kind[:], found.response_period[:], found.symmetric[:] = rk.Kind.PERIODIC.code, 1, 0
+    found.response_period[0, 0] = 3  # the two longest names, side by side
+    check_legend(rk.plot.parametric_map(found, block=block))
     for column, period in enumerate((3, 4, 5)):
         found.response_period[0, column] = period
     for column, kind in enumerate((rk.Kind.QUASI_PERIODIC, rk.Kind.CHAOTIC, rk.Kind.UNDETERMINED), start=3):
@@ -188,10 +190,16 @@ def test_legend_over_a_map_fits_the_figure_also_with_small_shares(block):
     ax = rk.plot.parametric_map(found, block=block)
     rk.plot.bifurcation_set(rk.bifurcation_set(system, 1, grid=3, **bounds), ax, block)
     assert "undetermined (0.03 %)" in [text.get_text() for text in ax.get_legend().get_texts()]
+    check_legend(ax)
+
+
+def check_legend(ax):
+    """It lies within the figure, and the axes fill three quarters of the width."""
     ax.figure.draw_without_rendering()
     legend, figure = ax.get_legend().get_window_extent(), ax.figure.bbox
     assert figure.x0 <= legend.x0
     assert legend.x1 <= figure.x1
+    assert figure.y0 <= legend.y0
     assert ax.get_window_extent().width > 0.75 * figure.width
     plt.close(ax.figure)
 

@@ -53,11 +53,13 @@ def test_inadmissible_modes_are_dotted_and_named():
     assert texts == ["stable", "unstable", "inadmissible", "faster", "slower"]
 
 
-def test_phase_goes_through_pi_without_a_jump():
-    ax = rk.plot.modes(1.0, 0.8, quantity="phase")
-    _, y = drawn(lines(ax)["faster stable"])
-    assert y.min() < math.pi < y.max()
-    assert np.abs(np.diff(y)).max() < 0.5
+def test_phase_is_that_of_the_modes_and_the_line_is_interrupted_where_it_passes_pi():
+    ax = rk.plot.modes(1.0, 0.8, quantity="phase", amplitude=15.0)
+    assert lines(ax)["marked"].get_ydata() == [rk.theory.symmetric_modes(15.0, 1.0, 0.8, 1)[0].phase]
+    y = lines(ax)["faster stable"].get_ydata()
+    assert -math.pi < np.nanmin(y) < -3.0
+    assert 3.0 < np.nanmax(y) <= math.pi
+    assert np.nanmax(np.abs(np.diff(y))) < 0.5
 
 
 def test_amplitude_asked_for_is_marked_and_within_the_picture_even_where_there_is_no_mode():

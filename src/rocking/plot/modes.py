@@ -50,7 +50,7 @@ def modes(
     ax : matplotlib Axes, optional
         Axes to draw into. Default: a new figure, one column wide.
     quantity : str
-        "velocity", the velocity V after the impact, or "phase", the forcing phase φ at the impact, in [0, 2π). Default:
+        "velocity", the velocity V after the impact, or "phase", the forcing phase φ at the impact, in (−π, π]. Default:
         "velocity".
     amplitude : float, optional
         Amplitude A to mark by a line, with a ring on each mode. Default: none.
@@ -99,7 +99,7 @@ def modes(
     across, x_label = parameter("amplitude", block)
 
     def up(mode: Mode) -> float:
-        return shown.velocity(mode.velocity) if quantity == "velocity" else mode.phase % math.tau
+        return shown.velocity(mode.velocity) if quantity == "velocity" else mode.phase
 
     for root, colour in ((0, style.MOTION), (1, style.IMPACT)):
         # dense near the fold, where both roots vary as a square root
@@ -109,7 +109,7 @@ def modes(
             (across(mode.amplitude), up(mode), _kind(mode))
             for mode in (each[root] for each in found if len(each) > root)
         ]
-        _draw(ax, points, colour, ("faster", "slower")[root])
+        _draw(ax, points, colour, ("faster", "slower")[root], wraps=quantity == "phase")
     if amplitude is not None:
         ax.axvline(
             across(marked),
@@ -142,11 +142,16 @@ def _kind(mode: Mode) -> str:
     return mode.stability if mode.admissible else "inadmissible"
 
 
-def _draw(ax: Axes, points: list, colour: str, root: str) -> None:
-    """Draw one root with one line per stability; each line ends at the next point, so that no gap remains."""
+def _draw(ax: Axes, points: list, colour: str, root: str, *, wraps: bool) -> None:
+    """Draw one root with one line per stability; each line ends at the next point, so that no gap remains.
+
+    A phase jumps by 2π where it passes π; there the line is interrupted.
+    """
     if not points:
         return
     x, y, kinds = (np.array(column) for column in zip(*points, strict=True))
+    if wraps:
+        y = np.where(np.abs(np.diff(y, append=y[-1])) > math.pi, np.nan, y)
     for kind, dashes in DASHES.items():
         own = kinds == kind
         drawn = own | np.concatenate(([False], own[:-1]))

@@ -120,7 +120,8 @@ def parametric_map(
     style.block_title(ax, block)
     frame = (read.across, read.up) if symbols is None else (across, up)
     ax.set(xlim=turn_across(edges(frame[0]))[[0, -1]], ylim=turn_up(edges(frame[1]))[[0, -1]])
-    ax.legend(handles=[*keys, *lines], **style.BELOW_MAP)
+    handles = [*keys, *lines]
+    style.key_of_map(ax, handles, [str(handle.get_label()) for handle in handles])
     return ax
 
 

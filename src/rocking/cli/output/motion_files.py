@@ -83,6 +83,7 @@ def write_modes(system: System, n: int, block: Block | None, path: Path) -> None
     figure, axes = plot.panels(rows=2, height=2.9)
     for ax, quantity in zip(axes, ("velocity", "phase"), strict=True):
         plot.modes(forcing.period, system.restitution, n, ax, quantity, forcing.amplitude, block)
+    axes[0].get_legend().remove()  # it is that of the other panel, too
     plot.save(figure, path)
 
 

@@ -53,16 +53,14 @@ BELOW: dict[str, Any] = {
     "labelcolor": INK,
     "frameon": False,
 }
-# The legend of a map, under the vertical label too, where two long names fit side by side.
+# The legend of a map, under the vertical label too, where two of the longest names fit side by side.
 BELOW_MAP = BELOW | {
     "fontsize": SMALL - 1.0,
-    "bbox_to_anchor": (0.43, 0.0),
-    "ncols": 2,
-    "handlelength": 1.5,
-    "columnspacing": 0.8,
+    "bbox_to_anchor": (0.425, 0.0),
+    "handlelength": 1.3,
+    "handletextpad": 0.35,
+    "columnspacing": 0.5,
 }
-# Most letters of two names that fit side by side.
-MAX_NAMES = 52
 
 
 def own(ax: Axes | None, height: float = 2.4) -> Axes:
@@ -196,9 +194,17 @@ def key_beside(ax: Axes) -> None:
     for handle, name in zip(*ax.get_legend_handles_labels(), strict=True):
         if name not in names:
             handles, names = [*handles, handle], [*names, name]
-    half = -(-len(names) // 2)
-    wide = sum(max(map(len, column)) for column in (names[:half], names[half:])) > MAX_NAMES
-    ax.legend(handles, names, **BELOW_MAP | {"ncols": 1 if wide else 2})
+    key_of_map(ax, handles, names)
+
+
+def key_of_map(ax: Axes, handles: list[Any], names: list[str]) -> None:
+    """Draw the legend of a map in two columns, or in one if two do not fit into the figure."""
+    for columns in (2, 1):
+        legend = ax.legend(handles, names, **BELOW_MAP, ncols=columns)
+        ax.figure.draw_without_rendering()
+        inside, there = ax.figure.bbox, legend.get_window_extent()
+        if inside.x0 <= there.x0 and there.x1 <= inside.x1:
+            return
 
 
 def check_labels(ax: Axes, across: str, upright: str) -> None:
