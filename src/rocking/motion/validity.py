@@ -150,8 +150,8 @@ class Validity:
 def validity(motion: Trajectory, block: Block, *, full: bool = False) -> Validity:
     """Assess whether `block` can perform `motion` as the model assumes; with ``full``, compare with the full equation of motion.
 
-    The extremes are those of the exact motion, to a relative error of 1e-12: its arcs are divided until no part can hold a
-    greater one.
+    The extremes are those of the exact motion, to a relative error of 1e-12. Arcs are divided until none can hold a greater
+    one.
 
     Raises
     ------
