@@ -199,10 +199,11 @@ def key_beside(ax: Axes) -> None:
 
 def key_of_map(ax: Axes, handles: list[Any], names: list[str]) -> None:
     """Draw the legend of a map in two columns, or in one if two do not fit into the figure."""
+    figure: Any = ax.figure.figure  # also of axes in a subfigure
     for columns in (2, 1):
         legend = ax.legend(handles, names, **BELOW_MAP, ncols=columns)
-        ax.figure.draw_without_rendering()
-        inside, there = ax.figure.bbox, legend.get_window_extent()
+        figure.draw_without_rendering()
+        inside, there = figure.bbox, legend.get_window_extent()
         if inside.x0 <= there.x0 and there.x1 <= inside.x1:
             return
 
