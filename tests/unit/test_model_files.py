@@ -1,7 +1,9 @@
 """Files are complete or absent, and an earlier file stays until the new one is complete."""
 
 import errno
+import os
 import re
+import stat
 
 import pytest
 
@@ -113,6 +115,52 @@ def test_new_file_is_readable_by_those_whom_the_umask_allows(tmp_path):
     assert (tmp_path / "ours").stat().st_mode == (tmp_path / "plain").stat().st_mode
 
 
+def access(path):
+    found = path.stat()
+    return stat.S_IMODE(found.st_mode), found.st_uid, found.st_gid
+
+
+OWNER = (65_534, 65_533) if os.geteuid() == 0 else (os.getuid(), os.getgid())
+
+
+@pytest.mark.parametrize("mode", [0o600, 0o640, 0o444, 0o666])
+def test_file_or_folder_that_replaces_one_keeps_its_permissions_and_its_owner(tmp_path, mode):
+    file, folder = tmp_path / "table.csv", tmp_path / "map"
+    file.write_text("old")
+    write_folder(folder, "old")
+    before = file.stat().st_mtime_ns
+    for path, allowed in ((file, mode), (folder, mode | 0o300), (folder / "mark", mode)):
+        path.chmod(allowed)
+        os.chown(path, *OWNER)
+    with replacing(file) as temporary:
+        temporary.write_text("new")
+        assert access(temporary)[0] == 0o600  # nobody else reads it meanwhile
+    with replacing_folder("folder", folder, MADE) as partial:
+        (partial / "mark").write_text("new")
+        assert access(partial)[0] == 0o700
+    assert [access(path) for path in (file, folder, folder / "mark")] == [
+        (mode, *OWNER), (mode | 0o300, *OWNER), (mode, *OWNER)
+    ]  # fmt: skip
+    assert file.stat().st_mtime_ns > before
+
+
+def test_group_that_cannot_be_kept_leaves_another_group_what_all_others_may(tmp_path, monkeypatch):
+    def refuse(path, owner, group):
+        raise PermissionError(errno.EPERM, "Operation not permitted")
+
+    group = OWNER[1] if os.geteuid() == 0 else os.getgroups()[-1]
+    for mode, left in ((0o664, 0o644), (0o640, 0o600), (0o604, 0o604)):
+        file = tmp_path / f"{mode:o}.csv"
+        file.touch()
+        os.chown(file, -1, group)
+        file.chmod(mode)
+        with monkeypatch.context() as patch:
+            patch.setattr(os, "chown", refuse)
+            with replacing(file) as temporary:
+                temporary.write_text("new")
+        assert access(file)[0] == (left if group != os.getegid() else mode)
+
+
 def test_writable_path_is_returned_and_not_created(tmp_path):
     assert check_writable("--csv", tmp_path / "A.CSV", (".csv",)) == tmp_path / "A.CSV"
     assert names(tmp_path) == []
@@ -135,7 +183,7 @@ def test_folder_that_takes_no_files_is_refused_whatever_its_permissions_say(tmp_
     def refuse(**where):
         raise OSError(30, "Read-only file system", str(where))
 
-    monkeypatch.setattr("rocking.model.atomic_files.TemporaryFile", refuse)
+    monkeypatch.setattr("rocking.model.access_rights.TemporaryFile", refuse)
     with pytest.raises(PermissionError, match=r"^--csv must be writable; got .*a\.csv', which is not$"):
         check_writable("--csv", tmp_path / "a.csv", (".csv",))
     with pytest.raises(OSError, match=r"^--output must be a folder that can be written; got '"):

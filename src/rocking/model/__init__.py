@@ -5,6 +5,7 @@ replacement of files and the images of results in notebooks.
 """
 
 from rocking.model import notebook_renderers
+from rocking.model.access_rights import takes_files
 from rocking.model.arrays import ReadOnlyArrays, read_only
 from rocking.model.atomic_files import (
     FULL,
@@ -13,6 +14,7 @@ from rocking.model.atomic_files import (
     check_folder,
     check_replaceable,
     check_writable,
+    renaming,
     replacing,
     replacing_folder,
     replacing_hdf5,
@@ -216,6 +218,7 @@ __all__ = [
     "record_set",
     "refusal",
     "refuse_if",
+    "renaming",
     "replacing",
     "replacing_folder",
     "replacing_hdf5",
@@ -224,6 +227,7 @@ __all__ = [
     "shown",
     "stability_of",
     "system_of",
+    "takes_files",
     "vertical_sentence",
     "warn_of_input",
     "warn_of_value",

@@ -11,10 +11,11 @@ import shutil
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
-from tempfile import TemporaryFile
 from typing import Any
 
 from attrs import frozen
+
+from rocking.model.access_rights import PRIVATE, PRIVATE_FOLDER, keep_access, takes_files
 
 FULL = {errno.ENOSPC, errno.EDQUOT, errno.EFBIG}
 """Error numbers of the operating system for a full disk, an exhausted quota and a file that is too large."""
@@ -72,7 +73,7 @@ def check_writable(name: str, path: str | os.PathLike[str], suffixes: Sequence[s
         raise FileNotFoundError(f"{name} must lie in an existing folder; got {str(path)!r}")
     if place.exists() and not place.is_file():
         raise OSError(f"{name} must be the path of a file; got {str(path)!r}, which is not a regular file")
-    if not _takes_files(place.parent) or (place.exists() and not os.access(place, os.W_OK)):
+    if not takes_files(place.parent) or (place.exists() and not os.access(place, os.W_OK)):
         raise PermissionError(f"{name} must be writable; got {str(path)!r}, which is not")
     return path
 
@@ -89,18 +90,9 @@ def check_folder(name: str, path: str | os.PathLike[str]) -> Path:
     existing = resolve_path(name, path)
     while not existing.exists():
         existing = existing.parent
-    if not existing.is_dir() or not _takes_files(existing):
+    if not existing.is_dir() or not takes_files(existing):
         raise OSError(f"{name} must be a folder that can be written; got {str(path)!r}")
     return path
-
-
-def _takes_files(folder: Path) -> bool:
-    """Return whether a file can be created in the folder, by creating one: permissions alone do not show it."""
-    try:
-        with TemporaryFile(dir=folder):
-            return True
-    except OSError:
-        return False
 
 
 @contextmanager
@@ -108,7 +100,8 @@ def replacing(path: str | os.PathLike[str]) -> Iterator[Path]:
     """Yield a temporary path next to `path`, with its suffix, and rename it to `path` if the block succeeds.
 
     On any failure, including Ctrl-C, the temporary file is removed and an existing file at `path` is unchanged.
-    If `path` is a link, the file that it points to is replaced.
+    If `path` is a link, the file that it points to is replaced. The new file has the permissions of the file that it
+    replaces and, where the system allows it, its owner and group.
 
     Raises
     ------
@@ -126,10 +119,25 @@ def replacing(path: str | os.PathLike[str]) -> Iterator[Path]:
     """
     target = Path(path).resolve()
     temporary = target.with_name(_temporary_name() + target.suffix)
+    with _writing(path), renaming(temporary, target):
+        yield temporary
+
+
+@contextmanager
+def renaming(temporary: Path, target: Path) -> Iterator[None]:
+    """Rename the file `temporary` to `target` if the block succeeds; remove it on any failure.
+
+    The block writes `temporary`, which exists before only if `target` exists: no other user can read it then. It gets the access
+    rights of `target` before it is renamed.
+    """
     try:
-        with _writing(path):
-            yield temporary
-            temporary.replace(target)
+        replaces = target.exists()
+        if replaces:
+            os.close(os.open(temporary, os.O_WRONLY | os.O_CREAT | os.O_EXCL, PRIVATE))
+        yield
+        if replaces:
+            keep_access(target, temporary)
+        temporary.replace(target)
     finally:
         temporary.unlink(missing_ok=True)
 
@@ -271,7 +279,7 @@ def replacing_folder(name: str, path: str | os.PathLike[str], made: Made) -> Ite
     """Yield a new folder next to `path` and rename it to `path` if the block succeeds.
 
     An existing folder is replaced only if it is empty or holds nothing but earlier output, as `made` describes
-    it. It is removed only after the block has succeeded.
+    it. It is removed only after the block has succeeded. Permissions and owners are kept as in `replacing`.
 
     Raises
     ------
@@ -293,9 +301,12 @@ def replacing_folder(name: str, path: str | os.PathLike[str], made: Made) -> Ite
     try:
         with _writing(path):
             target.parent.mkdir(parents=True, exist_ok=True)
-            temporary.mkdir()
+            temporary.mkdir(PRIVATE_FOLDER if target.exists() else 0o777)
             yield temporary
             if target.exists():
+                for each in (*temporary.rglob("*"), temporary):
+                    if (known := target / each.relative_to(temporary)).exists():
+                        keep_access(known, each)
                 target.rename(before)
             temporary.rename(target)
     finally:
